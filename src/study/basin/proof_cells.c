@@ -17,18 +17,14 @@ enum {
   PERIODS = 2000        /* for which starts are followed at least, whatever basin.max_periods is */
 };
 
-/* What takes the cells that a coarser precision leaves. */
-typedef struct {
-  const char *stage;
-  int32_t precision;
-  int64_t tile; /* cells that it takes at a time */
-  uint8_t evidence;
-} proof_level;
-static const proof_level proof_levels[] = {{"proof in doubles", KZ_ENCLOSE_DOUBLES, 8192, KZ_PROVED},
-                                           {"proof in pairs", KZ_ENCLOSE_PAIRS, 1024, KZ_PROVED_IN_PAIRS},
-                                           {"proof in quads", KZ_ENCLOSE_QUADS, 32, KZ_PROVED_IN_QUADS}};
+/* The levels: KZ_ENCLOSE_DOUBLES, ... */
+static const kz_level proof_levels[KZ_ENCLOSURES] = {
+    [KZ_ENCLOSE_DOUBLES] = {.stage = "proof in doubles", .evidence = KZ_PROVED, .tile = 8192},
+    [KZ_ENCLOSE_PAIRS] = {.stage = "proof in pairs", .evidence = KZ_PROVED_IN_PAIRS, .tile = 1024},
+    [KZ_ENCLOSE_QUADS] = {.stage = "proof in quads", .evidence = KZ_PROVED_IN_QUADS, .tile = 32},
+};
 
-/* Tiles from .. to - 1, and the level that works on them. */
+/* Tiles from .. to - 1. */
 typedef struct {
   const kz_window_labels *labelling;
   const kz_proof *proof;
@@ -36,8 +32,7 @@ typedef struct {
   int64_t from, to, first, n; /* tiles; first cell, cells */
   uint64_t *wanted;           /* [n] bits */
   uint8_t *number, *evidence; /* [n] */
-  const proof_level *level;   /* of the present stage */
-  int64_t n_left, *left;      /* cells that it takes */
+  int64_t n_left, *left;      /* cells to prove */
 } part;
 
 static kz_proof_start start_of_cell(const kz_basin_plan *plan, int64_t cell) {
@@ -68,31 +63,37 @@ static kz_status find_wanted(kz_window_labels *l, part *p) {
   return KZ_OK;
 }
 
-static kz_status follow_tile(void *context, int64_t tile, void *record) {
+/* The labels of n starts at a level: 0 = no proof within the periods. */
+static void prove_starts(const kz_basin_plan *plan, const kz_proof *proof, int32_t level, int64_t n,
+                         const kz_proof_start *start, kz_label *label) {
+  KZ_FREED uint8_t *number = kz_malloc((size_t)n + 1);
+  kz_proof_follow(proof, level, n, start, periods_of(plan), number);
+  for (int64_t i = 0; i < n; i++)
+    label[i] = (kz_label){.label = number[i] == 0               ? KZ_DOUBTFUL
+                                   : number[i] == KZ_PROOF_LATE ? 0
+                                                                : number[i],
+                          .evidence = proof_levels[level].evidence};
+}
+
+/* A kz_level_fn: the items are cells. */
+static kz_status prove_at(void *context, int32_t level, int64_t n, const int64_t *cell, kz_label *label) {
   const part *p = context;
-  const kz_basin_plan *plan = p->labelling->plan;
-  const int64_t most = p->level->tile, first = tile * most, n = p->n_left - first < most ? p->n_left - first : most;
   KZ_FREED kz_proof_start *start = kz_malloc((size_t)n * sizeof *start);
-  for (int64_t i = 0; i < n; i++) start[i] = start_of_cell(plan, p->left[first + i]);
-  kz_proof_follow(p->proof, p->level->precision, n, start, periods_of(plan), record);
+  for (int64_t i = 0; i < n; i++) start[i] = start_of_cell(p->labelling->plan, cell[i]);
+  prove_starts(p->labelling->plan, p->proof, level, n, start, label);
   return KZ_OK;
 }
 
-/* Follows the cells that are left at one level; the others have their labels then. */
-static kz_status prove_left(const kz_run *run, const proof_level *level, part *p) {
-  p->level = level;
-  const kz_stage stage =
-      kz_stage_for_all(level->stage, (p->n_left + level->tile - 1) / level->tile, (size_t)level->tile, follow_tile, p);
-  KZ_FREED uint8_t *record = kz_malloc((size_t)stage.n_tiles * stage.record_bytes + 1);
-  KZ_TRY(kz_stage_run(run, &stage, record));
-  int64_t n_left = 0;
+static kz_status prove_left(const kz_run *run, part *p) {
+  const kz_labeller labeller = {
+      .way = KZ_BY_LEVELS, .context = p, .at = prove_at, .levels = proof_levels, .n_levels = KZ_ENCLOSURES, .run = run};
+  KZ_FREED kz_label *label = kz_malloc((size_t)p->n_left * sizeof *label + 1);
+  KZ_TRY(kz_label_items(&labeller, 1, p->n_left, p->left, label));
   for (int64_t i = 0; i < p->n_left; i++) {
-    if (record[i] == 0) p->left[n_left++] = p->left[i];
-    if (record[i] == 0 || record[i] == KZ_PROOF_LATE) continue;
-    p->number[p->left[i] - p->first] = record[i];
-    p->evidence[p->left[i] - p->first] = level->evidence;
+    if (label[i].label <= 0) continue;
+    p->number[p->left[i] - p->first] = (uint8_t)label[i].label;
+    p->evidence[p->left[i] - p->first] = label[i].evidence;
   }
-  p->n_left = n_left;
   return KZ_OK;
 }
 
@@ -121,7 +122,7 @@ static kz_status prove_part(kz_window_labels *l, part *p) {
   p->n_left = 0;
   for (int64_t i = 0; i < p->n; i++)
     if (p->wanted[i / 64] >> (i % 64) & 1) p->left[p->n_left++] = p->first + i;
-  for (size_t i = 0; i < sizeof proof_levels / sizeof *proof_levels; i++) KZ_TRY(prove_left(run, &proof_levels[i], p));
+  KZ_TRY(prove_left(run, p));
   return kz_ranks_agree(run->ranks, keep(l, p));
 }
 
@@ -183,29 +184,27 @@ static int64_t random_starts(const kz_basin_plan *plan) {
   return cells < MOST_STARTS ? cells : MOST_STARTS;
 }
 
-/* Follows *n starts; those that the precision leaves come to the front, *n of them. Returns how many are late. */
-static int64_t follow(const kz_basin_plan *plan, const kz_proof *proof, int32_t precision, int64_t *n, kz_proof_start *start) {
-  KZ_FREED uint8_t *number = kz_malloc((size_t)*n + 1);
-  int64_t left = 0, late = 0;
-  kz_proof_follow(proof, precision, *n, start, periods_of(plan), number);
-  for (int64_t i = 0; i < *n; i++) {
-    late += number[i] == KZ_PROOF_LATE;
-    if (number[i] == 0) start[left++] = start[i];
-  }
-  *n = left;
-  return late;
+/* A kz_level_fn: the items are random starts. */
+static kz_status prove_random(void *context, int32_t level, int64_t n, const int64_t *item, kz_label *label) {
+  const job *j = context;
+  KZ_FREED kz_proof_start *start = kz_malloc((size_t)n * sizeof *start);
+  for (int64_t i = 0; i < n; i++) start[i] = random_start(j->plan, item[i]);
+  prove_starts(j->plan, j->proof, level, n, start, label);
+  return KZ_OK;
 }
 
-/* Record: how many of the tile's starts are not proved. */
+/* Record: how many of the tile's starts are not proved; quad precision is not tried. */
 static kz_status follow_random(void *context, int64_t tile, void *record) {
   const job *j = context;
-  const int64_t first = tile * TILE;
-  int64_t n = j->starts - first < TILE ? j->starts - first : TILE, late = 0;
-  KZ_FREED kz_proof_start *start = kz_malloc(TILE * sizeof *start);
-  for (int64_t i = 0; i < n; i++) start[i] = random_start(j->plan, first + i);
-  for (int32_t precision = KZ_ENCLOSE_DOUBLES; precision <= KZ_ENCLOSE_PAIRS; precision++)
-    late += follow(j->plan, j->proof, precision, &n, start);
-  *(int64_t *)record = n + late;
+  const int64_t first = tile * TILE, n = j->starts - first < TILE ? j->starts - first : TILE;
+  const kz_labeller labeller = {
+      .way = KZ_BY_LEVELS, .context = context, .at = prove_random, .levels = proof_levels, .n_levels = KZ_ENCLOSE_QUADS};
+  int64_t item[TILE], unproved = 0;
+  KZ_FREED kz_label *label = kz_malloc(TILE * sizeof *label);
+  for (int64_t i = 0; i < n; i++) item[i] = first + i;
+  KZ_TRY(kz_label_items(&labeller, 1, n, item, label));
+  for (int64_t i = 0; i < n; i++) unproved += label[i].label <= 0;
+  *(int64_t *)record = unproved;
   return KZ_OK;
 }
 
@@ -236,15 +235,19 @@ kz_status kz_prove_window(kz_window_labels *labelling, kz_proof *proof, kz_proof
 static double starts_seconds(const kz_basin_plan *plan, const kz_proof *proof) {
   const int64_t own = kz_unique_cells(plan), taken = own < SAMPLE ? own : SAMPLE;
   KZ_FREED kz_proof_start *start = kz_malloc((size_t)taken * sizeof *start + 1);
+  KZ_FREED kz_label *label = kz_malloc((size_t)taken * sizeof *label + 1);
   double seconds = 0;
-  int64_t n = taken;
+  int64_t n = taken, left = 0;
   for (int64_t i = 0; i < taken; i++) start[i] = start_of_cell(plan, kz_shuffled(i, own, plan->seed));
-  for (int32_t precision = 0; precision < KZ_ENCLOSURES && n > 0; precision++) {
-    const double all = (double)own + (precision < KZ_ENCLOSE_QUADS ? (double)random_starts(plan) : 0);
+  for (int32_t level = 0; level < KZ_ENCLOSURES && n > 0; level++, n = left) {
+    const double all = (double)own + (level < KZ_ENCLOSE_QUADS ? (double)random_starts(plan) : 0);
     const double starts = all * (double)n / (double)taken, followed = (double)(n < FULL ? FULL : n);
     const double begin = kz_processor_clock();
-    follow(plan, proof, precision, &n, start);
+    prove_starts(plan, proof, level, n, start, label);
     seconds += (kz_processor_clock() - begin) * starts / followed;
+    left = 0;
+    for (int64_t i = 0; i < n; i++)
+      if (label[i].label == KZ_DOUBTFUL) start[left++] = start[i];
   }
   return seconds;
 }

@@ -125,6 +125,8 @@ static kz_status label_batch(const kz_labeller *l, int32_t level, int32_t before
 
 kz_status kz_label_at(const kz_labeller *l, int32_t level, int32_t before, int64_t n, const int64_t *item, kz_label *label) {
   const int64_t most = l->tile > 0 ? smaller(l->tile, BATCH) : BATCH;
+  if (l->run) KZ_TRY(kz_ranks_interrupted(l->run->ranks));
+  if (l->at) return l->at(l->context, level, n, item, label);
   KZ_FREED kz_start *start = kz_malloc((size_t)smaller(n, most) * sizeof *start + 1);
   KZ_FREED kz_decision *decision = kz_malloc((size_t)smaller(n, most) * sizeof *decision + 1);
   kz_status status = KZ_OK;
@@ -137,6 +139,7 @@ kz_status kz_label_at(const kz_labeller *l, int32_t level, int32_t before, int64
 }
 
 int32_t kz_level_after(const kz_labeller *l, int32_t level, int64_t pending) {
+  if (l->at) return pending > 0 && level + 1 < l->n_levels ? level + 1 : KZ_LEVELS + 1;
   const int32_t last = l->open == KZ_OPEN_DOUBTFUL ? KZ_LEVELS + 1 : KZ_LEVELS;
   if (pending == 0 || level == KZ_LEVELS || l->way != KZ_BY_LEVELS) return KZ_LEVELS + 1;
   if (level == KZ_LEVEL_QUAD) return l->decide ? KZ_LEVEL_ARBITRARY : last;
@@ -158,10 +161,15 @@ static kz_status level_tile(void *context, int64_t tile, void *record) {
   return kz_label_at(a->labeller, a->level, a->before, smaller(a->n - first, a->tile), a->item + first, record);
 }
 
+static const kz_level *row_of(const level_job *a) {
+  if (a->labeller->at) return a->labeller->levels + a->level;
+  return kz_level_rows + (a->level < 0 ? KZ_LEVEL_DOUBLE : a->level);
+}
+
 /* Alone a process takes all lanes can hold; ranks share smaller tiles. */
 static int64_t tile_of(const level_job *a) {
   const kz_labeller *l = a->labeller;
-  const int64_t most = l->run ? kz_level_rows[a->level < 0 ? KZ_LEVEL_DOUBLE : a->level].tile : BATCH;
+  const int64_t most = l->run ? row_of(a)->tile : BATCH;
   return l->tile > 0 ? smaller(l->tile, most) : most;
 }
 
@@ -169,7 +177,7 @@ static int64_t tile_of(const level_job *a) {
 static kz_status label_level(level_job *a, int round, kz_label *label) {
   const kz_labeller *l = a->labeller;
   char name[32];
-  snprintf(name, sizeof name, "%s %d", kz_level_rows[a->level < 0 ? KZ_LEVEL_DOUBLE : a->level].stage, round);
+  snprintf(name, sizeof name, "%s %d", row_of(a)->stage, round);
   a->tile = tile_of(a);
   const kz_stage stage = kz_stage_for_all(l->stage && a->level <= KZ_LEVEL_DOUBLE ? l->stage : name,
                                           (a->n + a->tile - 1) / a->tile, (size_t)a->tile * sizeof(kz_label), level_tile, a);

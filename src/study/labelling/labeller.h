@@ -33,6 +33,9 @@ typedef kz_status (*kz_decide_fn)(void *context, int64_t item, kz_decision *deci
 /* Takes what a label leaves out of the decision behind it: the orbit's error, its last state. Called at each level that is tried. */
 typedef void (*kz_note_fn)(void *context, int64_t item, const kz_decision *decision);
 
+/* Labels n items at a level of a table that the labeller brings along; KZ_DOUBTFUL leaves an item to the next level. */
+typedef kz_status (*kz_level_fn)(void *context, int32_t level, int64_t n, const int64_t *item, kz_label *label);
+
 /* Ways to label: by the states alone, as kz_dynamics_follow does (KZ_FOLLOW_DIRECT, ..); by one level, whose doubtful orbits are followed on
  * and marked (method direct); by one level after the other until each item is decided (method exact). */
 enum { KZ_BY_STATES = 0, KZ_BY_MARKS = 16, KZ_BY_LEVELS = 17 };
@@ -46,10 +49,13 @@ typedef struct {
   kz_start_fn start;
   kz_decide_fn decide; /* NULL = items that quad precision does not decide stay undecided */
   kz_note_fn note;     /* NULL = none */
-  void *context;       /* of the three */
-  const kz_run *run;   /* its ranks share the items, in kept stages; NULL = this process does all */
-  const char *stage;   /* name of the first stage; NULL = that of the level */
-  int64_t tile;        /* most items that are followed together; 0 = as many as the level takes */
+  void *context;       /* of the functions */
+  kz_level_fn at;      /* labels at `n_levels` levels of its own, rows of `levels`; NULL = the levels below */
+  const kz_level *levels;
+  int32_t n_levels;
+  const kz_run *run; /* its ranks share the items, in kept stages; NULL = this process does all */
+  const char *stage; /* name of the first stage; NULL = that of the level */
+  int64_t tile;      /* most items that are followed together; 0 = as many as the level takes */
 } kz_labeller;
 
 /* The way of a method (KZ_METHOD_EXACT, ...) with an interpolation (KZ_LINEAR, ...). */

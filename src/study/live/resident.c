@@ -11,7 +11,7 @@
  * some 1e-7 wide when they are handed over; and the starts of the search. */
 static const double COARSE = 1e-6, FINE = 1e-10, SMALL = 3e-5;
 enum { MOVING_STARTS = 1024, MOVING_SOUGHT = 64 };
-/* Trapping regions that pay for frames, whatever their size: those of so many cells. */
+/* Trapping regions are grown as for this many cells, whatever the size of a frame: more saves no time. */
 enum { CELLS = 130000 };
 /* rad: strobe points that moved by more between two catalogues belong to different attractors. */
 static const double NEAR = 0.5;
@@ -20,13 +20,14 @@ static const double NEAR = 0.5;
  * too much; its numerics are chosen anew beyond this; and its trapping regions are made anew beyond REGROWN or RESETTLED, or after OLDEST
  * pendulums. (Of regions carried from epsilon = 0.300 to 0.301, 0.302 and 0.33 at once, Fig. 12, 0.4, 1.6 and 8 % of the labels were wrong.) */
 static const double FARTHEST = 0.3, RECHOSEN = 0.1, REGROWN = 0.004, RESETTLED = 0.1;
-/* rad: how near strays must come back to themselves. */
+/* rad: how near unsettled states must come back to themselves for a search. */
 static const double CLOSENESS = 0.02;
 enum { OLDEST = 5, MOVING_CELLS = 192 };
 /* Of moving frames: drive periods that cells are followed, at least, and lifetimes 1/(2 pi beta). */
 static const double LEAST_PERIODS = 400, LIFETIMES = 24;
-/* Orbits that tell trapping regions of moving frames: their number, drive periods that they spend together, about, and periods that motions
- * take on average where it pays. More orbits do not save more: measured at Q = 20, 50 and 200 of Fig. 12, whose frames take 4 times less. */
+/* Orbits that extend the trapping regions of moving frames (kz_dynamics_learn_regions). ORBITS: their number; VISITS: drive periods of all of
+ * them together, about; WEAK: drive periods that motions take on average, from which on this saves time. More orbits save no more: measured at
+ * Q = 20, 50 and 200 of Fig. 12, whose frames take a quarter of the time. */
 static const double ORBITS = 2048, WEAK = 60;
 enum { VISITS = 500000 };
 
@@ -62,7 +63,7 @@ static bool has_cover(const kz_resident *r) {
   return attractor.period <= 0;
 }
 
-/* Extends the trapping regions of moving frames by what orbits tell, where damping is so weak that it pays. */
+/* Extends the trapping regions of moving frames by orbits, where damping is so weak that this saves time. */
 static void learn(kz_resident *r) {
   const double mean = kz_settling_mean(r->scene.parameters.pendulum.beta);
   if (!kz_resident_moves(r) || (mean < WEAK && !has_cover(r))) return;
