@@ -87,8 +87,9 @@ typedef struct {
 kz_status kz_chart_draw(const kz_scene *scene, const kz_integers *levels, kz_status (*pause)(void *context),
                         kz_status (*show)(void *context, const kz_chart_level *level), void *context);
 
-/* The motion of the scene's study orbit, after its transient: theta [samples] (rad, not wrapped) and velocity [samples] (rad per drive
- * radian), at samples_per_period of the scene. The caller frees both in every case. */
-kz_status kz_orbit_record(const kz_scene *scene, int64_t *samples, double **theta, double **velocity);
+/* The motion of the scene's study orbit, by the pendulum itself, after its transient: theta (rad, not wrapped) and velocity (rad per drive radian), each
+ * [periods * samples_per_period + 1]. `pause` as in kz_frame, every 0.1 s. KZ_FAILED: it becomes too large for double precision. */
+kz_status kz_orbit_record(const kz_scene *scene, kz_status (*pause)(void *context), void *context, double *theta,
+                          double *velocity);
 
 #endif

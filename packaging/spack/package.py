@@ -22,6 +22,7 @@ class Kapitza(CMakePackage):
     depends_on("gsl")
     depends_on("fftw@3 precision=double")
     depends_on("flint@3:")
+    depends_on("json-c")
     depends_on("libyaml")
     depends_on("zlib-api")
 

@@ -80,9 +80,10 @@ void kz_starts_free(kz_starts *starts);
 /* Calls `answer` with the scene of the command line, on the process that prints; a message about a key is given its place in the scene. */
 kz_status kz_scene_answer(const kz_options *options, kz_status (*answer)(const kz_options *, const kz_scene *));
 
-/* Prints members of a JSON object to standard output: "theta", "velocity", and where the start ends; also in SI units unless `omega`, the
- * frequency of the pivot in rad/s, is NaN. */
-void kz_ending_print(const kz_coordinate start[2], const kz_ending *ending, double omega);
+struct json_object;
+/* Adds "theta", "velocity", and where the start ends to an object (json.h); also in SI units unless `omega`, the frequency of the pivot in rad/s,
+ * is NaN. */
+void kz_ending_add(struct json_object *object, const kz_coordinate start[2], const kz_ending *ending, double omega);
 
 /* Writes the name of the result to path [bytes]. KZ_REFUSED if the name is too long. */
 kz_status kz_output_name(const kz_options *options, char *path, size_t bytes);
@@ -134,8 +135,5 @@ kz_status kz_log_close(FILE *log, const char *path);
 
 /* Prints the table of timings. */
 void kz_timings_print(const kz_ranks *ranks, FILE *out);
-
-/* Prints `text` escaped for JSON, without the quotes. */
-void kz_json_text(FILE *out, const char *text);
 
 #endif

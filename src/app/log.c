@@ -34,7 +34,8 @@ kz_status kz_log_open(const char *path, FILE **log) {
   return kz_fail(KZ_REFUSED, "--log: %s: exists and is no log of this program; use another name", path);
 }
 
-void kz_json_text(FILE *log, const char *text) {
+/* Prints `text` escaped for JSON, without the quotes. */
+static void print_escaped(FILE *log, const char *text) {
   for (; *text; text++) {
     if (*text == '"' || *text == '\\')
       fprintf(log, "\\%c", *text);
@@ -51,7 +52,7 @@ void kz_log_event(FILE *log, double seconds, const char *event, const char *cons
   for (; *fields; fields += 2) {
     const bool number = fields[0][0] == '#';
     fprintf(log, ", \"%s\": %s", fields[0] + number, number ? "" : "\"");
-    kz_json_text(log, fields[1]);
+    print_escaped(log, fields[1]);
     if (!number) fputc('"', log);
   }
   fputs("}\n", log);

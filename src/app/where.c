@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "app.h"
+#include "json.h"
 
 static void print_number(double value) {
   fputs(kz_shortest(value).text, stdout);
@@ -71,9 +72,9 @@ static void print_person(const kz_coordinate start[2], const kz_ending *e, doubl
 /* One thing that is told of a start, a member of a JSON object and a column of CSV. */
 typedef struct {
   const char *name;
-  enum { NUMBER, TEXT, BARE, LIST } kind;
+  enum { NUMBER, TEXT, FLAG, LIST } kind;
   double value;       /* NUMBER: NaN = none; LIST: factor of its numbers */
-  const char *word;   /* TEXT: "" = none; BARE: without quotes in JSON */
+  const char *word;   /* TEXT: "" = none; FLAG: "true" or "false" */
   const double *list; /* LIST: a number for each strobe point, of which CSV has the first */
 } member;
 enum { MEMBERS = 19, MEMBERS_SI = 4 /* the last ones, which an SI scene adds */ };
@@ -89,7 +90,7 @@ static int list_members(const kz_coordinate start[2], const kz_ending *e, double
       {"period", NUMBER, .value = settled ? e->period : NAN},
       {"winding", NUMBER, .value = settled ? e->winding : NAN},
       {"settling_time", NUMBER, .value = settled ? (double)e->settling_time : NAN},
-      {"decided", BARE, .word = e->precision ? "true" : "false"},
+      {"decided", FLAG, .word = e->precision ? "true" : "false"},
       {"strobe_theta", LIST, .value = 1, .list = e->strobe_theta},
       {"strobe_velocity", LIST, .value = 1, .list = e->strobe_velocity},
       {"precision", TEXT, .word = e->precision ? e->precision : ""},
@@ -106,40 +107,34 @@ static int list_members(const kz_coordinate start[2], const kz_ending *e, double
   return isnan(omega) ? MEMBERS - MEMBERS_SI : MEMBERS;
 }
 
-static void print_list(const member *m, int n) {
-  for (int i = 0; i < n; i++) {
-    if (i > 0) fputs(", ", stdout);
-    print_number(m->list[i] * m->value);
-  }
+/* The value of a member, as CSV has it. */
+static void print_value(const member *m, bool has_strobes) {
+  const double value = m->kind == LIST && has_strobes ? m->list[0] * m->value : m->value;
+  if (m->kind == TEXT || m->kind == FLAG)
+    fputs(m->word, stdout);
+  else if (m->kind == LIST ? has_strobes : !isnan(value))
+    print_number(value);
 }
 
-/* The value of a member; `none` stands for one that is not there. */
-static void print_value(const member *m, const char *quote, const char *none) {
-  if (m->kind == NUMBER && !isnan(m->value))
-    print_number(m->value);
-  else if (m->kind == NUMBER || !m->word[0])
-    fputs(none, stdout);
-  else
-    printf("%s%s%s", m->kind == TEXT ? quote : "", m->word, m->kind == TEXT ? quote : "");
+static kz_json *json_of(const member *m, int n) {
+  if (m->kind == NUMBER) return kz_json_real(m->value);
+  if (m->kind == FLAG) return json_object_new_boolean(m->word[0] == 't');
+  if (m->kind == TEXT) return m->word[0] ? kz_json_text(m->word) : NULL;
+  kz_json *list = json_object_new_array();
+  for (int i = 0; i < n; i++) json_object_array_add(list, kz_json_real(m->list[i] * m->value));
+  return list;
 }
 
-void kz_ending_print(const kz_coordinate start[2], const kz_ending *e, double omega) {
+void kz_ending_add(kz_json *object, const kz_coordinate start[2], const kz_ending *e, double omega) {
   member list[MEMBERS];
   const int n = list_members(start, e, omega, list);
-  for (const member *m = list; m < list + n; m++) {
-    printf("%s\"%s\": %s", m == list ? "" : ", ", m->name, m->kind == LIST ? "[" : "");
-    if (m->kind == LIST)
-      print_list(m, e->period);
-    else
-      print_value(m, "\"", "null");
-    if (m->kind == LIST) putchar(']');
-  }
+  for (const member *m = list; m < list + n; m++) kz_json_add(object, m->name, json_of(m, e->period));
 }
 
 static void print_json(const kz_coordinate start[2], const kz_ending *e, double omega) {
-  putchar('{');
-  kz_ending_print(start, e, omega);
-  puts("}");
+  kz_json *object = json_object_new_object();
+  kz_ending_add(object, start, e, omega);
+  kz_json_print(object, stdout);
 }
 
 static void print_csv(const kz_coordinate start[2], const kz_ending *e, double omega) {
@@ -147,10 +142,7 @@ static void print_csv(const kz_coordinate start[2], const kz_ending *e, double o
   const int n = list_members(start, e, omega, list);
   for (const member *m = list; m < list + n; m++) {
     if (m > list) putchar(',');
-    if (m->kind == LIST)
-      print_list(m, e->period > 0 ? 1 : 0);
-    else
-      print_value(m, "", "");
+    print_value(m, e->period > 0);
   }
   putchar('\n');
 }
@@ -180,12 +172,24 @@ static kz_status answer_where(const kz_options *options, const kz_scene *scene, 
   return status;
 }
 
+static void print_boundary(const kz_boundary_point *point) {
+  kz_json *object = json_object_new_object(), *ids = json_object_new_array(), *names = json_object_new_array();
+  kz_json_add_text(object, "theta", point->theta);
+  kz_json_add_text(object, "velocity", point->velocity);
+  for (int i = 0; i < 2; i++) {
+    json_object_array_add(ids, json_object_new_int64(point->attractor[i]));
+    json_object_array_add(names, kz_json_text(point->name[i]));
+  }
+  kz_json_add(object, "attractors", ids);
+  kz_json_add(object, "names", names);
+  kz_json_print(object, stdout);
+}
+
 static kz_status answer_boundary(const kz_options *options, const kz_scene *scene, const kz_starts *starts) {
   kz_boundary_point point;
   KZ_TRY(kz_where_boundary(scene, starts->start, options->boundary, &point));
   if (options->json)
-    printf("{\"theta\": \"%s\", \"velocity\": \"%s\", \"attractors\": [%d, %d], \"names\": [\"%s\", \"%s\"]}\n", point.theta,
-           point.velocity, (int)point.attractor[0], (int)point.attractor[1], point.name[0], point.name[1]);
+    print_boundary(&point);
   else
     printf("theta     %s\nvelocity  %s\nbetween   %s (attractor %d) and %s (attractor %d)\n", point.theta, point.velocity,
            point.name[0], (int)point.attractor[0], point.name[1], (int)point.attractor[1]);

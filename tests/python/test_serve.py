@@ -1,11 +1,8 @@
-"""The command serve: its frames are those of a run, levels are parts of frames, newer requests end older ones, errors are answers."""
+"""The command serve: its frames are those of a run, levels are parts of frames, orbits and ends of starts are those of the commands."""
 
 import json
 import os
-import re
 import subprocess
-import sys
-import time
 from pathlib import Path
 
 import h5py
@@ -206,92 +203,6 @@ def test_a_chart_tells_periods(server):
     period, centre = np.frombuffer(payload, np.uint8).reshape(2, 12, 12)
     assert len(answers) == 2 and set(np.unique(period)) <= {0, *range(1, 17), 255} and np.all(centre[period == 1] <= 3)
     assert np.any((period == 1) & (centre == 1)) and np.any((period == 1) & (centre == 0))
-
-
-def test_a_newer_frame_ends_an_older_one_of_its_view(server):
-    first = server.post("frame", rows=2000, columns=2000, view="a")
-    second = server.post("frame", rows=10, columns=10, view="b", quality="moving")
-    third = server.post("frame", rows=10, columns=10, view="a", quality="moving")
-    last = {}
-    while len(last) < 3:
-        header, _ = server.receive()
-        if header["final"]:
-            last[header["sequence"]] = header["answer"]
-    assert last == {first: "ended", second: "frame", third: "frame"}
-
-
-def test_a_frame_is_cancelled(server):
-    first = server.post("frame", rows=2000, columns=2000)
-    server.post("cancel")
-    answers = {header["sequence"]: header["answer"] for header in (server.receive()[0] for _ in range(2))}
-    assert answers == {first: "ended", first + 1: "ended"}
-
-
-@pytest.mark.parametrize(("line", "words"), [
-    ("nonsense {", "request"),
-    ("[1, 2]", "is not a JSON object"),
-    ('{"request": "fame"}', '"fame" is unknown; it must be one of frame, where'),
-    ('{"request": "frame", "columns": 10}', "rows: is missing"),
-    ('{"request": "frame", "rows": 8192, "columns": 8192}', "more than 16777216 cells"),
-    ('{"request": "frame", "rows": 10, "columns": 10, "levels": [1, 8]}', "falling order"),
-    ('{"request": "frame", "rows": 10, "columns": 10, "level": 8}', "level: unknown key"),
-    ('{"request": "frame", "rows": 10, "columns": 10, "pendulum": {"k": 0.1, "m": 0.3}}', "pendulum.damping: is missing"),
-    ('{"request": "frame", "rows": 10, "columns": 10, "window": {"velocity": {"min": 2, "max": 1}}}', "basin.velocity.max"),
-    ('{"request": "where", "theta": "x", "velocity": 1}', "theta: is not"),
-    ('{"request": "orbit", "theta": 1}', "orbit.start.velocity: is missing"),
-    ('{"request": "quit", "why": 1}', "why: unknown key"),
-    ("x" * 70000, "more than 65536 bytes"),
-])
-def test_what_is_wrong_is_answered(server, line, words):
-    server.send(line)
-    header, _ = server.receive()
-    assert header["answer"] == "error" and header["status"] == 2 and words in header["message"]
-    assert "\n" not in header["message"] and not header["message"].startswith("-:")
-    assert server.ask("cancel")[0][0]["answer"] == "ended"
-
-
-def test_a_scene_that_is_wrong_ends_it(tmp_path):
-    (tmp_path / "bad.yaml").write_text("pendulum: {k: 0.1, damping: 0.1}\nbasin: {velocity: {min: -1, max: 1}}\n")
-    done = subprocess.run([PROGRAM, "serve", tmp_path / "bad.yaml"], check=False, capture_output=True, text=True, input="")
-    assert done.returncode == 2 and done.stdout == "" and "pendulum.m: is missing" in done.stderr
-
-
-def test_the_end_of_the_input_ends_no_request():
-    """The last line, of two frames of different views, has no newline."""
-    frame = {"request": "frame", "rows": 60, "columns": 60, "quality": "moving"}
-    lines = [json.dumps({**frame, "sequence": i, "view": str(i)}) for i in (1, 2)]
-    done = subprocess.run([PROGRAM, "serve", FIG12], input="\n".join(lines).encode(), capture_output=True, timeout=60, check=True)
-    headers = [json.loads(line) for line in re.findall(rb'^.*({"answer": "frame".*})$', done.stdout, re.MULTILINE)]
-    assert [(header["sequence"], header["final"]) for header in headers] == [(1, True), (2, True)]
-
-
-def test_it_ends_with_its_parent():
-    """Amid a frame of many seconds."""
-    script = f"""
-import subprocess, time
-server = subprocess.Popen([{str(PROGRAM)!r}, "serve", {str(FIG12)!r}], stdin=subprocess.PIPE, stdout=subprocess.PIPE)
-server.stdin.write(b'{{"request": "frame", "rows": 4000, "columns": 4000}}\\n')
-server.stdin.flush()
-print(server.pid, flush=True)
-time.sleep(100)
-"""
-    with subprocess.Popen([sys.executable, "-c", script], stdout=subprocess.PIPE, text=True) as parent:
-        stat = Path(f"/proc/{int(parent.stdout.readline())}/stat")
-        time.sleep(0.5)
-        assert state_of(stat) in "RSD"
-        parent.kill()
-    deadline = time.monotonic() + 30
-    while state_of(stat) not in "ZX":
-        assert time.monotonic() < deadline
-        time.sleep(0.05)
-
-
-def state_of(stat):
-    """The state of a process; X once it has gone."""
-    try:
-        return stat.read_text().rsplit(")", 1)[1].split()[0]
-    except FileNotFoundError:
-        return "X"
 
 
 def resident_bytes(server):

@@ -4,22 +4,27 @@
 #include <math.h>
 #include <poll.h>
 #include <pthread.h>
+#include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
 
 #include "../app.h"
+#include "../json.h"
 #include "kapitza/version.h"
 
-/* The members that every header has. */
-static void begin(const char *answer, int64_t sequence, bool final) {
-  char text[24] = "null";
-  if (sequence != KZ_UNSET_INTEGER) snprintf(text, sizeof text, "%lld", (long long)sequence);
-  printf("{\"answer\": \"%s\", \"sequence\": %s, \"final\": %s", answer, text, final ? "true" : "false");
+/* A header with the members that all have. */
+static kz_json *begin(const char *answer, int64_t sequence, bool final) {
+  kz_json *header = json_object_new_object();
+  kz_json_add_text(header, "answer", answer);
+  kz_json_add(header, "sequence", sequence == KZ_UNSET_INTEGER ? NULL : json_object_new_int64(sequence));
+  kz_json_add_boolean(header, "final", final);
+  return header;
 }
 
-/* Ends the header; the payload's bytes come next. */
-static void end(size_t bytes) {
-  printf(", \"bytes\": %zu}\n", bytes);
+/* Prints the header and frees it; the payload's bytes come next. */
+static void print(kz_json *header, size_t bytes) {
+  kz_json_add_integer(header, "bytes", (int64_t)bytes);
+  kz_json_print(header, stdout);
 }
 
 /* A reader that has gone ends the program as the end of its requests does. */
@@ -28,58 +33,56 @@ static kz_status send(void) {
   return errno == EPIPE ? KZ_STOPPED : kz_fail(KZ_FAILED, "standard output cannot be written: %s", strerror(errno));
 }
 
-/* Ends an answer without payload. */
-static kz_status finish(void) {
-  end(0);
+/* An answer without payload. */
+static kz_status finish(kz_json *header) {
+  print(header, 0);
   return send();
 }
 
-/* A number as JSON, with all digits that distinguish it; "null" if it is not finite. */
-#define NUMBER(value) number(value).text
-static kz_short_text number(double value) {
-  return isfinite(value) ? kz_shortest(value) : (kz_short_text){"null"};
-}
-
-static void text(const char *name, const char *value) {
-  printf(", \"%s\": \"", name);
-  kz_json_text(stdout, value);
-  putchar('"');
+/* The value of a key. All but words are printed as JSON. */
+static kz_json *value_of(const kz_key *key, const kz_scene *scene) {
+  char *text = NULL;
+  size_t bytes = 0;
+  FILE *out = open_memstream(&text, &bytes);
+  if (!out) return NULL;
+  kz_value_print(key, scene, out);
+  fclose(out);
+  kz_json *value = key->type == KZ_KEY_WORD ? kz_json_text(text) : json_tokener_parse(text);
+  free(text);
+  return value;
 }
 
 /* The keys of a mapping ("pendulum.") that the scene gives. */
-static void print_mapping(const char *mapping, const kz_scene *scene) {
-  bool first = true;
-  putchar('{');
+static kz_json *mapping_of(const char *mapping, const kz_scene *scene) {
+  kz_json *object = json_object_new_object();
   for (const kz_key *key = kz_keys; key->path; key++) {
-    const char *name = key->path + strlen(mapping), *quote = key->type == KZ_KEY_WORD ? "\"" : "";
+    const char *name = key->path + strlen(mapping);
     if (strncmp(key->path, mapping, strlen(mapping)) != 0 || strchr(name, '.') || !kz_value_is_set(key, scene)) continue;
-    printf("%s\"%s\": %s", first ? "" : ", ", name, quote);
-    if (key->type == KZ_KEY_MAPPING) {
-      char inner[64];
-      snprintf(inner, sizeof inner, "%s.", key->path);
-      print_mapping(inner, scene);
-    } else {
-      kz_value_print(key, scene, stdout);
-    }
-    fputs(quote, stdout);
-    first = false;
+    char inner[64];
+    snprintf(inner, sizeof inner, "%s.", key->path);
+    kz_json_add(object, name, key->type == KZ_KEY_MAPPING ? mapping_of(inner, scene) : value_of(key, scene));
   }
-  putchar('}');
+  return object;
+}
+
+static kz_json *axis_of(const kz_axis *axis) {
+  kz_json *object = json_object_new_object();
+  kz_json_add_real(object, "min", axis->min);
+  kz_json_add_real(object, "max", axis->max);
+  kz_json_add_integer(object, "count", axis->count);
+  return object;
 }
 
 kz_status kz_answer_ready(const kz_scene *scene) {
-  const kz_axis *theta = &scene->basin.theta, *velocity = &scene->basin.velocity;
-  begin("ready", KZ_UNSET_INTEGER, true);
-  fputs(", \"protocol\": 1", stdout);
-  text("program", KZ_VERSION);
-  text("title", scene->title);
-  fputs(", \"pendulum\": ", stdout);
-  print_mapping("pendulum.", scene);
-  printf(", \"window\": {\"theta\": {\"min\": %s, \"max\": %s, \"count\": %lld}, ", NUMBER(theta->min), NUMBER(theta->max),
-         (long long)theta->count);
-  printf("\"velocity\": {\"min\": %s, \"max\": %s, \"count\": %lld}}", NUMBER(velocity->min), NUMBER(velocity->max),
-         (long long)velocity->count);
-  return finish();
+  kz_json *header = begin("ready", KZ_UNSET_INTEGER, true), *window = json_object_new_object();
+  kz_json_add_integer(header, "protocol", 1);
+  kz_json_add_text(header, "program", KZ_VERSION);
+  kz_json_add_text(header, "title", scene->title);
+  kz_json_add(header, "pendulum", mapping_of("pendulum.", scene));
+  kz_json_add(window, "theta", axis_of(&scene->basin.theta));
+  kz_json_add(window, "velocity", axis_of(&scene->basin.velocity));
+  kz_json_add(header, "window", window);
+  return finish(header);
 }
 
 /* As KINDS of the figures' style has them. */
@@ -97,77 +100,103 @@ static const char *kind_of(const kz_attractor *row) {
   }
 }
 
-static void print_attractor(const kz_entry *entry, int64_t id, int64_t track) {
+static kz_json *attractor_of(const kz_entry *entry, int64_t id, int64_t track) {
   static const char *const centres[] = {
       [KZ_ABOUT_DOWN] = "down", [KZ_ABOUT_INVERTED] = "inverted", [KZ_ROTATING] = "rotating", [KZ_ABOUT_NEITHER] = "neither"};
   const kz_attractor *row = &entry->row;
-  printf("%s{\"id\": %lld, \"track\": %lld", id > 0 ? ", " : "", (long long)id, (long long)track);
-  text("name", entry->name);
-  printf(", \"kind\": \"%s\", \"period\": %d, \"winding\": %d, \"centre\": \"%s\", \"symmetric\": %s, \"mirror\": %d, ",
-         kind_of(row), (int)row->period, (int)row->winding, centres[row->centre], row->symmetric ? "true" : "false",
-         (int)entry->mirror);
-  printf("\"multiplier\": %s, \"strobe\": [",
-         NUMBER(row->period > 0 ? hypot(row->multiplier_re[0], row->multiplier_im[0]) : NAN));
-  for (int i = 0; i < row->period; i++)
-    printf("%s[%s, %s]", i > 0 ? ", " : "", NUMBER(entry->theta[i]), NUMBER(entry->velocity[i]));
-  fputs("]}", stdout);
+  kz_json *object = json_object_new_object(), *strobe = json_object_new_array();
+  kz_json_add_integer(object, "id", id);
+  kz_json_add_integer(object, "track", track);
+  kz_json_add_text(object, "name", entry->name);
+  kz_json_add_text(object, "kind", kind_of(row));
+  kz_json_add_integer(object, "period", row->period);
+  kz_json_add_integer(object, "winding", row->winding);
+  kz_json_add_text(object, "centre", centres[row->centre]);
+  kz_json_add_boolean(object, "symmetric", row->symmetric);
+  kz_json_add_integer(object, "mirror", entry->mirror);
+  kz_json_add_real(object, "multiplier", row->period > 0 ? hypot(row->multiplier_re[0], row->multiplier_im[0]) : NAN);
+  for (int i = 0; i < row->period; i++) json_object_array_add(strobe, kz_json_pair(entry->theta[i], entry->velocity[i]));
+  kz_json_add(object, "strobe", strobe);
+  return object;
+}
+
+static kz_json *pendulum_of(const kz_parameters *p) {
+  kz_json *object = json_object_new_object();
+  kz_json_add_real(object, "k", p->pendulum.k);
+  kz_json_add_real(object, "damping", p->pendulum.beta);
+  kz_json_add_real(object, "m", p->pendulum.m);
+  kz_json_add_real(object, "quality_factor", p->quality_factor);
+  kz_json_add_real(object, "drive_frequency", p->drive_frequency);
+  kz_json_add_real(object, "drive_amplitude", p->drive_amplitude);
+  return object;
 }
 
 kz_status kz_answer_catalogue(int64_t sequence, bool final, const kz_live_catalogue *catalogue) {
-  const kz_parameters *p = &catalogue->parameters;
-  begin("catalogue", sequence, final);
-  printf(", \"version\": %lld, \"pendulum\": {\"k\": %s, \"damping\": %s, \"m\": %s, ", (long long)catalogue->version,
-         NUMBER(p->pendulum.k), NUMBER(p->pendulum.beta), NUMBER(p->pendulum.m));
-  printf("\"quality_factor\": %s, \"drive_frequency\": %s, \"drive_amplitude\": %s}, \"attractors\": [",
-         NUMBER(p->quality_factor), NUMBER(p->drive_frequency), NUMBER(p->drive_amplitude));
-  for (int64_t i = 0; i < catalogue->list.count; i++) print_attractor(catalogue->list.entries + i, i, catalogue->track[i]);
-  putchar(']');
-  return finish();
+  kz_json *header = begin("catalogue", sequence, final), *list = json_object_new_array();
+  kz_json_add_integer(header, "version", catalogue->version);
+  kz_json_add(header, "pendulum", pendulum_of(&catalogue->parameters));
+  for (int64_t i = 0; i < catalogue->list.count; i++)
+    json_object_array_add(list, attractor_of(catalogue->list.entries + i, i, catalogue->track[i]));
+  kz_json_add(header, "attractors", list);
+  return finish(header);
+}
+
+/* Of a frame or chart: its level and its cells. */
+static void add_level(kz_json *header, int64_t level, int64_t rows, int64_t columns) {
+  kz_json_add_integer(header, "level", level);
+  kz_json_add_integer(header, "rows", rows);
+  kz_json_add_integer(header, "columns", columns);
 }
 
 kz_status kz_answer_level(const kz_request *request, bool final, const kz_live_level *level) {
   static const char *const names[] = {"labels", "settling_time", "smooth_time", "doubt", "other"};
-  const char *quality = request->quality == KZ_QUALITY_MOVING ? "moving" : "exact";
   const size_t cells = (size_t)(level->rows * level->columns);
   size_t bytes = 0;
-  begin("frame", request->sequence, final);
-  printf(
-      ", \"level\": %lld, \"rows\": %lld, \"columns\": %lld, \"catalogue\": %lld, \"quality\": \"%s\", \"milliseconds\": %.3f, "
-      "\"planes\": [",
-      (long long)level->level, (long long)level->rows, (long long)level->columns, (long long)level->catalogue->version, quality,
-      1e3 * level->seconds);
+  kz_json *header = begin("frame", request->sequence, final), *planes = json_object_new_array();
+  add_level(header, level->level, level->rows, level->columns);
+  kz_json_add_integer(header, "catalogue", level->catalogue->version);
+  kz_json_add_text(header, "quality", request->quality == KZ_QUALITY_MOVING ? "moving" : "exact");
+  kz_json_add_real(header, "milliseconds", rint(1e6 * level->seconds) / 1e3);
   for (int64_t i = 0; i < request->planes.count; i++) {
-    printf("%s\"%s\"", i > 0 ? ", " : "", names[request->planes.values[i]]);
+    json_object_array_add(planes, kz_json_text(names[request->planes.values[i]]));
     bytes += cells * kz_plane_bytes((int)request->planes.values[i]);
   }
-  putchar(']');
-  end(bytes);
+  kz_json_add(header, "planes", planes);
+  print(header, bytes);
   for (int64_t i = 0; i < request->planes.count; i++)
     fwrite(level->plane[request->planes.values[i]], kz_plane_bytes((int)request->planes.values[i]), cells, stdout);
   return send();
 }
 
 kz_status kz_answer_where(int64_t sequence, const kz_coordinate start[2], const kz_ending *ending, double omega) {
-  begin("where", sequence, true);
-  fputs(", ", stdout);
-  kz_ending_print(start, ending, omega);
-  return finish();
+  kz_json *header = begin("where", sequence, true);
+  kz_ending_add(header, start, ending, omega);
+  return finish(header);
+}
+
+/* The pivot's path over a drive period. */
+static kz_json *pivot_of(const kz_parameters *parameters, int64_t samples) {
+  kz_json *path = json_object_new_array();
+  for (int64_t i = 0; i < samples; i++) {
+    double place[2];
+    kz_pivot_at(parameters, 2 * M_PI * (double)i / (double)samples, place);
+    json_object_array_add(path, kz_json_pair(place[0], place[1]));
+  }
+  return path;
 }
 
 kz_status kz_answer_orbit(const kz_request *request, int64_t samples, const double *theta, const double *velocity) {
   const kz_orbit_plan *plan = &request->scene.orbit;
   const kz_pendulum *p = &request->scene.parameters.pendulum;
-  begin("orbit", request->sequence, true);
-  printf(", \"samples\": %lld, \"samples_per_period\": %lld, \"transient\": %lld, ", (long long)samples,
-         (long long)plan->samples_per_period, (long long)plan->transient);
-  printf("\"k\": %s, \"damping\": %s, \"m\": %s, \"pivot\": [", NUMBER(p->k), NUMBER(p->beta), NUMBER(p->m));
-  for (int64_t i = 0; i < plan->samples_per_period; i++) { /* the pivot's path over a drive period */
-    double place[2];
-    kz_pivot_at(&request->scene.parameters, 2 * M_PI * (double)i / (double)plan->samples_per_period, place);
-    printf("%s[%s, %s]", i > 0 ? ", " : "", NUMBER(place[0]), NUMBER(place[1]));
-  }
-  putchar(']');
-  end(2 * (size_t)samples * sizeof *theta);
+  kz_json *header = begin("orbit", request->sequence, true);
+  kz_json_add_integer(header, "samples", samples);
+  kz_json_add_integer(header, "samples_per_period", plan->samples_per_period);
+  kz_json_add_integer(header, "transient", plan->transient);
+  kz_json_add_real(header, "k", p->k);
+  kz_json_add_real(header, "damping", p->beta);
+  kz_json_add_real(header, "m", p->m);
+  kz_json_add(header, "pivot", pivot_of(&request->scene.parameters, plan->samples_per_period));
+  print(header, 2 * (size_t)samples * sizeof *theta);
   fwrite(theta, sizeof *theta, (size_t)samples, stdout);
   fwrite(velocity, sizeof *velocity, (size_t)samples, stdout);
   return send();
@@ -175,31 +204,31 @@ kz_status kz_answer_orbit(const kz_request *request, int64_t samples, const doub
 
 kz_status kz_answer_chart(int64_t sequence, bool final, const kz_chart_level *level) {
   const size_t cells = (size_t)(level->rows * level->columns);
-  begin("chart", sequence, final);
-  printf(", \"level\": %lld, \"rows\": %lld, \"columns\": %lld, \"planes\": [\"period\", \"centre\"]", (long long)level->level,
-         (long long)level->rows, (long long)level->columns);
-  end(2 * cells);
+  kz_json *header = begin("chart", sequence, final);
+  add_level(header, level->level, level->rows, level->columns);
+  kz_json_add(header, "planes", kz_json_texts((const char *const[]){"period", "centre", NULL}));
+  print(header, 2 * cells);
   fwrite(level->period, 1, cells, stdout);
   fwrite(level->centre, 1, cells, stdout);
   return send();
 }
 
 kz_status kz_answer_ended(int64_t sequence) {
-  begin("ended", sequence, true);
-  return finish();
+  return finish(begin("ended", sequence, true));
 }
 
 kz_status kz_answer_error(int64_t sequence, kz_status status) {
-  begin("error", sequence, true);
-  printf(", \"status\": %d", (int)status);
-  text("message", kz_message());
+  kz_json *header = begin("error", sequence, true);
+  kz_json_add_integer(header, "status", status);
+  kz_json_add_text(header, "message", kz_message());
   kz_message_clear();
-  return finish();
+  return finish(header);
 }
 
 enum { GRACE = 1 /* seconds in which the program ends by itself */ };
 
-/* A pipe without a reader says so without being asked; a file never does. */
+/* poll() reports the closed far end of a pipe as POLLERR, an event that is reported without having been requested. A regular file has no far end, and
+ * poll() never reports it. */
 static void *watch(void *unused) {
   struct pollfd output = {.fd = STDOUT_FILENO};
   (void)unused;

@@ -3,12 +3,14 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { MOST_CELLS = 1 << 24 };
+#include "../json.h"
+
+enum { MOST_CELLS = 1 << 24 /* of a frame, or samples of an orbit */ };
 static const char SOURCE[] = "request";
 
 #define AT(field) offsetof(kz_request, field)
 #define WORDS_OF_KIND "frame|where|orbit|catalogue|chart|cancel|quit"
-/* Keys of the request itself, with their defaults; the others change the scene. The sequence comes first: errors are answered with it. */
+/* Keys of the request itself, with their defaults; the others change the scene. The sequence comes first: every later error is answered with it. */
 static const kz_key rows[] = {
     {.path = "sequence", .type = KZ_KEY_INTEGER, .unit = "", .fallback = "0", .high = 1LL << 53, .offset = AT(sequence)},
     {.path = "request", .type = KZ_KEY_WORD, .unit = "", .words = WORDS_OF_KIND, .offset = AT(kind)},
@@ -56,21 +58,22 @@ static const struct {
 };
 enum { N_ADDED = sizeof added / sizeof added[0] };
 
-static kz_status refuse(const kz_key *key, const kz_node *node, const char *wrong) {
+/* `value`: in quotes, or "". */
+static kz_status refuse(const kz_key *key, const char *value, const char *wrong) {
   char accepted[700];
   kz_key_accepts(rows, key, accepted, sizeof accepted);
-  return kz_fail(KZ_REFUSED, "%s: %s: \"%.60s\" %s; it must be %s", SOURCE, key->path, node->text ? node->text : "...", wrong,
-                 accepted);
+  return kz_fail(KZ_REFUSED, "%s: %s: %s%s; it must be %s", SOURCE, key->path, value, wrong, accepted);
 }
 
 static kz_status read_row(const kz_key *key, kz_node *root, kz_request *request) {
+  char value[70];
   KZ_TRY(kz_value_default(key, request));
   kz_node *node = kz_tree_take(root, key->path);
-  if (!node && key->fallback) return KZ_OK;
-  if (!node) return kz_fail(KZ_REFUSED, "%s: %s: is missing; it must be one of %s", SOURCE, key->path, key->words);
+  if (!node) return key->fallback ? KZ_OK : refuse(key, "", "is missing");
   const kz_node *culprit;
   const char *wrong = kz_value_read(key, node, request, &culprit);
-  const kz_status status = wrong ? refuse(key, culprit, wrong) : KZ_OK;
+  snprintf(value, sizeof value, "\"%.60s\" ", wrong && culprit->text ? culprit->text : "...");
+  const kz_status status = wrong ? refuse(key, value, wrong) : KZ_OK;
   kz_tree_free(node);
   return status;
 }
@@ -94,6 +97,17 @@ static kz_status check_frame(const kz_request *request) {
     return kz_fail(KZ_REFUSED, "%s: rows: %lld times %lld columns are more than %d cells", SOURCE, (long long)request->rows,
                    (long long)request->columns, MOST_CELLS);
   return check_levels(&request->levels);
+}
+
+static kz_status check_orbit(const kz_request *request) {
+  const kz_orbit_plan *plan = &request->scene.orbit;
+  if (kz_release_strobes(&request->scene.parameters.release) > 0)
+    return kz_fail(KZ_REFUSED,
+                   "%s: orbit: a motion begins at phase 0 and without a ramp; leave out basin.start_phase and pendulum.ramp",
+                   SOURCE);
+  if (plan->periods * plan->samples_per_period <= MOST_CELLS) return KZ_OK;
+  return kz_fail(KZ_REFUSED, "%s: periods: %lld times %lld samples_per_period are more than %d samples", SOURCE,
+                 (long long)plan->periods, (long long)plan->samples_per_period, MOST_CELLS);
 }
 
 /* A start of where: numbers of any digits. */
@@ -177,14 +191,15 @@ static kz_status read_root(const kz_node *tree, kz_node *root, kz_request *reque
   if (request->kind == KZ_REQUEST_FRAME) KZ_TRY(check_frame(request));
   if (request->kind == KZ_REQUEST_CHART) KZ_TRY(check_levels(&request->levels));
   if (request->kind == KZ_REQUEST_WHERE) KZ_TRY(read_start(root, request));
-  return read_scene(tree, root, request);
+  KZ_TRY(read_scene(tree, root, request));
+  return request->kind == KZ_REQUEST_ORBIT ? check_orbit(request) : KZ_OK;
 }
 
 kz_status kz_request_read(const kz_node *tree, const char *line, size_t length, kz_request **request) {
   kz_node *root;
   *request = kz_calloc(1, sizeof **request);
   (*request)->sequence = KZ_UNSET_INTEGER;
-  KZ_TRY(kz_tree_read(line, length, SOURCE, true, &root));
+  KZ_TRY(kz_json_read(line, length, SOURCE, &root));
   const kz_status status = read_root(tree, root, *request);
   kz_tree_free(root);
   return status;

@@ -20,7 +20,7 @@ enum { KZ_QUALITY_EXACT, KZ_QUALITY_MOVING };
 
 typedef struct kz_request {
   int32_t kind;
-  int64_t sequence; /* KZ_UNSET_INTEGER: the line was not understood so far */
+  int64_t sequence; /* KZ_UNSET_INTEGER: the line is not JSON, or has a sequence that is no number */
   char *view;
   int32_t quality;
   int64_t rows, columns;
@@ -28,6 +28,7 @@ typedef struct kz_request {
   kz_decimal theta, velocity; /* start, for the request where */
   bool has_scene;
   kz_scene scene; /* the scene with what the request changes: pendulum, window, orbit, chart; numerics not resolved */
+  bool ended;     /* a newer request or cancel has ended it */
   struct kz_request *next;
 } kz_request;
 

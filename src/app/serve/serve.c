@@ -1,4 +1,5 @@
-/* The command serve: answers requests until their end. Frames and charts are made in parts, between which newer requests are heard. */
+/* The command serve: answers requests until their end. Frames and charts are made in parts; between two parts newer requests are read and, unless
+ * they are frames or charts themselves, answered. */
 #include <signal.h>
 #include <stdlib.h>
 #include <string.h>
@@ -6,36 +7,103 @@
 #include "../app.h"
 #include "answer.h"
 #include "inbox.h"
+#include "orbit.h"
+
+enum { MOST_WAITING = 1000 /* requests */ };
 
 typedef struct {
   kz_scene_tree tree;
   kz_inbox inbox;
   kz_engine *engine;
   int64_t shown;       /* version of the catalogue that was sent last */
-  kz_request *waiting; /* frames and charts, the oldest first */
-  kz_request *present; /* of those, the one that is being made */
-  bool present_ended;  /* a newer one, or cancel, ended it */
+  kz_request *waiting; /* requests that have not been begun, the oldest first */
+  int64_t n_waiting;
+  kz_request *drawn; /* the frame or chart that is being made, or NULL */
+  kz_request *orbit; /* the orbit that is being computed, maybe between two parts of that, or NULL */
   bool quits;
+  int64_t quit; /* sequence of the request quit */
 } server;
 
 static bool is_drawn(const kz_request *request) {
   return request->kind == KZ_REQUEST_FRAME || request->kind == KZ_REQUEST_CHART;
 }
 
-/* Ends the frames and charts of a view. */
-static kz_status end_view(server *s, const char *view) {
+/* Takes a request out of the list of those that wait. */
+static kz_request *take_out(server *s, kz_request **place) {
+  kz_request *request = *place;
+  *place = request->next;
+  s->n_waiting--;
+  return request;
+}
+
+/* Answers a request that waits with `ended`. */
+static kz_status end_waiting(server *s, kz_request **place) {
+  kz_request *request = take_out(s, place);
+  const int64_t sequence = request->sequence;
+  kz_request_free(request);
+  return kz_answer_ended(sequence);
+}
+
+static bool is_ended_by(const kz_request *old, const kz_request *by) {
+  return strcmp(old->view, by->view) == 0 && (by->kind == KZ_REQUEST_CANCEL || is_drawn(old));
+}
+
+/* Ends what a request ends: cancel all requests of its view, a frame or chart the older frames and charts of its view. */
+static kz_status end_older(server *s, const kz_request *by) {
+  kz_request *const present[] = {s->drawn, s->orbit};
   for (kz_request **place = &s->waiting; *place;) {
-    kz_request *old = *place;
-    if (strcmp(old->view, view) != 0) {
-      place = &old->next;
-      continue;
-    }
-    *place = old->next;
-    const int64_t sequence = old->sequence;
-    kz_request_free(old);
-    KZ_TRY(kz_answer_ended(sequence));
+    if (is_ended_by(*place, by))
+      KZ_TRY(end_waiting(s, place));
+    else
+      place = &(*place)->next;
   }
-  s->present_ended = s->present_ended || (s->present && strcmp(s->present->view, view) == 0);
+  for (int i = 0; i < 2; i++)
+    if (present[i] && is_ended_by(present[i], by)) present[i]->ended = true;
+  return KZ_OK;
+}
+
+static kz_status append(server *s, kz_request *request) {
+  kz_request **end = &s->waiting;
+  while (*end) end = &(*end)->next;
+  *end = request;
+  return ++s->n_waiting > MOST_WAITING ? end_waiting(s, &s->waiting) : KZ_OK;
+}
+
+/* A request that has been read, which it takes over: cancel and quit take effect, the others wait. */
+static kz_status take(server *s, kz_request *request) {
+  if (request->kind == KZ_REQUEST_CANCEL || is_drawn(request)) KZ_TRY(end_older(s, request));
+  if (request->kind != KZ_REQUEST_CANCEL && request->kind != KZ_REQUEST_QUIT) return append(s, request);
+  const int64_t sequence = request->sequence;
+  const bool quits = request->kind == KZ_REQUEST_QUIT && !s->quits;
+  kz_request_free(request);
+  if (!quits) return kz_answer_ended(sequence);
+  s->quits = true;
+  s->quit = sequence;
+  return KZ_OK;
+}
+
+/* Reads one request where there is one, and answers one that is wrong; `waits`: until there is one, or the end of the input. *read: a line was
+ * there. */
+static kz_status read_next(server *s, bool waits, bool *read) {
+  kz_status wrong;
+  size_t length;
+  const char *line = kz_inbox_line(&s->inbox, waits, &length, &wrong);
+  *read = line || wrong != KZ_OK;
+  if (!*read) return KZ_OK;
+  kz_request *request = NULL;
+  if (line) wrong = kz_request_read(s->tree.root, line, length, &request);
+  if (wrong == KZ_OK) return take(s, request);
+  const kz_status status = kz_answer_error(request ? request->sequence : KZ_UNSET_INTEGER, wrong);
+  kz_request_free(request);
+  return status;
+}
+
+/* Reads what is there. What waits is answered later. */
+static kz_status read_ahead(void *context) {
+  server *s = context;
+  bool read = true;
+  for (int i = 0; i < MOST_WAITING && read; i++) KZ_TRY(read_next(s, false, &read));
+  if (s->quits && s->orbit) s->orbit->ended = true;
   return KZ_OK;
 }
 
@@ -56,89 +124,61 @@ static kz_status answer_catalogue(server *s, const kz_request *request) {
   return kz_answer_catalogue(request->sequence, true, catalogue);
 }
 
-static kz_status answer_orbit(const kz_request *request) {
-  int64_t samples;
-  KZ_FREED double *theta = NULL, *velocity = NULL;
-  if (kz_release_strobes(&request->scene.parameters.release) > 0)
-    return kz_fail(
-        KZ_REFUSED,
-        "request: orbit: a motion begins at phase 0 and without a ramp; leave out basin.start_phase and pendulum.ramp");
-  KZ_TRY(kz_orbit_record(&request->scene, &samples, &theta, &velocity));
-  return kz_answer_orbit(request, samples, theta, velocity);
+static kz_status answer_orbit(server *s, kz_request *request) {
+  s->orbit = request;
+  const kz_status status = kz_orbit_answer(request, read_ahead, s);
+  s->orbit = NULL;
+  return status;
 }
 
-/* What is answered at once. After KZ_REFUSED and KZ_FAILED no answer has been written. */
-static kz_status answer(server *s, const kz_request *request) {
-  switch (request->kind) {
-    case KZ_REQUEST_WHERE:
-      return answer_where(s, request);
-    case KZ_REQUEST_ORBIT:
-      return answer_orbit(request);
-    case KZ_REQUEST_CATALOGUE:
-      return answer_catalogue(s, request);
-    default: /* cancel, quit */
-      s->quits = s->quits || request->kind == KZ_REQUEST_QUIT;
-      if (request->kind == KZ_REQUEST_CANCEL) KZ_TRY(end_view(s, request->view));
-      return kz_answer_ended(request->sequence);
-  }
-}
-
-/* A request that has been read: frames and charts wait, the others are answered at once. Takes it over. */
-static kz_status take(server *s, kz_request *request) {
-  if (is_drawn(request)) {
-    const kz_status status = end_view(s, request->view);
-    kz_request **end = &s->waiting;
-    while (*end) end = &(*end)->next;
-    *end = request;
-    return status;
-  }
-  kz_status status = answer(s, request);
+/* Answers a request that is no frame or chart, and frees it. */
+static kz_status answer(server *s, kz_request *request) {
+  kz_status status = request->kind == KZ_REQUEST_WHERE   ? answer_where(s, request)
+                     : request->kind == KZ_REQUEST_ORBIT ? answer_orbit(s, request)
+                                                         : answer_catalogue(s, request);
   if (status == KZ_FAILED || status == KZ_REFUSED) status = kz_answer_error(request->sequence, status);
   kz_request_free(request);
   return status;
 }
 
-/* Takes the requests that are there; `waits`: at least one, or the end of the input. */
-static kz_status listen(server *s, bool waits) {
-  kz_status status = KZ_OK, wrong;
-  size_t length;
-  do {
-    const char *line = kz_inbox_line(&s->inbox, waits, &length, &wrong);
-    if (!line && wrong == KZ_OK) return KZ_OK;
-    kz_request *request = NULL;
-    if (line) wrong = kz_request_read(s->tree.root, line, length, &request);
-    if (wrong == KZ_OK) {
-      status = take(s, request);
-    } else {
-      status = kz_answer_error(request ? request->sequence : KZ_UNSET_INTEGER, wrong);
-      kz_request_free(request);
-    }
-    waits = false;
-  } while (status == KZ_OK && !s->quits);
-  return status;
+/* The first request that waits and is, or is not, a frame or chart. */
+static kz_request **find_waiting(server *s, bool drawn) {
+  kz_request **place = &s->waiting;
+  while (*place && is_drawn(*place) != drawn) place = &(*place)->next;
+  return place;
+}
+
+/* Answers what waits but frames and charts, then reads one request more, as long as there are any. */
+static kz_status catch_up(server *s) {
+  bool read = true;
+  for (int i = 0; i < MOST_WAITING && read && !s->quits; i++) {
+    for (kz_request **place; !s->quits && *(place = find_waiting(s, false));) KZ_TRY(answer(s, take_out(s, place)));
+    if (!s->quits) KZ_TRY(read_next(s, false, &read));
+  }
+  return KZ_OK;
 }
 
 /* Between two parts of a frame or chart. */
 static kz_status pause_drawing(void *context) {
   server *s = context;
-  KZ_TRY(listen(s, false));
-  return s->present_ended || s->quits ? KZ_STOPPED : KZ_OK;
+  KZ_TRY(catch_up(s));
+  return s->drawn->ended || s->quits ? KZ_STOPPED : KZ_OK;
 }
 
 static kz_status show(void *context, const kz_live_level *level) {
   server *s = context;
-  const kz_integers *levels = &s->present->levels;
+  const kz_integers *levels = &s->drawn->levels;
   if (level->catalogue->version != s->shown) {
     s->shown = level->catalogue->version;
-    KZ_TRY(kz_answer_catalogue(s->present->sequence, false, level->catalogue));
+    KZ_TRY(kz_answer_catalogue(s->drawn->sequence, false, level->catalogue));
   }
-  return kz_answer_level(s->present, level->level == levels->values[levels->count - 1], level);
+  return kz_answer_level(s->drawn, level->level == levels->values[levels->count - 1], level);
 }
 
 static kz_status show_chart(void *context, const kz_chart_level *level) {
   server *s = context;
-  const kz_integers *levels = &s->present->levels;
-  return kz_answer_chart(s->present->sequence, level->level == levels->values[levels->count - 1], level);
+  const kz_integers *levels = &s->drawn->levels;
+  return kz_answer_chart(s->drawn->sequence, level->level == levels->values[levels->count - 1], level);
 }
 
 static kz_status check_size(const kz_scene *scene) {
@@ -165,28 +205,34 @@ static kz_status draw(server *s, kz_request *request) {
 
 /* Makes the frame or chart that has waited longest. */
 static kz_status draw_next(server *s) {
-  s->present = s->waiting;
-  s->waiting = s->present->next;
-  s->present_ended = false;
-  kz_status status = draw(s, s->present);
-  if (status == KZ_STOPPED && (s->present_ended || s->quits))
-    status = kz_answer_ended(s->present->sequence);
+  kz_request *request = s->drawn = take_out(s, find_waiting(s, true));
+  kz_status status = draw(s, request);
+  if (status == KZ_STOPPED && (request->ended || s->quits))
+    status = kz_answer_ended(request->sequence);
   else if (status == KZ_FAILED || status == KZ_REFUSED)
-    status = kz_answer_error(s->present->sequence, status);
-  kz_request_free(s->present);
-  s->present = NULL;
+    status = kz_answer_error(request->sequence, status);
+  kz_request_free(request);
+  s->drawn = NULL;
   return status;
+}
+
+/* After quit: all that waits, or has arrived, is answered with `ended`, and quit at last. */
+static kz_status end_all(server *s) {
+  KZ_TRY(read_ahead(s));
+  while (s->waiting) KZ_TRY(end_waiting(s, &s->waiting));
+  return kz_answer_ended(s->quit);
 }
 
 static kz_status answer_all(server *s) {
   while (!s->quits) {
-    KZ_TRY(listen(s, false));
+    bool read;
+    KZ_TRY(catch_up(s));
     if (!s->waiting && s->inbox.ended) return KZ_OK;
-    if (!s->waiting && !s->quits) KZ_TRY(listen(s, true));
-    if (!s->quits && s->waiting) KZ_TRY(draw_next(s));
+    if (!s->waiting && !s->quits) KZ_TRY(read_next(s, true, &read));
+    if (!s->quits && *find_waiting(s, true)) KZ_TRY(draw_next(s));
     kz_engine_rest(s->engine); /* also where requests never cease, as those of a dragged slider */
   }
-  return KZ_OK;
+  return end_all(s);
 }
 
 static kz_status greet(server *s, const kz_options *options) {
@@ -210,17 +256,13 @@ kz_status kz_app_serve(const kz_options *options) {
   if (!options->speaks) return KZ_OK;
   if (strcmp(options->scene, "-") == 0)
     return kz_fail(KZ_REFUSED, "serve: -: standard input is for requests; give the name of a scene file");
-  signal(SIGPIPE, SIG_IGN); /* whoever asks may leave at any time */
+  signal(SIGPIPE, SIG_IGN); /* the reader of the answers may leave at any time */
   KZ_TRY(kz_answer_watch());
   kz_inbox_open(&s.inbox);
   s.engine = kz_engine_create();
   kz_status status = greet(&s, options);
   if (status == KZ_OK) status = answer_all(&s);
-  while (s.waiting) {
-    kz_request *next = s.waiting->next;
-    kz_request_free(s.waiting);
-    s.waiting = next;
-  }
+  while (s.waiting) kz_request_free(take_out(&s, &s.waiting));
   kz_engine_free(s.engine);
   kz_inbox_close(&s.inbox);
   kz_scene_tree_free(&s.tree);

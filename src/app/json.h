@@ -1,0 +1,35 @@
+/* JSON by json-c: requests of other programs, and what other programs read. The only file of the app that knows json-c besides those that build
+ * objects by it. */
+#ifndef KAPITZA_APP_JSON_H
+#define KAPITZA_APP_JSON_H
+
+#include <json-c/json.h>
+#include <stdio.h>
+
+#include "scene/scene.h"
+
+typedef struct json_object kz_json;
+
+/* Values. real: with the fewest digits that read back as the same number; null if it is not finite. text: bytes that are not UTF-8, as where a
+ * message was cut, become '?'. pair: a list of two numbers. */
+kz_json *kz_json_real(double value);
+kz_json *kz_json_text(const char *text);
+kz_json *kz_json_pair(double first, double second);
+/* The names of a list that NULL ends. */
+kz_json *kz_json_texts(const char *const *texts);
+
+/* Adds a member to an object, which then owns `value`. */
+void kz_json_add(kz_json *object, const char *name, kz_json *value);
+void kz_json_add_text(kz_json *object, const char *name, const char *value);
+void kz_json_add_real(kz_json *object, const char *name, double value);
+void kz_json_add_integer(kz_json *object, const char *name, int64_t value);
+void kz_json_add_boolean(kz_json *object, const char *name, bool value);
+
+/* Prints `value` on one line, with a newline, and frees it. */
+void kz_json_print(kz_json *value, FILE *out);
+
+/* Reads a line of JSON [length] into a tree as of a scene; numbers keep their digits. `source` begins its messages. The caller frees *root.
+ * KZ_REFUSED: the line is not JSON. */
+kz_status kz_json_read(const char *line, size_t length, const char *source, kz_node **root);
+
+#endif

@@ -1,0 +1,99 @@
+#include "orbit.h"
+
+#include <pthread.h>
+#include <stdatomic.h>
+#include <stdlib.h>
+#include <string.h>
+#include <time.h>
+
+#include "answer.h"
+
+enum { PAUSE = 10000000 /* ns between two calls of `meanwhile` */ };
+
+typedef struct {
+  const kz_scene *scene;
+  double *theta, *velocity;
+  atomic_bool stops;
+  pthread_mutex_t mutex;
+  pthread_cond_t changed;
+  bool done; /* the thread has set what follows */
+  kz_status status;
+  char *message;
+} job;
+
+static kz_status pause_job(void *context) {
+  const job *j = context;
+  return atomic_load(&j->stops) ? KZ_STOPPED : KZ_OK;
+}
+
+/* The thread. Its message is kept apart from those of requests that are read meanwhile. */
+static void *compute(void *context) {
+  job *j = context;
+  const kz_status status = kz_orbit_record(j->scene, pause_job, j, j->theta, j->velocity);
+  pthread_mutex_lock(&j->mutex);
+  j->status = status;
+  j->message = kz_strdup(status == KZ_FAILED ? kz_message() : "");
+  if (status == KZ_FAILED) kz_message_clear();
+  j->done = true;
+  pthread_cond_signal(&j->changed);
+  pthread_mutex_unlock(&j->mutex);
+  return NULL;
+}
+
+/* Waits until the thread has ended or a pause is over; true in the first case. */
+static bool wait_job(job *j) {
+  struct timespec end;
+  clock_gettime(CLOCK_MONOTONIC, &end);
+  end.tv_nsec += PAUSE;
+  end.tv_sec += end.tv_nsec / 1000000000;
+  end.tv_nsec %= 1000000000;
+  pthread_mutex_lock(&j->mutex);
+  for (int error = 0; !j->done && error == 0;) error = pthread_cond_timedwait(&j->changed, &j->mutex, &end);
+  const bool done = j->done;
+  pthread_mutex_unlock(&j->mutex);
+  return done;
+}
+
+/* Until the thread has ended; *ended: the request was ended before, and `ended` has been answered. */
+static kz_status follow(job *j, const kz_request *request, kz_status (*meanwhile)(void *context), void *context, bool *ended) {
+  kz_status status = KZ_OK;
+  while (!wait_job(j)) {
+    if (status == KZ_OK) status = meanwhile(context);
+    if (status == KZ_OK && request->ended && !*ended) {
+      *ended = true;
+      status = kz_answer_ended(request->sequence);
+    }
+    if (status != KZ_OK || *ended) atomic_store(&j->stops, true);
+  }
+  return status;
+}
+
+static kz_status start_thread(job *j, pthread_t *thread) {
+  pthread_condattr_t attributes;
+  pthread_mutex_init(&j->mutex, NULL);
+  pthread_condattr_init(&attributes);
+  pthread_condattr_setclock(&attributes, CLOCK_MONOTONIC);
+  pthread_cond_init(&j->changed, &attributes);
+  pthread_condattr_destroy(&attributes);
+  const int error = pthread_create(thread, NULL, compute, j);
+  return error ? kz_fail(KZ_FAILED, "request: orbit: no thread can be started: %s", strerror(error)) : KZ_OK;
+}
+
+kz_status kz_orbit_answer(const kz_request *request, kz_status (*meanwhile)(void *context), void *context) {
+  const kz_orbit_plan *plan = &request->scene.orbit;
+  const int64_t samples = plan->periods * plan->samples_per_period + 1;
+  const size_t bytes = (size_t)samples * sizeof(double);
+  pthread_t thread;
+  bool ended = false;
+  if (!kz_memory_is_there(3 * bytes))
+    return kz_fail(KZ_FAILED, "request: periods: needs %zu MB of memory, more than there are", 2 * bytes >> 20);
+  KZ_FREED double *theta = kz_malloc(bytes), *velocity = kz_malloc(bytes);
+  job j = {.scene = &request->scene, .theta = theta, .velocity = velocity};
+  KZ_TRY(start_thread(&j, &thread));
+  kz_status status = follow(&j, request, meanwhile, context, &ended);
+  pthread_join(thread, NULL);
+  if (status == KZ_OK && !ended && j.status != KZ_OK)
+    status = kz_fail(j.status, "%s", j.message[0] ? j.message : "request: orbit: failed");
+  free(j.message);
+  return status != KZ_OK || ended ? status : kz_answer_orbit(request, samples, theta, velocity);
+}
