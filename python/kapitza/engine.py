@@ -1,15 +1,14 @@
 """A resident engine: a process of `kapitza serve` that answers many requests."""
 
-import json
-import subprocess
-import threading
+import itertools
 from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
 import pandas
 
-from kapitza.program import check_end, command, environment, scene_error
+from kapitza.client import Client, Ended
+from kapitza.program import ERROR, RunError, SceneError, check_end, command, scene_error
 from kapitza.scene import Scene, SceneLike, texts
 
 UNSETTLED = 255  # label in an answer
@@ -23,15 +22,16 @@ class Engine:
     ...     engine.attractors.loc[labels[0, 0], "name"]
     """
 
-    def __init__(self, scene: SceneLike, set: Mapping[str, Any] | None = None) -> None:
-        self._scene = Scene(scene, set)
-        self._process = subprocess.Popen(command(["serve", self._scene.path, *self._scene.sets]), stdin=subprocess.PIPE,
-                                         stdout=subprocess.PIPE, stderr=subprocess.PIPE, env=environment(), start_new_session=True)
-        self._errors: list[bytes] = []
-        threading.Thread(target=self._read_errors, daemon=True).start()
-        self._sequence = 0
-        self._attractors: pandas.DataFrame | None = None
-        self.ready, _ = self._answer()
+    def __init__(self, scene: SceneLike, set: Mapping[str, Any] | None = None, *, timeout: float | None = None) -> None:
+        """:param timeout: seconds after which a request ends with TimeoutError; None = it may take as long as it takes"""
+        self._scene, self._timeout = Scene(scene, set), timeout
+        self._views = itertools.count(1)
+        self._attractors: list[dict[str, Any]] | None = None
+        try:
+            self._client = Client(command(["serve", self._scene.path, *self._scene.sets]))
+        except Ended as end:
+            raise self._why(end) from None
+        self.ready = self._client.ready
 
     def __enter__(self) -> "Engine":
         return self
@@ -40,23 +40,16 @@ class Engine:
         self.close()
 
     def __del__(self) -> None:
-        if hasattr(self, "_process"):
-            self.close()
+        self.close()
 
     def __repr__(self) -> str:
-        state = "closed" if self._process.poll() is not None else "ready"
+        state = "closed" if self._client.ended else "ready"
         return f"<kapitza.Engine of {self.ready.get('title') or 'a scene'}: {state}>"
 
     def close(self) -> None:
         """Ends the process of the engine."""
-        for pipe in (self._process.stdin, self._process.stdout):
-            if pipe and not pipe.closed:
-                pipe.close()
-        try:
-            self._process.wait(5)
-        except subprocess.TimeoutExpired:
-            self._process.kill()
-            self._process.wait()
+        if hasattr(self, "_client"):
+            self._client.close()
 
     def frame(self, window: tuple[Any, Any, Any, Any] | Mapping[str, Any] | None = None, shape: tuple[int, int] = (250, 400),
               pendulum: Mapping[str, Any] | None = None, quality: str = "exact") -> np.ndarray:
@@ -74,6 +67,8 @@ class Engine:
             request["window"] = window if isinstance(window, Mapping) else {
                 "theta": {"min": window[0], "max": window[1]}, "velocity": {"min": window[2], "max": window[3]}}
         header, payload = self._ask(request, pendulum)
+        if header["catalogue"] in self._client.catalogues:
+            self._attractors = self._client.catalogues[header["catalogue"]]["attractors"]
         labels = np.frombuffer(payload, np.uint8, header["rows"] * header["columns"]).reshape(header["rows"], header["columns"])
         return np.where(labels == UNSETTLED, -1, labels.astype(np.int16))
 
@@ -81,9 +76,8 @@ class Engine:
     def attractors(self) -> pandas.DataFrame:
         """A table of the attractors that the labels of the last frame refer to. Before the first frame it has those of the scene."""
         if self._attractors is None:
-            self._ask({"request": "catalogue"}, None)
-        assert self._attractors is not None
-        return self._attractors
+            self._attractors = self._ask({"request": "catalogue"}, None)[0]["attractors"]
+        return attractors_table(self._attractors)
 
     def where(self, theta: Any, velocity: Any, pendulum: Mapping[str, Any] | None = None) -> dict[str, Any]:
         """Returns where one start ends: a dict with the columns of `kapitza.where`."""
@@ -100,57 +94,34 @@ class Engine:
         return pandas.DataFrame({"time": time, "theta": values[0], "velocity": values[1]})
 
     def _ask(self, request: dict[str, Any], pendulum: Mapping[str, Any] | None) -> tuple[dict[str, Any], bytes]:
-        """The last answer to a request. Ctrl-C cancels it."""
-        self._sequence += 1
-        request["sequence"] = self._sequence
+        """The last answer to a request. Ctrl-C cancels it. Each request has a view of its own, so that none of another thread ends it."""
+        request["view"] = str(next(self._views))
         if pendulum is not None:
-            request["pendulum"] = _plain(pendulum)
-        self._send(_plain(request))
+            request["pendulum"] = pendulum
         try:
-            return self._last(self._sequence)
-        except KeyboardInterrupt:
-            self._send({"request": "cancel", "sequence": self._sequence + 1})
-            raise
+            pending = self._client.send(_plain(request))
+            try:
+                while True:
+                    header, payload = pending.next(self._timeout)
+                    if header["answer"] == "error":
+                        raise scene_error(header["message"].removeprefix(ERROR), self._scene)
+                    if header["answer"] == "ended":
+                        raise RuntimeError("the engine is closed")
+                    if header["final"]:
+                        return header, payload
+            except (KeyboardInterrupt, TimeoutError):
+                self._client.send({"request": "cancel", "view": request["view"]})
+                raise
+        except Ended as end:
+            raise self._why(end) from None
 
-    def _last(self, sequence: int) -> tuple[dict[str, Any], bytes]:
-        """Reads until the final answer to this request; those to earlier ones are passed over, catalogues kept."""
-        frame: tuple[dict[str, Any], bytes] | None = None
-        while True:
-            header, payload = self._answer()
-            if header["answer"] == "catalogue":
-                self._attractors = attractors_table(header["attractors"])
-            if header["sequence"] != sequence:
-                continue
-            if header["answer"] == "error":
-                raise scene_error(header["message"].removeprefix("kapitza: error: "), self._scene)
-            if header["answer"] == "frame":
-                frame = header, payload
-            if header["final"]:
-                return frame or (header, payload)
-
-    def _send(self, request: dict[str, Any]) -> None:
-        assert self._process.stdin
+    def _why(self, end: Ended) -> Exception:
+        """The exception that the end of the process becomes."""
         try:
-            self._process.stdin.write(json.dumps(request).encode() + b"\n")
-            self._process.stdin.flush()
-        except (BrokenPipeError, ValueError) as error:
-            raise RuntimeError("the engine is closed") from error
-
-    def _answer(self) -> tuple[dict[str, Any], bytes]:
-        """The next answer, whole."""
-        assert self._process.stdout
-        line = self._process.stdout.readline()
-        if not line:
-            self._process.wait()
-            check_end(self._process.returncode, b"".join(self._errors).decode(), self._scene)
-            raise RuntimeError("the engine is closed")
-        header = json.loads(line)
-        return header, self._process.stdout.read(header["bytes"])
-
-    def _read_errors(self) -> None:
-        assert self._process.stderr
-        with self._process.stderr as stream:
-            self._errors.extend(stream)
+            check_end(end.status, end.errors, self._scene)
+        except (RunError, SceneError) as error:
+            return error
+        return RuntimeError("the engine is closed")
 
 
 def attractors_table(rows: list[dict[str, Any]]) -> pandas.DataFrame:

@@ -23,7 +23,7 @@ JOB_SETTINGS = ("OMPI_", "PMIX_", "PMI_", "PRTE_", "ORTE_", "HYDI_", "HYDRA_", "
 IN_A_JOB = {"OMPI_COMM_WORLD_RANK", "PMIX_RANK", "PMI_RANK", "SLURM_STEP_ID"}
 FEWEST_MOST_RANKS, RANKS_PER_CORE = 64, 8
 REFUSED, STOPPED = 2, 75  # exit statuses
-_ERROR = "kapitza: error: "
+ERROR = "kapitza: error: "  # begins every line of the program that is an error
 _PLACE = re.compile(r"(?P<place>(?:.+?:\d+:\d+|--set .+?|request)): (?P<key>[a-z_]\w*(?:\.\w+)*): ")
 
 
@@ -108,7 +108,7 @@ def check_end(status: int, errors: str, scene: Scene) -> None:
             warnings.warn(line.split("warning: ", 1)[1], stacklevel=4)
     if status == 0:
         return
-    said = [line.removeprefix(_ERROR) for line in lines if line.startswith(_ERROR)]
+    said = [line.removeprefix(ERROR) for line in lines if line.startswith(ERROR)]
     text = said[-1] if said else "\n".join(lines[-5:]) or f"the program ended with status {status}"
     if status == REFUSED:
         raise scene_error(text.replace("use --force to overwrite it", "force=True overwrites it, resume=True goes on from it"), scene)

@@ -122,9 +122,10 @@ def flow(value: Any) -> str:
 
 @cache
 def session_folder() -> Path:
-    """A folder of this Python session, removed at its end: results and scenes that were given no name of their own."""
-    folder = Path(tempfile.mkdtemp(prefix="kapitza-"))
-    atexit.register(shutil.rmtree, folder, ignore_errors=True)
+    """A folder of this Python session, removed at its end: results and scenes that were given no name of their own. A forked process
+    that ends leaves it to its parent."""
+    folder, owner = Path(tempfile.mkdtemp(prefix="kapitza-")), os.getpid()
+    atexit.register(lambda: shutil.rmtree(folder, ignore_errors=True) if os.getpid() == owner else None)
     return folder
 
 
