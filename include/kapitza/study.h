@@ -167,6 +167,14 @@ typedef struct {
   int64_t max_period, max_periods; /* max_periods INT64_MIN = not given */
 } kz_chart_plan;
 
+/* Study `atlas`: all bifurcation curves over a plane of two keys of the pendulum mapping. */
+enum { KZ_ATLAS_MOST_PERIOD = 16 };
+typedef struct {
+  kz_chart_axis x, y;         /* the counts are not used */
+  int64_t max_period, checks; /* drive periods; random points of a round */
+  int64_t points;             /* cells of the raster along each axis */
+} kz_atlas_plan;
+
 /* The mapping `numerics` as written. */
 typedef struct {
   int32_t scheme;           /* row of the kernel's table */
@@ -190,6 +198,7 @@ enum { KZ_AUTO = 0 };
   STUDY(potential, NULL)                 \
   STUDY(sweep, kz_sweep_check)           \
   STUDY(chart, NULL)                     \
+  STUDY(atlas, kz_atlas_check)           \
   STUDY(tradeoff, kz_tradeoff_check)
 
 typedef struct {

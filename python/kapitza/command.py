@@ -5,12 +5,13 @@ import sys
 from collections.abc import Callable
 
 from kapitza import recording, vtkhdf
-from kapitza.plots import basin, chart, compare, orbit, potential, stability, sweep, tradeoff
+from kapitza.plots import atlas, basin, chart, compare, orbit, potential, stability, sweep, tradeoff
 from kapitza.report import command as report
 from kapitza.script import run_apart
 
 # KIND -> a function that takes the other words of the command line.
 KINDS: dict[str, Callable[[list[str]], None]] = {
+    "atlas": atlas.main,
     "basin": basin.main,
     "chart": chart.main,
     "compare": compare.main,

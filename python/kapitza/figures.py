@@ -25,7 +25,13 @@ _POTENTIAL: _Row = ("", "potential", [])
 _TRADE: _Row = ("", "tradeoff", [])
 _PROVED: _Row = ("", "basin", ["--quantity", "evidence", "--dpi", "90"])
 
+_ATLAS: _Row = ("", "atlas", ["--dpi", "130"])
+_MOTIONS: _Row = ("-motions", "atlas", ["--view", "motions", "--dpi", "100"])
+
 _SCENES = {
+    "atlas-blackburn": [_ATLAS, _MOTIONS],
+    "atlas-butikov": [_ATLAS],
+    "atlas-tilted": [_ATLAS],
     "bifurcation": [_SWEEP],
     "blackburn-fig02": [_GROWTH],
     "blackburn-fig03": [_CHART],

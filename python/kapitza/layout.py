@@ -19,6 +19,12 @@ def _over(dimensions: str, *names: str) -> dict[str, str]:
 
 # Without these a group is of no use to any picture; the study that writes a group adds its row here.
 NEEDED = {
+    "atlas": Part(_over("curve", "curve_kind", "curve_period", "curve_winding", "curve_centre", "curve_name", "curve_first", "curve_points")
+                  | _over("point", "x", "y", "supercritical") | _over("special", "special_x", "special_y", "special_kind")
+                  | _over("class", "class_name", "class_period", "class_winding", "class_symmetric")
+                  | {"row": "row", "column": "column", "attracting": "class row column"} | _over("row column", "count", "list")
+                  | _over("region", "region_x", "region_y", "region_share", "region_radius"),
+                  ("x_parameter", "y_parameter", "max_period")),
     "attractors": Part(_over("attractor", "period", "winding", "centre", "name", "mirror")
                        | _over("attractor phase", "strobe_theta", "strobe_velocity")),
     "orbit": Part(_over("time", "time", "theta", "velocity", "pivot")
@@ -55,10 +61,12 @@ OPTIONAL = {
     ],
 }
 # What is not a number, and what counts or is a code (with the largest code, where there is one).
-TEXT = {"name", "label", "scheme", "branch_name"}
-CODES = {"period": None, "centre": 3, "evidence": 12, "settling_time": None, "method": 2, "interpolation": 1,
+TEXT = {"name", "label", "scheme", "branch_name", "curve_name", "class_name"}
+CODES = {"curve_kind": 4, "curve_period": None, "curve_centre": 3, "curve_first": None, "curve_points": None, "class_period": None,
+         "special_kind": 2, "list": None, "period": None, "centre": 3, "evidence": 12, "settling_time": None, "method": 2,
+         "interpolation": 1,
          "branch_period": None, "branch_centre": 3, "kind": 1, "end": 3}
-GRIDS = {"theta", "velocity", "time", "k", "m", "value", "release", "x", "y"}  # axes that go up
+GRIDS = {"theta", "velocity", "time", "k", "m", "value", "release", "x", "y", "row", "column"}  # axes that go up
 WORDS = {"parameter", "parameter_units", "x_parameter", "y_parameter"}  # attributes that are text; all others that a part names are numbers
 WITH_PENDULUM = {"basin", "orbit", "potential", "tradeoff"}  # groups whose pictures name its parameters
 NUMBERS = {"quality_factor", "damping", *(f"tongue_{tongue}_lowest_{axis}" for tongue in (1, 2) for axis in "km")}  # where they are given

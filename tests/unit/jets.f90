@@ -1,4 +1,4 @@
-!> One period with its derivatives, for tests/unit/kernel/jets.c.
+!> A period with its derivatives, for tests/unit/kernel/jets.c.
 module kz_jets_test
   use, intrinsic :: iso_c_binding, only: c_double, c_int32_t
   use kz_model_pendulum, only: pendulum_t

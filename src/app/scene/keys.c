@@ -3,63 +3,7 @@
 #include <string.h>
 
 #include "kapitza/analysis.h"
-#include "scene.h"
-
-#define AT(field) offsetof(kz_scene, field)
-
-/* One row: the first four of every type, then what the type needs. */
-#define ROW(path_, type_, fallback_, offset_, help_, ...) \
-  {.path = path_, .type = type_, .fallback = fallback_, .offset = offset_, .help = help_, __VA_ARGS__}
-#define MAPPING(path, fallback, offset, help) ROW(path, KZ_KEY_MAPPING, fallback, offset, help, .unit = "")
-/* Keys that basin.accuracy answers. */
-#define CHOSEN .chosen_by = "basin.accuracy", .chooser = AT(basin.accuracy)
-#define TEXT(path, fallback, field, help) ROW(path, KZ_KEY_TEXT, fallback, AT(field), help, .unit = "")
-#define WORD(path, words_, fallback, field, help, ...) \
-  ROW(path, KZ_KEY_WORD, fallback, AT(field), help, .unit = "", .words = words_, __VA_ARGS__)
-#define WORDS(path, words_, fallback, field, help) \
-  ROW(path, KZ_KEY_WORDS, fallback, AT(field), help, .unit = "", .words_from = words_)
-#define INTEGER(path, low_, high_, fallback, field, help, ...) \
-  ROW(path, KZ_KEY_INTEGER, fallback, AT(field), help, .unit = "", .low = low_, .high = high_, __VA_ARGS__)
-#define COUNT(path, low_, high_, fallback, field, help, ...) \
-  ROW(path, KZ_KEY_COUNT, fallback, AT(field), help, .unit = "", .low = low_, .high = high_, __VA_ARGS__)
-#define BOOLEAN(path, fallback, field, help) ROW(path, KZ_KEY_BOOLEAN, fallback, AT(field), help, .unit = "")
-#define REAL(path, unit_, low_, high_, fallback, field, help) \
-  ROW(path, KZ_KEY_REAL, fallback, AT(field), help, .unit = unit_, .low = low_, .high = high_)
-/* The two ways to give a window: by its edges, and by its middle. */
-#define EDGE(path, unit_, limit, fallback, field, help) \
-  ROW(path, KZ_KEY_REAL, fallback, AT(field), help, .unit = unit_, .low = -limit, .high = limit, .form = "a")
-#define DECIMAL(path, unit_, low_, high_, fallback, field, help) \
-  ROW(path, KZ_KEY_DECIMAL, fallback, AT(field), help, .unit = unit_, .low = low_, .high = high_, .form = "b")
-#define CENTRE_HELP "Middle of the window; up to 1000 digits, all of which count."
-#define PENDULUM(form_, name, unit_, low_, fallback, help)                                                     \
-  ROW("pendulum." #name, KZ_KEY_REAL, fallback, AT(parameters.written.name), help, .unit = unit_, .low = low_, \
-      .high = DBL_MAX, .form = form_)
-
-/* The window of a study's starts or points; it may be the whole circle. */
-#define THETA_WINDOW(study, help)                                                                    \
-  MAPPING(#study ".theta", "", KZ_NO_FIELD, help),                                                   \
-      REAL(#study ".theta.min", "rad", -1e6, 1e6, "", study.theta.min, "Lower edge of the window."), \
-      REAL(#study ".theta.max", "rad", -1e6, 1e6, "", study.theta.max, "Upper edge of the window.")
-#define VELOCITY_WINDOW(study, most, fallback, lowest, highest, help)                                \
-  MAPPING(#study ".velocity", fallback, KZ_NO_FIELD, help),                                          \
-      REAL(#study ".velocity.min", "rad per drive radian", -most, most, lowest, study.velocity.min,  \
-           "Lower edge of the window."),                                                             \
-      REAL(#study ".velocity.max", "rad per drive radian", -most, most, highest, study.velocity.max, \
-           "Upper edge of the window.")
-#define EDGE_START(place, help)                                                                                    \
-  MAPPING("edge." #place, NULL, KZ_NO_FIELD, help),                                                                \
-      REAL("edge." #place ".theta", "rad", -1e6, 1e6, NULL, edge.place[0], "Angle from down."),                    \
-      REAL("edge." #place ".velocity", "rad per drive radian", -KZ_MOST_SPEED, KZ_MOST_SPEED, NULL, edge.place[1], \
-           "Velocity.")
-#define CHART_AXIS(axis, help)                                                                                                \
-  MAPPING("chart." #axis, NULL, KZ_NO_FIELD, help),                                                                           \
-      ROW("chart." #axis ".parameter", KZ_KEY_WORD, NULL, AT(chart.axis.parameter),                                           \
-          "Key of the pendulum mapping, as written there, that takes the values.", .unit = "", .words_from = kz_sweep_words), \
-      REAL("chart." #axis ".min", KZ_OWN_UNIT, -DBL_MAX, DBL_MAX, NULL, chart.axis.values.min, "First value."),               \
-      REAL("chart." #axis ".max", KZ_OWN_UNIT, -DBL_MAX, DBL_MAX, NULL, chart.axis.values.max, "Last value."),                \
-      INTEGER("chart." #axis ".count", 2, 1e5, "500", chart.axis.values.count, "Number of values, both ends included.")
-#define STABILITY_DAMPING(form_, name, low_, help) \
-  ROW("stability." #name, KZ_KEY_REAL, "", AT(stability.name), help, .unit = "", .low = low_, .high = 1e5, .form = form_)
+#include "key_rows.h"
 
 /* The names of the kernel's table of schemes. */
 static const char *scheme_words(void) {
@@ -332,8 +276,10 @@ const kz_key kz_keys[] = {
     INTEGER("sweep.samples", 1, 1e5, "64", sweep.samples, "Strobe points of each walk at each value."),
 
     MAPPING("chart", "", AT(has_chart), "Study: where the same starts end, over a plane of two keys of the pendulum mapping."),
-    CHART_AXIS(x, "The key along the horizontal axis."),
-    CHART_AXIS(y, "The key along the vertical axis."),
+    PLANE_AXIS(chart, x, "The key along the horizontal axis."),
+    CHART_COUNT(x),
+    PLANE_AXIS(chart, y, "The key along the vertical axis."),
+    CHART_COUNT(y),
     MAPPING("chart.start", NULL, KZ_NO_FIELD, "Starts, at t = 0; each has a chart of its own."),
     ROW("chart.start.theta", KZ_KEY_REALS, NULL, AT(chart.theta), "Angles from down.", .unit = "rad", .low = -1e6, .high = 1e6),
     ROW("chart.start.velocity", KZ_KEY_REALS, "[0]", AT(chart.velocity), "Velocities: one for each angle, or one for all.",
@@ -343,6 +289,19 @@ const kz_key kz_keys[] = {
     INTEGER("chart.max_periods", 1, 1e8, "", chart.max_periods,
             "Drive periods after which a motion counts as not settled; left out: the number that the damping needs, at least "
             "2000."),
+
+    MAPPING(
+        "atlas", "", AT(has_atlas),
+        "Study: all curves on which cycles are born, lose their stability or their symmetry, over a plane of two keys of the "
+        "pendulum mapping, and the attractors of every point of it."),
+    PLANE_AXIS(atlas, x, "The key along the horizontal axis."),
+    PLANE_AXIS(atlas, y, "The key along the vertical axis."),
+    INTEGER("atlas.max_period", 1, KZ_ATLAS_MOST_PERIOD, "6", atlas.max_period, "Longest period of the cycles, drive periods."),
+    INTEGER(
+        "atlas.checks", 0, 1e5, "300", atlas.checks,
+        "Random points of a round whose attractors are searched; rounds go on until one finds nothing that the curves do not "
+        "tell, at most 6."),
+    INTEGER("atlas.points", 16, 4000, "400", atlas.points, "Cells along each axis for the number and the lists of attractors."),
 
     {.path = NULL},
 };

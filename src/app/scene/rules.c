@@ -193,13 +193,24 @@ static void sweep_rules(kz_reading *reading, kz_scene *scene) {
   parameter_values(reading, scene, sweep->parameter, &sweep->values, "sweep");
 }
 
+/* The two keys of a plane. */
+static void plane_rules(kz_reading *reading, const kz_scene *scene, kz_chart_axis *x, kz_chart_axis *y, const char *study) {
+  const kz_short_text of_x = kz_key_in(study, "x"), of_y = kz_key_in(study, "y");
+  parameter_values(reading, scene, x->parameter, &x->values, of_x.text);
+  parameter_values(reading, scene, y->parameter, &y->values, of_y.text);
+  if (x->parameter == y->parameter && y->parameter != KZ_UNSET_WORD)
+    kz_complain(reading, kz_key_in(of_y.text, "parameter").text,
+                "is also the parameter of %s; name another key of the pendulum mapping", of_x.text);
+}
+
+static void atlas_rules(kz_reading *reading, kz_scene *scene) {
+  if (scene->has_atlas) plane_rules(reading, scene, &scene->atlas.x, &scene->atlas.y, "atlas");
+}
+
 static void chart_rules(kz_reading *reading, kz_scene *scene) {
   kz_chart_plan *chart = &scene->chart;
   if (!scene->has_chart) return;
-  parameter_values(reading, scene, chart->x.parameter, &chart->x.values, "chart.x");
-  parameter_values(reading, scene, chart->y.parameter, &chart->y.values, "chart.y");
-  if (chart->x.parameter == chart->y.parameter && chart->y.parameter != KZ_UNSET_WORD)
-    kz_complain(reading, "chart.y.parameter", "is also the parameter of chart.x; name another key of the pendulum mapping");
+  plane_rules(reading, scene, &chart->x, &chart->y, "chart");
   if (chart->velocity.count != 1 && chart->velocity.count != chart->theta.count)
     kz_complain(reading, "chart.start.velocity", "has %lld values for %lld angles; give one for each angle, or one for all",
                 (long long)chart->velocity.count, (long long)chart->theta.count);
@@ -234,9 +245,10 @@ static void settling_rules(kz_reading *reading, kz_scene *scene) {
 }
 
 typedef void (*rule)(kz_reading *reading, kz_scene *scene);
-static const rule rules[] = {basin_rules,     table_rules, undecided_rules, shocks_rules,   attractors_rules,  saddles_rules,
-                             manifolds_rules, orbit_rules, stability_rules, tradeoff_rules, kz_pendulum_rules, symmetry_rules,
-                             stiffness_rules, sweep_rules, chart_rules,     edge_rules,     orbit_range_rules, settling_rules};
+static const rule rules[] = {basin_rules,       table_rules,     undecided_rules,   shocks_rules,    attractors_rules,
+                             saddles_rules,     manifolds_rules, orbit_rules,       stability_rules, tradeoff_rules,
+                             kz_pendulum_rules, symmetry_rules,  stiffness_rules,   sweep_rules,     chart_rules,
+                             atlas_rules,       edge_rules,      orbit_range_rules, settling_rules};
 
 void kz_reading_rules(kz_reading *reading) {
   for (size_t i = 0; i < sizeof rules / sizeof rules[0]; i++) rules[i](reading, reading->scene);

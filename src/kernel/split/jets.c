@@ -4,7 +4,7 @@
 
 #include "lanes/lanes.h"
 
-enum { LANES = 8, KICKS = 14, FUSED = KICKS + 2 };
+enum { LANES = 4, KICKS = 14, FUSED = KICKS + 2 };
 enum { X, Y, P, Q, XX, XY, YY, XP, YP, XQ, YQ, XXX, XXY, XYY, YYY, TERMS };
 typedef double lanes __attribute__((vector_size(8 * LANES)));
 typedef int64_t bits __attribute__((vector_size(8 * LANES)));
@@ -56,8 +56,14 @@ OPERATION void sine_and_cosine(const lanes *angle, lanes *s, lanes *c) {
     velocity->of[term] += (row->decay[parameter] / row->decay[0]) * (speed);                                             \
   } while (0)
 
+#define MOVE(term)                                               \
+  do {                                                           \
+    angle->of[term] += row->of_velocity[0] * velocity->of[term]; \
+    velocity->of[term] *= row->decay[0];                         \
+  } while (0)
+
+/* Written term by term: the compiler then keeps them in registers. */
 OPERATION void drift(int order, bool damped, const kz_drift *row, jet *angle, jet *velocity) {
-  const int terms = order == 3 ? TERMS : order == 2 ? XXX : order == 1 ? XX : 0;
   if (damped && order >= 1) {
     GAIN(P, 1, velocity->value);
     GAIN(Q, 2, velocity->value);
@@ -68,16 +74,33 @@ OPERATION void drift(int order, bool damped, const kz_drift *row, jet *angle, je
     GAIN(XQ, 2, velocity->of[X]);
     GAIN(YQ, 2, velocity->of[Y]);
   }
-  _Pragma("GCC unroll 16") for (int i = 0; i < terms; i++) {
-    angle->of[i] += row->of_velocity[0] * velocity->of[i];
-    velocity->of[i] *= row->decay[0];
+  if (order >= 1) {
+    MOVE(X);
+    MOVE(Y);
+    MOVE(P);
+    MOVE(Q);
+  }
+  if (order >= 2) {
+    MOVE(XX);
+    MOVE(XY);
+    MOVE(YY);
+    MOVE(XP);
+    MOVE(YP);
+    MOVE(XQ);
+    MOVE(YQ);
+  }
+  if (order >= 3) {
+    MOVE(XXX);
+    MOVE(XXY);
+    MOVE(XYY);
+    MOVE(YYY);
   }
   angle->value += (0.318309886183790671537767526745 * row->of_velocity[0]) * velocity->value;
   velocity->value *= row->decay[0];
 }
 
 OPERATION void kick(int order, bool mirrored, const kz_kick *row, jet *angle, jet *velocity) {
-  lanes s, c, force, slope, of[3];
+  lanes s, c, force, slope;
   const lanes *x = angle->of;
   lanes *v = velocity->of;
   sine_and_cosine(&angle->value, &s, &c);
@@ -92,18 +115,21 @@ OPERATION void kick(int order, bool mirrored, const kz_kick *row, jet *angle, je
   if (order < 1) return;
   v[X] -= slope * x[X];
   v[Y] -= slope * x[Y];
-  _Pragma("GCC unroll 2") for (int i = 1; i <= 2; i++) {
-    v[P + i - 1] -= slope * x[P + i - 1] + row->a[i] * s;
-    of[i] = row->a[i] * c;
-    if (mirrored) continue;
-    v[P + i - 1] += row->b[i] * c + row->push[i];
-    of[i] += row->b[i] * s;
+  v[P] -= slope * x[P] + row->a[1] * s;
+  v[Q] -= slope * x[Q] + row->a[2] * s;
+  if (!mirrored) {
+    v[P] += row->b[1] * c + row->push[1];
+    v[Q] += row->b[2] * c + row->push[2];
   }
   if (order < 2) return;
   v[XX] -= slope * x[XX] - force * x[X] * x[X];
   v[XY] -= slope * x[XY] - force * x[X] * x[Y];
   v[YY] -= slope * x[YY] - force * x[Y] * x[Y];
-  const lanes of_p = of[1] - force * x[P], of_q = of[2] - force * x[Q];
+  lanes of_p = row->a[1] * c - force * x[P], of_q = row->a[2] * c - force * x[Q];
+  if (!mirrored) {
+    of_p += row->b[1] * s;
+    of_q += row->b[2] * s;
+  }
   v[XP] -= slope * x[XP] + of_p * x[X];
   v[YP] -= slope * x[YP] + of_p * x[Y];
   v[XQ] -= slope * x[XQ] + of_q * x[X];
@@ -134,7 +160,7 @@ OPERATION void steps(int order, bool damped, bool mirrored, int64_t n, const kz_
     break;
 #define CASES(order) CASE(order, 0, 0) CASE(order, 0, 1) CASE(order, 1, 0) CASE(order, 1, 1)
 
-/* Moves 8 states, u half-turns and v, with their derivatives theta, speed [TERMS][8] up to `order` through n steps of split6. kicks
+/* Moves 4 states, u half-turns and v, with their derivatives theta, speed [TERMS][4] up to `order` through n steps of split6. kicks
  * [n][14]; drifts [16]: those of a step, the last one being the last drift of a step and the first of the next together. damped: the
  * damping depends on p or q; mirrored: b and push are 0. */
 void kz_jets_advance(int32_t order, int32_t damped, int32_t mirrored, int64_t n, const double *kicks_of,

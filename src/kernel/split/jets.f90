@@ -11,8 +11,8 @@ module kz_split_jets
   public :: jets_t, make_jets, set_pendulum, advance_jets, LANES, TERMS
   public :: DX, DY, DP, DQ, DXX, DXY, DYY, DXP, DYP, DXQ, DYQ, DXXX, DXXY, DXYY, DYYY
 
-  !> States that move together.
-  integer, parameter :: LANES = 8
+  !> States that move together: more of them do not fit into the registers with their derivatives, and take six times as long.
+  integer, parameter :: LANES = 4
   !> Partial derivatives of a coordinate: by the angle x and the velocity y of the start, and by the parameters p and q.
   integer, parameter :: DX = 1, DY = 2, DP = 3, DQ = 4, DXX = 5, DXY = 6, DYY = 7, DXP = 8, DYP = 9, DXQ = 10, DYQ = 11, &
                         DXXX = 12, DXXY = 13, DXYY = 14, DYYY = 15, TERMS = 15
@@ -79,42 +79,40 @@ contains
   subroutine set_pendulum(jets, pendulum)
     type(jets_t), intent(inout) :: jets !< its kicks and drifts
     type(pendulum_t), intent(in) :: pendulum(0:2) !< the pendulum; what its numbers grow by with p; and with q
-    integer :: i, n, harmonics
+    integer :: i
 
-    harmonics = maxval(pendulum%harmonics)
     jets%damping = pendulum%beta
     jets%damped = maxval(abs(pendulum(1:)%beta)) > 0
     jets%mirrored = maxval(pendulum%unmirrored) == 0
-    do n = 1, size(jets%weight)
-      do i = 0, 2
-        call set_kick(jets, pendulum(i), harmonics, i, n)
-      end do
+    do i = 0, 2
+      jets%kicks(i, 1, :) = jets%weight*(pendulum(i)%k - pendulum(i)%m*jets%cosine)
+      jets%kicks(i, 2, :) = 0
+      jets%kicks(i, 3, :) = jets%weight*pendulum(i)%torque
     end do
+    if (maxval(pendulum%harmonics) > 0) call add_harmonics(jets, pendulum)
     do i = 1, FUSED
       call set_drift(jets%time(i), pendulum%beta, jets%drifts(:, 1, i), jets%drifts(:, 2, i))
     end do
   end subroutine set_pendulum
 
-  subroutine set_kick(jets, pendulum, harmonics, i, n)
+  subroutine add_harmonics(jets, pendulum)
     type(jets_t), intent(inout) :: jets
-    type(pendulum_t), intent(in) :: pendulum
-    integer, intent(in) :: harmonics, i, n
-    real(rk) :: c, s, former, a, b
-    integer :: j
+    type(pendulum_t), intent(in) :: pendulum(0:2)
+    real(rk) :: c, s, former
+    integer :: n, j
 
-    a = pendulum%k - pendulum%m*jets%cosine(n)
-    b = 0
-    c = 1
-    s = 0
-    do j = 1, harmonics
-      former = c
-      c = c*jets%cosine(n) - s*jets%sine(n)
-      s = s*jets%cosine(n) + former*jets%sine(n)
-      a = a - pendulum%vertical(1, j)*c - pendulum%vertical(2, j)*s
-      b = b + pendulum%horizontal(1, j)*c + pendulum%horizontal(2, j)*s
+    do n = 1, size(jets%weight)
+      c = 1
+      s = 0
+      do j = 1, maxval(pendulum%harmonics)
+        former = c
+        c = c*jets%cosine(n) - s*jets%sine(n)
+        s = s*jets%cosine(n) + former*jets%sine(n)
+        jets%kicks(:, 1, n) = jets%kicks(:, 1, n) - jets%weight(n)*(pendulum%vertical(1, j)*c + pendulum%vertical(2, j)*s)
+        jets%kicks(:, 2, n) = jets%kicks(:, 2, n) + jets%weight(n)*(pendulum%horizontal(1, j)*c + pendulum%horizontal(2, j)*s)
+      end do
     end do
-    jets%kicks(i, :, n) = jets%weight(n)*[a, b, pendulum%torque]
-  end subroutine set_kick
+  end subroutine add_harmonics
 
   !> The drift (1 - exp(-z))/beta and the decay exp(-z), z = beta*time, and their derivatives, by series.
   pure subroutine set_drift(time, beta, drift, decay)

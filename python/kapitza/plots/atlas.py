@@ -1,0 +1,271 @@
+"""Draws an atlas of kapitza: every motion over a plane of two keys of the pendulum.
+
+    kapitza-plot atlas atlas-blackburn.h5                      the map: all curves, over the number of attractors
+    kapitza-plot atlas atlas-blackburn.h5 --view motions       small maps: where each motion attracts
+    kapitza-plot atlas atlas-blackburn.h5 --longest 2          curves of cycles of up to two periods alone
+"""
+
+import argparse
+import math
+from typing import Any
+
+import matplotlib.patheffects as effects
+import numpy as np
+import xarray
+from matplotlib.axes import Axes
+from matplotlib.colors import BoundaryNorm, ListedColormap, to_rgb
+from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
+from matplotlib.text import Text
+from matplotlib.ticker import FixedLocator, FuncFormatter, NullLocator
+
+from kapitza import style
+from kapitza.plots.chart import NAMES
+from kapitza.plots.common import argument_parser, entitle, new_figure, parsed, write_picture
+from kapitza.result import Result
+
+FOLD, DOUBLING, BREAKING, SWINGS, LEANS = range(5)  # codes of curve_kind
+CUSP = 0  # of special_kind
+# A colour a period, told apart by colour-blind readers (Okabe and Ito); a dash a kind.
+PERIODS = {1: style.INK, 2: "#0072b2", 3: "#009e73", 4: "#d55e00", 5: "#cc79a7", 6: "#b8860b"}
+LONGER = "#8a929b"
+DASHES: dict[int, Any] = {FOLD: "-", DOUBLING: (0, (5, 2)), BREAKING: (0, (1.2, 1.4)), SWINGS: (0, (5, 2)), LEANS: (0, (1.2, 1.4))}
+BOLD_UP_TO = 4  # longer cycles live in thin bands: their curves are thin
+MOST_SHADES = 14
+LABELLED = 0.004  # share of the plane from which on a region has a label, if it has room
+VIEWS = ("map", "motions")
+
+
+def parse_arguments(words: list[str]) -> argparse.Namespace:
+    parser = argument_parser("atlas", __doc__, "an atlas")
+    parser.add_argument("--view", choices=VIEWS, default="map")
+    parser.add_argument("--longest", type=int, default=16, help="longest period of the cycles whose curves are drawn")
+    return parsed(parser, words)
+
+
+def motion_text(name: str) -> str:
+    """What a class of attractors is called in a picture."""
+    words = {"down": "hanging rest", "inverted": "upright rest", "down 2-nodding": "nodding in 2"}
+    if name in words:
+        return words[name]
+    if name.startswith("rotation"):
+        return name.replace("rotation", "rotations")
+    for kind, text in (("asymmetric ", "lopsided nodding"), ("down ", "nodding"), ("inverted ", "flutter"), ("", "motion")):
+        if name.startswith(kind) and name.endswith("-nodding"):
+            return f"{text} in {name.removeprefix(kind).removesuffix('-nodding')}"
+    return name
+
+
+def draw_counts(axes: Axes, atlas: xarray.Dataset) -> tuple[ListedColormap, int]:
+    """How many attractors there are, in shades that stay light enough for the curves; the shades, and the largest number."""
+    count = atlas["count"].values
+    most = max(1, min(MOST_SHADES, int(count.max())))
+    light, deep = np.array(to_rgb("#fbfbef")), np.array(to_rgb("#6ea6c9"))
+    shades = ListedColormap(["#8d8787", *(tuple(light + (deep - light) * i / max(1, most - 1)) for i in range(most))])
+    axes.pcolormesh(atlas["column"], atlas["row"], np.clip(count, 0, most), cmap=shades,
+                    norm=BoundaryNorm(np.arange(-0.5, most + 1), most + 1), shading="nearest", rasterized=True)
+    return shades, most
+
+
+def curve_points(atlas: xarray.Dataset, number: int) -> tuple[np.ndarray, np.ndarray]:
+    """x and y of a curve."""
+    first, n = int(atlas["curve_first"][number]), int(atlas["curve_points"][number])
+    return atlas["x"].values[first:first + n], atlas["y"].values[first:first + n]
+
+
+def draw_curves(axes: Axes, atlas: xarray.Dataset, longest: int) -> None:
+    """All curves of cycles of up to `longest` periods; longer cycles are thinner, and lie below."""
+    for number in np.argsort(-atlas["curve_period"].values, kind="stable"):
+        period, kind = int(atlas["curve_period"][number]), int(atlas["curve_kind"][number])
+        if period > longest:
+            continue
+        rest = kind in (SWINGS, LEANS)
+        width = 1.9 if rest else 1.1 if period <= BOLD_UP_TO else 0.45
+        axes.plot(*curve_points(atlas, number), linestyle=DASHES[kind], color=PERIODS.get(period, LONGER), linewidth=width,
+                  zorder=4 if rest else 3 if period <= BOLD_UP_TO else 2, solid_capstyle="round")
+
+
+def draw_special(axes: Axes, atlas: xarray.Dataset, longest: int) -> None:
+    period = atlas["curve_period"].values[atlas["special_curve"].values]
+    for cusp, mark in ((True, "^"), (False, "o")):
+        chosen = ((atlas["special_kind"].values == CUSP) == cusp) & (period <= min(longest, BOLD_UP_TO))
+        axes.plot(atlas["special_x"].values[chosen], atlas["special_y"].values[chosen], mark, markersize=3.6, markerfacecolor="white",
+                  markeredgecolor=style.INK, markeredgewidth=0.7, zorder=6, clip_on=True)
+
+
+def lower_neighbour(atlas: xarray.Dataset, row: int, column: int) -> tuple[int, int] | None:
+    """The cell of the nearest wide band below a cell."""
+    lists = atlas["list"].values[:, column]
+    thin, below = len(lists) // 60, row
+    while below >= 0:
+        if lists[below] != lists[row] and below >= thin and (lists[below - thin:below + 1] == lists[below]).all():
+            return below, column
+        below -= 1
+    return None
+
+
+def region_text(atlas: xarray.Dataset, region: int) -> str:
+    """What a region has more than the one below it; all that it has, where that is little."""
+    column = int(np.argmin(abs(atlas["column"].values - float(atlas["region_x"][region]))))
+    row = int(np.argmin(abs(atlas["row"].values - float(atlas["region_y"][region]))))
+    names = [motion_text(style.name_text(name)) for name in atlas["class_name"].values]
+    here = atlas["attracting"].values[:, row, column].astype(int)
+    below = lower_neighbour(atlas, row, column)
+    if here.sum() == 0:
+        return f"nothing of up to {int(atlas.attrs['max_period'])} periods"
+    if below is None or here.sum() == 1:
+        return "only " + " and ".join(names[i] for i in np.flatnonzero(here))
+    change = here - atlas["attracting"].values[:, below[0], below[1]].astype(int)
+    gained, lost = [names[i] for i in np.flatnonzero(change > 0)], [names[i] for i in np.flatnonzero(change < 0)]
+    parts = [f"+ {name}" for name in gained[:2]] if len(gained) <= 2 else [f"+ {len(gained)} motions"]
+    return "\n".join(parts + [f"− {name}" for name in lost[:1] if len(lost) == len(gained) == 1])
+
+
+def label_regions(axes: Axes, atlas: xarray.Dataset) -> list[Text]:
+    """Labels at the places farthest from the edges, the roomiest first; none where it would lie on another, or outside of the map."""
+    figure = axes.figure
+    renderer = figure.canvas.get_renderer()  # type: ignore[attr-defined]
+    placed: list[Text] = []
+    inside = axes.get_window_extent(renderer)
+    for region in np.argsort(-atlas["region_radius"].values, kind="stable"):
+        text = region_text(atlas, int(region))
+        if float(atlas["region_share"][region]) < LABELLED or not text:
+            continue
+        label = axes.text(float(atlas["region_x"][region]), float(atlas["region_y"][region]), text, ha="center", va="center",
+                          fontsize="small", color=style.INK, zorder=8,
+                          path_effects=[effects.withStroke(linewidth=2.2, foreground="white", alpha=0.85)])
+        move_inside(axes, label)
+        box = label.get_window_extent(renderer).expanded(1.06, 1.25)
+        tall = 2.6 * float(atlas["region_radius"][region]) * inside.height
+        if tall < box.height or not inside.contains(box.x0, box.y0) or not inside.contains(box.x1, box.y1) or any(
+                box.overlaps(other.get_window_extent(renderer)) for other in placed):
+            label.remove()
+        else:
+            placed.append(label)
+    return placed
+
+
+def move_inside(axes: Axes, label: Text) -> None:
+    """Moves a label that passes the left or right edge of the map to it."""
+    box, inside = label.get_window_extent().expanded(1.15, 1), axes.get_window_extent()
+    by = max(0.0, inside.x0 - box.x0) - max(0.0, box.x1 - inside.x1)
+    x, y = axes.transData.transform(label.get_position())
+    x, y = axes.transData.inverted().transform((x + by, y))
+    label.set_position((float(x), float(y)))
+
+
+def set_axes(axes: Axes, atlas: xarray.Dataset, *, labels: bool = True) -> None:
+    """Limits and names; frequencies over a wide range have a logarithmic axis."""
+    for which, cells in (("x", "column"), ("y", "row")):
+        key, values = atlas.attrs[f"{which}_parameter"], atlas[cells].values
+        half = (values[1] - values[0]) / 2
+        low, high = values[0] - half, values[-1] + half
+        if which == "x" and "frequency" in key and low > 0 and high / low > 4:
+            axes.set_xscale("log")
+            decade = 10 ** math.floor(math.log10(low))
+            ticks = [tick * scale for scale in (decade, 10 * decade) for tick in (1, 2, 3, 4, 5, 6, 8, 10, 15)
+                     if low <= tick * scale <= high]
+            axes.xaxis.set_major_locator(FixedLocator(sorted(set(ticks))))
+            axes.xaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
+            axes.xaxis.set_minor_locator(NullLocator())
+        (axes.set_xlim if which == "x" else axes.set_ylim)(low, high)
+        if labels:
+            (axes.set_xlabel if which == "x" else axes.set_ylabel)(NAMES.get(key, key.replace("_", " ")))
+
+
+def legend(axes: Axes, atlas: xarray.Dataset, shades: ListedColormap, most: int, longest: int) -> None:
+    """Beside the map: the numbers, the kinds of curves, the periods, the marks."""
+    kinds = set(atlas["curve_kind"].values.tolist())
+    words = {SWINGS: "rest: swings grow", LEANS: "rest: leans over", FOLD: "a motion is born (fold)", DOUBLING: "its period doubles",
+             BREAKING: "it loses its symmetry"}
+    handles = [Line2D([], [], color=style.INK, linewidth=1.9 if kind in (SWINGS, LEANS) else 1.1, linestyle=DASHES[kind], label=word)
+               for kind, word in words.items() if kind in kinds]
+    for period in sorted(set(atlas["curve_period"].values.tolist())):
+        if period <= min(longest, 6):
+            handles.append(Line2D([], [], color=PERIODS[period], linewidth=2.2 if period <= BOLD_UP_TO else 1, label=f"period {period}"))
+    if atlas["curve_period"].max() > 6 and longest > 6:
+        handles.append(Line2D([], [], color=LONGER, linewidth=1, label="longer periods"))
+    for mark, word in (("^", "cusp"), ("o", "degenerate point")):
+        handles.append(Line2D([], [], linestyle="", marker=mark, markersize=4, markerfacecolor="white", markeredgecolor=style.INK,
+                              label=word))
+    axes.legend(handles=handles, loc="lower left", bbox_to_anchor=(1.02, 0), fontsize="small", handlelength=2.6, borderaxespad=0,
+                frameon=False)
+    scale = axes.inset_axes((1.03, 0.56, 0.028, 0.4))
+    scale.pcolormesh([0, 1], np.arange(most + 2), np.arange(most + 1)[:, None], cmap=shades,
+                     norm=BoundaryNorm(np.arange(-0.5, most + 1), most + 1))
+    scale.yaxis.tick_right()
+    scale.set(xticks=[], yticks=np.arange(most + 1) + 0.5)
+    scale.set_yticklabels([f"{i}{'+' if i == most == MOST_SHADES else ''}" for i in range(most + 1)], fontsize="small")
+    scale.tick_params(length=0)
+    scale.set_title("attractors", fontsize="small", loc="left")
+
+
+def draw_map(result: Result, atlas: xarray.Dataset, arguments: argparse.Namespace) -> Figure:
+    """The plane with all curves."""
+    figure = new_figure(8.6, 6.2)
+    axes = figure.subplots()
+    shades, most = draw_counts(axes, atlas)
+    draw_curves(axes, atlas, arguments.longest)
+    draw_special(axes, atlas, arguments.longest)
+    set_axes(axes, atlas)
+    legend(axes, atlas, shades, most, arguments.longest)
+    entitle(figure, result, f"every motion of up to {int(atlas.attrs['max_period'])} periods: {atlas.sizes['curve']} curves")
+    figure.draw_without_rendering()
+    label_regions(axes, atlas)
+    return figure
+
+
+def motions(atlas: xarray.Dataset) -> list[int]:
+    """The classes that fill most of the plane, the shortest first: what small maps show."""
+    filled = (atlas["attracting"].values > 0).mean(axis=(1, 2))
+    chosen = [i for i in np.argsort(-filled, kind="stable")[:12] if filled[i] > 0]
+    return sorted(chosen)
+
+
+def draw_motions(result: Result, atlas: xarray.Dataset) -> Figure:
+    """Small maps, one for each motion, with its own curves."""
+    chosen = motions(atlas)
+    columns = 4 if len(chosen) > 6 else max(1, min(3, len(chosen)))
+    rows = max(1, math.ceil(len(chosen) / columns))
+    figure = new_figure(9.2, 2.1 * rows + 0.5)
+    panels = np.atleast_1d(figure.subplots(rows, columns, sharex=True, sharey=True)).ravel()
+    for axes, number in zip(panels, chosen, strict=False):
+        attracting = atlas["attracting"].values[number]
+        colour = style.motion_colour(int(atlas["class_period"][number]), int(atlas["class_winding"][number]), centre_of(atlas, number))
+        shades = ListedColormap(["white", style.shade(colour, 0.35), colour, style.shade(colour, -0.25)])
+        axes.pcolormesh(atlas["column"], atlas["row"], np.clip(attracting, 0, 3), cmap=shades, vmin=0, vmax=3, shading="nearest",
+                        rasterized=True)
+        for curve in range(atlas.sizes["curve"]):
+            if belongs(atlas, curve, number):
+                axes.plot(*curve_points(atlas, curve), color=style.INK, linewidth=0.7, linestyle=DASHES[int(atlas["curve_kind"][curve])])
+        set_axes(axes, atlas, labels=False)
+        axes.set_title(motion_text(style.name_text(atlas["class_name"].values[number])), fontsize="medium", loc="left")
+    for axes in panels[len(chosen):]:
+        axes.set_visible(False)
+    for axes in panels[max(0, len(chosen) - columns):len(chosen)]:
+        axes.tick_params(labelbottom=True)
+        axes.set_xlabel(NAMES.get(atlas.attrs["x_parameter"], atlas.attrs["x_parameter"].replace("_", " ")), fontsize="small")
+    entitle(figure, result, "where each motion attracts; deeper shades: two or more of them")
+    return figure
+
+
+def centre_of(atlas: xarray.Dataset, number: int) -> int:
+    """The centre of a class, by its name."""
+    name = style.name_text(atlas["class_name"].values[number])
+    if "rotation" in name:
+        return 2
+    return 1 if name.startswith(("inverted", "flutter")) else 0 if name.startswith("down") else 3
+
+
+def belongs(atlas: xarray.Dataset, curve: int, number: int) -> bool:
+    """Whether a curve is about the motion of a class."""
+    return style.name_text(atlas["curve_name"].values[curve]).rpartition(": ")[0] == style.name_text(atlas["class_name"].values[number])
+
+
+def draw(result: Result, arguments: argparse.Namespace) -> Figure:
+    atlas = result.group("atlas")
+    return draw_map(result, atlas, arguments) if arguments.view == "map" else draw_motions(result, atlas)
+
+
+def main(words: list[str]) -> None:
+    write_picture(parse_arguments(words), draw)

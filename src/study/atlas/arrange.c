@@ -1,0 +1,168 @@
+/* The arrangement of the curves: which attractors a place has, by counting crossings of its column from the lowest place upwards. */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "atlas.h"
+
+/* Tangents shorter than this end at a cusp: steps beside it are straight. */
+static const double AT_CUSP = 0.02;
+
+static void add(kz_atlas_crossings *crossings, kz_atlas_crossing crossing) {
+  if (crossings->count == crossings->capacity) {
+    crossings->capacity = 2 * crossings->capacity + 64;
+    crossings->list = kz_realloc(crossings->list, (size_t)crossings->capacity * sizeof *crossings->list);
+  }
+  crossings->list[crossings->count++] = crossing;
+}
+
+/* A step of a curve as a cubic; component c at s: p[c][0] + p[c][1] s + .. */
+typedef struct {
+  double p[2][4];
+} cubic;
+
+static double value(const double *p, double s) {
+  return p[0] + s * (p[1] + s * (p[2] + s * p[3]));
+}
+
+static double slope(const double *p, double s) {
+  return p[1] + s * (2 * p[2] + s * 3 * p[3]);
+}
+
+static cubic cubic_of(const double *a, const double *b) {
+  const double *ta = a + KZ_ROW_TANGENT, *tb = b + KZ_ROW_TANGENT, chord[2] = {b[0] - a[0], b[1] - a[1]};
+  const double la = hypot(ta[0], ta[1]), lb = hypot(tb[0], tb[1]), length = hypot(chord[0], chord[1]);
+  const bool straight = la <= AT_CUSP || lb <= AT_CUSP || ta[0] * tb[0] + ta[1] * tb[1] < 0;
+  cubic c;
+  for (int i = 0; i < 2; i++) {
+    const double from = straight ? chord[i] : ta[i] / la * length, to = straight ? chord[i] : tb[i] / lb * length;
+    c.p[i][0] = a[i];
+    c.p[i][1] = from;
+    c.p[i][2] = 3 * chord[i] - 2 * from - to;
+    c.p[i][3] = from + to - 2 * chord[i];
+  }
+  return c;
+}
+
+/* The root of a monotone piece, by bisection and secants. */
+static double root_between(const double *p, double target, double low, double high) {
+  double at_low = value(p, low) - target;
+  for (int i = 0; i < 60 && high - low > 1e-15; i++) {
+    const double middle = 0.5 * (low + high), at = value(p, middle) - target;
+    if ((at < 0) == (at_low < 0))
+      low = middle, at_low = at;
+    else
+      high = middle;
+  }
+  return 0.5 * (low + high);
+}
+
+/* The parameters at which a cubic has the value: those of its monotone pieces, between its turns. Ends belong to the side < . */
+static int roots_of(const double *p, double target, double *root) {
+  double cut[4] = {0}, d = p[2] * p[2] - 3 * p[3] * p[1];
+  int cuts = 1, n = 0;
+  if (d > 0) {
+    const double q = -(p[2] + (p[2] > 0 ? sqrt(d) : -sqrt(d)));
+    double turn[2] = {p[3] != 0 ? q / (3 * p[3]) : -1, q != 0 ? p[1] / q : -1};
+    if (turn[0] > turn[1]) {
+      const double swap = turn[0];
+      turn[0] = turn[1], turn[1] = swap;
+    }
+    for (int i = 0; i < 2; i++)
+      if (turn[i] > 0 && turn[i] < 1) cut[cuts++] = turn[i];
+  }
+  cut[cuts++] = 1;
+  for (int i = 0; i + 1 < cuts; i++)
+    if ((value(p, cut[i]) < target) != (value(p, cut[i + 1]) < target)) root[n++] = root_between(p, target, cut[i], cut[i + 1]);
+  return n;
+}
+
+/* What changes where a step of a curve crosses the line. */
+static void cross(kz_atlas *atlas, int64_t number, int64_t row, int axis, double target, kz_atlas_crossings *crossings) {
+  const kz_atlas_curve *curve = atlas->curve + number;
+  const double *a = curve->row + row * kz_atlas_width(&curve->kind), *b = a + kz_atlas_width(&curve->kind);
+  const int other = 1 - axis;
+  const cubic c = cubic_of(a, b);
+  double root[3];
+  const int n = roots_of(c.p[axis], target, root);
+  for (int i = 0; i < n; i++) {
+    const double s = root[i], form = a[KZ_ROW_FORM] + s * (b[KZ_ROW_FORM] - a[KZ_ROW_FORM]);
+    const double *by = fabs(a[KZ_ROW_FORM]) >= fabs(b[KZ_ROW_FORM]) ? a : b;
+    const double end = by == a ? 0 : 1;
+    /* the normal turned from the tangent, with the sign that it has where the side is known */
+    const double known = -slope(c.p[1], end) * by[KZ_ROW_SIDE] + slope(c.p[0], end) * by[KZ_ROW_SIDE + 1];
+    const double normal[2] = {-slope(c.p[1], s), slope(c.p[0], s)};
+    const int change = (normal[other] > 0) == (known > 0) ? 1 : -1;
+    const kz_atlas_class own = kz_atlas_class_of(&curve->kind);
+    kz_atlas_crossing crossing = {value(c.p[other], s), kz_atlas_class_number(atlas, &own), change, number, row};
+    add(crossings, crossing);
+    if (curve->kind.of.multiplier > 0 || form <= 0) continue;
+    const kz_atlas_kind child = kz_atlas_child(&curve->kind);
+    if (kz_atlas_period(&child) > atlas->scene->atlas.max_period) continue;
+    const kz_atlas_class grown = kz_atlas_class_of(&child);
+    crossing.class = kz_atlas_class_number(atlas, &grown);
+    crossing.change = -change;
+    add(crossings, crossing);
+  }
+}
+
+static int compare(const void *first, const void *second) {
+  const kz_atlas_crossing *a = first, *b = second;
+  if (a->at != b->at) return a->at < b->at ? -1 : 1;
+  if (a->curve != b->curve) return a->curve < b->curve ? -1 : 1;
+  return a->row != b->row ? (a->row < b->row ? -1 : 1) : a->class - b->class;
+}
+
+void kz_atlas_crossings_of(kz_atlas *atlas, int axis, double target, kz_atlas_crossings *crossings) {
+  crossings->count = 0;
+  for (int64_t i = 0; i < atlas->n_curves; i++) {
+    const kz_atlas_curve *curve = atlas->curve + i;
+    const int64_t width = kz_atlas_width(&curve->kind);
+    for (int64_t row = 0; row + 1 < curve->n; row++) {
+      const double a = curve->row[row * width + axis], b = curve->row[(row + 1) * width + axis];
+      const double beyond = fabs(b - a) + 1e-3;
+      if (fmin(a, b) - beyond <= target && target <= fmax(a, b) + beyond) cross(atlas, i, row, axis, target, crossings);
+    }
+  }
+  if (crossings->count > 0) qsort(crossings->list, (size_t)crossings->count, sizeof *crossings->list, compare);
+}
+
+double kz_atlas_floor(const kz_atlas *atlas) {
+  return atlas->undriven ? 0 : atlas->reference[1];
+}
+
+/* Adds the changes between two values of a line, up (1) or down (-1). */
+void kz_atlas_changes(const kz_atlas_crossings *crossings, double from, double to, int32_t *counts) {
+  for (int64_t i = 0; i < crossings->count; i++) {
+    const kz_atlas_crossing *c = crossings->list + i;
+    if (c->at > from && c->at <= to) counts[c->class] += c->change;
+    if (c->at > to && c->at <= from) counts[c->class] -= c->change;
+  }
+}
+
+void kz_atlas_crossings_free(kz_atlas_crossings *crossings) {
+  free(crossings->list);
+}
+
+void kz_atlas_base(kz_atlas *atlas, double x, int32_t *counts) {
+  memset(counts, 0, KZ_ATLAS_MOST_CLASSES * sizeof *counts);
+  if (!atlas->undriven) {
+    KZ_FREED_BY(kz_atlas_crossings_free) kz_atlas_crossings crossings = {0};
+    memcpy(counts, atlas->at_reference, KZ_ATLAS_MOST_CLASSES * sizeof *counts);
+    kz_atlas_crossings_of(atlas, 1, atlas->reference[1], &crossings);
+    kz_atlas_changes(&crossings, atlas->reference[0], x, counts);
+    return;
+  }
+  kz_pendulum pendulum;
+  const double place[2] = {x, 0};
+  if (!kz_atlas_pendulum(atlas->scene, place, &pendulum) || pendulum.k == 0) return;
+  const kz_atlas_class rest = {KZ_CLASS_REST, 1, pendulum.k < 0};
+  counts[kz_atlas_class_number(atlas, &rest)] = 1;
+}
+
+void kz_atlas_count(kz_atlas *atlas, const double place[2], int32_t *counts) {
+  KZ_FREED_BY(kz_atlas_crossings_free) kz_atlas_crossings crossings = {0};
+  kz_atlas_base(atlas, place[0], counts);
+  kz_atlas_crossings_of(atlas, 0, place[0], &crossings);
+  kz_atlas_changes(&crossings, kz_atlas_floor(atlas), place[1], counts);
+}

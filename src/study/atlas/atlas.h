@@ -1,0 +1,201 @@
+/* Inside of the study `atlas`: curves of bifurcations over a plane of two keys, and the attractors of every point of it.
+ *
+ * A place is (x, y) in units of the rectangle: 0 at the first value of a key, 1 at the last. */
+#ifndef KAPITZA_STUDY_ATLAS_H
+#define KAPITZA_STUDY_ATLAS_H
+
+#include "kapitza/dynamics.h"
+#include "kapitza/dynamics_curves.h"
+#include "kapitza/study.h"
+
+enum { KZ_ATLAS_UNKNOWNS = 2 * KZ_CURVE_POINTS + 2, KZ_ATLAS_MOST_CLASSES = 512 };
+
+/* Which cycles a curve is about; rest: -1, or 0 for rest down and 1 for rest inverted. */
+typedef struct {
+  kz_curve_kind of;
+  int32_t rest;
+} kz_atlas_kind;
+
+/* A cycle, or a point of a curve, and its place. */
+typedef struct {
+  kz_atlas_kind kind;
+  double y[KZ_ATLAS_UNKNOWNS];
+} kz_atlas_seed;
+typedef struct {
+  int64_t count, capacity;
+  kz_atlas_seed *list;
+} kz_atlas_seeds;
+
+/* Attractors of one kind; mirror images count as one. */
+enum { KZ_CLASS_REST, KZ_CLASS_SYMMETRIC, KZ_CLASS_OTHER };
+typedef struct {
+  int32_t type, period, turns; /* turns: rest and symmetric cycles: 0 about down, 1 about inverted */
+} kz_atlas_class;
+
+/* A row of a curve: KZ_ROW_... of kz_curve_trace. */
+enum { KZ_ROW_PLACE = 0, KZ_ROW_TANGENT = 2, KZ_ROW_FORM = 4, KZ_ROW_SIDE = 5, KZ_ROW_POINTS = 8, KZ_SPECIAL_POINTS = 3 };
+enum { KZ_SIGNATURE = 5 };
+typedef struct {
+  kz_atlas_kind kind;
+  int32_t ending[2]; /* of the first row and of the last one */
+  int64_t n, n_special;
+  double *row, *special;
+  double (*signature)[KZ_SIGNATURE]; /* [n]: equal for all ways to write a cycle and its mirror image */
+} kz_atlas_curve;
+
+/* A crossing of a line with a curve: the class of attractors that change, by how many on the way up. */
+typedef struct {
+  double at;
+  int32_t class, change;
+  int64_t curve, row;
+} kz_atlas_crossing;
+typedef struct {
+  int64_t count, capacity;
+  kz_atlas_crossing *list;
+} kz_atlas_crossings;
+
+/* A point whose attractors were searched. */
+typedef struct {
+  double place[2];
+  int64_t starts, unsettled; /* starts that were followed, and that ended on no cycle of these periods */
+  kz_atlas_seeds found;      /* attracting cycles, one of each pair of mirror images */
+} kz_atlas_probe;
+
+typedef struct {
+  const kz_scene *scene;
+  kz_plane plane;
+  double longest; /* step along curves */
+  bool undriven;  /* no drive at the lowest y: rest alone attracts */
+  bool turned;    /* every place has an image with -k in place of k */
+  int64_t n_curves, n_explored, curves_capacity;
+  kz_atlas_curve *curve;
+  kz_atlas_seeds pending;
+  int32_t n_classes;
+  kz_atlas_class class[KZ_ATLAS_MOST_CLASSES];
+  double reference[2];                         /* without an undriven edge: a place, */
+  int32_t at_reference[KZ_ATLAS_MOST_CLASSES]; /* and what attracts there */
+  int64_t refused;                             /* seeds that lead to no curve */
+  int64_t rounds, checked, disagreed;          /* of random places, the last two of the last round */
+} kz_atlas;
+
+/* ---- the plane ---- */
+
+/* Sets up the plane of the scene. KZ_REFUSED, with the key, where it is not a plane of damped pendulums that its keys change. */
+kz_status kz_atlas_begin(const kz_scene *scene, kz_atlas *atlas);
+void kz_atlas_end(kz_atlas *atlas);
+/* The pendulum of a place; false if there is none. `scene` as context of kz_plane. */
+bool kz_atlas_pendulum(const void *scene, const double place[2], kz_pendulum *pendulum);
+/* The place with -k in place of k; false if it lies outside of the rectangle. */
+bool kz_atlas_image(const kz_atlas *atlas, const double place[2], double image[2]);
+/* The values of the keys at a place. */
+void kz_atlas_values(const kz_atlas_plan *plan, const double place[2], double value[2]);
+
+/* ---- cycles ---- */
+
+/* Adds a seed of a curve (multiplier 1 or -1) or a cycle (0) in its canonical form; false if it is of no interest: a longer period than
+ * wanted, outside of the plane, degenerate. */
+bool kz_atlas_add(const kz_atlas *atlas, kz_atlas_kind kind, const double *y, kz_atlas_seeds *seeds);
+void kz_atlas_seeds_free(kz_atlas_seeds *seeds);
+/* Drive periods of a cycle of this kind. */
+int32_t kz_atlas_period(const kz_atlas_kind *kind);
+/* The class of its attractors, and what it is called. */
+kz_atlas_class kz_atlas_class_of(const kz_atlas_kind *kind);
+void kz_atlas_class_name(const kz_atlas *atlas, const kz_atlas_class *class, char *text);
+/* What the cycle of a curve with multiplier -1 turns into. */
+kz_atlas_kind kz_atlas_child(const kz_atlas_kind *kind);
+/* The number of a class, new if need be. */
+int32_t kz_atlas_class_number(kz_atlas *atlas, const kz_atlas_class *class);
+
+/* ---- curves ---- */
+
+/* Traces the curve of a seed to both ends; n = 0 if there is none. */
+void kz_atlas_trace(const kz_atlas *atlas, const kz_atlas_seed *seed, kz_atlas_curve *curve);
+/* Whether a point lies on a known curve of its kind. */
+bool kz_atlas_is_known(const kz_atlas *atlas, const kz_atlas_seed *seed);
+/* Adds a curve unless most of it lies on a known one; takes its arrays. */
+bool kz_atlas_keep(kz_atlas *atlas, kz_atlas_curve *curve);
+void kz_atlas_curve_free(kz_atlas_curve *curve);
+/* Joins ends of folds to the degenerate points that they run into. */
+void kz_atlas_join(kz_atlas *atlas);
+static inline int64_t kz_atlas_width(const kz_atlas_kind *kind) {
+  return KZ_ROW_POINTS + 2 * kind->of.points;
+}
+
+/* ---- exploration: seeds of other curves ---- */
+
+/* From a cycle along both axes; from a place of a curve, both branches of a fold, or parent and child. */
+void kz_atlas_explore_cycle(const kz_atlas *atlas, const kz_atlas_seed *cycle, kz_atlas_seeds *seeds);
+void kz_atlas_explore_curve(const kz_atlas *atlas, const kz_atlas_curve *curve, double share, kz_atlas_seeds *seeds);
+/* The image of a curve's point `at` where the plane has k and -k. */
+void kz_atlas_explore_image(const kz_atlas *atlas, const kz_atlas_curve *curve, const double *at, kz_atlas_seeds *seeds);
+/* The attractors of a place by following starts. */
+kz_status kz_atlas_probe_at(const kz_atlas *atlas, const double place[2], int64_t starts, int64_t seed, kz_atlas_probe *probe);
+
+/* Whether a state is one of the points of a cycle or of its mirror image, within `near` rad. */
+bool kz_atlas_same(const kz_atlas *atlas, const kz_atlas_seed *cycle, const double *state, double near);
+/* The attracting cycle of n periods near a state. */
+bool kz_atlas_identify(const kz_atlas *atlas, const double place[2], const double *state, int n, kz_atlas_seed *cycle);
+
+/* ---- arrangement ---- */
+
+/* The crossings of the line where coordinate `axis` is `value`, in order of the other coordinate. */
+void kz_atlas_crossings_of(kz_atlas *atlas, int axis, double value, kz_atlas_crossings *crossings);
+/* counts [KZ_ATLAS_MOST_CLASSES] of the attractors where a column begins to be counted, at the y kz_atlas_floor; at any place. */
+double kz_atlas_floor(const kz_atlas *atlas);
+void kz_atlas_base(kz_atlas *atlas, double x, int32_t *counts);
+void kz_atlas_count(kz_atlas *atlas, const double place[2], int32_t *counts);
+/* Adds to counts what changes between two values along a line. */
+void kz_atlas_changes(const kz_atlas_crossings *crossings, double from, double to, int32_t *counts);
+void kz_atlas_crossings_free(kz_atlas_crossings *crossings);
+
+/* ---- records of tiles ---- */
+
+enum { KZ_ATLAS_CURVE_BYTES = 1 << 20, KZ_ATLAS_SEEDS_BYTES = 1 << 19 };
+/* The records of a stage, in the order of its tiles. */
+typedef struct {
+  int64_t n;
+  char **record; /* [n]: each begins with its number of bytes, a uint64_t */
+} kz_atlas_bag;
+void kz_atlas_bag_free(kz_atlas_bag *b);
+/* Runs a kept stage whose records have at most `bytes` bytes; all ranks get them. Collective; without ranks this process does all. */
+kz_status kz_atlas_gather(const kz_run *run, const char *name, int64_t n, size_t bytes, kz_tile_fn work, void *context,
+                          kz_atlas_bag *b);
+/* Seeds and curves as records; the seeds of a record stay where they are, a curve is copied. */
+void kz_atlas_put_seeds(const kz_atlas_seeds *seeds, void *record);
+kz_atlas_seeds kz_atlas_seeds_in(const char *record);
+void kz_atlas_put_curve(const kz_atlas_curve *curve, void *record);
+kz_atlas_curve kz_atlas_curve_in(const char *record);
+
+/* ---- the run ---- */
+
+/* Runs all stages. Collective. */
+kz_status kz_atlas_search(kz_atlas *atlas, const kz_run *run);
+
+/* ---- regions ---- */
+
+/* A connected part of the raster with one list of attractors. */
+typedef struct {
+  int64_t cells, cell; /* how many cells, and the one farthest from its edge */
+  double radius;       /* of that one, cells */
+} kz_atlas_region;
+
+/* The attractors of the cells of a raster, points x points, and its largest regions. */
+enum { KZ_ATLAS_REGIONS = 120 };
+typedef struct {
+  int64_t points, n_classes, n_regions, lists,
+      negative;        /* different lists; cells with a negative count, which there must not be */
+  uint8_t *attracting; /* [class][y][x] */
+  int16_t *count;      /* [y][x]: of all, mirror images too */
+  int32_t *list;       /* [y][x]: number of the list of attractors */
+  kz_atlas_region region[KZ_ATLAS_REGIONS];
+} kz_atlas_raster;
+/* The classes must be in their order (kz_atlas_order). */
+void kz_atlas_raster_make(kz_atlas *atlas, kz_atlas_raster *raster);
+void kz_atlas_raster_free(kz_atlas_raster *raster);
+/* Lists all classes, in the order of the file. */
+void kz_atlas_order(kz_atlas *atlas);
+
+/* Writes the group /atlas and the summary. Rank 0. */
+kz_status kz_atlas_write(kz_atlas *atlas, const kz_atlas_raster *raster, kz_store *store, FILE *summary);
+
+#endif

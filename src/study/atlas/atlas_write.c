@@ -1,0 +1,214 @@
+/* The file's group /atlas, and the summary. */
+#include <inttypes.h>
+#include <math.h>
+#include <stdlib.h>
+
+#include "kapitza/analysis.h"
+#include "numerics/share.h"
+#include "atlas.h"
+
+static const char *const GROUP = "atlas";
+
+enum { FOLD, PERIOD_DOUBLING, SYMMETRY_BREAKING, REST_SWINGS, REST_LEANS, KINDS };
+enum { CUSP, DEGENERATE_FLIP, DEGENERATE_PITCHFORK };
+static const char *const WORDS[KINDS] = {"fold", "period doubling", "symmetry breaking", "swings grow", "leans over"};
+
+static int kind_of(const kz_atlas_curve *curve) {
+  if (curve->kind.rest >= 0) return curve->kind.of.side > 0 ? REST_SWINGS : REST_LEANS;
+  if (curve->kind.of.multiplier > 0) return FOLD;
+  return curve->kind.of.side > 0 ? PERIOD_DOUBLING : SYMMETRY_BREAKING;
+}
+
+/* What a cycle moves about: the sign of the mean cosine of its strobe points, if it does not turn. */
+static int centre_of(const kz_atlas *atlas, const kz_atlas_curve *curve) {
+  const kz_curve_kind of = curve->kind.of;
+  double cosine = 0;
+  if (curve->kind.rest >= 0) return curve->kind.rest ? KZ_ABOUT_INVERTED : KZ_ABOUT_DOWN;
+  if (of.side < 0) return of.turns ? KZ_ABOUT_INVERTED : KZ_ABOUT_DOWN;
+  if (of.turns != 0) return KZ_ROTATING;
+  if (!atlas->plane.mirrored) return KZ_ABOUT_NEITHER;
+  for (int i = 0; i < of.points; i++) cosine += cos(curve->row[KZ_ROW_POINTS + 2 * i]);
+  return cosine < 0 ? KZ_ABOUT_INVERTED : KZ_ABOUT_DOWN;
+}
+
+static int64_t winding_of(const kz_atlas_curve *curve) {
+  return curve->kind.of.side > 0 && curve->kind.rest < 0 ? curve->kind.of.turns : 0;
+}
+
+/* The points of all curves, one after the other. */
+typedef struct {
+  int64_t n, n_special;
+  int64_t *first;                /* [curves] */
+  const double **row, **special; /* [n], [n_special] */
+  int64_t *curve, *on;           /* their curves */
+} listing;
+
+static void list_points(const kz_atlas *atlas, listing *l) {
+  int64_t n = 0, specials = 0;
+  for (int64_t i = 0; i < atlas->n_curves; i++) n += atlas->curve[i].n, specials += atlas->curve[i].n_special;
+  *l = (listing){.first = kz_calloc((size_t)atlas->n_curves + 1, sizeof *l->first),
+                 .row = kz_calloc((size_t)n + 1, sizeof *l->row),
+                 .special = kz_calloc((size_t)specials + 1, sizeof *l->special),
+                 .curve = kz_calloc((size_t)n + 1, sizeof *l->curve),
+                 .on = kz_calloc((size_t)specials + 1, sizeof *l->on)};
+  for (int64_t i = 0; i < atlas->n_curves; i++) {
+    const kz_atlas_curve *curve = atlas->curve + i;
+    l->first[i] = l->n;
+    for (int64_t j = 0; j < curve->n; j++) {
+      l->curve[l->n] = i;
+      l->row[l->n++] = curve->row + j * kz_atlas_width(&curve->kind);
+    }
+    for (int64_t j = 0; j < curve->n_special; j++) {
+      l->on[l->n_special] = i;
+      l->special[l->n_special++] = curve->special + j * (KZ_SPECIAL_POINTS + 2 * curve->kind.of.points);
+    }
+  }
+}
+
+static void listing_free(listing *l) {
+  free(l->first);
+  free(l->row);
+  free(l->special);
+  free(l->curve);
+  free(l->on);
+}
+
+static double at(const kz_atlas *atlas, const double *place, int axis) {
+  double value[2];
+  kz_atlas_values(&atlas->scene->atlas, place, value);
+  return value[axis];
+}
+
+#define COLUMN(type, name, n, expression) KZ_COLUMN(store, "atlas", name, n, type, expression)
+
+/* Texts that a function makes. */
+typedef void (*text_fn)(const kz_atlas *atlas, int64_t i, char *text);
+static kz_status write_texts(const kz_atlas *atlas, const char *name, int64_t n, text_fn make, kz_store *store) {
+  KZ_FREED char (*text)[2 * KZ_NAME_LENGTH] = kz_calloc((size_t)n + 1, sizeof *text);
+  KZ_FREED const char **pointer = kz_calloc((size_t)n + 1, sizeof *pointer);
+  for (int64_t i = 0; i < n; i++) {
+    make(atlas, i, text[i]);
+    pointer[i] = text[i];
+  }
+  return kz_store_variable(store, GROUP, name, pointer);
+}
+
+static void name_curve(const kz_atlas *atlas, int64_t i, char *text) {
+  const kz_atlas_class class = kz_atlas_class_of(&atlas->curve[i].kind);
+  char name[KZ_NAME_LENGTH];
+  kz_atlas_class_name(atlas, &class, name);
+  snprintf(text, 2 * KZ_NAME_LENGTH, "%s: %s", name, WORDS[kind_of(atlas->curve + i)]);
+}
+
+static void name_class(const kz_atlas *atlas, int64_t i, char *text) {
+  kz_atlas_class_name(atlas, atlas->class + i, text);
+}
+
+static kz_status write_curves(const kz_atlas *atlas, const listing *l, kz_store *store) {
+  const kz_atlas_curve *c = atlas->curve;
+  KZ_TRY(kz_store_dimension(store, GROUP, "curve", atlas->n_curves, NULL));
+  COLUMN(int8_t, "curve_kind", atlas->n_curves, kind_of(c + i));
+  COLUMN(int16_t, "curve_period", atlas->n_curves, kz_atlas_period(&c[i].kind));
+  COLUMN(int32_t, "curve_winding", atlas->n_curves, winding_of(c + i));
+  COLUMN(int8_t, "curve_centre", atlas->n_curves, centre_of(atlas, c + i));
+  COLUMN(int8_t, "curve_symmetric", atlas->n_curves, c[i].kind.rest >= 0 || c[i].kind.of.side < 0);
+  COLUMN(int32_t, "curve_first", atlas->n_curves, l->first[i]);
+  COLUMN(int32_t, "curve_points", atlas->n_curves, c[i].n);
+  COLUMN(int8_t, "curve_closed", atlas->n_curves, c[i].ending[1] == KZ_TRACE_CLOSED);
+  return write_texts(atlas, "curve_name", atlas->n_curves, name_curve, store);
+}
+
+static kz_status write_points(const kz_atlas *atlas, const listing *l, kz_store *store) {
+  KZ_TRY(kz_store_dimension(store, GROUP, "point", l->n, NULL));
+  COLUMN(double, "x", l->n, at(atlas, l->row[i], 0));
+  COLUMN(double, "y", l->n, at(atlas, l->row[i], 1));
+  COLUMN(double, "strobe_theta", l->n, remainder(l->row[i][KZ_ROW_POINTS], 2 * M_PI));
+  COLUMN(double, "strobe_velocity", l->n, l->row[i][KZ_ROW_POINTS + 1]);
+  COLUMN(double, "normal_form", l->n, l->row[i][KZ_ROW_FORM]);
+  COLUMN(double, "side_x", l->n, l->row[i][KZ_ROW_SIDE]);
+  COLUMN(double, "side_y", l->n, l->row[i][KZ_ROW_SIDE + 1]);
+  COLUMN(int8_t, "supercritical", l->n, atlas->curve[l->curve[i]].kind.of.multiplier < 0 && l->row[i][KZ_ROW_FORM] > 0);
+  KZ_TRY(kz_store_dimension(store, GROUP, "special", l->n_special, NULL));
+  COLUMN(double, "special_x", l->n_special, at(atlas, l->special[i] + 1, 0));
+  COLUMN(double, "special_y", l->n_special, at(atlas, l->special[i] + 1, 1));
+  COLUMN(int8_t, "special_kind", l->n_special,
+         l->special[i][0] < 2                                  ? CUSP
+         : kind_of(atlas->curve + l->on[i]) == PERIOD_DOUBLING ? DEGENERATE_FLIP
+                                                               : DEGENERATE_PITCHFORK);
+  COLUMN(int32_t, "special_curve", l->n_special, l->on[i]);
+  return KZ_OK;
+}
+
+static double middle_of(const kz_atlas *atlas, int64_t i, int axis) {
+  const double share = ((double)i + 0.5) / (double)atlas->scene->atlas.points, place[2] = {share, share};
+  return at(atlas, place, axis);
+}
+
+static kz_status write_raster(const kz_atlas *atlas, const kz_atlas_raster *r, kz_store *store) {
+  const int64_t n = r->points;
+  KZ_TRY(kz_store_dimension(store, GROUP, "class", r->n_classes, NULL));
+  KZ_TRY(write_texts(atlas, "class_name", r->n_classes, name_class, store));
+  COLUMN(int16_t, "class_period", r->n_classes, atlas->class[i].period);
+  COLUMN(int32_t, "class_winding", r->n_classes, atlas->class[i].type == KZ_CLASS_OTHER ? atlas->class[i].turns : 0);
+  COLUMN(int8_t, "class_symmetric", r->n_classes, atlas->class[i].type != KZ_CLASS_OTHER);
+  KZ_SCALE(store, GROUP, "row", n, middle_of(atlas, i, 1));
+  KZ_SCALE(store, GROUP, "column", n, middle_of(atlas, i, 0));
+  KZ_TRY(kz_store_variable(store, GROUP, "attracting", r->attracting));
+  KZ_TRY(kz_store_variable(store, GROUP, "count", r->count));
+  KZ_TRY(kz_store_variable(store, GROUP, "list", r->list));
+  KZ_TRY(kz_store_dimension(store, GROUP, "region", r->n_regions, NULL));
+  COLUMN(double, "region_x", r->n_regions, middle_of(atlas, r->region[i].cell % n, 0));
+  COLUMN(double, "region_y", r->n_regions, middle_of(atlas, r->region[i].cell / n, 1));
+  COLUMN(double, "region_share", r->n_regions, (double)r->region[i].cells / (double)(n * n));
+  COLUMN(double, "region_radius", r->n_regions, r->region[i].radius / (double)n);
+  return KZ_OK;
+}
+
+static kz_status write_attributes(const kz_atlas *atlas, const kz_atlas_raster *raster, kz_store *store) {
+  const kz_chart_axis *axis[] = {&atlas->scene->atlas.x, &atlas->scene->atlas.y};
+  const kz_share wrong = kz_share_of(atlas->disagreed, atlas->checked);
+  for (int i = 0; i < 2; i++) {
+    const kz_sweep_parameter *parameter = kz_sweep_parameters + axis[i]->parameter;
+    KZ_TRY(kz_store_text(store, GROUP, i ? "y_parameter" : "x_parameter", parameter->name));
+    KZ_TRY(kz_store_text(store, GROUP, i ? "y_units" : "x_units", parameter->unit));
+  }
+  KZ_TRY(kz_store_integer(store, GROUP, "max_period", atlas->scene->atlas.max_period));
+  KZ_TRY(kz_store_integer(store, GROUP, "mirrored", atlas->plane.mirrored));
+  KZ_TRY(kz_store_integer(store, GROUP, "lists", raster->lists));
+  KZ_TRY(kz_store_integer(store, GROUP, "negative", raster->negative));
+  KZ_TRY(kz_store_integer(store, GROUP, "checked", atlas->checked));
+  KZ_TRY(kz_store_integer(store, GROUP, "disagreed", atlas->disagreed));
+  return atlas->checked > 0 ? kz_store_real(store, GROUP, "disagreed_high", wrong.high) : KZ_OK;
+}
+
+static void print(const kz_atlas *atlas, const kz_atlas_raster *r, const listing *l, FILE *summary) {
+  int64_t kinds[KINDS] = {0}, most = 0;
+  for (int64_t i = 0; i < atlas->n_curves; i++) kinds[kind_of(atlas->curve + i)]++;
+  for (int64_t i = 0; i < r->points * r->points; i++)
+    if (r->count[i] > most) most = r->count[i];
+  fprintf(summary, "atlas: %s x %s, cycles of up to %" PRId64 " periods: %" PRId64 " curves (%" PRId64 " points)\n",
+          kz_sweep_parameters[atlas->scene->atlas.x.parameter].name, kz_sweep_parameters[atlas->scene->atlas.y.parameter].name,
+          atlas->scene->atlas.max_period, atlas->n_curves, l->n);
+  fprintf(summary, "  folds %" PRId64 ", period doublings %" PRId64 ", symmetry breakings %" PRId64 ", of rest %" PRId64 "\n",
+          kinds[FOLD], kinds[PERIOD_DOUBLING], kinds[SYMMETRY_BREAKING], kinds[REST_SWINGS] + kinds[REST_LEANS]);
+  fprintf(summary,
+          "  %" PRId64 " lists of attractors in %" PRId64 " x %" PRId64 " cells, up to %" PRId64 " attractors at once\n",
+          r->lists, r->points, r->points, most);
+  if (r->negative > 0) fprintf(summary, "  warning: %" PRId64 " cells lie beyond a curve that is missing\n", r->negative);
+  if (atlas->checked > 0)
+    fprintf(summary,
+            "  checked: %" PRId64 " random points in the last of %" PRId64 " rounds, %" PRId64
+            " with an attractor that no curve tells (share at most %.2g)\n",
+            atlas->checked, atlas->rounds, atlas->disagreed, kz_share_of(atlas->disagreed, atlas->checked).high);
+}
+
+kz_status kz_atlas_write(kz_atlas *atlas, const kz_atlas_raster *raster, kz_store *store, FILE *summary) {
+  KZ_FREED_BY(listing_free) listing l = {0};
+  list_points(atlas, &l);
+  KZ_TRY(write_attributes(atlas, raster, store));
+  KZ_TRY(write_curves(atlas, &l, store));
+  KZ_TRY(write_points(atlas, &l, store));
+  KZ_TRY(write_raster(atlas, raster, store));
+  print(atlas, raster, &l, summary);
+  return KZ_OK;
+}

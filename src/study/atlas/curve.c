@@ -1,0 +1,162 @@
+/* Curves: traced to both ends, known by a signature. */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "atlas.h"
+
+enum { MOST_ROWS = 1500, MOST_SPECIAL = 32, SAMPLES = 12 };
+/* A point lies on a curve if it is this near to one of its steps, in lengths of the step. */
+static const double NEAR = 0.05, WEIGHT = 0.2, ROUNDING = 1e-9;
+
+void kz_atlas_curve_free(kz_atlas_curve *curve) {
+  free(curve->row);
+  free(curve->special);
+  free(curve->signature);
+  *curve = (kz_atlas_curve){0};
+}
+
+/* One direction of a curve: its rows, and its special points, of which *n_special are there already. */
+static int64_t trace_side(const kz_atlas *atlas, const kz_atlas_seed *seed, int32_t direction, double *row, double *special,
+                          int64_t *n_special, int32_t *ending) {
+  int64_t more;
+  const int64_t n = kz_curve_trace(&atlas->plane, &seed->kind.of, seed->y, direction, atlas->longest, MOST_ROWS, row,
+                                   MOST_SPECIAL - *n_special,
+                                   special + *n_special * (KZ_SPECIAL_POINTS + 2 * seed->kind.of.points), &more, ending);
+  *n_special += more;
+  return n;
+}
+
+void kz_atlas_trace(const kz_atlas *atlas, const kz_atlas_seed *seed, kz_atlas_curve *curve) {
+  const int64_t width = kz_atlas_width(&seed->kind), special_width = KZ_SPECIAL_POINTS + 2 * seed->kind.of.points;
+  KZ_FREED double *back = kz_malloc(MOST_ROWS * (size_t)width * sizeof *back);
+  KZ_FREED double *on = kz_malloc(MOST_ROWS * (size_t)width * sizeof *on);
+  int64_t n_back = 0, n_on;
+  *curve = (kz_atlas_curve){.kind = seed->kind};
+  curve->special = kz_malloc(MOST_SPECIAL * (size_t)special_width * sizeof *curve->special);
+  n_on = trace_side(atlas, seed, 1, on, curve->special, &curve->n_special, &curve->ending[1]);
+  curve->ending[0] = curve->ending[1];
+  if (n_on > 0 && curve->ending[1] != KZ_TRACE_CLOSED)
+    n_back = trace_side(atlas, seed, -1, back, curve->special, &curve->n_special, &curve->ending[0]);
+  curve->row = kz_malloc((size_t)((n_on + n_back + 1) * width) * sizeof *curve->row);
+  for (int64_t i = n_back - 1; i > 0; i--) { /* the seed's own row is also the first of the other direction */
+    double *to = memcpy(curve->row + curve->n++ * width, back + i * width, (size_t)width * sizeof *to);
+    to[KZ_ROW_TANGENT] = -to[KZ_ROW_TANGENT];
+    to[KZ_ROW_TANGENT + 1] = -to[KZ_ROW_TANGENT + 1];
+  }
+  memcpy(curve->row + curve->n * width, on, (size_t)(n_on * width) * sizeof *on);
+  curve->n += n_on;
+  if (curve->ending[1] == KZ_TRACE_CLOSED) /* the last step has passed the start: it ends there */
+    memcpy(curve->row + (curve->n - 1) * width, curve->row, (size_t)width * sizeof *curve->row);
+}
+
+static void signature_of(const kz_atlas_kind *kind, const double *place, const double *point, double *signature) {
+  double cosine = 0, energy = 0, both = 0;
+  for (int i = 0; i < kind->of.points; i++) {
+    const double c = cos(point[2 * i]), v = point[2 * i + 1];
+    cosine += c;
+    energy += v * v;
+    both += v * v * c;
+  }
+  const double scale = WEIGHT / kind->of.points;
+  const double all[KZ_SIGNATURE] = {place[0], place[1], scale * cosine, scale * energy, scale * both};
+  memcpy(signature, all, sizeof all);
+}
+
+static void sign(kz_atlas_curve *curve) {
+  const int64_t width = kz_atlas_width(&curve->kind);
+  curve->signature = kz_malloc((size_t)(curve->n + 1) * sizeof *curve->signature);
+  for (int64_t i = 0; i < curve->n; i++)
+    signature_of(&curve->kind, curve->row + i * width, curve->row + i * width + KZ_ROW_POINTS, curve->signature[i]);
+}
+
+/* Whether a signature lies on a curve. */
+static bool is_on(const kz_atlas_curve *curve, const double *signature) {
+  for (int64_t i = 0; i + 1 < curve->n; i++) {
+    const double *a = curve->signature[i], *b = curve->signature[i + 1];
+    double length = 1e-30, along = 0, off = 0;
+    if (fabs(a[0] - signature[0]) > 0.1 || fabs(a[1] - signature[1]) > 0.1) continue;
+    for (int c = 0; c < KZ_SIGNATURE; c++) {
+      length += (b[c] - a[c]) * (b[c] - a[c]);
+      along += (signature[c] - a[c]) * (b[c] - a[c]);
+    }
+    const double share = fmin(1, fmax(0, along / length));
+    for (int c = 0; c < KZ_SIGNATURE; c++) {
+      const double d = signature[c] - a[c] - share * (b[c] - a[c]);
+      off += d * d;
+    }
+    if (sqrt(off) < NEAR * sqrt(length) + ROUNDING) return true;
+  }
+  return false;
+}
+
+static bool is_alike(const kz_atlas_kind *a, const kz_atlas_kind *b) {
+  return !memcmp(a, b, sizeof *a);
+}
+
+bool kz_atlas_is_known(const kz_atlas *atlas, const kz_atlas_seed *seed) {
+  double signature[KZ_SIGNATURE];
+  signature_of(&seed->kind, seed->y + 2 * seed->kind.of.points, seed->y, signature);
+  for (int64_t i = 0; i < atlas->n_curves; i++)
+    if (is_alike(&atlas->curve[i].kind, &seed->kind) && is_on(atlas->curve + i, signature)) return true;
+  return false;
+}
+
+bool kz_atlas_keep(kz_atlas *atlas, kz_atlas_curve *curve) {
+  const int64_t step = curve->n > SAMPLES ? curve->n / SAMPLES : 1;
+  sign(curve);
+  for (int64_t i = 0; i < atlas->n_curves; i++) {
+    int64_t on = 0, tried = 0;
+    if (!is_alike(&atlas->curve[i].kind, &curve->kind)) continue;
+    for (int64_t j = 0; j < curve->n; j += step, tried++) on += is_on(atlas->curve + i, curve->signature[j]);
+    if (10 * on <= 6 * tried) continue;
+    kz_atlas_curve_free(curve);
+    return false;
+  }
+  if (atlas->n_curves == atlas->curves_capacity) {
+    atlas->curves_capacity = 2 * atlas->curves_capacity + 32;
+    atlas->curve = kz_realloc(atlas->curve, (size_t)atlas->curves_capacity * sizeof *atlas->curve);
+  }
+  atlas->curve[atlas->n_curves++] = *curve;
+  return true;
+}
+
+/* The nearest degenerate point of any curve to a place, within a few steps; NULL = none. */
+static const double *degenerate_near(const kz_atlas *atlas, const double *place) {
+  const double *nearest = NULL;
+  double least = 2.5 * atlas->longest;
+  for (int64_t i = 0; i < atlas->n_curves; i++) {
+    const kz_atlas_curve *curve = atlas->curve + i;
+    const int64_t width = KZ_SPECIAL_POINTS + 2 * curve->kind.of.points;
+    for (int64_t s = 0; s < curve->n_special && curve->kind.of.multiplier < 0; s++) {
+      const double *at = curve->special + s * width + 1, d = hypot(at[0] - place[0], at[1] - place[1]);
+      if (d < least) least = d, nearest = at;
+    }
+  }
+  return nearest;
+}
+
+static void extend(kz_atlas_curve *curve, bool at_end, const double *place) {
+  const int64_t width = kz_atlas_width(&curve->kind), bytes = width * (int64_t)sizeof *curve->row;
+  curve->row = kz_realloc(curve->row, (size_t)((curve->n + 1) * bytes));
+  double *to = curve->row + (at_end ? curve->n * width : 0);
+  if (!at_end) memmove(curve->row + width, curve->row, (size_t)(curve->n * bytes));
+  if (at_end) memcpy(to, to - width, (size_t)bytes);
+  to[KZ_ROW_PLACE] = place[0];
+  to[KZ_ROW_PLACE + 1] = place[1];
+  to[KZ_ROW_TANGENT] = to[KZ_ROW_TANGENT + 1] = 0; /* the last step is straight */
+  curve->n++;
+}
+
+void kz_atlas_join(kz_atlas *atlas) {
+  for (int64_t i = 0; i < atlas->n_curves; i++) {
+    kz_atlas_curve *curve = atlas->curve + i;
+    for (int end = 0; end < 2; end++) {
+      if (curve->kind.of.multiplier < 0 || (curve->ending[end] != KZ_TRACE_MERGED && curve->ending[end] != KZ_TRACE_STUCK))
+        continue;
+      const double *last = curve->row + (end ? curve->n - 1 : 0) * kz_atlas_width(&curve->kind);
+      const double *place = degenerate_near(atlas, last);
+      if (place) extend(curve, end, place);
+    }
+  }
+}

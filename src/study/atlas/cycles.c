@@ -1,0 +1,117 @@
+/* Cycles and points of curves in one canonical form, and the classes of attractors. */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "atlas.h"
+
+/* rad: two states nearer than this are one; a cycle this near to rest is rest. */
+static const double ONE = 1e-5, AT_REST = 1e-9;
+
+int32_t kz_atlas_period(const kz_atlas_kind *kind) {
+  if (kind->rest >= 0) return 1;
+  return kind->of.side > 0 ? kind->of.points : 2 * kind->of.points;
+}
+
+kz_atlas_class kz_atlas_class_of(const kz_atlas_kind *kind) {
+  if (kind->rest >= 0) return (kz_atlas_class){KZ_CLASS_REST, 1, kind->rest};
+  return (kz_atlas_class){kind->of.side > 0 ? KZ_CLASS_OTHER : KZ_CLASS_SYMMETRIC, kz_atlas_period(kind), kind->of.turns};
+}
+
+kz_atlas_kind kz_atlas_child(const kz_atlas_kind *kind) {
+  const kz_curve_kind of = kind->of;
+  if (kind->rest >= 0 && of.side > 0) return (kz_atlas_kind){{-1, 1, 0, kind->rest}, -1};
+  if (kind->rest >= 0) return (kz_atlas_kind){{1, 1, 0, 0}, -1};
+  return (kz_atlas_kind){{1, 2 * of.points, 0, of.side > 0 ? 2 * of.turns : 0}, -1};
+}
+
+int32_t kz_atlas_class_number(kz_atlas *atlas, const kz_atlas_class *class) {
+  for (int32_t i = 0; i < atlas->n_classes; i++)
+    if (!memcmp(atlas->class + i, class, sizeof *class)) return i;
+  if (atlas->n_classes == KZ_ATLAS_MOST_CLASSES) return KZ_ATLAS_MOST_CLASSES - 1;
+  atlas->class[atlas->n_classes] = *class;
+  return atlas->n_classes++;
+}
+
+void kz_atlas_class_name(const kz_atlas *atlas, const kz_atlas_class *class, char *text) {
+  if (class->type != KZ_CLASS_OTHER)
+    kz_orbit_name(class->period, 0, class->turns ? KZ_ABOUT_INVERTED : KZ_ABOUT_DOWN, text);
+  else if (class->turns == 0)
+    snprintf(text, KZ_NAME_LENGTH, atlas->plane.mirrored ? "asymmetric %d-nodding" : "%d-nodding", (int)class->period);
+  else
+    snprintf(text, KZ_NAME_LENGTH, atlas->plane.mirrored ? "rotation %d/%d" : "rotation %+d/%d", (int)class->turns,
+             (int)class->period);
+}
+
+static double apart(const double *y, int i, int j, double side) {
+  return hypot(remainder(y[2 * i] - side * y[2 * j], 2 * M_PI), y[2 * i + 1] - side * y[2 * j + 1]);
+}
+
+/* A cycle of a shorter period, or of more symmetry, than its kind. */
+static bool is_degenerate(const kz_atlas *atlas, const kz_atlas_kind *kind, const double *y) {
+  const int n = kind->of.points;
+  if (kind->of.side < 0) return false;
+  for (int shift = 0; shift < n; shift++) {
+    const bool mirror = atlas->plane.mirrored && kind->of.turns == 0 && shift == n / 2 && (n == 1 || n % 2 == 0);
+    double repeated = 0, reflected = 0;
+    for (int i = 0; i < n; i++) {
+      repeated = fmax(repeated, apart(y, i, (i + shift) % n, 1));
+      reflected = fmax(reflected, apart(y, i, (i + shift) % n, -1));
+    }
+    if ((shift > 0 && n % shift == 0 && repeated < ONE) || (mirror && reflected < ONE)) return true;
+  }
+  return false;
+}
+
+/* Rest has its own kinds: on the map, multiplier -1; on the half map, multiplier -1, which is 1 of the map. */
+static void set_rest(const kz_atlas *atlas, kz_atlas_kind *kind, double *y) {
+  kind->rest = -1;
+  if (!atlas->plane.mirrored || kind->of.points != 1 || fabs(y[1]) > AT_REST || fabs(sin(y[0])) > AT_REST) return;
+  kind->rest = cos(y[0]) > 0 ? 0 : 1;
+  if (kind->of.multiplier > 0) kind->of.side = -kind->of.side, kind->of.multiplier = -1;
+  kind->of.turns = kind->of.side > 0 ? 0 : kind->rest;
+  y[0] = M_PI * kind->rest;
+  y[1] = 0;
+}
+
+/* Angles from a point in [-pi, pi), of mirror images that with positive turns, symmetric cycles about down or inverted. */
+static void canonical(const kz_atlas *atlas, kz_atlas_kind *kind, double *y) {
+  const int n = 2 * kind->of.points;
+  double lift = 2 * M_PI * floor(y[0] / (2 * M_PI) + 0.5);
+  if (kind->of.side < 0) {
+    const int32_t pairs = (kind->of.turns - (kind->of.turns & 1)) / 2;
+    lift = 2 * M_PI * pairs;
+    kind->of.turns -= 2 * pairs;
+  } else if (kind->of.turns < 0 && atlas->plane.mirrored) {
+    kind->of.turns = -kind->of.turns;
+    for (int i = 0; i < n; i++) y[i] = -y[i];
+    lift = 2 * M_PI * floor(y[0] / (2 * M_PI) + 0.5);
+  }
+  for (int i = 0; i < n; i += 2) y[i] -= lift;
+}
+
+bool kz_atlas_add(const kz_atlas *atlas, kz_atlas_kind kind, const double *y, kz_atlas_seeds *seeds) {
+  const int n = 2 * kind.of.points;
+  kz_atlas_seed seed = {.kind = kind};
+  for (int i = 0; i < n + 2; i++) {
+    if (!isfinite(y[i])) return false;
+    seed.y[i] = y[i];
+  }
+  for (int i = 0; i < 2; i++)
+    if (y[n + i] < atlas->plane.low[i] || y[n + i] > atlas->plane.high[i]) return false;
+  set_rest(atlas, &seed.kind, seed.y);
+  if (kz_atlas_period(&seed.kind) > atlas->scene->atlas.max_period) return false;
+  canonical(atlas, &seed.kind, seed.y);
+  if (seed.kind.rest < 0 && is_degenerate(atlas, &seed.kind, seed.y)) return false;
+  if (seeds->count == seeds->capacity) {
+    seeds->capacity = 2 * seeds->capacity + 16;
+    seeds->list = kz_realloc(seeds->list, (size_t)seeds->capacity * sizeof *seeds->list);
+  }
+  seeds->list[seeds->count++] = seed;
+  return true;
+}
+
+void kz_atlas_seeds_free(kz_atlas_seeds *seeds) {
+  free(seeds->list);
+  *seeds = (kz_atlas_seeds){0};
+}

@@ -1,0 +1,130 @@
+/* The plane of an atlas: places, their pendulums, what the plane has in common. */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "atlas.h"
+
+/* Curves are followed a little beyond the rectangle; below an undriven edge the plane is its own mirror image. */
+static const double MARGIN = 0.06, BELOW = 0.004, LONGEST = 0.02;
+enum { PLACES = 9 };
+
+void kz_atlas_values(const kz_atlas_plan *plan, const double place[2], double value[2]) {
+  value[0] = plan->x.values.min + place[0] * (plan->x.values.max - plan->x.values.min);
+  value[1] = plan->y.values.min + place[1] * (plan->y.values.max - plan->y.values.min);
+}
+
+bool kz_atlas_pendulum(const void *context, const double place[2], kz_pendulum *pendulum) {
+  const kz_scene *scene = context;
+  const int32_t parameter[] = {scene->atlas.x.parameter, scene->atlas.y.parameter};
+  double value[2];
+  kz_atlas_values(&scene->atlas, place, value);
+  return kz_pendulum_at(scene, 2, parameter, value, pendulum) && pendulum->beta > 0;
+}
+
+static bool is_undriven(const kz_pendulum *p) {
+  bool driven = p->m != 0 || p->unmirrored;
+  for (int j = 0; j < p->harmonics; j++) driven = driven || p->vertical[j][0] != 0 || p->vertical[j][1] != 0;
+  return !driven;
+}
+
+/* Whether two pendulums have the same motions. */
+static bool is_alike(const kz_pendulum *a, const kz_pendulum *b) {
+  return a->k == b->k && a->beta == b->beta && a->m == b->m && a->torque == b->torque &&
+         !memcmp(a->vertical, b->vertical, sizeof a->vertical) && !memcmp(a->horizontal, b->horizontal, sizeof a->horizontal);
+}
+
+/* KZ_REFUSED where a key changes no motion: at no place of the plane. */
+static kz_status check_keys(const kz_scene *scene) {
+  for (int axis = 0; axis < 2; axis++) {
+    bool same = true;
+    for (int i = 0; i < PLACES && same; i++) {
+      kz_pendulum first, last;
+      double low[2], high[2];
+      low[1 - axis] = high[1 - axis] = (double)i / (PLACES - 1);
+      low[axis] = 0.25;
+      high[axis] = 0.75;
+      same = kz_atlas_pendulum(scene, low, &first) && kz_atlas_pendulum(scene, high, &last) && is_alike(&first, &last);
+    }
+    if (same)
+      return kz_fail(KZ_REFUSED, "atlas.%c.parameter: %s changes no motion of this pendulum; name a key that does",
+                     axis ? 'y' : 'x', kz_sweep_parameters[axis ? scene->atlas.y.parameter : scene->atlas.x.parameter].name);
+  }
+  return KZ_OK;
+}
+
+/* Steps of the stiffest pendulum; what all places have in common. */
+static kz_status survey(kz_atlas *atlas) {
+  const kz_scene *scene = atlas->scene;
+  const kz_chart_axis *axis[] = {&scene->atlas.x, &scene->atlas.y};
+  double stiffest = -1;
+  atlas->undriven = true;
+  atlas->plane.mirrored = 1;
+  for (int i = 0; i < PLACES * PLACES; i++) {
+    const double place[2] = {(double)(i % PLACES) / (PLACES - 1), (double)(i / PLACES) / (PLACES - 1)};
+    kz_pendulum pendulum;
+    double value[2];
+    kz_numerics fine;
+    if (!kz_atlas_pendulum(scene, place, &pendulum)) {
+      kz_atlas_values(&scene->atlas, place, value);
+      return kz_fail(KZ_REFUSED,
+                     "atlas.x.min|atlas.y.min: there is no damped pendulum at %s = %.10g, %s = %.10g; an atlas needs damping "
+                     "above 0 in the whole rectangle",
+                     kz_sweep_parameters[axis[0]->parameter].name, value[0], kz_sweep_parameters[axis[1]->parameter].name,
+                     value[1]);
+    }
+    if (!kz_is_mirrored(&pendulum)) atlas->plane.mirrored = 0;
+    if (place[1] == 0 && !is_undriven(&pendulum)) atlas->undriven = false;
+    if (kz_stiffness(&pendulum) <= stiffest) continue;
+    stiffest = kz_stiffness(&pendulum);
+    if (stiffest > 1e4)
+      return kz_fail(KZ_REFUSED, "atlas.x.max|atlas.y.max: the drive is too strong for an atlas; use smaller values");
+    kz_numerics_fine(&pendulum, &fine);
+    atlas->plane.steps = fine.steps_per_period;
+  }
+  return KZ_OK;
+}
+
+/* Whether the place (1 - x, y), or (x, 1 - y), has -k in place of k, and everything else. */
+static bool is_turned(const kz_atlas *atlas) {
+  for (int i = 0; i < PLACES * PLACES; i++) {
+    const double place[2] = {(i % PLACES + 0.5) / PLACES, (i / PLACES + 0.5) / PLACES};
+    double image[2];
+    kz_pendulum p, q;
+    if (!kz_atlas_image(atlas, place, image) || !kz_atlas_pendulum(atlas->scene, image, &q)) continue;
+    if (!kz_atlas_pendulum(atlas->scene, place, &p) || !kz_is_sine(&p) || fabs(p.k + q.k) > 1e-9 * (1 + fabs(p.k)) ||
+        fabs(p.beta - q.beta) > 1e-9 || fabs(p.m - q.m) > 1e-9)
+      return false;
+  }
+  return true;
+}
+
+bool kz_atlas_image(const kz_atlas *atlas, const double place[2], double image[2]) {
+  const kz_chart_axis *axis[] = {&atlas->scene->atlas.x, &atlas->scene->atlas.y};
+  for (int i = 0; i < 2; i++) {
+    const char *name = kz_sweep_parameters[axis[i]->parameter].name;
+    if (strcmp(name, "k") && strcmp(name, "gravity")) continue;
+    const double low = axis[i]->values.min, width = axis[i]->values.max - low, value = low + place[i] * width;
+    image[1 - i] = place[1 - i];
+    image[i] = (-value - low) / width;
+    return image[i] >= 0 && image[i] <= 1;
+  }
+  return false;
+}
+
+kz_status kz_atlas_begin(const kz_scene *scene, kz_atlas *atlas) {
+  *atlas = (kz_atlas){.scene = scene, .longest = LONGEST, .reference = {0.0123, 0.0071}};
+  atlas->plane =
+      (kz_plane){.pendulum = kz_atlas_pendulum, .context = scene, .low = {-MARGIN, -MARGIN}, .high = {1 + MARGIN, 1 + MARGIN}};
+  KZ_TRY(survey(atlas));
+  KZ_TRY(check_keys(scene));
+  if (atlas->undriven) atlas->plane.low[1] = -BELOW;
+  atlas->turned = is_turned(atlas);
+  return KZ_OK;
+}
+
+void kz_atlas_end(kz_atlas *atlas) {
+  for (int64_t i = 0; i < atlas->n_curves; i++) kz_atlas_curve_free(atlas->curve + i);
+  free(atlas->curve);
+  kz_atlas_seeds_free(&atlas->pending);
+}

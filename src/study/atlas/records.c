@@ -1,0 +1,115 @@
+/* Records of varying length: curves and seeds, gathered on all ranks in the order of their tiles. */
+#include <stdlib.h>
+#include <string.h>
+
+#include "atlas.h"
+
+void kz_atlas_bag_free(kz_atlas_bag *b) {
+  for (int64_t i = 0; i < b->n; i++) free(b->record[i]);
+  free(b->record);
+  *b = (kz_atlas_bag){0};
+}
+
+static void bag_put(kz_atlas_bag *b, int64_t tile, const void *record) {
+  const uint64_t bytes = *(const uint64_t *)record;
+  b->record[tile] = memcpy(kz_malloc(bytes), record, bytes);
+}
+
+static kz_status make(void *context, const kz_local_record *piece, void *message, size_t *bytes) {
+  (void)context;
+  memcpy(message, &piece->tile, sizeof piece->tile);
+  memcpy((char *)message + sizeof piece->tile, piece->data, piece->bytes);
+  *bytes = sizeof piece->tile + piece->bytes;
+  return KZ_OK;
+}
+
+static kz_status take(void *context, const void *message, size_t bytes) {
+  int64_t tile;
+  (void)bytes;
+  memcpy(&tile, message, sizeof tile);
+  KZ_FREED char *record = memcpy(kz_malloc(bytes), (const char *)message + sizeof tile, bytes - sizeof tile);
+  bag_put(context, tile, record);
+  return KZ_OK;
+}
+
+/* All ranks get the records of rank 0. Collective. */
+static kz_status share(const kz_run *run, kz_atlas_bag *b) {
+  KZ_FREED uint64_t *bytes = kz_calloc((size_t)b->n + 1, sizeof *bytes);
+  const bool here = kz_rank(run->ranks) == 0;
+  for (int64_t i = 0; here && i < b->n; i++) memcpy(bytes + i, b->record[i], sizeof *bytes);
+  KZ_TRY(kz_ranks_broadcast(run->ranks, bytes, (size_t)b->n * sizeof *bytes));
+  for (int64_t i = 0; i < b->n; i++) {
+    if (!here) b->record[i] = kz_malloc(bytes[i]);
+    KZ_TRY(kz_ranks_broadcast(run->ranks, b->record[i], bytes[i]));
+  }
+  return KZ_OK;
+}
+
+/* Runs a stage whose records have different lengths. Collective; without ranks this process does all. */
+kz_status kz_atlas_gather(const kz_run *run, const char *name, int64_t n, size_t bytes, kz_tile_fn work, void *context,
+                          kz_atlas_bag *b) {
+  *b = (kz_atlas_bag){n, kz_calloc((size_t)n + 1, sizeof *b->record)};
+  if (!run || !run->ranks) {
+    KZ_FREED char *record = kz_malloc(bytes);
+    for (int64_t i = 0; i < n; i++) {
+      KZ_TRY(work(context, i, record));
+      bag_put(b, i, record);
+    }
+    return KZ_OK;
+  }
+  kz_local_records pieces = {0};
+  const kz_stage stage = {
+      .name = name, .n_tiles = n, .record_bytes = bytes, .work = work, .context = context, .keep = true, .local = &pieces};
+  const kz_delivery delivery = {
+      .name = name, .message_bytes = bytes + sizeof(int64_t), .make = make, .take = take, .context = b};
+  kz_status status = kz_stage_run(run, &stage, NULL);
+  if (status == KZ_OK) status = kz_local_records_deliver(run->ranks, &pieces, &delivery);
+  kz_local_records_free(&pieces);
+  KZ_TRY(status);
+  return share(run, b);
+}
+
+void kz_atlas_put_seeds(const kz_atlas_seeds *seeds, void *record) {
+  const size_t most = (KZ_ATLAS_SEEDS_BYTES - sizeof(uint64_t)) / sizeof *seeds->list,
+               n = (size_t)seeds->count < most ? (size_t)seeds->count : most;
+  const uint64_t bytes = sizeof bytes + n * sizeof *seeds->list;
+  memcpy(record, &bytes, sizeof bytes);
+  if (n > 0) memcpy((char *)record + sizeof bytes, seeds->list, n * sizeof *seeds->list);
+}
+
+/* The seeds of a record; they stay where they are. */
+kz_atlas_seeds kz_atlas_seeds_in(const char *record) {
+  uint64_t bytes;
+  memcpy(&bytes, record, sizeof bytes);
+  return (kz_atlas_seeds){.count = (int64_t)((bytes - sizeof bytes) / sizeof(kz_atlas_seed)),
+                          .list = (kz_atlas_seed *)(void *)(record + sizeof bytes)};
+}
+
+typedef struct {
+  uint64_t bytes;
+  kz_atlas_kind kind;
+  int32_t ending[2], unused;
+  int64_t n, n_special;
+} curve_head;
+
+void kz_atlas_put_curve(const kz_atlas_curve *curve, void *record) {
+  const size_t rows = (size_t)(curve->n * kz_atlas_width(&curve->kind)) * sizeof(double);
+  const size_t special = (size_t)(curve->n_special * (KZ_SPECIAL_POINTS + 2 * curve->kind.of.points)) * sizeof(double);
+  const curve_head head = {
+      sizeof head + rows + special, curve->kind, {curve->ending[0], curve->ending[1]}, 0, curve->n, curve->n_special};
+  memcpy(record, &head, sizeof head);
+  memcpy((char *)record + sizeof head, curve->row, rows);
+  memcpy((char *)record + sizeof head + rows, curve->special, special);
+}
+
+kz_atlas_curve kz_atlas_curve_in(const char *record) {
+  curve_head head;
+  memcpy(&head, record, sizeof head);
+  const size_t rows = (size_t)(head.n * kz_atlas_width(&head.kind)) * sizeof(double), special = head.bytes - sizeof head - rows;
+  return (kz_atlas_curve){.kind = head.kind,
+                          .ending = {head.ending[0], head.ending[1]},
+                          .n = head.n,
+                          .n_special = head.n_special,
+                          .row = memcpy(kz_malloc(rows + 1), record + sizeof head, rows),
+                          .special = memcpy(kz_malloc(special + 1), record + sizeof head + rows, special)};
+}

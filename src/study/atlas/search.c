@@ -1,0 +1,287 @@
+/* The search for all curves: seeds from attractors that the curves do not explain, and from every new curve, until random places agree. */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "atlas.h"
+
+enum {
+  GRID = 12,  /* places along each axis whose attractors are the first seeds */
+  FEW = 128,  /* starts at each of them */
+  MANY = 256, /* and at places that check the curves */
+  ROUNDS = 6  /* of checks at most */
+};
+
+/* ---- curves: one of each kind at a time is traced, so that no curve is traced twice ---- */
+
+typedef struct {
+  kz_atlas *atlas;
+  int64_t n;
+  kz_atlas_seed *seed;
+} tracing;
+
+static kz_status trace_tile(void *context, int64_t tile, void *record) {
+  const tracing *t = context;
+  kz_atlas_curve curve;
+  kz_atlas_trace(t->atlas, t->seed + tile, &curve);
+  kz_atlas_put_curve(&curve, record);
+  kz_atlas_curve_free(&curve);
+  return KZ_OK;
+}
+
+/* The first pending seed of each kind, without those that are known by now. */
+static void next_seeds(kz_atlas *atlas, tracing *t) {
+  kz_atlas_seeds *pending = &atlas->pending;
+  int64_t left = 0;
+  t->n = 0;
+  for (int64_t i = 0; i < pending->count; i++) {
+    const kz_atlas_seed seed = pending->list[i];
+    bool waits = false;
+    if (kz_atlas_is_known(atlas, &seed)) continue;
+    for (int64_t j = 0; j < t->n && !waits; j++) waits = !memcmp(&t->seed[j].kind, &seed.kind, sizeof seed.kind);
+    if (waits)
+      pending->list[left++] = seed;
+    else
+      t->seed[t->n++] = seed;
+  }
+  pending->count = left;
+}
+
+static kz_status trace_pending(kz_atlas *atlas, const kz_run *run) {
+  KZ_FREED kz_atlas_seed *seed = kz_malloc((size_t)(atlas->pending.count + 1) * sizeof *seed);
+  tracing t = {.atlas = atlas, .seed = seed};
+  for (next_seeds(atlas, &t); t.n > 0; next_seeds(atlas, &t)) {
+    KZ_FREED_BY(kz_atlas_bag_free) kz_atlas_bag traced = {0};
+    KZ_TRY(kz_atlas_gather(run, "atlas curves", t.n, KZ_ATLAS_CURVE_BYTES, trace_tile, &t, &traced));
+    for (int64_t i = 0; i < t.n; i++) {
+      kz_atlas_curve curve = kz_atlas_curve_in(traced.record[i]);
+      if (curve.n > 0)
+        kz_atlas_keep(atlas, &curve);
+      else
+        kz_atlas_curve_free(&curve), atlas->refused++;
+    }
+  }
+  return KZ_OK;
+}
+
+/* ---- exploration ---- */
+
+/* Places of curves, and cycles. */
+typedef struct {
+  kz_atlas *atlas;
+  int64_t first, places, n_cycles; /* the first curve, places of each; cycles come after the curves */
+  const kz_atlas_seed *cycle;
+} exploring;
+
+static const double SHARES[2][3] = {{0.15, 0.5, 0.85}, {0.2, 0.7, 0}};
+
+static kz_status explore_tile(void *context, int64_t tile, void *record) {
+  const exploring *e = context;
+  kz_atlas_seeds seeds = {0};
+  const int64_t on_curves = (e->atlas->n_curves - e->first) * e->places;
+  if (tile < on_curves)
+    kz_atlas_explore_curve(e->atlas, e->atlas->curve + e->first + tile / e->places, SHARES[3 - e->places][tile % e->places],
+                           &seeds);
+  else
+    kz_atlas_explore_cycle(e->atlas, e->cycle + (tile - on_curves), &seeds);
+  kz_atlas_put_seeds(&seeds, record);
+  kz_atlas_seeds_free(&seeds);
+  return KZ_OK;
+}
+
+static kz_status explore(kz_atlas *atlas, const kz_run *run, int64_t n_cycles, const kz_atlas_seed *cycle) {
+  KZ_FREED_BY(kz_atlas_bag_free) kz_atlas_bag found = {0};
+  exploring e = {atlas, atlas->n_explored, atlas->scene->atlas.max_period <= 4 ? 3 : 2, n_cycles, cycle};
+  const int64_t n = (atlas->n_curves - e.first) * e.places + n_cycles;
+  if (n == 0) return KZ_OK;
+  KZ_TRY(kz_atlas_gather(run, "atlas branches", n, KZ_ATLAS_SEEDS_BYTES, explore_tile, &e, &found));
+  atlas->n_explored = atlas->n_curves;
+  for (int64_t i = 0; i < n; i++) {
+    const kz_atlas_seeds seeds = kz_atlas_seeds_in(found.record[i]);
+    for (int64_t j = 0; j < seeds.count; j++) {
+      if (kz_atlas_is_known(atlas, seeds.list + j)) continue;
+      kz_atlas_add(atlas, seeds.list[j].kind, seeds.list[j].y, &atlas->pending);
+    }
+  }
+  return KZ_OK;
+}
+
+/* Follows cycles, and then every curve that comes of it, until nothing is left. */
+static kz_status drain(kz_atlas *atlas, const kz_run *run, int64_t n_cycles, const kz_atlas_seed *cycle) {
+  KZ_TRY(explore(atlas, run, n_cycles, cycle));
+  while (atlas->pending.count > 0 || atlas->n_explored < atlas->n_curves) {
+    KZ_TRY(trace_pending(atlas, run));
+    KZ_TRY(explore(atlas, run, 0, NULL));
+  }
+  return KZ_OK;
+}
+
+/* ---- places whose attractors are searched ---- */
+
+typedef struct {
+  kz_atlas *atlas;
+  int64_t n, starts, round;
+  kz_atlas_probe *probe;
+} probing;
+
+static kz_status probe_tile(void *context, int64_t tile, void *record) {
+  const probing *p = context;
+  kz_atlas_probe probe;
+  KZ_TRY(kz_atlas_probe_at(p->atlas, p->probe[tile].place, p->starts, 1 + tile + 1000 * p->round, &probe));
+  kz_atlas_put_seeds(&probe.found, record);
+  kz_atlas_seeds_free(&probe.found);
+  return KZ_OK;
+}
+
+static kz_status probe_all(const kz_run *run, const char *name, probing *p) {
+  KZ_FREED_BY(kz_atlas_bag_free) kz_atlas_bag found = {0};
+  KZ_TRY(kz_atlas_gather(run, name, p->n, KZ_ATLAS_SEEDS_BYTES, probe_tile, p, &found));
+  for (int64_t i = 0; i < p->n; i++) {
+    const kz_atlas_seeds seeds = kz_atlas_seeds_in(found.record[i]);
+    kz_atlas_seeds *mine = &p->probe[i].found;
+    *mine = (kz_atlas_seeds){seeds.count, seeds.count, kz_malloc((size_t)(seeds.count + 1) * sizeof *mine->list)};
+    memcpy(mine->list, seeds.list, (size_t)seeds.count * sizeof *mine->list);
+    p->probe[i].starts = p->starts;
+  }
+  return KZ_OK;
+}
+
+static void probes_free(int64_t n, kz_atlas_probe *probe) {
+  for (int64_t i = 0; i < n; i++) kz_atlas_seeds_free(&probe[i].found);
+  free(probe);
+}
+
+/* A number from 0 to 1 that a place of a sequence has: the fractional parts of multiples of two irrational numbers fill the plane evenly. */
+static void random_place(int64_t i, double place[2]) {
+  place[0] = fmod(0.5 + 0.7548776662466927 * (double)(i + 1), 1);
+  place[1] = fmod(0.5 + 0.5698402909980532 * (double)(i + 1), 1);
+}
+
+/* How many more attractors of the class of cycle j were found than the curves tell. */
+static int32_t unexplained(kz_atlas *atlas, const kz_atlas_probe *probe, int64_t j, const int32_t *counts) {
+  const kz_atlas_class class = kz_atlas_class_of(&probe->found.list[j].kind);
+  int32_t found = 0;
+  for (int64_t i = 0; i < probe->found.count; i++) {
+    const kz_atlas_class other = kz_atlas_class_of(&probe->found.list[i].kind);
+    found += !memcmp(&class, &other, sizeof class);
+  }
+  return found - counts[kz_atlas_class_number(atlas, &class)];
+}
+
+/* The first cycle of a probe that the curves do not explain; -1 = none. */
+static int64_t first_unexplained(kz_atlas *atlas, const kz_atlas_probe *probe) {
+  KZ_FREED int32_t *counts = kz_malloc(KZ_ATLAS_MOST_CLASSES * sizeof *counts);
+  kz_atlas_count(atlas, probe->place, counts);
+  for (int64_t j = 0; j < probe->found.count; j++)
+    if (kz_atlas_period(&probe->found.list[j].kind) <= atlas->scene->atlas.max_period &&
+        unexplained(atlas, probe, j, counts) > 0)
+      return j;
+  return -1;
+}
+
+/* All cycles of the class of cycle j of a probe. */
+static void add_class(const kz_atlas_probe *probe, int64_t j, kz_atlas_seeds *cycles) {
+  const kz_atlas_class class = kz_atlas_class_of(&probe->found.list[j].kind);
+  for (int64_t i = 0; i < probe->found.count; i++) {
+    const kz_atlas_class other = kz_atlas_class_of(&probe->found.list[i].kind);
+    if (memcmp(&class, &other, sizeof class)) continue;
+    cycles->list = kz_realloc(cycles->list, (size_t)(cycles->count + 1) * sizeof *cycles->list);
+    cycles->list[cycles->count++] = probe->found.list[i];
+  }
+}
+
+/* Curves from the attractors of places that the curves do not explain, one class of attractors at a time. *wrong = number of places at which
+ * something was not explained at first. */
+static kz_status explain(kz_atlas *atlas, const kz_run *run, int64_t n, kz_atlas_probe *probe, int64_t *wrong) {
+  KZ_FREED bool *done = kz_calloc((size_t)n + 1, sizeof *done);
+  KZ_FREED bool *was_wrong = kz_calloc((size_t)n + 1, sizeof *was_wrong);
+  *wrong = 0;
+  for (bool first = true, more = true; more; first = false) {
+    kz_atlas_class taken[KZ_ATLAS_MOST_CLASSES];
+    int n_taken = 0;
+    kz_atlas_seeds cycles = {0};
+    more = false;
+    for (int64_t i = 0; i < n; i++) {
+      const int64_t j = done[i] ? -1 : first_unexplained(atlas, probe + i);
+      if (j < 0) {
+        done[i] = true;
+        continue;
+      }
+      *wrong += first;
+      bool waits = n_taken == KZ_ATLAS_MOST_CLASSES;
+      const kz_atlas_class class = kz_atlas_class_of(&probe[i].found.list[j].kind);
+      for (int k = 0; k < n_taken && !waits; k++) waits = !memcmp(taken + k, &class, sizeof class);
+      more = true;
+      if (waits) continue;
+      taken[n_taken++] = class;
+      done[i] = was_wrong[i]; /* tried twice, a place stays unexplained */
+      was_wrong[i] = true;
+      add_class(probe + i, j, &cycles);
+    }
+    const kz_status status = drain(atlas, run, cycles.count, cycles.list);
+    kz_atlas_seeds_free(&cycles);
+    KZ_TRY(status);
+  }
+  return KZ_OK;
+}
+
+/* Without an undriven edge: what attracts at the reference. */
+static void set_reference(kz_atlas *atlas, const kz_atlas_probe *probe) {
+  memset(atlas->at_reference, 0, sizeof atlas->at_reference);
+  for (int64_t j = 0; j < probe->found.count; j++) {
+    const kz_atlas_class class = kz_atlas_class_of(&probe->found.list[j].kind);
+    atlas->at_reference[kz_atlas_class_number(atlas, &class)]++;
+  }
+}
+
+static kz_status search_reference(kz_atlas *atlas, const kz_run *run) {
+  kz_atlas_probe *probe = kz_calloc(1, sizeof *probe);
+  memcpy(probe->place, atlas->reference, sizeof probe->place);
+  probing p = {atlas, 1, 8 * MANY, 0, probe};
+  kz_status status = probe_all(run, "atlas reference", &p);
+  if (status == KZ_OK) set_reference(atlas, probe);
+  if (status == KZ_OK) status = drain(atlas, run, probe->found.count, probe->found.list);
+  probes_free(1, probe);
+  return status;
+}
+
+static kz_status search_grid(kz_atlas *atlas, const kz_run *run) {
+  kz_atlas_probe *probe = kz_calloc(GRID * GRID, sizeof *probe);
+  probing p = {atlas, GRID * GRID, FEW, 1, probe};
+  int64_t wrong;
+  for (int i = 0; i < GRID * GRID; i++) {
+    double within[2];
+    random_place(i, within);
+    probe[i].place[0] = (i % GRID + within[0]) / GRID;
+    probe[i].place[1] = (i / GRID + within[1]) / GRID;
+  }
+  kz_status status = probe_all(run, "atlas seeds", &p);
+  if (status == KZ_OK) status = explain(atlas, run, p.n, probe, &wrong);
+  probes_free(p.n, probe);
+  return status;
+}
+
+/* A round of random places; *wrong = how many had an attractor without an explanation. */
+static kz_status check(kz_atlas *atlas, const kz_run *run, int round, int64_t *wrong) {
+  const int64_t n = atlas->scene->atlas.checks;
+  kz_atlas_probe *probe = kz_calloc((size_t)n, sizeof *probe);
+  probing p = {atlas, n, MANY, 2 + round, probe};
+  for (int64_t i = 0; i < n; i++) random_place(1000 + round * n + i, probe[i].place);
+  kz_status status = probe_all(run, "atlas checks", &p);
+  if (status == KZ_OK) status = explain(atlas, run, n, probe, wrong);
+  probes_free(n, probe);
+  return status;
+}
+
+kz_status kz_atlas_search(kz_atlas *atlas, const kz_run *run) {
+  if (!atlas->undriven) KZ_TRY(search_reference(atlas, run));
+  KZ_TRY(search_grid(atlas, run));
+  for (int round = 0; round < ROUNDS && atlas->scene->atlas.checks > 0; round++) {
+    KZ_TRY(check(atlas, run, round, &atlas->disagreed));
+    atlas->checked = atlas->scene->atlas.checks;
+    atlas->rounds = round + 1;
+    if (atlas->disagreed == 0) break;
+  }
+  kz_atlas_join(atlas);
+  return KZ_OK;
+}

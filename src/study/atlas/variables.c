@@ -1,0 +1,54 @@
+/* Variables of the group atlas of the result file. */
+#include "kapitza/store_variables.h"
+#include "atlas.h"
+
+#define OF_CURVE {"curve"}
+#define OF_POINT {"point"}
+#define OF_SPECIAL {"special"}
+#define OF_CLASS {"class"}
+#define OF_REGION {"region"}
+
+/* clang-format off */
+const kz_variable kz_atlas_variables[] = {
+    {"curve", KZ_INT32, OF_CURVE, NONE, "number of the curve"},
+    {"curve_kind", KZ_INT8, OF_CURVE, NONE, "what happens on the curve", {"fold", "period_doubling", "symmetry_breaking", "rest_swings", "rest_leans"}},
+    {"curve_period", KZ_INT16, OF_CURVE, PERIODS, "period of the cycle"},
+    {"curve_winding", KZ_INT32, OF_CURVE, NONE, "net turns in one period of the cycle; of two mirror images those of the one that turns counterclockwise"},
+    {"curve_centre", KZ_INT8, OF_CURVE, NONE, "what the cycle moves about", {CENTRES}},
+    {"curve_symmetric", KZ_INT8, OF_CURVE, NONE, "whether the cycle is its own mirror image", {"no", "yes"}},
+    {"curve_name", KZ_TEXT, OF_CURVE, NONE, "what happens there to which motion"},
+    {"curve_first", KZ_INT32, OF_CURVE, NONE, "place of the curve's first point in the list of points"},
+    {"curve_points", KZ_INT32, OF_CURVE, NONE, "number of the curve's points"},
+    {"curve_closed", KZ_INT8, OF_CURVE, NONE, "whether the curve is closed", {"no", "yes"}},
+    {"point", KZ_INT32, OF_POINT, NONE, "place in the list of points"},
+    {"x", KZ_REAL, OF_POINT, "@x_units", "value of the key x_parameter of the pendulum"},
+    {"y", KZ_REAL, OF_POINT, "@y_units", "value of the key y_parameter of the pendulum"},
+    {"strobe_theta", KZ_REAL, OF_POINT, ANGLE, "angle of a strobe point of the cycle"},
+    {"strobe_velocity", KZ_REAL, OF_POINT, VELOCITY, "velocity of that strobe point"},
+    {"normal_form", KZ_REAL, OF_POINT, NONE, "folds: half the second derivative of the map along its eigenvector; others: its cubic coefficient"},
+    {"side_x", KZ_REAL, OF_POINT, NONE, "direction along x, in widths of the plane, of the side on which the cycle exists (folds) or attracts (others)"},
+    {"side_y", KZ_REAL, OF_POINT, NONE, "direction along y, in heights of the plane, of the same side"},
+    {"supercritical", KZ_INT8, OF_POINT, NONE, "whether the cycle that branches off attracts; 0 on folds", {"no", "yes"}},
+    {"special", KZ_INT32, OF_SPECIAL, NONE, "number of the special point"},
+    {"special_x", KZ_REAL, OF_SPECIAL, "@x_units", "value of the key x_parameter there"},
+    {"special_y", KZ_REAL, OF_SPECIAL, "@y_units", "value of the key y_parameter there"},
+    {"special_kind", KZ_INT8, OF_SPECIAL, NONE, "where the normal form is 0", {"cusp", "degenerate_flip", "degenerate_pitchfork"}},
+    {"special_curve", KZ_INT32, OF_SPECIAL, NONE, "number of the curve on which it lies"},
+    {"class", KZ_INT32, OF_CLASS, NONE, "number of the class of attractors"},
+    {"class_name", KZ_TEXT, OF_CLASS, NONE, "name of the class of attractors"},
+    {"class_period", KZ_INT16, OF_CLASS, PERIODS, "period of its attractors"},
+    {"class_winding", KZ_INT32, OF_CLASS, NONE, "net turns in one period; of two mirror images those of the one that turns counterclockwise"},
+    {"class_symmetric", KZ_INT8, OF_CLASS, NONE, "whether its attractors are their own mirror images", {"no", "yes"}},
+    {"row", KZ_REAL, {"row"}, "@y_units", "value of the key y_parameter in the middle of a row of cells"},
+    {"column", KZ_REAL, {"column"}, "@x_units", "value of the key x_parameter in the middle of a column of cells"},
+    {"attracting", KZ_UINT8, {"class", "row", "column"}, NONE, "number of attractors of the class; two mirror images count as one"},
+    {"count", KZ_INT16, {"row", "column"}, NONE, "number of attractors of up to max_period periods, mirror images too"},
+    {"list", KZ_INT32, {"row", "column"}, NONE, "number of the list of attractors: cells with equal numbers have equal lists"},
+    {"region", KZ_INT32, OF_REGION, NONE, "number of the region, the largest first: connected cells with one list"},
+    {"region_x", KZ_REAL, OF_REGION, "@x_units", "value of the key x_parameter at the place farthest from the edge of the region"},
+    {"region_y", KZ_REAL, OF_REGION, "@y_units", "value of the key y_parameter at that place"},
+    {"region_share", KZ_REAL, OF_REGION, NONE, "share of the plane that the region fills"},
+    {"region_radius", KZ_REAL, OF_REGION, NONE, "distance of that place from the edge of the region, in sides of the plane"},
+    {0},
+};
+/* clang-format on */

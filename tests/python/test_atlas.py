@@ -1,0 +1,136 @@
+"""The study atlas: curves against the linear equation and the flutter table, lists against `attractors`, ranks, resumed runs, bad input."""
+
+import json
+
+import numpy as np
+import pytest
+from conftest import datasets, plot, run_until_saved
+from kapitza import Result
+from scipy.integrate import solve_ivp
+
+PENDULUM = {"quality_factor": 5, "drive_frequency": 11, "drive_amplitude": 0.3}
+SCENE = {"pendulum": PENDULUM,
+         "atlas": {"x": {"parameter": "drive_frequency", "min": 3, "max": 30}, "y": {"parameter": "drive_amplitude", "min": 0, "max": 0.8},
+                   "max_period": 2, "checks": 24, "points": 64}}
+FOLD, DOUBLING, BREAKING, SWINGS, LEANS = range(5)
+
+
+@pytest.fixture(scope="module")
+def atlas(kapitza, tmp_path_factory):
+    """The file of the scene above, by two ranks, and the summary."""
+    folder = tmp_path_factory.mktemp("atlas")
+    (folder / "s.yaml").write_text(json.dumps(SCENE))
+    done = kapitza("run", "s.yaml", ranks=2, folder=folder)
+    return Result(folder / "s.h5"), done.stdout, folder / "s.h5"
+
+
+def curve(group, kind, **named):
+    """The points (x, y) of the only curve of a kind."""
+    found = [i for i in range(group.sizes["curve"]) if int(group["curve_kind"][i]) == kind
+             and all(int(group[f"curve_{name}"][i]) == value for name, value in named.items())]
+    assert len(found) == 1
+    first, n = int(group["curve_first"][found[0]]), int(group["curve_points"][found[0]])
+    return group["x"][first:first + n].values, group["y"][first:first + n].values
+
+
+def crossing(xs, ys, x):
+    """y of a curve where it passes x, by a quintic through the six nearest points."""
+    near = np.sort(np.argsort(abs(xs - x))[:6])
+    return np.polyval(np.polyfit(xs[near] - x, ys[near], 5), 0)
+
+
+def test_rest_is_that_of_the_linear_equation(atlas):
+    """A multiplier of upright rest is -1 on the one curve, and 1 on the other: by an integrator that shares nothing with the program."""
+    group = atlas[0].group("atlas")
+    for kind, multiplier in ((SWINGS, -1), (LEANS, 1)):
+        xs, ys = curve(group, kind, centre=1)
+        inside = np.flatnonzero((xs > 3) & (xs < 30) & (ys > 0) & (ys < 0.8))
+        for i in inside[:: max(1, len(inside) // 6)]:
+            k, beta, m = xs[i] ** -2, 1 / (5 * xs[i]), ys[i]
+            ends = [solve_ivp(lambda t, u, k=k, beta=beta, m=m: [u[1], -beta * u[1] + (k - m * np.cos(t)) * u[0]], (0, 2 * np.pi), start,
+                              method="DOP853", rtol=1e-13, atol=1e-14).y[:, -1] for start in ([1, 0], [0, 1])]
+            assert abs(ends[0][0] + ends[1][1] - multiplier * (1 + np.exp(-2 * np.pi * beta))) < 3e-11
+
+
+def test_flutter_is_that_of_the_studies(atlas):
+    """Birth, loss of symmetry, doubling, where the table of docs/validation/studies.md has them."""
+    group = atlas[0].group("atlas")
+    for omega, birth, broken, doubled in ((7, 0.488875356, 0.577613876, 0.587068), (11, 0.468190302390, 0.561845642631, 0.571655778),
+                                          (20, 0.458316643, 0.554420006, 0.564402)):
+        assert abs(crossing(*curve(group, SWINGS, centre=1), omega) - birth) < 1e-6
+        assert abs(crossing(*curve(group, BREAKING, centre=1), omega) - broken) < 1e-6
+        assert doubled > broken
+
+
+def test_lists_are_those_of_the_search(atlas, kapitza, tmp_path):
+    """The classes and their numbers at single places."""
+    group = atlas[0].group("atlas")
+    assert int(group.attrs["negative"]) == 0 and int(group.attrs["disagreed"]) == 0 and int(group.attrs["checked"]) == 24
+    for column, row in ((8, 12), (20, 30), (40, 40), (50, 52), (30, 46)):
+        here = dict(PENDULUM, drive_frequency=float(group["column"][column]), drive_amplitude=float(group["row"][row]))
+        (tmp_path / "a.yaml").write_text(json.dumps({"pendulum": here, "attractors": {"velocity": {"min": -2.5, "max": 2.5},
+                                                                                     "starts": 4096}}))
+        kapitza("run", "a.yaml", "--force", folder=tmp_path)
+        found = Result(tmp_path / "a.h5").group("attractors")
+        short = (found["period"].values > 0) & (found["period"].values <= 2)
+        assert int(short.sum()) == int(group["count"][row, column]), here
+
+
+def test_every_point_belongs_to_its_curve(atlas):
+    group = atlas[0].group("atlas")
+    first, n = group["curve_first"].values, group["curve_points"].values
+    assert first[0] == 0 and (first[1:] == (first + n)[:-1]).all() and first[-1] + n[-1] == group.sizes["point"]
+    assert (group["region_share"].values[:-1] >= group["region_share"].values[1:]).all()
+    assert int(group["list"].max()) + 1 <= 64 * 64
+
+
+def test_pictures(atlas, tmp_path):
+    """The map and the small maps; what a region has more than the one below it."""
+    from kapitza.plots import atlas as picture
+
+    group = atlas[0].group("atlas")
+    texts = {picture.region_text(group, region) for region in range(8)}
+    assert {"only hanging rest", "+ upright rest", "+ rotations 1/1"} <= texts
+    for view in picture.VIEWS:
+        plot("atlas", atlas[2], "--view", view, "-o", tmp_path / f"{view}.svg")
+        assert (tmp_path / f"{view}.svg").stat().st_size > 10000
+
+
+def test_ranks_and_resumed_runs_write_the_same(atlas, kapitza, tmp_path):
+    (tmp_path / "s.yaml").write_text(json.dumps(SCENE))
+    for ranks in (1, 3):
+        kapitza("run", "s.yaml", "--force", ranks=ranks, folder=tmp_path)
+        assert datasets(tmp_path / "s.h5") == datasets(atlas[2])
+
+
+BAD = {"one key": ({"y": {"parameter": "drive_frequency", "min": 3, "max": 30}}, "atlas.y.parameter: is also the parameter of atlas.x"),
+       "a key of another form": ({"x": {"parameter": "k", "min": 0, "max": 1}}, "atlas.x.parameter: k is not given"),
+       "no damping": ({"x": {"parameter": "drive_frequency", "min": 0, "max": 30}}, "atlas.x.min: 0 is below what pendulum"),
+       "an edge that is no number": ({"x": {"parameter": "drive_frequency", "min": ".nan", "max": 30}}, "atlas.x.min"),
+       "reversed": ({"x": {"parameter": "drive_frequency", "min": 30, "max": 3}}, "atlas.x.max: 3 is too small"),
+       "too long": ({"max_period": 17}, "atlas.max_period: \"17\" is out of range")}
+
+
+@pytest.mark.parametrize("name", BAD)
+def test_bad_planes_are_refused(kapitza, tmp_path, name):
+    change, message = BAD[name]
+    (tmp_path / "s.yaml").write_text(json.dumps(dict(SCENE, atlas=dict(SCENE["atlas"], **change))).replace('".nan"', ".nan"))
+    done = kapitza("run", "s.yaml", status=2, folder=tmp_path)
+    assert message in done.stderr and not (tmp_path / "s.h5").exists()
+
+
+def test_planes_without_damping_or_without_effect_are_refused(kapitza, tmp_path):
+    undamped = {"pendulum": {"k": 0.1, "damping": 0.1, "m": 0.3}, "atlas": {"x": {"parameter": "damping", "min": 0, "max": 1},
+                                                                         "y": {"parameter": "m", "min": 0, "max": 1}}}
+    idle = {"pendulum": dict(PENDULUM, ramp={"key": "drive", "from": 0.1, "periods": 4}),
+            "atlas": {"x": {"parameter": "ramp.periods", "min": 1, "max": 4}, "y": {"parameter": "drive_amplitude", "min": 0, "max": 1}}}
+    for scene, message in ((undamped, "no damped pendulum at damping = 0"), (idle, "ramp.periods changes no motion")):
+        (tmp_path / "s.yaml").write_text(json.dumps(scene))
+        assert message in kapitza("run", "s.yaml", status=2, folder=tmp_path).stderr
+
+
+def test_a_stopped_run_goes_on(atlas, kapitza, tmp_path):
+    (tmp_path / "s.yaml").write_text(json.dumps(SCENE))
+    run_until_saved("s.yaml", file="s.h5", folder=tmp_path)
+    kapitza("run", "s.yaml", "--resume", ranks=1, folder=tmp_path)
+    assert datasets(tmp_path / "s.h5") == datasets(atlas[2])
