@@ -14,6 +14,7 @@ from kapitza import layout, units
 from kapitza.table import attractors_table, cells_of, flag_word, labels_array
 
 if TYPE_CHECKING:
+    from kapitza.chances import Agreement
     from kapitza.compare import Comparison
 
 
@@ -172,11 +173,53 @@ class Result:
         theta."""
         return self.group("basin", si=si, degrees=degrees)["settling_time"]
 
+    def probability(self, theta: Any, velocity: Any, spread: tuple[Any, Any], *, kind: str = "normal", starts: int = 0,
+                    seed: int = 1) -> pandas.DataFrame:
+        """How likely each end of a start is that is known up to a spread: a table with name, probability, low and high, likeliest first.
+
+        From the basin of the file, low and high say how much the cells beside boundaries matter; what the window lacks is a row
+        "outside the window". From fresh starts, each followed to its end, they are a 95 % interval.
+
+        :param theta: angle in rad, or a text such as "175 deg"
+        :param velocity: velocity in rad per drive radian, or, for a scene in SI units, a text such as "3 rad/s"
+        :param spread: of the angle and of the velocity, in the same units
+        :param kind: "normal": the spreads are standard deviations; "uniform": the starts lie evenly within them, to both sides
+        :param starts: number of fresh random starts, at most 100,000; 0 = take the basin of the file
+        :param seed: of the random starts
+        """
+        from kapitza.chances import probability
+        return probability(self, theta, velocity, spread, kind, starts, seed)
+
+    def share(self, name: str) -> xarray.DataArray:
+        """The share of the starts that end on attractors of a name along a sweep, or in motions about a centre over a chart.
+
+        :param name: name of branches, or a centre: "down", "inverted", "rotating", "neither"; a chart knows centres only
+        :raises KeyError: if there is none
+        """
+        from kapitza.chances import share
+        return share(self, name)
+
+    def largest(self, name: str, share: float) -> float:
+        """The largest swept value at which at least this share of the starts ends on attractors of a name; NaN if there is none."""
+        from kapitza.chances import largest
+        return largest(self, name, share)
+
+    def agree(self, table: Any) -> "Agreement":
+        """Compares measured releases with the basin.
+
+        :param table: a pandas table, or the name of a CSV file, with the columns theta (or theta_deg), velocity (or velocity_rad_per_s)
+            and end: the name of an attractor, or a centre such as "inverted"
+        :raises ValueError: if the table lacks a column, names an unknown end, or has a start outside the window
+        """
+        from kapitza.chances import agreement
+        return agreement(self, table)
+
     def plot(self, kind: str | None = None, **options: Any) -> Any:
         """Draws a group of the file and returns the matplotlib Figure.
 
         :param kind: a kind of picture, such as "basin" or "orbit"; None = that of the main study of the file
-        :param options: options of `kapitza-plot KIND`, such as `centre="inverted"`, `si=True` or `width="86mm"`
+        :param options: options of `kapitza-plot KIND`, such as `centre="inverted"`, `si=True` or `width="86mm"`; `points` of a basin is a
+            table as `agree` takes it
         """
         from kapitza.show import figure_of
         return figure_of(self, kind, options)

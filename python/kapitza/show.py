@@ -93,6 +93,7 @@ def figure_of(result: "Result", kind: str | None, options: dict[str, Any]) -> "F
     from kapitza.plots.common import figure_of as figure_on_page
     from kapitza.plots.kinds import KINDS
     from kapitza.result import BadFile
+    from kapitza.scene import new_path
     held = [name for name in KINDS if name in result.groups]
     if kind is None:
         if not held:
@@ -100,6 +101,10 @@ def figure_of(result: "Result", kind: str | None, options: dict[str, Any]) -> "F
         kind = held[0]
     if kind not in KINDS:
         raise ValueError(f"{kind!r} is not a kind of picture; the kinds are {', '.join(KINDS)}")
+    if hasattr(points := options.get("points"), "to_csv"):
+        path = new_path("points.csv")
+        points.to_csv(path, index=False)
+        options = options | {"points": path}
     words = [str(result.path)]
     for name, value in options.items():
         option = "--" + name.replace("_", "-")

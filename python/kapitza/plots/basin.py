@@ -42,6 +42,8 @@ def parse_arguments(words: list[str]) -> argparse.Namespace:
     parser.add_argument("--saddles", action="store_true", help="mark the unstable cycles of the study saddles by crosses")
     parser.add_argument("--manifolds", action="store_true",
                         help="draw the manifolds of the study manifolds: stable ones black, unstable ones white")
+    parser.add_argument("--points", metavar="CSV", help="measured releases with the columns theta (or theta_deg), velocity (or "
+                        "velocity_rad_per_s) and end; circles agree with the basin, crosses do not")
     parser.add_argument("--shade", action="store_true", help="darken cells whose end is certain late")
     parser.add_argument("--degrees", action="store_true", help="angles in degrees instead of parts of pi")
     add_si(parser, "velocities in rad/s, times in s")
@@ -192,6 +194,8 @@ def draw(result: Result, arguments: argparse.Namespace) -> Figure:
         mark_manifolds(axes, basin, group("manifolds"), centre=centre)
     if arguments.saddles:
         mark_saddles(axes, basin, group("saddles"), centre=centre)
+    if arguments.points:
+        mark_releases(axes, plane, result, arguments.points)
     if plane.place:
         axes.set_title(plane.place, fontsize="medium", fontweight="normal", parse_math=False)
     rows, columns = basin["attractor"].shape
@@ -200,6 +204,26 @@ def draw(result: Result, arguments: argparse.Namespace) -> Figure:
         lay_out(figure)  # dots are as large as the cells beneath them allow
         mark_attractors(axes, plane, basin, attractors, ids)
     return figure
+
+
+def mark_releases(axes: Axes, plane: Plane, result: Result, table: str) -> Axes:
+    """Measured releases: circles where the basin says the same, crosses where it does not, in the colours of the ends that were seen."""
+    try:
+        found = result.agree(table).table
+    except (OSError, ValueError) as error:
+        raise BadFile(f"{table}: {error}") from error
+    colours = dict(zip(result.attractors["name"], style.colours(result.group("attractors")), strict=True))
+    centres = dict(zip(result.attractors["centre"], colours.values(), strict=False))
+    for agrees, mark, gid in ((True, "o", "agree"), (False, "X", "differ")):
+        places: list[np.ndarray] = []
+        faces: list[str] = []
+        for _, row in found[found["agrees"] == agrees].iterrows():
+            points = np.column_stack(plane.inside(row["theta"] * plane.rad, row["velocity"] * plane.speed))
+            places.append(points)
+            faces += [colours.get(row["measured"], centres.get(row["measured"], style.UNSETTLED))] * len(points)
+        if faces:
+            axes.scatter(*np.vstack(places).T, s=38, marker=mark, c=faces, edgecolors=style.INK, linewidths=1.1, zorder=6, gid=gid)
+    return axes
 
 
 def mark_attractors(axes: Axes, plane: Plane, basin: xarray.Dataset, attractors: xarray.Dataset, ids: Sequence[int]) -> None:
