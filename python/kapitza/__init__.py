@@ -16,8 +16,9 @@ functions takes and returns a matplotlib Axes.
 from kapitza.engine import Engine
 from kapitza.explorer.notebook import explore
 from kapitza.films import film
+from kapitza.fitting import fit
 from kapitza.program import RunError, SceneError
 from kapitza.result import BadFile, Result
 from kapitza.session import check, orbit, run, sweep, where
 
-__all__ = ["BadFile", "Engine", "Result", "RunError", "SceneError", "check", "explore", "film", "orbit", "run", "sweep", "where"]
+__all__ = ["BadFile", "Engine", "Result", "RunError", "SceneError", "check", "explore", "film", "fit", "orbit", "run", "sweep", "where"]

@@ -107,6 +107,19 @@ def velocity(value: Any, omega: float | None) -> float:
     return (number if found[2] == "rad" else math.radians(number)) / omega
 
 
+def quantity(value: Any, known: Mapping[str, float]) -> float:
+    """A number, or a text with one of the known units behind it, in their common unit.
+
+    :raises ValueError: if the text is neither
+    """
+    if not isinstance(value, str):
+        return float(value)
+    number, _, unit = value.strip().partition(" ")
+    if unit.strip() and unit.strip() not in known:
+        raise ValueError(f"{value!r} is in no known unit; the units are {', '.join(known)}")
+    return _number(number, value, "a number, maybe with its unit") * known.get(unit.strip(), 1.0)
+
+
 def _number(text: str, value: str, wanted: str) -> float:
     try:
         return float(text)
@@ -116,11 +129,11 @@ def _number(text: str, value: str, wanted: str) -> float:
 
 def written_frequency(pendulum: Mapping[str, Any]) -> float | None:
     """The angular frequency (rad/s) that the mapping `pendulum` of a scene gives by frequency or pivot_frequency; None = neither."""
-    for name, usual in (("pivot_frequency", "rad/s"), ("frequency", "Hz")):
-        number, _, unit = str(pendulum.get(name, "")).strip().partition(" ")
+    for name, factor in (("pivot_frequency", 1 / TURN), ("frequency", 1.0)):
+        text = str(pendulum.get(name, "")).strip()
         try:
-            return float(number) * HERTZ[unit.strip() or usual] * TURN
-        except (KeyError, ValueError):
+            return quantity(text, HERTZ) * TURN * (factor if " " not in text else 1.0)
+        except ValueError:
             continue
     return None
 

@@ -39,11 +39,12 @@ typedef struct {
   int n_sets;
   char **origins; /* of every --origin, in order */
   int n_origins;
-  bool resume, force, json, json_schema, no_browser;
-  int64_t boundary;  /* digits of --boundary; 0 = not given */
-  bool answered;     /* --help or the like was printed: nothing is left to do */
-  const char *port;  /* of view, as written; NULL = not given */
-  double time_limit; /* seconds; 0 = none */
+  bool resume, force, json, json_schema, no_browser, degrees;
+  int64_t boundary;      /* digits of --boundary; 0 = not given */
+  bool answered;         /* --help or the like was printed: nothing is left to do */
+  const char *port;      /* of view, as written; NULL = not given */
+  const char *frequency; /* of fit, as written; NULL = a free decay */
+  double time_limit;     /* seconds; 0 = none */
   kz_progress progress;
   const char *log;   /* FILE of JSON lines; NULL = none */
   bool timings;      /* print where the time went */
@@ -64,6 +65,7 @@ kz_status kz_app_check(const kz_options *options);
 kz_status kz_app_where(const kz_options *options);
 kz_status kz_app_serve(const kz_options *options);
 kz_status kz_app_view(const kz_options *options); /* replaces the process by the explorer; returns only after a failure */
+kz_status kz_app_fit(const kz_options *options);  /* replaces the process by the package's module fitting; so does this one */
 kz_status kz_app_keys(const kz_options *options);
 void kz_app_version(FILE *out);
 

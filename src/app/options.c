@@ -6,7 +6,7 @@
 
 #include "commands.h"
 
-enum { RUN = 1, CHECK = 2, KEYS = 4, TOP = 8, WHERE = 16, VIEW = 32, SERVE = 64 };
+enum { RUN = 1, CHECK = 2, KEYS = 4, TOP = 8, WHERE = 16, VIEW = 32, SERVE = 64, FIT = 128 };
 
 const kz_command kz_commands[] = {
     {"run", RUN, " SCENE", 1, 1, kz_app_run, "model every study that SCENE contains"},
@@ -16,6 +16,8 @@ const kz_command kz_commands[] = {
      "say on which attractor a start ends; THETA is in rad from down, VELOCITY in rad per drive radian, with any number of "
      "digits; write - in their place to read starts as CSV from standard input; --boundary takes two starts"},
     {"view", VIEW, " SCENE|FILE", 1, 1, kz_app_view, "open the basins of a scene or of a result in the browser"},
+    {"fit", FIT, " TRACK", 1, 1, kz_app_fit,
+     "find the pendulum of a recorded track: CSV with the columns time (s) and theta (rad) or theta_deg"},
     {"serve", SERVE, " SCENE", 1, 1, kz_app_serve,
      "answer requests of other programs (JSON lines on standard input) for frames, orbits and ends of starts"},
     {"keys", KEYS, "", 0, 0, kz_app_keys, "print the reference of all keys of a scene (docs/reference/scene.md)"},
@@ -133,9 +135,12 @@ const kz_option kz_option_rows[] = {
     {"no-browser", 0, NULL, VIEW, set_flag, OF(no_browser), "print the address, and do not open a browser", NULL},
     {"origin", 0, "ORIGIN", VIEW, add_origin, 0,
      "also answer pages of this origin (a proxy or a tunnel), such as https://hub.example.org", NULL},
+    {"frequency", 0, "F", FIT, set_text, OF(frequency),
+     "frequency of the drive of a driven track: Hz, or with a unit such as '3000 rpm'", NULL},
+    {"degrees", 0, NULL, FIT, set_flag, OF(degrees), "the angles of the track are in degrees", NULL},
     {"completion", 0, "SHELL", TOP, set_completion, 0, "print the completion script for bash, zsh or fish", "bash|zsh|fish"},
     {"manual", 0, NULL, TOP, set_manual, 0, "print the manual page; to read it, pipe it into man -l -", NULL},
-    {"help", 'h', NULL, RUN | CHECK | WHERE | VIEW | SERVE | KEYS | TOP, NULL, 0, "print this help and exit", NULL},
+    {"help", 'h', NULL, RUN | CHECK | WHERE | VIEW | FIT | SERVE | KEYS | TOP, NULL, 0, "print this help and exit", NULL},
     {"version", 'V', NULL, TOP, NULL, 0, "print the versions of the program and of its libraries, and exit", NULL},
     {.name = NULL},
 };

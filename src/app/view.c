@@ -1,4 +1,4 @@
-/* The command view: this process becomes the explorer, a Python package beside the program. */
+/* The commands that are Python: this process becomes a module of the package beside the program. */
 #include <errno.h>
 #include <libgen.h>
 #include <limits.h>
@@ -11,26 +11,31 @@
 typedef struct {
   char program[PATH_MAX];         /* this executable */
   char package[PATH_MAX + 16];    /* folder of the Python package */
-  char entry[PATH_MAX + 64];      /* of the explorer, in it */
+  char entry[PATH_MAX + 64];      /* of the command, in it */
   char own_python[PATH_MAX + 32]; /* of the virtual environment that scripts/setup makes */
 } places;
 
-static kz_status find_places(places *p) {
-  char folder[PATH_MAX];
+static kz_status find_program(places *p) {
   const ssize_t length = readlink("/proc/self/exe", p->program, sizeof p->program - 1);
-  if (length < 0) return kz_fail(KZ_FAILED, "view: the program cannot find itself: %s", strerror(errno));
+  if (length < 0) return kz_fail(KZ_FAILED, "the program cannot find itself: %s", strerror(errno));
   p->program[length] = '\0';
+  return KZ_OK;
+}
+
+/* The package and its Python; `entry`: file of the command in the package. */
+static kz_status find_places(places *p, const char *entry) {
+  char folder[PATH_MAX];
   strcpy(folder, p->program);
   const char *root = dirname(dirname(folder));
   snprintf(p->package, sizeof p->package, "%s/python", root);
   snprintf(p->own_python, sizeof p->own_python, "%s/.venv/bin/python", root);
-  snprintf(p->entry, sizeof p->entry, "%s/kapitza/explorer/__main__.py", p->package);
+  snprintf(p->entry, sizeof p->entry, "%s/kapitza/%s", p->package, entry);
   if (access(p->entry, R_OK) == 0) return KZ_OK;
   p->entry[0] = p->package[0] = '\0'; /* installed by pip: the Python beside the program has the package */
   snprintf(p->own_python, sizeof p->own_python, "%s/bin/python3", root);
   if (access(p->own_python, X_OK) == 0 || getenv("KAPITZA_PYTHON")) return KZ_OK;
   return kz_fail(KZ_REFUSED,
-                 "view: there is no Python at %s; install the program by pip, or run it in the folder build of its sources",
+                 "there is no Python at %s; install the program by pip, or run it in the folder build of its sources",
                  p->own_python);
 }
 
@@ -52,34 +57,49 @@ static kz_status set_module_path(const places *p) {
   return set ? KZ_OK : kz_fail(KZ_FAILED, "out of memory");
 }
 
-/* The command line of the explorer, which the caller frees. */
-static const char **words_of(const places *p, const char *python, const kz_options *options) {
-  const char *module[] = {"-m", "kapitza.explorer"}, *script[] = {"-P", p->entry};
-  const char *const *entry = p->entry[0] ? script : module;
-  const char *browser = options->no_browser ? "--no-browser" : "--browser", *port = options->port ? options->port : "0";
-  const char *fixed[] = {python, entry[0], entry[1], browser, "--program", p->program, "--port", port};
-  const size_t n_fixed = sizeof fixed / sizeof fixed[0];
-  const char **words = kz_calloc(n_fixed + 2 * (size_t)(options->n_sets + options->n_origins) + 3, sizeof *words);
-  memcpy(words, fixed, sizeof fixed);
-  size_t n = n_fixed;
-  for (int i = 0; i < options->n_sets; i++) words[n++] = "--set", words[n++] = options->sets[i];
-  for (int i = 0; i < options->n_origins; i++) words[n++] = "--origin", words[n++] = options->origins[i];
-  words[n++] = "--", words[n++] = options->scene;
-  return words;
+/* This process becomes `module`, whose file in the package is `entry`, with words [n] behind it. Returns only after a failure. */
+static kz_status become(places *p, const char *entry, const char *module, int n, const char *const *words) {
+  KZ_TRY(find_places(p, entry));
+  KZ_TRY(set_module_path(p));
+  const char *python = python_of(p);
+  KZ_FREED const char **line = kz_calloc((size_t)n + 4, sizeof *line);
+  line[0] = python;
+  line[1] = p->entry[0] ? "-P" : "-m";
+  line[2] = p->entry[0] ? p->entry : module;
+  memcpy(line + 3, words, (size_t)n * sizeof *line);
+  fflush(stdout);
+  execvp(python, (char *const *)line);
+  return kz_fail(KZ_FAILED,
+                 "%s cannot be run: %s; set KAPITZA_PYTHON to a Python that has the packages of scripts/requirements.txt",
+                 python, strerror(errno));
 }
 
 kz_status kz_app_view(const kz_options *options) {
   places p;
   if (!options->speaks) return KZ_OK;
   KZ_TRY(kz_scene_check_file(options->scene));
-  KZ_TRY(find_places(&p));
-  KZ_TRY(set_module_path(&p));
-  const char *python = python_of(&p);
-  const char **words = words_of(&p, python, options);
-  fflush(stdout);
-  execvp(python, (char *const *)words);
-  free(words);
-  return kz_fail(KZ_FAILED,
-                 "view: %s cannot be run: %s; set KAPITZA_PYTHON to a Python that has the packages of scripts/requirements.txt",
-                 python, strerror(errno));
+  KZ_TRY(find_program(&p));
+  const char *fixed[] = {options->no_browser ? "--no-browser" : "--browser", "--program", p.program, "--port",
+                         options->port ? options->port : "0"};
+  const size_t n_fixed = sizeof fixed / sizeof fixed[0];
+  KZ_FREED const char **words = kz_calloc(n_fixed + 2 * (size_t)(options->n_sets + options->n_origins) + 2, sizeof *words);
+  memcpy(words, fixed, sizeof fixed);
+  int n = (int)n_fixed;
+  for (int i = 0; i < options->n_sets; i++) words[n++] = "--set", words[n++] = options->sets[i];
+  for (int i = 0; i < options->n_origins; i++) words[n++] = "--origin", words[n++] = options->origins[i];
+  words[n++] = "--", words[n++] = options->scene;
+  return become(&p, "explorer/__main__.py", "kapitza.explorer", n, words);
+}
+
+kz_status kz_app_fit(const kz_options *options) {
+  places p;
+  const char *words[5];
+  int n = 0;
+  if (!options->speaks) return KZ_OK;
+  KZ_TRY(kz_scene_check_file(options->scene));
+  KZ_TRY(find_program(&p));
+  if (options->degrees) words[n++] = "--degrees";
+  if (options->frequency) words[n++] = "--frequency", words[n++] = options->frequency;
+  words[n++] = "--", words[n++] = options->scene;
+  return become(&p, "fitting.py", "kapitza.fitting", n, words);
 }

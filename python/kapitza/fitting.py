@@ -1,0 +1,307 @@
+"""A pendulum from a recorded track: natural frequency, damping and their errors, by least squares on the equation of motion.
+
+The equation, theta in rad from the rest position, time in s:
+
+    theta'' + viscous theta' + quadratic |theta'| theta' + dry sign(theta') + (omega0^2 - drive omega^2 cos(omega t + phase)) sin theta = 0
+"""
+
+import argparse
+import math
+import os
+import sys
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pandas
+import yaml
+
+from kapitza.chances import Z
+from kapitza.units import HERTZ, TURN, angle, quantity
+
+GRAVITY = 9.80665        # m/s^2
+STEPS = 24               # of the integrator in the shortest of the times of the motion
+SHARPNESS = 2e-3         # share of the largest speed in which dry friction changes its sign
+MOST_STEPS = 2_000_000   # of the integrator in a track
+ITERATIONS = 60
+CERTAIN = 10.83          # of the F statistic of one more number: less happens to 1 in 1000 tracks by chance
+ALIKE = 0.5              # correlation of neighbouring residuals, from which on the model does not describe the track
+
+# Model -> the kinds of damping that it has.
+MODELS = {"viscous": ("viscous",), "viscous + quadratic": ("viscous", "quadratic"),
+          "viscous + quadratic + dry": ("viscous", "quadratic", "dry")}
+UNITS = {"omega0": "rad/s", "offset": "rad", "theta": "rad", "velocity": "rad/s", "viscous": "1/s", "quadratic": "1/rad", "dry": "rad/s²",
+         "drive": "", "phase": "rad"}
+
+
+@dataclass(frozen=True)
+class Model:
+    """One least-squares fit: `values` and 95 % errors (`errors`) by name, the root mean square of what it leaves (`residual`, rad), the
+    correlation of neighbouring residuals, and what it leaves at each time."""
+
+    name: str
+    values: dict[str, float]
+    errors: dict[str, float]
+    residual: float
+    correlation: float
+    left: np.ndarray
+
+
+class Fit:
+    """What a track says of its pendulum. `models` are the fits with more and more kinds of damping; `best` is the simplest of them that no
+    larger one improves beyond chance.
+
+    :param time: times in s, ascending
+    :param theta: angles in rad from any zero near the rest position
+    :param omega: angular frequency of the drive in rad/s; None = a free decay
+    """
+
+    def __init__(self, time: Any, theta: Any, omega: float | None = None) -> None:
+        self.time, self.theta = (np.asarray(values, dtype=float).ravel() for values in (time, theta))
+        self.omega = omega
+        self._check()
+        self.models = {}
+        first = _guess(self.time, self.theta, omega)
+        for name, kinds in MODELS.items():
+            begin = dict.fromkeys(kinds, 0.0) | first
+            self.models[name] = fitted(name, self.time, self.theta, begin, omega)
+            first |= {key: value for key, value in self.models[name].values.items() if key in first}
+
+    def _check(self) -> None:
+        if self.time.size != self.theta.size:
+            raise ValueError(f"{self.time.size} times and {self.theta.size} angles; give one angle for each time")
+        if self.time.size < 20:
+            raise ValueError(f"the track has {self.time.size} samples; at least 20 are needed")
+        if not (np.isfinite(self.time).all() and np.isfinite(self.theta).all()):
+            raise ValueError("the track has values that are not finite numbers")
+        if not (np.diff(self.time) > 0).all():
+            raise ValueError("the times of the track do not ascend")
+        if np.ptp(self.theta) < 1e-6:
+            raise ValueError("the track does not move")
+
+    @cached_property
+    def best(self) -> Model:
+        models = list(self.models.values())
+        for place, model in enumerate(models):
+            if not any(_improves(model, larger, self.time.size) for larger in models[place + 1:]):
+                return model
+        return models[-1]
+
+    def quality_factor(self, amplitude: Any = "10 deg") -> float:
+        """Q of the viscous damping that loses as much energy in a swing of this amplitude (rad, or a text such as "10 deg")."""
+        values, swing = self.best.values, angle(amplitude)
+        if not 0 < swing < math.pi:
+            raise ValueError(f"the amplitude {amplitude!r} must be above 0 and below 180 deg")
+        omega0 = values["omega0"]
+        rate = (values["viscous"] + 8 / (3 * math.pi) * values.get("quadratic", 0.0) * omega0 * swing
+                + 4 / math.pi * values.get("dry", 0.0) / (omega0 * swing))
+        return omega0 / rate if rate > 0 else math.inf
+
+    @property
+    def length(self) -> float:
+        """Length in m of the simple pendulum that swings as fast."""
+        return float(GRAVITY / self.best.values["omega0"] ** 2)
+
+    def scene(self, frequency: Any = None, amplitude: Any = None, swing: Any = "10 deg") -> dict[str, Any]:
+        """A scene of this pendulum on a shaker.
+
+        :param frequency: of the pivot, such as "50 Hz"; None = that of the track's drive
+        :param amplitude: of the pivot, such as "8 mm"; None = that of the track's drive
+        :param swing: amplitude of the swings whose equivalent quality factor is taken
+        """
+        if frequency is None and self.omega is None or amplitude is None and "drive" not in self.best.values:
+            raise ValueError("a free decay knows no shaker: give frequency and amplitude, such as frequency='50 Hz', amplitude='8 mm'")
+        pendulum = {"length": f"{self.length:.9g} m", "quality_factor": self.quality_factor(swing),
+                    "frequency": frequency if frequency is not None else f"{self.omega / TURN:.12g} Hz",
+                    "amplitude": amplitude if amplitude is not None else f"{abs(self.best.values['drive']) * self.length:.9g} m"}
+        return {"title": "A pendulum fitted to a track", "pendulum": pendulum,
+                "basin": {"theta": {"count": 300}, "velocity": {"min": -0.05, "max": 0.05, "count": 200}}}
+
+    def __repr__(self) -> str:
+        lines = [f"{name:27s} leaves {1e3 * model.residual:.3g} mrad, neighbours correlated {model.correlation:.2f}"
+                 for name, model in self.models.items()]
+        best, viscous = self.best, self.models["viscous"]
+        if best is not viscous:
+            part = best.residual / viscous.residual
+            lines.append(f"Viscous damping alone does not describe this track: {best.name} leaves {part:.2g} of what it leaves.")
+        if best.correlation > ALIKE:
+            lines.append(f"What {best.name} leaves is no noise: neighbouring residuals are alike, so that the errors below are too small.")
+        lines += [f"  {name:10s} {value:12.6g} ± {best.errors[name]:.2g} {UNITS[name]}" for name, value in best.values.items()]
+        lines.append(f"natural frequency {best.values['omega0'] / TURN:.6g} Hz, length of a simple pendulum {self.length:.5g} m")
+        lines.append("equivalent Q " + ", ".join(f"{self.quality_factor(f'{swing} deg'):.4g} at {swing} deg" for swing in (2, 10, 40)))
+        return "\n".join(lines)
+
+
+def _improves(model: Model, larger: Model, samples: int) -> bool:
+    """Whether a larger model leaves so much less that chance does not do it."""
+    more = len(larger.values) - len(model.values)
+    before, after = model.residual**2 * samples, larger.residual**2 * samples
+    return (before - after) / more > CERTAIN * after / (samples - len(larger.values))
+
+
+def _guess(time: np.ndarray, theta: np.ndarray, omega: float | None) -> dict[str, float]:
+    """Numbers to begin with: from the crossings of the mean, and from how the swing shrinks between the halves of the track."""
+    offset = float(np.median(theta))
+    swing = theta - offset
+    if omega is not None:  # the slow motion
+        width = max(1, round(TURN / omega / float(np.median(np.diff(time)))))
+        swing = np.convolve(np.pad(swing, width, mode="edge"), np.ones(width) / width, "same")[width:-width]
+    step = swing[1:] - swing[:-1]
+    up = np.flatnonzero((swing[:-1] < 0) & (swing[1:] >= 0))
+    if up.size < 2:
+        raise ValueError("the track has fewer than two whole swings; record a longer one")
+    crossings = time[up] - swing[up] * (time[up + 1] - time[up]) / step[up]
+    size = [float(np.abs(half).max()) for half in np.array_split(np.abs(swing), 2)]
+    span = (time[-1] - time[0]) / 2
+    first = np.polynomial.Polynomial.fit(time[:5] - time[0], theta[:5], 1).convert().coef
+    omega0 = TURN * (up.size - 1) / float(crossings[-1] - crossings[0]) * (1 + size[0] ** 2 / 16 * (size[0] < 2))
+    guess = {"omega0": omega0, "offset": offset, "theta": float(first[0]), "velocity": float(first[1] if len(first) > 1 else 0),
+             "viscous": max(2 * math.log(max(size[0] / max(size[1], 1e-9), 1.0001)) / span, 1e-4)}
+    return guess | ({"drive": 0.0, "phase": 0.0} if omega is not None else {})
+
+
+def simulated(time: np.ndarray, values: dict[str, np.ndarray], omega: float | None) -> np.ndarray:
+    """Angles (columns, times) of the equation for numbers [columns] by name; Runge-Kutta of order 4 with steps that end at the times."""
+    columns = len(values["omega0"])
+    get = {name: values.get(name, np.zeros(columns)) for name in UNITS}
+    fastest = max(float(np.max(np.abs(get["omega0"]))), omega or 0.0)
+    steps = np.maximum(1, np.ceil(np.diff(time) * fastest * STEPS / TURN)).astype(int)
+    if steps.sum() > MOST_STEPS:
+        raise ValueError(f"the track takes {steps.sum()} steps to follow; give a shorter part of it (at most {MOST_STEPS} steps)")
+    scale = SHARPNESS * max(float(np.max(np.abs(get["omega0"]))), 1e-12)
+    square, viscous, quadratic, dry = get["omega0"] ** 2, get["viscous"], get["quadratic"], get["dry"]
+    drive, phase, dried = get["drive"] * (omega or 0.0) ** 2, get["phase"], bool(np.any(dry))
+
+    def force(t: float, theta: np.ndarray, speed: np.ndarray) -> np.ndarray:
+        gravity = square - drive * np.cos(omega * t + phase) if omega else square
+        drag = (viscous + quadratic * np.abs(speed)) * speed
+        return -gravity * np.sin(theta) - (drag + dry * np.tanh(speed / scale) if dried else drag)
+
+    theta, speed = get["theta"] - get["offset"], get["velocity"].copy()
+    out = np.empty((time.size, columns))
+    out[0] = theta
+    for place, (start, end, count) in enumerate(zip(time[:-1] - time[0], time[1:] - time[0], steps, strict=True)):
+        h = (end - start) / count
+        for step in range(count):
+            t = start + step * h
+            a1 = force(t, theta, speed)
+            v2 = speed + h / 2 * a1
+            a2 = force(t + h / 2, theta + h / 2 * speed, v2)
+            v3 = speed + h / 2 * a2
+            a3 = force(t + h / 2, theta + h / 2 * v2, v3)
+            v4 = speed + h * a3
+            a4 = force(t + h, theta + h * v3, v4)
+            theta, speed = theta + h / 6 * (speed + 2 * v2 + 2 * v3 + v4), speed + h / 6 * (a1 + 2 * a2 + 2 * a3 + a4)
+        out[place + 1] = theta
+    return (out + get["offset"]).T
+
+
+def _residuals(time: np.ndarray, measured: np.ndarray, names: list[str], points: np.ndarray, omega: float | None) -> np.ndarray:
+    """What each of points [columns][numbers] leaves of the measured angles; numbers that lead nowhere leave much."""
+    with np.errstate(all="ignore"):
+        found = simulated(time, dict(zip(names, points.T, strict=True)), omega)
+    return np.nan_to_num(found - measured, nan=1e6, posinf=1e6, neginf=-1e6)
+
+
+def fitted(name: str, time: np.ndarray, measured: np.ndarray, first: dict[str, float], omega: float | None) -> Model:
+    """Levenberg and Marquardt's method, with a Jacobian of differences."""
+    names, best = list(first), np.array(list(first.values()))
+    sizes = {"omega0": abs(first["omega0"]), "velocity": abs(first["omega0"]) * 0.1, "viscous": abs(first["omega0"]) * 1e-2,
+             "dry": abs(first["omega0"]) ** 2 * 1e-3, "quadratic": 1e-2, "drive": 1e-2}
+    step = 1e-6 * np.array([sizes.get(key, 0.1) for key in names])
+    damping, jacobian = 1e-3, np.empty(0)
+    left = _residuals(time, measured, names, best[None], omega)[0]
+    for _ in range(ITERATIONS):
+        rows = _residuals(time, measured, names, best + np.diag(step), omega)
+        jacobian = (rows - left).T / step
+        normal, downhill = jacobian.T @ jacobian, jacobian.T @ left
+        scale = np.maximum(np.diag(normal), 1e-300)
+        trials = damping * 10.0 ** np.arange(-2, 4)
+        points = np.array([best - np.linalg.lstsq(normal + np.diag(trial * scale), downhill, rcond=None)[0] for trial in trials])
+        found = _residuals(time, measured, names, points, omega)
+        costs = np.sum(found**2, axis=1)
+        choice, before = int(np.argmin(costs)), float(left @ left)
+        if not costs[choice] < before:
+            break
+        gain = 1 - costs[choice] / before
+        best, left, damping = points[choice], found[choice], max(float(trials[choice]), 1e-12)
+        if gain < 1e-10:
+            break
+    spare = max(time.size - len(names), 1)
+    covariance = np.linalg.pinv(jacobian.T @ jacobian) * (left @ left) / spare
+    errors = dict(zip(names, Z * np.sqrt(np.maximum(np.diag(covariance), 0)), strict=True))
+    correlation = float(left[1:] @ left[:-1] / max(float(left @ left), 1e-300))
+    values = dict(zip(names, map(float, best), strict=True))
+    return Model(name, values, {key: float(error) for key, error in errors.items()}, float(np.sqrt(np.mean(left**2))), correlation, left)
+
+
+def fit(time: Any, theta: Any, *, degrees: bool = False, frequency: Any = None) -> Fit:
+    """Fits a pendulum to a recorded track: a free decay, or, with the frequency of its drive, a driven one.
+
+    Three models are fitted, with viscous damping, with quadratic drag too, and with dry friction too; `print` of the answer says what each
+    leaves, which is the simplest that describes the track, its numbers with 95 % errors, and the equivalent quality factor at three
+    amplitudes.
+
+    :param time: times in s, ascending
+    :param theta: angles in rad from any zero near the rest position
+    :param degrees: whether the angles are in degrees
+    :param frequency: of the pivot's drive: Hz, or a text such as "50 Hz"; None = a free decay
+    :raises ValueError: if the track cannot be used
+    """
+    angles = np.radians(np.asarray(theta, dtype=float)) if degrees else theta
+    return Fit(time, angles, None if frequency is None else TURN * quantity(frequency, HERTZ))
+
+
+TIMES, ANGLES = ("time", "t", "time_s"), ("theta", "angle", "theta_rad", "angle_rad", "theta_deg", "angle_deg")
+
+
+def read_track(path: str | os.PathLike[str]) -> tuple[np.ndarray, np.ndarray, bool]:
+    """Times, angles and whether these are in degrees: of a CSV file whose first line names its columns (time, and theta or theta_deg), or
+    of two columns of numbers without names."""
+    table = pandas.read_csv(path, comment="#", skipinitialspace=True)
+    names = {str(name).strip().lower(): name for name in table.columns}
+    time, theta = (next((name for name in known if name in names), None) for known in (TIMES, ANGLES))
+    if time is None and theta is None and len(names) >= 2 and all(_is_number(name) for name in list(names)[:2]):
+        table = pandas.read_csv(path, comment="#", skipinitialspace=True, header=None)
+        names, time, theta = {"time": table.columns[0], "theta": table.columns[1]}, "time", "theta"
+    if time is None or theta is None:
+        raise ValueError(f"has the columns {', '.join(map(str, names))}; it needs time (s) and theta (rad) or theta_deg")
+    columns = [pandas.to_numeric(table[names[name]], errors="coerce").to_numpy(dtype=float) for name in (time, theta)]
+    if wrong := np.flatnonzero(~np.isfinite(columns[0] * columns[1])).tolist():
+        raise ValueError(f"row {wrong[0] + 1} holds no two finite numbers")
+    return columns[0], columns[1], theta.endswith("_deg")
+
+
+def _is_number(text: str) -> bool:
+    try:
+        return math.isfinite(float(text))
+    except ValueError:
+        return False
+
+
+def main(words: Sequence[str] | None = None) -> None:
+    """The command `kapitza fit`."""
+    parser = argparse.ArgumentParser(prog="kapitza fit", description="natural frequency and damping of a pendulum from a recorded track")
+    parser.add_argument("track", type=Path, help="CSV file with the columns time (s) and theta (rad) or theta_deg")
+    parser.add_argument("--frequency", help="of the drive of a driven track: Hz, or with a unit such as 3000 rpm")
+    parser.add_argument("--degrees", action="store_true", help="angles are in degrees")
+    arguments = parser.parse_args(words)
+    try:
+        time, theta, degrees = read_track(arguments.track)
+        found = fit(time, theta, degrees=degrees or arguments.degrees, frequency=arguments.frequency)
+    except (OSError, UnicodeDecodeError, ValueError, pandas.errors.ParserError) as error:
+        reason = error.strerror if isinstance(error, OSError) and error.strerror else str(error)
+        print(f"kapitza: error: {arguments.track}: {reason}", file=sys.stderr)
+        sys.exit(2)
+    print(found)
+    known = {"length": f"{found.length:.6g} m", "quality_factor": round(found.quality_factor(), 4)}
+    pendulum = found.scene()["pendulum"] if found.omega else known
+    print("pendulum: " + yaml.safe_dump(pendulum, default_flow_style=True, sort_keys=False, width=200).strip()
+          + ("" if found.omega else "   # and frequency and amplitude of the shaker"))
+
+
+if __name__ == "__main__":
+    main()
