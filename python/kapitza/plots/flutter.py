@@ -31,7 +31,7 @@ def draw_square(axes: Axes, sweep: xarray.Dataset, *, colours: str = FLUTTER, le
     distance = sweep["value"].values[there] - fit["critical_value"]
     axes.plot(distance, amplitude[there] ** 2, color=colours, lw=1.6, label="amplitude²")
     near = amplitude[there][np.argmin(np.abs(distance))] ** 2 / np.abs(distance).min() if there.any() else np.nan
-    axes.plot(distance, near * distance, color=style.FAINT, lw=0.8, ls="--", 
+    axes.plot(distance, near * distance, color=style.FAINT, lw=0.8, ls="--",
               label=f"tangent, {np.sqrt(near) / rad:.3f}² rad² per unit")
     unit = "rad²" if rad == 1 else "degrees²"
     axes.set(xlabel=f"{parameter_text(sweep)} − critical value", ylabel=f"amplitude² / {unit}", ylim=(0, None))
