@@ -96,7 +96,6 @@ kz_status kz_app_fit(const kz_options *options) {
   const char *words[5];
   int n = 0;
   if (!options->speaks) return KZ_OK;
-  KZ_TRY(kz_scene_check_file(options->scene));
   KZ_TRY(find_program(&p));
   if (options->degrees) words[n++] = "--degrees";
   if (options->frequency) words[n++] = "--frequency", words[n++] = options->frequency;
