@@ -10,7 +10,7 @@
 enum { SOON = 24 };
 
 /* The smooth settling times of n cells that were left at these states after these times. */
-static void smooth(const kz_resident *r, int64_t n, const int32_t *label, const double *state, double *time,
+static void smooth(const kz_prepared *r, int64_t n, const int32_t *label, const double *state, double *time,
                    const int64_t *number, kz_frame_cell *cells) {
   kz_dynamics_smooth_times(r->dynamics, n, label, state, time);
   for (int64_t i = 0; i < n; i++) cells[number[i]].smooth = (float)time[i];
@@ -23,7 +23,7 @@ static void add_late(kz_travellers *late, int64_t number, int64_t spent, const d
 }
 
 /* As method direct labels them, for so many periods. What then goes on joins `late`, or has not settled if that is NULL. */
-static void follow(kz_resident *r, int64_t most, kz_travellers *from, kz_travellers *late, kz_frame_cell *cells) {
+static void follow(kz_prepared *r, int64_t most, kz_travellers *from, kz_travellers *late, kz_frame_cell *cells) {
   int32_t label[2 * KZ_FRAME_TILE];
   int64_t periods[2 * KZ_FRAME_TILE];
   double time[2 * KZ_FRAME_TILE], *state = from->state;
@@ -36,17 +36,18 @@ static void follow(kz_resident *r, int64_t most, kz_travellers *from, kz_travell
       continue;
     }
     cells[number].end = (kz_label){.label = (int16_t)label[i], .periods = (uint32_t)spent, .evidence = KZ_LEFT};
-    if (label[i] == 0 && r->n_strays < KZ_STRAYS) memcpy(r->stray + 2 * r->n_strays++, state + 2 * i, 2 * sizeof *state);
+    if (label[i] == 0 && r->n_unsettled < KZ_MOST_UNSETTLED)
+      memcpy(r->unsettled + 2 * r->n_unsettled++, state + 2 * i, 2 * sizeof *state);
   }
   if (r->smooth) smooth(r, from->n, label, state, time, from->number, cells);
 }
 
-void kz_cells_finish(kz_resident *resident, kz_travellers *late, kz_frame_cell *cells) {
-  if (late->n > 0) follow(resident, resident->periods - SOON, late, NULL, cells);
+void kz_cells_finish(kz_prepared *prepared, kz_travellers *late, kz_frame_cell *cells) {
+  if (late->n > 0) follow(prepared, prepared->periods - SOON, late, NULL, cells);
   late->n = 0;
 }
 
-static void follow_moving(kz_resident *r, kz_travellers *from, kz_travellers *late, kz_frame_cell *cells) {
+static void follow_moving(kz_prepared *r, kz_travellers *from, kz_travellers *late, kz_frame_cell *cells) {
   if (r->periods <= SOON) {
     follow(r, r->periods, from, NULL, cells);
     return;
@@ -79,7 +80,7 @@ static void note(void *context, int64_t i, const kz_decision *decision) {
 }
 
 /* As method exact labels them. */
-static kz_status decide(const kz_resident *r, const kz_window_starts *starts, int64_t n, const int64_t *number,
+static kz_status decide(const kz_prepared *r, const kz_window_starts *starts, int64_t n, const int64_t *number,
                         kz_frame_cell *cells) {
   KZ_FREED deciding *d = kz_malloc(sizeof *d);
   kz_label label[KZ_FRAME_TILE];
@@ -95,15 +96,15 @@ static kz_status decide(const kz_resident *r, const kz_window_starts *starts, in
   return KZ_OK;
 }
 
-kz_status kz_cells_follow(kz_resident *resident, const kz_window_starts *starts, int64_t n, const int64_t *number,
+kz_status kz_cells_follow(kz_prepared *prepared, const kz_window_starts *starts, int64_t n, const int64_t *number,
                           kz_travellers *late, kz_frame_cell *cells) {
-  if (!kz_resident_moves(resident)) return decide(resident, starts, n, number, cells);
+  if (!kz_prepared_moves(prepared)) return decide(prepared, starts, n, number, cells);
   KZ_FREED kz_travellers *from = kz_malloc(sizeof *from);
   from->n = n;
   memcpy(from->number, number, (size_t)n * sizeof *number);
   const kz_labeller labeller = kz_window_labeller(starts, false);
   KZ_TRY(kz_item_states(&labeller, n, number, from->state, from->spent));
-  follow_moving(resident, from, late, cells);
+  follow_moving(prepared, from, late, cells);
   return KZ_OK;
 }
 
@@ -131,7 +132,7 @@ static int64_t list_wanted(kz_samples *samples, int64_t n, const int64_t *number
   return wanted;
 }
 
-kz_status kz_samples_follow(kz_resident *resident, const kz_frame *frame, kz_samples *samples, int64_t n, const int64_t *number,
+kz_status kz_samples_follow(kz_prepared *prepared, const kz_frame *frame, kz_samples *samples, int64_t n, const int64_t *number,
                             kz_frame_cell *cells) {
   KZ_FREED kz_travellers *from = kz_malloc(2 * sizeof *from);
   kz_travellers *late = from + 1;
@@ -144,15 +145,15 @@ kz_status kz_samples_follow(kz_resident *resident, const kz_frame *frame, kz_sam
     memcpy(from->number, sample, (size_t)from->n * sizeof *sample);
     for (int64_t i = 0; i < from->n; i++)
       kz_window_curve_state(&samples->curve, sample[i], from->state + 2 * i, from->spent + i);
-    follow_moving(resident, from, late, samples->cell);
+    follow_moving(prepared, from, late, samples->cell);
   }
-  kz_cells_finish(resident, late, samples->cell);
+  kz_cells_finish(prepared, late, samples->cell);
   for (int64_t i = 0; i < n; i++) cells[number[i]] = samples->cell[kz_window_curve_sample(&samples->curve, number[i])];
   return KZ_OK;
 }
 
 /* The images that serve the window: those of the last frame, or new ones. */
-static kz_images *find_images(kz_resident *r, const kz_basin_plan *plan) {
+static kz_images *find_images(kz_prepared *r, const kz_basin_plan *plan) {
   const kz_pendulum *pendulum = &r->scene.parameters.pendulum;
   kz_view view;
   if (!r->images || !kz_images_serve(r->images, pendulum, &plan->theta, &plan->velocity, &view)) {
@@ -163,7 +164,7 @@ static kz_images *find_images(kz_resident *r, const kz_basin_plan *plan) {
 }
 
 /* Another frame may be made in a pause. */
-static kz_status follow_images(kz_resident *r, const kz_basin_plan *plan, const kz_frame *frame, kz_images *images) {
+static kz_status follow_images(kz_prepared *r, const kz_basin_plan *plan, const kz_frame *frame, kz_images *images) {
   enum { AT_A_TIME = 4 };
   while (!images->finished) {
     KZ_TRY(frame->pause(frame->context));
@@ -172,10 +173,10 @@ static kz_status follow_images(kz_resident *r, const kz_basin_plan *plan, const 
   return KZ_OK;
 }
 
-kz_status kz_cells_begin(kz_resident *resident, const kz_basin_plan *plan, const kz_frame *frame, kz_window_starts *starts) {
-  kz_images *images = kz_plan_is_centred(plan) ? find_images(resident, plan) : NULL;
-  const kz_status status = images ? follow_images(resident, plan, frame, images) : KZ_OK;
-  if (status == KZ_OK) kz_window_starts_make(plan, &resident->scene.parameters.pendulum, resident->dynamics, images, starts);
+kz_status kz_cells_begin(kz_prepared *prepared, const kz_basin_plan *plan, const kz_frame *frame, kz_window_starts *starts) {
+  kz_images *images = kz_plan_is_centred(plan) ? find_images(prepared, plan) : NULL;
+  const kz_status status = images ? follow_images(prepared, plan, frame, images) : KZ_OK;
+  if (status == KZ_OK) kz_window_starts_make(plan, &prepared->scene.parameters.pendulum, prepared->dynamics, images, starts);
   kz_images_free(images);
   return status;
 }

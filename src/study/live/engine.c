@@ -21,7 +21,7 @@ kz_engine *kz_engine_create(void) {
 
 void kz_engine_free(kz_engine *engine) {
   if (!engine) return;
-  for (int i = 0; i < KZ_RESIDENTS; i++) kz_resident_free(engine->resident + i);
+  for (int i = 0; i < KZ_MOST_PREPARED; i++) kz_prepared_free(engine->prepared + i);
   kz_kept_series_free(engine->series);
   pthread_rwlock_destroy(&engine->changing);
   free(engine);
@@ -37,88 +37,88 @@ static kz_scene searched(const kz_engine *engine, const kz_scene *scene) {
   return wide;
 }
 
-static kz_resident *find(kz_engine *engine, const kz_scene *scene, double tolerance) {
-  for (int i = 0; i < KZ_RESIDENTS; i++)
-    if (kz_resident_serves(engine->resident + i, scene, tolerance)) return engine->resident + i;
+static kz_prepared *find(kz_engine *engine, const kz_scene *scene, double tolerance) {
+  for (int i = 0; i < KZ_MOST_PREPARED; i++)
+    if (kz_prepared_serves(engine->prepared + i, scene, tolerance)) return engine->prepared + i;
   return NULL;
 }
 
-/* The moving resident of the nearest pendulum that can be carried to the scene's. */
-static kz_resident *nearest(kz_engine *engine, const kz_scene *scene) {
-  kz_resident *found = NULL;
+/* Of those for moving frames, the nearest pendulum that can be moved to the scene's. */
+static kz_prepared *nearest(kz_engine *engine, const kz_scene *scene) {
+  kz_prepared *found = NULL;
   double least = INFINITY;
-  for (int i = 0; i < KZ_RESIDENTS; i++) {
-    const double distance = kz_resident_distance(engine->resident + i, scene);
+  for (int i = 0; i < KZ_MOST_PREPARED; i++) {
+    const double distance = kz_prepared_distance(engine->prepared + i, scene);
     if (distance >= least) continue;
     least = distance;
-    found = engine->resident + i;
+    found = engine->prepared + i;
   }
   return found;
 }
 
 /* The place of the one that was used least lately, and of none that is busy. */
-static kz_resident *oldest(kz_engine *engine) {
-  kz_resident *place = NULL;
-  for (int i = 0; i < KZ_RESIDENTS; i++) {
-    kz_resident *r = engine->resident + i;
+static kz_prepared *oldest(kz_engine *engine) {
+  kz_prepared *place = NULL;
+  for (int i = 0; i < KZ_MOST_PREPARED; i++) {
+    kz_prepared *r = engine->prepared + i;
     if (!r->busy && (!place || r->used < place->used)) place = r;
   }
   return place;
 }
 
-void kz_engine_list(kz_engine *engine, kz_resident *resident) {
-  kz_resident_list(resident, ++engine->versions, engine->shown, &engine->tracks);
-  engine->shown = &resident->catalogue;
+void kz_engine_list(kz_engine *engine, kz_prepared *prepared) {
+  kz_prepared_list(prepared, ++engine->versions, engine->shown, &engine->tracks);
+  engine->shown = &prepared->catalogue;
 }
 
-static kz_status make(kz_engine *engine, const kz_scene *scene, double tolerance, kz_resident *place) {
+static kz_status make(kz_engine *engine, const kz_scene *scene, double tolerance, kz_prepared *place) {
   const kz_scene wide = searched(engine, scene);
-  kz_resident fresh;
-  const kz_status status = kz_resident_make(&wide, tolerance, &fresh);
-  if (status == KZ_OK) kz_resident_list(&fresh, ++engine->versions, engine->shown, &engine->tracks);
+  kz_prepared fresh;
+  const kz_status status = kz_prepared_make(&wide, tolerance, &fresh);
+  if (status == KZ_OK) kz_prepared_list(&fresh, ++engine->versions, engine->shown, &engine->tracks);
   if (engine->shown == &place->catalogue) engine->shown = NULL;
-  kz_resident_free(place);
+  kz_prepared_free(place);
   if (status == KZ_OK)
     *place = fresh;
   else
-    kz_resident_free(&fresh);
+    kz_prepared_free(&fresh);
   return status;
 }
 
-kz_status kz_engine_resident(kz_engine *engine, const kz_scene *scene, bool moving, kz_resident **resident) {
+kz_status kz_engine_prepared(kz_engine *engine, const kz_scene *scene, bool moving, kz_prepared **prepared) {
   KZ_TRY(kz_drive_check_window(scene));
-  kz_resident *near = NULL;
+  kz_prepared *near = NULL;
   const double tolerance = moving ? kz_moving_tolerance(scene) : 0;
-  *resident = find(engine, scene, tolerance);
-  if (!*resident && moving && (near = nearest(engine, scene))) {
-    kz_resident_move(near, scene);
+  *prepared = find(engine, scene, tolerance);
+  if (!*prepared && moving && (near = nearest(engine, scene))) {
+    kz_prepared_move(near, scene);
     kz_engine_list(engine, near);
-    *resident = near;
-  } else if (!*resident) {
-    *resident = oldest(engine);
-    KZ_TRY(make(engine, scene, tolerance, *resident));
+    *prepared = near;
+  } else if (!*prepared) {
+    *prepared = oldest(engine);
+    KZ_TRY(make(engine, scene, tolerance, *prepared));
   }
-  (*resident)->used = ++engine->calls;
-  engine->shown = &(*resident)->catalogue;
+  (*prepared)->used = ++engine->calls;
+  engine->shown = &(*prepared)->catalogue;
   return KZ_OK;
 }
 
 void kz_engine_rest(kz_engine *engine) {
-  for (int i = 0; i < KZ_RESIDENTS; i++) {
-    kz_resident *r = engine->resident + i;
-    if (r->n_strays > 0 && kz_resident_discover(r)) kz_engine_list(engine, r);
+  for (int i = 0; i < KZ_MOST_PREPARED; i++) {
+    kz_prepared *r = engine->prepared + i;
+    if (r->n_unsettled > 0 && kz_prepared_discover(r)) kz_engine_list(engine, r);
   }
 }
 
 kz_status kz_engine_catalogue(kz_engine *engine, const kz_scene *scene, const kz_live_catalogue **catalogue) {
-  kz_resident *resident;
-  KZ_TRY(kz_engine_resident(engine, scene, false, &resident));
-  *catalogue = &resident->catalogue;
+  kz_prepared *prepared;
+  KZ_TRY(kz_engine_prepared(engine, scene, false, &prepared));
+  *catalogue = &prepared->catalogue;
   return KZ_OK;
 }
 
-/* Labels the starts, which may find attractors. A frame of the resident may be half done: its threads wait. */
-static kz_status label(kz_engine *engine, kz_resident *r, kz_question *q) {
+/* Labels the starts, which may find attractors. A frame of this pendulum may be half done: its threads wait. */
+static kz_status label(kz_engine *engine, kz_prepared *r, kz_question *q) {
   const int64_t known = kz_dynamics_count(r->dynamics);
   pthread_rwlock_wrlock(&engine->changing);
   const kz_status status = kz_question_label(q);
@@ -129,9 +129,9 @@ static kz_status label(kz_engine *engine, kz_resident *r, kz_question *q) {
 
 kz_status kz_engine_where(kz_engine *engine, const kz_scene *scene, int64_t n, const kz_coordinate (*start)[2],
                           kz_ending *endings) {
-  kz_resident *r;
+  kz_prepared *r;
   kz_endings_clear(n, endings);
-  KZ_TRY(kz_engine_resident(engine, scene, false, &r));
+  KZ_TRY(kz_engine_prepared(engine, scene, false, &r));
   if (!r->dynamics || n == 0) return KZ_OK;
   KZ_FREED_BY(kz_question_free)
   kz_question q = {.scene = &r->scene, .dynamics = r->dynamics, .max_periods = r->search.max_periods, .n = n, .start = start};

@@ -9,7 +9,7 @@ enum { MOST_STARTS = 64 /* of the search among cells that do not settle */ };
 
 typedef struct {
   kz_engine *engine;
-  kz_resident *resident;
+  kz_prepared *prepared;
   const kz_scene *scene;
   const kz_frame *frame;
   kz_window_starts starts;
@@ -37,8 +37,8 @@ static void allocate(making *m) {
 }
 
 static kz_status follow(making *m, int64_t n) {
-  if (m->samples.curve.count > 0) return kz_samples_follow(m->resident, m->frame, &m->samples, n, m->pending, m->cell);
-  const kz_frame_task task = {m->resident, &m->starts, m->frame, &m->engine->changing, n, m->pending, m->cell};
+  if (m->samples.curve.count > 0) return kz_samples_follow(m->prepared, m->frame, &m->samples, n, m->pending, m->cell);
+  const kz_frame_task task = {m->prepared, &m->starts, m->frame, &m->engine->changing, n, m->pending, m->cell};
   return kz_frame_follow(&task);
 }
 
@@ -61,7 +61,7 @@ static kz_status pick(void *context, int64_t all, int64_t n, int64_t *cell) {
 static kz_status follow_again(void *context, int round) {
   making *m = context;
   (void)round;
-  kz_engine_list(m->engine, m->resident);
+  kz_engine_list(m->engine, m->prepared);
   return follow(m, m->n_pending);
 }
 
@@ -69,17 +69,17 @@ static kz_status follow_again(void *context, int round) {
 static kz_status label(making *m, int64_t n) {
   const kz_unsettled unsettled = {count_unsettled, pick, follow_again, m};
   const kz_search_on search = {1, MOST_STARTS, NULL};
-  if (!m->resident->dynamics) return KZ_OK;
+  if (!m->prepared->dynamics) return KZ_OK;
   m->n_pending = n;
   KZ_TRY(follow(m, n));
-  if (m->searched || kz_resident_moves(m->resident)) return KZ_OK;
+  if (m->searched || kz_prepared_moves(m->prepared)) return KZ_OK;
   const kz_labeller labeller = kz_window_labeller(&m->starts, false);
   return kz_search_rounds(&labeller, &search, &unsettled);
 }
 
 /* The id of an attractor, or of its mirror image. */
 static uint8_t id_of(const making *m, int32_t number, bool mirrored) {
-  const kz_catalogue *list = &m->resident->catalogue.list;
+  const kz_catalogue *list = &m->prepared->catalogue.list;
   const int32_t id = number > 0 ? list->id_of[number] : KZ_NO_LABEL;
   return (uint8_t)(mirrored && id != KZ_NO_LABEL ? list->entries[id].mirror : id);
 }
@@ -106,7 +106,7 @@ static kz_status show(making *m, int64_t level) {
   kz_live_level shown = {.level = level,
                          .rows = kz_level_size(level, rows),
                          .columns = kz_level_size(level, columns),
-                         .catalogue = &m->resident->catalogue};
+                         .catalogue = &m->prepared->catalogue};
   void *plane[KZ_PLANES] = {NULL};
   size_t end = 0;
   static const int order[KZ_PLANES] = {/* floats first: aligned */ KZ_PLANE_SETTLING_TIME, KZ_PLANE_SMOOTH_TIME,
@@ -126,17 +126,17 @@ static kz_status show(making *m, int64_t level) {
 
 static kz_status make(making *m) {
   allocate(m);
-  if (m->resident->dynamics) KZ_TRY(kz_cells_begin(m->resident, &m->scene->basin, m->frame, &m->starts));
-  if (kz_resident_moves(m->resident) && m->resident->dynamics) kz_samples_make(&m->starts, &m->samples);
+  if (m->prepared->dynamics) KZ_TRY(kz_cells_begin(m->prepared, &m->scene->basin, m->frame, &m->starts));
+  if (kz_prepared_moves(m->prepared) && m->prepared->dynamics) kz_samples_make(&m->starts, &m->samples);
   for (int64_t i = 0; i < m->frame->levels->count; i++) {
     const int64_t level = m->frame->levels->values[i];
     KZ_TRY(label(m, kz_level_pending(level, m->scene->basin.velocity.count, m->scene->basin.theta.count, m->own, m->listed,
                                      m->pending)));
-    if (m->resident->catalogue.list.count >= KZ_NO_LABEL)
+    if (m->prepared->catalogue.list.count >= KZ_NO_LABEL)
       return kz_fail(
           KZ_REFUSED,
           "basin.attractors.max_period: the pendulum has %lld attractors, but a frame holds at most %d; use a smaller period",
-          (long long)m->resident->catalogue.list.count, KZ_NO_LABEL - 1);
+          (long long)m->prepared->catalogue.list.count, KZ_NO_LABEL - 1);
     KZ_TRY(show(m, level));
   }
   return KZ_OK;
@@ -149,12 +149,12 @@ kz_status kz_engine_frame(kz_engine *engine, const kz_scene *scene, const kz_fra
               .begin = kz_process_clock(),
               .total = scene->basin.theta.count * scene->basin.velocity.count,
               .own = kz_unique_cells(&scene->basin)};
-  KZ_TRY(kz_engine_resident(engine, scene, frame->moving, &m.resident));
-  const bool was_busy = m.resident->busy;
-  m.resident->busy = true;
-  m.resident->smooth = frame->plane[KZ_PLANE_SMOOTH_TIME];
+  KZ_TRY(kz_engine_prepared(engine, scene, frame->moving, &m.prepared));
+  const bool was_busy = m.prepared->busy;
+  m.prepared->busy = true;
+  m.prepared->smooth = frame->plane[KZ_PLANE_SMOOTH_TIME];
   const kz_status status = make(&m);
-  m.resident->busy = was_busy;
+  m.prepared->busy = was_busy;
   kz_samples_free(&m.samples);
   kz_window_starts_free(&m.starts);
   free(m.cell);

@@ -1,4 +1,4 @@
-/* Frames on request: levels, residents, the engine, cells, threads. */
+/* Frames on request: levels, prepared pendulums, the engine, cells, threads. */
 #ifndef KAPITZA_STUDY_LIVE_FOLDER_H
 #define KAPITZA_STUDY_LIVE_FOLDER_H
 
@@ -27,10 +27,10 @@ static inline int64_t kz_level_place(int64_t level, int64_t i, int64_t count) {
  * mirror image of an own one, which is listed in its place, once. listed [own]: cells that are listed, or were. Returns how many. */
 int64_t kz_level_pending(int64_t level, int64_t rows, int64_t columns, int64_t own, bool *listed, int64_t *number);
 
-/* ---- a resident: a pendulum that the engine keeps, with its map, attractors, trapping regions and catalogue ---- */
+/* ---- a prepared pendulum, which the engine keeps, with its map, attractors, trapping regions and catalogue ---- */
 
-/* Largest number of strays: states of unsettled cells of moving frames, near which new attractors may exist. */
-enum { KZ_STRAYS = 16 };
+/* Largest number of states of unsettled cells of moving frames, near which new attractors may exist. */
+enum { KZ_MOST_UNSETTLED = 16 };
 
 typedef struct {
   kz_scene scene;   /* pendulum, numerics, and the basin whose window was searched; no title */
@@ -45,60 +45,61 @@ typedef struct {
   kz_pendulum chosen; /* the pendulum for which the numerics were chosen, */
   kz_pendulum grown;  /* and that for which the trapping regions were made */
   int age;            /* number of pendulums since the trapping regions were grown */
-  int n_strays;
-  double stray[2 * KZ_STRAYS]; /* [n_strays][2] half-turns and velocity */
+  int n_unsettled;
+  double unsettled[2 * KZ_MOST_UNSETTLED]; /* [n_unsettled][2] half-turns and velocity */
   kz_live_catalogue catalogue;
-} kz_resident;
+} kz_prepared;
 
-static inline bool kz_resident_moves(const kz_resident *resident) {
-  return resident->tolerance > 0;
+static inline bool kz_prepared_moves(const kz_prepared *prepared) {
+  return prepared->tolerance > 0;
 }
 
 /* The tolerance of moving frames of the scene's window, rad: much smaller than a cell. */
 double kz_moving_tolerance(const kz_scene *scene);
 
-/* Makes a resident: attractors of the scene's window, trapping regions, catalogue without tracks. The caller frees it in every case. */
-kz_status kz_resident_make(const kz_scene *scene, double tolerance, kz_resident *resident);
-void kz_resident_free(kz_resident *resident);
+/* Prepares a pendulum: attractors of the scene's window, trapping regions, catalogue without tracks. The caller frees it in every case. */
+kz_status kz_prepared_make(const kz_scene *scene, double tolerance, kz_prepared *prepared);
+void kz_prepared_free(kz_prepared *prepared);
 
-/* The relative distance of the scene's pendulum from that of the resident; INFINITY = too far to move the resident there. */
-double kz_resident_distance(const kz_resident *resident, const kz_scene *scene);
-/* Moves the resident to the scene's pendulum: its attractors are continued; trapping regions are grown anew after some pendulums only. */
-void kz_resident_move(kz_resident *resident, const kz_scene *scene);
+/* The relative distance of the scene's pendulum from the prepared one; INFINITY = too far to move it there. */
+double kz_prepared_distance(const kz_prepared *prepared, const kz_scene *scene);
+/* Moves it to the scene's pendulum: its attractors are continued; trapping regions are grown anew after some pendulums only. */
+void kz_prepared_move(kz_prepared *prepared, const kz_scene *scene);
 
-/* Looks for attractors near its strays, and forgets the strays. Returns true if it has found some. */
-bool kz_resident_discover(kz_resident *resident);
+/* Looks for attractors near its unsettled states, and drops these. Returns true if it has found some. */
+bool kz_prepared_discover(kz_prepared *prepared);
 
-/* True if the resident can be used for a frame of the scene with this tolerance. */
-bool kz_resident_serves(const kz_resident *resident, const kz_scene *scene, double tolerance);
+/* True if it can be used for a frame of the scene with this tolerance. */
+bool kz_prepared_serves(const kz_prepared *prepared, const kz_scene *scene, double tolerance);
 
 /* The catalogue once more, after attractors have joined; `version` is the new one's. Tracks come from `before` (NULL: none) where an attractor is the same
  * or has moved, else from *tracks, which counts them. */
-void kz_resident_list(kz_resident *resident, int64_t version, const kz_live_catalogue *before, int64_t *tracks);
+void kz_prepared_list(kz_prepared *prepared, int64_t version, const kz_live_catalogue *before, int64_t *tracks);
 
-/* ---- the engine: residents of the last pendulums ---- */
+/* ---- the engine: the last pendulums that were prepared ---- */
 
-enum { KZ_RESIDENTS = 6 };
+enum { KZ_MOST_PREPARED = 6 };
 struct kz_engine {
-  pthread_rwlock_t changing; /* held by who changes the attractors of a resident: threads that follow cells of a frame wait */
-  kz_resident resident[KZ_RESIDENTS];
-  kz_kept_series *series;          /* of them all: a slider goes on where it was, whatever resident it moves */
+  pthread_rwlock_t
+      changing; /* held by who changes the attractors of a prepared pendulum: threads that follow cells of a frame wait */
+  kz_prepared prepared[KZ_MOST_PREPARED];
+  kz_kept_series *series;          /* of them all: a slider goes on where it was, whatever prepared pendulum it moves */
   int64_t calls, versions, tracks; /* counters */
   const kz_live_catalogue *shown;  /* the last catalogue: tracks go on from it */
 };
 
-/* *resident = the resident for a scene; the engine makes it if necessary and owns it. */
-kz_status kz_engine_resident(kz_engine *engine, const kz_scene *scene, bool moving, kz_resident **resident);
+/* *prepared = that for a scene; the engine makes it if necessary and owns it. */
+kz_status kz_engine_prepared(kz_engine *engine, const kz_scene *scene, bool moving, kz_prepared **prepared);
 
-/* Makes the catalogue of a resident anew after new attractors were found. */
-void kz_engine_list(kz_engine *engine, kz_resident *resident);
+/* Makes the catalogue of a prepared pendulum anew after new attractors were found. */
+void kz_engine_list(kz_engine *engine, kz_prepared *prepared);
 
 /* ---- cells of one frame, followed where they are pending ---- */
 
 /* A cell of a frame. Its evidence is 0 until it is followed, and KZ_LEFT in a moving frame, which does not know errors. */
 typedef struct {
   kz_label end;
-  float smooth; /* smooth settling time, where the resident is asked for it */
+  float smooth; /* smooth settling time, if the frame shows it */
 } kz_frame_cell;
 
 /* Largest number of cells that are followed together. */
@@ -112,13 +113,13 @@ typedef struct {
 
 /* Makes the starts of a frame's cells, at any depth; it reuses the images of the last frame if possible. The caller frees them if the status
  * is KZ_OK. */
-kz_status kz_cells_begin(kz_resident *resident, const kz_basin_plan *plan, const kz_frame *frame, kz_window_starts *starts);
+kz_status kz_cells_begin(kz_prepared *prepared, const kz_basin_plan *plan, const kz_frame *frame, kz_window_starts *starts);
 
 /* Follows n <= KZ_FRAME_TILE cells; number [n] = their numbers in the frame, theta fastest. Those of a moving frame that take long join `late`,
  * which holds none at first: a few slow cells would leave most lanes empty. kz_cells_finish follows them to their ends. */
-kz_status kz_cells_follow(kz_resident *resident, const kz_window_starts *starts, int64_t n, const int64_t *number,
+kz_status kz_cells_follow(kz_prepared *prepared, const kz_window_starts *starts, int64_t n, const int64_t *number,
                           kz_travellers *late, kz_frame_cell *cells);
-void kz_cells_finish(kz_resident *resident, kz_travellers *late, kz_frame_cell *cells);
+void kz_cells_finish(kz_prepared *prepared, kz_travellers *late, kz_frame_cell *cells);
 
 /* Samples along the curve that a deep window becomes: they label the cells of a moving frame. */
 typedef struct {
@@ -132,14 +133,14 @@ void kz_samples_make(const kz_window_starts *starts, kz_samples *samples);
 void kz_samples_free(kz_samples *samples);
 
 /* Follows any number n of cells by following their samples. */
-kz_status kz_samples_follow(kz_resident *resident, const kz_frame *frame, kz_samples *samples, int64_t n, const int64_t *number,
+kz_status kz_samples_follow(kz_prepared *prepared, const kz_frame *frame, kz_samples *samples, int64_t n, const int64_t *number,
                             kz_frame_cell *cells);
 
 /* ---- cells of a frame, followed by all cores ---- */
 
 /* Some cells of a frame to follow. */
 typedef struct {
-  kz_resident *resident;
+  kz_prepared *prepared;
   const kz_window_starts *starts;
   const kz_frame *frame;
   pthread_rwlock_t *changing; /* of the engine */

@@ -22,10 +22,10 @@ typedef struct {
   kz_status status;
 } sharing;
 
-/* A further thread. Its resident is a copy that lists the states of its own unsettled cells; pendulum, map and regions are shared. */
+/* A further thread. Its prepared pendulum is a copy that lists the states of its own unsettled cells; pendulum, map and regions are shared. */
 typedef struct {
   sharing *all;
-  kz_resident resident;
+  kz_prepared prepared;
   pthread_t thread;
 } helper;
 
@@ -38,7 +38,7 @@ static int spare_cores(void) {
 }
 
 /* Follows tiles until all are taken. */
-static kz_status follow_tiles(sharing *all, kz_resident *resident, bool pauses) {
+static kz_status follow_tiles(sharing *all, kz_prepared *prepared, bool pauses) {
   const kz_frame_task *task = all->task;
   KZ_FREED kz_travellers *late = kz_calloc(1, sizeof *late);
   kz_status status = KZ_OK;
@@ -46,11 +46,11 @@ static kz_status follow_tiles(sharing *all, kz_resident *resident, bool pauses) 
     if (pauses) KZ_TRY(task->frame->pause(task->frame->context));
     const int64_t part = task->n - done < KZ_FRAME_TILE ? task->n - done : KZ_FRAME_TILE;
     pthread_rwlock_rdlock(task->changing);
-    status = kz_cells_follow(resident, task->starts, part, task->number + done, late, task->cells);
+    status = kz_cells_follow(prepared, task->starts, part, task->number + done, late, task->cells);
     pthread_rwlock_unlock(task->changing);
   }
   pthread_rwlock_rdlock(task->changing);
-  kz_cells_finish(resident, late, task->cells);
+  kz_cells_finish(prepared, late, task->cells);
   pthread_rwlock_unlock(task->changing);
   return status;
 }
@@ -62,7 +62,7 @@ static void stop(sharing *all) {
 
 static void *help(void *context) {
   helper *h = context;
-  const kz_status status = follow_tiles(h->all, &h->resident, false);
+  const kz_status status = follow_tiles(h->all, &h->prepared, false);
   pthread_mutex_lock(&h->all->mutex);
   if (status != KZ_OK) {
     h->all->status = status;
@@ -91,10 +91,10 @@ static kz_status wait_for_helpers(sharing *all, kz_status status) {
 }
 
 /* Ends a helper, and takes over what it has listed. */
-static void join(helper *h, kz_resident *resident) {
+static void join(helper *h, kz_prepared *prepared) {
   pthread_join(h->thread, NULL);
-  for (int i = 0; i < h->resident.n_strays && resident->n_strays < KZ_STRAYS; i++)
-    memcpy(resident->stray + 2 * resident->n_strays++, h->resident.stray + 2 * i, 2 * sizeof *resident->stray);
+  for (int i = 0; i < h->prepared.n_unsettled && prepared->n_unsettled < KZ_MOST_UNSETTLED; i++)
+    memcpy(prepared->unsettled + 2 * prepared->n_unsettled++, h->prepared.unsettled + 2 * i, 2 * sizeof *prepared->unsettled);
 }
 
 kz_status kz_frame_follow(const kz_frame_task *task) {
@@ -105,8 +105,8 @@ kz_status kz_frame_follow(const kz_frame_task *task) {
   int started = 0;
   for (; started < spare && started + 1 < tiles; started++) {
     helper *h = helpers + started;
-    *h = (helper){.all = &all, .resident = *task->resident};
-    h->resident.n_strays = 0;
+    *h = (helper){.all = &all, .prepared = *task->prepared};
+    h->prepared.n_unsettled = 0;
     pthread_mutex_lock(&all.mutex);
     all.at_work++;
     pthread_mutex_unlock(&all.mutex);
@@ -116,7 +116,7 @@ kz_status kz_frame_follow(const kz_frame_task *task) {
     pthread_mutex_unlock(&all.mutex);
     break;
   }
-  const kz_status status = wait_for_helpers(&all, follow_tiles(&all, task->resident, true));
-  for (int i = 0; i < started; i++) join(helpers + i, task->resident);
+  const kz_status status = wait_for_helpers(&all, follow_tiles(&all, task->prepared, true));
+  for (int i = 0; i < started; i++) join(helpers + i, task->prepared);
   return status;
 }

@@ -16,9 +16,10 @@ enum { CELLS = 130000 };
 /* rad: strobe points that moved by more between two catalogues belong to different attractors. */
 static const double NEAR = 0.5;
 
-/* Carried to a pendulum whose parameters differ by more of their sum, or whose damping differs by more of itself, a moving resident would lose
- * too much; its numerics are chosen anew beyond this; and its trapping regions are made anew beyond REGROWN or RESETTLED, or after OLDEST
- * pendulums. (Of regions carried from epsilon = 0.300 to 0.301, 0.302 and 0.33 at once, Fig. 12, 0.4, 1.6 and 8 % of the labels were wrong.) */
+/* Relative changes of a pendulum: of the sum of its parameters, and of its damping. Beyond FARTHEST it is not moved, because too many attractors
+ * would be lost; beyond RECHOSEN its numerics are chosen anew; beyond REGROWN, or RESETTLED of the damping, or after OLDEST moves its trapping
+ * regions are grown anew. (Of regions carried from epsilon = 0.300 to 0.301, 0.302 and 0.33 at once, Fig. 12, 0.4, 1.6 and 8 % of the labels
+ * were wrong.) */
 static const double FARTHEST = 0.3, RECHOSEN = 0.1, REGROWN = 0.004, RESETTLED = 0.1;
 /* rad: how near unsettled states must come back to themselves for a search. */
 static const double CLOSENESS = 0.02;
@@ -43,10 +44,10 @@ static kz_window window_of(const kz_scene *scene) {
 }
 
 /* Steps and terms: those of a scene of method exact, or the cheapest to the tolerance of moving frames. */
-static void choose_numerics(kz_resident *r) {
+static void choose_numerics(kz_prepared *r) {
   kz_scene *scene = &r->scene;
   scene->basin.method = KZ_METHOD_EXACT;
-  if (!kz_resident_moves(r)) {
+  if (!kz_prepared_moves(r)) {
     kz_numerics_resolve(scene);
     return;
   }
@@ -56,7 +57,7 @@ static void choose_numerics(kz_resident *r) {
 }
 
 /* Whether an attractor has a cover: a motion counts as captured there only after many periods. */
-static bool has_cover(const kz_resident *r) {
+static bool has_cover(const kz_prepared *r) {
   kz_attractor attractor = {.period = 1};
   for (int64_t a = 1; a <= kz_dynamics_count(r->dynamics) && attractor.period > 0; a++)
     kz_dynamics_attractor(r->dynamics, a, &attractor);
@@ -64,16 +65,16 @@ static bool has_cover(const kz_resident *r) {
 }
 
 /* Extends the trapping regions of moving frames by orbits, where damping is so weak that this saves time. */
-static void learn(kz_resident *r) {
+static void learn(kz_prepared *r) {
   const double mean = kz_settling_mean(r->scene.parameters.pendulum.beta);
-  if (!kz_resident_moves(r) || (mean < WEAK && !has_cover(r))) return;
+  if (!kz_prepared_moves(r) || (mean < WEAK && !has_cover(r))) return;
   const int64_t n = (int64_t)fmin(ORBITS, VISITS / fmax(mean, has_cover(r) ? (double)r->periods : 0));
   KZ_FREED double *state = kz_malloc(2 * (size_t)(n + 1) * sizeof *state);
   kz_dynamics_starts(&r->search.window, r->search.seed, n, state);
   kz_dynamics_learn_regions(r->dynamics, n, state, r->periods, 2 * VISITS);
 }
 
-static kz_status search(kz_resident *r) {
+static kz_status search(kz_prepared *r) {
   r->dynamics = kz_dynamics_create(&r->scene.parameters.pendulum, &r->scene.numerics, r->scene.basin.max_period);
   r->search.max_velocity = kz_dynamics_max_velocity(r->dynamics, &r->search.window);
   KZ_TRY(kz_search_window(NULL, r->dynamics, &r->search, NULL));
@@ -87,21 +88,21 @@ static int64_t periods_of(const kz_scene *scene, bool moving) {
   return moving ? (int64_t)fmin(enough, (double)scene->basin.max_periods) : scene->basin.max_periods;
 }
 
-kz_status kz_resident_make(const kz_scene *scene, double tolerance, kz_resident *resident) {
+kz_status kz_prepared_make(const kz_scene *scene, double tolerance, kz_prepared *prepared) {
   const bool moving = tolerance > 0;
-  *resident = (kz_resident){.scene = *scene, .tolerance = tolerance};
-  resident->chosen = resident->grown = scene->parameters.pendulum;
-  resident->periods = periods_of(scene, moving);
-  resident->scene.title = NULL;
-  resident->search = kz_search_of(scene);
-  resident->search.cells = CELLS;
+  *prepared = (kz_prepared){.scene = *scene, .tolerance = tolerance};
+  prepared->chosen = prepared->grown = scene->parameters.pendulum;
+  prepared->periods = periods_of(scene, moving);
+  prepared->scene.title = NULL;
+  prepared->search = kz_search_of(scene);
+  prepared->search.cells = CELLS;
   if (moving) {
-    if (resident->search.starts > MOVING_STARTS) resident->search.starts = MOVING_STARTS;
-    resident->search.sought = MOVING_SOUGHT; /* what they miss is born between frames */
+    if (prepared->search.starts > MOVING_STARTS) prepared->search.starts = MOVING_STARTS;
+    prepared->search.sought = MOVING_SOUGHT; /* what they miss is found between frames */
   }
   if (scene->parameters.pendulum.beta <= 0) return KZ_OK; /* without damping nothing attracts */
-  choose_numerics(resident);
-  return search(resident);
+  choose_numerics(prepared);
+  return search(prepared);
 }
 
 static void free_catalogue(kz_live_catalogue *catalogue) {
@@ -110,11 +111,11 @@ static void free_catalogue(kz_live_catalogue *catalogue) {
   *catalogue = (kz_live_catalogue){0};
 }
 
-void kz_resident_free(kz_resident *resident) {
-  if (resident->dynamics) kz_dynamics_free(resident->dynamics);
-  kz_images_free(resident->images);
-  free_catalogue(&resident->catalogue);
-  *resident = (kz_resident){0};
+void kz_prepared_free(kz_prepared *prepared) {
+  if (prepared->dynamics) kz_dynamics_free(prepared->dynamics);
+  kz_images_free(prepared->images);
+  free_catalogue(&prepared->catalogue);
+  *prepared = (kz_prepared){0};
 }
 
 static bool same_release(const kz_release *a, const kz_release *b) {
@@ -122,27 +123,27 @@ static bool same_release(const kz_release *a, const kz_release *b) {
          a->smooth == b->smooth;
 }
 
-bool kz_resident_discover(kz_resident *r) {
+bool kz_prepared_discover(kz_prepared *r) {
   const int64_t known = kz_dynamics_count(r->dynamics);
   KZ_FREED double *found = kz_calloc((size_t)kz_dynamics_cycle_size(r->dynamics), sizeof *found);
   KZ_FREED double *chaos = kz_calloc((size_t)kz_dynamics_chaos_size(), sizeof *chaos);
-  while ((int)found[0] < r->n_strays) {
-    kz_dynamics_find_cycle(r->dynamics, r->n_strays, r->stray, CLOSENESS, found);
+  while ((int)found[0] < r->n_unsettled) {
+    kz_dynamics_find_cycle(r->dynamics, r->n_unsettled, r->unsettled, CLOSENESS, found);
     kz_dynamics_adopt(r->dynamics, found + 1);
   }
-  if (kz_dynamics_count(r->dynamics) == known && r->n_strays == KZ_STRAYS) {
-    kz_dynamics_find_chaos(r->dynamics, r->stray, chaos);
+  if (kz_dynamics_count(r->dynamics) == known && r->n_unsettled == KZ_MOST_UNSETTLED) {
+    kz_dynamics_find_chaos(r->dynamics, r->unsettled, chaos);
     kz_dynamics_adopt(r->dynamics, chaos);
   }
-  r->n_strays = 0;
+  r->n_unsettled = 0;
   if (kz_dynamics_count(r->dynamics) == known) return false;
   kz_dynamics_update(r->dynamics);
   return true;
 }
 
-static bool same_search(const kz_resident *resident, const kz_scene *scene) {
-  const kz_basin_plan *mine = &resident->scene.basin, *plan = &scene->basin;
-  const kz_window own = window_of(&resident->scene), asked = window_of(scene);
+static bool same_search(const kz_prepared *prepared, const kz_scene *scene) {
+  const kz_basin_plan *mine = &prepared->scene.basin, *plan = &scene->basin;
+  const kz_window own = window_of(&prepared->scene), asked = window_of(scene);
   return asked.velocity_min >= own.velocity_min && asked.velocity_max <= own.velocity_max &&
          mine->max_period == plan->max_period && mine->starts == plan->starts && mine->seed == plan->seed;
 }
@@ -163,15 +164,15 @@ static double damped_apart(const kz_pendulum *a, const kz_pendulum *b) {
   return fabs(a->beta - b->beta) / fmax(a->beta, b->beta);
 }
 
-double kz_resident_distance(const kz_resident *resident, const kz_scene *scene) {
-  if (resident->used == 0 || !kz_resident_moves(resident) || !resident->dynamics || resident->busy) return INFINITY;
-  if (!(scene->parameters.pendulum.beta > 0) || !same_search(resident, scene)) return INFINITY;
-  const kz_pendulum *own = &resident->scene.parameters.pendulum, *other = &scene->parameters.pendulum;
+double kz_prepared_distance(const kz_prepared *prepared, const kz_scene *scene) {
+  if (prepared->used == 0 || !kz_prepared_moves(prepared) || !prepared->dynamics || prepared->busy) return INFINITY;
+  if (!(scene->parameters.pendulum.beta > 0) || !same_search(prepared, scene)) return INFINITY;
+  const kz_pendulum *own = &prepared->scene.parameters.pendulum, *other = &scene->parameters.pendulum;
   const double distance = parted(own, other);
   return distance < FARTHEST && damped_apart(own, other) < FARTHEST ? distance : INFINITY;
 }
 
-void kz_resident_move(kz_resident *r, const kz_scene *scene) {
+void kz_prepared_move(kz_prepared *r, const kz_scene *scene) {
   const kz_pendulum *pendulum = &scene->parameters.pendulum;
   const double tolerance = kz_moving_tolerance(scene);
   int64_t lost;
@@ -187,7 +188,7 @@ void kz_resident_move(kz_resident *r, const kz_scene *scene) {
   kz_dynamics *moved = kz_dynamics_continue(r->dynamics, pendulum, &r->scene.numerics, &lost);
   kz_dynamics_free(r->dynamics);
   r->dynamics = moved;
-  r->n_strays = 0;
+  r->n_unsettled = 0;
   kz_dynamics_set_release(moved, &scene->parameters.release);
   const bool far = parted(&r->grown, pendulum) > REGROWN || damped_apart(&r->grown, pendulum) > RESETTLED;
   if (lost > 0 || far || ++r->age >= OLDEST) {
@@ -200,11 +201,11 @@ void kz_resident_move(kz_resident *r, const kz_scene *scene) {
   }
 }
 
-bool kz_resident_serves(const kz_resident *resident, const kz_scene *scene, double tolerance) {
-  return resident->used > 0 && resident->tolerance == tolerance &&
-         memcmp(&resident->scene.parameters.pendulum, &scene->parameters.pendulum, sizeof(kz_pendulum)) == 0 &&
-         same_release(&resident->scene.parameters.release, &scene->parameters.release) &&
-         resident->scene.basin.max_periods == scene->basin.max_periods && same_search(resident, scene);
+bool kz_prepared_serves(const kz_prepared *prepared, const kz_scene *scene, double tolerance) {
+  return prepared->used > 0 && prepared->tolerance == tolerance &&
+         memcmp(&prepared->scene.parameters.pendulum, &scene->parameters.pendulum, sizeof(kz_pendulum)) == 0 &&
+         same_release(&prepared->scene.parameters.release, &scene->parameters.release) &&
+         prepared->scene.basin.max_periods == scene->basin.max_periods && same_search(prepared, scene);
 }
 
 /* rad: how far the nearest strobe point of `b` lies from the first one of `a`. Chaotic attractors have none. */
@@ -244,7 +245,7 @@ static void list(const kz_dynamics *dynamics, kz_catalogue *catalogue) {
   kz_catalogue_make(dynamics, reached, catalogue);
 }
 
-void kz_resident_list(kz_resident *r, int64_t version, const kz_live_catalogue *before, int64_t *tracks) {
+void kz_prepared_list(kz_prepared *r, int64_t version, const kz_live_catalogue *before, int64_t *tracks) {
   kz_live_catalogue own = r->catalogue;
   r->catalogue = (kz_live_catalogue){.version = version, .parameters = r->scene.parameters};
   if (r->dynamics) list(r->dynamics, &r->catalogue.list);

@@ -1,0 +1,98 @@
+/* The labeller: items climb from level to level, and unsettled ones lead to attractors that nobody has named. */
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdlib.h>
+
+#include <cmocka.h>
+
+#include "labelling/labeller.h"
+#include "labelling/search.h"
+
+enum { ITEMS = 40000 /* more than are followed together */, LEVELS = 3 };
+
+/* How often each level has seen each item. */
+typedef struct {
+  int seen[LEVELS][ITEMS];
+} record;
+
+/* The level that decides an item: 0, 1, 2, or none. */
+static int decides(int64_t item) {
+  return (int)(item % 4);
+}
+
+static kz_status label_level(void *context, int32_t level, int64_t n, const int64_t *item, kz_label *label) {
+  record *r = context;
+  for (int64_t i = 0; i < n; i++) {
+    r->seen[level][item[i]]++;
+    label[i] = (kz_label){.label = (int16_t)(decides(item[i]) == level ? 1 + item[i] % 1000 : KZ_DOUBTFUL),
+                          .evidence = (uint8_t)(10 + level)};
+  }
+  return KZ_OK;
+}
+
+/* Each item is seen by every level up to the one that decides it, once, and its label comes back to its place. */
+static void items_climb_until_they_are_decided(void **state) {
+  static const kz_level levels[LEVELS] = {{.stage = "a", .tile = 7}, {.stage = "b", .tile = 100}, {.stage = "c", .tile = 1}};
+  static record r;
+  const kz_labeller labeller = {.way = KZ_BY_LEVELS, .context = &r, .at = label_level, .levels = levels, .n_levels = LEVELS};
+  KZ_FREED int64_t *item = kz_malloc(ITEMS * sizeof *item);
+  KZ_FREED kz_label *label = kz_malloc(ITEMS * sizeof *label);
+  (void)state;
+  for (int64_t i = 0; i < ITEMS; i++) item[i] = (i * 7919) % ITEMS; /* each once */
+  assert_int_equal(kz_label_items(&labeller, 1, ITEMS, item, label), KZ_OK);
+  for (int64_t i = 0; i < ITEMS; i++) {
+    const int last = decides(item[i]) < LEVELS ? decides(item[i]) : LEVELS - 1;
+    for (int level = 0; level < LEVELS; level++) assert_int_equal(r.seen[level][item[i]], level <= last);
+    assert_int_equal(label[i].label, decides(item[i]) < LEVELS ? 1 + item[i] % 1000 : KZ_DOUBTFUL);
+    assert_int_equal(label[i].evidence, 10 + last);
+  }
+}
+
+/* A pendulum of which nothing is known: no item settles, until a search from some of them has found what they end on. */
+static void unsettled_items_lead_to_attractors(void **state) {
+  enum { STARTS = 24 };
+  const kz_pendulum pendulum = {.k = 1 / 121.0, .beta = 1 / 55.0, .m = 0.3};
+  const kz_numerics numerics = {.scheme = kz_scheme_find("split6"), .steps_per_period = 24};
+  kz_dynamics *dynamics = kz_dynamics_create(&pendulum, &numerics, 12);
+  double start[2 * STARTS];
+  kz_label label[STARTS];
+  static int64_t reached[INT16_MAX + 1];
+  int64_t all = 0;
+  (void)state;
+  for (int i = 0; i < STARTS; i++) {
+    start[2 * i] = M_PI * cos(i);
+    start[2 * i + 1] = 0.5 * sin(3 * i);
+  }
+  kz_dynamics_coarse_regions(dynamics, 3);
+  const kz_labeller labeller = kz_pair_labeller(start, 2000, KZ_BY_STATES, dynamics);
+  assert_int_equal(kz_label_items(&labeller, 1, STARTS, NULL, label), KZ_OK);
+  for (int i = 0; i < STARTS; i++) assert_true(label[i].label == 0 && label[i].periods == 2000);
+  const kz_search_on search = {.rounds = 3, .starts = STARTS / 2, .reached = reached};
+  assert_int_equal(kz_label_and_search(&labeller, &search, STARTS, NULL, label), KZ_OK);
+  assert_true(kz_dynamics_count(dynamics) > 0);
+  for (int i = 0; i < STARTS; i++)
+    assert_true(label[i].label > 0 && label[i].label <= kz_dynamics_count(dynamics) && label[i].periods < 2000);
+  for (int i = 0; i <= INT16_MAX; i++) all += reached[i];
+  assert_true(all >= STARTS / 2);
+  kz_dynamics_free(dynamics);
+}
+
+/* Every evidence that a level gives has the level's word; what no level gives has none. */
+static void evidence_has_the_word_of_its_level(void **state) {
+  (void)state;
+  for (int level = 0; level < KZ_LEVELS; level++)
+    assert_string_equal(kz_evidence_word(kz_level_rows[level].evidence), kz_level_rows[level].word);
+  assert_null(kz_evidence_word(KZ_UNDECIDED));
+  assert_null(kz_evidence_word(KZ_LEFT));
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(items_climb_until_they_are_decided),
+      cmocka_unit_test(unsettled_items_lead_to_attractors),
+      cmocka_unit_test(evidence_has_the_word_of_its_level),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
