@@ -43,7 +43,7 @@ void kz_dynamics_coarse_regions(kz_dynamics *dynamics, double max_velocity);
 void kz_dynamics_fine_regions(kz_dynamics *dynamics, int64_t cells, double max_velocity);
 /* Adds the ellipses and covers of new attractors to the regions; on a fine grid the regions then grow. */
 void kz_dynamics_update(kz_dynamics *dynamics);
-/* Extends the regions by what n orbits tell: state [n][2] physical starts, each followed until it is trapped, for `most` periods at most,
+/* Extends the regions by n orbits: state [n][2] physical starts, each followed until it is trapped, for `most` periods at most,
  * all together for `budget`. A cell joins an attractor if all orbits that visited it end there, and visited only such cells from then on. It
  * is only likely that such cells trap: they are for moving pictures of weakly damped pendulums, whose regions do not grow. */
 void kz_dynamics_learn_regions(kz_dynamics *dynamics, int64_t n, const double *state, int64_t most, int64_t budget);
@@ -211,6 +211,10 @@ int32_t kz_branch_continue(const kz_pendulum *pendulum, const kz_branch_point *f
 
 /* Whether a and b are the same cycle at the same parameters: one is among the strobe points of the other. */
 int32_t kz_branch_same(const kz_pendulum *pendulum, const kz_branch_point *a, const kz_branch_point *b);
+
+/* The centre of a motion (KZ_ABOUT_DOWN ...) from samples of its angle, theta [n] (rad, not wrapped), and whether it rotates: down or inverted where it stays within
+ * pi of it and its mean within pi/4. *origin = the copy of this position, rad; 0 for other motions. */
+int32_t kz_centre_of(int32_t rotates, int64_t n, const double *theta, double *origin);
 
 /* ---- charts ---- */
 

@@ -190,7 +190,7 @@ def test_c_structures_are_the_fortran_types(entries, tmp_path):
         for name, (_, parameters) in declared(text).items():
             for one, other in zip(parameters, headers.get(name, (None, []))[1], strict=False):
                 agrees(one, other, structures)
-    assert len(structures) >= 6
+    assert len(structures) >= 15
     program = ["#include <stddef.h>", '#include "kapitza/dynamics.h"', '#include "kapitza/dynamics_curves.h"',
                "typedef _Float128 float128;"]
     for fortran, c in sorted(structures):
@@ -198,6 +198,7 @@ def test_c_structures_are_the_fortran_types(entries, tmp_path):
         program.append(f'_Static_assert(sizeof({fortran}) == sizeof({c}), "size of {c}");')
         for field in re.findall(r"^ *(?!float128)\w+ (\w+)", types[fortran], re.MULTILINE):  # C keeps quads as bytes
             program.append(f'_Static_assert(offsetof({fortran}, {field}) == offsetof({c}, {field}), "{c}.{field}");')
+            program.append(f'_Static_assert(sizeof((({fortran} *)0)->{field}) == sizeof((({c} *)0)->{field}), "size of {c}.{field}");')
     source = tmp_path / "structures.c"
     source.write_text("\n".join(program) + "\n")
     done = subprocess.run(["cc", "-fsyntax-only", f"-I{ROOT / 'include'}", str(source)], capture_output=True, text=True, check=False)

@@ -29,7 +29,7 @@ module kz_attractors_cycle_search
   !> Where the map of the recurrence stretches by more than this, no attracting cycle is near: about one that a fold bears or a
   !> period doubling ends, the map is like x -> 1 - a x**2, a <= 2, whose slope is at most 4.
   real(dp), parameter :: STRETCHED = 10
-  !> Outcomes of Newton's method with the scene's steps. They tell that fine steps find no attracting cycle, a known one, or neither for certain.
+  !> Outcomes of Newton's method with the scene's steps. They mean that fine steps find no attracting cycle, a known one, or neither for certain.
   integer, parameter :: NOTHING = 0, KNOWN_ONE = 1, UNSURE = 2
   !> So far may the scene's cycle lie from the one of fine steps, rad; and so much more than 1 is the multiplier of one that surely repels.
   real(dp), parameter :: BESIDE = 1e-5_dp, SURELY = 1.01_dp

@@ -1,17 +1,18 @@
 !> Features of an attractor over continuous time: mean, amplitude, centre.
 module kz_cycles_features
-  use, intrinsic :: iso_c_binding, only: dp => c_double, c_int64_t
+  use, intrinsic :: iso_c_binding, only: dp => c_double, c_int32_t, c_int64_t
   use kz_lanes_map, only: flow_t, PI
   use kz_model_pendulum, only: pendulum_t, acceleration
   use kz_cycles_cycles, only: attractor_t
   use kz_maps_states, only: angle_difference
   implicit none
   private
-  public :: find_features, SAMPLES
+  public :: find_features, centre_of, SAMPLES
 
   !> Samples per drive period.
   integer, parameter :: SAMPLES = 96
-  integer, parameter :: DOWN = 0, INVERTED = 1, ROTATING = 2, ELSEWHERE = 3
+  !> Centres (KZ_ABOUT_... of analysis.h).
+  integer, parameter, public :: DOWN = 0, INVERTED = 1, ROTATING = 2, ELSEWHERE = 3
 
 contains
 
@@ -41,7 +42,34 @@ contains
     attractor%mean = angle_difference(attractor%mean, 0.0_dp)
   end subroutine find_features
 
-  !> Centre: down or inverted where the motion stays within pi of it and its mean within pi/4.
+  !> The centre of a motion: down or inverted where it stays within a half-turn of it and its mean within a quarter of one.
+  pure function centre_of(rotates, mean, lowest, highest) result(centre)
+    logical, intent(in) :: rotates !< it turns round
+    real(dp), intent(in) :: mean, lowest, highest !< of its angle, half-turns
+    integer :: centre
+    real(dp) :: nearest
+
+    nearest = anint(mean)
+    centre = merge(ROTATING, ELSEWHERE, rotates)
+    if (.not. rotates .and. abs(mean - nearest) < 0.25_dp .and. max(highest - nearest, nearest - lowest) < 1) &
+      centre = merge(DOWN, INVERTED, modulo(nearest, 2.0_dp) < 0.5_dp)
+  end function centre_of
+
+  !> kz_centre_of of dynamics.h.
+  function centre_of_samples(rotates, n, theta, origin) bind(C, name='kz_centre_of') result(centre)
+    integer(c_int32_t), value :: rotates
+    integer(c_int64_t), value :: n
+    real(dp), intent(in) :: theta(n)
+    real(dp), intent(out) :: origin
+    integer(c_int32_t) :: centre
+    real(dp) :: mean
+
+    mean = sum(theta)/(PI*n)
+    centre = centre_of(rotates /= 0, mean, minval(theta)/PI, maxval(theta)/PI)
+    origin = merge(PI*anint(mean), 0.0_dp, centre < ROTATING)
+  end function centre_of_samples
+
+  !> Amplitude and centre.
   subroutine place(attractor, pendulum, angle, velocity)
     type(attractor_t), intent(inout) :: attractor
     type(pendulum_t), intent(in) :: pendulum
@@ -53,9 +81,7 @@ contains
     if (attractor%winding /= 0) return
     nearest = anint(attractor%mean)
     attractor%amplitude = largest(pendulum, angle, velocity, nearest)
-    attractor%centre = ELSEWHERE
-    if (abs(attractor%mean - nearest) < 0.25_dp .and. attractor%amplitude < PI) &
-      attractor%centre = merge(DOWN, INVERTED, modulo(nearest, 2.0_dp) < 0.5_dp)
+    attractor%centre = centre_of(.false., attractor%mean, nearest - attractor%amplitude/PI, nearest)
   end subroutine place
 
   !> Largest |theta - centre| in rad over continuous time: quintic Hermite interpolation where the velocity changes sign.

@@ -7,7 +7,7 @@ module kz_cycles_newton
   private
   public :: newton, n_periods, solved, minimal_period, eigenvalues
 
-  !> rad: a fixed point must be placed better than states are told apart.
+  !> rad: a fixed point must be placed better than states are distinguished.
   real(dp), parameter :: PLACED = 1e-8_dp
 
 contains

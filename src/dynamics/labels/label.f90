@@ -1,20 +1,29 @@
-!> Follows many starts with any map until each is trapped: another start takes the lane of one that has settled. Starts enter the
-!> coordinates of the map many at a time, and wait.
+!> Follows many starts with any map until each is trapped. Starts enter the coordinates of the map many at a time.
 module kz_labels_label
   use, intrinsic :: iso_c_binding, only: dp => c_double, c_int64_t, c_int32_t
   use kz_lanes_map, only: map_t, WIDTH, CAPACITY
-  use kz_labels_lanes, only: queued_lanes_t, list_flagged
+  use kz_maps_lanes, only: queued_lanes_t, list_flagged
   use kz_cycles_cycles, only: attractor_t
   use kz_grown_grid, only: regions_t, find_regions, chaos_region
   implicit none
   private
   public :: follow
 
-  !> What the lanes of the map carry.
-  type, extends(queued_lanes_t) :: lanes_t
-    integer(c_int64_t) :: start(CAPACITY)  !< which start
-    integer(c_int64_t) :: most(CAPACITY)   !< periods that it is followed at most
-  end type lanes_t
+  !> Starts in the lanes of a map, and what becomes of them.
+  type, extends(queued_lanes_t) :: starts_t
+    class(map_t), pointer :: map => null()
+    type(regions_t), pointer :: regions => null()
+    type(attractor_t), pointer :: attractors(:) => null()
+    real(dp), pointer :: state(:, :) => null()
+    integer(c_int32_t), pointer :: label(:) => null()
+    integer(c_int64_t), pointer :: periods(:) => null()
+    integer(c_int64_t) :: most(CAPACITY) = 0 !< periods that the start of a lane is followed at most
+  contains
+    procedure :: admit
+    procedure :: advance
+    procedure :: is_done
+    procedure :: move
+  end type starts_t
 
 contains
 
@@ -22,107 +31,85 @@ contains
   !> periods(i) becomes its first period inside a trapping region, or the periods followed. state: physical starts (half-turns,
   !> rad per drive radian); it becomes the states where the orbits were left, in the map's coordinates.
   subroutine follow(map, regions, attractors, state, label, periods)
-    class(map_t), intent(inout) :: map !< what moves the states by one period
-    type(regions_t), intent(in) :: regions !< the trapping regions
-    type(attractor_t), intent(in) :: attractors(:) !< the catalogue, numbered from 1
-    real(dp), intent(inout) :: state(:, :) !< [2, n] in and out
-    integer(c_int32_t), intent(out) :: label(:) !< attractor from 1, 0 = not settled
-    integer(c_int64_t), intent(inout) :: periods(:) !< most periods, in; first period inside a trapping region, out
-    type(lanes_t) :: lanes
-    integer(c_int64_t) :: next
-    integer :: region(WIDTH), done(WIDTH), list(WIDTH), n_done, lane, i
+    class(map_t), intent(inout), target :: map !< what moves the states by one period
+    type(regions_t), intent(in), target :: regions !< the trapping regions
+    type(attractor_t), intent(in), target :: attractors(:) !< the catalogue, numbered from 1
+    real(dp), intent(inout), target :: state(:, :) !< [2, n] in and out
+    integer(c_int32_t), intent(out), target :: label(:) !< attractor from 1, 0 = not settled
+    integer(c_int64_t), intent(inout), target :: periods(:) !< most periods, in; first period inside a trapping region, out
+    type(starts_t) :: starts
 
-    next = 1
-    do lane = 1, WIDTH
-      call occupy(lane)
-    end do
-    do while (lanes%active > 0)
-      call map%advance(lanes%active)
-      lanes%age(:lanes%active) = lanes%age(:lanes%active) + 1
-      call find_regions(regions, attractors, lanes%active, map%u(:lanes%active), map%v(:lanes%active), region)
-      call visit_covers(map, regions, lanes, region)
-      done(:lanes%active) = min(1, region(:lanes%active))
-      if (maxval(lanes%age(:lanes%active) - lanes%most(:lanes%active)) >= 0) &
-        where (lanes%age(:lanes%active) >= lanes%most(:lanes%active)) done(:lanes%active) = 1
-      call list_flagged(lanes%active, done, list, n_done)
-      do i = 1, n_done
-        call settle(list(i), region(list(i)))
-        call occupy(list(i))
-      end do
-    end do
-  contains
-    !> A start that waits, or else the last active one, moves into the free lane, which is at most the first behind the active ones.
-    subroutine occupy(lane)
-      integer, intent(in) :: lane
-      integer :: from
-
-      if (lanes%waiting == 0) call let_in
-      call lanes%next(lane, from)
-      if (from > 0) call move(map, lanes, from, lane)
-    end subroutine occupy
-
-    !> Puts the next starts into the lanes behind the first WIDTH. Those that lie inside a trapping region leave at once.
-    subroutine let_in
-      integer :: found(WIDTH), n, i
-
-      do while (lanes%waiting == 0 .and. next <= size(label))
-        n = int(min(int(WIDTH, c_int64_t), size(label) - next + 1))
-        do i = WIDTH + 1, WIDTH + n
-          lanes%start(i) = next
-          lanes%most(i) = periods(next)
-          call map%put_start(i, next, state(1, next), state(2, next))
-          next = next + 1
-        end do
-        lanes%age(WIDTH + 1:) = 0
-        lanes%guest_of(WIDTH + 1:) = 0
-        call map%to_map(WIDTH + n, first=WIDTH + 1)
-        call find_regions(regions, attractors, n, map%u(WIDTH + 1:WIDTH + n), map%v(WIDTH + 1:WIDTH + n), found)
-        do i = n, 1, -1 ! the first start is to leave the queue first
-          if (found(i) == 0 .and. lanes%most(WIDTH + i) > 0) then
-            call lanes%wait(WIDTH + i)
-          else
-            call settle(WIDTH + i, found(i))
-          end if
-        end do
-      end do
-    end subroutine let_in
-
-    subroutine settle(lane, a)
-      integer, intent(in) :: lane, a
-
-      label(lanes%start(lane)) = a
-      periods(lanes%start(lane)) = lanes%age(lane)
-      state(1, lanes%start(lane)) = map%u(lane)
-      state(2, lanes%start(lane)) = map%v(lane)
-    end subroutine settle
+    starts = starts_t(map=map, regions=regions, attractors=attractors, state=state, label=label, periods=periods, items=size(label))
+    call starts%run()
   end subroutine follow
 
-  subroutine move(map, lanes, from, to)
-    class(map_t), intent(inout) :: map
-    type(lanes_t), intent(inout) :: lanes
+  subroutine admit(self, n)
+    class(starts_t), intent(inout) :: self
+    integer, intent(in) :: n
+    integer :: lane
+
+    do lane = WIDTH + 1, WIDTH + n
+      associate (i => self%number(lane))
+        self%most(lane) = self%periods(i)
+        call self%map%put_start(lane, i, self%state(1, i), self%state(2, i))
+      end associate
+    end do
+    self%age(WIDTH + 1:) = 0
+    call self%map%to_map(WIDTH + n, first=WIDTH + 1)
+    call find_regions(self%regions, self%attractors, n, self%map%u(WIDTH + 1:WIDTH + n), self%map%v(WIDTH + 1:WIDTH + n), &
+                      self%region(WIDTH + 1:))
+  end subroutine admit
+
+  subroutine advance(self, list, n)
+    class(starts_t), intent(inout) :: self
+    integer, intent(out) :: list(WIDTH), n
+    integer :: done(WIDTH)
+
+    associate (m => self%active)
+      call self%map%advance(m)
+      self%age(:m) = self%age(:m) + 1
+      call find_regions(self%regions, self%attractors, m, self%map%u(:m), self%map%v(:m), self%region)
+      if (size(self%regions%covered) > 0) call visit_covers(self)
+      done(:m) = min(1, self%region(:m))
+      if (maxval(self%age(:m) - self%most(:m)) >= 0) where (self%age(:m) >= self%most(:m)) done(:m) = 1
+      call list_flagged(m, done, list, n)
+    end associate
+  end subroutine advance
+
+  function is_done(self, lane) result(yes)
+    class(starts_t), intent(inout) :: self
+    integer, intent(in) :: lane
+    logical :: yes
+
+    yes = self%region(lane) > 0 .or. self%age(lane) >= self%most(lane)
+    if (.not. yes) return
+    associate (i => self%number(lane))
+      self%label(i) = self%region(lane)
+      self%periods(i) = self%age(lane)
+      self%state(:, i) = [self%map%u(lane), self%map%v(lane)]
+    end associate
+  end function is_done
+
+  subroutine move(self, from, to)
+    class(starts_t), intent(inout) :: self
     integer, intent(in) :: from, to
 
-    call map%move(from, to)
-    call lanes%copy(from, to)
-    lanes%start(to) = lanes%start(from)
-    lanes%most(to) = lanes%most(from)
+    call self%map%move(from, to)
+    call self%copy(from, to)
+    self%most(to) = self%most(from)
   end subroutine move
 
-  !> What chaotic attractors make of the regions in which the lanes are.
-  subroutine visit_covers(map, regions, lanes, region)
-    class(map_t), intent(in) :: map
-    type(regions_t), intent(in) :: regions
-    type(lanes_t), intent(inout) :: lanes
-    integer, intent(inout) :: region(WIDTH)
-    integer :: lane, host
+  !> What covers make of the regions in which the lanes are.
+  subroutine visit_covers(self)
+    class(starts_t), intent(inout) :: self
+    integer :: lane, owner
 
-    if (size(regions%covered) == 0) return
-    do lane = 1, lanes%active
-      if (region(lane) > 0) then
-        lanes%guest_of(lane) = 0
+    do lane = 1, self%active
+      if (self%region(lane) > 0) then
+        self%in_cover(lane) = 0
       else
-        host = chaos_region(regions, map%u(lane), map%v(lane))
-        if (lanes%is_captured(lane, host)) region(lane) = host
+        owner = chaos_region(self%regions, self%map%u(lane), self%map%v(lane))
+        if (self%is_captured(lane, owner)) self%region(lane) = owner
       end if
     end do
   end subroutine visit_covers

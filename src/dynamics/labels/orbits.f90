@@ -1,11 +1,11 @@
-!> Follows many orbits with their errors beside them, until a trapping region holds all that an error leaves open: another orbit takes the
-!> lane of one that is done. An orbit whose error grows large is doubtful: its label is not decided.
+!> Follows many orbits with the ellipses of their errors. An orbit ends when a trapping region holds its whole ellipse. If the ellipse grows
+!> too large for that, the orbit is doubtful, or goes on in the next cheaper precision.
 module kz_labels_orbits
   use, intrinsic :: iso_c_binding, only: dp => c_double, c_int64_t, c_int32_t
   use kz_cycles_cycles, only: attractor_t, QUASIPERIODIC
   use kz_grown_grid, only: regions_t, find_regions, chaos_region, cell_holds
   use kz_labels_nonlinear, only: measure_nonlinear, SAFETY
-  use kz_labels_lanes, only: queued_lanes_t, list_flagged
+  use kz_maps_lanes, only: queued_lanes_t, list_flagged
   use kz_labels_carrier, only: carrier_t, orbit_t
   use kz_labels_spread, only: spread_errors, flag_large, flag_done
   use kz_lanes_map, only: WIDTH, CAPACITY, PI
@@ -37,251 +37,264 @@ module kz_labels_orbits
     real(dp) :: state(2) = 0              !< where it was then, in the map's coordinates
   end type decision_t
 
-  !> What lanes carry besides their states.
-  type, extends(queued_lanes_t) :: lanes_t
-    real(dp) :: p(WIDTH, 3) = 0         !< errors
-    real(dp) :: coming(3, CAPACITY) = 0 !< of orbits that wait
-    integer(c_int64_t) :: number(CAPACITY) = 0
-    integer :: first(CAPACITY) = 0      !< trapping region that holds the state alone, 0 = none yet
-    integer(c_int64_t) :: since(CAPACITY) = 0
+  !> Orbits in the lanes of a carrier, and what becomes of them.
+  type, extends(queued_lanes_t) :: orbits_t
+    type(carrier_t), pointer :: carrier => null()
+    type(regions_t), pointer :: regions => null()
+    type(attractor_t), pointer :: attractors(:) => null()
+    type(orbit_t), pointer :: orbit(:) => null()
+    type(decision_t), pointer :: decision(:) => null()
+    integer(c_int64_t) :: most = 0      !< age up to which orbits are followed
+    real(dp) :: handover = 0            !< rad: an orbit with a larger error goes on elsewhere
+    logical :: guess = .false.          !< doubtful orbits are followed on without their errors
+    integer(c_int32_t) :: level = 0     !< that decides
+    real(dp) :: p(3, CAPACITY) = 0      !< ellipses of waiting orbits
+    real(dp) :: ellipse(WIDTH, 3) = 0   !< ellipses of active ones
+    real(dp) :: trace(WIDTH) = 0        !< of these
+    integer :: first(CAPACITY) = 0      !< the first region that held the state alone, 0 = none yet
+    integer(c_int64_t) :: since(CAPACITY) = 0 !< from that age on
     logical :: doubted(CAPACITY) = .false.
-  end type lanes_t
+  contains
+    procedure :: admit
+    procedure :: advance
+    procedure :: is_done
+    procedure :: move
+  end type orbits_t
 
 contains
 
   !> Follows orbits up to age `most`. decision(i)%label = PENDING and the orbit as it is then where its error has reached `handover`, if
   !> that is below TOLERABLE.
   subroutine follow_orbits(carrier, regions, attractors, most, handover, guess, level, orbit, decision)
-    type(carrier_t), intent(inout) :: carrier !< what moves the orbits by one period
-    type(regions_t), intent(in) :: regions !< the trapping regions
-    type(attractor_t), intent(in) :: attractors(:) !< the catalogue, numbered from 1
+    type(carrier_t), intent(inout), target :: carrier !< what moves the orbits by one period
+    type(regions_t), intent(in), target :: regions !< the trapping regions
+    type(attractor_t), intent(in), target :: attractors(:) !< the catalogue, numbered from 1
     integer(c_int64_t), intent(in) :: most !< periods
     real(dp), intent(in) :: handover !< rad
     logical, intent(in) :: guess !< follow doubtful orbits on, to where the states alone end
     integer(c_int32_t), intent(in) :: level !< that decides
-    type(orbit_t), intent(inout) :: orbit(:) !< [n] in and out
-    type(decision_t), intent(inout) :: decision(:) !< [n] as they are made, in; out
-    type(lanes_t) :: lanes
-    integer(c_int64_t) :: next
-    real(dp) :: trace(WIDTH), largest, u(WIDTH), v(WIDTH), nonlinear(WIDTH)
-    integer :: region(WIDTH), done(WIDTH), list(WIDTH), n_done, lane, i
-    logical :: with_covers
+    type(orbit_t), intent(inout), target :: orbit(:) !< [n] in and out
+    type(decision_t), intent(inout), target :: decision(:) !< [n] as they are made, in; out
+    type(orbits_t) :: orbits
 
-    next = 1
-    trace = 0
-    with_covers = size(regions%covered) > 0
-    largest = min(TOLERABLE, handover)**2
-    do lane = 1, WIDTH
-      call occupy(lane)
-    end do
-    do while (lanes%active > 0)
-      u = carrier%u(:WIDTH)
-      v = carrier%v(:WIDTH)
-      call carrier%advance(lanes%active)
-      call add_nonlinear(lanes%active)
-      call spread_errors(lanes%active, carrier%tangent, carrier%noise, nonlinear, lanes%p, trace)
-      call find_regions(regions, attractors, lanes%active, carrier%u(:lanes%active), carrier%v(:lanes%active), region)
-      lanes%age(:lanes%active) = lanes%age(:lanes%active) + 1
-      call flag_done(lanes%active, region, trace, largest, done)
-      if (with_covers .or. maxval(lanes%age(:lanes%active)) >= most) done = 1
-      call list_flagged(lanes%active, done, list, n_done)
-      do i = 1, n_done
-        if (is_open(list(i), region(list(i)), trace(list(i)))) cycle
-        call occupy(list(i))
-      end do
-    end do
-  contains
-    !> What is not linear in the period, where errors are large.
-    subroutine add_nonlinear(n)
-      integer, intent(in) :: n
-      integer :: large(WIDTH), lane(WIDTH), n_large
-
-      nonlinear = 0
-      call flag_large(n, lanes%p, LINEAR**2, large)
-      if (sum(large(:n)) == 0) return
-      call list_flagged(n, large, lane, n_large)
-      call measure_nonlinear(carrier, lane(:n_large), u, v, lanes%p, nonlinear)
-    end subroutine add_nonlinear
-
-    !> An orbit that waits, or else the last active one, moves into the free lane, which is at most the first behind the active ones.
-    subroutine occupy(lane)
-      integer, intent(in) :: lane
-      integer :: from
-
-      if (lanes%waiting == 0) call let_in
-      call lanes%next(lane, from)
-      if (from == 0) return
-      if (from > WIDTH) then
-        lanes%p(lane, :) = lanes%coming(:, from)
-      else
-        lanes%p(lane, :) = lanes%p(from, :)
-      end if
-      call move(carrier, lanes, from, lane)
-    end subroutine occupy
-
-    !> Puts the next orbits into the lanes behind the first WIDTH. Those that are done leave at once.
-    subroutine let_in
-      integer :: found(WIDTH), n, i
-
-      do while (lanes%waiting == 0 .and. next <= size(orbit))
-        n = int(min(int(WIDTH, c_int64_t), size(orbit) - next + 1))
-        do i = WIDTH + 1, WIDTH + n
-          call carrier%put(i, orbit(next))
-          call open_lane(lanes, i, next, orbit(next))
-          next = next + 1
-        end do
-        call carrier%to_map(WIDTH + 1, WIDTH + n)
-        call find_regions(regions, attractors, n, carrier%u(WIDTH + 1:WIDTH + n), carrier%v(WIDTH + 1:WIDTH + n), found)
-        do i = n, 1, -1 ! the first orbit is to leave the queue first
-          if (is_followed(WIDTH + i, found(i))) call lanes%wait(WIDTH + i)
-        end do
-      end do
-    end subroutine let_in
-
-    !> Whether an orbit that has just been put is to be followed: not where it is trapped at once.
-    logical function is_followed(lane, region)
-      integer, intent(in) :: lane, region
-
-      is_followed = .true.
-      if (region > 0) call note_region(lanes, lane, region, guess)
-      if (region > 0 .and. sum(lanes%coming([1, 3], lane)) < TOLERABLE**2) &
-        is_followed = .not. holds(regions, attractors, carrier%u(lane), carrier%v(lane), lanes%coming(:, lane), carrier%region_error(lane), region)
-      if (.not. is_followed) call settle(lane, region, .true., lanes%coming(:, lane))
-      if (is_followed .and. lanes%age(lane) >= most) then
-        is_followed = .false.
-        call settle(lane, merge(lanes%first(lane), merge(DOUBTFUL, 0, region > 0), guess), .false., lanes%coming(:, lane))
-      end if
-    end function is_followed
-
-    !> Whether the orbit is to be followed on; if not, its ending is noted.
-    logical function is_open(lane, region, trace)
-      integer, intent(in) :: lane, region
-      real(dp), intent(in) :: trace
-      logical :: late
-      integer :: host
-
-      is_open = .true.
-      late = lanes%age(lane) >= most
-      if (handover < TOLERABLE .and. trace >= handover**2) then
-        call pass_on(lane)
-        is_open = .false.
-        return
-      end if
-      if (.not. trace < TOLERABLE**2) lanes%doubted(lane) = .true.
-      if (lanes%doubted(lane)) lanes%p(lane, :) = 0
-      if (region > 0) then
-        lanes%guest_of(lane) = 0
-        call note_region(lanes, lane, region, guess)
-        if (.not. lanes%doubted(lane)) &
-          is_open = .not. holds(regions, attractors, carrier%u(lane), carrier%v(lane), lanes%p(lane, :), carrier%region_error(lane), region)
-        if (.not. is_open) call settle(lane, region, .true., lanes%p(lane, :))
-      else if (with_covers) then
-        host = chaos_region(regions, carrier%u(lane), carrier%v(lane))
-        if (host > 0) host = merge(host, 0, attractors(host)%period /= QUASIPERIODIC .or. &
-                                   (trace < LINEAR**2 .and. .not. lanes%doubted(lane)))
-        is_open = .not. lanes%is_captured(lane, host)
-        if (.not. is_open) call settle(lane, host, .true., lanes%p(lane, :))
-      end if
-      if (.not. is_open) return
-      if (lanes%doubted(lane) .and. lanes%guest_of(lane) == 0 .and. (.not. guess .or. lanes%first(lane) > 0)) then
-        call settle(lane, merge(lanes%first(lane), DOUBTFUL, guess), .false., lanes%p(lane, :))
-      else if (late) then
-        call settle(lane, merge(lanes%first(lane), merge(DOUBTFUL, 0, region > 0), guess), &
-                    .not. lanes%doubted(lane) .and. region == 0, lanes%p(lane, :))
-      else
-        return
-      end if
-      is_open = .false.
-    end function is_open
-
-    !> The orbit leaves as it is.
-    subroutine pass_on(lane)
-      integer, intent(in) :: lane
-
-      associate (o => orbit(lanes%number(lane)))
-        call carrier%take(lane, o)
-        o%p = lanes%p(lane, :)
-        o%lost = 0
-        o%age = lanes%age(lane)
-      end associate
-      decision(lanes%number(lane))%label = PENDING
-    end subroutine pass_on
-
-    subroutine settle(lane, label, decided, p)
-      integer, intent(in) :: lane, label
-      logical, intent(in) :: decided
-      real(dp), intent(in) :: p(3)
-      integer(c_int64_t) :: periods
-
-      periods = lanes%age(lane)
-      if (label > 0 .and. label == lanes%first(lane)) periods = lanes%since(lane)
-      decision(lanes%number(lane)) = decision_t(label, 0, merge(level, NO_LEVEL, decided), periods, &
-                                                SAFETY*sqrt(p(1) + p(3)), lanes%age(lane), [carrier%u(lane), carrier%v(lane)])
-    end subroutine settle
+    orbits = orbits_t(carrier=carrier, regions=regions, attractors=attractors, orbit=orbit, decision=decision, most=most, &
+                      handover=handover, guess=guess, level=level, items=size(orbit))
+    call orbits%run()
   end subroutine follow_orbits
 
-  subroutine open_lane(lanes, lane, number, orbit)
-    type(lanes_t), intent(inout) :: lanes
-    integer, intent(in) :: lane
-    integer(c_int64_t), intent(in) :: number
-    type(orbit_t), intent(in) :: orbit
+  subroutine admit(self, n)
+    class(orbits_t), intent(inout) :: self
+    integer, intent(in) :: n
+    integer :: lane
 
-    lanes%number(lane) = number
-    lanes%coming(:, lane) = orbit%p
-    lanes%age(lane) = orbit%age
-    lanes%first(lane) = 0
-    lanes%since(lane) = 0
-    lanes%guest_of(lane) = 0
-    lanes%stay(lane) = 0
-    lanes%doubted(lane) = .false.
-  end subroutine open_lane
+    do lane = WIDTH + 1, WIDTH + n
+      associate (orbit => self%orbit(self%number(lane)))
+        call self%carrier%put(lane, orbit)
+        self%p(:, lane) = orbit%p
+        self%age(lane) = orbit%age
+      end associate
+    end do
+    self%first(WIDTH + 1:) = 0
+    self%since(WIDTH + 1:) = 0
+    self%doubted(WIDTH + 1:) = .false.
+    call self%carrier%to_map(WIDTH + 1, WIDTH + n)
+    call find_regions(self%regions, self%attractors, n, self%carrier%u(WIDTH + 1:WIDTH + n), self%carrier%v(WIDTH + 1:WIDTH + n), &
+                      self%region(WIDTH + 1:))
+  end subroutine admit
+
+  !> Whether an orbit that has just been put is trapped, or too old; then its end has been noted.
+  function ends_at_once(self, lane) result(done)
+    class(orbits_t), intent(inout) :: self
+    integer, intent(in) :: lane
+    logical :: done
+
+    done = .false.
+    if (self%region(lane) > 0) call note_region(self, lane)
+    if (self%region(lane) > 0 .and. sum(self%p([1, 3], lane)) < TOLERABLE**2) done = is_held(self, lane, self%p(:, lane))
+    if (done) then
+      call settle(self, lane, self%region(lane), .true., self%p(:, lane))
+    else if (self%age(lane) >= self%most) then
+      done = .true.
+      call settle(self, lane, left_label(self, lane), .false., self%p(:, lane))
+    end if
+  end function ends_at_once
+
+  subroutine advance(self, list, n)
+    class(orbits_t), intent(inout) :: self
+    integer, intent(out) :: list(WIDTH), n
+    real(dp) :: u(WIDTH), v(WIDTH), nonlinear(WIDTH)
+    integer :: done(WIDTH)
+
+    associate (m => self%active, carrier => self%carrier)
+      u = carrier%u(:WIDTH)
+      v = carrier%v(:WIDTH)
+      call carrier%advance(m)
+      call add_nonlinear(self, u, v, nonlinear)
+      call spread_errors(m, carrier%tangent, carrier%noise, nonlinear, self%ellipse, self%trace)
+      call find_regions(self%regions, self%attractors, m, carrier%u(:m), carrier%v(:m), self%region)
+      self%age(:m) = self%age(:m) + 1
+      call flag_done(m, self%region, self%trace, min(TOLERABLE, self%handover)**2, done)
+      if (size(self%regions%covered) > 0 .or. maxval(self%age(:m)) >= self%most) done = 1
+      call list_flagged(m, done, list, n)
+    end associate
+  end subroutine advance
+
+  !> What is not linear in the period from the states (u, v), where errors are large.
+  subroutine add_nonlinear(self, u, v, nonlinear)
+    class(orbits_t), intent(inout) :: self
+    real(dp), intent(in) :: u(WIDTH), v(WIDTH)
+    real(dp), intent(out) :: nonlinear(WIDTH)
+    integer :: large(WIDTH), lane(WIDTH), n_large
+
+    nonlinear = 0
+    call flag_large(self%active, self%ellipse, LINEAR**2, large)
+    if (sum(large(:self%active)) == 0) return
+    call list_flagged(self%active, large, lane, n_large)
+    call measure_nonlinear(self%carrier, lane(:n_large), u, v, self%ellipse, nonlinear)
+  end subroutine add_nonlinear
+
+  function is_done(self, lane) result(yes)
+    class(orbits_t), intent(inout) :: self
+    integer, intent(in) :: lane
+    logical :: yes
+
+    yes = .true.
+    if (lane > WIDTH) then
+      yes = ends_at_once(self, lane)
+    else if (self%handover < TOLERABLE .and. self%trace(lane) >= self%handover**2) then
+      call pass_on(self, lane)
+    else
+      if (.not. self%trace(lane) < TOLERABLE**2) self%doubted(lane) = .true.
+      if (self%doubted(lane)) self%ellipse(lane, :) = 0
+      if (.not. is_trapped(self, lane)) yes = is_left(self, lane)
+    end if
+  end function is_done
+
+  !> Whether a region or a cover holds an orbit; then its end has been noted.
+  function is_trapped(self, lane) result(trapped)
+    class(orbits_t), intent(inout) :: self
+    integer, intent(in) :: lane
+    logical :: trapped
+    integer :: owner
+
+    trapped = .false.
+    owner = self%region(lane)
+    if (owner > 0) then
+      self%in_cover(lane) = 0
+      call note_region(self, lane)
+      if (.not. self%doubted(lane)) trapped = is_held(self, lane, self%ellipse(lane, :))
+    else if (size(self%regions%covered) > 0) then
+      owner = chaos_region(self%regions, self%carrier%u(lane), self%carrier%v(lane))
+      if (owner > 0) owner = merge(owner, 0, self%attractors(owner)%period /= QUASIPERIODIC .or. &
+                                 (self%trace(lane) < LINEAR**2 .and. .not. self%doubted(lane)))
+      trapped = self%is_captured(lane, owner)
+    end if
+    if (trapped) call settle(self, lane, owner, .true., self%ellipse(lane, :))
+  end function is_trapped
+
+  !> Whether an orbit that nothing holds is not followed any further: it is doubtful, or old; then its end has been noted.
+  function is_left(self, lane) result(left)
+    class(orbits_t), intent(inout) :: self
+    integer, intent(in) :: lane
+    logical :: left
+
+    left = .true.
+    if (self%doubted(lane) .and. self%in_cover(lane) == 0 .and. (.not. self%guess .or. self%first(lane) > 0)) then
+      call settle(self, lane, merge(self%first(lane), DOUBTFUL, self%guess), .false., self%ellipse(lane, :))
+    else if (self%age(lane) >= self%most) then
+      call settle(self, lane, left_label(self, lane), .not. self%doubted(lane) .and. self%region(lane) == 0, &
+                  self%ellipse(lane, :))
+    else
+      left = .false.
+    end if
+  end function is_left
+
+  !> The label of an orbit that is left at its last age, with its state in a region or not.
+  pure function left_label(self, lane) result(label)
+    class(orbits_t), intent(in) :: self
+    integer, intent(in) :: lane
+    integer :: label
+
+    label = merge(self%first(lane), merge(DOUBTFUL, 0, self%region(lane) > 0), self%guess)
+  end function left_label
+
+  !> The orbit goes on elsewhere, as it is.
+  subroutine pass_on(self, lane)
+    class(orbits_t), intent(inout) :: self
+    integer, intent(in) :: lane
+
+    associate (o => self%orbit(self%number(lane)))
+      call self%carrier%take(lane, o)
+      o%p = self%ellipse(lane, :)
+      o%lost = 0
+      o%age = self%age(lane)
+    end associate
+    self%decision(self%number(lane))%label = PENDING
+  end subroutine pass_on
+
+  subroutine settle(self, lane, label, decided, p)
+    class(orbits_t), intent(inout) :: self
+    integer, intent(in) :: lane, label
+    logical, intent(in) :: decided
+    real(dp), intent(in) :: p(3)
+    integer(c_int64_t) :: periods
+
+    periods = self%age(lane)
+    if (label > 0 .and. label == self%first(lane)) periods = self%since(lane)
+    self%decision(self%number(lane)) = decision_t(label, 0, merge(self%level, NO_LEVEL, decided), periods, &
+                                                  SAFETY*sqrt(p(1) + p(3)), self%age(lane), &
+                                                  [self%carrier%u(lane), self%carrier%v(lane)])
+  end subroutine settle
 
   !> The first region that holds the state; a later one of another attractor counts in its place, but not for a guess.
-  subroutine note_region(lanes, lane, region, guess)
-    type(lanes_t), intent(inout) :: lanes
-    integer, intent(in) :: lane, region
-    logical, intent(in) :: guess
+  subroutine note_region(self, lane)
+    class(orbits_t), intent(inout) :: self
+    integer, intent(in) :: lane
 
-    if (lanes%first(lane) == region .or. (guess .and. lanes%first(lane) > 0)) return
-    lanes%first(lane) = region
-    lanes%since(lane) = lanes%age(lane)
+    if (self%first(lane) == self%region(lane) .or. (self%guess .and. self%first(lane) > 0)) return
+    self%first(lane) = self%region(lane)
+    self%since(lane) = self%age(lane)
   end subroutine note_region
 
-  subroutine move(carrier, lanes, from, to)
-    type(carrier_t), intent(inout) :: carrier
-    type(lanes_t), intent(inout) :: lanes
+  subroutine move(self, from, to)
+    class(orbits_t), intent(inout) :: self
     integer, intent(in) :: from, to
 
-    call carrier%move(from, to)
-    call lanes%copy(from, to)
-    lanes%number(to) = lanes%number(from)
-    lanes%first(to) = lanes%first(from)
-    lanes%since(to) = lanes%since(from)
-    lanes%doubted(to) = lanes%doubted(from)
+    call self%carrier%move(from, to)
+    call self%copy(from, to)
+    if (from > WIDTH) then
+      self%ellipse(to, :) = self%p(:, from)
+    else
+      self%ellipse(to, :) = self%ellipse(from, :)
+    end if
+    self%first(to) = self%first(from)
+    self%since(to) = self%since(from)
+    self%doubted(to) = self%doubted(from)
   end subroutine move
 
-  !> Whether the trapping region that holds (u0, v0) holds the whole ellipse, and `region_error` rad beyond.
-  function holds(regions, attractors, u0, v0, p, region_error, region) result(inside)
-    type(regions_t), intent(in) :: regions
-    type(attractor_t), intent(in) :: attractors(:)
-    real(dp), intent(in) :: u0, v0, p(3), region_error
-    integer, intent(in) :: region
-    logical :: inside
+  !> Whether the region that holds the state of a lane holds its whole ellipse p, and `region_error` rad beyond.
+  function is_held(self, lane, p) result(held)
+    class(orbits_t), intent(in) :: self
+    integer, intent(in) :: lane
+    real(dp), intent(in) :: p(3)
+    logical :: held
     real(dp) :: u(RIM), v(RIM), angle, along, across, slant
     integer :: label(RIM), i
 
-    along = sqrt(p(1))
-    inside = cell_holds(regions, u0, v0, (SAFETY*along + region_error)/PI, SAFETY*sqrt(p(3)) + region_error)
-    if (inside) return
-    slant = merge(p(2)/along, 0.0_dp, along > 0)
-    across = sqrt(max(0.0_dp, p(3) - slant**2))
-    do i = 1, RIM
-      angle = 2*PI*i/RIM
-      u(i) = angle_difference(u0 + ((SAFETY*along + region_error)*cos(angle))/PI, 0.0_dp)
-      v(i) = v0 + SAFETY*(slant*cos(angle) + across*sin(angle)) + region_error*sin(angle)
-    end do
-    call find_regions(regions, attractors, RIM, u, v, label)
-    inside = all(label == region)
-  end function holds
+    associate (u0 => self%carrier%u(lane), v0 => self%carrier%v(lane), error => self%carrier%region_error(lane))
+      along = sqrt(p(1))
+      held = cell_holds(self%regions, u0, v0, (SAFETY*along + error)/PI, SAFETY*sqrt(p(3)) + error)
+      if (held) return
+      slant = merge(p(2)/along, 0.0_dp, along > 0)
+      across = sqrt(max(0.0_dp, p(3) - slant**2))
+      do i = 1, RIM
+        angle = 2*PI*i/RIM
+        u(i) = angle_difference(u0 + ((SAFETY*along + error)*cos(angle))/PI, 0.0_dp)
+        v(i) = v0 + SAFETY*(slant*cos(angle) + across*sin(angle)) + error*sin(angle)
+      end do
+    end associate
+    call find_regions(self%regions, self%attractors, RIM, u, v, label)
+    held = all(label == self%region(lane))
+  end function is_held
 
 end module kz_labels_orbits

@@ -8,8 +8,9 @@ module kz_labels_spread
 
 contains
 
-  !> P over a period: the smallest ellipse, by trace, that holds the sum of the image of the old one and of all errors of the period,
-  !> whatever their directions and however they hang together: S + D has its like in (1 + 1/x) S + (1 + x) D with x**2 = tr S/tr D.
+  !> The matrices P of error ellipses after a period. The tangent T takes an ellipse to one of the matrix S = T P T'. The errors of the period
+  !> add a vector of any direction: a disc of the matrix D. For any x > 0 the ellipse of (1 + 1/x) S + (1 + x) D holds all sums of a
+  !> vector of each; its trace is least at x**2 = tr S/tr D.
   pure subroutine spread_errors(n, tangent, noise, nonlinear, p, trace)
     integer, intent(in) :: n !< lanes
     real(dp), intent(in) :: tangent(WIDTH, 4) !< (WIDTH, 4): derivatives of the angle by angle and velocity, of the velocity by both

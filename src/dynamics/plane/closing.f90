@@ -3,6 +3,7 @@ module kz_plane_closing
   use, intrinsic :: iso_c_binding, only: dp => c_double
   use kz_lanes_map, only: WIDTH, PI
   use kz_split_mixed_batch, only: mixed_batch_t, track_t
+  use kz_cycles_features, only: centre_of, ELSEWHERE
   use kz_cycles_newton, only: solved, eigenvalues
   use kz_maps_states, only: angle_difference
   implicit none
@@ -12,7 +13,6 @@ module kz_plane_closing
   !> Steps of the method, the one that is short enough, how far it may lead (rad), and how near a point that comes back sooner must be.
   integer, parameter :: STEPS = 8
   real(dp), parameter :: SHORT = 1e-9_dp, FAR = 1e-2_dp, BACK = 1e-7_dp
-  integer, parameter :: DOWN = 0, INVERTED = 1, ROTATING = 2, ELSEWHERE = 3
 
   !> The result of following a motion.
   type :: closed_t
@@ -122,23 +122,9 @@ contains
     closed%winding = orbits%winding(i, p)
     closed%attracts = abs(multiplier(1)) < 1
     closed%exponent = log(abs(multiplier(1)))/p
-    closed%centre = centre_of(orbits%track(p), i, p*batch%n_steps, closed%winding)
+    associate (track => orbits%track(p))
+      closed%centre = centre_of(closed%winding /= 0, track%total(i)/(p*batch%n_steps), track%lowest(i), track%highest(i))
+    end associate
   end subroutine describe
-
-  !> Down or inverted where the motion stays within half a turn of it and its mean within pi/4, as in catalogues.
-  pure function centre_of(track, i, samples, winding) result(centre)
-    type(track_t), intent(in) :: track
-    integer, intent(in) :: i, samples, winding
-    integer :: centre
-    real(dp) :: mean, nearest
-
-    centre = ROTATING
-    if (winding /= 0) return
-    centre = ELSEWHERE
-    mean = track%total(i)/samples
-    nearest = anint(mean)
-    if (abs(mean - nearest) < 0.25_dp .and. max(track%highest(i) - nearest, nearest - track%lowest(i)) < 1) &
-      centre = merge(DOWN, INVERTED, modulo(nearest, 2.0_dp) < 0.5_dp)
-  end function centre_of
 
 end module kz_plane_closing

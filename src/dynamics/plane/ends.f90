@@ -1,8 +1,9 @@
-!> Where motions of many pendulums end: each is followed until it comes back to a point of its own, and Newton's method then tells
-!> the cycle; those that never do are held for chaotic where neighbours part.
+!> Where motions of many pendulums end: each is followed until it comes back to a point of its own; then Newton's method finds the
+!> cycle. Those that never come back count as chaotic if neighbours separate.
 module kz_plane_ends
   use, intrinsic :: iso_c_binding, only: dp => c_double, c_int32_t, c_int64_t
-  use kz_lanes_map, only: WIDTH, PI
+  use kz_lanes_map, only: WIDTH
+  use kz_maps_lanes, only: lanes_t, list_flagged
   use kz_split_mixed_batch, only: mixed_batch_t, track_t, make_mixed_batch
   use kz_model_pendulum, only: pendulum_t
   use kz_plane_closing, only: closed_t, close_motions
@@ -39,6 +40,24 @@ module kz_plane_ends
     real(dp) :: exponent = 0
   end type ending_t
 
+  !> Motions in the lanes of a batch.
+  type, extends(lanes_t) :: motions_t
+    integer :: n_steps = 0
+    type(mixed_batch_t) :: batch
+    type(past_t) :: past
+    type(motion_t) :: motion(WIDTH)
+    integer :: n_waiting = 0
+    type(motion_t), allocatable :: waiting(:)   !< the first n_waiting of them, to be begun or gone on with
+    type(motion_t), allocatable :: near(:)      !< that have come back
+    type(motion_t), allocatable :: unsettled(:) !< that have gone on for too long
+    type(ending_t), pointer :: endings(:) => null()
+  contains
+    procedure :: fill
+    procedure :: advance
+    procedure :: is_done
+    procedure :: move
+  end type motions_t
+
 contains
 
   !> kz_chart_ends of dynamics.h.
@@ -49,48 +68,40 @@ contains
     real(dp), intent(in) :: start(2)
     integer(c_int32_t), value :: max_period
     integer(c_int64_t), intent(in) :: max_periods(n)
-    type(ending_t), intent(out) :: endings(n)
+    type(ending_t), intent(out), target :: endings(n)
     type(motion_t), allocatable :: motions(:)
+    type(motions_t) :: lanes
     integer :: i
 
     allocate (motions(n))
     do i = 1, int(n)
       motions(i) = motion_t(id=i, longest=max_periods(i), pendulum=pendulum(i), u=start(1), v=start(2))
     end do
-    motions = pack(motions, max_periods > 0)
-    call find_ends(int(n_steps), int(max_period), motions, endings)
+    lanes%waiting = pack(motions, max_periods > 0)
+    lanes%n_waiting = size(lanes%waiting)
+    lanes%n_steps = n_steps
+    lanes%endings => endings
+    call make_mixed_batch(lanes%n_steps, lanes%batch)
+    call make_past(int(max_period), lanes%past)
+    allocate (lanes%near(0), lanes%unsettled(0))
+    call lanes%run()
+    call classify(lanes%n_steps, lanes%unsettled, endings)
   end subroutine chart_ends
 
-  !> Follows all motions, each of which has the place of its end. Those that wait to be gone on with take the places of the list that are free.
-  subroutine find_ends(n_steps, max_period, motions, endings)
-    integer, intent(in) :: n_steps, max_period
-    type(motion_t), intent(inout) :: motions(:)
-    type(ending_t), intent(inout) :: endings(:)
-    type(mixed_batch_t) :: batch
-    type(past_t) :: past
-    type(motion_t) :: lane(WIDTH)
-    type(motion_t), allocatable :: near(:), tired(:)
-    integer :: n, n_waiting
+  !> The last motion that waits. Those that have come back are tried when they are many, or nothing else is left.
+  function fill(self, lane) result(yes)
+    class(motions_t), intent(inout) :: self
+    integer, intent(in) :: lane
+    logical :: yes
 
-    call make_mixed_batch(n_steps, batch)
-    call make_past(max_period, past)
-    allocate (near(0), tired(0))
-    n = 0
-    n_waiting = size(motions)
-    do
-      do while (n < WIDTH .and. n_waiting > 0)
-        n = n + 1
-        lane(n) = motions(n_waiting)
-        n_waiting = n_waiting - 1
-        call load(batch, n, lane(n))
-        call past%begin(n, batch)
-      end do
-      if (n == 0 .and. size(near) == 0) exit
-      if (n > 0) call one_period(batch, past, lane, n, near, tired)
-      if (size(near) >= WIDTH .or. (n == 0 .and. size(near) > 0)) call settle(n_steps, near, motions, n_waiting, endings)
-    end do
-    call classify(n_steps, tired, endings)
-  end subroutine find_ends
+    if (size(self%near) >= WIDTH .or. (self%active == 0 .and. self%n_waiting == 0 .and. size(self%near) > 0)) call settle(self)
+    yes = self%n_waiting > 0
+    if (.not. yes) return
+    self%motion(lane) = self%waiting(self%n_waiting)
+    self%n_waiting = self%n_waiting - 1
+    call load(self%batch, lane, self%motion(lane))
+    call self%past%begin(lane, self%batch)
+  end function fill
 
   subroutine load(batch, lane, motion)
     type(mixed_batch_t), intent(inout) :: batch
@@ -101,102 +112,108 @@ contains
     call batch%put(lane, motion%u, motion%v)
   end subroutine load
 
-  !> Lanes that have come back leave for `near`, those that have gone on for too long for `tired`.
-  subroutine one_period(batch, past, lane, n, near, tired)
-    type(mixed_batch_t), intent(inout) :: batch
-    type(past_t), intent(inout) :: past
-    type(motion_t), intent(inout) :: lane(WIDTH)
-    integer, intent(inout) :: n
-    type(motion_t), allocatable, intent(inout) :: near(:), tired(:)
-    integer :: back(WIDTH), i
-    logical :: leaves(WIDTH)
+  subroutine advance(self, list, n)
+    class(motions_t), intent(inout) :: self
+    integer, intent(out) :: list(WIDTH), n
+    integer :: back(WIDTH), leaves(WIDTH)
 
-    call batch%advance(n)
-    lane(:n)%age = lane(:n)%age + 1
-    call past%find(n, batch, back)
-    call past%note(n, batch)
-    lane(:n)%back = back(:n)
-    leaves(:n) = (back(:n) > 0 .and. lane(:n)%age >= lane(:n)%pause) .or. lane(:n)%age >= lane(:n)%longest
-    if (.not. any(leaves(:n))) return
-    do i = n, 1, -1
-      if (.not. leaves(i)) cycle
-      lane(i)%u = batch%u(i)
-      lane(i)%v = batch%v(i)
-      if (back(i) > 0) then
-        near = [near, lane(i)]
+    associate (m => self%active)
+      call self%batch%advance(m)
+      call self%past%find(m, self%batch, back)
+      call self%past%note(m, self%batch)
+      associate (motion => self%motion(:m))
+        motion%age = motion%age + 1
+        motion%back = back(:m)
+        leaves(:m) = merge(1, 0, (motion%back > 0 .and. motion%age >= motion%pause) .or. motion%age >= motion%longest)
+      end associate
+      call list_flagged(m, leaves, list, n)
+    end associate
+  end subroutine advance
+
+  !> A motion has come back, or has gone on for too long.
+  function is_done(self, lane) result(yes)
+    class(motions_t), intent(inout) :: self
+    integer, intent(in) :: lane
+    logical :: yes
+
+    yes = .true.
+    associate (motion => self%motion(lane))
+      motion%u = self%batch%u(lane)
+      motion%v = self%batch%v(lane)
+      if (motion%back > 0) then
+        self%near = [self%near, motion]
       else
-        tired = [tired, lane(i)]
+        self%unsettled = [self%unsettled, motion]
       end if
-      if (i < n) then
-        lane(i) = lane(n)
-        call batch%move(n, i)
-        call past%move(n, i)
-      end if
-      n = n - 1
-    end do
-  end subroutine one_period
+    end associate
+  end function is_done
+
+  subroutine move(self, from, to)
+    class(motions_t), intent(inout) :: self
+    integer, intent(in) :: from, to
+
+    self%motion(to) = self%motion(from)
+    call self%batch%move(from, to)
+    call self%past%move(from, to)
+  end subroutine move
 
   !> The cycles of up to a batch of motions that have come back; those whose cycle does not attract go on later.
-  subroutine settle(n_steps, near, motions, n_waiting, endings)
-    integer, intent(in) :: n_steps
-    type(motion_t), allocatable, intent(inout) :: near(:)
-    type(motion_t), intent(inout) :: motions(:)
-    integer, intent(inout) :: n_waiting
-    type(ending_t), intent(inout) :: endings(:)
+  subroutine settle(self)
+    class(motions_t), intent(inout) :: self
     type(mixed_batch_t) :: batch
     type(motion_t) :: lane(WIDTH)
     type(closed_t) :: closed(WIDTH)
     integer :: n, i, j
 
     n = 0
-    call make_mixed_batch(n_steps, batch)
-    do j = maxval(near%back), 1, -1
-      do i = 1, min(size(near), WIDTH)
-        if (near(i)%back /= j) cycle
+    call make_mixed_batch(self%n_steps, batch)
+    do j = maxval(self%near%back), 1, -1
+      do i = 1, min(size(self%near), WIDTH)
+        if (self%near(i)%back /= j) cycle
         n = n + 1
-        lane(n) = near(i)
-        call load(batch, n, near(i))
+        lane(n) = self%near(i)
+        call load(batch, n, lane(n))
       end do
     end do
-    near = near(n + 1:)
+    self%near = self%near(n + 1:)
     call close_motions(batch, n, lane(:n)%back, closed)
     do i = 1, n
       associate (motion => lane(i))
         if (closed(i)%found .and. closed(i)%attracts) then
-          endings(motion%id) = ending_t(closed(i)%period, closed(i)%winding, closed(i)%centre, int(motion%age, c_int32_t), &
-                                        closed(i)%exponent)
+          self%endings(motion%id) = ending_t(closed(i)%period, closed(i)%winding, closed(i)%centre, int(motion%age, c_int32_t), &
+                                             closed(i)%exponent)
         else if (motion%age >= motion%longest .or. (closed(i)%found .and. closed(i)%distance < ON_IT)) then
-          endings(motion%id) = ending_t(settling_time=int(motion%longest, c_int32_t), exponent=closed(i)%exponent)
+          self%endings(motion%id) = ending_t(settling_time=int(motion%longest, c_int32_t), exponent=closed(i)%exponent)
         else
           motion%pause = motion%age + PAUSE
-          n_waiting = n_waiting + 1
-          motions(n_waiting) = motion
+          self%n_waiting = self%n_waiting + 1
+          self%waiting(self%n_waiting) = motion
         end if
       end associate
     end do
   end subroutine settle
 
   !> Motions that have not settled: chaotic where neighbours part.
-  subroutine classify(n_steps, tired, endings)
+  subroutine classify(n_steps, unsettled, endings)
     integer, intent(in) :: n_steps
-    type(motion_t), intent(in) :: tired(:)
+    type(motion_t), intent(in) :: unsettled(:)
     type(ending_t), intent(inout) :: endings(:)
     type(mixed_batch_t) :: batch
     real(dp) :: rate(BLOCKS, WIDTH), mean, error
     integer :: first, n, i
 
-    if (size(tired) == 0) return
+    if (size(unsettled) == 0) return
     call make_mixed_batch(n_steps, batch)
-    do first = 1, size(tired), WIDTH
-      n = min(WIDTH, size(tired) - first + 1)
+    do first = 1, size(unsettled), WIDTH
+      n = min(WIDTH, size(unsettled) - first + 1)
       do i = 1, n
-        call load(batch, i, tired(first + i - 1))
+        call load(batch, i, unsettled(first + i - 1))
       end do
       call growth(batch, n, rate)
       do i = 1, n
         mean = sum(rate(:, i))/BLOCKS
         error = sqrt(sum((rate(:, i) - mean)**2)/(BLOCKS*(BLOCKS - 1)))
-        associate (motion => tired(first + i - 1))
+        associate (motion => unsettled(first + i - 1))
           endings(motion%id) = ending_t(merge(CHAOTIC, OPEN, mean > CONFIDENCE*error), &
                                         settling_time=int(motion%longest, c_int32_t), exponent=mean)
         end associate

@@ -111,7 +111,7 @@ contains
     end do
   end subroutine follow
 
-  !> Whether an image of the piece is too long to tell whether it passes near the piece.
+  !> Whether an image of the piece is too long to decide whether it passes near the piece.
   pure function is_long(a, b) result(long)
     real(dp), intent(in) :: a(:, 0:) !< orbits of the ends
     real(dp), intent(in) :: b(:, 0:)

@@ -309,7 +309,7 @@ contains
   end subroutine merge_arcs
 
   !> The points of the arc below the largest speed, but for its first, which ended the arc before. Neighbours that are too far apart end
-  !> the branch: doubles do not tell what lies between them.
+  !> the branch: doubles do not resolve what lies between them.
   subroutine append(arc, branch, n, point, resolved)
     type(arc_t), intent(in) :: arc
     type(branch_t), intent(in) :: branch

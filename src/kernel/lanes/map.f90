@@ -43,8 +43,8 @@ module kz_lanes_map
     !> Advances the lanes 1 .. n by one period; tangent(lane, :), if only to three digits: the derivatives of theta by theta and v, of v by
     !> both, rad.
     procedure :: advance_linear => linear_of_tangent
-    !> What neighbours of lanes that advance_linear has moved differ by from their images, if only to three digits. `by` (2, points,
-    !> n): of the angle and velocity before it, and after it, rad. The lanes stay.
+    !> Where a period takes neighbours of states, to three digits at least. by(:, j, i), in: neighbour j less state i before the period; out:
+    !> image of the neighbour less image of the state; rad, rad per drive radian. The lanes stay as advance_linear has left them.
     procedure :: displace => displace_by_states
     !> Advances lane 1 by one period, shown at n equal times in physical coordinates; u(n) is not yet wrapped.
     procedure(sample_i), deferred :: sample

@@ -94,18 +94,11 @@ static bool find_saddle(const kz_scene *scene, const double *state, int64_t n, k
   return true;
 }
 
-/* Down or inverted where the closed motion stays within half a turn of it and its mean within pi/4, as in catalogues. */
 static int32_t centre_of(const pair *p, const kz_edge *edge) {
   enum { SAMPLES = 96 };
-  double theta[SAMPLES * KZ_EDGE_MOST_PERIOD + 1], velocity[SAMPLES * KZ_EDGE_MOST_PERIOD + 1], mean = 0, farthest = 0;
-  const int64_t n = SAMPLES * edge->period;
-  if (edge->winding != 0) return KZ_ROTATING;
+  double theta[SAMPLES * KZ_EDGE_MOST_PERIOD + 1], velocity[SAMPLES * KZ_EDGE_MOST_PERIOD + 1], origin;
   kz_sample(p->map, edge->period, SAMPLES, edge->theta[0], edge->velocity[0], theta, velocity);
-  for (int64_t i = 0; i < n; i++) mean += theta[i] / (double)n;
-  const double half_turns = rint(mean / M_PI);
-  for (int64_t i = 0; i < n; i++) farthest = fmax(farthest, fabs(theta[i] - M_PI * half_turns));
-  if (fabs(mean - M_PI * half_turns) >= M_PI / 4 || farthest >= M_PI) return KZ_ABOUT_NEITHER;
-  return fmod(half_turns, 2) == 0 ? KZ_ABOUT_DOWN : KZ_ABOUT_INVERTED;
+  return kz_centre_of(edge->winding != 0, SAMPLES * edge->period, theta, &origin);
 }
 
 /* Winding, centre and strobe points of the cycle whose first point is known. */

@@ -1,6 +1,7 @@
 /* Features of an orbit: centre, period, winding, lines, turning points. */
 #include <math.h>
 
+#include "kapitza/dynamics.h"
 #include "orbit.h"
 
 /* Lines up to this many drive frequencies. */
@@ -14,19 +15,6 @@ static double rotation_of(const kz_motion *motion, const kz_record *record) {
   }
   double rotation = kz_spectrum_rotation(record, motion->theta);
   return fabs(rotation) * (double)record->periods < 1 ? 0 : rotation;
-}
-
-/* Down or inverted: mean within pi/4 of it and amplitude below pi; *origin = the copy of it that the orbit is about. */
-static int centre_of(const kz_motion *motion, int64_t n, double rotation, double *origin) {
-  double mean = 0, amplitude = 0;
-  *origin = 0;
-  if (rotation != 0) return KZ_ROTATING;
-  for (int64_t i = 0; i < n; i++) mean += motion->theta[i] / (double)n;
-  double nearest = rint(mean / M_PI);
-  for (int64_t i = 0; i < n; i++) amplitude = fmax(amplitude, fabs(motion->theta[i] - nearest * M_PI));
-  if (fabs(mean - nearest * M_PI) > M_PI / 4 || amplitude >= M_PI) return KZ_ABOUT_NEITHER;
-  *origin = nearest * M_PI;
-  return fmod(nearest, 2) == 0 ? KZ_ABOUT_DOWN : KZ_ABOUT_INVERTED;
 }
 
 static kz_status make_lines(const kz_motion *motion, const kz_record *record, kz_orbit_features *features) {
@@ -66,7 +54,7 @@ kz_status kz_orbit_features_make(kz_orbit *orbit) {
   kz_record record = {
       .periods = period > 0 ? period : motion->periods, .samples_per_period = motion->samples, .closed = period > 0};
   record.rotation = rotation_of(motion, &record);
-  features->centre = centre_of(motion, record.periods * motion->samples, record.rotation, &features->origin);
+  features->centre = kz_centre_of(record.rotation != 0, record.periods * motion->samples, motion->theta, &features->origin);
   record.centre = features->origin;
   KZ_TRY(make_lines(motion, &record, features));
   if (record.closed && features->period != period)

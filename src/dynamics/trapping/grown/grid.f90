@@ -173,7 +173,7 @@ contains
     type(regions_t), intent(inout) :: regions
     type(ellipse_overlap_t), intent(in) :: overlap
 
-    if (regions%n_overlaps == size(regions%overlaps)) regions%overlaps = [regions%overlaps, regions%overlaps] ! room for as many more
+    if (regions%n_overlaps == size(regions%overlaps)) regions%overlaps = [regions%overlaps, regions%overlaps] ! place for as many more
     regions%n_overlaps = regions%n_overlaps + 1
     regions%overlaps(regions%n_overlaps) = overlap
   end subroutine add_overlap

@@ -1,5 +1,5 @@
 !> Trapping regions for pictures that move; it is likely, not certain, that they trap. Those of a pendulum nearby serve for another one. And
-!> where damping is weak, images of cells shrink too slowly for regions to grow; but orbits that have been followed to their ends tell where
+!> where damping is weak, images of cells shrink too slowly for regions to grow; but orbits that have been followed to their ends show where
 !> motions go: a cell joins an attractor if all orbits that visited it end there, and visited only such cells from then on.
 module kz_grown_moving
   use, intrinsic :: iso_c_binding, only: dp => c_double, int32 => c_int32_t
@@ -7,6 +7,7 @@ module kz_grown_moving
   use kz_grown_grid, only: regions_t, make_regions, chaos_region, find_regions, note_closed
   use kz_grown_places, only: fold_cell, number_cells
   use kz_lanes_map, only: flow_t, WIDTH
+  use kz_maps_lanes, only: lanes_t
   implicit none
   private
   public :: aged_regions, learn_regions
@@ -23,6 +24,26 @@ module kz_grown_moving
     integer, allocatable :: ends(:)        !< of each orbit: the attractor, 0 = none
     integer :: orbits = 0
   end type visits_t
+
+  !> Orbits in the lanes of a flow.
+  type, extends(lanes_t) :: visitors_t
+    type(regions_t), pointer :: regions => null()
+    type(attractor_t), pointer :: attractors(:) => null()
+    class(flow_t), pointer :: flow => null()
+    real(dp), pointer :: state(:, :) => null()
+    integer :: budget = 0                    !< periods of all orbits
+    integer :: next = 1                      !< start that enters next
+    logical :: begun = .false.
+    integer :: age(WIDTH) = 0                !< periods
+    integer :: region(WIDTH) = 0, cell(WIDTH) = 0 !< where the orbits are
+    integer(int32), allocatable :: path(:, :) !< cells visited so far
+    type(visits_t) :: visits
+  contains
+    procedure :: fill
+    procedure :: advance
+    procedure :: is_done
+    procedure :: move
+  end type visitors_t
 
 contains
 
@@ -73,84 +94,89 @@ contains
     if (a > 0 .and. mirrored) a = regions%mirror(a)
   end function attractor_at
 
-  !> Follows orbits until each is trapped, and extends the regions by what they tell. It ends early when the orbits together have spent
+  !> Follows orbits until each is trapped, and extends the regions by the cells of which all end alike. It ends early when the orbits together have spent
   !> `budget` periods.
   subroutine learn_regions(regions, attractors, flow, state, most, budget)
-    type(regions_t), intent(inout) :: regions !< the trapping regions of all attractors
-    type(attractor_t), intent(in) :: attractors(:) !< the catalogue, numbered from 1
-    class(flow_t), intent(inout) :: flow !< the map of one drive period
-    real(dp), intent(in) :: state(:, :) !< [2, n] physical states: half-turns, rad per drive radian
+    type(regions_t), intent(inout), target :: regions !< the trapping regions of all attractors
+    type(attractor_t), intent(in), target :: attractors(:) !< the catalogue, numbered from 1
+    class(flow_t), intent(inout), target :: flow !< the map of one drive period
+    real(dp), intent(in), target :: state(:, :) !< [2, n] physical states: half-turns, rad per drive radian
     integer, intent(in) :: most !< most periods of an orbit
     integer, intent(in) :: budget !< most periods of all orbits
-    type(visits_t) :: visits
+    type(visitors_t) :: visitors
     integer, allocatable :: label(:, :), orbits(:, :)
 
     allocate (label, mold=regions%label)
-    call follow(regions, attractors, flow, state, most, budget, visits)
+    visitors = visitors_t(regions=regions, attractors=attractors, flow=flow, state=state, budget=budget)
+    allocate (visitors%path(most, WIDTH))
+    associate (visits => visitors%visits)
+      allocate (visits%cell(budget), visits%last(0:size(state, 2)), visits%ends(size(state, 2)))
+      visits%last(0) = 0
+    end associate
+    call visitors%run()
     allocate (orbits, mold=regions%label)
-    call believe(visits, regions%mirror, size(label), label, orbits)
-    call drop_leaks(visits, size(label), label)
+    call believe(visitors%visits, regions%mirror, size(label), label, orbits)
+    call drop_leaks(visitors%visits, size(label), label)
     where (regions%label <= 0 .and. label > 0 .and. orbits >= FEWEST_ORBITS) regions%label = label
     call note_closed(regions)
   end subroutine learn_regions
 
-  !> Lanes take the starts in turn. An orbit that nothing has trapped after all its periods ends on the chaotic attractor where it is.
-  subroutine follow(regions, attractors, flow, state, most, budget, visits)
-    type(regions_t), intent(in) :: regions
-    type(attractor_t), intent(in) :: attractors(:)
-    class(flow_t), intent(inout) :: flow
-    real(dp), intent(in) :: state(:, :)
-    integer, intent(in) :: most, budget
-    type(visits_t), intent(out) :: visits
-    integer(int32), allocatable :: path(:, :)
-    integer :: age(WIDTH), region(WIDTH), number(WIDTH), lane, active, next
+  function fill(self, lane) result(yes)
+    class(visitors_t), intent(inout) :: self
+    integer, intent(in) :: lane
+    logical :: yes
 
-    allocate (path(most, WIDTH), visits%cell(budget), visits%last(0:size(state, 2)), visits%ends(size(state, 2)))
-    visits%last(0) = 0
-    next = 1
-    active = 0
-    do lane = 1, WIDTH
-      call let_in
-    end do
-    do while (active > 0)
-      call find_regions(regions, attractors, active, flow%u(:active), flow%v(:active), region)
-      call number_cells(regions%grid_t, active, flow%u(:active), flow%v(:active), number)
-      where (abs(number(:active)) > size(regions%label)) number(:active) = 0
-      do lane = active, 1, -1
-        if (region(lane) == 0 .and. age(lane) < most) then
-          age(lane) = age(lane) + 1
-          path(age(lane), lane) = number(lane)
-        else
-          if (visits%last(visits%orbits) + age(lane) > budget) return
-          if (region(lane) == 0 .and. size(regions%covered) > 0) region(lane) = chaos_region(regions, flow%u(lane), flow%v(lane))
-          call add_orbit(visits, path(:age(lane), lane), region(lane))
-          call leave
-        end if
-      end do
-      call flow%advance(active)
-    end do
-  contains
-    !> The next start takes the first free lane.
-    subroutine let_in
-      if (next > size(state, 2)) return
-      active = active + 1
-      age(active) = 0
-      call flow%put(active, state(1, next), state(2, next))
-      call flow%to_map(active, first=active)
-      next = next + 1
-    end subroutine let_in
+    yes = self%next <= size(self%state, 2)
+    if (.not. yes) return
+    self%age(lane) = 0
+    call self%flow%put(lane, self%state(1, self%next), self%state(2, self%next))
+    call self%flow%to_map(lane, first=lane)
+    self%next = self%next + 1
+  end function fill
 
-    !> The last active lane takes the place of this one.
-    subroutine leave
-      if (lane < active) then
-        call flow%move(active, lane)
-        path(:age(active), lane) = path(:age(active), active)
-        age(lane) = age(active)
-      end if
-      active = active - 1
-      call let_in
-    end subroutine leave
-  end subroutine follow
+  !> The starts themselves are looked at first.
+  subroutine advance(self, list, n)
+    class(visitors_t), intent(inout) :: self
+    integer, intent(out) :: list(WIDTH), n
+    integer :: i
+
+    n = self%active
+    if (self%begun) call self%flow%advance(n)
+    self%begun = .true.
+    call find_regions(self%regions, self%attractors, n, self%flow%u(:n), self%flow%v(:n), self%region)
+    call number_cells(self%regions%grid_t, n, self%flow%u(:n), self%flow%v(:n), self%cell)
+    where (abs(self%cell(:n)) > size(self%regions%label)) self%cell(:n) = 0
+    list(:n) = [(i, i=n, 1, -1)]
+  end subroutine advance
+
+  !> An orbit that nothing has trapped after all its periods ends on the attractor whose cover it is in. When the budget is spent, all end.
+  function is_done(self, lane) result(yes)
+    class(visitors_t), intent(inout) :: self
+    integer, intent(in) :: lane
+    logical :: yes
+    integer :: end
+
+    end = self%region(lane)
+    yes = self%next > size(self%state, 2) + 1 .or. end > 0 .or. self%age(lane) >= size(self%path, 1)
+    if (.not. yes) then
+      self%age(lane) = self%age(lane) + 1
+      self%path(self%age(lane), lane) = self%cell(lane)
+    else if (self%visits%last(self%visits%orbits) + self%age(lane) > self%budget) then
+      self%next = size(self%state, 2) + 2 ! no more starts, and no more orbits
+    else if (self%next <= size(self%state, 2) + 1) then
+      if (end == 0 .and. size(self%regions%covered) > 0) end = chaos_region(self%regions, self%flow%u(lane), self%flow%v(lane))
+      call add_orbit(self%visits, self%path(:self%age(lane), lane), end)
+    end if
+  end function is_done
+
+  subroutine move(self, from, to)
+    class(visitors_t), intent(inout) :: self
+    integer, intent(in) :: from, to
+
+    call self%flow%move(from, to)
+    self%path(:self%age(from), to) = self%path(:self%age(from), from)
+    self%age(to) = self%age(from)
+  end subroutine move
 
   subroutine add_orbit(visits, path, end)
     type(visits_t), intent(inout) :: visits
