@@ -154,11 +154,10 @@ double kz_reference_error(const kz_pendulum *pendulum, double fastest);
 /* ---- any precision ---- */
 
 /* Whole drive periods in any number of digits, by Taylor series. Beside the orbit of a centre they can carry its neighbourhood: the images
- * of the starts centre + (x, y) as polynomials of degree 3 in x and y. The numbers are those of FLINT (Arb); a build without FLINT has quads. */
+ * of the starts centre + (x, y) as polynomials of degree 3 in x and y. The numbers are those of FLINT (Arb). */
 
-/* The largest number of bits behind the binary point: KZ_MOST_BITS, or 113 in a build without FLINT. */
-enum { KZ_MOST_BITS = 40000, KZ_FEWEST_BITS = 116 };
-int64_t kz_arbitrary_bits(void);
+/* The fewest and the most bits behind the binary point. */
+enum { KZ_FEWEST_BITS = 116, KZ_MOST_BITS = 40000 };
 
 /* One coordinate of a start, rad or rad per drive radian: exactly high + low, or the decimal number `centre` plus share * width. */
 typedef struct {

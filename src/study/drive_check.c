@@ -5,8 +5,6 @@
 #include "sweep/sweep.h"
 
 static const char needs_strobe[] = "a window by centre and width needs starts at phase 0 and no ramp; give min and max";
-static const char needs_vertical[] =
-    "a window by centre and width needs a pivot that moves up and down as a sine; give min and max";
 static const char needs_pivot[] = "study chart needs a pivot that moves up and down as a sine; leave one of them out";
 
 static bool is_centred(const kz_scene *scene) {
@@ -79,9 +77,6 @@ static const char *needs_sine(const kz_scene *scene) {
   if (scene->has_potential) return "study potential needs a pivot that moves up and down as a sine; leave one of them out";
   if (scene->has_orbit && scene->orbit.model != KZ_PENDULUM)
     return "orbit.model needs a pivot that moves up and down as a sine; choose the model pendulum";
-  if (is_centred(scene)) return needs_vertical;
-  if (scene->has_basin && scene->basin.undecided == KZ_UNDECIDED_DECIDE)
-    return "basin.undecided decide needs a pivot that moves up and down as a sine; choose flag";
   if (scene->has_basin && scene->basin.proof)
     return "basin.proof needs a pivot that moves up and down as a sine; leave one of them out";
   if (scene->has_sweep && (kz_sweep_measures(&scene->sweep, KZ_SWEEP_FLUTTER_AMPLITUDE) ||
@@ -144,7 +139,6 @@ kz_status kz_drive_check(const kz_scene *scene) {
 
 kz_status kz_drive_check_window(const kz_scene *scene) {
   if (!is_centred(scene)) return KZ_OK;
-  if (!kz_is_sine(&scene->parameters.pendulum)) return kz_fail(KZ_REFUSED, "%s: %s", keys_of(scene), needs_vertical);
   if (kz_release_strobes(&scene->parameters.release) > 0)
     return kz_fail(KZ_REFUSED, "%s: %s", scene->parameters.has_ramp ? "pendulum.ramp" : "basin.start_phase", needs_strobe);
   return KZ_OK;

@@ -4,8 +4,6 @@ import os
 import shutil
 import subprocess
 
-import h5py
-import numpy as np
 import pytest
 from conftest import PROGRAM, ROOT
 
@@ -40,36 +38,6 @@ def test_clang_takes_every_c_file(tmp_path):
         assert done.returncode == 0, done.stdout[-4000:]
         done = call("ctest", "--test-dir", build, "-L", "unit", "--output-on-failure", timeout=1200)
         assert done.returncode == 0, done.stdout[-4000:]
-
-
-DEEP = """\
-pendulum: {k: 0.1, damping: 0.1, m: 0.4}
-basin:
-  theta: {centre: "-2.36717282205514094284618936441679793", width: 1e-20, count: 12}
-  velocity: {centre: "17", width: 1e-20, count: 12}
-  attractors: {starts: 512}
-"""
-
-
-@pytest.mark.skipif(not EXTENSIVE, reason="builds the program once more: KAPITZA_EXTENSIVE=1")
-def test_a_program_without_flint_labels_what_quads_can_and_refuses_the_rest(tmp_path):
-    build = configured(tmp_path / "plain", "-DKAPITZA_FLINT=OFF", "-DBUILD_TESTING=OFF")
-    done = call("cmake", "--build", build, "-j2", "--target", "kapitza", timeout=1200)
-    assert done.returncode == 0, done.stdout[-4000:]
-    (tmp_path / "s.yaml").write_text(DEEP)
-    cells = []
-    for program in (PROGRAM, build / "kapitza"):
-        done = call(program, "run", "s.yaml", "--force", folder=tmp_path)
-        assert done.returncode == 0, done.stderr
-        with h5py.File(tmp_path / "s.h5") as file:
-            cells.append((file["basin/attractor"][:], file["basin/evidence"][:] == 3))
-    decided = ~cells[1][1]
-    assert not cells[0][1].any() and decided.mean() > 0.9 and np.array_equal(cells[0][0][decided], cells[1][0][decided])
-    for words, said in ((("check", "s.yaml", "--set", "basin.theta.width=9e-26"), "basin.theta.width: 9e-26 is too narrow for this build"),
-                        (("check", "s.yaml", "--set", "basin.undecided=decide"), "basin.undecided: decide needs a build with FLINT"),
-                        (("where", "s.yaml", "-2.3672", "17", "-2.3671", "17", "--boundary", "26"), "26 digits need a build with FLINT")):
-        done = call(build / "kapitza", *words, folder=tmp_path)
-        assert done.returncode == 2 and said in done.stderr, done.stderr
 
 
 @pytest.mark.parametrize("c, fortran, named", [("GNU", "GNU", ""), ("Clang", "GNU", ""), ("IntelLLVM", "GNU", "C compiler is IntelLLVM"),

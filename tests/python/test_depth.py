@@ -17,8 +17,15 @@ import own_orbit
 
 K01 = {"k": 0.1, "damping": 0.1, "m": 0.4}
 FIG12 = {"quality_factor": 5, "drive_frequency": 11, "drive_amplitude": 0.3}
-BETWEEN = {"k = 0.1": (K01, "-2.3672", "-2.3671", "17"), "Fig. 12": (FIG12, "-0.27", "-0.26", "1.42")}
-WINDOWS = [*((name, depth, 50) for name in BETWEEN for depth in (7, 20, 25, 50, 100)), ("k = 0.1", 300, 10)]
+TILTED = FIG12 | {"tilt": "5 deg"}
+SQUARE = FIG12 | {"waveform": "square", "harmonics": [{"order": 2, "amplitude": 0.02, "phase": "90 deg"}]}
+PUSHED = FIG12 | {"torque": 0.001}
+BETWEEN = {"k = 0.1": (K01, "-2.3672", "-2.3671", "17"), "Fig. 12": (FIG12, "-0.27", "-0.26", "1.42"),
+           "tilted": (TILTED, "-0.27", "0.4", "1.42"), "square": (SQUARE, "-0.27", "0.4", "1.42"),
+           "torque": (PUSHED, "0.08", "0.4", "1.42")}
+SINES = ("k = 0.1", "Fig. 12")
+WINDOWS = [*((name, depth, 50) for name in SINES for depth in (7, 20, 25, 50, 100)), ("k = 0.1", 300, 10),
+           *((name, depth, 6) for name in BETWEEN if name not in SINES for depth in (20, 50, 100))]
 COUNT = 101
 ALONE = 2  # cells of a window whose orbits are followed without the common one too
 
@@ -47,11 +54,17 @@ def run_window(kapitza, folder, name, centre, depth):
     return folder / "deep.h5"
 
 
+def coefficients_of(group):
+    """The pendulum of a result as own_orbit takes it."""
+    harmonics = [[tuple(map(float, row)) for row in group[name][:]] if name in group else [] for name in ("vertical", "horizontal")]
+    return (*(float(group.attrs[name]) for name in ("k", "beta", "m")), *harmonics, float(group.attrs.get("torque", 0)))
+
+
 def referee(path, centre, depth, cells):
     """Of random cells: how many the program decided, those whose own orbit ends elsewhere, and how many attractors they show."""
     with h5py.File(path) as file:
         labels, evidence = file["basin/attractor"][:], file["basin/evidence"][:]
-        pendulum = [float(file["pendulum"].attrs[name]) for name in ("k", "beta", "m")]
+        pendulum = coefficients_of(file["pendulum"])
         group = file["attractors"]
         strobes = [list(zip(theta[:period], velocity[:period], strict=True)) for theta, velocity, period
                    in zip(group["strobe_theta"][:], group["strobe_velocity"][:], group["period"][:], strict=True)]
@@ -64,6 +77,12 @@ def referee(path, centre, depth, cells):
         assert end == own_orbit.end_of(pendulum, [a + b for a, b in zip(middle, offset, strict=True)], strobes, depth + 3)
     wrong = [(*cell, end, labels[cell]) for cell, end in zip(decided, ends, strict=True) if end != labels[cell]]
     return len(decided), wrong, len(set(ends))
+
+
+def test_deep_windows_of_other_drives_are_decided(kapitza, tmp_path, boundary):
+    path = run_window(kapitza, tmp_path, "tilted", boundary("tilted", 34), 30)
+    with h5py.File(path) as file:
+        assert len(set(file["basin/attractor"][:].ravel())) > 1 and (file["basin/evidence"][:] != 3).mean() > 0.9
 
 
 @pytest.mark.skipif(not os.environ.get("KAPITZA_EXTENSIVE"), reason="takes minutes: KAPITZA_EXTENSIVE=1")

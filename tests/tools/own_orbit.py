@@ -1,6 +1,7 @@
 """Where starts of any number of digits end: an integrator of its own, in whole numbers, for the referee of deep windows.
 
-A Taylor series of theta'' + beta theta' + (k - m cos t) sin theta = 0 in fixed point; nothing is shared with the program but the equation.
+A Taylor series of theta'' + beta theta' + a(t) sin theta - b(t) cos theta = torque in fixed point; nothing is shared with the program but
+the equation. A pendulum is (k, beta, m), or (k, beta, m, vertical, horizontal, torque) with lists of (cosine, sine) of the harmonics.
 Motions begin at a strobe, or at any phase of the drive before one.
 The tangent map, in floats, tells how much an error has grown, and so how many bits are still of use.
 
@@ -39,23 +40,38 @@ class Steps:
     """Constants of a period, from the phase on at which a motion is released, in n steps with so many bits."""
 
     def __init__(self, pendulum, n, bits, phase=0):
-        k, beta, m = pendulum
+        k, beta, m, vertical, horizontal, torque = (*pendulum, [], [], 0.0)[:6]
         self.n, self.bits = n, bits
         with mpmath.workprec(bits + 20):
             begin = mpmath.mpf(phase) % (2 * mpmath.pi)
             h = (2 * mpmath.pi - begin) / n
             self.h, self.damping = from_mpmath(h, bits), from_mpmath(h * beta, bits)
             self.turn = from_mpmath(2 * mpmath.pi, bits)
-            self.force, self.gain = [], []
+            self.torque = from_mpmath(h * h * torque, bits)
+            self.force, self.across, self.gain = [], [], []
             for i in range(n):
-                cosine, sine = mpmath.cos(begin + h * i), mpmath.sin(begin + h * i)
-                circle, scale, row = (cosine, -sine, -cosine, sine), m * h * h, []
-                while abs(scale) > mpmath.ldexp(1, -bits - 4):
-                    row.append(from_mpmath(-scale * circle[len(row) % 4], bits))
-                    scale *= h / len(row)
+                at = begin + h * i
+                row = drive_series([(1, m, 0.0)] + [(j + 1, *parts) for j, parts in enumerate(vertical)], h, at, bits)
                 row[0] += from_mpmath(k * h * h, bits)
                 self.force.append(row)
-                self.gain.append([force / 2**bits for force in row])
+                self.across.append(drive_series([(j + 1, *parts) for j, parts in enumerate(horizontal)], h, at, bits))
+                self.gain.append([[value / 2**bits for value in series] for series in (row, self.across[-1])])
+
+
+def drive_series(harmonics, h, at, bits):
+    """-h^2 times the sum of (order, cosine, sine) over the step that begins then."""
+    row = [mpz(0)]
+    for order, cosine, sine in harmonics:
+        if cosine == 0 and sine == 0:
+            continue
+        c, s = mpmath.cos(order * at), mpmath.sin(order * at)
+        circle, scale, n = (cosine * c + sine * s, sine * c - cosine * s), h * h, 0
+        while abs(scale) * (abs(cosine) + abs(sine)) > mpmath.ldexp(1, -bits - 4):
+            row.extend([mpz(0)] * (n + 1 - len(row)))
+            row[n] -= from_mpmath(scale * circle[n % 2] * (-1)**(n // 2), bits)
+            n += 1
+            scale *= order * h / n
+    return row
 
 
 def product(a, b, n):
@@ -73,7 +89,7 @@ def expand(steps, i, place):
     w = [velocity * steps.h >> bits]
     while len(w) < 3 or any(abs(row[-1]) + abs(row[-2]) > 1 for row in (w, s, c)):
         n = len(w) - 1
-        torque = product(force, s, n) + steps.damping * w[n]
+        torque = later(force, s, n) + later(steps.across[i], c, n) + steps.damping * w[n] - (n == 0) * (steps.torque << bits)
         s_next, c_next = product(w, c, n), -product(w, s, n)
         w.append(-(torque >> bits) // (n + 1))
         s.append((s_next >> bits) // (n + 1))
@@ -81,11 +97,12 @@ def expand(steps, i, place):
     return w, s, c
 
 
-def move_tangent(steps, i, c, tangent):
+def move_tangent(steps, i, s, c, tangent):
     """The tangent map (rows theta, velocity) through step i, in floats."""
     orders, h, damping = min(len(c), 40), steps.h / 2**steps.bits, steps.damping / 2**steps.bits
-    cosine = [value / 2**steps.bits for value in c[:orders]]
-    gain = [product(steps.gain[i], cosine, n) for n in range(orders)]
+    cosine, sine = ([value / 2**steps.bits for value in row[:orders]] for row in (c, s))
+    along, across = steps.gain[i]
+    gain = [later(along, cosine, n) - later(across, sine, n) for n in range(orders)]
     for axis in range(2):
         x, y = [tangent[0][axis]], [h * tangent[1][axis]]
         for n in range(orders - 1):
@@ -104,7 +121,8 @@ class Orbit:
         self.known = {}
 
     def steps(self):
-        fastest = abs(self.place[1]) / 2**self.bits + 2 * (abs(self.pendulum[0]) + abs(self.pendulum[2]))
+        harmonics = [part for rows in self.pendulum[3:5] for row in rows for part in row]
+        fastest = abs(self.place[1]) / 2**self.bits + 2 * (abs(self.pendulum[0]) + abs(self.pendulum[2]) + sum(map(abs, harmonics)))
         n = 16
         while 2 * math.pi / n * fastest > LARGEST_TURN:
             n *= 2
@@ -126,12 +144,12 @@ class Orbit:
         for i in range(steps.n):
             w, s, c = expand(steps, i, self.place)
             if beside:
-                rows = [shortened(row, self.bits - OWN_BITS) for row in (w, s, c, steps.force[i])]
+                rows = [shortened(row, self.bits - OWN_BITS) for row in (w, s, c, steps.force[i], steps.across[i])]
                 for difference in beside:
                     difference.step(steps, self.place[0], rows)
             self.place[0] += sum(value // (n + 1) for n, value in enumerate(w))
             self.place[1] = (sum(w) << self.bits) // steps.h
-            move_tangent(steps, i, c, self.tangent)
+            move_tangent(steps, i, s, c, self.tangent)
         self.place[0] = (self.place[0] + steps.turn // 2) % steps.turn - steps.turn // 2
         size = max(map(abs, self.tangent[0] + self.tangent[1]))
         self.growth += math.log2(size)
@@ -173,7 +191,7 @@ class Difference:
 
     def step(self, steps, theta, rows):
         """Through a step of the common orbit, from its angle there and its series of speed, sine, cosine and force."""
-        w, s, c, force = rows
+        w, s, c, force, across = rows
         a, b = self.beginning(theta, steps.bits)
         h, damping = steps.h >> steps.bits - OWN_BITS, steps.damping >> steps.bits - OWN_BITS
         u, sine, cosine = [self.place[1] * h >> OWN_BITS], [], []
@@ -182,7 +200,7 @@ class Difference:
             sine.append((s[n] if n < len(s) else 0) + (a[n] >> self.scale))
             cosine.append((c[n] if n < len(c) else 0) + (b[n] >> self.scale))
             a_next, b_next = later(w, b, n) + product(cosine, u, n), -later(w, a, n) - product(sine, u, n)
-            torque = later(force, a, n) + damping * u[n]
+            torque = later(force, a, n) + later(across, b, n) + damping * u[n]
             u.append(-(torque >> OWN_BITS) // (n + 1))
             a.append((a_next >> OWN_BITS) // (n + 1))
             b.append((b_next >> OWN_BITS) // (n + 1))

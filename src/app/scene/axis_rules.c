@@ -26,17 +26,13 @@ void kz_axis_rules(kz_reading *reading, const kz_axis *axis, const char *path) {
                 kz_shortest(axis->max).text, cell);
 }
 
-/* A window given by its centre. If doubles cannot distinguish its cells, the method must be exact, and this build must have enough digits. */
+/* A window given by its centre. If doubles cannot distinguish its cells, the method must be exact. */
 static void check_centred(kz_reading *reading, const kz_basin_plan *plan, const kz_axis *axis, const char *width) {
-  static const double least_of_quads = 1e-25;
   const bool exact = isnan(plan->accuracy) && plan->method == KZ_METHOD_EXACT;
   const double cell = axis->width.high / (double)(axis->count > 0 ? axis->count : 1);
   if (kz_axis_is_deep(axis) && !exact)
     kz_complain(reading, width, "%s leaves cells of width %g, too narrow for double precision; choose basin.method exact",
                 axis->width.text, cell);
-  else if (axis->width.high < least_of_quads && kz_arbitrary_bits() < KZ_MOST_BITS)
-    kz_complain(reading, width, "%s is too narrow for this build, which is without FLINT (Arb); it must be at least %g",
-                axis->width.text, least_of_quads);
 }
 
 void kz_axis_set(kz_reading *reading, const kz_basin_plan *plan, kz_edges edges, kz_axis *axis, const char *path) {

@@ -35,13 +35,11 @@ static void table_rules(kz_reading *reading, kz_scene *scene) {
   scene->basin.table_is_idle = given && isnan(scene->basin.accuracy) && scene->basin.method != KZ_METHOD_ICM;
 }
 
-/* undecided: decide needs method exact and a build with FLINT. */
+/* undecided: decide needs method exact. */
 static void undecided_rules(kz_reading *reading, kz_scene *scene) {
   if (!scene->has_basin || scene->basin.undecided == KZ_UNDECIDED_FLAG) return;
   if (scene->basin.method != KZ_METHOD_EXACT || !isnan(scene->basin.accuracy))
     kz_complain(reading, "basin.undecided", "decide needs basin.method: exact; choose that method, or flag");
-  else if (kz_arbitrary_bits() < KZ_MOST_BITS)
-    kz_complain(reading, "basin.undecided", "decide needs a build with FLINT (Arb); leave it out");
 }
 
 /* The sizes of shocks must increase. */

@@ -1,6 +1,7 @@
 /* The neighbourhood's second and third degree over one step, in long double, whose exponents hold cubes of the narrowest windows.
  *
- * With P1, P2, P3 the parts of a neighbour's angle by degree, f h^2 (k - m cos t), g = f cos theta, w = f sin theta:
+ * With P1, P2, P3 the parts of a neighbour's angle by degree, g = along cos theta - across sin theta (series.c), and w = along sin theta +
+ * across cos theta, which is the force and its second derivative:
  *   P2'' = -beta P2' - g P2 + w P1^2 / 2,   P3'' = -beta P3' - g P3 + w P1 P2 + g P1^3 / 6. */
 #include <math.h>
 #include <string.h>
@@ -105,16 +106,26 @@ static int64_t orders_of(const kz_series *s, int64_t tangent_orders, int columns
   return n + MORE < KZ_BENT_ORDERS ? n + MORE : KZ_BENT_ORDERS;
 }
 
+/* out += along by_along + sign across by_across. */
+static void add_force(const kz_series *series, const kz_steps *steps, int64_t orders, int64_t n, int sign,
+                      const kz_number *by_along, const kz_number *by_across, row out) {
+  row force = {0}, factor = {0};
+  read_series(series->along, steps->force_orders, n, force);
+  read_series(by_along, orders, n, factor);
+  add_product(n, 1, force, factor, out);
+  if (!steps->pendulum->unmirrored) return;
+  read_series(series->across, steps->force_orders, n, force);
+  read_series(by_across, orders, n, factor);
+  add_product(n, sign, force, factor, out);
+}
+
 void kz_bent_advance(const kz_series *series, const kz_steps *steps, int64_t tangent_orders, int columns, kz_jet *jet) {
   parts p = {.n = orders_of(series, tangent_orders, columns),
              .columns = columns,
              .h = kz_number_long(&steps->h),
              .damping = kz_number_long(&steps->damping)};
-  row force = {0}, sine = {0};
   read_series(series->gain, tangent_orders - 1, p.n, p.gain);
-  read_series(series->force, steps->force_orders, p.n, force);
-  read_series(series->sine, tangent_orders, p.n, sine);
-  add_product(p.n, 1, force, sine, p.lift);
+  add_force(series, steps, tangent_orders, p.n, 1, series->s, series->c, p.lift);
   for (int axis = 0; axis < columns; axis++) read_series(series->angle[axis], tangent_orders, p.n, p.x[axis]);
   move_second(&p, jet);
   move_third(&p, jet);
@@ -129,13 +140,11 @@ static int64_t last_order(const kz_number *series, int64_t last) {
 
 bool kz_tangent_advance(const kz_series *series, const kz_steps *steps, int64_t orders, kz_jet *jet) {
   enum { FEWEST = 24, MORE = 8 };
-  const int64_t n = kz_larger(FEWEST, kz_larger(last_order(series->cosine, orders), last_order(series->speed, orders))) + MORE;
+  const int64_t n = kz_larger(FEWEST, kz_larger(last_order(series->c, orders), last_order(series->w, orders))) + MORE;
   parts p = {
       .n = n < KZ_BENT_ORDERS ? n : KZ_BENT_ORDERS, .h = kz_number_long(&steps->h), .damping = kz_number_long(&steps->damping)};
-  row force = {0}, cosine = {0}, none = {0}, x;
-  read_series(series->force, steps->force_orders, p.n, force);
-  read_series(series->cosine, orders, p.n, cosine);
-  add_product(p.n, 1, force, cosine, p.gain);
+  row none = {0}, x;
+  add_force(series, steps, orders, p.n, -1, series->c, series->s, p.gain);
   for (int axis = 0; axis < 2; axis++) {
     long double rate = (long double)jet->linear[1][axis] * p.h;
     x[0] = (long double)jet->linear[0][axis];

@@ -7,19 +7,10 @@
 #include <string.h>
 
 /* Of libquadmath, whose header is in a folder of gcc. */
-__float128 strtoflt128(const char *text, char **end);
-int quadmath_snprintf(char *text, size_t size, const char *format, ...);
-void sincosq(__float128 x, __float128 *sine, __float128 *cosine);
 __float128 ldexpq(__float128 x, int exponent);
 __float128 frexpq(__float128 x, int *exponent);
 
 static const char degrees[] = " deg";
-
-#ifdef KAPITZA_FLINT
-
-int64_t kz_arbitrary_bits(void) {
-  return KZ_MOST_BITS;
-}
 
 kz_number *kz_numbers_make(int64_t n) {
   kz_number *numbers = kz_malloc((size_t)n * sizeof *numbers);
@@ -147,83 +138,6 @@ static bool print(const kz_number *x, int64_t digits, char *text, size_t size) {
   flint_free(whole);
   return fits;
 }
-
-#else
-
-int64_t kz_arbitrary_bits(void) {
-  return 113; /* of a quad */
-}
-
-kz_number *kz_numbers_make(int64_t n) {
-  return kz_calloc((size_t)n, sizeof(kz_number));
-}
-
-void kz_numbers_free(kz_number *numbers, int64_t n) {
-  (void)n;
-  free(numbers);
-}
-
-static const char two_pi[] = "6.283185307179586476925286766559005768394338798750211641949889184616";
-
-void kz_number_two_pi(kz_number *x, int64_t bits) {
-  (void)bits;
-  *x = strtoflt128(two_pi, NULL);
-}
-
-void kz_number_sin_cos(const kz_number *x, kz_number *sine, kz_number *cosine, int64_t bits) {
-  (void)bits;
-  sincosq(*x, sine, cosine);
-}
-
-void kz_number_sin_cos_of_turns(int64_t i, int64_t n, kz_number *sine, kz_number *cosine, int64_t bits) {
-  kz_number angle;
-  kz_number_two_pi(&angle, bits);
-  angle *= (__float128)i / n;
-  sincosq(angle, sine, cosine);
-}
-
-static void parse(const char *text, kz_number *x, int64_t bits) {
-  char *end;
-  kz_number turn;
-  *x = strtoflt128(text, &end);
-  if (strcmp(end, degrees) != 0) return;
-  kz_number_two_pi(&turn, bits);
-  *x *= turn / 360;
-}
-
-void kz_number_of_quad(__float128 value, kz_number *x) {
-  *x = value;
-}
-
-__float128 kz_number_quad(const kz_number *x) {
-  return *x;
-}
-
-long double kz_number_long(const kz_number *x) {
-  return (long double)*x;
-}
-
-int64_t kz_number_exponent(const kz_number *x) {
-  int exponent;
-  frexpq(*x, &exponent);
-  return *x == 0 ? INT32_MIN : exponent;
-}
-
-bool kz_number_write(const kz_number *x, char *text, size_t size) {
-  return (size_t)quadmath_snprintf(text, size, "%.36Qg", *x) < size;
-}
-
-bool kz_number_read(const char *text, kz_number *x) {
-  char *end;
-  *x = strtoflt128(text, &end);
-  return *end == '\0';
-}
-
-static bool print(const kz_number *x, int64_t digits, char *text, size_t size) {
-  return (size_t)quadmath_snprintf(text, size, "%.*Qg", (int)(digits < 36 ? digits : 36), *x) < size;
-}
-
-#endif
 
 void kz_number_of(const kz_coordinate *coordinate, kz_number *x, int64_t bits) {
   const int64_t digits = bits + 64; /* as centres and widths have up to 30 bits before the point */

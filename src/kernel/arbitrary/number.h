@@ -1,4 +1,4 @@
-/* Numbers of any precision: those of FLINT (Arb), whose radii are not used; built without it, quads, whatever precision is asked for. */
+/* Numbers of any precision: those of FLINT (Arb), whose radii are not used. */
 #ifndef KAPITZA_KERNEL_NUMBER_H
 #define KAPITZA_KERNEL_NUMBER_H
 
@@ -10,15 +10,12 @@
 
 #ifdef KAPITZA_FLINT_3
 #include <flint/arb.h>
-#elif defined KAPITZA_FLINT
+#include <flint/fmpq.h>
+#else
 #include <arb.h>
 #endif
 
-#ifdef KAPITZA_FLINT
 typedef arb_struct kz_number;
-#else
-typedef __float128 kz_number;
-#endif
 
 /* n numbers, all 0. */
 kz_number *kz_numbers_make(int64_t n);
@@ -40,7 +37,6 @@ bool kz_number_write(const kz_number *x, char *text, size_t size);
 bool kz_number_read(const char *text, kz_number *x);
 
 /* Results are rounded to `bits` digits of their own, towards 0, so that mirrored numbers stay mirrored. */
-#ifdef KAPITZA_FLINT
 static inline void kz_number_init(kz_number *x) {
   arb_init(x);
 }
@@ -70,6 +66,9 @@ KZ_ROUNDED(kz_number_divide, arf_div)
 static inline void kz_number_divide_by(kz_number *x, const kz_number *a, int64_t n, int64_t bits) {
   arf_div_si(arb_midref(x), arb_midref(a), n, bits, ARF_RND_DOWN);
 }
+static inline void kz_number_multiply_by(kz_number *x, int64_t n, int64_t bits) {
+  arf_mul_si(arb_midref(x), arb_midref(x), n, bits, ARF_RND_DOWN);
+}
 static inline void kz_number_negate(kz_number *x) {
   arf_neg(arb_midref(x), arb_midref(x));
 }
@@ -82,51 +81,6 @@ static inline void kz_number_dot(kz_number *x, const kz_number *first, bool minu
                                  int64_t n, int64_t bits) {
   arb_approx_dot(x, first, minus, a, 1, b, -1, n, bits);
 }
-#else
-#define KZ_WITHOUT_ROUNDING(name, operation)                                                    \
-  static inline void name(kz_number *x, const kz_number *a, const kz_number *b, int64_t bits) { \
-    (void)bits;                                                                                 \
-    *x = *a operation * b;                                                                      \
-  }
-KZ_WITHOUT_ROUNDING(kz_number_add, +)
-KZ_WITHOUT_ROUNDING(kz_number_subtract, -)
-KZ_WITHOUT_ROUNDING(kz_number_multiply, *)
-KZ_WITHOUT_ROUNDING(kz_number_divide, /)
-static inline void kz_number_init(kz_number *x) {
-  *x = 0;
-}
-static inline void kz_number_clear(kz_number *x) {
-  *x = 0;
-}
-static inline void kz_number_divide_by(kz_number *x, const kz_number *a, int64_t n, int64_t bits) {
-  (void)bits;
-  *x = *a / n;
-}
-static inline void kz_number_set(kz_number *x, const kz_number *a) {
-  *x = *a;
-}
-static inline void kz_number_round(kz_number *x, int64_t bits) {
-  (void)x;
-  (void)bits;
-}
-static inline void kz_number_of_double(double value, kz_number *x) {
-  *x = value;
-}
-static inline double kz_number_double(const kz_number *x) {
-  return (double)*x;
-}
-static inline void kz_number_negate(kz_number *x) {
-  *x = -*x;
-}
-int64_t kz_number_exponent(const kz_number *x);
-static inline void kz_number_dot(kz_number *x, const kz_number *first, bool minus, const kz_number *a, const kz_number *b,
-                                 int64_t n, int64_t bits) {
-  __float128 sum = 0;
-  (void)bits;
-  for (int64_t i = 0; i < n; i++) sum += a[i] * b[-i];
-  *x = (first ? *first : 0) + (minus ? -sum : sum);
-}
-#endif
 
 /* A number, 0 at first, that lives as long as the block where it is declared. */
 #define KZ_NUMBER(x)                                     \

@@ -5,7 +5,7 @@
 
 #include "step.h"
 
-enum { FEWEST_STEPS = 14, HALVINGS = 10, SERIES = 9 };
+enum { FEWEST_STEPS = 14, HALVINGS = 10, SERIES = 10 };
 
 struct kz_arbitrary {
   kz_pendulum pendulum;
@@ -35,6 +35,7 @@ static void each_number(kz_arbitrary *o, void (*action)(kz_number *)) {
   action(&o->steps.h);
   action(&o->steps.damping);
   action(&o->steps.gravity);
+  action(&o->steps.torque);
 }
 
 static int64_t numbers_of(const kz_arbitrary *o) {
@@ -43,7 +44,7 @@ static int64_t numbers_of(const kz_arbitrary *o) {
 
 static void share_room(kz_arbitrary *o) {
   kz_series *s = &o->series;
-  kz_number **const all[SERIES + 1] = {&s->speed,    &s->sine,     &s->cosine,  &s->force,   &s->gain,
+  kz_number **const all[SERIES + 1] = {&s->w,        &s->s,        &s->c,       &s->along,   &s->across,     &s->gain,
                                        &s->angle[0], &s->angle[1], &s->rate[0], &s->rate[1], &o->steps.scale};
   for (int i = 0; i <= SERIES; i++) *all[i] = o->workspace + i * (s->orders + 2);
 }
@@ -51,6 +52,7 @@ static void share_room(kz_arbitrary *o) {
 static kz_arbitrary *allocate_orbit(const kz_pendulum *pendulum, int64_t bits) {
   kz_arbitrary *o = kz_calloc(1, sizeof *o);
   o->pendulum = *pendulum;
+  o->steps.pendulum = &o->pendulum;
   o->bits = bits < KZ_FEWEST_BITS ? KZ_FEWEST_BITS : bits;
   o->series.orders = orders_for(o->bits);
   o->workspace = kz_numbers_make(numbers_of(o));
@@ -139,7 +141,7 @@ kz_status kz_arbitrary_advance(kz_arbitrary *o, int64_t bits, int degree, kz_jet
   begin_tangent(o, fine, degree > 1 ? jet : NULL);
   copy_place(&o->place, &before);
   for (int64_t halvings = 0; !done && halvings <= HALVINGS; halvings++) {
-    kz_steps_make(&o->steps, &o->pendulum, o->series.orders, o->bits + 32, (int64_t)FEWEST_STEPS << halvings);
+    kz_steps_make(&o->steps, o->series.orders, o->bits + 32, (int64_t)FEWEST_STEPS << halvings);
     copy_place(&before, &o->place);
     if (degree > 0) bent = *jet;
     done = advance_in_steps(o, fine, degree, &bent);

@@ -9,18 +9,20 @@ enum { KZ_TANGENT_BITS = 118, KZ_BENT_ORDERS = 120 };
 
 /* Steps of one length. */
 typedef struct {
-  int64_t n;            /* steps a period; 0 = none yet */
-  kz_number h, damping; /* 2 pi / n, beta h */
-  kz_number *scale;     /* [orders] m h^2 h^j / j! */
-  kz_number gravity;    /* k h^2 */
-  int64_t force_orders; /* the drive's series ends there */
+  const kz_pendulum *pendulum;
+  int64_t n;                 /* steps a period; 0 = none yet */
+  kz_number h, damping;      /* 2 pi / n, beta h */
+  kz_number *scale;          /* [orders] h^2 h^j / j! */
+  kz_number gravity, torque; /* k h^2, torque h^2 */
+  int64_t force_orders;      /* the drive's series ends there */
 } kz_steps;
 
 /* Series of one step: [orders + 1] each. */
 typedef struct {
-  int64_t orders;                           /* the most that fit */
-  kz_number *speed, *sine, *cosine, *force; /* of the orbit: h v, sin theta, cos theta, h^2 (k - m cos t) */
-  kz_number *gain, *angle[2], *rate[2];     /* of its neighbours: force cosine; change of theta, and of h v, with x and y */
+  int64_t orders;                       /* the most that fit */
+  kz_number *w, *s, *c;                 /* of the orbit: h v, sin theta, cos theta */
+  kz_number *along, *across;            /* of the drive: h^2 a(t), -h^2 b(t); across is not set for mirrored pendulums */
+  kz_number *gain, *angle[2], *rate[2]; /* of its neighbours: along c - across s; change of theta, and of h v, with x and y */
 } kz_series;
 
 /* The orbit at the beginning of a step, and at its end. */
@@ -36,7 +38,7 @@ static inline int64_t kz_larger(int64_t a, int64_t b) {
 }
 
 /* Steps of a period's n-th part. */
-void kz_steps_make(kz_steps *steps, const kz_pendulum *pendulum, int64_t orders, int64_t bits, int64_t n);
+void kz_steps_make(kz_steps *steps, int64_t orders, int64_t bits, int64_t n);
 /* The series of the step that begins at t = 2 pi i / n, from `place`. Returns its last order, 0 where it does not converge. */
 int64_t kz_series_expand(kz_series *series, const kz_steps *steps, int64_t i, const kz_place *place, int64_t bits);
 /* The tangent's series, after those of the orbit; returns the last order, 0 where it does not converge. */

@@ -148,7 +148,6 @@ static void print_settled(const kz_scene *scene, const kz_window_summary *labels
 static const char *advice(const kz_basin_plan *plan) {
   if (plan->undecided == KZ_UNDECIDED_DECIDE)
     return "the largest number of digits that was tried does not tell where they end.";
-  if (kz_arbitrary_bits() < KZ_MOST_BITS) return "their orbits need more than quad precision, and so a build with FLINT (Arb).";
   return "their orbits need more than quad precision; basin.undecided: decide follows them further.";
 }
 

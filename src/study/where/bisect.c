@@ -201,7 +201,6 @@ static long double size_of(const line *l) {
 /* Share of a piece's width to which its boundary is looked for: smaller in a narrower piece, whose orbit takes longer. */
 static double finest_share(long double width) {
   static const long double first = 1e-16L, last = 1e-250L, growth = 0.6L; /* the last one is far above the smallest doubles */
-  if (kz_arbitrary_bits() < KZ_MOST_BITS) return (double)first;
   return (double)fmaxl(last, fminl(first, powl(width, growth)));
 }
 

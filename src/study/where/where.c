@@ -82,13 +82,9 @@ static kz_status where_bisect(const where_job *a, int64_t digits, const kz_endin
 }
 
 kz_status kz_where_boundary(const kz_scene *scene, const kz_coordinate (*start)[2], int64_t digits, kz_boundary_point *point) {
-  enum { DIGITS_OF_QUADS = 25 };
   KZ_FREED_BY(where_close) where_job a = {.reached = NULL};
   kz_ending endings[2];
   *point = (kz_boundary_point){.attractor = {-1, -1}};
-  if (digits > DIGITS_OF_QUADS && kz_arbitrary_bits() < KZ_MOST_BITS)
-    return kz_fail(KZ_REFUSED, "--boundary: %lld digits need a build with FLINT (Arb); give at most %d", (long long)digits,
-                   DIGITS_OF_QUADS);
   kz_status status = where_label(scene, 2, start, &a, endings);
   if (status == KZ_OK) status = where_bisect(&a, digits, endings, point);
   kz_where_free(2, endings);

@@ -48,10 +48,8 @@ static kz_images *allocate_images(const kz_pendulum *pendulum) {
   return images;
 }
 
-/* The most bits of this build, where it has fewer. */
 static int64_t at_most(int64_t bits) {
-  const int64_t most = kz_arbitrary_bits();
-  return bits < most ? bits : most;
+  return bits < KZ_MOST_BITS ? bits : KZ_MOST_BITS;
 }
 
 kz_images *kz_images_create(const kz_pendulum *pendulum, const kz_axis *theta, const kz_axis *velocity) {

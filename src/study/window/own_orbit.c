@@ -96,16 +96,14 @@ static int64_t first_bits(const kz_coordinate start[2]) {
 
 kz_status kz_own_orbit_decide(kz_dynamics *dynamics, const kz_pendulum *pendulum, const kz_coordinate start[2],
                               int64_t max_periods, kz_decision *decision) {
-  const int64_t all = kz_arbitrary_bits(), most = all < MOST_BITS ? all : MOST_BITS;
   kz_status status = KZ_OK;
   *decision = (kz_decision){.label = KZ_DOUBTFUL, .level = KZ_LEVELS, .error = NAN};
-  if (!kz_is_sine(pendulum)) return KZ_OK; /* kz_arbitrary has no other drives: left undecided */
   for (int64_t bits = first_bits(start); status == KZ_OK && decision->label == KZ_DOUBTFUL; bits += bits / 3) {
-    path p = {.bits = bits < most ? bits : most, .error = {1, 0, 1}};
+    path p = {.bits = bits < MOST_BITS ? bits : MOST_BITS, .error = {1, 0, 1}};
     p.orbit = kz_arbitrary_create(pendulum, start, p.bits);
     status = follow(&p, dynamics, max_periods, decision);
     kz_arbitrary_free(p.orbit);
-    if (bits >= most) break;
+    if (bits >= MOST_BITS) break;
   }
   return status;
 }

@@ -143,7 +143,6 @@ static double farthest_of_points(const kz_pendulum *pendulum, int32_t precision,
 
 static void points_in_quads_hold_the_motion(void **state) {
   (void)state;
-  if (kz_arbitrary_bits() < 200) skip();
   srand(6);
   double farthest = 0, narrower = 0;
   for (int draw = 0; draw < DRAWS; draw += 2) {
