@@ -233,7 +233,7 @@ typedef struct {
 typedef enum { KZ_NEW_FRAME, KZ_KEEP_FRAME } kz_enclosure_frame;
 
 /* Tables for sets whose centres are at most as fast as `fastest` (rad per drive radian) at the beginning of each step; faster sets are lost.
- * KZ_REFUSED, without a message, if this needs more than 4096 steps a period, or if the drive is not k - m cos t. */
+ * KZ_REFUSED, without a message, if this needs more than 4096 steps a period. */
 typedef struct kz_enclosure_tables kz_enclosure_tables;
 kz_status kz_enclosure_tables_create(const kz_pendulum *pendulum, int32_t precision, double fastest,
                                      kz_enclosure_tables **tables);

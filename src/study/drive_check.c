@@ -77,8 +77,6 @@ static const char *needs_sine(const kz_scene *scene) {
   if (scene->has_potential) return "study potential needs a pivot that moves up and down as a sine; leave one of them out";
   if (scene->has_orbit && scene->orbit.model != KZ_PENDULUM)
     return "orbit.model needs a pivot that moves up and down as a sine; choose the model pendulum";
-  if (scene->has_basin && scene->basin.proof)
-    return "basin.proof needs a pivot that moves up and down as a sine; leave one of them out";
   if (scene->has_sweep && (kz_sweep_measures(&scene->sweep, KZ_SWEEP_FLUTTER_AMPLITUDE) ||
                            kz_sweep_measures(&scene->sweep, KZ_SWEEP_FLUTTER_RANGE)))
     return "sweep.measure flutter_amplitude and flutter_zone need a pivot that moves up and down as a sine; leave one of them "

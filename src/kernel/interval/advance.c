@@ -15,10 +15,10 @@ typedef struct {
 kz_status kz_enclosure_tables_create(const kz_pendulum *pendulum, int32_t precision, double fastest,
                                      kz_enclosure_tables **tables) {
   *tables = NULL;
-  if (!kz_is_sine(pendulum)) return KZ_REFUSED;
   kz_enclosure_tables *made = *tables = kz_calloc(1, sizeof *made + MOST_CLASSES * sizeof *made->classes);
   made->precision = precision;
   made->swing = 1.1 * fabs(pendulum->m) + 2 * fabs(pendulum->k) + 0.03;
+  if (!kz_is_sine(pendulum)) made->swing = 1.5 * kz_stiffness(pendulum) + 0.03;
   for (double speed = fmin(SLOWEST, fastest); made->n_classes < MOST_CLASSES; speed = fmin(speed * FASTER, fastest)) {
     kz_speed_class *next = kz_speed_class_create(pendulum, precision, speed);
     if (!next) break;
@@ -58,18 +58,18 @@ static const arithmetic arithmetic_of[KZ_ENCLOSURES] = {[KZ_ENCLOSE_DOUBLES] = {
 
 static void advance_group(const kz_enclosure_tables *tables, const kz_speed_class *speed, kz_enclosure_frame frame, group *g) {
   const bool jacobian = frame == KZ_KEEP_FRAME;
-  vector cosine[KZ_PARTS][KZ_ORDER_JACOBIAN];
+  kz_circle circle[KZ_PARTS];
   const arithmetic *centres = &arithmetic_of[tables->precision];
-  const int n_cosine = jacobian ? KZ_ORDER_JACOBIAN : KZ_ORDER_TANGENT;
+  const int n_circle = jacobian ? KZ_ORDER_JACOBIAN : KZ_ORDER_TANGENT;
   for (int p = 0; p < KZ_PARTS && tables->precision != KZ_ENCLOSE_QUADS; p++) {
     kz_sets_check(speed, &g->sets[p]);
     kz_sets_drop_rest(&g->sets[p]);
   }
   for (int32_t i = 0; i < speed->n_steps; i++) {
     for (int p = 0; p < KZ_PARTS; p++) kz_sets_check(speed, &g->sets[p]);
-    centres->step(speed, i, g->sets, n_cosine, cosine);
+    centres->step(speed, i, g->sets, n_circle, circle);
     for (int p = 0; p < KZ_PARTS; p++) {
-      kz_neighbours_step(speed, i, cosine[p], jacobian, &g->sets[p]);
+      kz_neighbours_step(speed, i, &circle[p], jacobian, &g->sets[p]);
       if (!jacobian && (i + 1) % speed->frame_steps == 0 && i + 1 < speed->n_steps) kz_sets_renew_frame(&g->sets[p]);
     }
   }

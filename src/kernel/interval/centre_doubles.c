@@ -18,34 +18,32 @@ OPERATION void sine_of(pair theta, vector *sine, vector *cosine) {
   *cosine = sign * fused(-theta.low, s, c);
 }
 
-/* Coefficients of the velocity, of sine and cosine; [0] is given. */
-static void expand(const kz_speed_class *speed, const kz_constant *torque, vector v[P][KZ_PARTS], vector S[P][KZ_PARTS],
-                   vector C[P][KZ_PARTS]) {
-  for (int n = 0; n + 1 < P; n++) {
-    vector f[KZ_PARTS], s[KZ_PARTS], c[KZ_PARTS];
-    for (int p = 0; p < KZ_PARTS; p++) {
-      f[p] = same(speed->damping.high) * v[n][p];
-      s[p] = c[p] = same(0);
-    }
-#pragma GCC unroll 1
-    for (int i = n; i >= 0; i--) {
-      const vector push = same(torque[i].high);
-      for (int p = 0; p < KZ_PARTS; p++) {
-        f[p] = fused(push, S[n - i][p], f[p]);
-        s[p] = fused(v[i][p], C[n - i][p], s[p]);
-        c[p] = fused(v[i][p], S[n - i][p], c[p]);
-      }
-    }
-    for (int p = 0; p < KZ_PARTS; p++) {
-      v[n + 1][p] = f[p] * -speed->inverse[n].high;
-      S[n + 1][p] = s[p] * speed->step[n].high;
-      C[n + 1][p] = c[p] * -speed->step[n].high;
-    }
-  }
-}
+/* Coefficients of the velocity, of sine and cosine. */
+typedef struct {
+  vector w[P][KZ_PARTS], s[P][KZ_PARTS], c[P][KZ_PARTS];
+} series;
+
+#define EACH_PART for (int p = 0; p < KZ_PARTS; p++)
+#define FACTOR_along(i) same(speed->along[first + (i)].high)
+#define FACTOR_across(i) same(speed->across[first + (i)].high)
+#define FACTOR_w(i) x->w[i][p]
+#define UNIT_w speed->inverse
+#define UNIT_s speed->step
+#define UNIT_c speed->step
+
+#define KZ_NEXT next_order
+#define KZ_ARGUMENTS const kz_speed_class *speed, int32_t first, series *x
+#define KZ_SUM(sum) vector sum[KZ_PARTS] = {{0}}
+#define KZ_TERMS _Pragma("GCC unroll 1") for (int64_t i = n; i >= 0; i--)
+#define KZ_GAIN(sum, a, b) EACH_PART sum[p] = fused(FACTOR_##a(i), x->b[n - i][p], sum[p])
+#define KZ_DAMP(sum) EACH_PART sum[p] = same(speed->damping.high) * x->w[n][p]
+#define KZ_HAS_ACROSS speed->has_across
+#define KZ_PUSH(sum) EACH_PART sum[p] -= speed->push.high
+#define KZ_SET(name, sign, sum) EACH_PART x->name[n + 1][p] = sum[p] * (sign UNIT_##name[n].high)
+#include "taylor/motion.inc"
 
 /* The state at the end of the step: h v without error to first order, the rest of the sums in doubles. */
-OPERATION void finish(const kz_speed_class *speed, vector v[P][KZ_PARTS], int p, kz_sets *x) {
+OPERATION void finish(const kz_speed_class *speed, const vector v[P][KZ_PARTS], int p, kz_sets *x) {
   vector faster = same(0), farther = same(0);
   for (int n = P - 1; n > 0; n--) {
     faster += v[n][p];
@@ -60,19 +58,18 @@ OPERATION void finish(const kz_speed_class *speed, vector v[P][KZ_PARTS], int p,
   x->velocity = sum(x->velocity.high, faster + x->velocity.low);
 }
 
-void kz_centres_step_doubles(const kz_speed_class *speed, int32_t step, kz_sets *sets, int n,
-                             vector cosine[KZ_PARTS][KZ_ORDER_JACOBIAN]) {
-  const kz_constant *torque = &speed->torque[step * speed->order];
-  _Alignas(VECTOR_BYTES) vector v[P][KZ_PARTS], S[P][KZ_PARTS], C[P][KZ_PARTS];
-  for (int p = 0; p < KZ_PARTS; p++) {
-    v[0][p] = sets[p].velocity.high;
-    sine_of(sets[p].theta, &S[0][p], &C[0][p]);
-    bound_sine(speed, S[0][p], &sets[p]);
+void kz_centres_step_doubles(const kz_speed_class *speed, int32_t step, kz_sets *sets, int n, kz_circle circle[KZ_PARTS]) {
+  _Alignas(VECTOR_BYTES) series x;
+  EACH_PART {
+    x.w[0][p] = sets[p].velocity.high;
+    sine_of(sets[p].theta, &x.s[0][p], &x.c[0][p]);
+    bound_sine(speed, x.s[0][p], &sets[p]);
   }
-  expand(speed, torque, v, S, C);
-  for (int p = 0; p < KZ_PARTS; p++) {
-    for (int i = 0; i < n; i++) cosine[p][i] = C[i][p];
-    finish(speed, v, p, &sets[p]);
+  for (int order = 0; order + 1 < P; order++) next_order(speed, step * speed->order, &x, order);
+  EACH_PART {
+    for (int i = 0; i < n; i++) circle[p].cosine[i] = x.c[i][p];
+    for (int i = 0; i < n && speed->has_across; i++) circle[p].sine[i] = x.s[i][p];
+    finish(speed, x.w, p, &sets[p]);
   }
 }
 

@@ -16,7 +16,7 @@ OPERATION pair scaled(products s, kz_constant factor) {
 
 /* Coefficients of the velocity, of sine and cosine: the high parts of all, and the low parts of the pairs. Those of index 0 are given. */
 typedef struct {
-  vector v[P], S[P], C[P], v_low[PAIRS], S_low[PAIRS], C_low[PAIRS];
+  vector w[P], s[P], c[P], w_low[PAIRS], s_low[PAIRS], c_low[PAIRS];
 } series_of_pairs;
 
 OPERATION void put_pair(pair value, int n, vector *high, vector *low) {
@@ -24,52 +24,62 @@ OPERATION void put_pair(pair value, int n, vector *high, vector *low) {
   low[n] = value.low;
 }
 
-/* Computes the coefficients that are pairs, after coefficient `known`. */
-OPERATION void expand_pairs(const kz_speed_class *speed, const kz_constant *torque, int known, series_of_pairs *x) {
-  for (int n = known; n + 1 < PAIRS; n++) {
-    products f = {same(0), same(0)}, s = f, c = f;
-    add_product(&f, constant_pair(speed->damping), (pair){x->v[n], x->v_low[n]});
-#pragma GCC unroll 1
-    for (int i = n; i >= 0; i--) {
-      const pair v = {x->v[i], x->v_low[i]}, sine = {x->S[n - i], x->S_low[n - i]};
-      add_product(&f, constant_pair(torque[i]), sine);
-      add_product(&s, v, (pair){x->C[n - i], x->C_low[n - i]});
-      add_product(&c, v, sine);
-    }
-    const pair v = scaled(f, speed->inverse[n]), sine = scaled(s, speed->step[n]), cosine = scaled(c, speed->step[n]);
-    put_pair((pair){-v.high, -v.low}, n + 1, x->v, x->v_low);
-    put_pair(sine, n + 1, x->S, x->S_low);
-    put_pair((pair){-cosine.high, -cosine.low}, n + 1, x->C, x->C_low);
+#define FACTOR_along(i) constant_pair(speed->along[first + (i)])
+#define FACTOR_across(i) constant_pair(speed->across[first + (i)])
+#define FACTOR_w(i)      \
+  (pair) {               \
+    x->w[i], x->w_low[i] \
   }
+#define UNIT_w speed->inverse
+#define UNIT_s speed->step
+#define UNIT_c speed->step
+
+OPERATION pair with_sign(int sign, pair x) {
+  return sign < 0 ? (pair){-x.high, -x.low} : x;
 }
 
-/* Computes the coefficients that are doubles. */
-OPERATION void expand_doubles(const kz_speed_class *speed, const kz_constant *torque, series_of_pairs *x) {
-  for (int n = PAIRS - 1; n + 1 < P; n++) {
-    vector f = same(speed->damping.high) * x->v[n], s = same(0), c = same(0);
-#pragma GCC unroll 2
-    for (int i = n; i >= 0; i--) {
-      f = fused(same(torque[i].high), x->S[n - i], f);
-      s = fused(x->v[i], x->C[n - i], s);
-      c = fused(x->v[i], x->S[n - i], c);
-    }
-    x->v[n + 1] = f * -speed->inverse[n].high;
-    x->S[n + 1] = s * speed->step[n].high;
-    x->C[n + 1] = c * -speed->step[n].high;
-  }
-}
+/* Of the coefficients that are pairs. */
+#define KZ_NEXT next_pair
+#define KZ_ARGUMENTS const kz_speed_class *speed, int32_t first, series_of_pairs *x
+#define KZ_SUM(sum) products sum = {same(0), same(0)}
+#define KZ_TERMS _Pragma("GCC unroll 1") for (int64_t i = n; i >= 0; i--)
+#define KZ_GAIN(sum, a, b) add_product(&sum, FACTOR_##a(i), (pair){x->b[n - i], x->b##_low[n - i]})
+#define KZ_DAMP(sum) add_product(&sum, constant_pair(speed->damping), (pair){x->w[n], x->w_low[n]})
+#define KZ_HAS_ACROSS speed->has_across
+#define KZ_PUSH(sum) add_product(&sum, constant_pair(speed->push), (pair){same(-1), same(0)})
+#define KZ_SET(name, sign, sum) put_pair(with_sign(sign 1, scaled(sum, UNIT_##name[n])), (int)n + 1, x->name, x->name##_low)
+#include "taylor/motion.inc"
+
+#undef FACTOR_along
+#undef FACTOR_across
+#undef FACTOR_w
+#define FACTOR_along(i) same(speed->along[first + (i)].high)
+#define FACTOR_across(i) same(speed->across[first + (i)].high)
+#define FACTOR_w(i) x->w[i]
+
+/* Of the coefficients that are doubles. */
+#define KZ_NEXT next_double
+#define KZ_ARGUMENTS const kz_speed_class *speed, int32_t first, series_of_pairs *x
+#define KZ_SUM(sum) vector sum = same(0)
+#define KZ_TERMS _Pragma("GCC unroll 2") for (int64_t i = n; i >= 0; i--)
+#define KZ_GAIN(sum, a, b) sum = fused(FACTOR_##a(i), x->b[n - i], sum)
+#define KZ_DAMP(sum) sum = same(speed->damping.high) * x->w[n]
+#define KZ_HAS_ACROSS speed->has_across
+#define KZ_PUSH(sum) sum -= speed->push.high
+#define KZ_SET(name, sign, sum) x->name[n + 1] = sum * (sign UNIT_##name[n].high)
+#include "taylor/motion.inc"
 
 /* *faster = the sum of the coefficients from `first` on, for the velocity; *farther = the same times h / (n + 1), for the angle. */
 OPERATION void sum_series(const kz_speed_class *speed, int first, const series_of_pairs *y, pair *faster, pair *farther) {
   vector faster_small = same(0), farther_small = same(0);
   for (int n = P - 1; n >= PAIRS; n--) {
-    faster_small += y->v[n];
-    farther_small = fused(same(speed->step[n].high), y->v[n], farther_small);
+    faster_small += y->w[n];
+    farther_small = fused(same(speed->step[n].high), y->w[n], farther_small);
   }
   *faster = (pair){faster_small, same(0)};
   *farther = (pair){farther_small, same(0)};
   for (int n = PAIRS - 1; n >= first; n--) {
-    const pair v = {y->v[n], y->v_low[n]};
+    const pair v = {y->w[n], y->w_low[n]};
     *faster = plus(*faster, v);
     *farther = plus(*farther, times(v, constant_pair(speed->step[n])));
   }
@@ -103,7 +113,7 @@ static void sine_of(pair theta, pair *sine, pair *cosine) {
 
 /* Of a lane: coefficients of the velocity, of sine and cosine. */
 typedef struct {
-  quad v[Q], S[Q], C[Q];
+  quad w[Q], s[Q], c[Q];
 } quad_series;
 
 static quad join(pair x, vector rest, int lane) {
@@ -117,19 +127,29 @@ static void part(quad value, int lane, pair *x, vector *rest) {
   (*rest)[lane] = (double)(value - x->low[lane]);
 }
 
-static void expand_quads(const kz_quad_constants *constants, const quad *torque, quad_series *y) {
-  for (int n = 0; n + 1 < Q; n++) {
-    quad f = constants->damping * y->v[n], s = 0, c = 0;
-    for (int i = n; i >= 0; i--) {
-      f += torque[i] * y->S[n - i];
-      s += y->v[i] * y->C[n - i];
-      c += y->v[i] * y->S[n - i];
-    }
-    y->v[n + 1] = -f / (n + 1);
-    y->S[n + 1] = constants->step * s / (n + 1);
-    y->C[n + 1] = -constants->step * c / (n + 1);
-  }
-}
+#undef FACTOR_along
+#undef FACTOR_across
+#undef FACTOR_w
+#undef UNIT_w
+#undef UNIT_s
+#undef UNIT_c
+#define FACTOR_along(i) constants->along[first + (i)]
+#define FACTOR_across(i) constants->across[first + (i)]
+#define FACTOR_w(i) x->w[i]
+#define UNIT_w 1
+#define UNIT_s constants->step
+#define UNIT_c constants->step
+
+#define KZ_NEXT next_quad
+#define KZ_ARGUMENTS const kz_quad_constants *constants, bool has_across, int32_t first, quad_series *x
+#define KZ_SUM(sum) quad sum = 0
+#define KZ_TERMS for (int64_t i = n; i >= 0; i--)
+#define KZ_GAIN(sum, a, b) sum += FACTOR_##a(i) * x->b[n - i]
+#define KZ_DAMP(sum) sum = constants->damping * x->w[n]
+#define KZ_HAS_ACROSS has_across
+#define KZ_PUSH(sum) sum -= constants->push
+#define KZ_SET(name, sign, sum) x->name[n + 1] = sign UNIT_##name * sum / (n + 1)
+#include "taylor/motion.inc"
 
 static void put_quad(quad value, int lane, vector *high, vector *low) {
   (*high)[lane] = (double)value;
@@ -137,18 +157,18 @@ static void put_quad(quad value, int lane, vector *high, vector *low) {
 }
 
 /* The quads of a lane; a lost one rests. */
-static void begin_lane(const kz_speed_class *speed, const quad *torque, const kz_sets *x, int lane, quad_series *y,
+static void begin_lane(const kz_speed_class *speed, int32_t first, const kz_sets *x, int lane, quad_series *y,
                        series_of_pairs *all) {
-  *y = (quad_series){.C = {1}};
+  *y = (quad_series){.c = {1}};
   if (!x->lost[lane]) {
-    y->v[0] = join(x->velocity, x->velocity_rest, lane);
-    sincosq(join(x->theta, x->theta_rest, lane), &y->S[0], &y->C[0]);
-    expand_quads(&speed->quads, torque, y);
+    y->w[0] = join(x->velocity, x->velocity_rest, lane);
+    sincosq(join(x->theta, x->theta_rest, lane), &y->s[0], &y->c[0]);
+    for (int n = 0; n + 1 < Q; n++) next_quad(&speed->quads, speed->has_across, first, y, n);
   }
   for (int n = 0; n < Q; n++) {
-    put_quad(y->v[n], lane, &all->v[n], &all->v_low[n]);
-    put_quad(y->S[n], lane, &all->S[n], &all->S_low[n]);
-    put_quad(y->C[n], lane, &all->C[n], &all->C_low[n]);
+    put_quad(y->w[n], lane, &all->w[n], &all->w_low[n]);
+    put_quad(y->s[n], lane, &all->s[n], &all->s_low[n]);
+    put_quad(y->c[n], lane, &all->c[n], &all->c_low[n]);
   }
 }
 
@@ -156,30 +176,29 @@ static void begin_lane(const kz_speed_class *speed, const quad *torque, const kz
 static void end_lane(const kz_speed_class *speed, const quad_series *y, pair faster, pair farther, int lane, kz_sets *x) {
   quad v = (quad)faster.high[lane] + faster.low[lane], theta = (quad)farther.high[lane] + farther.low[lane];
   for (int n = Q - 1; n >= 0; n--) {
-    if (n > 0) v += y->v[n];
-    theta += y->v[n] * speed->quads.step / (n + 1);
+    if (n > 0) v += y->w[n];
+    theta += y->w[n] * speed->quads.step / (n + 1);
   }
   part(join(x->theta, x->theta_rest, lane) + theta, lane, &x->theta, &x->theta_rest);
-  part(y->v[0] + v, lane, &x->velocity, &x->velocity_rest);
+  part(y->w[0] + v, lane, &x->velocity, &x->velocity_rest);
 }
 
-OPERATION void step_one(bool quads, const kz_speed_class *speed, int32_t i, kz_sets *x, int n_cosine, vector *cosine) {
+OPERATION void step_one(bool quads, const kz_speed_class *speed, int32_t i, kz_sets *x, int n_circle, kz_circle *circle) {
   _Alignas(VECTOR_BYTES) series_of_pairs y;
   quad_series lanes[LANES];
   pair sine, cos, faster, farther;
-  const kz_constant *torque = &speed->torque[i * speed->order];
+  const int32_t first = i * speed->order;
   if (quads) {
-    for (int lane = 0; lane < LANES; lane++)
-      begin_lane(speed, &speed->quads.torque[i * speed->order], x, lane, &lanes[lane], &y);
+    for (int lane = 0; lane < LANES; lane++) begin_lane(speed, first, x, lane, &lanes[lane], &y);
   } else {
     sine_of(x->theta, &sine, &cos);
-    put_pair(x->velocity, 0, y.v, y.v_low);
-    put_pair(sine, 0, y.S, y.S_low);
-    put_pair(cos, 0, y.C, y.C_low);
+    put_pair(x->velocity, 0, y.w, y.w_low);
+    put_pair(sine, 0, y.s, y.s_low);
+    put_pair(cos, 0, y.c, y.c_low);
   }
-  bound_sine(speed, y.S[0], x);
-  expand_pairs(speed, torque, quads ? Q - 1 : 0, &y);
-  expand_doubles(speed, torque, &y);
+  bound_sine(speed, y.s[0], x);
+  for (int n = quads ? Q - 1 : 0; n + 1 < PAIRS; n++) next_pair(speed, first, &y, n);
+  for (int n = PAIRS - 1; n + 1 < P; n++) next_double(speed, first, &y, n);
   sum_series(speed, quads ? Q : 1, &y, &faster, &farther);
   if (quads) {
     for (int lane = 0; lane < LANES; lane++)
@@ -189,17 +208,16 @@ OPERATION void step_one(bool quads, const kz_speed_class *speed, int32_t i, kz_s
     x->theta = plus(x->theta, farther);
     x->velocity = plus(x->velocity, faster);
   }
-  for (int n = 0; n < n_cosine; n++) cosine[n] = y.C[n];
+  for (int n = 0; n < n_circle; n++) circle->cosine[n] = y.c[n];
+  for (int n = 0; n < n_circle && speed->has_across; n++) circle->sine[n] = y.s[n];
 }
 
-void kz_centres_step_pairs(const kz_speed_class *speed, int32_t i, kz_sets *sets, int n,
-                           vector cosine[KZ_PARTS][KZ_ORDER_JACOBIAN]) {
-  for (int p = 0; p < KZ_PARTS; p++) step_one(false, speed, i, &sets[p], n, cosine[p]);
+void kz_centres_step_pairs(const kz_speed_class *speed, int32_t i, kz_sets *sets, int n, kz_circle circle[KZ_PARTS]) {
+  for (int p = 0; p < KZ_PARTS; p++) step_one(false, speed, i, &sets[p], n, &circle[p]);
 }
 
-void kz_centres_step_quads(const kz_speed_class *speed, int32_t i, kz_sets *sets, int n,
-                           vector cosine[KZ_PARTS][KZ_ORDER_JACOBIAN]) {
-  for (int p = 0; p < KZ_PARTS; p++) step_one(true, speed, i, &sets[p], n, cosine[p]);
+void kz_centres_step_quads(const kz_speed_class *speed, int32_t i, kz_sets *sets, int n, kz_circle circle[KZ_PARTS]) {
+  for (int p = 0; p < KZ_PARTS; p++) step_one(true, speed, i, &sets[p], n, &circle[p]);
 }
 
 /* (B7) The first difference is exact, and each of the four roundings that follow is at most 2^-112. */

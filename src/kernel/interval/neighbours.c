@@ -2,7 +2,8 @@
  *
  * A set is {c + A z: |z_i| <= Z_i}. Its true image lies in {c' + A' z}, c' and A' the doubles that are kept, where |z| gains at most |A'^-1|
  * times what c', A' and the linear map leave out, p:
- *   M = |A| Z,  d = farthest . M,  p = error + tangent_error M + nonlinear T d^2 (|sin theta| / 2 + d / 6),  T >= |k - m cos t|.
+ *   M = |A| Z,  d = farthest . M,  p = error + tangent_error M + nonlinear T d^2 (|sin theta| / 2 + d / 6),  T >= |a(t)| + |b(t)|,
+ * with |sin theta| + |b| / T in place of |sin theta| where there is a drive across.
  * jacobian_error bounds |dz_i/dz0_j - (i == j)| of z as a function of its start, as long as the frame is not renewed. */
 #include "operations.h"
 
@@ -57,12 +58,13 @@ OPERATION vector largest_inverse(kz_sets *x) {
   return KZ_LARGER / pick(good, least, same(1));
 }
 
-/* The matrix by Taylor series of h (k - m cos t) cos theta and of its columns. */
-OPERATION void move_matrix(const kz_speed_class *speed, const kz_constant *torque, int P, const vector *cosine, kz_sets *x) {
+/* The matrix by Taylor series of h (a(t) cos theta + b(t) sin theta) and of its columns. */
+OPERATION void move_matrix(const kz_speed_class *speed, int32_t first, int P, const kz_circle *circle, kz_sets *x) {
   vector stiffness[KZ_ORDER_JACOBIAN];
   for (int n = 0; n + 1 < P; n++) {
     vector s = same(0);
-    for (int j = 0; j <= n; j++) s = fused(same(torque[j].high), cosine[n - j], s);
+    for (int j = 0; j <= n; j++) s = fused(same(speed->along[first + j].high), circle->cosine[n - j], s);
+    for (int j = 0; j <= n && speed->has_across; j++) s = fused(same(-speed->across[first + j].high), circle->sine[n - j], s);
     stiffness[n] = s;
   }
   for (int column = 0; column < 2; column++) {
@@ -90,24 +92,23 @@ OPERATION void rest_of(const kz_speed_class *speed, bool jacobian, const vector 
   for (int i = 0; i < 2; i++) p[i] = (speed->nonlinear[i] * torque + error[i][0] * M[0] + error[i][1] * M[1]) * KZ_LARGER;
 }
 
-void kz_neighbours_step(const kz_speed_class *speed, int32_t step, const vector cosine[KZ_ORDER_JACOBIAN], bool jacobian,
-                        kz_sets *x) {
+void kz_neighbours_step(const kz_speed_class *speed, int32_t step, const kz_circle *circle, bool jacobian, kz_sets *x) {
   const double most_torque = speed->most_torque[step], local[2] = {speed->theta_error, speed->velocity_error};
+  const vector most_sine = x->most_sine + (speed->has_across ? speed->most_across / most_torque : 0);
   vector M[2], p[2], p_column[2][2], gain[2];
   spread(x, x->reach[0], x->reach[1], M);
   const vector d = speed->farthest[0] * M[0] + speed->farthest[1] * M[1];
-  rest_of(speed, jacobian, M, most_torque * (d * d) * (0.5 * x->most_sine + d * (1.0 / 6)), p);
+  rest_of(speed, jacobian, M, most_torque * (d * d) * (0.5 * most_sine + d * (1.0 / 6)), p);
   for (int i = 0; i < 2; i++) p[i] = (p[i] + local[i]) * KZ_LARGER;
   for (int j = 0; jacobian && j < 2; j++) {
     spread(x, (j == 0) + x->jacobian_error[0][j], (j == 1) + x->jacobian_error[1][j], M);
     const vector along = speed->farthest[0] * M[0] + speed->farthest[1] * M[1];
-    rest_of(speed, jacobian, M, most_torque * (d * along) * (x->most_sine + 0.5 * d), p_column[j]);
+    rest_of(speed, jacobian, M, most_torque * (d * along) * (most_sine + 0.5 * d), p_column[j]);
   }
-  const kz_constant *torque = &speed->torque[step * speed->order];
   if (jacobian)
-    move_matrix(speed, torque, KZ_ORDER_JACOBIAN, cosine, x);
+    move_matrix(speed, step * speed->order, KZ_ORDER_JACOBIAN, circle, x);
   else
-    move_matrix(speed, torque, KZ_ORDER_TANGENT, cosine, x);
+    move_matrix(speed, step * speed->order, KZ_ORDER_TANGENT, circle, x);
   const vector inverse = largest_inverse(x);
   solve(x, inverse, p, gain);
   for (int i = 0; i < 2; i++) x->reach[i] = (x->reach[i] + gain[i]) * KZ_LARGER;

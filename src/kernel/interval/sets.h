@@ -3,6 +3,7 @@
 #ifndef KAPITZA_KERNEL_INTERVAL_SETS_H
 #define KAPITZA_KERNEL_INTERVAL_SETS_H
 
+#include <stdbool.h>
 #include <stddef.h>
 
 #include "kapitza/kernel.h"
@@ -25,9 +26,9 @@ typedef struct {
   double high, low;
 } kz_constant;
 
-/* Constants of a step in quad precision: h beta, h, powers of s in h (k - m cos t). */
+/* Constants of a step in quad precision: h beta, h, h torque, powers of s in h a(t) and in -h b(t). */
 typedef struct {
-  __float128 damping, step, *torque; /* [n_steps][order] */
+  __float128 damping, step, push, *along, *across; /* [n_steps][order] */
 } kz_quad_constants;
 
 /* A step of 2 pi / n_steps for centres that are at most `fastest` at its beginning. Time s in steps: 0 .. 1. */
@@ -42,12 +43,16 @@ typedef struct {
   double turn;                         /* (B5) rad: theta of a centre on a step, beyond h |velocity| */
   double farthest[2];                  /* (B5) theta of a neighbour on the step, by the same */
   double nonlinear[2];                 /* (B6) (theta, velocity) by a torque that acts for the whole step */
-  double *most_torque;                 /* [n_steps] upper bound of |k - m cos t| on each step; behind the torque */
+  bool has_across;                     /* whether there is a drive across, or a torque */
+  double most_across;                  /* upper bound of |b(t)| */
+  double *most_torque;                 /* [n_steps] upper bound of |a(t)| + |b(t)| + |torque| on each step; behind the series */
   kz_constant damping;                 /* h beta */
   kz_constant step[KZ_ORDER_PAIRS];    /* h / (n + 1) */
   kz_constant inverse[KZ_ORDER_PAIRS]; /* 1 / (n + 1) */
+  kz_constant push;                    /* h torque */
   kz_quad_constants quads;             /* the same, unrounded */
-  kz_constant torque[];                /* [n_steps][order] powers of s in h (k - m cos t) */
+  kz_constant *across;                 /* [n_steps][order] powers of s in -h b(t), behind those along */
+  kz_constant along[];                 /* [n_steps][order] powers of s in h a(t) */
 } kz_speed_class;
 
 struct kz_enclosure_tables {
@@ -77,14 +82,15 @@ OPERATION void put_set(const kz_enclosure *set, int lane, kz_sets *x) {
 
 /* Call it before a step. It marks sets as lost that are too fast for the class, too large, or without area. */
 void kz_sets_check(const kz_speed_class *speed, kz_sets *sets);
-/* Step i of the centres of KZ_PARTS vectors. cosine = the first n coefficients of cos theta along them, in doubles. In quads lost sets do not
- * move. */
-typedef void kz_centres_step(const kz_speed_class *speed, int32_t i, kz_sets *sets, int n,
-                             vector cosine[KZ_PARTS][KZ_ORDER_JACOBIAN]);
+/* Coefficients of sine and cosine along centres, in doubles; those of the sine only where there is a drive across. */
+typedef struct {
+  vector sine[KZ_ORDER_JACOBIAN], cosine[KZ_ORDER_JACOBIAN];
+} kz_circle;
+/* Step i of the centres of KZ_PARTS vectors. circle = the first n coefficients along them. In quads lost sets do not move. */
+typedef void kz_centres_step(const kz_speed_class *speed, int32_t i, kz_sets *sets, int n, kz_circle circle[KZ_PARTS]);
 kz_centres_step kz_centres_step_doubles, kz_centres_step_pairs, kz_centres_step_quads;
 /* The same step of the sets around the centres; jacobian = true updates jacobian_error too. */
-void kz_neighbours_step(const kz_speed_class *speed, int32_t step, const vector cosine[KZ_ORDER_JACOBIAN], bool jacobian,
-                        kz_sets *sets);
+void kz_neighbours_step(const kz_speed_class *speed, int32_t step, const kz_circle *circle, bool jacobian, kz_sets *sets);
 /* Widens the sets by an error p of their centres. */
 void kz_sets_widen(const vector p[2], kz_sets *sets);
 /* Sets the rest of each centre to 0 and widens the sets by it. */

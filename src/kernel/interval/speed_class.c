@@ -13,11 +13,13 @@ static const real MARGIN = 1e-9L,
 static const real U = 0x1p-53L, U_QUAD = 0x1p-113L;
 /* In units of U_QUAD: of constants in quads, which are products of 2 pi, cosines and powers of h (2^-108, 19 and 36 units). */
 static const real QUAD_CONSTANTS = 96;
+/* And of each harmonic more: 26 by the angle of its cosine, and the roundings of its sum. */
+static const real HARMONIC_CONSTANTS = 32;
 static const real TINY = 1e-280L; /* products below the range of doubles */
 
-/* h beta, h, and the first n powers of s in h a(t + h s) [n_steps][n]; h = 2 pi / n_steps. */
+/* h beta, h, h torque, and the first n powers of s in h a(t + h s) and -h b(t + h s) [n_steps][n]; h = 2 pi / n_steps. */
 void kz_interval_constants(const kz_pendulum *pendulum, int32_t n_steps, int32_t n, __float128 *damping, __float128 *step,
-                           __float128 *torque);
+                           __float128 *push, __float128 *along, __float128 *across);
 
 /* Bounds for |z| <= r around any time of a motion that is as fast as its class allows there: |Im theta| <= y, |theta'| <= w. slope [2]:
  * bounds of the velocities of the tangent map's columns that begin with (1, 0) and (0, 1). */
@@ -88,10 +90,14 @@ static bool is_pair(const bounds *b, int n) {
   return b->pairs && n < KZ_COEFFICIENTS_PAIRS;
 }
 
+/* Factors of u^2, (B3) of docs/explanation/bounds.md: of a sum of two pairs (3.01, `plus` of operations.h); of a product of a pair and a rounded
+ * constant (6.01, `times`, and 1 for the constant). And the factor for what is of higher order, (1 + u)^n with n u below 1e-2. */
+static const real PLUS = 3.1L, TIMES = 8, HIGHER = 1.01L;
+
 /* Relative: of a sum of products for coefficient n, one factor of which is a constant or computed, times a constant. */
 static real sum_error(const bounds *b, int n, int products) {
-  if (is_quad(b, n)) return (products + 4) * U_QUAD * 1.01L;
-  return is_pair(b, n) ? (real)(products + 4) * (products + 4) * U * U * 1.01L : (products + 4) * U * 1.01L;
+  if (is_quad(b, n)) return (products + 4) * U_QUAD * HIGHER;
+  return is_pair(b, n) ? (real)(products + 4) * (products + 4) * U * U * HIGHER : (products + 4) * U * HIGHER;
 }
 
 static void set_sizes(bounds *b) {
@@ -114,8 +120,14 @@ static void set_sizes(bounds *b) {
 /* Relative: of the factors of coefficient n that were rounded, to pairs or, where high parts are multiplied, to doubles. The damping's, 1 / n
  * and h / n: in sum_error, but in quads here too. */
 static real factor_error(const bounds *b, int n) {
-  if (is_quad(b, n)) return QUAD_CONSTANTS * U_QUAD;
-  return is_pair(b, n) ? (b->quads ? 4 : 2) * U * U : 2 * U * (1 + U);
+  const real of_harmonics = HARMONIC_CONSTANTS * (real)b->pendulum->harmonics * U_QUAD;
+  if (is_quad(b, n)) return QUAD_CONSTANTS * U_QUAD + of_harmonics;
+  return is_pair(b, n) ? (b->quads ? 4 : 2) * U * U + of_harmonics : 2 * U * (1 + U);
+}
+
+/* Number of products in the force of coefficient n + 1: the damping's, and those along; those across and the torque. */
+static int products_of(const bounds *b, int n) {
+  return n + 2 + (b->pendulum->unmirrored ? n + 2 : 0);
 }
 
 /* (B2) The recurrences of the step, on errors. */
@@ -126,7 +138,7 @@ static void set_errors(bounds *b, double fastest) {
   b->sine_error[0] = b->quads ? 0x1p-108L : b->pairs ? 48 * U * U : 8 * U;
   for (int n = 0; n + 1 < b->order; n++) {
     const real damping = b->h * b->pendulum->beta * CAUTION, constant = factor_error(b, n + 1);
-    const real summed = sum_error(b, n + 1, n + 2) + constant;
+    const real summed = sum_error(b, n + 1, products_of(b, n)) + constant;
     real v = damping * (b->velocity_error[n] + summed * (b->velocity[n] + b->velocity_error[n])), s = 0;
     for (int i = 0; i <= n; i++) {
       const real sine = b->sine[n - i] + b->sine_error[n - i], velocity = b->velocity[i] + b->velocity_error[i];
@@ -160,20 +172,20 @@ static void bound_centre(const bounds *b, double fastest, kz_speed_class *speed)
     small_product = product;
   }
   if (b->pairs) { /* those of the coefficients that are doubles are summed in doubles */
-    velocity += (b->order + 2) * U * 1.01L * small_sum;
-    theta += (b->order + 4) * U * 1.01L * small_product;
+    velocity += (b->order + 2) * U * HIGHER * small_sum;
+    theta += (b->order + 4) * U * HIGHER * small_product;
   }
   if (b->quads) {
     const int sums_of_quads = KZ_COEFFICIENTS_QUADS + 2;
-    velocity += 3.1L * U * U * sums + U_QUAD * 1.01L * (sums_of_quads * (quad_sum + sum) + fastest + quad_sum + sum);
-    theta += 3.1L * U * U * products + 8 * U * U * product +
-             U_QUAD * 1.01L * ((sums_of_quads + 6) * (quad_product + product) + farthest);
+    velocity += PLUS * U * U * sums + U_QUAD * HIGHER * (sums_of_quads * (quad_sum + sum) + fastest + quad_sum + sum);
+    theta += PLUS * U * U * products + TIMES * U * U * product +
+             U_QUAD * HIGHER * ((sums_of_quads + 6) * (quad_product + product) + farthest);
   } else if (b->pairs) {
-    velocity += 3.1L * U * U * (sums + fastest + sum);
-    theta += 3.1L * U * U * (products + product + h * fastest + farthest) + 8 * U * U * (product + h * fastest);
+    velocity += PLUS * U * U * (sums + fastest + sum);
+    theta += PLUS * U * U * (products + product + h * fastest + farthest) + TIMES * U * U * (product + h * fastest);
   } else {
-    velocity += 1.01L * U * (sums + sum + U * fastest);
-    theta += 1.01L * U * (products + 4 * product + 8 * U * (h * fastest + farthest));
+    velocity += HIGHER * U * (sums + sum + U * fastest);
+    theta += HIGHER * U * (products + 4 * product + TIMES * U * (h * fastest + farthest));
   }
   for (int i = 0; i < b->n_majorants; i++) {
     const real ratio = h / b->majorant[i].r * CAUTION;
@@ -191,7 +203,7 @@ static void column_rounding(const bounds *b, int T, const real stiffness[MOST], 
   error[0] = 4 * U * h * v[0];
   error[1] = 0;
   for (int n = 0; n < T; n++) {
-    const real summed = (n + 6) * U * 1.01L;
+    const real summed = (n + 6) * U * HIGHER;
     real size = damping * v[n], off = damping * (v_error[n] + summed * (v[n] + v_error[n]));
     for (int j = 0; j <= n; j++) {
       const real angle = a[n - j] + a_error[n - j];
@@ -206,8 +218,8 @@ static void column_rounding(const bounds *b, int T, const real stiffness[MOST], 
     if (n + 1 < T) error[1] += v_error[n + 1];
   }
   for (int n = 0; n <= T; n++) { /* T + 2 sums of at most these */
-    error[0] += (T + 2) * U * 1.01L * (a[n] + a_error[n]);
-    if (n < T) error[1] += (T + 2) * U * 1.01L * (v[n] + v_error[n]);
+    error[0] += (T + 2) * U * HIGHER * (a[n] + a_error[n]);
+    if (n < T) error[1] += (T + 2) * U * HIGHER * (v[n] + v_error[n]);
   }
 }
 
@@ -219,7 +231,7 @@ static void bound_tangent(const bounds *b, int T, double tangent_error[2][2]) {
     for (int j = 0; j <= n; j++) {
       const real cosine = b->sine[n - j], off = b->sine_error[n - j] + U * (cosine + b->sine_error[n - j]);
       stiffness[n] += b->torque[j] * cosine;
-      stiffness_error[n] += b->torque[j] * (off + (n + 4) * U * 1.01L * (cosine + off));
+      stiffness_error[n] += b->torque[j] * (off + (products_of(b, n) + 2) * U * HIGHER * (cosine + off));
     }
   }
   for (int c = 0; c < 2; c++) {
@@ -243,6 +255,8 @@ static void bound_neighbours(const bounds *b, kz_speed_class *speed) {
   speed->nonlinear[0] = (double)(h * h / 2 * growth * CAUTION);
   speed->nonlinear[1] = (double)(h * growth * CAUTION);
   speed->turn = (double)(stiffness * h * h / 2 * CAUTION);
+  for (int j = 0; j < b->pendulum->harmonics; j++)
+    speed->most_across += hypot(b->pendulum->horizontal[j][0], b->pendulum->horizontal[j][1]) * (double)CAUTION;
   for (int32_t i = 0; i < speed->n_steps; i++)
     speed->most_torque[i] = (double)(kz_force_largest(b->pendulum, i, h) + stiffness * 1e-6L);
 }
@@ -271,14 +285,16 @@ static kz_constant rounded(__float128 x) {
 static void make_constants(const kz_pendulum *pendulum, kz_speed_class *speed) {
   const int32_t n = speed->n_steps * speed->order;
   kz_quad_constants *q = &speed->quads;
-  q->torque = kz_malloc((size_t)n * sizeof *q->torque);
-  kz_interval_constants(pendulum, speed->n_steps, speed->order, &q->damping, &q->step, q->torque);
+  q->along = kz_malloc(2 * (size_t)n * sizeof *q->along);
+  q->across = q->along + n;
+  kz_interval_constants(pendulum, speed->n_steps, speed->order, &q->damping, &q->step, &q->push, q->along, q->across);
   speed->damping = rounded(q->damping);
+  speed->push = rounded(q->push);
   for (int32_t i = 0; i < speed->order; i++) {
     speed->step[i] = rounded(q->step / (i + 1));
     speed->inverse[i] = rounded((__float128)1 / (i + 1));
   }
-  for (int32_t i = 0; i < n; i++) speed->torque[i] = rounded(q->torque[i]);
+  for (int32_t i = 0; i < 2 * n; i++) speed->along[i] = rounded(q->along[i]);
 }
 
 static kz_speed_class *create(bounds *b, double fastest) {
@@ -286,8 +302,10 @@ static kz_speed_class *create(bounds *b, double fastest) {
   const int32_t n_steps = choose_steps(b);
   if (n_steps == 0) return NULL;
   kz_speed_class *made = kz_calloc(
-      1, sizeof *made + (size_t)(n_steps * b->order) * sizeof *made->torque + (size_t)n_steps * sizeof *made->most_torque);
-  made->most_torque = (double *)(made->torque + n_steps * b->order);
+      1, sizeof *made + 2 * (size_t)(n_steps * b->order) * sizeof *made->along + (size_t)n_steps * sizeof *made->most_torque);
+  made->across = made->along + n_steps * b->order;
+  made->most_torque = (double *)(made->across + n_steps * b->order);
+  made->has_across = b->pendulum->unmirrored;
   made->n_steps = n_steps;
   made->order = b->order;
   made->fastest = fastest;
@@ -316,6 +334,6 @@ kz_speed_class *kz_speed_class_create(const kz_pendulum *pendulum, int32_t preci
 
 void kz_speed_class_free(kz_speed_class *speed) {
   if (!speed) return;
-  free(speed->quads.torque);
+  free(speed->quads.along);
   free(speed);
 }

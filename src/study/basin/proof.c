@@ -29,8 +29,6 @@ kz_status kz_proof_plan(const kz_scene *scene, kz_proof **proof) {
   const kz_basin_plan *plan = &scene->basin;
   *proof = NULL;
   if (!plan->proof || !(scene->parameters.pendulum.beta > 0)) return KZ_OK;
-  if (!kz_is_sine(&scene->parameters.pendulum))
-    return kz_fail(KZ_REFUSED, "basin.proof: needs a pivot that moves up and down as a sine; leave basin.proof out");
   if (fmin(kz_axis_step(&plan->theta), kz_axis_step(&plan->velocity)) < SMALLEST)
     return kz_fail(KZ_REFUSED,
                    "basin.proof|basin.theta.width: cells below %.0e are too small for a proof in pairs of doubles; use wider "

@@ -21,10 +21,23 @@ static double uniform(double from, double to) {
   return from + (to - from) * rand() / RAND_MAX;
 }
 
+/* With a drive across, overtones and a torque; every second one is mirrored. */
+static kz_pendulum some_drive(int draw) {
+  kz_pendulum p = {.k = uniform(-0.05, 0.3), .beta = uniform(0, 0.1), .m = uniform(-0.6, 0.6), .harmonics = 7};
+  for (int j = 0; j < p.harmonics; j++)
+    for (int i = 0; i < 2; i++) p.vertical[j][i] = uniform(-0.1, 0.1) / (j + 1);
+  if (draw % 8 == 1) return p;
+  for (int i = 0; i < 6; i++) p.horizontal[i / 2][i % 2] = uniform(-0.1, 0.1);
+  p.torque = uniform(-0.1, 0.1);
+  p.unmirrored = 1;
+  return p;
+}
+
 static kz_pendulum some_pendulum(int draw) {
   static const kz_pendulum chosen[] = {
       {1.0 / 121, 1.0 / 55, 0.3}, {-0.2, 0.01, 0.7}, {0, 0.3, 0.5}, {0.3, 0, -0.6}, {0.1, 1.2, 2}};
   if (draw % 2 == 0) return chosen[draw / 2 % 5];
+  if (draw % 4 == 1) return some_drive(draw);
   return (kz_pendulum){uniform(-0.05, 0.3), uniform(0, 0.1), uniform(-0.6, 0.6)};
 }
 
@@ -95,7 +108,7 @@ static double farthest_place(const kz_pendulum *pendulum, const kz_enclosure_tab
 
 static kz_enclosure_tables *plan_for(const kz_pendulum *pendulum, int32_t precision, double fastest) {
   kz_enclosure_tables *plan;
-  const double most = fastest + 3 * (fabs(pendulum->k) + fabs(pendulum->m));
+  const double most = fastest + 3 * kz_stiffness(pendulum);
   assert_int_equal(kz_enclosure_tables_create(pendulum, precision, most, &plan), KZ_OK);
   return plan;
 }
@@ -145,7 +158,7 @@ static void points_in_quads_hold_the_motion(void **state) {
   (void)state;
   srand(6);
   double farthest = 0, narrower = 0;
-  for (int draw = 0; draw < DRAWS; draw += 2) {
+  for (int draw = 0; draw < DRAWS; draw += draw % 4 < 2 ? 1 : 2) {
     const kz_pendulum pendulum = some_pendulum(draw);
     const double fastest = draw == 4 ? 15 : 3;
     kz_enclosure set[2][SETS];
@@ -182,10 +195,10 @@ static void flat_frames_are_lost(void **state) {
   kz_enclosure_tables *plan = plan_for(&pendulum, KZ_ENCLOSE_DOUBLES, 2);
   const kz_enclosure flat = {.matrix = {{1, 1}, {1, 1}}, .reach = {1e-3, 1e-3}};
   kz_sets sets[KZ_PARTS] = {{.lost = {0}}};
-  vector cosine[KZ_PARTS][KZ_ORDER_JACOBIAN];
+  kz_circle circle[KZ_PARTS];
   for (int lane = 0; lane < KZ_PARTS * LANES; lane++) put_set(&flat, lane % LANES, &sets[lane / LANES]);
-  kz_centres_step_doubles(plan->classes[0], 0, sets, KZ_ORDER_TANGENT, cosine);
-  kz_neighbours_step(plan->classes[0], 0, cosine[0], false, &sets[0]);
+  kz_centres_step_doubles(plan->classes[0], 0, sets, KZ_ORDER_TANGENT, circle);
+  kz_neighbours_step(plan->classes[0], 0, &circle[0], false, &sets[0]);
   kz_sets_renew_frame(&sets[0]);
   assert_true(sets[0].lost[0]);
   kz_enclosure_tables_free(plan);
@@ -323,17 +336,6 @@ static void sums_of_products_are_as_good_as_their_bound(void **state) {
   assert_true(worst < 1 && worst > 0.1);
 }
 
-/* The series are those of the sine drive. */
-static void other_drives_are_refused(void **state) {
-  (void)state;
-  kz_enclosure_tables *tables;
-  const kz_pendulum pushed = {.k = 0.1, .beta = 0.1, .m = 0.4, .torque = 0.01, .unmirrored = 1};
-  for (int32_t precision = 0; precision < KZ_ENCLOSURES; precision++) {
-    assert_int_equal(kz_enclosure_tables_create(&pushed, precision, 3, &tables), KZ_REFUSED);
-    assert_null(tables);
-  }
-}
-
 int main(void) {
   const struct CMUnitTest tests[] = {cmocka_unit_test(sines_are_as_good_as_their_bounds),
                                      cmocka_unit_test(sums_of_products_are_as_good_as_their_bound),
@@ -342,7 +344,6 @@ int main(void) {
                                      cmocka_unit_test(far_angles_hold_the_motion),
                                      cmocka_unit_test(flat_frames_are_lost),
                                      cmocka_unit_test(boxes_hold_the_motion),
-                                     cmocka_unit_test(bounds_cut_by_ten_do_not_hold),
-                                     cmocka_unit_test(other_drives_are_refused)};
+                                     cmocka_unit_test(bounds_cut_by_ten_do_not_hold)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

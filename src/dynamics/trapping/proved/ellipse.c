@@ -161,6 +161,7 @@ static bool reaches_mirror(const kz_proof *proof, int64_t most_periods, const do
 
 bool kz_proof_is_mirror(const kz_proof *proof, int64_t period, const double point[2], const double centre[2],
                         const kz_proof_ellipse *ellipse) {
+  if (!proof->mirrored) return true;
   kz_proof_ellipse trap = kz_proof_find_trap(proof, period, point[0], point[1]);
   for (; trap.radius > SMALLEST; trap.radius /= 4)
     if (kz_proof_traps(proof, period, point[0], point[1], &trap) &&

@@ -10,6 +10,7 @@ kz_status kz_proof_create(const kz_pendulum *pendulum, int64_t columns, int64_t 
   made->columns = columns;
   made->rows = rows;
   made->top = top;
+  made->mirrored = kz_is_mirrored(pendulum);
   made->beta = pendulum->beta;
   made->label = kz_calloc((size_t)(columns * rows), sizeof *made->label);
   const double most = fmax(top, fastest) + 1.5 * kz_stiffness(pendulum);
@@ -38,7 +39,7 @@ void kz_proof_centre(const kz_proof *proof, int64_t f, double state[2]) {
 }
 
 int64_t kz_proof_own(const kz_proof *proof) {
-  return proof->columns * proof->rows / 2;
+  return proof->columns * proof->rows / (proof->mirrored ? 2 : 1);
 }
 
 int64_t kz_proof_adopt(kz_proof *proof, const uint8_t *label, const uint8_t mirror[KZ_PROOF_MOST + 1]) {
@@ -47,7 +48,7 @@ int64_t kz_proof_adopt(kz_proof *proof, const uint8_t *label, const uint8_t mirr
   for (int64_t f = 0; f < own; f++) {
     added += label[f] != 0 && proof->label[f] == 0;
     proof->label[f] = label[f];
-    proof->label[2 * own - 1 - f] = mirror[label[f]];
+    if (proof->mirrored) proof->label[2 * own - 1 - f] = mirror[label[f]];
   }
   return added;
 }

@@ -16,6 +16,7 @@ typedef struct {
 struct kz_proof {
   kz_enclosure_tables *tables[KZ_ENCLOSURES];
   int64_t columns, rows; /* even */
+  bool mirrored;         /* whether the second half of the grid is the mirror image of the first */
   double beta;
   double top;     /* rad per drive radian: rows go from -top to top */
   uint8_t *label; /* [rows][columns]: attractor, 0 = open; closed cells */
