@@ -134,12 +134,17 @@ void kz_local_records_free(kz_local_records *records);
  * may call kz_ranks_interrupted only. */
 typedef kz_status (*kz_tile_fn)(void *context, int64_t tile, void *record);
 
+/* The same for the items first .. first + n - 1 of a tile. */
+typedef kz_status (*kz_items_fn)(void *context, int64_t first, int64_t n, void *record);
+
 typedef struct {
   const char *name; /* short, for the progress line and the checkpoint: "table", "cells" */
   int64_t n_tiles;
   size_t record_bytes;
   kz_tile_fn work;
   void *context;
+  int64_t n_items, batch; /* with `items` in place of `work`: a tile is `batch` items, the last one those that are left */
+  kz_items_fn items;
   bool keep; /* finished records are saved in the checkpoint and not computed again on resume */
   kz_local_records
       *local;      /* not NULL: a record begins with a uint64_t, the number of bytes in use (a multiple of 8). It is added to
@@ -154,6 +159,19 @@ typedef struct {
 static inline kz_stage kz_stage_for_all(const char *name, int64_t n_tiles, size_t record_bytes, kz_tile_fn work,
                                         void *context) {
   return (kz_stage){name, n_tiles, record_bytes, work, context, .keep = true, .everywhere = true};
+}
+/* A kept stage whose tiles are batches of items, and whose records all ranks receive. */
+static inline kz_stage kz_stage_of_items(const char *name, int64_t n_items, int64_t batch, size_t record_bytes,
+                                         kz_items_fn items, void *context) {
+  return (kz_stage){.name = name,
+                    .n_tiles = (n_items + batch - 1) / batch,
+                    .record_bytes = record_bytes,
+                    .context = context,
+                    .n_items = n_items,
+                    .batch = batch,
+                    .items = items,
+                    .keep = true,
+                    .everywhere = true};
 }
 static inline kz_stage kz_stage_for_rank0(const char *name, int64_t n_tiles, size_t record_bytes, kz_tile_fn work,
                                           void *context) {

@@ -88,6 +88,13 @@ static kz_status recall(stage_run *run) {
   return KZ_OK;
 }
 
+/* The work of a tile, or of the items that it is made of. */
+static kz_status work_on(const kz_stage *stage, int64_t tile, void *record) {
+  if (!stage->items) return stage->work(stage->context, tile, record);
+  const int64_t first = tile * stage->batch, left = stage->n_items - first;
+  return stage->items(stage->context, first, left < stage->batch ? left : stage->batch, record);
+}
+
 static kz_status do_tile(stage_run *run, int64_t tile) {
   const kz_stage *stage = run->stage;
   void *record;
@@ -97,7 +104,7 @@ static kz_status do_tile(stage_run *run, int64_t tile) {
     record = memset(run->records + (size_t)tile * stage->record_bytes, 0, stage->record_bytes);
   else
     record = kz_record_buffer_add(&run->buffered, tile);
-  KZ_TRY(stage->work(stage->context, tile, record));
+  KZ_TRY(work_on(stage, tile, record));
   if (stage->local) kz_local_records_add(stage->local, tile, record, *(uint64_t *)record);
   return run->kept ? kz_section_save(run->checkpoint, &run->section, tile, record) : KZ_OK;
 }
@@ -128,7 +135,7 @@ static kz_status do_collectively(stage_run *run, int64_t tile) {
   const kz_checkpoint outside = *checkpoint;
   void *record = memset(run->records + (size_t)tile * stage->record_bytes, 0, stage->record_bytes);
   checkpoint->seed = kz_bytes_checksum(checkpoint->seed, &tile, sizeof tile);
-  kz_status status = kz_ranks_agree(run->ranks, stage->work(stage->context, tile, record));
+  kz_status status = kz_ranks_agree(run->ranks, work_on(stage, tile, record));
   checkpoint->seed = outside.seed;
   checkpoint->end = outside.end;
   checkpoint->n_sections = outside.n_sections;
@@ -179,7 +186,7 @@ static kz_status run_stage(stage_run *run) {
 static kz_status run_alone(const kz_stage *stage, char *records) {
   memset(records, 0, (size_t)stage->n_tiles * stage->record_bytes);
   for (int64_t tile = 0; tile < stage->n_tiles; tile++)
-    KZ_TRY(stage->work(stage->context, tile, records + (size_t)tile * stage->record_bytes));
+    KZ_TRY(work_on(stage, tile, records + (size_t)tile * stage->record_bytes));
   return KZ_OK;
 }
 
@@ -209,7 +216,7 @@ kz_status kz_stage_measure(const kz_stage *stage, int64_t most, double enough, d
     const int64_t tile = n == stage->n_tiles ? done : (int64_t)((place - floor(place)) * (double)stage->n_tiles);
     memset(record, 0, stage->record_bytes);
     const double start = kz_processor_clock();
-    status = stage->work(stage->context, tile, record);
+    status = work_on(stage, tile, record);
     spent += kz_processor_clock() - start;
   }
   free(record);

@@ -115,14 +115,13 @@ static void compare_steps(const reference_job *h, int64_t first, int64_t n, cons
   for (int64_t i = 0; i < n_asked; i++) labels[place[i]].agrees = label[i] == labels[place[i]].label;
 }
 
-static kz_status label_tile(void *context, int64_t tile, void *record) {
+static kz_status label_samples(void *context, int64_t first, int64_t n, void *record) {
   const reference_job *h = context;
   const kz_basin_plan *plan = h->reference->plan;
   kz_reference_label *labels = record;
   double start[2 * TILE] = {0};
   int32_t label[TILE];
-  int64_t cell[TILE], periods[TILE], first = tile * TILE;
-  int64_t n = h->reference->samples - first < TILE ? h->reference->samples - first : TILE;
+  int64_t cell[TILE], periods[TILE];
   memcpy(labels, h->reference->labels + first, (size_t)n * sizeof *labels);
   if (first + n <= h->known) return KZ_OK;
   for (int64_t i = 0; i < n; i++) {
@@ -148,8 +147,8 @@ static kz_status follow_samples(kz_reference_labels *reference, const kz_run *ru
   h.known = path ? kz_reference_labels_recall(path, reference) : 0;
   KZ_TRY(kz_ranks_broadcast(run->ranks, &h.known, sizeof h.known));
   KZ_TRY(kz_ranks_broadcast(run->ranks, reference->labels, (size_t)h.known * sizeof *reference->labels));
-  const kz_stage stage = kz_stage_for_all("reference labels", (reference->samples + TILE - 1) / TILE,
-                                          TILE * sizeof(kz_reference_label), label_tile, &h);
+  const kz_stage stage =
+      kz_stage_of_items("reference labels", reference->samples, TILE, TILE * sizeof(kz_reference_label), label_samples, &h);
   KZ_FREED kz_reference_label *records = kz_malloc((size_t)stage.n_tiles * stage.record_bytes);
   kz_status status = kz_stage_run(run, &stage, records);
   if (status == KZ_OK) memcpy(reference->labels, records, (size_t)reference->samples * sizeof *records);

@@ -194,9 +194,7 @@ static kz_status prove_random(void *context, int32_t level, int64_t n, const int
 }
 
 /* Record: how many of the tile's starts are not proved; quad precision is not tried. */
-static kz_status follow_random(void *context, int64_t tile, void *record) {
-  const job *j = context;
-  const int64_t first = tile * TILE, n = j->starts - first < TILE ? j->starts - first : TILE;
+static kz_status follow_random(void *context, int64_t first, int64_t n, void *record) {
   const kz_labeller labeller = {
       .way = KZ_BY_LEVELS, .context = context, .at = prove_random, .levels = proof_levels, .n_levels = KZ_ENCLOSE_QUADS};
   int64_t item[TILE], unproved = 0;
@@ -210,8 +208,7 @@ static kz_status follow_random(void *context, int64_t tile, void *record) {
 
 static kz_status prove_sample(const kz_run *run, const kz_basin_plan *plan, const kz_proof *proof, kz_proof_sample *sample) {
   job j = {.plan = plan, .proof = proof, .starts = random_starts(plan)};
-  const kz_stage stage =
-      kz_stage_for_all("proof of real starts", (j.starts + TILE - 1) / TILE, sizeof(int64_t), follow_random, &j);
+  const kz_stage stage = kz_stage_of_items("proof of real starts", j.starts, TILE, sizeof(int64_t), follow_random, &j);
   KZ_FREED int64_t *record = kz_calloc((size_t)stage.n_tiles, sizeof *record);
   KZ_TRY(kz_stage_run(run, &stage, record));
   *sample = (kz_proof_sample){.starts = j.starts};

@@ -25,10 +25,9 @@ static int64_t sample_size(const kz_basin_plan *plan) {
   return own < SAMPLE ? own : SAMPLE;
 }
 
-static kz_status follow_tile(void *context, int64_t tile, void *record) {
+static kz_status follow_cells(void *context, int64_t first, int64_t n, void *record) {
   const job *j = context;
   const kz_labeller labeller = kz_cell_labeller(j->plan, j->dynamics);
-  const int64_t first = tile * TILE, left = sample_size(j->plan) - first, n = left < TILE ? left : TILE;
   int64_t cell[TILE];
   kz_label label[TILE];
   for (int64_t i = 0; i < n; i++) cell[i] = cell_of(j->plan, first + i);
@@ -53,7 +52,9 @@ kz_doubt kz_doubt_of(const kz_basin_plan *plan, const kz_doubt_sample *sample, i
 }
 
 static kz_stage stage_of(job *j) {
-  return kz_stage_for_rank0("doubt", (sample_size(j->plan) + TILE - 1) / TILE, TILE * sizeof(int32_t), follow_tile, j);
+  kz_stage stage = kz_stage_of_items("doubt", sample_size(j->plan), TILE, TILE * sizeof(int32_t), follow_cells, j);
+  stage.everywhere = false;
+  return stage;
 }
 
 kz_status kz_doubt_measure(const kz_basin_plan *plan, kz_dynamics *dynamics, double *seconds) {

@@ -155,10 +155,9 @@ typedef struct {
   int64_t n, *item, *place;
 } level_job;
 
-static kz_status level_tile(void *context, int64_t tile, void *record) {
+static kz_status label_some(void *context, int64_t first, int64_t n, void *record) {
   const level_job *a = context;
-  const int64_t first = tile * a->tile;
-  return kz_label_at(a->labeller, a->level, a->before, smaller(a->n - first, a->tile), a->item + first, record);
+  return kz_label_at(a->labeller, a->level, a->before, n, a->item + first, record);
 }
 
 static const kz_level *row_of(const level_job *a) {
@@ -179,8 +178,8 @@ static kz_status label_level(level_job *a, int round, kz_label *label) {
   char name[32];
   snprintf(name, sizeof name, "%s %d", row_of(a)->stage, round);
   a->tile = tile_of(a);
-  const kz_stage stage = kz_stage_for_all(l->stage && a->level <= KZ_LEVEL_DOUBLE ? l->stage : name,
-                                          (a->n + a->tile - 1) / a->tile, (size_t)a->tile * sizeof(kz_label), level_tile, a);
+  const kz_stage stage = kz_stage_of_items(l->stage && a->level <= KZ_LEVEL_DOUBLE ? l->stage : name, a->n, a->tile,
+                                           (size_t)a->tile * sizeof(kz_label), label_some, a);
   KZ_FREED kz_label *found = kz_malloc((size_t)stage.n_tiles * stage.record_bytes + 1);
   KZ_TRY(kz_stage_run(l->run, &stage, found));
   int64_t left = 0;

@@ -40,11 +40,10 @@ typedef struct {
   int32_t label[TILE];
 } followed;
 
-static kz_status follow_tile(void *context, int64_t tile, void *record) {
+static kz_status follow_starts(void *context, int64_t first, int64_t n, void *record) {
   const following *f = context;
   followed *out = record;
   int64_t periods[TILE];
-  int64_t first = tile * TILE, n = f->n - first < TILE ? f->n - first : TILE;
   for (int64_t i = 0; i < n; i++) memcpy(out->state + 2 * i, f->state + 2 * f->pending[first + i], 2 * sizeof(double));
   kz_dynamics_follow(f->dynamics, KZ_FOLLOW_DIRECT, n, f->periods, out->state, out->label, periods);
   return KZ_OK;
@@ -59,7 +58,7 @@ static void list_pending(following *f) {
 
 /* Follows the pending starts for f->periods; those that are trapped get their label. */
 static kz_status follow_stretch(const kz_run *run, following *f) {
-  const kz_stage stage = kz_stage_for_all("attractors", (f->n + TILE - 1) / TILE, sizeof(followed), follow_tile, f);
+  const kz_stage stage = kz_stage_of_items("attractors", f->n, TILE, sizeof(followed), follow_starts, f);
   KZ_FREED followed *records = kz_malloc((size_t)stage.n_tiles * sizeof(followed) + 1);
   kz_status status = kz_stage_run(run, &stage, records);
   for (int64_t i = 0; status == KZ_OK && i < f->n; i++) {

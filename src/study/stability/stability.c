@@ -82,12 +82,11 @@ static void release(kz_chart *chart) {
   free(chart->curves);
 }
 
-static kz_status chart_tile(void *context, int64_t tile, void *record) {
+static kz_status chart_points(void *context, int64_t first, int64_t n, void *record) {
   const kz_chart *chart = context;
   chart_record *out = record;
   double k[POINTS], beta[POINTS], m[POINTS];
-  int64_t first = tile * POINTS, columns = chart->plan->k.count, n = columns * chart->plan->m.count - first;
-  if (n > POINTS) n = POINTS;
+  const int64_t columns = chart->plan->k.count;
   for (int64_t i = 0; i < n; i++) {
     k[i] = chart->k[(first + i) % columns];
     m[i] = chart->m[(first + i) / columns];
@@ -132,8 +131,10 @@ static void unpack_curves(kz_chart *chart, const void *records) {
 }
 
 static kz_stage chart_stage(kz_chart *chart) {
-  const int64_t tiles = tiles_of(chart->plan->k.count * chart->plan->m.count, POINTS);
-  return kz_stage_for_rank0("chart", tiles, sizeof(chart_record), chart_tile, chart);
+  const int64_t points = chart->plan->k.count * chart->plan->m.count;
+  kz_stage stage = kz_stage_of_items("chart", points, POINTS, sizeof(chart_record), chart_points, chart);
+  stage.everywhere = false;
+  return stage;
 }
 
 static kz_stage curve_stage(kz_chart *chart) {
@@ -152,10 +153,11 @@ static kz_status run_stage(const kz_run *run, const kz_stage *stage, void (*unpa
 
 /* Packing the points for the file: the middle tile's, as many times as there are tiles. */
 static void measure_packing(kz_chart *chart, double *seconds) {
-  const int64_t tiles = tiles_of(chart->plan->k.count * chart->plan->m.count, POINTS);
+  const int64_t points = chart->plan->k.count * chart->plan->m.count, tiles = tiles_of(points, POINTS),
+                first = tiles / 2 * POINTS;
   KZ_FREED chart_record *record = kz_calloc(1, sizeof *record);
   KZ_FREED uint8_t *packed = kz_malloc(kz_pack_bytes(POINTS, sizeof(double)));
-  chart_tile(chart, tiles / 2, record);
+  chart_points(chart, first, points - first < POINTS ? points - first : POINTS, record);
   const double start = kz_processor_clock();
   kz_pack_into(record->log_multiplier, POINTS, sizeof(double), true, packed);
   kz_pack_into(record->angle, POINTS, sizeof(double), true, packed);

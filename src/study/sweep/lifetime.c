@@ -11,13 +11,12 @@ typedef struct {
 } following;
 
 /* Periods until each start of a tile is trapped; -1 = it is not. */
-static kz_status lifetime_tile(void *context, int64_t tile, void *record) {
+static kz_status follow_starts(void *context, int64_t first, int64_t n, void *record) {
   const following *f = context;
-  double *time = record, *state = f->start + 2 * tile * TILE;
+  double *time = record;
   int32_t label[TILE];
   int64_t periods[TILE];
-  const int64_t left = f->starts - tile * TILE, n = left < TILE ? left : TILE;
-  kz_dynamics_follow(f->dynamics, KZ_FOLLOW_DIRECT, n, f->max_periods, state, label, periods);
+  kz_dynamics_follow(f->dynamics, KZ_FOLLOW_DIRECT, n, f->max_periods, f->start + 2 * first, label, periods);
   for (int64_t i = 0; i < n; i++) time[i] = label[i] > 0 ? (double)periods[i] : -1;
   return KZ_OK;
 }
@@ -27,9 +26,8 @@ kz_status kz_sweep_lifetime(const kz_sweep_plan *plan, const kz_run *run, kz_dyn
   const kz_window window = kz_window_of(&plan->theta, &plan->velocity);
   KZ_FREED double *start = kz_malloc(2 * (size_t)plan->starts * sizeof *start);
   following f = {dynamics, start, plan->starts, max_periods};
-  const int64_t tiles = (plan->starts + TILE - 1) / TILE;
-  const kz_stage stage = kz_stage_for_all("sweep lifetimes", tiles, TILE * sizeof(double), lifetime_tile, &f);
-  KZ_FREED double *time = kz_malloc((size_t)tiles * stage.record_bytes);
+  const kz_stage stage = kz_stage_of_items("sweep lifetimes", plan->starts, TILE, TILE * sizeof(double), follow_starts, &f);
+  KZ_FREED double *time = kz_malloc((size_t)stage.n_tiles * stage.record_bytes);
   kz_dynamics_starts(&window, plan->seed, plan->starts, start);
   KZ_TRY(kz_stage_run(run, &stage, time));
   int64_t n = 0;
