@@ -13,12 +13,38 @@ A result that is there already: kapitza.Result("blackburn-fig12.h5"). kapitza.pl
 functions takes and returns a matplotlib Axes.
 """
 
-from kapitza.engine import Engine
-from kapitza.explorer.notebook import explore
-from kapitza.films import film
-from kapitza.fitting import fit
-from kapitza.program import RunError, SceneError
-from kapitza.result import BadFile, Result
-from kapitza.session import check, orbit, run, sweep, where
+import importlib
+import importlib.util
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from kapitza.engine import Engine
+    from kapitza.explorer.notebook import explore
+    from kapitza.films import film
+    from kapitza.fitting import fit
+    from kapitza.program import RunError, SceneError
+    from kapitza.result import BadFile, Result
+    from kapitza.session import check, orbit, run, sweep, where
+
+    __version__: str
 
 __all__ = ["BadFile", "Engine", "Result", "RunError", "SceneError", "check", "explore", "film", "fit", "orbit", "run", "sweep", "where"]
+
+# The module of each name: modules are loaded when one of their names is first used, because pandas and xarray take most of a second.
+_MODULES = {name: module for module, names in {
+    "engine": "Engine", "explorer.notebook": "explore", "films": "film", "fitting": "fit", "program": "RunError SceneError",
+    "result": "BadFile Result", "session": "check orbit run sweep where"}.items() for name in names.split()}
+
+
+def __getattr__(name: str) -> Any:
+    if name == "__version__":
+        return importlib.import_module("kapitza.program").version()
+    if name in _MODULES:
+        return globals().setdefault(name, getattr(importlib.import_module(f"kapitza.{_MODULES[name]}"), name))
+    if not name.startswith("_") and importlib.util.find_spec(f"kapitza.{name}"):
+        return importlib.import_module(f"kapitza.{name}")
+    raise AttributeError(f"module 'kapitza' has no attribute {name!r}")
+
+
+def __dir__() -> list[str]:
+    return sorted({*globals(), *__all__, "__version__"})

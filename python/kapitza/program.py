@@ -43,6 +43,14 @@ class RunError(RuntimeError):
     """A run has failed. The text is the program's message."""
 
 
+def version() -> str:
+    """The version of this package: that of the sources around it, or of its installation."""
+    sources = Path(__file__).resolve().parents[2] / "CMakeLists.txt"
+    if sources.is_file() and (found := re.search(r"project\(kapitza VERSION ([0-9.]+)", sources.read_text())):
+        return found[1]
+    return importlib.metadata.version("kapitza")
+
+
 def program() -> Path:
     """The program: the variable KAPITZA, else that of the sources around this package, of its installation, or on the PATH."""
     if chosen := os.environ.get("KAPITZA"):

@@ -259,7 +259,7 @@ class Result:
             if not wrong:
                 with xarray.open_dataset(self.path, group=name, engine="h5netcdf", phony_dims="sort") as dataset:
                     dataset = dataset.load()
-                wrong = layout.wrong_shape(dataset, name) or layout.wrong_values(dataset)
+                wrong = layout.wrong_shape(dataset, name) or layout.wrong_values(dataset, name)
         except Exception as error:  # h5py and h5netcdf raise many kinds for one cause: the bytes are damaged
             raise BadFile(f"{self.path}: damaged in the group {name}") from error
         if wrong:

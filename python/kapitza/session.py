@@ -2,7 +2,6 @@
 
 import json
 import os
-import re
 import signal
 import subprocess
 import tempfile
@@ -115,11 +114,8 @@ def check(scene: SceneLike, set: Mapping[str, Any] | None = None) -> Check:
     :raises SceneError: if the program refuses the scene
     """
     asked = Scene(scene, set)
-    text = ask(["check", asked.path, *asked.sets], asked)
-    facts = {name: value for name, value in re.findall(r"^(studies|cells|estimated time) +(.*)$", text, re.MULTILINE)}
-    number, unit = facts["estimated time"].removeprefix("more than ").split()[:2]
-    seconds = float(number) * {"s": 1, "min": 60, "h": 3600}[unit]
-    return Check(text.split("\n\n")[1] + "\n", facts["studies"].split(), int(facts["cells"]), seconds, text)
+    facts = json.loads(ask(["check", asked.path, *asked.sets, "--json"], asked))
+    return Check(facts["scene"], facts["studies"], facts["cells"], facts["seconds"], facts["text"])
 
 
 def where(scene: SceneLike, theta: Any, velocity: Any, set: Mapping[str, Any] | None = None) -> pandas.DataFrame:

@@ -39,7 +39,7 @@ typedef struct {
   int n_sets;
   char **origins; /* of every --origin, in order */
   int n_origins;
-  bool resume, force, json, json_schema, no_browser, degrees;
+  bool resume, force, json, json_schema, layout, no_browser, degrees;
   int64_t boundary;      /* digits of --boundary; 0 = not given */
   bool answered;         /* --help or the like was printed: nothing is left to do */
   const char *port;      /* of view, as written; NULL = not given */
@@ -68,6 +68,9 @@ kz_status kz_app_view(const kz_options *options); /* replaces the process by the
 kz_status kz_app_fit(const kz_options *options);  /* replaces the process by the package's module fitting; so does this one */
 kz_status kz_app_keys(const kz_options *options);
 void kz_app_version(FILE *out);
+
+/* Prints the variables of the result file, a line of JSON each (docs/reference/commands.md). */
+void kz_layout_print(FILE *out);
 
 /* The starts of the command where, from the operands or from lines "theta,velocity" of standard input. start [n] = theta and velocity, as
  * doubles, or both in all digits if one of them has more. KZ_REFUSED names the operand or the line. The caller frees *starts in every case. */

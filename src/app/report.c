@@ -1,8 +1,10 @@
 /* Reports about a scene or about the program: check, keys, --version, warnings, the message at the end. */
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "app.h"
+#include "json.h"
 #include "kapitza/version.h"
 
 char *kz_scene_text(const kz_scene *scene, bool fingerprint) {
@@ -25,33 +27,72 @@ void kz_warnings_print(const kz_scene *scene, FILE *out) {
   kz_settling_warn(scene, out);
 }
 
-static void print_duration(double seconds) {
+static void print_duration(double seconds, FILE *out) {
   if (seconds < 120.0)
-    printf("%.3g s", seconds);
+    fprintf(out, "%.3g s", seconds);
   else if (seconds < 7200.0)
-    printf("%.3g min", seconds / 60.0);
+    fprintf(out, "%.3g min", seconds / 60.0);
   else
-    printf("%.3g h", seconds / 3600.0);
+    fprintf(out, "%.3g h", seconds / 3600.0);
 }
 
-static void print_check(const kz_options *options, const kz_scene *scene, const char *resolved, const kz_estimate *estimate) {
+static void print_check(const kz_options *options, const kz_scene *scene, const char *resolved, const kz_estimate *estimate,
+                        FILE *out) {
   const kz_cost cost = kz_cost_of(scene);
   const kz_pendulum *p = &scene->parameters.pendulum;
-  printf("%s is a valid scene.\n\n%s\n", options->scene, resolved);
-  if (!isnan(p->k)) printf("pendulum         k = %.10g, beta = %.10g, m = %.10g\n", p->k, p->beta, p->m);
-  kz_rest_print(&scene->parameters, stdout);
-  kz_drive_print(&scene->parameters, stdout);
-  fputs("studies         ", stdout);
+  fprintf(out, "%s is a valid scene.\n\n%s\n", options->scene, resolved);
+  if (!isnan(p->k)) fprintf(out, "pendulum         k = %.10g, beta = %.10g, m = %.10g\n", p->k, p->beta, p->m);
+  kz_rest_print(&scene->parameters, out);
+  kz_drive_print(&scene->parameters, out);
+  fputs("studies         ", out);
   for (int i = 0; i < kz_study_count; i++)
-    if (kz_study_is_wanted(&kz_studies[i], scene)) printf(" %s", kz_studies[i].name);
-  printf(
-      "\ncells            %lld\ndisk             %s\nmemory per rank  %s, %s more on rank 0, and a share of %s\n"
-      "estimated time   ",
-      (long long)cost.cells, kz_cost_bytes(cost.disk_bytes).text, kz_cost_bytes(cost.memory_bytes).text,
-      kz_cost_bytes(cost.rank0_bytes).text, kz_cost_bytes(cost.shared_bytes).text);
-  if (!estimate->is_whole) fputs("more than ", stdout);
-  print_duration(estimate->seconds);
-  puts(" on one core; N ranks take an N-th of it");
+    if (kz_study_is_wanted(&kz_studies[i], scene)) fprintf(out, " %s", kz_studies[i].name);
+  fprintf(out,
+          "\ncells            %lld\ndisk             %s\nmemory per rank  %s, %s more on rank 0, and a share of %s\n"
+          "estimated time   ",
+          (long long)cost.cells, kz_cost_bytes(cost.disk_bytes).text, kz_cost_bytes(cost.memory_bytes).text,
+          kz_cost_bytes(cost.rank0_bytes).text, kz_cost_bytes(cost.shared_bytes).text);
+  if (!estimate->is_whole) fputs("more than ", out);
+  print_duration(estimate->seconds, out);
+  fputs(" on one core; N ranks take an N-th of it\n", out);
+  kz_warnings_print(scene, out);
+}
+
+static kz_json *studies_of(const kz_scene *scene) {
+  kz_json *list = json_object_new_array();
+  for (int i = 0; i < kz_study_count; i++)
+    if (kz_study_is_wanted(&kz_studies[i], scene)) json_object_array_add(list, kz_json_text(kz_studies[i].name));
+  return list;
+}
+
+/* The same for programs, as one object on a line. */
+static void print_check_json(const kz_options *options, const kz_scene *scene, const char *resolved,
+                             const kz_estimate *estimate) {
+  const kz_cost cost = kz_cost_of(scene);
+  const kz_pendulum *p = &scene->parameters.pendulum;
+  KZ_FREED char *text = NULL;
+  size_t bytes = 0;
+  kz_json *object = json_object_new_object(), *pendulum = json_object_new_object();
+  FILE *out = open_memstream(&text, &bytes);
+  if (out) {
+    print_check(options, scene, resolved, estimate, out);
+    fclose(out);
+  }
+  kz_json_add_text(object, "scene", resolved);
+  kz_json_add_real(pendulum, "k", p->k);
+  kz_json_add_real(pendulum, "beta", p->beta);
+  kz_json_add_real(pendulum, "m", p->m);
+  kz_json_add(object, "pendulum", pendulum);
+  kz_json_add(object, "studies", studies_of(scene));
+  kz_json_add_integer(object, "cells", cost.cells);
+  kz_json_add_real(object, "disk_bytes", cost.disk_bytes);
+  kz_json_add_real(object, "rank_bytes", cost.memory_bytes);
+  kz_json_add_real(object, "rank0_bytes", cost.rank0_bytes);
+  kz_json_add_real(object, "shared_bytes", cost.shared_bytes);
+  kz_json_add_real(object, "seconds", estimate->seconds);
+  kz_json_add_boolean(object, "seconds_is_whole", estimate->is_whole);
+  kz_json_add_text(object, "text", text ? text : "");
+  kz_json_print(object, stdout);
 }
 
 static kz_status check_scene(const kz_options *options, const kz_scene *scene) {
@@ -61,10 +102,10 @@ static kz_status check_scene(const kz_options *options, const kz_scene *scene) {
   kz_estimate estimate;
   if (status == KZ_OK) status = kz_studies_check(scene);
   if (status == KZ_OK) status = kz_estimate_time(scene, &estimate);
-  if (status == KZ_OK) {
-    print_check(options, scene, resolved, &estimate);
-    kz_warnings_print(scene, stdout);
-  }
+  if (status == KZ_OK && options->json)
+    print_check_json(options, scene, resolved, &estimate);
+  else if (status == KZ_OK)
+    print_check(options, scene, resolved, &estimate, stdout);
   free(resolved);
   return status;
 }
@@ -89,7 +130,10 @@ kz_status kz_app_check(const kz_options *options) {
 }
 
 kz_status kz_app_keys(const kz_options *options) {
-  if (options->speaks) (options->json_schema ? kz_scene_schema : kz_scene_reference)(kz_keys, stdout);
+  if (options->speaks && options->layout)
+    kz_layout_print(stdout);
+  else if (options->speaks)
+    (options->json_schema ? kz_scene_schema : kz_scene_reference)(kz_keys, stdout);
   return KZ_OK;
 }
 

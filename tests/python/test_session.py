@@ -197,6 +197,14 @@ def test_an_orbit_and_a_sweep():
 def test_a_check_costs_nothing():
     found = kapitza.check(SMALL, set=FEW)
     assert found.cells == 480 and found.studies == ["basin"] and 0 < found.seconds < 100 and "count: 24" in found.scene
+    assert str(found).startswith(f"{SMALL} is a valid scene.") and "estimated time" in found.text
+
+
+def test_a_check_of_a_scene_whose_texts_look_like_its_lines():
+    """What a title says is no fact about the run."""
+    title = "many\n\ncells 7\nstudies none"
+    found = kapitza.check(yaml.safe_load(SMALL.read_text()) | {"title": title.replace("\n", "  ")}, set=FEW)
+    assert found.cells == 480 and found.studies == ["basin"]
 
 
 @settings(max_examples=40)

@@ -2,20 +2,14 @@
 
 import shutil
 import subprocess
+from pathlib import Path
 
 import h5py
 import numpy as np
 import pytest
 import xarray
-from kapitza import Result
-
-WHAT_TYPE = {
-    "attractors/period": "i4", "attractors/winding": "i4", "attractors/centre": "i1", "attractors/symmetric": "i1",
-    "attractors/mirror": "i4", "attractors/amplitude": "f8", "attractors/strobe_theta": "f8", "attractors/strobe_velocity": "f8",
-    "attractors/multiplier_re": "f8", "attractors/multiplier_im": "f8", "attractors/lyapunov": "f8",
-    "attractors/lyapunov_error": "f8", "attractors/fraction": "f8", "basin/theta": "f8", "basin/velocity": "f8",
-    "basin/attractor": "i2", "basin/settling_time": "u4", "basin/evidence": "u1",
-}
+from conftest import PROGRAM
+from kapitza import Result, layout
 
 
 @pytest.fixture(scope="module")
@@ -57,11 +51,26 @@ def test_every_dimension_has_a_named_scale(file):
             assert len(scales) == 1 and scales[0].parent == item.parent, f"{item.name} axis {axis}"
 
 
-def test_types_are_those_of_the_contract(file):
-    for name, kind in WHAT_TYPE.items():
-        assert file[name].dtype == np.dtype(kind), name
-    text = h5py.check_string_dtype(file["attractors/name"].dtype)
-    assert text.encoding == "utf-8" and text.length is None
+def test_the_layout_of_the_package_is_that_of_the_program():
+    """Made by: build/kapitza keys --layout > python/kapitza/layout.jsonl"""
+    done = subprocess.run([PROGRAM, "keys", "--layout"], capture_output=True, text=True, timeout=60, check=True)
+    assert done.stdout == Path(layout.__file__).with_name("layout.jsonl").read_text()
+
+
+def test_the_file_is_as_the_layout_says(file):
+    """Types, dimensions, units and names of all datasets."""
+    known = 0
+    for item in every_dataset(file):
+        row = layout.VARIABLES.get(tuple(item.name.strip("/").split("/")))
+        if row is None:
+            continue
+        known += 1
+        kind = h5py.check_string_dtype(item.dtype)
+        found = "text" if kind and (kind.encoding, kind.length) == ("utf-8", None) else item.dtype.name
+        assert found == row["type"], item.name
+        assert item.attrs["long_name"] == row["long_name"] and (row["units"][0] == "@" or item.attrs["units"] == row["units"]), item.name
+        assert len(item.shape) == len(row["dimensions"]), item.name
+    assert known > 20
 
 
 def test_codes_are_explained_and_labels_have_no_fill_value(file):

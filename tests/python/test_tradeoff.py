@@ -14,7 +14,7 @@ import pytest
 import reference_coverage
 from conftest import PROGRAM, ROOT, datasets, plot, runs_until_saved, saved_bytes
 from kapitza import Result
-from kapitza.layout import CODES
+from kapitza.layout import VARIABLES
 from kapitza.plots.tradeoff import WAYS, way
 
 sys.path.insert(0, str(ROOT / "benchmarks"))
@@ -145,7 +145,7 @@ def test_accuracy_excludes_what_it_chooses(kapitza, tmp_path, key):
 
 
 def test_every_method_has_its_line():
-    ways = [way(code, "processed", 1) for code in range(CODES["method"] + 1)]
+    ways = [way(code, "processed", 1) for code in range(len(VARIABLES["tradeoff", "method"]["flags"]))]
     assert ways == ["table, quintic", "direct, processed", "exact"] and set(ways) <= set(WAYS)
 
 
