@@ -204,6 +204,8 @@ enum { KZ_AUTO = 0 };
 typedef struct {
   char *title; /* may be "" */
   kz_parameters parameters;
+  char bare
+      [400]; /* the numbers of a laboratory's pendulum that have no unit, with the units that they are taken in; "" = none */
   kz_numerics_keys asked;
   kz_numerics numerics;   /* resolved from `asked` by kz_numerics_resolve */
   kz_kept_series *series; /* of its pendulums; kz_scene_free frees it, and copies of the scene share it; NULL = none is kept */

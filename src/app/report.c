@@ -24,6 +24,7 @@ char *kz_scene_text(const kz_scene *scene, bool fingerprint) {
 void kz_warnings_print(const kz_scene *scene, FILE *out) {
   if (scene->basin.table_is_idle)
     fputs("warning: basin.icm: is not used by this basin.method; leave it out, or choose basin.method: icm\n", out);
+  if (scene->bare[0]) fprintf(out, "note: pendulum: numbers without a unit are taken so: %s\n", scene->bare);
   kz_settling_warn(scene, out);
 }
 

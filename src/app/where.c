@@ -163,10 +163,21 @@ static void print_endings(const kz_options *options, const kz_starts *starts, co
   }
 }
 
+/* In a scene in SI units people think in rad/s. */
+static void print_note(const kz_options *options, const kz_starts *starts) {
+  const double speed = starts->start[0][1].high;
+  if (options->json || options->n_operands != 3 || isnan(starts->pivot_frequency) || speed == 0) return;
+  if (strstr(options->operands[2], "/s")) return;
+  printf("note            a velocity without a unit is in rad per drive radian: %.6g is %.6g rad/s; ", speed,
+         speed * starts->pivot_frequency);
+  printf("for rad/s write \"%.6g rad/s\"\n", speed);
+}
+
 static kz_status answer_where(const kz_options *options, const kz_scene *scene, const kz_starts *starts) {
   kz_ending *endings = kz_calloc((size_t)starts->n, sizeof *endings);
   const kz_status status = kz_where(scene, starts->n, starts->start, endings);
   if (status == KZ_OK) print_endings(options, starts, endings);
+  if (status == KZ_OK) print_note(options, starts);
   kz_where_free(starts->n, endings);
   free(endings);
   return status;

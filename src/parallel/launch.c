@@ -69,6 +69,12 @@ const char *kz_parallel_library(void) {
   static char text[MPI_MAX_LIBRARY_VERSION_STRING];
   int length = 0;
   if (MPI_Get_library_version(text, &length) != MPI_SUCCESS) return "unknown MPI";
-  text[strcspn(text, ",\n")] = '\0';
+  char *end = text;
+  for (const char *c = text; *c && *c != ',' && *c != '\n'; c++) /* MPICH writes columns: one blank is enough */
+    if (*c != ' ' && *c != '\t')
+      *end++ = *c;
+    else if (end > text && end[-1] != ' ')
+      *end++ = ' ';
+  *end = '\0';
   return text;
 }

@@ -92,8 +92,16 @@ static drive_words words_of(const kz_parameters *p) {
   return (drive_words){isnan(w->amplitude) ? "pivot_amplitude" : "amplitude", " mm", 1e3 * length};
 }
 
+/* A limit to four digits, on its stable side: at what is printed the position is stable. */
+static double rounded(double value, double (*to_the_side)(double)) {
+  enum { DIGITS = 4 };
+  if (!(value > 0)) return value;
+  const double unit = pow(10, floor(log10(value)) + 1 - DIGITS);
+  return to_the_side(value / unit) * unit;
+}
+
 static void print_position(const char *name, const rest *r, const drive_words *words, FILE *out) {
-  const double low = r->low * words->scale, high = r->high * words->scale;
+  const double low = rounded(r->low * words->scale, ceil), high = rounded(r->high * words->scale, floor);
   fprintf(out, "Rest %s: %s", name, r->stable ? "stable" : "unstable");
   if (isnan(low) && isnan(high)) {
     fputs(".", out);

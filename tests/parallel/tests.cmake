@@ -1,15 +1,15 @@
 foreach(ranks 1 2 3 5)
-  kapitza_test(stage LABEL parallel LAYER parallel RANKS ${ranks} TIMEOUT 60)
-  kapitza_test(checkpoint LABEL parallel LAYER parallel RANKS ${ranks} TIMEOUT 60)
-  kapitza_test(local_records LABEL parallel LAYER parallel RANKS ${ranks} TIMEOUT 60)
-  kapitza_test(stop LABEL parallel LAYER parallel RANKS ${ranks} TIMEOUT 60)
+  kapitza_test(stage LABEL parallel LAYER parallel RANKS ${ranks} SECONDS 60)
+  kapitza_test(checkpoint LABEL parallel LAYER parallel RANKS ${ranks} SECONDS 60)
+  kapitza_test(local_records LABEL parallel LAYER parallel RANKS ${ranks} SECONDS 60)
+  kapitza_test(stop LABEL parallel LAYER parallel RANKS ${ranks} SECONDS 60)
 endforeach()
 kapitza_test(schedule LABEL parallel LAYER parallel)
 target_include_directories(test_parallel_schedule PRIVATE ${PROJECT_SOURCE_DIR}/src/parallel)
-kapitza_test(file_lock LABEL parallel LAYER parallel RANKS 2 TIMEOUT 60 COST 20)
+kapitza_test(file_lock LABEL parallel LAYER parallel RANKS 2 SECONDS 60 COST 20)
 set_tests_properties(parallel.file_lock.ranks-2 PROPERTIES PROCESSORS 1) # it mostly waits
-kapitza_test(stage LABEL parallel LAYER parallel TIMEOUT 60) # and without mpirun
-kapitza_test(progress LABEL parallel LAYER parallel TIMEOUT 60 COST 9)
+kapitza_test(stage LABEL parallel LAYER parallel SECONDS 60) # and without mpirun
+kapitza_test(progress LABEL parallel LAYER parallel SECONDS 60 COST 9)
 
 # A small program that is killed at random moments and resumed.
 add_executable(worker parallel/worker.c)

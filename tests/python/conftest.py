@@ -11,6 +11,7 @@ from contextlib import redirect_stderr, redirect_stdout
 from pathlib import Path
 
 import h5py
+import hypothesis
 import numpy as np
 import pytest
 from kapitza import Result
@@ -38,8 +39,10 @@ sweep:
 
 
 def pytest_configure(config):
-    """The mpirun settings of scripts/setup, for those who call pytest by hand."""
+    """The mpirun settings of scripts/setup, for those who call pytest by hand; no example is late on a busy machine."""
     os.environ.update(MPI_SETTINGS)
+    hypothesis.settings.register_profile("patient", deadline=None)
+    hypothesis.settings.load_profile("patient")
 
 
 def attractor_name(period, winding, centre):

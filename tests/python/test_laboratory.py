@@ -38,6 +38,44 @@ def test_the_first_line_says_what_stands(amplitude, words):
     assert 6.306e-3 == pytest.approx(np.sqrt(2 * 9.80665 * 0.2) / OMEGA, rel=2e-3)
 
 
+ROD = {"length": "20 cm", "frequency": "50 Hz", "amplitude": "8 mm", "quality_factor": 20}
+PAPER = {"quality_factor": 5, "drive_frequency": 11, "drive_amplitude": 0.3}
+
+
+def still(**pendulum):
+    """A scene that follows no motion."""
+    return {"pendulum": pendulum, "potential": {"drive_amplitudes": [0.1], "theta": {"count": 9}}}
+
+
+@pytest.mark.parametrize("pendulum, key, unit", [(ROD, "amplitude", " mm"), (PAPER, "drive_amplitude", "")])
+def test_the_rod_stands_at_the_limits_that_are_printed(pendulum, key, unit):
+    """0.129 was printed for 0.12905, below which it falls."""
+    said = rest(kapitza.check(still(**pendulum)).text)
+    for limit in re.search(r"upside down: .*? from ([\d.]+)(?: mm)? to ([\d.]+)", said).groups():
+        assert "upside down: stable" in rest(kapitza.check(still(**pendulum | {key: limit + unit})).text)
+
+
+def test_numbers_without_a_unit_are_noted():
+    bare = kapitza.check(still(**ROD | {"length": 0.2, "amplitude": 0.008, "frequency": 50})).text
+    assert "note: pendulum: numbers without a unit are taken so: length 0.2 m, frequency 50 Hz, amplitude 0.008 m" in bare
+    assert "note:" not in kapitza.check(still(**ROD)).text
+
+
+@pytest.mark.parametrize("key, value", [("length", "200"), ("amplitude", "5"), ("amplitude", "-8.5")])
+def test_lengths_in_millimetres_without_a_unit_are_refused(key, value):
+    """With its unit even 200 m pass, and so does the resolved scene of them."""
+    with pytest.raises(kapitza.SceneError, match=f"{value} is taken for {value} m, more than a laboratory has; give its unit, such as"):
+        kapitza.check(still(**ROD | {key: value}))
+    resolved = kapitza.check(still(**ROD | {key: f"{value} m"})).scene
+    assert f"{key}: {value} m" in resolved and kapitza.check(resolved).scene == resolved
+
+
+def test_a_velocity_without_a_unit_is_noted(kapitza):
+    said = kapitza("where", SCENE, "150 deg", "3").stdout
+    assert 'is in rad per drive radian: 3 is 942.478 rad/s; for rad/s write "3 rad/s"' in said
+    assert "is in rad per drive radian" not in kapitza("where", SCENE, "150 deg", "3 rad/s").stdout
+
+
 def test_a_run_begins_with_that_line(tmp_path):
     few = {"basin.theta.count": 8, "basin.velocity.count": 8, "basin.attractors.starts": 64}
     result = kapitza.run(SCENE, set=few, progress=False)

@@ -94,7 +94,7 @@ def test_leaving_an_unstable_position_is_no_chaos(model):
     assert (orbit.attrs["name"], orbit.attrs["settles_on"], orbit.attrs["line_quantity"]) == ("", "down", "angle")
 
 
-@settings(max_examples=8, deadline=None)
+@settings(max_examples=8)
 @given(st.sampled_from(sorted(NODDING)))
 def test_mirror_orbit_has_mirrored_lines(model, key):
     cycle = NODDING[key]

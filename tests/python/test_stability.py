@@ -135,7 +135,7 @@ def test_any_number_of_ranks_gives_the_same_bytes(kapitza, tmp_path):
     assert results[0] == results[1] == results[2]
 
 
-@settings(max_examples=10, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture])
+@settings(max_examples=10, suppress_health_check=[HealthCheck.function_scoped_fixture])
 @given(k=st.floats(-3, 5), m=st.floats(-4, 4), damping=st.floats(0, 1))
 def test_chart_against_a_textbook_integration(kapitza, tmp_path, k, m, damping):
     """Random points against scipy at its finest."""

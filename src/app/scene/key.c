@@ -1,4 +1,5 @@
 /* Functions on a row of the table of keys. */
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -18,6 +19,11 @@ int64_t kz_word_find(const char *words, const char *word) {
     words += length + (words[length] == '|');
   }
   return -1;
+}
+
+double kz_key_most_bare(const kz_key *key) {
+  if (strcmp(key->unit, "m") != 0) return INFINITY;
+  return strstr(key->path, "amplitude") ? 1 : 10;
 }
 
 bool kz_key_is_angle(const kz_key *key) {

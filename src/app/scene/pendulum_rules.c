@@ -83,6 +83,20 @@ static void check_coefficients(kz_reading *reading, const kz_reals *list, const 
                 (long long)list->count, KZ_HARMONICS);
 }
 
+/* Numbers without a unit are SI: they are listed for a note, and refused where millimetres must have been meant. */
+static void check_units(kz_reading *reading, kz_scene *scene) {
+  for (const kz_key *key = reading->keys; key->path; key++) {
+    const kz_node *node = strncmp(key->path, "pendulum.", 9) == 0 ? kz_tree_find(reading->root, key->path) : NULL;
+    double value;
+    if (!node || !kz_unit_is_known(key->unit) || kz_scalar_real(node, &value)) continue;
+    if (fabs(value) > kz_key_most_bare(key))
+      kz_complain(reading, key->path, "%s is taken for %s m, more than a laboratory has; give its unit, such as %s mm",
+                  node->text, node->text, node->text);
+    const size_t n = strlen(scene->bare);
+    snprintf(scene->bare + n, sizeof scene->bare - n, "%s%s %s %s", n > 0 ? ", " : "", key->path + 9, node->text, key->unit);
+  }
+}
+
 void kz_pendulum_rules(kz_reading *reading, kz_scene *scene) {
   kz_pendulum_keys *written = &scene->parameters.written;
   if (!kz_tree_child(reading->root, "pendulum")) { /* a scene with the study stability alone needs no pendulum */
@@ -96,6 +110,7 @@ void kz_pendulum_rules(kz_reading *reading, kz_scene *scene) {
   check_coefficients(reading, &written->horizontal, "pendulum.horizontal");
   if (is_laboratory(written)) {
     check_laboratory(reading, written);
+    check_units(reading, scene);
     if (!is_given(written->gravity)) written->gravity = KZ_STANDARD_GRAVITY;
   }
   if (reading->message[0] || kz_parameters_resolve(&scene->parameters) == KZ_OK) return;

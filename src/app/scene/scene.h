@@ -60,6 +60,7 @@ const char *kz_key_words(const kz_key *key);
 /* The place of a word in the words "a|b|c"; -1 if it is none of them. */
 int64_t kz_word_find(const char *words, const char *word);
 /* True if the key is an angle, which may be written in degrees. */
+double kz_key_most_bare(const kz_key *key); /* the largest value, in m, that needs no unit; infinity for other units */
 bool kz_key_is_angle(const kz_key *key);
 /* The row of `path`, or NULL. */
 const kz_key *kz_key_find(const kz_key *keys, const char *path);

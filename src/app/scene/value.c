@@ -141,9 +141,10 @@ static void print_count(const kz_key *key, const void *value, FILE *out) {
     fprintf(out, "%" PRId32, count);
 }
 
+/* With its unit where the number alone would be refused. */
 static void print_real(const kz_key *key, const void *value, FILE *out) {
-  (void)key;
-  fputs(kz_shortest(*(const double *)value).text, out);
+  const double number = *(const double *)value;
+  fprintf(out, fabs(number) > kz_key_most_bare(key) ? "%s m" : "%s", kz_shortest(number).text);
 }
 
 void kz_text_print(const char *text, FILE *out) {

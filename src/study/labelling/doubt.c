@@ -81,8 +81,16 @@ void kz_doubt_free(kz_doubt_sample *sample) {
   free(sample->followed);
 }
 
+/* " (95 % interval: ..)" in percent; nothing for a share that was counted. */
+static const char *interval_of(const kz_share *share, char text[64]) {
+  text[0] = '\0';
+  if (share->low < share->high) snprintf(text, 64, " (95 %% interval: %.3g to %.3g %%)", 100 * share->low, 100 * share->high);
+  return text;
+}
+
 static void print(const kz_doubt *doubt, int32_t method, FILE *summary) {
   const kz_share *share = &doubt->doubtful, *other = &doubt->differing;
+  char text[64];
   if (method == KZ_METHOD_EXACT) {
     fprintf(summary,
             "%.3g %% of the cells were doubtful at the first precision level and were followed again with more digits.\n",
@@ -94,13 +102,11 @@ static void print(const kz_doubt *doubt, int32_t method, FILE *summary) {
             100 * share->share);
   if (method == KZ_METHOD_ICM)
     fprintf(summary,
-            "%.3g %% of the labels are doubtful (95 %% interval: %.3g to %.3g %%): the error of the orbit may change them. "
-            "This is from "
-            "%lld cells that were integrated.\n",
-            100 * share->share, 100 * share->low, 100 * share->high, (long long)doubt->cells);
+            "%.3g %% of the labels are doubtful%s: the error of the orbit may change them. This is from %lld cells that were "
+            "integrated.\n",
+            100 * share->share, interval_of(share, text), (long long)doubt->cells);
   if (method == KZ_METHOD_ICM)
-    fprintf(summary, "%.3g %% more (95 %% interval: %.3g to %.3g %%) differ from the label by integration.\n",
-            100 * other->share, 100 * other->low, 100 * other->high);
+    fprintf(summary, "%.3g %% more%s differ from the label by integration.\n", 100 * other->share, interval_of(other, text));
   if (share->share > MANY)
     fprintf(summary, "warning: more than %g %% of the labels are doubtful; basin.method: exact decides nearly all of them\n",
             100 * MANY);
