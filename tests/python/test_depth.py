@@ -22,7 +22,7 @@ SQUARE = FIG12 | {"waveform": "square", "harmonics": [{"order": 2, "amplitude": 
 PUSHED = FIG12 | {"torque": 0.001}
 BETWEEN = {"k = 0.1": (K01, "-2.3672", "-2.3671", "17"), "Fig. 12": (FIG12, "-0.27", "-0.26", "1.42"),
            "tilted": (TILTED, "-0.27", "0.4", "1.42"), "square": (SQUARE, "-0.27", "0.4", "1.42"),
-           "torque": (PUSHED, "0.08", "0.4", "1.42")}
+           "torque": (PUSHED, "0.08", "0.7", "1.42")}
 SINES = ("k = 0.1", "Fig. 12")
 WINDOWS = [*((name, depth, 50) for name in SINES for depth in (7, 20, 25, 50, 100)), ("k = 0.1", 300, 10),
            *((name, depth, 6) for name in BETWEEN if name not in SINES for depth in (20, 50, 100))]
