@@ -122,7 +122,8 @@ def test_bad_planes_are_refused(kapitza, tmp_path, name):
 def test_planes_without_damping_or_without_effect_are_refused(kapitza, tmp_path):
     undamped = {"pendulum": {"k": 0.1, "damping": 0.1, "m": 0.3}, "atlas": {"x": {"parameter": "damping", "min": 0, "max": 1},
                                                                          "y": {"parameter": "m", "min": 0, "max": 1}}}
-    idle = {"pendulum": dict(PENDULUM, ramp={"key": "drive", "from": 0.1, "periods": 4}),
+    idle = {"pendulum": dict(PENDULUM, ramp={"key": "damping", "from": 0.1, "periods": 4}),
+            "basin": {"theta": {"count": 8}, "velocity": {"min": -1, "max": 1, "count": 8}},
             "atlas": {"x": {"parameter": "ramp.periods", "min": 1, "max": 4}, "y": {"parameter": "drive_amplitude", "min": 0, "max": 1}}}
     for scene, message in ((undamped, "no damped pendulum at damping = 0"), (idle, "ramp.periods changes no motion")):
         (tmp_path / "s.yaml").write_text(json.dumps(scene))
