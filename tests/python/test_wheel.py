@@ -1,0 +1,101 @@
+"""The parts of the binary wheel that need no build of it: the launcher, its lists, its metadata."""
+
+import re
+import subprocess
+import sys
+
+import pytest
+from conftest import ROOT
+
+WHEEL = ROOT / "packaging" / "wheel"
+sys.path.insert(0, str(WHEEL))
+import assemble  # noqa: E402
+import old_symbols  # noqa: E402
+
+SHOW = '#!/bin/sh\necho "$(basename "$0") [$*] $MPIR_CVAR_NOLOCAL $FI_PROVIDER $KAPITZA_PYTHON $LD_LIBRARY_PATH"\n'
+
+
+@pytest.fixture(scope="module")
+def environment(tmp_path_factory):
+    """An environment as pip makes it: bin/kapitza, three builds that say how they were started, and an MPI."""
+    root = tmp_path_factory.mktemp("environment")
+    for name in ("bin", "libexec", "lib"):
+        (root / name).mkdir()
+    command = ["gcc", "-O2", "-Wall", "-Wextra", "-Werror", "-march=x86-64", WHEEL / "launcher.c", "-o", root / "bin" / "kapitza"]
+    subprocess.run(command, check=True, capture_output=True)
+    for arch in ("x86-64", "x86-64-v3", "x86-64-v4"):
+        (root / "libexec" / f"kapitza-{arch}").write_text(SHOW)
+        (root / "libexec" / f"kapitza-{arch}").chmod(0o755)
+    (root / "lib" / "libmpi_abi.so.1").touch()
+    return root
+
+
+def start(root, *words, **variables):
+    done = subprocess.run([root / "bin" / "kapitza", *words], capture_output=True, text=True, env={"PATH": "/usr/bin:/bin", **variables})
+    return done.returncode, done.stdout + done.stderr
+
+
+def test_the_launcher_takes_a_build_that_this_processor_has(environment):
+    flags = re.search(r"^flags\s*:(.*)$", open("/proc/cpuinfo").read(), re.MULTILINE)[1].split()
+    best = "x86-64-v4" if "avx512vl" in flags else "x86-64-v3" if "avx2" in flags else "x86-64"
+    assert start(environment, "check", "a b.yaml") == (0, f"kapitza-{best} [check a b.yaml]    \n")
+
+
+@pytest.mark.parametrize("arch", ["x86-64", "x86-64-v3"])
+def test_a_variable_pins_the_build(environment, arch):
+    assert start(environment, KAPITZA_ARCH=arch)[1].startswith(f"kapitza-{arch} ")
+
+
+def test_an_unknown_build_is_refused(environment):
+    status, text = start(environment, KAPITZA_ARCH="sparc")
+    assert (status, text) == (2, "kapitza: error: KAPITZA_ARCH is 'sparc'; this wheel has x86-64, x86-64-v3 and x86-64-v4\n")
+
+
+def test_a_missing_mpi_is_named(environment, tmp_path):
+    hidden = environment / "lib" / "libmpi_abi.so.1"
+    moved = hidden.rename(tmp_path / hidden.name)
+    try:
+        status, text = start(environment, HOME=str(tmp_path / "home"))
+        assert status == 2 and "pip install 'mpich>=5,<6'" in text and text.count("\n") == 1
+        assert start(environment, KAPITZA_MPI_LIB=str(tmp_path))[1].endswith(f" {tmp_path}\n")
+    finally:
+        moved.rename(hidden)
+
+
+def test_ranks_that_outnumber_the_cores_wait_over_tcp(environment):
+    assert " 1 tcp " in start(environment, MPI_LOCALNRANKS="4096", PMI_SIZE="4096")[1]
+    assert "tcp" not in start(environment, MPI_LOCALNRANKS="1", PMI_SIZE="1")[1]
+    assert "tcp" not in start(environment, MPI_LOCALNRANKS="4096", PMI_SIZE="8192")[1]  # on several machines the network is theirs
+
+
+def test_commands_of_the_package_take_the_python_of_pip(environment):
+    script = environment / "bin" / "kapitza-plot"
+    script.write_text(f"#!{sys.executable}\n")
+    assert f" {sys.executable} " in start(environment)[1]
+    assert " /bin/true " in start(environment, KAPITZA_PYTHON="/bin/true")[1]
+    script.unlink()
+
+
+def test_every_source_and_tool_has_its_hash():
+    rows = [line.split() for line in (WHEEL / "sources.txt").read_text().splitlines() if not line.startswith("#")]
+    assert len(rows) > 5 and all(row[0] in ("binary", "source") and re.fullmatch("[0-9a-f]{64}", row[2]) for row in rows)
+    tools = [line for line in (WHEEL / "requirements.txt").read_text().splitlines() if not line.startswith("#")]
+    assert tools and all(re.fullmatch(r"[\w-]+==\S+ --hash=sha256:[0-9a-f]{64}", line) for line in tools)
+
+
+def test_metadata_names_licences_and_mpi():
+    text = "Name: kapitza\nLicense-Expression: MIT\nLicense-File: LICENSE\nRequires-Dist: numpy>=2\nRequires-Dist: h5py>=3\n"
+    lines = assemble.rewrite_metadata(text, ["GPL-3", "hdf5.txt"]).splitlines()
+    assert "License-Expression: GPL-3.0-or-later" in lines and [line for line in lines if line.startswith("License-File: ")] == [
+        "License-File: LICENSE", "License-File: GPL-3", "License-File: hdf5.txt"]
+    assert lines[-3:] == ["Requires-Dist: mpich>=5,<6; sys_platform == 'linux'", "Requires-Dist: numpy>=2", "Requires-Dist: h5py>=3"]
+
+
+def test_symbols_are_those_of_the_older_glibc(tmp_path):
+    """Versions of this machine's libm: exp has one of 2.29, which is left out."""
+    library = subprocess.run(["gcc", "-print-file-name=libm.so.6"], capture_output=True, text=True, check=True).stdout.strip()
+    found = old_symbols.symbols(library, "2.28")
+    assert "2.2.5" in found["exp"] and all(old_symbols.number(version) <= (2, 28) for kinds in found.values() for version in kinds)
+    code, script = old_symbols.source_of({"exp": {"2.2.5": None}, "signgam": {"2.2.5": 4, "2.23": 4}})
+    assert "exp@@GLIBC_2.2.5" in code and "signgam@GLIBC_2.2.5" in code and "signgam@@GLIBC_2.23" in code
+    assert script.splitlines() == ["GLIBC_2.2.5 { local: old_*; } ;", "GLIBC_2.23 {  } GLIBC_2.2.5;"]
