@@ -10,4 +10,6 @@ void gr_ctx_init_fmpz(void *context) {
   abort();
 }
 
-int _gr_poly_divexact_basecase_bidirectional(void) { abort(); }
+int _gr_poly_divexact_basecase_bidirectional(void) {
+  abort();
+}

@@ -346,6 +346,5 @@ def test_plots_answer_bad_files_with_one_line(small_result, tmp_path, kind, how)
         with h5py.File(path, "r+") as file:
             for group in set(file) - {"pendulum"}:
                 del file[group]
-    done = plot(kind, path, "-o", tmp_path / "x.png")
-    assert done.returncode == 1 and done.stderr.count("\n") == 1 and "bad.h5" in done.stderr, done.stderr
-    assert not (tmp_path / "x.png").exists()
+    done = plot(kind, path, "-o", picture := tmp_path / "x.png")
+    assert done.returncode == 1 and done.stderr.count("\n") == 1 and "bad.h5" in done.stderr and not picture.exists(), done.stderr
