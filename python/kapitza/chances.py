@@ -89,9 +89,11 @@ def _of_fresh_starts(result: "Result", place: tuple[float, float], widths: tuple
     from kapitza.session import where
     random = np.random.default_rng(seed)
     draw = (lambda: random.normal(size=starts)) if kind == "normal" else (lambda: random.uniform(-1, 1, starts))
-    ends = where(result.scene, *(middle + width * draw() for middle, width in zip(place, widths, strict=True)))
+    theta, velocity = (middle + width * draw() for middle, width in zip(place, widths, strict=True))
+    ends = where(result.scene, theta, velocity)
     counts = ends["name"].fillna(NOT_SETTLED).value_counts()
-    return [(str(name), count / starts, *map(float, wilson(count, starts))) for name, count in counts.items()]
+    intervals = ((name, count, *wilson(count, starts)) for name, count in counts.items())
+    return [(str(name), count / starts, float(low), float(high)) for name, count, low, high in intervals]
 
 
 def share(result: "Result", name: str) -> xarray.DataArray:
@@ -138,6 +140,7 @@ def agreement(result: "Result", table: Any) -> "Agreement":
     if "end" not in measured or not len(measured):
         raise ValueError("the table of releases needs a column end, such as inverted or down, and a row for each release")
     found = result.at(theta, velocity)
+    assert isinstance(found, pandas.DataFrame)  # as lists give
     centres = {-1: "", **dict(enumerate(result.attractors["centre"]))}
     plain = {-1: NOT_SETTLED, **dict(enumerate(result.attractors["name"]))}
     known = {*result.names, *plain.values(), *CENTRES}
@@ -165,7 +168,7 @@ def _near_boundary(result: "Result", found: pandas.DataFrame) -> list[bool]:
     """Whether one of the eight cells around a start has another label."""
     basin = result.group("basin")
     labels = basin["attractor"].values
-    _, rows, columns = cells_of(basin, found["theta"].values, found["velocity"].values)
+    _, rows, columns = cells_of(basin, found["theta"].to_numpy(), found["velocity"].to_numpy())
     pieces = (labels[max(0, row - 1):row + 2, max(0, column - 1):column + 2] for row, column in zip(rows, columns, strict=True))
     return [bool((piece != piece.flat[0]).any()) for piece in pieces]
 

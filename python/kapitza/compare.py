@@ -83,8 +83,8 @@ class Comparison:
             return pair
         basins = self.first.group("basin"), self.second.group("basin")
         for name in pair[0].dims:
-            edges = [edges_of(basin, str(name)) for basin in basins]
-            if not np.allclose(*edges, rtol=0, atol=1e-6 * np.ptp(edges[0])):
+            mine, others = (edges_of(basin, str(name)) for basin in basins)
+            if not np.allclose(mine, others, rtol=0, atol=1e-6 * np.ptp(mine)):
                 raise ValueError("the two results have different windows; their cells cannot be compared")
         grid = {name: min((labels[name] for labels in pair), key=len) for name in pair[0].dims}
         places = np.meshgrid(grid["theta"].values, grid["velocity"].values)
@@ -120,7 +120,8 @@ class Comparison:
 
     def tipping_probabilities(self) -> pandas.DataFrame:
         """P[i, j]: of the basin of attractor i in the first, the share that lies in the basin of j in the second (as of Attractors.jl)."""
-        table = pandas.crosstab(*(labels.values.ravel() for labels in self._labels), normalize="index")
+        first, second = (labels.values.ravel() for labels in self._labels)
+        table = pandas.crosstab(first, second, normalize="index")
         names = [{-1: "not settled", **dict(enumerate(result.names))} for result in (self.first, self.second)]
         return table.rename(index=names[0], columns=names[1]).rename_axis(index="first", columns="second")
 

@@ -101,7 +101,8 @@ def figure_of(result: "Result", kind: str | None, options: dict[str, Any]) -> "F
         kind = held[0]
     if kind not in KINDS:
         raise ValueError(f"{kind!r} is not a kind of picture; the kinds are {', '.join(KINDS)}")
-    if hasattr(points := options.get("points"), "to_csv"):
+    points = options.get("points")
+    if points is not None and hasattr(points, "to_csv"):
         path = new_path("points.csv")
         points.to_csv(path, index=False)
         options = options | {"points": path}

@@ -7,19 +7,20 @@
 
 import argparse
 import math
+from collections.abc import Mapping
 from typing import Any
 
-import matplotlib.patheffects as effects
 import numpy as np
 import xarray
 from matplotlib.axes import Axes
 from matplotlib.colors import BoundaryNorm, ListedColormap, to_rgb
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
-from matplotlib.text import Text
 from matplotlib.ticker import FixedLocator, FuncFormatter, NullLocator
 
 from kapitza import style
+from kapitza.plots.atlas_labels import label_regions, motion_text
+from kapitza.plots.atlas_labels import region_text as region_text
 from kapitza.plots.chart import NAMES
 from kapitza.plots.common import argument_parser, entitle, new_figure, parsed, write_picture
 from kapitza.result import Result
@@ -32,31 +33,18 @@ LONGER = "#8a929b"
 DASHES: dict[int, Any] = {FOLD: "-", DOUBLING: (0, (5, 2)), BREAKING: (0, (1.2, 1.4)), SWINGS: (0, (5, 2)), LEANS: (0, (1.2, 1.4))}
 BOLD_UP_TO = 4  # longer cycles live in thin bands: their curves are thin
 MOST_SHADES = 14
-LABELLED = 0.004  # share of the plane from which on a region has a label, if it has room
+LONGEST = 16  # periods of the cycles whose curves are drawn
 VIEWS = ("map", "motions")
 
 
 def parse_arguments(words: list[str]) -> argparse.Namespace:
     parser = argument_parser("atlas", __doc__, "an atlas")
     parser.add_argument("--view", choices=VIEWS, default="map")
-    parser.add_argument("--longest", type=int, default=16, help="longest period of the cycles whose curves are drawn")
+    parser.add_argument("--longest", type=int, default=LONGEST, help="longest period of the cycles whose curves are drawn")
     return parsed(parser, words)
 
 
-def motion_text(name: str) -> str:
-    """What a class of attractors is called in a picture."""
-    words = {"down": "hanging rest", "inverted": "upright rest", "down 2-nodding": "nodding in 2"}
-    if name in words:
-        return words[name]
-    if name.startswith("rotation"):
-        return name.replace("rotation", "rotations")
-    for kind, text in (("asymmetric ", "lopsided nodding"), ("down ", "nodding"), ("inverted ", "flutter"), ("", "motion")):
-        if name.startswith(kind) and name.endswith("-nodding"):
-            return f"{text} in {name.removeprefix(kind).removesuffix('-nodding')}"
-    return name
-
-
-def draw_counts(axes: Axes, atlas: xarray.Dataset) -> tuple[ListedColormap, int]:
+def shade_counts(axes: Axes, atlas: xarray.Dataset) -> tuple[ListedColormap, int]:
     """How many attractors there are, in shades that stay light enough for the curves; the shades, and the largest number."""
     count = atlas["count"].values
     most = max(1, min(MOST_SHADES, int(count.max())))
@@ -73,7 +61,7 @@ def curve_points(atlas: xarray.Dataset, number: int) -> tuple[np.ndarray, np.nda
     return atlas["x"].values[first:first + n], atlas["y"].values[first:first + n]
 
 
-def draw_curves(axes: Axes, atlas: xarray.Dataset, longest: int) -> None:
+def mark_curves(axes: Axes, atlas: xarray.Dataset, colours: Mapping[int, str], longest: int) -> None:
     """All curves of cycles of up to `longest` periods; longer cycles are thinner, and lie below."""
     for number in np.argsort(-atlas["curve_period"].values, kind="stable"):
         period, kind = int(atlas["curve_period"][number]), int(atlas["curve_kind"][number])
@@ -81,77 +69,16 @@ def draw_curves(axes: Axes, atlas: xarray.Dataset, longest: int) -> None:
             continue
         rest = kind in (SWINGS, LEANS)
         width = 1.9 if rest else 1.1 if period <= BOLD_UP_TO else 0.45
-        axes.plot(*curve_points(atlas, number), linestyle=DASHES[kind], color=PERIODS.get(period, LONGER), linewidth=width,
+        axes.plot(*curve_points(atlas, number), linestyle=DASHES[kind], color=colours.get(period, LONGER), linewidth=width,
                   zorder=4 if rest else 3 if period <= BOLD_UP_TO else 2, solid_capstyle="round")
 
 
-def draw_special(axes: Axes, atlas: xarray.Dataset, longest: int) -> None:
+def mark_special(axes: Axes, atlas: xarray.Dataset, longest: int) -> None:
     period = atlas["curve_period"].values[atlas["special_curve"].values]
     for cusp, mark in ((True, "^"), (False, "o")):
         chosen = ((atlas["special_kind"].values == CUSP) == cusp) & (period <= min(longest, BOLD_UP_TO))
         axes.plot(atlas["special_x"].values[chosen], atlas["special_y"].values[chosen], mark, markersize=3.6, markerfacecolor="white",
                   markeredgecolor=style.INK, markeredgewidth=0.7, zorder=6, clip_on=True)
-
-
-def lower_neighbour(atlas: xarray.Dataset, row: int, column: int) -> tuple[int, int] | None:
-    """The cell of the nearest wide band below a cell."""
-    lists = atlas["list"].values[:, column]
-    thin, below = len(lists) // 60, row
-    while below >= 0:
-        if lists[below] != lists[row] and below >= thin and (lists[below - thin:below + 1] == lists[below]).all():
-            return below, column
-        below -= 1
-    return None
-
-
-def region_text(atlas: xarray.Dataset, region: int) -> str:
-    """What a region has more than the one below it; all that it has, where that is little."""
-    column = int(np.argmin(abs(atlas["column"].values - float(atlas["region_x"][region]))))
-    row = int(np.argmin(abs(atlas["row"].values - float(atlas["region_y"][region]))))
-    names = [motion_text(style.name_text(name)) for name in atlas["class_name"].values]
-    here = atlas["attracting"].values[:, row, column].astype(int)
-    below = lower_neighbour(atlas, row, column)
-    if here.sum() == 0:
-        return f"nothing of up to {int(atlas.attrs['max_period'])} periods"
-    if below is None or here.sum() == 1:
-        return "only " + " and ".join(names[i] for i in np.flatnonzero(here))
-    change = here - atlas["attracting"].values[:, below[0], below[1]].astype(int)
-    gained, lost = [names[i] for i in np.flatnonzero(change > 0)], [names[i] for i in np.flatnonzero(change < 0)]
-    parts = [f"+ {name}" for name in gained[:2]] if len(gained) <= 2 else [f"+ {len(gained)} motions"]
-    return "\n".join(parts + [f"− {name}" for name in lost[:1] if len(lost) == len(gained) == 1])
-
-
-def label_regions(axes: Axes, atlas: xarray.Dataset) -> list[Text]:
-    """Labels at the places farthest from the edges, the roomiest first; none where it would lie on another, or outside of the map."""
-    figure = axes.figure
-    renderer = figure.canvas.get_renderer()  # type: ignore[attr-defined]
-    placed: list[Text] = []
-    inside = axes.get_window_extent(renderer)
-    for region in np.argsort(-atlas["region_radius"].values, kind="stable"):
-        text = region_text(atlas, int(region))
-        if float(atlas["region_share"][region]) < LABELLED or not text:
-            continue
-        label = axes.text(float(atlas["region_x"][region]), float(atlas["region_y"][region]), text, ha="center", va="center",
-                          fontsize="small", color=style.INK, zorder=8,
-                          path_effects=[effects.withStroke(linewidth=2.2, foreground="white", alpha=0.85)])
-        move_inside(axes, label)
-        box = label.get_window_extent(renderer).expanded(1.06, 1.25)
-        tall = 2.6 * float(atlas["region_radius"][region]) * inside.height
-        if tall < box.height or not inside.contains(box.x0, box.y0) or not inside.contains(box.x1, box.y1) or any(
-                box.overlaps(other.get_window_extent(renderer)) for other in placed):
-            label.remove()
-        else:
-            placed.append(label)
-    return placed
-
-
-def move_inside(axes: Axes, label: Text) -> None:
-    """Moves a label that passes the left or right edge of the map to it."""
-    box, inside = label.get_window_extent().expanded(1.15, 1), axes.get_window_extent()
-    by = max(0.0, inside.x0 - box.x0) - max(0.0, box.x1 - inside.x1)
-    x, y = axes.transData.transform(label.get_position())
-    x, y = axes.transData.inverted().transform((x + by, y))
-    label.set_position((float(x), float(y)))
 
 
 def set_axes(axes: Axes, atlas: xarray.Dataset, *, labels: bool = True) -> None:
@@ -173,7 +100,7 @@ def set_axes(axes: Axes, atlas: xarray.Dataset, *, labels: bool = True) -> None:
             (axes.set_xlabel if which == "x" else axes.set_ylabel)(NAMES.get(key, key.replace("_", " ")))
 
 
-def legend(axes: Axes, atlas: xarray.Dataset, shades: ListedColormap, most: int, longest: int) -> None:
+def write_legend(axes: Axes, atlas: xarray.Dataset, shades: ListedColormap, most: int, colours: Mapping[int, str], longest: int) -> None:
     """Beside the map: the numbers, the kinds of curves, the periods, the marks."""
     kinds = set(atlas["curve_kind"].values.tolist())
     words = {SWINGS: "rest: swings grow", LEANS: "rest: leans over", FOLD: "a motion is born (fold)", DOUBLING: "its period doubles",
@@ -182,7 +109,8 @@ def legend(axes: Axes, atlas: xarray.Dataset, shades: ListedColormap, most: int,
                for kind, word in words.items() if kind in kinds]
     for period in sorted(set(atlas["curve_period"].values.tolist())):
         if period <= min(longest, 6):
-            handles.append(Line2D([], [], color=PERIODS[period], linewidth=2.2 if period <= BOLD_UP_TO else 1, label=f"period {period}"))
+            handles.append(Line2D([], [], color=colours.get(period, LONGER), linewidth=2.2 if period <= BOLD_UP_TO else 1,
+                                  label=f"period {period}"))
     if atlas["curve_period"].max() > 6 and longest > 6:
         handles.append(Line2D([], [], color=LONGER, linewidth=1, label="longer periods"))
     for mark, word in (("^", "cusp"), ("o", "degenerate point")):
@@ -200,15 +128,22 @@ def legend(axes: Axes, atlas: xarray.Dataset, shades: ListedColormap, most: int,
     scale.set_title("attractors", fontsize="small", loc="left")
 
 
-def draw_map(result: Result, atlas: xarray.Dataset, arguments: argparse.Namespace) -> Figure:
-    """The plane with all curves."""
-    figure = new_figure(8.6, 6.2)
-    axes = figure.subplots()
-    shades, most = draw_counts(axes, atlas)
-    draw_curves(axes, atlas, arguments.longest)
-    draw_special(axes, atlas, arguments.longest)
+def draw_map(axes: Axes, atlas: xarray.Dataset, *, colours: Mapping[int, str] = PERIODS, legend: bool = True,
+             longest: int = LONGEST) -> Axes:
+    """The plane with the curves of cycles of up to `longest` periods, in `colours` (period -> colour), over the number of attractors."""
+    shades, most = shade_counts(axes, atlas)
+    mark_curves(axes, atlas, colours, longest)
+    mark_special(axes, atlas, longest)
     set_axes(axes, atlas)
-    legend(axes, atlas, shades, most, arguments.longest)
+    if legend:
+        write_legend(axes, atlas, shades, most, colours, longest)
+    return axes
+
+
+def map_page(result: Result, atlas: xarray.Dataset, longest: int) -> Figure:
+    """The plane with all curves, and labels of its regions."""
+    figure = new_figure(8.6, 6.2)
+    axes = draw_map(figure.subplots(), atlas, longest=longest)
     entitle(figure, result, f"every motion of up to {int(atlas.attrs['max_period'])} periods: {atlas.sizes['curve']} curves")
     figure.draw_without_rendering()
     label_regions(axes, atlas)
@@ -222,7 +157,7 @@ def motions(atlas: xarray.Dataset) -> list[int]:
     return sorted(chosen)
 
 
-def draw_motions(result: Result, atlas: xarray.Dataset) -> Figure:
+def motions_page(result: Result, atlas: xarray.Dataset) -> Figure:
     """Small maps, one for each motion, with its own curves."""
     chosen = motions(atlas)
     columns = 4 if len(chosen) > 6 else max(1, min(3, len(chosen)))
@@ -264,7 +199,7 @@ def belongs(atlas: xarray.Dataset, curve: int, number: int) -> bool:
 
 def draw(result: Result, arguments: argparse.Namespace) -> Figure:
     atlas = result.group("atlas")
-    return draw_map(result, atlas, arguments) if arguments.view == "map" else draw_motions(result, atlas)
+    return map_page(result, atlas, arguments.longest) if arguments.view == "map" else motions_page(result, atlas)
 
 
 def main(words: list[str]) -> None:

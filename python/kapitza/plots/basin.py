@@ -212,8 +212,8 @@ def mark_releases(axes: Axes, plane: Plane, result: Result, table: str) -> Axes:
         found = result.agree(table).table
     except (OSError, ValueError) as error:
         raise BadFile(f"{table}: {error}") from error
-    colours = dict(zip(result.attractors["name"], style.colours(result.group("attractors")), strict=True))
-    centres = dict(zip(result.attractors["centre"], colours.values(), strict=False))
+    colours: dict[str, str] = dict(zip(result.attractors["name"], style.colours(result.group("attractors")), strict=True))
+    centres: dict[str, str] = dict(zip(result.attractors["centre"], colours.values(), strict=False))
     for agrees, mark, gid in ((True, "o", "agree"), (False, "X", "differ")):
         places: list[np.ndarray] = []
         faces: list[str] = []
@@ -222,7 +222,8 @@ def mark_releases(axes: Axes, plane: Plane, result: Result, table: str) -> Axes:
             places.append(points)
             faces += [colours.get(row["measured"], centres.get(row["measured"], style.UNSETTLED))] * len(points)
         if faces:
-            axes.scatter(*np.vstack(places).T, s=38, marker=mark, c=faces, edgecolors=style.INK, linewidths=1.1, zorder=6, gid=gid)
+            theta, velocity = np.vstack(places).T
+            axes.scatter(theta, velocity, s=38, marker=mark, c=faces, edgecolors=style.INK, linewidths=1.1, zorder=6, gid=gid)
     return axes
 
 

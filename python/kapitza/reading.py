@@ -1,0 +1,87 @@
+"""What is read of a result file, and checked: its attributes, its pendulum, one group."""
+
+import os
+from pathlib import Path
+from typing import Any
+
+import h5py
+import xarray
+
+from kapitza import layout
+
+
+class BadFile(Exception):
+    """A file cannot be used. The text is one line: which file, and why."""
+
+
+def opened(path: Path) -> tuple[dict[str, Any], list[str], dict[str, Any]]:
+    """The attributes of a result file, the names of its groups, and the numbers of its pendulum.
+
+    :raises BadFile: if the file is not a complete result, or is damaged
+    """
+    if not path.is_file():
+        raise BadFile(f"{path}: {'not a file' if path.exists() else 'no such file'}")
+    try:
+        with h5py.File(path, "r") as file:
+            groups = [name for name in file if file.get(name, getclass=True, getlink=True) is h5py.HardLink
+                      and isinstance(file[name], h5py.Group)]
+            attributes, pendulum = _attributes(file), _attributes(file["pendulum"]) if "pendulum" in groups else {}
+    except OSError as error:
+        reason = "truncated" if "truncated" in str(error) else "not an HDF5 file, or damaged"
+        raise BadFile(f"{path}: {reason}") from error
+    except (KeyError, RuntimeError, ValueError) as error:
+        raise BadFile(f"{path}: damaged") from error
+    if attributes.get("program") != "kapitza":
+        raise BadFile(f"{path}: not a result of kapitza")
+    if "pendulum" in groups and not all(isinstance(pendulum.get(name), int | float) for name in ("k", "beta", "m")):
+        raise BadFile(f"{path}: incomplete, the group pendulum lacks k, beta or m")
+    return attributes, groups, pendulum
+
+
+def group_of(path: Path, name: str) -> xarray.Dataset:
+    """A group of a file, read completely.
+
+    :raises BadFile: if the group is damaged or too large for the memory
+    """
+    try:
+        wrong = elsewhere(path, name) or _too_large(path, name)
+        if not wrong:
+            with xarray.open_dataset(path, group=name, engine="h5netcdf", phony_dims="sort") as dataset:
+                dataset = dataset.load()
+            wrong = layout.wrong_shape(dataset, name) or layout.wrong_values(dataset, name)
+    except Exception as error:  # h5py and h5netcdf raise many kinds for one cause: the bytes are damaged
+        raise BadFile(f"{path}: damaged in the group {name}") from error
+    if wrong:
+        raise BadFile(f"{path}: {wrong}")
+    return dataset
+
+
+def elsewhere(path: Path, name: str) -> str | None:
+    """Whether a group keeps data outside this file: as words, or None."""
+    with h5py.File(path, "r") as file:
+        links = [file[name].get(variable, getlink=True) for variable in file[name]]
+        if any(isinstance(link, h5py.ExternalLink) for link in links) or any(
+                getattr(item, "external", None) or getattr(item, "is_virtual", False) for item in file[name].values()):
+            return f"the group {name} keeps data in another file"
+    return None
+
+
+def _too_large(path: Path, name: str) -> str | None:
+    """Whether a picture of the group would take more memory than there is: as words, or None."""
+    with h5py.File(path, "r") as file:
+        size = sum(item.nbytes for item in file[name].values() if isinstance(item, h5py.Dataset))
+    memory = os.sysconf("SC_PHYS_PAGES") * os.sysconf("SC_PAGE_SIZE")
+    if 8 * size > memory:  # what reading and drawing it takes
+        return f"the group {name} holds {size / 1e9:.3g} GB, too much for a picture with {memory / 1e9:.3g} GB of memory"
+    return None
+
+
+def _attributes(item: h5py.Group) -> dict[str, Any]:
+    """The attributes of a file or group as str, int, float or array."""
+    return {name: _plain(value) for name, value in item.attrs.items()}
+
+
+def _plain(value: Any) -> Any:
+    if isinstance(value, bytes):
+        return value.decode()
+    return value.item() if getattr(value, "size", 0) == 1 else value
