@@ -1,7 +1,8 @@
 !> Quasi-periodic motions that attract: closed curves of the stroboscopic map that an orbit fills and never closes. They are recognised by
 !> averages along orbits. Weighted by a smooth window, these converge faster than any power of its length where the motion is quasi-periodic
 !> (S. Das, Y. Saiki, E. Sander, J. A. Yorke, Nonlinearity 30 (2017) 4111), and like a square root where it is chaotic; where a motion still
-!> approaches something, those of two windows differ.
+!> approaches something, those of two windows differ. Since damping shrinks all areas alike, such a curve cannot enclose one: it goes around the
+!> cylinder, and the orbit comes to all angles. A slow spiral beside a bifurcation, whose averages hardly change, does not.
 module kz_attractors_quasiperiodic
   use, intrinsic :: iso_c_binding, only: dp => c_double
   use kz_attractors_chaos, only: append_cover, set_cover, is_damped
@@ -18,6 +19,8 @@ module kz_attractors_quasiperiodic
   integer, parameter :: WINDOW = 2000, VISITS = 4000
   !> What is averaged: the velocity, its square, the cosine of the angle.
   integer, parameter :: AVERAGES = 3
+  !> Parts of the circle, each of which a quasi-periodic motion visits.
+  integer, parameter :: PARTS = 16
   !> Averages of two windows that differ by less are those of a motion that stays as it is. Those of two orbits on one curve differ by less, too.
   real(dp), parameter :: SAME = 1e-6_dp
   !> A tangent grows or shrinks by less in both windows: else the motion is chaotic, or locked to a cycle.
@@ -60,7 +63,7 @@ contains
     if (size(lane) == 0) return
     lane = pack(lane, [(all(abs(record%average(:, lane(i)) - record%average(:, lane(1))) < SAME), i=1, size(lane))])
     call visit_cells(search%flow, regions, n, lane, visited)
-    if (.not. any(visited)) return ! faster than the cover reaches
+    if (.not. any(visited)) return ! it does not come to all angles, or is faster than the cover reaches
     attractor%period = QUASIPERIODIC
     attractor%mirrored = is_mirrored(search%pendulum) /= 0
     call set_cover(attractor, visited)
@@ -105,22 +108,26 @@ contains
     record%average = record%average/weights
   end subroutine follow_window
 
-  !> Marks the cells of the cover that the lanes visit.
+  !> Marks the cells of the cover that the lanes visit; none where some angles are never visited.
   subroutine visit_cells(flow, regions, n, lane, visited)
     class(flow_t), intent(inout) :: flow
     type(regions_t), intent(in) :: regions
     integer, intent(in) :: n, lane(:)
     logical, allocatable, intent(out) :: visited(:)
+    logical :: seen(0:PARTS - 1)
     integer :: period, i, cell
 
     allocate (visited(COVER**2), source=.false.)
+    seen = .false.
     do period = 1, VISITS
       call flow%advance(n)
       do i = 1, size(lane)
         cell = cover_cell(regions, flow%u(lane(i)), flow%v(lane(i)))
         if (cell > 0) visited(cell) = .true.
+        seen(min(int(modulo(flow%u(lane(i)), 2.0_dp)*(PARTS/2)), PARTS - 1)) = .true.
       end do
     end do
+    if (.not. all(seen)) visited = .false.
   end subroutine visit_cells
 
 end module kz_attractors_quasiperiodic
