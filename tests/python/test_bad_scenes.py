@@ -209,7 +209,7 @@ SCENES = {
     "C1 control in the title": (replaced("title: good", r'title: "red \x9b31m"'), "1:8", "holds a line break or a control"),
     "C1 control in a key": (GOOD + r'"a\x9bb": 1' + "\n", "9:1", "a?b: unknown key"),
     "byte-order mark": (b"\xef\xbb\xbf" + GOOD.encode(), "1:1", "byte-order mark"),
-    "too large": (GOOD + "#" * 1_000_000, "", "too many for a scene"),
+    "too large": (GOOD + "#" * 1_000_000, "", "a scene has at most that many"),
     "first of two errors": (replaced("factor: 5", "factor: x") + "colour: red\n", "3:19", "pendulum.quality_factor"),
     "range before a later typo": (replaced("min: -2, max: 2", "min: 2, max: 1") + "colour: red\n", "8:27", "basin.velocity.max"),
 }
