@@ -323,7 +323,7 @@ def test_a_result_opens_with_what_lies_over_its_basins(small_result, tmp_path):
 
 
 @pytest.mark.parametrize(("arguments", "message"), [
-    (["nothing.yaml"], "nothing.yaml: cannot be read"), ([SMALL, "--port", "80"], "--port: 80 is not a port"),
+    (["nothing.yaml"], "nothing.yaml: cannot be opened"), ([SMALL, "--port", "80"], "--port: 80 is not a port"),
     ([SMALL, "--port", "8\u00b2"], "is not a port"), ([SMALL, "--origin", "hub.example.org"], "--origin: hub.example.org is not an origin"),
     ([SMALL, "--set", "pendulum.m=x"], "pendulum.m"), ([ROOT / "README.md"], "README.md"), ([], "view: SCENE is missing"),
 ])
