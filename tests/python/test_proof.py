@@ -115,24 +115,29 @@ def ended(log):
 
 
 def stop_after(stage, ranks, folder):
-    """kapitza run, resumed and asked to stop when a stage has ended."""
+    """kapitza run, resumed and asked to stop when a stage has ended; one that was faster is made again, ten times at most."""
     log = folder / "log.jsonl"
-    log.unlink(missing_ok=True)
-    (folder / "s.h5").unlink(missing_ok=True)
-    process = subprocess.Popen(["mpirun", "-n", str(ranks), PROGRAM, "run", "s.yaml", "--resume", "--log", log.name], cwd=folder, text=True,
-                               stdout=subprocess.DEVNULL, stderr=subprocess.PIPE)
-    while process.poll() is None and stage not in ended(log):
-        time.sleep(0.005)
-    process.send_signal(signal.SIGUSR1)
-    message = process.communicate()[1]
-    assert process.returncode == 0 or ("stopped by SIGUSR1" in message and process.returncode == 75)  # 0: it was faster
+    for _ in range(10):
+        log.unlink(missing_ok=True)
+        (folder / "s.h5").unlink(missing_ok=True)
+        words = ["mpirun", "-n", str(ranks), PROGRAM, "run", "s.yaml", "--resume", "--log", log.name]
+        process = subprocess.Popen(words, cwd=folder, text=True, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE)
+        while process.poll() is None and stage not in ended(log):
+            time.sleep(0.005)
+        process.send_signal(signal.SIGUSR1)
+        message = process.communicate()[1]
+        if process.returncode != 0:
+            break
+    assert "stopped by SIGUSR1" in message and process.returncode == 75
+    return ended(log)
 
 
 def test_a_proof_goes_on_where_it_was_stopped(kapitza, tmp_path):
-    """Behind the region, on other ranks."""
+    """Behind the region, twice, each time on other ranks."""
     (tmp_path / "s.yaml").write_text(SCENE)
     kapitza("run", "s.yaml", "-o", "undisturbed.h5", folder=tmp_path)
-    stop_after("proof region 1", 2, tmp_path)
+    for ranks in (1, 2):
+        assert stop_after("proof region 1", ranks, tmp_path)[-1].startswith("proof")
     kapitza("run", "s.yaml", "--resume", folder=tmp_path)
     assert datasets(tmp_path / "s.h5") == datasets(tmp_path / "undisturbed.h5")
 
