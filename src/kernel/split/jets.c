@@ -5,7 +5,7 @@
 #include "lanes/lanes.h"
 
 enum { LANES = 4, KICKS = 14, FUSED = KICKS + 2 };
-enum { X, Y, P, Q, XX, XY, YY, XP, YP, XQ, YQ, XXX, XXY, XYY, YYY, TERMS };
+enum { X, Y, P, Q, XX, XY, YY, XP, YP, XQ, YQ, X3, XXY, XYY, Y3, TERMS };
 typedef double lanes __attribute__((vector_size(8 * LANES)));
 typedef int64_t bits __attribute__((vector_size(8 * LANES)));
 
@@ -90,10 +90,10 @@ OPERATION void drift(int order, bool damped, const kz_drift *row, jet *angle, je
     MOVE(YQ);
   }
   if (order >= 3) {
-    MOVE(XXX);
+    MOVE(X3);
     MOVE(XXY);
     MOVE(XYY);
-    MOVE(YYY);
+    MOVE(Y3);
   }
   angle->value += (0.318309886183790671537767526745 * row->of_velocity[0]) * velocity->value;
   velocity->value *= row->decay[0];
@@ -135,10 +135,10 @@ OPERATION void kick(int order, bool mirrored, const kz_kick *row, jet *angle, je
   v[XQ] -= slope * x[XQ] + of_q * x[X];
   v[YQ] -= slope * x[YQ] + of_q * x[Y];
   if (order < 3) return;
-  v[XXX] -= slope * (x[XXX] - x[X] * x[X] * x[X]) - 3 * force * x[X] * x[XX];
+  v[X3] -= slope * (x[X3] - x[X] * x[X] * x[X]) - 3 * force * x[X] * x[XX];
   v[XXY] -= slope * (x[XXY] - x[X] * x[X] * x[Y]) - force * (2 * x[X] * x[XY] + x[Y] * x[XX]);
   v[XYY] -= slope * (x[XYY] - x[X] * x[Y] * x[Y]) - force * (2 * x[Y] * x[XY] + x[X] * x[YY]);
-  v[YYY] -= slope * (x[YYY] - x[Y] * x[Y] * x[Y]) - 3 * force * x[Y] * x[YY];
+  v[Y3] -= slope * (x[Y3] - x[Y] * x[Y] * x[Y]) - 3 * force * x[Y] * x[YY];
 }
 
 OPERATION void steps(int order, bool damped, bool mirrored, int64_t n, const kz_kick *kicks, const kz_drift *drifts, jet *angle,
