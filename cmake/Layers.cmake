@@ -1,4 +1,4 @@
-# One static library per folder of src/.
+# One static library per folder of src/: a layer is a folder, so its sources are those that are there (no list to keep beside it).
 
 # kapitza_layer(name LAYERS lower... LIBRARIES targets...): src/name becomes the library kapitza_name.
 function(kapitza_layer name)

@@ -12,7 +12,7 @@ bool kz_thread_start(pthread_t *thread, size_t stack_bytes, void *(*work)(void *
 /* Waits until `changed` is signalled, or for so many seconds. The caller holds the mutex. */
 void kz_thread_wait(pthread_cond_t *changed, pthread_mutex_t *mutex, double seconds);
 
-/* A lock that one thread at a time holds; the thread that holds it may take it again. Fortran uses it by src/kernel/lanes/locks.f90. Free it with
+/* A lock that one thread at a time holds; the thread that holds it may take it again. Fortran uses it by src/kernel/vector/locks.f90. Free it with
  * kz_lock_free when nobody holds it. */
 typedef struct kz_lock kz_lock;
 kz_lock *kz_lock_create(void);

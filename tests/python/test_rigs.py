@@ -206,11 +206,9 @@ OVER_TILT = {"parameter": "tilt", "min": 0, "max": 0.2, "count": 2}
 @pytest.mark.parametrize("keys, study, named", [
     ({"tilt": math.pi / 36}, {"basin": {**WINDOW, "method": "icm"}}, "pendulum.tilt: basin.method icm"),
     ({"tilt": 0.1}, {"basin": WINDOW, "numerics": {"scheme": "rk4"}}, "pendulum.tilt: numerics.scheme rk4"),
-    ({"waveform": "square"}, {"basin": {**WINDOW, "method": "exact", "proof": True}}, "pendulum.waveform: basin.proof"),
     ({"tilt": 0.1}, {"stability": {"k": {"min": 0, "max": 0.1, "count": 3}, "m": {"min": 0, "max": 1, "count": 3}}},
      "pendulum.tilt: study stability"),
     ({"torque": 0.1}, {"potential": {"drive_amplitudes": [0.3]}}, "pendulum.torque: study potential"),
-    ({"tilt": 0.1}, {"basin": {**WINDOW, "method": "exact", "proof": True}}, "pendulum.tilt: basin.proof"),
     ({"tilt": 0}, {"basin": {**WINDOW, "method": "icm"}, "sweep": {**OVER_TILT, "measure": ["basin_fractions"]}}, "basin.method icm"),
     ({"tilt": 0}, {"sweep": {**OVER_TILT, "measure": ["flutter_zone"]}}, "pendulum.tilt: sweep.measure flutter"),
     ({"tilt": 0}, {"chart": {"x": OVER_TILT, "y": {"parameter": "drive_amplitude", "min": 0.1, "max": 0.2},

@@ -331,9 +331,9 @@ def test_the_guide_names_files_that_exist():
 # ---- constants that C and Fortran both need ----
 
 # (Fortran file, its name, C file, its name)
-SHARED = [("kernel/lanes/map.f90", "WIDTH", "src/kernel/lanes/lanes.h", "KZ_LANES"),
-          ("kernel/extended/taylor.f90", "TAYLOR_STEPS", "include/kapitza/kernel.h", "KZ_REFERENCE_STEPS"),
-          ("kernel/processed/stages.f90", "TERMS", "src/kernel/processed/tangents.c", "TERMS"),
+SHARED = [("kernel/vector/map.f90", "WIDTH", "src/kernel/vector/vector.h", "KZ_LANES"),
+          ("kernel/taylor/taylor.f90", "TAYLOR_STEPS", "include/kapitza/kernel.h", "KZ_REFERENCE_STEPS"),
+          ("kernel/splitting/processed/stages.f90", "TERMS", "src/kernel/splitting/processed/tangents.c", "TERMS"),
           ("model/pendulum.f90", "MOST_HARMONICS", "include/kapitza/model.h", "KZ_HARMONICS")]
 
 

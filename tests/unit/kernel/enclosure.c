@@ -12,7 +12,7 @@
 
 #include <quadmath.h>
 
-#include "interval/operations.h"
+#include "enclosure/operations.h"
 
 enum { SETS = 16, PERIODS = 3, DRAWS = 10 };
 typedef __float128 quad;

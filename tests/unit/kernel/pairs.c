@@ -5,7 +5,7 @@
 #include <cmocka.h>
 
 #include "kapitza/kernel.h"
-#include "extended/pairs_arithmetic.h"
+#include "taylor/pairs_arithmetic.h"
 
 #include <float.h>
 #include <stdbool.h>

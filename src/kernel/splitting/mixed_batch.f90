@@ -176,6 +176,6 @@ contains
     end do
   end subroutine tangent_step
 
-  include 'lanes/sine.inc'
+  include 'vector/sine.inc'
 
 end module kz_split_mixed_batch

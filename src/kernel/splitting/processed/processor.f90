@@ -103,6 +103,6 @@ contains
     end do
   end function slopes
 
-  include 'lanes/sine.inc'
+  include 'vector/sine.inc'
 
 end module kz_processed_processor

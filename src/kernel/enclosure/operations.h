@@ -1,6 +1,6 @@
 /* Pairs of doubles with proved errors, u = 2^-53. Sums: Joldes, Muller, Popescu, ACM TOMS 44 (2017) 15res, algorithm 6. */
-#ifndef KAPITZA_KERNEL_INTERVAL_OPERATIONS_H
-#define KAPITZA_KERNEL_INTERVAL_OPERATIONS_H
+#ifndef KAPITZA_KERNEL_ENCLOSURE_OPERATIONS_H
+#define KAPITZA_KERNEL_ENCLOSURE_OPERATIONS_H
 
 #include "sets.h"
 

@@ -4,12 +4,16 @@
 #ifndef KAPITZA_PAIRS_ARITHMETIC_H
 #define KAPITZA_PAIRS_ARITHMETIC_H
 
+#if !defined KAPITZA_FUSED || KAPITZA_FUSED != 0
+#error "pairs of doubles need products that are rounded by themselves: -ffp-contract=off (cmake/Compilers.cmake)"
+#endif
+
 #include <math.h>
 #if defined __AVX512F__ || defined __FMA__
 #include <immintrin.h>
 #endif
 
-#include "lanes/lanes.h"
+#include "vector/vector.h"
 
 enum { LANES = VECTOR_BYTES / sizeof(double) };
 

@@ -178,6 +178,6 @@ contains
     end do
   end subroutine rk4_column
 
-  include 'lanes/sine.inc'
+  include 'vector/sine.inc'
 
 end module kz_split_stages

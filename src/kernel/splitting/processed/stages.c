@@ -2,7 +2,11 @@
  * in registers (1.5 times slower). Several vectors at once hide the latency of the arithmetic. Operations per lane and kick: a
  * drift (n_drift + 1), the reduction to the nearest even half-turn (3), an odd polynomial (n_kick + 2); without mirror symmetry even
  * polynomials too (n_drift, n_kick). */
-#include "lanes/lanes.h"
+#include "vector/vector.h"
+
+#if !defined KAPITZA_FUSED || KAPITZA_FUSED != 1
+#error "the processed splitting is made for fused operations: -ffp-contract=fast (cmake/Compilers.cmake)"
+#endif
 
 /* Lanes of a vector, and vectors at once. */
 enum { LANES = VECTOR_BYTES / 8, CHAINS = 8 };

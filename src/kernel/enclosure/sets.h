@@ -1,13 +1,13 @@
 /* Inside of the enclosures of kernel.h: sets of states in the lanes of vectors, and the constants of a class of speeds. What each bound
  * covers, and why it does, is derived in docs/explanation/bounds.md; the numbers (B1) .. (B7) are those of that page. */
-#ifndef KAPITZA_KERNEL_INTERVAL_SETS_H
-#define KAPITZA_KERNEL_INTERVAL_SETS_H
+#ifndef KAPITZA_KERNEL_ENCLOSURE_SETS_H
+#define KAPITZA_KERNEL_ENCLOSURE_SETS_H
 
 #include <stdbool.h>
 #include <stddef.h>
 
 #include "kapitza/kernel.h"
-#include "extended/pairs_arithmetic.h"
+#include "taylor/pairs_arithmetic.h"
 
 /* Orders of the Taylor polynomials: of the centre in doubles; in pairs or quads; of the tangent map with new frames, where its remainder is
  * small compared with the set; of the tangent map with a kept frame. KZ_PARTS vectors are advanced together, so that the processor has

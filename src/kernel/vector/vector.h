@@ -1,6 +1,6 @@
 /* What the C loops of the kernel share: lanes of a batch, and vectors of them. */
-#ifndef KAPITZA_KERNEL_LANES_H
-#define KAPITZA_KERNEL_LANES_H
+#ifndef KAPITZA_KERNEL_VECTOR_H
+#define KAPITZA_KERNEL_VECTOR_H
 
 #include <stdbool.h>
 #include <stdint.h>

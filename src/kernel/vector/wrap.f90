@@ -12,7 +12,7 @@ module kz_lanes_wrap
   !> An angle of so many turns has no fraction left: the state is lost.
   real(rk), parameter :: MOST_TURNS = 1e15_rk
 
-  !> src/kernel/lanes/flush.c
+  !> src/kernel/vector/flush.c
   interface
     function flush_subnormals() bind(C, name='kz_flush_subnormals') result(control)
       import :: c_int64_t

@@ -1,6 +1,10 @@
 /* The derivative of a period of the processed splitting, and the motion of neighbours, in single precision, which is enough for an error: from
  * the reduced angles at every kick, which the loop of the states keeps (stages.c). */
-#include "lanes/lanes.h"
+#include "vector/vector.h"
+
+#if !defined KAPITZA_FUSED || KAPITZA_FUSED != 1
+#error "the processed splitting is made for fused operations: -ffp-contract=fast (cmake/Compilers.cmake)"
+#endif
 
 /* Coefficients of a slope (stages.f90). Vectors at once, and lanes of one. */
 enum { TERMS = 5, CHAINS = VECTOR_BYTES / 16, LANES = VECTOR_BYTES / 4 };

@@ -2,7 +2,7 @@
  * derivatives in registers, and takes six times as long. */
 #include <string.h>
 
-#include "lanes/lanes.h"
+#include "vector/vector.h"
 
 enum { LANES = 4, KICKS = 14, FUSED = KICKS + 2 };
 enum { X, Y, P, Q, XX, XY, YY, XP, YP, XQ, YQ, X3, XXY, XYY, Y3, TERMS };

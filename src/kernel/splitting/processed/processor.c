@@ -1,6 +1,10 @@
 /* The polynomials of the processor of the processed splitting, in vectors (stages.c says why in C): for every lane the sum over the harmonics
  * j and powers n of c[n][j] v^n times sin(pi j u) where n is even, cos(pi j u) where it is odd, or for the second part the other way round. */
-#include "lanes/lanes.h"
+#include "vector/vector.h"
+
+#if !defined KAPITZA_FUSED || KAPITZA_FUSED != 1
+#error "the processed splitting is made for fused operations: -ffp-contract=fast (cmake/Compilers.cmake)"
+#endif
 
 /* The order of the doubles' series and its harmonics: series_r64.f90, series.inc. */
 enum { KZ_ORDER = 14, KZ_HARMONICS_KEPT = KZ_ORDER / 2 };
