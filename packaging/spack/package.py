@@ -1,6 +1,6 @@
 """Spack recipe of kapitza. Copied as packages/kapitza/package.py into a Spack repository, it builds this folder's sources:
 
-spack dev-build --source-path FOLDER kapitza@0.3.0
+spack dev-build --source-path FOLDER kapitza@0.4.0
 """
 
 from spack.package import CMakePackage, conflicts, depends_on, generator, license, version
@@ -10,7 +10,7 @@ class Kapitza(CMakePackage):
     """Basins of attraction of the pendulum with a shaken pivot, on any number of MPI ranks."""
 
     license("MIT")
-    version("0.3.0")
+    version("0.4.0")
 
     depends_on("c", type="build")
     depends_on("fortran", type="build")

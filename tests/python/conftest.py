@@ -62,7 +62,7 @@ def write_result(path, attractors, theta, velocity, labels, settling_time, title
     for index, row in enumerate(attractors):
         strobe[:, index, : len(row["points"])] = np.transpose(row["points"])
     with h5py.File(path, "w") as file:
-        file.attrs.update({"title": title, "program": "kapitza", "version": "0.3.0", "Conventions": "CF-1.8"})
+        file.attrs.update({"title": title, "program": "kapitza", "version": "0.4.0", "Conventions": "CF-1.8"})
         file.create_group("pendulum").attrs.update(pendulum or {"k": 1 / 121, "beta": 1 / 55, "m": 0.3})
         group = file.create_group("attractors")
         _scale(group, "attractor", np.arange(count, dtype="i4"), "id")

@@ -139,15 +139,6 @@ def test_a_slurm_job_is_queued_again_where_it_saved_something(tmp_path, saves, a
     assert (tmp_path / "srun.called").read_text().split(" run ")[1] == "s.yml --set pendulum.tilt=pi/2 -o s-pi_2.h5 --resume\n"
 
 
-def test_the_containers_install_what_the_build_needs():
-    """The same Debian packages in both, and those of scripts/setup but for the tests and Python."""
-    docker, apptainer = ((ROOT / "packaging" / "images" / name).read_text().split() for name in ("Dockerfile", "kapitza.def"))
-    rows = [line.split("|") for line in (ROOT / "cmake" / "packages.txt").read_text().splitlines() if line.count("|") == 6]
-    needs = {row[2].strip() for row in rows if not row[0].startswith("#")}
-    needs = {name for name in needs if name and " " not in name and not name.startswith(("python", "netcdf", "libcmocka"))}
-    assert len(needs) > 8 and needs <= set(docker) and needs <= set(apptainer)
-
-
 @EXTENSIVE
 def test_the_apptainer_build_has_all_its_files(tmp_path):
     """Its steps on the files that it copies, for the instruction set that it names; no container is needed."""

@@ -1,10 +1,12 @@
-"""The parts of the binary wheel that need no build of it: the launcher, its lists, its metadata."""
+"""Packages, without a build of them: one version, what each recipe names, the launcher of the wheel, its lists and metadata."""
 
 import re
 import subprocess
 import sys
+import tomllib
 
 import pytest
+import yaml
 from conftest import ROOT
 
 WHEEL = ROOT / "packaging" / "wheel"
@@ -12,7 +14,62 @@ sys.path.insert(0, str(WHEEL))
 import assemble  # noqa: E402
 import old_symbols  # noqa: E402
 
+VERSION = re.search(r"project\(kapitza VERSION ([0-9.]+)", (ROOT / "CMakeLists.txt").read_text())[1]
 SHOW = '#!/bin/sh\necho "$(basename "$0") [$*] $MPIR_CVAR_NOLOCAL $FI_PROVIDER $KAPITZA_PYTHON $LD_LIBRARY_PATH"\n'
+
+
+@pytest.mark.parametrize("name, pattern, count", [
+    ("CITATION.cff", r"^version: ([0-9.]+)$", 1), ("CHANGELOG.md", r"\A.*?^## ([0-9.]+)", 1),
+    ("packaging/conda/meta.yaml", r'set version = "([0-9.]+)"', 1),
+    ("packaging/spack/package.py", r'kapitza@([0-9.]+)|version\("([0-9.]+)"\)', 2),
+    ("docs/start/install.md", r"kapitza-([0-9.]+)(?:-py3|\.tar)", 2)])
+def test_every_file_says_one_version(name, pattern, count):
+    found = ["".join(match.groups(default="")) for match in re.finditer(pattern, (ROOT / name).read_text(), re.MULTILINE | re.DOTALL)]
+    assert found == [VERSION] * count
+
+
+def libraries(column):
+    """What the program is linked with, by the names of a packager: `cmake/packages.txt`, and FLINT."""
+    rows = [[cell.strip() for cell in line.split("|")] for line in (ROOT / "cmake" / "packages.txt").read_text().splitlines()]
+    names = {row[column] for row in rows if row[0] == "program" and row[1].startswith(("module", "command mpicc"))}
+    return names | {{2: "libflint-dev", 4: "libflint"}[column]}
+
+
+def conda_recipe():
+    """YAML once its expressions are replaced."""
+    text = re.sub(r"{%.*?%}", "", (ROOT / "packaging" / "conda" / "meta.yaml").read_text())
+    text = re.sub(r"{{ compiler\('(\w+)'\) }}", r"\1-compiler", text)
+    return yaml.safe_load(text.replace("{{ version }}", VERSION).replace("{{ PYTHON }}", "python"))
+
+
+@pytest.mark.parametrize("name", ["packaging/images/Dockerfile", "packaging/images/kapitza.def", "packaging/debian/control"])
+def test_builds_on_debian_install_every_library(name):
+    assert libraries(2) <= set((ROOT / name).read_text().replace(",", "").split())
+
+
+def test_the_recipes_of_conda_and_spack_need_every_library():
+    recipe = conda_recipe()
+    assert libraries(4) <= set(recipe["requirements"]["host"])
+    spack = (ROOT / "packaging" / "spack" / "package.py").read_text()
+    given = set(re.findall(r'depends_on\("([\w-]+)', spack))
+    names = {"openmpi": "mpi", "yaml": "libyaml", "zlib": "zlib-api", "libflint": "flint"}
+    assert {names.get(name, name) for name in libraries(4)} <= given
+    compile(spack, "package.py", "exec")
+
+
+def test_the_conda_recipe_needs_what_pip_needs():
+    given = {word.split()[0].removesuffix("-base") for word in conda_recipe()["requirements"]["run"]}
+    needed = tomllib.loads((ROOT / "pyproject.toml").read_text())["project"]["dependencies"]
+    assert {re.match(r"\w+", word)[0].lower() for word in needed} <= given
+
+
+def test_install_names_every_library():
+    """The sentence for other systems, and the static libraries of the wheel."""
+    text = (ROOT / "docs" / "start" / "install.md").read_text()
+    assert all(name in text for name in ("MPI", "HDF5", "GSL", "FFTW 3", "FLINT", "json-c", "libyaml", "zlib"))
+    wheel = (ROOT / "scripts" / "wheel").read_text()
+    built = {"libopenmpi-dev", "libhdf5-dev", "libflint-dev"}  # MPI is PyPI's; these two are compiled
+    assert all(re.search(rf"\b{name}\b", wheel) for name in libraries(2) - built)
 
 
 @pytest.fixture(scope="module")
