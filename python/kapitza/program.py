@@ -72,19 +72,28 @@ def program() -> Path:
 
 
 def command(words: Sequence[str | os.PathLike[str]], ranks: int = 1) -> list[str]:
-    """The command line of the program with these words, under mpirun where there are several ranks."""
+    """The command line of the program with these words, under a launcher of MPI where there are several ranks."""
     if ranks < 1:
         raise ValueError(f"ranks is {ranks}; it must be at least 1")
     most = max(FEWEST_MOST_RANKS, RANKS_PER_CORE * (os.cpu_count() or 1))
     if ranks > most and not any(name.startswith(("SLURM_", "PBS_", "LSB_")) for name in os.environ):
         raise ValueError(f"ranks is {ranks}; on this machine it must be at most {most}, {RANKS_PER_CORE} for each core")
-    own = [str(program()), *map(_word, words)]
-    if ranks == 1:
-        return own
-    launcher = os.environ.get("KAPITZA_MPIRUN") or shutil.which("mpirun") or shutil.which("mpiexec")
-    if not launcher:
-        raise FileNotFoundError("mpirun is not on the PATH: install an MPI, name mpirun by the variable KAPITZA_MPIRUN, or take ranks=1")
-    return [launcher, "-n", str(ranks), *own]
+    own = program()
+    started = [str(own), *map(_word, words)]
+    return started if ranks == 1 else [_launcher(own), "-n", str(ranks), *started]
+
+
+def _launcher(own: Path) -> str:
+    """What starts several ranks of a program: KAPITZA_MPIRUN, else the mpiexec beside it, which is of the same MPI, else that of the PATH."""
+    beside = own.parent / "mpiexec"
+    chosen = os.environ.get("KAPITZA_MPIRUN")
+    if beside.is_file():
+        if chosen and Path(shutil.which(chosen) or chosen).resolve() != beside.resolve():
+            warnings.warn(f"KAPITZA_MPIRUN names {chosen}; the launcher of this program's own MPI is {beside}", stacklevel=4)
+        return chosen or str(beside)
+    if launcher := chosen or shutil.which("mpirun") or shutil.which("mpiexec"):
+        return launcher
+    raise FileNotFoundError("mpirun is not on the PATH: install an MPI, name mpirun by the variable KAPITZA_MPIRUN, or take ranks=1")
 
 
 def _word(word: str | os.PathLike[str]) -> str:

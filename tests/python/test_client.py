@@ -109,6 +109,23 @@ def test_a_program_that_is_none_is_told(tmp_path):
         Client([str(tmp_path / "program")])
 
 
+def test_the_launcher_beside_the_program_is_taken(tmp_path, monkeypatch):
+    """It is of the program's own MPI, as in an environment of pip. Another one that a variable names is taken with a warning."""
+    for name in ("kapitza", "mpiexec", "other"):
+        (tmp_path / name).touch(0o755)
+    monkeypatch.setenv("KAPITZA", str(tmp_path / "kapitza"))
+    monkeypatch.delenv("KAPITZA_MPIRUN", raising=False)
+    assert command(["check"], ranks=2) == [str(tmp_path / "mpiexec"), "-n", "2", str(tmp_path / "kapitza"), "check"]
+    monkeypatch.setenv("KAPITZA_MPIRUN", str(tmp_path / "other"))
+    with pytest.warns(UserWarning, match="the launcher of this program's own MPI is .*mpiexec"):
+        assert command(["check"], ranks=2)[0] == str(tmp_path / "other")
+    monkeypatch.setenv("KAPITZA_MPIRUN", str(tmp_path / "mpiexec"))
+    assert command(["check"], ranks=2)[0] == str(tmp_path / "mpiexec")
+    (tmp_path / "mpiexec").unlink()
+    monkeypatch.setenv("KAPITZA_MPIRUN", "srun")
+    assert command(["check"], ranks=2)[0] == "srun"
+
+
 def test_a_forked_process_leaves_its_parents_results_and_engine(engine):
     result = kapitza.run(SMALL, set={"basin.theta.count": 8, "basin.velocity.count": 8}, progress=False)
     if (child := os.fork()) == 0:

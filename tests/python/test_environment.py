@@ -57,6 +57,16 @@ def test_ranks_that_are_asked_for_different_things_end(tmp_path, words):
         assert done.returncode == 0 and done.stdout.startswith("# ") and done.stdout.count("`basin.max_periods`") == 1
 
 
+@pytest.mark.parametrize("words", [["run", SMALL, *FEW, "-o", "x.h5"], ["check", SMALL]])
+def test_processes_of_a_launcher_that_the_mpi_does_not_know_are_refused(tmp_path, words):
+    """Each would be a run of its own. One process of such a job, and one that was started by hand, are runs of one rank."""
+    for rank, said in (("0", 1), ("1", 0)):
+        done = run([PROGRAM, *words], tmp_path, env=os.environ | {"PMI_RANK": rank, "PMI_SIZE": "2"})
+        assert done.returncode == 2 and done.stderr.count("a launcher of another MPI started 2 processes") == said, done.stderr
+    assert not list(tmp_path.iterdir())
+    assert run([PROGRAM, *words], tmp_path, env=os.environ | {"PMI_RANK": "0", "PMI_SIZE": "1"}).returncode == 0
+
+
 @pytest.mark.parametrize("name", ["/dev/zero", "pipe", "."])
 def test_the_explorer_is_opened_with_a_file_alone(tmp_path, name):
     os.mkfifo(tmp_path / "pipe")
