@@ -9,8 +9,8 @@ module kz_api_cycles
   use kz_attractors_cycle_search, only: append_with_mirror, join
   use kz_cycles_cycles, only: attractor_t, close_cycle, enter_points, symmetrise
   use kz_cycles_features, only: find_features
-  use kz_cycles_newton, only: eigenvalues
   use kz_cycles_shooting, only: shoot, smallest_period, closed_orbit_t
+  use kz_maps_matrices, only: eigenvalues
   use kz_maps_states, only: separation, states_to_map, states_to_physical
   implicit none
   private

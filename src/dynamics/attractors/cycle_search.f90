@@ -5,9 +5,10 @@ module kz_attractors_cycle_search
   use kz_model_pendulum, only: pendulum_t, is_mirrored
   use kz_cycles_cycles, only: attractor_t, close_cycle, complete_attractor, enter_points, mirror_image, listed_from_lowest
   use kz_grown_ellipses, only: find_ellipses
-  use kz_cycles_newton, only: newton, n_periods, eigenvalues
+  use kz_cycles_newton, only: newton, n_periods
   use kz_cycles_features, only: find_features
   use kz_grown_grid, only: ellipse_at
+  use kz_maps_matrices, only: eigenvalues, IDENTITY
   use kz_maps_states, only: separation, same_state
   implicit none
   private
@@ -122,7 +123,7 @@ contains
     complex(dp) :: multiplier(2)
     integer :: i
 
-    tangent(:, :, 1) = reshape([1, 0, 0, 1], [2, 2])
+    tangent(:, :, 1) = IDENTITY
     call search%flow%put(1, u, v)
     do i = 1, n
       call search%flow%advance_tangent(1, tangent)

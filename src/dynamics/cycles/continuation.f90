@@ -5,8 +5,9 @@ module kz_cycles_continuation
   use kz_kernel_flows, only: make_flow, fine_numerics
   use kz_model_pendulum, only: pendulum_t, is_mirrored
   use kz_cycles_cycles, only: attractor_t, orbit_of
-  use kz_cycles_newton, only: eigenvalues, n_periods, solved, minimal_period
+  use kz_cycles_newton, only: n_periods, minimal_period
   use kz_cycles_features, only: find_features
+  use kz_maps_matrices, only: eigenvalues, solved
   use kz_maps_states, only: angle_difference, separation
   implicit none
   private

@@ -2,7 +2,8 @@
 module kz_cycles_cycles
   use, intrinsic :: iso_c_binding, only: dp => c_double
   use kz_lanes_map, only: flow_t, WIDTH, PI
-  use kz_cycles_newton, only: newton, minimal_period, eigenvalues
+  use kz_cycles_newton, only: newton, minimal_period
+  use kz_maps_matrices, only: eigenvalues, IDENTITY
   use kz_maps_states, only: angle_difference, states_to_map, same_state, rounded
   implicit none
   private
@@ -88,7 +89,7 @@ contains
     allocate (cycle%u(period), cycle%v(period), cycle%form(3, period))
     cycle%form = 0
     call flow%put(1, x(1), x(2))
-    tangent(:, :, 1) = reshape([1, 0, 0, 1], [2, 2])
+    tangent(:, :, 1) = IDENTITY
     do i = 1, period
       cycle%u(i) = flow%u(1)
       cycle%v(i) = flow%v(1)

@@ -2,10 +2,11 @@
 module kz_cycles_newton
   use, intrinsic :: iso_c_binding, only: dp => c_double
   use kz_lanes_map, only: flow_t, WIDTH, PI
+  use kz_maps_matrices, only: solved, IDENTITY
   use kz_maps_states, only: angle_difference, same_state
   implicit none
   private
-  public :: newton, n_periods, solved, minimal_period, eigenvalues
+  public :: newton, n_periods, minimal_period
 
   !> rad: a fixed point must be placed better than states are distinguished.
   real(dp), parameter :: PLACED = 1e-8_dp
@@ -91,7 +92,7 @@ contains
     integer :: i
 
     call flow%put(1, x(1), x(2))
-    tangent(:, :, 1) = reshape([1, 0, 0, 1], [2, 2])
+    tangent(:, :, 1) = IDENTITY
     call flow%to_map(1, tangent)
     do i = 1, n
       call flow%advance_tangent(1, tangent)
@@ -100,20 +101,6 @@ contains
     residual = [PI*angle_difference(flow%u(1), x(1)), flow%v(1) - x(2)]
     matrix = tangent(:, :, 1)
   end subroutine n_periods
-
-  !> Solves (matrix - 1) step = residual.
-  pure function solved(matrix, residual) result(step)
-    real(dp), intent(in) :: matrix(2, 2) !< derivative of the map, 1 more than the matrix of the equations
-    real(dp), intent(in) :: residual(2) !< their right-hand side
-    real(dp) :: step(2)
-    real(dp) :: a, b, c, d
-
-    a = matrix(1, 1) - 1
-    b = matrix(1, 2)
-    c = matrix(2, 1)
-    d = matrix(2, 2) - 1
-    step = [d*residual(1) - b*residual(2), a*residual(2) - c*residual(1)]/(a*d - b*c)
-  end function solved
 
   !> The smallest divisor of n after which the orbit of x returns to x.
   function minimal_period(flow, n, x) result(period)
@@ -130,24 +117,5 @@ contains
     end do
     period = n
   end function minimal_period
-
-  !> Eigenvalues of a 2 x 2 matrix of known determinant: the larger modulus first, then the positive imaginary part first.
-  pure function eigenvalues(matrix, determinant) result(values)
-    real(dp), intent(in) :: matrix(2, 2) !< derivative of the map, for (rad, rad per drive radian)
-    real(dp), intent(in) :: determinant !< its determinant, which is known better than from the matrix
-    complex(dp) :: values(2)
-    real(dp) :: half, root
-
-    half = 0.5_dp*(matrix(1, 1) + matrix(2, 2))
-    root = half**2 - determinant
-    if (root < 0) then
-      values = [cmplx(half, sqrt(-root), dp), cmplx(half, -sqrt(-root), dp)]
-    else
-      half = half + sign(sqrt(root), half)
-      values(1) = half
-      values(2) = 0
-      if (abs(half) > 0) values(2) = determinant/half
-    end if
-  end function eigenvalues
 
 end module kz_cycles_newton

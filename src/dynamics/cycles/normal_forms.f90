@@ -2,6 +2,7 @@
 module kz_cycles_normal_forms
   use, intrinsic :: iso_c_binding, only: dp => c_double
   use kz_cycles_curves, only: system_t
+  use kz_maps_matrices, only: inverse_of, IDENTITY
   use kz_split_jets, only: DX, DY, DP_ => DP, DQ, DXX, DXY, DYY, DXP, DYP, DXQ, DYQ, DXXX, DXXY, DXYY, DYYY
   implicit none
   private
@@ -22,9 +23,7 @@ contains
     integer :: i, j, k
 
     call composed(system, jacobian, hesse, third, by_place, mixed)
-    a = jacobian
-    a(1, 1) = a(1, 1) - system%kind%multiplier
-    a(2, 2) = a(2, 2) - system%kind%multiplier
+    a = jacobian - system%kind%multiplier*IDENTITY
     q = [-a(2, 2), a(2, 1)]
     if (norm2(a(1, :)) > norm2(a(2, :))) q = [-a(1, 2), a(1, 1)]
     q = q/norm2(q)
@@ -46,10 +45,7 @@ contains
         cubic = cubic + p(i)*q(j)*dot_product(q, matmul(third(i, j, :, :), q))
       end do
     end do
-    a = jacobian
-    a(1, 1) = a(1, 1) - 1
-    a(2, 2) = a(2, 2) - 1
-    inverse = reshape([a(2, 2), -a(2, 1), -a(1, 2), a(1, 1)], [2, 2])/(a(1, 1)*a(2, 2) - a(1, 2)*a(2, 1))
+    inverse = inverse_of(jacobian - IDENTITY)
     w = matmul(inverse, bend)
     coefficient = cubic/6
     do i = 1, 2
@@ -70,7 +66,7 @@ contains
     real(dp) :: old_j(2, 2), old_h(2, 2, 2), old_t(2, 2, 2, 2), old_p(2, 2), old_m(2, 2, 2), f(2, 2), h(2, 2), t(2, 2, 2)
     integer :: i, r, a, b, c, k, l
 
-    jacobian = reshape([1, 0, 0, 1], [2, 2])
+    jacobian = IDENTITY
     hesse = 0
     third = 0
     by_place = 0

@@ -2,6 +2,7 @@
 module kz_labels_nonlinear
   use, intrinsic :: iso_c_binding, only: dp => c_double
   use kz_labels_carrier, only: carrier_t
+  use kz_maps_matrices, only: axes_of
   implicit none
   private
   public :: measure_nonlinear, SAFETY
@@ -40,13 +41,11 @@ contains
   pure function rim_of(p) result(rim)
     real(dp), intent(in) :: p(3)
     real(dp) :: rim(2, POINTS)
-    real(dp) :: along, slant, across
+    real(dp) :: axes(3)
 
-    along = sqrt(p(1))
-    slant = p(2)/along
-    across = sqrt(max(0.0_dp, p(3) - slant**2))
-    rim(1, 1:5:2) = SAFETY*along*DIAMETERS(1, :)
-    rim(2, 1:5:2) = SAFETY*(slant*DIAMETERS(1, :) + across*DIAMETERS(2, :))
+    axes = axes_of(p)
+    rim(1, 1:5:2) = SAFETY*axes(1)*DIAMETERS(1, :)
+    rim(2, 1:5:2) = SAFETY*(axes(2)*DIAMETERS(1, :) + axes(3)*DIAMETERS(2, :))
     rim(:, 2:6:2) = -rim(:, 1:5:2)
   end function rim_of
 

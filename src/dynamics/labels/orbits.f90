@@ -9,6 +9,7 @@ module kz_labels_orbits
   use kz_labels_carrier, only: carrier_t, orbit_t
   use kz_labels_spread, only: spread_errors, flag_large, flag_done
   use kz_lanes_map, only: WIDTH, CAPACITY, PI
+  use kz_maps_matrices, only: axes_of
   use kz_maps_states, only: angle_difference
   implicit none
   private
@@ -48,9 +49,8 @@ module kz_labels_orbits
     real(dp) :: handover = 0            !< rad: an orbit with a larger error goes on elsewhere
     logical :: guess = .false.          !< doubtful orbits are followed on without their errors
     integer(c_int32_t) :: level = 0     !< that decides
-    real(dp) :: p(3, CAPACITY) = 0      !< ellipses of waiting orbits
-    real(dp) :: ellipse(WIDTH, 3) = 0   !< ellipses of active ones
-    real(dp) :: trace(WIDTH) = 0        !< of these
+    real(dp) :: ellipse(CAPACITY, 3) = 0 !< of the errors
+    real(dp) :: trace(WIDTH) = 0        !< of those of active orbits
     integer :: first(CAPACITY) = 0      !< the first region that held the state alone, 0 = none yet
     integer(c_int64_t) :: since(CAPACITY) = 0 !< from that age on
     logical :: doubted(CAPACITY) = .false.
@@ -90,7 +90,7 @@ contains
     do lane = WIDTH + 1, WIDTH + n
       associate (orbit => self%orbit(self%number(lane)))
         call self%carrier%put(lane, orbit)
-        self%p(:, lane) = orbit%p
+        self%ellipse(lane, :) = orbit%p
         self%age(lane) = orbit%age
       end associate
     end do
@@ -110,12 +110,12 @@ contains
 
     done = .false.
     if (self%region(lane) > 0) call note_region(self, lane)
-    if (self%region(lane) > 0 .and. sum(self%p([1, 3], lane)) < TOLERABLE**2) done = is_held(self, lane, self%p(:, lane))
+    if (self%region(lane) > 0 .and. sum(self%ellipse(lane, [1, 3])) < TOLERABLE**2) done = is_held(self, lane)
     if (done) then
-      call settle(self, lane, self%region(lane), .true., self%p(:, lane))
+      call settle(self, lane, self%region(lane), .true.)
     else if (self%age(lane) >= self%most) then
       done = .true.
-      call settle(self, lane, left_label(self, lane), .false., self%p(:, lane))
+      call settle(self, lane, left_label(self, lane), .false.)
     end if
   end function ends_at_once
 
@@ -182,14 +182,14 @@ contains
     if (owner > 0) then
       self%in_cover(lane) = 0
       call note_region(self, lane)
-      if (.not. self%doubted(lane)) trapped = is_held(self, lane, self%ellipse(lane, :))
+      if (.not. self%doubted(lane)) trapped = is_held(self, lane)
     else if (size(self%regions%covered) > 0) then
       owner = chaos_region(self%regions, self%carrier%u(lane), self%carrier%v(lane))
       if (owner > 0) owner = merge(owner, 0, self%attractors(owner)%period /= QUASIPERIODIC .or. &
                                  (self%trace(lane) < LINEAR**2 .and. .not. self%doubted(lane)))
       trapped = self%is_captured(lane, owner)
     end if
-    if (trapped) call settle(self, lane, owner, .true., self%ellipse(lane, :))
+    if (trapped) call settle(self, lane, owner, .true.)
   end function is_trapped
 
   !> Whether an orbit that nothing holds is not followed any further: it is doubtful, or old; then its end has been noted.
@@ -200,10 +200,9 @@ contains
 
     left = .true.
     if (self%doubted(lane) .and. self%in_cover(lane) == 0 .and. (.not. self%guess .or. self%first(lane) > 0)) then
-      call settle(self, lane, merge(self%first(lane), DOUBTFUL, self%guess), .false., self%ellipse(lane, :))
+      call settle(self, lane, merge(self%first(lane), DOUBTFUL, self%guess), .false.)
     else if (self%age(lane) >= self%most) then
-      call settle(self, lane, left_label(self, lane), .not. self%doubted(lane) .and. self%region(lane) == 0, &
-                  self%ellipse(lane, :))
+      call settle(self, lane, left_label(self, lane), .not. self%doubted(lane) .and. self%region(lane) == 0)
     else
       left = .false.
     end if
@@ -232,17 +231,16 @@ contains
     self%decision(self%number(lane))%label = PENDING
   end subroutine pass_on
 
-  subroutine settle(self, lane, label, decided, p)
+  subroutine settle(self, lane, label, decided)
     class(orbits_t), intent(inout) :: self
     integer, intent(in) :: lane, label
     logical, intent(in) :: decided
-    real(dp), intent(in) :: p(3)
     integer(c_int64_t) :: periods
 
     periods = self%age(lane)
     if (label > 0 .and. label == self%first(lane)) periods = self%since(lane)
     self%decision(self%number(lane)) = decision_t(label, 0, merge(self%level, NO_LEVEL, decided), periods, &
-                                                  SAFETY*sqrt(p(1) + p(3)), self%age(lane), &
+                                                  SAFETY*sqrt(self%ellipse(lane, 1) + self%ellipse(lane, 3)), self%age(lane), &
                                                   [self%carrier%u(lane), self%carrier%v(lane)])
   end subroutine settle
 
@@ -262,35 +260,28 @@ contains
 
     call self%carrier%move(from, to)
     call self%copy(from, to)
-    if (from > WIDTH) then
-      self%ellipse(to, :) = self%p(:, from)
-    else
-      self%ellipse(to, :) = self%ellipse(from, :)
-    end if
+    self%ellipse(to, :) = self%ellipse(from, :)
     self%first(to) = self%first(from)
     self%since(to) = self%since(from)
     self%doubted(to) = self%doubted(from)
   end subroutine move
 
-  !> Whether the region that holds the state of a lane holds its whole ellipse p, and `region_error` rad beyond.
-  function is_held(self, lane, p) result(held)
+  !> Whether the region that holds the state of a lane holds its whole ellipse, and `region_error` rad beyond.
+  function is_held(self, lane) result(held)
     class(orbits_t), intent(in) :: self
     integer, intent(in) :: lane
-    real(dp), intent(in) :: p(3)
     logical :: held
-    real(dp) :: u(RIM), v(RIM), angle, along, across, slant
+    real(dp) :: u(RIM), v(RIM), axes(3), angle
     integer :: label(RIM), i
 
     associate (u0 => self%carrier%u(lane), v0 => self%carrier%v(lane), error => self%carrier%region_error(lane))
-      along = sqrt(p(1))
-      held = cell_holds(self%regions, u0, v0, (SAFETY*along + error)/PI, SAFETY*sqrt(p(3)) + error)
+      axes = axes_of(self%ellipse(lane, :))
+      held = cell_holds(self%regions, u0, v0, (SAFETY*axes(1) + error)/PI, SAFETY*sqrt(self%ellipse(lane, 3)) + error)
       if (held) return
-      slant = merge(p(2)/along, 0.0_dp, along > 0)
-      across = sqrt(max(0.0_dp, p(3) - slant**2))
       do i = 1, RIM
         angle = 2*PI*i/RIM
-        u(i) = angle_difference(u0 + ((SAFETY*along + error)*cos(angle))/PI, 0.0_dp)
-        v(i) = v0 + SAFETY*(slant*cos(angle) + across*sin(angle)) + error*sin(angle)
+        u(i) = angle_difference(u0 + ((SAFETY*axes(1) + error)*cos(angle))/PI, 0.0_dp)
+        v(i) = v0 + SAFETY*(axes(2)*cos(angle) + axes(3)*sin(angle)) + error*sin(angle)
       end do
     end associate
     call find_regions(self%regions, self%attractors, RIM, u, v, label)

@@ -8,7 +8,7 @@ module kz_labels_released
   use kz_labels_carrier, only: carrier_t, orbit_t, make_carrier, BY_SERIES
   use kz_labels_period_error, only: period_error_t, speed_probes_t, make_speed_probes, measure_period
   use kz_labels_spread, only: spread_errors
-  use kz_lanes_map, only: flow_t, WIDTH
+  use kz_lanes_map, only: flow_t, WIDTH, CAPACITY
   use kz_model_pendulum, only: pendulum_t
   use kz_model_release, only: release_t, stretch_t, first_stretch, next_stretch, is_open, strobes_before
   implicit none
@@ -100,7 +100,7 @@ contains
   subroutine carry(carrier, orbit)
     type(carrier_t), intent(inout) :: carrier
     type(orbit_t), intent(inout) :: orbit(:)
-    real(dp) :: p(WIDTH, 3), trace(WIDTH), nonlinear(WIDTH)
+    real(dp) :: p(CAPACITY, 3), trace(WIDTH), nonlinear(WIDTH)
     integer :: lane, n
 
     n = size(orbit)

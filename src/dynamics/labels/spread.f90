@@ -1,7 +1,7 @@
 !> The errors of orbits over a period, many at once. (A file of its own: called, not copied into a caller, its loop goes over vectors.)
 module kz_labels_spread
   use, intrinsic :: iso_c_binding, only: dp => c_double
-  use kz_lanes_map, only: WIDTH
+  use kz_lanes_map, only: WIDTH, CAPACITY
   implicit none
   private
   public :: spread_errors, add_ellipse, flag_large, flag_done
@@ -16,7 +16,7 @@ contains
     real(dp), intent(in) :: tangent(WIDTH, 4) !< (WIDTH, 4): derivatives of the angle by angle and velocity, of the velocity by both
     real(dp), intent(in) :: noise(WIDTH) !< of the period, rad
     real(dp), intent(in) :: nonlinear(WIDTH) !< what is not linear in the period, rad
-    real(dp), intent(inout) :: p(WIDTH, 3) !< (WIDTH, 3): theta theta, theta v, v v: rad, rad per drive radian
+    real(dp), intent(inout) :: p(CAPACITY, 3) !< theta theta, theta v, v v: rad, rad per drive radian
     real(dp), intent(out) :: trace(WIDTH) !< of P; not a number for one that is lost
     real(dp) :: s1, s2, s3, t1, t2, t3, t4, size, square, x
     integer :: i
@@ -44,7 +44,7 @@ contains
   !> 1 for the lanes whose P has at least a trace, or is lost; else 0.
   pure subroutine flag_large(n, p, trace, large)
     integer, intent(in) :: n !< lanes
-    real(dp), intent(in) :: p(WIDTH, 3) !< (WIDTH, 3)
+    real(dp), intent(in) :: p(CAPACITY, 3) !< as above
     real(dp), intent(in) :: trace !< the bound
     integer, intent(inout) :: large(WIDTH) !< flags
     integer :: i

@@ -4,7 +4,7 @@ module kz_plane_closing
   use kz_lanes_map, only: WIDTH, PI
   use kz_split_mixed_batch, only: mixed_batch_t, track_t
   use kz_cycles_features, only: centre_of, ELSEWHERE
-  use kz_cycles_newton, only: solved, eigenvalues
+  use kz_maps_matrices, only: eigenvalues, solved, IDENTITY
   use kz_maps_states, only: angle_difference
   implicit none
   private
@@ -79,7 +79,7 @@ contains
     allocate (orbits%track(period(1)), orbits%winding(n, period(1)))
     do i = 1, n
       call batch%put(i, x(1, i), x(2, i))
-      matrix(:, :, i) = reshape([1, 0, 0, 1], [2, 2])
+      matrix(:, :, i) = IDENTITY
     end do
     orbits%u(:, 0) = x(1, :n)
     orbits%v(:, 0) = x(2, :n)

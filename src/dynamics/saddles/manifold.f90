@@ -4,7 +4,8 @@ module kz_saddles_manifold
   use, intrinsic :: iso_c_binding, only: dp => c_double, c_int32_t, c_int64_t
   use kz_kernel_flows, only: make_flow, fine_numerics
   use kz_lanes_map, only: flow_t, WIDTH, PI
-  use kz_cycles_newton, only: newton, n_periods, eigenvalues
+  use kz_cycles_newton, only: newton, n_periods
+  use kz_maps_matrices, only: eigenvalues, IDENTITY
   use kz_maps_states, only: angle_difference, separation
   use kz_model_pendulum, only: pendulum_t
   implicit none
@@ -126,7 +127,7 @@ contains
       saddle%x(:, j) = here
       saddle%t(:, j) = beside/[PI, 1.0_dp]
       call flow%put(1, here(1), here(2))
-      tangent(:, :, 1) = reshape([1, 0, 0, 1], [2, 2])
+      tangent(:, :, 1) = IDENTITY
       call flow%advance_tangent(1, tangent)
       beside = matmul(tangent(:, :, 1), beside)
       here = [flow%u(1) + 2*real(flow%turns(1), dp), flow%v(1)]

@@ -8,6 +8,7 @@ module kz_grown_ellipses
   use kz_lanes_map, only: flow_t, WIDTH, PI
   use kz_cycles_cycles, only: attractor_t
   use kz_cycles_newton, only: n_periods
+  use kz_maps_matrices, only: inverse_of, eigenvector, IDENTITY
   use kz_maps_states, only: angle_difference
   implicit none
   private
@@ -180,7 +181,7 @@ contains
     real(dp) :: tangent(2, 2, WIDTH)
 
     call flow%put(1, attractor%u(j), attractor%v(j))
-    tangent(:, :, 1) = reshape([1, 0, 0, 1], [2, 2])
+    tangent(:, :, 1) = IDENTITY
     call flow%to_map(1, tangent)
     matrix = tangent(:, :, 1)
   end function change
@@ -193,7 +194,6 @@ contains
     real(dp), intent(in) :: to_kernel(2, 2)
     real(dp), intent(out) :: basis(2, 2), inverse(2, 2)
     complex(dp) :: w(2)
-    real(dp) :: determinant
 
     if (abs(aimag(multiplier(1))) > 0) then
       w = eigenvector(matrix, multiplier(1))
@@ -207,26 +207,8 @@ contains
       basis(:, 2) = real(w, dp)/norm2(real(w, dp))
     end if
     basis = matmul(to_kernel, basis)
-    determinant = basis(1, 1)*basis(2, 2) - basis(1, 2)*basis(2, 1)
-    if (abs(determinant) < 1e-6_dp) then ! a (nearly) double multiplier: any norm serves, the test of the rings decides
-      basis = reshape([1, 0, 0, 1], [2, 2])
-      determinant = 1
-    end if
-    inverse = reshape([basis(2, 2), -basis(2, 1), -basis(1, 2), basis(1, 1)], [2, 2])/determinant
+    if (abs(basis(1, 1)*basis(2, 2) - basis(1, 2)*basis(2, 1)) < 1e-6_dp) basis = IDENTITY ! a (nearly) double multiplier: any norm serves
+    inverse = inverse_of(basis)
   end subroutine eigenbasis
-
-  !> From the row of (matrix - mu) that is the larger.
-  pure function eigenvector(matrix, mu) result(w)
-    real(dp), intent(in) :: matrix(2, 2)
-    complex(dp), intent(in) :: mu
-    complex(dp) :: w(2)
-
-    if (abs(matrix(1, 1) - mu) + abs(matrix(1, 2)) >= abs(matrix(2, 2) - mu) + abs(matrix(2, 1))) then
-      w = [cmplx(matrix(1, 2), 0, dp), mu - matrix(1, 1)]
-    else
-      w = [mu - matrix(2, 2), cmplx(matrix(2, 1), 0, dp)]
-    end if
-    if (abs(w(1)) + abs(w(2)) <= 0) w = 1
-  end function eigenvector
 
 end module kz_grown_ellipses

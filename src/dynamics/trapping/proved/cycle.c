@@ -36,8 +36,8 @@ static bool find_half_widths(const kz_proof *proof, const kz_proof_cycle *cycle,
 /* Trace of the monodromy and what it may be off by: set, the image of begin after the period, is J = A W begin^-1, |W - 1| <=
  * jacobian_error. */
 static void bound_trace(const double begin[2][2], const kz_enclosure *set, double *trace, double *error) {
-  const double det = begin[0][0] * begin[1][1] - begin[0][1] * begin[1][0];
-  const double inverse[2][2] = {{begin[1][1] / det, -begin[0][1] / det}, {-begin[1][0] / det, begin[0][0] / det}};
+  double inverse[2][2];
+  kz_invert(begin, inverse);
   *trace = *error = 0;
   for (int i = 0; i < 2; i++)
     for (int j = 0; j < 2; j++) {
@@ -79,9 +79,8 @@ bool kz_proof_confine(const kz_proof *proof, const kz_proof_cycle *cycle, double
   const double centre[2] = {cycle->theta[0], cycle->velocity[0]};
   kz_proof_ellipse ellipse = kz_proof_find_trap(proof, cycle->period, centre[0], centre[1]);
   if (!shrink(proof, cycle->period, centre, &ellipse)) return false;
-  kz_enclosure set = {.theta = {centre[0]}, .velocity = {centre[1]}, .reach = {1, 1}};
-  for (int i = 0; i < 4; i++) set.matrix[i / 2][i % 2] = ellipse.radius * ellipse.axes[i / 2][i % 2];
-  const kz_enclosure begin = set;
+  const kz_enclosure begin = kz_set_around(centre, &ellipse);
+  kz_enclosure set = begin;
   double trace, error;
   if (!find_half_widths(proof, cycle, &set, theta, velocity)) return false;
   bound_trace(begin.matrix, &set, &trace, &error);

@@ -45,15 +45,15 @@ static bool find_axes(const kz_proof *proof, int64_t period, const double centre
   if (!isfinite(near.reach[0])) return false;
   double J[2][2];
   for (int i = 0; i < 4; i++) J[i / 2][i % 2] = near.matrix[i / 2][i % 2] / tiny;
-  const double half = (J[0][0] + J[1][1]) / 2, det = J[0][0] * J[1][1] - J[0][1] * J[1][0], square = half * half - det;
+  const double half = (J[0][0] + J[1][1]) / 2, square = half * half - kz_determinant(J);
   if (!(fabs(square) > 1e-8) || fabs(J[0][1]) + fabs(J[1][0]) < 1e-8) return false;
   (square < 0 ? complex_basis : real_basis)(J, half, sqrt(fabs(square)), M);
-  return fabs(M[0][0] * M[1][1] - M[0][1] * M[1][0]) > 1e-6;
+  return fabs(kz_determinant(M)) > 1e-6;
 }
 
 static double spectral_norm(const double B[2][2]) {
   const double squares = B[0][0] * B[0][0] + B[0][1] * B[0][1] + B[1][0] * B[1][0] + B[1][1] * B[1][1];
-  const double det = B[0][0] * B[1][1] - B[0][1] * B[1][0];
+  const double det = kz_determinant(B);
   return sqrt((squares + sqrt(fmax(squares * squares - 4 * det * det, 0))) / 2);
 }
 
@@ -64,14 +64,12 @@ static double length_of(const double B[2][2], double x, double y) {
 
 bool kz_proof_traps(const kz_proof *proof, int64_t period, double theta, double velocity, const kz_proof_ellipse *ellipse) {
   const double r = ellipse->radius, most = 1 - KZ_PROOF_ROUNDING;
-  kz_enclosure set = {.theta = {theta}, .velocity = {velocity}, .reach = {1, 1}};
-  for (int i = 0; i < 4; i++) set.matrix[i / 2][i % 2] = r * ellipse->axes[i / 2][i % 2];
+  kz_enclosure set = kz_set_around((double[]){theta, velocity}, ellipse);
   advance(proof, period, &set);
   if (!isfinite(set.reach[0])) return false;
   const double off[2] = {remainder(set.theta[0] - theta, 2 * M_PI) / r, (set.velocity[0] - velocity) / r};
-  const double det = ellipse->axes[0][0] * ellipse->axes[1][1] - ellipse->axes[0][1] * ellipse->axes[1][0];
-  const double inverse[2][2] = {{ellipse->axes[1][1] / det, ellipse->axes[0][1] / det},
-                                {ellipse->axes[1][0] / det, ellipse->axes[0][0] / det}};
+  double inverse[2][2];
+  kz_invert(ellipse->axes, inverse);
   const double rounded = length_of(inverse, CENTRE_ROUNDING / r, CENTRE_ROUNDING / r);
   double d[2], B[2][2];
   kz_proof_solve(ellipse->axes, off, d);
@@ -150,8 +148,7 @@ kz_proof_ellipse kz_proof_find_ellipse(const kz_proof *proof, int64_t period, do
 static bool reaches_mirror(const kz_proof *proof, int64_t most_periods, const double start[2], const kz_proof_ellipse *from,
                            const double centre[2], const kz_proof_ellipse *ellipse) {
   const double mirrored[2] = {-centre[0], -centre[1]};
-  kz_enclosure set = {.theta = {start[0]}, .velocity = {start[1]}, .reach = {1, 1}};
-  for (int i = 0; i < 4; i++) set.matrix[i / 2][i % 2] = from->radius * from->axes[i / 2][i % 2];
+  kz_enclosure set = kz_set_around(start, from);
   for (int64_t period = 0; period < most_periods && isfinite(set.reach[0]); period++) {
     if (kz_ellipse_holds(ellipse, mirrored, &set)) return true;
     kz_enclosures_advance(proof->tables[KZ_ENCLOSE_DOUBLES], KZ_NEW_FRAME, 1, &set);

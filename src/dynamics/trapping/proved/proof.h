@@ -39,11 +39,30 @@ bool kz_ellipse_holds(const kz_proof_ellipse *ellipse, const double centre[2], c
 /* An ellipse that the map of `period` drive periods carries into itself and contracts; radius 0: none was found. */
 kz_proof_ellipse kz_proof_find_trap(const kz_proof *proof, int64_t period, double theta, double velocity);
 
+static inline double kz_determinant(const double M[2][2]) {
+  return M[0][0] * M[1][1] - M[0][1] * M[1][0];
+}
+
+/* A set that contains an ellipse around a centre. */
+static inline kz_enclosure kz_set_around(const double centre[2], const kz_proof_ellipse *ellipse) {
+  kz_enclosure set = {.theta = {centre[0]}, .velocity = {centre[1]}, .reach = {1, 1}};
+  for (int i = 0; i < 4; i++) set.matrix[i / 2][i % 2] = ellipse->radius * ellipse->axes[i / 2][i % 2];
+  return set;
+}
+
 /* z with M z = x. */
 static inline void kz_proof_solve(const double M[2][2], const double x[2], double z[2]) {
-  const double det = M[0][0] * M[1][1] - M[0][1] * M[1][0];
+  const double det = kz_determinant(M);
   z[0] = (M[1][1] * x[0] - M[0][1] * x[1]) / det;
   z[1] = (M[0][0] * x[1] - M[1][0] * x[0]) / det;
+}
+
+static inline void kz_invert(const double M[2][2], double inverse[2][2]) {
+  const double det = kz_determinant(M);
+  inverse[0][0] = M[1][1] / det;
+  inverse[0][1] = -M[0][1] / det;
+  inverse[1][0] = -M[1][0] / det;
+  inverse[1][1] = M[0][0] / det;
 }
 
 /* Relative margin of decisive tests, above their own rounding. */
