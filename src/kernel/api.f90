@@ -1,11 +1,11 @@
 !> The C interface of the kernel: include/kapitza/kernel.h. Thin entries of doubles and integers.
 module kz_kernel_api
   use, intrinsic :: iso_c_binding, only: c_double, c_int32_t, c_int64_t, c_ptr, c_char, c_null_char, c_loc, c_f_pointer
-  use kz_lanes_map, only: flow_t, WIDTH, PI
+  use kz_vector_map, only: flow_t, WIDTH, PI
   use kz_kernel_flows, only: make_flow, fine_numerics, sampling_numerics
-  use kz_lanes_schemes, only: SCHEMES
+  use kz_vector_schemes, only: SCHEMES
   use kz_model_pendulum, only: pendulum_t
-  use kz_lanes_step_table, only: numerics_t
+  use kz_vector_step_table, only: numerics_t
   implicit none
   private
 

@@ -1,16 +1,16 @@
 !> From a pendulum and its numerics to a map of one drive period.
 module kz_kernel_flows
   use, intrinsic :: iso_c_binding, only: c_double
-  use kz_lanes_map, only: flow_t
+  use kz_vector_map, only: flow_t
   use kz_processed_tables, only: series_t, processed_t, make_processed_series, make_processed, &
                                  MOST_DRIFTS, MOST_KICKS
-  use kz_lanes_schemes, only: SCHEMES, PROCESSED, SPLIT6_ROW
+  use kz_vector_schemes, only: SCHEMES, PROCESSED, SPLIT6_ROW
   use kz_model_pendulum, only: pendulum_t, stiffness
   use kz_model_release, only: stretch_t
-  use kz_lanes_step_table, only: numerics_t, period_t, make_period
+  use kz_vector_step_table, only: numerics_t, period_t, make_period
   use kz_processed_batch, only: make_processed_batch
   use kz_processed_slider, only: make_slid_series
-  use kz_split_batch, only: make_batch
+  use kz_splitting_batch, only: make_batch
   implicit none
   private
   public :: make_flow, make_stretch_flow, make_processed_flow, fine_numerics, sampling_numerics, FINE

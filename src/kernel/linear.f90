@@ -5,7 +5,7 @@
 module kz_kernel_linear
   use, intrinsic :: iso_c_binding, only: c_double, c_int8_t, c_int64_t
   use, intrinsic :: iso_fortran_env, only: rk => real64
-  use kz_lanes_map, only: WIDTH
+  use kz_vector_map, only: WIDTH
   implicit none
   private
 

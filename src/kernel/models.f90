@@ -4,7 +4,7 @@ module kz_kernel_models
   use, intrinsic :: iso_c_binding, only: c_double, c_int32_t, c_int64_t
   use kz_kernel_flows, only: FINE
   use kz_model_pendulum, only: pendulum_t, stiffness
-  use kz_lanes_step_table, only: numerics_t, period_t, make_period
+  use kz_vector_step_table, only: numerics_t, period_t, make_period
   implicit none
   private
 

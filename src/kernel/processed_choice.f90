@@ -3,15 +3,15 @@
 module kz_kernel_processed_choice
   use, intrinsic :: iso_c_binding, only: c_double, c_int32_t
   use, intrinsic :: ieee_exceptions, only: ieee_get_halting_mode, ieee_set_halting_mode, ieee_set_flag, ieee_usual
-  use kz_lanes_map, only: flow_t, WIDTH, PI
+  use kz_vector_map, only: flow_t, WIDTH, PI
   use kz_kernel_flows, only: make_processed_flow
-  use kz_lanes_step_search, only: trial_t, search_steps
+  use kz_vector_step_search, only: trial_t, search_steps
   use kz_processed_tables, only: series_t, make_processed_series, MOST_DRIFTS, MOST_KICKS, MOST_DAMPING, ORDER
-  use kz_lanes_schemes, only: PROCESSED_ROW
+  use kz_vector_schemes, only: PROCESSED_ROW
   use kz_model_pendulum, only: pendulum_t, stiffness
-  use kz_lanes_step_table, only: numerics_t
-  use kz_extended_probes, only: probes_t, make_probes
-  use kz_extended_taylor, only: drive_t, make_drive, TAYLOR_STEPS
+  use kz_vector_step_table, only: numerics_t
+  use kz_taylor_probes, only: probes_t, make_probes
+  use kz_taylor_taylor, only: drive_t, make_drive, TAYLOR_STEPS
   implicit none
   private
 

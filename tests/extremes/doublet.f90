@@ -2,7 +2,7 @@
 !> tests.
 module kz_test_doublet
   use, intrinsic :: iso_c_binding, only: dp => c_double, c_ptr, c_loc
-  use kz_lanes_map, only: flow_t, WIDTH, PI
+  use kz_vector_map, only: flow_t, WIDTH, PI
   use kz_model_pendulum, only: pendulum_t
   use kz_api_dynamics, only: dynamics_t
   implicit none

@@ -145,7 +145,7 @@ def kapitza():
     def call(*arguments, ranks=None, folder=ROOT, status=0, text=None):
         launcher = ["mpirun", "-n", str(ranks)] if ranks else []
         command = [*launcher, PROGRAM, *map(str, arguments)]
-        done = subprocess.run(command, cwd=folder, input=text, capture_output=True, text=True, timeout=280)
+        done = subprocess.run(command, cwd=folder, input=text, capture_output=True, text=True)
         assert status is None or done.returncode == status, done.stderr + done.stdout
         return done
 
@@ -177,7 +177,7 @@ def run_until_saved(*words, file, folder, ranks=2):
                                stdout=subprocess.DEVNULL, stderr=subprocess.PIPE)
     assert runs_until_saved(process, checkpoint, before), process.communicate()
     process.send_signal(signal.SIGUSR1)
-    _, errors = process.communicate(timeout=120)
+    _, errors = process.communicate()
     assert process.returncode == 75 and f"stopped by SIGUSR1; finished work is in {checkpoint.name}" in errors, errors
     return errors
 

@@ -68,7 +68,7 @@ class Server:
     def end(self):
         """Its exit status and what it said, after SIGTERM."""
         self.process.terminate()
-        output, errors = self.process.communicate(timeout=20)
+        output, errors = self.process.communicate()
         return self.process.returncode, errors + "".join(line for line in output.splitlines() if "for another browser" not in line)
 
 

@@ -22,7 +22,7 @@ BASIN = "basin: {velocity: {min: -2, max: 2}}\n"
 
 
 def program(folder, *arguments, launcher=()):
-    done = subprocess.run([*launcher, PROGRAM, *arguments], cwd=folder, capture_output=True, timeout=60)
+    done = subprocess.run([*launcher, PROGRAM, *arguments], cwd=folder, capture_output=True)
     return done.returncode, done.stdout, done.stderr.decode("utf-8", "replace")
 
 

@@ -10,8 +10,8 @@ from conftest import PROGRAM, ROOT
 EXTENSIVE = bool(os.environ.get("KAPITZA_EXTENSIVE"))
 
 
-def call(*words, folder=ROOT, timeout=120, **more):
-    return subprocess.run(list(map(str, words)), cwd=folder, capture_output=True, text=True, timeout=timeout, **more)
+def call(*words, folder=ROOT, **more):
+    return subprocess.run(list(map(str, words)), cwd=folder, capture_output=True, text=True, **more)
 
 
 def need(tool):
@@ -31,12 +31,12 @@ def test_clang_takes_every_c_file(tmp_path):
     targets = call("ninja", "-t", "targets", "all", folder=build).stdout.splitlines()
     objects = [line.split(":")[0] for line in targets if ".c.o:" in line and (EXTENSIVE or "dir/src/" in line)]
     assert len(objects) > 80
-    done = call("ninja", "-j2", "kapitza_version", *objects, folder=build, timeout=280)
+    done = call("ninja", "-j2", "kapitza_version", *objects, folder=build)
     assert done.returncode == 0, done.stdout[-4000:]
     if EXTENSIVE:
-        done = call("cmake", "--build", build, "-j2", timeout=1200)
+        done = call("cmake", "--build", build, "-j2")
         assert done.returncode == 0, done.stdout[-4000:]
-        done = call("ctest", "--test-dir", build, "-L", "unit", "--output-on-failure", timeout=1200)
+        done = call("ctest", "--test-dir", build, "-L", "unit", "--output-on-failure")
         assert done.returncode == 0, done.stdout[-4000:]
 
 

@@ -41,7 +41,7 @@ def site(tmp_path):
     for module in ("sphinx", "myst_parser", "furo", "sphinx_copybutton"):
         pytest.importorskip(module, reason="scripts/requirements-docs.txt is not installed: the site is not made")
     command = [sys.executable, "-m", "sphinx", "--quiet", "--fail-on-warning", "-b", "html", ROOT / "docs", tmp_path / "site"]
-    done = subprocess.run([*command, "-d", tmp_path / "doctrees"], capture_output=True, text=True, timeout=300)
+    done = subprocess.run([*command, "-d", tmp_path / "doctrees"], capture_output=True, text=True)
     assert (done.returncode, done.stderr) == (0, "")
     return tmp_path / "site"
 
@@ -56,5 +56,5 @@ def test_the_site_has_every_page_and_none_is_wider_than_a_phone(site):
     if not shutil.which("chromedriver"):
         pytest.skip("no chromium and chromium-driver: the pages are not opened at a phone's width")
     command = [sys.executable, ROOT / "tests" / "tools" / "phone_pages.py", site]
-    done = subprocess.run(command, capture_output=True, text=True, timeout=300)
+    done = subprocess.run(command, capture_output=True, text=True)
     assert done.returncode == 0 and done.stdout.endswith(" pages, 0 too wide\n"), done.stdout + done.stderr

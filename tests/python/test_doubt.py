@@ -43,6 +43,15 @@ def test_sample_depends_on_the_scene_alone(kapitza, tmp_path):
     assert doubt(kapitza, tmp_path, *table, "--set", "basin.attractors.seed=2")[0] != alone
 
 
+def test_a_share_that_was_counted_has_no_interval(kapitza, tmp_path):
+    """All cells of a small map are in the sample: "95 % interval: 0.34 to 0.34 %" stood beside a count."""
+    few = ("--set", "basin.theta.count=20", "--set", "basin.velocity.count=20", "--set", "basin.method=icm")
+    shares, summary = doubt(kapitza, tmp_path, *few)
+    assert shares["doubtful_share_low"] == shares["doubtful_share"] == shares["doubtful_share_high"]
+    assert "% of the labels are doubtful: the error of the orbit may change them. This is from 400 cells" in summary
+    assert "interval" not in summary
+
+
 def test_direct_integration_tells_doubtful_cells_one_by_one(kapitza, tmp_path):
     """They are the ones that method exact follows in more precision where both take the same steps, which exact takes for a tenth of the
     tolerance; all others have its labels and settling times."""

@@ -18,7 +18,7 @@ LONG = ["--set", "basin.method=direct", "--set", "basin.theta.count=600", "--set
 
 def run(words, folder, **more):
     """A run to its end."""
-    return subprocess.run(list(map(str, words)), cwd=folder, capture_output=True, text=True, timeout=120, **more)
+    return subprocess.run(list(map(str, words)), cwd=folder, capture_output=True, text=True, **more)
 
 
 @pytest.mark.parametrize("method", ["icm", "exact"])
@@ -103,7 +103,7 @@ def test_a_signal_is_heard_before_modelling(tmp_path):
     process = subprocess.Popen(STIFF, cwd=tmp_path, stderr=subprocess.PIPE, text=True)
     time.sleep(0.3)
     process.send_signal(signal.SIGTERM)
-    _, message = process.communicate(timeout=60)
+    _, message = process.communicate()
     assert process.returncode == 75 and "SIGTERM" in message and not list(tmp_path.iterdir()), message
 
 

@@ -82,7 +82,7 @@ def test_what_a_scene_leaves_out_stays_left_out(server):
 def test_a_start_is_answered_as_by_where(server):
     ending = server.ask({"request": "where", "theta": "2.4", "velocity": "0.3", "pendulum": PENDULUM})[-1][0]
     command = [PROGRAM, "where", SMALL, "2.4", "0.3", "--json"]
-    asked = json.loads(subprocess.run(command, capture_output=True, text=True, timeout=60, check=True).stdout)
+    asked = json.loads(subprocess.run(command, capture_output=True, text=True, check=True).stdout)
     keys = ("name", "period", "decided", "theta")
     assert [ending[key] for key in keys] == [asked[key] for key in keys]
 
@@ -264,7 +264,7 @@ def test_it_leaves_no_process_and_no_file_behind(tmp_path, number):
     computing = running.children()
     assert computing
     running.process.send_signal(number)
-    running.process.communicate(timeout=20)
+    running.process.communicate()
     asked.join(30)
     assert wait_for(lambda: not any(parent(process) for process in computing), 10)
     assert not list(tmp_path.iterdir())
@@ -328,7 +328,7 @@ def test_a_result_opens_with_what_lies_over_its_basins(small_result, tmp_path):
     ([SMALL, "--set", "pendulum.m=x"], "pendulum.m"), ([ROOT / "README.md"], "README.md"), ([], "view: SCENE is missing"),
 ])
 def test_what_cannot_be_opened_is_one_line(arguments, message):
-    done = subprocess.run([PROGRAM, "view", *arguments, "--no-browser"], capture_output=True, text=True, timeout=60)
+    done = subprocess.run([PROGRAM, "view", *arguments, "--no-browser"], capture_output=True, text=True)
     assert done.returncode == 2 and message in done.stderr and len(done.stderr.splitlines()) == 1, done.stderr
 
 
@@ -339,11 +339,11 @@ def test_without_python_or_its_packages_one_line_says_what_to_set(python, tmp_pa
         python.write_text('#!/bin/sh\nexec "$REAL_PYTHON" -S "$@"\n')
         python.chmod(0o755)
     environment = os.environ | {"KAPITZA_PYTHON": str(python), "REAL_PYTHON": os.path.realpath(shutil.which("python3"))}
-    done = subprocess.run([PROGRAM, "view", SMALL], env=environment, capture_output=True, text=True, timeout=60)
+    done = subprocess.run([PROGRAM, "view", SMALL], env=environment, capture_output=True, text=True)
     assert done.returncode == 1 and "KAPITZA_PYTHON" in done.stderr and len(done.stderr.splitlines()) == 1
 
 
 def test_an_output_that_is_full_is_an_answer_not_a_traceback():
     with open("/dev/full", "w") as full:
-        done = subprocess.run([PROGRAM, "view", SMALL, "--no-browser"], stdout=full, stderr=subprocess.PIPE, text=True, timeout=60)
+        done = subprocess.run([PROGRAM, "view", SMALL, "--no-browser"], stdout=full, stderr=subprocess.PIPE, text=True)
     assert done.returncode == 1 and done.stderr.startswith("kapitza: error: view: No space left"), done.stderr

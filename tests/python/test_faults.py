@@ -75,7 +75,7 @@ def test_a_read_only_disk_is_known_beforehand(disk):
     folder = disk("size=1m")
     subprocess.run(["mount", "-o", "remount,ro", folder], check=True)
     process = start("run", SMALL, folder=folder)
-    _, errors = process.communicate(timeout=60)
+    _, errors = process.communicate()
     assert process.returncode == 2 and "Read-only file system" in errors and errors.count("\n") == 1
 
 
@@ -83,7 +83,7 @@ def test_a_read_only_disk_is_known_beforehand(disk):
 def test_a_full_disk_fails_clearly_and_leaves_no_half_file(disk, kilobytes):
     folder = disk(f"size={kilobytes}k")
     process = start("run", SMALL, *SLOW, "--set", "basin.theta.count=300", folder=folder)
-    _, errors = process.communicate(timeout=120)
+    _, errors = process.communicate()
     assert process.returncode == 1 and "No space left" in errors and errors.count("\n") == 1, errors
     assert {path.name for path in folder.iterdir()} <= {"small.h5.checkpoint"}
 
@@ -94,7 +94,7 @@ def test_a_checkpoint_of_manifolds_holds_what_is_used(disk, kapitza):
     (folder / "s.yaml").write_text("pendulum: {quality_factor: 5, drive_frequency: 11, drive_amplitude: 0.3}\n"
                                    "saddles: {velocity: {min: -2, max: 2}, max_period: 1}\nmanifolds: {length: 6, spacing: 0.02}\n")
     told = re.search(r"^disk +([\d.]+) MB", kapitza("check", "s.yaml", folder=folder).stdout, re.MULTILINE)
-    _, errors = (process := start("run", "s.yaml", folder=folder)).communicate(timeout=120)
+    _, errors = (process := start("run", "s.yaml", folder=folder)).communicate()
     assert process.returncode == 0, errors
     assert 1e-6 * (folder / "s.h5").stat().st_size < float(told[1]) < 6
 
@@ -102,11 +102,11 @@ def test_a_checkpoint_of_manifolds_holds_what_is_used(disk, kapitza):
 def test_a_disk_that_was_full_is_resumed_once_there_is_room(disk, undisturbed):
     folder = disk("size=100k")
     process = start("run", SMALL, *SLOW, folder=folder)
-    process.communicate(timeout=120)
+    process.communicate()
     assert process.returncode == 1
     subprocess.run(["mount", "-o", "remount,size=20m", folder], check=True)
     process = start("run", SMALL, *SLOW, "--resume", folder=folder, ranks=3)
-    _, errors = process.communicate(timeout=120)
+    _, errors = process.communicate()
     assert process.returncode == 0, errors
     assert datasets(folder / "small.h5") == undisturbed and [path.name for path in folder.iterdir()] == ["small.h5"]
 
@@ -117,7 +117,7 @@ def test_files_removed_under_the_run(tmp_path, undisturbed, victim):
     process = start("run", SMALL, *SLOW, folder=tmp_path)
     wait_for(lambda: grown(tmp_path / "small.h5.checkpoint"))
     (tmp_path / victim).unlink()
-    _, errors = process.communicate(timeout=120)
+    _, errors = process.communicate()
     if process.returncode == 0:
         assert datasets(tmp_path / "small.h5") == undisturbed
     else:
@@ -132,7 +132,7 @@ def stopped(tmp_path_factory):
     wait_for(lambda: grown(folder / "small.h5.checkpoint"))
     begun = time.monotonic()
     process.send_signal(signal.SIGUSR1)
-    _, errors = process.communicate(timeout=60)
+    _, errors = process.communicate()
     assert process.returncode == 75 and errors.count("\n") == 1, errors
     return (folder / "small.h5.checkpoint").read_bytes(), time.monotonic() - begun
 
@@ -169,7 +169,7 @@ def test_memory_that_one_rank_may_not_have_ends_all(tmp_path):
     table = ["--set", "basin.icm={theta: 9000, velocity: 9000}"]
     limit = 'if [ "$OMPI_COMM_WORLD_RANK" = 1 ]; then ulimit -v 600000; fi; exec "$@"'
     words = ["mpirun", "-n", "2", "bash", "-c", limit, "limited", str(PROGRAM), "run", str(SMALL), *table]
-    done = subprocess.run(words, cwd=tmp_path, capture_output=True, text=True, timeout=120)
+    done = subprocess.run(words, cwd=tmp_path, capture_output=True, text=True)
     assert done.returncode == 2 and "ulimit" in done.stderr and done.stderr.count("\n") == 1, done.stderr
     assert not list(tmp_path.iterdir())
 
@@ -189,7 +189,7 @@ def test_work_in_one_piece_is_left_where_a_stop_is_asked(tmp_path):
     time.sleep(1)
     runs[0][2].send_signal(signal.SIGUSR1)
     for folder, reason, process in runs:
-        _, errors = process.communicate(timeout=60)
+        _, errors = process.communicate()
         assert process.returncode == 75 and errors.count("\n") == 1 and f"stopped by {reason}" in errors, errors
         saved = "finished work is in small.h5.checkpoint" in errors
         assert [path.name for path in folder.iterdir()] == (["small.h5.checkpoint"] if saved else [])
@@ -201,7 +201,7 @@ def test_what_batch_systems_send_asks_for_a_stop(tmp_path, name):
     process = start("run", SMALL, *SLOW, folder=tmp_path, ranks=None)
     wait_for(lambda: grown(tmp_path / "small.h5.checkpoint"))
     process.send_signal(getattr(signal, name))
-    _, errors = process.communicate(timeout=60)
+    _, errors = process.communicate()
     assert process.returncode == 75 and f"stopped by {name}" in errors
 
 
@@ -223,7 +223,7 @@ def test_resume_of_a_complete_file_removes_its_own_checkpoint_alone(kapitza, tmp
                                            (["-o", "y.h5"], "another command line")])
 def test_ranks_that_were_told_different_things(tmp_path, differs, said):
     words = ["mpirun", "-n", "1", PROGRAM, "run", SMALL, ":", "-n", "1", PROGRAM, "run", SMALL, *differs]
-    done = subprocess.run(list(map(str, words)), cwd=tmp_path, capture_output=True, text=True, timeout=60)
+    done = subprocess.run(list(map(str, words)), cwd=tmp_path, capture_output=True, text=True)
     assert done.returncode == 2 and said in done.stderr and done.stderr.count("\n") == 1, done.stderr
     assert not list(tmp_path.iterdir())
 
@@ -232,7 +232,7 @@ def test_an_error_is_told_before_any_rank_ends(tmp_path):
     """mpirun kills the others about a second after one rank has failed; rank 0, which speaks, may be slower than that."""
     (tmp_path / "small.h5").touch()
     late = ["mpirun", "-x", f"LD_PRELOAD={PROGRAM.parent}/tests/slow_end.so", "-x", "KZ_REST=3", "-n", "2"]
-    done = subprocess.run([*late, PROGRAM, "run", SMALL], cwd=tmp_path, capture_output=True, text=True, timeout=60)
+    done = subprocess.run([*late, PROGRAM, "run", SMALL], cwd=tmp_path, capture_output=True, text=True)
     assert done.returncode == 2 and done.stderr.startswith("kapitza: error: small.h5: exists") and done.stderr.count("\n") == 1
 
 
@@ -241,7 +241,7 @@ def test_ranks_in_different_folders(tmp_path):
         (tmp_path / name).mkdir()
     one, other = (["-n", "1", "-wdir", tmp_path / name, PROGRAM, "run", SMALL] for name in "ab")
     words = ["mpirun", *one, ":", *other]
-    done = subprocess.run(list(map(str, words)), capture_output=True, text=True, timeout=60)
+    done = subprocess.run(list(map(str, words)), capture_output=True, text=True)
     assert done.returncode == 2 and "cannot be opened by every rank" in done.stderr, done.stderr
     assert not list(tmp_path.glob("*/*"))
 
@@ -258,7 +258,7 @@ def test_the_folder_changes_under_the_run(tmp_path, how):
         shutil.rmtree(folder)
     else:
         folder.rename(tmp_path / "elsewhere")
-    _, errors = process.communicate(timeout=120)
+    _, errors = process.communicate()
     assert process.returncode == 1 and errors.startswith("kapitza: error: folder/small.h5") and errors.count("\n") == 1, errors
     if how == "a file appears":
         assert (folder / "small.h5").read_text() == "mine" and (folder / "small.h5.checkpoint").exists()
@@ -272,8 +272,8 @@ def test_two_runs_into_one_file(tmp_path, undisturbed):
     wait_for(lambda: grown(tmp_path / "small.h5.checkpoint"))
     same = start("run", SMALL, *SLOW, "--resume", folder=tmp_path, ranks=None)
     other = start("run", SMALL, *FEW, "--resume", folder=tmp_path, ranks=None)
-    (said, _), (_, errors) = same.communicate(timeout=120), other.communicate(timeout=120)
-    assert first.wait(timeout=120) == 0 and same.returncode == 0 and "already complete" in said
+    (said, _), (_, errors) = same.communicate(), other.communicate()
+    assert first.wait() == 0 and same.returncode == 0 and "already complete" in said
     assert other.returncode == 2 and errors.count("\n") == 1, errors
     assert datasets(tmp_path / "small.h5") == undisturbed
 
@@ -282,7 +282,7 @@ def test_two_runs_into_one_file(tmp_path, undisturbed):
 def test_streams_that_are_closed_or_full(kapitza, tmp_path, undisturbed, closed, status):
     """What is printed never lands in a file of the run, and nobody who reads the progress is no reason to stop."""
     words = " ".join(map(repr, map(str, [PROGRAM, "run", SMALL, "--progress", "always", *SLOW])))
-    done = subprocess.run(["bash", "-c", f"{words} {closed}"], cwd=tmp_path, capture_output=True, text=True, timeout=120)
+    done = subprocess.run(["bash", "-c", f"{words} {closed}"], cwd=tmp_path, capture_output=True, text=True)
     assert done.returncode == status, done.stderr
     assert datasets(tmp_path / "small.h5") == undisturbed and [path.name for path in tmp_path.iterdir()] == ["small.h5"]
 
@@ -292,7 +292,7 @@ def test_the_environment_changes_no_byte(tmp_path, undisturbed):
     noise = {"MALLOC_PERTURB_": "170", "LC_ALL": "de_DE.UTF-8", "LANG": "de_DE.UTF-8", "TZ": "Asia/Kolkata", "OMP_NUM_THREADS": "7",
              "GFORTRAN_UNBUFFERED_ALL": "1", "HDF5_USE_FILE_LOCKING": "FALSE", "POSIXLY_CORRECT": "1"}
     words = [str(PROGRAM), "run", *SLOW, str(SMALL)]
-    done = subprocess.run(words, cwd=tmp_path, env=os.environ | noise, capture_output=True, text=True, timeout=120)
+    done = subprocess.run(words, cwd=tmp_path, env=os.environ | noise, capture_output=True, text=True)
     assert done.returncode == 0 and datasets(tmp_path / "small.h5") == undisturbed, done.stderr
 
 
@@ -323,7 +323,7 @@ def test_a_sleeping_rank_delays_but_spoils_nothing(tmp_path, undisturbed):
         except ProcessLookupError:
             break
         time.sleep(0.02)
-    _, errors = process.communicate(timeout=120)
+    _, errors = process.communicate()
     assert process.returncode == 0, errors
     assert datasets(tmp_path / "small.h5") == undisturbed
 
@@ -332,7 +332,7 @@ def test_kills_lose_nothing(tmp_path):
     """A few rounds of the kill loop on the whole program."""
     loop = ROOT / "tests" / "tools" / "kill_loop.py"
     words = [sys.executable, loop, "--rounds", "2", tmp_path / "kills", PROGRAM, "run", SMALL, "-o", "OUT.h5", *SLOW]
-    done = subprocess.run(list(map(str, words)), capture_output=True, text=True, timeout=280)
+    done = subprocess.run(list(map(str, words)), capture_output=True, text=True)
     assert done.returncode == 0 and "nothing lost" in done.stdout, done.stdout + done.stderr
 
 

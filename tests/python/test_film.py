@@ -98,7 +98,7 @@ def test_a_film_that_falls_into_a_boundary(tmp_path):
                                        "basin: {theta: {count: 9}, velocity: {min: -20, max: 20, count: 9}, attractors: {starts: 512}}\n")
     subprocess.run([sys.executable, ROOT / "scripts" / "film_zoom.py", "k01.yaml", "-2.36717282205514094284618936441679793", "17",
                     "--to", "1e-24", "--count", "6", "--columns", "60", "--rows", "40", "-o", "zoom.gif"],
-                   cwd=tmp_path, check=True, timeout=300)
+                   cwd=tmp_path, check=True)
     with Image.open(tmp_path / "zoom.gif") as film:
         pictures = [np.asarray(frame.convert("RGB").crop((0, 0, 60, 20))) for frame in ImageSequence.Iterator(film)]
     assert [len(np.unique(picture.reshape(-1, 3), axis=0)) > 1 for picture in pictures] == [True] * 6

@@ -102,7 +102,7 @@ def test_the_command(tmp_path):
     np.savetxt(tmp_path / "bare.csv", np.column_stack([time, angles]), delimiter=",")
 
     def ask(*words):
-        return subprocess.run([PROGRAM, "fit", *words], cwd=tmp_path, capture_output=True, text=True, timeout=100)
+        return subprocess.run([PROGRAM, "fit", *words], cwd=tmp_path, capture_output=True, text=True)
     named, bare = ask("track.csv"), ask("bare.csv", "--degrees")
     assert named.returncode == 0 and named.stdout == bare.stdout and "natural frequency 1.11" in named.stdout, named.stderr
     assert "pendulum: {length: 0.2" in named.stdout and "quality_factor: 46" in named.stdout

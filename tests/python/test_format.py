@@ -30,7 +30,7 @@ def test_a_hook_finds_nothing(name):
     hook = HOOKS[name]
     names = [name for name in files(*hook["types"]) if not re.search(hook.get("exclude", "(?!)"), str(name))]
     assert len(names) > 20
-    done = subprocess.run([*shlex.split(hook["entry"]), *names], cwd=ROOT, capture_output=True, text=True, timeout=120)
+    done = subprocess.run([*shlex.split(hook["entry"]), *names], cwd=ROOT, capture_output=True, text=True)
     assert done.returncode == 0, done.stdout + done.stderr
 
 

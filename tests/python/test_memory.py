@@ -36,8 +36,7 @@ def run(folder, *words, **settings):
     exports = {"LD_PRELOAD": PROGRAM.parent / "tests" / "failing_memory.so"}
     exports |= {f"KZ_FAIL_{name}": value for name, value in settings.items()}
     launcher = ["mpirun", "-n", "2", *(word for pair in exports.items() for word in ("-x", "=".join(map(str, pair))))]
-    return subprocess.run([*launcher, PROGRAM, "run", "scene.yaml", "-o", "x.h5", *words], cwd=folder, capture_output=True, text=True,
-                          timeout=120)
+    return subprocess.run([*launcher, PROGRAM, "run", "scene.yaml", "-o", "x.h5", *words], cwd=folder, capture_output=True, text=True)
 
 
 def knock(folder, rank, first, count):

@@ -14,8 +14,8 @@ SCENE = [ROOT / "scenes" / "small.yaml", "--set", "basin.method=direct", "--set"
 pytestmark = [pytest.mark.skipif(not EXTENSIVE, reason="builds the program twice: KAPITZA_EXTENSIVE=1"), pytest.mark.timeout(2400)]
 
 
-def call(*words, timeout=1800, status=0, **more):
-    done = subprocess.run(list(map(str, words)), capture_output=True, text=True, timeout=timeout, **more)
+def call(*words, status=0, **more):
+    done = subprocess.run(list(map(str, words)), capture_output=True, text=True, **more)
     assert done.returncode == status, (done.stdout + done.stderr)[-4000:]
     return done
 

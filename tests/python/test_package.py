@@ -33,7 +33,7 @@ SCENES = {
 
 
 def python(*arguments, **more):
-    return subprocess.run([sys.executable, *map(str, arguments)], capture_output=True, text=True, timeout=250, **more)
+    return subprocess.run([sys.executable, *map(str, arguments)], capture_output=True, text=True, **more)
 
 
 @pytest.fixture(scope="module")
@@ -93,7 +93,7 @@ def test_what_pip_installs(sdist, made_file, tmp_path):
     done = python("-c", run, ROOT / "scenes" / "small.yaml", cwd=tmp_path, env=alone | {"KAPITZA": str(PROGRAM)})
     assert done.returncode == 0 and "rotation +1/1" in done.stdout, done.stderr
     done = subprocess.run([place / "bin" / "kapitza-plot", "basin", made_file, "-o", "one.png", "--dpi", "40"], cwd=tmp_path, env=alone,
-                          capture_output=True, text=True, timeout=120)
+                          capture_output=True, text=True)
     assert (done.returncode, done.stdout, done.stderr) == (0, "one.png\n", "")
     assert plot("basin", made_file, "-o", tmp_path / "other.png", "--dpi", 40).returncode == 0
     assert (tmp_path / "one.png").read_bytes() == (tmp_path / "other.png").read_bytes()
@@ -101,7 +101,7 @@ def test_what_pip_installs(sdist, made_file, tmp_path):
 
 @pytest.mark.skipif(not os.environ.get("KAPITZA_EXTENSIVE"), reason="builds the program anew, minutes: KAPITZA_EXTENSIVE=1")
 def test_a_fresh_environment_builds_and_runs_an_example():
-    done = subprocess.run([ROOT / "scripts" / "test_install"], capture_output=True, text=True, timeout=580)
+    done = subprocess.run([ROOT / "scripts" / "test_install"], capture_output=True, text=True)
     assert done.returncode == 0 and "rotation +1/1" in done.stdout and done.stdout.endswith("small.png\n"), done.stderr
 
 

@@ -142,7 +142,7 @@ def test_the_end_of_the_input_ends_no_request():
     """The last line, of two frames of different views, has no newline."""
     frame = {"request": "frame", "rows": 60, "columns": 60, "quality": "moving"}
     lines = [json.dumps({**frame, "sequence": i, "view": str(i)}) for i in (1, 2)]
-    done = subprocess.run([PROGRAM, "serve", FIG12], input="\n".join(lines).encode(), capture_output=True, timeout=60, check=True)
+    done = subprocess.run([PROGRAM, "serve", FIG12], input="\n".join(lines).encode(), capture_output=True, check=True)
     headers = [json.loads(line) for line in re.findall(rb'^.*({ "answer": "frame".* })$', done.stdout, re.MULTILINE)]
     assert [(header["sequence"], header["final"]) for header in headers] == [(1, True), (2, True)]
 

@@ -9,7 +9,7 @@ from conftest import ROOT
 
 
 def shell(*arguments):
-    return subprocess.run(arguments, cwd=ROOT, capture_output=True, text=True, timeout=60)
+    return subprocess.run(arguments, cwd=ROOT, capture_output=True, text=True)
 
 
 @pytest.mark.parametrize("name", ["setup", "quickstart", "test"])
@@ -40,10 +40,32 @@ def test_what_fails_in_the_set_up_ends_the_script_that_needs_it(tmp_path):
     assert not (tmp_path / ".venv" / "requirements.done").exists()
 
 
+@pytest.mark.parametrize("ends, calls", [
+    (["0"], ["--resume"]),
+    (["2 belongs to another run", "2 belongs to another run", "0"], ["--resume", "--resume", "--force"]),
+    (["2 out of range", "2 out of range"], ["--resume", "--resume"]),
+    (["75 stopped", "0"], ["--resume", "--resume"])])
+def test_quickstart_replaces_only_a_result_of_another_run(tmp_path, ends, calls):
+    """Status 2 is said for any bad input; only a result of another scene or program is replaced. mpirun and python are stubs."""
+    (tmp_path / "scripts").mkdir()
+    shutil.copy(ROOT / "scripts" / "quickstart", tmp_path / "scripts")
+    (tmp_path / "scripts" / "setup").write_text(f'cd {tmp_path}; PATH={tmp_path}:$PATH\n')
+    (tmp_path / "ends").write_text("".join(f"{end} \n" for end in ends))
+    (tmp_path / "mpirun").write_text('#!/bin/bash\necho "${!#}" >> calls\nread -r status words < <(sed -n "$(wc -l < calls)p" ends)\n'
+                                     'echo "$words" >&2\nexit "$status"\n')
+    (tmp_path / "python").write_text("#!/bin/sh\n: > picture\n")
+    for name in ("mpirun", "python"):
+        (tmp_path / name).chmod(0o755)
+    done = shell(tmp_path / "scripts" / "quickstart")
+    assert (tmp_path / "calls").read_text().split() == calls, done.stderr
+    complete = ends[-1] == "0"
+    assert (done.returncode == 0) == complete and (tmp_path / "picture").exists() == complete
+
+
 def git(folder, *arguments):
     """Runs git with an author of its own; what it prints."""
     done = subprocess.run(["git", "-c", "user.name=t", "-c", "user.email=t@t.invalid", *arguments], cwd=folder,
-                          capture_output=True, text=True, check=True, timeout=60)
+                          capture_output=True, text=True, check=True)
     return done.stdout.strip()
 
 
@@ -98,7 +120,7 @@ def test_a_copied_or_moved_project_builds_its_own_sources(project):
 
 def test_the_folder_of_the_version_header_exists_before_anything_is_built(project):
     """Fortran warns of a folder of headers that is missing, and warnings are errors: whatever was compiled first failed."""
-    subprocess.run(["cmake", "--preset", "release"], cwd=project, capture_output=True, check=True, timeout=60)
+    subprocess.run(["cmake", "--preset", "release"], cwd=project, capture_output=True, check=True)
     assert (project / "build" / "include").is_dir()
 
 

@@ -11,7 +11,7 @@ COMMANDS = ["run", "check", "where", "view", "fit", "serve", "keys"]
 
 
 def output(*arguments):
-    done = subprocess.run([PROGRAM, *arguments], capture_output=True, text=True, timeout=60)
+    done = subprocess.run([PROGRAM, *arguments], capture_output=True, text=True)
     assert (done.returncode, done.stderr) == (0, "")
     return done.stdout
 
@@ -26,7 +26,7 @@ def needs(tool):
 
 
 def in_shell(tool, script, *arguments):
-    done = subprocess.run([tool, *arguments, "-c", script], capture_output=True, text=True, timeout=60)
+    done = subprocess.run([tool, *arguments, "-c", script], capture_output=True, text=True)
     assert (done.returncode, done.stderr) == (0, ""), done.stderr
     return done.stdout.split()
 
@@ -41,7 +41,7 @@ def bash(line):
 def fish(line):
     """The same of fish, whose answers are words and descriptions with a tab between."""
     done = subprocess.run(["fish", "--no-config", "-c", f"'{PROGRAM}' --completion fish | source; complete -C '{line}'"],
-                          capture_output=True, text=True, timeout=60)
+                          capture_output=True, text=True)
     assert done.returncode == 0 and done.stderr == "", done.stderr
     return [row.split("\t")[0] for row in done.stdout.splitlines()]
 
@@ -59,7 +59,7 @@ def test_commands_options_and_keys_are_completed(shell):
 def test_zsh_understands_its_completion(tmp_path):
     needs("zsh")
     (tmp_path / "_kapitza").write_text(output("--completion", "zsh"))
-    subprocess.run(["zsh", "-n", tmp_path / "_kapitza"], check=True, timeout=60)
+    subprocess.run(["zsh", "-n", tmp_path / "_kapitza"], check=True)
     script = ("_describe() { print -l ${(P)2}; }; _arguments() { print -l -- $@; }; _files() { :; }; words=(kapitza run); CURRENT=3; "
               f"source {tmp_path}/_kapitza")
     found = in_shell("zsh", script, "-f")
@@ -72,10 +72,10 @@ def test_the_manual_page_has_every_option_and_no_warning(tmp_path):
     for option in {option for command in COMMANDS for option in options_of(command)} | set(options_of()):
         assert f"\\fB{option}\\fR" in plain, option
     needs("groff")
-    done = subprocess.run(["groff", "-man", "-Tascii", "-ww"], input=text, capture_output=True, text=True, timeout=60)
+    done = subprocess.run(["groff", "-man", "-Tascii", "-ww"], input=text, capture_output=True, text=True)
     assert (done.returncode, done.stderr) == (0, "") and "EXIT STATUS" in re.sub(".\x08", "", done.stdout)
 
 
 def test_an_unknown_shell_is_refused():
-    done = subprocess.run([PROGRAM, "--completion", "csh"], capture_output=True, text=True, timeout=60)
+    done = subprocess.run([PROGRAM, "--completion", "csh"], capture_output=True, text=True)
     assert done.returncode == 2 and done.stderr == 'kapitza: error: --completion: "csh" is unknown; it must be bash, zsh or fish\n'

@@ -1,11 +1,11 @@
 !> A map that counts the periods it integrates with their derivative: what a search for cycles costs, for tests.
 module kz_test_counted
   use, intrinsic :: iso_c_binding, only: dp => c_double, c_int64_t
-  use kz_lanes_map, only: flow_t, WIDTH
+  use kz_vector_map, only: flow_t, WIDTH
   use kz_kernel_flows, only: make_flow, fine_numerics
-  use kz_lanes_schemes, only: SPLIT6_ROW
+  use kz_vector_schemes, only: SPLIT6_ROW
   use kz_model_pendulum, only: pendulum_t
-  use kz_lanes_step_table, only: numerics_t
+  use kz_vector_step_table, only: numerics_t
   use kz_cycles_cycles, only: attractor_t
   use kz_attractors_cycle_search, only: search_t, find_cycle
   implicit none

@@ -2,7 +2,7 @@
 module kz_jets_test
   use, intrinsic :: iso_c_binding, only: c_double, c_int32_t
   use kz_model_pendulum, only: pendulum_t
-  use kz_split_jets, only: jets_t, make_jets, set_pendulum, advance_jets, LANES, TERMS
+  use kz_splitting_jets, only: jets_t, make_jets, set_pendulum, advance_jets, LANES, TERMS
   implicit none
   private
 

@@ -2,8 +2,8 @@
 module kz_test_neighbours
   use, intrinsic :: iso_c_binding, only: dp => c_double, c_int32_t
   use kz_kernel_flows, only: make_flow
-  use kz_lanes_map, only: flow_t, WIDTH, PI
-  use kz_lanes_step_table, only: numerics_t
+  use kz_vector_map, only: flow_t, WIDTH, PI
+  use kz_vector_step_table, only: numerics_t
   use kz_model_pendulum, only: pendulum_t
   use kz_processed_processor, only: sine
   implicit none

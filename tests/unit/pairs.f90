@@ -1,8 +1,8 @@
 !> Whole drive periods in pairs of doubles, for tests in C.
 module kz_test_pairs
   use, intrinsic :: iso_c_binding, only: c_double, c_int64_t, c_ptr, c_null_ptr, c_loc, c_f_pointer
-  use kz_lanes_map, only: WIDTH
-  use kz_extended_pairs, only: pairs_t, pair_series_t, pair_lanes_t, make_pairs, advance_pairs
+  use kz_vector_map, only: WIDTH
+  use kz_taylor_pairs, only: pairs_t, pair_series_t, pair_lanes_t, make_pairs, advance_pairs
   use kz_model_pendulum, only: pendulum_t
   implicit none
   private

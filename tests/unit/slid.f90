@@ -1,11 +1,11 @@
 !> Periods of pendulums along a slider, by series that come from neighbours and by their own, for tests.
 module kz_test_slid
   use, intrinsic :: iso_c_binding, only: dp => c_double, c_int64_t, c_ptr
-  use kz_lanes_map, only: flow_t, WIDTH, PI
+  use kz_vector_map, only: flow_t, WIDTH, PI
   use kz_kernel_flows, only: make_flow
-  use kz_lanes_schemes, only: PROCESSED_ROW
+  use kz_vector_schemes, only: PROCESSED_ROW
   use kz_model_pendulum, only: pendulum_t
-  use kz_lanes_step_table, only: numerics_t
+  use kz_vector_step_table, only: numerics_t
   implicit none
   private
 

@@ -7,7 +7,7 @@ module kz_api_attractors
   use kz_attractors_cycle_search, only: append, find_cycle
   use kz_attractors_quasiperiodic, only: find_quasiperiodic
   use kz_cycles_cycles, only: attractor_t, enter_points
-  use kz_lanes_map, only: PI
+  use kz_vector_map, only: PI
   implicit none
   private
 

@@ -3,7 +3,7 @@ module kz_api_curves
   use, intrinsic :: iso_c_binding, only: dp => c_double, c_int32_t, c_int64_t
   use kz_cycles_curves, only: plane_t, curve_kind_t, system_t, make_system, linearise, images, POINTS, UNKNOWNS, COARSE
   use kz_cycles_normal_forms, only: normal_form
-  use kz_split_jets, only: TERMS
+  use kz_splitting_jets, only: TERMS
   implicit none
   private
 

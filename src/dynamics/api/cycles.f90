@@ -1,10 +1,10 @@
 !> The C interface of dynamics: the cycle near a state; cycles that were found on lines as a catalogue (include/kapitza/dynamics.h).
 module kz_api_cycles
   use, intrinsic :: iso_c_binding, only: dp => c_double, c_int64_t, c_ptr
-  use kz_lanes_map, only: flow_t, PI
+  use kz_vector_map, only: flow_t, PI
   use kz_kernel_flows, only: make_flow
   use kz_model_pendulum, only: pendulum_t, is_mirrored
-  use kz_lanes_step_table, only: numerics_t
+  use kz_vector_step_table, only: numerics_t
   use kz_api_dynamics, only: dynamics_t, of_handle
   use kz_attractors_cycle_search, only: append_with_mirror, join
   use kz_cycles_cycles, only: attractor_t, close_cycle, enter_points, symmetrise

@@ -8,11 +8,11 @@ module kz_api_dynamics
   use kz_grown_cell_images, only: images_t
   use kz_grown_grid, only: regions_t, draw_attractors
   use kz_kernel_flows, only: make_flow, fine_numerics
-  use kz_lanes_locks, only: create_lock, free_lock
+  use kz_vector_locks, only: create_lock, free_lock
   use kz_labels_levels, only: levels_t
   use kz_labels_released, only: released_t
-  use kz_lanes_map, only: flow_t
-  use kz_lanes_step_table, only: numerics_t
+  use kz_vector_map, only: flow_t
+  use kz_vector_step_table, only: numerics_t
   use kz_maps_map_table, only: table_t
   use kz_model_pendulum, only: pendulum_t, is_mirrored
   use kz_model_release, only: release_t

@@ -2,7 +2,7 @@
 module kz_api_follow
   use, intrinsic :: iso_c_binding, only: dp => c_double, c_int32_t, c_int64_t, c_ptr
   use kz_maps_states, only: states_to_physical
-  use kz_lanes_map, only: map_t, flow_t
+  use kz_vector_map, only: map_t, flow_t
   use kz_api_dynamics, only: dynamics_t, of_handle
   use kz_labels_label, only: follow
   use kz_labels_smooth, only: smooth_times

@@ -3,15 +3,15 @@
 module kz_api_label
   use, intrinsic :: iso_c_binding, only: dp => c_double, c_int32_t, c_int64_t, c_ptr
   use kz_api_dynamics, only: dynamics_t, of_handle
-  use kz_extended_pairs, only: pair_of, quad_of
-  use kz_extended_taylor, only: doubles_of, qp, PI_QUAD
-  use kz_lanes_locks, only: take_lock, leave_lock
+  use kz_taylor_pairs, only: pair_of, quad_of
+  use kz_taylor_taylor, only: doubles_of, qp, PI_QUAD
+  use kz_vector_locks, only: take_lock, leave_lock
   use kz_labels_carrier, only: carrier_t, orbit_t
   use kz_labels_levels, only: prepare_level, carrier_of, noise_of, is_useful, LEVEL_DOUBLE, LEVEL_FINE
   use kz_labels_orbits, only: decision_t, follow_orbits, DOUBTFUL, PENDING
   use kz_labels_released, only: make_released, carry_released
   use kz_labels_spread, only: add_ellipse
-  use kz_lanes_map, only: PI
+  use kz_vector_map, only: PI
   use kz_maps_states, only: wrapped
   use kz_model_release, only: release_t, strobes_before
   implicit none

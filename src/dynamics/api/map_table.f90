@@ -1,7 +1,7 @@
 !> The C interface of dynamics: starts of a window, how fast they become, and the map table (include/kapitza/dynamics.h).
 module kz_api_map_table
   use, intrinsic :: iso_c_binding, only: dp => c_double, c_int32_t, c_int64_t, c_ptr
-  use kz_lanes_map, only: WIDTH, PI
+  use kz_vector_map, only: WIDTH, PI
   use kz_api_dynamics, only: dynamics_t, of_handle
   use kz_maps_map_table, only: make_table, table_row, set_table_rows, inner_top, table_map_t, make_table_map
   use kz_maps_states, only: wrapped

@@ -2,7 +2,7 @@
 module kz_attractors_catalogue
   use, intrinsic :: iso_c_binding, only: dp => c_double
   use, intrinsic :: iso_fortran_env, only: int64
-  use kz_lanes_map, only: PI
+  use kz_vector_map, only: PI
   use kz_cycles_cycles, only: attractor_t
   use kz_grown_grid, only: COVER
   use kz_maps_states, only: rounded

@@ -2,7 +2,7 @@
 !> cells that long orbits on them visit.
 module kz_attractors_chaos
   use, intrinsic :: iso_c_binding, only: dp => c_double
-  use kz_lanes_map, only: flow_t, WIDTH, PI
+  use kz_vector_map, only: flow_t, WIDTH, PI
   use kz_cycles_cycles, only: attractor_t
   use kz_cycles_features, only: find_features
   use kz_grown_grid, only: regions_t, find_regions, cover_cell, COVER

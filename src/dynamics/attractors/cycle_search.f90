@@ -1,7 +1,7 @@
 !> Discovery: recurrences of the stroboscopic map among states that no known trapping region has taken.
 module kz_attractors_cycle_search
   use, intrinsic :: iso_c_binding, only: dp => c_double
-  use kz_lanes_map, only: flow_t, WIDTH, PI
+  use kz_vector_map, only: flow_t, WIDTH, PI
   use kz_model_pendulum, only: pendulum_t, is_mirrored
   use kz_cycles_cycles, only: attractor_t, close_cycle, complete_attractor, enter_points, mirror_image, listed_from_lowest
   use kz_grown_ellipses, only: find_ellipses

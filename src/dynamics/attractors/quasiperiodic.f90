@@ -9,7 +9,7 @@ module kz_attractors_quasiperiodic
   use kz_attractors_cycle_search, only: search_t
   use kz_cycles_cycles, only: attractor_t, QUASIPERIODIC
   use kz_grown_grid, only: regions_t, find_regions, cover_cell, COVER
-  use kz_lanes_map, only: flow_t, WIDTH, PI
+  use kz_vector_map, only: flow_t, WIDTH, PI
   use kz_model_pendulum, only: is_mirrored
   implicit none
   private

@@ -1,7 +1,7 @@
 !> One cycle carried from parameters to parameters: include/kapitza/dynamics.h.
 module kz_cycles_continuation
   use, intrinsic :: iso_c_binding, only: dp => c_double, c_int32_t
-  use kz_lanes_map, only: flow_t, PI
+  use kz_vector_map, only: flow_t, PI
   use kz_kernel_flows, only: make_flow, fine_numerics
   use kz_model_pendulum, only: pendulum_t, is_mirrored
   use kz_cycles_cycles, only: attractor_t, orbit_of

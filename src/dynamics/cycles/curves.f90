@@ -7,10 +7,10 @@
 !> where trace DG = e (1 + det DG).
 module kz_cycles_curves
   use, intrinsic :: iso_c_binding, only: dp => c_double, c_int32_t, c_bool, c_funptr, c_ptr, c_f_procpointer
-  use kz_lanes_map, only: PI
+  use kz_vector_map, only: PI
   use kz_cycles_shooting, only: solve
   use kz_model_pendulum, only: pendulum_t
-  use kz_split_jets, only: jets_t, make_jets, set_pendulum, advance_jets, LANES, TERMS, DX, DY, DP_ => DP, DQ, &
+  use kz_splitting_jets, only: jets_t, make_jets, set_pendulum, advance_jets, LANES, TERMS, DX, DY, DP_ => DP, DQ, &
                            DXX, DXY, DYY, DXP, DYP, DXQ, DYQ
   implicit none
   private

@@ -1,7 +1,7 @@
 !> Cycles of the stroboscopic map: from a state nearby to strobe points and multipliers, symmetry, mirror image.
 module kz_cycles_cycles
   use, intrinsic :: iso_c_binding, only: dp => c_double
-  use kz_lanes_map, only: flow_t, WIDTH, PI
+  use kz_vector_map, only: flow_t, WIDTH, PI
   use kz_cycles_newton, only: newton, minimal_period
   use kz_maps_matrices, only: eigenvalues, IDENTITY
   use kz_maps_states, only: angle_difference, states_to_map, same_state, rounded

@@ -1,7 +1,7 @@
 !> Features of an attractor over continuous time: mean, amplitude, centre.
 module kz_cycles_features
   use, intrinsic :: iso_c_binding, only: dp => c_double, c_int32_t, c_int64_t
-  use kz_lanes_map, only: flow_t, PI
+  use kz_vector_map, only: flow_t, PI
   use kz_model_pendulum, only: pendulum_t, acceleration
   use kz_cycles_cycles, only: attractor_t
   use kz_maps_states, only: angle_difference

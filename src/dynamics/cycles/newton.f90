@@ -1,7 +1,7 @@
 !> Newton's method on the n-period stroboscopic map, and how well it places a fixed point.
 module kz_cycles_newton
   use, intrinsic :: iso_c_binding, only: dp => c_double
-  use kz_lanes_map, only: flow_t, WIDTH, PI
+  use kz_vector_map, only: flow_t, WIDTH, PI
   use kz_maps_matrices, only: solved, IDENTITY
   use kz_maps_states, only: angle_difference, same_state
   implicit none

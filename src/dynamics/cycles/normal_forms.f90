@@ -3,7 +3,7 @@ module kz_cycles_normal_forms
   use, intrinsic :: iso_c_binding, only: dp => c_double
   use kz_cycles_curves, only: system_t
   use kz_maps_matrices, only: inverse_of, IDENTITY
-  use kz_split_jets, only: DX, DY, DP_ => DP, DQ, DXX, DXY, DYY, DXP, DYP, DXQ, DYQ, DXXX, DXXY, DXYY, DYYY
+  use kz_splitting_jets, only: DX, DY, DP_ => DP, DQ, DXX, DXY, DYY, DXP, DYP, DXQ, DYQ, DXXX, DXXY, DXYY, DYYY
   implicit none
   private
   public :: normal_form

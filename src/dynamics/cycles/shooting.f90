@@ -2,7 +2,7 @@
 !> points that are right to some 0.1 rad lead to it, however strongly it repels.
 module kz_cycles_shooting
   use, intrinsic :: iso_c_binding, only: dp => c_double
-  use kz_lanes_map, only: flow_t, WIDTH, PI
+  use kz_vector_map, only: flow_t, WIDTH, PI
   use kz_maps_states, only: angle_difference, separation
   implicit none
   private

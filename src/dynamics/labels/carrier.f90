@@ -3,11 +3,11 @@
 !> Regions see the states in the coordinates of that map.
 module kz_labels_carrier
   use, intrinsic :: iso_c_binding, only: dp => c_double, c_int64_t
-  use kz_extended_pairs, only: pairs_t, pair_lanes_t, advance_pairs, pair_of, quad_of
-  use kz_extended_taylor, only: drive_t, advance_period, doubles_of, qp, PI_QUAD
+  use kz_taylor_pairs, only: pairs_t, pair_lanes_t, advance_pairs, pair_of, quad_of
+  use kz_taylor_taylor, only: drive_t, advance_period, doubles_of, qp, PI_QUAD
   use kz_labels_period_error, only: period_error_t, class_of, noise_at
   use kz_labels_spread, only: add_ellipse
-  use kz_lanes_map, only: flow_t, WIDTH, CAPACITY, PI
+  use kz_vector_map, only: flow_t, WIDTH, CAPACITY, PI
   implicit none
   private
   public :: orbit_t, carrier_t, make_carrier

@@ -1,7 +1,7 @@
 !> Follows many starts with any map until each is trapped. Starts enter the coordinates of the map many at a time.
 module kz_labels_label
   use, intrinsic :: iso_c_binding, only: dp => c_double, c_int64_t, c_int32_t
-  use kz_lanes_map, only: map_t, WIDTH, CAPACITY
+  use kz_vector_map, only: map_t, WIDTH, CAPACITY
   use kz_maps_lanes, only: queued_lanes_t, list_flagged
   use kz_cycles_cycles, only: attractor_t
   use kz_grown_grid, only: regions_t, find_regions, chaos_region

@@ -2,16 +2,16 @@
 module kz_labels_levels
   use, intrinsic :: iso_c_binding, only: dp => c_double
   use, intrinsic :: ieee_exceptions, only: ieee_get_halting_mode, ieee_set_halting_mode, ieee_set_flag, ieee_usual
-  use kz_extended_pairs, only: pairs_t, pair_series_t, make_pairs
-  use kz_extended_probes, only: measure_quad
-  use kz_extended_taylor, only: drive_t, make_drive, TAYLOR_STEPS
+  use kz_taylor_pairs, only: pairs_t, pair_series_t, make_pairs
+  use kz_taylor_probes, only: measure_quad
+  use kz_taylor_taylor, only: drive_t, make_drive, TAYLOR_STEPS
   use kz_kernel_flows, only: make_flow
   use kz_labels_carrier, only: carrier_t, make_carrier, BY_FINE_MAP, BY_PAIRS, BY_SERIES
   use kz_labels_period_error, only: period_error_t, speed_probes_t, make_speed_probes, measure_period
-  use kz_lanes_map, only: flow_t
-  use kz_lanes_schemes, only: PROCESSED_ROW, SPLIT6_ROW
+  use kz_vector_map, only: flow_t
+  use kz_vector_schemes, only: PROCESSED_ROW, SPLIT6_ROW
   use kz_model_pendulum, only: pendulum_t
-  use kz_lanes_step_table, only: numerics_t
+  use kz_vector_step_table, only: numerics_t
   use kz_processed_tables, only: MOST_DAMPING
   implicit none
   private

@@ -8,7 +8,7 @@ module kz_labels_orbits
   use kz_maps_lanes, only: queued_lanes_t, list_flagged
   use kz_labels_carrier, only: carrier_t, orbit_t
   use kz_labels_spread, only: spread_errors, flag_large, flag_done
-  use kz_lanes_map, only: WIDTH, CAPACITY, PI
+  use kz_vector_map, only: WIDTH, CAPACITY, PI
   use kz_maps_matrices, only: axes_of
   use kz_maps_states, only: angle_difference
   implicit none

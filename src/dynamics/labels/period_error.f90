@@ -2,9 +2,9 @@
 !> true images are known.
 module kz_labels_period_error
   use, intrinsic :: iso_c_binding, only: dp => c_double
-  use kz_extended_probes, only: probes_t, make_probes
-  use kz_extended_taylor, only: drive_t, make_drive, qp, TAYLOR_STEPS
-  use kz_lanes_map, only: flow_t, WIDTH, PI
+  use kz_taylor_probes, only: probes_t, make_probes
+  use kz_taylor_taylor, only: drive_t, make_drive, qp, TAYLOR_STEPS
+  use kz_vector_map, only: flow_t, WIDTH, PI
   use kz_model_pendulum, only: pendulum_t, stiffness
   use kz_model_release, only: stretch_t, whole_period
   implicit none

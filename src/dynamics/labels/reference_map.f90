@@ -3,10 +3,10 @@
 module kz_labels_reference_map
   use, intrinsic :: iso_c_binding, only: dp => c_double, c_int64_t
   use kz_maps_states, only: states_to_map
-  use kz_lanes_map, only: map_t, flow_t, put_state, move_state, WIDTH, CAPACITY, PI
+  use kz_vector_map, only: map_t, flow_t, put_state, move_state, WIDTH, CAPACITY, PI
   use kz_model_pendulum, only: pendulum_t
   use kz_maps_states, only: wrapped
-  use kz_extended_taylor, only: drive_t, make_drive, advance_period, qp, PI_QUAD
+  use kz_taylor_taylor, only: drive_t, make_drive, advance_period, qp, PI_QUAD
   implicit none
   private
   public :: reference_map_t, make_reference_map

@@ -2,13 +2,13 @@
 !> with tables of its own, many orbits at once.
 module kz_labels_released
   use, intrinsic :: iso_c_binding, only: dp => c_double
-  use kz_extended_probes, only: measure_quad
-  use kz_extended_taylor, only: drive_t, make_drive, TAYLOR_STEPS
+  use kz_taylor_probes, only: measure_quad
+  use kz_taylor_taylor, only: drive_t, make_drive, TAYLOR_STEPS
   use kz_kernel_flows, only: make_stretch_flow
   use kz_labels_carrier, only: carrier_t, orbit_t, make_carrier, BY_SERIES
   use kz_labels_period_error, only: period_error_t, speed_probes_t, make_speed_probes, measure_period
   use kz_labels_spread, only: spread_errors
-  use kz_lanes_map, only: flow_t, WIDTH, CAPACITY
+  use kz_vector_map, only: flow_t, WIDTH, CAPACITY
   use kz_model_pendulum, only: pendulum_t
   use kz_model_release, only: release_t, stretch_t, first_stretch, next_stretch, is_open, strobes_before
   implicit none

@@ -1,7 +1,7 @@
 !> The errors of orbits over a period, many at once. (A file of its own: called, not copied into a caller, its loop goes over vectors.)
 module kz_labels_spread
   use, intrinsic :: iso_c_binding, only: dp => c_double
-  use kz_lanes_map, only: WIDTH, CAPACITY
+  use kz_vector_map, only: WIDTH, CAPACITY
   implicit none
   private
   public :: spread_errors, add_ellipse, flag_large, flag_done

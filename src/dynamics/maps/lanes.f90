@@ -2,7 +2,7 @@
 !> type that extends it.
 module kz_maps_lanes
   use, intrinsic :: iso_c_binding, only: c_int64_t
-  use kz_lanes_map, only: WIDTH, CAPACITY
+  use kz_vector_map, only: WIDTH, CAPACITY
   implicit none
   private
   public :: lanes_t, queued_lanes_t, list_flagged

@@ -4,7 +4,7 @@
 !> pi are stored; a state is folded there, and its image unfolded.
 module kz_maps_map_table
   use, intrinsic :: iso_c_binding, only: dp => c_double, c_int64_t
-  use kz_lanes_map, only: map_t, flow_t, WIDTH
+  use kz_vector_map, only: map_t, flow_t, WIDTH
   use kz_maps_states, only: midperiod_angle, MIDPERIOD
   implicit none
   private

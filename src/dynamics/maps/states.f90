@@ -1,7 +1,7 @@
 !> States of the stroboscopic map, (half-turns, rad per drive radian): their distance, and when two count as one.
 module kz_maps_states
   use, intrinsic :: iso_c_binding, only: dp => c_double
-  use kz_lanes_map, only: flow_t, WIDTH, PI
+  use kz_vector_map, only: flow_t, WIDTH, PI
   implicit none
   private
   public :: wrapped, states_to_map, states_to_physical, angle_difference, separation, same_state, midperiod_angle, rounded, &

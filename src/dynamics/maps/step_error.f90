@@ -3,10 +3,10 @@
 module kz_maps_step_error
   use, intrinsic :: iso_c_binding, only: dp => c_double, c_int32_t, c_int64_t
   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
-  use kz_lanes_map, only: map_t, flow_t, WIDTH, PI
+  use kz_vector_map, only: map_t, flow_t, WIDTH, PI
   use kz_kernel_flows, only: make_flow
   use kz_model_pendulum, only: pendulum_t, stiffness, is_mirrored
-  use kz_lanes_step_table, only: numerics_t
+  use kz_vector_step_table, only: numerics_t
   use kz_maps_states, only: separation
   implicit none
   private

@@ -1,7 +1,7 @@
 !> When a motion comes back to a strobe point of its own: the last points of every lane of a batch.
 module kz_plane_recurrence
   use, intrinsic :: iso_c_binding, only: dp => c_double
-  use kz_lanes_map, only: map_t, WIDTH, PI
+  use kz_vector_map, only: map_t, WIDTH, PI
   implicit none
   private
   public :: past_t, make_past

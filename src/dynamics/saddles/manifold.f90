@@ -3,7 +3,7 @@
 module kz_saddles_manifold
   use, intrinsic :: iso_c_binding, only: dp => c_double, c_int32_t, c_int64_t
   use kz_kernel_flows, only: make_flow, fine_numerics
-  use kz_lanes_map, only: flow_t, WIDTH, PI
+  use kz_vector_map, only: flow_t, WIDTH, PI
   use kz_cycles_newton, only: newton, n_periods
   use kz_maps_matrices, only: eigenvalues, IDENTITY
   use kz_maps_states, only: angle_difference, separation

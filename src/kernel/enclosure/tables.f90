@@ -1,5 +1,5 @@
 !> Constants of the enclosures in quad precision.
-module kz_interval_tables
+module kz_enclosure_tables
   use, intrinsic :: iso_c_binding, only: c_float128, c_int32_t
   use, intrinsic :: iso_fortran_env, only: real128
   use kz_model_pendulum, only: pendulum_t, force_series
@@ -27,4 +27,4 @@ contains
     across = -across
   end subroutine interval_tables
 
-end module kz_interval_tables
+end module kz_enclosure_tables

@@ -1,10 +1,10 @@
 !> Lanes moved by a split scheme or Runge-Kutta.
-module kz_split_batch
+module kz_splitting_batch
   use, intrinsic :: iso_c_binding, only: c_double, c_int64_t
-  use kz_lanes_map, only: flow_t, WIDTH
-  use kz_lanes_step_table, only: period_t
-  use kz_lanes_wrap, only: wrap, vectors_of, flush_subnormals, restore_control
-  use kz_split_stages, only: advance_steps, advance_tangents
+  use kz_vector_map, only: flow_t, WIDTH
+  use kz_vector_step_table, only: period_t
+  use kz_vector_wrap, only: wrap, vectors_of, flush_subnormals, restore_control
+  use kz_splitting_stages, only: advance_steps, advance_tangents
   implicit none
   private
   public :: make_batch
@@ -87,4 +87,4 @@ contains
     call restore_control(control)
   end subroutine sample
 
-end module kz_split_batch
+end module kz_splitting_batch

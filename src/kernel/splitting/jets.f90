@@ -1,10 +1,10 @@
 !> One drive period of split6 with its derivatives: of third order in the state, of first order in two parameters, and mixed ones of second
 !> order. Kicks and drifts are elementary, so these are the derivatives of the discrete map itself, to rounding.
-module kz_split_jets
+module kz_splitting_jets
   use, intrinsic :: iso_c_binding, only: rk => c_double, c_int32_t, c_int64_t
   use, intrinsic :: iso_fortran_env, only: real128
-  use kz_lanes_map, only: PI
-  use kz_lanes_schemes, only: stage_t, scheme_stages, SCHEMES, SPLIT6_ROW
+  use kz_vector_map, only: PI
+  use kz_vector_schemes, only: stage_t, scheme_stages, SCHEMES, SPLIT6_ROW
   use kz_model_pendulum, only: pendulum_t
   implicit none
   private
@@ -150,4 +150,4 @@ contains
                        jets%kicks(:, :, (from - 1)*KICKS + 1:to*KICKS), jets%drifts, u, v, theta, velocity)
   end subroutine advance_jets
 
-end module kz_split_jets
+end module kz_splitting_jets

@@ -1,11 +1,11 @@
 !> A batch of pendulums that differ: one drive period of split6 in double precision, a pendulum a lane. The decay and the drifts of
 !> each lane stand in tables; its kicks are k and m times those of all, since the force is linear in both.
-module kz_split_mixed_batch
+module kz_splitting_mixed_batch
   use, intrinsic :: iso_c_binding, only: rk => c_double, ik => c_int64_t
-  use kz_lanes_map, only: map_t, put_state, move_state, WIDTH, PI
-  use kz_lanes_schemes, only: stage_t, scheme_stages, SCHEMES, SPLIT6_ROW
-  use kz_lanes_sine, only: SINE_COEFFICIENTS, ROUND_TO_INTEGER, SIGN_SHIFT, INVERSE_PI
-  use kz_lanes_wrap, only: wrap, vectors_of
+  use kz_vector_map, only: map_t, put_state, move_state, WIDTH, PI
+  use kz_vector_schemes, only: stage_t, scheme_stages, SCHEMES, SPLIT6_ROW
+  use kz_vector_sine, only: SINE_COEFFICIENTS, ROUND_TO_INTEGER, SIGN_SHIFT, INVERSE_PI
+  use kz_vector_wrap, only: wrap, vectors_of
   use kz_model_pendulum, only: pendulum_t, force_of_parameters
   implicit none
   private
@@ -178,4 +178,4 @@ contains
 
   include 'vector/sine.inc'
 
-end module kz_split_mixed_batch
+end module kz_splitting_mixed_batch

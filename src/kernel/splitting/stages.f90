@@ -1,9 +1,9 @@
 !> The stages of one period of split schemes and Runge-Kutta, and their tangents.
-module kz_split_stages
+module kz_splitting_stages
   use, intrinsic :: iso_fortran_env, only: rk => real64, ik => int64
-  use kz_lanes_map, only: WIDTH
-  use kz_lanes_sine, only: SINE_COEFFICIENTS, ROUND_TO_INTEGER, SIGN_SHIFT, INVERSE_PI
-  use kz_lanes_step_table, only: period_t
+  use kz_vector_map, only: WIDTH
+  use kz_vector_sine, only: SINE_COEFFICIENTS, ROUND_TO_INTEGER, SIGN_SHIFT, INVERSE_PI
+  use kz_vector_step_table, only: period_t
   implicit none
   private
   public :: advance_steps, advance_tangents
@@ -180,4 +180,4 @@ contains
 
   include 'vector/sine.inc'
 
-end module kz_split_stages
+end module kz_splitting_stages

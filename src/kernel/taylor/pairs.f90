@@ -2,18 +2,18 @@
 !> error of a period, measured against quad-precision Taylor series, is at most a tolerance. States are physical: the processor is
 !> applied at both ends of every period. Faster states need more steps, so there are several tables, by speeds; the fastest states
 !> are advanced by the Taylor series themselves.
-module kz_extended_pairs
+module kz_taylor_pairs
   use, intrinsic :: iso_c_binding, only: c_double, c_int32_t, c_int64_t, c_ptr, c_null_ptr
   use, intrinsic :: iso_fortran_env, only: real128
   use, intrinsic :: ieee_exceptions, only: ieee_get_halting_mode, ieee_set_halting_mode, ieee_set_flag, ieee_usual
-  use kz_lanes_map, only: WIDTH
-  use kz_lanes_step_search, only: trial_t, search_steps, expected_steps
-  use kz_extended_pairs_level, only: level_t, pair_lanes_t, make_level, advance_level, pair_of, quad_of
+  use kz_vector_map, only: WIDTH
+  use kz_vector_step_search, only: trial_t, search_steps, expected_steps
+  use kz_taylor_pairs_level, only: level_t, pair_lanes_t, make_level, advance_level, pair_of, quad_of
   use kz_processed_tables, only: MOST_DAMPING
   use kz_processed_tables_r128, only: series_t, make_mixed_series, MOST_PAIR_KICKS, ORDER
   use kz_model_pendulum, only: pendulum_t
-  use kz_extended_probes, only: probes_t, make_probes, measure_quad
-  use kz_extended_taylor, only: drive_t, make_drive, advance_period, PI => PI_QUAD, TAYLOR_STEPS
+  use kz_taylor_probes, only: probes_t, make_probes, measure_quad
+  use kz_taylor_taylor, only: drive_t, make_drive, advance_period, PI => PI_QUAD, TAYLOR_STEPS
   implicit none
   private
   public :: pairs_t, pair_series_t, pair_lanes_t, make_pairs, advance_pairs, pair_of, quad_of
@@ -245,4 +245,4 @@ contains
     turns(lane) = turns(lane) + gained
   end subroutine advance_fastest
 
-end module kz_extended_pairs
+end module kz_taylor_pairs

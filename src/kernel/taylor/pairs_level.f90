@@ -1,8 +1,8 @@
 !> One drive period in pairs of doubles (some 32 digits): the tables of the processed splitting for one range of speeds.
-module kz_extended_pairs_level
+module kz_taylor_pairs_level
   use, intrinsic :: iso_c_binding, only: c_double, c_int32_t, c_int64_t
   use, intrinsic :: iso_fortran_env, only: real128
-  use kz_lanes_map, only: WIDTH
+  use kz_vector_map, only: WIDTH
   use kz_processed_tables_r128, only: series_t, processed_t, processor_t, make_processed, MOST_PAIR_DRIFTS, ORDER
   use kz_model_pendulum, only: pendulum_t
   implicit none
@@ -226,4 +226,4 @@ contains
     call pairs_displace(level%from_kernel, int(n, c_int64_t), lanes)
   end subroutine advance_level
 
-end module kz_extended_pairs_level
+end module kz_taylor_pairs_level

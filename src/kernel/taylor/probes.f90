@@ -1,9 +1,9 @@
 !> States and what the equation makes of them in a drive period, by Taylor series in quad precision: what the errors of a period of every
 !> other integrator are measured against.
-module kz_extended_probes
+module kz_taylor_probes
   use, intrinsic :: iso_c_binding, only: c_double, c_int32_t, c_int64_t, c_float128
   use kz_model_pendulum, only: pendulum_t
-  use kz_extended_taylor, only: drive_t, make_drive, advance_period, qp, PI_QUAD, TAYLOR_STEPS
+  use kz_taylor_taylor, only: drive_t, make_drive, advance_period, qp, PI_QUAD, TAYLOR_STEPS
   implicit none
   private
   public :: probes_t, make_probes, measure_quad
@@ -123,4 +123,4 @@ contains
     error = measure_quad(drive, fastest)
   end function reference_error
 
-end module kz_extended_probes
+end module kz_taylor_probes

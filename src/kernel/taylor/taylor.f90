@@ -1,6 +1,6 @@
 !> The reference: whole periods of the pendulum's equation (kz_model_pendulum) in quad precision (real128), by Taylor
 !> series of fixed order (taylor_steps.c) in steps that are halved until the series of every step is complete.
-module kz_extended_taylor
+module kz_taylor_taylor
   use, intrinsic :: iso_c_binding, only: dp => c_double, c_int32_t, c_int64_t
   use, intrinsic :: iso_fortran_env, only: real128, int64
   use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan
@@ -260,4 +260,4 @@ contains
     x = real(part(:, 1), qp) + (real(part(:, 2), qp) + part(:, 3))
   end function quads_of
 
-end module kz_extended_taylor
+end module kz_taylor_taylor

@@ -1,5 +1,5 @@
 !> Locks of threads: include/kapitza/common_threads.h.
-module kz_lanes_locks
+module kz_vector_locks
   use, intrinsic :: iso_c_binding, only: c_ptr
   implicit none
   private
@@ -29,4 +29,4 @@ module kz_lanes_locks
     end subroutine leave_lock
   end interface
 
-end module kz_lanes_locks
+end module kz_vector_locks

@@ -3,7 +3,7 @@
 !>
 !> Inside, angles are in half-turns, u = theta/pi: the wrap to [-1, 1] is exact, and the mirror image (-u, -v) of a state goes
 !> to the mirror image of its image, to the bit.
-module kz_lanes_map
+module kz_vector_map
   use, intrinsic :: iso_c_binding, only: c_double, c_int64_t
   implicit none
   private
@@ -172,4 +172,4 @@ contains
     self%turns(to) = self%turns(from)
   end subroutine move_state
 
-end module kz_lanes_map
+end module kz_vector_map

@@ -1,5 +1,5 @@
 !> Constants of sin(pi u) in double precision: the reduction to half a turn, the polynomial, the vectors that compute it (sine.inc).
-module kz_lanes_sine
+module kz_vector_sine
   use, intrinsic :: iso_fortran_env, only: rk => real64, ik => int64
   implicit none
   private
@@ -24,4 +24,4 @@ module kz_lanes_sine
     -0.0000219031854208053767726_rk, &
     7.69472732830679049614e-7_rk]
 
-end module kz_lanes_sine
+end module kz_vector_sine

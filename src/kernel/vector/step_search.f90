@@ -1,6 +1,6 @@
 !> How many steps a drive period takes: the fewest found whose measured error is small enough. Every integrator whose error can be measured
 !> asks here; the enclosures (a bound instead of a measurement) and the series of any digits (which test their own convergence) do not.
-module kz_lanes_step_search
+module kz_vector_step_search
   use, intrinsic :: iso_c_binding, only: c_double, c_int32_t, c_funptr, c_ptr, c_f_procpointer
   implicit none
   private
@@ -112,4 +112,4 @@ contains
     error = trial%function(int(n, c_int32_t), trial%context)
   end function measure_in_c
 
-end module kz_lanes_step_search
+end module kz_vector_step_search

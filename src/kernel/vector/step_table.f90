@@ -1,10 +1,10 @@
 !> One drive period of a pendulum as a list of drifts and kicks, made in quad precision and rounded to doubles.
-module kz_lanes_step_table
+module kz_vector_step_table
   use, intrinsic :: iso_c_binding, only: c_double, c_int32_t, c_ptr, c_null_ptr
   use, intrinsic :: iso_fortran_env, only: rk => real64, real128
   use kz_model_pendulum, only: pendulum_t, force_at
   use kz_model_release, only: stretch_t, whole_period, damping_series, drive_series, CUBIC
-  use kz_lanes_schemes, only: stage_t, scheme_stages, SCHEMES, RUNGE_KUTTA
+  use kz_vector_schemes, only: stage_t, scheme_stages, SCHEMES, RUNGE_KUTTA
   implicit none
   private
   public :: numerics_t, period_t, make_period
@@ -274,4 +274,4 @@ contains
     period%push(n) = real(weight*pendulum%torque, rk)
   end subroutine set_kick
 
-end module kz_lanes_step_table
+end module kz_vector_step_table

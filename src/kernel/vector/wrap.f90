@@ -1,10 +1,10 @@
 !> Lanes after a period: angles brought back to [-1, 1]; and numbers below the normal ones, which are taken for 0 on the way.
-module kz_lanes_wrap
+module kz_vector_wrap
   use, intrinsic :: iso_c_binding, only: c_int64_t
   use, intrinsic :: iso_fortran_env, only: rk => real64, ik => int64
   use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan
-  use kz_lanes_map, only: map_t
-  use kz_lanes_sine, only: ROUND_TO_INTEGER, VECTOR
+  use kz_vector_map, only: map_t
+  use kz_vector_sine, only: ROUND_TO_INTEGER, VECTOR
   implicit none
   private
   public :: wrap, vectors_of, flush_subnormals, restore_control
@@ -51,4 +51,4 @@ contains
     lanes = VECTOR*((n + VECTOR - 1)/VECTOR)
   end function vectors_of
 
-end module kz_lanes_wrap
+end module kz_vector_wrap

@@ -3,7 +3,7 @@
 !> corners show what lies between them only as long as the cell has stayed small: where an earlier image was bent, a later one is not taken.
 module kz_grown_cell_images
   use, intrinsic :: iso_c_binding, only: dp => c_double, int32 => c_int32_t
-  use kz_lanes_map, only: flow_t, WIDTH, PI
+  use kz_vector_map, only: flow_t, WIDTH, PI
   use kz_maps_states, only: midperiod_angle
   use kz_grown_grid, only: regions_t
   implicit none

@@ -5,7 +5,7 @@
 !> eigenbasis of the monodromy: for complex multipliers the linear map contracts it by exactly |mu|.
 module kz_grown_ellipses
   use, intrinsic :: iso_c_binding, only: dp => c_double
-  use kz_lanes_map, only: flow_t, WIDTH, PI
+  use kz_vector_map, only: flow_t, WIDTH, PI
   use kz_cycles_cycles, only: attractor_t
   use kz_cycles_newton, only: n_periods
   use kz_maps_matrices, only: inverse_of, eigenvector, IDENTITY

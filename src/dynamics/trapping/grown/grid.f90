@@ -5,7 +5,7 @@ module kz_grown_grid
   use kz_cycles_cycles, only: attractor_t
   use kz_grown_ellipses, only: in_ellipse
   use kz_grown_places, only: grid_t, look_up, side, from_down, wrapped_midperiod_angle, WORD
-  use kz_lanes_map, only: WIDTH
+  use kz_vector_map, only: WIDTH
   use kz_maps_states, only: angle_difference, midperiod_angle, MIDPERIOD
   implicit none
   private

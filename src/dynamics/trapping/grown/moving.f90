@@ -6,7 +6,7 @@ module kz_grown_moving
   use kz_cycles_cycles, only: attractor_t
   use kz_grown_grid, only: regions_t, make_regions, chaos_region, find_regions, note_closed
   use kz_grown_places, only: fold_cell, number_cells
-  use kz_lanes_map, only: flow_t, WIDTH
+  use kz_vector_map, only: flow_t, WIDTH
   use kz_maps_lanes, only: lanes_t
   implicit none
   private

@@ -3,9 +3,9 @@
 module kz_processed_batch
   use, intrinsic :: iso_c_binding, only: c_int64_t
   use, intrinsic :: iso_fortran_env, only: rk => real64
-  use kz_lanes_map, only: flow_t, put_state, move_state, WIDTH, CAPACITY
-  use kz_lanes_sine, only: INVERSE_PI
-  use kz_lanes_wrap, only: wrap, vectors_of, flush_subnormals, restore_control
+  use kz_vector_map, only: flow_t, put_state, move_state, WIDTH, CAPACITY
+  use kz_vector_sine, only: INVERSE_PI
+  use kz_vector_wrap, only: wrap, vectors_of, flush_subnormals, restore_control
   use kz_processed_processor, only: change_coordinates, change_derivative
   use kz_processed_stages, only: stages_t, make_stages, advance_stages, linear_stages, displaced_stages, tangent_stages, GROUP
   use kz_processed_tables, only: processed_t, processor_t

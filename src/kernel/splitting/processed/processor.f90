@@ -2,9 +2,9 @@
 module kz_processed_processor
   use, intrinsic :: iso_c_binding, only: c_double, c_int32_t, c_int64_t
   use, intrinsic :: iso_fortran_env, only: rk => real64, ik => int64
-  use kz_lanes_map, only: WIDTH
-  use kz_lanes_wrap, only: vectors_of
-  use kz_lanes_sine, only: SINE_COEFFICIENTS, ROUND_TO_INTEGER, SIGN_SHIFT, INVERSE_PI
+  use kz_vector_map, only: WIDTH
+  use kz_vector_wrap, only: vectors_of
+  use kz_vector_sine, only: SINE_COEFFICIENTS, ROUND_TO_INTEGER, SIGN_SHIFT, INVERSE_PI
   use kz_processed_tables, only: processor_t, HARMONICS
   implicit none
   private

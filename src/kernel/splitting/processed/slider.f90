@@ -6,7 +6,7 @@
 module kz_processed_slider
   use, intrinsic :: iso_c_binding, only: c_ptr, c_associated, c_f_pointer
   use, intrinsic :: iso_fortran_env, only: rk => real64
-  use kz_lanes_locks, only: take_lock, leave_lock
+  use kz_vector_locks, only: take_lock, leave_lock
   use kz_model_pendulum, only: pendulum_t, is_same, stiffness, MOST_HARMONICS
   use kz_processed_tables, only: series_t, kept_series_t, make_processed_series, ORDER, NODES
   implicit none

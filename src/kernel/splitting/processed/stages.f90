@@ -2,8 +2,8 @@
 module kz_processed_stages
   use, intrinsic :: iso_c_binding, only: c_double, c_float, c_int32_t, c_int64_t
   use, intrinsic :: iso_fortran_env, only: rk => real64
-  use kz_lanes_map, only: WIDTH, PI
-  use kz_lanes_sine, only: ROUND_TO_INTEGER
+  use kz_vector_map, only: WIDTH, PI
+  use kz_vector_sine, only: ROUND_TO_INTEGER
   use kz_processed_tables, only: processed_t
   implicit none
   private

@@ -2,7 +2,7 @@
 module kz_processed_tables
   use, intrinsic :: iso_c_binding, only: c_double, c_ptr, c_null_ptr, c_associated, c_f_pointer, c_loc
   use, intrinsic :: iso_fortran_env, only: rk => real64
-  use kz_lanes_locks, only: create_lock, free_lock, take_lock, leave_lock
+  use kz_vector_locks, only: create_lock, free_lock, take_lock, leave_lock
   use kz_model_pendulum, only: pendulum_t, exact_stiffness, is_same
   use kz_processed_harmonics, only: sine_polynomials, cosine_polynomials
   use kz_processed_series_r64, only: series_t, make_series, ORDER, HARMONICS
