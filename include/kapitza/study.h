@@ -224,6 +224,16 @@ kz_numerics kz_orbit_numerics(const kz_scene *scene);
 /* Prints one line: whether the pendulum at rest is stable down and inverted (by the linear equation), and between which amplitudes of the
  * pivot, in the keys and units of the scene. Prints nothing without a pendulum. */
 void kz_rest_print(const kz_parameters *parameters, FILE *out);
+/* The lowest drives m of a sine between which a pendulum with gravity k > 0 stands upside down; NaN = there are none. */
+void kz_standing_drives(const kz_pendulum *pendulum, double *low, double *high);
+
+/* Drives m of a sine at which a damped pendulum flutters about the inverted position; NaN = it does not. */
+typedef struct {
+  double onset;     /* the inverted state loses its stability by the multiplier -1 */
+  double asymmetry; /* flutter loses its mirror symmetry */
+  double end;       /* what follows it doubles its period */
+} kz_flutter_drives;
+kz_flutter_drives kz_flutter_drives_find(const kz_pendulum *pendulum);
 
 /* M r^2 of a pendulum in SI units, kg m2; true if its inertia is at least that, to rounding. */
 double kz_point_inertia(const kz_pendulum_keys *written);

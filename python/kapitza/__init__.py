@@ -24,16 +24,17 @@ if TYPE_CHECKING:
     from kapitza.fitting import fit
     from kapitza.program import RunError, SceneError
     from kapitza.result import BadFile, Result
-    from kapitza.session import check, orbit, run, sweep, where
+    from kapitza.session import check, needs, orbit, run, sweep, where
 
     __version__: str
 
-__all__ = ["BadFile", "Engine", "Result", "RunError", "SceneError", "check", "explore", "film", "fit", "orbit", "run", "sweep", "where"]
+__all__ = ["BadFile", "Engine", "Result", "RunError", "SceneError", "check", "explore", "film", "fit", "needs", "orbit", "run", "sweep",
+           "where"]
 
 # The module of each name: modules are loaded when one of their names is first used, because pandas and xarray take most of a second.
 _MODULES = {name: module for module, names in {
     "engine": "Engine", "explorer.notebook": "explore", "films": "film", "fitting": "fit", "program": "RunError SceneError",
-    "result": "BadFile Result", "session": "check orbit run sweep where"}.items() for name in names.split()}
+    "result": "BadFile Result", "session": "check needs orbit run sweep where"}.items() for name in names.split()}
 
 
 def __getattr__(name: str) -> Any:

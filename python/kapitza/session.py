@@ -118,6 +118,22 @@ def check(scene: SceneLike, set: Mapping[str, Any] | None = None) -> Check:
     return Check(facts["scene"], facts["studies"], facts["cells"], facts["seconds"], facts["text"])
 
 
+def needs(length: Any, frequency: Any, quality_factor: float | None = None) -> dict[str, Any]:
+    """How large the amplitude of the pivot must be for a pendulum to stand upside down.
+
+    The answer has `stands` and `flutters`, the smallest and the largest amplitude (half of the stroke) in m, or None; `stands_g` and
+    `flutters_g`, the peak accelerations of the pivot there in units of gravity; and `length` (m), `frequency` (Hz), `quality_factor`.
+
+    :param length: of a point mass on a light rod: m, or a text such as "20 cm"
+    :param frequency: of the pivot: Hz, or a text such as "50 Hz" or "3000 rpm"
+    :param quality_factor: of small swings; None = 20
+    :raises SceneError: if the program refuses a value
+    """
+    words = ["needs", "--length", str(length), "--frequency", str(frequency), "--json"]
+    words += ["--quality-factor", str(quality_factor)] if quality_factor is not None else []
+    return dict(json.loads(ask(words, Scene({}))))
+
+
 def where(scene: SceneLike, theta: Any, velocity: Any, set: Mapping[str, Any] | None = None) -> pandas.DataFrame:
     """Returns where starts end: a table with a row for each start.
 

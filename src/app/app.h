@@ -39,12 +39,15 @@ typedef struct {
   int n_sets;
   char **origins; /* of every --origin, in order */
   int n_origins;
+  char **joined; /* words of the command line that were made of a number and its unit; n_joined of them */
+  int n_joined;
   bool resume, force, json, json_schema, layout, no_browser, degrees;
-  int64_t boundary;      /* digits of --boundary; 0 = not given */
-  bool answered;         /* --help or the like was printed: nothing is left to do */
-  const char *port;      /* of view, as written; NULL = not given */
-  const char *frequency; /* of fit, as written; NULL = a free decay */
-  double time_limit;     /* seconds; 0 = none */
+  int64_t boundary;                    /* digits of --boundary; 0 = not given */
+  bool answered;                       /* --help or the like was printed: nothing is left to do */
+  const char *port;                    /* of view, as written; NULL = not given */
+  const char *frequency;               /* of fit and needs, as written; NULL = not given */
+  const char *length, *quality_factor; /* of needs, likewise */
+  double time_limit;                   /* seconds; 0 = none */
   kz_progress progress;
   const char *log;   /* FILE of JSON lines; NULL = none */
   bool timings;      /* print where the time went */
@@ -66,6 +69,7 @@ kz_status kz_app_where(const kz_options *options);
 kz_status kz_app_serve(const kz_options *options);
 kz_status kz_app_view(const kz_options *options); /* replaces the process by the explorer; returns only after a failure */
 kz_status kz_app_fit(const kz_options *options);  /* replaces the process by the package's module fitting; so does this one */
+kz_status kz_app_needs(const kz_options *options);
 kz_status kz_app_keys(const kz_options *options);
 void kz_app_version(FILE *out);
 

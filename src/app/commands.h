@@ -4,6 +4,9 @@
 
 #include "app.h"
 
+/* Bits of the commands. */
+enum { KZ_FIT = 128, KZ_NEEDS = 256 };
+
 typedef struct {
   const char *name;    /* "" = the program itself */
   int bit;             /* in kz_option.commands */
@@ -33,6 +36,11 @@ static inline const kz_option *kz_option_next(const kz_command *command, const k
     if (row->commands & command->bit) return row;
   return NULL;
 }
+
+/* Reads the words behind the name of a command. argv is permuted. KZ_REFUSED names the word. */
+kz_status kz_options_read(const kz_command *command, int argc, char **argv, kz_options *options);
+/* KZ_REFUSED if operands are missing, or options contradict each other. */
+kz_status kz_operands_check(const kz_command *command, const kz_options *options);
 
 void kz_help_print(const kz_command *command);
 /* The manual page, as roff. */

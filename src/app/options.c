@@ -1,12 +1,11 @@
 /* The command line, from two tables: commands and options. Help and errors come from the same rows. */
 #include <getopt.h>
-#include <malloc.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "commands.h"
 
-enum { RUN = 1, CHECK = 2, KEYS = 4, TOP = 8, WHERE = 16, VIEW = 32, SERVE = 64, FIT = 128 };
+enum { RUN = 1, CHECK = 2, KEYS = 4, TOP = 8, WHERE = 16, VIEW = 32, SERVE = 64, FIT = KZ_FIT, NEEDS = KZ_NEEDS };
 
 const kz_command kz_commands[] = {
     {"run", RUN, " SCENE", 1, 1, kz_app_run, "model every study that SCENE contains"},
@@ -18,6 +17,8 @@ const kz_command kz_commands[] = {
     {"view", VIEW, " SCENE|FILE", 1, 1, kz_app_view, "open the basins of a scene or of a result in the browser"},
     {"fit", FIT, " TRACK", 1, 1, kz_app_fit,
      "find the pendulum of a recorded track: CSV with the columns time (s) and theta (rad) or theta_deg"},
+    {"needs", NEEDS, "", 0, 0, kz_app_needs,
+     "say between which amplitudes of the pivot a pendulum of --length stands upside down and flutters at --frequency"},
     {"serve", SERVE, " SCENE", 1, 1, kz_app_serve,
      "answer requests of other programs (JSON lines on standard input) for frames, orbits and ends of starts"},
     {"keys", KEYS, "", 0, 0, kz_app_keys, "print the reference of all keys of a scene (docs/reference/scene.md)"},
@@ -127,7 +128,7 @@ const kz_option kz_option_rows[] = {
     {"progress", 0, "WHEN", RUN, set_progress, 0, "when to show progress: auto, always or never", "auto|always|never"},
     {"timings", 0, NULL, RUN, set_flag, OF(timings), "print at the end how long each stage took", NULL},
     {"log", 0, "FILE", RUN, set_file, OF(log), "append progress, stages, warnings and the end to FILE, as JSON lines", NULL},
-    {"json", 0, NULL, WHERE | CHECK, set_flag, OF(json), "print JSON, one object a line", NULL},
+    {"json", 0, NULL, WHERE | CHECK | NEEDS, set_flag, OF(json), "print JSON, one object a line", NULL},
     {"boundary", 0, "DIGITS", WHERE, set_boundary, 0,
      "print the point between two starts at which their basins meet, correct to DIGITS decimal places", NULL},
     {"json-schema", 0, NULL, KEYS, set_flag, OF(json_schema), "print the keys as a JSON schema, for editors", NULL},
@@ -137,12 +138,15 @@ const kz_option kz_option_rows[] = {
     {"no-browser", 0, NULL, VIEW, set_flag, OF(no_browser), "print the address, and do not open a browser", NULL},
     {"origin", 0, "ORIGIN", VIEW, add_origin, 0,
      "also answer pages of this origin (a proxy or a tunnel), such as https://hub.example.org", NULL},
-    {"frequency", 0, "F", FIT, set_text, OF(frequency),
-     "frequency of the drive of a driven track: Hz, or with a unit such as '3000 rpm'", NULL},
+    {"length", 0, "L", NEEDS, set_text, OF(length), "length of a point mass on a light rod, such as 20 cm; needed", NULL},
+    {"frequency", 0, "F", FIT | NEEDS, set_text, OF(frequency),
+     "frequency of the drive: Hz, or with a unit such as 3000 rpm; without it a track of fit is a free decay", NULL},
+    {"quality-factor", 0, "Q", NEEDS, set_text, OF(quality_factor), "quality factor of small swings; default: 20", NULL},
     {"degrees", 0, NULL, FIT, set_flag, OF(degrees), "the angles of the track are in degrees", NULL},
     {"completion", 0, "SHELL", TOP, set_completion, 0, "print the completion script for bash, zsh or fish", "bash|zsh|fish"},
     {"manual", 0, NULL, TOP, set_manual, 0, "print the manual page; to read it, pipe it into man -l -", NULL},
-    {"help", 'h', NULL, RUN | CHECK | WHERE | VIEW | FIT | SERVE | KEYS | TOP, NULL, 0, "print this help and exit", NULL},
+    {"help", 'h', NULL, RUN | CHECK | WHERE | VIEW | FIT | NEEDS | SERVE | KEYS | TOP, NULL, 0, "print this help and exit",
+     NULL},
     {"version", 'V', NULL, TOP, NULL, 0, "print the versions of the program and of its libraries, and exit", NULL},
     {.name = NULL},
 };
@@ -213,7 +217,7 @@ static kz_status next_option(const kz_command *command, int argc, char **argv, c
   return KZ_OK;
 }
 
-static kz_status read_options(const kz_command *command, int argc, char **argv, kz_options *options) {
+kz_status kz_options_read(const kz_command *command, int argc, char **argv, kz_options *options) {
   struct option longs[N_ROWS + 1];
   char shorts[2 * N_ROWS + 3];
   describe(command, longs, shorts);
@@ -239,7 +243,7 @@ static kz_status read_options(const kz_command *command, int argc, char **argv, 
   }
 }
 
-static kz_status check_operands(const kz_command *command, const kz_options *options) {
+kz_status kz_operands_check(const kz_command *command, const kz_options *options) {
   if (options->n_operands == 0 && command->fewest > 0)
     return kz_fail(KZ_REFUSED, "%s: SCENE is missing; kapitza %s%s", command->name, command->name, command->operand);
   if (options->n_operands > 0 && !options->operands[0][0])
@@ -248,78 +252,4 @@ static kz_status check_operands(const kz_command *command, const kz_options *opt
     return kz_fail(KZ_REFUSED, "%s: the start is missing; kapitza %s%s", command->name, command->name, command->operand);
   if (options->resume && options->force) return kz_fail(KZ_REFUSED, "--resume: contradicts --force; use one of them");
   return KZ_OK;
-}
-
-/* A command or an answer that takes no MPI, started by a launcher on many ranks: all must have been given it, or those that were given a run would wait
- * for ever for those that were not. */
-static kz_status agree_alone(const kz_options *options) {
-  kz_ranks *ranks = NULL;
-  if (kz_launch_count() <= 1) return KZ_OK;
-  kz_status status = kz_ranks_start(NULL, NULL, &ranks);
-  if (status == KZ_OK) status = kz_ranks_compare(ranks, options->words, "command line");
-  kz_ranks_end(ranks);
-  return status;
-}
-
-static kz_status carry_out(const kz_command *command, int argc, char **argv, kz_options *options) {
-  KZ_TRY(read_options(command, argc, argv, options));
-  if (options->answered) return agree_alone(options);
-  KZ_TRY(check_operands(command, options));
-  options->scene = options->operands[0];
-  if (command->carry_out != kz_app_run) KZ_TRY(agree_alone(options));
-  return command->carry_out(options);
-}
-
-/* The first word: a command, or an option of the program itself. */
-static kz_status dispatch(int argc, char **argv, kz_options *options) {
-  char names[128] = "", nearest[64];
-  if (argc < 2) return kz_fail(KZ_REFUSED, "no command; kapitza run SCENE, or kapitza --help");
-  if (argv[1][0] == '-') {
-    KZ_TRY(read_options(&kz_program, argc, argv, options));
-    return options->answered ? agree_alone(options) : kz_fail(KZ_REFUSED, "no command; kapitza run SCENE, or kapitza --help");
-  }
-  for (int i = 0; i < kz_command_count; i++) {
-    if (strcmp(argv[1], kz_commands[i].name) == 0) return carry_out(&kz_commands[i], argc - 1, argv + 1, options);
-    snprintf(names + strlen(names), sizeof names - strlen(names), "%s%s", names[0] ? "|" : "", kz_commands[i].name);
-  }
-  if (kz_key_suggest(argv[1], names, nearest, sizeof nearest))
-    return kz_fail(KZ_REFUSED, "%.80s: unknown command; did you mean %s?", argv[1], nearest);
-  return kz_fail(KZ_REFUSED, "%.80s: unknown command; it must be run, check, where, view, serve or keys", argv[1]);
-}
-
-/* The words of the command line, with a space between. */
-static char *join(int argc, char **argv) {
-  size_t bytes = 1;
-  for (int i = 0; i < argc; i++) bytes += strlen(argv[i]) + 1;
-  char *line = kz_malloc(bytes), *end = line;
-  for (int i = 0; i < argc; i++) {
-    if (i > 0) *end++ = ' ';
-    end = stpcpy(end, argv[i]);
-  }
-  *end = '\0';
-  return line;
-}
-
-/* Freed memory is kept for the next use: else half of the time of small tables goes into pages that come and go. */
-static void keep_memory(void) {
-#ifdef M_MMAP_THRESHOLD
-  mallopt(M_MMAP_THRESHOLD, 8 << 20);
-  mallopt(M_TRIM_THRESHOLD, 32 << 20);
-#endif
-}
-
-kz_status kz_app(int argc, char **argv) {
-  keep_memory();
-  const bool speaks = kz_launch_rank() <= 0;
-  kz_options options = {.speaks = speaks, .progress = KZ_PROGRESS_AUTO};
-  options.line = join(argc, argv);
-  options.words = options.line + strcspn(options.line, " ");
-  options.sets = kz_calloc((size_t)argc + 1, sizeof *options.sets);
-  options.origins = kz_calloc((size_t)argc + 1, sizeof *options.origins);
-  const kz_status status = dispatch(argc, argv, &options);
-  free(options.line);
-  free(options.sets);
-  free(options.origins);
-  if (!speaks && status != KZ_FAILED) kz_message_clear();
-  return status;
 }

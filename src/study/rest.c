@@ -84,6 +84,17 @@ static rest look(double k, double beta, double m, double most) {
   return found;
 }
 
+/* Standing and falling are told apart up to this drive, or a few times the one that stands by the slow equation. */
+static double most_of(double k, double m) {
+  return 4 * fmax(fmax(fabs(m), sqrt(2 * fabs(k))), 0.25);
+}
+
+void kz_standing_drives(const kz_pendulum *p, double *low, double *high) {
+  const rest inverted = look(-p->k, p->beta, 0, most_of(p->k, 0));
+  *low = inverted.low;
+  *high = inverted.high;
+}
+
 static drive_words words_of(const kz_parameters *p) {
   const kz_pendulum_keys *w = &p->written;
   if (!isnan(w->drive_amplitude)) return (drive_words){"drive_amplitude", "", 1};
@@ -142,7 +153,7 @@ void kz_rest_print(const kz_parameters *parameters, FILE *out) {
             is_stable_at(p, M_PI) ? "stable" : "unstable");
     return;
   }
-  const double most = 4 * fmax(fmax(fabs(p->m), sqrt(2 * fabs(p->k))), 0.25);
+  const double most = most_of(p->k, p->m);
   const drive_words words = words_of(parameters);
   const rest down = look(p->k, p->beta, p->m, most), inverted = look(-p->k, p->beta, p->m, most);
   print_position("hanging down", &down, &words, out);

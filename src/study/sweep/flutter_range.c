@@ -11,7 +11,8 @@ static const double RELEASE_ANGLE = M_PI / 180;
 static const double LOCATED = 1e-6;
 
 typedef struct {
-  double onset, asymmetry, end, release_end; /* m; NaN = none */
+  kz_flutter_drives cycle;
+  double release_end; /* m; NaN = none */
 } flutter_range;
 
 /* The pendulum of a value with another drive. */
@@ -57,16 +58,25 @@ static bool find_asymmetric(const kz_path *path, double m, const kz_branch_point
   return false;
 }
 
+/* The drive up to which the cycle at m exists and attracts, in steps so short that it is not taken for another one far above. */
+static double walk_up(const kz_path *path, double m, kz_branch_point *cycle) {
+  for (double next = m; m == next && m < TOP;) {
+    next = fmin(m + STEP, TOP);
+    m = kz_walk(path, m, next, cycle);
+  }
+  return m;
+}
+
 /* Along the cycle: where it loses its mirror symmetry, and where the cycles that take over end. */
-static void follow_cycle(const kz_path *path, flutter_range *range) {
+static void follow_cycle(const kz_path *path, kz_flutter_drives *range) {
   kz_branch_point flutter, asymmetric;
   double m;
   if (!find_flutter(path, range->onset, &m, &flutter)) return;
-  const double last = kz_walk(path, m, TOP, &flutter);
+  const double last = walk_up(path, m, &flutter);
   if (last == TOP || kz_end_kind(&flutter) != KZ_END_SYMMETRY_BREAKING) return;
   range->asymmetry = last;
   if (!find_asymmetric(path, last, &flutter, &m, &asymmetric)) return;
-  range->end = kz_walk(path, m, TOP, &asymmetric);
+  range->end = walk_up(path, m, &asymmetric);
 }
 
 static bool release_stays(const kz_path *path, const kz_numerics *numerics, double m) {
@@ -79,7 +89,7 @@ static bool release_stays(const kz_path *path, const kz_numerics *numerics, doub
 
 /* Raises the drive from the onset until a release fails, then halves the bracket. */
 static void follow_releases(const kz_path *path, const kz_numerics *numerics, flutter_range *range) {
-  double inside = range->onset, outside = RELEASE_STEP * ceil(range->onset / RELEASE_STEP);
+  double inside = range->cycle.onset, outside = RELEASE_STEP * ceil(inside / RELEASE_STEP);
   for (; outside < TOP && release_stays(path, numerics, outside); outside += RELEASE_STEP) inside = outside;
   if (outside >= TOP) return;
   while (outside - inside > LOCATED) {
@@ -89,17 +99,24 @@ static void follow_releases(const kz_path *path, const kz_numerics *numerics, fl
   range->release_end = outside;
 }
 
+kz_flutter_drives kz_flutter_drives_find(const kz_pendulum *pendulum) {
+  const kz_path path = {pendulum_of_drive, pendulum};
+  kz_flutter_drives drives = {NAN, NAN, NAN};
+  if (pendulum->beta <= 0) return drives;
+  drives.onset = find_onset(&path);
+  if (!isnan(drives.onset)) follow_cycle(&path, &drives);
+  return drives;
+}
+
 static kz_status flutter_range_tile(void *context, int64_t tile, void *record) {
   const kz_scene *scene = context;
   flutter_range *range = record;
   kz_pendulum pendulum;
   const kz_path path = {pendulum_of_drive, &pendulum};
-  *range = (flutter_range){NAN, NAN, NAN, NAN};
-  if (!kz_sweep_pendulum(scene, kz_sweep_value(&scene->sweep, tile), &pendulum) || pendulum.beta <= 0) return KZ_OK;
-  range->onset = find_onset(&path);
-  if (isnan(range->onset)) return KZ_OK;
-  follow_cycle(&path, range);
-  follow_releases(&path, &scene->numerics, range);
+  *range = (flutter_range){{NAN, NAN, NAN}, NAN};
+  if (!kz_sweep_pendulum(scene, kz_sweep_value(&scene->sweep, tile), &pendulum)) return KZ_OK;
+  range->cycle = kz_flutter_drives_find(&pendulum);
+  if (!isnan(range->cycle.onset)) follow_releases(&path, &scene->numerics, range);
   return KZ_OK;
 }
 
@@ -115,17 +132,17 @@ static void print_cell(FILE *summary, int width, int digits, double value) {
 static kz_status write_ranges(const kz_scene *scene, const void *records, kz_store *store, FILE *summary) {
   const flutter_range *ranges = records;
   const int64_t n = scene->sweep.values.count;
-  COLUMN("flutter_onset", ranges[i].onset);
-  COLUMN("flutter_asymmetry", ranges[i].asymmetry);
-  COLUMN("flutter_end", ranges[i].end);
+  COLUMN("flutter_onset", ranges[i].cycle.onset);
+  COLUMN("flutter_asymmetry", ranges[i].cycle.asymmetry);
+  COLUMN("flutter_end", ranges[i].cycle.end);
   COLUMN("flutter_release_end", ranges[i].release_end);
   fprintf(summary, "flutter zone over m    value        begins  1 deg release fails  asymmetric from  period doubles at\n");
   for (int64_t i = 0; i < n; i++) {
     fprintf(summary, "%28.9g", kz_sweep_value(&scene->sweep, i));
-    print_cell(summary, 12, 9, ranges[i].onset);
+    print_cell(summary, 12, 9, ranges[i].cycle.onset);
     print_cell(summary, 19, 6, ranges[i].release_end);
-    print_cell(summary, 15, 9, ranges[i].asymmetry);
-    print_cell(summary, 17, 9, ranges[i].end);
+    print_cell(summary, 15, 9, ranges[i].cycle.asymmetry);
+    print_cell(summary, 17, 9, ranges[i].cycle.end);
     fputc('\n', summary);
   }
   return KZ_OK;

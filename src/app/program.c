@@ -1,0 +1,101 @@
+/* The whole program but its entry: which command is wanted, and that it is carried out. */
+#include <malloc.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "commands.h"
+
+/* Makes one word of a number and a unit behind it, as in --length 20 cm. Returns the number of words. */
+static int join_units(int argc, char **argv, kz_options *options) {
+  int n = 0;
+  for (int i = 0; i < argc; i++) {
+    double factor, number;
+    if (n == 0 || kz_text_real(argv[n - 1], &number) || kz_unit_factor(argv[i], "", &factor)) {
+      argv[n++] = argv[i];
+      continue;
+    }
+    const size_t bytes = strlen(argv[n - 1]) + strlen(argv[i]) + 2;
+    char *joined = options->joined[options->n_joined++] = kz_malloc(bytes);
+    snprintf(joined, bytes, "%s %s", argv[n - 1], argv[i]);
+    argv[n - 1] = joined;
+  }
+  return n;
+}
+
+/* A command or an answer that takes no MPI, started by a launcher on many ranks: all must have been given it, or those that were given a run would wait
+ * for ever for those that were not. */
+static kz_status agree_alone(const kz_options *options) {
+  kz_ranks *ranks = NULL;
+  if (kz_launch_count() <= 1) return KZ_OK;
+  kz_status status = kz_ranks_start(NULL, NULL, &ranks);
+  if (status == KZ_OK) status = kz_ranks_compare(ranks, options->words, "command line");
+  kz_ranks_end(ranks);
+  return status;
+}
+
+static kz_status carry_out(const kz_command *command, int argc, char **argv, kz_options *options) {
+  if (command->bit & (KZ_FIT | KZ_NEEDS)) argc = join_units(argc, argv, options);
+  KZ_TRY(kz_options_read(command, argc, argv, options));
+  if (options->answered) return agree_alone(options);
+  KZ_TRY(kz_operands_check(command, options));
+  options->scene = options->operands[0];
+  if (command->carry_out != kz_app_run) KZ_TRY(agree_alone(options));
+  return command->carry_out(options);
+}
+
+/* The first word: a command, or an option of the program itself. */
+static kz_status dispatch(int argc, char **argv, kz_options *options) {
+  char names[128] = "", nearest[64];
+  if (argc < 2) return kz_fail(KZ_REFUSED, "no command; kapitza run SCENE, or kapitza --help");
+  if (argv[1][0] == '-') {
+    KZ_TRY(kz_options_read(&kz_program, argc, argv, options));
+    return options->answered ? agree_alone(options) : kz_fail(KZ_REFUSED, "no command; kapitza run SCENE, or kapitza --help");
+  }
+  for (int i = 0; i < kz_command_count; i++) {
+    if (strcmp(argv[1], kz_commands[i].name) == 0) return carry_out(&kz_commands[i], argc - 1, argv + 1, options);
+    snprintf(names + strlen(names), sizeof names - strlen(names), "%s%s", names[0] ? "|" : "", kz_commands[i].name);
+  }
+  if (kz_key_suggest(argv[1], names, nearest, sizeof nearest))
+    return kz_fail(KZ_REFUSED, "%.80s: unknown command; did you mean %s?", argv[1], nearest);
+  return kz_fail(KZ_REFUSED, "%.80s: unknown command; kapitza --help lists the commands", argv[1]);
+}
+
+/* The words of the command line, with a space between. */
+static char *join(int argc, char **argv) {
+  size_t bytes = 1;
+  for (int i = 0; i < argc; i++) bytes += strlen(argv[i]) + 1;
+  char *line = kz_malloc(bytes), *end = line;
+  for (int i = 0; i < argc; i++) {
+    if (i > 0) *end++ = ' ';
+    end = stpcpy(end, argv[i]);
+  }
+  *end = '\0';
+  return line;
+}
+
+/* Freed memory is kept for the next use: else half of the time of small tables goes into pages that come and go. */
+static void keep_memory(void) {
+#ifdef M_MMAP_THRESHOLD
+  mallopt(M_MMAP_THRESHOLD, 8 << 20);
+  mallopt(M_TRIM_THRESHOLD, 32 << 20);
+#endif
+}
+
+kz_status kz_app(int argc, char **argv) {
+  keep_memory();
+  const bool speaks = kz_launch_rank() <= 0;
+  kz_options options = {.speaks = speaks, .progress = KZ_PROGRESS_AUTO};
+  options.line = join(argc, argv);
+  options.words = options.line + strcspn(options.line, " ");
+  options.sets = kz_calloc((size_t)argc + 1, sizeof *options.sets);
+  options.origins = kz_calloc((size_t)argc + 1, sizeof *options.origins);
+  options.joined = kz_calloc((size_t)argc + 1, sizeof *options.joined);
+  const kz_status status = dispatch(argc, argv, &options);
+  while (options.n_joined > 0) free(options.joined[--options.n_joined]);
+  free(options.joined);
+  free(options.line);
+  free(options.sets);
+  free(options.origins);
+  if (!speaks && status != KZ_FAILED) kz_message_clear();
+  return status;
+}
