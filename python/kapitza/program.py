@@ -84,7 +84,7 @@ def command(words: Sequence[str | os.PathLike[str]], ranks: int = 1) -> list[str
 
 
 def _launcher(own: Path) -> str:
-    """What starts several ranks of a program: KAPITZA_MPIRUN, else the mpiexec beside it, which is of the same MPI, else that of the PATH."""
+    """What starts several ranks of a program: KAPITZA_MPIRUN, else the mpiexec beside it, of the same MPI, else that of the PATH."""
     beside = own.parent / "mpiexec"
     chosen = os.environ.get("KAPITZA_MPIRUN")
     if beside.is_file():

@@ -26,10 +26,11 @@ static kz_status connect_ranks(kz_ranks *ranks) {
   KZ_MPI(MPI_Comm_rank(ranks->comm, &ranks->rank));
   KZ_MPI(MPI_Comm_size(ranks->comm, &ranks->size));
   if (ranks->size == 1 && kz_launch_count() > 1)
-    return kz_fail(KZ_REFUSED,
-                   "a launcher of another MPI started %d processes, each of which would run alone; start them by the mpiexec of this "
-                   "program's MPI, %s",
-                   kz_launch_count(), kz_parallel_library());
+    return kz_fail(
+        KZ_REFUSED,
+        "a launcher of another MPI started %d processes, each of which would run alone; start them by the mpiexec of this "
+        "program's MPI, %s",
+        kz_launch_count(), kz_parallel_library());
   return KZ_OK;
 }
 
