@@ -33,10 +33,14 @@ function(kapitza_includes name)
   endforeach()
 endfunction()
 
-# The program: only its entry (the instruction-set check) is compiled for plain x86-64.
+# The program: only its entry (the instruction-set check) is compiled for the first instruction set of its processor.
 function(kapitza_program)
   add_executable(kapitza src/app/main.c)
-  target_compile_options(kapitza PRIVATE -march=x86-64 ${KAPITZA_FLAGS_C} ${KAPITZA_SANITIZERS})
+  set(first x86-64)
+  if(CMAKE_SYSTEM_PROCESSOR STREQUAL "aarch64")
+    set(first armv8-a)
+  endif()
+  target_compile_options(kapitza PRIVATE -march=${first} ${KAPITZA_FLAGS_C} ${KAPITZA_SANITIZERS})
   target_link_libraries(kapitza PRIVATE kapitza_app)
   set_target_properties(kapitza PROPERTIES LINKER_LANGUAGE C)
 endfunction()

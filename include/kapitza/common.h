@@ -37,6 +37,18 @@ double kz_processor_clock(void);
 /* The same of all threads of the process. */
 double kz_process_clock(void);
 
+/* ---- quad precision ---- */
+
+/* Numbers of 113 bits, Fortran's real128. Where gcc lacks this name of x86 it knows the standard's. */
+#ifndef __SIZEOF_FLOAT128__
+#define __float128 _Float128
+#endif
+/* Of the C library, whose headers declare them for gcc alone. */
+__float128 ldexpf128(__float128 x, int exponent);
+__float128 frexpf128(__float128 x, int *exponent);
+__float128 strtof128(const char *text, char **end);
+void sincosf128(__float128 x, __float128 *sine, __float128 *cosine);
+
 /* ---- words ---- */
 
 /* Words of scenes and files, in the order of their codes (KZ_METHOD_ICM ..., KZ_LINEAR ...). */

@@ -8,8 +8,10 @@
 #include "kapitza/study_where.h"
 #include "scene/scene.h"
 
-/* Instruction sets that this build can use; the program's entry refuses a CPU that lacks one which it does. kz_instructions: for each of them
- * "1" if the build uses it. */
+/* Instruction sets that this build can use beside the processor's first one; the program's entry refuses a CPU that lacks one which it does.
+ * kz_instructions: for each of them "1" if the build uses it, then NULL. */
+#ifdef __x86_64__
+#define KZ_FIRST_INSTRUCTIONS "x86-64"
 #define KZ_INSTRUCTION_LIST(X) \
   X(SSE3, "sse3")              \
   X(SSSE3, "ssse3")            \
@@ -26,6 +28,10 @@
   X(AVX512CD, "avx512cd")      \
   X(AVX512DQ, "avx512dq")      \
   X(AVX512VL, "avx512vl")
+#else
+#define KZ_FIRST_INSTRUCTIONS "armv8-a"
+#define KZ_INSTRUCTION_LIST(X)
+#endif
 extern const char *const kz_instructions[];
 /* The names of these sets, "avx2 fma ...", for the summary and the file; the text depends on the build only. */
 const char *kz_instruction_names(void);

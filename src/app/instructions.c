@@ -7,7 +7,7 @@
 #define WRITTEN(macro) #macro
 #define WRITTEN_OUT(macro) WRITTEN(macro)
 #define USED(name, text) WRITTEN_OUT(__##name##__),
-const char *const kz_instructions[] = {KZ_INSTRUCTION_LIST(USED)};
+const char *const kz_instructions[] = {KZ_INSTRUCTION_LIST(USED) NULL};
 
 const char *kz_instruction_names(void) {
   static char names[256];
@@ -20,5 +20,5 @@ const char *kz_instruction_names(void) {
   }
   KZ_INSTRUCTION_LIST(APPEND)
 #undef APPEND
-  return names[0] ? names : "x86-64";
+  return names[0] ? names : KZ_FIRST_INSTRUCTIONS;
 }

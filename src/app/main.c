@@ -1,4 +1,4 @@
-/* The entry, compiled for plain x86-64: it looks at the CPU before anything that was built for a newer one runs. */
+/* The entry, compiled for the first instruction set of its processor: it looks at the CPU before anything that was built for a newer one runs. */
 #include <fcntl.h>
 #include <stdio.h>
 #include <sys/resource.h>
@@ -8,12 +8,14 @@
 
 /* The first instruction set that the build uses and this CPU lacks, or NULL. */
 static const char *missing_instruction(void) {
+#ifdef __x86_64__
   size_t i = 0;
   __builtin_cpu_init();
 #define CHECK(name, text) \
   if (kz_instructions[i++][0] == '1' && !__builtin_cpu_supports(text)) return text;
   KZ_INSTRUCTION_LIST(CHECK)
 #undef CHECK
+#endif
   return NULL;
 }
 
@@ -53,7 +55,8 @@ int main(int argc, char **argv) {
   const char *missing = missing_instruction();
   if (missing) {
     fprintf(stderr,
-            "kapitza: error: this program was built for %s, which this CPU lacks; build it with -DKAPITZA_ARCH=x86-64\n",
+            "kapitza: error: this program was built for %s, which this CPU lacks; build it with "
+            "-DKAPITZA_ARCH=" KZ_FIRST_INSTRUCTIONS "\n",
             missing);
     return KZ_REFUSED;
   }

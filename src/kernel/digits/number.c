@@ -6,10 +6,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Of libquadmath, whose header is in a folder of gcc. */
-__float128 ldexpq(__float128 x, int exponent);
-__float128 frexpq(__float128 x, int *exponent);
-
 static const char degrees[] = " deg";
 
 kz_number *kz_numbers_make(int64_t n) {
@@ -66,7 +62,7 @@ static void parse(const char *text, kz_number *x, int64_t bits) {
 
 void kz_number_of_quad(__float128 value, kz_number *x) {
   int binary;
-  __float128 rest = frexpq(value, &binary);
+  __float128 rest = frexpf128(value, &binary);
   arf_t part;
   fmpz_t exponent;
   arf_init(part);
@@ -109,7 +105,7 @@ enum { SMALLEST = -16500 };
 __float128 kz_number_quad(const kz_number *x) {
   double head[3];
   const int64_t exponent = split(x, 3, head);
-  return exponent < SMALLEST ? 0 : ldexpq(((__float128)head[2] + head[1]) + head[0], (int)exponent);
+  return exponent < SMALLEST ? 0 : ldexpf128(((__float128)head[2] + head[1]) + head[0], (int)exponent);
 }
 
 long double kz_number_long(const kz_number *x) {

@@ -1,7 +1,6 @@
 /* A step of centres in pairs of doubles or in quads. The first coefficients of a centre in quads, lane by lane, are quads; each operation on
- * them is rounded to 113 bits, and the quad library's sine and cosine are off by at most 2^-108. Those that follow, and all of a centre in
+ * them is rounded to 113 bits, and the C library's sine and cosine are off by at most 2^-108. Those that follow, and all of a centre in
  * pairs, are pairs of doubles, the later ones doubles. */
-#include <quadmath.h>
 #include <math.h>
 
 #include "operations.h"
@@ -162,7 +161,7 @@ static void begin_lane(const kz_speed_class *speed, int32_t first, const kz_sets
   *y = (quad_series){.c = {1}};
   if (!x->lost[lane]) {
     y->w[0] = join(x->velocity, x->velocity_rest, lane);
-    sincosq(join(x->theta, x->theta_rest, lane), &y->s[0], &y->c[0]);
+    sincosf128(join(x->theta, x->theta_rest, lane), &y->s[0], &y->c[0]);
     for (int n = 0; n + 1 < Q; n++) next_quad(&speed->quads, speed->has_across, first, y, n);
   }
   for (int n = 0; n < Q; n++) {

@@ -4,14 +4,11 @@
 #include <math.h>
 #include <string.h>
 
-/* Of libquadmath, whose header is in a folder of gcc. */
-__float128 strtoflt128(const char *text, char **end);
-
 __float128 kz_decimal_quad(const char *text) {
   static const char radians[] = "0.0174532925199432957692369076848861271344";
   char *end;
-  const __float128 number = strtoflt128(text, &end);
-  return strcmp(end, " deg") == 0 ? number * strtoflt128(radians, NULL) : number;
+  const __float128 number = strtof128(text, &end);
+  return strcmp(end, " deg") == 0 ? number * strtof128(radians, NULL) : number;
 }
 
 kz_coordinate kz_decimal_coordinate(const kz_decimal *decimal) {
