@@ -103,7 +103,7 @@ kz_status kz_frame_follow(const kz_frame_task *task) {
   sharing all = {.task = task, .mutex = PTHREAD_MUTEX_INITIALIZER, .ended = PTHREAD_COND_INITIALIZER};
   KZ_FREED helper *helpers = kz_calloc((size_t)spare + 1, sizeof *helpers);
   int started = 0;
-  for (; started < spare && started + 1 < tiles; started++) {
+  for (; started < spare && 2 * (started + 2) <= tiles; started++) { /* a thread pays from two tiles on */
     helper *h = helpers + started;
     *h = (helper){.all = &all, .prepared = *task->prepared};
     h->prepared.n_unsettled = 0;
