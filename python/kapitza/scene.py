@@ -1,7 +1,6 @@
 """A scene as Python has it: the path of a file, YAML text, or a mapping; with the keys that a call changes."""
 
 import atexit
-import copy
 import json
 import os
 import re
@@ -64,17 +63,9 @@ class Scene:
 
     def tree(self) -> dict[str, Any]:
         """The scene as nested dicts and lists of texts, changes included; {} where it is no mapping."""
-        try:
-            tree = yaml.load(self.text, yaml.BaseLoader)
-        except (yaml.YAMLError, RecursionError):  # the program says what is wrong
-            tree = None
-        tree = copy.deepcopy(tree) if isinstance(tree, dict) else {}
+        tree = tree_of(self.text)
         for key, value in self._changes.items():
-            *above, last = key.split(".")
-            place = tree
-            for name in above:
-                place = place.setdefault(name, {}) if isinstance(place.get(name, {}), dict) else {}
-            place[last] = texts(value)
+            put(tree, key, texts(value))
         return tree
 
     def value(self, key: str) -> Any:
@@ -91,6 +82,25 @@ SceneLike = str | os.PathLike[str] | Mapping[str, Any] | Scene
 def _is_text(scene: Any) -> bool:
     """Whether it is YAML rather than the name of a file."""
     return isinstance(scene, str) and ("\n" in scene or (": " in scene and not Path(scene).exists()))
+
+
+def tree_of(text: str) -> dict[str, Any]:
+    """YAML text as nested dicts and lists of texts; {} where it is no mapping, of which the program says what is wrong."""
+    try:
+        tree = yaml.load(text, yaml.BaseLoader)
+    except (yaml.YAMLError, RecursionError):
+        return {}
+    return tree if isinstance(tree, dict) else {}
+
+
+def put(tree: dict[str, Any], key: str, value: Any) -> None:
+    """Sets a key such as basin.theta.count of a tree."""
+    *above, last = key.split(".")
+    for name in above:
+        if not isinstance(tree.get(name), dict):
+            tree[name] = {}
+        tree = tree[name]
+    tree[last] = value
 
 
 def texts(value: Any) -> Any:

@@ -1,7 +1,6 @@
 """Scenes of the explorer: what it is opened with, and the scene that gives a view."""
 
 import copy
-import json
 import math
 import os
 from pathlib import Path
@@ -9,6 +8,7 @@ from pathlib import Path
 import yaml
 
 from kapitza.result import BadFile, Result
+from kapitza.scene import flow, put, texts, tree_of
 
 HDF5_SIGNATURE = b"\x89HDF\r\n\x1a\n"
 # The window of a scene that has none: the whole circle, and velocities of two turns a shake.
@@ -36,12 +36,12 @@ class Start:
         else:
             self.text = self.path.read_text(encoding="utf-8", errors="replace")
         self.sets = list(sets)
-        self.tree = _changed(_tree(self.text), self.sets)
+        self.tree = _changed(tree_of(self.text), self.sets)
         self._file = None
 
     def words(self):
-        """What `kapitza serve` is told to read, and the descriptors that it must inherit: a text stands in no folder."""
-        default = [] if "basin" in self.tree else [f"basin={_flow({'velocity': WINDOW['velocity']}, 'basin')}"]
+        """The scene as an argument of `kapitza serve`, and the descriptors that it must inherit: a text stands in no folder."""
+        default = [] if "basin" in self.tree else [f"basin={flow({'velocity': WINDOW['velocity']})}"]
         changes = [word for value in [*default, *self.sets] for word in ("--set", value)]
         if self.path is not None:
             return [f"./{self.path}" if str(self.path).startswith("-") else str(self.path), *changes], ()
@@ -70,44 +70,32 @@ class Start:
         kept = {name: value for name, value in basin.items() if name not in LEFT_OUT} if isinstance(basin, dict) else {}
         axes = {axis: {**_mapping(window, axis), "count": _count(request, name)} for axis, name in
                 (("theta", "columns"), ("velocity", "rows"))}
-        tree["basin"] = {**axes, "method": "exact", **kept}
-        return "".join(f"{name}:\n{_block(value)}" if name == "basin" else f"{name}: {_flow(value, name)}\n"
-                       for name, value in tree.items())
+        lines = (f"  {name}: {flow(value)}\n" for name, value in {**axes, "method": "exact", **kept}.items())
+        return _written(tree) + "basin:\n" + "".join(lines)
 
 
 def _scene_of(result):
     """The scene of a result as written, with the pendulum and the window that it was run with (they may have been set beside it)."""
-    written, resolved = (_tree(str(result.attributes.get(name, ""))) for name in ("scene", "scene_resolved"))
+    written, resolved = (tree_of(str(result.attributes.get(name, ""))) for name in ("scene", "scene_resolved"))
     if "pendulum" not in resolved:
         raise BadFile(f"{result.path}: holds no scene of a pendulum")
     tree = {name: value for name, value in written.items() if name in ("title", "numerics", "basin")} | {"pendulum": resolved["pendulum"]}
     if isinstance(resolved.get("basin"), dict):
         basin = tree["basin"] if isinstance(tree.get("basin"), dict) else {}
         tree["basin"] = basin | {axis: resolved["basin"][axis] for axis in ("theta", "velocity") if axis in resolved["basin"]}
-    return "".join(f"{name}: {_flow(value, name)}\n" for name, value in tree.items())
+    return _written(tree)
 
 
-def _tree(text):
-    """A scene as nested dicts and lists of texts; {} where the program will say what is wrong with it."""
-    try:
-        tree = yaml.load(text, yaml.BaseLoader)
-    except (yaml.YAMLError, RecursionError):
-        return {}
-    return tree if isinstance(tree, dict) else {}
+def _written(tree):
+    return "".join(f"{name}: {flow(value)}\n" for name, value in tree.items())
 
 
 def _changed(tree, sets):
     """The tree with the keys that --set changes; what cannot be read is refused by the program."""
     for word in sets:
         key, _, value = word.partition("=")
-        *above, last = key.split(".")
-        place = tree
-        for name in above:
-            if not isinstance(place.get(name), dict):
-                place[name] = {}
-            place = place[name]
         try:
-            place[last] = yaml.load(value, yaml.BaseLoader)
+            put(tree, key, yaml.load(value, yaml.BaseLoader))
         except (yaml.YAMLError, RecursionError):
             pass
     return tree
@@ -139,7 +127,10 @@ def _mapping(request, name):
     value = request.get(name)
     if not isinstance(value, dict) or not value:
         raise BadRequest(f"{name}: must be a mapping")
-    return value
+    try:
+        return texts(value)
+    except TypeError:
+        raise BadRequest(f"{name}: a key of it has no value") from None
 
 
 def _count(request, name):
@@ -147,17 +138,3 @@ def _count(request, name):
     if isinstance(value, bool) or not isinstance(value, int) or not 1 <= value <= 1_000_000:
         raise BadRequest(f"{name}: must be a whole number from 1 to 1000000")
     return value
-
-
-def _block(mapping):
-    return "".join(f"  {name}: {_flow(value, name)}\n" for name, value in mapping.items())
-
-
-def _flow(value, name):
-    if isinstance(value, dict):
-        return "{" + ", ".join(f"{key}: {_flow(item, key)}" for key, item in value.items()) + "}"
-    if isinstance(value, list):
-        return "[" + ", ".join(_flow(item, name) for item in value) + "]"
-    if isinstance(value, str) and name != "title" and not set(value) & set("\n,[]{}#:\"'"):
-        return value
-    return json.dumps(value, ensure_ascii=False)
