@@ -9,6 +9,7 @@
 #include <stdint.h>
 
 #include "kapitza/common.h"
+#include "kapitza/model.h"
 
 /* ---- spectra of orbits ---- */
 
@@ -157,6 +158,8 @@ typedef struct {
   const char *asked; /* the name by which a scene asks for it: NAME for NAME_upper, else the name itself */
   double (*value)(double k, double beta, double turn);
   int turning; /* the exact curve, 3 or 5, at whose turn m is `turn`; 0 = the curve does not need it */
+  double (*edge)(const kz_pendulum *form, int number, double m); /* instead of `value`: k over m, of curve `number` */
+  int number;
 } kz_curve;
 extern const kz_curve kz_curves[];
 extern const int kz_curve_count;
@@ -166,6 +169,13 @@ const char *kz_curve_names(void);
 
 /* m [n] of a curve at k [n]; NaN where the curve does not exist. */
 void kz_curve_values(const kz_curve *curve, const kz_damping *damping, int64_t n, const double *k, double *m);
+
+/* Transition curves of Hill's equation u'' + (k - m f(t)) u = 0 as k over m, which is single-valued: 1 = the lowest k with a solution of period
+ * 2 pi; 2, 3 = the two lowest with one of period 4 pi; 4, 5 = the next two of period 2 pi, the lower one first. f is the drive of `form`, a
+ * pendulum with k = 0 and m = 1; kz_meissner_edge takes the square wave f = sign(cos t), and leaves form out. Errors: some 1e-15 of 1 + |m|. */
+enum { KZ_HILL_MOST_M = 1000 }; /* beyond it kz_hill_edge returns NaN */
+double kz_hill_edge(const kz_pendulum *form, int number, double m);
+double kz_meissner_edge(const kz_pendulum *form, int number, double m);
 
 /* The curve on which a solution without damping repeats after `order` >= 2 drive periods (Floquet angle 2 pi/order). It goes from
  * k = 1/order^2, m = 0 to negative k; order 2 gives both edges of the first tongue. m_exact [n], and m_formula [n] by the determinant

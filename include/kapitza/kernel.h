@@ -96,12 +96,13 @@ void kz_sample_model(int32_t model, const kz_pendulum *pendulum, int64_t periods
 
 /* The pendulum near an equilibrium, a lane per parameter point.
  *
- * u'' + beta u' + (k - m cos t) u = 0   (BUT Eq. 23; beta = 0: Mathieu's equation with a = 4k, q = 2m)
- * t in drive radians; about the inverted state k is negative. The substitution u = exp(-beta t/2) w removes the damping:
- * w'' + (k - beta^2/4 - m cos t) w = 0. This equation is even in t, so half a period determines the whole one.
+ * u'' + beta u' + (k - m f(t)) u = 0, Hill's equation; f is the drive of a pendulum `form` with k = 0 and m = 1. NULL means the cosine (BUT Eq. 23;
+ * beta = 0: Mathieu's equation with a = 4k, q = 2m). t in drive radians; about the inverted state k and m change their signs. The substitution
+ * u = exp(-beta t/2) w removes the damping: w'' + (k - beta^2/4 - m f) w = 0. If f is even in t, half a period determines the whole one;
+ * else the second half is followed too, backwards.
  *
  * Half a period: w(pi) = c, s and w'(pi) = c', s' of the two solutions with (w, w') = (1, 0), (0, 1) at t = 0. Over a whole
- * period trace/2 = 2 c s' - 1 = 2 s c' + 1, so every transition curve is a zero of one of the four numbers. */
+ * period of an even drive trace/2 = 2 c s' - 1 = 2 s c' + 1, so every transition curve is a zero of one of the four numbers. */
 
 /* c, s, c', s' of one point, in units of 2^exponent. */
 typedef struct {
@@ -110,14 +111,15 @@ typedef struct {
 } kz_half_period;
 
 /* Solutions at t = pi for n points k [n], beta [n], m [n]. Relative error about 1e-15 (1 + sqrt(|k| + |m|)). */
-void kz_linear_half_period(int64_t n, const double *k, const double *beta, const double *m, kz_half_period *half);
+void kz_linear_half_period(const kz_pendulum *form, int64_t n, const double *k, const double *beta, const double *m,
+                           kz_half_period *half);
 
 /* Floquet's answer for n points.
  * log_multiplier [n]: natural log of the largest |multiplier| over one period.
  * angle [n]: argument of that multiplier / 2 pi, in [0, 1/2].
  * stable [n]: 1 where |trace| < 2 (beta = 0), |trace| < 1 + det (beta > 0), else 0. */
-void kz_linear_floquet(int64_t n, const double *k, const double *beta, const double *m, double *log_multiplier, double *angle,
-                       uint8_t *stable);
+void kz_linear_floquet(const kz_pendulum *form, int64_t n, const double *k, const double *beta, const double *m,
+                       double *log_multiplier, double *angle, uint8_t *stable);
 
 /* ---- reference ---- */
 

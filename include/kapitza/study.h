@@ -122,7 +122,8 @@ typedef struct {
 
 /* Study `stability`. damping, quality_factor: NaN = not given. curves: indices in the list of kz_curve_names(). */
 typedef struct {
-  kz_axis k, m; /* values with both ends */
+  kz_axis k, m; /* values with both ends; min NaN = given as a, q */
+  kz_axis a, q; /* 4k, 2m; min NaN = given as k, m */
   double damping, quality_factor;
   kz_integers curves, subharmonics;
 } kz_stability_plan;

@@ -66,6 +66,9 @@ kz_status kz_parameters_resolve(kz_parameters *parameters);
 
 /* kz_drive_resolve adds the drive that the keys describe to `pendulum`, which has k, beta and m. kz_release_resolve fills *release. */
 void kz_drive_resolve(const kz_parameters *parameters, kz_pendulum *pendulum);
+/* The drive for k = 0 and m = 1, for the linear equation at rest; the cosine of a scene without a pendulum. Coefficients beside m = 0 are left
+ * as they are. */
+void kz_drive_form(const kz_parameters *parameters, kz_pendulum *form);
 const char *kz_drive_contradiction(const kz_pendulum_keys *written,
                                    const kz_pendulum *pendulum); /* what contradicts; NULL = nothing */
 void kz_drive_print(const kz_parameters *parameters, FILE *out); /* a summary line: harmonics in use, and their error */

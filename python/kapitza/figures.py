@@ -18,6 +18,7 @@ _SWEEP: _Row = ("", "sweep", [])
 _BRANCHES: _Row = ("-branches", "sweep", ["--view", "branches"])
 _CHART: _Row = ("", "stability", [])
 _GROWTH: _Row = ("", "stability", ["--view", "growth"])
+_TRAP: _Row = ("", "stability", ["--view", "trap"])
 _FREQUENCY: _Row = ("", "stability", ["--view", "frequency"])
 _ERRORS: _Row = ("", "stability", ["--view", "errors"])
 _ENDS: _Row = ("", "chart", ["--dpi", "130"])
@@ -74,6 +75,7 @@ _SCENES = {
     "josephson": [_SWEEP],
     "laboratory": [_LABORATORY],
     "manifolds-fig12": [_MANIFOLDS],
+    "paul-trap": [_TRAP],
     "phases-walk": [_SWEEP],
     "proof-fig12": [_PROVED],
     "proof-fig13": [_PROVED],
@@ -81,6 +83,7 @@ _SCENES = {
     "ramp-areas": [_SWEEP],
     "saddles-fig12": [_SADDLES],
     "small": [_BASIN],
+    "square-chart": [_CHART],
     "square-wave": [_BASIN],
     "start-phase": [_BASIN],
     "tilted": [_BASIN],

@@ -104,8 +104,12 @@ CURVE(butikov_damped_2) {
   return within(k, -INFINITY, 8.0 / 3, kz_hill_cut_whole(k, beta));
 }
 
-#define ROW(name, turning) {#name, #name, name, turning}
-#define UPPER(name, turning) {#name "_upper", #name, name##_upper, turning}
+#define ROW(name, turning) {#name, #name, name, turning, NULL, 0}
+#define UPPER(name, turning) {#name "_upper", #name, name##_upper, turning, NULL, 0}
+#define EDGES(name, edge)                                                                     \
+  {#name "_1", #name "_1", NULL, 0, edge, 1}, {#name "_2", #name "_2", NULL, 0, edge, 2},     \
+      {#name "_3", #name "_3", NULL, 0, edge, 3}, {#name "_4", #name "_4", NULL, 0, edge, 4}, \
+      {#name "_5", #name "_5", NULL, 0, edge, 5}
 const kz_curve kz_curves[] = {
     ROW(exact_1, 0),              /* k <= 0: 4k = a_0(2m) */
     ROW(exact_2, 0),              /* k <= 1/4: 4k = b_1(2m) */
@@ -134,6 +138,8 @@ const kz_curve kz_curves[] = {
     ROW(butikov_damped_1, 0),     /* k <= 9/4 and a real root: BUT (25), corrected */
     UPPER(butikov_damped_1, 0),   /* the same: its larger root */
     ROW(butikov_damped_2, 0),     /* k <= 8/3 and a real root: BUT (26), corrected */
+    EDGES(hill, kz_hill_edge),    /* of any wave form */
+    EDGES(meissner, kz_meissner_edge),
 };
 const int kz_curve_count = sizeof kz_curves / sizeof kz_curves[0];
 

@@ -42,7 +42,7 @@ static double probe(const place *at, double *low, double *high, double *best) {
     beta[i] = at->beta;
     m[i] = *low + (i + 1) * step;
   }
-  kz_linear_floquet(PROBES, k, beta, m, growth, angle, stable);
+  kz_linear_floquet(NULL, PROBES, k, beta, m, growth, angle, stable);
   int top = 0;
   for (int i = 1; i < PROBES; i++)
     if (growth[i] > growth[top]) top = i;

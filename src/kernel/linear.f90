@@ -1,11 +1,14 @@
-!> Mathieu's damped equation u'' + beta u' + (k - m cos t) u = 0 over a period, a lane per point (k, beta, m).
+!> Hill's damped equation u'' + beta u' + (k - m f(t)) u = 0 over a period, a lane per point (k, beta, m); f is the drive of a pendulum with
+!> k = 0 and m = 1, the cosine if it is left out.
 !>
-!> u = exp(-beta t/2) w removes the damping; w'' + (kappa - m cos t) w = 0, kappa = k - beta**2/4, is integrated over half a
+!> u = exp(-beta t/2) w removes the damping; w'' + (kappa - m f) w = 0, kappa = k - beta**2/4, is integrated over half a
 !> period by Taylor series about the middle of each step. See include/kapitza/kernel.h.
 module kz_kernel_linear
   use, intrinsic :: iso_c_binding, only: c_double, c_int8_t, c_int64_t
   use, intrinsic :: iso_fortran_env, only: rk => real64
   use kz_vector_map, only: WIDTH
+  use kz_model_pendulum, only: pendulum_t, stiffness, highest_harmonic
+  use kz_model_series_r64, only: force_series
   implicit none
   private
 
@@ -31,53 +34,79 @@ module kz_kernel_linear
 contains
 
   !> Solutions at t = pi for n points.
-  subroutine half_periods(n, k, beta, m, half) bind(C, name='kz_linear_half_period')
+  subroutine half_periods(form, n, k, beta, m, half) bind(C, name='kz_linear_half_period')
+    type(pendulum_t), intent(in), optional :: form !< the drive, with k = 0 and m = 1
     integer(c_int64_t), value :: n
     real(c_double), intent(in) :: k(n), beta(n), m(n) !< stiffness, damping, drive [n]
     type(half_period_t), intent(out) :: half(n) !< the four numbers [n]
+    type(pendulum_t) :: wave
     integer(c_int64_t) :: first
     integer :: lanes
 
+    wave = wave_of(form)
     do first = 1, n, WIDTH
       lanes = int(min(int(WIDTH, c_int64_t), n - first + 1))
-      call half_batch(lanes, k(first:), beta(first:), m(first:), half(first:))
+      call half_batch(wave, lanes, k(first:), beta(first:), m(first:), half(first:))
     end do
   end subroutine half_periods
 
+  !> The drive that is meant: the cosine where none is given.
+  pure function wave_of(form) result(wave)
+    type(pendulum_t), intent(in), optional :: form
+    type(pendulum_t) :: wave
+
+    wave = pendulum_t(k=0, beta=0, m=1)
+    if (present(form)) wave = form
+  end function wave_of
+
   !> Largest multiplier, its angle and the stability of n points.
-  subroutine floquet(n, k, beta, m, log_multiplier, angle, stable) bind(C, name='kz_linear_floquet')
+  subroutine floquet(form, n, k, beta, m, log_multiplier, angle, stable) bind(C, name='kz_linear_floquet')
+    type(pendulum_t), intent(in), optional :: form !< the drive, with k = 0 and m = 1
     integer(c_int64_t), value :: n
     real(c_double), intent(in) :: k(n), beta(n), m(n) !< stiffness, damping, drive [n]
     real(c_double), intent(out) :: log_multiplier(n) !< natural log of the largest |multiplier| [n]
     real(c_double), intent(out) :: angle(n) !< Floquet angle / 2 pi [n]
     integer(c_int8_t), intent(out) :: stable(n) !< 1 = stable [n]
-    type(half_period_t), allocatable :: half(:)
+    type(half_period_t), allocatable :: half(:), back(:)
+    type(pendulum_t) :: reversed
     integer(c_int64_t) :: j
 
     allocate (half(n))
-    call half_periods(n, k, beta, m, half)
+    call half_periods(form, n, k, beta, m, half)
+    reversed = wave_of(form)
+    if (all(reversed%vertical(2, :) == 0)) then ! even in time: the second half is the first one, reversed
+      back = half
+    else
+      reversed%vertical(2, :) = -reversed%vertical(2, :)
+      allocate (back(n))
+      call half_periods(reversed, n, k, beta, m, back)
+    end if
     do j = 1, n
-      call classify(half(j), beta(j), rounding_of(k(j), beta(j), m(j)), log_multiplier(j), angle(j), stable(j))
+      call classify(half(j), back(j), beta(j), rounding_of(k(j), beta(j), m(j)), log_multiplier(j), angle(j), stable(j))
     end do
   end subroutine floquet
 
-  !> Multiplier, angle and stability of one point. With growth mu of w per period: trace/2 = cosh(mu) or -cosh(mu), thus
-  !> sinh(mu/2)**2 = s c' or -c s'; between the tongues sin(pi angle)**2 = -s c'. A product of rounding errors alone is on the
-  !> edge, as at k = n**2/4, m = 0.
-  pure subroutine classify(half, beta, rounding, log_multiplier, angle, stable)
-    type(half_period_t), intent(in) :: half
+  !> Multiplier, angle and stability of one point, from the halves of its period; `back` is the second half, run backwards in time. With growth
+  !> mu of w per period: trace/2 = cosh(mu) or -cosh(mu), thus sinh(mu/2)**2 = plus or minus; between the tongues sin(pi angle)**2 = -plus. A
+  !> product of rounding errors alone is on the edge, as at k = n**2/4, m = 0.
+  pure subroutine classify(half, back, beta, rounding, log_multiplier, angle, stable)
+    type(half_period_t), intent(in) :: half, back
     real(rk), intent(in) :: beta, rounding
     real(rk), intent(out) :: log_multiplier, angle
     integer(c_int8_t), intent(out) :: stable
-    real(rk) :: plus, minus, growth
+    real(rk) :: plus, minus, growth, there(4), here(4)
+    integer(c_int64_t) :: exponent
 
-    plus = beyond(half%s*half%c_dot, rounding)
-    minus = beyond(-half%c*half%s_dot, rounding)
+    exponent = max(half%exponent, back%exponent)
+    there = in_units_of(half, exponent)
+    here = in_units_of(back, exponent)*[1, -1, -1, 1] ! the inverse of the second half
+    plus = beyond(minus_determinant(0.5_rk*(there - here)), rounding) ! (trace - 2)/4
+    minus = beyond(minus_determinant(0.5_rk*(there + here)), rounding) ! -(trace + 2)/4
     if (plus >= 0) then
-      growth = growth_of(plus, half%exponent)
+      growth = growth_of(plus, exponent)
       angle = 0
     else if (minus >= 0) then
-      growth = growth_of(minus, half%exponent)
+      growth = growth_of(minus, exponent)
       angle = 0.5_rk
     else
       growth = 0
@@ -86,6 +115,20 @@ contains
     log_multiplier = growth - PI*beta
     stable = merge(1_c_int8_t, 0_c_int8_t, log_multiplier < 0 .or. (beta <= 0 .and. plus < 0 .and. minus < 0))
   end subroutine classify
+
+  pure function in_units_of(half, exponent) result(numbers)
+    type(half_period_t), intent(in) :: half
+    integer(c_int64_t), intent(in) :: exponent
+    real(rk) :: numbers(4)
+
+    numbers = scale([half%c, half%s, half%c_dot, half%s_dot], int(max(half%exponent - exponent, -4000_c_int64_t)))
+  end function in_units_of
+
+  pure real(rk) function minus_determinant(x) result(value)
+    real(rk), intent(in) :: x(4)
+
+    value = x(2)*x(3) - x(1)*x(4)
+  end function minus_determinant
 
   !> The rounding error of a product of two solutions near their zeros.
   pure real(rk) function rounding_of(k, beta, m) result(rounding)
@@ -114,46 +157,36 @@ contains
   end function growth_of
 
   !> One batch through half a period; its steps suit its hardest lane.
-  subroutine half_batch(lanes, k, beta, m, half)
+  subroutine half_batch(wave, lanes, k, beta, m, half)
+    type(pendulum_t), intent(in) :: wave
     integer, intent(in) :: lanes
     real(rk), intent(in) :: k(*), beta(*), m(*)
     type(half_period_t), intent(out) :: half(*)
-    real(rk) :: kappa(WIDTH), drive(WIDTH), h
+    real(rk) :: kappa(WIDTH), drive(WIDTH), h, series(0:ORDER + 3), across(0:0)
     type(solutions_t) :: y
-    integer :: n_steps, i
+    integer :: n_steps, terms, i
 
     kappa = 0
     drive = 0
     kappa(:lanes) = k(:lanes) - 0.25_rk*beta(:lanes)**2
     drive(:lanes) = m(:lanes)
-    n_steps = max(3, ceiling(PI*sqrt(maxval(abs(kappa) + abs(drive)))/(2*REACH)))
+    n_steps = max(3*highest_harmonic(wave), ceiling(PI*sqrt(maxval(abs(kappa) + stiffness(wave)*abs(drive)))/(2*REACH)))
     h = PI/(2*n_steps)
     y%w = spread([1.0_rk, 0.0_rk], 1, WIDTH)
     y%w_dot = spread([0.0_rk, h], 1, WIDTH)
     y%lifts = 0
+    terms = series_terms(highest_harmonic(wave)*h)
     do i = 1, n_steps
-      call step(y, -h*h*kappa, h*h*drive, cosine_series((2*i - 1)*h, h), cosine_terms(h))
+      call force_series(wave, (2*i - 1)*h, h, -1.0_rk, series, across)
+      call step(y, -h*h*kappa, h*h*drive, series, terms)
     end do
     do i = 1, lanes
       half(i) = half_period_t(y%w(i, 1), y%w(i, 2), y%w_dot(i, 1)/h, y%w_dot(i, 2)/h, LIFT_BITS*y%lifts(i))
     end do
   end subroutine half_batch
 
-  !> Taylor coefficients of cos(t + h x) in x.
-  pure function cosine_series(t, h) result(series)
-    real(rk), intent(in) :: t, h
-    real(rk) :: series(0:ORDER + 3), scale
-    integer :: j
-
-    scale = 1
-    do j = 0, ORDER + 3
-      series(j) = scale*merge(cos(t), -sin(t), mod(j, 2) == 0)*merge(1, -1, mod(j/2, 2) == 0)
-      scale = scale*h/(j + 1)
-    end do
-  end function cosine_series
-
-  !> Terms of that series that a double can see.
-  pure integer function cosine_terms(h) result(terms)
+  !> Terms of the drive's series that a double can see; h: half a step times the highest harmonic.
+  pure integer function series_terms(h) result(terms)
     real(rk), intent(in) :: h
     real(rk) :: size
 
@@ -162,19 +195,19 @@ contains
       size = size*h/terms
       if (size < 1e-18_rk) exit
     end do
-  end function cosine_terms
+  end function series_terms
 
   !> A step of two units of x about its middle: with the middle's two solutions A, B the states at its ends are
   !> W(x) = (A, B; A', B') times the middle's, det W = 1.
-  subroutine step(y, stiffness, drive, cosine, terms)
+  subroutine step(y, kappa, drive, wave, terms)
     type(solutions_t), intent(inout) :: y
-    real(rk), intent(in) :: stiffness(WIDTH), drive(WIDTH), cosine(0:ORDER + 3)
+    real(rk), intent(in) :: kappa(WIDTH), drive(WIDTH), wave(0:ORDER + 3)
     integer, intent(in) :: terms
     real(rk), dimension(WIDTH) :: a_even, a_odd, da_even, da_odd, b_even, b_odd, db_even, db_odd, at, slope
     integer :: j
 
-    call series_sums(1, stiffness, drive, cosine, terms, a_even, a_odd, da_even, da_odd)
-    call series_sums(2, stiffness, drive, cosine, terms, b_even, b_odd, db_even, db_odd)
+    call series_sums(1, kappa, drive, wave, terms, a_even, a_odd, da_even, da_odd)
+    call series_sums(2, kappa, drive, wave, terms, b_even, b_odd, db_even, db_odd)
     do j = 1, 2
       at = (db_odd - db_even)*y%w(:, j) - (b_even - b_odd)*y%w_dot(:, j)
       slope = (a_even - a_odd)*y%w_dot(:, j) - (da_odd - da_even)*y%w(:, j)
@@ -185,9 +218,9 @@ contains
   end subroutine step
 
   !> The solution with first coefficients (1, 0) or (0, 1): sums of its even and odd terms at x = 1 and of their derivatives.
-  subroutine series_sums(which, stiffness, drive, cosine, terms, even, odd, d_even, d_odd)
+  subroutine series_sums(which, kappa, drive, wave, terms, even, odd, d_even, d_odd)
     integer, intent(in) :: which
-    real(rk), intent(in) :: stiffness(WIDTH), drive(WIDTH), cosine(0:ORDER + 3)
+    real(rk), intent(in) :: kappa(WIDTH), drive(WIDTH), wave(0:ORDER + 3)
     integer, intent(in) :: terms
     real(rk), dimension(WIDTH), intent(out) :: even, odd, d_even, d_odd
     real(rk) :: a(WIDTH, -3:ORDER + 1), forced(WIDTH)
@@ -199,10 +232,10 @@ contains
     do n = 0, ORDER - 1
       forced = 0
       do j = 0, min(n, terms), 4
-        forced = forced + cosine(j)*a(:, n - j) + cosine(j + 1)*a(:, n - j - 1) + cosine(j + 2)*a(:, n - j - 2) &
-                 + cosine(j + 3)*a(:, n - j - 3)
+        forced = forced + wave(j)*a(:, n - j) + wave(j + 1)*a(:, n - j - 1) + wave(j + 2)*a(:, n - j - 2) &
+                 + wave(j + 3)*a(:, n - j - 3)
       end do
-      a(:, n + 2) = (stiffness*a(:, n) + drive*forced)*(1.0_rk/((n + 1)*(n + 2)))
+      a(:, n + 2) = (kappa*a(:, n) + drive*forced)*(1.0_rk/((n + 1)*(n + 2)))
     end do
     even = 0
     odd = 0

@@ -6,7 +6,7 @@ module kz_model_pendulum
   use, intrinsic :: iso_fortran_env, only: real64, real128
   implicit none
   private
-  public :: pendulum_t, is_same, stiffness, exact_stiffness, is_mirrored, is_sine, highest_harmonic, acceleration, force_at, force_series, &
+  public :: pendulum_t, is_same, stiffness, exact_stiffness, is_mirrored, is_sine, highest_harmonic, acceleration, force_at, &
             force_of_parameters, sine_force, MOST_HARMONICS
 
   integer, parameter :: qp = real128, ld = c_long_double
@@ -142,45 +142,6 @@ contains
     end do
     if (pendulum%unmirrored /= 0) rate = rate + pendulum%torque
   end function acceleration
-
-  !> Taylor coefficients of factor*a(t) and factor*b(t) about t0, in (t - t0)/h, orders 0, 1, ..
-  pure subroutine force_series(pendulum, t0, h, factor, a, b)
-    type(pendulum_t), intent(in) :: pendulum !< the pendulum
-    real(qp), intent(in) :: t0 !< drive time, rad
-    real(qp), intent(in) :: h !< step, rad
-    real(qp), intent(in) :: factor !< h**2 in a scaled equation
-    real(qp), intent(out) :: a(0:) !< of sin theta
-    real(qp), intent(out) :: b(0:) !< of -cos theta
-    integer :: j
-
-    a = 0
-    b = 0
-    call add_harmonic(1, -factor*pendulum%m, 0.0_qp, t0, h, a)
-    do j = 1, pendulum%harmonics
-      call add_harmonic(j, -factor*pendulum%vertical(1, j), -factor*pendulum%vertical(2, j), t0, h, a)
-      call add_harmonic(j, factor*pendulum%horizontal(1, j), factor*pendulum%horizontal(2, j), t0, h, b)
-    end do
-    a(0) = a(0) + factor*pendulum%k
-  end subroutine force_series
-
-  !> series += coefficients of cosine*cos(j t) + sine*sin(j t).
-  pure subroutine add_harmonic(j, cosine, sine, t0, h, series)
-    integer, intent(in) :: j
-    real(qp), intent(in) :: cosine, sine, t0, h
-    real(qp), intent(inout) :: series(0:)
-    real(qp) :: c, s, of_cosine(0:3), of_sine(0:3), scale(2)
-    integer :: n
-
-    c = cos(j*t0)
-    s = sin(j*t0)
-    of_cosine = [c, -s, -c, s]
-    of_sine = [s, c, -s, -c]
-    scale = [cosine, sine]
-    do n = 0, ubound(series, 1)
-      series(n) = series(n) + scale(1)*of_cosine(mod(n, 4)) + scale(2)*of_sine(mod(n, 4))
-      scale = scale*(j*h)/(n + 1)
-    end do
-  end subroutine add_harmonic
 
   !> kz_force_sizes of model.h.
   subroutine force_sizes(pendulum, h, n, sizes) bind(C, name='kz_force_sizes')

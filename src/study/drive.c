@@ -195,6 +195,17 @@ void kz_drive_resolve(const kz_parameters *parameters, kz_pendulum *p) {
   if (has(written->torque_amplitude)) resolve_swing(written, p);
 }
 
+void kz_drive_form(const kz_parameters *parameters, kz_pendulum *form) {
+  const double unit = parameters->pendulum.m;
+  *form = (kz_pendulum){.m = 1};
+  if (isnan(parameters->pendulum.k)) return;
+  kz_drive_resolve(parameters, form);
+  if (!has_coefficients(&parameters->written)) return;
+  form->m = has(unit); /* coefficients are not in units of m */
+  for (int j = 0; j < KZ_HARMONICS && form->m > 0; j++)
+    for (int part = 0; part < 2; part++) form->vertical[j][part] /= unit;
+}
+
 void kz_pivot_at(const kz_parameters *parameters, double phase, double place[2]) {
   const kz_pendulum *p = &parameters->pendulum;
   place[0] = 0;

@@ -2,6 +2,7 @@
 #include <math.h>
 
 #include "kapitza/study.h"
+#include "stability/stability.h"
 #include "sweep/sweep.h"
 
 static const char needs_strobe[] = "a window by centre and width needs starts at phase 0 and no ramp; give min and max";
@@ -73,7 +74,8 @@ static const char *keys_of(const kz_scene *scene) {
 /* The first study or method that needs the sine; NULL = none. */
 static const char *needs_sine(const kz_scene *scene) {
   if (scene->has_chart) return needs_pivot;
-  if (scene->has_stability) return "study stability needs a pivot that moves up and down as a sine; leave one of them out";
+  if (scene->has_stability && !kz_is_sine(&scene->parameters.pendulum) && kz_stability_needs_sine(&scene->stability))
+    return "stability.curves over k and subharmonics are those of the sine; leave them out, or ask for hill_1 to hill_5";
   if (scene->has_potential) return "study potential needs a pivot that moves up and down as a sine; leave one of them out";
   if (scene->has_orbit && scene->orbit.model != KZ_PENDULUM)
     return "orbit.model needs a pivot that moves up and down as a sine; choose the model pendulum";
@@ -85,6 +87,8 @@ static const char *needs_sine(const kz_scene *scene) {
 }
 
 static const char *needs_mirror(const kz_scene *scene) {
+  if (scene->has_stability && !kz_is_mirrored(&scene->parameters.pendulum))
+    return "study stability needs a pendulum that can rest, which this drive or torque always moves; leave one of them out";
   if (scene->has_basin && scene->basin.method == KZ_METHOD_ICM)
     return "basin.method icm needs mirror symmetry, which this drive does not have; choose exact or direct";
   if (scene->has_tradeoff) return "study tradeoff needs mirror symmetry, which this drive does not have; leave one of them out";
@@ -126,8 +130,23 @@ static bool drive_is_varied(const kz_scene *scene) {
   return (scene->has_sweep && kz_sweep_is_of_drive(scene->sweep.parameter)) || is_charted(scene, kz_sweep_is_of_drive);
 }
 
+/* The complaint about the numbers of a chart of stability; NULL = none. */
+static const char *wrong_chart(const kz_scene *scene) {
+  if (!scene->has_stability) return NULL;
+  const kz_axis m = kz_stability_axes(&scene->stability).m;
+  if (scene->parameters.written.vertical.count > 0 && !(fabs(scene->parameters.pendulum.m) > 0))
+    return "pendulum.m: is 0, but study stability counts pendulum.vertical in units of it; give another m";
+  if (kz_stability_has_curve(&scene->stability, "hill_") && fmax(fabs(m.min), fabs(m.max)) > KZ_HILL_MOST_M)
+    return "stability.m.max|stability.q.max: is too far for the curves hill_1 to hill_5, which go to m = 1000; leave them out, "
+           "or "
+           "end before";
+  return NULL;
+}
+
 kz_status kz_drive_check(const kz_scene *scene) {
   const kz_pendulum *p = &scene->parameters.pendulum;
+  const char *chart = wrong_chart(scene);
+  if (chart) return kz_fail(KZ_REFUSED, "%s", chart);
   const bool varied = drive_is_varied(scene);
   const char *why = kz_is_sine(p) && !varied ? NULL : needs_sine(scene);
   if (!why && (!kz_is_mirrored(p) || varied)) why = needs_mirror(scene);

@@ -22,19 +22,19 @@ typedef struct {
   double scale;
 } drive_words;
 
-static bool is_stable(double k, double beta, double m) {
+static bool is_stable(const kz_pendulum *form, double k, double beta, double m) {
   double growth, angle;
   uint8_t stable;
-  kz_linear_floquet(1, &k, &beta, &m, &growth, &angle, &stable);
+  kz_linear_floquet(form, 1, &k, &beta, &m, &growth, &angle, &stable);
   return stable;
 }
 
 /* The drive between two of different answers at which the answer changes. */
-static double change_between(double k, double beta, double below, double above) {
-  const bool first = is_stable(k, beta, below);
+static double change_between(const kz_pendulum *form, double k, double beta, double below, double above) {
+  const bool first = is_stable(form, k, beta, below);
   for (int i = 0; i < HALVINGS; i++) {
     const double middle = (below + above) / 2;
-    if (is_stable(k, beta, middle) == first)
+    if (is_stable(form, k, beta, middle) == first)
       below = middle;
     else
       above = middle;
@@ -43,18 +43,18 @@ static double change_between(double k, double beta, double below, double above) 
 }
 
 /* The nearest change from place `at` on in steps of `by`, and the place behind it; NaN where none is met. */
-static double next_change(const uint8_t *stable, double step, double k, double beta, int *at, int by) {
+static double next_change(const kz_pendulum *form, const uint8_t *stable, double step, double k, double beta, int *at, int by) {
   for (int i = *at; i >= 0 && i + by >= 0 && i + by < POINTS; i += by) {
     if (stable[i] == stable[i + by]) continue;
     *at = i + by;
-    return change_between(k, beta, step * (by > 0 ? i : i + by), step * (by > 0 ? i + by : i));
+    return change_between(form, k, beta, step * (by > 0 ? i : i + by), step * (by > 0 ? i + by : i));
   }
   *at = -1;
   return NAN;
 }
 
-/* The position at which gravity counts as k; `most`: the largest drive that is looked at. */
-static rest look(double k, double beta, double m, double most) {
+/* The position at which gravity counts as k and the drive `form` as m; `most`: the largest drive that is looked at. */
+static rest look(const kz_pendulum *form, double k, double beta, double m, double most) {
   KZ_FREED double *ks = kz_malloc(5 * POINTS * sizeof *ks);
   KZ_FREED uint8_t *stable = kz_malloc(POINTS);
   double *betas = ks + POINTS, *ms = betas + POINTS, *growth = ms + POINTS, *angle = growth + POINTS;
@@ -64,21 +64,21 @@ static rest look(double k, double beta, double m, double most) {
     betas[i] = beta;
     ms[i] = step * i;
   }
-  kz_linear_floquet(POINTS, ks, betas, ms, growth, angle, stable);
+  kz_linear_floquet(form, POINTS, ks, betas, ms, growth, angle, stable);
   int here = (int)lrint(fabs(m) / step), up, down;
-  rest found = {.stable = is_stable(k, beta, fabs(m)), .low = NAN, .high = NAN};
+  rest found = {.stable = is_stable(form, k, beta, fabs(m)), .low = NAN, .high = NAN};
   stable[here] = found.stable;
   up = down = here;
   if (found.stable) {
-    found.low = next_change(stable, step, k, beta, &down, -1);
-    found.high = next_change(stable, step, k, beta, &up, 1);
+    found.low = next_change(form, stable, step, k, beta, &down, -1);
+    found.high = next_change(form, stable, step, k, beta, &up, 1);
   } else {
-    found.low = next_change(stable, step, k, beta, &up, 1);
+    found.low = next_change(form, stable, step, k, beta, &up, 1);
     if (up >= 0) {
-      found.high = next_change(stable, step, k, beta, &up, 1);
+      found.high = next_change(form, stable, step, k, beta, &up, 1);
     } else { /* none above: the last one below */
-      found.high = next_change(stable, step, k, beta, &down, -1);
-      found.low = next_change(stable, step, k, beta, &down, -1);
+      found.high = next_change(form, stable, step, k, beta, &down, -1);
+      found.low = next_change(form, stable, step, k, beta, &down, -1);
     }
   }
   return found;
@@ -90,7 +90,7 @@ static double most_of(double k, double m) {
 }
 
 void kz_standing_drives(const kz_pendulum *p, double *low, double *high) {
-  const rest inverted = look(-p->k, p->beta, 0, most_of(p->k, 0));
+  const rest inverted = look(NULL, -p->k, p->beta, 0, most_of(p->k, 0));
   *low = inverted.low;
   *high = inverted.high;
 }
@@ -125,16 +125,13 @@ static void print_position(const char *name, const rest *r, const drive_words *w
   fputs(").", out);
 }
 
-/* Whether rest at `theta` is stable under any vertical drive: by the tangent map of a period. */
-static bool is_stable_at(const kz_pendulum *p, double theta) {
-  const kz_numerics fine = {.scheme = kz_scheme_find("split6"),
-                            .steps_per_period = 96 * (int32_t)ceil(sqrt(fmax(1, kz_stiffness(p))))};
-  double velocity = 0, matrix[4];
-  int64_t turns = 0;
-  kz_flow *flow = kz_flow_create(p, &fine);
-  kz_advance_tangent(flow, 1, 1, &theta, &velocity, &turns, matrix);
-  kz_flow_free(flow);
-  return fabs(matrix[0] + matrix[3]) <= 1 + exp(-2 * M_PI * p->beta);
+/* The drive with the other sign, or as it is. */
+static kz_pendulum times(const kz_pendulum *form, double sign) {
+  kz_pendulum turned = *form;
+  turned.m *= sign;
+  for (int j = 0; j < form->harmonics; j++)
+    for (int part = 0; part < 2; part++) turned.vertical[j][part] *= sign;
+  return turned;
 }
 
 void kz_rest_print(const kz_parameters *parameters, FILE *out) {
@@ -148,14 +145,14 @@ void kz_rest_print(const kz_parameters *parameters, FILE *out) {
     fputs("Rest: none, because the drive across the vertical or the torque moves the pendulum.\n", out);
     return;
   }
-  if (!kz_is_sine(p)) {
-    fprintf(out, "Rest hanging down: %s. Rest upside down: %s.\n", is_stable_at(p, 0) ? "stable" : "unstable",
-            is_stable_at(p, M_PI) ? "stable" : "unstable");
-    return;
-  }
-  const double most = most_of(p->k, p->m);
+  kz_pendulum form;
+  kz_drive_form(parameters, &form);
+  const double m = form.m > 0 ? p->m : 1, sign = m < 0 ? -1 : 1;
+  const kz_pendulum hanging = times(&form, sign), upside = times(&form, -sign);
+  const double most = most_of(p->k, m);
   const drive_words words = words_of(parameters);
-  const rest down = look(p->k, p->beta, p->m, most), inverted = look(-p->k, p->beta, p->m, most);
+  rest down = look(&hanging, p->k, p->beta, m, most), inverted = look(&upside, -p->k, p->beta, m, most);
+  if (!(form.m > 0)) down.low = down.high = inverted.low = inverted.high = NAN; /* no key scales this drive */
   print_position("hanging down", &down, &words, out);
   fputc(' ', out);
   print_position("upside down", &inverted, &words, out);

@@ -34,7 +34,7 @@ static void chart_holds_numbers(void **unused) {
       for (int l = 0; l < 5; l++) {
         double beta = sqrt(fabs(ks[i])) / qs[l], log_multiplier, angle;
         uint8_t stable;
-        kz_linear_floquet(1, &ks[i], &beta, &ms[j], &log_multiplier, &angle, &stable);
+        kz_linear_floquet(NULL, 1, &ks[i], &beta, &ms[j], &log_multiplier, &angle, &stable);
         assert_true(isfinite(log_multiplier) && angle >= 0 && angle <= 0.5 && stable <= 1);
         assert_true(log_multiplier >= -PI * beta);
         if (beta > 0) assert_int_equal(stable, log_multiplier < 0);
@@ -48,10 +48,10 @@ static void feet_of_the_tongues_are_on_the_edge(void **unused) {
   for (int n = 0; n <= 40; n++) {
     double k = 0.25 * n * n, log_multiplier, angle;
     uint8_t stable;
-    kz_linear_floquet(1, &k, &beta, &m, &log_multiplier, &angle, &stable);
+    kz_linear_floquet(NULL, 1, &k, &beta, &m, &log_multiplier, &angle, &stable);
     assert_true(log_multiplier == 0 && stable == 0 && angle == (n % 2 ? 0.5 : 0));
     k += 1e-9 * (1 + k);
-    kz_linear_floquet(1, &k, &beta, &m, &log_multiplier, &angle, &stable);
+    kz_linear_floquet(NULL, 1, &k, &beta, &m, &log_multiplier, &angle, &stable);
     assert_true(log_multiplier == 0 && stable == 1);
   }
 }
@@ -63,7 +63,7 @@ static void growth_is_a_logarithm(void **unused) {
   for (int i = 0; i < 4; i++) {
     double log_multiplier, angle, beta = betas[i];
     uint8_t stable;
-    kz_linear_floquet(1, &k, &beta, &m, &log_multiplier, &angle, &stable);
+    kz_linear_floquet(NULL, 1, &k, &beta, &m, &log_multiplier, &angle, &stable);
     double exact = 2 * PI * 2 * 1e4 / (beta + sqrt(beta * beta + 4e4));
     assert_true(fabs(log_multiplier - exact) < 1e-13 * (2 * PI * sqrt(1e4 + beta * beta / 4)) + 1e-12 * exact);
   }
@@ -90,7 +90,7 @@ static void angles_to_twelve_digits(void **unused) {
   for (size_t i = 0; i < sizeof points / sizeof points[0]; i++) {
     double log_multiplier, angle;
     uint8_t stable;
-    kz_linear_floquet(1, &points[i].k, &points[i].beta, &points[i].m, &log_multiplier, &angle, &stable);
+    kz_linear_floquet(NULL, 1, &points[i].k, &points[i].beta, &points[i].m, &log_multiplier, &angle, &stable);
     assert_true(fabs(angle - points[i].angle) < 1e-12 * angle + 1e-16);
     assert_true(stable == 1 && log_multiplier == -PI * points[i].beta);
   }

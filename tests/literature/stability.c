@@ -82,13 +82,23 @@ static void subharmonics_of_butikov_fig_9(void **unused) {
   }
 }
 
+/* The number of every text on Paul traps: without a static field the first zone ends at q = 0.908046; the tip of the zone of a mass filter. */
+static void zone_of_the_paul_trap(void **unused) {
+  (void)unused;
+  const kz_pendulum sine = {.m = 1};
+  CLOSE(2 * value("exact_2", 0, NAN), 0.908046, 5e-7);
+  CLOSE(4 * kz_hill_edge(&sine, 2, 0.908046 / 2), 0, 5e-6);
+  CLOSE(-4 * kz_hill_edge(&sine, 1, 0.706 / 2), 0.237, 5e-4);
+  CLOSE(4 * kz_hill_edge(&sine, 2, 0.706 / 2), 0.237, 5e-4);
+}
+
 static void floquet_angles_of_butikov_fig_10(void **unused) {
   (void)unused;
   const double k[] = {0, 0.74991592006338, 1.3999408919327}, beta[] = {0, 0, 0};
   const double m[] = {0.2255522566639546, 0.5235, 0.5653};
   double growth[3], angle[3];
   uint8_t stable[3];
-  kz_linear_floquet(3, k, beta, m, growth, angle, stable);
+  kz_linear_floquet(NULL, 3, k, beta, m, growth, angle, stable);
   for (int i = 0; i < 3; i++) {
     CLOSE(angle[i], 1.0 / 6, 1e-12);
     assert_true(growth[i] == 0 && stable[i] == 1);
@@ -173,10 +183,15 @@ static void effective_potential_of_blackburn(void **unused) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(transition_curves_of_butikov_fig_1), cmocka_unit_test(curves_turn_back_where_published),
-      cmocka_unit_test(subharmonics_of_butikov_fig_9),      cmocka_unit_test(floquet_angles_of_butikov_fig_10),
-      cmocka_unit_test(boundaries_of_blackburn_fig_4),      cmocka_unit_test(tongues_of_butikov_fig_11),
-      cmocka_unit_test(thresholds_of_butikov_section_6),    cmocka_unit_test(effective_potential_of_blackburn),
+      cmocka_unit_test(transition_curves_of_butikov_fig_1),
+      cmocka_unit_test(curves_turn_back_where_published),
+      cmocka_unit_test(zone_of_the_paul_trap),
+      cmocka_unit_test(subharmonics_of_butikov_fig_9),
+      cmocka_unit_test(floquet_angles_of_butikov_fig_10),
+      cmocka_unit_test(boundaries_of_blackburn_fig_4),
+      cmocka_unit_test(tongues_of_butikov_fig_11),
+      cmocka_unit_test(thresholds_of_butikov_section_6),
+      cmocka_unit_test(effective_potential_of_blackburn),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

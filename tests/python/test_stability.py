@@ -1,6 +1,7 @@
 """The studies stability and potential, from the scene to the file."""
 
 import json
+import re
 import subprocess
 import sys
 
@@ -156,6 +157,69 @@ def test_chart_against_a_textbook_integration(kapitza, tmp_path, k, m, damping):
         assert np.exp(growth) == pytest.approx(largest, rel=1e-8)
 
 
+SQUARE = """\
+pendulum: {k: 0.1, damping: 0, m: 1, waveform: square, harmonics: [{order: 2, amplitude: 0.3, phase: 40 deg}]}
+stability:
+  k: {min: -0.5, max: 1.5, count: 81}
+  m: {min: -1, max: 1.5, count: 51}
+  curves: [hill_1, hill_2, hill_3, hill_4, hill_5]
+"""
+
+
+def test_zones_of_any_wave_form_lie_between_its_curves(kapitza, tmp_path):
+    """A wave form that is even neither in time nor in m: stable between curves 1 and 2, 3 and 4, above 5, on both sides of the axis."""
+    with run(kapitza, tmp_path, SQUARE) as file:
+        chart = {name: item[:] for name, item in file["stability"].items()}
+        assert file["stability"].attrs["odd_harmonics"] == 0
+    one, two, three, four, five = (chart[f"hill_{number}"][:, None] for number in range(1, 6))
+    k = chart["k"][None, :]
+    expected = ((k > one) & (k < two)) | ((k > three) & (k < four)) | (k > five)
+    clear = (np.abs(k - np.stack([one, two, three, four, five])) > 1e-9).all(axis=0)
+    assert clear.mean() > 0.95 and (expected == (chart["stable"] == 1))[clear].all()
+    assert (chart["hill_1"][chart["m"] == -1] != chart["hill_1"][chart["m"] == 1]).all()
+
+
+def test_rest_of_a_square_wave_agrees_with_its_chart(kapitza, tmp_path):
+    """The line of a summary and the curves are two ways: integration along m, and the determinant."""
+    pendulum = "pendulum: {k: 0.01, damping: 0, m: 0.3, waveform: square}\n"
+    (tmp_path / "rest.yaml").write_text(pendulum + "attractors: {velocity: {min: -1, max: 1}}\n")
+    said = kapitza("check", "rest.yaml", folder=tmp_path).stdout
+    low, high = (float(word) for word in re.search(r"Rest upside down: stable \(for m from (\S+) to ([0-9.]+)\)", said).groups())
+    with run(kapitza, tmp_path, f"{pendulum}stability:\n  k: {{min: -0.01, max: 0, count: 2}}\n"
+             f"  m: {{min: {low}, max: {high}, count: 2}}\n  curves: [hill_1, hill_2]\n") as file:
+        edges = file["stability/hill_1"][0], file["stability/hill_2"][1]
+    assert edges == pytest.approx((-0.01, -0.01), abs=1e-4)
+
+
+TRAP = "stability: {a: {min: -0.5, max: 0.5, count: 41}, q: {min: 0, max: 1.2, count: 31}, curves: [exact_2, hill_1, hill_2]}\n"
+
+
+def test_words_of_ion_traps_give_the_same_numbers(kapitza, tmp_path):
+    with run(kapitza, tmp_path, TRAP) as file:
+        trap, resolved = {name: item[:] for name, item in file["stability"].items()}, file.attrs["scene_resolved"]
+    assert (trap["a"] == 4 * trap["k"]).all() and (trap["q"] == 2 * trap["m"]).all()
+    plain = "stability: {k: {min: -0.125, max: 0.125, count: 41}, m: {min: 0, max: 0.6, count: 31}, curves: [exact_2, hill_1, hill_2]}\n"
+    for scene in (plain, resolved):
+        with run(kapitza, tmp_path, scene) as file:
+            assert ("a" in file["stability"]) == (scene == resolved)
+            assert all(np.array_equal(item[:], trap[name], equal_nan=True) for name, item in file["stability"].items())
+
+
+@pytest.mark.parametrize("scene, view", [(TRAP, "trap"), (TRAP, "zones"), (TRAP, "growth"),
+                                         (SQUARE.replace("hill_5]", "hill_5, meissner_1, meissner_3]"), "zones")])
+def test_charts_of_other_words_and_wave_forms_draw(kapitza, tmp_path, scene, view):
+    run(kapitza, tmp_path, scene).close()
+    assert plot("stability", tmp_path / "chart.h5", "-o", tmp_path / "chart.png", "--view", view, "--dpi", "60").returncode == 0
+    assert image.imread(tmp_path / "chart.png")[..., :3].std() > 0.05
+
+
+@pytest.mark.parametrize("scene, word", [(SQUARE, "axes a and q"), (TRAP.replace("-0.5", "-0.4"), "as many values of a")])
+def test_trap_needs_both_directions(kapitza, tmp_path, scene, word):
+    run(kapitza, tmp_path, scene).close()
+    done = plot("stability", tmp_path / "chart.h5", "--view", "trap", "-o", tmp_path / "chart.png")
+    assert done.returncode == 1 and done.stderr.count("\n") == 1 and word in done.stderr
+
+
 def test_potential(kapitza, tmp_path):
     with run(kapitza, tmp_path, PENDULUM + "potential: {drive_amplitudes: [0.05, 0.2, 0.3], theta: {count: 201}}\n") as file:
         group = {name: item[:] for name, item in file["potential"].items()}
@@ -210,6 +274,13 @@ def test_benchmark_measures_speed_and_error(kapitza):
 
 
 BAD = {
+    "curve of the sine under another wave": (SQUARE.replace("hill_1", "exact_1"), "hill_1 to hill_5"),
+    "nothing rests": (SQUARE.replace("waveform: square", "tilt: 5 deg"), "can rest"),
+    "half of the words of traps": ("stability: {a: {min: 0, max: 1}}\n", "stability.q"),
+    "words of two kinds": (TRAP.replace("a: {", "m: {min: 0, max: 1}, a: {"), "contradicts stability.m"),
+    "no unit of coefficients": (SQUARE.replace("m: 1, waveform: square", "m: 0, vertical: [0, 0, 0.1, 0]").replace(
+        ", harmonics: [{order: 2, amplitude: 0.3, phase: 40 deg}]", ""), "in units of it"),
+    "too far for the determinant": (SQUARE.replace("max: 1.5, count: 51", "max: 1001, count: 51"), "m = 1000"),
     "both dampings": (CHART + "  damping: 0.1\n  quality_factor: 5\n", "stability."),
     "unknown curve": (CHART + "  curves: [exact_6]\n", "exact_6"),
     "order below two": (CHART + "  subharmonics: [1]\n", "stability.subharmonics"),

@@ -22,14 +22,14 @@ static double random_between(double low, double high) {
 
 static kz_half_period half_period(double k, double beta, double m) {
   kz_half_period half;
-  kz_linear_half_period(1, &k, &beta, &m, &half);
+  kz_linear_half_period(NULL, 1, &k, &beta, &m, &half);
   return half;
 }
 
 static double growth(double k, double beta, double m, double *angle) {
   double log_multiplier;
   uint8_t stable;
-  kz_linear_floquet(1, &k, &beta, &m, &log_multiplier, angle, &stable);
+  kz_linear_floquet(NULL, 1, &k, &beta, &m, &log_multiplier, angle, &stable);
   return log_multiplier;
 }
 

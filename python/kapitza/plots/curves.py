@@ -17,11 +17,13 @@ COLOURS = ["#12806a", "#2f6db3", "#5b2a7a", "#c2452f", "#b08a1e", "#3b3f45"]
 EXACT = {
     "blackburn_lower": "exact_1", "blackburn_upper": "exact_2", "blackburn_down_upper": "exact_2",
     "butikov_4_refined": "exact_4", "butikov_5_refined": "exact_5", "butikov_5_refined_upper": "exact_5_upper",
+    **{f"meissner_{number}": f"hill_{number}" for number in range(1, 6)},
 }
 LABELS = {
     "butikov_1": "Butikov Eq. 3", "butikov_2": "Butikov Eq. 4", "butikov_3": "Butikov Eq. 5", "butikov_4": "Butikov Eq. 6",
     "butikov_5": "Butikov Eq. 7", "butikov_4_refined": "Butikov Eq. 17", "butikov_5_refined": "Butikov Eq. 19",
     "butikov_damped_1": "Butikov Eq. 25", "butikov_damped_2": "Butikov Eq. 26",
+    **{f"meissner_{number}": f"square wave, curve {number}" for number in range(1, 6)},
     "blackburn_lower": "Blackburn Eq. 5", "blackburn_upper": "Blackburn Eq. 6", "blackburn_down_upper": "Blackburn Eq. 6, down",
 }
 # What a curve bounds; the numbers are Butikov's.
@@ -29,11 +31,19 @@ CURVES = {1: "curve 1: inverted stands above it", 2: "curve 2: first tongue, lef
           4: "curve 4: second tongue, left edge", 5: "curve 5: second tongue, right edge"}
 SUBHARMONICS = {2: 2, 3: 5, 4: 3, 6: 4}  # order -> colour, no two alike
 K_LABEL, M_LABEL = "gravity k (negative about inverted)", "drive amplitude m"
-KNOWN = re.compile(r"(exact|butikov|subharmonic|damped|butikov_subharmonic|butikov_damped)_\d+(_refined)?(_upper)?|blackburn_\w+")
+A_LABEL, Q_LABEL = "a, static field (4 k)", "q, alternating field (2 m)"
+KNOWN = re.compile(r"((butikov_)?(subharmonic|damped)|exact|hill|meissner|butikov)_\d+(_refined)?(_upper)?|blackburn_\w+")
 
 
-def curve_names(chart: xarray.Dataset) -> list[str]:
-    return [str(name) for name in chart.data_vars if chart[name].dims == ("k",) and KNOWN.fullmatch(str(name))]
+def curve_names(chart: xarray.Dataset, *along: str) -> list[str]:
+    """The curves over k, and those over m (`along`: over one of them alone)."""
+    return [str(name) for name in chart.data_vars
+            if chart[name].dims in [(axis,) for axis in along or "km"] and KNOWN.fullmatch(str(name))]
+
+
+def axes_of(chart: xarray.Dataset) -> tuple[float, float, str, str]:
+    """By what k and m are multiplied in a picture, and what its axes are: those of ion traps, where the scene has given them."""
+    return (4, 2, A_LABEL, Q_LABEL) if "a" in chart else (1, 1, K_LABEL, M_LABEL)
 
 
 def exact_of(name: str) -> str | None:
@@ -84,6 +94,8 @@ def family(name: str) -> str:
 
 def whole_curve(chart: xarray.Dataset, name: str) -> tuple[np.ndarray, np.ndarray]:
     """(k, m) of a curve from the axis over its turn to its upper branch, where it has one."""
+    if chart[name].dims == ("m",):
+        return chart[name].values, chart["m"].values
     k, m = chart["k"].values, chart[name].values
     order = re.search(r"subharmonic_(\d+)", name)
     if order and k[0] < 1 / int(order[1]) ** 2 < k[-1]:  # its foot on the axis, between two values of the chart
@@ -107,9 +119,11 @@ def draw_curves(axes: Axes, chart: xarray.Dataset, *, colours: Mapping[str, str]
     curve (default: family)."""
     names = [name for name in curve_names(chart) if not is_branch(chart, name)]
     damped = any(name.startswith("damped") for name in names)
+    across, up, *_ = axes_of(chart)
     for name in names:
         formula, faint = exact_of(name) is not None, damped and name.startswith("exact")
-        axes.plot(*whole_curve(chart, name), color=(colours or {}).get(name, style.FAINT if faint else family(name)),
+        k, m = whole_curve(chart, name)
+        axes.plot(across * k, up * m, color=(colours or {}).get(name, style.FAINT if faint else family(name)),
                   linestyle=(0, (1, 1.2)) if "refined" in name else (0, (4, 2)) if formula else "-",
                   linewidth=0.7 if faint else 1.3 if formula else 1.6, label=_entry(chart, name) + (", undamped" if faint else ""))
     if names and legend:
@@ -121,8 +135,11 @@ def _entries(axes: Axes, names: list[str], damped: bool) -> list[Artist]:
     """Every exact curve by its name; formulas, which share the colours of their curves, by how they are drawn."""
     handles = dict(zip(names, axes.lines[-len(names):], strict=True))
     exact = [handles[name] for name in names if exact_of(name) is None and not (damped and name.startswith("exact"))]
+    dashed = [name for name in names if exact_of(name) and "refined" not in name]
+    square = [name for name in dashed if name.startswith("meissner")]
     kinds = [(dashes, text) for dashes, text, some in (
-        ((0, (4, 2)), "formula of a paper, colour of its curve", any(exact_of(name) and "refined" not in name for name in names)),
+        ((0, (4, 2)), "of the true square wave, colour of its curve", square),
+        ((0, (4, 2)), "formula of a paper, colour of its curve", len(dashed) > len(square)),
         ((0, (1, 1.2)), "refined formula", any("refined" in name for name in names))) if some]
     lines = [Line2D([], [], color=style.INK, linewidth=1.3, linestyle=dashes, label=text) for dashes, text in kinds]
     if damped and any(name.startswith("exact") for name in names):

@@ -17,7 +17,7 @@ MAP = "plasma_r"
 
 def errors_of(chart: xarray.Dataset) -> dict[tuple[str, str], np.ndarray]:
     """(formula, exact curve) -> relative error of m over k; NaN where either is not known."""
-    pairs = [(name, exact) for name in curve_names(chart) if (exact := exact_of(name)) and exact in chart]
+    pairs = [(name, exact) for name in curve_names(chart, "k") if (exact := exact_of(name)) and exact in chart]
     with np.errstate(divide="ignore", invalid="ignore"):
         return {(name, exact): np.maximum(np.abs(chart[name].values / chart[exact].values - 1), 1e-12) for name, exact in pairs}
 

@@ -3,6 +3,7 @@
     kapitza-plot stability butikov-fig01.h5                      zones and curves over (k, m)
     kapitza-plot stability blackburn-fig02.h5 --view growth      the growth rate in the tongues
     kapitza-plot stability blackburn-fig04.h5 --view frequency   hanging and inverted over the drive frequency
+    kapitza-plot stability paul-trap.h5 --view trap              where ions are held in both directions
     kapitza-plot stability formula-errors.h5 --view errors       every formula against its exact curve
 """
 
@@ -19,7 +20,7 @@ from matplotlib.patches import Patch
 
 from kapitza import style
 from kapitza.plots.common import argument_parser, entitle, new_figure, parsed, write_picture
-from kapitza.plots.curves import K_LABEL, M_LABEL, curve_names, draw_curves, exact_of, is_branch, lowest_point, whole_curve
+from kapitza.plots.curves import A_LABEL, Q_LABEL, axes_of, curve_names, draw_curves, exact_of, is_branch, lowest_point, whole_curve
 from kapitza.plots.formula_errors import error_figure
 from kapitza.plots.page import current
 from kapitza.result import BadFile, Result
@@ -37,15 +38,16 @@ def parse_arguments(words: list[str]) -> argparse.Namespace:
 
 def frame(axes: Axes, chart: xarray.Dataset) -> Axes:
     """The chart's edges and what its axes are."""
-    axes.set(xlim=chart["k"].values[[0, -1]], ylim=chart["m"].values[[0, -1]])
-    axes.set(xlabel=K_LABEL, ylabel=M_LABEL)
+    across, up, xlabel, ylabel = axes_of(chart)
+    axes.set(xlim=across * chart["k"].values[[0, -1]], ylim=up * chart["m"].values[[0, -1]], xlabel=xlabel, ylabel=ylabel)
     return axes
 
 
 def draw_zones(axes: Axes, chart: xarray.Dataset, *, colours: Sequence[str] = ("white", STABLE), legend: bool = True) -> Axes:
     """Zones (colours: unstable, stable) and curves over (k, m)."""
-    axes.pcolormesh(chart["k"], chart["m"], chart["stable"], cmap=ListedColormap(list(colours)), vmin=0, vmax=1, shading="nearest",
-                    rasterized=True)
+    across, up, *_ = axes_of(chart)
+    axes.pcolormesh(across * chart["k"], up * chart["m"], chart["stable"], cmap=ListedColormap(list(colours)), vmin=0, vmax=1,
+                    shading="nearest", rasterized=True)
     draw_curves(axes, chart, legend=legend)
     mark_thresholds(axes, chart)
     return frame(axes, chart)
@@ -56,34 +58,39 @@ def mark_thresholds(axes: Axes, chart: xarray.Dataset) -> Axes:
     for tongue in (1, 2):
         lowest = lowest_point(chart, f"damped_{tongue}")
         if lowest is not None:
-            axes.plot(*lowest, "o", markersize=4, color=style.INK, zorder=5)
+            across, up, *_ = axes_of(chart)
+            axes.plot(across * lowest[0], up * lowest[1], "o", markersize=4, color=style.INK, zorder=5)
     return axes
 
 
 def draw_growth(axes: Axes, chart: xarray.Dataset, *, colours: Sequence[str] = ("OrRd", "Blues"), legend: bool = True) -> Axes:
     """Growth rate per period in the tongues, Floquet angle between them (colours: names of their colour maps)."""
+    across, up, *_ = axes_of(chart)
     stable = chart["stable"].values == 1
     growth = np.where(stable, np.nan, chart["log_multiplier"])
     angle = np.where(stable, chart["angle"], np.nan)
     for values, cmap, text in ((growth, colours[0], "growth: ln |multiplier| per period"), (angle, colours[1], "Floquet angle / 2π")):
-        image = axes.pcolormesh(chart["k"], chart["m"], values, cmap=cmap, shading="nearest", rasterized=True, vmin=0)
+        image = axes.pcolormesh(across * chart["k"], up * chart["m"], values, cmap=cmap, shading="nearest", rasterized=True, vmin=0)
         if legend:
             place = {"location": "bottom", "pad": 0.02} if current().narrow else {"pad": 0.01}
             axes.figure.colorbar(image, ax=axes, label=text, fraction=0.05, **place)
     for name in curve_names(chart):
         if exact_of(name) is None and not is_branch(chart, name):
-            axes.plot(*whole_curve(chart, name), color=style.INK, linewidth=0.7)
+            k, m = whole_curve(chart, name)
+            axes.plot(across * k, up * m, color=style.INK, linewidth=0.7)
     return frame(axes, chart)
 
 
 def draw_frequency(axes: Axes, chart: xarray.Dataset, *, colours: Sequence[str] = RESTS, legend: bool = True) -> Axes:
     """Which position is stable at drive frequency Omega: hanging is k = 1/Omega^2, inverted its negative."""
+    if not chart.attrs.get("odd_harmonics", 1):
+        raise BadFile("this view needs a wave form whose second half is its first one with the other sign")
     k = chart["k"].values
     hanging, inverted = columns_of_both(k)
     omega = 1 / np.sqrt(k[hanging])
     both = chart["stable"].values[:, inverted] + 2 * chart["stable"].values[:, hanging]
     axes.pcolormesh(omega, chart["m"], both, cmap=ListedColormap(list(colours)), vmin=0, vmax=3, shading="nearest", rasterized=True)
-    for name in curve_names(chart):
+    for name in curve_names(chart, "k"):
         for sign in (-1, 1):
             inside = (sign * k > 0) & np.isfinite(chart[name].values)
             if inside.any():
@@ -113,10 +120,39 @@ def columns_of_both(k: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     return hanging[keep], inverted[keep]
 
 
+def draw_trap(axes: Axes, chart: xarray.Dataset, *, colours: Sequence[str] = RESTS, legend: bool = True) -> Axes:
+    """Where a quadrupole holds ions: along one axis the field is (a, q), along the other (-a, -q)."""
+    k = chart["k"].values
+    opposite = np.searchsorted(k, -k - 1e-9 * np.ptp(k))
+    if "a" not in chart or not np.allclose(k[opposite % len(k)], -k, rtol=0, atol=1e-9 * np.ptp(k)):
+        raise BadFile("this view needs axes a and q, and as many values of a below 0 as above; such a chart: "
+                      "stability: {a: {min: -1, max: 1, count: 401}, q: {min: 0, max: 2, count: 401}}")
+    if not chart.attrs.get("odd_harmonics", 1):
+        raise BadFile("this view needs a wave form whose second half is its first one with the other sign")
+    stable = chart["stable"].values
+    axes.pcolormesh(2 * chart["m"], 4 * k, (stable[:, opposite] + 2 * stable).T, cmap=ListedColormap(list(colours)), vmin=0, vmax=3,
+                    shading="nearest", rasterized=True)
+    for name in curve_names(chart):
+        if exact_of(name) is None:
+            k_of, m_of = whole_curve(chart, name)
+            for sign in (-1, 1):
+                axes.plot(2 * m_of, sign * 4 * k_of, color=style.INK, linewidth=0.9)
+    if legend:
+        patches = _patches(colours, ("neither", "y alone", "x alone", "both: trapped"))
+        axes.legend(handles=patches, loc="upper left", bbox_to_anchor=(1.01, 1), fontsize="small", title="stable along",
+                    title_fontsize="small")
+    axes.set(xlim=2 * chart["m"].values[[0, -1]], ylim=4 * k[[0, -1]], xlabel=Q_LABEL, ylabel=A_LABEL)
+    return axes
+
+
+def _patches(colours: Sequence[str], words: Sequence[str]) -> list[Patch]:
+    """Entries of a legend, the empty one last."""
+    rows = list(zip(colours, words, strict=True))
+    return [Patch(facecolor=colour, edgecolor=style.FAINT, label=text) for colour, text in [*rows[1:], rows[0]]]
+
+
 def _frequency_legend(axes: Axes, colours: Sequence[str]) -> None:
-    neither, inverted, hanging, both = colours
-    patches = [Patch(facecolor=colour, edgecolor=style.FAINT, label=text) for colour, text in
-               ((inverted, "inverted"), (hanging, "down"), (both, "both"), (neither, "neither"))]
+    patches = _patches(colours, ("neither", "inverted", "down", "both"))
     lines = [Line2D([], [], color=style.INK, linewidth=0.9, label="exact"),
              Line2D([], [], color=style.INK, linewidth=0.9, linestyle=(0, (4, 2)), label="formulas of a paper")]
     axes.legend(handles=[*patches, *lines], loc="upper left", bbox_to_anchor=(1.01, 1), fontsize="small", title="stable at rest",
@@ -132,7 +168,8 @@ def _page(panel: Callable[..., Axes]) -> Callable[[xarray.Dataset], Figure]:
     return make
 
 
-VIEWS = {"zones": _page(draw_zones), "growth": _page(draw_growth), "frequency": _page(draw_frequency), "errors": error_figure}
+VIEWS = {"zones": _page(draw_zones), "growth": _page(draw_growth), "frequency": _page(draw_frequency), "trap": _page(draw_trap),
+         "errors": error_figure}
 
 
 def damping_text(chart: xarray.Dataset) -> str:

@@ -58,6 +58,11 @@
       REAL(#study "." #axis ".max", KZ_OWN_UNIT, -DBL_MAX, DBL_MAX, NULL, study.axis.values.max, "Last value.")
 #define CHART_COUNT(axis) \
   INTEGER("chart." #axis ".count", 2, 1e5, "500", chart.axis.values.count, "Number of values, both ends included.")
+#define STABILITY_AXIS(form_, axis, fallback, help)                                                \
+  ROW("stability." #axis, KZ_KEY_MAPPING, fallback, KZ_NO_FIELD, help, .unit = "", .form = form_), \
+      REAL("stability." #axis ".min", "", -1e6, 1e6, NULL, stability.axis.min, "First value."),    \
+      REAL("stability." #axis ".max", "", -1e6, 1e6, NULL, stability.axis.max, "Last value."),     \
+      INTEGER("stability." #axis ".count", 1, 1e6, "", stability.axis.count, "Number of values; left out: 1000.")
 #define STABILITY_DAMPING(form_, name, low_, help) \
   ROW("stability." #name, KZ_KEY_REAL, "", AT(stability.name), help, .unit = "", .low = low_, .high = 1e5, .form = form_)
 

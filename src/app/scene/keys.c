@@ -222,22 +222,21 @@ const kz_key kz_keys[] = {
     INTEGER("orbit.period", 1, 512, "", orbit.period,
             "Period of the closed orbit in drive periods. Left out: the program finds it."),
 
-    MAPPING(
-        "stability", "", AT(has_stability),
-        "Study: the chart of the linear equation u'' + beta u' + (k - m cos t) u = 0 over (k, m), and its transition curves."),
-    MAPPING("stability.k", NULL, KZ_NO_FIELD, "Values of k, both ends included; negative about the inverted position."),
-    REAL("stability.k.min", "", -1e6, 1e6, NULL, stability.k.min, "First value."),
-    REAL("stability.k.max", "", -1e6, 1e6, NULL, stability.k.max, "Last value."),
-    INTEGER("stability.k.count", 1, 1e6, "1000", stability.k.count, "Number of values."),
-    MAPPING("stability.m", NULL, KZ_NO_FIELD, "Values of m, both ends included."),
-    REAL("stability.m.min", "", -1e6, 1e6, NULL, stability.m.min, "First value."),
-    REAL("stability.m.max", "", -1e6, 1e6, NULL, stability.m.max, "Last value."),
-    INTEGER("stability.m.count", 1, 1e6, "1000", stability.m.count, "Number of values."),
-    STABILITY_DAMPING("a", damping, 0.0, "beta, the same at every point; left out, with quality_factor: no damping."),
-    STABILITY_DAMPING("b", quality_factor, 1e-3, "Q: beta = sqrt(abs(k))/Q at each point."),
+    MAPPING("stability", "", AT(has_stability),
+            "Study: the chart of the linear equation u'' + beta u' + (k - m f(t)) u = 0 over (k, m), and its transition "
+            "curves; f is "
+            "the wave form of the pendulum, or cos t."),
+    STABILITY_AXIS("ab", k, NULL, "Values of k, both ends included; negative about the inverted position."),
+    STABILITY_AXIS("ab", m, NULL, "Values of m, both ends included; about the inverted position m changes its sign as k does."),
+    STABILITY_DAMPING("ac", damping, 0.0, "beta, the same at every point; left out, with quality_factor: no damping."),
+    STABILITY_DAMPING("bd", quality_factor, 1e-3, "Q: beta = sqrt(abs(k))/Q at each point."),
+    STABILITY_AXIS("cd", a, "", "Instead of k, in the words of ion traps: a = 4 k."),
+    STABILITY_AXIS("dc", q, "", "Instead of m, in the words of ion traps: q = 2 m."),
     ROW("stability.curves", KZ_KEY_WORDS, "", AT(stability.curves),
-        "Transition curves to compute. A curve that turns back has a second, upper branch, which is added.", .unit = "",
-        .words_from = kz_curve_names),
+        "Transition curves to compute: those of the sine over k, where a curve that turns back has a second, upper branch, "
+        "which is "
+        "added; hill_1 to 5 of any wave form over m, without damping; meissner_1 to 5 of the true square wave over m.",
+        .unit = "", .words_from = kz_curve_names),
     ROW("stability.subharmonics", KZ_KEY_INTEGERS, "", AT(stability.subharmonics),
         "Periods n of subharmonic solutions. Their curves are computed exactly and by the determinant.", .unit = "", .low = 2,
         .high = 1000),

@@ -119,18 +119,33 @@ static const kz_key *form_chooser(const kz_key *keys, const kz_node *mapping, co
   return several;
 }
 
+/* The first key of a mapping that gives something in another way than `key`: the key that chooses the form, or one before `child`. NULL: none. */
+static const kz_key *other_way(const kz_key *keys, const kz_node *mapping, const kz_node *child, const char *parent,
+                               const kz_key *key) {
+  if (!key || !key->form) return NULL;
+  const kz_key *chooser = form_chooser(keys, mapping, parent);
+  if (!strpbrk(chooser->form, key->form)) return chooser;
+  for (const kz_node *before = mapping->first; before != child; before = before->next) {
+    char path[256];
+    snprintf(path, sizeof path, "%s.%.100s", parent, before->name);
+    const kz_key *found = kz_key_find(keys, path);
+    if (found && found->form && !strpbrk(found->form, key->form)) return found;
+  }
+  return NULL;
+}
+
 static void read_child(kz_reading *reading, const kz_node *mapping, const kz_node *child, const char *parent) {
   char path[256];
   snprintf(path, sizeof path, "%s%s%.100s", parent, parent[0] ? "." : "", child->name);
   const kz_key *key = kz_key_find(reading->keys, path);
-  const kz_key *chooser = key && key->form ? form_chooser(reading->keys, mapping, parent) : NULL;
+  const kz_key *other = other_way(reading->keys, mapping, child, parent, key);
   if (kz_tree_child(mapping, child->name) != child)
     complain_key(reading, child, path, "is given twice; give it once");
   else if (!key)
     complain_unknown(reading, child, parent, path);
-  else if (chooser && !strpbrk(chooser->form, key->form))
+  else if (other)
     complain_key(reading, child, path, "contradicts %s, which gives the same in another way; use the keys of one way",
-                 chooser->path);
+                 other->path);
   else
     read_key(reading, key, child);
 }

@@ -118,10 +118,26 @@ static void orbit_rules(kz_reading *reading, kz_scene *scene) {
   if (linear && orbit->about == KZ_UNSET_WORD) orbit->about = 0;
 }
 
+/* An axis of the chart, or NaN where the scene gives it in other words. */
+static void stability_axis_rules(kz_reading *reading, kz_axis *axis, const char *path) {
+  if (!kz_tree_find(reading->root, path)) {
+    axis->min = axis->max = NAN;
+    return;
+  }
+  if (axis->count == KZ_UNSET_INTEGER) axis->count = 1000;
+  kz_ends_rules(reading, axis, path);
+}
+
 static void stability_rules(kz_reading *reading, kz_scene *scene) {
   if (!scene->has_stability) return;
-  kz_ends_rules(reading, &scene->stability.k, "stability.k");
-  kz_ends_rules(reading, &scene->stability.m, "stability.m");
+  kz_stability_plan *plan = &scene->stability;
+  stability_axis_rules(reading, &plan->k, "stability.k");
+  stability_axis_rules(reading, &plan->m, "stability.m");
+  stability_axis_rules(reading, &plan->a, "stability.a");
+  stability_axis_rules(reading, &plan->q, "stability.q");
+  if (isnan(plan->a.min) == isnan(plan->q.min)) return;
+  kz_complain(reading, isnan(plan->a.min) ? "stability.a" : "stability.q",
+              "is missing beside %s; give a mapping of min, max and count", isnan(plan->a.min) ? "q" : "a");
 }
 
 /* Whether the motions of a pendulum can be followed; `path` names what gives it. */

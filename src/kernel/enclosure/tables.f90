@@ -2,7 +2,8 @@
 module kz_enclosure_tables
   use, intrinsic :: iso_c_binding, only: c_float128, c_int32_t
   use, intrinsic :: iso_fortran_env, only: real128
-  use kz_model_pendulum, only: pendulum_t, force_series
+  use kz_model_pendulum, only: pendulum_t
+  use kz_model_series_r128, only: force_series
   implicit none
   private
 

@@ -4,7 +4,8 @@ module kz_taylor_taylor
   use, intrinsic :: iso_c_binding, only: dp => c_double, c_int32_t, c_int64_t
   use, intrinsic :: iso_fortran_env, only: real128, int64
   use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan
-  use kz_model_pendulum, only: pendulum_t, force_series
+  use kz_model_pendulum, only: pendulum_t
+  use kz_model_series_r128, only: force_series
   use kz_model_release, only: stretch_t, whole_period, damping_series, drive_series, CUBIC
   implicit none
   private

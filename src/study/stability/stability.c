@@ -15,17 +15,27 @@ typedef struct {
 } chart_record;
 
 typedef struct {
-  double m[2][PIECE];
+  double m[2][PIECE]; /* or k over m */
 } curve_record;
 
 static int64_t tiles_of(int64_t count, int64_t size) {
   return (count + size - 1) / size;
 }
 
+static kz_axis times(const kz_axis *axis, double factor) {
+  return (kz_axis){.min = axis->min * factor, .max = axis->max * factor, .count = axis->count};
+}
+
+kz_chart_axes kz_stability_axes(const kz_stability_plan *plan) {
+  if (isnan(plan->a.min)) return (kz_chart_axes){plan->k, plan->m};
+  return (kz_chart_axes){times(&plan->a, 0.25), times(&plan->q, 0.5)};
+}
+
 kz_cost kz_stability_cost(const kz_scene *scene) {
   const kz_stability_plan *plan = &scene->stability;
-  double points = (double)plan->k.count * (double)plan->m.count;
-  double curves = (double)plan->k.count * (double)(plan->curves.count + plan->subharmonics.count);
+  const kz_chart_axes axes = kz_stability_axes(plan);
+  double points = (double)axes.k.count * (double)axes.m.count;
+  double curves = (double)kz_chart_row(&axes) * (double)(plan->curves.count + plan->subharmonics.count);
   return (kz_cost){.cells = (int64_t)points, .disk_bytes = 34 * points + 32 * curves, .rank0_bytes = 34 * points + 32 * curves};
 }
 
@@ -43,14 +53,33 @@ static bool contains(const kz_integers *list, int64_t count, int64_t value) {
   return false;
 }
 
+/* Whether the chart asks for a row of kz_curves; `word`: its place in the list of names. */
+static bool is_asked(const kz_stability_plan *plan, int32_t row, int64_t *word) {
+  *word += strcmp(kz_curves[row].name, kz_curves[row].asked) == 0;
+  return contains(&plan->curves, plan->curves.count, *word);
+}
+
+bool kz_stability_has_curve(const kz_stability_plan *plan, const char *begin) {
+  int64_t word = -1;
+  bool has = false;
+  for (int32_t row = 0; row < kz_curve_count; row++)
+    has |= is_asked(plan, row, &word) && strncmp(kz_curves[row].name, begin, strlen(begin)) == 0;
+  return has;
+}
+
+bool kz_stability_needs_sine(const kz_stability_plan *plan) {
+  int64_t word = -1;
+  bool needs = plan->subharmonics.count > 0;
+  for (int32_t row = 0; row < kz_curve_count; row++) needs |= is_asked(plan, row, &word) && !kz_curves[row].edge;
+  return needs;
+}
+
 /* Every curve asked for with its upper branch, in the table's order; then the subharmonic orders, each once. */
 static void make_tasks(kz_chart *chart) {
-  const kz_integers *curves = &chart->plan->curves, *orders = &chart->plan->subharmonics;
+  const kz_integers *orders = &chart->plan->subharmonics;
   int64_t word = -1;
-  for (int32_t row = 0; row < kz_curve_count; row++) {
-    word += strcmp(kz_curves[row].name, kz_curves[row].asked) == 0;
-    if (contains(curves, curves->count, word)) chart->tasks[chart->n_tasks++] = (kz_curve_task){row, 0};
-  }
+  for (int32_t row = 0; row < kz_curve_count; row++)
+    if (is_asked(chart->plan, row, &word)) chart->tasks[chart->n_tasks++] = (kz_curve_task){row, 0};
   for (int64_t i = 0; i < orders->count; i++)
     if (!contains(orders, i, orders->values[i]))
       chart->tasks[chart->n_tasks++] = (kz_curve_task){-1, (int32_t)orders->values[i]};
@@ -58,17 +87,20 @@ static void make_tasks(kz_chart *chart) {
 
 static kz_chart begin(const kz_scene *scene, bool here) {
   const kz_stability_plan *plan = &scene->stability;
-  const size_t points = here ? (size_t)(plan->k.count * plan->m.count) : 1;
+  const kz_chart_axes axes = kz_stability_axes(plan);
+  const size_t points = here ? (size_t)(axes.k.count * axes.m.count) : 1;
   kz_chart chart = {.plan = plan,
+                    .axes = axes,
                     .damping = {isnan(plan->damping) ? 0 : plan->damping, plan->quality_factor},
-                    .k = axis_values(&plan->k),
-                    .m = axis_values(&plan->m),
+                    .k = axis_values(&axes.k),
+                    .m = axis_values(&axes.m),
                     .tasks = kz_malloc((size_t)(kz_curve_count + plan->subharmonics.count) * sizeof *chart.tasks),
                     .log_multiplier = kz_malloc(points * sizeof *chart.log_multiplier),
                     .angle = kz_malloc(points * sizeof *chart.angle),
                     .stable = kz_malloc(points)};
+  kz_drive_form(&scene->parameters, &chart.form);
   make_tasks(&chart);
-  chart.curves = kz_malloc(((here ? (size_t)(2 * chart.n_tasks * plan->k.count) : 0) + 1) * sizeof *chart.curves);
+  chart.curves = kz_malloc(((here ? (size_t)(2 * chart.n_tasks * kz_chart_row(&axes)) : 0) + 1) * sizeof *chart.curves);
   return chart;
 }
 
@@ -86,31 +118,35 @@ static kz_status chart_points(void *context, int64_t first, int64_t n, void *rec
   const kz_chart *chart = context;
   chart_record *out = record;
   double k[POINTS], beta[POINTS], m[POINTS];
-  const int64_t columns = chart->plan->k.count;
+  const int64_t columns = chart->axes.k.count;
   for (int64_t i = 0; i < n; i++) {
     k[i] = chart->k[(first + i) % columns];
     m[i] = chart->m[(first + i) / columns];
     beta[i] = kz_damping_at(&chart->damping, k[i]);
   }
-  kz_linear_floquet(n, k, beta, m, out->log_multiplier, out->angle, out->stable);
+  kz_linear_floquet(&chart->form, n, k, beta, m, out->log_multiplier, out->angle, out->stable);
   return KZ_OK;
 }
 
 static kz_status curve_tile(void *context, int64_t tile, void *record) {
   const kz_chart *chart = context;
   curve_record *out = record;
-  int64_t pieces = tiles_of(chart->plan->k.count, PIECE), first = tile % pieces * PIECE, n = chart->plan->k.count - first;
+  const int64_t pieces = tiles_of(kz_chart_row(&chart->axes), PIECE), first = tile % pieces * PIECE;
   const kz_curve_task *task = &chart->tasks[tile / pieces];
+  const kz_curve *curve = task->row < 0 ? NULL : &kz_curves[task->row];
+  int64_t n = kz_chart_values(chart, task) - first;
   if (n > PIECE) n = PIECE;
-  if (task->row < 0)
+  if (!curve)
     kz_subharmonic_values(task->order, n, chart->k + first, out->m[0], out->m[1]);
+  else if (!curve->edge)
+    kz_curve_values(curve, &chart->damping, n, chart->k + first, out->m[0]);
   else
-    kz_curve_values(&kz_curves[task->row], &chart->damping, n, chart->k + first, out->m[0]);
+    for (int64_t i = 0; i < n; i++) out->m[0][i] = curve->edge(&chart->form, curve->number, chart->m[first + i]);
   return KZ_OK;
 }
 
 static void unpack_chart(kz_chart *chart, const void *records) {
-  const int64_t points = chart->plan->k.count * chart->plan->m.count;
+  const int64_t points = chart->axes.k.count * chart->axes.m.count;
   for (int64_t first = 0; first < points; first += POINTS) {
     const chart_record *record = (const chart_record *)records + first / POINTS;
     size_t n = (size_t)(points - first < POINTS ? points - first : POINTS);
@@ -122,23 +158,25 @@ static void unpack_chart(kz_chart *chart, const void *records) {
 
 static void unpack_curves(kz_chart *chart, const void *records) {
   const curve_record *record = records;
-  const int64_t columns = chart->plan->k.count, pieces = tiles_of(columns, PIECE);
+  const int64_t columns = kz_chart_row(&chart->axes), pieces = tiles_of(columns, PIECE);
   for (int64_t tile = 0; tile < pieces * chart->n_tasks; tile++) {
-    int64_t first = tile % pieces * PIECE, n = columns - first < PIECE ? columns - first : PIECE;
+    int64_t first = tile % pieces * PIECE, n = kz_chart_values(chart, &chart->tasks[tile / pieces]) - first;
+    if (n > PIECE) n = PIECE;
+    if (n <= 0) continue;
     for (int64_t kind = 0; kind < 2; kind++)
       memcpy(chart->curves + (2 * (tile / pieces) + kind) * columns + first, record[tile].m[kind], (size_t)n * sizeof(double));
   }
 }
 
 static kz_stage chart_stage(kz_chart *chart) {
-  const int64_t points = chart->plan->k.count * chart->plan->m.count;
+  const int64_t points = chart->axes.k.count * chart->axes.m.count;
   kz_stage stage = kz_stage_of_items("chart", points, POINTS, sizeof(chart_record), chart_points, chart);
   stage.everywhere = false;
   return stage;
 }
 
 static kz_stage curve_stage(kz_chart *chart) {
-  const int64_t tiles = chart->n_tasks * tiles_of(chart->plan->k.count, PIECE);
+  const int64_t tiles = chart->n_tasks * tiles_of(kz_chart_row(&chart->axes), PIECE);
   return kz_stage_for_rank0("curves", tiles, sizeof(curve_record), curve_tile, chart);
 }
 
@@ -153,7 +191,7 @@ static kz_status run_stage(const kz_run *run, const kz_stage *stage, void (*unpa
 
 /* Packing the points for the file: the middle tile's, as many times as there are tiles. */
 static void measure_packing(kz_chart *chart, double *seconds) {
-  const int64_t points = chart->plan->k.count * chart->plan->m.count, tiles = tiles_of(points, POINTS),
+  const int64_t points = chart->axes.k.count * chart->axes.m.count, tiles = tiles_of(points, POINTS),
                 first = tiles / 2 * POINTS;
   KZ_FREED chart_record *record = kz_calloc(1, sizeof *record);
   KZ_FREED uint8_t *packed = kz_malloc(kz_pack_bytes(POINTS, sizeof(double)));

@@ -1,9 +1,19 @@
-/* Study `stability`: the chart of the (damped) Mathieu equation over (k, m), and transition curves over k. */
+/* Study `stability`: the chart of the (damped) equation of Hill or Mathieu over (k, m), and transition curves over k or m. */
 #ifndef KAPITZA_STUDY_STABILITY_H
 #define KAPITZA_STUDY_STABILITY_H
 
 #include "kapitza/analysis.h"
 #include "kapitza/study.h"
+
+/* Whether a chart asks for a curve whose name begins so, and for one that only a sine has. */
+bool kz_stability_has_curve(const kz_stability_plan *plan, const char *begin);
+bool kz_stability_needs_sine(const kz_stability_plan *plan);
+
+/* The axes of a chart in k and m, however the scene gives them. */
+typedef struct {
+  kz_axis k, m;
+} kz_chart_axes;
+kz_chart_axes kz_stability_axes(const kz_stability_plan *plan);
 
 /* ---- inside the study ---- */
 
@@ -14,14 +24,26 @@ typedef struct {
 
 typedef struct {
   const kz_stability_plan *plan;
+  kz_chart_axes axes;
+  kz_pendulum form; /* the drive, for k = 0 and m = 1 */
   kz_damping damping;
-  double *k, *m; /* the axes */
+  double *k, *m; /* values of the axes */
   kz_curve_task *tasks;
   int64_t n_tasks;
   double *log_multiplier, *angle; /* [m][k]; this and the following on rank 0 only */
   uint8_t *stable;
-  double *curves; /* [task][2][k]: the curve; for a subharmonic order the exact curve and the formula */
+  double *curves; /* [task][2][longer axis]: the curve; for a subharmonic order the exact curve and the formula */
 } kz_chart;
+
+/* Values of a row of the chart's curves: the larger number of k and m. */
+static inline int64_t kz_chart_row(const kz_chart_axes *axes) {
+  return axes->k.count > axes->m.count ? axes->k.count : axes->m.count;
+}
+
+/* The number of values of a curve: of k, or of m. */
+static inline int64_t kz_chart_values(const kz_chart *chart, const kz_curve_task *task) {
+  return task->row >= 0 && kz_curves[task->row].edge ? chart->axes.m.count : chart->axes.k.count;
+}
 
 /* Writes the variables and attributes of the groups, and prints the summary. Rank 0. */
 kz_status kz_chart_write(const kz_chart *chart, kz_store *store);

@@ -9,13 +9,29 @@ static const char *const GROUP = "stability";
 
 static kz_status write_curve(const kz_chart *chart, int64_t i, kz_store *store) {
   const kz_curve_task *task = &chart->tasks[i];
-  const double *values = chart->curves + 2 * i * chart->plan->k.count;
+  const double *values = chart->curves + 2 * i * kz_chart_row(&chart->axes);
   char name[64];
   if (task->row >= 0) return kz_store_variable(store, GROUP, kz_curves[task->row].name, values);
   snprintf(name, sizeof name, "subharmonic_%" PRId32, task->order);
   KZ_TRY(kz_store_variable(store, GROUP, name, values));
   snprintf(name, sizeof name, "butikov_subharmonic_%" PRId32, task->order);
-  return kz_store_variable(store, GROUP, name, values + chart->plan->k.count);
+  return kz_store_variable(store, GROUP, name, values + kz_chart_row(&chart->axes));
+}
+
+/* An axis in the words of ion traps. */
+static kz_status write_trap_axis(const char *name, int64_t count, const double *values, double factor, kz_store *store) {
+  KZ_FREED double *scaled = kz_malloc((size_t)count * sizeof *scaled);
+  for (int64_t i = 0; i < count; i++) scaled[i] = factor * values[i];
+  return kz_store_variable(store, GROUP, name, scaled);
+}
+
+static kz_status write_axes(const kz_chart *chart, kz_store *store) {
+  const kz_chart_axes *axes = &chart->axes;
+  KZ_TRY(kz_store_dimension(store, GROUP, "k", axes->k.count, chart->k));
+  KZ_TRY(kz_store_dimension(store, GROUP, "m", axes->m.count, chart->m));
+  if (isnan(chart->plan->a.min)) return KZ_OK;
+  KZ_TRY(write_trap_axis("a", axes->k.count, chart->k, 4, store));
+  return write_trap_axis("q", axes->m.count, chart->m, 2, store);
 }
 
 /* Thresholds of the tongues, three ways: attributes such as tongue_1_lowest_m, tongue_1_lowest_m_determinant. */
@@ -35,29 +51,41 @@ static kz_status write_thresholds(double quality_factor, kz_store *store) {
   return KZ_OK;
 }
 
-static kz_status write_damping(const kz_damping *damping, kz_store *store) {
+static bool has_thresholds(const kz_chart *chart) {
+  return chart->damping.quality_factor > 0 && kz_is_sine(&chart->form);
+}
+
+static kz_status write_damping(const kz_chart *chart, kz_store *store) {
+  const kz_damping *damping = &chart->damping;
   if (!(damping->quality_factor > 0)) return kz_store_real(store, GROUP, "damping", damping->beta);
   KZ_TRY(kz_store_real(store, GROUP, "quality_factor", damping->quality_factor));
-  return write_thresholds(damping->quality_factor, store);
+  return has_thresholds(chart) ? write_thresholds(damping->quality_factor, store) : KZ_OK;
+}
+
+/* Of a wave form of several harmonics: 1 if all are odd, so that its second half is its first one with the other sign; else 0. */
+static kz_status write_form(const kz_pendulum *form, kz_store *store) {
+  bool odd = true;
+  for (int j = 1; j < form->harmonics; j += 2) odd = odd && form->vertical[j][0] == 0 && form->vertical[j][1] == 0;
+  return kz_is_sine(form) ? KZ_OK : kz_store_integer(store, GROUP, "odd_harmonics", odd);
 }
 
 kz_status kz_chart_write(const kz_chart *chart, kz_store *store) {
-  KZ_TRY(kz_store_dimension(store, GROUP, "k", chart->plan->k.count, chart->k));
-  KZ_TRY(kz_store_dimension(store, GROUP, "m", chart->plan->m.count, chart->m));
+  KZ_TRY(write_axes(chart, store));
   KZ_TRY(kz_store_variable(store, GROUP, "log_multiplier", chart->log_multiplier));
   KZ_TRY(kz_store_variable(store, GROUP, "angle", chart->angle));
   KZ_TRY(kz_store_variable(store, GROUP, "stable", chart->stable));
   for (int64_t i = 0; i < chart->n_tasks; i++) KZ_TRY(write_curve(chart, i, store));
-  return write_damping(&chart->damping, store);
+  KZ_TRY(write_form(&chart->form, store));
+  return write_damping(chart, store);
 }
 
 void kz_chart_summarise(const kz_chart *chart, FILE *summary) {
-  int64_t points = chart->plan->k.count * chart->plan->m.count, stable = 0;
+  int64_t points = chart->axes.k.count * chart->axes.m.count, stable = 0;
   for (int64_t i = 0; i < points; i++) stable += chart->stable[i];
   fprintf(summary, "stability: %" PRId64 " x %" PRId64 " points, %.2f %% of them stable, %" PRId64 " curve%s\n",
-          chart->plan->k.count, chart->plan->m.count, 100.0 * (double)stable / (double)points, chart->n_tasks,
+          chart->axes.k.count, chart->axes.m.count, 100.0 * (double)stable / (double)points, chart->n_tasks,
           chart->n_tasks == 1 ? "" : "s");
-  if (!(chart->damping.quality_factor > 0)) return;
+  if (!has_thresholds(chart)) return;
   for (int32_t tongue = 1; tongue <= 2; tongue++) {
     kz_threshold t;
     kz_tongue_threshold(tongue, chart->damping.quality_factor, KZ_BY_FLOQUET, &t);

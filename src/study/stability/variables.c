@@ -2,12 +2,15 @@
 #include "kapitza/store_variables.h"
 #include "stability.h"
 
+#define EDGE(name, long_name) {name, KZ_REAL, {"m"}, NONE, long_name, {0}}
 #define CURVE(name, long_name) {name, KZ_REAL, {"k"}, NONE, long_name, {0}}
 
 /* clang-format off */
 const kz_variable kz_stability_variables[] = {
     {"k", KZ_REAL, {"k"}, NONE, "gravity term, (natural / drive frequency) squared; < 0 about inverted"},
     {"m", KZ_REAL, {"m"}, NONE, "drive amplitude"},
+    {"a", KZ_REAL, {"k"}, NONE, "the same in the words of ion traps, a = 4 k"},
+    {"q", KZ_REAL, {"m"}, NONE, "the same in the words of ion traps, q = 2 m"},
     {"log_multiplier", KZ_REAL, {"m", "k"}, RATE, "natural logarithm of the largest |Floquet multiplier|"},
     {"angle", KZ_REAL, {"m", "k"}, NONE, "Floquet angle / 2 pi"},
     {"stable", KZ_UINT8, {"m", "k"}, NONE, "whether small oscillations stay small", {"no", "yes"}},
@@ -38,6 +41,16 @@ const kz_variable kz_stability_variables[] = {
     CURVE("butikov_damped_1", "damped tongue from k = 1/4 by Butikov (2018) Eq. (25), corrected"),
     CURVE("butikov_damped_1_upper", "damped tongue from k = 1/4 by Butikov (2018) Eq. (25), corrected, larger root"),
     CURVE("butikov_damped_2", "damped tongue from k = 1 by Butikov (2018) Eq. (26), corrected"),
+    EDGE("hill_1", "transition curve of the wave form: lowest k with a solution of period 2 pi"),
+    EDGE("hill_2", "transition curve of the wave form: lowest k with a solution of period 4 pi"),
+    EDGE("hill_3", "transition curve of the wave form: second k with a solution of period 4 pi"),
+    EDGE("hill_4", "transition curve of the wave form: second k with a solution of period 2 pi"),
+    EDGE("hill_5", "transition curve of the wave form: third k with a solution of period 2 pi"),
+    EDGE("meissner_1", "transition curve 1 of the square wave, closed form by Meissner (1918)"),
+    EDGE("meissner_2", "transition curve 2 of the square wave, closed form by Meissner (1918)"),
+    EDGE("meissner_3", "transition curve 3 of the square wave, closed form by Meissner (1918)"),
+    EDGE("meissner_4", "transition curve 4 of the square wave, closed form by Meissner (1918)"),
+    EDGE("meissner_5", "transition curve 5 of the square wave, closed form by Meissner (1918)"),
     CURVE("subharmonic_#", "exact curve of solutions that repeat after this many drive periods"),
     CURVE("butikov_subharmonic_#", "the same curve by Butikov (2018) Eq. (21), corrected"),
     {0},
