@@ -74,7 +74,7 @@ contains
     allocate (half(n))
     call half_periods(form, n, k, beta, m, half)
     reversed = wave_of(form)
-    if (all(reversed%vertical(2, :) == 0)) then ! even in time: the second half is the first one, reversed
+    if (.not. any(abs(reversed%vertical(2, :)) > 0)) then ! even in time: the second half is the first one, reversed
       back = half
     else
       reversed%vertical(2, :) = -reversed%vertical(2, :)
