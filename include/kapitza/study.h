@@ -277,15 +277,13 @@ typedef struct {
   double shared_bytes; /* more on all ranks together */
 } kz_cost;
 
-/* A row of the list. All ranks call `run`; `summary` (text for people) and `store` are NULL on all ranks but rank 0. `measure` estimates the
- * processor time of `run`, seconds on one core, from samples of the work; not collective. */
+/* A row of the list. All ranks call `run`; `summary` (text for people) and `store` are NULL on all ranks but rank 0. */
 typedef struct {
   const char *name;
   size_t wanted; /* offset of the bool of kz_scene that says whether the scene asks for it */
   kz_cost (*cost)(const kz_scene *scene);
   kz_status (*run)(const kz_scene *scene, const kz_run *run, kz_store *store, FILE *summary);
   kz_status (*check)(const kz_scene *scene);
-  kz_status (*measure)(const kz_scene *scene, double *seconds);
 } kz_study;
 static inline bool kz_study_is_wanted(const kz_study *study, const kz_scene *scene) {
   return *(const bool *)((const char *)scene + study->wanted);
@@ -297,7 +295,6 @@ extern const int kz_study_count;
 #define KZ_STUDY_DECLARED(name, check)                                                                 \
   kz_cost kz_##name##_cost(const kz_scene *scene);                                                     \
   kz_status kz_##name##_check(const kz_scene *scene);                                                  \
-  kz_status kz_##name##_measure(const kz_scene *scene, double *seconds);                               \
   kz_status kz_##name##_run(const kz_scene *scene, const kz_run *run, kz_store *store, FILE *summary); \
   extern const kz_variable kz_##name##_variables[];
 KZ_STUDIES(KZ_STUDY_DECLARED)

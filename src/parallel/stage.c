@@ -1,5 +1,4 @@
 /* A stage: tiles are drawn, worked, kept and delivered. */
-#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -8,6 +7,7 @@
 #include "dispatch.h"
 #include "ranks.h"
 #include "record_buffer.h"
+#include "sampled_stage.h"
 #include "watch.h"
 
 /* Offsets of records and slots must not overflow. */
@@ -88,13 +88,6 @@ static kz_status recall(stage_run *run) {
   return KZ_OK;
 }
 
-/* The work of a tile, or of the items that it is made of. */
-static kz_status work_on(const kz_stage *stage, int64_t tile, void *record) {
-  if (!stage->items) return stage->work(stage->context, tile, record);
-  const int64_t first = tile * stage->batch, left = stage->n_items - first;
-  return stage->items(stage->context, first, left < stage->batch ? left : stage->batch, record);
-}
-
 static kz_status do_tile(stage_run *run, int64_t tile) {
   const kz_stage *stage = run->stage;
   void *record;
@@ -104,7 +97,7 @@ static kz_status do_tile(stage_run *run, int64_t tile) {
     record = memset(run->records + (size_t)tile * stage->record_bytes, 0, stage->record_bytes);
   else
     record = kz_record_buffer_add(&run->buffered, tile);
-  KZ_TRY(work_on(stage, tile, record));
+  KZ_TRY(kz_stage_work(stage, tile, record));
   if (stage->local) kz_local_records_add(stage->local, tile, record, *(uint64_t *)record);
   return run->kept ? kz_section_save(run->checkpoint, &run->section, tile, record) : KZ_OK;
 }
@@ -135,7 +128,7 @@ static kz_status do_collectively(stage_run *run, int64_t tile) {
   const kz_checkpoint outside = *checkpoint;
   void *record = memset(run->records + (size_t)tile * stage->record_bytes, 0, stage->record_bytes);
   checkpoint->seed = kz_bytes_checksum(checkpoint->seed, &tile, sizeof tile);
-  kz_status status = kz_ranks_agree(run->ranks, work_on(stage, tile, record));
+  kz_status status = kz_ranks_agree(run->ranks, kz_stage_work(stage, tile, record));
   checkpoint->seed = outside.seed;
   checkpoint->end = outside.end;
   checkpoint->n_sections = outside.n_sections;
@@ -182,15 +175,19 @@ static kz_status run_stage(stage_run *run) {
   return deliver(run);
 }
 
-/* This rank alone, in order. */
+/* This process alone, in order. */
 static kz_status run_alone(const kz_stage *stage, char *records) {
-  memset(records, 0, (size_t)stage->n_tiles * stage->record_bytes);
-  for (int64_t tile = 0; tile < stage->n_tiles; tile++)
-    KZ_TRY(work_on(stage, tile, records + (size_t)tile * stage->record_bytes));
+  KZ_FREED char *own = stage->local ? kz_malloc(stage->record_bytes + 1) : NULL;
+  for (int64_t tile = 0; tile < stage->n_tiles; tile++) {
+    char *record = own ? own : records + (size_t)tile * stage->record_bytes;
+    KZ_TRY(kz_stage_work(stage, tile, memset(record, 0, stage->record_bytes)));
+    if (own) kz_local_records_add(stage->local, tile, own, *(uint64_t *)(void *)own);
+  }
   return KZ_OK;
 }
 
 kz_status kz_stage_run(const kz_run *on, const kz_stage *stage, void *records) {
+  if (on && on->sample) return kz_stage_sample(on->sample, stage, records);
   if (!on || !on->ranks) return run_alone(stage, records);
   stage_run run = {.ranks = on->ranks,
                    .checkpoint = on->checkpoint,
@@ -202,24 +199,5 @@ kz_status kz_stage_run(const kz_run *on, const kz_stage *stage, void *records) {
   kz_record_buffer_end(&run.buffered);
   free(run.buffer);
   free(run.left);
-  return status;
-}
-
-kz_status kz_stage_measure(const kz_stage *stage, int64_t most, double enough, double *seconds) {
-  static const double GOLDEN = 0.61803398874989484820; /* its multiples spread evenly, however many there are */
-  const int64_t n = stage->n_tiles < most ? stage->n_tiles : most;
-  char *record = kz_malloc(stage->record_bytes);
-  double spent = 0, place = 0.5;
-  int64_t done = 0;
-  kz_status status = KZ_OK;
-  for (; status == KZ_OK && done < n && spent < enough; done++, place += GOLDEN) {
-    const int64_t tile = n == stage->n_tiles ? done : (int64_t)((place - floor(place)) * (double)stage->n_tiles);
-    memset(record, 0, stage->record_bytes);
-    const double start = kz_processor_clock();
-    status = work_on(stage, tile, record);
-    spent += kz_processor_clock() - start;
-  }
-  free(record);
-  if (done > 0) *seconds += spent / (double)done * (double)stage->n_tiles;
   return status;
 }

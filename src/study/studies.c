@@ -2,7 +2,7 @@
 #include "basin/basin.h"
 #include "kapitza/study.h"
 
-#define ROW(name, check) {#name, offsetof(kz_scene, has_##name), kz_##name##_cost, kz_##name##_run, check, kz_##name##_measure},
+#define ROW(name, check) {#name, offsetof(kz_scene, has_##name), kz_##name##_cost, kz_##name##_run, check},
 const kz_study kz_studies[] = {KZ_STUDIES(ROW)};
 const int kz_study_count = sizeof kz_studies / sizeof kz_studies[0];
 

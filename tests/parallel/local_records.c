@@ -66,7 +66,7 @@ static kz_status take(void *context, const void *message, size_t bytes) {
 
 static kz_status deliver(job *j, const kz_local_records *records) {
   const kz_delivery delivery = {.name = "mail", .message_bytes = MOST + 64, .make = make, .take = take, .context = j};
-  return kz_local_records_deliver(ranks, records, &delivery);
+  return kz_local_records_deliver(&(kz_run){.ranks = ranks}, records, &delivery);
 }
 
 static bool has_all(const job *j) {

@@ -103,6 +103,8 @@ TIMED = {
              "count: 24}, start: {theta: [1], velocity: [0]}}\n",
     "stability": "stability: {k: {min: -1, max: 2, count: 600}, m: {min: 0, max: 3, count: 600}, curves: [exact_1, exact_2]}\n",
     "orbit": "orbit: {start: {theta: 0.5, velocity: 0}, transient: 4000}\n",
+    "atlas": "atlas: {x: {parameter: drive_amplitude, min: 0, max: 0.5}, y: {parameter: quality_factor, min: 3, max: 9}, max_period: 1, "
+             "checks: 20}\n",
 }
 
 
@@ -125,6 +127,27 @@ def test_the_time_is_foretold_from_samples(kapitza, tmp_path, study):
         if 1 / 2 < ratio < 2:
             return
     assert 1 / 3 < ratio < 3, (foretold, taken)
+
+
+# Each has stages that take long, and a small part of them is done.
+LONG = {
+    "basin": "basin: {theta: {count: 20000}, velocity: {min: -2, max: 2, count: 20000}, method: exact}\n",
+    "strobe": "sweep: {parameter: drive_amplitude, min: 0.46, max: 0.58, count: 4000, measure: [strobe], start: {theta: 3.1, velocity: 0}, "
+              "transient: 40000, samples: 64}\n",
+    "saddles": "saddles: {velocity: {min: -2, max: 2}, max_period: 9}\n",
+    "tradeoff": "basin: {theta: {count: 4000}, velocity: {min: -2, max: 2, count: 4000}}\ntradeoff: {samples: 40000}\n",
+}
+
+
+@pytest.mark.parametrize("study", LONG)
+def test_a_check_ends_soon_and_leaves_nothing(kapitza, tmp_path, study):
+    (tmp_path / "s.yaml").write_text(PENDULUM + LONG[study])
+    before = os.times()
+    text = kapitza("check", "s.yaml", folder=tmp_path).stdout
+    after = os.times()
+    assert "estimated time" in text
+    assert after.children_user + after.children_system - before.children_user - before.children_system < 20
+    assert [path.name for path in tmp_path.iterdir()] == ["s.yaml"]
 
 
 @pytest.mark.parametrize("seed", [4, 7])

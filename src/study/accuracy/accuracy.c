@@ -85,25 +85,6 @@ static void print(const kz_choice *choice, double accuracy, FILE *summary) {
       100 * wrong.high, 100 * flips.share);
 }
 
-kz_status kz_accuracy_measure(const kz_scene *scene, double *seconds) {
-  enum { FEW = 4 }; /* candidates, the cheapest: half of the others are tried, as a rule */
-  const int64_t samples = samples_for(scene->basin.accuracy);
-  kz_reference_labels reference = {0};
-  walk w;
-  double taken = 0;
-  if (samples == 0) return KZ_OK;
-  kz_status status = kz_reference_labels_measure(scene, samples, &reference, seconds);
-  if (status == KZ_OK) order(&reference, &w);
-  for (int64_t i = 0; i < FEW && status == KZ_OK; i++) {
-    kz_measured measured;
-    status = kz_setting_measure(w.candidates[i], &reference, 0, &measured);
-    taken += measured.set_up + measured.cell * (double)samples;
-  }
-  if (status == KZ_OK) *seconds += taken / FEW * (double)w.count / 2;
-  kz_reference_labels_free(&reference);
-  return status;
-}
-
 kz_status kz_accuracy_choose(const kz_scene *scene, const kz_run *run, kz_store *store, FILE *summary, kz_choice *choice) {
   const double accuracy = scene->basin.accuracy;
   kz_reference_labels reference = {0};

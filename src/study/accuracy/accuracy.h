@@ -60,9 +60,6 @@ kz_status kz_accuracy_choose(const kz_scene *scene, const kz_run *run, kz_store 
 /* The choice as attributes of /basin. Rank 0. */
 kz_status kz_accuracy_write(const kz_choice *choice, double accuracy, kz_store *store);
 
-/* Estimates the processor time of the choice from samples and adds it to *seconds. Not collective. */
-kz_status kz_accuracy_measure(const kz_scene *scene, double *seconds);
-
 /* A setting measured on a sample of reference labels. */
 typedef struct {
   const kz_setting *setting;

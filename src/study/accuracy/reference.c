@@ -172,20 +172,6 @@ kz_status kz_reference_labels_make(const kz_scene *scene, const kz_run *run, int
   return status;
 }
 
-kz_status kz_reference_labels_measure(const kz_scene *scene, int64_t samples, kz_reference_labels *reference, double *seconds) {
-  const kz_run alone = {NULL, NULL};
-  kz_reference_labels more = {0};
-  double taken[2];
-  for (int i = 0; i < 2; i++) {
-    const double start = kz_processor_clock();
-    KZ_TRY(kz_reference_labels_make(scene, &alone, (i + 1) * TILE, NULL, i == 0 ? &more : reference));
-    taken[i] = kz_processor_clock() - start;
-    kz_reference_labels_free(&more);
-  }
-  *seconds += taken[0] + fmax(0, taken[1] - taken[0]) * (double)(samples - TILE) / TILE;
-  return KZ_OK;
-}
-
 void kz_reference_labels_free(kz_reference_labels *reference) {
   free(reference->packed);
   free(reference->labels);

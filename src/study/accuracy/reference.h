@@ -39,8 +39,6 @@ kz_status kz_reference_labels_make(const kz_scene *scene, const kz_run *run, int
                                    kz_reference_labels *reference);
 /* Writes the cache if there are more labels than it has. Rank 0. */
 kz_status kz_reference_labels_save(const kz_reference_labels *reference, const char *path);
-/* Makes the labels of a few cells in this process, estimates the processor time of `samples` cells and adds it to *seconds. Not collective. */
-kz_status kz_reference_labels_measure(const kz_scene *scene, int64_t samples, kz_reference_labels *reference, double *seconds);
 void kz_reference_labels_free(kz_reference_labels *reference);
 
 /* Reads labels from a cache that was made for the same pendulum, window, seed, limit and attractors: at most reference->samples, into

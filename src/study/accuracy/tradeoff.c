@@ -43,8 +43,8 @@ kz_status kz_tradeoff_check(const kz_scene *scene) {
 
 char *kz_reference_path(const kz_store *store) {
   static const char ending[] = ".truth";
-  if (!store) return NULL;
-  const char *path = kz_store_path(store);
+  const char *path = store ? kz_store_path(store) : NULL;
+  if (!path) return NULL;
   char *name = kz_malloc(strlen(path) + sizeof ending);
   return strcat(strcpy(name, path), ending);
 }
@@ -85,29 +85,12 @@ static void rate(const kz_reference_labels *reference, const kz_measured *measur
   kz_pareto(trade);
 }
 
-static kz_stage stage_of(measuring *m) {
-  return kz_stage_for_all("settings", m->trade->count, sizeof(kz_measured), measure_tile, m);
-}
-
 static kz_status run_settings(const kz_reference_labels *reference, kz_trade *trade, const kz_run *run) {
   measuring m = {reference, trade};
-  const kz_stage stage = stage_of(&m);
+  const kz_stage stage = kz_stage_for_all("settings", trade->count, sizeof(kz_measured), measure_tile, &m);
   KZ_FREED kz_measured *measured = kz_malloc((size_t)trade->count * sizeof *measured);
   const kz_status status = kz_stage_run(run, &stage, measured);
   if (status == KZ_OK) rate(reference, measured, trade);
-  return status;
-}
-
-kz_status kz_tradeoff_measure(const kz_scene *scene, double *seconds) {
-  kz_reference_labels reference = {0};
-  if (!(scene->parameters.pendulum.beta > 0)) return KZ_OK;
-  kz_trade trade = trade_of(&scene->tradeoff);
-  measuring m = {&reference, &trade};
-  const kz_stage stage = stage_of(&m);
-  kz_status status = kz_reference_labels_measure(scene, scene->tradeoff.samples, &reference, seconds);
-  if (status == KZ_OK) status = kz_stage_measure(&stage, 6, 2.0, seconds);
-  kz_reference_labels_free(&reference);
-  free(trade.row);
   return status;
 }
 

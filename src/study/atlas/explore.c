@@ -48,7 +48,7 @@ static void follow(const kz_atlas *atlas, const kz_atlas_kind *kind, const doubl
   KZ_FREED double *event = kz_malloc(MOST_EVENTS * (size_t)(3 + n) * sizeof *event);
   int64_t events = 0;
   int32_t ending;
-  if (kz_atlas_period(kind) > atlas->scene->atlas.max_period) return;
+  if (kz_atlas_period(kind) > atlas->max_period) return;
   kz_curve_branch(&atlas->plane, &kind->of, start, along, LONGEST, MOST_ROWS, row, MOST_EVENTS, event, &events, &ending);
   for (int64_t i = 0; i < events; i++) {
     const double *e = event + i * (3 + n);
@@ -108,8 +108,7 @@ static void explore_flip(const kz_atlas *atlas, const kz_atlas_kind *kind, const
     along[axis] = sign;
     follow(atlas, kind, at, along, seeds);
   }
-  if (kz_atlas_period(&child) > atlas->scene->atlas.max_period ||
-      !kz_atlas_pendulum(atlas->scene, at + 2 * kind->of.points, &pendulum))
+  if (kz_atlas_period(&child) > atlas->max_period || !kz_atlas_pendulum(atlas->scene, at + 2 * kind->of.points, &pendulum))
     return;
   along[axis] = gradient * form > 0 ? -1 : 1;
   const double other = 1 - exp(-2 * M_PI * pendulum.beta * kind->of.points);

@@ -113,7 +113,7 @@ bool kz_atlas_image(const kz_atlas *atlas, const double place[2], double image[2
 }
 
 kz_status kz_atlas_begin(const kz_scene *scene, kz_atlas *atlas) {
-  *atlas = (kz_atlas){.scene = scene, .longest = LONGEST, .reference = {0.0123, 0.0071}};
+  *atlas = (kz_atlas){.scene = scene, .longest = LONGEST, .max_period = scene->atlas.max_period, .reference = {0.0123, 0.0071}};
   atlas->plane =
       (kz_plane){.pendulum = kz_atlas_pendulum, .context = scene, .low = {-MARGIN, -MARGIN}, .high = {1 + MARGIN, 1 + MARGIN}};
   KZ_TRY(survey(atlas));

@@ -45,27 +45,28 @@ static kz_status share(const kz_run *run, kz_atlas_bag *b) {
   return KZ_OK;
 }
 
-/* Runs a stage whose records have different lengths. Collective; without ranks this process does all. */
-kz_status kz_atlas_gather(const kz_run *run, const char *name, int64_t n, size_t bytes, kz_tile_fn work, void *context,
-                          kz_atlas_bag *b) {
+/* Runs a stage whose records have different lengths. Collective. */
+kz_status kz_atlas_gather(const kz_run *run, const char *name, int64_t n, size_t bytes, bool whole, kz_tile_fn work,
+                          void *context, kz_atlas_bag *b) {
   *b = (kz_atlas_bag){n, kz_calloc((size_t)n + 1, sizeof *b->record)};
-  if (!run || !run->ranks) {
-    KZ_FREED char *record = kz_malloc(bytes);
-    for (int64_t i = 0; i < n; i++) {
-      KZ_TRY(work(context, i, record));
-      bag_put(b, i, record);
-    }
-    return KZ_OK;
-  }
   kz_local_records pieces = {0};
-  const kz_stage stage = {
-      .name = name, .n_tiles = n, .record_bytes = bytes, .work = work, .context = context, .keep = true, .local = &pieces};
+  const kz_stage stage = {.name = name,
+                          .n_tiles = n,
+                          .record_bytes = bytes,
+                          .work = work,
+                          .context = context,
+                          .keep = true,
+                          .local = &pieces,
+                          .whole = whole};
   const kz_delivery delivery = {
       .name = name, .message_bytes = bytes + sizeof(int64_t), .make = make, .take = take, .context = b};
   kz_status status = kz_stage_run(run, &stage, NULL);
-  if (status == KZ_OK) status = kz_local_records_deliver(run->ranks, &pieces, &delivery);
+  if (status == KZ_OK) status = kz_local_records_deliver(run, &pieces, &delivery);
   kz_local_records_free(&pieces);
   KZ_TRY(status);
+  const uint64_t nothing = sizeof nothing;
+  for (int64_t i = 0; !whole && kz_sampling_stands_for(run) > 1 && i < n; i++)
+    if (!b->record[i]) bag_put(b, i, &nothing);
   return share(run, b);
 }
 

@@ -9,7 +9,8 @@ enum {
   GRID = 12,  /* places along each axis whose attractors are the first seeds */
   FEW = 128,  /* starts at each of them */
   MANY = 256, /* and at places that check the curves */
-  ROUNDS = 6  /* of checks at most */
+  ROUNDS = 6, /* of checks at most; of cycles of more periods than the next number most atlases take all */
+  USUAL_PERIOD = 2
 };
 
 /* ---- curves: one of each kind at a time is traced, so that no curve is traced twice ---- */
@@ -52,7 +53,7 @@ static kz_status trace_pending(kz_atlas *atlas, const kz_run *run) {
   tracing t = {.atlas = atlas, .seed = seed};
   for (next_seeds(atlas, &t); t.n > 0; next_seeds(atlas, &t)) {
     KZ_FREED_BY(kz_atlas_bag_free) kz_atlas_bag traced = {0};
-    KZ_TRY(kz_atlas_gather(run, "atlas curves", t.n, KZ_ATLAS_CURVE_BYTES, trace_tile, &t, &traced));
+    KZ_TRY(kz_atlas_gather(run, "atlas curves", t.n, KZ_ATLAS_CURVE_BYTES, true, trace_tile, &t, &traced));
     for (int64_t i = 0; i < t.n; i++) {
       kz_atlas_curve curve = kz_atlas_curve_in(traced.record[i]);
       if (curve.n > 0)
@@ -94,26 +95,30 @@ static kz_status explore(kz_atlas *atlas, const kz_run *run, int64_t n_cycles, c
   exploring e = {atlas, atlas->n_explored, atlas->scene->atlas.max_period <= 4 ? 3 : 2, n_cycles, cycle};
   const int64_t n = (atlas->n_curves - e.first) * e.places + n_cycles;
   if (n == 0) return KZ_OK;
-  KZ_TRY(kz_atlas_gather(run, "atlas branches", n, KZ_ATLAS_SEEDS_BYTES, explore_tile, &e, &found));
+  KZ_TRY(kz_atlas_gather(run, "atlas branches", n, KZ_ATLAS_SEEDS_BYTES, true, explore_tile, &e, &found));
   atlas->n_explored = atlas->n_curves;
   for (int64_t i = 0; i < n; i++) {
     const kz_atlas_seeds seeds = kz_atlas_seeds_in(found.record[i]);
     for (int64_t j = 0; j < seeds.count; j++) {
-      if (kz_atlas_is_known(atlas, seeds.list + j)) continue;
+      if (kz_atlas_period(&seeds.list[j].kind) > atlas->max_period || kz_atlas_is_known(atlas, seeds.list + j)) continue;
       kz_atlas_add(atlas, seeds.list[j].kind, seeds.list[j].y, &atlas->pending);
     }
   }
   return KZ_OK;
 }
 
-/* Follows cycles, and then every curve that comes of it, until nothing is left. */
+/* Follows cycles, and then every curve that comes of it, until nothing is left. A sampled run does so for cycles of one period: as measured, the
+ * time for all grows like the longest period. */
 static kz_status drain(kz_atlas *atlas, const kz_run *run, int64_t n_cycles, const kz_atlas_seed *cycle) {
-  KZ_TRY(explore(atlas, run, n_cycles, cycle));
-  while (atlas->pending.count > 0 || atlas->n_explored < atlas->n_curves) {
-    KZ_TRY(trace_pending(atlas, run));
-    KZ_TRY(explore(atlas, run, 0, NULL));
+  const double growth = (double)atlas->scene->atlas.max_period / (double)atlas->max_period;
+  kz_sampling_weigh(run, growth);
+  kz_status status = explore(atlas, run, n_cycles, cycle);
+  while (status == KZ_OK && (atlas->pending.count > 0 || atlas->n_explored < atlas->n_curves)) {
+    status = trace_pending(atlas, run);
+    if (status == KZ_OK) status = explore(atlas, run, 0, NULL);
   }
-  return KZ_OK;
+  kz_sampling_weigh(run, 1 / growth);
+  return status;
 }
 
 /* ---- places whose attractors are searched ---- */
@@ -135,7 +140,7 @@ static kz_status probe_tile(void *context, int64_t tile, void *record) {
 
 static kz_status probe_all(const kz_run *run, const char *name, probing *p) {
   KZ_FREED_BY(kz_atlas_bag_free) kz_atlas_bag found = {0};
-  KZ_TRY(kz_atlas_gather(run, name, p->n, KZ_ATLAS_SEEDS_BYTES, probe_tile, p, &found));
+  KZ_TRY(kz_atlas_gather(run, name, p->n, KZ_ATLAS_SEEDS_BYTES, false, probe_tile, p, &found));
   for (int64_t i = 0; i < p->n; i++) {
     const kz_atlas_seeds seeds = kz_atlas_seeds_in(found.record[i]);
     kz_atlas_seeds *mine = &p->probe[i].found;
@@ -173,9 +178,7 @@ static int64_t first_unexplained(kz_atlas *atlas, const kz_atlas_probe *probe) {
   KZ_FREED int32_t *counts = kz_malloc(KZ_ATLAS_MOST_CLASSES * sizeof *counts);
   kz_atlas_count(atlas, probe->place, counts);
   for (int64_t j = 0; j < probe->found.count; j++)
-    if (kz_atlas_period(&probe->found.list[j].kind) <= atlas->scene->atlas.max_period &&
-        unexplained(atlas, probe, j, counts) > 0)
-      return j;
+    if (kz_atlas_period(&probe->found.list[j].kind) <= atlas->max_period && unexplained(atlas, probe, j, counts) > 0) return j;
   return -1;
 }
 
@@ -275,12 +278,17 @@ static kz_status check(kz_atlas *atlas, const kz_run *run, int round, int64_t *w
 
 kz_status kz_atlas_search(kz_atlas *atlas, const kz_run *run) {
   if (!atlas->undriven) KZ_TRY(search_reference(atlas, run));
+  if (run->sample) atlas->max_period = 1;
   KZ_TRY(search_grid(atlas, run));
   for (int round = 0; round < ROUNDS && atlas->scene->atlas.checks > 0; round++) {
-    KZ_TRY(check(atlas, run, round, &atlas->disagreed));
+    const double stands_for = run->sample && atlas->scene->atlas.max_period > USUAL_PERIOD ? ROUNDS : 1;
+    kz_sampling_weigh(run, stands_for);
+    const kz_status status = check(atlas, run, round, &atlas->disagreed);
+    kz_sampling_weigh(run, 1 / stands_for);
+    KZ_TRY(status);
     atlas->checked = atlas->scene->atlas.checks;
     atlas->rounds = round + 1;
-    if (atlas->disagreed == 0) break;
+    if (atlas->disagreed == 0 || run->sample) break;
   }
   kz_atlas_join(atlas);
   return KZ_OK;

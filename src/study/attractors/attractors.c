@@ -47,16 +47,6 @@ static kz_status publish(const kz_scene *scene, const kz_dynamics *dynamics, con
   return status;
 }
 
-kz_status kz_attractors_measure(const kz_scene *scene, double *seconds) {
-  const kz_search search = search_of(scene);
-  int32_t label[KZ_SEARCH_FEW];
-  if (!(scene->parameters.pendulum.beta > 0)) return KZ_OK;
-  kz_dynamics *dynamics = dynamics_of(scene);
-  const kz_status status = kz_search_measure(dynamics, &search, label, seconds);
-  kz_dynamics_free(dynamics);
-  return status;
-}
-
 static kz_status run_damped(const kz_scene *scene, const kz_run *run, kz_store *store, FILE *summary) {
   const kz_search search = search_of(scene);
   kz_dynamics *dynamics = dynamics_of(scene);

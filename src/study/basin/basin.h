@@ -111,10 +111,7 @@ kz_status kz_phases_find(const kz_scene *scene, const kz_window_labels *labellin
 kz_status kz_shocks_find_all(const kz_scene *scene, const kz_window_labels *labelling, const kz_catalogue *catalogue,
                              kz_store *store, FILE *summary);
 
-/* The cost of these: processor seconds, from samples, are added to *seconds; bytes of memory of the phases. */
-kz_status kz_pairs_measure(const kz_basin_plan *plan, const kz_window_labels *labelling, double *seconds);
-kz_status kz_phases_measure(const kz_scene *scene, kz_dynamics *dynamics, double *seconds);
-kz_status kz_shocks_measure(const kz_scene *scene, kz_dynamics *dynamics, const kz_catalogue *catalogue, double *seconds);
+/* Bytes of memory of the phases. */
 double kz_phases_bytes(const kz_basin_plan *plan);
 
 /* ---- pairs of starts beside each other: how many of them end differently, by their distance ---- */
@@ -154,9 +151,8 @@ typedef struct {
 /* Proves regions, cells and the sample, one after the other. Collective. */
 kz_status kz_prove_window(kz_window_labels *labelling, kz_proof *proof, kz_proof_sample *sample);
 
-/* The cost of a proof: bytes of memory of a rank; processor seconds, which are added to *seconds (the attractors must be known). */
+/* Bytes of memory that a proof takes on a rank. */
 double kz_proof_bytes(const kz_scene *scene);
-kz_status kz_proof_measure(const kz_scene *scene, const kz_dynamics *dynamics, double *seconds);
 
 /* The results: attributes of /basin, columns of /attractors, and lines of the summary. Rank 0. */
 kz_status kz_proof_write(const kz_proof *proof, const kz_catalogue *catalogue, int64_t cells, const kz_counts *counts,

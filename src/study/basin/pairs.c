@@ -149,20 +149,10 @@ static pairing pairing_of(const kz_basin_plan *plan, const kz_window_labels *lab
   return p;
 }
 
-static kz_stage stage_of(pairing *p) {
-  return kz_stage_for_all("pairs", (p->plan->boundary.pairs + STARTS - 1) / STARTS, sizeof(pair_record), count_tile, p);
-}
-
-kz_status kz_pairs_measure(const kz_basin_plan *plan, const kz_window_labels *labelling, double *seconds) {
-  pairing p = pairing_of(plan, labelling);
-  const kz_stage stage = stage_of(&p);
-  if (is_within(plan) && !p.images) return KZ_OK; /* they take longer than an estimate may */
-  return kz_stage_measure(&stage, 16, 0.5, seconds);
-}
-
 kz_status kz_pairs_count(const kz_basin_plan *plan, const kz_window_labels *labelling, kz_uncertain *uncertain) {
   pairing p = pairing_of(plan, labelling);
-  const kz_stage stage = stage_of(&p);
+  const kz_stage stage =
+      kz_stage_for_all("pairs", (plan->boundary.pairs + STARTS - 1) / STARTS, sizeof(pair_record), count_tile, &p);
   KZ_FREED pair_record *records = kz_malloc((size_t)stage.n_tiles * sizeof *records);
   kz_status status = kz_stage_run(labelling->run, &stage, records);
   for (int d = 0; d < kz_distances_of(plan); d++) {

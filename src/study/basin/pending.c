@@ -53,7 +53,9 @@ static kz_status merge(kz_window_labels *l, kz_local_record *packed, int64_t fro
 static kz_status label_tiles(kz_window_labels *l, int round, int64_t from, int64_t n, int64_t *cell) {
   KZ_TRY(kz_pending_pick(l, from, n, n, cell));
   KZ_FREED kz_label *found = kz_malloc((size_t)n * sizeof *found);
+  kz_sampling_weigh(l->run, kz_tiles_stand_for(l));
   kz_status status = (l->wanted == 0 ? kz_label_items : kz_label_doubtful)(&l->labeller, round, n, cell, found);
+  kz_sampling_weigh(l->run, 1 / kz_tiles_stand_for(l));
   for (int64_t i = 0; i < l->records.n && status == KZ_OK; i++) status = merge(l, &l->records.list[i], from, n, found);
   return kz_ranks_agree(l->run->ranks, status);
 }

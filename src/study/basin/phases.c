@@ -4,14 +4,6 @@
 #include "basin.h"
 #include "labelling/phases.h"
 
-static kz_phases phases_of(const kz_scene *scene, kz_dynamics *dynamics) {
-  return (kz_phases){.labeller = kz_cell_labeller(&scene->basin, dynamics),
-                     .release = scene->parameters.release,
-                     .phases = scene->basin.phases,
-                     .n = scene->basin.theta.count * scene->basin.velocity.count,
-                     .stage = "phases"};
-}
-
 /* The id in the file; -1 = none. */
 static int32_t id_at(const kz_catalogue *catalogue, int16_t number) {
   return number > 0 ? catalogue->id_of[number] : -1;
@@ -43,17 +35,15 @@ static kz_status write_group(const kz_basin_plan *plan, const kz_phases *p, cons
 kz_status kz_phases_find(const kz_scene *scene, const kz_window_labels *labelling, const kz_catalogue *catalogue,
                          kz_store *store, FILE *summary) {
   if (scene->basin.phases <= 0) return KZ_OK;
-  kz_phases p = phases_of(scene, labelling->dynamics);
+  kz_phases p = {.labeller = kz_cell_labeller(&scene->basin, labelling->dynamics),
+                 .release = scene->parameters.release,
+                 .phases = scene->basin.phases,
+                 .n = scene->basin.theta.count * scene->basin.velocity.count,
+                 .stage = "phases"};
   kz_status status = kz_phases_label(&p, labelling->run);
   if (status == KZ_OK && store) status = write_group(&scene->basin, &p, catalogue, store, summary);
   free(p.label);
   return kz_ranks_agree(labelling->run->ranks, status);
-}
-
-kz_status kz_phases_measure(const kz_scene *scene, kz_dynamics *dynamics, double *seconds) {
-  if (scene->basin.phases <= 0) return KZ_OK;
-  kz_phases p = phases_of(scene, dynamics);
-  return kz_phases_time(&p, seconds);
 }
 
 double kz_phases_bytes(const kz_basin_plan *plan) {

@@ -12,8 +12,6 @@ enum {
   MOST_CELLS = 1 << 22, /* of tiles that are taken together */
   MOST_STARTS = 50000,  /* random ones */
   TILE = 4096,          /* of them */
-  SAMPLE = 16384,       /* cells that are timed */
-  FULL = 256,           /* starts; fewer take as long, since lanes are idle then */
   PERIODS = 2000        /* for which starts are followed at least, whatever basin.max_periods is */
 };
 
@@ -88,7 +86,11 @@ static kz_status prove_left(const kz_run *run, part *p) {
   const kz_labeller labeller = {
       .way = KZ_BY_LEVELS, .context = p, .at = prove_at, .levels = proof_levels, .n_levels = KZ_ENCLOSURES, .run = run};
   KZ_FREED kz_label *label = kz_malloc((size_t)p->n_left * sizeof *label + 1);
-  KZ_TRY(kz_label_items(&labeller, 1, p->n_left, p->left, label));
+  const double stands_for = kz_tiles_stand_for(p->labelling);
+  kz_sampling_weigh(run, stands_for);
+  const kz_status status = kz_label_items(&labeller, 1, p->n_left, p->left, label);
+  kz_sampling_weigh(run, 1 / stands_for);
+  KZ_TRY(status);
   for (int64_t i = 0; i < p->n_left; i++) {
     if (label[i].label <= 0) continue;
     p->number[p->left[i] - p->first] = (uint8_t)label[i].label;
@@ -224,41 +226,4 @@ kz_status kz_prove_window(kz_window_labels *labelling, kz_proof *proof, kz_proof
   if (!proved.any) return KZ_OK;
   KZ_TRY(prove_cells(labelling, proof, &proved));
   return prove_sample(labelling->run, labelling->plan, proof, sample);
-}
-
-/* ---- the cost: the region is made, and some cells are followed ---- */
-
-/* Seconds of all cells, and of the random real starts, which are not followed in quads. */
-static double starts_seconds(const kz_basin_plan *plan, const kz_proof *proof) {
-  const int64_t own = kz_unique_cells(plan), taken = own < SAMPLE ? own : SAMPLE;
-  KZ_FREED kz_proof_start *start = kz_malloc((size_t)taken * sizeof *start + 1);
-  KZ_FREED kz_label *label = kz_malloc((size_t)taken * sizeof *label + 1);
-  double seconds = 0;
-  int64_t n = taken, left = 0;
-  for (int64_t i = 0; i < taken; i++) start[i] = start_of_cell(plan, kz_shuffled(i, own, plan->seed));
-  for (int32_t level = 0; level < KZ_ENCLOSURES && n > 0; level++, n = left) {
-    const double all = (double)own + (level < KZ_ENCLOSE_QUADS ? (double)random_starts(plan) : 0);
-    const double starts = all * (double)n / (double)taken, followed = (double)(n < FULL ? FULL : n);
-    const double begin = kz_processor_clock();
-    prove_starts(plan, proof, level, n, start, label);
-    seconds += (kz_processor_clock() - begin) * starts / followed;
-    left = 0;
-    for (int64_t i = 0; i < n; i++)
-      if (label[i].label == KZ_DOUBTFUL) start[left++] = start[i];
-  }
-  return seconds;
-}
-
-kz_status kz_proof_measure(const kz_scene *scene, const kz_dynamics *dynamics, double *seconds) {
-  const kz_run alone = {NULL, NULL};
-  kz_proved proved = {.any = false};
-  kz_proof *proof;
-  KZ_TRY(kz_proof_plan(scene, &proof));
-  if (!proof) return KZ_OK;
-  const double begin = kz_processor_clock();
-  const kz_status status = kz_prove_regions(&alone, dynamics, proof, &proved);
-  *seconds += kz_processor_clock() - begin;
-  if (proved.any) *seconds += starts_seconds(&scene->basin, proof);
-  kz_proof_free(proof);
-  return status;
 }

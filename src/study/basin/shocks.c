@@ -69,35 +69,18 @@ static kz_status write_shocks(const kz_resilience_plan *plan, const kz_catalogue
   return KZ_OK;
 }
 
-/* For all strobe points. */
-static kz_resilience_plan plan_of(const kz_basin_plan *plan) {
-  return (kz_resilience_plan){.scale = plan->shocks.scale,
-                              .farthest = 2 * kz_axis_fastest(&plan->velocity),
-                              .sizes = plan->shocks.sizes,
-                              .max_periods = plan->max_periods};
-}
-
 kz_status kz_shocks_find_all(const kz_scene *scene, const kz_window_labels *labelling, const kz_catalogue *catalogue,
                              kz_store *store, FILE *summary) {
-  const kz_resilience_plan asked = plan_of(&scene->basin);
+  const kz_basin_plan *plan = &scene->basin;
+  const kz_resilience_plan asked = {.scale = plan->shocks.scale,
+                                    .farthest = 2 * kz_axis_fastest(&plan->velocity),
+                                    .sizes = plan->shocks.sizes,
+                                    .max_periods = plan->max_periods};
   int64_t n;
-  if (!scene->basin.has_shocks) return KZ_OK;
+  if (!plan->has_shocks) return KZ_OK;
   kz_resilience *point = kz_resilience_list(labelling->dynamics, catalogue, &n);
   kz_status status = kz_resilience_run(labelling->run, labelling->dynamics, &asked, n, point);
   if (status == KZ_OK && store) status = write_shocks(&asked, catalogue, n, point, store, summary);
   free(point);
   return kz_ranks_agree(labelling->run->ranks, status);
-}
-
-/* The shocks of one strobe point, as many times as there are points that are not mirror images of others. */
-kz_status kz_shocks_measure(const kz_scene *scene, kz_dynamics *dynamics, const kz_catalogue *catalogue, double *seconds) {
-  const kz_resilience_plan plan = plan_of(&scene->basin);
-  int64_t n, own;
-  if (!scene->basin.has_shocks) return KZ_OK;
-  kz_resilience *point = kz_resilience_list(dynamics, catalogue, &n);
-  const double start = kz_processor_clock();
-  const kz_status status = kz_resilience_try(dynamics, &plan, n, point, &own);
-  *seconds += (kz_processor_clock() - start) * (double)own;
-  free(point);
-  return status;
 }

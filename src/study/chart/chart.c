@@ -78,20 +78,11 @@ static kz_status chart_tile(void *context, int64_t tile, void *record) {
   return KZ_OK;
 }
 
-static kz_stage stage_of(const kz_scene *scene) {
-  return kz_stage_for_rank0("ends", tiles_of(&scene->chart) * scene->chart.theta.count,
-                            KZ_CHART_POINTS * sizeof(kz_chart_ending), chart_tile, (void *)scene);
-}
-
-kz_status kz_chart_measure(const kz_scene *scene, double *seconds) {
-  const kz_stage stage = stage_of(scene);
-  return kz_stage_measure(&stage, 24, 0.5, seconds);
-}
-
 kz_status kz_chart_run(const kz_scene *scene, const kz_run *run, kz_store *store, FILE *summary) {
   const kz_chart_plan *plan = &scene->chart;
   const int64_t points = points_of(plan);
-  const kz_stage stage = stage_of(scene);
+  const kz_stage stage = kz_stage_for_rank0("ends", tiles_of(&scene->chart) * scene->chart.theta.count,
+                                            KZ_CHART_POINTS * sizeof(kz_chart_ending), chart_tile, (void *)scene);
   KZ_FREED kz_chart_ending *endings = store ? kz_malloc((size_t)stage.n_tiles * stage.record_bytes) : NULL;
   KZ_TRY(kz_stage_run(run, &stage, endings));
   if (!store) return KZ_OK;

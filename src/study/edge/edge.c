@@ -108,25 +108,6 @@ static edge_job job_of(const kz_scene *scene) {
                     kz_search_of(scene).max_periods};
 }
 
-/* The edge of a few periods; the starts may end elsewhere where few starts have found fewer attractors. */
-kz_status kz_edge_measure(const kz_scene *scene, double *seconds) {
-  enum { FEW = 16 };
-  const kz_search search = kz_search_of(scene);
-  kz_scene part = *scene;
-  kz_edge edge;
-  double orbit[2 * (FEW + 1)];
-  int32_t label[KZ_SEARCH_FEW];
-  if (!(scene->parameters.pendulum.beta > 0)) return KZ_OK;
-  if (part.edge.periods > FEW) part.edge.periods = FEW;
-  const edge_job e = job_of(scene);
-  const kz_status status = kz_search_measure(e.dynamics, &search, label, seconds);
-  const double start = kz_processor_clock();
-  if (status == KZ_OK && kz_edge_track(&part, e.dynamics, e.max_periods, &edge, orbit) != KZ_OK) kz_message_clear();
-  *seconds += (kz_processor_clock() - start) * (double)scene->edge.periods / (double)part.edge.periods;
-  kz_dynamics_free(e.dynamics);
-  return status;
-}
-
 kz_status kz_edge_run(const kz_scene *scene, const kz_run *run, kz_store *store, FILE *summary) {
   const size_t bytes = sizeof(kz_edge) + 2 * ((size_t)scene->edge.periods + 1) * sizeof(double);
   const kz_search search = kz_search_of(scene);

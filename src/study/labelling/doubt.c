@@ -51,22 +51,11 @@ kz_doubt kz_doubt_of(const kz_basin_plan *plan, const kz_doubt_sample *sample, i
   return (kz_doubt){sample->n, kz_share_of_part(doubtful, sample->n, all), kz_share_of_part(differing, sample->n, all)};
 }
 
-static kz_stage stage_of(job *j) {
-  kz_stage stage = kz_stage_of_items("doubt", sample_size(j->plan), TILE, TILE * sizeof(int32_t), follow_cells, j);
-  stage.everywhere = false;
-  return stage;
-}
-
-kz_status kz_doubt_measure(const kz_basin_plan *plan, kz_dynamics *dynamics, double *seconds) {
-  job j = {plan, dynamics};
-  const kz_stage stage = stage_of(&j);
-  return kz_stage_measure(&stage, 4, 0.2, seconds);
-}
-
 kz_status kz_doubt_follow(const kz_basin_plan *plan, const kz_run *run, kz_dynamics *dynamics, kz_doubt_sample *sample) {
   job j = {plan, dynamics};
-  const kz_stage stage = stage_of(&j);
   const int64_t n = sample->n = sample_size(plan);
+  kz_stage stage = kz_stage_of_items("doubt", n, TILE, TILE * sizeof(int32_t), follow_cells, &j);
+  stage.everywhere = false;
   if (n == 0) return KZ_OK;
   sample->cell = kz_malloc((size_t)n * sizeof *sample->cell);
   sample->label = kz_calloc((size_t)n, sizeof *sample->label);

@@ -22,8 +22,6 @@ typedef struct {
 /* Draws the sample and follows it in a kept stage; other methods need none. kz_doubt_free frees it in every case. Collective. */
 kz_status kz_doubt_follow(const kz_basin_plan *plan, const kz_run *run, kz_dynamics *dynamics, kz_doubt_sample *sample);
 void kz_doubt_free(kz_doubt_sample *sample);
-/* Estimates the processor time of the sample from a part of it and adds it to *seconds. Not collective. */
-kz_status kz_doubt_measure(const kz_basin_plan *plan, kz_dynamics *dynamics, double *seconds);
 /* The result: from the sample, or without one, if `doubtful` of all cells are doubtful. Rank 0. */
 kz_doubt kz_doubt_of(const kz_basin_plan *plan, const kz_doubt_sample *sample, int64_t doubtful);
 

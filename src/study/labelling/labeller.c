@@ -123,7 +123,9 @@ static kz_status label_batch(const kz_labeller *l, int32_t level, int32_t before
   return KZ_OK;
 }
 
-kz_status kz_label_at(const kz_labeller *l, int32_t level, int32_t before, int64_t n, const int64_t *item, kz_label *label) {
+/* One level for n items, KZ_LEVELS: in the way `open`; `before` is the level at which they were doubtful. Not collective. */
+static kz_status label_at(const kz_labeller *l, int32_t level, int32_t before, int64_t n, const int64_t *item,
+                          kz_label *label) {
   const int64_t most = l->tile > 0 ? smaller(l->tile, BATCH) : BATCH;
   if (l->run) KZ_TRY(kz_ranks_interrupted(l->run->ranks));
   if (l->at) return l->at(l->context, level, n, item, label);
@@ -138,13 +140,15 @@ kz_status kz_label_at(const kz_labeller *l, int32_t level, int32_t before, int64
   return status;
 }
 
-int32_t kz_level_after(const kz_labeller *l, int32_t level, int64_t pending) {
+/* The level that follows if `pending` items are left; KZ_LEVELS + 1 = none. A few items go to quad precision at once, because they take less
+ * time there than the tables of the pairs of doubles. */
+static int32_t level_after(const kz_labeller *l, int32_t level, int64_t pending) {
   if (l->at) return pending > 0 && level + 1 < l->n_levels ? level + 1 : KZ_LEVELS + 1;
   const int32_t last = l->open == KZ_OPEN_DOUBTFUL ? KZ_LEVELS + 1 : KZ_LEVELS;
   if (pending == 0 || level == KZ_LEVELS || l->way != KZ_BY_LEVELS) return KZ_LEVELS + 1;
   if (level == KZ_LEVEL_QUAD) return l->decide ? KZ_LEVEL_ARBITRARY : last;
   if (level == KZ_LEVEL_ARBITRARY) return last;
-  return level >= KZ_LEVEL_FINE && pending <= FEW ? KZ_LEVEL_QUAD : level + 1;
+  return level >= KZ_LEVEL_FINE && (double)pending * kz_sampling_weight(l->run) <= FEW ? KZ_LEVEL_QUAD : level + 1;
 }
 
 /* Items that a level labels, in a stage. */
@@ -157,7 +161,7 @@ typedef struct {
 
 static kz_status label_some(void *context, int64_t first, int64_t n, void *record) {
   const level_job *a = context;
-  return kz_label_at(a->labeller, a->level, a->before, n, a->item + first, record);
+  return label_at(a->labeller, a->level, a->before, n, a->item + first, record);
 }
 
 static const kz_level *row_of(const level_job *a) {
@@ -204,7 +208,7 @@ static kz_status climb(const kz_labeller *l, int32_t level, int round, int64_t n
   while (a.n > 0 && a.level <= KZ_LEVELS) {
     KZ_TRY(label_level(&a, round, label));
     a.before = a.level;
-    a.level = kz_level_after(l, a.level, a.n);
+    a.level = level_after(l, a.level, a.n);
   }
   return KZ_OK;
 }
@@ -214,11 +218,11 @@ static int32_t first_level(const kz_labeller *l) {
 }
 
 kz_status kz_label_first(const kz_labeller *l, int64_t n, const int64_t *item, kz_label *label) {
-  return kz_label_at(l, first_level(l), KZ_LEVEL_DOUBLE, n, item, label);
+  return label_at(l, first_level(l), KZ_LEVEL_DOUBLE, n, item, label);
 }
 
 kz_status kz_label_doubtful(const kz_labeller *l, int round, int64_t n, const int64_t *item, kz_label *label) {
-  return climb(l, kz_level_after(l, KZ_LEVEL_DOUBLE, n), round, n, item, label);
+  return climb(l, level_after(l, KZ_LEVEL_DOUBLE, n), round, n, item, label);
 }
 
 kz_status kz_label_items(const kz_labeller *l, int round, int64_t n, const int64_t *item, kz_label *label) {

@@ -75,13 +75,6 @@ kz_status kz_label_items(const kz_labeller *labeller, int round, int64_t n, cons
 kz_status kz_label_first(const kz_labeller *labeller, int64_t n, const int64_t *item, kz_label *label);
 kz_status kz_label_doubtful(const kz_labeller *labeller, int round, int64_t n, const int64_t *item, kz_label *label);
 
-/* One level for n items, KZ_LEVELS: in the way `open`; `before` is the level at which they were doubtful. Not collective. */
-kz_status kz_label_at(const kz_labeller *labeller, int32_t level, int32_t before, int64_t n, const int64_t *item,
-                      kz_label *label);
-/* The level that follows if `pending` items are left; KZ_LEVELS + 1 = none. A few items go to quad precision at once, because they take less
- * time there than the tables of the pairs of doubles. */
-int32_t kz_level_after(const kz_labeller *labeller, int32_t level, int64_t pending);
-
 /* Labels that a search can go on from: the items that ended on nothing known. All functions are collective if the labeller has a run. */
 typedef struct {
   kz_status (*count)(void *labels, int64_t *n);                           /* how many there are */

@@ -29,19 +29,10 @@ static kz_status phase_tile(void *context, int64_t tile, void *record) {
   return status;
 }
 
-static kz_stage stage_of(kz_phases *p) {
-  return kz_stage_for_rank0(p->stage, blocks_of(p->n) * p->phases, BLOCK * sizeof(int16_t), phase_tile, p);
-}
-
 kz_status kz_phases_label(kz_phases *p, const kz_run *run) {
-  const kz_stage stage = stage_of(p);
+  const kz_stage stage = kz_stage_for_rank0(p->stage, blocks_of(p->n) * p->phases, BLOCK * sizeof(int16_t), phase_tile, p);
   p->label = kz_rank(run->ranks) == 0 ? kz_malloc((size_t)stage.n_tiles * stage.record_bytes) : NULL;
   return kz_stage_run(run, &stage, p->label);
-}
-
-kz_status kz_phases_time(kz_phases *p, double *seconds) {
-  const kz_stage stage = stage_of(p);
-  return kz_stage_measure(&stage, 2, 1.0, seconds);
 }
 
 double kz_phases_room(int64_t phases, int64_t n) {

@@ -16,8 +16,7 @@ typedef struct {
 double kz_phase_at(const kz_phases *phases, int64_t i);
 /* Labels all items at all phases, in one kept stage. Collective. */
 kz_status kz_phases_label(kz_phases *phases, const kz_run *run);
-/* Estimates the processor time of it and adds it to *seconds; bytes that the labels take. Not collective. */
-kz_status kz_phases_time(kz_phases *phases, double *seconds);
+/* Bytes that the labels take. */
 double kz_phases_room(int64_t phases, int64_t n);
 
 /* The label of an item at a phase: a number of kz_dynamics, 0 = not settled or not decided. */

@@ -20,6 +20,7 @@ enum {
   STRETCHES = 64,      /* of a round, about */
   TABLE_ROWS = 4,      /* of a map table, per tile */
   COVER_TRIES = 4,
+  MOST_SOUGHT = 1024,        /* starts that a round looks for cycles from */
   QUASIPERIODIC_STARTS = 16, /* among which a quasi-periodic motion is looked for */
   COVER_PERIODS = 512        /* to see which pending starts an attractor's cover captures */
 };
@@ -178,18 +179,9 @@ static void list_all(following *f) {
   list_pending(f);
 }
 
-kz_status kz_settle(const kz_run *run, kz_dynamics *dynamics, int64_t periods, int64_t n, double *state, int32_t *label) {
-  following f = {.dynamics = dynamics, .all = n, .state = state, .label = label};
-  list_all(&f);
-  const kz_status status = follow_pending(run, &f, periods);
-  free(f.pending);
-  return status;
-}
-
 static kz_status discover_from(const kz_run *run, kz_dynamics *dynamics, int64_t sought, int64_t max_periods, int64_t n,
                                double *state, int32_t *label) {
-  following f = {
-      .dynamics = dynamics, .all = n, .sought = sought > 0 ? sought : KZ_SEARCH_MOST_SOUGHT, .state = state, .label = label};
+  following f = {.dynamics = dynamics, .all = n, .sought = sought > 0 ? sought : MOST_SOUGHT, .state = state, .label = label};
   list_all(&f);
   const kz_status status = search_discover(run, &f, max_periods);
   free(f.pending);
@@ -232,9 +224,9 @@ kz_status kz_map_table_make(const kz_run *run, kz_dynamics *dynamics, int64_t n_
                             double max_velocity) {
   table t = {dynamics, n_velocity};
   kz_dynamics_table_create(dynamics, n_theta, n_velocity, max_velocity);
-  const kz_stage stage =
-      kz_stage_for_all("map table", (n_velocity + TABLE_ROWS - 1) / TABLE_ROWS,
-                       TABLE_ROWS * (size_t)kz_dynamics_table_row_size(dynamics) * sizeof(double), table_tile, &t);
+  kz_stage stage = kz_stage_for_all("map table", (n_velocity + TABLE_ROWS - 1) / TABLE_ROWS,
+                                    TABLE_ROWS * (size_t)kz_dynamics_table_row_size(dynamics) * sizeof(double), table_tile, &t);
+  stage.whole = true;
   KZ_FREED double *rows = kz_malloc((size_t)stage.n_tiles * stage.record_bytes);
   kz_status status = kz_stage_run(run, &stage, rows);
   if (status == KZ_OK) kz_dynamics_table_set(dynamics, rows);

@@ -12,7 +12,7 @@
 typedef struct {
   kz_window window;
   int64_t starts, seed, max_periods;
-  int64_t sought;                      /* starts from which a round looks for cycles, at most; 0 = KZ_SEARCH_MOST_SOUGHT */
+  int64_t sought;                      /* starts from which a round looks for cycles, at most; 0 = 1024 */
   int64_t cells;                       /* number of cells to label later: more cells get a finer grid of trapping regions */
   int64_t table_theta, table_velocity; /* nodes of the map table; 0 = none */
   double max_velocity;                 /* for the regions and the table; 0 = kz_dynamics_max_velocity of the window */
@@ -34,18 +34,9 @@ void kz_regions_grow(kz_dynamics *dynamics, int64_t cells, double max_velocity);
  * attractor from 1, 0 where the start has not settled on any. Collective; `run` NULL = this rank alone. */
 kz_status kz_discover(const kz_run *run, kz_dynamics *dynamics, int64_t max_periods, int64_t n, double *state, int32_t *label);
 
-/* Follows n starts (state [n][2], in and out) up to `periods` periods: label [n] = attractor, 0 where the start has not
- * settled. In kept stages. Collective. */
-kz_status kz_settle(const kz_run *run, kz_dynamics *dynamics, int64_t periods, int64_t n, double *state, int32_t *label);
-
 /* Builds the table of n_theta x n_velocity nodes up to velocity `max_velocity` on every rank. Collective; `run` NULL = this
  * rank alone. */
 kz_status kz_map_table_make(const kz_run *run, kz_dynamics *dynamics, int64_t n_theta, int64_t n_velocity, double max_velocity);
-
-/* Does the search with at most KZ_SEARCH_FEW starts in this process, to estimate its time: label [KZ_SEARCH_FEW] as above. Makes a map table of
- * few nodes. The processor time of the whole search is added to *seconds. Not collective. */
-enum { KZ_SEARCH_FEW = 256, KZ_SEARCH_MOST_SOUGHT = 1024 /* starts that a round looks for cycles from */ };
-kz_status kz_search_measure(kz_dynamics *dynamics, const kz_search *search, int32_t *label, double *seconds);
 
 /* The search of a basin, of the study attractors, and of the scene's study basin or attractors (without a map table). */
 kz_search kz_search_of_basin(const kz_basin_plan *plan);

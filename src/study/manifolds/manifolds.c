@@ -48,47 +48,6 @@ kz_cost kz_manifolds_cost(const kz_scene *scene) {
                    .shared_bytes = branches * kept};
 }
 
-/* Whether there is a saddle at a point of a line of starts: a fixed point with real multipliers, one of them beyond 1. */
-static bool is_saddle(const kz_pendulum *pendulum, const double *point, kz_branch *branch) {
-  const kz_branch_point guess = {.theta = M_PI * point[0], .velocity = point[1], .period = 1};
-  kz_branch_point closed;
-  if (!kz_branch_continue(pendulum, &guess, 0.01, &closed)) return false;
-  branch->theta = closed.theta;
-  branch->velocity = closed.velocity;
-  return fabs(closed.multiplier_re[0]) > 1 && closed.multiplier_im[0] == 0;
-}
-
-/* The first saddle of period 1 on the lines of a search; false where they show none. */
-static bool find_saddle(const kz_scene *scene, kz_branch *branch) {
-  enum { MOST_STARTS = 20000 };
-  kz_saddles_plan plan = scene->saddles;
-  plan.max_period = 1;
-  const kz_lines lines = kz_lines_of(&scene->parameters.pendulum, &plan, 1);
-  KZ_FREED double *found = kz_malloc(kz_piece_bytes(&plan));
-  bool there = false;
-  for (int64_t tile = 0; tile < lines.count * lines.pieces && !there; tile++) {
-    int64_t work[2];
-    const int64_t n = kz_lines_search(&lines, tile, MOST_STARTS, found, work);
-    for (int64_t i = 0; i < n && !there; i++) there = is_saddle(&scene->parameters.pendulum, found + 4 * i + 2, branch);
-  }
-  return there;
-}
-
-/* One branch of each kind, as many times as there are branches. */
-kz_status kz_manifolds_measure(const kz_scene *scene, double *seconds) {
-  const kz_manifolds_plan *plan = &scene->manifolds;
-  const double saddles = plan->saddles.count > 0 ? (double)plan->saddles.count : kz_saddles_expected(scene);
-  kz_branch branch = {.period = 1, .side = 1, .spacing = plan->spacing, .length = plan->length, .fastest = plan->max_speed};
-  if (!find_saddle(scene, &branch)) return KZ_OK;
-  KZ_FREED double *point = kz_malloc(4 * MOST_POINTS * sizeof *point);
-  const double start = kz_processor_clock();
-  for (branch.stable = 0; branch.stable < 2; branch.stable++)
-    if (plan->kind != (branch.stable ? KZ_MANIFOLDS_UNSTABLE : KZ_MANIFOLDS_STABLE))
-      kz_manifold_grow(&scene->parameters.pendulum, &branch, MOST_POINTS, point);
-  *seconds += 2 * saddles * (kz_processor_clock() - start);
-  return KZ_OK;
-}
-
 static void free_tasks(work_list *list) {
   free(list->tasks);
 }
@@ -174,7 +133,7 @@ static kz_status grow_all(const kz_run *run, work_list *list, line *lines) {
   const kz_delivery delivery = {
       .name = "manifolds: points", .message_bytes = sizeof(grown), .make = make, .take = take, .context = lines};
   kz_status status = kz_stage_run(run, &stage, NULL);
-  if (status == KZ_OK) status = kz_local_records_deliver(run->ranks, &branches, &delivery);
+  if (status == KZ_OK) status = kz_local_records_deliver(run, &branches, &delivery);
   kz_local_records_free(&branches);
   return status;
 }

@@ -79,8 +79,10 @@ static kz_status skip_stretch(void *context, int64_t tile, void *record) {
 /* The transient in stretches, so that a stop request is heard and what is done is kept. Collective. */
 static kz_status skip_transient(kz_orbit *orbit, const kz_run *run) {
   const int64_t transient = orbit->scene->orbit.transient;
+  const kz_sampling_mark mark = kz_sampling_mark_now(run);
   for (int64_t done = 0; done < transient; done += STRETCH) {
     char name[32];
+    if (kz_sampling_enough(run, &mark, (double)done / (double)transient)) break;
     snprintf(name, sizeof name, "transient %" PRId64, done / STRETCH + 1);
     const int64_t periods = transient - done < STRETCH ? transient - done : STRETCH;
     kz_stretch stretch = {&orbit->model, periods, orbit->cycle.state};
@@ -121,27 +123,6 @@ static void end(kz_orbit *orbit) {
   free(orbit->motion.theta);
   free(orbit->motion.velocity);
   kz_model_free(&orbit->model);
-}
-
-/* A short record from the start, or from somewhere where that is an attractor still to be found, and a part of the transient. */
-kz_status kz_orbit_measure(const kz_scene *scene, double *seconds) {
-  enum { FEW = 64 };
-  kz_scene part = *scene;
-  kz_orbit_plan *plan = &part.orbit;
-  const double periods = (double)given(plan->periods, OPEN_PERIODS);
-  plan->periods = given(plan->periods, OPEN_PERIODS) < FEW ? given(plan->periods, OPEN_PERIODS) : FEW;
-  if (plan->attractor >= 0) plan->closed = false;
-  KZ_FREED_BY(end) kz_orbit orbit = begin(&part);
-  orbit.cycle.state = plan->attractor >= 0 ? (kz_state){3, 0} : (kz_state){plan->theta, plan->velocity};
-  orbit.cycle.period = plan->closed ? given(plan->period, 0) : 0;
-  const double start = kz_processor_clock();
-  kz_state state = orbit.cycle.state;
-  kz_model_skip(&orbit.model, FEW, &state);
-  const double skipped = kz_processor_clock();
-  if (follow(&orbit) != KZ_OK) kz_message_clear(); /* the run says so */
-  *seconds += (skipped - start) / FEW * (double)plan->transient +
-              (kz_processor_clock() - skipped) * fmax(1, periods / (double)plan->periods);
-  return KZ_OK;
 }
 
 kz_status kz_orbit_run(const kz_scene *scene, const kz_run *run, kz_store *store, FILE *summary) {

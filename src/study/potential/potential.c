@@ -44,18 +44,6 @@ static void summarise(const kz_potential_plan *plan, const kz_rim *rim, FILE *su
   }
 }
 
-kz_status kz_potential_measure(const kz_scene *scene, double *seconds) {
-  enum { ANGLES = 32 };
-  const kz_potential_plan *plan = &scene->potential;
-  const kz_pendulum *p = &scene->parameters.pendulum;
-  kz_energy energy;
-  const double start = kz_processor_clock();
-  for (int i = 0; i < ANGLES; i++)
-    kz_potential_energy(p->k, p->beta, plan->drive_amplitudes.values[0], M_PI * i / ANGLES, &energy);
-  *seconds += (kz_processor_clock() - start) / ANGLES * (double)(plan->drive_amplitudes.count * plan->theta_count);
-  return KZ_OK;
-}
-
 kz_status kz_potential_run(const kz_scene *scene, const kz_run *run, kz_store *store, FILE *summary) {
   const kz_potential_plan *plan = &scene->potential;
   const kz_pendulum *p = &scene->parameters.pendulum;

@@ -93,12 +93,3 @@ kz_status kz_resilience_run(const kz_run *run, kz_dynamics *dynamics, const kz_r
     if (image_of(point, i) != i) mirror(dynamics, point + image_of(point, i), point + i);
   return KZ_OK;
 }
-
-kz_status kz_resilience_try(kz_dynamics *dynamics, const kz_resilience_plan *plan, int64_t n, const kz_resilience *point,
-                            int64_t *n_own) {
-  KZ_FREED int64_t *own = kz_malloc((size_t)n * sizeof *own + 1);
-  kz_resilience found;
-  searching s = {dynamics, plan, point, own};
-  *n_own = list_own(n, point, own);
-  return *n_own > 0 ? resilience_tile(&s, *n_own / 2, &found) : KZ_OK;
-}

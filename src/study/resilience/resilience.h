@@ -62,8 +62,4 @@ kz_resilience *kz_resilience_list(const kz_dynamics *dynamics, const kz_catalogu
 kz_status kz_resilience_run(const kz_run *run, kz_dynamics *dynamics, const kz_resilience_plan *plan, int64_t n,
                             kz_resilience *point);
 
-/* Does the same for one of the points, to measure its time; *n_own = number of points that are not mirror images of others. */
-kz_status kz_resilience_try(kz_dynamics *dynamics, const kz_resilience_plan *plan, int64_t n, const kz_resilience *point,
-                            int64_t *n_own);
-
 #endif

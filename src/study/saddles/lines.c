@@ -150,7 +150,7 @@ kz_status kz_lines_run(const kz_run *run, const kz_lines *lines, const char *nam
   const kz_delivery delivery = {
       .name = "saddles: cycles", .message_bytes = stage.record_bytes, .make = make, .take = take, .context = &all};
   kz_status status = kz_stage_run(run, &stage, NULL);
-  if (status == KZ_OK) status = kz_local_records_deliver(run->ranks, &pieces, &delivery);
+  if (status == KZ_OK) status = kz_local_records_deliver(run, &pieces, &delivery);
   kz_local_records_free(&pieces);
   KZ_TRY(status);
   if (kz_rank(run->ranks) == 0) found->count = drop_repeats(lines->plan, found->count, found->cycle);

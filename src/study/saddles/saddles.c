@@ -6,8 +6,9 @@
 #include <stdlib.h>
 
 enum {
-  ROUNDS = 8, /* at most */
-  QUIET = 2   /* rounds without a new cycle, after which the search ends even if the sums are not 0 */
+  ROUNDS = 8,       /* at most */
+  USUAL_ROUNDS = 3, /* of most searches */
+  QUIET = 2         /* rounds without a new cycle, after which the search ends even if the sums are not 0 */
 };
 /* Everything about the cycles that were found. Rank 0. */
 static void list_cycles(const kz_scene *scene, const kz_found *found, kz_cycle_list *cycles, kz_index_sums *sums) {
@@ -34,9 +35,11 @@ static kz_status run_rounds(const kz_scene *scene, const kz_run *run, kz_found *
     const int64_t before = found->count;
     KZ_TRY(kz_lines_run(run, &lines, name, found));
     quiet = round > 0 && found->count == before ? quiet + 1 : 0;
-    const bool last = round == ROUNDS - 1;
+    const bool sampled =
+        kz_sampling_stands_for(run) > 1; /* such a round always finds something new: most searches end after this one */
+    const bool last = round == ROUNDS - 1 || (sampled && round + 1 == USUAL_ROUNDS);
     if (here && (quiet == 1 || (last && quiet == 0))) list_cycles(scene, found, cycles, sums);
-    enough = quiet == QUIET || (quiet > 0 && (undamped || sums->open == 0));
+    enough = last || quiet == QUIET || (quiet > 0 && (undamped || sums->open == 0));
     KZ_TRY(kz_ranks_broadcast(run->ranks, &enough, sizeof enough));
   }
   return KZ_OK;
@@ -57,16 +60,15 @@ kz_status kz_saddles_run(const kz_scene *scene, const kz_run *run, kz_store *sto
   return status;
 }
 
-/* ---- the time of a search: a part of its lines is tried with short periods, and this shows how the effort grows with the period ---- */
+/* ---- how many cycles there are: a part of the lines is tried with short periods, which shows how their number grows with the period ---- */
 
 /* Pieces that are tried, with so many starts at most; how often a cycle is found, and in how many pieces; messages and records of
  * pieces that a rank holds. */
 enum { SAMPLE_PIECES = 24, SAMPLE_STARTS = 20000, REPEATS = 32, PIECES_OF_A_CYCLE = 8, PIECES_AT_ONCE = 5 };
-/* Rounds of most searches; the least that a piece takes in the checkpoint. */
-enum { USUAL_ROUNDS = 3, PAGE_BYTES = 4096 };
-/* s: what the sample of the longest period that is tried takes at least; as measured, a cycle of the catalogue. Bytes of that; all rounds
- * in units of the lines of constant angle: two rounds take 1.3, three 1.9. */
-static const double SAMPLE_SECONDS = 0.05, CYCLE_SECONDS = 2.8e-4, CYCLE_BYTES = 2000, ALL_ROUNDS = 1.5;
+/* The least that a piece takes in the checkpoint. */
+enum { PAGE_BYTES = 4096 };
+/* s: what the sample of the longest period that is tried takes at least. Bytes of a cycle of the catalogue. */
+static const double SAMPLE_SECONDS = 0.05, CYCLE_BYTES = 2000;
 
 typedef struct {
   double seconds; /* of all lines of constant angle */
@@ -118,12 +120,6 @@ kz_cost kz_saddles_cost(const kz_scene *scene) {
   return (kz_cost){.disk_bytes = 1e5 + PAGE_BYTES * pieces + cycles * bytes,
                    .memory_bytes = PIECES_AT_ONCE * (double)kz_piece_bytes(plan),
                    .rank0_bytes = cycles * (CYCLE_BYTES + bytes)};
-}
-
-kz_status kz_saddles_measure(const kz_scene *scene, double *seconds) {
-  const effort all = estimate(scene);
-  *seconds += ALL_ROUNDS * all.seconds + CYCLE_SECONDS * fmin(all.cycles, KZ_SADDLES_MOST);
-  return KZ_OK;
 }
 
 double kz_saddles_expected(const kz_scene *scene) {

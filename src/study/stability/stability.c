@@ -189,27 +189,6 @@ static kz_status run_stage(const kz_run *run, const kz_stage *stage, void (*unpa
   return KZ_OK;
 }
 
-/* Packing the points for the file: the middle tile's, as many times as there are tiles. */
-static void measure_packing(kz_chart *chart, double *seconds) {
-  const int64_t points = chart->axes.k.count * chart->axes.m.count, tiles = tiles_of(points, POINTS),
-                first = tiles / 2 * POINTS;
-  KZ_FREED chart_record *record = kz_calloc(1, sizeof *record);
-  KZ_FREED uint8_t *packed = kz_malloc(kz_pack_bytes(POINTS, sizeof(double)));
-  chart_points(chart, first, points - first < POINTS ? points - first : POINTS, record);
-  const double start = kz_processor_clock();
-  kz_pack_into(record->log_multiplier, POINTS, sizeof(double), true, packed);
-  kz_pack_into(record->angle, POINTS, sizeof(double), true, packed);
-  *seconds += (kz_processor_clock() - start) * (double)tiles;
-}
-
-kz_status kz_stability_measure(const kz_scene *scene, double *seconds) {
-  KZ_FREED_BY(release) kz_chart chart = begin(scene, false);
-  measure_packing(&chart, seconds);
-  const kz_stage stages[] = {chart_stage(&chart), curve_stage(&chart)};
-  for (int i = 0; i < 2; i++) KZ_TRY(kz_stage_measure(stages + i, 48, 0.2, seconds));
-  return KZ_OK;
-}
-
 kz_status kz_stability_run(const kz_scene *scene, const kz_run *run, kz_store *store, FILE *summary) {
   KZ_FREED_BY(release) kz_chart chart = begin(scene, kz_rank(run->ranks) == 0);
   const kz_stage points = chart_stage(&chart), curves = curve_stage(&chart);

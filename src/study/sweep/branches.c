@@ -122,7 +122,7 @@ static kz_status walk_all(walking *w, const kz_run *run, bool forward) {
     const int64_t known = w->branches->n_nodes;
     KZ_TRY(kz_stage_run(run, &stage, outcomes));
     for (int64_t i = 0; i < n; i++) join(w, tasks + i, outcomes + i);
-    n = list_tasks(w, forward, known, tasks);
+    n = kz_sampling_weight(run) == 1 ? list_tasks(w, forward, known, tasks) : 0; /* a sample knows few values */
   }
   return KZ_OK;
 }

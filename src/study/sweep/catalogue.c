@@ -166,18 +166,16 @@ typedef struct {
   const kz_run *run;
 } sweeping;
 
-kz_status kz_sweep_catalogue_at(const kz_scene *scene, const kz_run *run, int64_t value, kz_sweep_catalogue *catalogue) {
-  KZ_FREED_BY(end) searching s = {.scene = scene, .run = run};
-  kz_pendulum pendulum;
-  if (!kz_sweep_pendulum(scene, kz_sweep_value(&scene->sweep, value), &pendulum) || pendulum.beta <= 0) return KZ_OK;
-  const kz_release release = kz_sweep_release_at(scene, kz_sweep_value(&scene->sweep, value));
-  begin(&pendulum, &release, &s);
-  return search(&s, &release, catalogue);
-}
-
 static kz_status sweep_catalogue_tile(void *context, int64_t tile, void *record) {
   const sweeping *sweep = context;
-  return kz_sweep_catalogue_at(sweep->scene, sweep->run, tile, record);
+  const kz_scene *scene = sweep->scene;
+  KZ_FREED_BY(end) searching s = {.scene = scene, .run = sweep->run};
+  kz_pendulum pendulum;
+  const double value = kz_sweep_value(&scene->sweep, tile);
+  if (!kz_sweep_pendulum(scene, value, &pendulum) || pendulum.beta <= 0) return KZ_OK;
+  const kz_release release = kz_sweep_release_at(scene, value);
+  begin(&pendulum, &release, &s);
+  return search(&s, &release, record);
 }
 
 kz_status kz_sweep_catalogues(const kz_scene *scene, const kz_run *run, kz_sweep_catalogue *catalogue) {

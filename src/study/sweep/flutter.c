@@ -117,7 +117,8 @@ static kz_status follow_back(void *context, int64_t tile, void *record) {
 }
 
 static kz_status run_stage(flutter_job *f, const char *name, kz_tile_fn work, int64_t n_tiles, size_t bytes, void *records) {
-  const kz_stage stage = kz_stage_for_all(name, n_tiles, bytes, work, f);
+  kz_stage stage = kz_stage_for_all(name, n_tiles, bytes, work, f);
+  stage.whole = true;
   return kz_stage_run(f->run, &stage, records);
 }
 
@@ -236,26 +237,6 @@ static kz_status follow_scene(const kz_scene *scene, const kz_run *run, double *
   *f = (flutter_job){scene, run, kz_sweep_path(scene), NAN, amplitude};
   for (int64_t i = 0; i < scene->sweep.values.count; i++) amplitude[i] = NAN;
   return find_flutter(f);
-}
-
-/* The same range with few values, which takes nearly as long as with many; and the walk from value to value. */
-kz_status kz_sweep_flutter_measure(const kz_scene *scene, double *seconds) {
-  enum { FEW = 24, STEPS = 8 };
-  const kz_run alone = {NULL, NULL};
-  const kz_sweep_plan *plan = &scene->sweep;
-  const double n = (double)plan->values.count, step = (plan->values.max - plan->values.min) / fmax(1, n - 1);
-  kz_scene fewer = *scene;
-  double amplitude[FEW];
-  flutter_job f;
-  if (n > FEW) fewer.sweep.values.count = FEW;
-  const double start = kz_processor_clock();
-  KZ_TRY(follow_scene(&fewer, &alone, amplitude, &f));
-  const double followed = kz_processor_clock();
-  *seconds += followed - start;
-  if (n <= FEW || !f.begun.found) return KZ_OK;
-  kz_walk(&f.path, f.begun.at, f.begun.at + copysign(STEPS * step, f.begun.at - f.critical), &f.begun.flutter);
-  *seconds += (kz_processor_clock() - followed) / STEPS * (n - FEW);
-  return KZ_OK;
 }
 
 kz_status kz_sweep_flutter(const kz_scene *scene, const kz_run *run, kz_store *store, FILE *summary) {

@@ -148,17 +148,8 @@ static kz_status write_ranges(const kz_scene *scene, const void *records, kz_sto
   return KZ_OK;
 }
 
-static kz_stage stage_of(const kz_scene *scene) {
-  return kz_stage_for_rank0("sweep flutter zone", scene->sweep.values.count, sizeof(flutter_range), flutter_range_tile,
-                            (void *)scene);
-}
-
-kz_status kz_sweep_flutter_range_measure(const kz_scene *scene, double *seconds) {
-  const kz_stage stage = stage_of(scene);
-  return kz_stage_measure(&stage, 8, 1.0, seconds);
-}
-
 kz_status kz_sweep_flutter_range(const kz_scene *scene, const kz_run *run, kz_store *store, FILE *summary) {
-  const kz_stage stage = stage_of(scene);
+  const kz_stage stage = kz_stage_for_rank0("sweep flutter zone", scene->sweep.values.count, sizeof(flutter_range),
+                                            flutter_range_tile, (void *)scene);
   return kz_sweep_stage(run, &stage, write_ranges, store, summary);
 }

@@ -149,16 +149,8 @@ static kz_status write_release(const kz_scene *scene, const void *all, kz_store 
   return KZ_OK;
 }
 
-static kz_stage stage_of(const kz_scene *scene) {
-  return kz_stage_for_rank0("sweep releases", scene->sweep.values.count, sizeof(released), release_tile, (void *)scene);
-}
-
-kz_status kz_sweep_release_measure(const kz_scene *scene, double *seconds) {
-  const kz_stage stage = stage_of(scene);
-  return kz_stage_measure(&stage, 8, 1.0, seconds);
-}
-
 kz_status kz_sweep_release(const kz_scene *scene, const kz_run *run, kz_store *store, FILE *summary) {
-  const kz_stage stage = stage_of(scene);
+  const kz_stage stage =
+      kz_stage_for_rank0("sweep releases", scene->sweep.values.count, sizeof(released), release_tile, (void *)scene);
   return kz_sweep_stage(run, &stage, write_release, store, summary);
 }

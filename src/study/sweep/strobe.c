@@ -61,16 +61,12 @@ static kz_status strobe_tile(void *context, int64_t tile, void *record) {
   return KZ_OK;
 }
 
-static kz_stage leg_of(walking *w) {
-  return kz_stage_for_all("sweep strobe", WALKS, sizeof(strobe_state) + (size_t)(w->values * 2 * w->samples) * sizeof(double),
-                          strobe_tile, w);
-}
-
 /* One leg of both walks; its points go to their places in `points` [walks][values][2][samples]. */
 static kz_status run_leg(walking *w, const kz_run *run, double *points) {
   const kz_sweep_plan *plan = &w->scene->sweep;
   const size_t value = (size_t)(2 * w->samples) * sizeof(double);
-  const kz_stage stage = leg_of(w);
+  const kz_stage stage = kz_stage_for_all(
+      "sweep strobe", WALKS, sizeof(strobe_state) + (size_t)(w->values * 2 * w->samples) * sizeof(double), strobe_tile, w);
   KZ_FREED char *records = kz_malloc(WALKS * stage.record_bytes);
   KZ_TRY(kz_stage_run(run, &stage, records));
   for (int64_t walk = 0; walk < WALKS; walk++) {
@@ -89,8 +85,10 @@ static kz_status walk(const kz_scene *scene, const kz_run *run, double *points) 
   const strobe_state start = {plan->start_theta, plan->start_velocity};
   const int64_t at_once = LEG_PERIODS / (plan->transient + plan->samples);
   walking w = {.scene = scene, .state = {start, start}, .values = at_once > 0 ? at_once : 1};
+  const kz_sampling_mark mark = kz_sampling_mark_now(run);
   for (w.first = 0; w.first < plan->values.count; w.first += w.values) {
     int64_t left = plan->transient;
+    if (kz_sampling_enough(run, &mark, (double)w.first / (double)plan->values.count)) break;
     for (w.pushed = true, w.samples = 0, w.skip = LEG_PERIODS; left > LEG_PERIODS; left -= LEG_PERIODS, w.pushed = false)
       KZ_TRY(run_leg(&w, run, NULL));
     w.skip = left;
@@ -109,30 +107,6 @@ static kz_status write_strobe(const kz_scene *scene, const double *points, kz_st
   KZ_COLUMN(store, "sweep", "strobe_theta", values * all, double, POINT(0));
   KZ_COLUMN(store, "sweep", "strobe_velocity", values * all, double, POINT(1));
   fprintf(summary, "strobe points of %lld periods at each value, up and down\n", (long long)samples);
-  return KZ_OK;
-}
-
-/* Both walks at one value, with a part of its periods: the plan of a period and the periods take their own time. */
-static kz_status measure_value(const kz_scene *scene, int64_t value, int64_t skip, double *seconds) {
-  const kz_sweep_plan *plan = &scene->sweep;
-  const strobe_state start = {plan->start_theta, plan->start_velocity};
-  walking w = {
-      .scene = scene, .state = {start, start}, .first = value, .values = 1, .samples = 1, .skip = skip, .pushed = true};
-  const kz_stage leg = leg_of(&w);
-  return kz_stage_measure(&leg, WALKS, 1.0, seconds);
-}
-
-kz_status kz_sweep_strobe_measure(const kz_scene *scene, double *seconds) {
-  enum { VALUES = 4, FEW = 200 };
-  const kz_sweep_plan *plan = &scene->sweep;
-  const double periods = (double)(plan->transient + plan->samples), values = (double)plan->values.count;
-  double none = 0, some = 0;
-  for (int i = 0; i < VALUES; i++) {
-    const int64_t value = (2 * i + 1) * plan->values.count / (2 * VALUES);
-    KZ_TRY(measure_value(scene, value, 0, &none));
-    KZ_TRY(measure_value(scene, value, FEW, &some));
-  }
-  *seconds += values / VALUES * (none + fmax(0, some - none) / FEW * periods);
   return KZ_OK;
 }
 

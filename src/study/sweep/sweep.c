@@ -1,7 +1,7 @@
 /* Study `sweep`: quantities along one key of the pendulum mapping. */
 #include "sweep.h"
 
-#define BARRED(code, word, run, measure) "|" word
+#define BARRED(code, word, run) "|" word
 const char *kz_sweep_measure_words(void) {
   static const char words[] = KZ_SWEEP_MEASURES(BARRED);
   return words + 1;
@@ -31,7 +31,11 @@ static kz_status run_branches(const kz_scene *scene, const kz_run *run, kz_store
   KZ_FREED_BY(kz_sweep_branches_free) kz_sweep_branches branches = {0};
   KZ_FREED kz_sweep_catalogue *catalogue = kz_malloc((size_t)plan->values.count * sizeof *catalogue);
   KZ_TRY(kz_sweep_catalogues(scene, run, catalogue));
-  KZ_TRY(kz_sweep_branches_make(scene, run, catalogue, &branches));
+  const double stands_for = kz_sampling_stands_for(run);
+  kz_sampling_weigh(run, stands_for);
+  const kz_status status = kz_sweep_branches_make(scene, run, catalogue, &branches);
+  kz_sampling_weigh(run, 1 / stands_for);
+  KZ_TRY(status);
   return kz_ranks_agree(run->ranks, store ? kz_sweep_branches_write(scene, catalogue, &branches, store, summary) : KZ_OK);
 }
 
@@ -49,36 +53,11 @@ static kz_status write_values(const kz_scene *scene, kz_store *store, FILE *summ
 
 kz_status kz_sweep_run(const kz_scene *scene, const kz_run *run, kz_store *store, FILE *summary) {
   typedef kz_status (*run_fn)(const kz_scene *scene, const kz_run *run, kz_store *store, FILE *summary);
-#define RUN(code, word, run, measure) run,
+#define RUN(code, word, run) run,
   static const run_fn runs[] = {KZ_SWEEP_MEASURES(RUN)};
   KZ_TRY(kz_ranks_agree(run->ranks, store ? write_values(scene, store, summary) : KZ_OK));
   KZ_TRY(run_branches(scene, run, store, summary));
   for (int64_t i = 0; i < (int64_t)(sizeof runs / sizeof runs[0]); i++)
     if (runs[i] && kz_sweep_measures(&scene->sweep, i)) KZ_TRY(runs[i](scene, run, store, summary));
-  return KZ_OK;
-}
-
-/* A value of the sweep: its catalogue, and the walk of its cycles to the next value. */
-static kz_status branch_tile(void *context, int64_t tile, void *record) {
-  const kz_scene *scene = context;
-  const kz_sweep_plan *plan = &scene->sweep;
-  const kz_run alone = {NULL, NULL};
-  const kz_path path = kz_sweep_path(scene);
-  kz_sweep_catalogue *catalogue = record;
-  KZ_TRY(kz_sweep_catalogue_at(scene, &alone, tile, catalogue));
-  for (int64_t i = 0; i < catalogue->count && tile + 1 < plan->values.count; i++)
-    if (catalogue->entries[i].point.period > 0)
-      kz_walk(&path, kz_sweep_value(plan, tile), kz_sweep_value(plan, tile + 1), &catalogue->entries[i].point);
-  return KZ_OK;
-}
-
-kz_status kz_sweep_measure(const kz_scene *scene, double *seconds) {
-  typedef kz_status (*measure_fn)(const kz_scene *scene, double *seconds);
-#define MEASURE(code, word, run, measure) measure,
-  static const measure_fn measures[] = {KZ_SWEEP_MEASURES(MEASURE)};
-  const kz_stage branches = {"branches", scene->sweep.values.count, sizeof(kz_sweep_catalogue), branch_tile, (void *)scene};
-  if (has_branches(&scene->sweep)) KZ_TRY(kz_stage_measure(&branches, 12, 2.0, seconds));
-  for (int64_t i = 0; i < (int64_t)(sizeof measures / sizeof measures[0]); i++)
-    if (measures[i] && kz_sweep_measures(&scene->sweep, i)) KZ_TRY(measures[i](scene, seconds));
   return KZ_OK;
 }

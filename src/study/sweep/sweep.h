@@ -5,20 +5,19 @@
 #include "kapitza/dynamics.h"
 #include "kapitza/study.h"
 
-/* The measures of a sweep: code, word in the scene, the function that runs it, the function that estimates its time. The first five come from
- * the branches and have no functions of their own. */
-#define KZ_SWEEP_MEASURES(MEASURE)                                                                        \
-  MEASURE(KZ_SWEEP_ATTRACTORS, "attractors", NULL, NULL)                                                  \
-  MEASURE(KZ_SWEEP_BASIN_FRACTIONS, "basin_fractions", NULL, NULL)                                        \
-  MEASURE(KZ_SWEEP_LIFETIME, "lifetime", NULL, NULL)                                                      \
-  MEASURE(KZ_SWEEP_RESILIENCE, "resilience", NULL, NULL)                                                  \
-  MEASURE(KZ_SWEEP_PHASES, "phases", NULL, NULL)                                                          \
-  MEASURE(KZ_SWEEP_FLUTTER_AMPLITUDE, "flutter_amplitude", kz_sweep_flutter, kz_sweep_flutter_measure)    \
-  MEASURE(KZ_SWEEP_FLUTTER_RANGE, "flutter_zone", kz_sweep_flutter_range, kz_sweep_flutter_range_measure) \
-  MEASURE(KZ_SWEEP_RELEASE_ANGLE, "release_angle", kz_sweep_release, kz_sweep_release_measure)            \
-  MEASURE(KZ_SWEEP_STROBE, "strobe", kz_sweep_strobe, kz_sweep_strobe_measure)
-
-#define KZ_MEASURE_CODE(code, word, run, measure) code,
+/* The measures of a sweep: code, word in the scene, the function that runs it. The first five come from the branches and have no functions of
+ * their own. */
+#define KZ_SWEEP_MEASURES(MEASURE)                                           \
+  MEASURE(KZ_SWEEP_ATTRACTORS, "attractors", NULL)                           \
+  MEASURE(KZ_SWEEP_BASIN_FRACTIONS, "basin_fractions", NULL)                 \
+  MEASURE(KZ_SWEEP_LIFETIME, "lifetime", NULL)                               \
+  MEASURE(KZ_SWEEP_RESILIENCE, "resilience", NULL)                           \
+  MEASURE(KZ_SWEEP_PHASES, "phases", NULL)                                   \
+  MEASURE(KZ_SWEEP_FLUTTER_AMPLITUDE, "flutter_amplitude", kz_sweep_flutter) \
+  MEASURE(KZ_SWEEP_FLUTTER_RANGE, "flutter_zone", kz_sweep_flutter_range)    \
+  MEASURE(KZ_SWEEP_RELEASE_ANGLE, "release_angle", kz_sweep_release)         \
+  MEASURE(KZ_SWEEP_STROBE, "strobe", kz_sweep_strobe)
+#define KZ_MEASURE_CODE(code, word, run) code,
 enum { KZ_SWEEP_MEASURES(KZ_MEASURE_CODE) };
 
 bool kz_sweep_measures(const kz_sweep_plan *plan, int64_t measure);
@@ -90,8 +89,6 @@ kz_status kz_sweep_phases(const kz_scene *scene, const kz_run *run, kz_dynamics 
 
 /* Fills catalogue [values.count] on every rank. Collective. */
 kz_status kz_sweep_catalogues(const kz_scene *scene, const kz_run *run, kz_sweep_catalogue *catalogue);
-/* The same at one of the values. */
-kz_status kz_sweep_catalogue_at(const kz_scene *scene, const kz_run *run, int64_t value, kz_sweep_catalogue *catalogue);
 
 /* ---- branches: the same attractor along the values ---- */
 
@@ -125,12 +122,6 @@ kz_status kz_sweep_flutter(const kz_scene *scene, const kz_run *run, kz_store *s
 kz_status kz_sweep_flutter_range(const kz_scene *scene, const kz_run *run, kz_store *store, FILE *summary);
 kz_status kz_sweep_release(const kz_scene *scene, const kz_run *run, kz_store *store, FILE *summary);
 kz_status kz_sweep_strobe(const kz_scene *scene, const kz_run *run, kz_store *store, FILE *summary);
-
-/* Estimate the processor time of each from samples and add it to *seconds. Not collective. */
-kz_status kz_sweep_flutter_measure(const kz_scene *scene, double *seconds);
-kz_status kz_sweep_flutter_range_measure(const kz_scene *scene, double *seconds);
-kz_status kz_sweep_release_measure(const kz_scene *scene, double *seconds);
-kz_status kz_sweep_strobe_measure(const kz_scene *scene, double *seconds);
 
 /* Writes the records of such a measure, on rank 0. */
 typedef kz_status (*kz_records_fn)(const kz_scene *scene, const void *records, kz_store *store, FILE *summary);
