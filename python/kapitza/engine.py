@@ -1,4 +1,4 @@
-"""A resident engine: a process of `kapitza serve` that answers many requests."""
+"""An engine: a process of `kapitza serve` that answers many requests."""
 
 import itertools
 from collections.abc import Mapping
@@ -15,7 +15,7 @@ UNSETTLED = 255  # label in an answer
 
 
 class Engine:
-    """A resident process that labels many windows of starts quickly, for the scene's pendulum or any other.
+    """A process that stays in memory and labels many windows of starts quickly, for the scene's pendulum or any other.
 
     >>> with kapitza.Engine("scenes/blackburn-fig12.yaml") as engine:
     ...     labels = engine.frame((-3.1, 3.1, -2, 2), (250, 400))

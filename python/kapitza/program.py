@@ -12,7 +12,7 @@ from typing import Any
 
 from kapitza.scene import Scene
 
-# What mpirun must be told in containers and on small machines: root may run it, and ranks may outnumber cores. Variables,
+# What mpirun needs in containers and on small machines: root may run it, and ranks may outnumber cores. Variables,
 # because every MPI has other options for it (OMPI: Open MPI 4; PRTE: Open MPI 5; MPICH needs none).
 MPI_SETTINGS = {
     "OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1", "OMPI_MCA_rmaps_base_oversubscribe": "1",

@@ -114,7 +114,7 @@ def figure_of(result: "Result", kind: str | None, options: dict[str, Any]) -> "F
 
 
 def _parsed(parse: Callable[[list[str]], Any], words: list[str]) -> Any:
-    """The arguments of a picture; what a command line would be told, and end by, is a ValueError here."""
+    """The arguments of a picture; an error that would end a command line is a ValueError here."""
     said = io.StringIO()
     try:
         with contextlib.redirect_stderr(said):

@@ -58,7 +58,7 @@ k and m are those of the [equation of motion](../explanation/theory.md#the-equat
 
 
 def find_numbers(say):
-    """[(title of the paper, its numbers)]; `say` hears what is being done."""
+    """[(title of the paper, its numbers)]; `say` receives what is being done."""
     known = json.loads((ROOT / "tests" / "literature" / "reference.json").read_text())
     found = []
     with Runs() as runs:

@@ -11,7 +11,7 @@
 
 static struct {
   bool armed;
-  int rank; /* as the launcher told it */
+  int rank; /* as the launcher gives it */
   kz_run run;
   char part[PATH_MAX + 16]; /* the half file; "" = there is none yet */
 } here;
@@ -91,7 +91,7 @@ static void at_abort(int number) {
 
 /* All ranks have had the request, or the launcher ends those that have not. */
 static void overdue(const char *reason) {
-  if (!here.part[0] && here.rank > 0) sleep(1); /* before there is a file all ranks hear it, and rank 0 speaks */
+  if (!here.part[0] && here.rank > 0) sleep(1); /* no file yet: all ranks come here, rank 0 prints */
   if (here.part[0] || here.rank <= 0) say(reason, "; nothing was saved");
   _exit(KZ_STOPPED);
 }

@@ -69,7 +69,7 @@ static void print_person(const kz_coordinate start[2], const kz_ending *e, doubl
   }
 }
 
-/* One thing that is told of a start, a member of a JSON object and a column of CSV. */
+/* A property of a start: a member of a JSON object and a column of CSV. */
 typedef struct {
   const char *name;
   enum { NUMBER, TEXT, FLAG, LIST } kind;

@@ -53,7 +53,7 @@ static void *serve(void *context) {
   kz_dispatch *dispatch = context;
   kz_ask ask;
   MPI_Request request = MPI_REQUEST_NULL;
-  double heard = kz_clock();
+  double received = kz_clock();
   for (bool more = dispatch->will_ask > 0; more;) {
     int found = 0;
     pthread_mutex_lock(&dispatch->ranks->mutex);
@@ -62,9 +62,9 @@ static void *serve(void *context) {
     more = dispatch->will_ask > 0 && dispatch->mpi_error == MPI_SUCCESS;
     pthread_mutex_unlock(&dispatch->ranks->mutex);
     if (found)
-      heard = kz_clock();
+      received = kz_clock();
     else
-      rest(kz_clock() - heard);
+      rest(kz_clock() - received);
   }
   return NULL;
 }

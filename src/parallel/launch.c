@@ -6,7 +6,7 @@
 #include "ranks.h"
 
 /* The first of `names` that the environment holds, as a number; -1 where it holds none. */
-static int told(const char *const names[], size_t n) {
+static int first_number(const char *const names[], size_t n) {
   for (size_t i = 0; i < n; ++i) {
     const char *value = getenv(names[i]);
     if (value) return atoi(value);
@@ -25,8 +25,8 @@ static void look(void) {
   const char *const ranks[] = {"OMPI_COMM_WORLD_RANK", "PMIX_RANK", "PMI_RANK"};
   const char *const counts[] = {"OMPI_COMM_WORLD_SIZE", "PMI_SIZE"};
   if (launch.known) return;
-  launch.rank = told(ranks, sizeof ranks / sizeof *ranks);
-  launch.count = told(counts, sizeof counts / sizeof *counts);
+  launch.rank = first_number(ranks, sizeof ranks / sizeof *ranks);
+  launch.count = first_number(counts, sizeof counts / sizeof *counts);
   launch.known = true;
 }
 

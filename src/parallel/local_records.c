@@ -71,7 +71,7 @@ static kz_status send_records(mail *m) {
   return status;
 }
 
-/* Rank 0 has space for the next message, or hears how many the next rank has sent. */
+/* Rank 0 has space for the next message, or receives the number that the next rank has sent. */
 static kz_status expect(mail *m, int slot) {
   MPI_Request *request = &m->request[slot];
   if (slot < BUFFERS)

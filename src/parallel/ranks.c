@@ -111,11 +111,11 @@ kz_status kz_ranks_agree(kz_ranks *ranks, kz_status mine) {
   struct {
     kz_status status;
     char message[MESSAGE_BYTES];
-  } told = {.status = mine};
-  snprintf(told.message, sizeof told.message, "%s", kz_message());
-  KZ_MPI(MPI_Bcast(&told, sizeof told, MPI_BYTE, worst.rank, ranks->comm));
+  } failure = {.status = mine};
+  snprintf(failure.message, sizeof failure.message, "%s", kz_message());
+  KZ_MPI(MPI_Bcast(&failure, sizeof failure, MPI_BYTE, worst.rank, ranks->comm));
   kz_message_clear();
-  return kz_fail(told.status, "%s", told.message);
+  return kz_fail(failure.status, "%s", failure.message);
 }
 
 kz_status kz_ranks_compare(kz_ranks *ranks, const char *text, const char *what) {

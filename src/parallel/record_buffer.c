@@ -40,10 +40,10 @@ static kz_status send_slots(const kz_record_buffer *buffered, kz_ranks *ranks) {
 
 /* Takes one message of a rank. */
 static kz_status receive_slots(const kz_record_buffer *buffered, kz_ranks *ranks, int source, char *buffer, char *records) {
-  MPI_Status told;
+  MPI_Status arrived;
   int bytes;
-  KZ_MPI(MPI_Recv(buffer, (int)kz_record_buffer_message_bytes(buffered), MPI_BYTE, source, TAG, ranks->comm, &told));
-  KZ_MPI(MPI_Get_count(&told, MPI_BYTE, &bytes));
+  KZ_MPI(MPI_Recv(buffer, (int)kz_record_buffer_message_bytes(buffered), MPI_BYTE, source, TAG, ranks->comm, &arrived));
+  KZ_MPI(MPI_Get_count(&arrived, MPI_BYTE, &bytes));
   for (const char *slot = buffer; slot < buffer + bytes; slot += buffered->stride) {
     int64_t tile;
     memcpy(&tile, slot, sizeof tile);

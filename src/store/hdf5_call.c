@@ -24,7 +24,7 @@ kz_status kz_hdf5_fail(const char *file, int line) {
 
 /* At the end of the program HDF5 would try once more to write what a full disk did not take, and complain of it. */
 kz_status kz_hdf5_start(void) {
-  H5dont_atexit(); /* fails, and need not be heard, where HDF5 has started before */
+  H5dont_atexit(); /* fails, without harm, where HDF5 has started before */
   if (H5open() >= 0 && H5Eset_auto2(H5E_DEFAULT, NULL, NULL) >= 0) return KZ_OK;
   return kz_fail(KZ_FAILED, "HDF5 cannot be started, probably because memory ran out");
 }

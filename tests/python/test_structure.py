@@ -163,7 +163,7 @@ def agrees(fortran, c, structures):
 def entries(tmp_path_factory):
     """{Fortran file: gfortran's C text} of the files with bind(C) entries."""
     folder = tmp_path_factory.mktemp("modules")
-    return {path: generated(path, folder) for path in FORTRAN if re.search(r"bind\(C, *name", path.read_text())}
+    return {path: generated(path, folder) for path in FORTRAN if "bind(C" in path.read_text()}
 
 
 def test_c_headers_declare_the_fortran_entries(entries):
@@ -182,26 +182,30 @@ def test_c_headers_declare_the_fortran_entries(entries):
     assert known > 40
 
 
-def test_c_structures_are_the_fortran_types(entries, tmp_path):
-    headers = declared("\n".join(without_comments(path.read_text()) for path in HEADERS.glob("*.h")))
-    structures, types = set(), {}
+def test_c_structures_are_the_fortran_types(entries):
+    sources = {path: without_comments(path.read_text()) for path in [*HEADERS.glob("*.h"), *SOURCES.rglob("*.[ch]")]}
+    functions_in_c = declared("\n".join(sources.values()))
+    met, types = set(), {}
     for text in entries.values():
         types |= {name: body for body, name in re.findall(r"^typedef struct \w+ \{(.*?)\} (\w+);", text, re.DOTALL | re.MULTILINE)}
         for name, (_, parameters) in declared(text).items():
-            for one, other in zip(parameters, headers.get(name, (None, []))[1], strict=False):
-                agrees(one, other, structures)
-    assert len(structures) >= 15
-    program = ["#include <stddef.h>", '#include "kapitza/dynamics.h"', '#include "kapitza/dynamics_curves.h"',
-               "typedef _Float128 float128;"]
-    for fortran, c in sorted(structures):
+            for one, other in zip(parameters, functions_in_c.get(name, (None, []))[1], strict=False):
+                agrees(one, other, met)
+    members = {name for fortran, _ in met for name in types if re.search(rf"\b{name} ", types[fortran])}
+    assert types.keys() == {fortran for fortran, _ in met} | members
+    program = ["#include <stddef.h>", '#include "kapitza/dynamics.h"', '#include "kapitza/dynamics_curves.h"', '#include "vector/vector.h"',
+               "typedef _Float128 float128;", *(f"typedef struct {{{types[name]}}} {name};" for name in sorted(members))]
+    for path, text in sources.items():  # structures that only one C file needs
+        if path.suffix == ".c" and any(f"}} {c};" in text for _, c in met):
+            program += re.findall(r"^enum \{[^}]*\};|^typedef struct \{[^}]*\} kz_\w+;", text, re.MULTILINE)
+    for fortran, c in sorted(met):
         program.append(f"typedef struct {{{types[fortran]}}} {fortran};")
         program.append(f'_Static_assert(sizeof({fortran}) == sizeof({c}), "size of {c}");')
         for field in re.findall(r"^ *(?!float128)\w+ (\w+)", types[fortran], re.MULTILINE):  # C keeps quads as bytes
             program.append(f'_Static_assert(offsetof({fortran}, {field}) == offsetof({c}, {field}), "{c}.{field}");')
             program.append(f'_Static_assert(sizeof((({fortran} *)0)->{field}) == sizeof((({c} *)0)->{field}), "size of {c}.{field}");')
-    source = tmp_path / "structures.c"
-    source.write_text("\n".join(program) + "\n")
-    done = subprocess.run(["cc", "-fsyntax-only", f"-I{ROOT / 'include'}", str(source)], capture_output=True, text=True, check=False)
+    compiler = ["cc", "-x", "c", "-fsyntax-only", f"-I{ROOT / 'include'}", f"-I{SOURCES / 'kernel'}", "-"]
+    done = subprocess.run(compiler, input="\n".join(program) + "\n", capture_output=True, text=True, check=False)
     assert done.returncode == 0, done.stderr
 
 
@@ -332,6 +336,8 @@ def test_the_guide_names_files_that_exist():
 
 # (Fortran file, its name, C file, its name)
 SHARED = [("kernel/vector/map.f90", "WIDTH", "src/kernel/vector/vector.h", "KZ_LANES"),
+          *(("dynamics/labels/levels.f90", f"LEVEL_{n}", "include/kapitza/dynamics.h", f"KZ_LEVEL_{n}") for n in ("FINE", "PAIRS_28", "QUAD")),
+          ("dynamics/labels/orbits.f90", "NO_LEVEL", "include/kapitza/dynamics.h", "KZ_LEVELS"),
           ("kernel/taylor/taylor.f90", "TAYLOR_STEPS", "include/kapitza/kernel.h", "KZ_REFERENCE_STEPS"),
           ("kernel/splitting/processed/stages.f90", "TERMS", "src/kernel/splitting/processed/tangents.c", "TERMS"),
           ("model/pendulum.f90", "MOST_HARMONICS", "include/kapitza/model.h", "KZ_HARMONICS")]

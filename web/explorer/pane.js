@@ -16,7 +16,7 @@ const EASE = 0.4; // of the way to the window wanted, a picture of the screen
 const LEAP = 30;
 
 export class Pane {
-  /** In the element `root`; `name`: of its program; `report(pane)` hears of every frame, `say` of what it does. */
+  /** In the element `root`; `name`: of its program; `report(pane)` receives every frame, `say` what it does. */
   constructor(root, name, state, { report, say }) {
     Object.assign(this, { root, name, state, report, say });
     this.basins = root.querySelector(".basins");

@@ -75,7 +75,7 @@ class Gate:
 
 
 def _end(connection):
-    """Whoever reads from it hears its end."""
+    """Whoever reads from it receives its end."""
     with suppress(OSError):
         connection.shutdown(SHUT_RDWR)
 

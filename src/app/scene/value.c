@@ -180,7 +180,7 @@ static const int64_t no_integer = KZ_UNSET_INTEGER, no_items = 0;
 static const double no_real = NAN;
 _Static_assert(offsetof(kz_decimal, text) == 0 && offsetof(kz_reals, count) == 0 && offsetof(kz_integers, count) == 0 &&
                    offsetof(kz_harmonics, count) == 0,
-               "a field that is not given is told by its first bytes");
+               "a field that is not given is recognised by its first bytes");
 
 /* How one value of each type, or one value of a list, is read and printed. */
 static const struct {

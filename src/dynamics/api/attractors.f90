@@ -99,14 +99,9 @@ contains
     type(c_ptr), value :: handle
     real(dp), intent(in) :: flat(*)
     type(dynamics_t), pointer :: d
-    type(attractor_t), allocatable :: new(:)
-    integer :: i
 
     d => of_handle(handle)
-    call unpack(flat(:max(packed_cycle_size(d%search%max_period), packed_chaos_size())), new)
-    do i = 1, size(new)
-      call append_known(d, new(i))
-    end do
+    call append_known(d, flat(:max(packed_cycle_size(d%search%max_period), packed_chaos_size())))
   end subroutine adopt
 
   function packed_size(handle) bind(C, name='kz_dynamics_packed_size') result(n)
@@ -133,27 +128,25 @@ contains
     integer(c_int64_t), value :: n
     real(dp), intent(in) :: flat(n)
     type(dynamics_t), pointer :: d
+
+    d => of_handle(handle)
+    deallocate (d%attractors)
+    allocate (d%attractors(0))
+    call append_known(d, flat)
+  end subroutine unpack_catalogue
+
+  !> Attractors that were found elsewhere; their strobe points in the coordinates of this map are found again.
+  subroutine append_known(d, flat)
+    type(dynamics_t), intent(inout) :: d
+    real(dp), intent(in) :: flat(:)
     type(attractor_t), allocatable :: known(:)
     integer :: i
 
-    d => of_handle(handle)
     call unpack(flat, known)
-    deallocate (d%attractors)
-    allocate (d%attractors(0))
     do i = 1, size(known)
-      call append_known(d, known(i))
+      if (known(i)%period > 0) call enter_points(d%search%flow, known(i))
+      call append(d%attractors, known(i))
     end do
-  end subroutine unpack_catalogue
-
-  !> An attractor that was found elsewhere; its strobe points in the coordinates of this map are found again.
-  subroutine append_known(d, attractor)
-    type(dynamics_t), intent(inout) :: d
-    type(attractor_t), intent(in) :: attractor
-    type(attractor_t) :: entered
-
-    entered = attractor
-    if (entered%period > 0) call enter_points(d%search%flow, entered)
-    call append(d%attractors, entered)
   end subroutine append_known
 
   function attractor_count(handle) bind(C, name='kz_dynamics_count') result(n)

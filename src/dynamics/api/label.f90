@@ -7,7 +7,7 @@ module kz_api_label
   use kz_taylor_taylor, only: doubles_of, qp, PI_QUAD
   use kz_vector_locks, only: take_lock, leave_lock
   use kz_labels_carrier, only: carrier_t, orbit_t
-  use kz_labels_levels, only: prepare_level, carrier_of, noise_of, is_useful, LEVEL_DOUBLE, LEVEL_FINE
+  use kz_labels_levels, only: prepare_level, carrier_of, is_useful, LEVEL_DOUBLE, LEVEL_FINE
   use kz_labels_orbits, only: decision_t, follow_orbits, DOUBTFUL, PENDING
   use kz_labels_released, only: make_released, carry_released
   use kz_labels_spread, only: add_ellipse
@@ -96,27 +96,23 @@ contains
       return
     end if
     do
+      place = pack([(i, i=1, size(orbit))], decision%label == PENDING)
+      if (size(place) == 0) return
       next = merge(before, now - 1, now == level)
       if (.not. is_useful(d%levels, next)) next = next - 1
       handover = huge(handover)
       call prepare(d, now)
       if (now > LEVEL_DOUBLE) then
         call prepare(d, next)
-        handover = RATIO*noise_of(d%levels, next)
+        handover = RATIO*d%levels%worst(next)
       end if
       call carrier_of(d%levels, now, d%flow, carrier)
-      if (.not. allocated(place)) then
-        call follow_orbits(carrier, d%regions, d%attractors, most, handover, level == LEVEL_GUESS, decided, orbit, decision)
-      else
-        some = orbit(place)
-        found = decision(place)
-        call follow_orbits(carrier, d%regions, d%attractors, most, handover, .false., decided, some, found)
-        orbit(place) = some
-        decision(place) = found
-      end if
+      some = orbit(place)
+      found = decision(place)
+      call follow_orbits(carrier, d%regions, d%attractors, most, handover, level == LEVEL_GUESS, decided, some, found)
+      orbit(place) = some
+      decision(place) = found
       if (now == LEVEL_DOUBLE) return ! nothing is handed over from there
-      place = pack([(i, i=1, size(orbit))], decision%label == PENDING)
-      if (size(place) == 0) return
       now = next
     end do
   end subroutine label_orbits

@@ -15,7 +15,7 @@ module kz_labels_levels
   use kz_processed_tables, only: MOST_DAMPING
   implicit none
   private
-  public :: levels_t, carrier_of, prepare_level, noise_of, is_useful
+  public :: levels_t, carrier_of, prepare_level, is_useful
 
   !> Levels of dynamics.h.
   integer, parameter, public :: LEVEL_DOUBLE = 0
@@ -31,6 +31,7 @@ module kz_labels_levels
   type :: levels_t
     type(pendulum_t) :: pendulum
     type(numerics_t) :: numerics                !< of the scene
+    real(dp) :: worst(LEVEL_DOUBLE:LEVEL_PAIRS_28) = 0 !< rad: what a period adds at most, of those that have been prepared
     type(speed_probes_t), allocatable :: probes
     type(period_error_t) :: error               !< of the scene's map
     class(flow_t), allocatable :: fine          !< double precision with more steps
@@ -57,6 +58,7 @@ contains
       allocate (levels%probes)
       call make_speed_probes(levels%pendulum, fastest, levels%probes)
       call measure_period(flow, levels%probes, levels%error)
+      levels%worst(LEVEL_DOUBLE) = levels%error%worst
     end if
     select case (level)
     case (LEVEL_FINE)
@@ -98,6 +100,7 @@ contains
     end if
     levels%pair_series%kept = levels%numerics%series
     call make_pairs(levels%pendulum, PAIRS_ERRORS(level), fastest, levels%pairs(level), levels%pair_series, steps, error)
+    levels%worst(level) = levels%pairs(level)%error
   end subroutine make_table
 
   !> The processed splitting, or split6 where that does not serve, with so many steps that hardly more than rounding is left.
@@ -115,26 +118,11 @@ contains
       fine = numerics_t(merge(PROCESSED_ROW, SPLIT6_ROW, is_served), n, fastest=fastest, series=levels%numerics%series)
       call make_flow(levels%pendulum, fine, .true., levels%fine)
       call measure_period(levels%fine, levels%probes, levels%fine_error)
+      levels%worst(LEVEL_FINE) = levels%fine_error%worst
       if (levels%fine_error%worst <= FINE_ERROR .or. n >= MOST_FINE_STEPS) return
       n = min(MOST_FINE_STEPS, 2*int(0.7_dp*n))
     end do
   end subroutine make_fine
-
-  !> What a period adds at most, rad.
-  pure function noise_of(levels, level) result(noise)
-    type(levels_t), intent(in) :: levels !< of a pendulum; that level has been prepared
-    integer, intent(in) :: level !< LEVEL_DOUBLE .. LEVEL_PAIRS_28
-    real(dp) :: noise
-
-    select case (level)
-    case (LEVEL_DOUBLE)
-      noise = levels%error%worst
-    case (LEVEL_FINE)
-      noise = levels%fine_error%worst
-    case default
-      noise = levels%pairs(level)%error
-    end select
-  end function noise_of
 
   !> Whether a level gains so much on the next cheaper one that it pays: the one with more steps may not.
   pure logical function is_useful(levels, level)

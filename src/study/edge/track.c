@@ -68,7 +68,7 @@ static void middle(const pair *p, double *state) {
   state[1] = (p->side[0][1] + p->side[1][1]) / 2;
 }
 
-/* The fewest periods, up to the longest that is told, after which the orbit has come back for HELD periods; 0 = it has not. */
+/* The fewest periods, at most `longest`, after which the orbit has come back for HELD periods; 0 = it has not. */
 static int64_t held_period(const double *orbit, int64_t n, int64_t longest) {
   for (int64_t period = 1; period <= longest; period++) {
     int64_t back = 0;

@@ -76,7 +76,7 @@ static kz_status skip_stretch(void *context, int64_t tile, void *record) {
   return KZ_OK;
 }
 
-/* The transient in stretches, so that a stop request is heard and what is done is kept. Collective. */
+/* The transient in stretches, so that a stop request ends it between two of them and what is done is kept. Collective. */
 static kz_status skip_transient(kz_orbit *orbit, const kz_run *run) {
   const int64_t transient = orbit->scene->orbit.transient;
   const kz_sampling_mark mark = kz_sampling_mark_now(run);

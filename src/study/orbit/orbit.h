@@ -50,7 +50,7 @@ typedef struct {
  * found instead. */
 kz_status kz_cycle_close(const kz_model *model, int64_t period, kz_state start, kz_cycle *cycle);
 
-/* ---- what is told of it ---- */
+/* ---- its features ---- */
 
 typedef struct {
   bool closed;

@@ -4,15 +4,27 @@
 
 #include "proof.h"
 
-enum { POOL = 2048 };              /* starts under way: many, so that those of a class of speeds fill the lanes */
-static const double WIDEST = 0.03; /* of a set's sides: a wider one does not reach an attractor as a whole */
+/* Starts and cells under way: many, so that those of a class of speeds fill the lanes; periods of a cell. */
+enum { POOL = 2048, CELLS = 256, CELL_PERIODS = 16 };
+/* Of a set's sides: a wider start does not reach an attractor as a whole, and no larger cell gets small again. */
+static const double WIDEST = 0.03, LARGEST = 0.5;
 /* A precision is too coarse for sets whose longer side is shorter than this, rad. */
 static const double SMALLEST[] = {[KZ_ENCLOSE_DOUBLES] = 1e-7, [KZ_ENCLOSE_PAIRS] = 1e-26};
 
+/* Items 0 .. n - 1 to be followed. */
 typedef struct {
-  int64_t n, next; /* starts or cells; the next one to begin */
-  const kz_proof_start *start;
-  uint8_t *number;
+  const kz_proof *proof;
+  const kz_proof_start *start; /* NULL: items are cells, from cell `first` on */
+  int64_t first, n, most_periods;
+  double widest;
+  uint8_t *number, late; /* number [n]: results; late: that after most_periods */
+  int32_t finest, places;
+} items;
+
+/* The sets of those under way. */
+typedef struct {
+  items by;
+  int64_t next; /* item to begin next */
   int32_t under_way;
   kz_enclosure set[POOL];
   int64_t of[POOL], periods[POOL];
@@ -25,38 +37,34 @@ static kz_enclosure set_of(const kz_proof_start *start) {
                         .reach = {start->radius, start->radius}};
 }
 
-static pool *new_pool(int64_t n, uint8_t *number) {
-  pool *p = kz_malloc(sizeof *p);
-  p->n = n;
-  p->number = number;
-  p->next = p->under_way = 0;
-  return p;
+/* A cell, larger by more than the rounding of its corners. */
+static kz_enclosure set_of_cell(const kz_proof *proof, int64_t f) {
+  double half[2], centre[2];
+  kz_proof_half_cell(proof, half);
+  kz_proof_centre(proof, f, centre);
+  const double larger = 1 + KZ_PROOF_ROUNDING;
+  return (kz_enclosure){
+      .theta = {centre[0]}, .velocity = {centre[1]}, .matrix = {{1, 0}, {0, 1}}, .reach = {half[0] * larger, half[1] * larger}};
 }
 
-static void add_set(pool *p, kz_enclosure set, int64_t of) {
-  p->set[p->under_way] = set;
-  p->of[p->under_way] = of;
-  p->periods[p->under_way++] = 0;
+/* What is known of an item before it is followed. An angle far from the circle is not compared with the region: a period takes its whole
+ * turns out. */
+static uint8_t known(const items *by, int64_t item, kz_enclosure *set) {
+  if (!by->start) {
+    const uint8_t label = by->proof->label[by->first + item];
+    if (label == 0) *set = set_of_cell(by->proof, by->first + item);
+    return label;
+  }
+  *set = set_of(&by->start[item]);
+  return fabs(set->theta[0]) < 4 ? kz_proof_holds(by->proof, set) : 0;
 }
 
-static void remove_set(pool *p, int32_t i) {
-  p->under_way--;
-  p->of[i] = p->of[p->under_way];
-  p->periods[i] = p->periods[p->under_way];
-  p->set[i] = p->set[p->under_way];
-}
-
-/* Whether an angle is near enough to be compared with the region; a period takes its whole turns out. */
-static bool is_near(const kz_enclosure *set) {
-  return fabs(set->theta[0]) < 4;
-}
-
-/* Fills the pool; starts inside the region are done. */
-static void begin(const kz_proof *proof, pool *p) {
-  for (; p->next < p->n && p->under_way < POOL; p->next++) {
-    const kz_enclosure set = set_of(&p->start[p->next]);
-    p->number[p->next] = is_near(&set) ? kz_proof_holds(proof, &set) : 0;
-    if (p->number[p->next] == 0) add_set(p, set, p->next);
+static void begin(pool *p) {
+  for (; p->next < p->by.n && p->under_way < p->by.places; p->next++) {
+    p->by.number[p->next] = known(&p->by, p->next, &p->set[p->under_way]);
+    if (p->by.number[p->next] != 0) continue;
+    p->of[p->under_way] = p->next;
+    p->periods[p->under_way++] = 0;
   }
 }
 
@@ -80,76 +88,61 @@ static void swap(pool *p, int32_t i, int32_t j) {
 }
 
 /* A period of all sets; those of one precision are brought together. */
-static void advance(const kz_proof *proof, pool *p, int32_t finest) {
+static void advance(pool *p) {
   int32_t from = 0;
-  for (int32_t precision = KZ_ENCLOSE_DOUBLES; precision <= finest; precision++) {
+  for (int32_t precision = KZ_ENCLOSE_DOUBLES; precision <= p->by.finest; precision++) {
     int32_t to = from;
     for (int32_t i = from; i < p->under_way; i++)
-      if (precision_for(&p->set[i], finest) == precision) swap(p, i, to++);
-    kz_enclosures_advance(proof->tables[precision], KZ_NEW_FRAME, to - from, p->set + from);
+      if (precision_for(&p->set[i], p->by.finest) == precision) swap(p, i, to++);
+    kz_enclosures_advance(p->by.proof->tables[precision], KZ_NEW_FRAME, to - from, p->set + from);
     from = to;
   }
 }
 
-/* Whether the start at place i of the pool is done. */
-static bool look(const kz_proof *proof, pool *p, int32_t i, int64_t most_periods) {
+/* Whether the item at place i of the pool is done. */
+static bool is_done(pool *p, int32_t i) {
   const kz_enclosure *set = &p->set[i];
-  uint8_t *number = &p->number[p->of[i]];
-  if (!(set->reach[0] < WIDEST && set->reach[1] < WIDEST)) return true;
-  *number = kz_proof_holds(proof, set);
-  if (*number == 0 && ++p->periods[i] == most_periods) *number = KZ_PROOF_LATE;
-  return *number != 0;
+  uint8_t *number = &p->by.number[p->of[i]];
+  if (!(set->reach[0] < p->by.widest && set->reach[1] < p->by.widest)) return true;
+  *number = kz_proof_holds(p->by.proof, set);
+  if (*number != 0) return true;
+  if (++p->periods[i] < p->by.most_periods) return false;
+  *number = p->by.late;
+  return true;
+}
+
+static void follow(items by) {
+  pool *p = kz_malloc(sizeof *p);
+  p->by = by;
+  p->next = p->under_way = 0;
+  for (begin(p); p->under_way > 0; begin(p)) {
+    advance(p);
+    for (int32_t i = p->under_way - 1; i >= 0; i--)
+      if (is_done(p, i)) swap(p, i, --p->under_way);
+  }
+  free(p);
 }
 
 void kz_proof_follow(const kz_proof *proof, int32_t precision, int64_t n, const kz_proof_start *start, int64_t most_periods,
                      uint8_t *number) {
-  pool *p = new_pool(n, number);
-  p->start = start;
-  for (begin(proof, p); p->under_way > 0; begin(proof, p)) {
-    advance(proof, p, precision);
-    for (int32_t i = p->under_way - 1; i >= 0; i--)
-      if (look(proof, p, i, most_periods)) remove_set(p, i);
-  }
-  free(p);
-}
-
-/* ---- cells ---- */
-
-enum { LANES = 256, MOST_PERIODS = 16 };
-static const double LARGEST = 0.5; /* of a cell's image, rad and rad per drive radian: no larger one gets small again */
-
-/* A cell, larger by more than the rounding of its corners. */
-static kz_enclosure set_of_cell(const kz_proof *proof, int64_t f) {
-  double half[2], centre[2];
-  kz_proof_half_cell(proof, half);
-  kz_proof_centre(proof, f, centre);
-  const double larger = 1 + KZ_PROOF_ROUNDING;
-  return (kz_enclosure){
-      .theta = {centre[0]}, .velocity = {centre[1]}, .matrix = {{1, 0}, {0, 1}}, .reach = {half[0] * larger, half[1] * larger}};
-}
-
-/* Cell i of the pool after one more period: its attractor, 0 = none yet; *over: it is not followed any further. */
-static uint8_t look_at_cell(const kz_proof *proof, pool *p, int32_t i, bool *over) {
-  *over = true;
-  if (!(p->set[i].reach[0] < LARGEST && p->set[i].reach[1] < LARGEST)) return 0;
-  const uint8_t found = kz_proof_holds(proof, &p->set[i]);
-  *over = found != 0 || ++p->periods[i] == MOST_PERIODS;
-  return found;
+  follow((items){.proof = proof,
+                 .start = start,
+                 .n = n,
+                 .most_periods = most_periods,
+                 .widest = WIDEST,
+                 .number = number,
+                 .late = KZ_PROOF_LATE,
+                 .finest = precision,
+                 .places = POOL});
 }
 
 void kz_proof_cells(const kz_proof *proof, int64_t first, int64_t n, uint8_t *label) {
-  pool *p = new_pool(n, label);
-  while (p->next < n || p->under_way > 0) {
-    for (; p->next < n && p->under_way < LANES; p->next++) {
-      label[p->next] = proof->label[first + p->next];
-      if (label[p->next] == 0) add_set(p, set_of_cell(proof, first + p->next), p->next);
-    }
-    kz_enclosures_advance(proof->tables[KZ_ENCLOSE_DOUBLES], KZ_NEW_FRAME, p->under_way, p->set);
-    for (int32_t i = p->under_way - 1; i >= 0; i--) {
-      bool over;
-      label[p->of[i]] = look_at_cell(proof, p, i, &over);
-      if (over) remove_set(p, i);
-    }
-  }
-  free(p);
+  follow((items){.proof = proof,
+                 .first = first,
+                 .n = n,
+                 .most_periods = CELL_PERIODS,
+                 .widest = LARGEST,
+                 .number = label,
+                 .finest = KZ_ENCLOSE_DOUBLES,
+                 .places = CELLS});
 }
