@@ -47,7 +47,7 @@ def draw_figures(arguments):
         if status := run_scene(scene, arguments.ranks):
             sys.exit(status)
     for name, scene, kind, options in arguments.figures:
-        if status := step(sys.executable, f"scripts/plot_{kind}.py", f"results/{scene}.h5", "-o", f"results/{name}.png", *options):
+        if status := step("build/kapitza", "plot", kind, f"results/{scene}.h5", "-o", f"results/{name}.png", *options):
             sys.exit(status)
 
 

@@ -42,7 +42,7 @@ result.summary.splitlines()[0] if result.summary else "complete already"
 result.plot(centre="inverted", width="86mm", font_size=8, no_title=True)
 
 # %% [markdown]
-# The same from a shell: `kapitza-plot basin job.h5 --centre inverted --width 86mm --font-size 8 --no-title -o figure.pdf`.
+# The same from a shell: `kapitza plot basin job.h5 --centre inverted --width 86mm --font-size 8 --no-title -o figure.pdf`.
 #
 # Or panels on a figure of one's own:
 

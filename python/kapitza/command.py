@@ -1,5 +1,5 @@
-"""kapitza-plot KIND FILE: one table says which function draws which kind of result, reports on it, opens it to ParaView, or
-makes a film of pictures."""
+"""kapitza plot [KIND] FILE: one table says which function draws which kind of result, reports on it, opens it to ParaView, or
+makes a film of pictures. Without KIND the main study of the file is drawn. The command kapitza plot does the same."""
 
 import sys
 from collections.abc import Callable
@@ -7,7 +7,9 @@ from collections.abc import Callable
 from kapitza import recording, vtkhdf
 from kapitza.plots import atlas, basin, chart, compare, orbit, potential, stability, sweep, tradeoff
 from kapitza.report import command as report
+from kapitza.result import Result
 from kapitza.script import run_apart
+from kapitza.show import main_kind
 
 # KIND -> a function that takes the other words of the command line.
 KINDS: dict[str, Callable[[list[str]], None]] = {
@@ -25,21 +27,25 @@ KINDS: dict[str, Callable[[list[str]], None]] = {
     "vtkhdf": vtkhdf.main,
 }
 USAGE = f"""\
-usage: kapitza-plot KIND FILE [options]
-KIND: {', '.join(KINDS)}
-kapitza-plot KIND --help says which options there are."""
+usage: kapitza plot [KIND] FILE [options]
+KIND: {', '.join(KINDS)}; without it the main study of FILE is drawn
+kapitza plot KIND --help says which options there are."""
 
 
-def main(kind: str | None = None) -> None:
-    """Draws what the command line asks for, and ends; `kind`: given by the script, else the first word."""
+def main() -> None:
+    """Draws what the command line asks for, and ends."""
     words = sys.argv[1:]
-    if kind is None and words[:1] in (["-h"], ["--help"]):
+    if words[:1] in (["-h"], ["--help"]):
         print(USAGE)
         return
-    if kind is None and words[:1] and words[0] in KINDS:
-        kind, *words = words
-    if kind is None:
+    if not words or (words[0] not in KINDS and words[0].startswith("-")):
         print(USAGE, file=sys.stderr)
         sys.exit(2)
-    draw = KINDS[kind]
-    run_apart(lambda: draw(words))
+    run_apart(lambda: _draw(words))
+
+
+def _draw(words: list[str]) -> None:
+    if words[0] in KINDS:
+        KINDS[words[0]](words[1:])
+    else:
+        KINDS[main_kind(Result(words[0]))](words)

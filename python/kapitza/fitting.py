@@ -205,7 +205,3 @@ def main(words: Sequence[str] | None = None) -> None:
     pendulum = found.scene()["pendulum"] if found.omega else known
     print("pendulum: " + yaml.safe_dump(pendulum, default_flow_style=True, sort_keys=False, width=200).strip()
           + ("" if found.omega else "   # and frequency and amplitude of the shaker"))
-
-
-if __name__ == "__main__":
-    main()

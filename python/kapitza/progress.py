@@ -34,7 +34,7 @@ class Progress:
 
     def _show(self, stage: str, done: int, total: int) -> None:
         if self.bar is None:
-            self.bar = tqdm(unit="tile", leave=False)
+            self.bar = tqdm(unit="tile", leave=False, disable=None)  # a bar in a terminal or a notebook, not in a file
         if stage != self.stage or total != self.bar.total:
             self.stage = stage
             self.bar.reset(total)

@@ -30,7 +30,7 @@ def pictures_of(path: Path) -> Iterator[Image.Image]:
 
 def main(words: list[str]) -> None:
     """Writes the film and prints its name."""
-    parser = argparse.ArgumentParser(prog="kapitza-plot film", description="an MP4 or GIF of the pictures that the explorer has recorded")
+    parser = argparse.ArgumentParser(prog="kapitza plot film", description="an MP4 or GIF of the pictures that the explorer has recorded")
     parser.add_argument("file", type=Path, help="ZIP of PNG pictures")
     parser.add_argument("-o", "--output", type=Path, help="NAME.mp4 or NAME.gif (default: FILE's name with .mp4; .gif without ffmpeg)")
     parser.add_argument("--rate", type=float, default=RATE, help=f"pictures a second (default: {RATE:g})")

@@ -35,7 +35,7 @@ class Result:
 
     def __repr__(self) -> str:
         from kapitza.show import as_text
-        return as_text(self)
+        return f"<kapitza.Result {self.path}>\n{as_text(self)}"
 
     def _repr_html_(self) -> str:
         from kapitza.show import as_html
@@ -195,7 +195,7 @@ class Result:
         """Draws a group of the file and returns the matplotlib Figure.
 
         :param kind: a kind of picture, such as "basin" or "orbit"; None = that of the main study of the file
-        :param options: options of `kapitza-plot KIND`, such as `centre="inverted"`, `si=True` or `width="86mm"`; `points` of a basin is a
+        :param options: options of `kapitza plot KIND`, such as `centre="inverted"`, `si=True` or `width="86mm"`; `points` of a basin is a
             table as `agree` takes it
         """
         from kapitza.show import figure_of

@@ -17,10 +17,10 @@ def run_script(main: Callable[[], None]) -> None:
         main()
         sys.stdout.flush()
     except SceneError as error:
-        print(f"error: {error}", file=sys.stderr)
+        print(f"kapitza: error: {error}", file=sys.stderr)
         sys.exit(2)
     except (BadFile, RunError, OSError, MemoryError) as error:
-        print(f"error: {_words(error)}", file=sys.stderr)
+        print(f"kapitza: error: {_words(error)}", file=sys.stderr)
         if isinstance(error, BrokenPipeError | OSError):
             _forget_stdout()
         sys.exit(1)
@@ -36,7 +36,7 @@ def run_apart(main: Callable[[], None]) -> None:
         errors.seek(0)
         said = errors.read().decode(errors="replace")
     if os.WIFSIGNALED(status) and os.WTERMSIG(status) in (signal.SIGSEGV, signal.SIGABRT, signal.SIGBUS, signal.SIGFPE, signal.SIGILL):
-        print("error: the file is damaged: reading it crashed the HDF5 library", file=sys.stderr)
+        print("kapitza: error: the file is damaged: reading it crashed the HDF5 library", file=sys.stderr)
         sys.exit(1)
     sys.stderr.write(said)
     sys.exit(os.waitstatus_to_exitcode(status) if not os.WIFSIGNALED(status) else 128 + os.WTERMSIG(status))

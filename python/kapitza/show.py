@@ -4,6 +4,7 @@ import base64
 import contextlib
 import html
 import io
+import sys
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
@@ -62,8 +63,15 @@ def as_text(result: "Result") -> str:
     rows = _rows(result)
     widths = [max(map(len, column)) for column in zip(*rows, strict=True)]
     table = ["  " + "  ".join(cell.ljust(width) for cell, width in zip(row, widths, strict=True)).rstrip() for row in rows]
-    lines = [f"<kapitza.Result {result.path}>", result.title, _head(result), *_studies(result), *table, _more(result)]
+    lines = [result.title, _head(result), *_studies(result), *table, _more(result)]
     return "\n".join(filter(None, lines))
+
+
+def main() -> None:
+    """The command `kapitza info`."""
+    from kapitza.result import Result
+    from kapitza.script import run_apart
+    run_apart(lambda: print(as_text(Result(sys.argv[1]))))
 
 
 def as_html(result: "Result") -> str:
@@ -88,17 +96,21 @@ def _picture(result: "Result") -> str:
     return f"<img alt='' style='height:17em' src='data:image/png;base64,{base64.b64encode(data.getvalue()).decode()}'>"
 
 
-def figure_of(result: "Result", kind: str | None, options: dict[str, Any]) -> "Figure":
-    """The figure that `kapitza-plot KIND` would write."""
-    from kapitza.plots.common import figure_of as figure_on_page
+def main_kind(result: "Result") -> str:
+    """The kind of picture that shows the main study of a result."""
     from kapitza.plots.kinds import KINDS
     from kapitza.result import BadFile
+    if kind := next((name for name in KINDS if name in result.groups), None):
+        return kind
+    raise BadFile(f"{result.path}: contains no study that can be drawn")
+
+
+def figure_of(result: "Result", kind: str | None, options: dict[str, Any]) -> "Figure":
+    """The figure that `kapitza plot KIND` would write."""
+    from kapitza.plots.common import figure_of as figure_on_page
+    from kapitza.plots.kinds import KINDS
     from kapitza.scene import new_path
-    held = [name for name in KINDS if name in result.groups]
-    if kind is None:
-        if not held:
-            raise BadFile(f"{result.path}: contains no study that can be drawn")
-        kind = held[0]
+    kind = kind or main_kind(result)
     if kind not in KINDS:
         raise ValueError(f"{kind!r} is not a kind of picture; the kinds are {', '.join(KINDS)}")
     points = options.get("points")

@@ -1,4 +1,4 @@
-"""`kapitza-plot vtkhdf FILE [-o FILE.vtkhdf]`: a small file beside a result through which ParaView and VTK read its basins.
+"""`kapitza plot vtkhdf FILE [-o FILE.vtkhdf]`: a small file beside a result through which ParaView and VTK read its basins.
 
 It is VTK's own HDF layout (ImageData, version 2.0), whose cells are external links to the variables of FILE: both move together.
 """
@@ -66,7 +66,7 @@ def _axis(group: h5py.Group, name: str) -> np.ndarray:
 
 def main(words: list[str]) -> None:
     """Writes the sidecar of a result file, and prints its name."""
-    parser = argparse.ArgumentParser(prog="kapitza-plot vtkhdf",
+    parser = argparse.ArgumentParser(prog="kapitza plot vtkhdf",
                                      description="a small file through which ParaView reads the basins of a result")
     parser.add_argument("file", type=Path, help="result file that holds a basin")
     parser.add_argument("-o", "--output", type=Path, help="the sidecar (default: beside FILE, with .vtkhdf)")

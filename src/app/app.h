@@ -37,6 +37,8 @@ extern const char *const kz_instructions[];
 const char *kz_instruction_names(void);
 
 typedef struct {
+  int n_words; /* of plot: the words behind it, which the package reads */
+  char *const *plot_words;
   const char *operands[5]; /* SCENE and the operands after it */
   int n_operands;
   const char *scene;  /* path of the scene file; "-" = standard input */
@@ -47,7 +49,7 @@ typedef struct {
   int n_origins;
   char **joined; /* words of the command line that were made of a number and its unit; n_joined of them */
   int n_joined;
-  bool resume, force, json, json_schema, layout, no_browser, degrees;
+  bool resume, force, all, json, json_schema, layout, no_browser, degrees;
   int64_t boundary;                    /* digits of --boundary; 0 = not given */
   bool answered;                       /* --help or the like was printed: nothing is left to do */
   const char *port;                    /* of view, as written; NULL = not given */
@@ -74,7 +76,9 @@ kz_status kz_app_check(const kz_options *options);
 kz_status kz_app_where(const kz_options *options);
 kz_status kz_app_serve(const kz_options *options);
 kz_status kz_app_view(const kz_options *options); /* replaces the process by the explorer; returns only after a failure */
-kz_status kz_app_fit(const kz_options *options);  /* replaces the process by the package's module fitting; so does this one */
+kz_status kz_app_fit(const kz_options *options);  /* replaces the process by a command of the package; so do these three */
+kz_status kz_app_plot(const kz_options *options);
+kz_status kz_app_info(const kz_options *options);
 kz_status kz_app_needs(const kz_options *options);
 kz_status kz_app_keys(const kz_options *options);
 void kz_app_version(FILE *out);

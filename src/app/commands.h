@@ -5,7 +5,7 @@
 #include "app.h"
 
 /* Bits of the commands. */
-enum { KZ_FIT = 128, KZ_NEEDS = 256 };
+enum { KZ_FIT = 128, KZ_NEEDS = 256, KZ_PLOT = 512 };
 
 typedef struct {
   const char *name;    /* "" = the program itself */

@@ -5,7 +5,19 @@
 
 #include "commands.h"
 
-enum { RUN = 1, CHECK = 2, KEYS = 4, TOP = 8, WHERE = 16, VIEW = 32, SERVE = 64, FIT = KZ_FIT, NEEDS = KZ_NEEDS };
+enum {
+  RUN = 1,
+  CHECK = 2,
+  KEYS = 4,
+  TOP = 8,
+  WHERE = 16,
+  VIEW = 32,
+  SERVE = 64,
+  FIT = KZ_FIT,
+  NEEDS = KZ_NEEDS,
+  PLOT = KZ_PLOT,
+  INFO = 1024
+};
 
 const kz_command kz_commands[] = {
     {"run", RUN, " SCENE", 1, 1, kz_app_run, "model every study that SCENE contains"},
@@ -15,6 +27,9 @@ const kz_command kz_commands[] = {
      "say on which attractor a start ends; THETA is in rad from down, VELOCITY in rad per drive radian, with any number of "
      "digits; write - in their place to read starts as CSV from standard input; --boundary takes two starts"},
     {"view", VIEW, " SCENE|FILE", 1, 1, kz_app_view, "open the basins of a scene or of a result in the browser"},
+    {"plot", PLOT, " [KIND] FILE", 1, 1, kz_app_plot,
+     "draw the result FILE as a picture; kapitza plot KIND --help lists the options of a kind, kapitza plot alone the kinds"},
+    {"info", INFO, " FILE", 1, 1, kz_app_info, "say what the result FILE holds: pendulum, studies and attractors"},
     {"fit", FIT, " TRACK", 1, 1, kz_app_fit,
      "find the pendulum of a recorded track: CSV with the columns time (s) and theta (rad) or theta_deg"},
     {"needs", NEEDS, "", 0, 0, kz_app_needs,
@@ -129,6 +144,7 @@ const kz_option kz_option_rows[] = {
     {"timings", 0, NULL, RUN, set_flag, OF(timings), "print at the end how long each stage took", NULL},
     {"log", 0, "FILE", RUN, set_file, OF(log), "append progress, stages, warnings and the end to FILE, as JSON lines", NULL},
     {"json", 0, NULL, WHERE | CHECK | NEEDS, set_flag, OF(json), "print JSON, one object a line", NULL},
+    {"all", 0, NULL, CHECK, set_flag, OF(all), "print the scene with every default, too", NULL},
     {"boundary", 0, "DIGITS", WHERE, set_boundary, 0,
      "print the point between two starts at which their basins meet, correct to DIGITS decimal places", NULL},
     {"json-schema", 0, NULL, KEYS, set_flag, OF(json_schema), "print the keys as a JSON schema, for editors", NULL},
@@ -145,8 +161,8 @@ const kz_option kz_option_rows[] = {
     {"degrees", 0, NULL, FIT, set_flag, OF(degrees), "the angles of the track are in degrees", NULL},
     {"completion", 0, "SHELL", TOP, set_completion, 0, "print the completion script for bash, zsh or fish", "bash|zsh|fish"},
     {"manual", 0, NULL, TOP, set_manual, 0, "print the manual page; to read it, pipe it into man -l -", NULL},
-    {"help", 'h', NULL, RUN | CHECK | WHERE | VIEW | FIT | NEEDS | SERVE | KEYS | TOP, NULL, 0, "print this help and exit",
-     NULL},
+    {"help", 'h', NULL, RUN | CHECK | WHERE | VIEW | FIT | NEEDS | PLOT | INFO | SERVE | KEYS | TOP, NULL, 0,
+     "print this help and exit", NULL},
     {"version", 'V', NULL, TOP, NULL, 0, "print the versions of the program and of its libraries, and exit", NULL},
     {.name = NULL},
 };
@@ -244,10 +260,14 @@ kz_status kz_options_read(const kz_command *command, int argc, char **argv, kz_o
 }
 
 kz_status kz_operands_check(const kz_command *command, const kz_options *options) {
+  const char *first = command->operand + 1; /* SCENE, SCENE|FILE, ... */
+  const int length = command->fewest > 0 ? (int)strcspn(first, " |") : 0;
   if (options->n_operands == 0 && command->fewest > 0)
-    return kz_fail(KZ_REFUSED, "%s: SCENE is missing; kapitza %s%s", command->name, command->name, command->operand);
+    return kz_fail(KZ_REFUSED, "%s: %.*s is missing; kapitza %s%s", command->name, length, first, command->name,
+                   command->operand);
   if (options->n_operands > 0 && !options->operands[0][0])
-    return kz_fail(KZ_REFUSED, "%s: the name of SCENE is empty; kapitza %s%s", command->name, command->name, command->operand);
+    return kz_fail(KZ_REFUSED, "%s: the name of %.*s is empty; kapitza %s%s", command->name, length, first, command->name,
+                   command->operand);
   if (options->n_operands < command->fewest)
     return kz_fail(KZ_REFUSED, "%s: the start is missing; kapitza %s%s", command->name, command->name, command->operand);
   if (options->resume && options->force) return kz_fail(KZ_REFUSED, "--resume: contradicts --force; use one of them");

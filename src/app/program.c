@@ -34,6 +34,13 @@ static kz_status agree_alone(const kz_options *options) {
 }
 
 static kz_status carry_out(const kz_command *command, int argc, char **argv, kz_options *options) {
+  const bool asks = argc > 1 && (strcmp(argv[1], "--help") == 0 || strcmp(argv[1], "-h") == 0);
+  if (command->bit == KZ_PLOT && !asks) {
+    options->n_words = argc - 1;
+    options->plot_words = argv + 1;
+    KZ_TRY(agree_alone(options));
+    return command->carry_out(options);
+  }
   if (command->bit & (KZ_FIT | KZ_NEEDS)) argc = join_units(argc, argv, options);
   KZ_TRY(kz_options_read(command, argc, argv, options));
   if (options->answered) return agree_alone(options);

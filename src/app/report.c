@@ -41,7 +41,7 @@ static void print_check(const kz_options *options, const kz_scene *scene, const 
                         FILE *out) {
   const kz_cost cost = kz_cost_of(scene);
   const kz_pendulum *p = &scene->parameters.pendulum;
-  fprintf(out, "%s is a valid scene.\n\n%s\n", options->scene, resolved);
+  fprintf(out, "%s is a valid scene.\n", options->scene);
   if (!isnan(p->k)) fprintf(out, "pendulum         k = %.10g, beta = %.10g, m = %.10g\n", p->k, p->beta, p->m);
   kz_rest_print(&scene->parameters, out);
   kz_drive_print(&scene->parameters, out);
@@ -57,6 +57,7 @@ static void print_check(const kz_options *options, const kz_scene *scene, const 
   print_duration(estimate->seconds, out);
   fputs(" on one core; N ranks take an N-th of it\n", out);
   kz_warnings_print(scene, out);
+  if (options->all) fprintf(out, "\n%s", resolved);
 }
 
 static kz_json *studies_of(const kz_scene *scene) {

@@ -91,14 +91,30 @@ kz_status kz_app_view(const kz_options *options) {
   return become(&p, "explorer/__main__.py", "kapitza.explorer", n, words);
 }
 
-kz_status kz_app_fit(const kz_options *options) {
+/* A command of the package with n words behind it. */
+static kz_status call_package(const kz_options *options, const char *command, int n, const char *const *words) {
   places p;
-  const char *words[5];
-  int n = 0;
   if (!options->speaks) return KZ_OK;
   KZ_TRY(find_program(&p));
+  KZ_FREED const char **all = kz_calloc((size_t)n + 1, sizeof *all);
+  all[0] = command;
+  if (n > 0) memcpy(all + 1, words, (size_t)n * sizeof *all);
+  return become(&p, "__main__.py", "kapitza", n + 1, all);
+}
+
+kz_status kz_app_fit(const kz_options *options) {
+  const char *words[5];
+  int n = 0;
   if (options->degrees) words[n++] = "--degrees";
   if (options->frequency) words[n++] = "--frequency", words[n++] = options->frequency;
   words[n++] = "--", words[n++] = options->scene;
-  return become(&p, "fitting.py", "kapitza.fitting", n, words);
+  return call_package(options, "fit", n, words);
+}
+
+kz_status kz_app_plot(const kz_options *options) {
+  return call_package(options, "plot", options->n_words, (const char *const *)options->plot_words);
+}
+
+kz_status kz_app_info(const kz_options *options) {
+  return call_package(options, "info", 1, &options->scene);
 }

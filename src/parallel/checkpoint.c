@@ -25,7 +25,8 @@ kz_status kz_checkpoint_stopped(const kz_checkpoint *checkpoint) {
   const char *saved = kz_checkpoint_saved(checkpoint);
   snprintf(reason, sizeof reason, "%s", kz_message());
   kz_message_clear();
-  return kz_fail(KZ_STOPPED, "%s; %s%s", reason, saved ? "finished work is in " : "nothing was saved", saved ? saved : "");
+  if (!saved) return kz_fail(KZ_STOPPED, "%s; nothing was saved", reason);
+  return kz_fail(KZ_STOPPED, "%s; finished work is in %s; --resume goes on from it", reason, saved);
 }
 
 /* Rank 0 decides whether the file is gone on from or begun anew. */

@@ -178,7 +178,8 @@ def run_until_saved(*words, file, folder, ranks=2):
     assert runs_until_saved(process, checkpoint, before), process.communicate()
     process.send_signal(signal.SIGUSR1)
     _, errors = process.communicate()
-    assert process.returncode == 75 and f"stopped by SIGUSR1; finished work is in {checkpoint.name}" in errors, errors
+    stopped = f"stopped by SIGUSR1; finished work is in {checkpoint.name}; --resume goes on from it"
+    assert process.returncode == 75 and stopped in errors, errors
     return errors
 
 
@@ -226,7 +227,7 @@ def run_script(main, *arguments):
 
 
 def plot(kind, *arguments):
-    """kapitza-plot KIND with the arguments, as run_script."""
+    """kapitza plot KIND with the arguments, as run_script."""
     return run_script(lambda: KINDS[kind](list(map(str, arguments))), *arguments)
 
 

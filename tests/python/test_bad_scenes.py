@@ -233,6 +233,7 @@ COMMAND_LINES = {
     "unknown letter": (["run", "scene.yaml", "-x"], "-x: unknown option"),
     "option without value": (["run", "scene.yaml", "--set"], "--set: needs a value"),
     "value without need": (["run", "scene.yaml", "--force=1"], "--force=1: takes no value"),
+    "key without its mapping": (["check", "scene.yaml", "--set", "drive_amplitude=.4"], "did you mean pendulum.drive_amplitude?"),
     "option of another command": (["check", "scene.yaml", "--force"], "--force: unknown option"),
     "resume and force": (["run", "scene.yaml", "--resume", "--force"], "--resume: contradicts --force"),
     "progress": (["run", "scene.yaml", "--progress", "maybe"], "--progress"),

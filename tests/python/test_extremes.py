@@ -293,7 +293,8 @@ FEW = ["basin.theta.count=4", "basin.velocity.count=4", "basin.attractors.starts
 # A period limit that the scene does not give follows from the damping; one that leaves most motions unsettled is named before the work.
 def test_periods_follow_from_the_damping(kapitza, tmp_path):
     def check(*settings):
-        done = kapitza("check", SMALL, *(word for setting in [*GRID, *FEW, *settings] for word in ("--set", setting)), folder=tmp_path)
+        words = [word for setting in [*GRID, *FEW, *settings] for word in ("--set", setting)]
+        done = kapitza("check", SMALL, "--all", *words, folder=tmp_path)
         resolved = yaml.safe_load(done.stdout.split("\n\n")[1])
         return resolved["basin"]["max_periods"], [line for line in done.stdout.splitlines() if line.startswith("warning")]
 

@@ -219,7 +219,7 @@ def test_what_is_missing_or_wrong_is_named(results, tmp_path, kind, name, how, w
     with h5py.File(path, "r+") as file:
         craft(file, kind, name, how)
     done = plot(kind, path, "-o", tmp_path / "out.png")
-    assert done.returncode == 1 and done.stderr.startswith(f"error: {path}: ") and words in done.stderr, done.stderr
+    assert done.returncode == 1 and done.stderr.startswith(f"kapitza: error: {path}: ") and words in done.stderr, done.stderr
     assert not (tmp_path / "out.png").exists()
 
 

@@ -104,4 +104,4 @@ def test_a_crash_of_the_library_is_one_line():
             "run_apart(lambda: (print('free(): invalid pointer', file=sys.stderr), os.kill(os.getpid(), signal.SIGABRT)))")
     variables = {"PYTHONPATH": str(ROOT / "python")}
     done = subprocess.run([sys.executable, "-c", code], env=variables, capture_output=True, text=True)
-    assert done.returncode == 1 and done.stderr == "error: the file is damaged: reading it crashed the HDF5 library\n"
+    assert done.returncode == 1 and done.stderr == "kapitza: error: the file is damaged: reading it crashed the HDF5 library\n"

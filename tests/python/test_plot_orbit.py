@@ -1,4 +1,4 @@
-"""kapitza-plot orbit draws every kind of orbit, draws what the file says, and refuses files without one in one line."""
+"""kapitza plot orbit draws every kind of orbit, draws what the file says, and refuses files without one in one line."""
 
 import json
 
@@ -120,7 +120,7 @@ def test_panels_are_a_choice(files, tmp_path, panels):
 
 def test_what_cannot_be_drawn(made_file, tmp_path):
     done = plot(made_file, "-o", tmp_path / "out.png")
-    assert (done.returncode, done.stderr) == (1, f"error: {made_file}: holds no orbit (studies in it: attractors, basin)\n")
+    assert (done.returncode, done.stderr) == (1, f"kapitza: error: {made_file}: holds no orbit (studies in it: attractors, basin)\n")
     assert plot(made_file, "--panels", "tiem").returncode == 2
     assert plot(made_file, "-o", "out.gif").returncode == 2
     for last in ("0", "-3", "nan", "long"):

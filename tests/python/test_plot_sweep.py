@@ -1,4 +1,4 @@
-"""kapitza-plot sweep: every view of a sweep, and what it says of files that lack one."""
+"""kapitza plot sweep: every view of a sweep, and what it says of files that lack one."""
 
 import numpy as np
 import pytest
@@ -55,4 +55,4 @@ def test_fractions_show_intervals_and_name_every_band(swept):
 
 def test_a_basin_is_not_a_sweep(small_result):
     done = draw(small_result)
-    assert done.returncode == 1 and done.stderr.startswith("error: ") and "holds no sweep" in done.stderr
+    assert done.returncode == 1 and done.stderr.startswith("kapitza: error: ") and "holds no sweep" in done.stderr

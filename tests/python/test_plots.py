@@ -1,13 +1,12 @@
 """The plotting script: every mode draws, draws what the file says, and files that cannot be used are refused in one line."""
 
 import subprocess
-import sys
 
 import h5py
 import matplotlib.image
 import numpy as np
 import pytest
-from conftest import ROOT
+from conftest import PROGRAM
 from conftest import plot as plot_kind
 from hypothesis import given
 from hypothesis import strategies as st
@@ -17,15 +16,13 @@ from kapitza.plots.plane import Plane
 from matplotlib.colors import to_rgb
 from matplotlib.figure import Figure
 
-SCRIPT = ROOT / "scripts" / "plot_basin.py"
-
 
 def plot(*arguments):
     return plot_kind("basin", *arguments)
 
 
 def test_the_script_runs_by_itself(made_file, tmp_path):
-    done = subprocess.run([sys.executable, SCRIPT, made_file], cwd=tmp_path, capture_output=True, text=True)
+    done = subprocess.run([PROGRAM, "plot", "basin", made_file], cwd=tmp_path, capture_output=True, text=True)
     assert (done.returncode, done.stdout, done.stderr) == (0, "made.png\n", "")
     assert (tmp_path / "made.png").is_file()
 
@@ -138,7 +135,7 @@ def test_points_show_wherever_an_image_lies_in_the_window(theta, left, width):
     (["--attractor", "0", "--shade"], "cannot be combined"),
     (["--dpi", "0"], "0 is out of range"),
     (["--dpi", "fine"], "invalid resolution"),
-    (["-o", "absent/out.png"], "error: absent/out.png: No such file or directory"),
+    (["-o", "absent/out.png"], "kapitza: error: absent/out.png: No such file or directory"),
 ])
 def test_wrong_requests_are_refused(made_file, arguments, words):
     done = plot(made_file, *arguments)
@@ -248,7 +245,7 @@ def test_files_that_cannot_be_used_get_one_line(made_file, tmp_path, how, words)
     done = plot(made_file, "-o", tmp_path / "out.png")
     assert done.returncode == 1 and not (tmp_path / "out.png").exists()
     (line,) = done.stderr.splitlines()
-    assert line.startswith(f"error: {made_file}: ") and words in line
+    assert line.startswith(f"kapitza: error: {made_file}: ") and words in line
 
 
 def test_flipped_bytes_never_give_a_traceback(made_file, tmp_path):
@@ -269,3 +266,21 @@ def test_a_motion_without_mirror_image_has_the_colour_of_its_kind(made_file):
     usual = style.colours(attractors)
     alone = style.colours(attractors.assign(mirror=attractors["mirror"] * 0 - 1))
     assert alone[:3] == usual[:3] and alone[0] == style.KINDS["down"] and usual[3] != usual[2]
+
+
+def from_program(*words):
+    return subprocess.run([PROGRAM, *words], capture_output=True, text=True, timeout=100)
+
+
+def test_the_program_draws_the_main_study_and_says_what_a_file_holds(made_file, tmp_path):
+    alone, named = tmp_path / "alone.png", tmp_path / "named.png"
+    assert from_program("plot", made_file, "-o", alone, "--dpi", "40").stdout == f"{alone}\n"
+    assert from_program("plot", "basin", made_file, "-o", named, "--dpi", "40").returncode == 0
+    assert alone.read_bytes() == named.read_bytes()
+    said = from_program("info", made_file).stdout
+    assert said == "\n".join(repr(Result(made_file)).splitlines()[1:]) + "\n" and "inverted" in said
+    for command in ("plot", "info"):
+        refused = from_program(command, tmp_path / "none.h5")
+        assert (refused.returncode, refused.stderr) == (1, f"kapitza: error: {tmp_path / 'none.h5'}: no such file\n")
+    assert from_program("plot").returncode == 2 and "KIND: atlas, basin" in from_program("plot").stderr
+    assert from_program("info").stderr == "kapitza: error: info: FILE is missing; kapitza info FILE\n"

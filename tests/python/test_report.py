@@ -81,7 +81,7 @@ def test_a_result_without_a_grid_has_its_own_pictures(model):
 
 
 @pytest.mark.parametrize(("arguments", "status", "message"), [
-    (["nothing.h5"], 1, "error: nothing.h5: no such file"), (["README.md"], 1, "error: README.md: not an HDF5 file"),
+    (["nothing.h5"], 1, "kapitza: error: nothing.h5: no such file"), (["README.md"], 1, "kapitza: error: README.md: not an HDF5 file"),
     (["README.md", "-o", "x.pdf"], 2, "must end in .html"),
 ])
 def test_what_cannot_be_reported_is_said(arguments, status, message):

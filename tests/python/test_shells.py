@@ -7,7 +7,7 @@ import subprocess
 import pytest
 from conftest import PROGRAM
 
-COMMANDS = ["run", "check", "where", "view", "fit", "needs", "serve", "keys"]
+COMMANDS = ["run", "check", "where", "view", "plot", "info", "fit", "needs", "serve", "keys"]
 
 
 def output(*arguments):

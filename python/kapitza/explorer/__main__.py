@@ -3,13 +3,13 @@
 import os
 import sys
 
+from kapitza.missing import refuse
+
 try:
     from kapitza.explorer.command import WrongArgument, main
     from kapitza.result import BadFile
 except ModuleNotFoundError as error:
-    print(f"kapitza: error: view: {sys.executable} lacks the package {error.name}; set KAPITZA_PYTHON to a Python that has those "
-          "of scripts/requirements.txt (scripts/setup makes one: .venv/bin/python)", file=sys.stderr)
-    sys.exit(1)
+    refuse("view", error)
 
 try:
     main()

@@ -1,8 +1,8 @@
 """Draws an atlas of kapitza: every motion over a plane of two keys of the pendulum.
 
-    kapitza-plot atlas atlas-blackburn.h5                      the map: all curves, over the number of attractors
-    kapitza-plot atlas atlas-blackburn.h5 --view motions       small maps: where each motion attracts
-    kapitza-plot atlas atlas-blackburn.h5 --longest 2          curves of cycles of up to two periods alone
+    kapitza plot atlas atlas-blackburn.h5                      the map: all curves, over the number of attractors
+    kapitza plot atlas atlas-blackburn.h5 --view motions       small maps: where each motion attracts
+    kapitza plot atlas atlas-blackburn.h5 --longest 2          curves of cycles of up to two periods alone
 """
 
 import argparse

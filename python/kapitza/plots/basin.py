@@ -1,8 +1,8 @@
 """Draws the basins of attraction in a result file of kapitza.
 
-    kapitza-plot basin blackburn-fig12.h5                              every basin in its colour
-    kapitza-plot basin blackburn-fig12.h5 --attractor inverted         one basin, black on white, as the papers print it
-    kapitza-plot basin blackburn-fig12.h5 --quantity settling_time     how long every start takes until its end is certain
+    kapitza plot basin blackburn-fig12.h5                              every basin in its colour
+    kapitza plot basin blackburn-fig12.h5 --attractor inverted         one basin, black on white, as the papers print it
+    kapitza plot basin blackburn-fig12.h5 --quantity settling_time     how long every start takes until its end is certain
 """
 
 import argparse

@@ -1,8 +1,8 @@
 """Draws a chart of kapitza: where the same starts end, over a plane of two keys of the pendulum.
 
-    kapitza-plot chart chart-blackburn.h5                      the ends, with the curves of a study stability of the same file
-    kapitza-plot chart chart-blackburn.h5 --view exponent      the largest Lyapunov exponent
-    kapitza-plot chart chart-blackburn.h5 --view settling      how long the motions take
+    kapitza plot chart chart-blackburn.h5                      the ends, with the curves of a study stability of the same file
+    kapitza plot chart chart-blackburn.h5 --view exponent      the largest Lyapunov exponent
+    kapitza plot chart chart-blackburn.h5 --view settling      how long the motions take
 """
 
 import argparse

@@ -19,7 +19,7 @@ FORMATS = (".png", ".svg", ".pdf")
 
 def argument_parser(kind: str, description: str | None, study: str) -> argparse.ArgumentParser:
     """A parser of what every kind takes; `study`: what its file must hold, for the help."""
-    parser = argparse.ArgumentParser(prog=f"kapitza-plot {kind}", description=description,
+    parser = argparse.ArgumentParser(prog=f"kapitza plot {kind}", description=description,
                                      formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("file", help=f"result file that holds {study}")
     parser.add_argument("-o", "--output", type=Path, help="picture; .png, .svg or .pdf (default: FILE's name with .png, here)")

@@ -1,7 +1,7 @@
 """Draws the basins of two results side by side, and where they differ.
 
-    kapitza-plot compare ONE.h5 OTHER.h5                           attractors matched by their strobe points, in the colours of the first
-    kapitza-plot compare ONE.h5 OTHER.h5 --centre inverted --width 178mm
+    kapitza plot compare ONE.h5 OTHER.h5                           attractors matched by their strobe points, in the colours of the first
+    kapitza plot compare ONE.h5 OTHER.h5 --centre inverted --width 178mm
 """
 
 import argparse

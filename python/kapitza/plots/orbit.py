@@ -1,9 +1,9 @@
 """Draws one orbit from a result file of kapitza: time graph with harmonics, bob path, phase portrait, line spectrum.
 
-    kapitza-plot orbit butikov-fig07.h5                               all four panels
-    kapitza-plot orbit blackburn-fig08.h5 --panels time               only the time graph, its turning points marked
-    kapitza-plot orbit blackburn-fig09c.h5 --panels phase,path
-    kapitza-plot orbit FILE --last 20                                 its last 20 drive periods
+    kapitza plot orbit butikov-fig07.h5                               all four panels
+    kapitza plot orbit blackburn-fig08.h5 --panels time               only the time graph, its turning points marked
+    kapitza plot orbit blackburn-fig09c.h5 --panels phase,path
+    kapitza plot orbit FILE --last 20                                 its last 20 drive periods
 
 An open record of more than 200 periods shows its last 100 unless --last says otherwise, a closed orbit of as many periods one round;
 the spectrum is always that of the whole record.

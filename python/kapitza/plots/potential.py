@@ -1,6 +1,6 @@
 """Draws the effective potential from a result file of kapitza: exact, and by the two formulas of Blackburn et al. (1992).
 
-    kapitza-plot potential blackburn-fig05.h5
+    kapitza plot potential blackburn-fig05.h5
 """
 
 import argparse

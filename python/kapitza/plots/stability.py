@@ -1,10 +1,10 @@
 """Draws a stability chart of kapitza: zones, transition curves, and by how much the papers' formulas are off.
 
-    kapitza-plot stability butikov-fig01.h5                      zones and curves over (k, m)
-    kapitza-plot stability blackburn-fig02.h5 --view growth      the growth rate in the tongues
-    kapitza-plot stability blackburn-fig04.h5 --view frequency   hanging and inverted over the drive frequency
-    kapitza-plot stability paul-trap.h5 --view trap              where ions are held in both directions
-    kapitza-plot stability formula-errors.h5 --view errors       every formula against its exact curve
+    kapitza plot stability butikov-fig01.h5                      zones and curves over (k, m)
+    kapitza plot stability blackburn-fig02.h5 --view growth      the growth rate in the tongues
+    kapitza plot stability blackburn-fig04.h5 --view frequency   hanging and inverted over the drive frequency
+    kapitza plot stability paul-trap.h5 --view trap              where ions are held in both directions
+    kapitza plot stability formula-errors.h5 --view errors       every formula against its exact curve
 """
 
 import argparse

@@ -1,12 +1,12 @@
 """Draws a sweep of kapitza: quantities along one parameter of the pendulum.
 
-    kapitza-plot sweep blackburn-walk.h5                       basins along the parameter, branches under them
-    kapitza-plot sweep blackburn-fig10.h5                      amplitude of the flutter, and its square
-    kapitza-plot sweep blackburn-fig06-omega11.h5              releases from rest that stay
-    kapitza-plot sweep blackburn-fig04-dots.h5                 where flutter ends
-    kapitza-plot sweep bifurcation.h5                          strobe points, up and down
-    kapitza-plot sweep FILE --view phases                      how much ends alike at all phases of release
-    kapitza-plot sweep FILE --view branches                    one view of a file that holds several
+    kapitza plot sweep blackburn-walk.h5                       basins along the parameter, branches under them
+    kapitza plot sweep blackburn-fig10.h5                      amplitude of the flutter, and its square
+    kapitza plot sweep blackburn-fig06-omega11.h5              releases from rest that stay
+    kapitza plot sweep blackburn-fig04-dots.h5                 where flutter ends
+    kapitza plot sweep bifurcation.h5                          strobe points, up and down
+    kapitza plot sweep FILE --view phases                      how much ends alike at all phases of release
+    kapitza plot sweep FILE --view branches                    one view of a file that holds several
 """
 
 import argparse

@@ -1,7 +1,7 @@
 """Draws the trade between speed and accuracy from a result file of kapitza: share of wrong labels against time, log-log.
 
-    kapitza-plot tradeoff tradeoff-fig13.h5
-    kapitza-plot tradeoff tradeoff-fig13.h5 --per-cell -o cells.svg       time for the labels alone
+    kapitza plot tradeoff tradeoff-fig13.h5
+    kapitza plot tradeoff tradeoff-fig13.h5 --per-cell -o cells.svg       time for the labels alone
 
 A line is one way to label, its points are steps or table nodes; bars are 95 % intervals; a ring marks what nothing beats. A setting
 without a wrong label stands at the upper end of its interval, as an open triangle. Dashed: the share that one unit in the last place

@@ -1,4 +1,4 @@
-"""`kapitza-plot report FILE [-o FILE.html]`."""
+"""`kapitza plot report FILE [-o FILE.html]`."""
 
 import argparse
 from pathlib import Path
@@ -9,7 +9,7 @@ from kapitza.result import Result
 
 def main(words: list[str]) -> None:
     """Writes the report of a result file, and prints its name."""
-    parser = argparse.ArgumentParser(prog="kapitza-plot report", description="one self-contained page on a result: pictures, attractors, "
+    parser = argparse.ArgumentParser(prog="kapitza plot report", description="one self-contained page on a result: pictures, attractors, "
                                      "numbers, scene, provenance")
     parser.add_argument("file", help="result file")
     parser.add_argument("-o", "--output", type=Path, help="the page (default: FILE's name with .html, here)")

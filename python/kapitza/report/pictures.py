@@ -1,4 +1,4 @@
-"""The pictures of a report: those of kapitza-plot."""
+"""The pictures of a report: those of kapitza plot."""
 
 import tempfile
 from collections.abc import Callable, Iterator

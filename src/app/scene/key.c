@@ -158,15 +158,31 @@ bool kz_key_suggest(const char *word, const char *words, char *nearest, size_t b
   return found;
 }
 
+/* The key of the pendulum with this name, else the only key of any mapping with it; NULL if there is none. */
+static const kz_key *find_elsewhere(const kz_key *keys, const char *name) {
+  const kz_key *found = NULL;
+  int n = 0;
+  for (; keys->path; keys++) {
+    const char *dot = strrchr(keys->path, '.');
+    if (!dot || strcmp(dot + 1, name) != 0) continue;
+    if (strncmp(keys->path, "pendulum.", 9) == 0) return keys;
+    found = keys;
+    n++;
+  }
+  return n == 1 ? found : NULL;
+}
+
 void kz_key_unknown(const kz_key *keys, const char *parent, const char *name, const char *prefix, char *text, size_t bytes) {
   char names[1024], list[1024], nearest[64];
-  const kz_key *mapping = kz_key_find(keys, parent);
+  const kz_key *mapping = kz_key_find(keys, parent), *elsewhere = find_elsewhere(keys, name);
   kz_key_children(keys, parent, names, sizeof names);
   kz_key_list(names, list, sizeof list);
   if (mapping && kz_key_renamed(mapping, name, nearest, sizeof nearest))
     snprintf(text, bytes, "is no longer a key; use %s", nearest);
   else if (kz_key_suggest(name, names, nearest, sizeof nearest))
     snprintf(text, bytes, "unknown key; did you mean %s%s?", prefix, nearest);
+  else if (elsewhere)
+    snprintf(text, bytes, "unknown key; did you mean %s?", elsewhere->path);
   else
     snprintf(text, bytes, "unknown key; the keys are %s", list);
 }

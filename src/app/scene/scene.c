@@ -52,7 +52,7 @@ kz_status kz_scene_load(const char *path, char **text, size_t *length) {
   free(*text);
   *text = NULL;
   if (wrong) return kz_fail(KZ_REFUSED, "%s: %s", path, wrong);
-  return kz_fail(KZ_REFUSED, "%s: is a result, not a scene; kapitza view %s shows it, kapitza-plot basin %s draws it", path,
+  return kz_fail(KZ_REFUSED, "%s: is a result, not a scene; kapitza view %s shows it, kapitza plot basin %s draws it", path,
                  path, path);
 }
 

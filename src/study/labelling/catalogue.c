@@ -2,6 +2,7 @@
 
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 enum { SAMPLES = 96, LINES_PER_PERIOD = 8 };
 
@@ -139,23 +140,41 @@ kz_status kz_catalogue_write(const kz_catalogue *catalogue, const kz_pendulum *p
   return write_spectra(catalogue, pendulum, lines, store);
 }
 
+enum { COLUMNS = 6, CELL_BYTES = 24 };
+typedef char table_row[COLUMNS][CELL_BYTES];
+
+/* What is said of an attractor beside its id and name. */
+static void fill_row(const kz_entry *e, table_row row) {
+  snprintf(row[0], CELL_BYTES, "%d", e->row.period);
+  snprintf(row[1], CELL_BYTES, "%d", e->row.winding);
+  snprintf(row[2], CELL_BYTES, isnan(e->row.amplitude) ? "-" : "%.2f deg", e->row.amplitude * 180 / M_PI);
+  snprintf(row[3], CELL_BYTES, e->row.period == 0 ? "-" : "%.6f", hypot(e->row.multiplier_re[0], e->row.multiplier_im[0]));
+  snprintf(row[4], CELL_BYTES, "%.5f", e->row.lyapunov);
+  snprintf(row[5], CELL_BYTES, "%.3f %%", 100 * e->fraction);
+}
+
 void kz_catalogue_print(const kz_catalogue *catalogue, bool with_fraction, FILE *summary) {
-  if (catalogue->count == 0) return;
-  fprintf(summary, "  id  name                   period  winding  amplitude  multiplier  exponent%s\n",
-          with_fraction ? "    share" : "");
-  for (int64_t i = 0; i < catalogue->count; i++) {
-    const kz_entry *e = catalogue->entries + i;
-    fprintf(summary, "%4lld  %-21s  %6d  %7d", (long long)i, e->name, e->row.period, e->row.winding);
-    if (isnan(e->row.amplitude))
-      fprintf(summary, "          -");
-    else
-      fprintf(summary, "  %5.2f deg", e->row.amplitude * 180 / M_PI);
-    if (e->row.period == 0)
-      fprintf(summary, "           -");
-    else
-      fprintf(summary, "  %10.6f", hypot(e->row.multiplier_re[0], e->row.multiplier_im[0]));
-    fprintf(summary, "  %8.5f", e->row.lyapunov);
-    if (with_fraction) fprintf(summary, "  %6.3f %%", 100 * e->fraction);
-    fprintf(summary, "\n");
+  static const char *const titles[COLUMNS] = {"period", "winding", "amplitude", "multiplier", "exponent", "share"};
+  static const int widths[COLUMNS] = {6, 7, 9, 10, 8, 8};
+  const int64_t n = catalogue->count;
+  const int columns = with_fraction ? COLUMNS : COLUMNS - 1;
+  bool differs[COLUMNS] = {false};
+  if (n == 0) return;
+  KZ_FREED table_row *rows = kz_malloc((size_t)n * sizeof *rows);
+  for (int64_t i = 0; i < n; i++) {
+    fill_row(catalogue->entries + i, rows[i]);
+    for (int c = 0; c < columns; c++) differs[c] = differs[c] || n == 1 || strcmp(rows[i][c], rows[0][c]) != 0;
   }
+  fprintf(summary, "  id  %-21s", "name");
+  for (int c = 0; c < columns; c++)
+    if (differs[c]) fprintf(summary, "  %*s", widths[c], titles[c]);
+  fputc('\n', summary);
+  for (int64_t i = 0; i < n; i++) {
+    fprintf(summary, "%4lld  %-21s", (long long)i, catalogue->entries[i].name);
+    for (int c = 0; c < columns; c++)
+      if (differs[c]) fprintf(summary, "  %*s", widths[c], rows[i][c]);
+    fputc('\n', summary);
+  }
+  for (int c = 0; c < columns; c++)
+    if (!differs[c]) fprintf(summary, "      %s of each: %s\n", titles[c], rows[0][c]);
 }
