@@ -12,169 +12,25 @@
 #include "kapitza/kernel.h"
 #include "kapitza/parallel.h"
 #include "kapitza/store.h"
+#include "kapitza/study_axis.h"
 #include "kapitza/study_pendulum.h"
 
-/* A number of any digits: its text (rad, or degrees if " deg" follows; "" = not given), and the nearest sum of two doubles. */
-enum { KZ_DECIMAL_LENGTH = 1024 };
-typedef struct {
-  char text[KZ_DECIMAL_LENGTH];
-  double high, low;
-} kz_decimal;
-
-/* An axis: `count` cells between min and max (basin), or `count` values with both ends included (charts, sweeps). For a window by its centre
- * and width, which may be finer than doubles, min and max are the nearest doubles. */
-typedef struct {
-  double min, max;
-  int64_t count;
-  kz_decimal centre, width;
-} kz_axis;
-
-/* True if doubles cannot distinguish neighbouring cells of the axis, so that only method exact can label them. */
-bool kz_axis_is_deep(const kz_axis *axis);
-/* The number of a decimal text, which may end in " deg"; 0 if the text is not a number. */
-__float128 kz_decimal_quad(const char *text);
-/* The same number with all its digits; the result refers to the text of `decimal`. */
-kz_coordinate kz_decimal_coordinate(const kz_decimal *decimal);
-
-/* The edges of a window as the scene gives them; NaN = not given. */
-typedef struct {
-  double min, max;
-} kz_edges;
-
-enum { KZ_METHOD_ICM = 0, KZ_METHOD_DIRECT = 1, KZ_METHOD_EXACT = 2 };
-enum { KZ_UNDECIDED_FLAG = 0, KZ_UNDECIDED_DECIDE = 1 }; /* what happens to cells that quad precision does not decide */
-enum { KZ_LINEAR = 0, KZ_QUINTIC = 1 };
-
-enum { KZ_BOUNDARY_FEWEST_DECADES = 2, KZ_BOUNDARY_MOST_DECADES = 23 };
-enum { KZ_MOST_SHOCK_SIZES = 16 };
-/* The search for the smallest shocks that leave a basin. The size of a shock is hypot(dtheta, dv / scale). */
-typedef struct {
-  double scale; /* velocity, rad per drive radian, that counts as much as 1 rad */
-  kz_reals sizes;
-} kz_shocks_plan;
-
-typedef struct {
-  kz_axis theta;    /* rad; the whole circle is [-pi, pi) */
-  kz_axis velocity; /* rad per drive radian */
-  kz_edges theta_edges, velocity_edges;
-  int32_t method, undecided;
-  int64_t table_theta, table_velocity; /* nodes of the map table */
-  bool table_is_idle;                  /* the scene gives keys of a map table, but its method does not use one */
-  int32_t interpolation;
-  int64_t max_periods;
-  int64_t starts;
-  int64_t max_period;
-  int64_t seed;
-  bool proof;      /* prove the labels */
-  bool unmirrored; /* the pendulum has no mirror symmetry */
-  double accuracy; /* NaN, or the share of right labels for which the program chooses method, table and numerics */
-  bool has_boundary;
-  struct {
-    int64_t pairs, decades; /* starts; of their partners' distances */
-    double farthest;        /* distance of the first partner, rad */
-  } boundary;
-  bool has_shocks;
-  kz_shocks_plan shocks;
-  int64_t phases; /* number of phases of the drive at which the cells are also released; 0 or less = none */
-} kz_basin_plan;
-
-/* Study `attractors`. The counts of the axes are not used. */
-typedef struct {
-  kz_axis theta, velocity;
-  int64_t starts, max_period, seed;
-} kz_attractors_plan;
-
-/* Study `saddles`: all cycles of up to max_period with a point in the window. The counts of the axes are not used. */
-enum { KZ_SADDLES_MAX_PERIOD = 32, KZ_SADDLES_MOST = 200000 /* cycles */ };
-typedef struct {
-  kz_axis theta, velocity;
-  int64_t max_period;
-} kz_saddles_plan;
-
-/* Study `manifolds`: those of the cycles that the study `saddles` of the same scene finds. */
-enum { KZ_MANIFOLDS_BOTH, KZ_MANIFOLDS_STABLE, KZ_MANIFOLDS_UNSTABLE };
-typedef struct {
-  kz_integers saddles; /* ids; none = all */
-  int32_t kind;
-  double length, spacing, max_speed;
-} kz_manifolds_plan;
-
-/* Study `edge`: the edge between the basins of two starts. */
-typedef struct {
-  double first[2], second[2]; /* rad, rad per drive radian */
-  int64_t periods;            /* largest number of drive periods for which the edge is followed */
-  int64_t max_period;         /* longest period of a cycle that is recognised */
-} kz_edge_plan;
-enum { KZ_EDGE_MOST_PERIOD = 64 };
-
-/* Study `orbit`. Values that are not given: NaN (start), INT64_MIN (attractor, periods, period). */
-typedef struct {
-  double theta, velocity; /* start */
-  int64_t attractor;      /* id in the catalogue of the same scene, instead of a start */
-  int32_t model;          /* KZ_PENDULUM, KZ_MATHIEU, KZ_EFFECTIVE */
-  int32_t about;          /* position of the model mathieu: 0 down, 1 inverted */
-  int64_t transient;      /* drive periods before the record */
-  int64_t periods;        /* of the record */
-  int64_t samples_per_period;
-  bool closed;
-  int64_t period; /* of a closed orbit; not given = the program finds it */
-} kz_orbit_plan;
-
-/* Study `stability`. damping, quality_factor: NaN = not given. curves: indices in the list of kz_curve_names(). */
-typedef struct {
-  kz_axis k, m; /* values with both ends; min NaN = given as a, q */
-  kz_axis a, q; /* 4k, 2m; min NaN = given as k, m */
-  double damping, quality_factor;
-  kz_integers curves, subharmonics;
-} kz_stability_plan;
-
-/* Study `potential`. */
-typedef struct {
-  kz_reals drive_amplitudes;
-  int64_t theta_count;
-} kz_potential_plan;
-
-/* Study `tradeoff`, on the window of the study `basin`. */
-typedef struct {
-  int64_t samples;      /* cells compared with quad precision */
-  kz_integers settings; /* indices in the table of settings; empty = all */
-} kz_tradeoff_plan;
+/* The plans of the studies stand in their folders. */
+#include "../../src/study/accuracy/plan.h"
+#include "../../src/study/atlas/plan.h"
+#include "../../src/study/attractors/plan.h"
+#include "../../src/study/basin/plan.h"
+#include "../../src/study/chart/plan.h"
+#include "../../src/study/edge/plan.h"
+#include "../../src/study/manifolds/plan.h"
+#include "../../src/study/orbit/plan.h"
+#include "../../src/study/potential/plan.h"
+#include "../../src/study/saddles/plan.h"
+#include "../../src/study/stability/plan.h"
+#include "../../src/study/sweep/plan.h"
 
 /* The labels of the settings that a trade-off compares, joined by '|'. */
 const char *kz_tradeoff_words(void);
-
-/* Study `sweep`. */
-typedef struct {
-  int32_t parameter;       /* row of kz_sweep_parameters */
-  kz_axis values;          /* both ends included */
-  kz_integers measure;     /* indices in the list of kz_sweep_measure_words() */
-  kz_axis theta, velocity; /* window of starts; the counts of the axes are not used */
-  int64_t starts, max_period, seed;
-  double start_theta, start_velocity; /* of the bifurcation diagram */
-  int64_t transient, samples;         /* drive periods at each value: before the record, and recorded */
-  double shock_scale;                 /* for resilience: see kz_shocks_plan */
-  int64_t phases;                     /* number of phases of release, for the measure phases */
-} kz_sweep_plan;
-
-/* Study `chart`: ends of the same starts over a plane of two keys of the pendulum mapping. */
-enum { KZ_CHART_MOST_PERIOD = 64 };
-typedef struct {
-  int32_t parameter; /* row of kz_sweep_parameters */
-  kz_axis values;    /* both ends included */
-} kz_chart_axis;
-typedef struct {
-  kz_chart_axis x, y;
-  kz_reals theta, velocity;        /* starts: rad, rad per drive radian; a single velocity belongs to all angles */
-  int64_t max_period, max_periods; /* max_periods INT64_MIN = not given */
-} kz_chart_plan;
-
-/* Study `atlas`: all bifurcation curves over a plane of two keys of the pendulum mapping. */
-enum { KZ_ATLAS_MOST_PERIOD = 16 };
-typedef struct {
-  kz_chart_axis x, y;         /* the counts are not used */
-  int64_t max_period, checks; /* drive periods; random points of a round */
-  int64_t points;             /* cells of the raster along each axis */
-} kz_atlas_plan;
 
 /* The mapping `numerics` as written. */
 typedef struct {

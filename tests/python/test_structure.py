@@ -43,7 +43,7 @@ def place_of(include, path):
     layer = SOURCES / path.relative_to(SOURCES).parts[0] if path.is_relative_to(SOURCES) else SOURCES
     for folder in (path.parent, layer, ROOT / "include"):
         if (folder / include).is_file():
-            return folder / include
+            return (folder / include).resolve()
     assert include == "kapitza/version.h", f"{path} includes {include}, which is nowhere"  # made by the build
     return None
 
@@ -66,8 +66,8 @@ def layer_of(path):
 
 
 def folder_of(path):
-    """A file that lies beside folders, such as src/study/values.c, counts by itself."""
-    alone = path.is_relative_to(HEADERS) or path.parent.parent == SOURCES and path.parent.name == "study"
+    """A file that lies beside folders, such as src/study/values.c, counts by itself, as does a plan, a part of study.h."""
+    alone = path.is_relative_to(HEADERS) or path.name == "plan.h" or path.parent.parent == SOURCES and path.parent.name == "study"
     return path.relative_to(ROOT).with_suffix("") if alone else path.parent.relative_to(ROOT)
 
 

@@ -1,4 +1,4 @@
-/* How the table of keys (keys.c) writes its rows. */
+/* How the table of keys (keys.c, and keys.inc in the folders of the studies) writes its rows. */
 #ifndef KAPITZA_APP_SCENE_KEY_ROWS_H
 #define KAPITZA_APP_SCENE_KEY_ROWS_H
 
@@ -45,25 +45,11 @@
            "Lower edge of the window."),                                                             \
       REAL(#study ".velocity.max", "rad per drive radian", -most, most, highest, study.velocity.max, \
            "Upper edge of the window.")
-#define EDGE_START(place, help)                                                                                    \
-  MAPPING("edge." #place, NULL, KZ_NO_FIELD, help),                                                                \
-      REAL("edge." #place ".theta", "rad", -1e6, 1e6, NULL, edge.place[0], "Angle from down."),                    \
-      REAL("edge." #place ".velocity", "rad per drive radian", -KZ_MOST_SPEED, KZ_MOST_SPEED, NULL, edge.place[1], \
-           "Velocity.")
 #define PLANE_AXIS(study, axis, help)                                                                                         \
   MAPPING(#study "." #axis, NULL, KZ_NO_FIELD, help),                                                                         \
       ROW(#study "." #axis ".parameter", KZ_KEY_WORD, NULL, AT(study.axis.parameter),                                         \
           "Key of the pendulum mapping, as written there, that takes the values.", .unit = "", .words_from = kz_sweep_words), \
       REAL(#study "." #axis ".min", KZ_OWN_UNIT, -DBL_MAX, DBL_MAX, NULL, study.axis.values.min, "First value."),             \
       REAL(#study "." #axis ".max", KZ_OWN_UNIT, -DBL_MAX, DBL_MAX, NULL, study.axis.values.max, "Last value.")
-#define CHART_COUNT(axis) \
-  INTEGER("chart." #axis ".count", 2, 1e5, "500", chart.axis.values.count, "Number of values, both ends included.")
-#define STABILITY_AXIS(form_, axis, fallback, help)                                                \
-  ROW("stability." #axis, KZ_KEY_MAPPING, fallback, KZ_NO_FIELD, help, .unit = "", .form = form_), \
-      REAL("stability." #axis ".min", "", -1e6, 1e6, NULL, stability.axis.min, "First value."),    \
-      REAL("stability." #axis ".max", "", -1e6, 1e6, NULL, stability.axis.max, "Last value."),     \
-      INTEGER("stability." #axis ".count", 1, 1e6, "", stability.axis.count, "Number of values; left out: 1000.")
-#define STABILITY_DAMPING(form_, name, low_, help) \
-  ROW("stability." #name, KZ_KEY_REAL, "", AT(stability.name), help, .unit = "", .low = low_, .high = 1e5, .form = form_)
 
 #endif

@@ -1,0 +1,14 @@
+/* What a scene says of the study `atlas`: all bifurcation curves over a plane of two keys of the pendulum mapping. */
+#ifndef KAPITZA_STUDY_ATLAS_PLAN_H
+#define KAPITZA_STUDY_ATLAS_PLAN_H
+
+#include "kapitza/study_axis.h"
+
+enum { KZ_ATLAS_MOST_PERIOD = 16 };
+typedef struct {
+  kz_chart_axis x, y;         /* the counts are not used */
+  int64_t max_period, checks; /* drive periods; random points of a round */
+  int64_t points;             /* cells of the raster along each axis */
+} kz_atlas_plan;
+
+#endif

@@ -1,0 +1,14 @@
+/* What a scene says of the study `manifolds`: those of the cycles that the study `saddles` of the same scene finds. */
+#ifndef KAPITZA_STUDY_MANIFOLDS_PLAN_H
+#define KAPITZA_STUDY_MANIFOLDS_PLAN_H
+
+#include "kapitza/study_axis.h"
+
+enum { KZ_MANIFOLDS_BOTH, KZ_MANIFOLDS_STABLE, KZ_MANIFOLDS_UNSTABLE };
+typedef struct {
+  kz_integers saddles; /* ids; none = all */
+  int32_t kind;
+  double length, spacing, max_speed;
+} kz_manifolds_plan;
+
+#endif

@@ -1,0 +1,19 @@
+/* What a scene says of the study `orbit`. Values that are not given: NaN (start), INT64_MIN (attractor, periods, period). */
+#ifndef KAPITZA_STUDY_ORBIT_PLAN_H
+#define KAPITZA_STUDY_ORBIT_PLAN_H
+
+#include "kapitza/study_axis.h"
+
+typedef struct {
+  double theta, velocity; /* start */
+  int64_t attractor;      /* id in the catalogue of the same scene, instead of a start */
+  int32_t model;          /* KZ_PENDULUM, KZ_MATHIEU, KZ_EFFECTIVE */
+  int32_t about;          /* position of the model mathieu: 0 down, 1 inverted */
+  int64_t transient;      /* drive periods before the record */
+  int64_t periods;        /* of the record */
+  int64_t samples_per_period;
+  bool closed;
+  int64_t period; /* of a closed orbit; not given = the program finds it */
+} kz_orbit_plan;
+
+#endif

@@ -1,0 +1,12 @@
+/* What a scene says of the study `potential`. */
+#ifndef KAPITZA_STUDY_POTENTIAL_PLAN_H
+#define KAPITZA_STUDY_POTENTIAL_PLAN_H
+
+#include "kapitza/study_axis.h"
+
+typedef struct {
+  kz_reals drive_amplitudes;
+  int64_t theta_count;
+} kz_potential_plan;
+
+#endif

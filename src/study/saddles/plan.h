@@ -1,0 +1,13 @@
+/* What a scene says of the study `saddles`: all cycles of up to max_period with a point in the window. The counts of the axes are not used. */
+#ifndef KAPITZA_STUDY_SADDLES_PLAN_H
+#define KAPITZA_STUDY_SADDLES_PLAN_H
+
+#include "kapitza/study_axis.h"
+
+enum { KZ_SADDLES_MAX_PERIOD = 32, KZ_SADDLES_MOST = 200000 /* cycles */ };
+typedef struct {
+  kz_axis theta, velocity;
+  int64_t max_period;
+} kz_saddles_plan;
+
+#endif

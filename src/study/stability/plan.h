@@ -1,0 +1,14 @@
+/* What a scene says of the study `stability`. damping, quality_factor: NaN = not given. curves: indices in the list of kz_curve_names(). */
+#ifndef KAPITZA_STUDY_STABILITY_PLAN_H
+#define KAPITZA_STUDY_STABILITY_PLAN_H
+
+#include "kapitza/study_axis.h"
+
+typedef struct {
+  kz_axis k, m; /* values with both ends; min NaN = given as a, q */
+  kz_axis a, q; /* 4k, 2m; min NaN = given as k, m */
+  double damping, quality_factor;
+  kz_integers curves, subharmonics;
+} kz_stability_plan;
+
+#endif
