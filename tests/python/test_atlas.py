@@ -1,6 +1,7 @@
 """The study atlas: curves against the linear equation and the flutter table, lists against `attractors`, ranks, resumed runs, bad input."""
 
 import json
+import os
 
 import numpy as np
 import pytest
@@ -12,6 +13,7 @@ PENDULUM = {"quality_factor": 5, "drive_frequency": 11, "drive_amplitude": 0.3}
 SCENE = {"pendulum": PENDULUM,
          "atlas": {"x": {"parameter": "drive_frequency", "min": 3, "max": 30}, "y": {"parameter": "drive_amplitude", "min": 0, "max": 0.8},
                    "max_period": 2, "checks": 24, "points": 64}}
+EXTENSIVE = bool(os.environ.get("KAPITZA_EXTENSIVE"))
 FOLD, DOUBLING, BREAKING, SWINGS, LEANS = range(5)
 
 
@@ -101,6 +103,48 @@ def test_ranks_and_resumed_runs_write_the_same(atlas, kapitza, tmp_path):
     for ranks in (1, 3):
         kapitza("run", "s.yaml", "--force", ranks=ranks, folder=tmp_path)
         assert datasets(tmp_path / "s.h5") == datasets(atlas[2])
+
+
+def test_no_curve_is_missing(kapitza, tmp_path):
+    """Butikov's plane: no negative count (a fold begins at a degenerate period doubling), and each curve has its image at -k."""
+    scene = {"pendulum": {"k": 0.1, "damping": 0.1, "m": 0.5},
+             "atlas": {"x": {"parameter": "k", "min": -0.6, "max": 1.6}, "y": {"parameter": "m", "min": 0, "max": 2},
+                       "max_period": 4 if EXTENSIVE else 2, "checks": 0, "points": 200}}
+    (tmp_path / "s.yaml").write_text(json.dumps(scene))
+    kapitza("run", "s.yaml", ranks=2, folder=tmp_path)
+    group = Result(tmp_path / "s.h5").group("atlas")
+    assert int(group.attrs["negative"]) == 0
+    pairs = 0
+    for k in np.linspace(0.011, 0.58, 40):
+        here, there = crossings(group, k), crossings(group, -k)
+        for one, other in ((here, there), (there, here)):
+            for kind, period, winding, m in one:
+                assert min(abs(m - y) for *same, y in other if same == [kind, period, winding]) < 2e-3, (k, kind, period, m)
+                pairs += 1
+    assert pairs > 1500
+
+
+def test_a_fold_ends_where_it_meets_a_degenerate_period_doubling(kapitza, tmp_path):
+    """A fold of four periods runs into one of two periods, and does not go on along the period doubling."""
+    scene = {"pendulum": dict(PENDULUM, tilt="5 deg"),
+             "atlas": {"x": {"parameter": "drive_frequency", "min": 9, "max": 13},
+                       "y": {"parameter": "drive_amplitude", "min": 0.45, "max": 0.6}, "max_period": 4, "checks": 0, "points": 64}}
+    (tmp_path / "s.yaml").write_text(json.dumps(scene))
+    kapitza("run", "s.yaml", ranks=2, folder=tmp_path)
+    assert int(Result(tmp_path / "s.h5").group("atlas").attrs["negative"]) == 0
+
+
+def crossings(group, x):
+    """(kind, period, |winding|, y) where curves pass x within the plane."""
+    found = []
+    for i in range(group.sizes["curve"]):
+        part = slice(int(group["curve_first"][i]), int(group["curve_first"][i]) + int(group["curve_points"][i]))
+        xs, ys = group["x"].values[part], group["y"].values[part]
+        for at in np.flatnonzero((xs[:-1] < x) != (xs[1:] < x)):
+            y = ys[at] + (x - xs[at]) / (xs[at + 1] - xs[at]) * (ys[at + 1] - ys[at])
+            if 0 < y < 2:
+                found.append((int(group["curve_kind"][i]), int(group["curve_period"][i]), abs(int(group["curve_winding"][i])), y))
+    return found
 
 
 BAD = {"one key": ({"y": {"parameter": "drive_frequency", "min": 3, "max": 30}}, "atlas.y.parameter: is also the parameter of atlas.x"),

@@ -222,7 +222,7 @@ contains
   end subroutine set_determinant
 
   !> y becomes the solution near it: with a normal, on the plane through y across it. Its steps shrink until rounding stops them.
-  subroutine newton(system, most, longest, close, y, iterations, normal)
+  subroutine newton(system, most, longest, close, y, iterations, normal, tangent)
     type(system_t), intent(inout) :: system !< the equations
     integer, intent(in) :: most !< iterations
     real(dp), intent(in) :: longest !< longer steps are shortened to it, rad
@@ -230,9 +230,10 @@ contains
     real(dp), intent(inout) :: y(:) !< the unknowns: a guess, then the solution
     integer, intent(out) :: iterations !< 0: no solution
     real(dp), intent(in), optional :: normal(:) !< of the plane, by the unknowns
+    real(dp), intent(out), optional :: tangent(:) !< of length 1 on the side of the normal, where the last step begins
     real(dp), parameter :: SMALL = 1e-9_dp
-    real(dp) :: matrix(UNKNOWNS, UNKNOWNS), side(UNKNOWNS, 1), start(UNKNOWNS), last, size_now
-    integer :: n, unknown, i
+    real(dp) :: matrix(UNKNOWNS, UNKNOWNS), side(UNKNOWNS, 2), start(UNKNOWNS), last, size_now
+    integer :: n, unknown, columns, i
     logical :: regular
 
     n = 2*system%n
@@ -240,14 +241,17 @@ contains
     start(:n + 2) = y(:n + 2)
     last = huge(last)
     iterations = 0
+    columns = merge(2, 1, present(tangent))
     do i = 1, most
       call linearise(system, COARSE, merge(2, 1, system%on_curve), y, side(:unknown, 1), matrix(:unknown, :unknown), regular)
       if (.not. regular) return
       if (present(normal)) then
         matrix(unknown, :unknown) = metric(system, normal(:unknown))
         side(unknown, 1) = dot_product(matrix(unknown, :unknown), moved(system, y, start))
+        side(:unknown, 2) = 0
+        side(unknown, 2) = 1
       end if
-      call solve(matrix(:unknown, :unknown), side(:unknown, :), regular)
+      call solve(matrix(:unknown, :unknown), side(:unknown, :columns), regular)
       if (.not. regular) return
       size_now = maxval(abs(side(:unknown, 1)))
       if (.not. size_now < 1e3_dp) return
@@ -255,6 +259,8 @@ contains
       y(:n) = y(:n) - side(:n, 1)
       y(n + 1:n + 2) = y(n + 1:n + 2) - matmul(system%basis(:, :system%columns), side(n + 1:unknown, 1))
       if (size_now < close .or. (size_now < SMALL .and. size_now > 0.3_dp*last)) iterations = i
+      if (iterations > 0 .and. present(tangent)) &
+        tangent(:unknown) = side(:unknown, 2)/sqrt(inner(system, side(:unknown, 2), side(:unknown, 2)))
       if (iterations > 0 .or. (i > 4 .and. present(normal) .and. size_now > last)) return
       last = size_now
     end do

@@ -1,15 +1,18 @@
 !> The way along a branch of cycles or a curve of bifurcations by pseudo-arclength, and what is met there.
 module kz_cycles_walker
   use, intrinsic :: iso_c_binding, only: dp => c_double
+  use kz_cycles_normal_forms, only: normal_form
   use kz_cycles_curves, only: system_t, newton, tangent_at, inner, wrapped, POINTS, UNKNOWNS
   implicit none
   private
-  public :: walker_t, parents_t, advance, begin, distance, passes, set_parents, meets, FOLD, FLIP, HALVES, MIRROR, REST, CLOSE, FAR
+  public :: walker_t, parents_t, advance, begin, distance, passes, set_parents, meets, find_zero, OF_FORM, FOLD, FLIP
 
   !> Steps of Newton's method end below it, which square them; steps longer than that are shortened: rad.
-  real(dp), parameter :: CLOSE = 1e-9_dp, FAR = 1e3_dp
+  real(dp), parameter :: CLOSE = 1e-5_dp, FAR = 1e3_dp
   !> KZ_EVENT_... of dynamics_curves.h: a multiplier 1, -1; a meeting with the cycle of half the period, with the mirror image, with rest.
   integer, parameter :: FOLD = 1, FLIP = 2, HALVES = 3, MIRROR = 4, REST = 5
+  !> What may change its sign on a curve: its normal form.
+  integer, parameter :: OF_FORM = 0
 
   !> A point on its way along a branch or a curve.
   type :: walker_t
@@ -31,9 +34,9 @@ contains
   function advance(walker) result(found)
     type(walker_t), intent(inout) :: walker !< at a point, then at the next one
     logical :: found
-    real(dp), parameter :: SHORTEST = 1e-8_dp, BENT = 0.2_dp, CORRECTED = 0.1_dp
+    real(dp), parameter :: SHORTEST = 1e-8_dp, BENT = 0.2_dp, CORRECTED = 0.1_dp, CHANGED = 0.8_dp
     integer, parameter :: MOST = 6
-    real(dp) :: y(UNKNOWNS), guess(UNKNOWNS), sharp(UNKNOWNS), tangent(UNKNOWNS), angle, correction
+    real(dp) :: y(UNKNOWNS), guess(UNKNOWNS), sharp(UNKNOWNS), tangent(UNKNOWNS), angle, correction, trace
     integer :: n, unknown, iterations
 
     n = 2*walker%system%n
@@ -41,29 +44,26 @@ contains
     found = .false.
     angle = 0
     correction = 0
+    trace = walker%system%trace
     do while (walker%step > SHORTEST)
       guess = walker%y
       guess(:n) = guess(:n) + walker%step*walker%tangent(:n)
       guess(n + 1:n + 2) = guess(n + 1:n + 2) &
                            + matmul(walker%system%basis(:, :walker%system%columns), walker%step*walker%tangent(n + 1:unknown))
       y = guess
-      call newton(walker%system, MOST, FAR, CLOSE, y, iterations, walker%tangent)
+      call newton(walker%system, MOST, FAR, CLOSE, y, iterations, walker%tangent, tangent)
       found = iterations > 0
       if (found) then
         correction = distance(walker%system, y, guess)/walker%step
         found = correction < CORRECTED
       end if
-      if (found) then
-        if (walker%is_sharp) then
-          call tangent_at(walker%system, y, walker%tangent, tangent, found, sharp)
-        else
-          call tangent_at(walker%system, y, walker%tangent, tangent, found)
-        end if
-      end if
+      if (found .and. walker%is_sharp) call tangent_at(walker%system, y, walker%tangent, tangent, found, sharp)
       if (found) then
         angle = acos(min(1.0_dp, max(-1.0_dp, inner(walker%system, walker%tangent(:unknown), tangent(:unknown)))))
         found = angle < BENT
       end if
+      ! two multipliers of 1 or -1 within one step would not be seen
+      if (found .and. .not. walker%system%on_curve) found = abs(asinh(walker%system%trace) - asinh(trace)) < CHANGED
       if (found) exit
       walker%step = 0.5_dp*walker%step
     end do
@@ -77,6 +77,50 @@ contains
       walker%step = 0.7_dp*walker%step
     end if
   end function advance
+
+  !> Where a number changes its sign between two points of a branch or curve, by secants and bisection.
+  subroutine find_zero(walker, from, heading, at_low, at_high, which, number, found)
+    type(walker_t), intent(inout) :: walker !< at the second point, then where the sign changes
+    real(dp), intent(in) :: from(:), heading(:) !< the first point and the tangent there
+    real(dp), intent(in) :: at_low, at_high !< the number at both
+    integer, intent(in) :: which !< OF_FORM, FOLD, FLIP
+    real(dp), intent(out) :: number !< where it was found
+    logical, intent(out) :: found !< whether Newton's method converged on the way
+    integer, parameter :: MOST = 40
+    real(dp) :: low, high, middle, number_low, number_high, unused(UNKNOWNS), side(2), eigenvector(2)
+    integer :: n, i, iterations
+
+    n = 2*walker%system%n
+    low = 0
+    high = distance(walker%system, walker%y, from)
+    number_low = at_low
+    number_high = at_high
+    number = at_high
+    found = .false.
+    do i = 1, MOST
+      middle = low - number_low*(high - low)/(number_high - number_low)
+      if (mod(i, 3) == 0) middle = 0.5_dp*(low + high)
+      walker%y(:n) = from(:n) + middle*heading(:n)
+      walker%y(n + 1:n + 2) = from(n + 1:n + 2) + matmul(walker%system%basis(:, :walker%system%columns), &
+                                                         middle*heading(n + 1:n + walker%system%columns))
+      call newton(walker%system, 12, FAR, CLOSE, walker%y, iterations, heading)
+      found = iterations > 0
+      if (found .and. which == OF_FORM) call tangent_at(walker%system, walker%y, heading, unused, found, walker%sharp)
+      if (.not. found) return
+      if (which == OF_FORM) call normal_form(walker%system, number, side, eigenvector)
+      if (which == FOLD) number = 1 + walker%system%determinant - walker%system%trace
+      if (which == FLIP) number = 1 + walker%system%determinant + walker%system%trace
+      if ((number > 0) .eqv. (number_low > 0)) then
+        low = middle
+        number_low = number
+      else
+        high = middle
+        number_high = number
+      end if
+      if (abs(number) < 1e-9_dp .or. high - low < 1e-13_dp) return
+      if (which /= OF_FORM .and. high - low < 1e-7_dp) return ! the equations of the curve find the rest
+    end do
+  end subroutine find_zero
 
   !> How far two values of the unknowns lie apart.
   function distance(system, a, b) result(length)

@@ -37,13 +37,17 @@ static const double COSINE[] = {1,
                                 -1.387895246221377211449e-7,
                                 3.604730797462501117270e-9};
 
+/* Powers of q in pairs: half as many operations wait for each other as by Horner's rule. */
+#define PAIR(list, i) (q * (list)[(i) + 1] + (list)[i])
+
 OPERATION void sine_and_cosine(const lanes *angle, lanes *s, lanes *c) {
   const double round_to_integer = 0x1.8p52;
   const lanes u = *angle, shifted = u + round_to_integer, r = u - (shifted - round_to_integer), q = r * r;
+  const lanes q2 = q * q, q4 = q2 * q2, q8 = q4 * q4;
   const bits sign = (bits)shifted << 63;
-  lanes odd = SINE[8] + (lanes){0}, even = COSINE[10] + (lanes){0};
-  _Pragma("GCC unroll 16") for (int i = 7; i >= 0; i--) odd = odd * q + SINE[i];
-  _Pragma("GCC unroll 16") for (int i = 9; i >= 0; i--) even = even * q + COSINE[i];
+  const lanes odd = (q2 * PAIR(SINE, 2) + PAIR(SINE, 0)) + (q4 * (q2 * PAIR(SINE, 6) + PAIR(SINE, 4)) + q8 * SINE[8]);
+  const lanes even = (q2 * PAIR(COSINE, 2) + PAIR(COSINE, 0)) +
+                     (q4 * (q2 * PAIR(COSINE, 6) + PAIR(COSINE, 4)) + q8 * (q2 * COSINE[10] + PAIR(COSINE, 8)));
   *s = (lanes)((bits)(r * odd) ^ sign);
   *c = (lanes)((bits)even ^ sign);
 }

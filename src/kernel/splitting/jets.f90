@@ -79,15 +79,20 @@ contains
   subroutine set_pendulum(jets, pendulum)
     type(jets_t), intent(inout) :: jets !< its kicks and drifts
     type(pendulum_t), intent(in) :: pendulum(0:2) !< the pendulum; what its numbers grow by with p; and with q
-    integer :: i
+    real(rk) :: k(0:2), m(0:2), torque(0:2)
+    integer :: i, n
 
     jets%damping = pendulum%beta
     jets%damped = maxval(abs(pendulum(1:)%beta)) > 0
     jets%mirrored = maxval(pendulum%unmirrored) == 0
-    do i = 0, 2
-      jets%kicks(i, 1, :) = jets%weight*(pendulum(i)%k - pendulum(i)%m*jets%cosine)
-      jets%kicks(i, 2, :) = 0
-      jets%kicks(i, 3, :) = jets%weight*pendulum(i)%torque
+    k = pendulum%k
+    m = pendulum%m
+    torque = pendulum%torque
+    do n = 1, size(jets%weight)
+      jets%kicks(:, 1, n) = jets%weight(n)*(k - m*jets%cosine(n))
+      if (jets%mirrored) cycle ! nothing else is read
+      jets%kicks(:, 2, n) = 0
+      jets%kicks(:, 3, n) = jets%weight(n)*torque
     end do
     if (maxval(pendulum%harmonics) > 0) call add_harmonics(jets, pendulum)
     do i = 1, FUSED

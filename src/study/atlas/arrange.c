@@ -78,7 +78,8 @@ static int roots_of(const double *p, double target, double *root) {
 }
 
 /* What changes where a step of a curve crosses the line. */
-static void cross(kz_atlas *atlas, int64_t number, int64_t row, int axis, double target, kz_atlas_crossings *crossings) {
+static void cross(kz_atlas *atlas, int64_t number, int64_t row, int axis, double target, bool classes,
+                  kz_atlas_crossings *crossings) {
   const kz_atlas_curve *curve = atlas->curve + number;
   const double *a = curve->row + row * kz_atlas_width(&curve->kind), *b = a + kz_atlas_width(&curve->kind);
   const int other = 1 - axis;
@@ -86,6 +87,10 @@ static void cross(kz_atlas *atlas, int64_t number, int64_t row, int axis, double
   double root[3];
   const int n = roots_of(c.p[axis], target, root);
   for (int i = 0; i < n; i++) {
+    if (!classes) {
+      add(crossings, (kz_atlas_crossing){.at = value(c.p[other], root[i]), .curve = number, .row = row, .share = root[i]});
+      continue;
+    }
     const double s = root[i], form = a[KZ_ROW_FORM] + s * (b[KZ_ROW_FORM] - a[KZ_ROW_FORM]);
     const double *by = fabs(a[KZ_ROW_FORM]) >= fabs(b[KZ_ROW_FORM]) ? a : b;
     const double end = by == a ? 0 : 1;
@@ -94,7 +99,7 @@ static void cross(kz_atlas *atlas, int64_t number, int64_t row, int axis, double
     const double normal[2] = {-slope(c.p[1], s), slope(c.p[0], s)};
     const int change = (normal[other] > 0) == (known > 0) ? 1 : -1;
     const kz_atlas_class own = kz_atlas_class_of(&curve->kind);
-    kz_atlas_crossing crossing = {value(c.p[other], s), kz_atlas_class_number(atlas, &own), change, number, row};
+    kz_atlas_crossing crossing = {value(c.p[other], s), kz_atlas_class_number(atlas, &own), change, number, row, s};
     add(crossings, crossing);
     if (curve->kind.of.multiplier > 0 || form <= 0) continue;
     const kz_atlas_kind child = kz_atlas_child(&curve->kind);
@@ -113,7 +118,7 @@ static int compare(const void *first, const void *second) {
   return a->row != b->row ? (a->row < b->row ? -1 : 1) : a->class - b->class;
 }
 
-void kz_atlas_crossings_of(kz_atlas *atlas, int axis, double target, kz_atlas_crossings *crossings) {
+void kz_atlas_crossings_of(kz_atlas *atlas, int axis, double target, bool classes, kz_atlas_crossings *crossings) {
   crossings->count = 0;
   for (int64_t i = 0; i < atlas->n_curves; i++) {
     const kz_atlas_curve *curve = atlas->curve + i;
@@ -121,7 +126,8 @@ void kz_atlas_crossings_of(kz_atlas *atlas, int axis, double target, kz_atlas_cr
     for (int64_t row = 0; row + 1 < curve->n; row++) {
       const double a = curve->row[row * width + axis], b = curve->row[(row + 1) * width + axis];
       const double beyond = fabs(b - a) + 1e-3;
-      if (fmin(a, b) - beyond <= target && target <= fmax(a, b) + beyond) cross(atlas, i, row, axis, target, crossings);
+      if (fmin(a, b) - beyond <= target && target <= fmax(a, b) + beyond)
+        cross(atlas, i, row, axis, target, classes, crossings);
     }
   }
   if (crossings->count > 0) qsort(crossings->list, (size_t)crossings->count, sizeof *crossings->list, compare);
@@ -149,7 +155,7 @@ void kz_atlas_base(kz_atlas *atlas, double x, int32_t *counts) {
   if (!atlas->undriven) {
     KZ_FREED_BY(kz_atlas_crossings_free) kz_atlas_crossings crossings = {0};
     memcpy(counts, atlas->at_reference, KZ_ATLAS_MOST_CLASSES * sizeof *counts);
-    kz_atlas_crossings_of(atlas, 1, atlas->reference[1], &crossings);
+    kz_atlas_crossings_of(atlas, 1, atlas->reference[1], true, &crossings);
     kz_atlas_changes(&crossings, atlas->reference[0], x, counts);
     return;
   }
@@ -163,6 +169,6 @@ void kz_atlas_base(kz_atlas *atlas, double x, int32_t *counts) {
 void kz_atlas_count(kz_atlas *atlas, const double place[2], int32_t *counts) {
   KZ_FREED_BY(kz_atlas_crossings_free) kz_atlas_crossings crossings = {0};
   kz_atlas_base(atlas, place[0], counts);
-  kz_atlas_crossings_of(atlas, 0, place[0], &crossings);
+  kz_atlas_crossings_of(atlas, 0, place[0], true, &crossings);
   kz_atlas_changes(&crossings, kz_atlas_floor(atlas), place[1], counts);
 }

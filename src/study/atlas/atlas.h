@@ -48,6 +48,7 @@ typedef struct {
   double at;
   int32_t class, change;
   int64_t curve, row;
+  double share; /* of the step from that row */
 } kz_atlas_crossing;
 typedef struct {
   int64_t count, capacity;
@@ -93,8 +94,11 @@ void kz_atlas_values(const kz_atlas_plan *plan, const double place[2], double va
 
 /* ---- cycles ---- */
 
+/* Writes a cycle that is of a shorter period, or of more symmetry, than its kind as what it is; false if it is of its kind. near: how far
+ * points lie apart that are one, rad. */
+bool kz_atlas_reduce(const kz_atlas *atlas, double near, kz_atlas_kind *kind, double *y);
 /* Adds a seed of a curve (multiplier 1 or -1) or a cycle (0) in its canonical form; false if it is of no interest: a longer period than
- * wanted, outside of the plane, degenerate. */
+ * wanted, outside of the plane. */
 bool kz_atlas_add(const kz_atlas *atlas, kz_atlas_kind kind, const double *y, kz_atlas_seeds *seeds);
 void kz_atlas_seeds_free(kz_atlas_seeds *seeds);
 /* Drive periods of a cycle of this kind. */
@@ -111,8 +115,10 @@ int32_t kz_atlas_class_number(kz_atlas *atlas, const kz_atlas_class *class);
 
 /* Traces the curve of a seed to both ends; n = 0 if there is none. */
 void kz_atlas_trace(const kz_atlas *atlas, const kz_atlas_seed *seed, kz_atlas_curve *curve);
-/* Whether a point lies on a known curve of its kind. */
-bool kz_atlas_is_known(const kz_atlas *atlas, const kz_atlas_seed *seed);
+/* The cycle and the place of a row. */
+void kz_atlas_point_of(const kz_atlas_curve *curve, int64_t row, double *y);
+/* The curve of its kind on which a point lies; -1 = none. */
+int64_t kz_atlas_known(const kz_atlas *atlas, const kz_atlas_seed *seed);
 /* Adds a curve unless most of it lies on a known one; takes its arrays. */
 bool kz_atlas_keep(kz_atlas *atlas, kz_atlas_curve *curve);
 void kz_atlas_curve_free(kz_atlas_curve *curve);
@@ -124,9 +130,11 @@ static inline int64_t kz_atlas_width(const kz_atlas_kind *kind) {
 
 /* ---- exploration: seeds of other curves ---- */
 
-/* From a cycle along both axes; from a place of a curve, both branches of a fold, or parent and child. */
+/* From a cycle along both axes; from a curve's degenerate points, its images and, if `middle`, its middle along both axes; along the
+ * line where the other coordinate than `axis` is `value`, from all crossings of curves `first` and later. */
 void kz_atlas_explore_cycle(const kz_atlas *atlas, const kz_atlas_seed *cycle, kz_atlas_seeds *seeds);
-void kz_atlas_explore_curve(const kz_atlas *atlas, const kz_atlas_curve *curve, double share, kz_atlas_seeds *seeds);
+void kz_atlas_explore_curve(const kz_atlas *atlas, const kz_atlas_curve *curve, bool middle, kz_atlas_seeds *seeds);
+void kz_atlas_explore_line(kz_atlas *atlas, int axis, double value, int64_t first, kz_atlas_seeds *seeds);
 /* The image of a curve's point `at` where the plane has k and -k. */
 void kz_atlas_explore_image(const kz_atlas *atlas, const kz_atlas_curve *curve, const double *at, kz_atlas_seeds *seeds);
 /* The attractors of a place by following starts. */
@@ -139,8 +147,9 @@ bool kz_atlas_identify(const kz_atlas *atlas, const double place[2], const doubl
 
 /* ---- arrangement ---- */
 
-/* The crossings of the line where coordinate `axis` is `value`, in order of the other coordinate. */
-void kz_atlas_crossings_of(kz_atlas *atlas, int axis, double value, kz_atlas_crossings *crossings);
+/* The crossings of the line where coordinate `axis` is `value`, in order of the other coordinate; with the classes that change, or one for
+ * each curve alone. */
+void kz_atlas_crossings_of(kz_atlas *atlas, int axis, double value, bool classes, kz_atlas_crossings *crossings);
 /* counts [KZ_ATLAS_MOST_CLASSES] of the attractors where a column begins to be counted, at the y kz_atlas_floor; at any place. */
 double kz_atlas_floor(const kz_atlas *atlas);
 void kz_atlas_base(kz_atlas *atlas, double x, int32_t *counts);

@@ -7,13 +7,20 @@
 
 enum { MOST_ROWS = 1500, MOST_SPECIAL = 32, SAMPLES = 12 };
 /* A point lies on a curve if it is this near to one of its steps, in lengths of the step. */
-static const double NEAR = 0.05, WEIGHT = 0.2, ROUNDING = 1e-9;
+static const double NEAR = 0.05, WEIGHT = 0.2, ROUNDING = 1e-9, BLURRED = 1e-3;
 
 void kz_atlas_curve_free(kz_atlas_curve *curve) {
   free(curve->row);
   free(curve->special);
   free(curve->signature);
   *curve = (kz_atlas_curve){0};
+}
+
+void kz_atlas_point_of(const kz_atlas_curve *curve, int64_t row, double *y) {
+  const int n = 2 * curve->kind.of.points;
+  const double *from = curve->row + row * kz_atlas_width(&curve->kind);
+  memcpy(y, from + KZ_ROW_POINTS, (size_t)n * sizeof *y);
+  y[n] = from[0], y[n + 1] = from[1];
 }
 
 /* One direction of a curve: its rows, and its special points, of which *n_special are there already. */
@@ -27,7 +34,7 @@ static int64_t trace_side(const kz_atlas *atlas, const kz_atlas_seed *seed, int3
   return n;
 }
 
-void kz_atlas_trace(const kz_atlas *atlas, const kz_atlas_seed *seed, kz_atlas_curve *curve) {
+static void trace_both(const kz_atlas *atlas, const kz_atlas_seed *seed, kz_atlas_curve *curve) {
   const int64_t width = kz_atlas_width(&seed->kind), special_width = KZ_SPECIAL_POINTS + 2 * seed->kind.of.points;
   KZ_FREED double *back = kz_malloc(MOST_ROWS * (size_t)width * sizeof *back);
   KZ_FREED double *on = kz_malloc(MOST_ROWS * (size_t)width * sizeof *on);
@@ -48,6 +55,24 @@ void kz_atlas_trace(const kz_atlas *atlas, const kz_atlas_seed *seed, kz_atlas_c
   curve->n += n_on;
   if (curve->ending[1] == KZ_TRACE_CLOSED) /* the last step has passed the start: it ends there */
     memcpy(curve->row + (curve->n - 1) * width, curve->row, (size_t)width * sizeof *curve->row);
+}
+
+/* The seed may lie beside a curve of shorter cycles: that curve is traced then. As a longer cycle its points have few digits. */
+void kz_atlas_trace(const kz_atlas *atlas, const kz_atlas_seed *seed, kz_atlas_curve *curve) {
+  kz_atlas_seeds one = {0};
+  trace_both(atlas, seed, curve);
+  if (curve->n == 0 || seed->kind.rest >= 0) return;
+  kz_atlas_seed middle = {.kind = seed->kind};
+  kz_atlas_point_of(curve, curve->n / 2, middle.y);
+  if (!kz_atlas_reduce(atlas, BLURRED, &middle.kind, middle.y)) return;
+  kz_atlas_curve_free(curve);
+  *curve = (kz_atlas_curve){
+      .kind = seed->kind, .row = kz_calloc(1, sizeof *curve->row), .special = kz_calloc(1, sizeof *curve->special)};
+  if (kz_atlas_add(atlas, middle.kind, middle.y, &one)) {
+    kz_atlas_curve_free(curve);
+    trace_both(atlas, one.list, curve);
+  }
+  kz_atlas_seeds_free(&one);
 }
 
 static void signature_of(const kz_atlas_kind *kind, const double *place, const double *point, double *signature) {
@@ -94,12 +119,12 @@ static bool is_alike(const kz_atlas_kind *a, const kz_atlas_kind *b) {
   return !memcmp(a, b, sizeof *a);
 }
 
-bool kz_atlas_is_known(const kz_atlas *atlas, const kz_atlas_seed *seed) {
+int64_t kz_atlas_known(const kz_atlas *atlas, const kz_atlas_seed *seed) {
   double signature[KZ_SIGNATURE];
   signature_of(&seed->kind, seed->y + 2 * seed->kind.of.points, seed->y, signature);
   for (int64_t i = 0; i < atlas->n_curves; i++)
-    if (is_alike(&atlas->curve[i].kind, &seed->kind) && is_on(atlas->curve + i, signature)) return true;
-  return false;
+    if (is_alike(&atlas->curve[i].kind, &seed->kind) && is_on(atlas->curve + i, signature)) return i;
+  return -1;
 }
 
 bool kz_atlas_keep(kz_atlas *atlas, kz_atlas_curve *curve) {

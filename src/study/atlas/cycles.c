@@ -47,20 +47,33 @@ static double apart(const double *y, int i, int j, double side) {
   return hypot(remainder(y[2 * i] - side * y[2 * j], 2 * M_PI), y[2 * i + 1] - side * y[2 * j + 1]);
 }
 
-/* A cycle of a shorter period, or of more symmetry, than its kind. */
-static bool is_degenerate(const kz_atlas *atlas, const kz_atlas_kind *kind, const double *y) {
+/* Whether the points of a cycle repeat themselves after a shift, as they are or mirrored. */
+static bool repeats(const kz_atlas_kind *kind, const double *y, int shift, double side, double near) {
   const int n = kind->of.points;
-  if (kind->of.side < 0) return false;
-  for (int shift = 0; shift < n; shift++) {
-    const bool mirror = atlas->plane.mirrored && kind->of.turns == 0 && shift == n / 2 && (n == 1 || n % 2 == 0);
-    double repeated = 0, reflected = 0;
-    for (int i = 0; i < n; i++) {
-      repeated = fmax(repeated, apart(y, i, (i + shift) % n, 1));
-      reflected = fmax(reflected, apart(y, i, (i + shift) % n, -1));
-    }
-    if ((shift > 0 && n % shift == 0 && repeated < ONE) || (mirror && reflected < ONE)) return true;
+  for (int i = 0; i < n; i++)
+    if (apart(y, i, (i + shift) % n, side) >= near) return false;
+  return true;
+}
+
+bool kz_atlas_reduce(const kz_atlas *atlas, double near, kz_atlas_kind *kind, double *y) {
+  const int n = kind->of.points;
+  const double place[2] = {y[2 * n], y[2 * n + 1]};
+  double numbers[2], point[KZ_ATLAS_UNKNOWNS];
+  kz_curve_kind of = kind->of;
+  if (of.side < 0 || kind->rest >= 0) return false;
+  for (int shift = 1; shift < n && of.points == n; shift++)
+    if (n % shift == 0 && repeats(kind, y, shift, 1, near)) of.points = shift, of.turns = of.turns * shift / n;
+  if (of.points == n && atlas->plane.mirrored && of.turns == 0 && n % 2 == 0 && repeats(kind, y, n / 2, -1, near)) {
+    of.points = n / 2, of.side = -1;
+    of.turns = (int32_t)rint((y[n] + y[0]) / (2 * M_PI));
   }
-  return false;
+  if (of.points == n) return false;
+  memcpy(point, y, 2 * (size_t)of.points * sizeof *point);
+  memcpy(point + 2 * of.points, place, sizeof place);
+  if (of.multiplier != 0 && kz_curve_solve(&atlas->plane, &of, point, numbers)) of.multiplier = numbers[0] > 0 ? 1 : -1;
+  memcpy(y, point, (2 * (size_t)of.points + 2) * sizeof *y);
+  kind->of = of;
+  return true;
 }
 
 /* Rest has its own kinds: on the map, multiplier -1; on the half map, multiplier -1, which is 1 of the map. */
@@ -99,10 +112,10 @@ bool kz_atlas_add(const kz_atlas *atlas, kz_atlas_kind kind, const double *y, kz
   }
   for (int i = 0; i < 2; i++)
     if (y[n + i] < atlas->plane.low[i] || y[n + i] > atlas->plane.high[i]) return false;
+  while (kz_atlas_reduce(atlas, ONE, &seed.kind, seed.y)) continue;
   set_rest(atlas, &seed.kind, seed.y);
   if (kz_atlas_period(&seed.kind) > atlas->scene->atlas.max_period) return false;
   canonical(atlas, &seed.kind, seed.y);
-  if (seed.kind.rest < 0 && is_degenerate(atlas, &seed.kind, seed.y)) return false;
   if (seeds->count == seeds->capacity) {
     seeds->capacity = 2 * seeds->capacity + 16;
     seeds->list = kz_realloc(seeds->list, (size_t)seeds->capacity * sizeof *seeds->list);

@@ -44,7 +44,7 @@ static void fill_column(kz_atlas *atlas, int64_t column, kz_atlas_raster *raster
   KZ_FREED_BY(kz_atlas_crossings_free) kz_atlas_crossings crossings = {0};
   KZ_FREED int32_t *counts = kz_malloc(KZ_ATLAS_MOST_CLASSES * sizeof *counts);
   kz_atlas_base(atlas, x, counts);
-  kz_atlas_crossings_of(atlas, 0, x, &crossings);
+  kz_atlas_crossings_of(atlas, 0, x, true, &crossings);
   double from = kz_atlas_floor(atlas);
   for (int64_t row = 0; row < n; row++) {
     int total = 0;

@@ -10,8 +10,11 @@ enum {
   FEW = 128,  /* starts at each of them */
   MANY = 256, /* and at places that check the curves */
   ROUNDS = 6, /* of checks at most; of cycles of more periods than the next number most atlases take all */
-  USUAL_PERIOD = 2
+  USUAL_PERIOD = 2,
+  LINES = 8 /* along each axis on which all branches are followed */
 };
+/* Where the first line lies between an edge and the next line. */
+static const double OFFSET = 0.4142;
 
 /* ---- curves: one of each kind at a time is traced, so that no curve is traced twice ---- */
 
@@ -38,7 +41,7 @@ static void next_seeds(kz_atlas *atlas, tracing *t) {
   for (int64_t i = 0; i < pending->count; i++) {
     const kz_atlas_seed seed = pending->list[i];
     bool waits = false;
-    if (kz_atlas_is_known(atlas, &seed)) continue;
+    if (kz_atlas_known(atlas, &seed) >= 0) continue;
     for (int64_t j = 0; j < t->n && !waits; j++) waits = !memcmp(&t->seed[j].kind, &seed.kind, sizeof seed.kind);
     if (waits)
       pending->list[left++] = seed;
@@ -67,40 +70,59 @@ static kz_status trace_pending(kz_atlas *atlas, const kz_run *run) {
 
 /* ---- exploration ---- */
 
-/* Places of curves, and cycles. */
+/* Lines through the plane, new curves, cycles: a tile each. */
 typedef struct {
   kz_atlas *atlas;
-  int64_t first, places, n_cycles; /* the first curve, places of each; cycles come after the curves */
+  int64_t first, lines, n_cycles; /* the first new curve; lines along each axis */
   const kz_atlas_seed *cycle;
 } exploring;
 
-static const double SHARES[2][3] = {{0.15, 0.5, 0.85}, {0.2, 0.7, 0}};
+static double line_at(int64_t line) {
+  return ((double)line + OFFSET) / LINES;
+}
+
+/* Whether a curve crosses two lines. */
+static bool crosses_lines(const kz_atlas_curve *curve) {
+  const int64_t width = kz_atlas_width(&curve->kind);
+  int crossed = 0;
+  for (int axis = 0; axis < 2; axis++) {
+    double low = 1, high = 0;
+    for (int64_t row = 0; row < curve->n; row++) {
+      low = fmin(low, curve->row[row * width + axis]);
+      high = fmax(high, curve->row[row * width + axis]);
+    }
+    for (int64_t line = 0; line < LINES; line++) crossed += low < line_at(line) && line_at(line) < high;
+  }
+  return crossed >= 2;
+}
 
 static kz_status explore_tile(void *context, int64_t tile, void *record) {
   const exploring *e = context;
-  kz_atlas_seeds seeds = {0};
-  const int64_t on_curves = (e->atlas->n_curves - e->first) * e->places;
-  if (tile < on_curves)
-    kz_atlas_explore_curve(e->atlas, e->atlas->curve + e->first + tile / e->places, SHARES[3 - e->places][tile % e->places],
-                           &seeds);
+  KZ_FREED_BY(kz_atlas_seeds_free) kz_atlas_seeds seeds = {0};
+  const int64_t curves = 2 * e->lines, cycles = curves + e->atlas->n_curves - e->first;
+  if (tile < curves)
+    kz_atlas_explore_line(e->atlas, (int)(tile % 2), line_at(tile / 2), e->first, &seeds);
+  else if (tile < cycles)
+    kz_atlas_explore_curve(e->atlas, e->atlas->curve + e->first + tile - curves,
+                           !crosses_lines(e->atlas->curve + e->first + tile - curves), &seeds);
   else
-    kz_atlas_explore_cycle(e->atlas, e->cycle + (tile - on_curves), &seeds);
+    kz_atlas_explore_cycle(e->atlas, e->cycle + (tile - cycles), &seeds);
   kz_atlas_put_seeds(&seeds, record);
-  kz_atlas_seeds_free(&seeds);
   return KZ_OK;
 }
 
 static kz_status explore(kz_atlas *atlas, const kz_run *run, int64_t n_cycles, const kz_atlas_seed *cycle) {
   KZ_FREED_BY(kz_atlas_bag_free) kz_atlas_bag found = {0};
-  exploring e = {atlas, atlas->n_explored, atlas->scene->atlas.max_period <= 4 ? 3 : 2, n_cycles, cycle};
-  const int64_t n = (atlas->n_curves - e.first) * e.places + n_cycles;
+  const int64_t curves = atlas->n_curves - atlas->n_explored;
+  exploring e = {atlas, atlas->n_explored, curves > 0 ? LINES : 0, n_cycles, cycle};
+  const int64_t n = 2 * e.lines + curves + n_cycles;
   if (n == 0) return KZ_OK;
   KZ_TRY(kz_atlas_gather(run, "atlas branches", n, KZ_ATLAS_SEEDS_BYTES, true, explore_tile, &e, &found));
   atlas->n_explored = atlas->n_curves;
   for (int64_t i = 0; i < n; i++) {
     const kz_atlas_seeds seeds = kz_atlas_seeds_in(found.record[i]);
     for (int64_t j = 0; j < seeds.count; j++) {
-      if (kz_atlas_period(&seeds.list[j].kind) > atlas->max_period || kz_atlas_is_known(atlas, seeds.list + j)) continue;
+      if (kz_atlas_period(&seeds.list[j].kind) > atlas->max_period || kz_atlas_known(atlas, seeds.list + j) >= 0) continue;
       kz_atlas_add(atlas, seeds.list[j].kind, seeds.list[j].y, &atlas->pending);
     }
   }

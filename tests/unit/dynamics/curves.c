@@ -34,7 +34,7 @@ static double next_flip(const kz_curve_kind *kind, double *y) {
   double row[MOST * 8], event[EVENTS * 7];
   int64_t events;
   int32_t ending;
-  assert_true(kz_curve_branch(&PLANE, kind, y, UP, 0.02, MOST, row, EVENTS, event, &events, &ending) > 3);
+  assert_true(kz_curve_branch(&PLANE, kind, y, UP, 0, 0.02, MOST, row, EVENTS, event, &events, &ending) > 3);
   for (int64_t i = 0; i < events; i++) {
     const double *e = event + i * (3 + n);
     if (e[0] != KZ_EVENT_FLIP) continue;
@@ -64,6 +64,27 @@ static void test_flutter(void **state) {
     child[4] = y[2], child[5] = y[3] + 2e-5;
     assert_true(fabs(next_flip(&pair, child) - FLUTTER[i][3]) < (i == 2 ? 5.1e-10 : 5.1e-7));
   }
+}
+
+/* At Omega = 20 a rotation of six periods is born at 0.3505459 and doubles 1.8e-5 above: from the fold its branches meet that. */
+static void test_branches_of_a_fold(void **state) {
+  (void)state;
+  enum { MOST = 400, EVENTS = 20, N = 12 };
+  const kz_curve_kind fold = {1, 6, 1, 2};
+  double y[N + 2] = {0.792497560880641, 0.408106903865102}, row[MOST][4 + N], event[EVENTS][3 + N], nearest = 1;
+  const double place[2] = {17.0 / 27, 0.35054538465 / 0.8};
+  int64_t events;
+  int32_t ending;
+  assert_int_equal(kz_curve_orbit(&PLANE, place, 6, y), 1);
+  y[N] = place[0], y[N + 1] = place[1];
+  assert_int_equal(kz_curve_locate(&PLANE, &fold, y, UP), 1);
+  assert_true(fabs(0.8 * y[N + 1] - 0.350545384650) < 1e-9);
+  for (int side = -1; side <= 1; side += 2) {
+    kz_curve_branch(&PLANE, &fold, y, UP, side, 0.02, MOST, row[0], EVENTS, event[0], &events, &ending);
+    for (int64_t i = 0; i < events; i++)
+      if (event[i][0] == KZ_EVENT_FLIP && event[i][2] > y[N + 1]) nearest = fmin(nearest, 0.8 * (event[i][2] - y[N + 1]));
+  }
+  assert_true(1e-5 < nearest && nearest < 3e-5);
 }
 
 /* The whole curve of the birth: every point is one of the published map to 1e-11, and the tangent map there has the multiplier -1. */
@@ -102,7 +123,7 @@ static void test_refused(void **state) {
 }
 
 int main(void) {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(test_flutter), cmocka_unit_test(test_trace),
-                                     cmocka_unit_test(test_refused)};
+  const struct CMUnitTest tests[] = {cmocka_unit_test(test_flutter), cmocka_unit_test(test_branches_of_a_fold),
+                                     cmocka_unit_test(test_trace), cmocka_unit_test(test_refused)};
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
