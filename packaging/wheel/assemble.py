@@ -47,7 +47,6 @@ def add_programs(data, launcher, builds):
     for arch, path in builds.items():
         place = data / "data" / "libexec" / f"kapitza-{arch}"
         subprocess.run(["strip", "-o", place, path], check=True)
-        subprocess.run(["patchelf", "--set-rpath", "$ORIGIN/../lib", place], check=True)  # RUNPATH: LD_LIBRARY_PATH goes before it
         place.chmod(0o755)
 
 
