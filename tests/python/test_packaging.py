@@ -140,6 +140,27 @@ def test_every_source_and_tool_has_its_hash():
     assert tools and all(re.fullmatch(r"[\w-]+==\S+ --hash=sha256:[0-9a-f]{64}", line) for line in tools)
 
 
+@pytest.mark.parametrize("name", ["requirements", "requirements-docs"])
+def test_every_python_package_has_its_hash(name):
+    """What is named in the list of direct ones is in the list that pip takes, of the same version; both lists of pip agree."""
+    def pinned(text):
+        words = (re.match(r"([\w.-]+)==([^ ;\\]+)", line) for line in text.splitlines())
+        return {re.sub(r"[-_.]+", "-", word[1]).lower(): word[2] for word in words if word}
+
+    text = (ROOT / "scripts" / f"{name}.txt").read_text()
+    blocks = re.split(r"\n(?=\w)", text.strip())
+    assert all(re.match(r"[\w.-]+==\S+", block) and "--hash=sha256:" in block for block in blocks) and len(blocks) == len(pinned(text))
+    assert pinned((ROOT / "scripts" / f"{name}.in").read_text()).items() <= pinned(text).items()
+    first = pinned((ROOT / "scripts" / "requirements.txt").read_text())
+    assert all(first.get(package, version) == version for package, version in pinned(text).items())
+
+
+def test_images_begin_with_one_digest():
+    files = [(ROOT / "packaging" / "images" / name).read_text() for name in ("Dockerfile", "kapitza.def")]
+    named = re.findall(r"^FROM:? (\S+)", "\n".join(files), re.MULTILINE | re.IGNORECASE)
+    assert len(named) == 3 and len({re.fullmatch(r"debian.*@(sha256:[0-9a-f]{64})", name)[1] for name in named}) == 1
+
+
 def test_metadata_names_licences_and_mpi():
     text = "Name: kapitza\nLicense-Expression: MIT\nLicense-File: LICENSE\nRequires-Dist: numpy>=2\nRequires-Dist: h5py>=3\n"
     lines = assemble.rewrite_metadata(text, ["GPL-3", "hdf5.txt"]).splitlines()
