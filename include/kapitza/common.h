@@ -20,7 +20,7 @@ typedef enum {
  * are consequences. */
 kz_status kz_fail(kz_status status, const char *format, ...) __attribute__((format(printf, 2, 3)));
 
-/* The message set by the first kz_fail since the last kz_message_clear; "" if none. */
+/* The message set by the first kz_fail of this thread since its last kz_message_clear; "" if none. */
 const char *kz_message(void);
 void kz_message_clear(void);
 

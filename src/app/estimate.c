@@ -83,7 +83,6 @@ static void wait_for(pthread_t thread, samples *s, kz_estimate *estimate) {
   }
   pthread_join(thread, NULL);
   free_samples(s);
-  kz_message_clear();
 }
 
 kz_status kz_estimate_time(const kz_scene *scene, kz_estimate *estimate) {

@@ -18,14 +18,16 @@ static hid_t memory_type(kz_kind kind) {
 
 /* Coded variables are of one byte, so their flag values are too. */
 static kz_status write_flags(hid_t dataset, const kz_variable *row, hid_t type) {
-  char meanings[512] = "", values[KZ_MAX_FLAGS];
+  char values[KZ_MAX_FLAGS];
+  size_t bytes = 1;
   hsize_t n = 0;
   for (; row->flags[n]; ++n) {
     values[n] = (char)n;
-    if (n > 0) strncat(meanings, " ", sizeof meanings - strlen(meanings) - 1);
-    strncat(meanings, row->flags[n], sizeof meanings - strlen(meanings) - 1);
+    bytes += strlen(row->flags[n]) + 1;
   }
   if (n == 0) return KZ_OK;
+  KZ_FREED char *meanings = kz_calloc(1, bytes);
+  for (hsize_t i = 0; i < n; i++) strcat(strcat(meanings, i > 0 ? " " : ""), row->flags[i]);
   KZ_TRY(kz_attribute_array(dataset, "flag_values", type, n, values));
   return kz_attribute_text(dataset, "flag_meanings", meanings);
 }
@@ -43,9 +45,10 @@ static kz_status write_units(hid_t group, hid_t dataset, const char *units) {
 }
 
 static kz_status describe(hid_t group, hid_t dataset, const kz_variable *row, hid_t type) {
-  char name[256];
   const char *words = strchr(row->units, '|');
-  snprintf(name, sizeof name, "%s%s%s", row->long_name, words ? ", in " : "", words ? words + 1 : "");
+  const size_t bytes = strlen(row->long_name) + strlen(row->units) + sizeof ", in ";
+  KZ_FREED char *name = kz_malloc(bytes);
+  snprintf(name, bytes, "%s%s%s", row->long_name, words ? ", in " : "", words ? words + 1 : "");
   KZ_TRY(kz_attribute_text(dataset, "long_name", name));
   KZ_TRY(write_units(group, dataset, row->units));
   return write_flags(dataset, row, type);

@@ -4,6 +4,7 @@
 
 #include <sched.h>
 #include <stdatomic.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -20,6 +21,7 @@ typedef struct {
   pthread_cond_t ended;
   int at_work; /* helpers that have not ended */
   kz_status status;
+  char message[256]; /* of the helper that has failed */
 } sharing;
 
 /* A further thread. Its prepared pendulum is a copy that lists the states of its own unsettled cells; pendulum, map and regions are shared. */
@@ -66,6 +68,7 @@ static void *help(void *context) {
   pthread_mutex_lock(&h->all->mutex);
   if (status != KZ_OK) {
     h->all->status = status;
+    snprintf(h->all->message, sizeof h->all->message, "%s", kz_message());
     stop(h->all);
   }
   h->all->at_work--;
@@ -87,7 +90,8 @@ static kz_status wait_for_helpers(sharing *all, kz_status status) {
     pthread_mutex_lock(&all->mutex);
   }
   pthread_mutex_unlock(&all->mutex);
-  return status == KZ_OK ? all->status : status;
+  if (status != KZ_OK || all->status == KZ_OK) return status;
+  return kz_fail(all->status, "%s", all->message);
 }
 
 /* Ends a helper, and takes over what it has listed. */

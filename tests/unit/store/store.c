@@ -154,6 +154,17 @@ static void write_catalogue(int64_t n, int64_t n_phases) {
   assert_int_equal(kz_store_complete(store), KZ_OK);
 }
 
+/* A text attribute of variable length. */
+static void read_text(hid_t file, const char *object, const char *name, char *text, size_t bytes) {
+  const hid_t attribute = H5Aopen_by_name(file, object, name, H5P_DEFAULT, H5P_DEFAULT), type = H5Aget_type(attribute);
+  char *found = NULL;
+  assert_true(H5Aread(attribute, type, &found) >= 0);
+  snprintf(text, bytes, "%s", found);
+  H5free_memory(found);
+  H5Tclose(type);
+  H5Aclose(attribute);
+}
+
 static void a_catalogue_comes_back(void **state) {
   (void)state;
   write_catalogue(2, 2);
@@ -172,6 +183,23 @@ static void a_catalogue_comes_back(void **state) {
   H5free_memory(names[0]);
   H5free_memory(names[1]);
   H5Tclose(type);
+  H5Fclose(file);
+}
+
+/* Long meanings and names are written whole. */
+static void long_descriptions_come_back(void **state) {
+  (void)state;
+  static const int8_t kind[2] = {3, 0};
+  char text[1000];
+  kz_store *store = begin();
+  assert_int_equal(kz_store_dimension(store, "attractors", "attractor", 2, NULL), KZ_OK);
+  assert_int_equal(kz_store_variable(store, "attractors", "kind", kind), KZ_OK);
+  assert_int_equal(kz_store_complete(store), KZ_OK);
+  const hid_t file = H5Fopen(path, H5F_ACC_RDONLY, H5P_DEFAULT);
+  read_text(file, "attractors/kind", "flag_meanings", text, sizeof text);
+  assert_string_equal(text, LONG_TEXT " " LONG_TEXT " " LONG_TEXT " last");
+  read_text(file, "attractors/kind", "long_name", text, sizeof text);
+  assert_string_equal(text, LONG_TEXT LONG_TEXT);
   H5Fclose(file);
 }
 
@@ -309,6 +337,7 @@ int main(void) {
       cmocka_unit_test_teardown(chunks_of_any_shape_come_back, clear),
       cmocka_unit_test_teardown(long_text_comes_back, clear),
       cmocka_unit_test_teardown(a_catalogue_comes_back, clear),
+      cmocka_unit_test_teardown(long_descriptions_come_back, clear),
       cmocka_unit_test_teardown(no_attractors_is_a_file_too, clear),
       cmocka_unit_test_teardown(the_same_data_give_the_same_bytes, clear),
       cmocka_unit_test_teardown(completeness_needs_the_fingerprint, clear),
