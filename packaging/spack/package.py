@@ -32,4 +32,6 @@ class Kapitza(CMakePackage):
     conflicts("%nvhpc")
 
     def cmake_args(self):
-        return [self.define("BUILD_TESTING", False), self.define("KAPITZA_ARCH", "native")]
+        # The target's generic instruction set, by gcc's name: x86_64_v3 is x86-64-v3.
+        target = self.spec.target.generic.name.replace("_", "-")
+        return [self.define("BUILD_TESTING", False), self.define("KAPITZA_ARCH", target if target.startswith("x86-64") else "armv8-a")]

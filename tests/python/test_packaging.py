@@ -39,7 +39,7 @@ def conda_recipe():
     """YAML once its expressions are replaced."""
     text = re.sub(r"{%.*?%}", "", (ROOT / "packaging" / "conda" / "meta.yaml").read_text())
     text = re.sub(r"{{ compiler\('(\w+)'\) }}", r"\1-compiler", text)
-    return yaml.safe_load(text.replace("{{ version }}", VERSION).replace("{{ PYTHON }}", "python"))
+    return yaml.safe_load(text.replace("{{ version }}", VERSION).replace("{{ PYTHON }}", "python").replace("{{ mpi }}", "openmpi"))
 
 
 @pytest.mark.parametrize("name", ["packaging/images/Dockerfile", "packaging/images/kapitza.def", "packaging/debian/control"])
@@ -55,6 +55,12 @@ def test_the_recipes_of_conda_and_spack_need_every_library():
     names = {"openmpi": "mpi", "yaml": "libyaml", "zlib": "zlib-api", "libflint": "flint"}
     assert {names.get(name, name) for name in libraries(4)} <= given
     compile(spack, "package.py", "exec")
+
+
+def test_the_recipes_leave_mpi_and_processor_to_their_tools():
+    variants = yaml.safe_load((ROOT / "packaging" / "conda" / "conda_build_config.yaml").read_text())
+    assert variants == {"mpi": ["openmpi", "mpich"]} and "{{ mpi }}" in (ROOT / "packaging" / "conda" / "meta.yaml").read_text()
+    assert "native" not in (ROOT / "packaging" / "spack" / "package.py").read_text()
 
 
 def test_the_conda_recipe_needs_what_pip_needs():
