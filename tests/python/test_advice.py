@@ -30,15 +30,6 @@ def test_no_scene_of_the_repository_has_keys_that_do_nothing(kapitza, tmp_path):
     assert not [text for text in scenes if "icm:" in text and "method: icm" not in text]
 
 
-@pytest.mark.parametrize("other", [["run", SMALL, "-o", "x.h5"], ["where", SMALL, 1, 0], ["check", SMALL]], ids=lambda words: words[0])
-def test_ranks_with_other_commands_are_refused(tmp_path, other):
-    """They ran rank 0's scene, or waited for ever."""
-    words = ["mpirun", "-n", 1, PROGRAM, "run", SMALL, "-o", "x.h5", *TINY, ":", "-n", 1, PROGRAM, *other]
-    done = subprocess.run(list(map(str, words)), cwd=tmp_path, capture_output=True, text=True)
-    assert done.returncode == 2 and "rank 1 has another command line than rank 0" in done.stderr and done.stderr.count("\n") == 1
-    assert not list(tmp_path.iterdir())
-
-
 def test_a_file_system_without_locks(kapitza, tmp_path):
     """The empty checkpoint stayed and stopped the next run."""
     done = subprocess.run([PROGRAM, "run", SMALL, *TINY], cwd=tmp_path, capture_output=True, text=True,
@@ -61,10 +52,3 @@ def test_a_log_whose_last_line_was_cut(kapitza, tmp_path):
 def test_a_title_cannot_turn_the_terminal_round(kapitza, tmp_path):
     done = kapitza("check", SMALL, "--set", 'title="a \u202e b"', folder=tmp_path, status=2)
     assert "holds a line break or a control character" in done.stderr and "\u202e" not in done.stderr
-
-
-def test_a_lone_process_needs_no_session_folder(tmp_path):
-    """Lone processes shared Open MPI's folder: one that began while another ended sometimes failed in MPI_Init."""
-    done = subprocess.run([PROGRAM, "run", SMALL, *TINY], cwd=tmp_path, capture_output=True, text=True,
-                          env=os.environ | {"TMPDIR": str(tmp_path / "none")})
-    assert done.returncode == 0, done.stderr

@@ -13,9 +13,6 @@ from conftest import PROGRAM, ROOT
 
 SMALL = ROOT / "scenes" / "small.yaml"
 FEW = ["--set", "basin.theta.count=9", "--set", "basin.velocity.count=9", "--set", "basin.icm={theta: 40, velocity: 40}"]
-LONG = ["--set", "basin.method=direct", "--set", "basin.theta.count=600", "--set", "basin.velocity.count=600"]
-
-
 def run(words, folder, **more):
     """A run to its end."""
     return subprocess.run(list(map(str, words)), cwd=folder, capture_output=True, text=True, **more)
@@ -40,11 +37,6 @@ def test_few_descriptors_are_refused(tmp_path, launcher, most):
     done = run(words, tmp_path)
     assert done.returncode == 2 and "ulimit -n 32" in done.stderr and done.stderr.count("kapitza: error") == 1, done.stderr
     assert not list(tmp_path.iterdir())
-
-
-def test_the_least_number_of_descriptors_is_enough(tmp_path):
-    done = run(["bash", "-c", 'ulimit -n 32; exec "$@"', "limited", PROGRAM, "run", SMALL, *FEW], tmp_path)
-    assert done.returncode == 0, done.stderr
 
 
 @pytest.mark.parametrize("words", [["--help"], ["run", "--help"], ["--version"], ["--completion", "bash"], ["--manual"], ["keys"]])
@@ -126,11 +118,6 @@ def test_a_batch_systems_variables_invent_no_ranks(tmp_path):
     assert done.returncode == 2 and "missing.yaml" in done.stderr
     done = run([PROGRAM, "run", SMALL, *FEW], tmp_path, env=job)
     assert done.returncode == 0 and "written to small.h5" in done.stdout, done.stderr
-
-
-def test_options_may_follow_the_scene_whatever_posix_says(tmp_path):
-    done = run([PROGRAM, "run", SMALL, *FEW], tmp_path, env=os.environ | {"POSIXLY_CORRECT": "1"})
-    assert done.returncode == 0, done.stderr
 
 
 def test_memory_for_the_cells_is_divided_among_ranks(tmp_path):

@@ -94,26 +94,3 @@ def test_shares_are_near_those_of_the_literature(figure):
     for row in known:
         index, _ = partner(table, row)
         assert abs(float(table["fraction"].values[index]) - row["basin_frac_v3"]) < 0.06, row["kind"]
-
-
-def test_labels_of_fig11_are_those_of_an_independent_integration(kapitza, tmp_path):
-    """40 random cells, flown 400 periods by an integrator that shares nothing with the program. At epsilon = 0.150 boundaries
-    are thin enough that none of them should differ."""
-    path = tmp_path / "11.h5"
-    kapitza("run", ROOT / "scenes" / "blackburn-fig11.yaml", "--set", "basin.theta.count=200", "--set",
-            "basin.velocity.count=200", "-o", path, ranks=2)
-    result = Result(path)
-    basin, table = result.group("basin"), result.group("attractors")
-    k, beta, m = (result.pendulum[name] for name in ("k", "beta", "m"))
-    rows, columns = np.random.default_rng(11).integers(0, 200, (2, 40))
-
-    def motion(t, state):
-        theta, velocity = np.split(state, 2)
-        return np.concatenate([velocity, -beta * velocity - (k - m * np.cos(t)) * np.sin(theta)])
-
-    start = np.concatenate([basin["theta"].values[columns], basin["velocity"].values[rows]])
-    end = solve_ivp(motion, (0, 2 * np.pi * 400), start, method="DOP853", rtol=1e-10, atol=1e-12).y[:, -1].reshape(2, -1)
-    labels = basin["attractor"].values[rows, columns]
-    for theta, velocity, label in zip(*end, labels, strict=True):
-        points = points_of(table, label)
-        assert np.hypot(around(points[:, 0] - theta), points[:, 1] - velocity).min() < 1e-6

@@ -22,18 +22,6 @@ def model(kapitza, tmp_path):
     return run
 
 
-@pytest.mark.parametrize("curve, foot, slope, power", [
-    (1, 0, -1 / 2, 2), (2, 1 / 4, -1 / 2, 1), (3, 1 / 4, 1 / 2, 1), (4, 1, -1 / 12, 2), (5, 1, 5 / 12, 2)])
-def test_transition_curves_leave_the_axis_as_they_should(model, curve, foot, slope, power):
-    """k = foot + slope m^power for small m."""
-    m = 0.02
-    k = foot + slope * m**power
-    axis = {"min": k, "max": k + 1e-9, "count": 2}
-    chart = {"k": axis, "m": {"min": 0, "max": 1, "count": 2}, "curves": [f"exact_{curve}"]}
-    group = model({"k": 0, "damping": 0, "m": 0}, stability=chart).group("stability")
-    assert group[f"exact_{curve}"].values[0] == pytest.approx(m, rel=m / 2)
-
-
 @pytest.mark.parametrize("beta", [0, 0.02, 0.5])
 def test_the_effective_potential_has_a_well_from_the_boundary_on(model, beta):
     """BSG (10): epsilon^2 = 2 k ((1 + k)^2 + beta^2) / (1 + k); damping raises it."""

@@ -2,28 +2,14 @@
 
 import json
 import re
-from math import cos, exp, pi, sqrt
+from math import cos, pi, sqrt
 
 import numpy as np
 import pytest
 from conftest import datasets
-from hypothesis import given, settings
-from hypothesis import strategies as st
 from kapitza import Result
-from orbit_scenes import BLACKBURN, FIGURES, NODDING, WINDOW, closed, near, parameters
+from orbit_scenes import BLACKBURN, FIGURES, NODDING, WINDOW, closed, parameters
 from scipy import signal
-
-
-def test_listed_orbit_equals_its_lines(model):
-    """The orbit of a listed attractor has the lines of the catalogue."""
-    pendulum = {**BLACKBURN, "drive_amplitude": 0.3}
-    listed = model(pendulum, attractors=WINDOW).group("attractors")
-    for id_ in range(listed.sizes["attractor"]):
-        orbit = model(pendulum, attractors=WINDOW, orbit={"attractor": id_}).group("orbit")
-        assert orbit.attrs["name"] == str(listed["name"].values[id_])
-        assert orbit.attrs["dominant_line"] == listed["dominant_line"].values[id_]
-        count = orbit.sizes["line_frequency"]
-        assert np.abs(orbit["line_amplitude"].values - listed["line_amplitude"].values[id_, :count]).max() < 1e-11
 
 
 def test_open_record_tells_the_period(model):
@@ -94,17 +80,6 @@ def test_leaving_an_unstable_position_is_no_chaos(model):
     assert (orbit.attrs["name"], orbit.attrs["settles_on"], orbit.attrs["line_quantity"]) == ("", "down", "angle")
 
 
-@settings(max_examples=8)
-@given(st.sampled_from(sorted(NODDING)))
-def test_mirror_orbit_has_mirrored_lines(model, key):
-    cycle = NODDING[key]
-    theta, velocity = map(float, cycle["strobe_theta_v_at_t0"][0])
-    one, other = (model(parameters(cycle), orbit=closed(sign * theta, sign * velocity)).group("orbit") for sign in (1, -1))
-    assert np.abs(one["line_amplitude"].values - other["line_amplitude"].values).max() < 1e-12
-    strong = one["line_amplitude"].values > 1e-6
-    assert near(one["line_phase"].values[strong], other["line_phase"].values[strong] + pi).max() < 1e-6
-
-
 def test_effective_model_follows_the_mean(model):
     """The slow equation near the top of the well: close to the mean of the full motion, to the order of the fast swing."""
     pendulum = {"quality_factor": 5, "drive_frequency": 11, "drive_amplitude": 0.2}
@@ -113,19 +88,6 @@ def test_effective_model_follows_the_mean(model):
                   for name in ("pendulum", "effective"))
     assert np.abs(full["strobe_theta"].values - slow["strobe_theta"].values).max() < 0.2 * 0.2
     assert slow.attrs["centre"] == 1
-
-
-def test_effective_decay_rate(model):
-    """About the top the slow motion is a damped oscillator: its turning points shrink by exp(-beta t/2)."""
-    omega, quality, m = 11, 5, 0.2
-    k, beta = omega**-2, 1 / (omega * quality)
-    orbit = model({"quality_factor": quality, "drive_frequency": omega, "drive_amplitude": m},
-                  orbit={"start": {"theta": pi - 1e-4, "velocity": 0}, "model": "effective", "periods": 100}).group("orbit")
-    stiffness = -(k - 0.5 * m**2 * (1 + k) / ((1 + k) ** 2 + beta**2))
-    half_swing = pi / sqrt(stiffness - beta**2 / 4)
-    assert np.abs(np.diff(orbit["maximum_time"].values) - half_swing).max() < 1e-5
-    angle = orbit["maximum_angle"].values
-    assert np.abs(angle[1:] / angle[:-1] + exp(-beta * half_swing / 2)).max() < 1e-6
 
 
 START = {"start": {"theta": 0, "velocity": 0}}

@@ -155,45 +155,6 @@ def test_butikov_fig12(drawn):
         assert j == 0 or abs(sine - wanted[f"S{j}"]) < 1e-7
 
 
-@pytest.mark.parametrize("epsilon", FIGURES)
-def test_catalogue_of_blackburn(model, epsilon):
-    """Every attractor of Figs 11-15 from the default starts: strobe points, multipliers."""
-    result = model({**BLACKBURN, "drive_amplitude": float(epsilon)}, attractors=WINDOW).group("attractors")
-    for row in FIGURES[epsilon]["attractors"]:
-        theta, velocity = map(float, row["strobe_points"][0])
-        gap = near(result["strobe_theta"].values, theta) + np.abs(result["strobe_velocity"].values - velocity)
-        id_ = int(np.nanargmin(np.nanmin(gap, axis=1)))
-        assert np.nanmin(gap[id_]) < 1e-9, row["kind"]
-        assert result["period"].values[id_] == row["period"]
-        assert result["winding"].values[id_] == row["winding_total"]
-        found = complex(result["multiplier_re"].values[id_, 0], abs(result["multiplier_im"].values[id_, 0]))
-        wanted = max((complex(text) for text in row["multipliers"]), key=lambda value: (abs(value), value.imag))
-        assert abs(found - complex(wanted.real, abs(wanted.imag))) < 1e-7
-
-
-@pytest.mark.parametrize("key", NODDING)
-def test_nodding_cycle_from_the_default_starts(model, key):
-    """Found without being named where the basin is at least 0.5 % of the window; those of weak damping take up to a minute each."""
-    cycle = NODDING[key]
-    share = cycle["basin_fraction_near_window"] or {"self": 0, "mirror": 0}
-    if share["self"] + share["mirror"] < 0.005:
-        pytest.skip("its basin is smaller")
-    if float(cycle["beta"]) < 0.005 and not os.environ.get("KAPITZA_EXTENSIVE"):
-        pytest.skip("settles slowly; KAPITZA_EXTENSIVE=1 runs it")
-    middle = 0 if cycle["about"] == "bottom" else pi
-    window = {"theta": {"min": middle - pi / 2, "max": middle + pi / 2}, "velocity": {"min": -0.6, "max": 0.6}}
-    listed = model(parameters(cycle), attractors=window).group("attractors")
-    for theta, velocity in cycle["strobe_theta_v_at_t0"]:
-        gap = near(listed["strobe_theta"].values, float(theta)) + np.abs(listed["strobe_velocity"].values - float(velocity))
-        assert np.nanmin(gap) < 1e-9
-    id_ = int(np.nanargmin(np.nanmin(gap, axis=1)))
-    assert str(listed["name"].values[id_]) == expected_name(cycle)
-    assert abs(complex(listed["multiplier_re"].values[id_, 0], listed["multiplier_im"].values[id_, 0]) - multiplier(cycle)) < 1e-7
-    for line, amplitude in cycle["spectrum_amplitudes"].items():
-        if (j := int(line.split("/")[0])) <= 8 * cycle["n"]:
-            assert abs(listed["line_amplitude"].values[id_, j] - amplitude) < 1e-8, line
-
-
 @pytest.mark.timeout(1800)
 @pytest.mark.parametrize("epsilon", FIGURES)
 def test_every_search_finds_small_basins(model, epsilon):

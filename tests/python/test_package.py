@@ -5,7 +5,6 @@ import importlib
 import inspect
 import os
 import pkgutil
-import random
 import shutil
 import subprocess
 import sys
@@ -178,26 +177,6 @@ def craft(file, group, name, how):
         file[group].create_dataset(name, data=np.full(values.shape, "x", dtype=object), dtype=h5py.string_dtype())
     elif how == "short":
         file[group][name] = np.zeros(1)
-
-
-VIEWS = [("sweep", view) for view in ("fractions", "branches", "flutter", "releases", "strobe")]
-VIEWS += [("stability", view) for view in ("zones", "growth", "frequency", "errors")]
-ROWS = [(kind, ["--view", view]) for kind, view in VIEWS] + [("orbit", []), ("potential", [])]
-
-
-@pytest.mark.parametrize("kind, options", ROWS)
-def test_crafted_files_get_one_line(results, tmp_path, kind, options):
-    """A picture, or one line: for some of the ways to spoil something, for all with KAPITZA_EXTENSIVE=1."""
-    with h5py.File(results[kind]) as file:
-        ways = [(name, how) for name in [*file[kind], *file[kind].attrs] for how in ("missing", "text", "short", "not finite", "huge")]
-    if not os.environ.get("KAPITZA_EXTENSIVE"):
-        ways = random.Random(str(options)).sample(ways, 3)
-    for name, how in ways:
-        path = shutil.copy(results[kind], tmp_path / "crafted.h5")
-        with h5py.File(path, "r+") as file:
-            craft(file, kind, name, how)
-        done = plot(kind, path, "-o", tmp_path / "out.png", "--dpi", 20, *options)
-        assert (done.returncode, done.stderr.count("\n")) in ((0, 0), (1, 1)), (name, how, done.stderr)
 
 
 @pytest.mark.parametrize("kind, name, how, words", [

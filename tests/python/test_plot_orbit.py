@@ -81,11 +81,6 @@ def test_rounding_noise_is_no_motion(axes_of, name, options):
         assert axes["spectrum"].get_yscale() == "linear" and not axes["spectrum"].lines and not axes["spectrum"].collections
 
 
-def test_motion_is_not_taken_for_noise(axes_of):
-    axes, words = axes_of("open")
-    assert not axes["time"].texts and np.ptp(axes["time"].get_ylim()) > 5 and "last" not in words
-
-
 def test_long_records_show_their_last_periods(axes_of):
     axes, words = axes_of("long")
     assert axes["time"].get_xlim() == pytest.approx((1400, 1500)) and "last 100 periods" in words

@@ -29,11 +29,6 @@ def test_the_same_bytes_on_any_number_of_ranks(kapitza, tmp_path, method):
     assert all(other == contents[0] for other in contents[1:])
 
 
-def test_mpirun_changes_nothing(kapitza, tiny, tmp_path):
-    kapitza("run", SMALL, *TINY, ranks=1, folder=tmp_path)
-    assert datasets(tmp_path / "small.h5") == datasets(tiny)
-
-
 def test_a_symmetric_window_has_mirrored_labels(small_result):
     result = Result(small_result)
     labels, mirror = result.group("basin")["attractor"].values, result.group("attractors")["mirror"].values
@@ -78,16 +73,3 @@ def test_check_runs_nothing(kapitza, tmp_path):
     assert "\n\ntitle: " in kapitza("check", SMALL, "--all", folder=tmp_path).stdout
     assert "basin" in done.stdout and "10000" in done.stdout.replace(" ", "").replace(",", "")
     assert list(tmp_path.iterdir()) == []
-
-
-def test_without_damping_there_are_no_attractors(kapitza, tmp_path):
-    done = kapitza("run", SMALL, *TINY, "--set", "pendulum={k: 0.01, damping: 0, m: 0.3}", folder=tmp_path)
-    assert "damping" in done.stdout + done.stderr
-    with_labels = Result(tmp_path / "small.h5").group("basin")
-    assert np.all(with_labels["attractor"].values == -1)
-
-
-def test_the_summary_names_every_attractor(kapitza, tmp_path):
-    done = kapitza("run", SMALL, *TINY, folder=tmp_path)
-    for name in Result(tmp_path / "small.h5").group("attractors")["name"].values:
-        assert str(name) in done.stdout

@@ -43,19 +43,6 @@ def test_attractors_have_mirror_images_where_the_pendulum_is_mirrored(rig):
         assert (labels == image).mean() > 0.99  # flagged cells have two candidates
 
 
-def test_labels_are_those_of_fine_steps(rig, kapitza, tmp_path):
-    """Decided labels against integration with four times the steps, where that itself does not doubt."""
-    _, name, file = rig
-    if name in ("sine", "square", "tilted", "torque"):
-        pytest.skip("quad precision judges these: verification.drives, verification.certain")
-    scene = {"pendulum": {**PENDULUM, **RIGS[name][0]}, "numerics": {"scheme": "split6", "steps_per_period": 96},
-             "basin": {**WINDOW, "attractors": {"starts": 256}}}
-    fine = run(kapitza, tmp_path, scene)
-    names = [np.append(f["attractors/name"].asstr()[:], "")[f["basin/attractor"][:]] for f in (file, fine)]
-    decided = (file["basin/evidence"][:] != 3) & (fine["basin/evidence"][:] != 9)
-    assert decided.mean() > 0.8 and (names[0] == names[1])[decided].all()
-
-
 def test_samples_are_the_harmonics_that_they_hold(kapitza, tmp_path):
     """Cosine of order 1 and sine of order 2, 8 samples; 64 samples of a square wave hold more, and what is left is told."""
     samples = [math.cos(math.pi * i / 4) + 0.25 * math.sin(math.pi * i / 2) for i in range(8)]

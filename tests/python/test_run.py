@@ -29,19 +29,6 @@ def test_root_tells_where_the_file_comes_from(small_result):
     assert 0 <= age.total_seconds() < 3600
 
 
-def test_pendulum_of_the_file(small_result):
-    with h5py.File(small_result) as file:
-        pendulum = dict(file["pendulum"].attrs)
-    assert pendulum["k"] == pytest.approx(1 / 121, rel=1e-15) and pendulum["beta"] == pytest.approx(1 / 55, rel=1e-15)
-    assert (pendulum["m"], pendulum["quality_factor"], pendulum["drive_frequency"]) == (0.3, 5, 11)
-
-
-def test_undefined_parameters_are_left_out(kapitza, tmp_path):
-    kapitza("run", SMALL, "--set", "pendulum={k: -0.1, damping: 0, m: 0.5}", folder=tmp_path)
-    with h5py.File(tmp_path / "small.h5") as file:
-        assert set(file["pendulum"].attrs) == {"k", "beta", "m", "drive_amplitude"}
-
-
 def test_resolved_scene_gives_the_same_datasets(kapitza, small_result, tmp_path):
     with h5py.File(small_result) as file:
         (tmp_path / "again.yaml").write_text(file.attrs["scene_resolved"])
@@ -95,15 +82,6 @@ def test_si_values_stand_in_the_file(kapitza, tmp_path):
     omega = 15.5 * 2 * math.pi
     assert {key: pendulum[key] for key in si} == si and pendulum["pivot_frequency"] == pytest.approx(omega, rel=1e-15)
     assert pendulum["k"] == pytest.approx(0.1 * 0.2 * 33.06 / (0.008 * omega**2), rel=1e-14) and resolved == si | {"frequency": 15.5}
-
-
-def test_the_frequency_is_swept_in_hz(kapitza, tmp_path):
-    (tmp_path / "sweep.yaml").write_text(
-        "pendulum: {mass: 1, radius: 1, inertia: 1, friction: 0.2, gravity: 1, pivot_amplitude: 0.3, frequency: 2}\n"
-        "sweep: {parameter: frequency, min: 1.5, max: 2, count: 2, measure: [flutter_amplitude]}\n")
-    kapitza("run", "sweep.yaml", folder=tmp_path)
-    with h5py.File(tmp_path / "sweep.h5") as file:
-        assert list(file["sweep/value"][:]) == [1.5, 2] and file["sweep"].attrs["parameter_units"] == "Hz"
 
 
 def test_lone_processes_share_no_folder_of_mpi(tmp_path):

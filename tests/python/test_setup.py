@@ -118,12 +118,6 @@ def test_a_copied_or_moved_project_builds_its_own_sources(project):
     assert built(moved)[1] == "moved"
 
 
-def test_the_folder_of_the_version_header_exists_before_anything_is_built(project):
-    """Fortran warns of a folder of headers that is missing, and warnings are errors: whatever was compiled first failed."""
-    subprocess.run(["cmake", "--preset", "release"], cwd=project, capture_output=True, check=True)
-    assert (project / "build" / "include").is_dir()
-
-
 def test_the_revision_is_that_of_the_build(project):
     first = built(project)[0]
     assert first == git(project, "describe", "--always")

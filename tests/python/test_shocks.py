@@ -72,16 +72,6 @@ def test_no_shorter_shock_leaves_the_basin(fig11, kapitza, tmp_path):
         check_against_grids(kapitza, tmp_path, FIG11, shocks, row)
 
 
-@pytest.mark.skipif(not EXTENSIVE, reason="KAPITZA_EXTENSIVE is not set")
-def test_no_shorter_shock_leaves_the_basins_of_another_scene(kapitza, tmp_path):
-    pendulum = {**FIG11, "drive_amplitude": 0.3}
-    basin = {"theta": {"count": 60}, "velocity": {"min": -2, "max": 2, "count": 60}, "shocks": {"scale": SCALE}}
-    scene = {"pendulum": pendulum, "basin": basin}
-    shocks = run(kapitza, tmp_path, scene)[0].group("shocks")
-    for row in range(shocks.sizes["point"]):
-        check_against_grids(kapitza, tmp_path, pendulum, shocks, row)
-
-
 def test_shocks_are_mirrored_and_agree_with_each_other(fig11):
     result, summary, _ = fig11
     shocks, attractors = result.group("shocks"), result.group("attractors")

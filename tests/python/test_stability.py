@@ -8,17 +8,12 @@ import sys
 import h5py
 import numpy as np
 import pytest
-import yaml
 from conftest import ROOT, datasets, plot
-from hypothesis import HealthCheck, given, settings
-from hypothesis import strategies as st
 from kapitza import Result
 from kapitza.plots.curves import whole_curve
 from matplotlib import image
-from scipy import integrate
 from test_bad_scenes import refused
 
-REFERENCE = json.loads((ROOT / "tests" / "literature" / "reference.json").read_text())
 PENDULUM = "pendulum: {k: 0.008264462809917356, damping: 0.01818181818181818, m: 0.3}\n"
 CHART = PENDULUM + """\
 stability:
@@ -59,23 +54,6 @@ def test_chart_and_its_curves_tell_the_same(kapitza, tmp_path):
     assert ((chart["angle"] >= 0) & (chart["angle"] <= 0.5)).all()
 
 
-def test_damped_chart(kapitza, tmp_path):
-    scene = CHART + "  quality_factor: 5\n  curves: [damped_1]\n"
-    with run(kapitza, tmp_path, scene) as file:
-        group = file["stability"]
-        attributes, stable, growth = dict(group.attrs), group["stable"][:], group["log_multiplier"][:]
-    assert attributes["quality_factor"] == 5
-    published = REFERENCE["butikov_sec6_Q5"]
-    for tongue, names in ((1, ("tongue1_exact", "m_at_k0.25")), (2, ("tongue2_exact", "m_at_k1"))):
-        row = published[names[0]]
-        assert attributes[f"tongue_{tongue}_lowest_k"] == pytest.approx(float(row["k_min"]), abs=1e-9)
-        assert attributes[f"tongue_{tongue}_lowest_m"] == pytest.approx(float(row["m_min"]), abs=1e-9)
-        assert attributes[f"tongue_{tongue}_tuned_m"] == pytest.approx(float(row[names[1]]), abs=1e-9)
-    k = np.linspace(-1, 4, 101)
-    damped = k != 0  # beta = sqrt|k|/Q
-    assert (stable == (growth < 0))[:, damped].all() and (growth >= -np.pi * np.sqrt(np.abs(k)) / 5 - 1e-12).all()
-
-
 def test_curves_bring_their_upper_branch_and_subharmonics_both_kinds(kapitza, tmp_path):
     scene = CHART + "  curves: [exact_5, butikov_5_refined, exact_5]\n  subharmonics: [6, 2, 6]\n"
     with run(kapitza, tmp_path, scene) as file:
@@ -114,19 +92,6 @@ def test_a_chart_needs_no_pendulum(kapitza, tmp_path):
     assert plot("stability", tmp_path / "alone.h5", "-o", tmp_path / "alone.png", "--dpi", "60").returncode == 0
 
 
-def test_one_value(kapitza, tmp_path):
-    scene = PENDULUM + """\
-stability:
-  k: {min: -0.1, max: -0.1, count: 1}
-  m: {min: 0.5, max: 0.5, count: 1}
-  subharmonics: [6]
-"""
-    with run(kapitza, tmp_path, scene) as file:
-        value = file["stability/subharmonic_6"][0]
-    row = next(row for row in REFERENCE["butikov_fig9_n6"] if row["k"] == "-0.1")
-    assert value == pytest.approx(float(row["m_exact"]), abs=1e-9)
-
-
 def test_any_number_of_ranks_gives_the_same_bytes(kapitza, tmp_path):
     scene = CHART + "  damping: 0.05\n  curves: [exact_1, damped_1, damped_2]\n  subharmonics: [4]\n"
     results = []
@@ -134,27 +99,6 @@ def test_any_number_of_ranks_gives_the_same_bytes(kapitza, tmp_path):
         run(kapitza, tmp_path, scene, ranks).close()
         results.append(datasets(tmp_path / "chart.h5"))
     assert results[0] == results[1] == results[2]
-
-
-@settings(max_examples=10, suppress_health_check=[HealthCheck.function_scoped_fixture])
-@given(k=st.floats(-3, 5), m=st.floats(-4, 4), damping=st.floats(0, 1))
-def test_chart_against_a_textbook_integration(kapitza, tmp_path, k, m, damping):
-    """Random points against scipy at its finest."""
-    scene = PENDULUM + yaml.safe_dump({"stability": {"k": {"min": k, "max": k, "count": 1},
-                                                     "m": {"min": m, "max": m, "count": 1}, "damping": damping}})
-    with run(kapitza, tmp_path, scene) as file:
-        growth = file["stability/log_multiplier"][0, 0]
-
-    def rhs(t, u):
-        return [u[1], -damping * u[1] - (k - m * np.cos(t)) * u[0]]
-
-    ends = [integrate.solve_ivp(rhs, (0, 2 * np.pi), start, method="DOP853", rtol=1e-12, atol=1e-13).y[:, -1]
-            for start in ([1, 0], [0, 1])]
-    largest = np.abs(np.linalg.eigvals(np.transpose(ends))).max()
-    assert np.exp(growth) == pytest.approx(largest, rel=1e-4)  # near an edge multipliers are a square root
-    determinant = np.exp(-2 * np.pi * damping)
-    if largest**2 > 1.01 * determinant:
-        assert np.exp(growth) == pytest.approx(largest, rel=1e-8)
 
 
 SQUARE = """\

@@ -92,24 +92,9 @@ def test_what_the_window_does_not_reach_is_found_from_the_start_itself():
     assert [(answer["name"], answer["attractor"]) for answer in answers] == [("down", 0), ("inverted", 1)]
 
 
-def test_without_damping_nothing_attracts():
-    answer = json.loads(where(SMALL, 1, 2, "--json", "--set", "pendulum={k: 0.01, damping: 0, m: 0.3}").stdout)
-    assert (answer["attractor"], answer["name"], answer["decided"], answer["strobe_theta"]) == (-1, None, False, [])
-
-
-def test_the_study_attractors_is_enough(tmp_path):
-    text = "pendulum: {k: 0.00826446, damping: 0.0181818, m: 0.3}\nattractors: {velocity: {min: -2, max: 2}}\n"
-    (tmp_path / "scene.yaml").write_text(text)
-    assert json.loads(where(tmp_path / "scene.yaml", 3.1, 0, "--json").stdout)["name"] == "inverted"
-
-
 def test_a_grid_that_no_memory_holds_is_not_needed():
     huge = ["--set", "basin.theta.count=1000000", "--set", "basin.velocity.count=1000000"]
     assert where(SMALL, *huge, 3.1, 0, *QUICK).stdout == where(SMALL, 3.1, 0, *QUICK).stdout
-
-
-def test_the_angle_may_be_in_degrees():
-    assert where(SMALL, "180 deg", "0.0", *QUICK).stdout == where(SMALL, repr(np.pi), 0, *QUICK).stdout
 
 
 def test_a_scene_comes_from_standard_input(tmp_path):

@@ -48,16 +48,6 @@ def test_a_table_that_is_off_by_cells_is_refused(kapitza, tmp_path):
     assert not (tmp_path / "zoom.h5").exists()
 
 
-def test_the_nodes_that_are_advised_do(kapitza, tmp_path):
-    """A table of 64 nodes on cells that it cannot carry, and one of as many nodes as the refusal names."""
-    path = scene(tmp_path, 2e-4, 10, "icm", SMALL, (2.0, 1.42))
-    table = "basin.icm={{theta: {0}, velocity: {0}}}".format
-    done = kapitza("run", path, "--set", table(64), folder=tmp_path, status=2)
-    assert "--set basin.icm=" in done.stderr and "basin.icm: the map table has an error of" in done.stderr
-    nodes = int(re.search("some ([0-9]+) nodes", done.stderr)[1])
-    kapitza("run", path, "--set", table(nodes), folder=tmp_path)
-
-
 @pytest.mark.parametrize("command", ["run", "check"])
 def test_steps_that_are_given_and_too_few_are_refused(kapitza, tmp_path, command):
     path = scene(tmp_path, 1e-7, 30, "direct", numerics={"steps_per_period": 48})
@@ -106,7 +96,6 @@ def test_the_exponent_has_its_distances(small_result):
 
 # Points of boundaries that windows shrink upon: of the zooms above, and of Fig. 12 of the paper at v = 1.42.
 BOUNDARY = "-2.36717282205514094284618936441679792892500699963420629501343"
-FIG12_BOUNDARY = "-0.264011425069458192092654683104843683"
 EXTENSIVE = bool(os.environ.get("KAPITZA_EXTENSIVE"))
 UNDECIDED = 3
 
@@ -146,13 +135,6 @@ def test_a_zoom_is_as_right_as_the_plane(kapitza, tmp_path, width):
         assert len(np.unique(labels)) > 1
     if width == "1e-20":
         assert np.array_equal(labels_of_typed_starts(kapitza, tmp_path, width, len(labels)), labels)
-
-
-@pytest.mark.skipif(not EXTENSIVE, reason="takes minutes: KAPITZA_EXTENSIVE=1")
-@pytest.mark.parametrize("width", ["1e-7", "1e-10", "1e-15", "1e-20", "1e-25"])
-def test_a_zoom_into_fig12(kapitza, tmp_path, width):
-    kapitza("run", deep(tmp_path, FIG12_BOUNDARY, "1.42", width, 20, SMALL), folder=tmp_path)
-    assert wrong_labels(tmp_path / "deep.h5") == (0, 0)
 
 
 def test_a_deep_window_in_its_file(kapitza, tmp_path):

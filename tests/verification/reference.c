@@ -79,24 +79,6 @@ static void steps_do_not_matter(void **unused) {
   }
 }
 
-/* Another method, other code: the order-6 split scheme, 192 steps; doubles round. */
-static void agrees_with_the_split_scheme(void **unused) {
-  (void)unused;
-  const kz_pendulum pendulum = Q5_11(0.3);
-  const kz_numerics numerics = {.scheme = kz_scheme_find("split6"), .steps_per_period = 192};
-  kz_flow *flow = kz_flow_create(&pendulum, &numerics);
-  assert_non_null(flow);
-  for (int i = 0; i < 6; i++) {
-    double theta = 0.9 * i - 2.2, velocity = 1.1 - 0.5 * i;
-    int64_t turns = 0;
-    motion end = carried(pendulum, KZ_REFERENCE_STEPS, 1, theta, velocity);
-    kz_advance(flow, 1, 1, &theta, &velocity, &turns);
-    assert_true(between(end.theta, theta) < 1e-12);
-    assert_true(fabs(end.velocity - velocity) < 1e-12);
-  }
-  kz_flow_free(flow);
-}
-
 static void mirror_is_exact(void **unused) {
   (void)unused;
   motion end = carried((kz_pendulum)Q5_11(0.46), KZ_REFERENCE_STEPS, 20, 2.7, -1.3);
@@ -143,7 +125,6 @@ int main(void) {
       cmocka_unit_test(published_cycles_close),
       cmocka_unit_test(free_rotor_is_exact),
       cmocka_unit_test(steps_do_not_matter),
-      cmocka_unit_test(agrees_with_the_split_scheme),
       cmocka_unit_test(mirror_is_exact),
       cmocka_unit_test(odd_starts),
       cmocka_unit_test(batches_and_calls_do_not_matter),

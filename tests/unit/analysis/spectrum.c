@@ -81,17 +81,6 @@ static void analytic_lines_come_back(void **state) {
   assert_int_equal(kz_spectrum_dominant(N_LINES, room->amplitude), 1);
 }
 
-static void rotation_and_centre_are_removed(void **state) {
-  (void)state;
-  kz_record record = closed(6, -2.0 / 6, 0);
-  fill(&record, 2 * PI * 3 + 0.5, NODDING, 4, 0);
-  lines(&record, N_LINES);
-  assert_true(fabs(room->amplitude[0] - 0.5) < 1e-13);
-  assert_true(fabs(room->amplitude[7] - NODDING[3].amplitude) < 1e-13);
-  assert_true(room->amplitude[2] < 1e-13);
-  assert_int_equal(kz_spectrum_period(&record, N_LINES, room->amplitude), 6);
-}
-
 static void parseval(void **state) {
   (void)state;
   kz_record record = closed(6, 0, 0);
@@ -120,23 +109,6 @@ static void mean_velocity_is_not_wrapped(void **state) {
   assert_true(fabs(room->amplitude[0] - 5) < 1e-12 && fabs(room->amplitude[1] - NODDING[0].amplitude) < 1e-12);
 }
 
-static void time_shift_changes_phases_alone(void **state) {
-  (void)state;
-  static double amplitude[N_LINES], phase[N_LINES];
-  const double shift = 1.2345;
-  kz_record record = closed(6, 0, 0);
-  fill(&record, 0.1, NODDING, 4, 0);
-  lines(&record, N_LINES);
-  memcpy(amplitude, room->amplitude, sizeof amplitude);
-  memcpy(phase, room->phase, sizeof phase);
-  fill(&record, 0.1, NODDING, 4, shift);
-  lines(&record, N_LINES);
-  for (int j = 1; j < N_LINES; j++) {
-    assert_true(fabs(room->amplitude[j] - amplitude[j]) < 1e-13);
-    if (amplitude[j] > 1e-3) assert_true(fabs(remainder(room->phase[j] - phase[j] - shift * j / 6, 2 * PI)) < 1e-12);
-  }
-}
-
 static void mirror_orbit_has_mirrored_lines(void **state) {
   (void)state;
   static double amplitude[N_LINES], phase[N_LINES];
@@ -151,28 +123,6 @@ static void mirror_orbit_has_mirrored_lines(void **state) {
     assert_true(fabs(room->amplitude[j] - amplitude[j]) < 1e-15);
     if (amplitude[j] > 1e-5) assert_true(fabs(fabs(room->phase[j] - phase[j]) - PI) < 1e-12);
   }
-}
-
-static void doubled_sampling_is_still_n(void **state) {
-  (void)state;
-  for (int times = 1; times <= 4; times++) {
-    kz_record record = closed(6 * times, 0, 0);
-    fill(&record, 0, NODDING, 4, 0);
-    lines(&record, 8 * record.periods);
-    assert_int_equal(kz_spectrum_period(&record, 8 * record.periods, room->amplitude), 6);
-    assert_int_equal(kz_spectrum_dominant(8 * record.periods, room->amplitude), times);
-  }
-}
-
-static void winding_counts_in_the_period(void **state) {
-  (void)state;
-  kz_record record = closed(6, 2.0 / 6, 0), whole = closed(6, 1.0, 0);
-  fill(&record, 0, FAST, 2, 0);
-  lines(&record, N_LINES);
-  assert_int_equal(kz_spectrum_period(&record, N_LINES, room->amplitude), 3);
-  fill(&whole, 0, FAST, 2, 0);
-  lines(&whole, N_LINES);
-  assert_int_equal(kz_spectrum_period(&whole, N_LINES, room->amplitude), 1);
 }
 
 static void symmetry_is_told_from_even_lines(void **state) {
@@ -264,13 +214,9 @@ static void names(void **state) {
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(analytic_lines_come_back),
-      cmocka_unit_test(rotation_and_centre_are_removed),
       cmocka_unit_test(mean_velocity_is_not_wrapped),
       cmocka_unit_test(parseval),
-      cmocka_unit_test(time_shift_changes_phases_alone),
       cmocka_unit_test(mirror_orbit_has_mirrored_lines),
-      cmocka_unit_test(doubled_sampling_is_still_n),
-      cmocka_unit_test(winding_counts_in_the_period),
       cmocka_unit_test(symmetry_is_told_from_even_lines),
       cmocka_unit_test(rest_has_no_lines),
       cmocka_unit_test(open_records_tell_n),
