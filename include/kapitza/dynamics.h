@@ -138,12 +138,6 @@ int64_t kz_dynamics_packed_size(const kz_dynamics *dynamics);
 void kz_dynamics_pack(const kz_dynamics *dynamics, int64_t n, double *flat);
 void kz_dynamics_unpack(kz_dynamics *dynamics, int64_t n, const double *flat);
 
-/* Finds the cycle near a state by Newton's method on the strobe map of `numerics`; n = a period after which it closes. The cycle need not
- * attract. Returns its smallest period, or 0 if none lies within `max_distance` (rad). Out: theta (rad) and velocity of its strobe point
- * near the state; re, im [2] = its Floquet multipliers over the smallest period, the larger modulus first, the positive imaginary part first. */
-int64_t kz_dynamics_close_cycle(const kz_pendulum *pendulum, const kz_numerics *numerics, int64_t n, double max_distance,
-                                double *theta, double *velocity, double *re, double *im);
-
 /* Searches cycles of up to max_period <= 64 periods, attracting or not, along a line through n_nodes <= 64 states node [n_nodes][2] (rad,
  * rad per drive radian). Wherever an image of the line passes near the line, multiple shooting begins. window = least and largest angle,
  * least and largest velocity; a cycle counts if it has a point there. found [most][2 + 2 max_period]: period, largest speed, and each
@@ -175,6 +169,12 @@ typedef struct {
   double multiplier_re[2], multiplier_im[2];
   double lyapunov, lyapunov_error; /* largest exponent per drive period, and its standard error */
 } kz_attractor;
+
+/* Finds the cycle near a state by Newton's method on the strobe map of `numerics`; n = a period after which it closes. The cycle need not
+ * attract. cycle->period = its smallest period, or 0 if none lies within `max_distance` (rad). theta (rad) and velocity [n], in: the first is
+ * the state; out: the cycle's strobe points, that near the state first. Of *cycle all is known but symmetry, mirror image and exponent. */
+void kz_dynamics_close_cycle(const kz_pendulum *pendulum, const kz_numerics *numerics, int64_t n, double max_distance,
+                             double *theta, double *velocity, kz_attractor *cycle);
 
 int64_t kz_dynamics_count(const kz_dynamics *dynamics);
 /* Attractor `number`, from 1 to the count. */

@@ -28,9 +28,11 @@ static kz_pendulum second_tongue(double m) {
 
 /* The multiplier of a rest position that is farthest from 0. */
 static double multiplier(const kz_pendulum *pendulum, const kz_numerics *numerics, double theta) {
-  double velocity = 0, re[2], im[2];
-  assert_int_equal(kz_dynamics_close_cycle(pendulum, numerics, 1, 0.1, &theta, &velocity, re, im), 1);
-  return re[0];
+  double velocity = 0;
+  kz_attractor cycle;
+  kz_dynamics_close_cycle(pendulum, numerics, 1, 0.1, &theta, &velocity, &cycle);
+  assert_int_equal(cycle.period, 1);
+  return cycle.multiplier_re[0];
 }
 
 /* The m between low and high from which on |multiplier| > 1. */

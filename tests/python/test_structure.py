@@ -336,7 +336,7 @@ def test_the_guide_names_files_that_exist():
 
 # (Fortran file, its name, C file, its name)
 SHARED = [("kernel/vector/map.f90", "WIDTH", "src/kernel/vector/vector.h", "KZ_LANES"),
-          *(("dynamics/labels/levels.f90", f"LEVEL_{n}", "include/kapitza/dynamics.h", f"KZ_LEVEL_{n}") for n in ("FINE", "PAIRS_28", "QUAD")),
+          *(("dynamics/labels/levels.f90", f"LEVEL_{n}", "include/kapitza/dynamics.h", f"KZ_LEVEL_{n}") for n in ("FINE", "PAIRS_28")),
           ("dynamics/labels/orbits.f90", "NO_LEVEL", "include/kapitza/dynamics.h", "KZ_LEVELS"),
           ("kernel/taylor/taylor.f90", "TAYLOR_STEPS", "include/kapitza/kernel.h", "KZ_REFERENCE_STEPS"),
           ("kernel/splitting/processed/stages.f90", "TERMS", "src/kernel/splitting/processed/tangents.c", "TERMS"),

@@ -10,7 +10,9 @@ module kz_api_attractors
   use kz_vector_map, only: PI
   implicit none
   private
+  public :: attractor_row_t, row_of
 
+  !> kz_attractor of dynamics.h.
   type, bind(C) :: attractor_row_t
     integer(c_int32_t) :: period, winding, centre, symmetric, mirror
     real(dp) :: mean, mean_velocity, amplitude, multiplier_re(2), multiplier_im(2), lyapunov, lyapunov_error
@@ -165,11 +167,17 @@ contains
     type(dynamics_t), pointer :: d
 
     d => of_handle(handle)
-    associate (a => d%attractors(number))
-      row = attractor_row_t(a%period, a%winding, a%centre, merge(1, 0, a%symmetric), a%mirror, PI*a%mean, a%mean_velocity, &
-                            a%amplitude, real(a%multiplier, dp), aimag(a%multiplier), a%lyapunov, a%lyapunov_error)
-    end associate
+    row = row_of(d%attractors(number))
   end subroutine attractor_row
+
+  !> An attractor as C has it.
+  pure function row_of(a) result(row)
+    type(attractor_t), intent(in) :: a !< its angles are half-turns
+    type(attractor_row_t) :: row
+
+    row = attractor_row_t(a%period, a%winding, a%centre, merge(1, 0, a%symmetric), a%mirror, PI*a%mean, a%mean_velocity, &
+                          a%amplitude, real(a%multiplier, dp), aimag(a%multiplier), a%lyapunov, a%lyapunov_error)
+  end function row_of
 
   subroutine attractor_points(handle, number, theta, velocity) bind(C, name='kz_dynamics_strobe')
     type(c_ptr), value :: handle

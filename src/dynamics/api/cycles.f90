@@ -2,9 +2,10 @@
 module kz_api_cycles
   use, intrinsic :: iso_c_binding, only: dp => c_double, c_int64_t, c_ptr
   use kz_vector_map, only: flow_t, PI
-  use kz_kernel_flows, only: make_flow
+  use kz_kernel_flows, only: make_flow, fine_numerics
   use kz_model_pendulum, only: pendulum_t, is_mirrored
   use kz_vector_step_table, only: numerics_t
+  use kz_api_attractors, only: attractor_row_t, row_of
   use kz_api_dynamics, only: dynamics_t, of_handle
   use kz_attractors_cycle_search, only: append_with_mirror, join
   use kz_cycles_cycles, only: attractor_t, close_cycle, enter_points, symmetrise
@@ -22,35 +23,32 @@ module kz_api_cycles
 
 contains
 
-  function close_near(pendulum, numerics, n, max_distance, theta, velocity, re, im) &
-    bind(C, name='kz_dynamics_close_cycle') result(period)
+  subroutine close_near(pendulum, numerics, n, max_distance, theta, velocity, row) bind(C, name='kz_dynamics_close_cycle')
     type(pendulum_t), intent(in) :: pendulum !< k, beta, m
     type(numerics_t), intent(in) :: numerics !< of the strobe map
     integer(c_int64_t), value :: n !< a period that closes the cycle
     real(dp), value :: max_distance !< farthest that the cycle may lie from the start
-    real(dp), intent(inout) :: theta, velocity !< start, then the cycle's point; rad, rad per drive radian
-    real(dp), intent(out) :: re(2) !< real parts of the multipliers
-    real(dp), intent(out) :: im(2) !< imaginary parts
-    integer(c_int64_t) :: period
-    class(flow_t), allocatable :: flow
+    real(dp), intent(inout) :: theta(n), velocity(n) !< the first: start; then the cycle's points; rad, rad per drive radian
+    type(attractor_row_t), intent(out) :: row !< of the cycle; period 0: there is none
+    class(flow_t), allocatable :: flow, sampled
     type(attractor_t) :: cycle
     real(dp) :: u(1), v(1)
     logical :: found, blurred
 
     call make_flow(pendulum, numerics, .true., flow)
-    u = theta/PI
-    v = velocity
+    u = theta(1)/PI
+    v = velocity(1)
     call states_to_map(flow, u, v)
     call close_cycle(flow, pendulum%beta, int(n), u(1), v(1), max_distance, cycle, found, blurred)
-    period = 0
-    if (.not. found) return
-    period = cycle%period
-    call states_to_physical(flow, cycle%u, cycle%v)
-    theta = PI*cycle%u(1)
-    velocity = cycle%v(1)
-    re = real(cycle%multiplier, dp)
-    im = aimag(cycle%multiplier)
-  end function close_near
+    if (found) then
+      call states_to_physical(flow, cycle%u, cycle%v)
+      call make_flow(pendulum, fine_numerics(pendulum), .false., sampled)
+      call find_features(sampled, pendulum, cycle, cycle%u(1), cycle%v(1), cycle%period)
+      theta(:cycle%period) = PI*cycle%u
+      velocity(:cycle%period) = cycle%v
+    end if
+    row = row_of(cycle)
+  end subroutine close_near
 
   subroutine add_cycles(handle, max_period, n, found) bind(C, name='kz_dynamics_add_cycles')
     type(c_ptr), value :: handle

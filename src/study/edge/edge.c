@@ -54,20 +54,20 @@ static kz_status saddle_of(const kz_edge *edge, kz_store *store, int64_t *saddle
 static kz_status write_group(const kz_edge *edge, const double *orbit, kz_store *store) {
   const int64_t n = edge->n_periods + 1;
   KZ_TRY(kz_store_dimension(store, "edge", "strobe", n, NULL));
-  KZ_TRY(kz_store_dimension(store, "edge", "phase", edge->period, NULL));
+  KZ_TRY(kz_store_dimension(store, "edge", "phase", edge->cycle.period, NULL));
   KZ_COLUMN(store, "edge", "theta", n, double, orbit[2 * i]);
   KZ_COLUMN(store, "edge", "velocity", n, double, orbit[2 * i + 1]);
   KZ_TRY(kz_store_variable(store, "edge", "strobe_theta", edge->theta));
   KZ_TRY(kz_store_variable(store, "edge", "strobe_velocity", edge->velocity));
-  KZ_TRY(kz_store_integer(store, "edge", "period", edge->period));
-  KZ_TRY(kz_store_integer(store, "edge", "winding", edge->winding));
+  KZ_TRY(kz_store_integer(store, "edge", "period", edge->cycle.period));
+  KZ_TRY(kz_store_integer(store, "edge", "winding", edge->cycle.winding));
   KZ_TRY(kz_store_real(store, "edge", "exponent", edge->exponent));
-  for (int i = 0; edge->period > 0 && i < 2; i++) {
+  for (int i = 0; edge->cycle.period > 0 && i < 2; i++) {
     char name[32];
     snprintf(name, sizeof name, "multiplier_%d_re", i + 1);
-    KZ_TRY(kz_store_real(store, "edge", name, edge->multiplier_re[i]));
+    KZ_TRY(kz_store_real(store, "edge", name, edge->cycle.multiplier_re[i]));
     snprintf(name, sizeof name, "multiplier_%d_im", i + 1);
-    KZ_TRY(kz_store_real(store, "edge", name, edge->multiplier_im[i]));
+    KZ_TRY(kz_store_real(store, "edge", name, edge->cycle.multiplier_im[i]));
   }
   return KZ_OK;
 }
@@ -78,8 +78,8 @@ static kz_status publish(const edge_job *e, const kz_edge *edge, const double *o
   int64_t saddle;
   name_of(e, edge->first_end, first);
   name_of(e, edge->second_end, second);
-  if (edge->period > 0) kz_orbit_name(edge->period, edge->winding, edge->centre, name);
-  snprintf(full, sizeof full, "%s%s", edge->period > 0 ? "unstable " : "", name);
+  if (edge->cycle.period > 0) kz_orbit_name(edge->cycle.period, edge->cycle.winding, edge->cycle.centre, name);
+  snprintf(full, sizeof full, "%s%s", edge->cycle.period > 0 ? "unstable " : "", name);
   KZ_TRY(write_group(edge, orbit, store));
   KZ_TRY(kz_store_text(store, "edge", "name", full));
   KZ_TRY(kz_store_text(store, "edge", "first_end", first));
@@ -87,12 +87,12 @@ static kz_status publish(const edge_job *e, const kz_edge *edge, const double *o
   KZ_TRY(saddle_of(edge, store, &saddle));
   KZ_TRY(kz_store_integer(store, "edge", "saddle", saddle));
   fprintf(summary, "Edge between %s and %s: ", first, second);
-  if (edge->period > 0)
+  if (edge->cycle.period > 0)
     fprintf(summary,
             "%s of period %d at theta = %.10g, velocity = %.10g, with multipliers %.10g and %.3g, found after %" PRId64
             " periods.\n",
-            full, edge->period, edge->theta[0], edge->velocity[0], edge->multiplier_re[0], edge->multiplier_re[1],
-            edge->n_periods);
+            full, edge->cycle.period, edge->theta[0], edge->velocity[0], edge->cycle.multiplier_re[0],
+            edge->cycle.multiplier_re[1], edge->n_periods);
   else
     fprintf(summary,
             "no cycle of at most %" PRId64 " periods was found in %" PRId64

@@ -8,12 +8,10 @@
 /* The cycle or chaotic set on the edge. */
 typedef struct {
   int32_t first_end, second_end; /* attractors on the two sides at the end: numbers of kz_dynamics, 0 = not settled */
-  int32_t period, winding;       /* of the cycle on the edge; period 0 = none was found */
-  int32_t centre;                /* as of attractors */
+  kz_attractor cycle;            /* on the edge; period 0 = none was found */
   double theta[KZ_EDGE_MOST_PERIOD], velocity[KZ_EDGE_MOST_PERIOD]; /* its strobe points */
-  double multiplier_re[2], multiplier_im[2];
-  double exponent;   /* at which the two sides separate, per drive period */
-  int64_t n_periods; /* for which the edge was followed */
+  double exponent;                                                  /* at which the two sides separate, per drive period */
+  int64_t n_periods;                                                /* for which the edge was followed */
 } kz_edge;
 
 /* Bisects between the plan's two starts and follows the edge of the first one's basin; it bisects again whenever the sides have separated.

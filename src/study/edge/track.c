@@ -84,34 +84,13 @@ static bool find_saddle(const kz_scene *scene, const double *state, int64_t n, k
   const kz_pendulum *pendulum = &scene->parameters.pendulum;
   kz_numerics fine;
   kz_numerics_fine(pendulum, &fine);
-  double theta = state[0], velocity = state[1];
-  const int64_t period =
-      kz_dynamics_close_cycle(pendulum, &fine, n, BESIDE, &theta, &velocity, edge->multiplier_re, edge->multiplier_im);
-  if (period == 0 || !(hypot(edge->multiplier_re[0], edge->multiplier_im[0]) > 1)) return false;
-  edge->period = (int32_t)period;
-  edge->theta[0] = theta;
-  edge->velocity[0] = velocity;
-  return true;
-}
-
-static int32_t centre_of(const pair *p, const kz_edge *edge) {
-  enum { SAMPLES = 96 };
-  double theta[SAMPLES * KZ_EDGE_MOST_PERIOD + 1], velocity[SAMPLES * KZ_EDGE_MOST_PERIOD + 1], origin;
-  kz_sample(p->map, edge->period, SAMPLES, edge->theta[0], edge->velocity[0], theta, velocity);
-  return kz_centre_of(edge->winding != 0, SAMPLES * edge->period, theta, &origin);
-}
-
-/* Winding, centre and strobe points of the cycle whose first point is known. */
-static void describe(const pair *p, kz_edge *edge) {
-  double theta = edge->theta[0], velocity = edge->velocity[0], from = theta;
-  int64_t turns = 0;
-  for (int32_t i = 0; i < edge->period; i++) {
-    edge->theta[i] = theta >= M_PI ? -M_PI : theta;
-    edge->velocity[i] = velocity;
-    kz_advance(p->map, 1, 1, &theta, &velocity, &turns);
-  }
-  edge->winding = (int32_t)turns + (int32_t)rint((theta - from) / (2 * M_PI));
-  edge->centre = centre_of(p, edge);
+  edge->theta[0] = state[0];
+  edge->velocity[0] = state[1];
+  kz_dynamics_close_cycle(pendulum, &fine, n, BESIDE, edge->theta, edge->velocity, &edge->cycle);
+  if (!(hypot(edge->cycle.multiplier_re[0], edge->cycle.multiplier_im[0]) > 1)) edge->cycle.period = 0;
+  for (int32_t i = 0; i < edge->cycle.period; i++)
+    if (edge->theta[i] >= M_PI) edge->theta[i] = -M_PI;
+  return edge->cycle.period > 0;
 }
 
 static kz_status follow_edge(const kz_scene *scene, pair *p, kz_edge *edge, double *orbit) {
@@ -124,8 +103,7 @@ static kz_status follow_edge(const kz_scene *scene, pair *p, kz_edge *edge, doub
     edge->exponent = t > 0 ? growth / (double)t : NAN;
     const int64_t held = held_period(orbit, t, plan->max_period);
     if (held > 0 && find_saddle(scene, orbit + 2 * t, held, edge)) {
-      describe(p, edge);
-      edge->exponent = log(hypot(edge->multiplier_re[0], edge->multiplier_im[0])) / edge->period;
+      edge->exponent = log(hypot(edge->cycle.multiplier_re[0], edge->cycle.multiplier_im[0])) / edge->cycle.period;
       return KZ_OK;
     }
     if (t == plan->periods) return KZ_OK;

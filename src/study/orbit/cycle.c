@@ -12,9 +12,12 @@ enum { MOST_PERIODS = 512 };
 
 /* Newton from `start` for period n; the cycle then has its smallest period. */
 static bool close_with(const kz_model *model, int64_t n, kz_state start, kz_cycle *cycle) {
-  cycle->state = start;
-  cycle->period = kz_dynamics_close_cycle(&model->pendulum, &model->numerics, n, MAX_DISTANCE, &cycle->state.theta,
-                                          &cycle->state.velocity, cycle->re, cycle->im);
+  KZ_FREED double *theta = kz_malloc((size_t)n * sizeof *theta), *velocity = kz_malloc((size_t)n * sizeof *velocity);
+  theta[0] = start.theta;
+  velocity[0] = start.velocity;
+  kz_dynamics_close_cycle(&model->pendulum, &model->numerics, n, MAX_DISTANCE, theta, velocity, &cycle->row);
+  cycle->period = cycle->row.period;
+  cycle->state = (kz_state){theta[0], velocity[0]};
   return cycle->period > 0;
 }
 
@@ -39,7 +42,7 @@ static kz_status find(const kz_model *model, kz_state start, kz_cycle *cycle) {
 
 /* The linear model scales: its orbits close or not. */
 static kz_status check_linear(const kz_model *model, int64_t period, kz_state start, kz_cycle *cycle) {
-  *cycle = (kz_cycle){start, period, {NAN, NAN}, {NAN, NAN}};
+  *cycle = (kz_cycle){start, period, {.multiplier_re = {NAN, NAN}, .multiplier_im = {NAN, NAN}}};
   kz_state end = start;
   kz_model_skip(model, period, &end);
   double gap = hypot(end.theta - start.theta, end.velocity - start.velocity);

@@ -101,7 +101,7 @@ static kz_status follow(kz_orbit *orbit) {
   if (periods < cycle->period) periods = cycle->period;
   KZ_TRY(kz_model_record(&orbit->model, periods, cycle->state, &orbit->motion));
   if (orbit->model.flow && plan->closed) {
-    orbit->lyapunov = log(hypot(cycle->re[0], cycle->im[0])) / (double)cycle->period;
+    orbit->lyapunov = log(hypot(cycle->row.multiplier_re[0], cycle->row.multiplier_im[0])) / (double)cycle->period;
     orbit->lyapunov_error = 0;
   } else if (orbit->model.flow) {
     kz_orbit_exponent(orbit);

@@ -3,6 +3,7 @@
 #define KAPITZA_STUDY_ORBIT_H
 
 #include "kapitza/analysis.h"
+#include "kapitza/dynamics.h"
 #include "kapitza/study.h"
 
 /* ---- the motion ---- */
@@ -40,9 +41,9 @@ kz_status kz_model_record(const kz_model *model, int64_t periods, kz_state start
 
 /* A closed orbit. */
 typedef struct {
-  kz_state state;      /* at a strobe time */
-  int64_t period;      /* the smallest that closes it */
-  double re[2], im[2]; /* Floquet multipliers over the period; NaN where the model has none */
+  kz_state state;   /* at a strobe time */
+  int64_t period;   /* the smallest that closes it */
+  kz_attractor row; /* Floquet multipliers NaN where the model has none */
 } kz_cycle;
 
 /* The cycle at or near `start`: of the given period, or (period = 0) of the shortest that the orbit comes back to. Newton's

@@ -67,8 +67,8 @@ static kz_status write_attributes(const kz_orbit *orbit, kz_store *store) {
   KZ_TRY(kz_store_real(store, GROUP, "lyapunov_error", orbit->lyapunov_error));
   if (orbit->settles_on[0]) KZ_TRY(kz_store_text(store, GROUP, "settles_on", orbit->settles_on));
   if (!p->closed) return KZ_OK;
-  KZ_TRY(kz_store_real(store, GROUP, "multiplier_re", orbit->cycle.re[0]));
-  return kz_store_real(store, GROUP, "multiplier_im", orbit->cycle.im[0]);
+  KZ_TRY(kz_store_real(store, GROUP, "multiplier_re", orbit->cycle.row.multiplier_re[0]));
+  return kz_store_real(store, GROUP, "multiplier_im", orbit->cycle.row.multiplier_im[0]);
 }
 
 static void print_open(const kz_orbit *orbit, FILE *summary) {
