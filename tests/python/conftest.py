@@ -19,6 +19,7 @@ from kapitza.command import KINDS
 from kapitza.script import run_script as end_script
 from mpi_settings import MPI_SETTINGS
 
+pytest.register_assert_rewrite("explorer_page")  # its fixtures are a plugin of the modules that name it
 ROOT = Path(__file__).resolve().parents[2]
 PROGRAM = Path(os.environ.get("KAPITZA", ROOT / "build" / "kapitza"))
 TEXT = h5py.string_dtype("utf-8")

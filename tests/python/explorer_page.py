@@ -206,3 +206,35 @@ class Page:
         part = path.with_name(f"{path.name}.crdownload")
         assert wait_for(lambda: path.is_file() and path.stat().st_size > 0 and not part.exists(), seconds)
         return path
+
+
+# ---- fixtures of the modules that name this one in pytest_plugins ----
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory):
+    return tmp_path_factory.mktemp("browser")
+
+
+@pytest.fixture(scope="module")
+def driver(folder):
+    with browser(folder, "1280,829") as found:  # 690 px are left inside of the window
+        yield found
+        assert [entry for entry in found.get_log("browser") if entry["level"] == "SEVERE"] == []
+
+
+@pytest.fixture(scope="module")
+def striped():
+    running = Server(ROOT / "scenes" / "small.yaml", fake=True)
+    yield running
+    assert running.end() == (0, "")
+
+
+@pytest.fixture
+def page(driver, striped):
+    """A fresh page of stripes, one cell a pixel."""
+    driver.get("about:blank")
+    fresh = Page(driver, striped.address() + "#samples=1&quality=moving&middle=hanging")
+    fresh.wait()
+    yield fresh
+    driver.get("about:blank")  # it asks no more when its server ends

@@ -11,41 +11,11 @@ import matplotlib.image
 import mpmath
 import numpy as np
 import pytest
-from conftest import ROOT
-from explorer_page import Page, Server, browser, wait_for
+from explorer_page import Page, wait_for
 
-SMALL = ROOT / "scenes" / "small.yaml"
+pytest_plugins = ("explorer_page",)
 TURN = 2 * np.pi
 mpmath.mp.dps = 120
-
-
-@pytest.fixture(scope="module")
-def folder(tmp_path_factory):
-    return tmp_path_factory.mktemp("browser")
-
-
-@pytest.fixture(scope="module")
-def driver(folder):
-    with browser(folder, "1280,829") as found:  # 690 px are left inside of the window
-        yield found
-        assert [entry for entry in found.get_log("browser") if entry["level"] == "SEVERE"] == []
-
-
-@pytest.fixture(scope="module")
-def striped():
-    running = Server(SMALL, fake=True)
-    yield running
-    assert running.end() == (0, "")
-
-
-@pytest.fixture
-def page(driver, striped):
-    """A fresh page of stripes, one cell a pixel."""
-    driver.get("about:blank")
-    fresh = Page(driver, striped.address() + "#samples=1&quality=moving")
-    fresh.wait()
-    yield fresh
-    driver.get("about:blank")  # it asks no more when its server ends
 
 
 # ---- modules ----
@@ -303,7 +273,7 @@ def test_both_painters_draw_the_same(page, driver, striped):
     first = np.array(page.pixels())
     assert page.run("explorer.basins.panes[0].painter.kind") == "webgl"
     driver.get("about:blank")
-    plain = Page(driver, striped.address() + "#samples=1&shade=settling&painter=2d")
+    plain = Page(driver, striped.address() + "#samples=1&shade=settling&painter=2d&middle=hanging")
     plain.wait()
     second = np.array(plain.pixels())
     assert plain.run("explorer.basins.panes[0].painter.kind") == "2d" and len(np.unique(second, axis=0)) > 2

@@ -1,16 +1,19 @@
 // The panes of basins together: one or two, their hands, their legend, the motion from a start, what the page says of them.
 
 import { endingWords, Motion } from "./motion.js";
+import { edgeNear } from "./boundary.js";
 import { asScene, unlabelled } from "./frames.js";
 import { listen } from "./gestures.js";
 import { rowsOf, writeLegend } from "./legend.js";
 import { Pane } from "./pane.js";
+import { placementOf } from "./placement.js";
 import { signed } from "./ticks.js";
 import { Units } from "./units.js";
 
 const SECOND = 1.2; // drive periods that a second shows
 const SAMPLES = 48; // of a motion, a drive period
 const [LEAST, MOST] = [24, 400]; // drive periods of a motion
+const [REACH, DRAWN] = [0.15, 0.4]; // how far boundaries draw the wheel (of the window), and which part of the way each step goes
 const FRAME_KEYS = ["window", "pendulum", "other", "quality", "samples", "shade"];
 const element = (id) => document.getElementById(id);
 
@@ -60,6 +63,7 @@ export class Basins {
     element("panes").insertBefore(root, element("panes").querySelector(".chart"));
     const pane = new Pane(root, name, this.state, { report: () => this.write(), say: (...words) => this.say(...words) });
     listen(pane.over, this.handsOn(pane));
+    pane.offer.onclick = () => element("nearest").click();
     pane.plain.overlays = this.overlaysOf(pane);
     return pane;
   }
@@ -84,10 +88,22 @@ export class Basins {
   }
 
   zoom(factor, x = 0.5, y = 0.5) {
-    const window = this.state.window.zoomed(factor, x, y);
+    const window = this.drawn(this.state.window.zoomed(factor, x, y), factor, x, y);
     if (performance.now() - (this.zoomed ?? 0) > 1000) this.state.past.push(this.state.window);
     this.zoomed = performance.now();
     this.state.change({ window, jump: false });
+  }
+
+  /** The window after a zoom, a part of the way to the boundary near the place that it went to, where the page has that switched on. */
+  drawn(window, factor, x, y) {
+    const frame = this.active?.top;
+    if (this.state.drawn !== "on" || factor >= 1 || !frame) return window;
+    const { place, period } = placementOf(frame, this.state.window);
+    const [left, bottom, width, height] = place;
+    const across = (x - left) / width;
+    const at = [across - period * Math.floor(across / period), (y - bottom) / height];
+    const edge = edgeNear(frame, ...at, REACH / width);
+    return edge ? window.moved((DRAWN * width * (edge[0] - at[0])) / factor, (DRAWN * height * (edge[1] - at[1])) / factor) : window;
   }
 
   /** The start at shares of the window asked for, as decimal texts. */
@@ -248,7 +264,7 @@ export class Basins {
 
 function wordsAt(pane, across, up) {
   const found = pane.cellAt(across, up);
-  if (!found) return "";
+  if (!found) return "not labelled yet";
   const { frame, cell } = found;
   const name = frame.labels[cell] === 255 ? unlabelled(frame) : frame.catalogue.attractors[frame.labels[cell]].name;
   return name + (frame.cells[4 * cell + 2] === 255 ? " (undecided)" : "");

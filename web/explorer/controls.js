@@ -6,7 +6,8 @@ import { Film } from "./film.js";
 import { copyText, savePng, saveScene, saveSvg, saveText } from "./save.js";
 import { Sliders } from "./sliders.js";
 
-const CHOICES = ["quality", "samples", "shade", "units", "theme"];
+const CHOICES = ["quality", "samples", "shade", "units", "theme", "middle"];
+const SWITCHES = ["points", "drawn"];
 const element = (id) => document.getElementById(id);
 
 export function listenControls(state, basins, charts) {
@@ -36,6 +37,7 @@ function listenWindow(state, basins, film) {
   state.listen(() => (element("play").textContent = state.playing ? "Pause" : "Play"));
   const dive = new Dive(state, basins, (words) => (element("status").textContent = words));
   element("dive").onclick = () => dive.toggle();
+  element("nearest").onclick = () => dive.nearest(basins.active);
   element("cancel").onclick = () => {
     dive.stop();
     film.stop();
@@ -66,10 +68,10 @@ function listenChoices(state, basins) {
   if (!state.pivotFrequency) element("units").querySelector("[value=si]").disabled = true;
   const show = () => {
     for (const name of CHOICES) element(name).value = state[name];
-    element("points").checked = state.points === "on";
+    for (const name of SWITCHES) element(name).checked = state[name] === "on";
   };
   for (const name of CHOICES) element(name).onchange = () => state.change({ [name]: element(name).value });
-  element("points").onchange = () => state.change({ points: element("points").checked ? "on" : "off" });
+  for (const name of SWITCHES) element(name).onchange = () => state.change({ [name]: element(name).checked ? "on" : "off" });
   for (const name of Object.keys(state.overlays)) element("overlays").append(overlayBox(name, basins));
   state.listen(show);
   show();

@@ -1,7 +1,7 @@
 // A dive: two starts with different ends are clicked, the boundary between them is found by halving, and the window goes down to it.
 
+import { endOf, halvings, nearestBoundary } from "./boundary.js";
 import { Decimal } from "./decimal.js";
-import { asScene } from "./frames.js";
 import { Window } from "./window.js";
 
 const DEEPEST = 1e-20; // distance at which halving ends, of the distance of the two starts
@@ -31,54 +31,65 @@ export class Dive {
     this.basins.say(this.basins.panes[0]); // what the status line said before
   }
 
+  /** Shows starts, [theta, velocity] as Decimals. */
   mark(starts) {
     for (const pane of this.basins.panes) {
-      pane.plain.marks = starts.map(({ theta, velocity }) => [theta, velocity]);
+      pane.plain.marks = starts;
       pane.draw();
     }
   }
 
-  async take(pane, start) {
+  async take(pane, { theta, velocity }) {
     const order = this.order;
-    const end = await this.endOf(pane, start);
+    const start = [Decimal.from(theta), Decimal.from(velocity)];
+    const end = await endOf(pane, start);
     if (order !== this.order) return;
-    this.starts.push({ ...start, end });
+    if (this.starts.length && this.end === end) return this.say("Dive: both starts end on the same attractor. Click another one.");
+    this.starts.push(start);
     this.mark(this.starts);
-    if (this.starts.length < 2) return this.say("Dive: click a start that ends on another attractor.");
-    if (this.starts[0].end === end) {
-      this.starts.pop();
-      this.mark(this.starts);
-      return this.say("Dive: both starts end on the same attractor. Click another one.");
+    if (this.starts.length < 2) {
+      this.end = end;
+      return this.say("Dive: click a start that ends on another attractor.");
     }
+    await this.run(async () => this.go(order, await this.boundary(order, pane)));
+  }
+
+  /** Moves the window, as it is, to the nearest boundary. */
+  nearest(pane) {
+    if (this.basins.onClick || this.diving) this.stop();
+    this.say("Looking for the nearest boundary …");
+    return this.run(async (order) => {
+      const before = this.state.window;
+      const window = await nearestBoundary(pane, before);
+      if (order !== this.order || before !== this.state.window) return;
+      this.state.change({ jump: false });
+      this.state.visit(window.wrapped());
+    });
+  }
+
+  /** Does what takes long, until it is done or stopped. */
+  async run(action) {
+    const { order } = this;
     this.basins.onClick = null;
     this.diving = true;
     let failure = null;
     try {
-      await this.go(order, await this.boundary(order, pane));
+      await action(order);
     } catch (error) {
       failure = error.message;
     }
-    if (order === this.order) this.stop();
+    if (order !== this.order) return;
+    this.stop();
     if (failure) this.say(failure);
   }
 
-  async endOf(pane, { theta, velocity }) {
-    const request = { request: "where", theta, velocity, pendulum: asScene(pane.pendulum) };
-    return (await pane.engine.answer(request))[0].attractor;
-  }
-
-  /** The point between the two starts beyond which the end changes; halved until they are DEEPEST apart. */
+  /** The point between the two starts beyond which the end changes; halved until they are DEEPEST apart. The marks show it. */
   async boundary(order, pane) {
-    let [one, other] = this.starts.map(({ theta, velocity }) => [Decimal.from(theta), Decimal.from(velocity)]);
-    const first = this.starts[0].end;
-    for (let distance = 1; distance > DEEPEST && order === this.order; distance /= 2) {
-      const middle = [0, 1].map((axis) => one[axis].plus(other[axis]).half());
-      const end = await this.endOf(pane, { theta: middle[0].toString(), velocity: middle[1].toString() });
-      if (end === first) one = middle;
-      else other = middle;
-      this.say(`Dive: the boundary is known to ${(distance / 2).toExponential(1)} of the distance of the starts.`);
+    for await (const [one, other, share] of halvings(pane, ...this.starts, this.end)) {
+      if (order !== this.order || share <= DEEPEST) return one;
+      this.mark([one, other]);
+      this.say(`Dive: the boundary is known to ${share.toExponential(1)} of the distance of the starts.`);
     }
-    return one;
   }
 
   /** Down to the point, whose place comes nearer to the middle, at the same speed however often pictures come. */

@@ -26,6 +26,8 @@ export function listenKeys(state, basins) {
     Backspace: () => press("back"),
     h: () => press("home"),
     d: () => press("dive"),
+    n: () => press("nearest"),
+    w: () => press("drawn"),
     c: () => press("compare"),
     m: () => press("chart"),
   };

@@ -6,7 +6,7 @@ import { listenControls } from "./controls.js";
 import { neutralFor } from "./drive.js";
 import { ask, signIn } from "./engine.js";
 import { listenKeys } from "./keyboard.js";
-import { addressOf, DEFAULTS, readAddress, State } from "./state.js";
+import { addressOf, DEFAULTS, readAddress, remember, remembered, State } from "./state.js";
 import { DARK, LIGHT } from "./surface.js";
 import { Window } from "./window.js";
 
@@ -23,7 +23,7 @@ async function begin() {
     pendulum: scene,
     other: null,
     pane: "a",
-    home: Window.from(start.window),
+    whole: Window.from(start.window),
     pivotFrequency: start.pivot_frequency,
     overlays: start.overlays,
     kinds: start.kinds,
@@ -31,12 +31,15 @@ async function begin() {
     playing: true,
     jump: false,
   });
-  Object.assign(state, { window: state.home }, readAddress(location.hash, { pendulum: scene }));
+  Object.assign(state, remembered(), readAddress(location.hash, { pendulum: scene }));
+  state.home = state.whole.centred(state.middle);
+  state.window ??= state.home;
   document.title = document.getElementById("title").textContent = start.title;
   setTheme(state);
   state.listen((keys) => keys.has("theme") && setTheme(state));
   dark.addEventListener("change", () => setTheme(state));
   keepAddress(state);
+  keepMiddle(state);
   const basins = new Basins(state);
   const charts = new Charts(state);
   listenControls(state, basins, charts);
@@ -54,6 +57,17 @@ function setTheme(state) {
   const name = state.theme === "auto" ? (dark.matches ? "dark" : "light") : state.theme;
   document.documentElement.dataset.theme = name;
   state.change({ colours: name === "dark" ? DARK : LIGHT });
+}
+
+/** Another angle in the middle: the first window turns, and with it the one that is shown where it is the first. */
+function keepMiddle(state) {
+  state.listen((keys) => {
+    remember(state, keys);
+    if (!keys.has("middle")) return;
+    const home = state.whole.centred(state.middle);
+    if (state.window.equals(state.home)) state.change({ window: home, jump: true });
+    state.change({ home });
+  });
 }
 
 /** The address follows the state, a little later. */

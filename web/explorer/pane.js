@@ -1,8 +1,8 @@
 // One picture of basins: it asks the program for frames, keeps the last ones, and draws them with axes and marks over them.
 
-import { Decimal } from "./decimal.js";
 import { Engine } from "./engine.js";
-import { decoded, paletteOf, requestOf } from "./frames.js";
+import { decoded, paletteOf, requestOf, sharesOf } from "./frames.js";
+import { Inset } from "./inset.js";
 import { frameOf, painterOn } from "./painter.js";
 import { placementOf, seen } from "./placement.js";
 import { axesOf, drawAxes, drawLine, drawPoints, Plane } from "./plane.js";
@@ -23,6 +23,8 @@ export class Pane {
     this.over = root.querySelector(".over");
     this.engine = new Engine(name);
     this.painter = painterOn(this.basins, state.painter === "2d");
+    this.inset = new Inset(root.querySelector(".inset"), state);
+    this.offer = root.querySelector(".offer");
     this.frames = [];
     this.window = state.window;
     this.version = 0;
@@ -57,6 +59,7 @@ export class Pane {
   /** The window, the pendulum or the quality that is wanted has changed. */
   changed() {
     this.version++;
+    this.offer.hidden = true;
     if (this.resting || performance.now() - this.begun > PATIENCE) this.controller.abort();
     this.move();
     this.pursue();
@@ -113,11 +116,27 @@ export class Pane {
     const samples = Number(this.state.samples);
     this.say(this, "computing", quality === "exact" ? "deciding every label ..." : "computing more samples ...", 0);
     if (quality === "exact" || samples > 1) await this.frame({ quality, levels: [8, 4, 2, 1], samples });
-    if (version === this.version) this.say(this, "done", this.words());
+    if (version !== this.version) return;
+    this.say(this, "done", this.words());
+    this.offer.hidden = !(this.top && sharesOf(this.top).filter(({ share }) => share > 0).length === 1);
+    const key = JSON.stringify(this.pendulum);
+    if (!this.inset.wants(this.state.window, key)) return;
+    this.inset.frame = Object.assign(await this.glance(this.state.home, this.inset.size), { key });
+    this.draw();
+  }
+
+  /** A quick frame of any window, of that many cells. */
+  async glance(window, size) {
+    const settings = { quality: "moving", levels: [1], samples: 1, largest: this.painter.largest, shade: "none" };
+    const request = requestOf(window, this.pendulum, size, settings);
+    const [header, bytes] = await this.engine.answer(request, (this.controller = new AbortController()).signal);
+    if (header.answer !== "frame") throw new DOMException("another frame was asked for", "AbortError");
+    return frameOf({ ...header, full: [request.rows, request.columns] }, decoded(header, bytes), window, paletteOf(this.engine.catalogue));
   }
 
   async frame({ quality, levels, samples }) {
-    const { window, pendulum } = { window: this.state.window, pendulum: this.pendulum };
+    const { pendulum } = this;
+    const window = this.state.window.centred("hanging"); // a whole circle that is its own mirror image takes half the work
     const request = requestOf(window, pendulum, this.basins, {
       quality,
       levels,
@@ -202,6 +221,7 @@ export class Pane {
     context.setTransform(ratio, 0, 0, ratio, 0, 0);
     context.clearRect(0, 0, this.over.clientWidth, this.over.clientHeight);
     this.drawOver(new CanvasSurface(context, this.state.colours), this.plane);
+    this.inset.draw(this.window);
   }
 
   /** All that lies over the basins, on any surface. */
@@ -216,10 +236,9 @@ export class Pane {
         for (const row of this.top.catalogue.attractors)
           drawPoints(surface, plane, row.strobe, "#1c2127", row.strobe.length > 2 ? 3.2 : 4.6);
       if (motion) motion.drawOver(surface, plane);
-      for (const mark of marks) {
-        const at = [plane.window.theta.shareOf(Decimal.from(mark[0])), plane.window.velocity.shareOf(Decimal.from(mark[1]))];
-        surface.circle(...plane.placeOf(...at), 5, "#ffffff", "#b3261e");
-      }
+      const places = marks.map(([theta, velocity]) => plane.placeOf(plane.window.theta.shareOf(theta), plane.window.velocity.shareOf(velocity)));
+      if (places.length > 1) surface.line(places, "#b3261e", 2);
+      for (const place of places) surface.circle(...place, 5, "#ffffff", "#b3261e");
     });
     drawAxes(surface, plane, axesOf(this.state.units, this.state.pivotFrequency));
     if (cursor) drawCross(surface, plane, cursor);

@@ -2,7 +2,7 @@
 
 import { Window } from "./window.js";
 
-export const DEFAULTS = { quality: "exact", samples: "2", shade: "none", units: "pi", theme: "auto", points: "on", painter: "auto" };
+export const DEFAULTS = { quality: "exact", samples: "2", shade: "none", units: "pi", theme: "auto", points: "on", painter: "auto", middle: "upright", drawn: "off" };
 
 /** The state: change() tells everyone who listens which keys have changed. */
 export class State {
@@ -74,4 +74,16 @@ export function readAddress(hash, start) {
     // the scene's own window stays
   }
   return found;
+}
+
+const REMEMBERED = ["middle", "theme", "drawn"];
+
+/** Choices that hold for every scene. A cookie keeps them: it is the same for all ports of this machine, where other storage is not. */
+export function remember(state, keys) {
+  for (const name of REMEMBERED.filter((key) => keys.has(key))) document.cookie = `kapitza_${name}=${state[name]}; max-age=31536000; path=/; samesite=strict`;
+}
+
+export function remembered() {
+  const kept = document.cookie.split("; ").map((text) => text.split("="));
+  return Object.fromEntries(REMEMBERED.flatMap((name) => kept.filter(([key]) => key === `kapitza_${name}`).map(([, value]) => [name, value])));
 }

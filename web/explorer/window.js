@@ -5,6 +5,7 @@ import { Decimal, digitsFor, turn } from "./decimal.js";
 export const TURN = 2 * Math.PI;
 const NARROWEST = 1e-100;
 const FASTEST = 1e4; // edges in velocity stay below it
+const WHOLE = 1e-3; // rad by which a whole circle may differ from a turn
 const DEEP = 1e-7; // windows narrower than that are named by centre and width, wider ones by their edges
 
 /** One axis of a window. */
@@ -99,10 +100,18 @@ export class Window {
     return new Window(this.theta.moved(x), this.velocity.moved(y));
   }
 
-  /** The same window with its middle angle in [-pi, pi). */
+  /** A whole circle with upright or hanging in its middle; other windows stay as they are. */
+  centred(middle) {
+    if (Math.abs(this.theta.width - TURN) > WHOLE) return this;
+    const half = turn(30).half();
+    const low = middle === "upright" ? Decimal.from(0) : Decimal.from(0).minus(half);
+    return new Window(new Range(low, low.plus(turn(30))), this.velocity);
+  }
+
+  /** The same window with its middle angle in [-pi/2, 3 pi/2): neither hanging nor upright lies at the ends. */
   wrapped() {
     const digits = digitsFor(this.theta.width);
-    const turns = Math.floor((this.theta.centre.toNumber() + Math.PI) / TURN);
+    const turns = Math.floor((this.theta.centre.toNumber() + Math.PI / 2) / TURN);
     if (turns === 0 || !Number.isFinite(turns)) return this;
     const whole = turn(digits + 10);
     const shift = new Decimal(whole.scaled * BigInt(-turns), whole.digits).rounded(digits);

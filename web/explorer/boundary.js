@@ -1,0 +1,72 @@
+// Boundaries of basins: where the end changes between two starts, and the nearest start that ends elsewhere.
+
+import { asScene } from "./frames.js";
+import { Range, TURN, Window } from "./window.js";
+
+const LOOK = { width: 120, height: 80 }; // cells of the pictures in which another basin is looked for
+const WIDER = 4; // how much wider each of them is than the one before
+const FASTEST = 40; // rad per drive radian: windows beyond it are not looked at
+const TRIED = 5; // starts with another quick label whose end is asked for
+
+/** Id of the attractor that a start, [theta, velocity] as Decimals, ends on; -1: it settles on none. */
+export async function endOf(pane, [theta, velocity]) {
+  const request = { request: "where", theta: theta.toString(), velocity: velocity.toString(), pendulum: asScene(pane.pendulum) };
+  return (await pane.engine.answer(request))[0].attractor;
+}
+
+/** Halves the way between two starts, of which the first ends on `end`: yields [one, other, share of their distance] after each step. */
+export async function* halvings(pane, one, other, end) {
+  for (let share = 0.5; ; share /= 2) {
+    const middle = [0, 1].map((axis) => one[axis].plus(other[axis]).half());
+    if ((await endOf(pane, middle)) === end) one = middle;
+    else other = middle;
+    yield [one, other, share];
+  }
+}
+
+/** Centres of cells of a frame whose label is not that of its middle, the nearest first, as shares of its window. */
+function otherCells({ rows, columns, labels }) {
+  const own = labels[Math.floor(rows / 2) * columns + Math.floor(columns / 2)];
+  const found = [];
+  labels.forEach((label, cell) => {
+    if (label !== own && label !== 255) found.push([((cell % columns) + 0.5) / columns, (Math.floor(cell / columns) + 0.5) / rows]);
+  });
+  const distance = ([x, y]) => Math.hypot(x - 0.5, y - 0.5);
+  return found.sort((one, other) => distance(one) - distance(other));
+}
+
+/** A window as wide as `window`, whose middle is the boundary that is nearest to that of `window`. */
+export async function nearestBoundary(pane, window) {
+  const middle = [window.theta.at(0.5), window.velocity.at(0.5)];
+  const end = await endOf(pane, middle);
+  for (let wide = window; ; wide = wide.zoomed(WIDER, 0.5, 0.5)) {
+    for (const [x, y] of otherCells(await pane.glance(wide, LOOK)).slice(0, TRIED)) {
+      const other = [wide.theta.at(x), wide.velocity.at(y)];
+      if ((await endOf(pane, other)) === end) continue;
+      const finest = 1e-3 * Math.min(1, window.theta.width / wide.theta.width);
+      for await (const [one, , share] of halvings(pane, middle, other, end)) if (share < finest) return around(window, one);
+    }
+    if (wide.theta.width >= TURN * (1 - 1e-9) && wide.velocity.width > FASTEST) throw new Error("No other basin was found.");
+  }
+}
+
+function around({ theta, velocity }, point) {
+  const range = ({ width }, at) => new Range(at.moved(width, -0.5), at.moved(width, 0.5));
+  return new Window(range(theta, point[0]), range(velocity, point[1]));
+}
+
+/** The edge between labels that is nearest to a place of a frame (shares of it), within `reach`; null where there is none. */
+export function edgeNear({ rows, columns, labels }, x, y, reach) {
+  const [column, row] = [Math.floor(x * columns), Math.floor(y * rows)];
+  const [across, up] = [Math.ceil(reach * columns), Math.ceil(reach * rows)];
+  let best = null;
+  for (let i = Math.max(0, row - up); i < Math.min(rows - 1, row + up); i++)
+    for (let j = Math.max(0, column - across); j < Math.min(columns - 1, column + across); j++) {
+      const cell = i * columns + j;
+      if (labels[cell] === labels[cell + 1] && labels[cell] === labels[cell + columns]) continue;
+      const place = [(j + 1) / columns, (i + 1) / rows];
+      const distance = Math.hypot(place[0] - x, place[1] - y);
+      if (distance < (best?.distance ?? reach)) best = { place, distance };
+    }
+  return best?.place ?? null;
+}
