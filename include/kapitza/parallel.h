@@ -157,7 +157,9 @@ typedef struct {
   size_t record_bytes;
   kz_tile_fn work;
   void *context;
-  int64_t n_items, batch; /* with `items` in place of `work`: a tile is `batch` items, the last one those that are left */
+  int64_t n_items,
+      batch;    /* with `items` in place of `work`: a tile is `batch` items, the last one of a row those that are left */
+  int64_t rows; /* item i of row r has the number r * n_items + i; 0 = 1 */
   kz_items_fn items;
   bool keep; /* finished records are saved in the checkpoint and not computed again on resume */
   kz_local_records
@@ -187,6 +189,15 @@ static inline kz_stage kz_stage_of_items(const char *name, int64_t n_items, int6
                     .items = items,
                     .keep = true,
                     .everywhere = true};
+}
+/* The same for rows of n_items items each, and rank 0 alone receives the records. */
+static inline kz_stage kz_stage_of_rows(const char *name, int64_t rows, int64_t n_items, int64_t batch, size_t record_bytes,
+                                        kz_items_fn items, void *context) {
+  kz_stage stage = kz_stage_of_items(name, n_items, batch, record_bytes, items, context);
+  stage.rows = rows;
+  stage.n_tiles *= rows;
+  stage.everywhere = false;
+  return stage;
 }
 static inline kz_stage kz_stage_for_rank0(const char *name, int64_t n_tiles, size_t record_bytes, kz_tile_fn work,
                                           void *context) {

@@ -15,10 +15,6 @@ static int64_t points_of(const kz_chart_plan *plan) {
   return plan->x.values.count * plan->y.values.count;
 }
 
-static int64_t tiles_of(const kz_chart_plan *plan) {
-  return (points_of(plan) + KZ_CHART_POINTS - 1) / KZ_CHART_POINTS;
-}
-
 /* The pendulum of a point; false if there is none, or if it has no damping. */
 static bool pendulum_of(const kz_scene *scene, int64_t point, kz_pendulum *pendulum) {
   const kz_chart_plan *plan = &scene->chart;
@@ -67,26 +63,25 @@ void kz_chart_points(const kz_scene *scene, int64_t place, int64_t n, const int6
     if (periods[i] == 0) ending[i] = (kz_chart_ending){.period = KZ_NO_PENDULUM, .centre = 3, .exponent = NAN};
 }
 
-static kz_status chart_tile(void *context, int64_t tile, void *record) {
+static kz_status find_ends(void *context, int64_t first, int64_t n, void *record) {
   const kz_scene *scene = context;
-  const kz_chart_plan *plan = &scene->chart;
-  const int64_t first = tile % tiles_of(plan) * KZ_CHART_POINTS, left = points_of(plan) - first;
-  const int64_t n = left < KZ_CHART_POINTS ? left : KZ_CHART_POINTS;
+  const int64_t points = points_of(&scene->chart);
   int64_t point[KZ_CHART_POINTS];
-  for (int64_t i = 0; i < n; i++) point[i] = first + i;
-  kz_chart_points(scene, tile / tiles_of(plan), n, point, record);
+  for (int64_t i = 0; i < n; i++) point[i] = first % points + i;
+  kz_chart_points(scene, first / points, n, point, record);
   return KZ_OK;
 }
 
 kz_status kz_chart_run(const kz_scene *scene, const kz_run *run, kz_store *store, FILE *summary) {
   const kz_chart_plan *plan = &scene->chart;
   const int64_t points = points_of(plan);
-  const kz_stage stage = kz_stage_for_rank0("ends", tiles_of(&scene->chart) * scene->chart.theta.count,
-                                            KZ_CHART_POINTS * sizeof(kz_chart_ending), chart_tile, (void *)scene);
+  const kz_stage stage = kz_stage_of_rows("ends", plan->theta.count, points, KZ_CHART_POINTS,
+                                          KZ_CHART_POINTS * sizeof(kz_chart_ending), find_ends, (void *)scene);
   KZ_FREED kz_chart_ending *endings = store ? kz_malloc((size_t)stage.n_tiles * stage.record_bytes) : NULL;
   KZ_TRY(kz_stage_run(run, &stage, endings));
   if (!store) return KZ_OK;
   for (int64_t place = 1; place < plan->theta.count; place++) /* without the ends of the last tile of each start */
-    memmove(endings + place * points, endings + place * tiles_of(plan) * KZ_CHART_POINTS, (size_t)points * sizeof *endings);
+    memmove(endings + place * points, endings + place * (stage.n_tiles / stage.rows) * KZ_CHART_POINTS,
+            (size_t)points * sizeof *endings);
   return kz_chart_publish(plan, endings, store, summary);
 }

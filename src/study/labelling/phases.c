@@ -12,16 +12,15 @@ static int64_t blocks_of(int64_t n) {
   return (n + BLOCK - 1) / BLOCK;
 }
 
-/* A tile is some items at one phase. */
-static kz_status phase_tile(void *context, int64_t tile, void *record) {
+/* Items at one phase: a row. */
+static kz_status label_at_phase(void *context, int64_t first, int64_t n, void *record) {
   const kz_phases *p = context;
-  const int64_t blocks = blocks_of(p->n), first = tile % blocks * BLOCK, n = p->n - first < BLOCK ? p->n - first : BLOCK;
   kz_release release = p->release;
   int16_t *out = record;
   KZ_FREED kz_label *label = kz_malloc((size_t)n * sizeof *label);
   KZ_FREED int64_t *item = kz_malloc((size_t)n * sizeof *item);
-  for (int64_t i = 0; i < n; i++) item[i] = first + i;
-  release.phase = kz_phase_at(p, tile / blocks);
+  for (int64_t i = 0; i < n; i++) item[i] = first % p->n + i;
+  release.phase = kz_phase_at(p, first / p->n);
   kz_dynamics_set_release(p->labeller.dynamics, &release);
   const kz_status status = kz_label_items(&p->labeller, 1, n, item, label);
   for (int64_t i = 0; status == KZ_OK && i < n; i++) out[i] = label[i].label > 0 ? label[i].label : 0;
@@ -30,7 +29,7 @@ static kz_status phase_tile(void *context, int64_t tile, void *record) {
 }
 
 kz_status kz_phases_label(kz_phases *p, const kz_run *run) {
-  const kz_stage stage = kz_stage_for_rank0(p->stage, blocks_of(p->n) * p->phases, BLOCK * sizeof(int16_t), phase_tile, p);
+  const kz_stage stage = kz_stage_of_rows(p->stage, p->phases, p->n, BLOCK, BLOCK * sizeof(int16_t), label_at_phase, p);
   p->label = kz_rank(run->ranks) == 0 ? kz_malloc((size_t)stage.n_tiles * stage.record_bytes) : NULL;
   return kz_stage_run(run, &stage, p->label);
 }

@@ -207,25 +207,18 @@ void kz_regions_grow(kz_dynamics *dynamics, int64_t cells, double max_velocity) 
   if (fine > coarse && kz_dynamics_trapped_share(dynamics) < few) kz_dynamics_fine_regions(dynamics, fine, max_velocity);
 }
 
-typedef struct {
-  kz_dynamics *dynamics;
-  int64_t n_velocity;
-} table;
-
-static kz_status table_tile(void *context, int64_t tile, void *record) {
-  const table *t = context;
-  int64_t size = kz_dynamics_table_row_size(t->dynamics);
-  for (int64_t row = tile * TABLE_ROWS; row < (tile + 1) * TABLE_ROWS && row < t->n_velocity; row++)
-    kz_dynamics_table_row(t->dynamics, row, (double *)record + (row - tile * TABLE_ROWS) * size);
+static kz_status table_rows(void *context, int64_t first, int64_t n, void *record) {
+  kz_dynamics *dynamics = context;
+  for (int64_t i = 0; i < n; i++)
+    kz_dynamics_table_row(dynamics, first + i, (double *)record + i * kz_dynamics_table_row_size(dynamics));
   return KZ_OK;
 }
 
 kz_status kz_map_table_make(const kz_run *run, kz_dynamics *dynamics, int64_t n_theta, int64_t n_velocity,
                             double max_velocity) {
-  table t = {dynamics, n_velocity};
   kz_dynamics_table_create(dynamics, n_theta, n_velocity, max_velocity);
-  kz_stage stage = kz_stage_for_all("map table", (n_velocity + TABLE_ROWS - 1) / TABLE_ROWS,
-                                    TABLE_ROWS * (size_t)kz_dynamics_table_row_size(dynamics) * sizeof(double), table_tile, &t);
+  const size_t bytes = TABLE_ROWS * (size_t)kz_dynamics_table_row_size(dynamics) * sizeof(double);
+  kz_stage stage = kz_stage_of_items("map table", n_velocity, TABLE_ROWS, bytes, table_rows, dynamics);
   stage.whole = true;
   KZ_FREED double *rows = kz_malloc((size_t)stage.n_tiles * stage.record_bytes);
   kz_status status = kz_stage_run(run, &stage, rows);

@@ -128,14 +128,14 @@ static kz_status chart_points(void *context, int64_t first, int64_t n, void *rec
   return KZ_OK;
 }
 
-static kz_status curve_tile(void *context, int64_t tile, void *record) {
+/* Values of a curve: a row. It may be shorter than others. */
+static kz_status curve_points(void *context, int64_t item, int64_t most, void *record) {
   const kz_chart *chart = context;
   curve_record *out = record;
-  const int64_t pieces = tiles_of(kz_chart_row(&chart->axes), PIECE), first = tile % pieces * PIECE;
-  const kz_curve_task *task = &chart->tasks[tile / pieces];
+  const int64_t first = item % kz_chart_row(&chart->axes);
+  const kz_curve_task *task = &chart->tasks[item / kz_chart_row(&chart->axes)];
   const kz_curve *curve = task->row < 0 ? NULL : &kz_curves[task->row];
-  int64_t n = kz_chart_values(chart, task) - first;
-  if (n > PIECE) n = PIECE;
+  const int64_t left = kz_chart_values(chart, task) - first, n = left < most ? left : most;
   if (!curve)
     kz_subharmonic_values(task->order, n, chart->k + first, out->m[0], out->m[1]);
   else if (!curve->edge)
@@ -176,8 +176,8 @@ static kz_stage chart_stage(kz_chart *chart) {
 }
 
 static kz_stage curve_stage(kz_chart *chart) {
-  const int64_t tiles = chart->n_tasks * tiles_of(kz_chart_row(&chart->axes), PIECE);
-  return kz_stage_for_rank0("curves", tiles, sizeof(curve_record), curve_tile, chart);
+  return kz_stage_of_rows("curves", chart->n_tasks, kz_chart_row(&chart->axes), PIECE, sizeof(curve_record), curve_points,
+                          chart);
 }
 
 /* Runs a stage; rank 0 puts its records into the chart. */

@@ -102,13 +102,13 @@ static kz_status follow_leg(void *context, int64_t tile, void *record) {
 }
 
 /* Values that lie between the critical one and the place where flutter was found. */
-static kz_status follow_back(void *context, int64_t tile, void *record) {
+static kz_status follow_back(void *context, int64_t first, int64_t n, void *record) {
   const flutter_job *f = context;
   const kz_sweep_plan *plan = &f->scene->sweep;
   double *amplitude = record;
   for (int64_t i = 0; i < LEG; i++) amplitude[i] = NAN;
-  for (int64_t i = 0; i < LEG && tile * LEG + i < plan->values.count; i++) {
-    const double value = kz_sweep_value(plan, tile * LEG + i);
+  for (int64_t i = 0; i < n; i++) {
+    const double value = kz_sweep_value(plan, first + i);
     if ((value - f->begun.birth) * (value - f->begun.at) >= 0) continue;
     kz_branch_point back = f->begun.flutter;
     if (kz_walk(&f->path, f->begun.at, value, &back) == value) amplitude[i] = back.amplitude;
@@ -136,9 +136,10 @@ static kz_status follow_on(flutter_job *f) {
 }
 
 static kz_status return_to_birth(flutter_job *f) {
-  const int64_t count = f->scene->sweep.values.count, n = (count + LEG - 1) / LEG;
-  KZ_FREED double *amplitude = kz_malloc((size_t)(n * LEG) * sizeof *amplitude);
-  KZ_TRY(run_stage(f, "flutter's birth", follow_back, n, LEG * sizeof *amplitude, amplitude));
+  const int64_t count = f->scene->sweep.values.count;
+  const kz_stage stage = kz_stage_of_items("flutter's birth", count, LEG, LEG * sizeof(double), follow_back, f);
+  KZ_FREED double *amplitude = kz_malloc((size_t)stage.n_tiles * stage.record_bytes);
+  KZ_TRY(kz_stage_run(f->run, &stage, amplitude));
   for (int64_t i = 0; i < count; i++)
     if (!isnan(amplitude[i])) f->amplitude[i] = amplitude[i];
   return KZ_OK;
