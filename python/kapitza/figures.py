@@ -4,12 +4,13 @@ A row is a scene, named after the paper and its figure (docs/explanation/theory.
 """
 
 _Row = tuple[str, str, list[str]]
+PRINT = ["--width", "178mm", "--font-size", "8", "--dpi", "300"]  # two columns of a journal
 _BASIN: _Row = ("", "basin", ["--centre", "inverted"])
 _ZOOM: _Row = ("", "basin", [])
 _INVERTED: _Row = ("-inverted", "basin", ["--centre", "inverted", "--attractor", "inverted"])
 _FLUTTER: _Row = ("-flutter", "basin", ["--centre", "inverted", "--attractor", "flutter"])
-_SADDLES: _Row = ("", "basin", ["--centre", "inverted", "--saddles", "--dpi", "90"])
-_MANIFOLDS: _Row = ("", "basin", ["--centre", "inverted", "--saddles", "--manifolds", "--dpi", "90"])
+_SADDLES: _Row = ("", "basin", ["--centre", "inverted", "--saddles"])
+_MANIFOLDS: _Row = ("", "basin", ["--centre", "inverted", "--saddles", "--manifolds"])
 _LABORATORY: _Row = ("", "basin", ["--centre", "inverted", "--degrees", "--si"])
 _ORBIT: _Row = ("", "orbit", [])
 _PHASE: _Row = ("", "orbit", ["--panels", "phase,path"])
@@ -24,10 +25,10 @@ _ERRORS: _Row = ("", "stability", ["--view", "errors"])
 _ENDS: _Row = ("", "chart", ["--dpi", "130"])
 _POTENTIAL: _Row = ("", "potential", [])
 _TRADE: _Row = ("", "tradeoff", [])
-_PROVED: _Row = ("", "basin", ["--quantity", "evidence", "--dpi", "90"])
+_PROVED: _Row = ("", "basin", ["--quantity", "evidence"])
 
 _ATLAS: _Row = ("", "atlas", ["--dpi", "130"])
-_MOTIONS: _Row = ("-motions", "atlas", ["--view", "motions", "--dpi", "100"])
+_MOTIONS: _Row = ("-motions", "atlas", ["--view", "motions"])
 
 _SCENES = {
     "atlas-blackburn": [_ATLAS, _MOTIONS],
@@ -99,4 +100,4 @@ _SCENES = {
 }
 
 # (name, scene, kind, options); a scene is run once for all its figures.
-FIGURES = [(scene + suffix, scene, kind, options) for scene, rows in _SCENES.items() for suffix, kind, options in rows]
+FIGURES = [(scene + suffix, scene, kind, [*options, *PRINT]) for scene, rows in _SCENES.items() for suffix, kind, options in rows]

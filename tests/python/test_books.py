@@ -7,7 +7,7 @@ import subprocess
 import pytest
 from conftest import ROOT
 
-ELSEWHERE = {"cluster", "how-hard"}  # run by test_cluster.py, test_tutorial.py
+ELSEWHERE = {"cluster", "how-hard", "lesson"}  # run by test_cluster.py, test_tutorial.py; no commands
 PAGES = [ROOT / "README.md", *sorted((ROOT / "docs").glob("howto/*.md")), *sorted((ROOT / "docs").glob("tutorials/*.md"))]
 PAGES = [page for page in PAGES if page.stem not in ELSEWHERE]
 
