@@ -56,8 +56,9 @@ RANGES = REFERENCE["attractor_existence_ranges_Q5_Omega11"]
 def test_inverted_gives_way_to_flutter(sweep):
     branches, _ = sweep("attractors", 0.46, 0.475, 16 if EXTENSIVE else 4, more=", starts: 4096")
     critical = REFERENCE["blackburn_fig4_upper_flutter"]["Omega11_Q5"]["eps_c"]
-    assert ends(branches, "inverted")[2:] == (near(critical), "period_doubling")
-    assert ends(branches, "flutter")[:2] == (near(critical), "period_doubling")
+    exact = pytest.approx(critical, abs=1e-11)
+    assert ends(branches, "inverted")[2:] == (exact, "period_doubling")
+    assert ends(branches, "flutter")[:2] == (exact, "period_doubling")
     for name, key in (("inverted 3-nodding", "period3_top"), ("inverted 9-nodding", "period9_top")):
         assert ends(branches, name, 2) == (near(RANGES[key]["low"]["eps"]), "fold",
                                            near(RANGES[key]["high"]["eps"]), "period_doubling")
@@ -92,10 +93,11 @@ def test_flutter_loses_its_symmetry_then_doubles(sweep):
     rows = np.flatnonzero(branches["branch_name"] == "flutter")
     broken = float(REFERENCE["blackburn_flutter_loss_Q5_Omega11"]["eps_symmetry_breaking"])
     symmetric = [row for row in rows if branches["branch_symmetric"][row]]
-    assert len(symmetric) == 1 and branches["branch_end"][symmetric[0]] == near(broken)
+    exact = pytest.approx(broken, abs=1e-11)
+    assert len(symmetric) == 1 and branches["branch_end"][symmetric[0]] == exact
     assert KINDS[branches["branch_end_kind"][symmetric[0]]] == "symmetry_breaking"
     for row in set(rows) - set(symmetric):
-        assert branches["branch_start"][row] == near(broken)
+        assert branches["branch_start"][row] == exact
         assert KINDS[branches["branch_start_kind"][row]] == "symmetry_breaking"
 
 

@@ -62,7 +62,9 @@ static kz_status walk_tile(void *context, int64_t tile, void *record) {
   out->point = node->entry.point;
   out->last = kz_walk(&path, kz_sweep_value(plan, node->value), to, &out->point);
   out->arrived = out->last == to;
-  if (!out->arrived) out->kind = kz_end_kind(&out->point);
+  if (out->arrived) return KZ_OK;
+  out->kind = kz_end_kind(&out->point);
+  out->last = kz_locate_end(&path, out->last, &out->point, out->kind);
   return KZ_OK;
 }
 

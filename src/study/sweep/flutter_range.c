@@ -74,7 +74,7 @@ static void follow_cycle(const kz_path *path, kz_flutter_drives *range) {
   if (!find_flutter(path, range->onset, &m, &flutter)) return;
   const double last = walk_up(path, m, &flutter);
   if (last == TOP || kz_end_kind(&flutter) != KZ_END_SYMMETRY_BREAKING) return;
-  range->asymmetry = last;
+  range->asymmetry = kz_locate_end(path, last, &flutter, KZ_END_SYMMETRY_BREAKING);
   if (!find_asymmetric(path, last, &flutter, &m, &asymmetric)) return;
   range->end = walk_up(path, m, &asymmetric);
 }

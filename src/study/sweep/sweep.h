@@ -53,6 +53,10 @@ double kz_walk(const kz_path *path, double from, double to, kz_branch_point *poi
 /* The kind of end (KZ_END_FOLD, ...) from the multipliers of a cycle at its end. */
 int kz_end_kind(const kz_branch_point *end);
 
+/* The value at which a branch ends, to rounding: where the equations of its bifurcation hold. stopped: where a walk ended; end: the cycle there;
+ * end_kind: KZ_END_FOLD, ... Where they have no solution beside it, `stopped` itself. */
+double kz_locate_end(const kz_path *path, double stopped, const kz_branch_point *end, int end_kind);
+
 /* Finds the attracting symmetric period-2 cycle about inverted (flutter) of a pendulum whose inverted state has lost its stability by the
  * multiplier -1. It searches along the eigenvector with growing amplitudes; false if it finds none. */
 bool kz_flutter_find(const kz_pendulum *pendulum, kz_branch_point *flutter);
