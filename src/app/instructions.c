@@ -10,15 +10,15 @@
 const char *const kz_instructions[] = {KZ_INSTRUCTION_LIST(USED) NULL};
 
 const char *kz_instruction_names(void) {
+#define TEXT(name, text) text,
+  static const char *const texts[] = {KZ_INSTRUCTION_LIST(TEXT) NULL};
+#undef TEXT
   static char names[256];
-  size_t i = 0;
   names[0] = '\0';
-#define APPEND(name, text)                                                 \
-  if (kz_instructions[i++][0] == '1') {                                    \
-    strncat(names, names[0] ? " " : "", sizeof names - strlen(names) - 1); \
-    strncat(names, text, sizeof names - strlen(names) - 1);                \
+  for (size_t i = 0; texts[i]; i++) {
+    if (kz_instructions[i][0] != '1') continue;
+    if (names[0]) strncat(names, " ", sizeof names - strlen(names) - 1);
+    strncat(names, texts[i], sizeof names - strlen(names) - 1);
   }
-  KZ_INSTRUCTION_LIST(APPEND)
-#undef APPEND
   return names[0] ? names : KZ_FIRST_INSTRUCTIONS;
 }
