@@ -32,9 +32,9 @@ KIND: {', '.join(KINDS)}; without it the main study of FILE is drawn
 kapitza plot KIND --help says which options there are."""
 
 
-def main() -> None:
-    """Draws what the command line asks for, and ends."""
-    words = sys.argv[1:]
+def main(*kind: str) -> None:
+    """Draws what the command line asks for, and ends; `kind` goes before its words."""
+    words = [*kind, *sys.argv[1:]]
     if words[:1] in (["-h"], ["--help"]):
         print(USAGE)
         return

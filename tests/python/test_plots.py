@@ -1,16 +1,18 @@
 """The plotting script: every mode draws, draws what the file says, and files that cannot be used are refused in one line."""
 
 import subprocess
+import sys
 
 import h5py
 import matplotlib.image
 import numpy as np
 import pytest
-from conftest import PROGRAM
+from conftest import PROGRAM, ROOT
 from conftest import plot as plot_kind
 from hypothesis import given
 from hypothesis import strategies as st
 from kapitza import Result, style
+from kapitza.command import KINDS
 from kapitza.plots.basin import chosen_ids, draw_one
 from kapitza.plots.plane import Plane
 from matplotlib.colors import to_rgb
@@ -21,10 +23,16 @@ def plot(*arguments):
     return plot_kind("basin", *arguments)
 
 
-def test_the_script_runs_by_itself(made_file, tmp_path):
-    done = subprocess.run([PROGRAM, "plot", "basin", made_file], cwd=tmp_path, capture_output=True, text=True)
+@pytest.mark.parametrize("command", [[PROGRAM, "plot", "basin"], [PROGRAM, "plot"], [sys.executable, ROOT / "scripts" / "plot_basin.py"]])
+def test_it_is_drawn_by_the_program_and_by_a_script(made_file, tmp_path, command):
+    done = subprocess.run([*command, made_file], cwd=tmp_path, capture_output=True, text=True)
     assert (done.returncode, done.stdout, done.stderr) == (0, "made.png\n", "")
     assert (tmp_path / "made.png").is_file()
+
+
+def test_the_scripts_draw_kinds_that_exist():
+    for path in (ROOT / "scripts").glob("plot_*.py"):
+        assert path.stem[5:] in KINDS and f'main("{path.stem[5:]}")' in path.read_text()
 
 
 @pytest.mark.parametrize("options", ["", "--shade", "--centre inverted", "--quantity settling_time", "--quantity evidence",

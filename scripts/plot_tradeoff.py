@@ -1,0 +1,11 @@
+#!/usr/bin/env python3
+"""Draws the trade between speed and accuracy from a result file: `kapitza plot tradeoff` without installing it."""
+
+import sys
+from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "python"))
+from kapitza.command import main
+
+if __name__ == "__main__":
+    main("tradeoff")
