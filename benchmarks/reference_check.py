@@ -16,6 +16,7 @@ import sys
 from decimal import Decimal, getcontext
 from pathlib import Path
 
+import h5py
 import numpy as np
 
 ROOT = Path(__file__).resolve().parents[1]
@@ -40,7 +41,11 @@ class Catalogue:
     """A pendulum and the strobe points of its attractors, as text for reference_label and for the textbook programs."""
 
     def __init__(self, result):
-        self.pendulum = [result.pendulum[name] for name in ("k", "beta", "m")]
+        self.pendulum = [result.pendulum.get(name, 0.0) for name in ("k", "beta", "m", "torque")]
+        with h5py.File(result.path) as file:
+            drive = file["pendulum"]
+            parts = [drive[name][:] for name in ("vertical", "horizontal") if name in drive]
+        self.harmonics = np.hstack([*parts, np.zeros((len(parts[0]), 4 - 2 * len(parts)))]) if parts else np.zeros((0, 4))
         group = result.group("attractors")
         self.period = group["period"].values
         self.theta, self.velocity = group["strobe_theta"].values, group["strobe_velocity"].values
@@ -49,7 +54,8 @@ class Catalogue:
 
     def text(self, max_periods):
         """Pendulum, longest run, and one line per periodic attractor."""
-        lines = [" ".join(map(repr, map(float, self.pendulum))), f"{max_periods} {len(self.periodic)}"]
+        lines = [" ".join(map(repr, map(float, self.pendulum))) + f" {len(self.harmonics)}",
+                 *(" ".join(map(repr, row)) for row in self.harmonics.tolist()), f"{max_periods} {len(self.periodic)}"]
         for attractor in self.periodic:
             points = np.stack([self.theta[attractor], self.velocity[attractor]], axis=1)[: self.period[attractor]]
             lines.append(f"{self.period[attractor]} " + " ".join(map(repr, points.ravel().tolist())))

@@ -151,17 +151,46 @@ PENDULUMS = {
     "no gravity": "{k: 0, damping: 0.05, m: 0.4}",
     "strong damping": "{k: 0.05, damping: 0.9, m: 0.4}",
     "weak damping": "{k: 0.00826, damping: 0.004, m: 0.3}",
+    "tilted": "{quality_factor: 5, drive_frequency: 11, drive_amplitude: 0.3, tilt: 5 deg}",
+    "square wave": "{quality_factor: 5, drive_frequency: 11, drive_amplitude: 0.3, waveform: square,"
+                   " harmonics: [{order: 2, amplitude: 0.0667, phase: 90 deg}]}",
+    "Josephson": "{k: 0.02, damping: 0.1, m: 0, torque: 0.1, torque_amplitude: 1.5}",
 }
+
+
+def contradicted(kapitza, folder, name, count, most):
+    """How many of `most` cells of a window of count x count are proved, and how many of these quad precision labels otherwise."""
+    (folder / "s.yaml").write_text(f"pendulum: {PENDULUMS[name]}\nbasin:\n  theta: {{count: {count}}}\n"
+                                   f"  velocity: {{min: -2, max: 2, count: {count}}}\n  proof: true\n  attractors: {{starts: 1024}}\n")
+    kapitza("run", "s.yaml", folder=folder)
+    cells, _, _ = read(folder / "s.h5")
+    _, (_, _, labels, true_labels) = reference_check.check_file(folder / "s.h5", most, 1, 2, 4000)
+    proved = np.isin(cells["evidence"], [PROVED, IN_PAIRS])[reference_check.sample_cells(cells["evidence"].shape, most, 1)]
+    return proved.sum(), (labels[proved] != true_labels[proved]).sum()
+
+
+@pytest.mark.parametrize("name", ["tilted", "square wave", "Josephson"])
+def test_quad_precision_contradicts_no_proof_of_other_drives(kapitza, tmp_path, name):
+    proved, wrong = contradicted(kapitza, tmp_path, name, 12, 60)
+    assert wrong == 0 and proved > 45
 
 
 @pytest.mark.skipif(not os.environ.get("KAPITZA_EXTENSIVE"), reason="takes minutes: KAPITZA_EXTENSIVE=1")
 @pytest.mark.parametrize("name", PENDULUMS)
 def test_quad_precision_contradicts_no_proof(kapitza, tmp_path, name):
     """4000 proved labels in doubles and pairs; what only quads prove is beyond it."""
-    (tmp_path / "s.yaml").write_text(f"pendulum: {PENDULUMS[name]}\nbasin:\n  theta: {{count: 64}}\n"
-                                     "  velocity: {min: -2, max: 2, count: 64}\n  proof: true\n  attractors: {starts: 1024}\n")
-    kapitza("run", "s.yaml", folder=tmp_path)
-    cells, _, _ = read(tmp_path / "s.h5")
-    _, (_, _, labels, true_labels) = reference_check.check_file(tmp_path / "s.h5", 4096, 1, 2, 4000)
-    proved = np.isin(cells["evidence"], [PROVED, IN_PAIRS])[reference_check.sample_cells(cells["evidence"].shape, 4096, 1)]
-    assert np.array_equal(labels[proved], true_labels[proved]) and proved.sum() > 3000
+    proved, wrong = contradicted(kapitza, tmp_path, name, 64, 4096)
+    assert wrong == 0 and proved > 3000
+
+
+def test_48_digits_prove_what_quads_leave(kapitza, tmp_path):
+    """A window of the lace under a square wave: the same labels are proved, and more."""
+    (tmp_path / "s.yaml").write_text(f"pendulum: {PENDULUMS['square wave']}\nbasin:\n  theta: {{count: 40}}\n"
+                                     "  velocity: {min: -2, max: 2, count: 40}\n  proof: true\n")
+    for digits in (34, 48):
+        kapitza("run", "s.yaml", "-o", f"{digits}.h5", "--set", f"basin.proof_digits={digits}", folder=tmp_path)
+    quads, digits = (read(tmp_path / f"{number}.h5")[0] for number in (34, 48))
+    proved = [np.isin(cells["evidence"], [PROVED, IN_PAIRS, 11]) for cells in (quads, digits)]
+    assert proved[1][proved[0]].all() and proved[1].sum() > proved[0].sum()
+    both = proved[0] & proved[1]
+    assert np.array_equal(quads["attractor"][both], digits["attractor"][both])

@@ -54,14 +54,15 @@ typedef struct {
 } arithmetic;
 static const arithmetic arithmetic_of[KZ_ENCLOSURES] = {[KZ_ENCLOSE_DOUBLES] = {kz_centres_step_doubles, kz_sets_wrap},
                                                         [KZ_ENCLOSE_PAIRS] = {kz_centres_step_pairs, kz_sets_wrap},
-                                                        [KZ_ENCLOSE_QUADS] = {kz_centres_step_quads, kz_sets_wrap_quads}};
+                                                        [KZ_ENCLOSE_QUADS] = {kz_centres_step_quads, kz_sets_wrap_quads},
+                                                        [KZ_ENCLOSE_DIGITS] = {kz_centres_step_digits, kz_sets_wrap_digits}};
 
 static void advance_group(const kz_enclosure_tables *tables, const kz_speed_class *speed, kz_enclosure_frame frame, group *g) {
   const bool jacobian = frame == KZ_KEEP_FRAME;
   kz_circle circle[KZ_PARTS];
   const arithmetic *centres = &arithmetic_of[tables->precision];
   const int n_circle = jacobian ? KZ_ORDER_JACOBIAN : KZ_ORDER_TANGENT;
-  for (int p = 0; p < KZ_PARTS && tables->precision != KZ_ENCLOSE_QUADS; p++) {
+  for (int p = 0; p < KZ_PARTS && tables->precision < KZ_ENCLOSE_QUADS; p++) {
     kz_sets_check(speed, &g->sets[p]);
     kz_sets_drop_rest(&g->sets[p]);
   }
@@ -70,6 +71,7 @@ static void advance_group(const kz_enclosure_tables *tables, const kz_speed_clas
     centres->step(speed, i, g->sets, n_circle, circle);
     for (int p = 0; p < KZ_PARTS; p++) {
       kz_neighbours_step(speed, i, &circle[p], jacobian, &g->sets[p]);
+      if (speed->digits) kz_sets_widen(g->sets[p].error, &g->sets[p]);
       if (!jacobian && (i + 1) % speed->frame_steps == 0 && i + 1 < speed->n_steps) kz_sets_renew_frame(&g->sets[p]);
     }
   }

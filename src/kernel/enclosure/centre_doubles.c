@@ -63,7 +63,7 @@ void kz_centres_step_doubles(const kz_speed_class *speed, int32_t step, kz_sets 
   EACH_PART {
     x.w[0][p] = sets[p].velocity.high;
     sine_of(sets[p].theta, &x.s[0][p], &x.c[0][p]);
-    bound_sine(speed, x.s[0][p], &sets[p]);
+    sets[p].most_sine = sine_bound(speed, x.s[0][p], sets[p].velocity.high);
   }
   for (int order = 0; order + 1 < P; order++) next_order(speed, step * speed->order, &x, order);
   EACH_PART {

@@ -195,7 +195,7 @@ OPERATION void step_one(bool quads, const kz_speed_class *speed, int32_t i, kz_s
     put_pair(sine, 0, y.s, y.s_low);
     put_pair(cos, 0, y.c, y.c_low);
   }
-  bound_sine(speed, y.s[0], x);
+  x->most_sine = sine_bound(speed, y.s[0], x->velocity.high);
   for (int n = quads ? Q - 1 : 0; n + 1 < PAIRS; n++) next_pair(speed, first, &y, n);
   for (int n = PAIRS - 1; n + 1 < P; n++) next_double(speed, first, &y, n);
   sum_series(speed, quads ? Q : 1, &y, &faster, &farther);

@@ -31,6 +31,11 @@ typedef struct {
   __float128 damping, step, push, *along, *across; /* [n_steps][order] */
 } kz_quad_constants;
 
+/* The same as balls that hold them, for centres in digits. */
+typedef struct kz_digit_constants kz_digit_constants;
+kz_digit_constants *kz_digit_constants_create(const kz_pendulum *pendulum, int32_t n_steps);
+void kz_digit_constants_free(kz_digit_constants *constants, int32_t n_steps);
+
 /* A step of 2 pi / n_steps for centres that are at most `fastest` at its beginning. Time s in steps: 0 .. 1. */
 typedef struct {
   int32_t n_steps, order;
@@ -51,6 +56,7 @@ typedef struct {
   kz_constant inverse[KZ_ORDER_PAIRS]; /* 1 / (n + 1) */
   kz_constant push;                    /* h torque */
   kz_quad_constants quads;             /* the same, unrounded */
+  kz_digit_constants *digits;          /* NULL but for centres in digits */
   kz_constant *across;                 /* [n_steps][order] powers of s in -h b(t), behind those along */
   kz_constant along[];                 /* [n_steps][order] powers of s in h a(t) */
 } kz_speed_class;
@@ -62,7 +68,7 @@ struct kz_enclosure_tables {
   kz_speed_class *classes[];
 };
 
-/* LANES sets, first the numbers of kz_enclosure in their order. A centre is the sum of a pair and a rest, which is 0 except in quads. */
+/* LANES sets, first the numbers of kz_enclosure in their order. A centre is the sum of a pair and a rest, which is 0 except in quads and in digits. */
 typedef struct {
   pair theta;
   vector theta_rest;
@@ -70,6 +76,7 @@ typedef struct {
   vector velocity_rest;
   vector matrix[2][2], reach[2], jacobian_error[2][2];
   vector most_sine; /* upper bound of |sin theta| of the centre on the present step */
+  vector error[2];  /* of centres in digits, theta and velocity: on the present step */
   mask too_fast, lost;
 } kz_sets;
 enum { KZ_SET_NUMBERS = sizeof(kz_enclosure) / sizeof(double) };
@@ -86,18 +93,19 @@ void kz_sets_check(const kz_speed_class *speed, kz_sets *sets);
 typedef struct {
   vector sine[KZ_ORDER_JACOBIAN], cosine[KZ_ORDER_JACOBIAN];
 } kz_circle;
-/* Step i of the centres of KZ_PARTS vectors. circle = the first n coefficients along them. In quads lost sets do not move. */
+/* Step i of the centres of KZ_PARTS vectors. circle = the first n coefficients along them. In quads and digits lost sets do not move. */
 typedef void kz_centres_step(const kz_speed_class *speed, int32_t i, kz_sets *sets, int n, kz_circle circle[KZ_PARTS]);
-kz_centres_step kz_centres_step_doubles, kz_centres_step_pairs, kz_centres_step_quads;
+kz_centres_step kz_centres_step_doubles, kz_centres_step_pairs, kz_centres_step_quads, kz_centres_step_digits;
 /* The same step of the sets around the centres; jacobian = true updates jacobian_error too. */
 void kz_neighbours_step(const kz_speed_class *speed, int32_t step, const kz_circle *circle, bool jacobian, kz_sets *sets);
 /* Widens the sets by an error p of their centres. */
 void kz_sets_widen(const vector p[2], kz_sets *sets);
 /* Sets the rest of each centre to 0 and widens the sets by it. */
 void kz_sets_drop_rest(kz_sets *sets);
-/* Removes whole turns from the centres, in pairs or in quads. */
+/* Removes whole turns from the centres, in pairs, in quads or in digits. */
 void kz_sets_wrap(kz_sets *sets);
 void kz_sets_wrap_quads(kz_sets *sets);
+void kz_sets_wrap_digits(kz_sets *sets);
 /* Replaces each set by a rectangle around it, along its longer side. */
 void kz_sets_renew_frame(kz_sets *sets);
 
@@ -112,10 +120,10 @@ OPERATION vector size_of(vector x) {
   return (vector)((mask)x & INT64_MAX);
 }
 
-/* (B5) Sets most_sine: the error of `sine` is below 1e-14, and the sine changes by less than the angle. */
-OPERATION void bound_sine(const kz_speed_class *speed, vector sine, kz_sets *x) {
-  const vector most = (size_of(sine) + speed->step[0].high * size_of(x->velocity.high) + speed->turn + 1e-14) * KZ_LARGER;
-  x->most_sine = pick(most < 1, most, same(1));
+/* (B5) An upper bound of |sin theta| on a step: the error of `sine` is below 1e-14, and the sine changes by less than the angle. */
+OPERATION vector sine_bound(const kz_speed_class *speed, vector sine, vector velocity) {
+  const vector most = (size_of(sine) + speed->step[0].high * size_of(velocity) + speed->turn + 1e-14) * KZ_LARGER;
+  return pick(most < 1, most, same(1));
 }
 
 OPERATION vector nearest_integer(vector x) {

@@ -34,6 +34,7 @@ typedef struct {
   const kz_pendulum *pendulum;
   int n_majorants, order;
   bool pairs, quads; /* quads: with the first coefficients in quads, else as pairs */
+  bool digits;       /* balls, which know their errors; bounds of coefficients are those of quads, which are larger */
   real h;
   real torque[P];                        /* sizes of the torque's powers of s */
   real velocity[P], sine[P];             /* sizes of coefficients; of the cosine's too */
@@ -187,6 +188,7 @@ static void bound_centre(const bounds *b, double fastest, kz_speed_class *speed)
     velocity += HIGHER * U * (sums + sum + U * fastest);
     theta += HIGHER * U * (products + 4 * product + TIMES * U * (h * fastest + farthest));
   }
+  if (b->digits) velocity = theta = 0;
   for (int i = 0; i < b->n_majorants; i++) {
     const real ratio = h / b->majorant[i].r * CAUTION;
     if (ratio < 0.99L) rest = fminl(rest, b->majorant[i].w * powl(ratio, b->order) / (1 - ratio));
@@ -263,7 +265,7 @@ static void bound_neighbours(const bounds *b, kz_speed_class *speed) {
 
 /* The number of steps for which the last coefficient is small beside rounding, 0 where that takes too many. */
 static int32_t choose_steps(const bounds *b) {
-  const real target = b->quads ? 1e-34L : b->pairs ? 1e-31L : 1e-16L;
+  const real target = b->digits ? 1e-48L : b->quads ? 1e-34L : b->pairs ? 1e-31L : 1e-16L;
   real longest = 0;
   for (int i = 0; i < b->n_majorants; i++)
     longest = fmaxl(longest, b->majorant[i].r * powl(target / b->majorant[i].w, 1.0L / b->order));
@@ -311,6 +313,7 @@ static kz_speed_class *create(bounds *b, double fastest) {
   made->fastest = fastest;
   made->frame_steps = steps_of_frame(b->pendulum, n_steps);
   make_constants(b->pendulum, made);
+  if (b->digits) made->digits = kz_digit_constants_create(b->pendulum, n_steps);
   b->h = 2 * (real)M_PI / n_steps * CAUTION;
   set_sizes(b);
   set_errors(b, fastest);
@@ -324,7 +327,8 @@ static kz_speed_class *create(bounds *b, double fastest) {
 kz_speed_class *kz_speed_class_create(const kz_pendulum *pendulum, int32_t precision, double fastest) {
   bounds *b = kz_calloc(1, sizeof *b);
   b->pendulum = pendulum;
-  b->quads = precision == KZ_ENCLOSE_QUADS;
+  b->digits = precision == KZ_ENCLOSE_DIGITS;
+  b->quads = b->digits || precision == KZ_ENCLOSE_QUADS;
   b->pairs = b->quads || precision == KZ_ENCLOSE_PAIRS;
   b->order = b->pairs ? KZ_ORDER_PAIRS : KZ_ORDER_DOUBLES;
   kz_speed_class *speed = create(b, fastest);
@@ -335,5 +339,6 @@ kz_speed_class *kz_speed_class_create(const kz_pendulum *pendulum, int32_t preci
 void kz_speed_class_free(kz_speed_class *speed) {
   if (!speed) return;
   free(speed->quads.along);
+  kz_digit_constants_free(speed->digits, speed->n_steps);
   free(speed);
 }

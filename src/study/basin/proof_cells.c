@@ -20,7 +20,13 @@ static const kz_level proof_levels[KZ_ENCLOSURES] = {
     [KZ_ENCLOSE_DOUBLES] = {.stage = "proof in doubles", .evidence = KZ_PROVED, .tile = 8192},
     [KZ_ENCLOSE_PAIRS] = {.stage = "proof in pairs", .evidence = KZ_PROVED_IN_PAIRS, .tile = 1024},
     [KZ_ENCLOSE_QUADS] = {.stage = "proof in quads", .evidence = KZ_PROVED_IN_QUADS, .tile = 32},
+    [KZ_ENCLOSE_DIGITS] = {.stage = "proof in 48 digits", .evidence = KZ_PROVED_IN_QUADS, .tile = 8},
 };
+
+/* The number of levels for cells. */
+static int32_t levels_of(const kz_basin_plan *plan) {
+  return plan->proof_digits == KZ_PROOF_IN_48_DIGITS ? KZ_ENCLOSURES : KZ_ENCLOSE_DIGITS;
+}
 
 /* Tiles from .. to - 1. */
 typedef struct {
@@ -83,8 +89,12 @@ static kz_status prove_at(void *context, int32_t level, int64_t n, const int64_t
 }
 
 static kz_status prove_left(const kz_run *run, part *p) {
-  const kz_labeller labeller = {
-      .way = KZ_BY_LEVELS, .context = p, .at = prove_at, .levels = proof_levels, .n_levels = KZ_ENCLOSURES, .run = run};
+  const kz_labeller labeller = {.way = KZ_BY_LEVELS,
+                                .context = p,
+                                .at = prove_at,
+                                .levels = proof_levels,
+                                .n_levels = levels_of(p->labelling->plan),
+                                .run = run};
   KZ_FREED kz_label *label = kz_malloc((size_t)p->n_left * sizeof *label + 1);
   const double stands_for = kz_tiles_stand_for(p->labelling);
   kz_sampling_weigh(run, stands_for);

@@ -56,25 +56,12 @@ static void place_of(const quad end[2], const kz_enclosure *set, double z[2]) {
   z[1] = (double)((A[0][0] * v - A[1][0] * x) / det);
 }
 
-/* Of a start after some periods in quad precision. */
-static void true_place(const kz_pendulum *pendulum, const quad start[2], int64_t periods, const kz_enclosure *set,
-                       double z[2]) {
-  kz_reference_state state = {.turns = 0};
-  memcpy(state.quads, start, sizeof state.quads);
-  kz_reference_advance(pendulum, KZ_REFERENCE_STEPS, 1, periods, &state);
-  quad end[2];
-  memcpy(end, state.quads, sizeof end);
-  place_of(end, set, z);
-}
-
-/* |z| / reach of a start at y of the set's beginning, in units of its half sides: above 1, it lies outside. */
-static double place_in(const kz_pendulum *pendulum, const kz_enclosure *begin, const double y[2], int64_t periods,
-                       const kz_enclosure *set) {
-  const quad start[2] = {(quad)begin->theta[0] + begin->theta[1] + (quad)y[0] * begin->reach[0],
-                         (quad)begin->velocity[0] + begin->velocity[1] + (quad)y[1] * begin->reach[1]};
-  double z[2];
-  true_place(pendulum, start, periods, set, z);
-  return fmax(fabs(z[0]) / set->reach[0], fabs(z[1]) / set->reach[1]);
+/* Where n starts, at most 2 SETS, are after some periods, in quad precision: many at once, since each call makes tables and fills lanes. */
+static void true_ends(const kz_pendulum *pendulum, int n, const quad start[][2], int64_t periods, quad end[][2]) {
+  kz_reference_state state[2 * SETS] = {{.turns = 0}};
+  for (int i = 0; i < n; i++) memcpy(state[i].quads, start[i], sizeof state[i].quads);
+  kz_reference_advance(pendulum, KZ_REFERENCE_STEPS, n, periods, state);
+  for (int i = 0; i < n; i++) memcpy(end[i], state[i].quads, sizeof end[i]);
 }
 
 /* Sets at random starts, or where adversary: at turning points of the sine and of the torque's sign. */
@@ -93,11 +80,19 @@ static double farthest_place(const kz_pendulum *pendulum, const kz_enclosure_tab
   place_sets(fastest, half, begin);
   memcpy(set, begin, sizeof set);
   for (int64_t period = 1; period <= PERIODS; period++) {
+    quad start[SETS][2], end[SETS][2];
     kz_enclosures_advance(plan, KZ_NEW_FRAME, SETS, set);
-    for (int i = 0; i < SETS && period != 2; i++) {
-      const double y[2] = {rand() % 3 - 1, rand() % 3 - 1};
+    if (period == 2) continue;
+    for (int i = 0; i < SETS; i++) {
+      start[i][0] = (quad)begin[i].theta[0] + begin[i].theta[1] + (quad)(rand() % 3 - 1) * begin[i].reach[0];
+      start[i][1] = (quad)begin[i].velocity[0] + begin[i].velocity[1] + (quad)(rand() % 3 - 1) * begin[i].reach[1];
+    }
+    true_ends(pendulum, SETS, start, period, end);
+    for (int i = 0; i < SETS; i++) {
+      double z[2];
       if (!isfinite(set[i].reach[0])) continue;
-      farthest = fmax(farthest, place_in(pendulum, &begin[i], y, period, &set[i]));
+      place_of(end[i], &set[i], z);
+      farthest = fmax(farthest, fmax(fabs(z[0]) / set[i].reach[0], fabs(z[1]) / set[i].reach[1]));
       *kept += set[i].reach[0] + set[i].reach[1] < 1e5 * half + 1e-6;
     }
   }
@@ -127,8 +122,8 @@ static void points_hold_the_motion(void **state) {
   assert_true(farthest[0] < 1 && farthest[1] < 1 && kept > 0.9 * 2 * DRAWS * SETS * (PERIODS - 1));
 }
 
-/* The largest |z| / reach of sets of one point, against orbits in 200 bits. */
-static double farthest_of_points(const kz_pendulum *pendulum, int32_t precision, double fastest, int periods,
+/* The largest |z| / reach of sets of one point, against orbits in 200 bits that are read to 113: of sets that reach farther than `least`. */
+static double farthest_of_points(const kz_pendulum *pendulum, int32_t precision, double fastest, int periods, double least,
                                  kz_enclosure set[SETS]) {
   kz_enclosure_tables *plan = plan_for(pendulum, precision, fastest);
   kz_arbitrary *orbit[SETS];
@@ -144,6 +139,7 @@ static double farthest_of_points(const kz_pendulum *pendulum, int32_t precision,
       assert_int_equal(kz_arbitrary_advance(orbit[i], 200, 0, NULL), KZ_OK);
       kz_arbitrary_read_quads(orbit[i], end);
       place_of(end, &set[i], z);
+      if (!(fmin(set[i].reach[0], set[i].reach[1]) > least)) continue;
       farthest = fmax(farthest, fmax(fabs(z[0]) / set[i].reach[0], fabs(z[1]) / set[i].reach[1]));
     }
   }
@@ -162,8 +158,8 @@ static void points_in_quads_hold_the_motion(void **state) {
     kz_enclosure set[2][SETS];
     place_sets(fastest, 0, set[0]);
     memcpy(set[1], set[0], sizeof set[1]);
-    farthest = fmax(farthest, farthest_of_points(&pendulum, KZ_ENCLOSE_QUADS, fastest, PERIODS, set[0]));
-    farthest = fmax(farthest, farthest_of_points(&pendulum, KZ_ENCLOSE_PAIRS, fastest, PERIODS, set[1]));
+    farthest = fmax(farthest, farthest_of_points(&pendulum, KZ_ENCLOSE_QUADS, fastest, PERIODS, 0, set[0]));
+    farthest = fmax(farthest, farthest_of_points(&pendulum, KZ_ENCLOSE_PAIRS, fastest, PERIODS, 0, set[1]));
     for (int i = 0; i < SETS; i++)
       narrower = fmax(narrower, (set[0][i].reach[0] + set[0][i].reach[1]) / (set[1][i].reach[0] + set[1][i].reach[1]));
   }
@@ -171,16 +167,41 @@ static void points_in_quads_hold_the_motion(void **state) {
   assert_true(farthest < 1 && farthest > 1e-3 && narrower < 0.05);
 }
 
+/* Starts beside an upper position that grows by 1e4 a period: so the errors of 48 digits become large enough for quads to see. */
+static void points_in_digits_hold_the_motion(void **state) {
+  (void)state;
+  enum { GROWN = 5 };
+  int seen = 0;
+  for (int draw = 0; draw < 4; draw++) {
+    kz_pendulum pendulum = some_pendulum(draw);
+    kz_enclosure set[2][SETS];
+    pendulum.k = 2;
+    pendulum.beta = 0.02;
+    for (int i = 0; i < SETS; i++) set[0][i] = set_at(M_PI + 1e-13 * i, 0, 0);
+    memcpy(set[1], set[0], sizeof set[1]);
+    const double farthest = farthest_of_points(&pendulum, KZ_ENCLOSE_DIGITS, 3, GROWN, 1e-31, set[0]);
+    farthest_of_points(&pendulum, KZ_ENCLOSE_QUADS, 3, GROWN, 0, set[1]);
+    if (getenv("KZ_SHOW"))
+      print_message("digits: %g of the bound, reach %g, quads' %g\n", farthest, set[0][0].reach[0], set[1][0].reach[0]);
+    assert_true(farthest < 1);
+    for (int i = 0; i < SETS; i++) {
+      seen += fmin(set[0][i].reach[0], set[0][i].reach[1]) > 1e-31;
+      assert_true(set[0][i].reach[0] + set[0][i].reach[1] < 1e-11 * (set[1][i].reach[0] + set[1][i].reach[1]));
+    }
+  }
+  assert_true(seen > SETS);
+}
+
 /* Single starts many turns away, where pairs know the angle to fewer digits than a step adds: |z| / reach after a period. */
 static void far_angles_hold_the_motion(void **state) {
   (void)state;
   const kz_pendulum pendulum = some_pendulum(0);
   srand(7);
-  for (int32_t precision = 0; precision < KZ_ENCLOSURES; precision++)
+  for (int32_t precision = 0; precision < KZ_ENCLOSE_DIGITS; precision++)
     for (double distance = 10; distance < 2e6; distance *= 100) {
       kz_enclosure set[SETS];
       for (int i = 0; i < SETS; i++) set[i] = set_at(uniform(-distance, distance), uniform(-3, 3), 0);
-      const double farthest = farthest_of_points(&pendulum, precision, 3, 1, set);
+      const double farthest = farthest_of_points(&pendulum, precision, 3, 1, 0, set);
       if (getenv("KZ_SHOW")) print_message("precision %d at %g: %g of the bound\n", precision, distance, farthest);
       assert_true(farthest < 1);
     }
@@ -225,13 +246,17 @@ static double share_of_growth(const kz_pendulum *pendulum, const kz_enclosure_ta
   place_sets(2, half, begin);
   memcpy(set, begin, sizeof set);
   kz_enclosures_advance(plan, KZ_KEEP_FRAME, SETS, set);
+  quad start[2 * SETS][2], end[2 * SETS][2];
+  for (int i = 0; i < 2 * SETS; i++) {
+    start[i][0] = (quad)begin[i / 2].theta[0] + (quad)corner[i % 2][0] * half;
+    start[i][1] = (quad)begin[i / 2].velocity[0] + (quad)corner[i % 2][1] * half;
+  }
+  true_ends(pendulum, 2 * SETS, start, 1, end);
   for (int i = 0; i < SETS; i++) {
     double z[2][2];
     if (!isfinite(set[i].reach[0])) continue;
     for (int c = 0; c < 2; c++) {
-      const quad start[2] = {(quad)begin[i].theta[0] + (quad)corner[c][0] * half,
-                             (quad)begin[i].velocity[0] + (quad)corner[c][1] * half};
-      true_place(pendulum, start, 1, &set[i], z[c]);
+      place_of(end[2 * i + c], &set[i], z[c]);
       for (int j = 0; j < 2; j++) largest = fmax(largest, fabs(z[c][j] - corner[c][j] * half) / (set[i].reach[j] - half));
     }
     for (int j = 0; j < 2; j++)
@@ -340,6 +365,7 @@ int main(void) {
                                      cmocka_unit_test(sums_of_products_are_as_good_as_their_bound),
                                      cmocka_unit_test(points_hold_the_motion),
                                      cmocka_unit_test(points_in_quads_hold_the_motion),
+                                     cmocka_unit_test(points_in_digits_hold_the_motion),
                                      cmocka_unit_test(far_angles_hold_the_motion),
                                      cmocka_unit_test(flat_frames_are_lost),
                                      cmocka_unit_test(boxes_hold_the_motion),
