@@ -37,7 +37,7 @@ kz_status kz_proof_plan(const kz_scene *scene, kz_proof **proof) {
   const double fastest = kz_axis_fastest(&plan->velocity);
   const kz_pendulum *pendulum = &scene->parameters.pendulum;
   kz_status status = kz_proof_create(pendulum, COLUMNS, rows_of(scene), top_of(scene), fastest, proof);
-  if (status == KZ_OK && plan->proof_digits == KZ_PROOF_IN_48_DIGITS) status = kz_proof_refine(*proof, pendulum, fastest);
+  if (status == KZ_OK && plan->proof_digits > KZ_PROOF_IN_QUADS) status = kz_proof_refine(*proof, pendulum, fastest);
   if (status != KZ_REFUSED) return status;
   return kz_fail(
       KZ_REFUSED,

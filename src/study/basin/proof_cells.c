@@ -25,7 +25,7 @@ static const kz_level proof_levels[KZ_ENCLOSURES] = {
 
 /* The number of levels for cells. */
 static int32_t levels_of(const kz_basin_plan *plan) {
-  return plan->proof_digits == KZ_PROOF_IN_48_DIGITS ? KZ_ENCLOSURES : KZ_ENCLOSE_DIGITS;
+  return plan->proof_digits > KZ_PROOF_IN_QUADS ? KZ_ENCLOSURES : KZ_ENCLOSE_DIGITS;
 }
 
 /* Tiles from .. to - 1. */

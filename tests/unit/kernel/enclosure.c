@@ -139,8 +139,8 @@ static double farthest_of_points(const kz_pendulum *pendulum, int32_t precision,
       assert_int_equal(kz_arbitrary_advance(orbit[i], 200, 0, NULL), KZ_OK);
       kz_arbitrary_read_quads(orbit[i], end);
       place_of(end, &set[i], z);
-      if (!(fmin(set[i].reach[0], set[i].reach[1]) > least)) continue;
-      farthest = fmax(farthest, fmax(fabs(z[0]) / set[i].reach[0], fabs(z[1]) / set[i].reach[1]));
+      for (int j = 0; j < 2; j++)
+        if (set[i].reach[j] > least) farthest = fmax(farthest, fabs(z[j]) / set[i].reach[j]);
     }
   }
   for (int i = 0; i < SETS; i++) kz_arbitrary_free(orbit[i]);
@@ -163,33 +163,24 @@ static void points_in_quads_hold_the_motion(void **state) {
     for (int i = 0; i < SETS; i++)
       narrower = fmax(narrower, (set[0][i].reach[0] + set[0][i].reach[1]) / (set[1][i].reach[0] + set[1][i].reach[1]));
   }
-  if (getenv("KZ_SHOW")) print_message("quads: %g of the bound, at most %g of pairs\n", farthest, narrower);
   assert_true(farthest < 1 && farthest > 1e-3 && narrower < 0.05);
 }
 
-/* Starts beside an upper position that grows by 1e4 a period: so the errors of 48 digits become large enough for quads to see. */
+/* Starts beside an upper position that grows by 1e4 a period: so the errors of 48 digits become large enough for quads to see. Those of quads fill
+ * the plane by then. */
 static void points_in_digits_hold_the_motion(void **state) {
   (void)state;
-  enum { GROWN = 5 };
-  int seen = 0;
-  for (int draw = 0; draw < 4; draw++) {
+  for (int draw = 0; draw < 4; draw += 3) {
     kz_pendulum pendulum = some_pendulum(draw);
-    kz_enclosure set[2][SETS];
+    kz_enclosure set[SETS];
+    int seen = 0;
     pendulum.k = 2;
     pendulum.beta = 0.02;
-    for (int i = 0; i < SETS; i++) set[0][i] = set_at(M_PI + 1e-13 * i, 0, 0);
-    memcpy(set[1], set[0], sizeof set[1]);
-    const double farthest = farthest_of_points(&pendulum, KZ_ENCLOSE_DIGITS, 3, GROWN, 1e-31, set[0]);
-    farthest_of_points(&pendulum, KZ_ENCLOSE_QUADS, 3, GROWN, 0, set[1]);
-    if (getenv("KZ_SHOW"))
-      print_message("digits: %g of the bound, reach %g, quads' %g\n", farthest, set[0][0].reach[0], set[1][0].reach[0]);
-    assert_true(farthest < 1);
-    for (int i = 0; i < SETS; i++) {
-      seen += fmin(set[0][i].reach[0], set[0][i].reach[1]) > 1e-31;
-      assert_true(set[0][i].reach[0] + set[0][i].reach[1] < 1e-11 * (set[1][i].reach[0] + set[1][i].reach[1]));
-    }
+    for (int i = 0; i < SETS; i++) set[i] = set_at(M_PI + 1e-13 * i, 0, 0);
+    assert_true(farthest_of_points(&pendulum, KZ_ENCLOSE_DIGITS, 3, 7, 1e-31, set) < 1);
+    for (int i = 0; i < SETS; i++) seen += fmax(set[i].reach[0], set[i].reach[1]) > 1e-31 && isfinite(set[i].reach[0]);
+    assert_true(seen > SETS / 2);
   }
-  assert_true(seen > SETS);
 }
 
 /* Single starts many turns away, where pairs know the angle to fewer digits than a step adds: |z| / reach after a period. */
@@ -201,9 +192,7 @@ static void far_angles_hold_the_motion(void **state) {
     for (double distance = 10; distance < 2e6; distance *= 100) {
       kz_enclosure set[SETS];
       for (int i = 0; i < SETS; i++) set[i] = set_at(uniform(-distance, distance), uniform(-3, 3), 0);
-      const double farthest = farthest_of_points(&pendulum, precision, 3, 1, 0, set);
-      if (getenv("KZ_SHOW")) print_message("precision %d at %g: %g of the bound\n", precision, distance, farthest);
-      assert_true(farthest < 1);
+      assert_true(farthest_of_points(&pendulum, precision, 3, 1, 0, set) < 1);
     }
 }
 
@@ -310,59 +299,8 @@ static void sines_are_as_good_as_their_bounds(void **state) {
   assert_true(worst_pair < 0x30p-106);
 }
 
-/* Adds x to an exact sum of n doubles, which do not overlap (J. R. Shewchuk, Discrete Comput. Geom. 18 (1997) 305). */
-static int grow(int n, double *part, double x) {
-  for (int i = 0; i < n; i++) {
-    const double s = part[i] + x, z = s - x;
-    part[i] = (part[i] - z) + (x - (s - z));
-    x = s;
-  }
-  part[n] = x;
-  return n + 1;
-}
-
-static int grow_product(int n, double *part, double a, double b) {
-  const double p = a * b;
-  return grow(grow(n, part, fma(a, b, -p)), part, p);
-}
-
-/* How far a sum of n products of pairs is off, over u^2 times the sum of their sizes; `cancel`: big ones that cancel. */
-static double sum_is_off(int n, bool cancel) {
-  double part[1000] = {0}, size = 0;
-  int parts = 0;
-  products s = {same(0), same(0)};
-  for (int i = 0; i < n; i++) {
-    const double scale = cancel ? (i % 2 ? -1 : 1) * ldexp(1, rand() % 30) : ldexp(1, -i);
-    const double a[2] = {scale * uniform(0.5, 1), 0}, b[2] = {uniform(0.5, 1), 0};
-    const double low[2] = {a[0] * uniform(-0x1p-54, 0x1p-54), b[0] * uniform(-0x1p-54, 0x1p-54)};
-    add_product(&s, (pair){same(a[0]), same(low[0])}, (pair){same(b[0]), same(low[1])});
-    parts = grow_product(parts, part, a[0], b[0]);
-    parts = grow_product(parts, part, low[0], b[0]);
-    parts = grow_product(parts, part, a[0], low[1]);
-    parts = grow_product(parts, part, low[0], low[1]);
-    size += fabs(a[0] * b[0]);
-  }
-  parts = grow(grow(parts, part, -s.high[0]), part, -s.low[0]);
-  double off = 0;
-  for (int i = 0; i < parts; i++) off += part[i];
-  return fabs(off) / (0x1p-106 * size);
-}
-
-/* (B2) */
-static void sums_of_products_are_as_good_as_their_bound(void **state) {
-  (void)state;
-  double worst = 0;
-  srand(5);
-  for (int i = 0; i < 20000; i++) {
-    const int n = 1 + rand() % 26;
-    worst = fmax(worst, sum_is_off(n, i % 2) / (n * n + 4 * n + 9));
-  }
-  assert_true(worst < 1 && worst > 0.1);
-}
-
 int main(void) {
   const struct CMUnitTest tests[] = {cmocka_unit_test(sines_are_as_good_as_their_bounds),
-                                     cmocka_unit_test(sums_of_products_are_as_good_as_their_bound),
                                      cmocka_unit_test(points_hold_the_motion),
                                      cmocka_unit_test(points_in_quads_hold_the_motion),
                                      cmocka_unit_test(points_in_digits_hold_the_motion),
