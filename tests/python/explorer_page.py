@@ -142,9 +142,9 @@ class Page:
         """Whether a window of this size, CSS pixels, cuts nothing off, and the controls end above the line at the bottom."""
         screen = {"width": width, "height": height, "deviceScaleFactor": 1, "mobile": False}
         self.driver.execute_cdp_cmd("Emulation.setDeviceMetricsOverride", screen)
-        controls, line = "$('film').closest('aside').getBoundingClientRect()", "document.querySelector('footer').getBoundingClientRect()"
-        film = "$('film').getBoundingClientRect()"
-        hidden = f"getComputedStyle($('film').closest('aside')).overflowY === 'auto' || {film}.bottom <= {line}.top + 1"
+        controls, line = "$('sliders').closest('aside').getBoundingClientRect()", "document.querySelector('footer').getBoundingClientRect()"
+        sliders = "$('sliders').getBoundingClientRect()"
+        hidden = f"getComputedStyle($('sliders').closest('aside')).overflowY === 'auto' || {sliders}.bottom <= {line}.top + 1"
         test = f"{controls}.bottom <= {line}.top + 1 && ({hidden}) && document.scrollingElement.scrollWidth <= {width}"
         fits = wait_for(lambda: self.run(test))  # the picture takes its new size a moment later
         self.driver.execute_cdp_cmd("Emulation.clearDeviceMetricsOverride", {})

@@ -180,6 +180,27 @@ def test_escape_ends_a_film(page):
 # ---- what is shown ----
 
 
+def test_the_pendulum_moves_from_the_first_second_and_shows_its_motion_in_other_ways(page):
+    assert wait_for(lambda: page.run("explorer.basins.motion?.at > 2"))  # nothing was clicked
+    line = page.module("motion.js", """(() => { const n = 48, samples = 40 * n + 1, numbers = new Float64Array(2 * samples);
+        for (let i = 0; i < samples; i++) numbers[samples + i] = 0.3 * Math.cos((Math.PI * i) / n);  // half of the drive's frequency
+        const header = { samples, samples_per_period: n, pivot: [] };
+        const motion = new its.Motion(header, new Uint8Array(numbers.buffer), { period: 2, settling_time: 4, near_time: 6 });
+        return motion.spectrum(3).filter(([, amplitude]) => amplitude > 1e-9); })()""")
+    assert line == [pytest.approx([0.5, 0.3])]
+    drawn = set()
+    for tab in page.driver.find_elements("css selector", "#views button"):
+        tab.click()
+        assert tab.get_attribute("aria-selected") == "true"
+        drawn.add(page.run("$('pendulum').toDataURL()"))
+    assert len(drawn) == 5
+    for key, gone in (("f", "aside"), ("p", "#panes")):
+        page.key(key)
+        assert page.run("getComputedStyle(document.querySelector(arguments[0])).display", gone) == "none"
+        page.key(key if key == "p" else "f")
+    assert page.run("document.body.dataset.filled") == ""
+
+
 def test_a_reload_keeps_the_view_and_the_address_has_no_token(page, striped):
     page.wheel(0.3, 0.6, -900)
     _ = page.slide("m", 0.4), page.choose("units", "degrees")
@@ -294,7 +315,7 @@ def test_pictures_tables_and_films_are_saved(page, folder):
     page.hand(0.7, 0.5, 0.7, 0.5)
     assert wait_for(lambda: not page.run("$('save-csv').disabled"))
     table = np.genfromtxt(page.saved("save-csv", folder / "orbit.csv"), delimiter=",", names=True)
-    assert len(table) == 24 * 48 + 1 and table["pivot_height"][0] == 0.3
+    assert len(table) == 42 * 48 + 1 and table["pivot_height"][0] == 0.3
     assert table["theta_rad"][0] == pytest.approx(-np.pi + 0.7 * TURN, abs=0.01)
     picture = matplotlib.image.imread(page.saved("save-png", folder / "view.png"))
     assert picture.shape[1] > 1500 and picture[..., :3].std() > 0.05

@@ -1,17 +1,19 @@
 // The panes of basins together: one or two, their hands, their legend, the motion from a start, what the page says of them.
 
-import { endingWords, Motion } from "./motion.js";
+import { endingWords, Motion, settledAfter } from "./motion.js";
 import { edgeNear } from "./boundary.js";
 import { asScene, unlabelled } from "./frames.js";
 import { listen } from "./gestures.js";
 import { rowsOf, writeLegend } from "./legend.js";
 import { Pane } from "./pane.js";
+import { Stage } from "./stage.js";
 import { placementOf } from "./placement.js";
 import { signed } from "./ticks.js";
 import { Units } from "./units.js";
 
 const SECOND = 1.2; // drive periods that a second shows
 const SAMPLES = 48; // of a motion, a drive period
+const FIRST = { theta: "2.9", velocity: "0", pane: "a" }; // the start that is played until one is chosen: near upright, at rest
 const [LEAST, MOST] = [24, 400]; // drive periods of a motion
 const [REACH, DRAWN] = [0.15, 0.4]; // how far boundaries draw the wheel (of the window), and which part of the way each step goes
 const FRAME_KEYS = ["window", "pendulum", "other", "quality", "samples", "shade"];
@@ -24,6 +26,7 @@ export class Basins {
     this.overlays = new Set(Object.keys(state.overlays));
     this.states = new Map();
     this.followed = 0;
+    this.stage = new Stage(element("pendulum"));
     state.listen((keys) => this.changed(keys));
     requestAnimationFrame((now) => this.tick(now));
   }
@@ -39,7 +42,12 @@ export class Basins {
   show() {
     this.arrange();
     this.write();
-    if (this.state.start) this.follow();
+    this.follow();
+  }
+
+  /** The start whose motion is played. */
+  get start() {
+    return this.state.start ?? FIRST;
   }
 
   /** As many panes as there are pendulums. */
@@ -122,7 +130,9 @@ export class Basins {
     if (keys.has("other")) this.arrange();
     if (FRAME_KEYS.some((key) => keys.has(key))) for (const pane of this.panes) pane.changed();
     if (keys.has("pendulum") || keys.has("other")) this.forgetMotion();
+    if (keys.has("start")) this.awaitMotion();
     if (keys.has("units")) this.writeEnding();
+    if (keys.has("view") || keys.has("colours")) this.drawStage();
     if (keys.has("start") || keys.has("pendulum") || keys.has("other")) this.followSoon();
     for (const pane of this.panes) pane.draw();
     this.write();
@@ -133,19 +143,24 @@ export class Basins {
   forgetMotion() {
     this.motion = null;
     for (const pane of this.panes) Object.assign(pane.plain, { motion: null, overlays: this.overlaysOf(pane) });
-    element("ending").textContent = this.state.start ? "…" : "Click on the basins.";
+    this.awaitMotion();
+    this.drawStage();
+  }
+
+  /** Another motion is asked for; that of before is played on until it is there. */
+  awaitMotion() {
+    element("ending").textContent = "…";
     delete element("ending").dataset.ending;
-    element("pendulum").getContext("2d").clearRect(0, 0, 220, 220);
     element("save-csv").disabled = element("play").disabled = true;
   }
 
   followSoon() {
     clearTimeout(this.timer);
-    if (this.state.start) this.timer = setTimeout(() => this.follow(), 220);
+    this.timer = setTimeout(() => this.follow(), 220);
   }
 
   async follow() {
-    const { start } = this.state;
+    const { start } = this;
     const order = ++this.followed;
     const pane = this.panes.find(({ name }) => name === start.pane) ?? this.panes[0];
     const request = { theta: start.theta, velocity: start.velocity, pendulum: asScene(pane.pendulum) };
@@ -154,7 +169,7 @@ export class Basins {
       const [ending] = await pane.engine.answer({ request: "where", ...request });
       if (order !== this.followed) return;
       found = `${signed(endingWords({ ...ending, ...start }, this.units))}\n`;
-      const wanted = (ending.settling_time ?? 0) + 4 * (ending.period || 1) + 8;
+      const wanted = settledAfter(ending) + 4 * (ending.period || 1) + 8;
       const periods = Math.round(Math.max(LEAST, Math.min(MOST, wanted)));
       const [header, bytes] = await pane.engine.answer({ request: "orbit", ...request, periods, samples_per_period: SAMPLES });
       if (order === this.followed) this.play(pane, new Motion(header, bytes, { ...ending, ...start }));
@@ -172,6 +187,10 @@ export class Basins {
     this.state.change({ playing: true });
   }
 
+  drawStage() {
+    this.stage.draw(this.motion, this.state.view, this.state.colours, this.units);
+  }
+
   writeEnding() {
     if (this.motion) element("ending").textContent = signed(endingWords(this.motion.ending, this.units));
   }
@@ -181,7 +200,7 @@ export class Basins {
     this.last = now;
     if (this.motion && this.state.playing) {
       this.motion.advance(seconds * SECOND);
-      this.motion.drawPendulum(element("pendulum"), this.state.colours, this.units);
+      this.drawStage();
       for (const pane of this.panes) if (pane.plain.motion) pane.draw();
     }
     requestAnimationFrame((next) => this.tick(next));

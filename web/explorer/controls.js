@@ -5,6 +5,7 @@ import { ask } from "./engine.js";
 import { Film } from "./film.js";
 import { copyText, savePng, saveScene, saveSvg, saveText } from "./save.js";
 import { Sliders } from "./sliders.js";
+import { VIEWS } from "./stage.js";
 
 const CHOICES = ["quality", "samples", "shade", "units", "theme", "middle"];
 const SWITCHES = ["points", "drawn"];
@@ -15,6 +16,30 @@ export function listenControls(state, basins, charts) {
   listenWindow(state, basins, film);
   listenChoices(state, basins);
   listenSaving(state, basins);
+  listenStage(state, basins);
+}
+
+/** Tabs of the motion, and buttons that let a part of the page fill it. */
+function listenStage(state, basins) {
+  const tabs = VIEWS.map((view) => {
+    const tab = Object.assign(document.createElement("button"), { textContent: view, onclick: () => state.change({ view }) });
+    tab.setAttribute("role", "tab");
+    return tab;
+  });
+  element("views").append(...tabs);
+  const show = () => tabs.forEach((tab, i) => tab.setAttribute("aria-selected", String(VIEWS[i] === state.view)));
+  state.listen(show);
+  show();
+  const close = (target) => document.querySelectorAll(".menu[open]").forEach((menu) => menu.contains(target) || (menu.open = false));
+  addEventListener("pointerdown", (event) => close(event.target));
+  addEventListener("keydown", (event) => event.key === "Escape" && (close(null), (document.body.dataset.filled = "")));
+  for (const button of document.querySelectorAll("[data-fills]"))
+    button.onclick = () => {
+      const { body } = document;
+      body.dataset.filled = body.dataset.filled === button.dataset.fills ? "" : button.dataset.fills;
+      basins.drawStage();
+    };
+  new ResizeObserver(() => basins.drawStage()).observe(element("pendulum"));
 }
 
 function complain(words) {

@@ -37,7 +37,7 @@ export class Inset {
     const [x, y] = [(place.left + place.width / 2) * width, (1 - place.bottom - place.height / 2) * height];
     const [across, up] = [(place.width * width) / 2, (place.height * height) / 2].map((half) => Math.max(LEAST, half));
     const surface = new CanvasSurface(this.painter.context);
-    const corners = [[-1, -1], [1, -1], [1, 1], [-1, 1], [-1, -1]].map(([i, j]) => [x + i * across, y + j * up]); // prettier-ignore
+    const corners = [[-1, -1], [1, -1], [1, 1], [-1, 1], [-1, -1]].map(([i, j]) => [x + i * across, y + j * up]);
     surface.line(corners, "#ffffff", 6);
     surface.line(corners, "#b3261e", 3);
   }

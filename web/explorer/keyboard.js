@@ -17,6 +17,8 @@ export function listenKeys(state, basins) {
     "+": () => basins.zoom(1 / ZOOM),
     "=": () => basins.zoom(1 / ZOOM),
     "-": () => basins.zoom(ZOOM),
+    f: () => press(document.body.dataset.filled === "motion" ? "fill-motion" : "fill-basins"),
+    p: () => press("fill-motion"),
     Enter: () => basins.click(basins.active, 0.5, 0.5),
     " ": () => press("play"),
     Escape: () => {

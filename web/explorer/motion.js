@@ -1,10 +1,10 @@
 // One motion of the pendulum: played with its drive beside the basins, its phase point and trace over them.
 
 import { drawLine, drawPoints } from "./plane.js";
-import { CanvasSurface } from "./surface.js";
 import { TURN } from "./window.js";
 
 const TRACE = 2.5; // drive periods of the bob's and the phase point's traces
+const LONGEST = 32; // drive periods of a spectrum
 const PAUSE = 1.5; // drive periods that the end is shown, before it begins anew
 
 export class Motion {
@@ -67,32 +67,54 @@ export class Motion {
     drawPoints(surface, plane, [[this.between(this.theta), this.between(this.velocity)]], "#ffffff", 5.5, "#b3261e");
   }
 
-  /** The pendulum: pivot, rod, bob and the bob's trace. */
-  drawPendulum(canvas, theme, units) {
-    const context = canvas.getContext("2d");
-    const surface = new CanvasSurface(context, theme);
-    const size = canvas.width;
+  /** Numbers of all samples. */
+  samples() {
+    return (this.numbers ??= [...this.theta.keys()]);
+  }
+
+  /** The angle of a sample in [0, 2 pi): upright is in the middle. */
+  wrapped(i) {
+    return this.theta[i] - TURN * Math.floor(this.theta[i] / TURN);
+  }
+
+  /** [[frequency, amplitude], ...] of the velocity, in drive frequencies up to `most`, over the last whole number of its periods. */
+  spectrum(most) {
+    if (this.lines) return this.lines;
+    const cycle = Math.max(1, this.ending.period || 1);
+    const settled = Math.floor(this.last / this.perPeriod - settledAfter(this.ending));
+    const periods = cycle * Math.max(1, Math.min(Math.floor(settled / cycle), Math.ceil(LONGEST / cycle)));
+    const count = Math.min(this.last, periods * this.perPeriod);
+    this.lines = [...Array(most * periods + 1).keys()].map((n) => {
+      let [even, odd] = [0, 0];
+      for (let i = 0; i < count; i++) {
+        const angle = (TURN * ((n * i) % count)) / count;
+        even += this.velocity[this.last - count + i] * Math.cos(angle);
+        odd += this.velocity[this.last - count + i] * Math.sin(angle);
+      }
+      return [n / periods, ((n ? 2 : 1) * Math.hypot(even, odd)) / count];
+    });
+    return this.lines;
+  }
+
+  /** The pendulum on its shaker: pivot, rod, bob and the bob's trace. */
+  drawPendulum(surface, width, height, units) {
+    const { theme } = surface;
     const most = Math.max(...this.pivot.flat().map(Math.abs));
-    const rod = size / 2 / (1.12 + most);
-    const place = (x, y) => [size / 2 + rod * x, size / 2 - rod * y];
-    const bob = (angle, [aside, height]) => place(aside + Math.sin(angle), height - Math.cos(angle));
+    const rod = Math.min(width, height) / 2 / (1.12 + most);
+    const place = (x, y) => [width / 2 + rod * x, height / 2 - rod * y];
+    const bob = (angle, [aside, up]) => place(aside + Math.sin(angle), up - Math.cos(angle));
     const pivot = this.pivotAt(this.at);
     const angle = this.between(this.theta);
-    context.clearRect(0, 0, size, size);
-    surface.line(
-      [...this.pivot, this.pivot[0]].map((at) => place(...at)),
-      theme.faint,
-      5,
-    );
-    surface.line(
-      this.trace().map((i) => bob(this.theta[i], this.pivotAt(i))),
-      theme.trace,
-      1.5,
-    );
-    surface.line([place(...pivot), bob(angle, pivot)], theme.ink, 3);
-    surface.circle(...place(...pivot), 4, theme.ink, theme.ink);
-    surface.circle(...bob(angle, pivot), 9, theme.mark, theme.paper);
-    surface.text(units.omega ? units.time(this.period) : `period ${this.period}`, 6, size - 8, "left", { size: 20 });
+    const [x, y] = place(...pivot);
+    const [, base] = place(0, -most);
+    surface.rectangle(width / 2 - 0.16 * rod, base + 0.3 * rod, 0.32 * rod, height - base - 0.3 * rod, theme.shaker);
+    surface.line([[x, y], [x, base + 0.34 * rod]], theme.faint, 0.1 * rod);
+    surface.line([...this.pivot, this.pivot[0]].map((at) => place(...at)), theme.faint, 2);
+    surface.line(this.trace().map((i) => bob(this.theta[i], this.pivotAt(i))), theme.trace, 2);
+    surface.line([[x, y], bob(angle, pivot)], theme.ink, Math.max(3, 0.045 * rod));
+    surface.circle(x, y, Math.max(4, 0.05 * rod), theme.ink, theme.ink);
+    surface.circle(...bob(angle, pivot), Math.max(8, 0.12 * rod), theme.mark, theme.paper);
+    surface.text(units.omega ? units.time(this.period) : `period ${this.period}`, 6, height - 8, "left", { colour: theme.faint });
   }
 
   /** Lines of time (drive radians), theta, velocity, the pivot's height and how far it is aside. */
@@ -103,6 +125,9 @@ export class Motion {
     return `${lines.join("\n")}\n`;
   }
 }
+
+/** Drive periods after which a start is near its end for good. */
+export const settledAfter = ({ settling_time: certain, near_time: near }) => Math.max(certain ?? 0, Number.isFinite(near) ? near : 0);
 
 /** Where a start ends, in words; `units`: of the page. */
 export function endingWords(ending, units) {

@@ -16,7 +16,7 @@ const EASE = 0.4; // of the way to the window wanted, a picture of the screen
 const LEAP = 30;
 
 export class Pane {
-  /** In the element `root`; `name`: of its program; `report(pane)` receives every frame, `say` what it does. */
+  /** In the element `root`; `name`: of its program; `report(pane)` hears of every frame, `say` of what it does. */
   constructor(root, name, state, { report, say }) {
     Object.assign(this, { root, name, state, report, say });
     this.basins = root.querySelector(".basins");
@@ -236,7 +236,8 @@ export class Pane {
         for (const row of this.top.catalogue.attractors)
           drawPoints(surface, plane, row.strobe, "#1c2127", row.strobe.length > 2 ? 3.2 : 4.6);
       if (motion) motion.drawOver(surface, plane);
-      const places = marks.map(([theta, velocity]) => plane.placeOf(plane.window.theta.shareOf(theta), plane.window.velocity.shareOf(velocity)));
+      const { theta: angles, velocity: speeds } = plane.window;
+      const places = marks.map(([theta, velocity]) => plane.placeOf(angles.shareOf(theta), speeds.shareOf(velocity)));
       if (places.length > 1) surface.line(places, "#b3261e", 2);
       for (const place of places) surface.circle(...place, 5, "#ffffff", "#b3261e");
     });

@@ -30,7 +30,7 @@ export async function copyText(text) {
 export async function saveScene(state, pane) {
   const frame = pane.top;
   const body = {
-    window: state.window.toRequest(),
+    window: state.window.centred("hanging").toRequest(), // as its frames are asked for
     pendulum: asScene(pane.pendulum),
     rows: frame?.rows ?? pane.basins.height,
     columns: frame?.columns ?? pane.basins.width,

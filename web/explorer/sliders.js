@@ -31,7 +31,7 @@ export function placeOf(value, home) {
   return Math.max(-1, Math.min(1, place));
 }
 
-/** Fills `holder`; `change(name, text)` receives each new value, `say(words)` what is no number. */
+/** Fills `holder`; `change(name, text)` hears of each new value, `say(words)` of what is no number. */
 export class Sliders {
   constructor(holder, scene, { change, say }) {
     this.scene = scene;

@@ -2,7 +2,18 @@
 
 import { Window } from "./window.js";
 
-export const DEFAULTS = { quality: "exact", samples: "2", shade: "none", units: "pi", theme: "auto", points: "on", painter: "auto", middle: "upright", drawn: "off" };
+export const DEFAULTS = {
+  quality: "exact",
+  samples: "2",
+  shade: "none",
+  units: "pi",
+  theme: "auto",
+  points: "on",
+  painter: "auto",
+  middle: "upright",
+  drawn: "off",
+  view: "pendulum",
+};
 
 /** The state: change() tells everyone who listens which keys have changed. */
 export class State {
@@ -80,10 +91,12 @@ const REMEMBERED = ["middle", "theme", "drawn"];
 
 /** Choices that hold for every scene. A cookie keeps them: it is the same for all ports of this machine, where other storage is not. */
 export function remember(state, keys) {
-  for (const name of REMEMBERED.filter((key) => keys.has(key))) document.cookie = `kapitza_${name}=${state[name]}; max-age=31536000; path=/; samesite=strict`;
+  for (const name of REMEMBERED.filter((key) => keys.has(key)))
+    document.cookie = `kapitza_${name}=${state[name]}; max-age=31536000; path=/; samesite=strict`;
 }
 
 export function remembered() {
-  const kept = document.cookie.split("; ").map((text) => text.split("="));
-  return Object.fromEntries(REMEMBERED.flatMap((name) => kept.filter(([key]) => key === `kapitza_${name}`).map(([, value]) => [name, value])));
+  const kept = new Map(document.cookie.split("; ").map((text) => text.split("=")));
+  const names = REMEMBERED.filter((name) => kept.has(`kapitza_${name}`));
+  return Object.fromEntries(names.map((name) => [name, kept.get(`kapitza_${name}`)]));
 }

@@ -3,8 +3,8 @@
 const FONT = '"DejaVu Sans", "Helvetica Neue", Arial, sans-serif';
 
 /** Colours of lines and letters. Saved pictures are always on white. */
-export const LIGHT = { paper: "#ffffff", ink: "#1c2127", faint: "#6b747e", trace: "#a9c4df", mark: "#b3261e" };
-export const DARK = { paper: "#14181d", ink: "#e4e8ec", faint: "#98a2ad", trace: "#3f5f80", mark: "#ff8a7a" };
+export const LIGHT = { paper: "#ffffff", ink: "#1c2127", faint: "#6b747e", trace: "#a9c4df", mark: "#b3261e", shaker: "#dfe4e9" };
+export const DARK = { paper: "#14181d", ink: "#e4e8ec", faint: "#98a2ad", trace: "#3f5f80", mark: "#ff8a7a", shaker: "#2a323b" };
 
 export class CanvasSurface {
   constructor(context, theme = LIGHT) {
