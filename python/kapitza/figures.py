@@ -22,12 +22,12 @@ _GROWTH: _Row = ("", "stability", ["--view", "growth"])
 _TRAP: _Row = ("", "stability", ["--view", "trap"])
 _FREQUENCY: _Row = ("", "stability", ["--view", "frequency"])
 _ERRORS: _Row = ("", "stability", ["--view", "errors"])
-_ENDS: _Row = ("", "chart", ["--dpi", "130"])
+_ENDS: _Row = ("", "chart", [])
 _POTENTIAL: _Row = ("", "potential", [])
 _TRADE: _Row = ("", "tradeoff", [])
 _PROVED: _Row = ("", "basin", ["--quantity", "evidence"])
 
-_ATLAS: _Row = ("", "atlas", ["--dpi", "130"])
+_ATLAS: _Row = ("", "atlas", [])
 _MOTIONS: _Row = ("-motions", "atlas", ["--view", "motions"])
 
 _SCENES = {

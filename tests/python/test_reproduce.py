@@ -6,13 +6,16 @@ import shlex
 import subprocess
 import sys
 
+import numpy as np
+import reproduce
 from conftest import PROGRAM, ROOT
 from kapitza.command import KINDS
-from kapitza.figures import FIGURES
+from kapitza.figures import FIGURES, PRINT
 from papers import butikov
 from papers.number import FAILED, Number
 from papers.page import write_page
 from papers.runs import Runs
+from PIL import Image
 
 
 def test_every_scene_has_a_figure_and_every_figure_a_scene():
@@ -24,6 +27,16 @@ def test_names_are_used_once_and_kinds_exist():
     names = [name for name, _, _, _ in FIGURES]
     assert len(set(names)) == len(names)
     assert all(kind in KINDS for _, _, kind, _ in FIGURES)
+
+
+def test_every_figure_has_one_style_and_keeps_its_colours_as_it_shrinks(tmp_path):
+    assert all(options[-len(PRINT):] == PRINT and options.count("--dpi") == 1 for _, _, _, options in FIGURES)
+    path = tmp_path / "a.png"
+    noise = np.random.default_rng(1).integers(0, 2, (200, 200, 3), dtype=np.uint8) * np.array([240, 9, 77], dtype=np.uint8)
+    Image.fromarray(noise).save(path, dpi=(300, 300))
+    reproduce.shrink(path)
+    kept = Image.open(path)
+    assert kept.mode == "P" and round(kept.info["dpi"][0]) == 300 and np.abs(np.array(kept.convert("RGB")).astype(int) - noise).max() <= 4
 
 
 def test_scenes_say_what_they_show_and_how_to_run_them():
