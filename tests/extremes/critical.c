@@ -1,8 +1,5 @@
 /* Attractors near a bifurcation: the right one or none, never one that is not there, never two taken for one. */
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <cmocka.h>
+#include "../tools/test.h"
 
 #include <math.h>
 
@@ -49,8 +46,7 @@ static double critical(kz_pendulum (*family)(double), const kz_numerics *numeric
 }
 
 /* Where flutter begins, to the last digits of the reference; how far the steps of a scene move it. */
-static void the_flip_is_where_it_should_be(void **unused) {
-  (void)unused;
+TEST(the_flip_is_where_it_should_be) {
   const double known = 0.46819030239029;
   assert_true(fabs(critical(blackburn, &fine, PI, 0.468, 0.4684) - known) < 1e-14);
   assert_true(fabs(critical(blackburn, &usual, PI, 0.468, 0.4684) - known) < 2e-12);
@@ -77,8 +73,7 @@ static kz_dynamics *searched(const kz_pendulum *pendulum, const kz_numerics *num
 }
 
 /* Either side of epsilon_c: below, inverted attracts and there is no flutter; above, flutter grows as the square root. */
-static void a_flip_is_never_mistaken(void **unused) {
-  (void)unused;
+TEST(a_flip_is_never_mistaken) {
   const double begin = critical(blackburn, &fine, PI, 0.468, 0.4684), centre[2] = {PI, 0}, offset[2] = {-0.01, 0.001};
   for (int i = 0; i < 240; i++) {
     const double distance = (i % 3 ? -1 : 1) * pow(10, -12 + 6.0 * i / 240);
@@ -102,8 +97,7 @@ static void a_flip_is_never_mistaken(void **unused) {
 }
 
 /* Beyond the pitchfork of `down` two mirror images attract, so far apart. */
-static void mirror_images_are_two(void **unused) {
-  (void)unused;
+TEST(mirror_images_are_two) {
   const kz_numerics steps = {.scheme = SPLIT6, .steps_per_period = 192};
   const double begin = critical(second_tongue, &steps, 0, 0.995, 0.996), centre[2] = {0, 0};
   for (double apart = 1e-3; apart > 5e-7; apart /= 10) { /* rounding may leave open where the nearest pair is */
@@ -132,8 +126,7 @@ static void mirror_images_are_two(void **unused) {
 kz_dynamics *kz_test_doublet_create(double apart);
 
 /* Two attractors, whatever their distance down to 1e-7, and no start is ever given to the wrong one. */
-static void attractors_close_together_are_told_apart(void **unused) {
-  (void)unused;
+TEST(attractors_close_together_are_told_apart) {
   for (double apart = 1e-2; apart > 1e-9; apart /= 2) {
     kz_dynamics *d = kz_test_doublet_create(apart);
     double state[2 * STATES];
@@ -160,14 +153,4 @@ static void attractors_close_together_are_told_apart(void **unused) {
     }
     kz_dynamics_free(d);
   }
-}
-
-int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(the_flip_is_where_it_should_be),
-      cmocka_unit_test(a_flip_is_never_mistaken),
-      cmocka_unit_test(mirror_images_are_two),
-      cmocka_unit_test(attractors_close_together_are_told_apart),
-  };
-  return cmocka_run_group_tests(tests, NULL, NULL);
 }

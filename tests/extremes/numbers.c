@@ -1,8 +1,5 @@
 /* One drive period at extreme numbers against the quad-precision reference and theory; a state that is lost becomes NaN. */
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <cmocka.h>
+#include "../tools/test.h"
 
 #include <float.h>
 #include <math.h>
@@ -47,8 +44,7 @@ static double true_error(const kz_pendulum *pendulum, const kz_numerics *numeric
 }
 
 /* Within 1e-4 rad, from which on the program warns. */
-static void a_period_is_right_at_the_extremes(void **unused) {
-  (void)unused;
+TEST(a_period_is_right_at_the_extremes) {
   const double ms[] = {0, 1e-300, 5e-324, 1e-8, -0.3, 1}, betas[] = {0, 5e-324, 1e-12, 1, 40}, ks[] = {0, -0.1, 1e-16, 0.25},
                speeds[] = {0, 1e-300, 1e-320, 1e-8, 2};
   for (int a = 0; a < 6; a++)
@@ -61,8 +57,7 @@ static void a_period_is_right_at_the_extremes(void **unused) {
         }
 }
 
-static void what_diverges_is_told(void **unused) {
-  (void)unused;
+TEST(what_diverges_is_told) {
   const struct {
     kz_pendulum pendulum;
     kz_numerics numerics;
@@ -79,21 +74,11 @@ static void what_diverges_is_told(void **unused) {
 }
 
 /* Angles without a fraction are not angles: the state is NaN. */
-static void lost_angles_are_not_numbers(void **unused) {
-  (void)unused;
+TEST(lost_angles_are_not_numbers) {
   const kz_pendulum pendulum = {0, 0, 0};
   const kz_numerics numerics = {.scheme = SPLIT6, .steps_per_period = 24};
   double theta[N], velocity[N];
   put_starts(1e17, theta, velocity);
   advance(&pendulum, &numerics, theta, velocity);
   for (int i = 0; i < N; i++) assert_true(isnan(theta[i]));
-}
-
-int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(a_period_is_right_at_the_extremes),
-      cmocka_unit_test(what_diverges_is_told),
-      cmocka_unit_test(lost_angles_are_not_numbers),
-  };
-  return cmocka_run_group_tests(tests, NULL, NULL);
 }

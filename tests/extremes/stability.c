@@ -1,11 +1,8 @@
 /* Charts and curves at m = 1e-12 .. 1e3, k = -1e4 .. 1e4, Q = 0.5 .. 1e8: right, never an unexplained NaN. */
 #include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
 #include <string.h>
 
-#include <cmocka.h>
+#include "../tools/test.h"
 
 #include "kapitza/analysis.h"
 #include "kapitza/kernel.h"
@@ -25,8 +22,7 @@ static double value(const char *name, double k, double beta, double quality_fact
   return NAN;
 }
 
-static void chart_holds_numbers(void **unused) {
-  (void)unused;
+TEST(chart_holds_numbers) {
   const double ks[] = {-1e4, -300, -1, -1e-8, 0, 1e-300, 1e-8, 0.25, 1, 77, 1e4};
   const double ms[] = {0, 1e-300, 1e-12, 1e-3, 1, 30, 1e3, -1e3}, qs[] = {0.5, 1, 10, 1e8, INFINITY};
   for (int i = 0; i < 11; i++)
@@ -42,8 +38,7 @@ static void chart_holds_numbers(void **unused) {
 }
 
 /* On the axis the tongues begin at k = n^2/4: there |trace| is 2, neither below nor above. */
-static void feet_of_the_tongues_are_on_the_edge(void **unused) {
-  (void)unused;
+TEST(feet_of_the_tongues_are_on_the_edge) {
   const double m = 0, beta = 0;
   for (int n = 0; n <= 40; n++) {
     double k = 0.25 * n * n, log_multiplier, angle;
@@ -57,8 +52,7 @@ static void feet_of_the_tongues_are_on_the_edge(void **unused) {
 }
 
 /* Multipliers beyond any double: the growth of u'' = 1e4 u is exp(100 t). */
-static void growth_is_a_logarithm(void **unused) {
-  (void)unused;
+TEST(growth_is_a_logarithm) {
   const double k = -1e4, m = 0, betas[] = {0, 1, 200, 1e4};
   for (int i = 0; i < 4; i++) {
     double log_multiplier, angle, beta = betas[i];
@@ -70,8 +64,7 @@ static void growth_is_a_logarithm(void **unused) {
 }
 
 /* 40-digit Taylor integration: angles deep in stable zones. */
-static void angles_to_twelve_digits(void **unused) {
-  (void)unused;
+TEST(angles_to_twelve_digits) {
   const struct {
     double k, beta, m, angle;
   } points[] = {
@@ -97,8 +90,7 @@ static void angles_to_twelve_digits(void **unused) {
 }
 
 /* Next to the axis m follows from the distance to it: k = 1/4 -+ m/2, 1 - m^2/12, 1 + 5 m^2/12, -m^2/2. */
-static void curves_next_to_the_axis(void **unused) {
-  (void)unused;
+TEST(curves_next_to_the_axis) {
   for (double distance = 1e-3; distance > 1e-15; distance *= 0.1) {
     double below = 0.25 - distance, above = 0.25 + distance, tolerance = distance + 1e-12;
     assert_true(fabs(value("exact_2", below, 0, NAN) / (2 * (0.25 - below)) - 1) < tolerance);
@@ -111,8 +103,7 @@ static void curves_next_to_the_axis(void **unused) {
 }
 
 /* Far below, a_r and b_(r+1) follow 4k = -2q + 2 (2r+1) sqrt(q) - ((2r+1)^2 + 1)/8 - ... (DLMF 28.8.1). */
-static void curves_far_below(void **unused) {
-  (void)unused;
+TEST(curves_far_below) {
   const char *names[] = {"exact_1", "exact_2", "exact_3_upper", "exact_4", "exact_5_upper"};
   const int order[] = {0, 0, 1, 1, 2};
   for (int i = 0; i < 5; i++)
@@ -125,8 +116,7 @@ static void curves_far_below(void **unused) {
 }
 
 /* The damped edges exist and order themselves for every quality factor; thresholds keep their digits at Q = 1e8. */
-static void damping_at_its_ends(void **unused) {
-  (void)unused;
+TEST(damping_at_its_ends) {
   for (double q = 0.5; q <= 1e8; q *= 4)
     for (double k = -1e-12; k >= -1e4; k *= 10) {
       double lower = value("damped_0", k, 0, q), first = value("damped_1", k, 0, q), second = value("damped_2", k, 0, q);
@@ -141,8 +131,7 @@ static void damping_at_its_ends(void **unused) {
 }
 
 /* The slow energy keeps its digits where k^2 would cancel them, and where u passes 0. */
-static void potential_at_its_ends(void **unused) {
-  (void)unused;
+TEST(potential_at_its_ends) {
   for (double k = 1e-3; k > 1e-300; k *= 1e-3) {
     kz_energy energy;
     kz_potential_energy(k, 0, 1, 2, &energy);
@@ -153,18 +142,4 @@ static void potential_at_its_ends(void **unused) {
     kz_potential_energy(k, 0.1, 1e3, 3, &energy);
     assert_true(isfinite(energy.exact) && isfinite(energy.blackburn) && isfinite(energy.simple));
   }
-}
-
-int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(chart_holds_numbers),
-      cmocka_unit_test(growth_is_a_logarithm),
-      cmocka_unit_test(feet_of_the_tongues_are_on_the_edge),
-      cmocka_unit_test(angles_to_twelve_digits),
-      cmocka_unit_test(curves_next_to_the_axis),
-      cmocka_unit_test(curves_far_below),
-      cmocka_unit_test(damping_at_its_ends),
-      cmocka_unit_test(potential_at_its_ends),
-  };
-  return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,9 +1,6 @@
 /* The stated error of a drive period is an upper estimate: held against the largest one of a dense sample, pendulum by
  * pendulum. */
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <cmocka.h>
+#include "../tools/test.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -53,8 +50,7 @@ static double drawn(void) {
   return (double)(state >> 11) / 9007199254740992.0;
 }
 
-static void the_stated_error_is_an_upper_estimate(void **unused) {
-  (void)unused;
+TEST(the_stated_error_is_an_upper_estimate) {
   static const struct {
     int32_t scheme, steps;
   } ways[] = {{0, 100}, {0, 60}, {1, 24}, {1, 12}, {2, 24}}; /* rk4, split6, processed */
@@ -73,9 +69,4 @@ static void the_stated_error_is_an_upper_estimate(void **unused) {
                  (int)numerics.scheme, speed[c], speed[c + 1], stated[c], error);
     }
   }
-}
-
-int main(void) {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(the_stated_error_is_an_upper_estimate)};
-  return cmocka_run_group_tests(tests, NULL, NULL);
 }

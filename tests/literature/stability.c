@@ -1,10 +1,7 @@
 /* Every value of tests/literature/reference.json about charts, thresholds and the effective potential: exact ones to 1e-9,
  * formulas to their printed digits. */
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
 
-#include <cmocka.h>
+#include "../tools/test.h"
 
 #include "kapitza/analysis.h"
 #include "kapitza/kernel.h"
@@ -32,8 +29,7 @@ static void close_to(const char *what, double ours, double theirs, double tolera
   if (!(fabs(ours - theirs) <= tolerance)) fail_msg("%s: %.16g, published %.16g", what, ours, theirs);
 }
 
-static void transition_curves_of_butikov_fig_1(void **unused) {
-  (void)unused;
+TEST(transition_curves_of_butikov_fig_1) {
   int seen = 0;
   for (int c = 1; c <= 5; c++) {
     char section[32], exact[32], formula[32], refined[32];
@@ -53,8 +49,7 @@ static void transition_curves_of_butikov_fig_1(void **unused) {
   assert_true(seen > 40);
 }
 
-static void curves_turn_back_where_published(void **unused) {
-  (void)unused;
+TEST(curves_turn_back_where_published) {
   reference_span exact = reference_section(whole_file, "butikov_curve3_turning_point_exact");
   CLOSE(kz_mathieu_turn(curve_named("exact_3")->turning), reference_number(exact, "m"), 1e-7);
   double k = reference_number(exact, "k");
@@ -64,8 +59,7 @@ static void curves_turn_back_where_published(void **unused) {
   CLOSE(kz_mathieu_turn(curve_named("exact_5")->turning), 3.829, 1e-3);
 }
 
-static void subharmonics_of_butikov_fig_9(void **unused) {
-  (void)unused;
+TEST(subharmonics_of_butikov_fig_9) {
   for (int n = 2; n <= 6; n += 2) {
     char section[32];
     snprintf(section, sizeof section, "butikov_fig9_n%d", n);
@@ -83,8 +77,7 @@ static void subharmonics_of_butikov_fig_9(void **unused) {
 }
 
 /* The number of every text on Paul traps: without a static field the first zone ends at q = 0.908046; the tip of the zone of a mass filter. */
-static void zone_of_the_paul_trap(void **unused) {
-  (void)unused;
+TEST(zone_of_the_paul_trap) {
   const kz_pendulum sine = {.m = 1};
   CLOSE(2 * value("exact_2", 0, NAN), 0.908046, 5e-7);
   CLOSE(4 * kz_hill_edge(&sine, 2, 0.908046 / 2), 0, 5e-6);
@@ -92,8 +85,7 @@ static void zone_of_the_paul_trap(void **unused) {
   CLOSE(4 * kz_hill_edge(&sine, 2, 0.706 / 2), 0.237, 5e-4);
 }
 
-static void floquet_angles_of_butikov_fig_10(void **unused) {
-  (void)unused;
+TEST(floquet_angles_of_butikov_fig_10) {
   const double k[] = {0, 0.74991592006338, 1.3999408919327}, beta[] = {0, 0, 0};
   const double m[] = {0.2255522566639546, 0.5235, 0.5653};
   double growth[3], angle[3];
@@ -106,8 +98,7 @@ static void floquet_angles_of_butikov_fig_10(void **unused) {
 }
 
 /* The boundaries of Blackburn's Fig. 4: both orientations, five dampings, with (5) and (6). */
-static void boundaries_of_blackburn_fig_4(void **unused) {
-  (void)unused;
+TEST(boundaries_of_blackburn_fig_4) {
   const int omega[] = {5, 7, 9, 11, 15, 20, 30, 50};
   const char *quality[] = {"5", "10", "20", "50", "None"};
   for (int i = 0; i < 8; i++)
@@ -127,8 +118,7 @@ static void boundaries_of_blackburn_fig_4(void **unused) {
   CLOSE(value("exact_2", k, NAN), 0.5, 1e-9);
 }
 
-static void tongues_of_butikov_fig_11(void **unused) {
-  (void)unused;
+TEST(tongues_of_butikov_fig_11) {
   for (int tongue = 1; tongue <= 2; tongue++) {
     char section[64];
     snprintf(section, sizeof section, "butikov_fig11_Q5_tongue%d(k,m_exact,m_eq2%d)", tongue, 4 + tongue);
@@ -145,8 +135,7 @@ static void tongues_of_butikov_fig_11(void **unused) {
   }
 }
 
-static void thresholds_of_butikov_section_6(void **unused) {
-  (void)unused;
+TEST(thresholds_of_butikov_section_6) {
   const int quality[] = {5, 10, 20, 100};
   for (int i = 0; i < 4; i++) {
     char section[32];
@@ -166,8 +155,7 @@ static void thresholds_of_butikov_section_6(void **unused) {
 }
 
 /* BSG (10)-(12) at theta = 2, epsilon = 0.3, Omega = 11, Q = 5, and the rims of its Fig. 5. */
-static void effective_potential_of_blackburn(void **unused) {
-  (void)unused;
+TEST(effective_potential_of_blackburn) {
   kz_energy energy;
   kz_potential_energy(1.0 / 121, 1.0 / 55, 0.3, 2, &energy);
   CLOSE(energy.exact, 0.030434554, 1e-9);
@@ -179,19 +167,4 @@ static void effective_potential_of_blackburn(void **unused) {
   kz_potential_rim(1.0 / 121, 1.0 / 55, 0.2, &rim);
   CLOSE(180 - rim.simple * 180 / M_PI, 65.59, 5e-3);
   assert_true(rim.stable_inverted);
-}
-
-int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(transition_curves_of_butikov_fig_1),
-      cmocka_unit_test(curves_turn_back_where_published),
-      cmocka_unit_test(zone_of_the_paul_trap),
-      cmocka_unit_test(subharmonics_of_butikov_fig_9),
-      cmocka_unit_test(floquet_angles_of_butikov_fig_10),
-      cmocka_unit_test(boundaries_of_blackburn_fig_4),
-      cmocka_unit_test(tongues_of_butikov_fig_11),
-      cmocka_unit_test(thresholds_of_butikov_section_6),
-      cmocka_unit_test(effective_potential_of_blackburn),
-  };
-  return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -89,8 +89,7 @@ static void flip(long offset) {
   kz_ranks_broadcast(ranks, &byte, 1);
 }
 
-static void finished_tiles_are_not_done_again(void **state) {
-  (void)state;
+TEST(finished_tiles_are_not_done_again) {
   for (int64_t failing = 0; failing < N_TILES; failing += 13) {
     const int64_t done = leave_partial(failing);
     assert_all(resume() == N_TILES - done);
@@ -99,15 +98,13 @@ static void finished_tiles_are_not_done_again(void **state) {
   assert_all(resume() == 0);
 }
 
-static void resume_without_a_file_starts_anew(void **state) {
-  (void)state;
+TEST(resume_without_a_file_starts_anew) {
   assert_all(resume() == N_TILES);
   if (first()) fclose(fopen(path, "w")); /* killed before the header was there */
   assert_all(resume() == N_TILES);
 }
 
-static void a_flipped_bit_is_done_again(void **state) {
-  (void)state;
+TEST(a_flipped_bit_is_done_again) {
   const long offsets[] = {0, 1, 9, 16, 17, 2000, 16 + N_BYTES - 1}; /* of a slot: tile, checksum, record */
   for (size_t i = 0; i < sizeof offsets / sizeof *offsets; ++i) {
     leave_partial(-1);
@@ -119,15 +116,13 @@ static void a_flipped_bit_is_done_again(void **state) {
   assert_all(resume() == 0);
 }
 
-static void a_damaged_section_is_done_again(void **state) {
-  (void)state;
+TEST(a_damaged_section_is_done_again) {
   leave_partial(-1);
   flip(PAGE + 12);
   assert_all(resume() == N_TILES);
 }
 
-static void a_short_file_is_done_again_or_refused(void **state) {
-  (void)state;
+TEST(a_short_file_is_done_again_or_refused) {
   for (int kept = 0; kept < N_TILES; kept += 11) {
     leave_partial(-1);
     if (first() && truncate(path, FIRST_SLOT + kept * SLOT + 100) != 0) perror("truncate");
@@ -139,8 +134,7 @@ static void a_short_file_is_done_again_or_refused(void **state) {
   assert_all(!first() || unlink(path) == 0);
 }
 
-static void a_damaged_header_is_refused(void **state) {
-  (void)state;
+TEST(a_damaged_header_is_refused) {
   const long offsets[] = {0, 3, 8, 17, 25, 40};
   for (size_t i = 0; i < sizeof offsets / sizeof *offsets; ++i) {
     leave_partial(3);
@@ -153,8 +147,7 @@ static void a_damaged_header_is_refused(void **state) {
   assert_all(resume() > 0);
 }
 
-static void another_run_is_refused(void **state) {
-  (void)state;
+TEST(another_run_is_refused) {
   const int64_t done = leave_partial(20);
   kz_status status = open_with("version: 1\nk: 0.26\nsteps: 24\n", true, false);
   assert_all(status == KZ_REFUSED && strstr(kz_message(), "\"k: 0.25\"") && strstr(kz_message(), "\"k: 0.26\""));
@@ -165,8 +158,7 @@ static void another_run_is_refused(void **state) {
   assert_all(resume() == N_TILES - done);
 }
 
-static void an_existing_file_needs_a_word(void **state) {
-  (void)state;
+TEST(an_existing_file_needs_a_word) {
   leave_partial(20);
   const kz_status status = open_with(FINGERPRINT, false, false);
   assert_all(status == KZ_REFUSED && strstr(kz_message(), "--resume") && strstr(kz_message(), "--force"));
@@ -177,8 +169,7 @@ static void an_existing_file_needs_a_word(void **state) {
   assert_all(close_checkpoint(true) == KZ_OK);
 }
 
-static void sections_follow_each_other(void **state) {
-  (void)state;
+TEST(sections_follow_each_other) {
   job j = {.failing = -1}, k = {.failing = 30}, again = {.failing = -1};
   assert_all(open_with(FINGERPRINT, false, true) == KZ_OK);
   assert_all(run_named("first", &j) == KZ_OK);
@@ -193,16 +184,14 @@ static void sections_follow_each_other(void **state) {
   assert_all(close_checkpoint(true) == KZ_OK);
 }
 
-static void nothing_kept_leaves_nothing(void **state) {
-  (void)state;
+TEST(nothing_kept_leaves_nothing) {
   assert_all(open_with(FINGERPRINT, false, false) == KZ_OK);
   assert_all(close_checkpoint(false) == KZ_OK);
   assert_all(!first() || access(path, F_OK) != 0);
   assert_all(close_checkpoint(true) == KZ_OK);
 }
 
-static void a_wrong_path_is_refused(void **state) {
-  (void)state;
+TEST(a_wrong_path_is_refused) {
   const kz_checkpoint_plan missing = {.path = "/proc/nowhere/a.checkpoint", .fingerprint = ""};
   const kz_checkpoint_plan device = {.path = "/dev/null", .fingerprint = "", .resume = true};
   const kz_checkpoint_plan directory = {.path = "/dev", .fingerprint = "", .resume = true};
@@ -212,8 +201,7 @@ static void a_wrong_path_is_refused(void **state) {
 }
 
 /* A link in the checkpoint's place, where it may lead nowhere, is neither followed nor removed. */
-static void a_link_is_refused(void **state) {
-  (void)state;
+TEST(a_link_is_refused) {
   const char *const targets[] = {"/nowhere/at/all", "/dev/null", path};
   for (size_t i = 0; i < sizeof targets / sizeof *targets; ++i) {
     assert_all(!first() || symlink(targets[i], path) == 0);
@@ -224,8 +212,7 @@ static void a_link_is_refused(void **state) {
   }
 }
 
-static void only_the_own_checkpoint_is_cleared(void **state) {
-  (void)state;
+TEST(only_the_own_checkpoint_is_cleared) {
   leave_partial(20);
   if (first()) kz_checkpoint_clear(path, "version: 1\nk: 0.26\nsteps: 24\n");
   assert_all(!first() || access(path, F_OK) == 0);
@@ -237,8 +224,7 @@ static void only_the_own_checkpoint_is_cleared(void **state) {
   assert_all(!first() || access(path, F_OK) != 0);
 }
 
-static void a_run_without_records_leaves_nothing(void **state) {
-  (void)state;
+TEST(a_run_without_records_leaves_nothing) {
   job j = {.failing = 0};
   assert_all(open_with(FINGERPRINT, false, false) == KZ_OK);
   assert_all(kz_ranks_count(ranks) > 1 || run_named("first", &j) == KZ_FAILED);
@@ -252,8 +238,7 @@ static kz_status remove_and_fill(void *context, int64_t tile, void *bytes) {
   return fill(context, tile, bytes);
 }
 
-static void a_removed_file_is_noticed(void **state) {
-  (void)state;
+TEST(a_removed_file_is_noticed) {
   job j = {.failing = -1};
   kz_stage stage = {
       .name = "first", .n_tiles = N_TILES, .record_bytes = N_BYTES, .work = remove_and_fill, .context = &j, .keep = true};
@@ -263,8 +248,7 @@ static void a_removed_file_is_noticed(void **state) {
   assert_all(close_checkpoint(false) == KZ_FAILED);
 }
 
-static void too_large_for_the_disk_is_known_early(void **state) {
-  (void)state;
+TEST(too_large_for_the_disk_is_known_early) {
   job j = {.failing = -1};
   kz_stage stage = {
       .name = "huge", .n_tiles = (int64_t)1 << 43, .record_bytes = N_BYTES, .work = fill, .context = &j, .keep = true};
@@ -276,23 +260,5 @@ static void too_large_for_the_disk_is_known_early(void **state) {
 }
 
 int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(finished_tiles_are_not_done_again),
-      cmocka_unit_test(resume_without_a_file_starts_anew),
-      cmocka_unit_test(a_flipped_bit_is_done_again),
-      cmocka_unit_test(a_damaged_section_is_done_again),
-      cmocka_unit_test(a_short_file_is_done_again_or_refused),
-      cmocka_unit_test(a_damaged_header_is_refused),
-      cmocka_unit_test(another_run_is_refused),
-      cmocka_unit_test(an_existing_file_needs_a_word),
-      cmocka_unit_test(sections_follow_each_other),
-      cmocka_unit_test(nothing_kept_leaves_nothing),
-      cmocka_unit_test(a_wrong_path_is_refused),
-      cmocka_unit_test(a_link_is_refused),
-      cmocka_unit_test(only_the_own_checkpoint_is_cleared),
-      cmocka_unit_test(a_run_without_records_leaves_nothing),
-      cmocka_unit_test(a_removed_file_is_noticed),
-      cmocka_unit_test(too_large_for_the_disk_is_known_early),
-  };
-  return run_ranks_with_path(tests, sizeof tests / sizeof *tests, path, sizeof path);
+  return run_ranks_with_path(path, sizeof path);
 }

@@ -34,21 +34,18 @@ static double open_against(double seconds, kz_status expected) {
   return took;
 }
 
-static void orphans_are_waited_for(void **state) {
-  (void)state;
+TEST(orphans_are_waited_for) {
   const double took = open_against(1.5, KZ_OK);
   assert_all(kz_rank(ranks) != 0 || (took > 1.0));
   assert_all(close_checkpoint(true) == KZ_OK);
 }
 
-static void a_running_program_is_refused(void **state) {
-  (void)state;
+TEST(a_running_program_is_refused) {
   const double took = open_against(60, KZ_REFUSED);
   assert_all(kz_rank(ranks) != 0 || took > 14.0);
 }
 
-static void a_rank_of_this_run_holds_it(void **state) {
-  (void)state;
+TEST(a_rank_of_this_run_holds_it) {
   const kz_checkpoint_plan plan = {.path = path, .fingerprint = "k: 1\n", .force = true};
   struct flock byte = {.l_type = F_WRLCK, .l_whence = SEEK_SET, .l_start = 1, .l_len = 1};
   assert_all(open_checkpoint(&plan) == KZ_OK);
@@ -60,10 +57,5 @@ static void a_rank_of_this_run_holds_it(void **state) {
 }
 
 int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(a_rank_of_this_run_holds_it),
-      cmocka_unit_test(orphans_are_waited_for),
-      cmocka_unit_test(a_running_program_is_refused),
-  };
-  return run_ranks_with_path(tests, sizeof tests / sizeof *tests, path, sizeof path);
+  return run_ranks_with_path(path, sizeof path);
 }

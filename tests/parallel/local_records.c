@@ -85,8 +85,7 @@ static int64_t sum(int64_t mine) {
   return mine;
 }
 
-static void each_piece_comes_once(void **state) {
-  (void)state;
+TEST(each_piece_comes_once) {
   job j = {.failing = -1};
   kz_local_records records = {0};
   assert_all(run(&j, &records) == KZ_OK && sum(records.n) == N_TILES);
@@ -94,8 +93,7 @@ static void each_piece_comes_once(void **state) {
   kz_local_records_free(&records);
 }
 
-static void a_failure_on_the_way_reaches_all(void **state) {
-  (void)state;
+TEST(a_failure_on_the_way_reaches_all) {
   job j = {.failing = -1};
   kz_local_records records = {0};
   assert_all(run(&j, &records) == KZ_OK);
@@ -113,8 +111,7 @@ static void spoil(int64_t tile) {
   close(file);
 }
 
-static void finished_records_are_found_again(void **state) {
-  (void)state;
+TEST(finished_records_are_found_again) {
   job j = {.failing = 45};
   kz_local_records records = {0};
   open_records(false);
@@ -134,10 +131,5 @@ static void finished_records_are_found_again(void **state) {
 }
 
 int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(each_piece_comes_once),
-      cmocka_unit_test(a_failure_on_the_way_reaches_all),
-      cmocka_unit_test(finished_records_are_found_again),
-  };
-  return run_ranks_with_path(tests, sizeof tests / sizeof *tests, path, sizeof path);
+  return run_ranks_with_path(path, sizeof path);
 }

@@ -72,16 +72,14 @@ static void show_on_terminal(kz_progress progress, int64_t n_tiles) {
   show(progress, run_cells, n_tiles, there, here);
 }
 
-static void a_terminal_gets_a_bar(void **state) {
-  (void)state;
+TEST(a_terminal_gets_a_bar) {
   show_on_terminal(KZ_PROGRESS_AUTO, 60);
   assert_non_null(strstr(shown, "\rcells"));
   assert_non_null(strstr(shown, "###"));
   assert_string_equal(shown + strlen(shown) - 4, "\r\033[K"); /* and is clean again */
 }
 
-static void a_file_gets_lines(void **state) {
-  (void)state;
+TEST(a_file_gets_lines) {
   show_in_pipe(KZ_PROGRESS_ALWAYS, run_cells, 70);
   assert_non_null(strstr(shown, "kapitza: cells: 100 %"));
   assert_non_null(strstr(shown, "ranks idle "));
@@ -90,8 +88,7 @@ static void a_file_gets_lines(void **state) {
 }
 
 /* Half of the time has passed after the second one, a second after the first line was due. */
-static void a_chain_of_stages_is_shown_as_one(void **state) {
-  (void)state;
+TEST(a_chain_of_stages_is_shown_as_one) {
   show_in_pipe(KZ_PROGRESS_ALWAYS, run_chain, 2);
   assert_non_null(strstr(shown, "kapitza: reference: 5")); /* half, or a little more on a busy machine */
   assert_non_null(strstr(shown, " left\n"));
@@ -99,16 +96,14 @@ static void a_chain_of_stages_is_shown_as_one(void **state) {
   assert_null(strstr(shown, "cells"));
 }
 
-static void nothing_is_nothing(void **state) {
-  (void)state;
+TEST(nothing_is_nothing) {
   show_in_pipe(KZ_PROGRESS_AUTO, run_cells, 60); /* over before the first line is due */
   assert_string_equal(shown, "");
   show_in_pipe(KZ_PROGRESS_ALWAYS, run_cells, 1);
   assert_string_equal(shown, "");
 }
 
-static void a_terminal_is_left_alone_too(void **state) {
-  (void)state;
+TEST(a_terminal_is_left_alone_too) {
   show_on_terminal(KZ_PROGRESS_NEVER, 60);
   assert_string_equal(shown, "");
   show_on_terminal(KZ_PROGRESS_AUTO, 5);
@@ -117,8 +112,7 @@ static void a_terminal_is_left_alone_too(void **state) {
 
 /* Another group has the terminal, which stops whoever else writes to it (stty tostop): the stage ends all the same, without a
  * bar. */
-static void a_terminal_of_others_is_left_alone(void **state) {
-  (void)state;
+TEST(a_terminal_of_others_is_left_alone) {
   if (here < 0) skip();
   const pid_t other = fork();
   if (other == 0) pause();
@@ -147,15 +141,7 @@ static void take_terminal(void) {
 }
 
 int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(a_terminal_gets_a_bar),
-      cmocka_unit_test(a_file_gets_lines),
-      cmocka_unit_test(a_chain_of_stages_is_shown_as_one),
-      cmocka_unit_test(nothing_is_nothing),
-      cmocka_unit_test(a_terminal_is_left_alone_too),
-      cmocka_unit_test(a_terminal_of_others_is_left_alone),
-  };
   take_terminal();
   if (unsetenv("OMPI_COMM_WORLD_RANK") != 0) return 1;
-  return run_ranks(tests, sizeof tests / sizeof *tests);
+  return run_ranks();
 }

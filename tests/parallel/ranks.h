@@ -2,11 +2,8 @@
 #ifndef KAPITZA_TESTS_RANKS_H
 #define KAPITZA_TESTS_RANKS_H
 
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <cmocka.h>
+#define OWN_MAIN
+#include "../tools/test.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -48,23 +45,23 @@ static inline void pause_for(double seconds) {
   nanosleep(&time, NULL);
 }
 
-static inline int run_ranks(const struct CMUnitTest *tests, size_t n) {
+static inline int run_ranks(void) {
   if (kz_ranks_start(NULL, NULL, &ranks) != KZ_OK) return 1;
   kz_ranks_set_progress(ranks, KZ_PROGRESS_NEVER);
-  const int failed = _cmocka_run_group_tests("ranks", tests, n, NULL, NULL);
+  const int failed = run_all_tests(NULL, NULL);
   kz_ranks_end(ranks);
   return failed;
 }
 
 /* The same with `path` [bytes] in a folder of its own, for a checkpoint. */
-static inline int run_ranks_with_path(const struct CMUnitTest *tests, size_t n, char *path, size_t bytes) {
+static inline int run_ranks_with_path(char *path, size_t bytes) {
   char folder[] = "/tmp/kapitza-ranks-XXXXXX";
   if (kz_launch_rank() <= 0 && !mkdtemp(folder)) return 1;
   if (kz_ranks_start(NULL, NULL, &ranks) != KZ_OK) return 1;
   kz_ranks_set_progress(ranks, KZ_PROGRESS_NEVER);
   kz_ranks_broadcast(ranks, folder, sizeof folder);
   snprintf(path, bytes, "%s/a.checkpoint", folder);
-  const int failed = _cmocka_run_group_tests("ranks", tests, n, NULL, NULL);
+  const int failed = run_all_tests(NULL, NULL);
   if (kz_rank(ranks) == 0) {
     unlink(path);
     rmdir(folder);

@@ -1,9 +1,5 @@
 /* Who gets how many tiles: batches shrink, nobody gets more than a share, the last tiles go to whoever is done with them first. */
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <cmocka.h>
+#include "../tools/test.h"
 
 #include "schedule.h"
 
@@ -18,8 +14,7 @@ static kz_schedule begin(int64_t left) {
   return schedule;
 }
 
-static void every_tile_is_given_once_in_shrinking_batches(void **state) {
-  (void)state;
+TEST(every_tile_is_given_once_in_shrinking_batches) {
   kz_schedule schedule = begin(2000);
   int64_t next = RANKS, before = INT64_MAX, n, first, batches = 0;
   while ((n = kz_schedule_grant(&schedule, 1, false, &first)) > 0) {
@@ -31,8 +26,7 @@ static void every_tile_is_given_once_in_shrinking_batches(void **state) {
   kz_schedule_end(&schedule);
 }
 
-static void a_slow_rank_gets_a_tenth(void **state) {
-  (void)state;
+TEST(a_slow_rank_gets_a_tenth) {
   kz_schedule schedule = begin(2000);
   int64_t first;
   const int64_t fast = kz_schedule_grant(&schedule, 0, false, &first), slow = kz_schedule_grant(&schedule, 3, false, &first);
@@ -40,8 +34,7 @@ static void a_slow_rank_gets_a_tenth(void **state) {
   kz_schedule_end(&schedule);
 }
 
-static void a_batch_lasts_a_tenth_of_a_second(void **state) {
-  (void)state;
+TEST(a_batch_lasts_a_tenth_of_a_second) {
   kz_schedule schedule = begin(1000000000);
   int64_t first;
   assert_int_equal(kz_schedule_grant(&schedule, 0, false, &first), 1000);
@@ -49,8 +42,7 @@ static void a_batch_lasts_a_tenth_of_a_second(void **state) {
   kz_schedule_end(&schedule);
 }
 
-static void who_still_works_leaves_the_last_tiles_to_others(void **state) {
-  (void)state;
+TEST(who_still_works_leaves_the_last_tiles_to_others) {
   kz_schedule schedule = begin(30); /* 1 ms of all ranks, a tile of the slow one */
   int64_t first;
   assert_int_equal(kz_schedule_grant(&schedule, 3, true, &first), 0);
@@ -60,8 +52,7 @@ static void who_still_works_leaves_the_last_tiles_to_others(void **state) {
 
 /* Three fast ranks do what is left in less time than the slow one needs for a tile: it gets no more. The others go on to the end, also
  * one that is slower than those that have left. */
-static void a_slow_rank_does_not_keep_all_waiting(void **state) {
-  (void)state;
+TEST(a_slow_rank_does_not_keep_all_waiting) {
   kz_schedule schedule = begin(30);
   int64_t first, given = 0, n;
   assert_int_equal(kz_schedule_grant(&schedule, 3, false, &first), 1);
@@ -78,23 +69,10 @@ static void a_slow_rank_does_not_keep_all_waiting(void **state) {
   kz_schedule_end(&schedule);
 }
 
-static void few_tiles_are_not_asked_for(void **state) {
-  (void)state;
+TEST(few_tiles_are_not_asked_for) {
   kz_schedule schedule;
   int64_t first;
   kz_schedule_begin(&schedule, 3, RANKS);
   assert_int_equal(kz_schedule_grant(&schedule, 2, false, &first), 0);
   kz_schedule_end(&schedule);
-}
-
-int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(every_tile_is_given_once_in_shrinking_batches),
-      cmocka_unit_test(a_slow_rank_gets_a_tenth),
-      cmocka_unit_test(a_batch_lasts_a_tenth_of_a_second),
-      cmocka_unit_test(who_still_works_leaves_the_last_tiles_to_others),
-      cmocka_unit_test(a_slow_rank_does_not_keep_all_waiting),
-      cmocka_unit_test(few_tiles_are_not_asked_for),
-  };
-  return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -41,8 +41,7 @@ static kz_stage stage_of(job *j, int64_t n_tiles, bool everywhere) {
       .name = "test", .n_tiles = n_tiles, .record_bytes = sizeof(record), .work = fill, .context = j, .everywhere = everywhere};
 }
 
-static void records_arrive_on_rank_0(void **state) {
-  (void)state;
+TEST(records_arrive_on_rank_0) {
   job j = {.failing = -1};
   const kz_stage stage = stage_of(&j, N_TILES, false);
   record *records = kz_rank(ranks) == 0 ? malloc(N_TILES * sizeof *records) : NULL;
@@ -52,8 +51,7 @@ static void records_arrive_on_rank_0(void **state) {
   free(records);
 }
 
-static void records_arrive_everywhere(void **state) {
-  (void)state;
+TEST(records_arrive_everywhere) {
   job j = {.failing = -1};
   const kz_stage stage = stage_of(&j, N_TILES, true);
   static record records[N_TILES];
@@ -64,8 +62,7 @@ static void records_arrive_everywhere(void **state) {
   }
 }
 
-static void few_tiles_are_enough(void **state) {
-  (void)state;
+TEST(few_tiles_are_enough) {
   static record records[2];
   for (int64_t n = 0; n <= 2; ++n) {
     job j = {.failing = -1};
@@ -77,8 +74,7 @@ static void few_tiles_are_enough(void **state) {
   }
 }
 
-static void all_ranks_take_part(void **state) {
-  (void)state;
+TEST(all_ranks_take_part) {
   job j = {.failing = -1, .seconds = 0.005};
   const kz_stage stage = stage_of(&j, N_TILES, true);
   static record records[N_TILES];
@@ -86,8 +82,7 @@ static void all_ranks_take_part(void **state) {
   assert_all(j.done > 0 && j.done < (kz_ranks_count(ranks) == 1 ? N_TILES + 1 : N_TILES));
 }
 
-static void a_failing_tile_ends_all_ranks(void **state) {
-  (void)state;
+TEST(a_failing_tile_ends_all_ranks) {
   static record records[N_TILES];
   for (int64_t failing = 0; failing < N_TILES; failing += 57) {
     job j = {.failing = failing, .seconds = 0.001};
@@ -97,11 +92,10 @@ static void a_failing_tile_ends_all_ranks(void **state) {
     snprintf(expected, sizeof expected, "tile %lld fails", (long long)failing);
     assert_all(status == KZ_FAILED && strcmp(kz_message(), expected) == 0);
   }
-  records_arrive_everywhere(state); /* and the ranks work as before */
+  records_arrive_everywhere(NULL); /* and the ranks work as before */
 }
 
-static void a_missing_array_ends_all_ranks(void **state) {
-  (void)state;
+TEST(a_missing_array_ends_all_ranks) {
   job j = {.failing = -1};
   const kz_stage stage = stage_of(&j, N_TILES, false);
   assert_all(run_stage(&stage, NULL) == KZ_FAILED);
@@ -115,8 +109,7 @@ static kz_status fill_large(void *context, int64_t tile, void *bytes) {
   return KZ_OK;
 }
 
-static void records_beyond_a_message_arrive(void **state) {
-  (void)state;
+TEST(records_beyond_a_message_arrive) {
   size_t n = ((size_t)6 << 20) + 7; /* larger than a block of small ones */
   const kz_stage stage = {
       .name = "large", .n_tiles = 7, .record_bytes = n, .work = fill_large, .context = &n, .everywhere = true};
@@ -149,8 +142,7 @@ static kz_status wait_for_others(void *context, int64_t tile, void *bytes) {
   return write(t->file, "x", 1) == 1 ? KZ_OK : kz_fail(KZ_FAILED, "no tally");
 }
 
-static void rank_0_answers_amid_its_own_tile(void **state) {
-  (void)state;
+TEST(rank_0_answers_amid_its_own_tile) {
   if (kz_ranks_count(ranks) == 1) skip();
   tally t = {.path = "/tmp/kapitza-tally-XXXXXX"};
   t.file = kz_rank(ranks) == 0 ? mkstemp(t.path) : -1;
@@ -165,8 +157,7 @@ static void rank_0_answers_amid_its_own_tile(void **state) {
   close(t.file);
 }
 
-static void the_worst_status_wins(void **state) {
-  (void)state;
+TEST(the_worst_status_wins) {
   const int last = kz_ranks_count(ranks) - 1, rank = kz_rank(ranks);
   const kz_status mine = rank == last ? kz_fail(KZ_REFUSED, "rank %d", rank) : kz_fail(KZ_STOPPED, "stop");
   const kz_status agreed = kz_ranks_agree(ranks, mine);
@@ -176,8 +167,7 @@ static void the_worst_status_wins(void **state) {
   assert_all(kz_ranks_agree(ranks, KZ_OK) == KZ_OK);
 }
 
-static void broadcast_reaches_all(void **state) {
-  (void)state;
+TEST(broadcast_reaches_all) {
   char text[100000];
   memset(text, kz_rank(ranks) == 0 ? 'x' : 'y', sizeof text);
   assert_all(kz_ranks_broadcast(ranks, text, sizeof text) == KZ_OK);
@@ -185,17 +175,5 @@ static void broadcast_reaches_all(void **state) {
 }
 
 int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(records_arrive_on_rank_0),
-      cmocka_unit_test(records_arrive_everywhere),
-      cmocka_unit_test(few_tiles_are_enough),
-      cmocka_unit_test(all_ranks_take_part),
-      cmocka_unit_test(a_failing_tile_ends_all_ranks),
-      cmocka_unit_test(a_missing_array_ends_all_ranks),
-      cmocka_unit_test(records_beyond_a_message_arrive),
-      cmocka_unit_test(rank_0_answers_amid_its_own_tile),
-      cmocka_unit_test(the_worst_status_wins),
-      cmocka_unit_test(broadcast_reaches_all),
-  };
-  return run_ranks(tests, sizeof tests / sizeof *tests);
+  return run_ranks();
 }

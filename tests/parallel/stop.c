@@ -30,8 +30,7 @@ static bool is_right(void) {
   return true;
 }
 
-static void the_time_limit_stops_and_resumes(void **state) {
-  (void)state;
+TEST(the_time_limit_stops_and_resumes) {
   const kz_checkpoint_plan plan = {.path = path, .fingerprint = "k: 1\n", .resume = true};
   int64_t done = 0, more = 0;
   kz_ranks_set_time_limit(ranks, 0.05);
@@ -46,8 +45,7 @@ static void the_time_limit_stops_and_resumes(void **state) {
 }
 
 /* From here on the request stays. */
-static void a_signal_to_one_rank_stops_all(void **state) {
-  (void)state;
+TEST(a_signal_to_one_rank_stops_all) {
   const kz_checkpoint_plan plan = {.path = path, .fingerprint = "k: 1\n"};
   int64_t done = 0;
   raising = 20;
@@ -62,8 +60,7 @@ static void a_signal_to_one_rank_stops_all(void **state) {
   assert_all(kz_rank(ranks) != 0 || unlink(path) == 0);
 }
 
-static void nothing_is_promised_where_nothing_was_kept(void **state) {
-  (void)state;
+TEST(nothing_is_promised_where_nothing_was_kept) {
   const kz_checkpoint_plan plan = {.path = path, .fingerprint = "k: 1\n"};
   int64_t done = 0;
   assert_all(open_checkpoint(&plan) == KZ_OK);
@@ -74,10 +71,5 @@ static void nothing_is_promised_where_nothing_was_kept(void **state) {
 }
 
 int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(the_time_limit_stops_and_resumes),
-      cmocka_unit_test(a_signal_to_one_rank_stops_all),
-      cmocka_unit_test(nothing_is_promised_where_nothing_was_kept),
-  };
-  return run_ranks_with_path(tests, sizeof tests / sizeof *tests, path, sizeof path);
+  return run_ranks_with_path(path, sizeof path);
 }

@@ -48,15 +48,12 @@ def replaced(old, new):
 
 # text of the scene; where the error stands; what the line must name
 SCENES = {
-    "unknown key": (GOOD + "colour: red\n", "9:1", "colour: unknown key"),
     "unknown nested key": (GOOD + "  colour: red\n", "9:3",
         "basin.colour: unknown key; the keys are theta, velocity, method"),
     "sweep of a key of another form": (GOOD + "sweep: {parameter: m, min: 0, max: 1, count: 3, measure: [strobe]}\n",
         "9:20", "sweep.parameter: m is not given in the pendulum mapping"),
     "sweep out of the key's range": (GOOD + "sweep: {parameter: drive_frequency, min: -1, max: 1, count: 3, measure: [strobe]}\n",
         "9:42", "sweep.min: -1 is below what pendulum.drive_frequency takes"),
-    "sweep backwards": (GOOD + "sweep: {parameter: drive_amplitude, min: 1, max: 0.5, count: 3, measure: [strobe]}\n",
-        "9:50", "sweep.max: 0.5 is too small; it must be"),
     "sweep of nothing": (GOOD + "sweep: {parameter: drive_amplitude, min: 0.2, max: 0.2, count: 3, measure: [strobe]}\n",
         "9:52", "sweep.max: 0.2 is too small; it must be"),
     "saddles without velocities": (GOOD + "saddles: {max_period: 3}\n", "9:10", "saddles.velocity: is missing"),
@@ -81,62 +78,25 @@ SCENES = {
         GOOD + "sweep: {parameter: drive_amplitude, min: 0, max: 0.5, count: 3, measure: strobe}\n", "9:74", "(did you mean [strobe]?)"),
     "sweep of one value": (GOOD + "sweep: {parameter: drive_amplitude, min: 0, max: 0.5, count: 1, measure: [strobe]}\n",
         "9:62", "sweep.count"),
-    "typo at the top": (replaced("pendulum", "pendulm"), "2:1", "pendulm: unknown key; did you mean pendulum?"),
     "typo nested": (replaced("velocity", "velocty"), "8:3", "basin.velocty: unknown key; did you mean velocity?"),
-    "swapped letters": (replaced("count: 20}\n  v", "conut: 20}\n  v"),
-        "7:11", "basin.theta.conut: unknown key; did you mean count?"),
     "unknown word": (GOOD + "  method: magic\n", "9:11", 'basin.method: "magic" is unknown; it must be one of icm, direct'),
-    "typo in a word": (GOOD + "  method: derect\n", "9:11", "(did you mean direct?)"),
-    "case of a word": (GOOD + "  method: ICM\n", "9:11", "basin.method"),
     "case of a key": (replaced("title", "Title"), "1:1", "Title: unknown key; did you mean title?"),
-    "unknown scheme": (GOOD + "numerics: {scheme: rk5}\n", "9:20", "numerics.scheme"),
     "former precision": (GOOD + "numerics: {precision: quad}\n", "9:12", "basin.method exact"),
     "former interpolation": (GOOD.replace("basin:", "basin:\n  icm: {interpolation: cubic}"), "", "quintic"),
-    "trailing letter": (replaced("factor: 5", "factor: 1.5x"),
-        "3:19", 'pendulum.quality_factor: "1.5x" is not a finite decimal number'),
-    "hexadecimal": (replaced("frequency: 11", "frequency: 0x10"), "4:20", "pendulum.drive_frequency"),
-    "octal look": (replaced("frequency: 11", "frequency: 011"), "4:20", "pendulum.drive_frequency"),
-    "octal of YAML 1.2": (replaced("frequency: 11", "frequency: 0o11"), "4:20", "pendulum.drive_frequency"),
-    "underscore": (replaced("frequency: 11", "frequency: 1_1"), "4:20", "pendulum.drive_frequency"),
     "decimal comma": (replaced("amplitude: 0.3", "amplitude: 0,3"), "5:20", "(with a decimal point: 0.3)"),
-    "word for a number": (replaced("amplitude: 0.3", "amplitude: maybe"), "5:20", "pendulum.drive_amplitude"),
-    "truth for a number": (replaced("amplitude: 0.3", "amplitude: true"), "5:20", "pendulum.drive_amplitude"),
     "quoted number": (replaced("amplitude: 0.3", "amplitude: '0.3'"), "5:20", "stands in quotes"),
-    "nan": (replaced("amplitude: 0.3", "amplitude: nan"), "5:20", "pendulum.drive_amplitude"),
-    ".nan": (replaced("amplitude: 0.3", "amplitude: .nan"), "5:20", "pendulum.drive_amplitude"),
-    ".inf": (replaced("amplitude: 0.3", "amplitude: .inf"), "5:20", "pendulum.drive_amplitude"),
-    "-inf": (replaced("amplitude: 0.3", "amplitude: -.inf"), "5:20", "pendulum.drive_amplitude"),
-    "overflow": (replaced("amplitude: 0.3", "amplitude: 1e999"), "5:20", "too large"),
-    "underflow": (replaced("amplitude: 0.3", "amplitude: 1e-999"), "5:20", "too small"),
-    "sexagesimal": (replaced("amplitude: 0.3", "amplitude: 1:30"), "5:20", "pendulum.drive_amplitude"),
     "empty value": (replaced("amplitude: 0.3", "amplitude:"), "", "pendulum.drive_amplitude: the value is empty"),
-    "null": (replaced("amplitude: 0.3", "amplitude: null"), "5:20", "pendulum.drive_amplitude"),
     "list for a number": (replaced("amplitude: 0.3", "amplitude: [0.3]"), "5:20", "pendulum.drive_amplitude: the value is a list"),
-    "mapping for a number": (replaced("amplitude: 0.3", "amplitude: {a: 1}"), "5:20", "pendulum.drive_amplitude"),
     "number for a mapping": (replaced("theta: {count: 20}", "theta: 20"), "7:10", "basin.theta"),
-    "list for a mapping": (replaced("theta: {count: 20}", "theta: [20]"), "7:10", "basin.theta"),
     "empty mapping": (replaced("theta: {count: 20}", "theta:"), "", "basin.theta: the value is empty"),
-    "list for a title": (replaced("title: good", "title: [a]"), "1:8", "title"),
-    "empty title": (replaced("title: good", "title:"), "", "title: the value is empty"),
     "title of two lines": (replaced("title: good", 'title: "a\\nb"'), "1:8", "title"),
-    "title with a nul": (replaced("title: good", 'title: "a\\0b"'), "1:8", "title"),
-    "negative count": (replaced("theta: {count: 20}", "theta: {count: -20}"), "7:18", "basin.theta.count"),
-    "zero count": (replaced("theta: {count: 20}", "theta: {count: 0}"), "7:18", "basin.theta.count"),
-    "real count": (replaced("theta: {count: 20}", "theta: {count: 20.5}"), "7:18", "basin.theta.count"),
     "huge count": (replaced("theta: {count: 20}", "theta: {count: 1000001}"), "7:18", "from 1 to 1000000"),
-    "count beyond 64 bits": (replaced("theta: {count: 20}", "theta: {count: 99999999999999999999}"), "7:18", "basin.theta.count"),
     "counts beyond memory": (replaced("count: 20", "count: 1000000"), "", "memory"),
     "table beyond memory": (GOOD + "  method: icm\n  icm: {theta: 100000, velocity: 100000}\n", "", "memory"),
     "table too small": (GOOD + "  icm: {theta: 7}\n", "9:16", "basin.icm.theta"),
-    "negative seed": (GOOD + "  attractors: {seed: -1}\n", "9:22", "basin.attractors.seed"),
     "period too long": (GOOD + "  attractors: {max_period: 513}\n", "9:28", "basin.attractors.max_period"),
-    "no starts": (GOOD + "  attractors: {starts: 0}\n", "9:24", "basin.attractors.starts"),
-    "no periods": (GOOD + "  max_periods: 0\n", "9:16", "basin.max_periods"),
     "too many periods": (GOOD + "  max_periods: 5000000000\n", "9:16", "basin.max_periods"),
-    "no steps": (GOOD + "numerics: {steps_per_period: 0}\n", "9:30", "numerics.steps_per_period"),
     "too many steps": (GOOD + "numerics: {steps_per_period: 100001}\n", "9:30", "numerics.steps_per_period"),
-    "min above max": (replaced("min: -2, max: 2", "min: 2, max: -2"), "8:27", "basin.velocity.max: -2 is too small; it must be"),
-    "min equals max": (replaced("min: -2, max: 2", "min: 2, max: 2"), "8:27", "basin.velocity.max"),
     "velocity without max": (replaced("min: -2, max: 2", "min: -2"), "8:13", "basin.velocity.max: is missing"),
     "window by centre and edge": (replaced("min: -2, max: 2", "centre: 0, max: 2"), "8:25",
         "basin.velocity.max: contradicts basin.velocity.centre"),
@@ -144,14 +104,8 @@ SCENES = {
     "angle by width alone": (replaced("theta: {count", "theta: {width: 1, count"), "7:10", "basin.theta.centre: is missing beside width"),
     "window that is too wide": (replaced("theta: {count", "theta: {centre: 0, width: 6.3, count"), "7:29",
         "basin.theta.width: 6.3 is too wide"),
-    "width of nothing": (replaced("min: -2, max: 2", "centre: 0, width: 0"), "8:32", "basin.velocity.width: \"0\" is out of range"),
-    "centre that is no number": (replaced("min: -2, max: 2", "centre: '1.0e', width: 1"), "8:22",
-        "basin.velocity.centre: \"1.0e\" is not a finite decimal"),
     "cells too narrow for the method": (replaced("min: -2, max: 2", "centre: 1, width: 1e-15") + "  method: direct\n", "8:32",
         "basin.velocity.width: 1e-15 leaves cells of width 5e-17, too narrow for double precision; choose basin.method exact"),
-    "cells too narrow for doubles": (replaced("min: -2, max: 2", "centre: 1, width: 1e-30") + "  method: direct\n", "8:32",
-        "too narrow for double"),
-    "theta with min alone": (replaced("theta: {count", "theta: {min: 0, count"), "7:10", "basin.theta.max: is missing beside min"),
     "theta wider than a turn": (replaced("theta: {count", "theta: {min: -4, max: 4, count"), "7:25", "at most 2 pi"),
     "cells too narrow": (replaced("min: -2, max: 2", "min: 1, max: 1.0000000000000009"), "8:27", "too narrow"),
     "no velocity": ("pendulum: {k: 0, damping: 0.1, m: 0.5}\nbasin: {}\n", "2:8", "basin.velocity: is missing"),
@@ -159,7 +113,6 @@ SCENES = {
     "no study": ("pendulum: {k: 0, damping: 0.1, m: 0.5}\n", "1:1", "basin"),
     "no parameters": ("pendulum: {}\n" + BASIN, "1:11", "also missing: pendulum.drive_amplitude"),
     "half of form a": ("pendulum: {drive_frequency: 11}\n" + BASIN, "1:11", "pendulum.drive_amplitude: is missing"),
-    "half of form b": ("pendulum: {k: 0, m: 0.5}\n" + BASIN, "1:11", "pendulum.damping: is missing"),
     "half of form c": ("pendulum: {mass: 1, radius: 1}\n" + BASIN, "1:11",
         "the pendulum lacks: inertia; frequency (in Hz; or pivot_frequency in rad/s); amplitude (of the pivot); quality_factor (or"),
     "half of a laboratory": ("pendulum: {length: 20 cm, friction: 0.1}\n" + BASIN, "1:11", "lacks: mass (beside friction); frequency"),
@@ -174,51 +127,32 @@ SCENES = {
     "sweep to the inertia of no body": (SI + "sweep: {parameter: radius, min: 0.5, max: 1.1, count: 3, measure: [strobe]}\n", "2:43",
         "sweep.max: 1.1 gives"),
     "forms a and b": (replaced("  drive_amplitude: 0.3", "  m: 0.3"), "5:3", "pendulum.m: contradicts pendulum.drive_frequency"),
-    "forms b and c": ("pendulum: {k: 0, damping: 0, m: 1, mass: 1}\n" + BASIN, "1:36", "pendulum.mass: contradicts pendulum.k"),
-    "three forms": ("pendulum: {k: 0, drive_frequency: 2, mass: 1}\n" + BASIN,
-        "1:18", "pendulum.drive_frequency: contradicts pendulum.k"),
-    "negative damping": ("pendulum: {k: 0, damping: -0.1, m: 0.5}\n" + BASIN, "1:27", "pendulum.damping"),
-    "negative quality factor": (replaced("factor: 5", "factor: -5"), "3:19", "pendulum.quality_factor"),
-    "zero quality factor": (replaced("factor: 5", "factor: 0"), "3:19", "above 0"),
     "zero frequency": (replaced("frequency: 11", "frequency: 0"), "4:20", "pendulum.drive_frequency"),
     "k overflows": (replaced("frequency: 11", "frequency: 1e-200"), "3:3", "pendulum: gives k = inf"),
-    "negative mass": ("pendulum: {mass: -1}\n" + BASIN, "1:18", "pendulum.mass"),
     "key twice": (GOOD + "title: again\n", "9:1", "title: is given twice"),
-    "nested key twice": (replaced("min: -2, max: 2", "min: -2, max: 2, min: -1"), "8:31", "basin.velocity.min: is given twice"),
-    "study twice": (GOOD + BASIN, "9:1", "basin: is given twice"),
     "anchor": (replaced("title: good", "title: &t good"), "1:8", "anchor"),
     "alias bomb": ("a: &a [x, x]\nb: &b [*a, *a]\nc: [*b, *b]\n", "1:4", "anchor"),
-    "alias alone": ("title: *t\n", "1:8", "alias"),
-    "tag": (replaced("title: good", "title: !!str good"), "1:8", "tag"),
     "merge key": ("<<: {title: x}\n" + GOOD, "1:1", "<<: unknown key"),
     "list as a key": ("? [a, b]\n: 1\n", "1:3", "unknown key"),
-    "list as the scene": ("- a\n- b\n", "1:1", "scene: "),
     "text as the scene": ("just words\n", "1:1", "scene: "),
-    "two documents": (GOOD + "---\n" + GOOD, "10:1", "second YAML document"),
     "bracket left open": (replaced("{count: 20}\n", "{count: 20\n"), "", "is not YAML"),
     "bad indentation": (replaced("  drive_frequency", " drive_frequency"), "5:18", "is not YAML"),
     "tab": (replaced("  drive_frequency", "\tdrive_frequency"), "4:1", "a tab stands here"),
-    "quote left open": (replaced("title: good", "title: 'good"), "", "is not YAML"),
-    "nested 1000 deep": ("a: " + "[" * 1000 + "]" * 1000 + "\n", "1:", "nested too deeply"),
     "empty file": ("", "1:1", "scene: is empty"),
-    "comments alone": ("# nothing\n\n", "1:1", "scene: is empty"),
     "binary file": (b"\x89HDF\r\n\x1a\n\0\0\0\0", "", "is a result, not a scene"),
     "nul byte": (GOOD.encode() + b"a: \0\n", "9:4", "is not text"),
-    "invalid UTF-8": (GOOD.encode() + b"# caf\xe9\n", "9:6", "is not text"),
     "UTF-16": (GOOD.encode("utf-16"), "1:1", "is not text"),
     "C1 control in the title": (replaced("title: good", r'title: "red \x9b31m"'), "1:8", "holds a line break or a control"),
     "C1 control in a key": (GOOD + r'"a\x9bb": 1' + "\n", "9:1", "a?b: unknown key"),
     "byte-order mark": (b"\xef\xbb\xbf" + GOOD.encode(), "1:1", "byte-order mark"),
     "too large": (GOOD + "#" * 1_000_000, "", "a scene has at most that many"),
     "first of two errors": (replaced("factor: 5", "factor: x") + "colour: red\n", "3:19", "pendulum.quality_factor"),
-    "range before a later typo": (replaced("min: -2, max: 2", "min: 2, max: 1") + "colour: red\n", "8:27", "basin.velocity.max"),
 }
 
 
 # arguments after `kapitza`; what the line must name
 COMMAND_LINES = {
     "nothing": ([], "no command"),
-    "unknown option of the program": (["--colour"], "--colour: unknown option; kapitza --help lists"),
     "unknown command": (["modl", "scene.yaml"], "modl"),
     "typo in a command": (["chekc", "scene.yaml"], "did you mean check?"),
     "no scene": (["run"], "SCENE is missing"),
@@ -230,21 +164,14 @@ COMMAND_LINES = {
     "scene below a file": (["run", "scene.yaml/x"], "scene.yaml/x: cannot be opened"),
     "unknown option": (["run", "scene.yaml", "--colour"], "--colour: unknown option"),
     "typo in an option": (["run", "scene.yaml", "--resmue"], "did you mean --resume?"),
-    "unknown letter": (["run", "scene.yaml", "-x"], "-x: unknown option"),
     "option without value": (["run", "scene.yaml", "--set"], "--set: needs a value"),
-    "value without need": (["run", "scene.yaml", "--force=1"], "--force=1: takes no value"),
     "key without its mapping": (["check", "scene.yaml", "--set", "drive_amplitude=.4"], "did you mean pendulum.drive_amplitude?"),
     "option of another command": (["check", "scene.yaml", "--force"], "--force: unknown option"),
     "resume and force": (["run", "scene.yaml", "--resume", "--force"], "--resume: contradicts --force"),
     "progress": (["run", "scene.yaml", "--progress", "maybe"], "--progress"),
     "time limit of words": (["run", "scene.yaml", "--time-limit", "soon"], "--time-limit"),
-    "time limit of zero": (["run", "scene.yaml", "--time-limit", "0"], "--time-limit"),
-    "time limit below zero": (["run", "scene.yaml", "--time-limit=-3"], "--time-limit"),
-    "empty output": (["run", "scene.yaml", "-o", ""], "--output"),
     "missing folder": (["run", "scene.yaml", "-o", "absent/x.h5"], "absent/x.h5: the folder absent"),
     "file as the folder": (["run", "scene.yaml", "-o", "scene.yaml/x.h5"], "scene.yaml is a file"),
-    "folder as the output": (["run", "scene.yaml", "-o", "folder"], "folder: is a folder"),
-    "device as the output": (["run", "scene.yaml", "-o", "/dev/null"], "/dev/null"),
     "name too long": (["run", "scene.yaml", "-o", "x" * 300], "File name too long"),
     "path too long": (["run", "scene.yaml", "-o", "x/" * 3000], "too long"),
     "read-only folder": (["run", "scene.yaml", "-o", "/proc/x.h5"], "/proc/x.h5"),
@@ -255,18 +182,10 @@ COMMAND_LINES = {
     "scene as the output": (["run", "scene.yaml", "-o", "scene.yaml", "--force"], "scene.yaml: is the scene itself"),
     "set of two words": (["run", "scene.yaml", "--set", "basin.theta.count", "20"], "write --set basin.theta.count=20"),
     "set without value": (["run", "scene.yaml", "--set", "basin.theta.count"], "--set basin.theta.count: is not KEY=VALUE"),
-    "set with empty value": (["run", "scene.yaml", "--set", "basin.theta.count="], "--set basin.theta.count=: has no value"),
-    "set without key": (["run", "scene.yaml", "--set", "=3"], "--set =3"),
     "set of an unknown key": (["run", "scene.yaml", "--set", "basin.theta.cuont=3"], "did you mean basin.theta.count?"),
-    "set of an unknown study": (["run", "scene.yaml", "--set", "basins.theta.count=3"], "basins: unknown key; did you mean basin?"),
-    "set below a value": (["run", "scene.yaml", "--set", "title.x=3"], "title"),
     "set out of range": (["run", "scene.yaml", "--set", "basin.theta.count=0"], "--set basin.theta.count=0: basin.theta.count"),
-    "set to nan": (["run", "scene.yaml", "--set", "basin.velocity.max=.nan"], "--set basin.velocity.max=.nan: basin.velocity.max"),
-    "set to block text": (["run", "scene.yaml", "--set", "basin.theta=count: 3"], "flow text"),
-    "set to two values": (["run", "scene.yaml", "--set", "basin.theta.count=3\n--- 4"], "--set"),
     "set to an open bracket": (["run", "scene.yaml", "--set", "basin.theta={count: 3"], "is not YAML"),
     "set that contradicts": (["run", "scene.yaml", "--set", "pendulum.k=1"], "--set pendulum.k=1: pendulum.k: contradicts"),
-    "set that turns the window": (["run", "scene.yaml", "--set", "basin.velocity.max=-3"], "basin.velocity.max"),
     "set inside a replaced mapping": (["run", "scene.yaml", "--set", "basin.velocity={min: 0, mx: 1}"], "basin.velocity.mx"),
 }
 
@@ -281,12 +200,10 @@ def refuse_command_line(folder, name):
 
 @pytest.fixture(scope="module")
 def refusals(tmp_path_factory):
-    """All of them side by side, since starting MPI is mostly waiting: (command, name) -> the line, once it is asked for."""
+    """All of them side by side, since starting MPI is mostly waiting: name -> the line, once it is asked for."""
     with ThreadPoolExecutor(8) as pool:
-        lines = {("line", name): pool.submit(refuse_command_line, tmp_path_factory.mktemp("line"), name) for name in COMMAND_LINES}
-        for command in ("run", "check"):
-            for name in SCENES:
-                lines[command, name] = pool.submit(refuse_scene, tmp_path_factory.mktemp(command), command, name)
+        lines = {name: pool.submit(refuse_command_line, tmp_path_factory.mktemp("line"), name) for name in COMMAND_LINES}
+        lines |= {name: pool.submit(refuse_scene, tmp_path_factory.mktemp("scene"), "check", name) for name in SCENES}
         return lines
 
 
@@ -297,9 +214,8 @@ def refuse_scene(folder, command, name):
 
 
 @pytest.mark.parametrize("name", SCENES)
-@pytest.mark.parametrize("command", ["run", "check"])
-def test_scene_is_refused(refusals, name, command):
-    line = refusals[command, name].result()
+def test_scene_is_refused(refusals, name):
+    line = refusals[name].result()
     _, place, named = SCENES[name]
     assert named in line
     if place:
@@ -308,7 +224,7 @@ def test_scene_is_refused(refusals, name, command):
 
 @pytest.mark.parametrize("name", COMMAND_LINES)
 def test_command_line_is_refused(refusals, name):
-    assert COMMAND_LINES[name][1] in refusals["line", name].result()
+    assert COMMAND_LINES[name][1] in refusals[name].result()
 
 
 def test_unwritable_folder(tmp_path):

@@ -41,15 +41,6 @@ def test_ends_are_those_of_single_runs(chart, kapitza, tmp_path):
     assert decided >= 6
 
 
-def test_the_rest_decays_as_linear_theory_says(chart):
-    """Without drive every start hangs down in the end, at the rate pi beta per period (underdamped: beta < 2 sqrt k)."""
-    group, _, _ = chart
-    still = group.isel(x=0, y=slice(1, None), start=slice(0, 2))
-    assert (still["period"] == 1).all() and (still["centre"] == 0).all() and (still["winding"] == 0).all()
-    assert still["exponent"].values == pytest.approx(np.broadcast_to(-np.pi * still["y"].values, (2, 4)), abs=1e-7)
-    assert (still["settling_time"] > 10).all() and (still["settling_time"] < 200).all()
-
-
 def test_what_cannot_settle_is_told(chart):
     """No damping: no end; a start on the inverted rest: it ends there where that attracts, and nowhere where it does not."""
     group, summary, _ = chart

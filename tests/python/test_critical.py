@@ -61,7 +61,7 @@ CRITICAL = {
 }
 
 
-@pytest.mark.parametrize("distance", [-1e-8, -1e-9, 1e-9])
+@pytest.mark.parametrize("distance", [-1e-9, 1e-9])
 @pytest.mark.parametrize("name", CRITICAL)
 def test_either_side_of_a_bifurcation(basin, name, distance):
     """No attractor of the other side, none twice, and slow is not chaotic."""

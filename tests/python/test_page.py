@@ -90,14 +90,6 @@ def test_crafted_texts(made_file, tmp_path):
     assert not (tmp_path / "s.html").exists() or (tmp_path / "s.html").stat().st_size > 0
 
 
-def test_vtkhdf_of_a_crafted_basin_is_one_line(made_file, tmp_path):
-    with h5py.File(made_file, "r+") as file:
-        del file["basin/theta"]
-        file["basin"].create_group("theta")
-    done = plot("vtkhdf", made_file, "-o", tmp_path / "x.vtkhdf")
-    assert done.returncode == 1 and done.stderr.count("\n") == 1 and "Traceback" not in done.stderr
-
-
 def test_a_crash_of_the_library_is_one_line():
     """What damaged bytes do to HDF5 now and then: the command says so in one line."""
     code = ("import os, signal, sys\nfrom kapitza.script import run_apart\n"

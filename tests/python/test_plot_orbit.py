@@ -105,14 +105,6 @@ def test_open_records_say_what_they_are(files, tmp_path, name, words):
     assert all(word in text for word in words), words
 
 
-@pytest.mark.parametrize("panels", ["time", "phase,path", "spectrum", "time,spectrum"])
-def test_panels_are_a_choice(files, tmp_path, panels):
-    assert plot(files / "nodding.h5", "-o", tmp_path / "out.svg", "--panels", panels).returncode == 0
-    text = (tmp_path / "out.svg").read_text()
-    assert ("amplitude (rad)" in text) == ("spectrum" in panels)
-    assert ("x / length" in text) == ("path" in panels)
-
-
 def test_what_cannot_be_drawn(made_file, tmp_path):
     done = plot(made_file, "-o", tmp_path / "out.png")
     assert (done.returncode, done.stderr) == (1, f"kapitza: error: {made_file}: holds no orbit (studies in it: attractors, basin)\n")

@@ -9,8 +9,6 @@ import numpy as np
 import pytest
 from conftest import PROGRAM, ROOT
 from conftest import plot as plot_kind
-from hypothesis import given
-from hypothesis import strategies as st
 from kapitza import Result, style
 from kapitza.command import KINDS
 from kapitza.plots.basin import chosen_ids, draw_one
@@ -115,26 +113,10 @@ def test_dots_never_cover_a_small_basin(made_file, cells):
     assert pixels(made_file, colour) >= 0.75 * pixels(made_file, colour, "--no-dots") > 100
 
 
-def test_dots_can_be_left_out(made_file):
-    dot = style.shade(style.KINDS["inverted"], -0.45)
-    assert pixels(made_file, dot) > 20 and pixels(made_file, dot, "--no-dots") == 0
-    assert pixels(made_file, "white", "--attractor", "1", "--no-dots") != pixels(made_file, "white", "--attractor", "1")
-
-
 def test_a_strobe_point_on_the_seam_shows_on_both_edges(made_file):
     plane = Plane(Result(made_file).group("basin"), "down")
     theta, velocity = plane.inside([[-np.pi, np.nan]], [[0.0, np.nan]])
     assert np.allclose(sorted(theta), [-np.pi, np.pi]) and np.all(velocity == 0)
-
-
-@given(st.floats(-np.pi, np.pi), st.floats(-20, 20), st.floats(0.01, 2 * np.pi))
-def test_points_show_wherever_an_image_lies_in_the_window(theta, left, width):
-    plane = Plane.__new__(Plane)
-    plane.centres, plane.turn = {}, 2 * np.pi
-    plane.theta_range, plane.velocity_range = (left, left + width), (-1, 1)
-    found, _ = plane.inside([theta], [0.0])
-    wanted = [image for turn in range(-9, 10) if left <= (image := theta + 2 * np.pi * turn) <= left + width]
-    assert len(found) >= len(wanted) and all(left - 1e-8 <= image <= left + width + 1e-8 for image in found)
 
 
 @pytest.mark.parametrize("arguments, words", [

@@ -8,7 +8,7 @@ from collections import Counter
 import h5py
 import numpy as np
 import pytest
-from conftest import datasets, plot
+from conftest import datasets
 from kapitza import Result
 from runge_kutta import runge_kutta
 
@@ -108,16 +108,6 @@ def test_ranks_do_not_matter(kapitza, fig12, tmp_path, ranks):
     (tmp_path / "s.yaml").write_text(scene_text(max_period=4))
     kapitza("run", "s.yaml", ranks=ranks, folder=tmp_path)
     assert datasets(tmp_path / "s.h5") == datasets(fig12[2])
-
-
-def test_saddles_are_drawn(kapitza, tmp_path):
-    scene = json.loads(scene_text())
-    scene["basin"] = {"theta": {"count": 40}, "velocity": {"min": -2, "max": 2, "count": 40}, "method": "direct"}
-    (tmp_path / "s.yaml").write_text(json.dumps(scene))
-    kapitza("run", "s.yaml", folder=tmp_path)
-    assert plot("basin", tmp_path / "s.h5", "-o", tmp_path / "with.png", "--saddles").returncode == 0
-    assert plot("basin", tmp_path / "s.h5", "-o", tmp_path / "without.png").returncode == 0
-    assert (tmp_path / "with.png").read_bytes() != (tmp_path / "without.png").read_bytes()
 
 
 extensive = pytest.mark.skipif(not os.environ.get("KAPITZA_EXTENSIVE"), reason="minutes: set KAPITZA_EXTENSIVE=1")

@@ -11,7 +11,7 @@ sys.path.insert(0, str(ROOT / "benchmarks"))
 
 import scaling_model  # noqa: E402
 from scaling import Run, predictions  # noqa: E402
-from scaling_model import Costs, Stage, delivered, resampled  # noqa: E402
+from scaling_model import Costs, Stage, delivered  # noqa: E402
 
 FREE = Costs(0, 0, 0)
 
@@ -45,17 +45,6 @@ def test_whole_commands_follow_amdahl():
     workers = Stage([1.0] * 10, 10, FREE).workers
     assert delivered(workers, [0.0] * 10, 0.1) == pytest.approx(1)
     assert delivered(workers, [5.0] * 10, 0.1) == pytest.approx(6)
-
-
-def test_a_finer_grid_takes_as_long_for_a_cell():
-    assert resampled([1.0, 3.0], 4) == pytest.approx([0.5, 0.5, 1.5, 1.5])
-    assert resampled([1.0, 3.0, 2.0], 2) == pytest.approx([2.5, 3.5])
-    run = Run(100**2, [("cells 1", [1.0, 3.0]), ("map table", [1.0]), ("file", [1.0, 1.0])], 0.5, 0.25)
-    finer = run.refined(1000)
-    stages = dict(finer.stages)
-    assert sum(stages["cells 1"]) == pytest.approx(400) and stages["map table"] == [1.0]
-    assert 0.25 < finer.take < 0.251 and len(stages["file"]) == 34  # 15 rows a tile, half of them mirror images
-    assert finer.seconds() == pytest.approx(0.5 + 1 + 100 * (4 + 2) + 34 * 0.25, rel=1e-3)
 
 
 def test_a_log_is_read(kapitza, tmp_path):

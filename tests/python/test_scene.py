@@ -48,49 +48,6 @@ def test_integers_are_in_range_or_refused(tmp_path, value):
         assert status == 2 and "basin.theta.count" in err and err.count("\n") == 1
 
 
-OPTIONS = {
-    "basin.theta.count": st.integers(1, 1000),
-    "basin.max_periods": st.integers(1, 4_000_000_000),
-    "basin.method": st.sampled_from(["icm", "direct"]),
-    "basin.icm": st.fixed_dictionaries({}, optional={"theta": st.integers(8, 500), "velocity": st.integers(8, 500)}),
-    "basin.attractors.seed": st.integers(0, 2**53),
-    "numerics.scheme": st.sampled_from(["rk4", "split6", "processed"]),
-    "numerics.steps_per_period": st.integers(200, 400),  # enough for every pendulum below; errors of more take seconds to measure
-    "pendulum.quality_factor": st.floats(0.1, 10),  # the time that others take needs long samples
-    "pendulum": st.fixed_dictionaries({"k": st.floats(-1, 1), "damping": st.floats(0.2, 2), "m": st.floats(-1, 1)}),
-}
-ONE_OPTION = st.sampled_from(sorted(OPTIONS)).flatmap(lambda path: OPTIONS[path].map(lambda value: (path, value)))
-
-
-def flow(value):
-    if isinstance(value, dict):
-        return "{" + ", ".join(f"{name}: {flow(item)}" for name, item in value.items()) + "}"
-    return repr(value) if isinstance(value, float) else str(value)
-
-
-@SETTINGS
-@given(option=ONE_OPTION)
-def test_option_is_what_the_scene_would_say(tmp_path, option):
-    path, value = option
-    by_option = resolved(tmp_path, "--set", f"{path}={flow(value)}")
-    tree = yaml.safe_load(GOOD)
-    *parents, name = path.split(".")
-    mapping = tree
-    for parent in parents:
-        mapping = mapping.setdefault(parent, {})
-    mapping[name] = value
-    assert by_option == resolved(tmp_path, scene=flow(tree) + "\n")
-
-
-@SETTINGS
-@given(options=st.lists(ONE_OPTION, max_size=4))
-def test_resolved_text_is_a_fixed_point(tmp_path, options):
-    options = [option for option in options if option[0] != "pendulum.quality_factor"]
-    arguments = [word for path, value in options for word in ("--set", f"{path}={flow(value)}")]
-    once = resolved(tmp_path, *arguments)
-    assert resolved(tmp_path, scene=once) == once
-
-
 def test_last_option_wins(tmp_path):
     text = resolved(tmp_path, "--set", "basin.theta.count=3", "--set", "basin.theta={count: 4}", "--set", "basin.theta.count=5")
     assert at(yaml.safe_load(text), "basin.theta.count") == 5

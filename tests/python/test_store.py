@@ -30,12 +30,6 @@ def test_every_group_opens_with_xarray(small_result):
             dataset.load()
 
 
-def test_ncdump_reads_the_header(small_result):
-    done = subprocess.run(["ncdump", "-h", small_result], capture_output=True, text=True)
-    assert done.returncode == 0 and done.stderr == ""
-    assert "group: basin" in done.stdout and "group: attractors" in done.stdout
-
-
 def test_every_variable_says_what_it_is_in_which_unit(file):
     for item in every_dataset(file):
         assert {"units", "long_name"} <= item.attrs.keys(), item.name

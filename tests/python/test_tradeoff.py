@@ -1,6 +1,5 @@
 """The trade between speed and accuracy: the study, the cache of true labels, and basin.accuracy."""
 
-import json
 import os
 import signal
 import subprocess
@@ -11,7 +10,6 @@ import h5py
 import matplotlib.image
 import numpy as np
 import pytest
-import reference_coverage
 from conftest import PROGRAM, ROOT, datasets, plot, runs_until_saved, saved_bytes
 from kapitza import Result
 from kapitza.layout import VARIABLES
@@ -179,35 +177,6 @@ def test_the_picture(reference, tmp_path):
         done = plot("tradeoff", reference, "-o", tmp_path / "trade.png", *options)
         assert (done.returncode, done.stdout, done.stderr) == (0, f"{tmp_path / 'trade.png'}\n", "")
         assert matplotlib.image.imread(tmp_path / "trade.png")[..., :3].std() > 0.05
-
-
-def covered(real, chosen_real=0.02):
-    """A row of reference_coverage: stated 1 .. 3 % for the setting and for the chosen one, of which at most 4 % was asked."""
-    stated = [0.02, 0.01, 0.03]
-    return {"stated": {"direct-24": stated}, "real": {"direct-24": real, "icm-500": chosen_real},
-            "chosen": {"setting": "icm-500", "asked": 0.04, "samples": 1000, "stated": stated}}
-
-
-def test_coverage_counts_what_holds():
-    rows = [covered(0.02), covered(0.009), covered(0.031, 0.005), covered(0.01, 0.035), covered(0.03, 0.05)]
-    counts = {name: sum(hits) for name, hits in reference_coverage.tallies(rows).items()}
-    assert counts == {"direct-24": 3, "all of these": 3, "chosen by accuracy: in its interval": 2,
-                      "chosen by accuracy: below its bound": 3, "chosen by accuracy: as right as asked": 4}
-
-
-@pytest.mark.skipif(not os.environ.get("KAPITZA_EXTENSIVE"), reason="takes half a minute; KAPITZA_EXTENSIVE=1 runs it")
-def test_coverage_of_a_small_window(tmp_path):
-    """The tool at work; what is measured once is not measured again."""
-    command = [sys.executable, COVERAGE, "--pendulums", "1", "--samples", "60", "--truth", "200", "--cells", "60",
-               "--settings", "direct-24", "--seed", "12345", "--rows", "rows"]
-    done = [subprocess.run(command, cwd=tmp_path, capture_output=True, text=True) for _ in range(2)]
-    assert done[0].stdout == done[1].stdout and [run.stderr for run in done] == ["", ""]
-    (row,) = (json.loads(path.read_text()) for path in (tmp_path / "rows").iterdir())
-    assert row["way"] == {"samples": 60, "truth": 200, "cells": 60, "settings": ["direct-24"]}
-    assert row["chosen"]["stated"][2] <= row["chosen"]["asked"]
-    hits = reference_coverage.tallies([row])
-    assert [run.returncode for run in done] == [int(not all(map(all, hits.values())))] * 2
-    assert all(f"{name:38} {sum(hit):4} of 1\n" in done[0].stdout for name, hit in hits.items())
 
 
 @pytest.mark.skipif(not os.environ.get("KAPITZA_EXTENSIVE"), reason="takes an hour; KAPITZA_EXTENSIVE=1 runs it")

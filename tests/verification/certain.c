@@ -1,10 +1,7 @@
 /* Labels that are called decided, against quad precision by other steps, judged by circles around the strobe points and not by trapping regions.
  * The starts are chosen against the method: 1e-16 to 1e-8 rad from boundaries, found by bisection, of pendulums beside folds and doublings, where
  * a saddle is near, and where orbits linger. KAPITZA_EXTENSIVE=1: more of them. */
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <cmocka.h>
+#include "../tools/test.h"
 
 #include "../tools/explored.h"
 
@@ -65,8 +62,7 @@ static void bisect(kz_dynamics *d, double a[2], const double b[2]) {
   }
 }
 
-static void test_decided_is_right(void **state) {
-  (void)state;
+TEST(test_decided_is_right) {
   enum { PAIRS = 4000 };
   static double x[2 * PAIRS];
   const int boundaries = PART > 1 ? 1 : getenv("KAPITZA_EXTENSIVE") ? 40 : 2;
@@ -103,8 +99,7 @@ static void test_decided_is_right(void **state) {
 }
 
 /* What a process has labelled before at coarser levels changes no decision: ranks that met other tiles, and resumed runs, agree. */
-static void test_decisions_have_no_history(void **state) {
-  (void)state;
+TEST(test_decisions_have_no_history) {
   enum { N = 64 };
   double x[2 * N];
   kz_start start[N];
@@ -122,9 +117,4 @@ static void test_decisions_have_no_history(void **state) {
     assert_int_equal(decision[0][i].label, decision[1][i].label);
     if (decision[0][i].label != KZ_DOUBTFUL) assert_true(decision[0][i].error == decision[1][i].error);
   }
-}
-
-int main(void) {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(test_decided_is_right), cmocka_unit_test(test_decisions_have_no_history)};
-  return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,9 +1,6 @@
 /* Windows of any depth: labels of cells that are handed over by one reference orbit, against each cell's own orbit in as many digits as it
  * takes; the catalogue is found as for a basin. KAPITZA_EXTENSIVE=1: more cells, and the deepest windows. */
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <cmocka.h>
+#include "../tools/test.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -115,8 +112,7 @@ static void compare(const window *w) {
   close_view(&v);
 }
 
-static void labels_are_those_of_own_orbits(void **state) {
-  (void)state;
+TEST(labels_are_those_of_own_orbits) {
   static const window windows[] = {
       {K01, K01_BOUNDARY, "17", "1e-7", 6},        {K01, K01_BOUNDARY, "17", "1e-20", 6},
       {FIG12, FIG12_BOUNDARY, "1.42", "1e-12", 4}, {FIG12, FIG12_BOUNDARY, "1.42", "1e-25", 1},
@@ -146,8 +142,7 @@ static void compare_samples(const kz_window_starts *starts, const kz_window_curv
   assert_true(farthest > 0.4 && farthest < 0.7);
 }
 
-static void deep_windows_are_curves(void **state) {
-  (void)state;
+TEST(deep_windows_are_curves) {
   static const window deep = {K01, K01_BOUNDARY, "17", "1e-20", 0}, wide = {K01, K01_BOUNDARY, "17", "1e-4", 0};
   for (int i = 0; i < 2; i++) {
     view v = open_view(i == 0 ? &deep : &wide);
@@ -164,22 +159,12 @@ static void deep_windows_are_curves(void **state) {
 }
 
 /* A window that the map folds: hardly any first degree is left of it, and the second tells that the fourth is not small. */
-static void folded_images_hand_nothing_over(void **state) {
+TEST(folded_images_hand_nothing_over) {
   kz_image image[] = {{.jet = {.linear = {{1e-20, 0}, {0, 1e-20}}}},
                       {.jet = {.linear = {{1e-8, 0}, {0, 1e-8}}}},
                       {.jet = {.linear = {{1e-9, 0}, {0, 1e-9}}, .bent = {{[3] = 1e-17}}}}};
   const kz_images images = {.n = 2, .image = image};
-  (void)state;
   assert_int_equal(kz_hand_over_at(&images, kz_level_rows, 0.5).periods, 2);
   image[2].jet.bent[0][0] = 1e-6L;
   assert_int_equal(kz_hand_over_at(&images, kz_level_rows, 0.5).periods, 1);
-}
-
-int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(folded_images_hand_nothing_over),
-      cmocka_unit_test(deep_windows_are_curves),
-      cmocka_unit_test(labels_are_those_of_own_orbits),
-  };
-  return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,10 +1,7 @@
 /* Other drives - tilted, a square wave, two frequencies, a torque - and releases on a ramp. The reference and the release against Taylor series
  * in quad precision that are written here; labels that are called decided against the reference. KAPITZA_EXTENSIVE=1: 4000 cells and 2000
  * after a ramp, in place of some. */
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <cmocka.h>
+#include "../tools/test.h"
 
 #include "../tools/explored.h"
 
@@ -36,30 +33,10 @@ static kz_pendulum drive_of(int which) {
   return p;
 }
 
-/* Sine and cosine of a quad: the angle in eighths, then a series, then doubling. */
-static void sine_cosine(quad x, quad *s, quad *c) {
-  const quad small = x / 64;
-  quad term = small, square = small * small;
-  *s = 0;
-  for (int n = 1; n < 30; n += 2) *s += term, term *= -square / ((n + 1) * (n + 2));
-  quad less = 2 * (*s) * (*s); /* 1 - cos of the doubled angle, which loses nothing */
-  quad sine = *s;
-  quad versine = 0;
-  term = square / 2;
-  for (int n = 2; n < 32; n += 2) versine += term, term *= -square / ((n + 1) * (n + 2));
-  for (int i = 0; i < 6; i++) {
-    less = 2 * sine * sine;
-    sine = 2 * sine * (1 - versine);
-    versine = less;
-  }
-  *s = sine;
-  *c = 1 - versine;
-}
-
 /* Taylor coefficients of amplitude[0] cos j t + amplitude[1] sin j t about t, added. */
 static void add_harmonic(int j, const double amplitude[2], double factor, quad t, quad *series) {
   quad s, c;
-  sine_cosine(j * t, &s, &c);
+  sincosf128(j * t, &s, &c);
   quad value = factor * (amplitude[0] * c + amplitude[1] * s), slope = factor * j * (amplitude[1] * c - amplitude[0] * s);
   for (int n = 0; n <= ORDER; n++) {
     series[n] += value;
@@ -116,7 +93,7 @@ static void step(const kz_pendulum *p, const forces *f, int at, quad *theta, qua
   const quad *a = f->a[at], *b = f->b[at], *beta = f->beta[at];
   quad x[ORDER + 2] = {*theta}, v[ORDER + 2] = {*velocity}, s[ORDER + 2], c[ORDER + 2];
   const quad h = 2 * PI_QUAD / STEPS;
-  sine_cosine(*theta, s, c);
+  sincosf128(*theta, s, c);
   for (int n = 0; n <= ORDER; n++) {
     quad rate = (n == 0 ? p->torque : 0) - beta[0] * v[n] - (n == 0 ? 0 : beta[1] * v[n - 1]), ds = 0, dc = 0;
     for (int i = 0; i <= n; i++) {
@@ -143,8 +120,7 @@ static void assert_near(const quad x[2], const quad y[2], double most) {
   assert_true(fabs(remainder((double)(x[0] - y[0]), 2 * M_PI)) < most && fabs((double)(x[1] - y[1])) < most);
 }
 
-static void test_reference_obeys_the_equation(void **unused) {
-  (void)unused;
+TEST(test_reference_obeys_the_equation) {
   for (int which = 0; which < DRIVES; which++) {
     const kz_pendulum p = drive_of(which);
     const double theta = 0.7 - which, velocity = 0.3 * which - 0.5;
@@ -231,8 +207,7 @@ static void check(int which, kz_dynamics *d, const kz_pendulum *p, int n) {
   assert_true(10 * decided >= 8 * n);
 }
 
-static void test_decided_is_right(void **unused) {
-  (void)unused;
+TEST(test_decided_is_right) {
   for (int which = 0; which < DRIVES; which++) {
     const kz_pendulum p = drive_of(which);
     kz_dynamics *d = explored_pendulum(&p, numerics(), 1, 0, 4.0);
@@ -246,8 +221,7 @@ static const kz_release releases[] = {{.phase = 2, .damping = 1.0 / 55, .drive =
                                       {.phase = 0.5, .periods = 3, .damping = 1.0 / 55, .drive = 0.2}};
 
 /* In quad precision to all its digits where no strobe is cut; in double precision within the error that comes with it. */
-static void test_release_obeys_the_equation(void **unused) {
-  (void)unused;
+TEST(test_release_obeys_the_equation) {
   const kz_pendulum p = {.k = 1.0 / 121, .beta = 1.0 / 55, .m = 0.3};
   kz_dynamics *d = explored_pendulum(&p, numerics(), 1, 0, 4.0);
   for (int which = 0; which < 4; which++) {
@@ -268,8 +242,7 @@ static void test_release_obeys_the_equation(void **unused) {
   kz_dynamics_free(d);
 }
 
-static void test_decided_after_a_ramp_is_right(void **unused) {
-  (void)unused;
+TEST(test_decided_after_a_ramp_is_right) {
   const kz_pendulum p = {.k = 1.0 / 121, .beta = 1.0 / 55, .m = 0.3};
   const kz_release ramps[] = {{.periods = 100, .damping = 0.004, .drive = 1},
                               {.periods = 100, .damping = 1.0 / 55, .drive = 0.6}};
@@ -279,11 +252,4 @@ static void test_decided_after_a_ramp_is_right(void **unused) {
     check(which, d, &p, getenv("KAPITZA_EXTENSIVE") ? MOST : 4 / PART);
   }
   kz_dynamics_free(d);
-}
-
-int main(void) {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(test_reference_obeys_the_equation),
-                                     cmocka_unit_test(test_decided_is_right), cmocka_unit_test(test_release_obeys_the_equation),
-                                     cmocka_unit_test(test_decided_after_a_ramp_is_right)};
-  return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,9 +1,6 @@
 /* Every scheme converges with its order to the quad-precision reference. */
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
 #include <stdlib.h>
-#include <cmocka.h>
+#include "../tools/test.h"
 #include <math.h>
 
 #include "kapitza/kernel.h"
@@ -37,8 +34,7 @@ static double error_of(const kz_pendulum *pendulum, kz_numerics numerics) {
   return sqrt(sum / N);
 }
 
-static void test_orders(void **state) {
-  (void)state;
+TEST(test_orders) {
   const kz_pendulum pendulum = {0.05, 0.1, 0.4};
   static const int steps[] = {100, 12, 11};
   for (int row = 0; row < kz_scheme_count(); row++) {
@@ -56,8 +52,7 @@ static void test_orders(void **state) {
 }
 
 /* Undamped, the split schemes conserve area through 1e5 periods and stay where they belong. */
-static void test_undamped(void **state) {
-  (void)state;
+TEST(test_undamped) {
   const kz_pendulum pendulum = {1.0 / 121, 0, 0.3};
   for (int row = 1; row < kz_scheme_count(); row++) {
     kz_numerics numerics = {.scheme = row, .steps_per_period = 24};
@@ -71,9 +66,4 @@ static void test_undamped(void **state) {
     assert_true(fabs(matrix[0] * matrix[3] - matrix[1] * matrix[2] - 1) < 1e-12);
     kz_flow_free(flow);
   }
-}
-
-int main(void) {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(test_orders), cmocka_unit_test(test_undamped)};
-  return cmocka_run_group_tests(tests, NULL, NULL);
 }

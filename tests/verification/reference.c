@@ -1,11 +1,8 @@
 /* The quad-precision reference against published cycles, exact solutions, itself with other steps, and the split scheme. */
 #include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
 #include <string.h>
 
-#include <cmocka.h>
+#include "../tools/test.h"
 
 #include "kapitza/kernel.h"
 
@@ -31,8 +28,7 @@ static double between(double a, double b) {
 }
 
 /* Attracting cycles of tests/literature/reference.json (16 digits): they close after their period, with their winding. */
-static void published_cycles_close(void **unused) {
-  (void)unused;
+TEST(published_cycles_close) {
   static const struct {
     kz_pendulum pendulum;
     int64_t period, winding;
@@ -53,8 +49,7 @@ static void published_cycles_close(void **unused) {
 }
 
 /* k = m = 0: theta = theta0 + v (1 - e^(-beta t)) / beta, v e^(-beta t). */
-static void free_rotor_is_exact(void **unused) {
-  (void)unused;
+TEST(free_rotor_is_exact) {
   const double beta = 0.05, theta = 0.3, velocity = 1.7;
   motion end = carried((kz_pendulum){0, beta, 0}, KZ_REFERENCE_STEPS, 3, theta, velocity);
   assert_true(between(end.theta, theta - velocity * expm1(-6 * PI * beta) / beta) < 1e-14);
@@ -63,8 +58,7 @@ static void free_rotor_is_exact(void **unused) {
 }
 
 /* A long chaotic transient multiplies any error: doubles still agree to the last bits for any number of steps. */
-static void steps_do_not_matter(void **unused) {
-  (void)unused;
+TEST(steps_do_not_matter) {
   static const struct {
     double m, theta, velocity;
     int64_t periods;
@@ -79,16 +73,14 @@ static void steps_do_not_matter(void **unused) {
   }
 }
 
-static void mirror_is_exact(void **unused) {
-  (void)unused;
+TEST(mirror_is_exact) {
   motion end = carried((kz_pendulum)Q5_11(0.46), KZ_REFERENCE_STEPS, 20, 2.7, -1.3);
   motion mirrored = carried((kz_pendulum)Q5_11(0.46), KZ_REFERENCE_STEPS, 20, -2.7, 1.3);
   assert_true(end.theta == -mirrored.theta && end.velocity == -mirrored.velocity && end.turns == -mirrored.turns);
 }
 
 /* A start at rest whose first force vanishes (k = m), rest itself, and motions too fast or too slow for their size. */
-static void odd_starts(void **unused) {
-  (void)unused;
+TEST(odd_starts) {
   const kz_pendulum level = {0.3, 0.05, 0.3};
   motion a = carried(level, 9, 2, 1, 0), b = carried(level, 31, 2, 1, 0);
   assert_true(fabs(a.theta - b.theta) < 1e-15 && fabs(a.theta - 1) > 1e-3);
@@ -100,8 +92,7 @@ static void odd_starts(void **unused) {
 }
 
 /* Many states in one call, and their quads kept between calls, move as one state at a time does. */
-static void batches_and_calls_do_not_matter(void **unused) {
-  (void)unused;
+TEST(batches_and_calls_do_not_matter) {
   enum { N = 5 };
   const kz_pendulum pendulum = Q5_11(0.46);
   double theta[N], velocity[N], theta0[N], velocity0[N];
@@ -118,16 +109,4 @@ static void batches_and_calls_do_not_matter(void **unused) {
     motion alone = carried(pendulum, KZ_REFERENCE_STEPS, 30, theta0[i], velocity0[i]);
     assert_true(alone.theta == theta[i] && alone.velocity == velocity[i] && alone.turns == turns[i]);
   }
-}
-
-int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(published_cycles_close),
-      cmocka_unit_test(free_rotor_is_exact),
-      cmocka_unit_test(steps_do_not_matter),
-      cmocka_unit_test(mirror_is_exact),
-      cmocka_unit_test(odd_starts),
-      cmocka_unit_test(batches_and_calls_do_not_matter),
-  };
-  return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,13 +1,11 @@
 /* Three ways agree: Floquet multipliers by integration, Hill's determinant, GSL's characteristic values. */
 #include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
 #include <stdbool.h>
-#include <stddef.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include <cmocka.h>
+#define OWN_MAIN
+#include "../tools/test.h"
 
 #include "curves.h"
 #include "kapitza/analysis.h"
@@ -34,8 +32,7 @@ static double growth(double k, double beta, double m, double *angle) {
 }
 
 /* Wronskian: c s' - s c' = 1. */
-static void area_is_kept(void **unused) {
-  (void)unused;
+TEST(area_is_kept) {
   for (int i = 0; i < POINTS; i++) {
     double k = random_between(-2, 20), beta = random_between(0, 1), m = random_between(-5, 5);
     kz_half_period half = half_period(k, beta, m);
@@ -51,8 +48,7 @@ static double floquet_zero(int curve, double k, double m) {
   return zero[curve - 1];
 }
 
-static void curves_are_floquet_roots(void **unused) {
-  (void)unused;
+TEST(curves_are_floquet_roots) {
   const kz_damping none = {0, NAN};
   int seen = 0;
   for (int row = 0; row < 7; row++)
@@ -67,8 +63,7 @@ static void curves_are_floquet_roots(void **unused) {
   assert_true(seen > 200);
 }
 
-static void gsl_and_tridiagonal_agree(void **unused) {
-  (void)unused;
+TEST(gsl_and_tridiagonal_agree) {
   for (int curve = 1; curve <= 5; curve++)
     for (double m = 1e-3; m < 2500; m *= 1.3) {
       double gsl = kz_mathieu_k_gsl(curve, m), tridiagonal = kz_mathieu_k_tridiagonal(curve, m);
@@ -78,8 +73,7 @@ static void gsl_and_tridiagonal_agree(void **unused) {
 
 /* Damped edges from Hill's determinant: there the largest multiplier by integration crosses the circle, at -1 (tongue 1) or +1
  * (others). */
-static void damped_edges_have_multiplier_one(void **unused) {
-  (void)unused;
+TEST(damped_edges_have_multiplier_one) {
   const char *names[] = {"damped_0", "damped_1", "damped_2", "damped_1_upper", "damped_2_upper"};
   for (int row = 0; row < kz_curve_count; row++)
     for (int name = 0; name < 5; name++) {
@@ -103,8 +97,7 @@ static void damped_edges_have_multiplier_one(void **unused) {
 }
 
 /* Both edges of tongue 1 at beta = 0.07, by DOP853 at rtol 1e-12; where the damped tongue ends neither is left. */
-static void damped_tongue_turns_back(void **unused) {
-  (void)unused;
+TEST(damped_tongue_turns_back) {
   const kz_damping damping = {0.07, NAN};
   const double k[] = {0.3, 0.5, 0.6, 0.63}, edges[2][4] = {{0.125508629944, 0.612655265242, 1.040605809697, NAN},
                                                            {3.012258238175, 2.369918348959, 1.867327450921, NAN}};
@@ -119,8 +112,7 @@ static void damped_tongue_turns_back(void **unused) {
 }
 
 /* At any n, real subharmonic curves hold solutions with the angle 1/n. */
-static void subharmonics_have_their_angle(void **unused) {
-  (void)unused;
+TEST(subharmonics_have_their_angle) {
   const int32_t orders[] = {3, 5, 8, 17, 100};
   for (int j = 0; j < 5; j++)
     for (int i = 0; i < POINTS / 8; i++) {
@@ -133,8 +125,7 @@ static void subharmonics_have_their_angle(void **unused) {
 }
 
 /* Closed form against quadrature at the crossing, and the energy's slope against BSG (10). */
-static void potential_is_the_integral_of_the_slow_force(void **unused) {
-  (void)unused;
+TEST(potential_is_the_integral_of_the_slow_force) {
   for (int i = 0; i < POINTS; i++) {
     double k = random_between(-0.3, 0.3), beta = random_between(0, 0.2), m = random_between(0, 1);
     double theta = random_between(0.1, 3), h = 1e-3, slope = 0;
@@ -151,8 +142,7 @@ static void potential_is_the_integral_of_the_slow_force(void **unused) {
 }
 
 /* The rim is the first top of the energy seen from the inverted position, for gravity of any size and sign. */
-static void rim_is_the_first_top(void **unused) {
-  (void)unused;
+TEST(rim_is_the_first_top) {
   enum { ANGLES = 20000 };
   int wells = 0;
   for (int i = 0; i < POINTS; i++) {
@@ -179,15 +169,5 @@ static void rim_is_the_first_top(void **unused) {
 
 int main(void) {
   srand48(4);
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(area_is_kept),
-      cmocka_unit_test(curves_are_floquet_roots),
-      cmocka_unit_test(gsl_and_tridiagonal_agree),
-      cmocka_unit_test(damped_edges_have_multiplier_one),
-      cmocka_unit_test(damped_tongue_turns_back),
-      cmocka_unit_test(subharmonics_have_their_angle),
-      cmocka_unit_test(potential_is_the_integral_of_the_slow_force),
-      cmocka_unit_test(rim_is_the_first_top),
-  };
-  return cmocka_run_group_tests(tests, NULL, NULL);
+  return run_all_tests(NULL, NULL);
 }

@@ -1,12 +1,10 @@
 /* Transition curves of any wave form: Hill's determinant, Floquet's multipliers, Mathieu's values and the square wave's closed form agree. */
 #include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
 #include <stdbool.h>
-#include <stddef.h>
 #include <stdlib.h>
 
-#include <cmocka.h>
+#define OWN_MAIN
+#include "../tools/test.h"
 
 #include "curves.h"
 #include "kapitza/analysis.h"
@@ -38,8 +36,7 @@ static bool is_in_tongue(const kz_pendulum *form, int curve, double k, double m)
 }
 
 /* Edges by Hill's determinant are where Floquet's multiplier, by integration, leaves the circle: within 1e-11, in their order. */
-static void edges_of_any_wave_are_floquets(void **unused) {
-  (void)unused;
+TEST(edges_of_any_wave_are_floquets) {
   int seen = 0;
   for (int i = 0; i < FORMS; i++) {
     const kz_pendulum form = random_form(i % 2 == 0);
@@ -59,8 +56,7 @@ static void edges_of_any_wave_are_floquets(void **unused) {
 }
 
 /* Under the sine they are Mathieu's characteristic values. */
-static void edges_of_the_sine_are_mathieus(void **unused) {
-  (void)unused;
+TEST(edges_of_the_sine_are_mathieus) {
   const kz_pendulum sine = {.m = 1};
   for (int curve = 1; curve <= 5; curve++)
     for (double m = 0.01; m < 300; m *= 1.7)
@@ -79,8 +75,7 @@ static long double square_wave_trace(long double k, long double m) {
 }
 
 /* On Meissner's curves the period map, in closed form, has the trace 2 or -2 to 1e-12 of its terms. */
-static void meissners_edges_are_those_of_the_period_map(void **unused) {
-  (void)unused;
+TEST(meissners_edges_are_those_of_the_period_map) {
   for (int curve = 1; curve <= 5; curve++)
     for (double m = 0.003; m < 40; m *= 1.13) {
       const double k = kz_meissner_edge(NULL, curve, m), at = curve == 2 || curve == 3 ? -1 : 1;
@@ -91,8 +86,7 @@ static void meissners_edges_are_those_of_the_period_map(void **unused) {
 }
 
 /* The series up to order 7 of the wave form square lies this near to the true one, as docs/explanation/stability.md says. */
-static void series_of_the_square_wave_is_near_meissner(void **unused) {
-  (void)unused;
+TEST(series_of_the_square_wave_is_near_meissner) {
   kz_pendulum series = {.m = 1, .harmonics = 7};
   for (int j = 1; j <= 7; j += 2) series.vertical[j - 1][0] = (j % 4 == 1 ? 4 : -4) / (PI * j) - (j == 1);
   const double at[] = {0.5, 1, 2}, most[] = {1.6e-4, 5.4e-4, 2e-3};
@@ -106,11 +100,5 @@ static void series_of_the_square_wave_is_near_meissner(void **unused) {
 
 int main(void) {
   srand48(4);
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(edges_of_any_wave_are_floquets),
-      cmocka_unit_test(edges_of_the_sine_are_mathieus),
-      cmocka_unit_test(meissners_edges_are_those_of_the_period_map),
-      cmocka_unit_test(series_of_the_square_wave_is_near_meissner),
-  };
-  return cmocka_run_group_tests(tests, NULL, NULL);
+  return run_all_tests(NULL, NULL);
 }

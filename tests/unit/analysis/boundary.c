@@ -1,13 +1,9 @@
 /* Boundaries of known dimension, basins that share theirs, lifetimes of known means. */
 #include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include <cmocka.h>
+#include "../../tools/test.h"
 
 #include "kapitza/analysis.h"
 
@@ -45,8 +41,7 @@ static int16_t cantor_3(int row, int column) {
 }
 
 /* A line has the dimension 1, stripes over a Cantor set 1 + ln 2/ln 3: over the scales of three triadic steps. */
-static void test_dimensions(void **state) {
-  (void)state;
+TEST(test_dimensions) {
   kz_box_counts counts = {0};
   fill(line);
   assert_true(kz_boxes_count(SIDE, 257, label[0], &counts) == KZ_OK);
@@ -60,8 +55,7 @@ static void test_dimensions(void **state) {
 }
 
 /* Gaps taken in turn by three labels share the whole Cantor set (Wada); each boundary of stripes belongs to two of three. */
-static void test_which_basins_share_their_boundary(void **state) {
-  (void)state;
+TEST(test_which_basins_share_their_boundary) {
   kz_box_counts wada = {0}, pairs = {0};
   fill(cantor_3);
   assert_true(kz_boxes_count(SIDE, 257, label[0], &wada) == KZ_OK);
@@ -75,8 +69,7 @@ static void test_which_basins_share_their_boundary(void **state) {
 }
 
 /* Pairs of points on a line whose gaps are coloured by turns: exponent 1 - ln 2/ln 3 over every decade; of one point it is 1. */
-static void test_uncertainty_exponents(void **state) {
-  (void)state;
+TEST(test_uncertainty_exponents) {
   enum { DISTANCES = 7, PAIRS = 40000 };
   kz_uncertain cantor[DISTANCES], point[DISTANCES];
   kz_slope slope[DISTANCES - 1];
@@ -99,8 +92,7 @@ static void test_uncertainty_exponents(void **state) {
 }
 
 /* Exponential times, some still open: the interval holds the mean; where none has ended, there is a lower end alone. */
-static void test_lifetimes(void **state) {
-  (void)state;
+TEST(test_lifetimes) {
   enum { N = 4000 };
   static double time[N];
   uint64_t seed = 1;
@@ -123,14 +115,4 @@ static void test_lifetimes(void **state) {
   assert_true(fabs(many.high - many.low - 2 * 1.96 / 1000) < 1e-5);
   const kz_lifetime none = kz_lifetime_tail(0, time, 1000, 300);
   assert_true(isnan(none.mean) && none.high == INFINITY && fabs(none.low - 1000 * 300 / -log(0.05)) < 1e-6 * none.low);
-}
-
-int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_dimensions),
-      cmocka_unit_test(test_which_basins_share_their_boundary),
-      cmocka_unit_test(test_uncertainty_exponents),
-      cmocka_unit_test(test_lifetimes),
-  };
-  return cmocka_run_group_tests(tests, NULL, NULL);
 }

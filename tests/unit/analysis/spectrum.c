@@ -1,8 +1,6 @@
 /* Lines of orbits that are known in closed form. */
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <cmocka.h>
+#define OWN_MAIN
+#include "../../tools/test.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -60,8 +58,7 @@ static void lines(const kz_record *record, int64_t n) {
   assert_int_equal(kz_spectrum_lines(record, room->theta, n, room->amplitude, room->phase), KZ_OK);
 }
 
-static void analytic_lines_come_back(void **state) {
-  (void)state;
+TEST(analytic_lines_come_back) {
   kz_record record = closed(6, 0, PI);
   fill(&record, -0.02, NODDING, 4, 0);
   lines(&record, N_LINES);
@@ -81,8 +78,7 @@ static void analytic_lines_come_back(void **state) {
   assert_int_equal(kz_spectrum_dominant(N_LINES, room->amplitude), 1);
 }
 
-static void parseval(void **state) {
-  (void)state;
+TEST(parseval) {
   kz_record record = closed(6, 0, 0);
   fill(&record, 0.1, NODDING, 4, 0.7);
   for (int i = 0; i < 6 * SAMPLES; i++) room->theta[i] = tanh(room->theta[i]); /* every line there is */
@@ -98,8 +94,7 @@ static void parseval(void **state) {
 }
 
 /* A mean velocity of more than half a turn a drive radian is no angle: it is not wrapped. */
-static void mean_velocity_is_not_wrapped(void **state) {
-  (void)state;
+TEST(mean_velocity_is_not_wrapped) {
   kz_record record = closed(6, 0, 0);
   fill(&record, 5, NODDING, 4, 0.7);
   lines(&record, 20);
@@ -109,8 +104,7 @@ static void mean_velocity_is_not_wrapped(void **state) {
   assert_true(fabs(room->amplitude[0] - 5) < 1e-12 && fabs(room->amplitude[1] - NODDING[0].amplitude) < 1e-12);
 }
 
-static void mirror_orbit_has_mirrored_lines(void **state) {
-  (void)state;
+TEST(mirror_orbit_has_mirrored_lines) {
   static double amplitude[N_LINES], phase[N_LINES];
   kz_record record = closed(6, 1.0 / 6, 0), mirror = closed(6, -1.0 / 6, 0);
   fill(&record, 0.1, WITH_EVEN, 3, 0);
@@ -125,8 +119,7 @@ static void mirror_orbit_has_mirrored_lines(void **state) {
   }
 }
 
-static void symmetry_is_told_from_even_lines(void **state) {
-  (void)state;
+TEST(symmetry_is_told_from_even_lines) {
   kz_record record = closed(6, 0, PI);
   fill(&record, 0, NODDING, 4, 0);
   lines(&record, N_LINES);
@@ -143,8 +136,7 @@ static void symmetry_is_told_from_even_lines(void **state) {
   assert_false(kz_spectrum_symmetric(&turning, N_LINES, room->amplitude));
 }
 
-static void rest_has_no_lines(void **state) {
-  (void)state;
+TEST(rest_has_no_lines) {
   kz_record record = closed(4, 0, PI);
   fill(&record, 0, NODDING, 0, 0);
   lines(&record, N_LINES - 1);
@@ -165,8 +157,7 @@ static int64_t open_period(int64_t periods, double rotation, const line_t *line,
   return kz_spectrum_period(&record, 8 * periods, room->amplitude);
 }
 
-static void open_records_tell_n(void **state) {
-  (void)state;
+TEST(open_records_tell_n) {
   double largest;
   assert_int_equal(open_period(500, 0, NODDING, 4, &largest), 6);
   assert_true(fabs(largest - NODDING[0].amplitude) < 0.1 * NODDING[0].amplitude);
@@ -179,8 +170,7 @@ static void open_records_tell_n(void **state) {
   assert_int_equal(open_period(40, 0, NODDING, 4, &largest), 0); /* too short for n = 6 */
 }
 
-static void too_many_lines_are_refused(void **state) {
-  (void)state;
+TEST(too_many_lines_are_refused) {
   kz_record record = closed(1, 0, 0);
   kz_message_clear();
   assert_int_equal(kz_spectrum_lines(&record, room->theta, SAMPLES / 2 + 1, room->amplitude, room->phase), KZ_REFUSED);
@@ -188,8 +178,7 @@ static void too_many_lines_are_refused(void **state) {
   kz_message_clear();
 }
 
-static void names(void **state) {
-  (void)state;
+TEST(names) {
   static const struct {
     int64_t period, winding;
     int centre;
@@ -212,16 +201,5 @@ static void names(void **state) {
 }
 
 int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(analytic_lines_come_back),
-      cmocka_unit_test(mean_velocity_is_not_wrapped),
-      cmocka_unit_test(parseval),
-      cmocka_unit_test(mirror_orbit_has_mirrored_lines),
-      cmocka_unit_test(symmetry_is_told_from_even_lines),
-      cmocka_unit_test(rest_has_no_lines),
-      cmocka_unit_test(open_records_tell_n),
-      cmocka_unit_test(too_many_lines_are_refused),
-      cmocka_unit_test(names),
-  };
-  return cmocka_run_group_tests(tests, make_room, free_room);
+  return run_all_tests(make_room, free_room);
 }

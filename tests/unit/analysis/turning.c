@@ -1,8 +1,5 @@
 /* Turning points of motions that are known in closed form. */
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <cmocka.h>
+#include "../../tools/test.h"
 
 #include <math.h>
 
@@ -24,8 +21,7 @@ static int64_t cosine(int64_t periods, int64_t samples, double a, double phase) 
   return kz_turning_points(n, 2 * PI / (double)samples, theta, velocity, found);
 }
 
-static void extremes_of_a_cosine(void **state) {
-  (void)state;
+TEST(extremes_of_a_cosine) {
   assert_int_equal(cosine(10, 96, 0.7, -0.3), 20);
   for (int i = 0; i < 20; i++) {
     assert_true(fabs(found[i].time - (0.3 + PI * i)) < 1e-10);
@@ -33,14 +29,12 @@ static void extremes_of_a_cosine(void **state) {
   }
 }
 
-static void coarse_samples_keep_eight_digits(void **state) {
-  (void)state;
+TEST(coarse_samples_keep_eight_digits) {
   assert_int_equal(cosine(4, 24, 1.0, -0.1), 8);
   for (int i = 0; i < 8; i++) assert_true(fabs(fabs(found[i].angle) - 1) < 1e-9);
 }
 
-static void release_from_rest_is_not_a_turning_point(void **state) {
-  (void)state;
+TEST(release_from_rest_is_not_a_turning_point) {
   for (int i = 0; i < 97; i++) {
     double t = 2 * PI * i / 96;
     theta[i] = 0.5 * cos(t / 3);
@@ -49,8 +43,7 @@ static void release_from_rest_is_not_a_turning_point(void **state) {
   assert_int_equal(kz_turning_points(97, 2 * PI / 96, theta, velocity, found), 0);
 }
 
-static void a_sample_may_lie_on_the_turn(void **state) {
-  (void)state;
+TEST(a_sample_may_lie_on_the_turn) {
   for (int i = 0; i < 9; i++) {
     theta[i] = -(i - 4.0) * (i - 4.0);
     velocity[i] = -2 * (i - 4.0);
@@ -59,19 +52,7 @@ static void a_sample_may_lie_on_the_turn(void **state) {
   assert_true(found[0].time == 4 && found[0].angle == 0);
 }
 
-static void rest_never_turns(void **state) {
-  (void)state;
+TEST(rest_never_turns) {
   assert_int_equal(cosine(3, 32, 0, 0), 0);
   assert_int_equal(kz_turning_points(3, 0.1, theta, velocity, found), 0);
-}
-
-int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(extremes_of_a_cosine),
-      cmocka_unit_test(coarse_samples_keep_eight_digits),
-      cmocka_unit_test(release_from_rest_is_not_a_turning_point),
-      cmocka_unit_test(a_sample_may_lie_on_the_turn),
-      cmocka_unit_test(rest_never_turns),
-  };
-  return cmocka_run_group_tests(tests, NULL, NULL);
 }

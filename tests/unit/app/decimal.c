@@ -1,11 +1,8 @@
 /* Windows by their middle: numbers of any digits, in quotes or not, in degrees too; where they are refused. */
 #include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
 #include <string.h>
 
-#include <cmocka.h>
+#include "../../tools/test.h"
 
 #include "scene/scene.h"
 
@@ -19,8 +16,7 @@ static kz_status read_window(const char *theta, const char *velocity, kz_scene *
 }
 
 /* A tenth and pi to 32 digits; the text stays as it was written. */
-static void digits_beyond_double_precision_count(void **state) {
-  (void)state;
+TEST(digits_beyond_double_precision_count) {
   kz_scene scene;
   assert_int_equal(read_window("basin.theta={centre: '180 deg', width: 1}",
                                "basin.velocity={centre: 0.1, width: 1.00000000000000000000000000000001e-20, count: 2}", &scene),
@@ -44,8 +40,7 @@ static void expect_refused(const char *velocity, const char *words) {
   assert_non_null(strstr(kz_message(), words));
 }
 
-static void what_is_no_window_is_refused(void **state) {
-  (void)state;
+TEST(what_is_no_window_is_refused) {
   char longest[1100] = "basin.velocity={width: 1, centre: 0.";
   memset(longest + strlen(longest), '1', 1022);
   strcpy(longest + strlen(longest), "}");
@@ -58,12 +53,4 @@ static void what_is_no_window_is_refused(void **state) {
   expect_refused("basin.velocity={centre: 1, width: 1e-301}", "it must be a number from 1e-300");
   expect_refused("basin.velocity={min: 0, max: 5e-324, count: 50}", "too narrow for double precision");
   expect_refused("basin.velocity={centre: 1, max: 2}", "contradicts basin.velocity.centre");
-}
-
-int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(digits_beyond_double_precision_count),
-      cmocka_unit_test(what_is_no_window_is_refused),
-  };
-  return cmocka_run_group_tests(tests, NULL, NULL);
 }

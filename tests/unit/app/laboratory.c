@@ -1,8 +1,5 @@
 /* A pendulum in SI units, in several ways to say the same, and parts of pi. */
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <cmocka.h>
+#include "../../tools/test.h"
 
 #include <math.h>
 #include <string.h>
@@ -20,8 +17,7 @@ static void read_with(const char *option, kz_scene *scene) {
 }
 
 /* k = 1/121, beta = 1/55, m = 0.3: Q = 5 and Omega = 11 at 100 rad/s, of a length of 0.4 m. */
-static void units_and_ways_agree(void **state) {
-  (void)state;
+TEST(units_and_ways_agree) {
 #define GRAVITY "gravity: 33.057851239669425"
   static const char *const ways[] = {
       ("pendulum={mass: 100 g, radius: 20cm, inertia: 80000 g*cm^2, friction: 0.014545454545454545 N m s, " /* in brackets: */
@@ -40,16 +36,14 @@ static void units_and_ways_agree(void **state) {
   }
 }
 
-static void gravity_is_the_standard_one_where_it_is_left_out(void **state) {
-  (void)state;
+TEST(gravity_is_the_standard_one_where_it_is_left_out) {
   kz_scene scene;
   read_with("pendulum={length: 0.2, frequency: 50, amplitude: 1 mm, quality_factor: 9}", &scene);
   assert_true(fabs(scene.parameters.pendulum.k - 9.80665 / (0.2 * 1e4 * M_PI * M_PI)) < 1e-15);
   kz_scene_free(&scene);
 }
 
-static void angles_are_parts_of_pi(void **state) {
-  (void)state;
+TEST(angles_are_parts_of_pi) {
   kz_scene scene;
   read_with("basin.theta={min: -pi/2, max: 0.5 pi}", &scene);
   assert_true(scene.basin.theta.min == -M_PI / 2 && scene.basin.theta.max == M_PI / 2);
@@ -60,13 +54,4 @@ static void angles_are_parts_of_pi(void **state) {
     const kz_node node = {.kind = KZ_SCALAR, .text = (char *)wrong[i], .plain = true};
     assert_non_null(kz_scalar_angle(&node, &value));
   }
-}
-
-int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(units_and_ways_agree),
-      cmocka_unit_test(gravity_is_the_standard_one_where_it_is_left_out),
-      cmocka_unit_test(angles_are_parts_of_pi),
-  };
-  return cmocka_run_group_tests(tests, NULL, NULL);
 }

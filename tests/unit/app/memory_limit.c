@@ -1,9 +1,6 @@
 /* Limits of control groups, in a tree of our own: the lowest of all levels counts. */
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <cmocka.h>
+#define OWN_MAIN
+#include "../../tools/test.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -36,15 +33,13 @@ static double limit(const char *groups) {
   return kz_memory_limit("groups", ".");
 }
 
-static void both_versions_are_read(void **state) {
-  (void)state;
+TEST(both_versions_are_read) {
   assert_true(limit("0::/user/a b\n") == 5000000);
   assert_true(limit("5:devices:/\n4:memory:/job/step\n0::/\n") == 3000000);
   assert_true(limit("4:memory:/job/step\n0::/user\n") == 3000000);
 }
 
-static void what_is_not_there_limits_nothing(void **state) {
-  (void)state;
+TEST(what_is_not_there_limits_nothing) {
   assert_true(isinf(limit("0::/elsewhere/c\n")));
   assert_true(isinf(limit("")) && isinf(limit("nonsense\n")) && isinf(kz_memory_limit("missing", ".")));
   assert_true(limit("4:memory:/elsewhere\n") > 9e18);
@@ -67,7 +62,5 @@ static int tear_down(void **state) {
 }
 
 int main(void) {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(both_versions_are_read),
-                                     cmocka_unit_test(what_is_not_there_limits_nothing)};
-  return cmocka_run_group_tests(tests, set_up, tear_down);
+  return run_all_tests(set_up, tear_down);
 }

@@ -1,8 +1,5 @@
 /* The table of keys, strict scalars, the reading of a scene and its resolved text. */
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <cmocka.h>
+#include "../../tools/test.h"
 
 #include "../../tools/resolved.h"
 #include "scene/scene.h"
@@ -29,8 +26,7 @@ static void expect_refused(const char *text, const char *set, const char *messag
   assert_string_equal(kz_message(), message);
 }
 
-static void defaults_are_those_of_the_table(void **state) {
-  (void)state;
+TEST(defaults_are_those_of_the_table) {
   kz_scene scene;
   assert_int_equal(read_scene(GOOD, NULL, &scene), KZ_OK);
   assert_true(scene.has_basin);
@@ -50,8 +46,7 @@ static void defaults_are_those_of_the_table(void **state) {
 }
 
 /* Forms a, b and c (with either frequency) of one pendulum agree (BSG Eq. 1 and 2). */
-static void forms_agree(void **state) {
-  (void)state;
+TEST(forms_agree) {
   static const char *const forms[] = {
       "pendulum={quality_factor: 5, drive_frequency: 11, drive_amplitude: 0.3}",
       "pendulum={k: 0.008264462809917356, damping: 0.01818181818181818, m: 0.3}",
@@ -73,8 +68,7 @@ static void forms_agree(void **state) {
   }
 }
 
-static void angles_are_in_degrees_where_they_say_so(void **state) {
-  (void)state;
+TEST(angles_are_in_degrees_where_they_say_so) {
   kz_scene scene;
   assert_int_equal(read_scene(GOOD, "basin.theta={min: -90 deg, max: 180 deg}", &scene), KZ_OK);
   assert_true(scene.basin.theta.min == -M_PI / 2 && scene.basin.theta.max == M_PI);
@@ -92,8 +86,7 @@ static void angles_are_in_degrees_where_they_say_so(void **state) {
                  "number from -10000 to 10000 in rad per drive radian");
 }
 
-static void the_frequency_of_the_pivot_is_given_once(void **state) {
-  (void)state;
+TEST(the_frequency_of_the_pivot_is_given_once) {
 #define SI "pendulum: {mass: 1, radius: 1, inertia: 1, friction: 1, gravity: 1, pivot_amplitude: 1"
 #define STUDY "basin: {velocity: {min: -1, max: 1}}\n"
   expect_refused(SI ", pivot_frequency: 10, frequency: 2}\n" STUDY, NULL,
@@ -102,8 +95,7 @@ static void the_frequency_of_the_pivot_is_given_once(void **state) {
                  "s.yaml:1:11: pendulum.amplitude: the pendulum lacks: frequency (in Hz; or pivot_frequency in rad/s)");
 }
 
-static void undefined_parameters_are_nan(void **state) {
-  (void)state;
+TEST(undefined_parameters_are_nan) {
   kz_scene scene;
   assert_int_equal(read_scene(GOOD, "pendulum={k: 0, damping: 0.05, m: 0.5}", &scene), KZ_OK);
   assert_true(isnan(scene.parameters.quality_factor) && isnan(scene.parameters.drive_frequency));
@@ -114,8 +106,7 @@ static void undefined_parameters_are_nan(void **state) {
   kz_scene_free(&scene);
 }
 
-static void resolved_text_is_a_fixed_point(void **state) {
-  (void)state;
+TEST(resolved_text_is_a_fixed_point) {
   kz_scene scene;
   assert_int_equal(read_scene("title: 'say \"a\\b\"'\n" GOOD, "numerics={scheme: rk4, tolerance: 1e-9}", &scene), KZ_OK);
   char *once = resolved(&scene);
@@ -130,8 +121,7 @@ static void resolved_text_is_a_fixed_point(void **state) {
   kz_scene_free(&scene);
 }
 
-static void options_override_and_create(void **state) {
-  (void)state;
+TEST(options_override_and_create) {
   kz_scene scene;
   assert_int_equal(read_scene(GOOD, "basin.attractors.seed=7", &scene), KZ_OK);
   assert_int_equal(scene.basin.seed, 7);
@@ -142,8 +132,7 @@ static void options_override_and_create(void **state) {
   kz_scene_free(&scene);
 }
 
-static void errors_name_place_key_and_remedy(void **state) {
-  (void)state;
+TEST(errors_name_place_key_and_remedy) {
   expect_refused(GOOD "  methd: icm\n", NULL, "s.yaml:4:3: basin.methd: unknown key; did you mean method?");
   expect_refused(GOOD "  method: imc\n", NULL,
                  "s.yaml:4:11: basin.method: \"imc\" is unknown; it must be one of icm, direct, exact (did you mean icm?)");
@@ -165,16 +154,14 @@ static void errors_name_place_key_and_remedy(void **state) {
 }
 
 /* A word that was removed is answered with the one to use. */
-static void gone_words_name_the_new_one(void **state) {
-  (void)state;
+TEST(gone_words_name_the_new_one) {
   expect_refused(
       GOOD "  method: hybrid\n", NULL,
       "s.yaml:4:11: basin.method: \"hybrid\" is unknown; it must be one of icm, direct, exact (it was removed: use direct)");
 }
 
 /* What the processed splitting does not carry is left to split6 with its own number of steps. */
-static void numerics_fall_back(void **state) {
-  (void)state;
+TEST(numerics_fall_back) {
   kz_scene scene;
   kz_scheme scheme;
   assert_int_equal(read_scene(GOOD, "pendulum={k: 100, damping: 0.1, m: 1}", &scene), KZ_OK);
@@ -189,16 +176,14 @@ static void numerics_fall_back(void **state) {
 }
 
 /* An error further up is told first, whichever check finds it; a missing key comes last. */
-static void first_error_in_document_order(void **state) {
-  (void)state;
+TEST(first_error_in_document_order) {
   expect_refused("basin:\n  velocity: {min: 2, max: -2}\npendulum: {k: nan}\n", NULL,
                  "s.yaml:2:27: basin.velocity.max: -2 is too small; it must be greater than min = 2");
   expect_refused("basin:\n  method: xyz\n", NULL,
                  "s.yaml:2:11: basin.method: \"xyz\" is unknown; it must be one of icm, direct, exact");
 }
 
-static void scalars_are_strict(void **state) {
-  (void)state;
+TEST(scalars_are_strict) {
   static const char *const bad[] = {"1.5x", "0x10",  "maybe", ".nan", ".inf", "nan", "inf",  "-inf",  "''",
                                     "'1'",  "\"1\"", "010",   "1_0",  "1e",   "e1",  ".",    "1e999", "1e-999",
                                     "--1",  "+-1",   "1 2",   "[1]",  "{}",   "~",   "null", "1e1.5"};
@@ -221,8 +206,7 @@ static void scalars_are_strict(void **state) {
   }
 }
 
-static void structure_is_strict(void **state) {
-  (void)state;
+TEST(structure_is_strict) {
   expect_refused("", NULL, "s.yaml:1:1: scene: is empty; give a pendulum and a study");
   expect_refused("a: &x 1\n", NULL, "s.yaml:1:4: scene: an anchor (&name) stands here; write the value out");
   expect_refused("a: *x\n", NULL, "s.yaml:1:4: scene: an alias (*name) stands here; write the value out");
@@ -272,8 +256,7 @@ static const kz_key list_keys[] = {
     {.path = "s.b", .type = KZ_KEY_BOOLEAN, .unit = "", .fallback = "false", .offset = offsetof(lists, boolean), .help = ""},
     {.path = NULL}};
 
-static void lists_are_read_and_written(void **state) {
-  (void)state;
+TEST(lists_are_read_and_written) {
   static const struct {
     const char *text, *message, *written;
   } cases[] = {
@@ -310,8 +293,7 @@ static void lists_are_read_and_written(void **state) {
 }
 
 /* Every row has a help, a default that its own range accepts, and a mapping above it in the table. */
-static void table_is_sound(void **state) {
-  (void)state;
+TEST(table_is_sound) {
   kz_scene scene;
   memset(&scene, 0, sizeof scene);
   for (const kz_key *key = kz_keys; key->path; key++) {
@@ -325,25 +307,4 @@ static void table_is_sound(void **state) {
   }
   assert_int_equal(read_scene(GOOD, NULL, &scene), KZ_OK);
   kz_scene_free(&scene);
-}
-
-int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(defaults_are_those_of_the_table),
-      cmocka_unit_test(forms_agree),
-      cmocka_unit_test(angles_are_in_degrees_where_they_say_so),
-      cmocka_unit_test(the_frequency_of_the_pivot_is_given_once),
-      cmocka_unit_test(undefined_parameters_are_nan),
-      cmocka_unit_test(resolved_text_is_a_fixed_point),
-      cmocka_unit_test(options_override_and_create),
-      cmocka_unit_test(errors_name_place_key_and_remedy),
-      cmocka_unit_test(gone_words_name_the_new_one),
-      cmocka_unit_test(numerics_fall_back),
-      cmocka_unit_test(first_error_in_document_order),
-      cmocka_unit_test(scalars_are_strict),
-      cmocka_unit_test(structure_is_strict),
-      cmocka_unit_test(lists_are_read_and_written),
-      cmocka_unit_test(table_is_sound),
-  };
-  return cmocka_run_group_tests(tests, NULL, NULL);
 }

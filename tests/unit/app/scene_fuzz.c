@@ -1,9 +1,6 @@
 /* Mutated scenes: each is read or refused in one line that names the file; what is read has a resolved text that is a fixed
  * point. KZ_FUZZ_INPUTS sets the number of inputs (default 20000, with sanitizers 4000), KZ_FUZZ_SEED the random numbers. */
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <cmocka.h>
+#include "../../tools/test.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -95,8 +92,7 @@ static size_t number(const char *name, size_t otherwise) {
   return value ? strtoull(value, NULL, 10) : otherwise;
 }
 
-static void mutated_scenes_are_read_or_refused(void **unused) {
-  (void)unused;
+TEST(mutated_scenes_are_read_or_refused) {
   state = number("KZ_FUZZ_SEED", 1) * 2654435769u + 1;
   size_t read = 0;
   for (size_t i = number("KZ_FUZZ_INPUTS", PART > 1 ? 4000 : 20000); i > 0; i--) {
@@ -108,9 +104,4 @@ static void mutated_scenes_are_read_or_refused(void **unused) {
     read += kz_message()[0] == '\0';
   }
   assert_true(read > 0);
-}
-
-int main(void) {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(mutated_scenes_are_read_or_refused)};
-  return cmocka_run_group_tests(tests, NULL, NULL);
 }

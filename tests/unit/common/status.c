@@ -1,12 +1,8 @@
 /* The message of a failure belongs to the thread that failed. */
 #include <pthread.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
 #include <stdio.h>
 #include <string.h>
-#include <cmocka.h>
+#include "../../tools/test.h"
 
 #include "kapitza/common.h"
 
@@ -17,8 +13,7 @@ static void *fail_too(void *copy) {
   return NULL;
 }
 
-static void test_threads_have_their_own_messages(void **state) {
-  (void)state;
+TEST(test_threads_have_their_own_messages) {
   pthread_t thread;
   char other[64] = "";
   assert_int_equal(kz_fail(KZ_REFUSED, "count: is %d", 3), KZ_REFUSED);
@@ -31,16 +26,9 @@ static void test_threads_have_their_own_messages(void **state) {
 }
 
 /* Later failures of a thread are consequences. */
-static void test_the_first_message_stays(void **state) {
-  (void)state;
+TEST(test_the_first_message_stays) {
   kz_fail(KZ_REFUSED, "the cause");
   kz_fail(KZ_FAILED, "a consequence");
   assert_string_equal(kz_message(), "the cause");
   kz_message_clear();
-}
-
-int main(void) {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(test_threads_have_their_own_messages),
-                                     cmocka_unit_test(test_the_first_message_stays)};
-  return cmocka_run_group_tests(tests, NULL, NULL);
 }

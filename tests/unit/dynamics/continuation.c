@@ -1,8 +1,5 @@
 /* One cycle carried from parameters to parameters, against physics known to many digits (Q = 5, Omega = 11). */
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <cmocka.h>
+#include "../../tools/test.h"
 
 #include <math.h>
 
@@ -30,8 +27,7 @@ static kz_branch_point flutter(double m) {
 }
 
 /* The published strobe points, amplitudes and multipliers of the half map. */
-static void test_flutter(void **state) {
-  (void)state;
+TEST(test_flutter) {
   static const double known[][6] = {
       /* m, phi, phi', amplitude, half map */
       {0.47, 0.161076997267223124, -0.002241504186408954, 0.16111093243808042, 0.9147951308392979, 0.23493391956730758},
@@ -49,16 +45,14 @@ static void test_flutter(void **state) {
 }
 
 /* At the end of the mirror symmetry the half map passes -1. */
-static void test_symmetry_breaking(void **state) {
-  (void)state;
+TEST(test_symmetry_breaking) {
   const kz_branch_point before = flutter(0.5618456), after = flutter(0.5618457);
   assert_true(before.half_re[0] > -1 && after.half_re[0] < -1);
   assert_true(fabs(before.multiplier_re[0] - 1) < 1e-4 && hypot(before.multiplier_re[0], before.multiplier_im[0]) < 1);
 }
 
 /* Rotations keep their winding, mirror images mirror, and the whole orbit is the same cycle from any of its points. */
-static void test_rotation(void **state) {
-  (void)state;
+TEST(test_rotation) {
   const kz_pendulum p = pendulum(0.3);
   kz_branch_point point = {.theta = 3.0164, .velocity = 1.0688, .period = 1, .winding = 1}, image, other;
   assert_int_equal(kz_branch_continue(&p, &point, 0.01, &point), 1);
@@ -75,8 +69,7 @@ static void test_rotation(void **state) {
 }
 
 /* What is not there is not found: flutter below its birth, a cycle out of reach, a rotation below its fold. */
-static void test_refusals(void **state) {
-  (void)state;
+TEST(test_refusals) {
   kz_branch_point point = flutter(0.4683), out;
   const kz_pendulum below = pendulum(0.468), far = pendulum(0.52), still = pendulum(0.02);
   assert_int_equal(kz_branch_continue(&below, &point, 0.5, &out), 0);
@@ -96,8 +89,7 @@ static void carry(kz_dynamics *dynamics, double end[2]) {
 }
 
 /* Along a slider the coefficients are interpolated: the map is that of a pendulum made anew, forwards, back, and after a leap. */
-static void test_slider(void **state) {
-  (void)state;
+TEST(test_slider) {
   const kz_numerics numerics = {.scheme = kz_scheme_find("processed"), .steps_per_period = 40};
   for (int by_k = 0; by_k < (PART > 1 ? 1 : 2); by_k++) {
     kz_pendulum p = pendulum(0.3);
@@ -118,13 +110,4 @@ static void test_slider(void **state) {
     }
     kz_dynamics_free(moved);
   }
-}
-
-int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_flutter),  cmocka_unit_test(test_symmetry_breaking),
-      cmocka_unit_test(test_rotation), cmocka_unit_test(test_refusals),
-      cmocka_unit_test(test_slider),
-  };
-  return cmocka_run_group_tests(tests, NULL, NULL);
 }

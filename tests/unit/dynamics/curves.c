@@ -1,8 +1,5 @@
 /* Curves of bifurcations over Blackburn's plane: against the linear equation, the flutter table of docs/validation/studies.md, and physics. */
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <cmocka.h>
+#include "../../tools/test.h"
 
 #include <math.h>
 
@@ -46,8 +43,7 @@ static double next_flip(const kz_curve_kind *kind, double *y) {
 }
 
 /* On a vertical line: flutter is born out of inverted rest, loses its symmetry, and then doubles. */
-static void test_flutter(void **state) {
-  (void)state;
+TEST(test_flutter) {
   const kz_curve_kind rest = {1, 1, -1, 0}, symmetric = {-1, 1, -1, 1}, pair = {1, 2, -1, 0};
   for (int i = 0; i < 4; i++) {
     double y[4] = {PI, 0, (FLUTTER[i][0] - 3) / 27, 0.47 / 0.8}, child[6], form, side[2], vector[2];
@@ -67,8 +63,7 @@ static void test_flutter(void **state) {
 }
 
 /* At Omega = 20 a rotation of six periods is born at 0.3505459 and doubles 1.8e-5 above: from the fold its branches meet that. */
-static void test_branches_of_a_fold(void **state) {
-  (void)state;
+TEST(test_branches_of_a_fold) {
   enum { MOST = 400, EVENTS = 20, N = 12 };
   const kz_curve_kind fold = {1, 6, 1, 2};
   double y[N + 2] = {0.792497560880641, 0.408106903865102}, row[MOST][4 + N], event[EVENTS][3 + N], nearest = 1;
@@ -88,8 +83,7 @@ static void test_branches_of_a_fold(void **state) {
 }
 
 /* The whole curve of the birth: every point is one of the published map to 1e-11, and the tangent map there has the multiplier -1. */
-static void test_trace(void **state) {
-  (void)state;
+TEST(test_trace) {
   enum { MOST = 300 };
   const kz_curve_kind rest = {1, 1, -1, 0};
   double seed[4] = {PI, 0, 0.3, 0.47 / 0.8}, row[MOST][10], special[4][5];
@@ -112,18 +106,11 @@ static void test_trace(void **state) {
 }
 
 /* Refused: a seed far from any curve, and a place without damping. */
-static void test_refused(void **state) {
-  (void)state;
+TEST(test_refused) {
   const kz_curve_kind rest = {1, 1, -1, 0};
   double seed[4] = {PI, 0, -0.12, 0.3}, row[10], special[5];
   int64_t specials;
   int32_t ending;
   assert_int_equal(kz_curve_trace(&PLANE, &rest, seed, 1, 0.02, 1, row, 1, special, &specials, &ending), 0);
   assert_int_equal(ending, KZ_TRACE_NO_SEED);
-}
-
-int main(void) {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(test_flutter), cmocka_unit_test(test_branches_of_a_fold),
-                                     cmocka_unit_test(test_trace), cmocka_unit_test(test_refused)};
-  return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,8 +1,5 @@
 /* Attractors, map table, trapping regions. */
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <cmocka.h>
+#include "../../tools/test.h"
 
 #include "../../tools/explored.h"
 #include "kapitza/dynamics.h"
@@ -13,8 +10,7 @@
 #include <string.h>
 
 /* The four attractors of Fig. 13, whatever the seed: pairs are exact mirror images, ids do not depend on the search. */
-static void test_catalogue(void **state) {
-  (void)state;
+TEST(test_catalogue) {
   kz_dynamics *a = explored(0.46, 1, 3), *b = explored(0.46, 77, 3);
   int64_t order_a[64], order_b[64], n = kz_dynamics_count(a);
   assert_int_equal(n, 4);
@@ -53,8 +49,7 @@ static void test_catalogue(void **state) {
 }
 
 /* A period of ICM converges to a period of integration with the order of its interpolation. */
-static void test_interpolation(void **state) {
-  (void)state;
+TEST(test_interpolation) {
   kz_pendulum pendulum = {1.0 / 121, 1.0 / 55, 0.3};
   enum { N = 500 };
   for (int points = 2; points <= 6; points += 4) {
@@ -83,8 +78,7 @@ static void test_interpolation(void **state) {
 }
 
 /* The catalogue survives its travel as doubles. */
-static void test_packing(void **state) {
-  (void)state;
+TEST(test_packing) {
   kz_dynamics *a = explored(0.46, 1, 3);
   kz_pendulum pendulum = {1.0 / 121, 1.0 / 55, 0.46};
   kz_dynamics *b = kz_dynamics_create(&pendulum, numerics(), 12);
@@ -102,8 +96,7 @@ static void test_packing(void **state) {
 }
 
 /* Regions that grew with every attractor found are those that grow around all of them at once. */
-static void test_regions_know_no_order(void **state) {
-  (void)state;
+TEST(test_regions_know_no_order) {
   enum { N = 20000 / PART, CELLS = PART > 1 ? 150 : 300 };
   kz_pendulum pendulum = {1.0 / 121, 1.0 / 55, 0.3};
   kz_dynamics *a = explored_with(numerics(), 0.3, 1, CELLS, 3), *b = kz_dynamics_create(&pendulum, numerics(), 12);
@@ -136,8 +129,7 @@ static void test_regions_know_no_order(void **state) {
 }
 
 /* k = 0.25, beta = 0.05, m = 0.5: one chaotic attractor owns the plane. */
-static void test_chaos(void **state) {
-  (void)state;
+TEST(test_chaos) {
   enum { N = 256 / PART };
   static const double TOP = 4.0 * 199 / 195; /* a cover's cells belong to a grid of this height */
   kz_pendulum pendulum = {0.25, 0.05, 0.5};
@@ -177,8 +169,7 @@ static void test_chaos(void **state) {
 
 /* A torque turns this pendulum faster and faster, until it runs in step with nothing. Its neighbours part by a factor of 90, and no further:
  * it is no chaos, within the regions or beyond. (It was, and beyond the regions the program crashed.) */
-static void test_quasi_periodic_motions_are_no_chaos(void **state) {
-  (void)state;
+TEST(test_quasi_periodic_motions_are_no_chaos) {
   const kz_pendulum pendulum = {.k = 1.0 / 121, .beta = 0.0025, .m = 1.855, .torque = 0.01, .unmirrored = 1};
   const double tops[] = {1.5, 5};
   if (PART > 1) return; /* test_chaos shows the sanitizers the same code */
@@ -193,13 +184,4 @@ static void test_quasi_periodic_motions_are_no_chaos(void **state) {
     free(found);
     kz_dynamics_free(d);
   }
-}
-
-int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_catalogue), cmocka_unit_test(test_interpolation),
-      cmocka_unit_test(test_packing),   cmocka_unit_test(test_regions_know_no_order),
-      cmocka_unit_test(test_chaos),     cmocka_unit_test(test_quasi_periodic_motions_are_no_chaos),
-  };
-  return cmocka_run_group_tests(tests, NULL, NULL);
 }

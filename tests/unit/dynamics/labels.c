@@ -1,8 +1,5 @@
 /* Labels: mirrored starts, the processed splitting against split6, grown regions, errors beside the orbits. */
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <cmocka.h>
+#include "../../tools/test.h"
 
 #include "../../tools/explored.h"
 
@@ -11,8 +8,7 @@
 #include <string.h>
 
 /* Mirrored starts get mirrored labels and equal settling times; a cell outside the table is integrated, not guessed. */
-static void test_mirrored_labels(void **state) {
-  (void)state;
+TEST(test_mirrored_labels) {
   enum { N = 1000 };
   kz_dynamics *d = explored(0.46, 1, 3);
   with_table(d, 400, 3);
@@ -54,8 +50,7 @@ static kz_numerics processed(double m) {
 /* Labels of one kick a step in coordinates of its own are those of split6 with 96 steps, but where the last place of a start
  * decides: at m = 0.46 that is so for 23 of 3072 starts. Grown over the cells of its own table they stay so; with mirrored starts
  * they are mirrored. The strobe points are the same to the last bit. */
-static void test_processed(void **state) {
-  (void)state;
+TEST(test_processed) {
   enum { N = 3072 / PART };
   static const struct {
     double m;
@@ -119,8 +114,7 @@ static void test_processed(void **state) {
 
 /* Starts inside grown regions end where the regions say: flown on with nothing but tiny ellipses of a fresh search. Under a strong
  * drive threads of other basins, narrower than a cell, pass between its corners. */
-static void test_regions_are_right(void **state) {
-  (void)state;
+TEST(test_regions_are_right) {
   enum { N = 16000 / PART };
   static const kz_pendulum pendulums[] = {{1.0 / 121, 1.0 / 55, 0.15}, {1.0 / 121, 1.0 / 55, 0.46}, {0.04631, 0.1617, 1.353}};
   static double x[2 * N], y[2 * N];
@@ -149,8 +143,7 @@ static void test_regions_are_right(void **state) {
 
 /* With its error beside it an orbit ends where it ends alone, or its label is doubtful: every wrong one is (quad precision), and
  * hardly six times as many as are wrong. */
-static void test_wrong_labels_are_doubtful(void **state) {
-  (void)state;
+TEST(test_wrong_labels_are_doubtful) {
   enum { N = 4000 / PART };
   static double start[2 * N], x[2 * N], y[2 * N];
   static int32_t direct[N], followed[N], expected[N];
@@ -189,14 +182,4 @@ static void test_wrong_labels_are_doubtful(void **state) {
   for (int i = 0; i < open; i++) doubtful -= direct[i] == KZ_DOUBTFUL;
   assert_in_range(-doubtful, 0, 4);
   kz_dynamics_free(d);
-}
-
-int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_mirrored_labels),
-      cmocka_unit_test(test_processed),
-      cmocka_unit_test(test_regions_are_right),
-      cmocka_unit_test(test_wrong_labels_are_doubtful),
-  };
-  return cmocka_run_group_tests(tests, NULL, NULL);
 }

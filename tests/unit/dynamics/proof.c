@@ -1,8 +1,5 @@
 /* Proofs against orbits: no start ends elsewhere than where it is proved to end, and what cannot be proved is not. */
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <cmocka.h>
+#include "../../tools/test.h"
 
 #include <math.h>
 #include <stdbool.h>
@@ -17,8 +14,7 @@ static const double THETA = 3.0164225972238, VELOCITY = 1.0688105148992;
 enum { ROTATION = 1, OPPOSITE = 2, COLUMNS = 120, ROWS = 120, PERIODS = 250 };
 static const double TOP = 2;
 
-static void ellipses_that_hold_and_that_do_not(void **state) {
-  (void)state;
+TEST(ellipses_that_hold_and_that_do_not) {
   kz_proof *proof;
   assert_int_equal(kz_proof_create(&pendulum, COLUMNS, ROWS, TOP, TOP, &proof), KZ_OK);
   kz_proof_ellipse ellipse = kz_proof_find_ellipse(proof, 1, THETA, VELOCITY);
@@ -42,8 +38,7 @@ static void ellipses_that_hold_and_that_do_not(void **state) {
 }
 
 /* Only the true mirror image of a cycle is proved to be one. */
-static void mirror_images_are_proved(void **state) {
-  (void)state;
+TEST(mirror_images_are_proved) {
   kz_proof *proof;
   assert_int_equal(kz_proof_create(&pendulum, COLUMNS, ROWS, TOP, TOP, &proof), KZ_OK);
   const double rotation[2] = {THETA, VELOCITY}, opposite[2] = {-THETA, -VELOCITY}, down[2] = {0, 0};
@@ -86,8 +81,7 @@ static int end_of(const kz_flow *flow, double theta, double velocity) {
 }
 
 /* Starts of the window: those that end elsewhere are not proved, nearly all others are, and so are their mirror images. */
-static void starts_end_where_they_are_said_to(void **state) {
-  (void)state;
+TEST(starts_end_where_they_are_said_to) {
   enum { N = PART > 1 ? 400 : 2000 };
   kz_proof *proof = region_of_rotations();
   static kz_proof_start start[N], image[N];
@@ -119,8 +113,7 @@ static void starts_end_where_they_are_said_to(void **state) {
 }
 
 /* A start's result is its own, whoever goes with it; pairs prove what doubles do, and quads what pairs do. */
-static void results_do_not_depend_on_neighbours(void **state) {
-  (void)state;
+TEST(results_do_not_depend_on_neighbours) {
   enum { N = 64 };
   kz_proof *proof = region_of_rotations();
   kz_proof_start start[N];
@@ -140,8 +133,7 @@ static void results_do_not_depend_on_neighbours(void **state) {
 }
 
 /* Another pendulum has its cycle elsewhere; what is published is confined to some last places. */
-static void cycles_are_confined(void **state) {
-  (void)state;
+TEST(cycles_are_confined) {
   const double theta[] = {THETA}, velocity[] = {VELOCITY}, wrong[] = {VELOCITY + 1e-9};
   const double re[] = {-0.22, -0.22}, im[] = {0.9, -0.9};
   kz_proof_cycle cycle = {1, theta, velocity, re, im};
@@ -161,12 +153,4 @@ static void cycles_are_confined(void **state) {
   small.radius = 1e-4;
   assert_false(kz_proof_traps(proof, 1, THETA, VELOCITY, &small));
   kz_proof_free(proof);
-}
-
-int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(ellipses_that_hold_and_that_do_not), cmocka_unit_test(mirror_images_are_proved),
-      cmocka_unit_test(starts_end_where_they_are_said_to), cmocka_unit_test(results_do_not_depend_on_neighbours),
-      cmocka_unit_test(cycles_are_confined)};
-  return cmocka_run_group_tests(tests, NULL, NULL);
 }

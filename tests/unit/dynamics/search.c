@@ -1,8 +1,5 @@
 /* What the search for cycles costs. */
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <cmocka.h>
+#include "../../tools/test.h"
 
 #include "kapitza/dynamics.h"
 
@@ -12,8 +9,7 @@ int64_t kz_test_newton_periods(const kz_pendulum *pendulum, int64_t settle, doub
 
 /* Orbits on a chaotic set come near themselves again and again, always beside a cycle that repels: Newton's method leaves most of
  * those alone. (It took 31, 79 and 126 periods a state here when it tried them all.) */
-static void test_chaos(void **state) {
-  (void)state;
+TEST(test_chaos) {
   static const kz_pendulum pendulums[] = {{0.4278, 0.4419, 2.942}, {-0.0797, 0.0996, 2.8414}, {0.51, 0.0411, 0.8033}};
   for (int i = 0; i < 3; i++) {
     int64_t known;
@@ -22,8 +18,7 @@ static void test_chaos(void **state) {
 }
 
 /* Cycles that attract are tried: all seven of Fig. 12, and the five of a strong drive. */
-static void test_cycles(void **state) {
-  (void)state;
+TEST(test_cycles) {
   int64_t known;
   kz_test_newton_periods(&(kz_pendulum){1.0 / 121, 1.0 / 55, 0.3}, 200, 0.02, &known);
   assert_int_equal(known, 7);
@@ -33,15 +28,8 @@ static void test_cycles(void **state) {
 
 /* Slow spirals come near themselves all the time, and most of them lead to the same cycles. Fine steps are for those that are new. (It took
  * 114 periods a state here for the same twelve; with another rounding some orbits miss two of these.) */
-static void test_slow_spirals(void **state) {
-  (void)state;
+TEST(test_slow_spirals) {
   int64_t known;
   assert_true(kz_test_newton_periods(&(kz_pendulum){1.0 / 121, 1.0 / 660, 0.3}, 270, 0.32, &known) < 20 * STATES);
   assert_in_range(known, 9, 14);
-}
-
-int main(void) {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(test_chaos), cmocka_unit_test(test_cycles),
-                                     cmocka_unit_test(test_slow_spirals)};
-  return cmocka_run_group_tests(tests, NULL, NULL);
 }

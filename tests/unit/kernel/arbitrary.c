@@ -1,8 +1,6 @@
 /* Orbits of any precision against the quad reference, against themselves in more digits, and their neighbourhoods against neighbours. */
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <cmocka.h>
+#define OWN_MAIN
+#include "../../tools/test.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -47,8 +45,7 @@ static double distance(const kz_arbitrary *a, const kz_arbitrary *b) {
 }
 
 /* Both Taylor series, written apart, agree in all digits of a quad: at rest, and at 17 rad per drive radian. */
-static void agrees_with_the_quad_reference(void **state) {
-  (void)state;
+TEST(agrees_with_the_quad_reference) {
   const double start[][2] = {{0.7, 1.42}, {-2.3, 17}, {3.1, -0.2}};
   for (int i = 0; i < 3; i++) {
     kz_arbitrary *orbit = orbit_at(start[i][0], start[i][1], 113);
@@ -83,8 +80,8 @@ static double missed(const kz_pendulum *pendulum, double theta, double velocity)
 }
 
 /* What is told of the quad reference holds. It was assumed to be 1e-31 of the motion, which it is not where the drive is strong. */
-static void errors_of_quads_are_not_understated(void **state) {
-  (void)state;
+TEST(errors_of_quads_are_not_understated) {
+  if (strong.unmirrored) skip();
   static const kz_pendulum strong_drives[] = {{.k = 1, .beta = 0.5, .m = 7.7}, {.k = 1.0 / 121, .beta = 1.0 / 55, .m = 0.46}};
   static const double starts[][2] = {{-0.57601889359626179, 0.92164362479996953},
                                      {1.7401103791778954, -12.380928537600042},
@@ -101,8 +98,7 @@ static void errors_of_quads_are_not_understated(void **state) {
 }
 
 /* What fewer bits leave out is of the size of the last bit. */
-static void more_digits_agree(void **state) {
-  (void)state;
+TEST(more_digits_agree) {
   kz_arbitrary *orbit = orbit_at(-2.3, 17, 400), *coarse = orbit_at(-2.3, 17, 400);
   advance(orbit, 4, 400, NULL);
   advance(coarse, 4, 200, NULL);
@@ -133,8 +129,7 @@ static long double value_of(const __float128 *linear, const long double *b, long
 }
 
 /* The first degree alone is that of a whole neighbourhood, to long doubles: in motion, fast, and at rest. */
-static void a_tangent_alone_is_the_same(void **state) {
-  (void)state;
+TEST(a_tangent_alone_is_the_same) {
   static const double start[][2] = {{0.7, 1.42}, {-2.3, 17}, {0, 0}};
   for (int i = 0; i < 3; i++) {
     kz_arbitrary *orbit[2];
@@ -154,8 +149,7 @@ static void a_tangent_alone_is_the_same(void **state) {
 }
 
 /* A neighbour at 1e-4 is where the cubic says, to the fourth power of the distance; and at 1e-9 to the rounding of long doubles. */
-static void neighbours_follow_the_jet(void **state) {
-  (void)state;
+TEST(neighbours_follow_the_jet) {
   for (int i = 0; i < 2; i++) {
     const double scale = i == 0 ? 1e-4 : 1e-9, bound = i == 0 ? 3e-11 : 1e-28;
     kz_arbitrary *centre = orbit_at(0.7, 1.42, 160), *beside = orbit_at(0.7 + scale, 1.42 - scale, 160);
@@ -176,8 +170,7 @@ static void neighbours_follow_the_jet(void **state) {
 }
 
 /* The widest and the narrowest window: exponents of cubes stay, areas shrink by exp(-2 pi beta). */
-static void areas_shrink_at_any_scale(void **state) {
-  (void)state;
+TEST(areas_shrink_at_any_scale) {
   const long double scale[] = {1, 1e-300L};
   for (int i = 0; i < 2; i++) {
     kz_arbitrary *orbit = orbit_at(2.1, -0.4, 200);
@@ -191,8 +184,8 @@ static void areas_shrink_at_any_scale(void **state) {
 }
 
 /* At rest an orbit has no series, but its neighbours move: as near the equilibrium as beside it. */
-static void neighbours_of_rest_move(void **state) {
-  (void)state;
+TEST(neighbours_of_rest_move) {
+  if (strong.unmirrored) skip();
   kz_arbitrary *rest = orbit_at(0, 0, 160), *beside = orbit_at(1e-12, 0, 160);
   kz_jet jet = {.linear = {{1, 0}, {0, 1}}};
   double theta[2], velocity[2];
@@ -206,8 +199,7 @@ static void neighbours_of_rest_move(void **state) {
 }
 
 /* Centres in decimal text, in degrees, and a share of a width. */
-static void starts_are_read(void **state) {
-  (void)state;
+TEST(starts_are_read) {
   const kz_coordinate text[2] = {{.centre = "-90 deg"}, {.centre = "1.5", .width = "1e-10", .share = -0.25}};
   kz_arbitrary *orbit = kz_arbitrary_create(&strong, text, 200);
   double theta[2], velocity[2];
@@ -218,8 +210,8 @@ static void starts_are_read(void **state) {
 }
 
 /* Mirrored starts stay mirrored, to the last bit. */
-static void mirror_images_stay_mirrored(void **state) {
-  (void)state;
+TEST(mirror_images_stay_mirrored) {
+  if (strong.unmirrored) skip();
   kz_arbitrary *orbit = orbit_at(2.5, 3.2, 180), *mirror = orbit_at(-2.5, -3.2, 180);
   double a[2][2], b[2][2];
   advance(orbit, 3, 180, NULL);
@@ -232,21 +224,10 @@ static void mirror_images_stay_mirrored(void **state) {
 }
 
 int main(void) {
-  const struct CMUnitTest of_drives[] = {
-      cmocka_unit_test(agrees_with_the_quad_reference), cmocka_unit_test(more_digits_agree),
-      cmocka_unit_test(a_tangent_alone_is_the_same),    cmocka_unit_test(neighbours_follow_the_jet),
-      cmocka_unit_test(areas_shrink_at_any_scale),
-  };
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(errors_of_quads_are_not_understated),
-      cmocka_unit_test(neighbours_of_rest_move),
-      cmocka_unit_test(starts_are_read),
-      cmocka_unit_test(mirror_images_stay_mirrored),
-  };
   int failed = 0;
   for (int i = 1; i >= 0; i--) {
     strong = pendulums[i];
-    failed += cmocka_run_group_tests(of_drives, NULL, NULL);
+    failed += run_all_tests(NULL, NULL);
   }
-  return failed + cmocka_run_group_tests(tests, NULL, NULL);
+  return failed;
 }

@@ -1,8 +1,5 @@
 /* Drives beyond k - m cos t: the equation of model.h, integrated here by itself, against the reference and the split scheme. */
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <cmocka.h>
+#include "../../tools/test.h"
 
 #include <math.h>
 #include <string.h>
@@ -56,8 +53,7 @@ static double between(double a, double b) {
   return fabs(remainder(a - b, 2 * M_PI));
 }
 
-static void the_equation_is_integrated(void **unused) {
-  (void)unused;
+TEST(the_equation_is_integrated) {
   for (int which = 0; which < DRIVES; which++) {
     const kz_pendulum p = drive(which);
     const kz_numerics fine[2] = {{.scheme = kz_scheme_find("split6"), .steps_per_period = 192},
@@ -84,8 +80,7 @@ static void the_equation_is_integrated(void **unused) {
 }
 
 /* Without a torque and a horizontal drive the mirror image is a motion, to the bit; with them it is none. */
-static void symmetry_is_told(void **unused) {
-  (void)unused;
+TEST(symmetry_is_told) {
   for (int i = 0; i < 2 * DRIVES; i++) {
     const kz_pendulum p = drive(i / 2);
     const kz_numerics numerics = {.scheme = kz_scheme_find(i % 2 ? "split6" : "processed"), .steps_per_period = 40};
@@ -104,8 +99,7 @@ static void symmetry_is_told(void **unused) {
 }
 
 /* The tangent map is the derivative, and areas shrink by exp(-2 pi beta). */
-static void the_tangent_is_the_derivative(void **unused) {
-  (void)unused;
+TEST(the_tangent_is_the_derivative) {
   const double h = 1e-5;
   for (int i = 0; i < 2 * DRIVES; i++) {
     const kz_pendulum p = drive(i / 2);
@@ -120,10 +114,4 @@ static void the_tangent_is_the_derivative(void **unused) {
     assert_true(fabs((x[0] - x[1]) / (2 * h) - matrix[0]) < 1e-7 && fabs((v[0] - v[1]) / (2 * h) - matrix[2]) < 1e-7);
     assert_true(fabs(matrix[0] * matrix[3] - matrix[1] * matrix[2] - exp(-2 * M_PI * p.beta)) < (i % 2 ? 1e-12 : 1e-10));
   }
-}
-
-int main(void) {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(the_equation_is_integrated), cmocka_unit_test(symmetry_is_told),
-                                     cmocka_unit_test(the_tangent_is_the_derivative)};
-  return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,9 +1,6 @@
 /* Enclosures of drive periods hold the motion in quad precision: random and adversarial starts, every kind of set; and bounds that are made
  * smaller do not. */
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <cmocka.h>
+#include "../../tools/test.h"
 
 #include <math.h>
 #include <stdbool.h>
@@ -106,8 +103,7 @@ static kz_enclosure_tables *plan_for(const kz_pendulum *pendulum, int32_t precis
   return plan;
 }
 
-static void points_hold_the_motion(void **state) {
-  (void)state;
+TEST(points_hold_the_motion) {
   srand(1);
   double farthest[2] = {0};
   int kept = 0;
@@ -148,8 +144,7 @@ static double farthest_of_points(const kz_pendulum *pendulum, int32_t precision,
   return farthest;
 }
 
-static void points_in_quads_hold_the_motion(void **state) {
-  (void)state;
+TEST(points_in_quads_hold_the_motion) {
   srand(6);
   double farthest = 0, narrower = 0;
   for (int draw = 0; draw < DRAWS; draw += draw % 4 < 2 ? 1 : 2) {
@@ -168,8 +163,7 @@ static void points_in_quads_hold_the_motion(void **state) {
 
 /* Starts beside an upper position that grows by 1e4 a period: so the errors of 48 digits become large enough for quads to see. Those of quads fill
  * the plane by then. */
-static void points_in_digits_hold_the_motion(void **state) {
-  (void)state;
+TEST(points_in_digits_hold_the_motion) {
   for (int draw = 0; draw < 4; draw += 3) {
     kz_pendulum pendulum = some_pendulum(draw);
     kz_enclosure set[SETS];
@@ -184,8 +178,7 @@ static void points_in_digits_hold_the_motion(void **state) {
 }
 
 /* Single starts many turns away, where pairs know the angle to fewer digits than a step adds: |z| / reach after a period. */
-static void far_angles_hold_the_motion(void **state) {
-  (void)state;
+TEST(far_angles_hold_the_motion) {
   const kz_pendulum pendulum = some_pendulum(0);
   srand(7);
   for (int32_t precision = 0; precision < KZ_ENCLOSE_DIGITS; precision++)
@@ -197,8 +190,7 @@ static void far_angles_hold_the_motion(void **state) {
 }
 
 /* Damping makes the columns of a matrix alike. Once they are, a set is lost at once: it would shrink, and a new frame would hide that. */
-static void flat_frames_are_lost(void **state) {
-  (void)state;
+TEST(flat_frames_are_lost) {
   const kz_pendulum pendulum = {.k = 0.1, .beta = 3, .m = 0.3};
   kz_enclosure_tables *plan = plan_for(&pendulum, KZ_ENCLOSE_DOUBLES, 2);
   const kz_enclosure flat = {.matrix = {{1, 1}, {1, 1}}, .reach = {1e-3, 1e-3}};
@@ -212,8 +204,7 @@ static void flat_frames_are_lost(void **state) {
   kz_enclosure_tables_free(plan);
 }
 
-static void boxes_hold_the_motion(void **state) {
-  (void)state;
+TEST(boxes_hold_the_motion) {
   srand(2);
   double farthest = 0;
   int kept = 0;
@@ -255,8 +246,7 @@ static double share_of_growth(const kz_pendulum *pendulum, const kz_enclosure_ta
 }
 
 /* Sets whose frame is kept, with all bounds, and with one that is ten times too small: then starts lie outside. */
-static void bounds_cut_by_ten_do_not_hold(void **state) {
-  (void)state;
+TEST(bounds_cut_by_ten_do_not_hold) {
   const kz_pendulum pendulum = {1.0 / 121, 1.0 / 55, 0.3};
   kz_enclosure_tables *plan = plan_for(&pendulum, KZ_ENCLOSE_DOUBLES, 2);
   double bent;
@@ -279,8 +269,7 @@ static void angle_at(int i, double theta[2]) {
 }
 
 /* (B1): 8 and 48 units of rounding are not passed, and a tenth of them is. */
-static void sines_are_as_good_as_their_bounds(void **state) {
-  (void)state;
+TEST(sines_are_as_good_as_their_bounds) {
   double worst = 0, worst_pair = 0;
   srand(4);
   for (int i = 0; i < 100000; i++) {
@@ -297,16 +286,4 @@ static void sines_are_as_good_as_their_bounds(void **state) {
   }
   assert_true(worst < 0x8p-53 && worst > 0.1 * 0x8p-53);
   assert_true(worst_pair < 0x30p-106);
-}
-
-int main(void) {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(sines_are_as_good_as_their_bounds),
-                                     cmocka_unit_test(points_hold_the_motion),
-                                     cmocka_unit_test(points_in_quads_hold_the_motion),
-                                     cmocka_unit_test(points_in_digits_hold_the_motion),
-                                     cmocka_unit_test(far_angles_hold_the_motion),
-                                     cmocka_unit_test(flat_frames_are_lost),
-                                     cmocka_unit_test(boxes_hold_the_motion),
-                                     cmocka_unit_test(bounds_cut_by_ten_do_not_hold)};
-  return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,8 +1,5 @@
 /* The derivatives of a period: against the neighbourhoods of orbits in many digits, differences, and the published map. */
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <cmocka.h>
+#include "../../tools/test.h"
 
 #include <math.h>
 
@@ -28,8 +25,7 @@ static void pendulums(kz_pendulum pendulum[3]) {
 }
 
 /* Degrees 1 to 3 in the start, by the Taylor polynomials in many digits. */
-static void test_arbitrary(void **state) {
-  (void)state;
+TEST(test_arbitrary) {
   static const int place[] = {4, 5, 6, 11, 12, 13, 14}; /* of xx, xy, yy, xxx, xxy, xyy, yyy */
   static const double factorial[] = {2, 1, 2, 6, 2, 2, 6};
   const kz_pendulum pendulum[3] = {{.k = 0.1, .beta = 0.09, .m = 0.6}};
@@ -66,8 +62,7 @@ static void shifted(const kz_pendulum *pendulum, int along, double d, const doub
 }
 
 /* Derivatives by the parameters, and of the tangent by them, against central differences. */
-static void test_differences(void **state) {
-  (void)state;
+TEST(test_differences) {
   kz_pendulum pendulum[3];
   const double d = 1e-4;
   pendulums(pendulum);
@@ -90,8 +85,7 @@ static void test_differences(void **state) {
 }
 
 /* Second and third derivatives by the start, of every drive, against differences of those one order lower. */
-static void test_bent(void **state) {
-  (void)state;
+TEST(test_bent) {
   static const int lower[] = {0, 0, 1, 4, 4, 5, 6}, higher[] = {4, 5, 6, 11, 12, 13, 14}, axis[] = {0, 1, 1, 0, 1, 1, 1};
   kz_pendulum pendulum[3];
   const double d = 1e-5;
@@ -113,8 +107,7 @@ static void test_bent(void **state) {
 }
 
 /* State and tangent are those of the published map, with every drive and without; half a period twice is a period. */
-static void test_published(void **state) {
-  (void)state;
+TEST(test_published) {
   for (int drive = 0; drive < 2; drive++) {
     kz_pendulum pendulum[3] = {{.k = 1.0 / 121, .beta = 1.0 / 55, .m = 0.5}, {.k = 1}, {.m = 1}};
     if (drive) pendulums(pendulum);
@@ -134,14 +127,4 @@ static void test_published(void **state) {
     }
     kz_flow_free(flow);
   }
-}
-
-int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_arbitrary),
-      cmocka_unit_test(test_differences),
-      cmocka_unit_test(test_bent),
-      cmocka_unit_test(test_published),
-  };
-  return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,8 +1,5 @@
 /* The kernel: sine, mirror symmetry, lanes, tangent map, sampling; every scheme. */
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <cmocka.h>
+#include "../../tools/test.h"
 
 #include "kapitza/kernel.h"
 
@@ -43,8 +40,7 @@ static kz_flow *flow_of(int scheme, int steps) {
 double kz_test_sine(double u);
 
 /* sin(pi u) within 2 units in the last place over the wrapped range and beyond. */
-static void test_sine(void **state) {
-  (void)state;
+TEST(test_sine) {
   for (int i = -30000; i <= 30000; i++) {
     const double u = i / 10000.0, s = kz_test_sine(u);
     double nearest = rint(u);
@@ -58,8 +54,7 @@ static void test_sine(void **state) {
 }
 
 /* The image of (-theta, -v) is the mirror image of that of (theta, v), to the bit. */
-static void test_mirror(void **state) {
-  (void)state;
+TEST(test_mirror) {
   for (int scheme = 0; scheme < kz_scheme_count(); scheme++) {
     double a[N], va[N], b[N], vb[N];
     int64_t ta[N], tb[N];
@@ -80,8 +75,7 @@ static void test_mirror(void **state) {
 }
 
 /* A start gives the same bits alone and in any lane of a tile. */
-static void test_lanes(void **state) {
-  (void)state;
+TEST(test_lanes) {
   for (int scheme = 0; scheme < kz_scheme_count(); scheme++) {
     double a[N], va[N];
     int64_t ta[N];
@@ -100,8 +94,7 @@ static void test_lanes(void **state) {
 }
 
 /* With the tangent map states move as without, and the matrix of a start is the same alone and in any lane. */
-static void test_tangent_lanes(void **state) {
-  (void)state;
+TEST(test_tangent_lanes) {
   for (int scheme = 0; scheme < kz_scheme_count(); scheme++) {
     double a[N], va[N], matrix[N][4], b[N], vb[N], alone[4];
     int64_t ta[N], tb[N];
@@ -122,8 +115,7 @@ static void test_tangent_lanes(void **state) {
 
 /* The split schemes contract areas by exactly exp(-2 pi beta) a period; rk4 nearly; the processed one in its own coordinates,
  * in the physical ones but for the truncation of the change of coordinates. */
-static void test_determinant(void **state) {
-  (void)state;
+TEST(test_determinant) {
   for (int scheme = 0; scheme < kz_scheme_count(); scheme++) {
     double theta[N], velocity[N], matrix[N][4];
     int64_t turns[N];
@@ -143,8 +135,7 @@ static void test_determinant(void **state) {
 
 /* The tangent map is the derivative of the map. */
 /* The inverted pendulum at rest stays there exactly, whatever the drive. */
-static void test_rest(void **state) {
-  (void)state;
+TEST(test_rest) {
   const kz_pendulum pendulums[] = {{1.0 / 121, 1.0 / 55, 0.3}, {0, 0, 0.46}, {-1, 0.1, 0.6}, {5, 0.1, 0.5}, {0.01, 0.5, 3}};
   for (int i = 0; i < 5; i++) {
     const kz_numerics numerics = {.scheme = kz_scheme_find("processed"), .steps_per_period = 40};
@@ -159,8 +150,7 @@ static void test_rest(void **state) {
 
 /* The number of steps that is chosen keeps its promise on other states than those it was measured on, and fast states go by
  * split6. */
-static void test_choice(void **state) {
-  (void)state;
+TEST(test_choice) {
   const struct {
     kz_pendulum pendulum;
     double fastest, tolerance;
@@ -209,8 +199,7 @@ static double error_of_sixth_order(int32_t steps, void *context) {
 }
 
 /* Enough steps and hardly more than that, in few tries; none where rounding or the largest number of steps forbids it. */
-static void test_search(void **state) {
-  (void)state;
+TEST(test_search) {
   int32_t steps;
   for (double scale = 1; scale < 1e12; scale *= 7) {
     sixth_order s = {scale, 1e-15, 0};
@@ -227,8 +216,7 @@ static void test_search(void **state) {
   }
 }
 
-static void test_tangent(void **state) {
-  (void)state;
+TEST(test_tangent) {
   const double h = 1e-5;
   for (int scheme = 0; scheme < kz_scheme_count(); scheme++) {
     kz_flow *flow = flow_of(scheme, 24);
@@ -246,8 +234,7 @@ static void test_tangent(void **state) {
 }
 
 /* Samples at whole periods are the strobe points, and theta is unwrapped. */
-static void test_sample(void **state) {
-  (void)state;
+TEST(test_sample) {
   for (int scheme = 0; scheme < kz_scheme_count(); scheme++) {
     kz_flow *flow = flow_of(scheme, 48);
     double theta = 3.0, velocity = 1.1, series[10 * 24 + 1], speeds[10 * 24 + 1];
@@ -270,8 +257,7 @@ static bool has_subnormals(void) {
 
 /* A motion that decays onto the exact inverted point never gets into subnormal numbers, with which a period takes up to fifteen
  * times as long; the caller's arithmetic is left as it was. */
-static void test_subnormals(void **state) {
-  (void)state;
+TEST(test_subnormals) {
   for (int scheme = 0; scheme < kz_scheme_count(); scheme++) {
     double theta[] = {M_PI, M_PI}, velocity[] = {4 * DBL_MIN, -4 * DBL_MIN}, matrix[8], series[3], speeds[3];
     int64_t turns[2] = {0};
@@ -296,8 +282,7 @@ double kz_test_neighbour_error(const kz_pendulum *pendulum, int32_t scheme, int3
 
 /* Neighbours that are moved beside their orbits go where they go by themselves: with mirror symmetry, without it, in lanes too fast for the
  * tables, and by a scheme that has no tables. */
-static void test_neighbours(void **state) {
-  (void)state;
+TEST(test_neighbours) {
   const kz_pendulum turned = {
       .k = 0.1, .beta = 0.1, .m = 0.4, .unmirrored = 1, .torque = 0.1, .harmonics = 1, .horizontal = {{0.1, 0.07}}};
   const struct {
@@ -313,14 +298,4 @@ static void test_neighbours(void **state) {
     for (double distance = 3e-4; distance < 0.1; distance *= 10)
       assert_true(kz_test_neighbour_error(kinds[i].pendulum, kz_scheme_find(kinds[i].scheme), kinds[i].steps, kinds[i].fastest,
                                           distance) < 1e-3);
-}
-
-int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_sine),          cmocka_unit_test(test_mirror),      cmocka_unit_test(test_lanes),
-      cmocka_unit_test(test_tangent_lanes), cmocka_unit_test(test_determinant), cmocka_unit_test(test_tangent),
-      cmocka_unit_test(test_sample),        cmocka_unit_test(test_rest),        cmocka_unit_test(test_choice),
-      cmocka_unit_test(test_subnormals),    cmocka_unit_test(test_search),      cmocka_unit_test(test_neighbours),
-  };
-  return cmocka_run_group_tests(tests, NULL, NULL);
 }

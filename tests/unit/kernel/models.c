@@ -1,8 +1,5 @@
 /* The linear and the slow model against what is known in closed form. */
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <cmocka.h>
+#include "../../tools/test.h"
 
 #include <math.h>
 
@@ -13,8 +10,7 @@ static const double PI = 3.14159265358979323846;
 static double theta[ALL], velocity[ALL];
 
 /* m = 0: a damped oscillator. */
-static void linear_without_drive(void **state) {
-  (void)state;
+TEST(linear_without_drive) {
   const kz_pendulum pendulum = {0.09, 0.02, 0};
   const double omega = sqrt(0.09 - 0.0001), phase = atan2(0.01, omega);
   kz_sample_model(KZ_MATHIEU, &pendulum, PERIODS, SAMPLES, 0.5, 0, theta, velocity);
@@ -25,8 +21,7 @@ static void linear_without_drive(void **state) {
 }
 
 /* On transition curve 2 at k = 0 the sine solution has twice the period of the drive (BUT Eq. 4). */
-static void curve_2_is_flutter(void **state) {
-  (void)state;
+TEST(curve_2_is_flutter) {
   const kz_pendulum pendulum = {0, 0, 0.4540231668672888};
   kz_sample_model(KZ_MATHIEU, &pendulum, PERIODS, SAMPLES, 0, 0.1, theta, velocity);
   for (int i = 0; i + 2 * SAMPLES < ALL; i++) assert_true(fabs(theta[i] - theta[i + 2 * SAMPLES]) < 1e-12);
@@ -41,8 +36,7 @@ static double energy(const kz_pendulum *p, double angle, double v) {
   return 0.5 * v * v + p->k * (1 - cos(angle)) + 0.5 * p->m * p->m / (p->k * p->k) * g;
 }
 
-static void slow_motion_keeps_its_energy(void **state) {
-  (void)state;
+TEST(slow_motion_keeps_its_energy) {
   const kz_pendulum pendulum = {1.0 / 9, 0, 0.6};
   kz_sample_model(KZ_EFFECTIVE, &pendulum, PERIODS, SAMPLES, 2.0, 0.3, theta, velocity);
   const double start = energy(&pendulum, 2.0, 0.3);
@@ -50,8 +44,7 @@ static void slow_motion_keeps_its_energy(void **state) {
 }
 
 /* Damping takes the power beta v^2, whatever the potential. */
-static void slow_motion_loses_what_damping_takes(void **state) {
-  (void)state;
+TEST(slow_motion_loses_what_damping_takes) {
   const kz_pendulum pendulum = {1.0 / 9, 0.05, 0.6};
   kz_sample_model(KZ_EFFECTIVE, &pendulum, PERIODS, SAMPLES, 2.5, 0, theta, velocity);
   double taken = 0, h = 2 * PI / SAMPLES;
@@ -60,14 +53,4 @@ static void slow_motion_loses_what_damping_takes(void **state) {
              (velocity[i] * velocity[i] + 4 * velocity[i + 1] * velocity[i + 1] + velocity[i + 2] * velocity[i + 2]);
   double lost = energy(&pendulum, 2.5, 0) - energy(&pendulum, theta[ALL - 1], velocity[ALL - 1]);
   assert_true(fabs(lost - taken) < 1e-7);
-}
-
-int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(linear_without_drive),
-      cmocka_unit_test(curve_2_is_flutter),
-      cmocka_unit_test(slow_motion_keeps_its_energy),
-      cmocka_unit_test(slow_motion_loses_what_damping_takes),
-  };
-  return cmocka_run_group_tests(tests, NULL, NULL);
 }

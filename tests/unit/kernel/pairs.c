@@ -1,15 +1,11 @@
 /* Pairs of doubles: the operations against quad precision, a period against the reference, mirror images, lanes. */
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <cmocka.h>
+#include "../../tools/test.h"
 
 #include "kapitza/kernel.h"
 #include "taylor/pairs_arithmetic.h"
 
 #include <float.h>
 #include <stdbool.h>
-#include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -51,8 +47,7 @@ static bool normal(pair x) {
 }
 
 /* Each operation errs by a few units of 2^-104 of its operands at most, and gives pairs that do not overlap. */
-static void operations_are_right_to_31_digits(void **unused) {
-  (void)unused;
+TEST(operations_are_right_to_31_digits) {
   for (int i = 0; i < 200000; i++) {
     const pair x = any(), y = any(), z = any();
     const quad a = value(x), b = value(y), c = value(z);
@@ -70,8 +65,7 @@ static void operations_are_right_to_31_digits(void **unused) {
   }
 }
 
-static void polynomials_end_in_doubles(void **unused) {
-  (void)unused;
+TEST(polynomials_end_in_doubles) {
   for (int i = 0; i < 20000; i++) {
     double c[8][2];
     for (int j = 0; j < 8; j++) c[j][0] = number(), c[j][1] = c[j][0] * 0x1p-54 * number();
@@ -130,8 +124,7 @@ static double error_of(const void *pairs, const kz_pendulum *pendulum, double fa
 
 /* Errors of fresh states stay within the tolerance (times what three periods make of them), and more steps are better: the error
  * is that of the splitting, not of its arithmetic. Starts faster than the tables, and a pendulum without any, too. */
-static void periods_are_right(void **unused) {
-  (void)unused;
+TEST(periods_are_right) {
   static const struct {
     kz_pendulum pendulum;
     double tolerance, fastest;
@@ -154,8 +147,7 @@ static void periods_are_right(void **unused) {
 }
 
 /* The image of the mirror image is the mirror image, to the bit; a state goes alone as in company, and rest stays. */
-static void mirror_images_and_lanes(void **unused) {
-  (void)unused;
+TEST(mirror_images_and_lanes) {
   double measured;
   void *pairs = kz_test_pairs_create(&PENDULUM, 1e-20, 3, &measured);
   states s, other, alone;
@@ -183,14 +175,4 @@ static void mirror_images_and_lanes(void **unused) {
   assert_memory_equal(alone.velocity[77], s.velocity[77], sizeof *s.velocity);
   assert_true(s.half_turns[0][0] == 1 && s.velocity[0][0] == 0 && s.half_turns[1][0] == 0 && s.velocity[1][0] == 0);
   kz_test_pairs_free(pairs);
-}
-
-int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(operations_are_right_to_31_digits),
-      cmocka_unit_test(polynomials_end_in_doubles),
-      cmocka_unit_test(periods_are_right),
-      cmocka_unit_test(mirror_images_and_lanes),
-  };
-  return cmocka_run_group_tests(tests, NULL, NULL);
 }

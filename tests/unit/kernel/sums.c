@@ -1,12 +1,9 @@
 /* Sums of products of pairs, as enclosures take them, against exact sums. */
 #include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
 #include <stdbool.h>
-#include <stddef.h>
 #include <stdlib.h>
 
-#include <cmocka.h>
+#include "../../tools/test.h"
 
 #include "enclosure/operations.h"
 
@@ -53,8 +50,7 @@ static double sum_is_off(int n, bool cancel) {
 }
 
 /* (B2) */
-static void sums_of_products_are_as_good_as_their_bound(void **state) {
-  (void)state;
+TEST(sums_of_products_are_as_good_as_their_bound) {
   double worst = 0;
   srand(5);
   for (int i = 0; i < 20000; i++) {
@@ -62,9 +58,4 @@ static void sums_of_products_are_as_good_as_their_bound(void **state) {
     worst = fmax(worst, sum_is_off(n, i % 2) / (n * n + 4 * n + 9));
   }
   assert_true(worst < 1 && worst > 0.1);
-}
-
-int main(void) {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(sums_of_products_are_as_good_as_their_bound)};
-  return cmocka_run_group_tests(tests, NULL, NULL);
 }

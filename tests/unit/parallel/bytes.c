@@ -1,22 +1,16 @@
 /* The checksum of checkpoints: CRC-64/XZ, in any pieces. */
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <cmocka.h>
+#include "../../tools/test.h"
 
 #include "bytes.h"
 
 /* The published check value, and that of no bytes. */
-static void test_published_value(void **state) {
-  (void)state;
+TEST(test_published_value) {
   assert_true(kz_bytes_checksum(0, "123456789", 9) == 0x995DC9BBDF1939FAu);
   assert_true(kz_bytes_checksum(0, "", 0) == 0);
 }
 
 /* Whole, cut at any place, and byte by byte: the same sum, wherever the bytes lie. */
-static void test_pieces(void **state) {
-  (void)state;
+TEST(test_pieces) {
   enum { N = 100 };
   unsigned char bytes[N + 8];
   for (int i = 0; i < N + 8; ++i) bytes[i] = (unsigned char)(37 * i * i + 11);
@@ -29,9 +23,4 @@ static void test_pieces(void **state) {
     for (size_t cut = 0; cut <= N; ++cut)
       assert_true(kz_bytes_checksum(kz_bytes_checksum(0, first, cut), first + cut, N - cut) == whole);
   }
-}
-
-int main(void) {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(test_published_value), cmocka_unit_test(test_pieces)};
-  return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,9 +1,5 @@
 /* Sampled runs: how much of a stage is done, what its records hold, and what is counted. Without time for samples exactly one tile is done. */
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <cmocka.h>
+#include "../../tools/test.h"
 
 #include "kapitza/parallel.h"
 
@@ -177,18 +173,4 @@ static void test_local_records(void **state) {
     kz_local_records_free(&pieces);
   }
   assert_true(sampling.weight == 1);
-}
-
-int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test_setup(test_other_records_are_copies, begin),
-      cmocka_unit_test_setup(test_records_of_a_collective_stage_stay_empty, begin),
-      cmocka_unit_test_setup(test_whole_stages_are_done_whole, begin),
-      cmocka_unit_test_setup(test_short_stages_are_done_whole, begin),
-      cmocka_unit_test_setup(test_a_set_up_is_counted_once, begin),
-      cmocka_unit_test_setup(test_without_patience_a_run_stops, begin),
-      cmocka_unit_test_setup(test_a_loop_ends_when_enough_is_seen, begin),
-      cmocka_unit_test_setup(test_local_records, begin),
-  };
-  return cmocka_run_group_tests(tests, NULL, NULL);
 }

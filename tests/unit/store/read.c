@@ -1,8 +1,6 @@
 /* What one study reads of another: lengths and single numbers. */
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <cmocka.h>
+#define OWN_MAIN
+#include "../../tools/test.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -34,8 +32,7 @@ static int end(void **state) {
   return rmdir(folder);
 }
 
-static void numbers_come_back(void **state) {
-  (void)state;
+TEST(numbers_come_back) {
   double value;
   assert_int_equal(kz_store_number(store, "attractors", "period", (int64_t[]){1}, &value), KZ_OK);
   assert_true(value == 7);
@@ -43,8 +40,7 @@ static void numbers_come_back(void **state) {
   assert_true(value == 6);
 }
 
-static void lengths_come_back(void **state) {
-  (void)state;
+TEST(lengths_come_back) {
   int64_t length;
   assert_int_equal(kz_store_length(store, "attractors", "phase", &length), KZ_OK);
   assert_int_equal(length, 3);
@@ -52,8 +48,7 @@ static void lengths_come_back(void **state) {
   assert_int_equal(length, 0);
 }
 
-static void what_is_not_there_fails(void **state) {
-  (void)state;
+TEST(what_is_not_there_fails) {
   double value;
   kz_message_clear();
   assert_int_equal(kz_store_number(store, "basin", "theta", (int64_t[]){0}, &value), KZ_FAILED);
@@ -64,10 +59,5 @@ static void what_is_not_there_fails(void **state) {
 }
 
 int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(numbers_come_back),
-      cmocka_unit_test(lengths_come_back),
-      cmocka_unit_test(what_is_not_there_fails),
-  };
-  return cmocka_run_group_tests(tests, begin, end);
+  return run_all_tests(begin, end);
 }

@@ -1,9 +1,6 @@
 /* The result file: written whole, read back with the library itself. */
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <cmocka.h>
+#define OWN_MAIN
+#include "../../tools/test.h"
 
 #include <hdf5.h>
 #include <hdf5_hl.h>
@@ -57,8 +54,7 @@ static void write_basin(kz_store *store, double *theta, double *velocity, int16_
   assert_int_equal(kz_store_variable(store, "basin", "attractor", label), KZ_OK);
 }
 
-static void a_basin_comes_back(void **state) {
-  (void)state;
+TEST(a_basin_comes_back) {
   static double theta[N_THETA], velocity[N_VELOCITY], found[N_THETA];
   static int16_t label[N_THETA * N_VELOCITY], read[N_THETA * N_VELOCITY];
   kz_store *store = begin();
@@ -85,8 +81,7 @@ static void a_basin_comes_back(void **state) {
 }
 
 /* Last chunks that reach beyond the array, and rows longer than a chunk. */
-static void chunks_of_any_shape_come_back(void **state) {
-  (void)state;
+TEST(chunks_of_any_shape_come_back) {
   static const int64_t shapes[][2] = {{700, 1000}, {3, 300001}, {1, 4001}, {9001, 1}};
   for (size_t k = 0; k < sizeof shapes / sizeof *shapes; ++k) {
     const int64_t rows = shapes[k][0], columns = shapes[k][1], n = rows * columns;
@@ -112,8 +107,7 @@ static void chunks_of_any_shape_come_back(void **state) {
   }
 }
 
-static void long_text_comes_back(void **state) {
-  (void)state;
+TEST(long_text_comes_back) {
   enum { LONG = 300000 };
   char *scene = malloc(LONG + 1);
   memset(scene, 'x', LONG);
@@ -165,8 +159,7 @@ static void read_text(hid_t file, const char *object, const char *name, char *te
   H5Aclose(attribute);
 }
 
-static void a_catalogue_comes_back(void **state) {
-  (void)state;
+TEST(a_catalogue_comes_back) {
   write_catalogue(2, 2);
   const hid_t file = H5Fopen(path, H5F_ACC_RDONLY, H5P_DEFAULT), type = H5Tcopy(H5T_C_S1);
   H5Tset_size(type, H5T_VARIABLE);
@@ -187,8 +180,7 @@ static void a_catalogue_comes_back(void **state) {
 }
 
 /* Long meanings and names are written whole. */
-static void long_descriptions_come_back(void **state) {
-  (void)state;
+TEST(long_descriptions_come_back) {
   static const int8_t kind[2] = {3, 0};
   char text[1000];
   kz_store *store = begin();
@@ -203,8 +195,7 @@ static void long_descriptions_come_back(void **state) {
   H5Fclose(file);
 }
 
-static void no_attractors_is_a_file_too(void **state) {
-  (void)state;
+TEST(no_attractors_is_a_file_too) {
   write_catalogue(0, 0);
   const hid_t file = H5Fopen(path, H5F_ACC_RDONLY, H5P_DEFAULT);
   hsize_t lengths[2] = {9, 9};
@@ -224,8 +215,7 @@ static long read_file(char **bytes) {
   return n;
 }
 
-static void the_same_data_give_the_same_bytes(void **state) {
-  (void)state;
+TEST(the_same_data_give_the_same_bytes) {
   static double theta[N_THETA], velocity[N_VELOCITY];
   static int16_t label[N_THETA * N_VELOCITY];
   char *bytes[2];
@@ -243,8 +233,7 @@ static void the_same_data_give_the_same_bytes(void **state) {
   free(bytes[1]);
 }
 
-static void completeness_needs_the_fingerprint(void **state) {
-  (void)state;
+TEST(completeness_needs_the_fingerprint) {
   assert_null(kz_store_fingerprint(path));
   kz_store *store = begin();
   assert_int_equal(kz_store_text(store, "/", "fingerprint", "version: 1\nk: 0.25\n"), KZ_OK);
@@ -256,8 +245,7 @@ static void completeness_needs_the_fingerprint(void **state) {
   assert_null(kz_store_fingerprint(path));
 }
 
-static void a_discarded_file_leaves_nothing(void **state) {
-  (void)state;
+TEST(a_discarded_file_leaves_nothing) {
   kz_store *store = begin();
   assert_int_equal(access(part, F_OK), 0);
   kz_store_discard(store);
@@ -265,8 +253,7 @@ static void a_discarded_file_leaves_nothing(void **state) {
   assert_int_equal(access(path, F_OK), -1);
 }
 
-static void a_wrong_path_is_refused(void **state) {
-  (void)state;
+TEST(a_wrong_path_is_refused) {
   kz_store *store = NULL;
   char missing[96];
   snprintf(missing, sizeof missing, "%s/missing/a.h5", folder);
@@ -275,8 +262,7 @@ static void a_wrong_path_is_refused(void **state) {
   assert_null(store);
 }
 
-static void what_the_table_lacks_is_an_error(void **state) {
-  (void)state;
+TEST(what_the_table_lacks_is_an_error) {
   const double value = 0;
   kz_store *store = begin();
   assert_int_equal(kz_store_variable(store, "basin", "colour", &value), KZ_FAILED);
@@ -292,8 +278,7 @@ static void what_the_table_lacks_is_an_error(void **state) {
 }
 
 /* Items of which some bytes are 0 in all, or all are; what is cut short or belongs to another number of items is refused. */
-static void squeezed_items_come_back(void **state) {
-  (void)state;
+TEST(squeezed_items_come_back) {
   enum { N = 777, MOST = 24 };
   static const size_t items[] = {1, 2, 7, 16, MOST};
   static unsigned char item[N * MOST], back[N * MOST], packed[2 * N * MOST + 128];
@@ -311,8 +296,7 @@ static void squeezed_items_come_back(void **state) {
 }
 
 /* A limit on the size of files stands for a full disk: both end the write early. */
-static void a_full_disk_is_one_clear_error(void **state) {
-  (void)state;
+TEST(a_full_disk_is_one_clear_error) {
   static double theta[N_THETA], velocity[N_VELOCITY];
   static int16_t label[N_THETA * N_VELOCITY];
   struct rlimit before, tight;
@@ -332,20 +316,6 @@ static void a_full_disk_is_one_clear_error(void **state) {
 }
 
 int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test_teardown(a_basin_comes_back, clear),
-      cmocka_unit_test_teardown(chunks_of_any_shape_come_back, clear),
-      cmocka_unit_test_teardown(long_text_comes_back, clear),
-      cmocka_unit_test_teardown(a_catalogue_comes_back, clear),
-      cmocka_unit_test_teardown(long_descriptions_come_back, clear),
-      cmocka_unit_test_teardown(no_attractors_is_a_file_too, clear),
-      cmocka_unit_test_teardown(the_same_data_give_the_same_bytes, clear),
-      cmocka_unit_test_teardown(completeness_needs_the_fingerprint, clear),
-      cmocka_unit_test_teardown(a_discarded_file_leaves_nothing, clear),
-      cmocka_unit_test_teardown(a_wrong_path_is_refused, clear),
-      cmocka_unit_test_teardown(what_the_table_lacks_is_an_error, clear),
-      cmocka_unit_test_teardown(squeezed_items_come_back, clear),
-      cmocka_unit_test_teardown(a_full_disk_is_one_clear_error, clear),
-  };
-  return cmocka_run_group_tests(tests, make_folder, remove_folder);
+  for (size_t i = 0; i < test_count; i++) all_tests[i].teardown_func = clear;
+  return run_all_tests(make_folder, remove_folder);
 }

@@ -1,11 +1,8 @@
 /* Cell centres of a window given by its middle: shares of the width, mirror images. */
 #include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
 #include <stdlib.h>
 
-#include <cmocka.h>
+#include "../../tools/test.h"
 
 #include "numerics/cells.h"
 
@@ -19,8 +16,7 @@ static kz_axis window(const char *centre, double high, double low, double width,
 }
 
 /* 17 + 1e-18 and cells of 1e-20/8: every digit of the sums is there. */
-static void cells_below_the_last_place_of_a_double(void **state) {
-  (void)state;
+TEST(cells_below_the_last_place_of_a_double) {
   const kz_axis axis = window("17.000000000000000001", 17, 1e-18, 1e-20, 8);
   assert_true(kz_axis_is_deep(&axis));
   assert_true(kz_axis_step(&axis) == 1e-20 / 8);
@@ -32,8 +28,7 @@ static void cells_below_the_last_place_of_a_double(void **state) {
 }
 
 /* Of a window between edges the cell is the double of the file, to all digits. */
-static void cells_between_edges(void **state) {
-  (void)state;
+TEST(cells_between_edges) {
   const kz_axis axis = {.min = 0.1, .max = 0.7, .count = 7};
   for (int64_t i = 0; i < 7; i++) {
     assert_true(kz_axis_coordinate(&axis, i).high == kz_axis_centre(&axis, i));
@@ -42,8 +37,7 @@ static void cells_between_edges(void **state) {
 }
 
 /* A quarter of the way along, and 1e-25 more; the same between edges that are doubles. */
-static void points_below_the_last_place_of_a_double(void **state) {
-  (void)state;
+TEST(points_below_the_last_place_of_a_double) {
   const kz_axis deep = window("17.000000000000000001", 17, 1e-18, 1e-20, 8), edges = {.min = 1, .max = 3, .count = 8};
   double pair[2];
   kz_axis_at(&deep, 0.25, 1e-25, pair);
@@ -53,16 +47,14 @@ static void points_below_the_last_place_of_a_double(void **state) {
 }
 
 /* Attractors are looked for in a neighbourhood of such a window, and in just the window where doubles tell its cells apart. */
-static void a_neighbourhood_is_searched(void **state) {
-  (void)state;
+TEST(a_neighbourhood_is_searched) {
   const kz_axis deep = window("1.42", 1.42, 0, 1e-20, 8), wide = window("0.5", 0.5, 0, 0.25, 8);
   const kz_window searched = kz_window_of(&wide, &deep);
   assert_true(searched.theta_min == 0.375 && searched.theta_max == 0.625);
   assert_true(fabs(searched.velocity_max - searched.velocity_min - 1e-6) < 1e-12);
 }
 
-static void a_window_about_the_origin_is_its_own_mirror_image(void **state) {
-  (void)state;
+TEST(a_window_about_the_origin_is_its_own_mirror_image) {
   kz_basin_plan plan = {.theta = window("0", 0, 0, 1e-20, 7), .velocity = window("0", 0, 0, 3, 4)};
   assert_int_equal(kz_unique_cells(&plan), 14);
   for (int64_t f = 0; f < 28; f++) {
@@ -74,15 +66,4 @@ static void a_window_about_the_origin_is_its_own_mirror_image(void **state) {
   }
   plan.theta = window("1e-30", 1e-30, 0, 1, 7); /* its edges are those of a mirrored window to all digits of a double */
   assert_int_equal(kz_unique_cells(&plan), 28);
-}
-
-int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(cells_below_the_last_place_of_a_double),
-      cmocka_unit_test(cells_between_edges),
-      cmocka_unit_test(points_below_the_last_place_of_a_double),
-      cmocka_unit_test(a_neighbourhood_is_searched),
-      cmocka_unit_test(a_window_about_the_origin_is_its_own_mirror_image),
-  };
-  return cmocka_run_group_tests(tests, NULL, NULL);
 }

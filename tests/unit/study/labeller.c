@@ -1,11 +1,8 @@
 /* The labeller: items climb from level to level, and unsettled ones lead to attractors that nobody has named. */
 #include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
 #include <stdlib.h>
 
-#include <cmocka.h>
+#include "../../tools/test.h"
 
 #include "labelling/labeller.h"
 #include "labelling/search.h"
@@ -33,13 +30,12 @@ static kz_status label_level(void *context, int32_t level, int64_t n, const int6
 }
 
 /* Each item is seen by every level up to the one that decides it, once, and its label comes back to its place. */
-static void items_climb_until_they_are_decided(void **state) {
+TEST(items_climb_until_they_are_decided) {
   static const kz_level levels[LEVELS] = {{.stage = "a", .tile = 7}, {.stage = "b", .tile = 100}, {.stage = "c", .tile = 1}};
   static record r;
   const kz_labeller labeller = {.way = KZ_BY_LEVELS, .context = &r, .at = label_level, .levels = levels, .n_levels = LEVELS};
   KZ_FREED int64_t *item = kz_malloc(ITEMS * sizeof *item);
   KZ_FREED kz_label *label = kz_malloc(ITEMS * sizeof *label);
-  (void)state;
   for (int64_t i = 0; i < ITEMS; i++) item[i] = (i * 7919) % ITEMS; /* each once */
   assert_int_equal(kz_label_items(&labeller, 1, ITEMS, item, label), KZ_OK);
   for (int64_t i = 0; i < ITEMS; i++) {
@@ -51,7 +47,7 @@ static void items_climb_until_they_are_decided(void **state) {
 }
 
 /* A pendulum of which nothing is known: no item settles, until a search from some of them has found what they end on. */
-static void unsettled_items_lead_to_attractors(void **state) {
+TEST(unsettled_items_lead_to_attractors) {
   enum { STARTS = 24 };
   const kz_pendulum pendulum = {.k = 1 / 121.0, .beta = 1 / 55.0, .m = 0.3};
   const kz_numerics numerics = {.scheme = kz_scheme_find("split6"), .steps_per_period = 24};
@@ -60,7 +56,6 @@ static void unsettled_items_lead_to_attractors(void **state) {
   kz_label label[STARTS];
   static int64_t reached[INT16_MAX + 1];
   int64_t all = 0;
-  (void)state;
   for (int i = 0; i < STARTS; i++) {
     start[2 * i] = M_PI * cos(i);
     start[2 * i + 1] = 0.5 * sin(3 * i);
@@ -80,19 +75,9 @@ static void unsettled_items_lead_to_attractors(void **state) {
 }
 
 /* Every evidence that a level gives has the level's word; what no level gives has none. */
-static void evidence_has_the_word_of_its_level(void **state) {
-  (void)state;
+TEST(evidence_has_the_word_of_its_level) {
   for (int level = 0; level < KZ_LEVELS; level++)
     assert_string_equal(kz_evidence_word(kz_level_rows[level].evidence), kz_level_rows[level].word);
   assert_null(kz_evidence_word(KZ_UNDECIDED));
   assert_null(kz_evidence_word(KZ_LEFT));
-}
-
-int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(items_climb_until_they_are_decided),
-      cmocka_unit_test(unsettled_items_lead_to_attractors),
-      cmocka_unit_test(evidence_has_the_word_of_its_level),
-  };
-  return cmocka_run_group_tests(tests, NULL, NULL);
 }

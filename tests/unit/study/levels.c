@@ -1,10 +1,7 @@
 /* Cells of a frame, level by level: each own cell is followed once, at the first level that shows it or its mirror image. */
-#include <stdarg.h>
-#include <stddef.h>
-#include <setjmp.h>
 #include <stdlib.h>
 
-#include <cmocka.h>
+#include "../../tools/test.h"
 
 #include "live/live.h"
 
@@ -36,8 +33,7 @@ static void check(int64_t rows, int64_t columns, int64_t own) {
   free(number);
 }
 
-static void each_own_cell_is_followed_once(void **state) {
-  (void)state;
+TEST(each_own_cell_is_followed_once) {
   static const int64_t counts[] = {1, 2, 7, 16, 25};
   enum { N = sizeof counts / sizeof *counts };
   for (int i = 0; i < N; i++)
@@ -45,9 +41,4 @@ static void each_own_cell_is_followed_once(void **state) {
       check(counts[i], counts[j], counts[i] * counts[j]);
       check(counts[i], counts[j], (counts[i] * counts[j] + 1) / 2);
     }
-}
-
-int main(void) {
-  const struct CMUnitTest tests[] = {cmocka_unit_test(each_own_cell_is_followed_once)};
-  return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,19 +1,15 @@
 /* Shares and their intervals, Pareto fronts, orders of cost, the order of sampled cells; the table of configurations. */
 #include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include <cmocka.h>
+#include "../../tools/test.h"
 
 #include "accuracy/accuracy.h"
 #include "numerics/share.h"
 
 /* Wilson's limits solve (share - p)^2 = z^2 p (1 - p)/n. */
-static void test_wilson_solves_its_equation(void **state) {
-  (void)state;
+TEST(test_wilson_solves_its_equation) {
   const int64_t cases[][2] = {{0, 10}, {1, 10}, {5, 10}, {10, 10}, {3, 4000}, {123, 456}};
   for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
     const double n = (double)cases[i][1], z = 1.959963984540054;
@@ -30,8 +26,7 @@ static void test_wilson_solves_its_equation(void **state) {
 }
 
 /* Half of a population leaves half of the variance, all of it none, and a large one is like no end of cells. */
-static void test_part_of_a_population(void **state) {
-  (void)state;
+TEST(test_part_of_a_population) {
   const double z = 1.959963984540054;
   const kz_share half = kz_share_of_part(30, 500, 1000), all = kz_share_of_part(3, 40, 40),
                  of_many = kz_share_of_part(30, 500, INT64_MAX);
@@ -42,8 +37,7 @@ static void test_part_of_a_population(void **state) {
   assert_true(kz_share_of_part(0, 0, 0).low == 0 && kz_share_of_part(0, 0, 0).high == 1);
 }
 
-static void test_smallest_sample_proves_its_share(void **state) {
-  (void)state;
+TEST(test_smallest_sample_proves_its_share) {
   assert_int_equal(kz_share_sample(0.001), 3838);
   for (double share = 0.5; share > 1e-4; share /= 3) {
     const int64_t n = kz_share_sample(share);
@@ -52,8 +46,7 @@ static void test_smallest_sample_proves_its_share(void **state) {
   }
 }
 
-static void test_pareto_front(void **state) {
-  (void)state;
+TEST(test_pareto_front) {
   const double seconds[] = {1, 2, 3, 2, 4, 1}, wrong[] = {0.5, 0.2, 0.2, 0.3, 0.1, 0.5};
   const bool expected[] = {true, true, false, false, true, true};
   kz_trade_row row[6];
@@ -62,8 +55,7 @@ static void test_pareto_front(void **state) {
   for (int i = 0; i < 6; i++) assert_int_equal(row[i].pareto, expected[i]);
 }
 
-static void test_shuffled_cells_are_a_permutation(void **state) {
-  (void)state;
+TEST(test_shuffled_cells_are_a_permutation) {
   const int64_t totals[] = {1, 2, 3, 5, 16, 17, 1000, 10007};
   for (size_t t = 0; t < sizeof totals / sizeof *totals; t++) {
     char *seen = calloc((size_t)totals[t], 1);
@@ -79,8 +71,7 @@ static void test_shuffled_cells_are_a_permutation(void **state) {
 }
 
 /* A sample looks random: every quarter of the cells gets its share, and another seed chooses others. */
-static void test_shuffled_cells_spread(void **state) {
-  (void)state;
+TEST(test_shuffled_cells_spread) {
   int quarter[4] = {0}, same = 0;
   for (int64_t i = 0; i < 4000; i++) {
     quarter[4 * kz_shuffled(i, 1000000, 1) / 1000000]++;
@@ -90,8 +81,7 @@ static void test_shuffled_cells_spread(void **state) {
   assert_in_range(same, 0, 3);
 }
 
-static void test_settings_differ_and_exist(void **state) {
-  (void)state;
+TEST(test_settings_differ_and_exist) {
   const kz_pendulum pendulum = {1.0 / 121, 1.0 / 55, 0.3};
   const kz_basin_plan plan = {.theta = {-M_PI, M_PI, 10}, .velocity = {-2, 2, 10}};
   for (int i = 0; i < kz_setting_count; i++) {
@@ -102,8 +92,7 @@ static void test_settings_differ_and_exist(void **state) {
 }
 
 /* More cells, more periods, more steps and more nodes never cost less. */
-static void test_cost_grows(void **state) {
-  (void)state;
+TEST(test_cost_grows) {
   for (int i = 0; i < kz_setting_count; i++) {
     kz_setting more = kz_settings[i];
     const double cost = kz_setting_cost(&more, 1e6, 10);
@@ -112,14 +101,4 @@ static void test_cost_grows(void **state) {
     more.tolerance /= 16;
     assert_true(kz_setting_cost(&more, 1e6, 10) > cost);
   }
-}
-
-int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_wilson_solves_its_equation),       cmocka_unit_test(test_part_of_a_population),
-      cmocka_unit_test(test_smallest_sample_proves_its_share), cmocka_unit_test(test_pareto_front),
-      cmocka_unit_test(test_shuffled_cells_are_a_permutation), cmocka_unit_test(test_shuffled_cells_spread),
-      cmocka_unit_test(test_settings_differ_and_exist),        cmocka_unit_test(test_cost_grows),
-  };
-  return cmocka_run_group_tests(tests, NULL, NULL);
 }

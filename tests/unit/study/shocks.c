@@ -1,13 +1,9 @@
 /* The smallest shocks over label fields whose boundaries are known. */
 #include <math.h>
 #include <stdbool.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
 #include <stdlib.h>
 
-#include <cmocka.h>
+#include "../../tools/test.h"
 
 #include "resilience/resilience.h"
 
@@ -34,8 +30,7 @@ static double ellipse_distance(double scale) {
   return least;
 }
 
-static void test_lines_and_discs(void **state) {
-  (void)state;
+TEST(test_lines_and_discs) {
   bool small = false;
   kz_shock_problem problem = {.ends = ends, .context = &small, .own = 1, .scale = 1, .farthest = 3};
   kz_shock shock[3];
@@ -53,8 +48,7 @@ static void test_lines_and_discs(void **state) {
   assert_true(fabs(shock[2].size - (hypot(0.6, 0.5) - 0.03)) < 1e-10 && shock[2].end == 4);
 }
 
-static void test_nothing_to_find(void **state) {
-  (void)state;
+TEST(test_nothing_to_find) {
   bool small = false;
   const kz_shock_problem problem = {.ends = ends, .context = &small, .from = {0, 40}, .own = 1, .scale = 1, .farthest = 1};
   kz_shock shock[3];
@@ -64,21 +58,11 @@ static void test_nothing_to_find(void **state) {
 }
 
 /* Of shocks of at most 1.4 the share below v = -1.7 is a circular segment. */
-static void test_share_of_harmless_shocks(void **state) {
-  (void)state;
+TEST(test_share_of_harmless_shocks) {
   bool small = false;
   const kz_shock_problem problem = {.ends = ends, .context = &small, .from = {-0.5, -0.5}, .own = 1, .scale = 1, .farthest = 3};
   kz_harmless harmless;
   kz_shocks_harmless(&problem, 1.4, &harmless);
   const double half = acos(1.2 / 1.4), segment = (half - sin(half) * cos(half)) / M_PI;
   assert_true(fabs(1 - segment - (double)harmless.harmless / (double)harmless.shocks) < 2e-3 && harmless.return_time == 3);
-}
-
-int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_lines_and_discs),
-      cmocka_unit_test(test_nothing_to_find),
-      cmocka_unit_test(test_share_of_harmless_shocks),
-  };
-  return cmocka_run_group_tests(tests, NULL, NULL);
 }

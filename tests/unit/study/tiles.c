@@ -1,12 +1,9 @@
 /* Tiles of a window cover it, mirror each other, and their counts add up to those of the whole. */
 #include <math.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <setjmp.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include <cmocka.h>
+#include "../../tools/test.h"
 
 #include "basin/basin.h"
 
@@ -33,8 +30,7 @@ static void check(int64_t theta, int64_t velocity, double min, int64_t max_perio
   assert_int_equal(own, t.unique_cells);
 }
 
-static void tiles_cover_the_window(void **state) {
-  (void)state;
+TEST(tiles_cover_the_window) {
   static const int64_t counts[] = {1, 2, 7, 97, 100, 101, 250, 997, 1000, 1024};
   enum { N = sizeof counts / sizeof *counts };
   for (int i = 0; i < N; i++)
@@ -47,8 +43,7 @@ static void tiles_cover_the_window(void **state) {
 }
 
 /* 10^10 cells: numbers beyond 32 bits, tiles of few MB that hold whole boxes. */
-static void large_grids_are_addressed(void **state) {
-  (void)state;
+TEST(large_grids_are_addressed) {
   const kz_scene scene = scene_of(100000, 100000, -2, 2000);
   const kz_tiles t = kz_tiles_of(&scene, 4096);
   assert_true(t.whole && t.own == t.n / 2 && kz_tile_capacity(&t) <= 1 << 19);
@@ -64,8 +59,7 @@ static double entropy_of(const kz_counts *counts) {
   return boundary;
 }
 
-static void counts_of_parts_add_up(void **state) {
-  (void)state;
+TEST(counts_of_parts_add_up) {
   static int16_t label[ROWS * COLUMNS];
   kz_counts whole = {0}, parts = {0};
   srand(1);
@@ -80,8 +74,7 @@ static void counts_of_parts_add_up(void **state) {
   assert_true(entropy_of(&whole) > 1 && kz_uncertain_share(&whole, 0) > 0.5);
 }
 
-static void measures_of_a_pattern(void **state) {
-  (void)state;
+TEST(measures_of_a_pattern) {
   enum { WIDE = 20 };
   int16_t halves[10 * WIDE], some[10 * WIDE];
   kz_counts pattern = {0}, circle = {0}, unsettled = {0};
@@ -104,14 +97,4 @@ static void measures_of_a_pattern(void **state) {
   kz_count_pairs(WIDE, 10, some, false, &unsettled);
   assert_int_equal(unsettled.compared[0], 5 * 18 + 5 * 8); /* a row of halves, a row whose second half is left out */
   assert_int_equal(unsettled.uncertain[0], 5 * 2);
-}
-
-int main(void) {
-  const struct CMUnitTest tests[] = {
-      cmocka_unit_test(tiles_cover_the_window),
-      cmocka_unit_test(large_grids_are_addressed),
-      cmocka_unit_test(counts_of_parts_add_up),
-      cmocka_unit_test(measures_of_a_pattern),
-  };
-  return cmocka_run_group_tests(tests, NULL, NULL);
 }
