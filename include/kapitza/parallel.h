@@ -246,4 +246,10 @@ typedef struct {
 /* Delivers the local records of all ranks. Returns KZ_STOPPED in the same cases as kz_stage_run. Collective. */
 kz_status kz_local_records_deliver(const kz_run *run, const kz_local_records *records, const kz_delivery *delivery);
 
+/* Takes the record of a tile, aligned as int64_t. */
+typedef kz_status (*kz_take_fn)(void *context, int64_t tile, const void *record, size_t bytes);
+/* Runs a stage whose records begin with a uint64_t, the number of bytes in use (a multiple of 8), and gives these bytes of each to rank 0, in
+ * any order. `name`: of the delivery, for the progress line. Collective. */
+kz_status kz_stage_gather(const kz_run *run, const kz_stage *stage, const char *name, kz_take_fn take, void *context);
+
 #endif

@@ -15,19 +15,8 @@ static void bag_put(kz_atlas_bag *b, int64_t tile, const void *record) {
   b->record[tile] = memcpy(kz_malloc(bytes), record, bytes);
 }
 
-static kz_status make(void *context, const kz_local_record *piece, void *message, size_t *bytes) {
-  (void)context;
-  memcpy(message, &piece->tile, sizeof piece->tile);
-  memcpy((char *)message + sizeof piece->tile, piece->data, piece->bytes);
-  *bytes = sizeof piece->tile + piece->bytes;
-  return KZ_OK;
-}
-
-static kz_status take(void *context, const void *message, size_t bytes) {
-  int64_t tile;
+static kz_status take(void *context, int64_t tile, const void *record, size_t bytes) {
   (void)bytes;
-  memcpy(&tile, message, sizeof tile);
-  KZ_FREED char *record = memcpy(kz_malloc(bytes), (const char *)message + sizeof tile, bytes - sizeof tile);
   bag_put(context, tile, record);
   return KZ_OK;
 }
@@ -49,21 +38,9 @@ static kz_status share(const kz_run *run, kz_atlas_bag *b) {
 kz_status kz_atlas_gather(const kz_run *run, const char *name, int64_t n, size_t bytes, bool whole, kz_tile_fn work,
                           void *context, kz_atlas_bag *b) {
   *b = (kz_atlas_bag){n, kz_calloc((size_t)n + 1, sizeof *b->record)};
-  kz_local_records pieces = {0};
-  const kz_stage stage = {.name = name,
-                          .n_tiles = n,
-                          .record_bytes = bytes,
-                          .work = work,
-                          .context = context,
-                          .keep = true,
-                          .local = &pieces,
-                          .whole = whole};
-  const kz_delivery delivery = {
-      .name = name, .message_bytes = bytes + sizeof(int64_t), .make = make, .take = take, .context = b};
-  kz_status status = kz_stage_run(run, &stage, NULL);
-  if (status == KZ_OK) status = kz_local_records_deliver(run, &pieces, &delivery);
-  kz_local_records_free(&pieces);
-  KZ_TRY(status);
+  const kz_stage stage = {
+      .name = name, .n_tiles = n, .record_bytes = bytes, .work = work, .context = context, .keep = true, .whole = whole};
+  KZ_TRY(kz_stage_gather(run, &stage, name, take, b));
   const uint64_t nothing = sizeof nothing;
   for (int64_t i = 0; !whole && kz_sampling_stands_for(run) > 1 && i < n; i++)
     if (!b->record[i]) bag_put(b, i, &nothing);

@@ -25,7 +25,6 @@ enum { POINT_BYTES = 4 * sizeof(double), FILE_BYTES = 50 /* of a point in the fi
 /* The record of a branch. */
 typedef struct {
   uint64_t bytes; /* in use */
-  int64_t tile;
   double point[4 * MOST_POINTS];
 } grown;
 
@@ -99,22 +98,15 @@ static kz_status share_tasks(const kz_run *run, work_list *list) {
 static kz_status grow(void *context, int64_t tile, void *record) {
   const work_list *list = context;
   grown *out = record;
-  out->tile = tile;
   out->bytes = offsetof(grown, point) +
                POINT_BYTES * (uint64_t)kz_manifold_grow(list->pendulum, &list->tasks[tile].branch, MOST_POINTS, out->point);
   return KZ_OK;
 }
 
-static kz_status make(void *context, const kz_local_record *piece, void *message, size_t *bytes) {
-  (void)context;
-  memcpy(message, piece->data, *bytes = piece->bytes);
-  return KZ_OK;
-}
-
-static kz_status take(void *context, const void *message, size_t bytes) {
-  const grown *in = message;
+static kz_status take(void *context, int64_t tile, const void *record, size_t bytes) {
+  const grown *in = record;
   const size_t used = bytes - offsetof(grown, point);
-  line *of = (line *)context + in->tile;
+  line *of = (line *)context + tile;
   *of = (line){.count = (int64_t)(used / POINT_BYTES), .point = kz_malloc(used + 1)};
   memcpy(of->point, in->point, used);
   return KZ_OK;
@@ -122,20 +114,9 @@ static kz_status take(void *context, const void *message, size_t bytes) {
 
 /* Grows all branches; lines [count] on rank 0. Collective. */
 static kz_status grow_all(const kz_run *run, work_list *list, line *lines) {
-  kz_local_records branches = {0};
-  const kz_stage stage = {.name = "manifolds",
-                          .n_tiles = list->count,
-                          .record_bytes = sizeof(grown),
-                          .work = grow,
-                          .context = list,
-                          .keep = true,
-                          .local = &branches};
-  const kz_delivery delivery = {
-      .name = "manifolds: points", .message_bytes = sizeof(grown), .make = make, .take = take, .context = lines};
-  kz_status status = kz_stage_run(run, &stage, NULL);
-  if (status == KZ_OK) status = kz_local_records_deliver(run, &branches, &delivery);
-  kz_local_records_free(&branches);
-  return status;
+  const kz_stage stage = {
+      .name = "manifolds", .n_tiles = list->count, .record_bytes = sizeof(grown), .work = grow, .context = list, .keep = true};
+  return kz_stage_gather(run, &stage, "manifolds: points", take, lines);
 }
 
 /* A point of the file. */

@@ -121,38 +121,26 @@ typedef struct {
   kz_found *found;
 } collection;
 
-static kz_status make(void *context, const kz_local_record *piece, void *message, size_t *bytes) {
-  (void)context;
-  memcpy(message, piece->data, *bytes = piece->bytes);
-  return KZ_OK;
-}
-
-static kz_status take(void *context, const void *message, size_t bytes) {
+static kz_status take(void *context, int64_t tile, const void *record, size_t bytes) {
   const collection *c = context;
   const size_t one = kz_cycle_bytes(c->plan), before = (size_t)c->found->count * one, more = bytes - sizeof(uint64_t);
   char *longer = kz_realloc(c->found->cycle, before + more);
-  if (more > 0) memcpy(longer + before, (const char *)message + sizeof(uint64_t), more);
+  (void)tile;
+  if (more > 0) memcpy(longer + before, (const char *)record + sizeof(uint64_t), more);
   c->found->cycle = (double *)longer;
   c->found->count += (int64_t)(more / one);
   return KZ_OK;
 }
 
 kz_status kz_lines_run(const kz_run *run, const kz_lines *lines, const char *name, kz_found *found) {
-  kz_local_records pieces = {0};
   const kz_stage stage = {.name = name,
                           .n_tiles = lines->count * lines->pieces,
                           .record_bytes = kz_piece_bytes(lines->plan),
                           .work = search_tile,
                           .context = (kz_lines *)lines,
-                          .keep = true,
-                          .local = &pieces};
+                          .keep = true};
   collection all = {lines->plan, found};
-  const kz_delivery delivery = {
-      .name = "saddles: cycles", .message_bytes = stage.record_bytes, .make = make, .take = take, .context = &all};
-  kz_status status = kz_stage_run(run, &stage, NULL);
-  if (status == KZ_OK) status = kz_local_records_deliver(run, &pieces, &delivery);
-  kz_local_records_free(&pieces);
-  KZ_TRY(status);
+  KZ_TRY(kz_stage_gather(run, &stage, "saddles: cycles", take, &all));
   if (kz_rank(run->ranks) == 0) found->count = drop_repeats(lines->plan, found->count, found->cycle);
   return kz_ranks_agree(run->ranks, found->count > KZ_SADDLES_MOST ? too_many(lines->plan, KZ_SADDLES_MOST, "cycles") : KZ_OK);
 }
