@@ -34,6 +34,20 @@ def test_a_plain_deep_picture_says_where_it_is_and_goes_to_a_boundary(page):
     assert page.window()["theta"]["min"] == pytest.approx(-np.pi) and wait_for(lambda: page.run("document.querySelector('.inset').hidden"))
 
 
+def test_the_list_lights_a_basin_and_keeps_the_one_that_is_clicked(page):
+    page.wait()
+    plain = np.unique(np.array(page.pixels()), axis=0).tolist()
+    page.run("document.querySelector('#legend tr:nth-child(2) button').click()")
+    assert page.run("[explorer.state.pinned, explorer.state.lit]") == ["inverted 1", "inverted 1"]
+    lit = np.unique(np.array(page.pixels()), axis=0).tolist()
+    assert sum(colour in plain for colour in lit) == 1 and len(lit) == len(plain) > 1  # one keeps its colour
+    assert wait_for(lambda: page.run("$('passport').textContent").startswith("inverted: "))
+    assert "closes after 1 drive period;" in page.run("$('passport').textContent") and page.run("explorer.state.start.theta") == "0.1"
+    page.run("document.querySelector('#legend tr:nth-child(2) button').click()")
+    assert page.run("explorer.state.lit") is None and np.unique(np.array(page.pixels()), axis=0).tolist() == plain
+    assert wait_for(lambda: page.run("$('passport').hidden"))
+
+
 def test_the_wheel_goes_to_boundaries_where_it_is_asked_to(page):
     page.key("w")
     near = page.module("boundary.js", "its.edgeNear({rows: 4, columns: 100, labels: [...Array(400)].map((_, i) => Number(i % 100 >= 50))}, "

@@ -2,9 +2,9 @@
 
 import { endingWords, Motion, settledAfter } from "./motion.js";
 import { edgeNear } from "./boundary.js";
-import { asScene, unlabelled } from "./frames.js";
+import { asScene, sharesOf, unlabelled } from "./frames.js";
 import { listen } from "./gestures.js";
-import { rowsOf, writeLegend } from "./legend.js";
+import { listenLegend, passportWords, rowsOf, writeLegend } from "./legend.js";
 import { Pane } from "./pane.js";
 import { Stage } from "./stage.js";
 import { placementOf } from "./placement.js";
@@ -28,6 +28,7 @@ export class Basins {
     this.followed = 0;
     this.stage = new Stage(element("pendulum"));
     state.listen((keys) => this.changed(keys));
+    listenLegend(element("legend"), state, (key) => this.playAttractor(key));
     requestAnimationFrame((now) => this.tick(now));
   }
 
@@ -134,8 +135,15 @@ export class Basins {
     if (keys.has("units")) this.writeEnding();
     if (keys.has("view") || keys.has("colours")) this.drawStage();
     if (keys.has("start") || keys.has("pendulum") || keys.has("other")) this.followSoon();
-    for (const pane of this.panes) pane.draw();
+    if (keys.has("lit")) for (const pane of this.panes) pane.light();
+    else for (const pane of this.panes) pane.draw();
     this.write();
+  }
+
+  /** Follows an attractor itself, from one of its strobe points. */
+  playAttractor(key) {
+    const row = this.active.top && sharesOf(this.active.top).find((one) => one.key === key);
+    if (row) this.state.change({ start: { theta: String(row.strobe[0][0]), velocity: String(row.strobe[0][1]), pane: this.active.name } });
   }
 
   // ---- the motion from a start ----
@@ -260,7 +268,11 @@ export class Basins {
 
   writeNow() {
     this.writePointed();
-    writeLegend(element("legend"), rowsOf(this.panes.map((pane) => pane.top)));
+    const rows = rowsOf(this.panes.map((pane) => pane.top));
+    writeLegend(element("legend"), rows);
+    const pinned = rows.find(({ key }) => key === this.state.pinned);
+    element("passport").hidden = !pinned;
+    if (pinned) element("passport").textContent = signed(passportWords(pinned, pinned.shares.find((share) => share !== null) ?? null));
     const { theta, velocity } = this.state.window;
     const depth = this.state.home.theta.width / theta.width;
     const digits = Math.max(2, 3 - Math.floor(Math.log10(theta.width)));

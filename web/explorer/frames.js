@@ -6,6 +6,7 @@ const MOST_MOVING = 250_000; // cells of a frame while things move
 const MOST_RESTING = 4_000_000;
 const UNSETTLED = "#ffffff";
 const WAITING = "#dfe4e9"; // of cells that have no label yet, hatched on the page
+const FADED = 0.22; // what stays of the colour of a basin while another one is lit
 export const HATCHING = 0.25; // how much darker every second stripe of them is
 
 /** The request for a frame that fills a canvas; `samples` x `samples` cells a pixel. */
@@ -49,16 +50,31 @@ export function decoded(header, bytes) {
 
 const palettes = new WeakMap();
 
-/** 256 colours of 4 bytes: colour i of label i of a catalogue. */
-export function paletteOf(catalogue) {
-  if (!palettes.has(catalogue)) {
+/** 256 colours of 4 bytes: colour i of label i of a catalogue; where `lit` is the key of an attractor, those of all others are faded. */
+export function paletteOf(catalogue, lit = null) {
+  if (!palettes.has(catalogue)) palettes.set(catalogue, new Map());
+  const known = palettes.get(catalogue);
+  const rows = keyed(catalogue);
+  const key = rows.some((row) => row.key === lit) ? lit : null;
+  if (!known.has(key)) {
     const bytes = new Uint8Array(1024).fill(255);
-    const put = (label, colour) => bytes.set(bytesOf(colour), 4 * label);
-    put(255, UNSETTLED);
-    for (const row of catalogue.attractors) put(row.id, row.colour);
-    palettes.set(catalogue, bytes);
+    bytes.set(bytesOf(UNSETTLED), 4 * 255);
+    for (const row of rows) {
+      const faded = key && row.key !== key ? FADED : 1;
+      bytes.set(
+        bytesOf(row.colour).map((part) => 235 + faded * (part - 235)),
+        4 * row.id,
+      );
+    }
+    known.set(key, bytes);
   }
-  return palettes.get(catalogue);
+  return known.get(key);
+}
+
+/** The attractors of a catalogue, each with a key that tells mirror images of one name apart. */
+function keyed(catalogue) {
+  const seen = {};
+  return catalogue.attractors.map((row) => ({ ...row, key: `${row.name} ${(seen[row.name] = (seen[row.name] ?? 0) + 1)}` }));
 }
 
 export function bytesOf(colour) {
@@ -78,12 +94,13 @@ export function sharesOf(frame) {
 export function countedShares(frame) {
   const counts = new Uint32Array(256);
   for (const label of frame.labels) counts[label]++;
-  const rows = frame.catalogue.attractors.map((row) => ({ ...row, share: counts[row.id] / frame.labels.length }));
+  const rows = keyed(frame.catalogue).map((row) => ({ ...row, share: counts[row.id] / frame.labels.length }));
   const name = unlabelled(frame);
   if (counts[255] > 0)
     rows.push({
       id: -1,
       name,
+      key: name,
       kind: "not settled",
       period: 0,
       winding: 0,

@@ -21,12 +21,9 @@ export const ORDER = [
 export function rowsOf(frames) {
   const rows = new Map();
   frames.forEach((frame, pane) => {
-    const seen = {};
     for (const row of frame ? sharesOf(frame) : []) {
-      const nth = (seen[row.name] = (seen[row.name] ?? 0) + 1);
-      const key = `${row.name} ${nth}`;
-      if (!rows.has(key)) rows.set(key, { ...row, key, shares: frames.map(() => null) });
-      rows.get(key).shares[pane] = row.share;
+      if (!rows.has(row.key)) rows.set(row.key, { ...row, shares: frames.map(() => null) });
+      rows.get(row.key).shares[pane] = row.share;
     }
   });
   return [...rows.values()].sort(
@@ -68,6 +65,48 @@ function newLine(row) {
   patch.className = "patch";
   line.dataset.key = row.key;
   line.insertCell().append(patch);
-  line.insertCell().textContent = signed(row.name);
+  if (row.id < 0) line.insertCell().textContent = row.name;
+  else {
+    const button = Object.assign(document.createElement("button"), { textContent: signed(row.name) });
+    button.setAttribute("aria-pressed", "false");
+    line.insertCell().append(button);
+  }
   return line;
+}
+
+/**
+ * Lights the basin of the line that the pointer or the focus is on, and keeps it lit where the line is clicked. `state.lit`: key of the
+ * basin that is lit; `state.pinned`: of the one that was clicked.
+ */
+export function listenLegend(table, state, play) {
+  const keyAt = (event) => {
+    const line = event.target.closest("tr");
+    return line?.querySelector("button") ? line.dataset.key : null;
+  };
+  const light = (event) => state.change({ lit: keyAt(event) ?? state.pinned });
+  for (const kind of ["pointerover", "focusin"]) table.addEventListener(kind, light);
+  for (const kind of ["pointerleave", "focusout"]) table.addEventListener(kind, () => state.change({ lit: state.pinned }));
+  table.addEventListener("click", (event) => {
+    const key = keyAt(event);
+    if (!key) return;
+    const pinned = key === state.pinned ? null : key;
+    state.change({ pinned, lit: pinned });
+    if (pinned) play(pinned);
+  });
+  state.listen((keys) => {
+    if (!keys.has("pinned")) return;
+    for (const line of table.rows) line.querySelector("button")?.setAttribute("aria-pressed", String(line.dataset.key === state.pinned));
+  });
+}
+
+/** What is known of an attractor, in words; `share`: of its basin. */
+export function passportWords({ name, period, winding, symmetric, multiplier, strobe }, share) {
+  const closes = period === 0 ? "chaotic" : `closes after ${period} drive period${period === 1 ? "" : "s"}`;
+  const turns = winding === 0 ? "" : `, ${Math.abs(winding)} turn${Math.abs(winding) === 1 ? "" : "s"} in them`;
+  const image = symmetric ? "its own mirror image" : "has a mirror image";
+  const [theta, velocity] = strobe[0].map((value) => value.toPrecision(5));
+  return (
+    `${name}: ${shareWords(share)} of this window\n${closes}${turns}; ${image}\n` +
+    `largest multiplier ${multiplier.toPrecision(4)}; strobe point θ ${theta}, velocity ${velocity}`
+  );
 }

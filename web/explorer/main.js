@@ -28,6 +28,8 @@ async function begin() {
     overlays: start.overlays,
     kinds: start.kinds,
     start: null,
+    lit: null,
+    pinned: null,
     playing: true,
     jump: false,
   });

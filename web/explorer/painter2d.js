@@ -35,8 +35,9 @@ export class Painter2d {
 
   pictureOf(frame, shading) {
     frame.texture ??= { shading: UNDRAWN, canvas: document.createElement("canvas") };
-    if (frame.texture.shading !== shading) this.paint(frame, shading);
-    frame.texture.shading = shading;
+    const { texture, palette } = frame;
+    if (texture.shading !== shading || texture.palette !== palette) this.paint(frame, shading);
+    Object.assign(texture, { shading, palette });
     return frame.texture.canvas;
   }
 

@@ -155,11 +155,17 @@ export class Pane {
       if (!same && !header.final && performance.now() - this.begun < QUIET) continue;
       const { catalogue } = this.engine;
       const full = { ...header, full: [request.rows, request.columns] };
-      const made = Object.assign(frameOf(full, decoded(header, bytes), window, paletteOf(catalogue)), { key, catalogue, quality, samples });
+      const made = Object.assign(frameOf(full, decoded(header, bytes), window, paletteOf(catalogue, this.state.lit)), { key, catalogue, quality, samples });
       this.keep(made, last);
       last = made;
       this.say(this, null, null, 1 / header.level ** 2);
     }
+  }
+
+  /** Colours of the frames, after another basin is lit. */
+  light() {
+    for (const frame of this.frames) frame.palette = paletteOf(frame.catalogue, this.state.lit);
+    this.draw();
   }
 
   /** A new frame, which takes the place of the coarser one of the same request. */
