@@ -96,8 +96,6 @@ contains
       return
     end if
     do
-      place = pack([(i, i=1, size(orbit))], decision%label == PENDING)
-      if (size(place) == 0) return
       next = merge(before, now - 1, now == level)
       if (.not. is_useful(d%levels, next)) next = next - 1
       handover = huge(handover)
@@ -107,12 +105,18 @@ contains
         handover = RATIO*d%levels%worst(next)
       end if
       call carrier_of(d%levels, now, d%flow, carrier)
-      some = orbit(place)
-      found = decision(place)
-      call follow_orbits(carrier, d%regions, d%attractors, most, handover, level == LEVEL_GUESS, decided, some, found)
-      orbit(place) = some
-      decision(place) = found
+      if (.not. allocated(place)) then ! most orbits need no more: they are not copied
+        call follow_orbits(carrier, d%regions, d%attractors, most, handover, level == LEVEL_GUESS, decided, orbit, decision)
+      else
+        some = orbit(place)
+        found = decision(place)
+        call follow_orbits(carrier, d%regions, d%attractors, most, handover, .false., decided, some, found)
+        orbit(place) = some
+        decision(place) = found
+      end if
       if (now == LEVEL_DOUBLE) return ! nothing is handed over from there
+      place = pack([(i, i=1, size(orbit))], decision%label == PENDING)
+      if (size(place) == 0) return
       now = next
     end do
   end subroutine label_orbits
