@@ -1,4 +1,5 @@
 /* Sampled runs: how much of a stage is done, what its records hold, and what is counted. Without time for samples exactly one tile is done. */
+#define OWN_MAIN
 #include "../../tools/test.h"
 
 #include "kapitza/parallel.h"
@@ -58,8 +59,7 @@ static kz_sampling impatient(void) {
   return sampling;
 }
 
-static void test_other_records_are_copies(void **state) {
-  (void)state;
+TEST(test_other_records_are_copies) {
   kz_sampling sampling = impatient();
   const kz_run run = {.sample = &sampling};
   int64_t record[TILES][2];
@@ -73,8 +73,7 @@ static void test_other_records_are_copies(void **state) {
   assert_true(kz_sampling_stands_for(&run) == TILES);
 }
 
-static void test_records_of_a_collective_stage_stay_empty(void **state) {
-  (void)state;
+TEST(test_records_of_a_collective_stage_stay_empty) {
   kz_sampling sampling = impatient();
   const kz_run run = {.sample = &sampling};
   int64_t record[TILES][2], filled = 0;
@@ -85,8 +84,7 @@ static void test_records_of_a_collective_stage_stay_empty(void **state) {
   assert_int_equal(filled, 1);
 }
 
-static void test_whole_stages_are_done_whole(void **state) {
-  (void)state;
+TEST(test_whole_stages_are_done_whole) {
   kz_sampling sampling = impatient();
   const kz_run run = {.sample = &sampling};
   int64_t record[TILES][2];
@@ -99,8 +97,7 @@ static void test_whole_stages_are_done_whole(void **state) {
 }
 
 /* With enough time everything is done, once, and nothing is counted that was not. */
-static void test_short_stages_are_done_whole(void **state) {
-  (void)state;
+TEST(test_short_stages_are_done_whole) {
   kz_sampling sampling;
   kz_sampling_begin(&sampling, 1000);
   const kz_run run = {.sample = &sampling};
@@ -114,8 +111,7 @@ static void test_short_stages_are_done_whole(void **state) {
 
 /* What the first tile sets up is counted once, the rest for all tiles and as often as the weight says: 20 ms + 2 * 40 * 1 ms. The clock may
  * be late, never early. */
-static void test_a_set_up_is_counted_once(void **state) {
-  (void)state;
+TEST(test_a_set_up_is_counted_once) {
   kz_sampling sampling = impatient();
   const kz_run run = {.sample = &sampling};
   int64_t record[TILES][2];
@@ -129,8 +125,7 @@ static void test_a_set_up_is_counted_once(void **state) {
   assert_true(kz_sampling_seconds(&sampling) > 0.095);
 }
 
-static void test_without_patience_a_run_stops(void **state) {
-  (void)state;
+TEST(test_without_patience_a_run_stops) {
   kz_sampling sampling;
   kz_sampling_begin(&sampling, -1);
   const kz_run run = {.sample = &sampling};
@@ -141,8 +136,7 @@ static void test_without_patience_a_run_stops(void **state) {
   kz_message_clear();
 }
 
-static void test_a_loop_ends_when_enough_is_seen(void **state) {
-  (void)state;
+TEST(test_a_loop_ends_when_enough_is_seen) {
   kz_sampling sampling = impatient();
   const kz_run run = {.sample = &sampling}, real = {NULL};
   const kz_sampling_mark mark = kz_sampling_mark_now(&run);
@@ -155,8 +149,7 @@ static void test_a_loop_ends_when_enough_is_seen(void **state) {
 }
 
 /* Records that stay where they were made: with one of 40 the file takes 40 times what that one takes. Without a sample all are delivered. */
-static void test_local_records(void **state) {
-  (void)state;
+TEST(test_local_records) {
   kz_sampling sampling = impatient();
   const kz_run run = {.sample = &sampling}, alone = {NULL};
   for (int sampled = 0; sampled < 2; sampled++) {
@@ -173,4 +166,9 @@ static void test_local_records(void **state) {
     kz_local_records_free(&pieces);
   }
   assert_true(sampling.weight == 1);
+}
+
+int main(void) {
+  for (size_t i = 0; i < test_count; i++) all_tests[i].setup_func = begin;
+  return run_all_tests(NULL, NULL);
 }
