@@ -9,10 +9,12 @@ import signal
 import subprocess
 import sys
 import time
+from pathlib import Path
 
 import h5py
 import pytest
-from conftest import PROGRAM, ROOT, datasets, saved_bytes
+from conftest import PROGRAM, ROOT, datasets, plot, saved_bytes
+from kapitza.command import KINDS
 
 SMALL = ROOT / "scenes" / "small.yaml"
 SLOW = ["--set", "basin.method=direct", "--set", "basin.theta.count=200", "--set", "basin.velocity.count=200",
@@ -300,3 +302,40 @@ def test_kills_lose_nothing(tmp_path):
     words = [sys.executable, loop, "--rounds", "2", tmp_path / "kills", PROGRAM, "run", SMALL, "-o", "OUT.h5", *SLOW]
     done = subprocess.run(list(map(str, words)), capture_output=True, text=True)
     assert done.returncode == 0 and "nothing lost" in done.stdout, done.stdout + done.stderr
+
+
+def ranks_of(process):
+    """The process ids of the program's ranks below an mpirun."""
+    children = Path(f"/proc/{process.pid}/task/{process.pid}/children").read_text().split()
+    return [int(child) for child in children if Path(f"/proc/{child}/comm").read_text().strip() == "kapitza"]
+
+
+def test_a_sleeping_rank_delays_but_spoils_nothing(tmp_path, undisturbed):
+    process = start("run", SMALL, *SLOW, folder=tmp_path, ranks=3)
+    wait_for(lambda: grown(tmp_path / "small.h5.checkpoint"))
+    sleeper = ranks_of(process)[-1]
+    for _ in range(5):
+        try:
+            os.kill(sleeper, signal.SIGSTOP)
+            time.sleep(0.2)
+            os.kill(sleeper, signal.SIGCONT)
+        except ProcessLookupError:
+            break
+        time.sleep(0.02)
+    _, errors = process.communicate()
+    assert process.returncode == 0, errors
+    assert datasets(tmp_path / "small.h5") == undisturbed
+
+
+@pytest.mark.parametrize("kind", sorted(set(KINDS) - {"compare", "film", "report", "vtkhdf"}))
+@pytest.mark.parametrize("how", ["empty", "foreign text", "half", "no groups"])
+def test_plots_answer_bad_files_with_one_line(small_result, tmp_path, kind, how):
+    path = tmp_path / "bad.h5"
+    data = small_result.read_bytes()
+    path.write_bytes({"empty": b"", "foreign text": b"a,b\n1,2\n" * 99, "half": data[: len(data) // 2]}.get(how, data))
+    if how == "no groups":
+        with h5py.File(path, "r+") as file:
+            for group in set(file) - {"pendulum"}:
+                del file[group]
+    done = plot(kind, path, "-o", picture := tmp_path / "x.png")
+    assert done.returncode == 1 and done.stderr.count("\n") == 1 and "bad.h5" in done.stderr and not picture.exists(), done.stderr
