@@ -38,7 +38,8 @@ def main(*kind: str) -> None:
     if words[:1] in (["-h"], ["--help"]):
         print(USAGE)
         return
-    if not words or (words[0] not in KINDS and words[0].startswith("-")):
+    kind_meant = words[1:2] and not words[1].startswith("-") or words[:1] and words[0].startswith("-")
+    if not words or (words[0] not in KINDS and kind_meant):
         print(USAGE, file=sys.stderr)
         sys.exit(2)
     run_apart(lambda: _draw(words))

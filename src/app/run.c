@@ -154,9 +154,19 @@ static kz_status write_root(job *j) {
   return kz_store_integer(j->store, "/", "ranks", kz_ranks_count(j->run.ranks));
 }
 
+/* What is said of the pendulum: before the studies, because a complete file is followed by nothing that can fail. */
+static void print_pendulum(const kz_scene *scene, FILE *out) {
+  const kz_pendulum *p = &scene->parameters.pendulum;
+  kz_rest_print(&scene->parameters, out);
+  if (scene->title[0]) fprintf(out, "%s\n", scene->title);
+  if (!isnan(p->k)) fprintf(out, "k = %.10g, beta = %.10g, m = %.10g\n", p->k, p->beta, p->m);
+  kz_drive_print(&scene->parameters, out);
+}
+
 static kz_status open_outputs(job *j) {
   j->summary = open_memstream(&j->words, &j->n_words);
   if (!j->summary) return kz_fail(KZ_FAILED, "out of memory for the summary");
+  print_pendulum(&j->scene, j->summary);
   KZ_TRY(kz_store_create(j->path, kz_groups, &j->store));
   KZ_TRY(write_root(j));
   return kz_pendulum_write(&j->scene.parameters, j->store);
@@ -172,13 +182,8 @@ static kz_status run_studies(job *j) {
 }
 
 static void print_summary(job *j) {
-  const kz_pendulum *p = &j->scene.parameters.pendulum;
   fclose(j->summary);
   j->summary = NULL;
-  kz_rest_print(&j->scene.parameters, stdout);
-  if (j->scene.title[0]) puts(j->scene.title);
-  if (!isnan(p->k)) printf("k = %.10g, beta = %.10g, m = %.10g\n", p->k, p->beta, p->m);
-  kz_drive_print(&j->scene.parameters, stdout);
   printf("%swritten to %s\n", j->words, j->path);
 }
 

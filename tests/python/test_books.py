@@ -9,7 +9,8 @@ from conftest import ROOT
 
 ELSEWHERE = {"cluster", "how-hard", "lesson"}  # run by test_cluster.py, test_tutorial.py; no commands
 PAGES = [ROOT / "README.md", *sorted((ROOT / "docs").glob("howto/*.md")), *sorted((ROOT / "docs").glob("tutorials/*.md"))]
-PAGES = [page for page in PAGES if page.stem not in ELSEWHERE]
+LONG = set() if os.environ.get("KAPITZA_EXTENSIVE") else {"questions"}  # two minutes: KAPITZA_EXTENSIVE=1
+PAGES = [page for page in PAGES if page.stem not in ELSEWHERE | LONG]
 
 
 def blocks(page):

@@ -169,10 +169,10 @@ def contradicted(kapitza, folder, name, count, most):
     return proved.sum(), (labels[proved] != true_labels[proved]).sum()
 
 
-@pytest.mark.parametrize("name", ["tilted", "square wave", "Josephson"])
-def test_quad_precision_contradicts_no_proof_of_other_drives(kapitza, tmp_path, name):
-    proved, wrong = contradicted(kapitza, tmp_path, name, 12, 60)
-    assert wrong == 0 and proved > 45
+def test_quad_precision_contradicts_no_proof_of_another_drive(kapitza, tmp_path):
+    """Of the other drives below."""
+    proved, wrong = contradicted(kapitza, tmp_path, "tilted", 12, 30)
+    assert wrong == 0 and proved > 22
 
 
 @pytest.mark.skipif(not os.environ.get("KAPITZA_EXTENSIVE"), reason="takes minutes: KAPITZA_EXTENSIVE=1")
