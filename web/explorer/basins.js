@@ -203,7 +203,10 @@ export class Basins {
     if (this.motion) element("ending").textContent = signed(endingWords(this.motion.ending, this.units));
   }
 
+  /** Thirty pictures a second: each draws the basins too, and the rest of the time is theirs that are computed. */
   tick(now) {
+    requestAnimationFrame((next) => this.tick(next));
+    if (now - this.last < 30) return;
     const seconds = Math.min(0.1, (now - (this.last ?? now)) / 1000);
     this.last = now;
     if (this.motion && this.state.playing) {
@@ -211,7 +214,6 @@ export class Basins {
       this.drawStage();
       for (const pane of this.panes) if (pane.plain.motion) pane.draw();
     }
-    requestAnimationFrame((next) => this.tick(next));
   }
 
   // ---- words ----
