@@ -93,6 +93,15 @@ kz_status kz_store_rows(kz_store *store, const char *group, const char *name, in
 kz_status kz_store_length(kz_store *store, const char *group, const char *dimension, int64_t *length);
 kz_status kz_store_number(kz_store *store, const char *group, const char *name, const int64_t *index, double *value);
 
+/* The root attribute `fingerprint` of PATH, which the caller frees; NULL if PATH is not a complete file of this program. */
+char *kz_store_fingerprint(const char *path);
+/* Opens a complete file of this program, to be read; kz_store_discard closes it. KZ_REFUSED if PATH is none. */
+kz_status kz_store_open(const char *path, kz_store **store);
+/* A text attribute of the root, which the caller frees; NULL if there is none. */
+char *kz_store_text_of(const kz_store *store, const char *name);
+/* All numbers of a variable, of which there must be n. */
+kz_status kz_store_numbers(kz_store *store, const char *group, const char *name, int64_t n, double *value);
+
 /* ---- arrays of numbers as HDF5's filters shuffle and deflate pack them; no HDF5 ---- */
 
 enum { KZ_PACK_LEVEL = 4 }; /* of deflate; what the file says of it */
@@ -107,8 +116,5 @@ size_t kz_pack_into(const void *numbers, size_t n, size_t item, bool in_runs, vo
 size_t kz_squeeze(const void *items, size_t n, size_t item, void *packed);
 /* The reverse, to items [n]; false if `packed` [bytes] does not contain n such items. */
 bool kz_unsqueeze(const void *packed, size_t bytes, size_t n, size_t item, void *items);
-
-/* The root attribute `fingerprint` of PATH, which the caller frees; NULL if PATH is not a complete file of this program. */
-char *kz_store_fingerprint(const char *path);
 
 #endif

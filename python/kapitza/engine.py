@@ -1,7 +1,9 @@
 """An engine: a process of `kapitza serve` that answers many requests."""
 
 import itertools
+import os
 from collections.abc import Mapping
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -93,6 +95,25 @@ class Engine:
         time = np.arange(header["samples"]) * (2 * np.pi / samples_per_period)
         return pandas.DataFrame({"time": time, "theta": values[0], "velocity": values[1]})
 
+    def motions(self, atlas: str | os.PathLike[str], x: float, y: float, *, states: bool = True) -> pandas.DataFrame:
+        """The motions that attract at a point of an atlas: a table as `Result.motions` returns it. A point takes some milliseconds.
+
+        :param atlas: name of a result file with the study atlas; the engine keeps the last one in memory
+        """
+        header, _ = self._ask({"request": "motions", "atlas": str(Path(atlas).absolute()), "x": x, "y": y, "states": states}, None)
+        return motions_table(header["motions"])
+
+    def line(self, atlas: str | os.PathLike[str], *, x: float | None = None, y: float | None = None) -> pandas.DataFrame:
+        """The branches of all cycles along a line through an atlas: a table as `Result.line` returns it."""
+        given = {key: value for key, value in (("x", x), ("y", y)) if value is not None}
+        header, payload = self._ask({"request": "line", "atlas": str(Path(atlas).absolute()), **given}, None)
+        table = pandas.DataFrame(np.frombuffer(payload, "<f8").reshape(-1, len(header["columns"])), columns=header["columns"])
+        counts = [row["points"] for row in header["branches"]]
+        for column, name in enumerate(("name", "period", "winding", "centre", "symmetric", "images")):
+            table.insert(column, name, np.repeat([row[name] for row in header["branches"]], counts))
+        table.insert(0, "branch", np.repeat(np.arange(len(counts)), counts))
+        return table
+
     def _ask(self, request: dict[str, Any], pendulum: Mapping[str, Any] | None) -> tuple[dict[str, Any], bytes]:
         """The last answer to a request. Ctrl-C cancels it. Each request has a view of its own, so that none of another thread ends it."""
         request["view"] = str(next(self._views))
@@ -130,6 +151,15 @@ def attractors_table(rows: list[dict[str, Any]]) -> pandas.DataFrame:
     table["strobe_theta"] = [[point[0] for point in points] for points in table["strobe"]]
     table["strobe_velocity"] = [[point[1] for point in points] for points in table["strobe"]]
     return table.drop(columns="strobe")
+
+
+def motions_table(rows: list[dict[str, Any]]) -> pandas.DataFrame:
+    """The motions of an answer, a row each; multipliers as complex numbers, points as lists."""
+    columns = ["name", "period", "winding", "centre", "symmetric", "images", "curve", "multipliers", "strobe_theta", "strobe_velocity"]
+    table = [{**row, "multipliers": [complex(*pair) for pair in row["multipliers"]],
+              "strobe_theta": [point[0] for point in row["strobe"]], "strobe_velocity": [point[1] for point in row["strobe"]]}
+             for row in rows]
+    return pandas.DataFrame(table, columns=columns).astype({"curve": "Int64"})
 
 
 def _plain(value: Any) -> Any:

@@ -29,10 +29,13 @@ _PROVED: _Row = ("", "basin", ["--quantity", "evidence"])
 
 _ATLAS: _Row = ("", "atlas", [])
 _MOTIONS: _Row = ("-motions", "atlas", ["--view", "motions"])
+_LINE: _Row = ("-line", "atlas", ["--view", "line", "--x", "11"])
+_BLACKBURN: _Row = ("-fig04", "atlas", ["--longest", "2", "--points", "scenes/atlas-blackburn-fig04.csv"])
+_BUTIKOV: _Row = ("-fig01", "atlas", ["--longest", "2", "--points", "scenes/atlas-butikov-fig01.csv"])
 
 _SCENES = {
-    "atlas-blackburn": [_ATLAS, _MOTIONS],
-    "atlas-butikov": [_ATLAS],
+    "atlas-blackburn": [_ATLAS, _MOTIONS, _LINE, _BLACKBURN],
+    "atlas-butikov": [_ATLAS, _BUTIKOV],
     "atlas-tilted": [_ATLAS],
     "bifurcation": [_SWEEP],
     "blackburn-fig02": [_GROWTH],

@@ -16,6 +16,7 @@ from kapitza.table import attractors_table, cells_of, flag_word, labels_array
 if TYPE_CHECKING:
     from kapitza.chances import Agreement
     from kapitza.compare import Comparison
+    from kapitza.engine import Engine
 
 
 class Result:
@@ -180,6 +181,39 @@ class Result:
         """The largest swept value at which at least this share of the starts ends on attractors of a name; NaN if there is none."""
         from kapitza.chances import largest
         return largest(self, name, share)
+
+    @cached_property
+    def _engine(self) -> "Engine":
+        from kapitza.engine import Engine
+        return Engine(self.scene, {"basin.theta.count": 2, "basin.velocity": {"min": -1, "max": 1, "count": 2}})
+
+    def motions(self, x: float, y: float, *, states: bool = True) -> pandas.DataFrame:
+        """The motions that attract at any point of an atlas, of up to its `max_period` periods, in some milliseconds.
+
+        The list follows from the curves alone. Each cycle is then carried to the point from the curve on which it is born, and solved for
+        there: no start is followed.
+
+        :param x: value of the key along the horizontal axis
+        :param y: value of the key along the vertical axis
+        :param states: with strobe points and multipliers; without them a point takes less than a millisecond
+        :return: a row for each motion: name, period, winding, centre, symmetric, images (2: its mirror image attracts too), curve (number
+            of the curve from which it was carried), multipliers (over its period), strobe_theta, strobe_velocity (lists; empty without
+            `states`)
+        :raises SceneError: outside of the plane
+        """
+        return self._engine.motions(self.path, x, y, states=states)
+
+    def line(self, *, x: float | None = None, y: float | None = None) -> pandas.DataFrame:
+        """The branches of all cycles along a line through an atlas, attracting or not, of up to its `max_period` periods.
+
+        :param x: value of the key along the horizontal axis, of a vertical line
+        :param y: value of the key along the vertical axis, of a horizontal line, in place of x
+        :return: a row for each point, in the order of the branch: branch (number), name, period, winding, centre, symmetric, images, value
+            (of the key that varies), height (mean of the bob at the strobe points, -1 to 1), theta and velocity (of a strobe point),
+            multiplier (the largest modulus over the period: below 1 the cycle attracts)
+        :raises SceneError: outside of the plane
+        """
+        return self._engine.line(self.path, x=x, y=y)
 
     def agree(self, table: Any) -> "Agreement":
         """Compares measured releases with the basin.

@@ -84,6 +84,18 @@ kz_status kz_store_rows(kz_store *store, const char *group, const char *name, in
   return status;
 }
 
+kz_status kz_store_numbers(kz_store *store, const char *group, const char *name, int64_t n, double *value) {
+  hid_t dataset;
+  int64_t there;
+  KZ_TRY(open_variable(store, group, name, &dataset));
+  kz_status status = kz_scale_length(dataset, &there);
+  if (status == KZ_OK && there != n)
+    status = kz_fail(KZ_FAILED, "the result file's %s/%s does not fit to its other variables", group, name);
+  if (status == KZ_OK) status = KZ_HDF5_STATUS(H5Dread(dataset, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, value));
+  H5Dclose(dataset);
+  return status;
+}
+
 kz_status kz_store_chunk(kz_store *store, const char *group, const char *name, const int64_t *place, const void *packed,
                          size_t bytes) {
   const hsize_t offset[] = {(hsize_t)place[0], (hsize_t)place[1]};

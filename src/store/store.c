@@ -137,13 +137,34 @@ kz_status kz_store_complete(kz_store *store) {
   return status;
 }
 
-char *kz_store_fingerprint(const char *path) {
-  if (kz_hdf5_start() != KZ_OK) return NULL;
+kz_status kz_store_open(const char *path, kz_store **store) {
+  *store = NULL;
+  KZ_TRY(kz_hdf5_start());
   const hid_t file = H5Fopen(path, H5F_ACC_RDONLY, H5P_DEFAULT);
-  if (file < 0) return NULL;
-  char *found = kz_attribute_read_text(file, "fingerprint"), *copy = found ? kz_strdup(found) : NULL;
+  if (file < 0) return kz_fail(KZ_REFUSED, "%s: is not a result file that can be read", path);
+  *store = kz_calloc(1, sizeof **store);
+  (*store)->file = file;
+  KZ_FREED char *fingerprint = kz_store_text_of(*store, "fingerprint");
+  if (fingerprint) return KZ_OK;
+  kz_store_discard(*store);
+  *store = NULL;
+  return kz_fail(KZ_REFUSED, "%s: is not a complete result file of kapitza", path);
+}
+
+char *kz_store_fingerprint(const char *path) {
+  kz_store *store;
+  if (kz_store_open(path, &store) != KZ_OK) {
+    kz_message_clear();
+    return NULL;
+  }
+  char *found = kz_store_text_of(store, "fingerprint");
+  kz_store_discard(store);
+  return found;
+}
+
+char *kz_store_text_of(const kz_store *store, const char *name) {
+  char *found = kz_attribute_read_text(store->file, name), *copy = found ? kz_strdup(found) : NULL;
   H5free_memory(found);
-  H5Fclose(file);
   return copy;
 }
 

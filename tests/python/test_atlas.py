@@ -6,7 +6,7 @@ import os
 import numpy as np
 import pytest
 from conftest import datasets, plot, run_until_saved
-from kapitza import Result
+from kapitza import Result, SceneError
 from scipy.integrate import solve_ivp
 
 PENDULUM = {"quality_factor": 5, "drive_frequency": 11, "drive_amplitude": 0.3}
@@ -78,12 +78,74 @@ def test_lists_are_those_of_the_search(atlas, kapitza, tmp_path):
         assert int(short.sum()) == int(group["count"][row, column]), here
 
 
+def test_motions_of_a_point_are_cycles_of_its_pendulum(atlas):
+    """At random points the list is that of the raster, and every strobe point returns after its period, with the multipliers told: by an
+    integrator that shares nothing with the program."""
+    result, group = atlas[0], atlas[0].group("atlas")
+    rng = np.random.default_rng(5)
+    for column, row in rng.integers(0, 64, (12, 2)):
+        omega, epsilon = float(group["column"][column]), float(group["row"][row])
+        listed, found = result.motions(omega, epsilon, states=False), result.motions(omega, epsilon)
+        assert list(listed["name"]) == list(found["name"]) and int(found["images"].sum()) == int(group["count"][row, column])
+        k, beta = omega ** -2, 1 / (5 * omega)
+        for _, motion in found.iterrows():
+            assert len(motion["strobe_theta"]) == motion["period"]
+            start = [motion["strobe_theta"][0], motion["strobe_velocity"][0], 1, 0, 0, 1]
+            end = solve_ivp(lambda t, u, *of: flow(u, t, *of), args=(k, beta, epsilon), t_span=(0, 2 * np.pi * motion["period"]), y0=start,
+                            method="DOP853", rtol=1e-12, atol=1e-13).y[:, -1]
+            assert abs(end[0] - start[0] - 2 * np.pi * motion["winding"]) < 2e-9 and abs(end[1] - start[1]) < 2e-9
+            assert abs(end[2] + end[5] - sum(motion["multipliers"]).real) < 1e-7
+            assert max(abs(one) for one in motion["multipliers"]) < 1
+
+
+def flow(u, t, k, beta, m):
+    """The equation of motion, and of two small deviations."""
+    force, slope = (k - m * np.cos(t)) * np.sin(u[0]), (k - m * np.cos(t)) * np.cos(u[0])
+    return [u[1], -beta * u[1] - force, u[3], -beta * u[3] - slope * u[2], u[5], -beta * u[5] - slope * u[4]]
+
+
+def test_a_line_has_every_crossing_and_what_repels(atlas):
+    """Along a line stable branches are as many as the lists say, and at each fold a branch that repels begins."""
+    result, group = atlas[0], atlas[0].group("atlas")
+    column = 20
+    table = result.line(x=float(group["column"][column]))
+    for row in (8, 24, 40, 60):
+        value, attracting = float(group["row"][row]), set()
+        for _, branch in table.groupby("branch"):
+            below = branch["value"].values < value
+            for at in np.flatnonzero(below[1:] != below[:-1]):
+                if max(branch["multiplier"].values[at:at + 2]) < 1:
+                    attracting.add((branch["name"].iloc[0], round(float(branch["height"].iloc[at]), 1)))
+        assert {name for name, _ in attracting} == set(result.motions(float(group["column"][column]), value, states=False)["name"])
+    assert (table["multiplier"] > 1).any() and abs(table["height"]).max() <= 1
+    with pytest.raises(SceneError, match="lies outside of the atlas"):
+        result.line(x=99)
+    with pytest.raises(SceneError, match="lies outside of the atlas; drive_amplitude is from 0 to 0.8"):
+        result.motions(11, 2)
+
+
 def test_every_point_belongs_to_its_curve(atlas):
     group = atlas[0].group("atlas")
     first, n = group["curve_first"].values, group["curve_points"].values
     assert first[0] == 0 and (first[1:] == (first + n)[:-1]).all() and first[-1] + n[-1] == group.sizes["point"]
     assert (group["region_share"].values[:-1] >= group["region_share"].values[1:]).all()
     assert int(group["list"].max()) + 1 <= 64 * 64
+
+
+def test_shares_are_of_attractors_that_the_list_has(kapitza, tmp_path):
+    """One rotation beside hanging and upright rest: the shares of all are 1, and no class has one where it does not attract."""
+    scene = {"pendulum": PENDULUM, "atlas": {"x": {"parameter": "drive_frequency", "min": 8, "max": 12},
+                                             "y": {"parameter": "drive_amplitude", "min": 0, "max": 0.4}, "max_period": 1, "checks": 0,
+                                             "points": 16, "shares": 100}}
+    (tmp_path / "s.yaml").write_text(json.dumps(scene))
+    kapitza("run", "s.yaml", ranks=2, folder=tmp_path)
+    group = Result(tmp_path / "s.h5").group("atlas")
+    shares, other = group["region_fraction"].values, group["region_other"].values
+    assert len(shares) > 2 and np.allclose(shares.sum(axis=1) + other, 1) and (other < 0.5).any() and (shares > 0).sum() > 4
+    for region in range(len(shares)):
+        column = int(np.argmin(abs(group["column"].values - float(group["region_x"][region]))))
+        row = int(np.argmin(abs(group["row"].values - float(group["region_y"][region]))))
+        assert not (shares[region] > 0)[group["attracting"].values[:, row, column] == 0].any()
 
 
 def test_pictures(atlas, tmp_path):

@@ -2,7 +2,9 @@
 
     kapitza plot atlas atlas-blackburn.h5                      the map: all curves, over the number of attractors
     kapitza plot atlas atlas-blackburn.h5 --view motions       small maps: where each motion attracts
-    kapitza plot atlas atlas-blackburn.h5 --longest 2          curves of cycles of up to two periods alone
+    kapitza plot atlas atlas-blackburn.h5 --view line --x 11   all branches along the line where x is 11; those that repel are dashed
+    kapitza plot atlas atlas-blackburn.h5 --longest 2          cycles of up to two periods alone
+    kapitza plot atlas atlas-blackburn.h5 --points fig4.csv    with published points on top
 """
 
 import argparse
@@ -21,9 +23,10 @@ from matplotlib.ticker import FixedLocator, FuncFormatter, NullLocator
 from kapitza import style
 from kapitza.plots.atlas_labels import label_regions, motion_text
 from kapitza.plots.atlas_labels import region_text as region_text
+from kapitza.plots.atlas_line import draw_line
 from kapitza.plots.chart import NAMES
 from kapitza.plots.common import argument_parser, entitle, new_figure, parsed, write_picture
-from kapitza.result import Result
+from kapitza.result import BadFile, Result
 
 FOLD, DOUBLING, BREAKING, SWINGS, LEANS = range(5)  # codes of curve_kind
 CUSP = 0  # of special_kind
@@ -34,14 +37,21 @@ DASHES: dict[int, Any] = {FOLD: "-", DOUBLING: (0, (5, 2)), BREAKING: (0, (1.2, 
 BOLD_UP_TO = 4  # longer cycles live in thin bands: their curves are thin
 MOST_SHADES = 14
 LONGEST = 16  # periods of the cycles whose curves are drawn
-VIEWS = ("map", "motions")
+VIEWS = ("map", "motions", "line")
 
 
 def parse_arguments(words: list[str]) -> argparse.Namespace:
     parser = argument_parser("atlas", __doc__, "an atlas")
     parser.add_argument("--view", choices=VIEWS, default="map")
-    parser.add_argument("--longest", type=int, default=LONGEST, help="longest period of the cycles whose curves are drawn")
-    return parsed(parser, words)
+    parser.add_argument("--longest", type=int, default=LONGEST, help="longest period of the cycles that are drawn")
+    parser.add_argument("--x", type=float, help="the line of the view `line`: value of the key along the horizontal axis")
+    parser.add_argument("--y", type=float, help="or of that along the vertical axis (default: the middle of the horizontal one)")
+    parser.add_argument("--points", metavar="CSV", help="points on the map, with the columns x, y and label; points with one label have "
+                        "one mark")
+    arguments = parsed(parser, words)
+    if arguments.x is not None and arguments.y is not None:
+        parser.error("a line has --x or --y, not both")
+    return arguments
 
 
 def shade_counts(axes: Axes, atlas: xarray.Dataset) -> tuple[ListedColormap, int]:
@@ -140,10 +150,27 @@ def draw_map(axes: Axes, atlas: xarray.Dataset, *, colours: Mapping[int, str] = 
     return axes
 
 
-def map_page(result: Result, atlas: xarray.Dataset, longest: int) -> Figure:
-    """The plane with all curves, and labels of its regions."""
+def mark_points(axes: Axes, atlas: xarray.Dataset, path: str) -> None:
+    """Points of a CSV file in open marks, one for each label, with a legend of their own."""
+    import pandas
+
+    table = pandas.read_csv(path, comment="#")
+    if missing := {"x", "y", "label"} - set(table.columns):
+        raise BadFile(f"{path}: lacks the column {sorted(missing)[0]}")
+    for (label, rows), mark in zip(table.groupby("label", sort=False), "osD^vPX*", strict=False):
+        axes.plot(rows["x"], rows["y"], mark, markersize=5, markerfacecolor="#ffd24a", markeredgecolor=style.INK, markeredgewidth=0.9,
+                  linestyle="", zorder=7, label=str(label))
+    marks = axes.lines[-table["label"].nunique():]
+    axes.add_artist(axes.legend(handles=marks, loc="upper left", bbox_to_anchor=(0.01, 0.99), fontsize="small", framealpha=0.9))
+
+
+def map_page(result: Result, atlas: xarray.Dataset, longest: int, points: str | None = None) -> Figure:
+    """The plane with all curves, and labels of its regions; `points`: a CSV file of points on top."""
     figure = new_figure(8.6, 6.2)
-    axes = draw_map(figure.subplots(), atlas, longest=longest)
+    axes = figure.subplots()
+    if points:
+        mark_points(axes, atlas, points)
+    draw_map(axes, atlas, longest=longest)
     entitle(figure, result, f"every motion of up to {int(atlas.attrs['max_period'])} periods: {atlas.sizes['curve']} curves")
     figure.draw_without_rendering()
     label_regions(axes, atlas)
@@ -197,9 +224,28 @@ def belongs(atlas: xarray.Dataset, curve: int, number: int) -> bool:
     return style.name_text(atlas["curve_name"].values[curve]).rpartition(": ")[0] == style.name_text(atlas["class_name"].values[number])
 
 
+def line_page(result: Result, atlas: xarray.Dataset, x: float | None, y: float | None, longest: int) -> Figure:
+    """One line through the map as a bifurcation diagram."""
+    if x is None and y is None:
+        x = float(atlas["column"].values[[0, -1]].mean())
+    fixed, varies = ("y", "x") if x is None else ("x", "y")
+    value = y if x is None else x
+    figure = new_figure(8.6, 5.4)
+    table = result.line(**{fixed: value})
+    axes = draw_line(figure.subplots(), table[table["period"] <= longest])
+    axes.set_xlabel(NAMES.get(atlas.attrs[f"{varies}_parameter"], atlas.attrs[f"{varies}_parameter"].replace("_", " ")))
+    half = (atlas["row" if varies == "y" else "column"].values[[0, -1]])
+    axes.set_xlim(half[0] - (half[1] - half[0]) / 2000, half[1] + (half[1] - half[0]) / 2000)
+    entitle(figure, result, f"all cycles of up to {min(longest, int(atlas.attrs['max_period']))} periods where "
+            f"{atlas.attrs[f'{fixed}_parameter'].replace('_', ' ')} is {value:g}", "solid: attracts; dashed: repels")
+    return figure
+
+
 def draw(result: Result, arguments: argparse.Namespace) -> Figure:
     atlas = result.group("atlas")
-    return map_page(result, atlas, arguments.longest) if arguments.view == "map" else motions_page(result, atlas)
+    if arguments.view == "line":
+        return line_page(result, atlas, arguments.x, arguments.y, arguments.longest)
+    return map_page(result, atlas, arguments.longest, arguments.points) if arguments.view == "map" else motions_page(result, atlas)
 
 
 def main(words: list[str]) -> None:

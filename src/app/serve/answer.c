@@ -100,23 +100,29 @@ static const char *kind_of(const kz_attractor *row) {
   }
 }
 
+static const char *const CENTRES[] = {
+    [KZ_ABOUT_DOWN] = "down", [KZ_ABOUT_INVERTED] = "inverted", [KZ_ROTATING] = "rotating", [KZ_ABOUT_NEITHER] = "neither"};
+
+static kz_json *strobe_of(int64_t n, const double *theta, const double *velocity) {
+  kz_json *strobe = json_object_new_array();
+  for (int64_t i = 0; i < n; i++) json_object_array_add(strobe, kz_json_pair(theta[i], velocity[i]));
+  return strobe;
+}
+
 static kz_json *attractor_of(const kz_entry *entry, int64_t id, int64_t track) {
-  static const char *const centres[] = {
-      [KZ_ABOUT_DOWN] = "down", [KZ_ABOUT_INVERTED] = "inverted", [KZ_ROTATING] = "rotating", [KZ_ABOUT_NEITHER] = "neither"};
   const kz_attractor *row = &entry->row;
-  kz_json *object = json_object_new_object(), *strobe = json_object_new_array();
+  kz_json *object = json_object_new_object();
   kz_json_add_integer(object, "id", id);
   kz_json_add_integer(object, "track", track);
   kz_json_add_text(object, "name", entry->name);
   kz_json_add_text(object, "kind", kind_of(row));
   kz_json_add_integer(object, "period", row->period);
   kz_json_add_integer(object, "winding", row->winding);
-  kz_json_add_text(object, "centre", centres[row->centre]);
+  kz_json_add_text(object, "centre", CENTRES[row->centre]);
   kz_json_add_boolean(object, "symmetric", row->symmetric);
   kz_json_add_integer(object, "mirror", entry->mirror);
   kz_json_add_real(object, "multiplier", row->period > 0 ? hypot(row->multiplier_re[0], row->multiplier_im[0]) : NAN);
-  for (int i = 0; i < row->period; i++) json_object_array_add(strobe, kz_json_pair(entry->theta[i], entry->velocity[i]));
-  kz_json_add(object, "strobe", strobe);
+  kz_json_add(object, "strobe", strobe_of(row->period, entry->theta, entry->velocity));
   return object;
 }
 
@@ -210,6 +216,58 @@ kz_status kz_answer_chart(int64_t sequence, bool final, const kz_chart_level *le
   print(header, 2 * cells);
   fwrite(level->period, 1, cells, stdout);
   fwrite(level->centre, 1, cells, stdout);
+  return send();
+}
+
+/* What motions and branches have in common. */
+#define ADD_CLASS(object, of)                                  \
+  do {                                                         \
+    kz_json_add_text(object, "name", (of)->name);              \
+    kz_json_add_integer(object, "period", (of)->period);       \
+    kz_json_add_integer(object, "winding", (of)->winding);     \
+    kz_json_add_text(object, "centre", CENTRES[(of)->centre]); \
+    kz_json_add_boolean(object, "symmetric", (of)->symmetric); \
+    kz_json_add_integer(object, "images", (of)->images);       \
+  } while (0)
+
+static kz_json *motion_of(const kz_motion *motion) {
+  kz_json *object = json_object_new_object(), *multipliers = json_object_new_array();
+  ADD_CLASS(object, motion);
+  kz_json_add(object, "curve", motion->curve < 0 ? NULL : json_object_new_int64(motion->curve));
+  for (int i = 0; i < 2 && motion->strobes > 0; i++)
+    json_object_array_add(multipliers, kz_json_pair(motion->multiplier_re[i], motion->multiplier_im[i]));
+  kz_json_add(object, "multipliers", multipliers);
+  kz_json_add(object, "strobe", strobe_of(motion->strobes, motion->theta, motion->velocity));
+  return object;
+}
+
+kz_status kz_answer_motions(int64_t sequence, const kz_motions *motions) {
+  kz_json *header = begin("motions", sequence, true), *list = json_object_new_array();
+  kz_json_add_real(header, "x", motions->x);
+  kz_json_add_real(header, "y", motions->y);
+  kz_json_add_real(header, "k", motions->pendulum.k);
+  kz_json_add_real(header, "damping", motions->pendulum.beta);
+  kz_json_add_real(header, "m", motions->pendulum.m);
+  for (int64_t i = 0; i < motions->count; i++) json_object_array_add(list, motion_of(motions->motion + i));
+  kz_json_add(header, "motions", list);
+  return finish(header);
+}
+
+kz_status kz_answer_line(int64_t sequence, const kz_atlas_branches *line) {
+  kz_json *header = begin("line", sequence, true), *list = json_object_new_array();
+  const size_t values = (size_t)line->n_points * KZ_LINE_COLUMNS;
+  for (int64_t i = 0; i < line->count; i++) {
+    kz_json *object = json_object_new_object();
+    ADD_CLASS(object, line->branch + i);
+    kz_json_add_integer(object, "first", line->branch[i].first);
+    kz_json_add_integer(object, "points", line->branch[i].points);
+    json_object_array_add(list, object);
+  }
+  kz_json_add(header, "branches", list);
+  kz_json_add(header, "columns",
+              kz_json_texts((const char *const[]){"value", "height", "theta", "velocity", "multiplier", NULL}));
+  print(header, values * sizeof(double));
+  if (values > 0) fwrite(line->point, sizeof(double), values, stdout);
   return send();
 }
 

@@ -2,6 +2,7 @@
 #ifndef KAPITZA_APP_ANSWER_H
 #define KAPITZA_APP_ANSWER_H
 
+#include "kapitza/study_atlas.h"
 #include "request.h"
 
 /* Each writes one answer to standard output; KZ_STOPPED if nobody reads it any more. sequence KZ_UNSET_INTEGER = null. */
@@ -12,6 +13,8 @@ kz_status kz_answer_where(int64_t sequence, const kz_coordinate start[2], const 
 /* theta, velocity [samples] */
 kz_status kz_answer_orbit(const kz_request *request, int64_t samples, const double *theta, const double *velocity);
 kz_status kz_answer_chart(int64_t sequence, bool final, const kz_chart_level *level);
+kz_status kz_answer_motions(int64_t sequence, const kz_motions *motions);
+kz_status kz_answer_line(int64_t sequence, const kz_atlas_branches *line);
 kz_status kz_answer_ended(int64_t sequence);
 /* Contains the present message, which is then cleared. */
 kz_status kz_answer_error(int64_t sequence, kz_status status);

@@ -1,5 +1,6 @@
 #include "request.h"
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -9,7 +10,7 @@ enum { MOST_CELLS = 1 << 24 /* of a frame, or samples of an orbit */ };
 static const char SOURCE[] = "request";
 
 #define AT(field) offsetof(kz_request, field)
-#define WORDS_OF_KIND "frame|where|orbit|catalogue|chart|cancel|quit"
+#define WORDS_OF_KIND "frame|where|orbit|catalogue|chart|motions|line|cancel|quit"
 /* Keys of the request itself, with their defaults; the others change the scene. The sequence comes first: every later error is answered with it. */
 static const kz_key rows[] = {
     {.path = "sequence", .type = KZ_KEY_INTEGER, .unit = "", .fallback = "0", .high = 1LL << 53, .offset = AT(sequence)},
@@ -78,6 +79,11 @@ static kz_status read_row(const kz_key *key, kz_node *root, kz_request *request)
   return status;
 }
 
+static kz_status read_rows(const kz_key *key, kz_node *root, kz_request *request) {
+  for (; key->path; key++) KZ_TRY(read_row(key, root, request));
+  return KZ_OK;
+}
+
 static kz_status check_levels(const kz_integers *levels) {
   for (int64_t i = 0; i < levels->count; i++) {
     const int64_t level = levels->values[i];
@@ -110,27 +116,46 @@ static kz_status check_orbit(const kz_request *request) {
                  (long long)plan->periods, (long long)plan->samples_per_period, MOST_CELLS);
 }
 
-/* A start of where: numbers of any digits. */
-static kz_status read_start(kz_node *root, kz_request *request) {
-  static const kz_key keys[] = {
-      {.path = "theta", .type = KZ_KEY_DECIMAL, .unit = "rad", .low = -1e6, .high = 1e6, .offset = AT(theta)},
-      {.path = "velocity",
-       .type = KZ_KEY_DECIMAL,
-       .unit = "rad per drive radian",
-       .low = -1e9,
-       .high = 1e9,
-       .offset = AT(velocity)},
-      {.path = NULL},
-  };
-  for (const kz_key *key = keys; key->path; key++) {
-    kz_node *node = kz_tree_take(root, key->path);
-    if (!node) return kz_fail(KZ_REFUSED, "%s: %s: is missing; it must be a number", SOURCE, key->path);
-    const kz_node *culprit;
-    const char *wrong = kz_value_read(key, node, request, &culprit);
-    kz_tree_free(node);
-    if (wrong) return kz_fail(KZ_REFUSED, "%s: %s: %s; it must be a number", SOURCE, key->path, wrong);
-  }
-  return KZ_OK;
+/* Keys of one kind of request: the start of where, numbers of any digits; the point of motions. */
+static const kz_key start_rows[] = {
+    {.path = "theta", .type = KZ_KEY_DECIMAL, .unit = "rad", .low = -1e6, .high = 1e6, .offset = AT(theta)},
+    {.path = "velocity",
+     .type = KZ_KEY_DECIMAL,
+     .unit = "rad per drive radian",
+     .low = -1e9,
+     .high = 1e9,
+     .offset = AT(velocity)},
+    {.path = NULL},
+};
+static const kz_key point_rows[] = {
+    {.path = "atlas", .type = KZ_KEY_TEXT, .unit = "", .offset = AT(atlas)},
+    {.path = "x", .type = KZ_KEY_REAL, .unit = "", .fallback = "", .low = -DBL_MAX, .high = DBL_MAX, .offset = AT(x)},
+    {.path = "y", .type = KZ_KEY_REAL, .unit = "", .fallback = "", .low = -DBL_MAX, .high = DBL_MAX, .offset = AT(y)},
+    {.path = NULL},
+};
+static const kz_key state_rows[] = {
+    {.path = "states", .type = KZ_KEY_BOOLEAN, .unit = "", .fallback = "true", .offset = AT(states)},
+    {.path = NULL},
+};
+
+/* What is left of the request is not known. */
+static kz_status check_rest(kz_node *root) {
+  kz_tree_free(kz_tree_find(root, "window") && !kz_tree_find(root, "window")->first ? kz_tree_take(root, "window") : NULL);
+  if (!root->first) return KZ_OK;
+  return kz_fail(KZ_REFUSED, "%s: %.60s: unknown key of such a request; docs/reference/serve.md lists them", SOURCE,
+                 root->first->name);
+}
+
+/* A point of an atlas, or a line: one of its coordinates. */
+static kz_status read_point(kz_node *root, kz_request *request) {
+  const bool is_line = request->kind == KZ_REQUEST_LINE;
+  KZ_TRY(read_rows(point_rows, root, request));
+  if (!is_line) KZ_TRY(read_rows(state_rows, root, request));
+  KZ_TRY(check_rest(root));
+  const int given = !isnan(request->x) + !isnan(request->y);
+  if (given == (is_line ? 1 : 2)) return KZ_OK;
+  return kz_fail(KZ_REFUSED, is_line ? "%s: x: a line has x or y, not both" : "%s: %s: is missing; it must be a number", SOURCE,
+                 isnan(request->x) ? "x" : "y");
 }
 
 static kz_status set_text(kz_node *tree, const char *path, const char *text) {
@@ -166,14 +191,6 @@ static kz_status change_scene(const kz_request *request, kz_node *root, kz_node 
   return set_text(tree, "basin.method", "exact");
 }
 
-/* What is left of the request is not known. */
-static kz_status check_rest(kz_node *root) {
-  kz_tree_free(kz_tree_find(root, "window") && !kz_tree_find(root, "window")->first ? kz_tree_take(root, "window") : NULL);
-  if (!root->first) return KZ_OK;
-  return kz_fail(KZ_REFUSED, "%s: %.60s: unknown key of such a request; docs/reference/serve.md lists them", SOURCE,
-                 root->first->name);
-}
-
 static kz_status read_scene(const kz_node *tree, kz_node *root, kz_request *request) {
   kz_node *copy = kz_tree_copy(tree);
   kz_status status = change_scene(request, root, copy);
@@ -186,11 +203,12 @@ static kz_status read_scene(const kz_node *tree, kz_node *root, kz_request *requ
 
 static kz_status read_root(const kz_node *tree, kz_node *root, kz_request *request) {
   if (root->kind != KZ_MAPPING) return kz_fail(KZ_REFUSED, "%s: is not a JSON object", SOURCE);
-  for (const kz_key *key = rows; key->path; key++) KZ_TRY(read_row(key, root, request));
+  KZ_TRY(read_rows(rows, root, request));
   if (request->kind == KZ_REQUEST_CANCEL || request->kind == KZ_REQUEST_QUIT) return check_rest(root);
   if (request->kind == KZ_REQUEST_FRAME) KZ_TRY(check_frame(request));
   if (request->kind == KZ_REQUEST_CHART) KZ_TRY(check_levels(&request->levels));
-  if (request->kind == KZ_REQUEST_WHERE) KZ_TRY(read_start(root, request));
+  if (request->kind == KZ_REQUEST_WHERE) KZ_TRY(read_rows(start_rows, root, request));
+  if (request->kind == KZ_REQUEST_MOTIONS || request->kind == KZ_REQUEST_LINE) return read_point(root, request);
   KZ_TRY(read_scene(tree, root, request));
   return request->kind == KZ_REQUEST_ORBIT ? check_orbit(request) : KZ_OK;
 }
@@ -209,5 +227,6 @@ void kz_request_free(kz_request *request) {
   if (!request) return;
   if (request->has_scene) kz_scene_free(&request->scene);
   free(request->view);
+  free(request->atlas);
   free(request);
 }

@@ -11,6 +11,8 @@ enum {
   KZ_REQUEST_ORBIT,
   KZ_REQUEST_CATALOGUE,
   KZ_REQUEST_CHART,
+  KZ_REQUEST_MOTIONS,
+  KZ_REQUEST_LINE,
   KZ_REQUEST_CANCEL,
   KZ_REQUEST_QUIT
 };
@@ -26,6 +28,9 @@ typedef struct kz_request {
   int64_t rows, columns;
   kz_integers levels, planes;
   kz_decimal theta, velocity; /* start, for the request where */
+  char *atlas;                /* for the request motions: name of a result file, */
+  double x, y;                /* values of its keys, */
+  bool states;                /* and whether the strobe points are asked for */
   bool has_scene;
   kz_scene scene; /* the scene with what the request changes: pendulum, window, orbit, chart; numerics not resolved */
   bool ended;     /* a newer request or cancel has ended it */

@@ -1,5 +1,6 @@
 /* The command serve: answers requests until their end. Frames and charts are made in parts; between two parts newer requests are read and, unless
  * they are frames or charts themselves, answered. */
+#include <math.h>
 #include <signal.h>
 #include <stdlib.h>
 #include <string.h>
@@ -7,6 +8,7 @@
 #include "../app.h"
 #include "answer.h"
 #include "inbox.h"
+#include "map.h"
 #include "orbit.h"
 
 enum { MOST_WAITING = 1000 /* requests */ };
@@ -15,6 +17,7 @@ typedef struct {
   kz_scene_tree tree;
   kz_inbox inbox;
   kz_engine *engine;
+  kz_map map;
   int64_t shown;       /* version of the catalogue that was sent last */
   kz_request *waiting; /* requests that have not been begun, the oldest first */
   int64_t n_waiting;
@@ -124,6 +127,21 @@ static kz_status answer_catalogue(server *s, const kz_request *request) {
   return kz_answer_catalogue(request->sequence, true, catalogue);
 }
 
+static kz_status answer_motions(server *s, const kz_request *request) {
+  KZ_FREED_BY(kz_motions_free) kz_motions motions = {0};
+  KZ_TRY(kz_map_open(&s->map, request->atlas));
+  KZ_TRY(kz_atlas_motions(s->map.atlas, request->x, request->y, request->states, &motions));
+  return kz_answer_motions(request->sequence, &motions);
+}
+
+static kz_status answer_line(server *s, const kz_request *request) {
+  KZ_FREED_BY(kz_atlas_branches_free) kz_atlas_branches line = {0};
+  const int axis = isnan(request->y);
+  KZ_TRY(kz_map_open(&s->map, request->atlas));
+  KZ_TRY(kz_atlas_line(s->map.atlas, axis, axis ? request->x : request->y, &line));
+  return kz_answer_line(request->sequence, &line);
+}
+
 static kz_status answer_orbit(server *s, kz_request *request) {
   s->orbit = request;
   const kz_status status = kz_orbit_answer(request, read_ahead, s);
@@ -133,9 +151,11 @@ static kz_status answer_orbit(server *s, kz_request *request) {
 
 /* Answers a request that is no frame or chart, and frees it. */
 static kz_status answer(server *s, kz_request *request) {
-  kz_status status = request->kind == KZ_REQUEST_WHERE   ? answer_where(s, request)
-                     : request->kind == KZ_REQUEST_ORBIT ? answer_orbit(s, request)
-                                                         : answer_catalogue(s, request);
+  kz_status status = request->kind == KZ_REQUEST_WHERE     ? answer_where(s, request)
+                     : request->kind == KZ_REQUEST_ORBIT   ? answer_orbit(s, request)
+                     : request->kind == KZ_REQUEST_MOTIONS ? answer_motions(s, request)
+                     : request->kind == KZ_REQUEST_LINE    ? answer_line(s, request)
+                                                           : answer_catalogue(s, request);
   if (status == KZ_FAILED || status == KZ_REFUSED) status = kz_answer_error(request->sequence, status);
   kz_request_free(request);
   return status;
@@ -264,6 +284,7 @@ kz_status kz_app_serve(const kz_options *options) {
   if (status == KZ_OK) status = answer_all(&s);
   while (s.waiting) kz_request_free(take_out(&s, &s.waiting));
   kz_engine_free(s.engine);
+  kz_map_close(&s.map);
   kz_inbox_close(&s.inbox);
   kz_scene_tree_free(&s.tree);
   return status == KZ_STOPPED ? KZ_OK : status;

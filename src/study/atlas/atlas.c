@@ -12,14 +12,17 @@ kz_status kz_atlas_run(const kz_scene *scene, const kz_run *run, kz_store *store
   KZ_FREED_BY(kz_atlas_end) kz_atlas atlas = {0};
   KZ_TRY(kz_atlas_begin(scene, &atlas));
   KZ_TRY(kz_atlas_search(&atlas, run));
-  kz_status status = KZ_OK;
-  if (store) {
-    KZ_FREED_BY(kz_atlas_raster_free) kz_atlas_raster raster = {0};
-    kz_atlas_order(&atlas);
-    kz_atlas_raster_make(&atlas, &raster);
-    status = kz_atlas_write(&atlas, &raster, store, summary);
+  KZ_FREED_BY(kz_atlas_raster_free) kz_atlas_raster raster = {0};
+  kz_atlas_order(&atlas);
+  if (store || scene->atlas.shares > 0) kz_atlas_raster_make(&atlas, &raster);
+  if (scene->atlas.shares > 0) {
+    const double more = (double)KZ_ATLAS_REGIONS / (double)raster.n_regions; /* a sampled run knows few regions */
+    kz_sampling_weigh(run, more);
+    const kz_status status = kz_atlas_shares(&atlas, run, &raster);
+    kz_sampling_weigh(run, 1 / more);
+    KZ_TRY(status);
   }
-  return kz_ranks_agree(run->ranks, status);
+  return kz_ranks_agree(run->ranks, store ? kz_atlas_write(&atlas, &raster, store, summary) : KZ_OK);
 }
 
 /* As counted: points of all curves in Blackburn's and Butikov's planes, about 500 times this power of the longest period; bytes of a point in the

@@ -7,7 +7,10 @@
 #include "kapitza/dynamics.h"
 #include "kapitza/dynamics_curves.h"
 #include "kapitza/study.h"
+#include "kapitza/study_atlas.h"
 
+/* Longest step of branches along a line, in sides of the plane. */
+#define KZ_ATLAS_BRANCH_STEP 0.03
 enum { KZ_ATLAS_UNKNOWNS = 2 * KZ_CURVE_POINTS + 2, KZ_ATLAS_MOST_CLASSES = 512 };
 
 /* Which cycles a curve is about; rest: -1, or 0 for rest down and 1 for rest inverted. */
@@ -62,7 +65,7 @@ typedef struct {
   kz_atlas_seeds found;      /* attracting cycles, one of each pair of mirror images */
 } kz_atlas_probe;
 
-typedef struct {
+struct kz_atlas {
   const kz_scene *scene;
   int64_t max_period; /* of the cycles whose curves are sought: the scene's */
   kz_plane plane;
@@ -78,7 +81,17 @@ typedef struct {
   int32_t at_reference[KZ_ATLAS_MOST_CLASSES]; /* and what attracts there */
   int64_t refused;                             /* seeds that lead to no curve */
   int64_t rounds, checked, disagreed;          /* of random places, the last two of the last round */
-} kz_atlas;
+};
+
+/* What happens on a curve; the codes of the file. */
+enum {
+  KZ_CURVE_FOLD,
+  KZ_CURVE_PERIOD_DOUBLING,
+  KZ_CURVE_SYMMETRY_BREAKING,
+  KZ_CURVE_REST_SWINGS,
+  KZ_CURVE_REST_LEANS,
+  KZ_CURVE_KINDS
+};
 
 /* ---- the plane ---- */
 
@@ -105,7 +118,10 @@ void kz_atlas_seeds_free(kz_atlas_seeds *seeds);
 int32_t kz_atlas_period(const kz_atlas_kind *kind);
 /* The class of its attractors, and what it is called. */
 kz_atlas_class kz_atlas_class_of(const kz_atlas_kind *kind);
+int32_t kz_atlas_class_centre(const kz_atlas_class *class);
 void kz_atlas_class_name(const kz_atlas *atlas, const kz_atlas_class *class, char *text);
+/* How many motions a class has for each of its members: a mirror image too, unless the motion is its own. */
+int32_t kz_atlas_images(const kz_atlas *atlas, const kz_atlas_class *class);
 /* What the cycle of a curve with multiplier -1 turns into. */
 kz_atlas_kind kz_atlas_child(const kz_atlas_kind *kind);
 /* The number of a class, new if need be. */
@@ -122,6 +138,8 @@ int64_t kz_atlas_known(const kz_atlas *atlas, const kz_atlas_seed *seed);
 /* Adds a curve unless most of it lies on a known one; takes its arrays. */
 bool kz_atlas_keep(kz_atlas *atlas, kz_atlas_curve *curve);
 void kz_atlas_curve_free(kz_atlas_curve *curve);
+/* Sets the signature of each of its points. */
+void kz_atlas_sign(kz_atlas_curve *curve);
 /* Joins ends of folds to the degenerate points that they run into. */
 void kz_atlas_join(kz_atlas *atlas);
 static inline int64_t kz_atlas_width(const kz_atlas_kind *kind) {
@@ -131,10 +149,16 @@ static inline int64_t kz_atlas_width(const kz_atlas_kind *kind) {
 /* ---- exploration: seeds of other curves ---- */
 
 /* From a cycle along both axes; from a curve's degenerate points, its images and, if `middle`, its middle along both axes; along the
- * line where the other coordinate than `axis` is `value`, from all crossings of curves `first` and later. */
+ * line where the other coordinate than `axis` is `value`, from all crossings of curves `first` and later. Not NULL: the branches join `drawn`. */
 void kz_atlas_explore_cycle(const kz_atlas *atlas, const kz_atlas_seed *cycle, kz_atlas_seeds *seeds);
 void kz_atlas_explore_curve(const kz_atlas *atlas, const kz_atlas_curve *curve, bool middle, kz_atlas_seeds *seeds);
-void kz_atlas_explore_line(kz_atlas *atlas, int axis, double value, int64_t first, kz_atlas_seeds *seeds);
+void kz_atlas_explore_line(kz_atlas *atlas, int axis, double value, int64_t first, kz_atlas_seeds *seeds,
+                           kz_atlas_branches *drawn);
+/* The point of a curve at a crossing of the line where the other coordinate than `axis` is `value`. */
+bool kz_atlas_crossing_point(const kz_atlas *atlas, int axis, double value, const kz_atlas_crossing *crossing,
+                             kz_atlas_seed *at);
+/* What branches off a point of a curve with multiplier -1: its cycle a little beside, and the direction along the axis in which it exists. */
+bool kz_atlas_grown(const kz_atlas *atlas, const kz_atlas_seed *flip, int axis, kz_atlas_seed *child, double along[2]);
 /* The image of a curve's point `at` where the plane has k and -k. */
 void kz_atlas_explore_image(const kz_atlas *atlas, const kz_atlas_curve *curve, const double *at, kz_atlas_seeds *seeds);
 /* The attractors of a place by following starts. */
@@ -157,6 +181,16 @@ void kz_atlas_count(kz_atlas *atlas, const double place[2], int32_t *counts);
 /* Adds to counts what changes between two values along a line. */
 void kz_atlas_changes(const kz_atlas_crossings *crossings, double from, double to, int32_t *counts);
 void kz_atlas_crossings_free(kz_atlas_crossings *crossings);
+
+/* ---- what a point and a line of an atlas from a file have ---- */
+
+/* The place of a value along an axis. KZ_REFUSED outside of the plane. */
+kz_status kz_atlas_place(const kz_atlas *atlas, int axis, double value, double *place);
+/* Multipliers of the whole period of a cycle from trace and determinant of its own map. */
+void kz_atlas_multipliers(const kz_atlas_kind *kind, const double number[2], double re[2], double im[2]);
+/* Adds a branch of kz_curve_branch to a line along an axis. */
+void kz_atlas_draw(const kz_atlas *atlas, int axis, const kz_atlas_kind *kind, int64_t n, const double *row,
+                   kz_atlas_branches *line);
 
 /* ---- records of tiles ---- */
 
@@ -199,10 +233,15 @@ typedef struct {
   int16_t *count;      /* [y][x]: of all, mirror images too */
   int32_t *list;       /* [y][x]: number of the list of attractors */
   kz_atlas_region region[KZ_ATLAS_REGIONS];
+  int64_t *hits, *other; /* [region][class], [region]: of the starts at the region's place; NULL = not asked for */
 } kz_atlas_raster;
 /* The classes must be in their order (kz_atlas_order). */
 void kz_atlas_raster_make(kz_atlas *atlas, kz_atlas_raster *raster);
 void kz_atlas_raster_free(kz_atlas_raster *raster);
+/* The place of a region: the middle of the cell that is farthest from its edge. */
+void kz_atlas_region_place(const kz_atlas_raster *raster, int64_t region, double place[2]);
+/* Counts where the starts end at the place of each region. Collective. */
+kz_status kz_atlas_shares(const kz_atlas *atlas, const kz_run *run, kz_atlas_raster *raster);
 /* Lists all classes, in the order of the file. */
 void kz_atlas_order(kz_atlas *atlas);
 

@@ -9,14 +9,13 @@
 
 static const char *const GROUP = "atlas";
 
-enum { FOLD, PERIOD_DOUBLING, SYMMETRY_BREAKING, REST_SWINGS, REST_LEANS, KINDS };
 enum { CUSP, DEGENERATE_FLIP, DEGENERATE_PITCHFORK };
-static const char *const WORDS[KINDS] = {"fold", "period doubling", "symmetry breaking", "swings grow", "leans over"};
+static const char *const WORDS[KZ_CURVE_KINDS] = {"fold", "period doubling", "symmetry breaking", "swings grow", "leans over"};
 
 static int kind_of(const kz_atlas_curve *curve) {
-  if (curve->kind.rest >= 0) return curve->kind.of.side > 0 ? REST_SWINGS : REST_LEANS;
-  if (curve->kind.of.multiplier > 0) return FOLD;
-  return curve->kind.of.side > 0 ? PERIOD_DOUBLING : SYMMETRY_BREAKING;
+  if (curve->kind.rest >= 0) return curve->kind.of.side > 0 ? KZ_CURVE_REST_SWINGS : KZ_CURVE_REST_LEANS;
+  if (curve->kind.of.multiplier > 0) return KZ_CURVE_FOLD;
+  return curve->kind.of.side > 0 ? KZ_CURVE_PERIOD_DOUBLING : KZ_CURVE_SYMMETRY_BREAKING;
 }
 
 /* What a cycle moves about: the sign of the mean cosine of its strobe points, if it does not turn. */
@@ -127,14 +126,16 @@ static kz_status write_points(const kz_atlas *atlas, const listing *l, kz_store 
   COLUMN(double, "normal_form", l->n, l->row[i][KZ_ROW_FORM]);
   COLUMN(double, "side_x", l->n, l->row[i][KZ_ROW_SIDE]);
   COLUMN(double, "side_y", l->n, l->row[i][KZ_ROW_SIDE + 1]);
+  COLUMN(double, "tangent_x", l->n, l->row[i][KZ_ROW_TANGENT]);
+  COLUMN(double, "tangent_y", l->n, l->row[i][KZ_ROW_TANGENT + 1]);
   COLUMN(int8_t, "supercritical", l->n, atlas->curve[l->curve[i]].kind.of.multiplier < 0 && l->row[i][KZ_ROW_FORM] > 0);
   KZ_TRY(kz_store_dimension(store, GROUP, "special", l->n_special, NULL));
   COLUMN(double, "special_x", l->n_special, at(atlas, l->special[i] + 1, 0));
   COLUMN(double, "special_y", l->n_special, at(atlas, l->special[i] + 1, 1));
   COLUMN(int8_t, "special_kind", l->n_special,
-         l->special[i][0] < 2                                  ? CUSP
-         : kind_of(atlas->curve + l->on[i]) == PERIOD_DOUBLING ? DEGENERATE_FLIP
-                                                               : DEGENERATE_PITCHFORK);
+         l->special[i][0] < 2                                           ? CUSP
+         : kind_of(atlas->curve + l->on[i]) == KZ_CURVE_PERIOD_DOUBLING ? DEGENERATE_FLIP
+                                                                        : DEGENERATE_PITCHFORK);
   COLUMN(int32_t, "special_curve", l->n_special, l->on[i]);
   return KZ_OK;
 }
@@ -150,6 +151,7 @@ static kz_status write_raster(const kz_atlas *atlas, const kz_atlas_raster *r, k
   KZ_TRY(write_texts(atlas, "class_name", r->n_classes, name_class, store));
   COLUMN(int16_t, "class_period", r->n_classes, atlas->class[i].period);
   COLUMN(int32_t, "class_winding", r->n_classes, atlas->class[i].type == KZ_CLASS_OTHER ? atlas->class[i].turns : 0);
+  COLUMN(int8_t, "class_centre", r->n_classes, kz_atlas_class_centre(atlas->class + i));
   COLUMN(int8_t, "class_symmetric", r->n_classes, atlas->class[i].type != KZ_CLASS_OTHER);
   KZ_SCALE(store, GROUP, "row", n, middle_of(atlas, i, 1));
   KZ_SCALE(store, GROUP, "column", n, middle_of(atlas, i, 0));
@@ -161,6 +163,10 @@ static kz_status write_raster(const kz_atlas *atlas, const kz_atlas_raster *r, k
   COLUMN(double, "region_y", r->n_regions, middle_of(atlas, r->region[i].cell / n, 1));
   COLUMN(double, "region_share", r->n_regions, (double)r->region[i].cells / (double)(n * n));
   COLUMN(double, "region_radius", r->n_regions, r->region[i].radius / (double)n);
+  if (!r->hits) return KZ_OK;
+  const double starts = (double)atlas->scene->atlas.shares;
+  COLUMN(double, "region_fraction", r->n_regions * r->n_classes, (double)r->hits[i] / starts);
+  COLUMN(double, "region_other", r->n_regions, (double)r->other[i] / starts);
   return KZ_OK;
 }
 
@@ -182,7 +188,7 @@ static kz_status write_attributes(const kz_atlas *atlas, const kz_atlas_raster *
 }
 
 static void print(const kz_atlas *atlas, const kz_atlas_raster *r, const listing *l, FILE *summary) {
-  int64_t kinds[KINDS] = {0}, most = 0;
+  int64_t kinds[KZ_CURVE_KINDS] = {0}, most = 0;
   for (int64_t i = 0; i < atlas->n_curves; i++) kinds[kind_of(atlas->curve + i)]++;
   for (int64_t i = 0; i < r->points * r->points; i++)
     if (r->count[i] > most) most = r->count[i];
@@ -190,7 +196,8 @@ static void print(const kz_atlas *atlas, const kz_atlas_raster *r, const listing
           kz_sweep_parameters[atlas->scene->atlas.x.parameter].name, kz_sweep_parameters[atlas->scene->atlas.y.parameter].name,
           atlas->scene->atlas.max_period, atlas->n_curves, l->n);
   fprintf(summary, "  folds %" PRId64 ", period doublings %" PRId64 ", symmetry breakings %" PRId64 ", of rest %" PRId64 "\n",
-          kinds[FOLD], kinds[PERIOD_DOUBLING], kinds[SYMMETRY_BREAKING], kinds[REST_SWINGS] + kinds[REST_LEANS]);
+          kinds[KZ_CURVE_FOLD], kinds[KZ_CURVE_PERIOD_DOUBLING], kinds[KZ_CURVE_SYMMETRY_BREAKING],
+          kinds[KZ_CURVE_REST_SWINGS] + kinds[KZ_CURVE_REST_LEANS]);
   fprintf(summary,
           "  %" PRId64 " lists of attractors in %" PRId64 " x %" PRId64 " cells, up to %" PRId64 " attractors at once\n",
           r->lists, r->points, r->points, most);

@@ -88,7 +88,7 @@ static void signature_of(const kz_atlas_kind *kind, const double *place, const d
   memcpy(signature, all, sizeof all);
 }
 
-static void sign(kz_atlas_curve *curve) {
+void kz_atlas_sign(kz_atlas_curve *curve) {
   const int64_t width = kz_atlas_width(&curve->kind);
   curve->signature = kz_malloc((size_t)(curve->n + 1) * sizeof *curve->signature);
   for (int64_t i = 0; i < curve->n; i++)
@@ -129,7 +129,7 @@ int64_t kz_atlas_known(const kz_atlas *atlas, const kz_atlas_seed *seed) {
 
 bool kz_atlas_keep(kz_atlas *atlas, kz_atlas_curve *curve) {
   const int64_t step = curve->n > SAMPLES ? curve->n / SAMPLES : 1;
-  sign(curve);
+  kz_atlas_sign(curve);
   for (int64_t i = 0; i < atlas->n_curves; i++) {
     int64_t on = 0, tried = 0;
     if (!is_alike(&atlas->curve[i].kind, &curve->kind)) continue;

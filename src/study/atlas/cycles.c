@@ -25,12 +25,21 @@ kz_atlas_kind kz_atlas_child(const kz_atlas_kind *kind) {
   return (kz_atlas_kind){{1, 2 * of.points, 0, of.side > 0 ? 2 * of.turns : 0}, -1};
 }
 
+int32_t kz_atlas_images(const kz_atlas *atlas, const kz_atlas_class *class) {
+  return class->type == KZ_CLASS_OTHER && atlas->plane.mirrored ? 2 : 1;
+}
+
 int32_t kz_atlas_class_number(kz_atlas *atlas, const kz_atlas_class *class) {
   for (int32_t i = 0; i < atlas->n_classes; i++)
     if (!memcmp(atlas->class + i, class, sizeof *class)) return i;
   if (atlas->n_classes == KZ_ATLAS_MOST_CLASSES) return KZ_ATLAS_MOST_CLASSES - 1;
   atlas->class[atlas->n_classes] = *class;
   return atlas->n_classes++;
+}
+
+int32_t kz_atlas_class_centre(const kz_atlas_class *class) {
+  if (class->type != KZ_CLASS_OTHER) return class->turns ? KZ_ABOUT_INVERTED : KZ_ABOUT_DOWN;
+  return class->turns ? KZ_ROTATING : KZ_ABOUT_NEITHER;
 }
 
 void kz_atlas_class_name(const kz_atlas *atlas, const kz_atlas_class *class, char *text) {

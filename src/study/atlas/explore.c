@@ -3,12 +3,15 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "numerics/parent.h"
 #include "atlas.h"
 
 enum { MOST_ROWS = 500, MOST_EVENTS = 100 };
 /* Longest step of a branch. What branches off begins so far from a curve at most: in sides of the plane; in rad; where the multiplier -1 has
  * changed by so much. */
-static const double LONGEST = 0.03, BESIDE = 3e-5, FARTHEST = 0.05, CHANGED = 0.04;
+static const double LONGEST = KZ_ATLAS_BRANCH_STEP, BESIDE = 3e-5, FARTHEST = 0.05, CHANGED = 0.04;
+/* Along an axis on which a curve's number changes less than this nothing branches off. */
+static const double FLAT = 1e-12;
 
 /* A line through the plane: the curves that cross it, and what of them branches have met already. */
 typedef struct {
@@ -17,6 +20,7 @@ typedef struct {
   kz_atlas_crossings crossings;
   bool *itself, *child; /* [crossings] */
   kz_atlas_seeds *seeds;
+  kz_atlas_branches *drawn; /* NULL: nobody wants the branches */
 } line;
 
 /* Marks the crossing that a branch has met; what is no crossing becomes a seed. `child`: by the branch that begins there. */
@@ -44,32 +48,12 @@ static void take(const kz_atlas *atlas, const line *l, kz_atlas_kind kind, const
 /* The cycle that a branch grows out of: which one, and the branch's own cycle near it. */
 static void add_parent(const kz_atlas *atlas, const line *l, int event, const kz_atlas_seed *cycle, const double along[2],
                        kz_atlas_seeds *seeds) {
-  const int n = cycle->kind.of.points, half = n / 2;
-  kz_atlas_kind kind = {{1, 1, -1, 0}, -1};
-  double y[KZ_ATLAS_UNKNOWNS], next[4];
-  const double *x = cycle->y;
-  const int32_t inverted = cos(x[0]) < 0;
-  if (event == KZ_EVENT_HALVES || (event == KZ_EVENT_MIRROR && n > 1)) {
-    const double side = event == KZ_EVENT_HALVES ? 1 : -1;
-    kind.of.points = half;
-    kind.of.side = event == KZ_EVENT_HALVES ? 1 : -1;
-    const double lift = 2 * M_PI * rint((x[2 * half] - side * x[0]) / (2 * M_PI));
-    for (int i = 0; i < half; i++) {
-      y[2 * i] = 0.5 * (x[2 * i] + side * (x[2 * (i + half)] - lift));
-      y[2 * i + 1] = 0.5 * (x[2 * i + 1] + side * x[2 * (i + half) + 1]);
-    }
-    next[0] = y[2 * half - 2], next[1] = y[2 * half - 1];
-    if (!kz_curve_orbit(&atlas->plane, x + 2 * n, 1, next)) return;
-    kind.of.turns = (int32_t)rint((next[2] - side * y[0]) / (2 * M_PI));
-  } else {
-    kind.rest = inverted;
-    kind.of.side = event == KZ_EVENT_MIRROR ? -1 : 1;
-    kind.of.turns = event == KZ_EVENT_MIRROR ? inverted : 0;
-    y[0] = M_PI * inverted, y[1] = 0;
-  }
-  const int m = 2 * kind.of.points;
-  y[m] = x[2 * n], y[m + 1] = x[2 * n + 1];
-  if (kz_curve_locate(&atlas->plane, &kind.of, y, along)) take(atlas, l, kind, y, true, seeds);
+  const int n = cycle->kind.of.points;
+  kz_atlas_kind kind = {.rest = -1};
+  double y[KZ_ATLAS_UNKNOWNS];
+  kind.of = kz_parent_of(&atlas->plane, event, n, cycle->y, INFINITY, y);
+  if (event == KZ_EVENT_REST || (event == KZ_EVENT_MIRROR && n == 1)) kind.rest = cos(y[0]) < 0;
+  if (kind.of.points > 0 && kz_curve_locate(&atlas->plane, &kind.of, y, along)) take(atlas, l, kind, y, true, seeds);
 }
 
 /* Follows a cycle along a line and adds what it meets; side 1 or -1: one of the branches of a fold. */
@@ -81,7 +65,9 @@ static void follow(const kz_atlas *atlas, const line *l, const kz_atlas_kind *ki
   int64_t events = 0;
   int32_t ending;
   if (kz_atlas_period(kind) > atlas->max_period) return;
-  kz_curve_branch(&atlas->plane, &kind->of, start, along, side, LONGEST, MOST_ROWS, row, MOST_EVENTS, event, &events, &ending);
+  const int64_t rows = kz_curve_branch(&atlas->plane, &kind->of, start, along, side, LONGEST, MOST_ROWS, row, MOST_EVENTS,
+                                       event, &events, &ending);
+  if (l && l->drawn) kz_atlas_draw(atlas, l->axis, kind, rows, row, l->drawn);
   for (int64_t i = 0; i < events; i++) {
     const double *e = event + i * (3 + n);
     kz_atlas_seed at = {.kind = *kind};
@@ -110,44 +96,56 @@ static void explore_fold(const kz_atlas *atlas, const line *l, const kz_atlas_ki
   for (int side = -1; side <= 1; side += 2) follow(atlas, l, kind, at, along, side, seeds);
 }
 
-/* The cycle to both sides along an axis, if `itself`, and what branches off, if `grown`. */
-static void explore_flip(const kz_atlas *atlas, const line *l, const kz_atlas_kind *kind, const double *at, int axis,
-                         double form, double gradient, const double *vector, bool itself, bool grown, kz_atlas_seeds *seeds) {
-  const kz_atlas_kind child = kz_atlas_child(kind);
-  double along[2] = {0}, y[KZ_ATLAS_UNKNOWNS], state[2 * KZ_CURVE_POINTS + 2];
+bool kz_atlas_grown(const kz_atlas *atlas, const kz_atlas_seed *flip, int axis, kz_atlas_seed *child, double along[2]) {
+  const int n = 2 * flip->kind.of.points;
+  double form, side[2], vector[2], state[2 * KZ_CURVE_POINTS + 2];
   kz_pendulum pendulum;
-  const int n = 2 * kind->of.points, m = 2 * child.of.points;
-  for (int sign = -1; sign <= 1 && itself; sign += 2) {
-    along[axis] = sign;
-    follow(atlas, l, kind, at, along, 0, seeds);
-  }
-  if (!grown || kz_atlas_period(&child) > atlas->max_period || !kz_atlas_pendulum(atlas->scene, at + n, &pendulum)) return;
-  const double other = 1 - exp(-2 * M_PI * pendulum.beta * kind->of.points);
+  child->kind = kz_atlas_child(&flip->kind);
+  const int m = 2 * child->kind.of.points;
+  if (kz_atlas_period(&child->kind) > atlas->max_period || !kz_atlas_pendulum(atlas->scene, flip->y + n, &pendulum) ||
+      !kz_curve_form(&atlas->plane, &flip->kind.of, flip->y, &form, side, vector) || form == 0 || fabs(side[axis]) < FLAT)
+    return false;
+  const double gradient = side[axis], other = 1 - exp(-2 * M_PI * pendulum.beta * flip->kind.of.points);
   const double by = fmin(BESIDE, fmin(CHANGED, FARTHEST * FARTHEST * fabs(form)) * other / fabs(gradient));
   const double size = sqrt(fabs(gradient / form) * by / other);
   along[axis] = gradient * form > 0 ? -1 : 1;
-  y[m] = at[n] + by * along[0], y[m + 1] = at[n + 1] + by * along[1];
-  state[0] = at[0] + size * vector[0], state[1] = at[1] + size * vector[1];
-  if (!kz_curve_orbit(&atlas->plane, y + m, child.of.points, state)) return;
-  memcpy(y, state, (size_t)m * sizeof *y);
-  follow(atlas, l, &child, y, along, 0, seeds);
+  along[1 - axis] = 0;
+  for (int i = 0; i < 2; i++) {
+    child->y[m + i] = flip->y[n + i] + by * along[i];
+    state[i] = flip->y[i] + size * vector[i];
+  }
+  if (!kz_curve_orbit(&atlas->plane, child->y + m, child->kind.of.points, state)) return false;
+  memcpy(child->y, state, (size_t)m * sizeof *state);
+  return true;
+}
+
+/* The cycle to both sides along an axis, if `itself`, and what branches off, if `grown`. */
+static void explore_flip(const kz_atlas *atlas, const line *l, const kz_atlas_seed *flip, int axis, bool itself, bool grown,
+                         kz_atlas_seeds *seeds) {
+  double along[2] = {0};
+  kz_atlas_seed child;
+  for (int sign = -1; sign <= 1 && itself; sign += 2) {
+    along[axis] = sign;
+    follow(atlas, l, &flip->kind, flip->y, along, 0, seeds);
+  }
+  if (grown && kz_atlas_grown(atlas, flip, axis, &child, along)) follow(atlas, l, &child.kind, child.y, along, 0, seeds);
 }
 
 /* Everything that branches off a point of a curve along an axis. */
-static void explore_at(const kz_atlas *atlas, const line *l, const kz_atlas_kind *kind, const double *at, int axis, bool itself,
-                       bool grown, kz_atlas_seeds *seeds) {
+static void explore_at(const kz_atlas *atlas, const line *l, const kz_atlas_seed *at, int axis, bool itself, bool grown,
+                       kz_atlas_seeds *seeds) {
   double form, side[2], vector[2];
-  if (!kz_curve_form(&atlas->plane, &kind->of, at, &form, side, vector) || form == 0 || fabs(side[axis]) < 1e-12) return;
-  if (kind->of.multiplier > 0)
-    explore_fold(atlas, l, kind, at, axis, seeds);
+  if (!kz_curve_form(&atlas->plane, &at->kind.of, at->y, &form, side, vector) || form == 0 || fabs(side[axis]) < FLAT) return;
+  if (at->kind.of.multiplier > 0)
+    explore_fold(atlas, l, &at->kind, at->y, axis, seeds);
   else
-    explore_flip(atlas, l, kind, at, axis, form, side[axis], vector, itself, grown, seeds);
+    explore_flip(atlas, l, at, axis, itself, grown, seeds);
 }
 
 /* A fold of what branches off begins where the normal form of a curve with multiplier -1 is 0: explored beside, where it is < 0. */
 static void explore_degenerate(const kz_atlas *atlas, const kz_atlas_curve *curve, kz_atlas_seeds *seeds) {
   enum { AWAY = 2 };
-  double at[KZ_ATLAS_UNKNOWNS];
+  kz_atlas_seed at = {.kind = curve->kind};
   const int64_t width = kz_atlas_width(&curve->kind);
   for (int64_t row = 0; row + 1 < curve->n && curve->kind.of.multiplier < 0; row++) {
     const double a = curve->row[row * width + KZ_ROW_FORM], b = curve->row[(row + 1) * width + KZ_ROW_FORM];
@@ -155,8 +153,8 @@ static void explore_degenerate(const kz_atlas *atlas, const kz_atlas_curve *curv
     for (int i = 0; i <= AWAY; i += AWAY) {
       const int64_t beside_it = a < 0 ? row - i : row + 1 + i;
       if (beside_it < 0 || beside_it >= curve->n) continue;
-      kz_atlas_point_of(curve, beside_it, at);
-      for (int axis = 0; axis < 2; axis++) explore_at(atlas, NULL, &curve->kind, at, axis, false, true, seeds);
+      kz_atlas_point_of(curve, beside_it, at.y);
+      for (int axis = 0; axis < 2; axis++) explore_at(atlas, NULL, &at, axis, false, true, seeds);
     }
   }
 }
@@ -168,50 +166,69 @@ static bool is_inside(const double *place) {
 void kz_atlas_explore_curve(const kz_atlas *atlas, const kz_atlas_curve *curve, bool middle, kz_atlas_seeds *seeds) {
   enum { IMAGES = 5 };
   const int64_t width = kz_atlas_width(&curve->kind);
-  double at[KZ_ATLAS_UNKNOWNS];
+  kz_atlas_seed at = {.kind = curve->kind};
   int64_t inside = 0, n = 0;
   for (int64_t row = 0; row < curve->n; row++) inside += is_inside(curve->row + row * width);
   for (int64_t row = 0; row < curve->n; row++) {
     if (inside > 0 && !is_inside(curve->row + row * width)) continue;
     const int64_t all = inside > 0 ? inside : curve->n;
-    kz_atlas_point_of(curve, row, at);
-    for (int axis = 0; axis < 2 && middle && n == all / 2; axis++)
-      explore_at(atlas, NULL, &curve->kind, at, axis, true, true, seeds);
-    if (n * IMAGES / all != (n + 1) * IMAGES / all) kz_atlas_explore_image(atlas, curve, at, seeds);
+    kz_atlas_point_of(curve, row, at.y);
+    for (int axis = 0; axis < 2 && middle && n == all / 2; axis++) explore_at(atlas, NULL, &at, axis, true, true, seeds);
+    if (n * IMAGES / all != (n + 1) * IMAGES / all) kz_atlas_explore_image(atlas, curve, at.y, seeds);
     n++;
   }
   explore_degenerate(atlas, curve, seeds);
 }
 
-/* The point where a curve crosses a line. */
-static bool crossing_point(const line *l, const kz_atlas_crossing *crossing, double value, double *at) {
-  const kz_atlas_curve *curve = l->atlas->curve + crossing->curve;
+bool kz_atlas_crossing_point(const kz_atlas *atlas, int axis, double value, const kz_atlas_crossing *crossing,
+                             kz_atlas_seed *at) {
+  const kz_atlas_curve *curve = atlas->curve + crossing->curve;
   const int n = 2 * curve->kind.of.points;
-  const double along[2] = {l->axis == 0, l->axis == 1};
-  double next[KZ_ATLAS_UNKNOWNS];
-  bool jumps = false; /* the last point of a closed curve may be written in another way */
-  kz_atlas_point_of(curve, crossing->row, at);
-  kz_atlas_point_of(curve, crossing->row + 1, next);
-  for (int i = 0; i < n; i++) jumps = jumps || fabs(next[i] - at[i]) > 1;
-  for (int i = 0; i < n && !jumps; i++) at[i] += crossing->share * (next[i] - at[i]);
-  at[n + l->axis] = crossing->at;
-  at[n + 1 - l->axis] = value;
-  return kz_curve_locate(&l->atlas->plane, &curve->kind.of, at, along) && fabs(at[n + l->axis] - crossing->at) < 1e-3;
+  const double *row = curve->row + crossing->row * kz_atlas_width(&curve->kind), *next = row + kz_atlas_width(&curve->kind);
+  const double along[2] = {axis == 0, axis == 1};
+  double y[KZ_ATLAS_UNKNOWNS + 2], place[2], step[2];
+  for (int i = 0; i < 2; i++) step[i] = next[KZ_ROW_POINTS + i] - row[KZ_ROW_POINTS + i];
+  /* the points may be written in another way there */
+  const double share = fabs(step[0]) > 1 || fabs(step[1]) > 1 ? 0 : crossing->share;
+  for (int i = 0; i < 2; i++) y[i] = row[KZ_ROW_POINTS + i] + share * step[i];
+  place[axis] = crossing->at;
+  place[1 - axis] = value;
+  at->kind = curve->kind;
+  if (curve->kind.rest < 0) {
+    if (!kz_curve_orbit(&atlas->plane, place, curve->kind.of.points, y)) return false;
+    at->kind.of.turns = (int32_t)rint((y[n] - at->kind.of.side * y[0]) / (2 * M_PI));
+  }
+  memcpy(at->y, y, (size_t)n * sizeof *y);
+  memcpy(at->y + n, place, sizeof place);
+  return kz_curve_locate(&atlas->plane, &at->kind.of, at->y, along) && fabs(at->y[n + axis] - crossing->at) < 1e-3;
 }
 
-void kz_atlas_explore_line(kz_atlas *atlas, int axis, double value, int64_t first, kz_atlas_seeds *seeds) {
-  line l = {.atlas = atlas, .axis = axis, .seeds = seeds};
-  double at[KZ_ATLAS_UNKNOWNS];
+/* Rest along a whole line, which no curve need cross. */
+static void follow_rest(const line *l, double value) {
+  const double along[2] = {l->axis == 0, l->axis == 1};
+  for (int32_t rest = 0; rest < 2 && l->atlas->plane.mirrored; rest++) {
+    const kz_atlas_kind kind = {{1, 1, 0, 0}, rest};
+    const double start[] = {M_PI * rest, 0, along[1] * value, along[0] * value};
+    follow(l->atlas, l, &kind, start, along, 0, l->seeds);
+  }
+}
+
+void kz_atlas_explore_line(kz_atlas *atlas, int axis, double value, int64_t first, kz_atlas_seeds *seeds,
+                           kz_atlas_branches *drawn) {
+  line l = {.atlas = atlas, .axis = axis, .seeds = seeds, .drawn = drawn};
+  kz_atlas_seed at;
   kz_atlas_crossings_of(atlas, 1 - axis, value, false, &l.crossings);
   KZ_FREED bool *itself = kz_calloc((size_t)l.crossings.count + 1, 1);
   KZ_FREED bool *child = kz_calloc((size_t)l.crossings.count + 1, 1);
   l.itself = itself, l.child = child;
+  if (drawn) follow_rest(&l, value);
   for (int64_t i = 0; i < l.crossings.count; i++) {
     const kz_atlas_crossing *crossing = l.crossings.list + i;
     const kz_atlas_kind *kind = &atlas->curve[crossing->curve].kind;
     const double share = crossing->at;
     if (crossing->curve < first || share < 0 || share > 1 || (itself[i] && (child[i] || kind->of.multiplier > 0))) continue;
-    if (crossing_point(&l, crossing, value, at)) explore_at(atlas, &l, kind, at, axis, !itself[i], !child[i], seeds);
+    if (kz_atlas_crossing_point(atlas, axis, value, crossing, &at))
+      explore_at(atlas, &l, &at, axis, !itself[i], !child[i], seeds);
     itself[i] = child[i] = true;
   }
   kz_atlas_crossings_free(&l.crossings);

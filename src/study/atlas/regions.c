@@ -33,11 +33,6 @@ static double middle(int64_t i, int64_t points) {
   return ((double)i + 0.5) / (double)points;
 }
 
-/* How many motions a class has for each of its members: a mirror image too, unless the motion is its own. */
-static int of_member(const kz_atlas *atlas, const kz_atlas_class *class) {
-  return class->type == KZ_CLASS_OTHER && atlas->plane.mirrored ? 2 : 1;
-}
-
 static void fill_column(kz_atlas *atlas, int64_t column, kz_atlas_raster *raster) {
   const int64_t n = raster->points;
   const double x = middle(column, n);
@@ -54,7 +49,7 @@ static void fill_column(kz_atlas *atlas, int64_t column, kz_atlas_raster *raster
     for (int64_t c = 0; c < raster->n_classes; c++) {
       negative = negative || counts[c] < 0;
       raster->attracting[(c * n + row) * n + column] = (uint8_t)(counts[c] < 0 ? 0 : counts[c]);
-      total += counts[c] < 0 ? 0 : counts[c] * of_member(atlas, atlas->class + c);
+      total += counts[c] < 0 ? 0 : counts[c] * kz_atlas_images(atlas, atlas->class + c);
     }
     raster->count[row * n + column] = (int16_t)total;
     raster->negative += negative;
@@ -155,6 +150,12 @@ static void find_regions(kz_atlas_raster *r) {
   }
 }
 
+void kz_atlas_region_place(const kz_atlas_raster *raster, int64_t region, double place[2]) {
+  const int64_t cell = raster->region[region].cell;
+  place[0] = middle(cell % raster->points, raster->points);
+  place[1] = middle(cell / raster->points, raster->points);
+}
+
 void kz_atlas_raster_make(kz_atlas *atlas, kz_atlas_raster *raster) {
   const int64_t n = atlas->scene->atlas.points;
   *raster = (kz_atlas_raster){.points = n, .n_classes = atlas->n_classes};
@@ -170,4 +171,6 @@ void kz_atlas_raster_free(kz_atlas_raster *raster) {
   free(raster->attracting);
   free(raster->count);
   free(raster->list);
+  free(raster->hits);
+  free(raster->other);
 }

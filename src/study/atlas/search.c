@@ -101,7 +101,7 @@ static kz_status explore_tile(void *context, int64_t tile, void *record) {
   KZ_FREED_BY(kz_atlas_seeds_free) kz_atlas_seeds seeds = {0};
   const int64_t curves = 2 * e->lines, cycles = curves + e->atlas->n_curves - e->first;
   if (tile < curves)
-    kz_atlas_explore_line(e->atlas, (int)(tile % 2), line_at(tile / 2), e->first, &seeds);
+    kz_atlas_explore_line(e->atlas, (int)(tile % 2), line_at(tile / 2), e->first, &seeds, NULL);
   else if (tile < cycles)
     kz_atlas_explore_curve(e->atlas, e->atlas->curve + e->first + tile - curves,
                            !crosses_lines(e->atlas->curve + e->first + tile - curves), &seeds);

@@ -28,6 +28,8 @@ const kz_variable kz_atlas_variables[] = {
     {"normal_form", KZ_REAL, OF_POINT, NONE, "folds: half the second derivative of the map along its eigenvector; others: its cubic coefficient"},
     {"side_x", KZ_REAL, OF_POINT, NONE, "direction along x, in widths of the plane, of the side on which the cycle exists (folds) or attracts (others)"},
     {"side_y", KZ_REAL, OF_POINT, NONE, "direction along y, in heights of the plane, of the same side"},
+    {"tangent_x", KZ_REAL, OF_POINT, NONE, "direction of the curve along x, in widths of the plane; shorter where the cycle changes fast, 0 at an end that was joined"},
+    {"tangent_y", KZ_REAL, OF_POINT, NONE, "direction of the curve along y, in heights of the plane"},
     {"supercritical", KZ_INT8, OF_POINT, NONE, "whether the cycle that branches off attracts; 0 on folds", {"no", "yes"}},
     {"special", KZ_INT32, OF_SPECIAL, NONE, "number of the special point"},
     {"special_x", KZ_REAL, OF_SPECIAL, "@x_units", "value of the key x_parameter there"},
@@ -38,6 +40,7 @@ const kz_variable kz_atlas_variables[] = {
     {"class_name", KZ_TEXT, OF_CLASS, NONE, "name of the class of attractors"},
     {"class_period", KZ_INT16, OF_CLASS, PERIODS, "period of its attractors"},
     {"class_winding", KZ_INT32, OF_CLASS, NONE, "net turns in one period; of two mirror images those of the one that turns counterclockwise"},
+    {"class_centre", KZ_INT8, OF_CLASS, NONE, "what its attractors move about; neither: either, or it is not known", {CENTRES}},
     {"class_symmetric", KZ_INT8, OF_CLASS, NONE, "whether its attractors are their own mirror images", {"no", "yes"}},
     {"row", KZ_REAL, {"row"}, "@y_units", "value of the key y_parameter in the middle of a row of cells"},
     {"column", KZ_REAL, {"column"}, "@x_units", "value of the key x_parameter in the middle of a column of cells"},
@@ -49,6 +52,8 @@ const kz_variable kz_atlas_variables[] = {
     {"region_y", KZ_REAL, OF_REGION, "@y_units", "value of the key y_parameter at that place"},
     {"region_share", KZ_REAL, OF_REGION, NONE, "share of the plane that the region fills"},
     {"region_radius", KZ_REAL, OF_REGION, NONE, "distance of that place from the edge of the region, in sides of the plane"},
+    {"region_fraction", KZ_REAL, {"region", "class"}, NONE, "share of the starts at that place, of all angles and velocities from -2 to 2 rad per drive radian, that end on attractors of the class"},
+    {"region_other", KZ_REAL, OF_REGION, NONE, "share of them that ends on chaotic attractors, on longer cycles, or has not settled"},
     {0},
 };
 /* clang-format on */

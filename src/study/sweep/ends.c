@@ -2,7 +2,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "kapitza/dynamics_curves.h"
+#include "numerics/parent.h"
 #include "sweep.h"
 
 /* A strobe point of a cycle that merges with another one is this near to it, rad; an end lies so near to where a walk stopped, in sizes of
@@ -20,43 +20,35 @@ static bool pendulum_at(const void *context, const double place[2], kz_pendulum 
   return l->path->pendulum(l->path->context, l->stopped + place[0] * l->size, pendulum);
 }
 
-/* The first `points` points become the means of pairs that are so far apart in time; a mirror image: side -1. */
-static bool take_means(double *y, int points, double side) {
-  const double lift = 2 * M_PI * rint((y[2 * points] - side * y[0]) / (2 * M_PI));
-  if (fabs(y[2 * points] - lift - side * y[0]) > MERGING) return false;
-  for (int i = 0; i < points; i++) {
-    y[2 * i] = 0.5 * (y[2 * i] + side * (y[2 * (i + points)] - lift));
-    y[2 * i + 1] = 0.5 * (y[2 * i + 1] + side * y[2 * (i + points) + 1]);
-  }
-  return true;
-}
-
-/* Rest is solved on the map where a multiplier of it is -1, and on its mirror image where one is 1. */
-static kz_curve_kind rest(int end_kind, double *y) {
-  const int32_t inverted = cos(y[0]) < 0;
-  y[0] = M_PI * inverted, y[1] = 0;
-  return end_kind == KZ_END_PERIOD_DOUBLING ? (kz_curve_kind){1, 1, -1, 0} : (kz_curve_kind){-1, 1, -1, inverted};
-}
-
-/* The cycle that has the multiplier at the end: the branch's own, or the one that it merges with. y: points of the branch's cycle, then of that
- * one. points = 0: not known. */
-static kz_curve_kind cycle_at_end(const kz_branch_point *end, int end_kind, double *y) {
-  const int n = end->period, half = n / 2;
-  const bool even = n % 2 == 0;
-  if (end->symmetric && (n == 1 || (end_kind == KZ_END_PERIOD_DOUBLING && n == 2))) return rest(end_kind, y);
-  if (end_kind == KZ_END_SYMMETRY_BREAKING && n == 1) return rest(end_kind, y);
-  if (end->symmetric && end_kind == KZ_END_PERIOD_DOUBLING) return (kz_curve_kind){0};
-  if (end->symmetric) return (kz_curve_kind){-1, half, end_kind == KZ_END_FOLD ? 1 : -1, 0};
-  if (end_kind == KZ_END_SYMMETRY_BREAKING) return (kz_curve_kind){even && take_means(y, half, -1) ? -1 : 0, half, -1, 0};
-  if (end_kind == KZ_END_PERIOD_DOUBLING && end->multiplier_re[0] > 0)
-    return (kz_curve_kind){even && take_means(y, half, 1), half, -1, 0};
-  return (kz_curve_kind){1, n, end_kind == KZ_END_FOLD ? 1 : -1, 0};
+/* The cycle that has the multiplier at the end: the branch's own, whose points are in y, or the one that it merges with, which y has then.
+ * points = 0: not known. */
+static kz_curve_kind cycle_at_end(const kz_plane *plane, const kz_branch_point *end, int end_kind, double *y) {
+  const int n = end->period, half = n / 2, multiplier = end_kind == KZ_END_FOLD ? 1 : -1;
+  const bool doubles = end_kind == KZ_END_PERIOD_DOUBLING, is_flutter = end->symmetric && doubles && n == 2;
+  double cycle[2 * KZ_CURVE_POINTS + 4], next[4];
+  int event = 0;
+  if (end->symmetric && (n == 1 || is_flutter))
+    event = doubles ? KZ_EVENT_REST : KZ_EVENT_MIRROR;
+  else if (end_kind == KZ_END_SYMMETRY_BREAKING && !end->symmetric)
+    event = KZ_EVENT_MIRROR;
+  else if (doubles && !end->symmetric && end->multiplier_re[0] > 0)
+    event = KZ_EVENT_HALVES;
+  else if (end->symmetric && doubles)
+    return (kz_curve_kind){0};
+  memcpy(y + 2 * n, (double[]){0, 0}, 2 * sizeof *y);
+  memcpy(cycle, y, (2 * (size_t)n + 2) * sizeof *y);
+  if (event != 0) return kz_parent_of(plane, event, n, cycle, MERGING, y);
+  const int points = end->symmetric ? half : n, side = end->symmetric ? -1 : 1;
+  memcpy(y + 2 * points, (double[]){0, 0}, 2 * sizeof *y);
+  memcpy(next, cycle + 2 * points - 2, 2 * sizeof *next);
+  if (!kz_curve_orbit(plane, cycle + 2 * n, 1, next)) return (kz_curve_kind){0};
+  return (kz_curve_kind){side, points, multiplier, (int32_t)rint((next[2] - side * cycle[0]) / (2 * M_PI))};
 }
 
 double kz_locate_end(const kz_path *path, double stopped, const kz_branch_point *end, int end_kind) {
   const line l = {path, stopped, fmax(fabs(stopped), 1e-3)};
   const double here[2] = {0, 0}, along[2] = {1, 0};
-  double y[2 * KZ_CURVE_POINTS + 4] = {end->theta, end->velocity}, next[4];
+  double y[2 * KZ_CURVE_POINTS + 4] = {end->theta, end->velocity};
   kz_pendulum pendulum;
   kz_numerics fine;
   if (end_kind == KZ_END_NOT_LOCATED || end_kind == KZ_END_NEIMARK_SACKER || end->period > KZ_CURVE_POINTS ||
@@ -70,13 +62,9 @@ double kz_locate_end(const kz_path *path, double stopped, const kz_branch_point 
                           .steps = 2 * fine.steps_per_period, /* Newton's method takes half of them */
                           .mirrored = kz_is_mirrored(&pendulum)};
   if (!kz_curve_orbit(&plane, here, end->period, y)) return stopped;
-  kz_curve_kind kind = cycle_at_end(end, end_kind, y);
-  if (kind.side == 0) return stopped;
+  const kz_curve_kind kind = cycle_at_end(&plane, end, end_kind, y);
   const int n = 2 * kind.points;
-  next[0] = y[n - 2], next[1] = y[n - 1];
-  if (!kz_curve_orbit(&plane, here, 1, next)) return stopped;
-  kind.turns = (int32_t)rint((next[2] - kind.side * y[0]) / (2 * M_PI));
-  memcpy(y + n, here, sizeof here);
+  if (n == 0) return stopped;
   if (!kz_curve_locate(&plane, &kind, y, along) || fabs(y[n]) > NEAR) return stopped;
   return stopped + y[n] * l.size;
 }

@@ -1,0 +1,47 @@
+"""One line through an atlas: the branches of all cycles, as a bifurcation diagram."""
+
+import numpy as np
+import pandas
+from matplotlib.axes import Axes
+from matplotlib.lines import Line2D
+
+from kapitza import style
+from kapitza.plots.atlas_labels import motion_text
+
+CENTRES = {"down": 0, "inverted": 1, "rotating": 2, "neither": 3}
+
+
+def parts(attracts: np.ndarray) -> list[tuple[slice, bool]]:
+    """Pieces of a branch on which it attracts, or repels; neighbours share a point."""
+    changes = np.flatnonzero(attracts[1:] != attracts[:-1]) + 1
+    edges = [0, *changes.tolist(), len(attracts)]
+    return [(slice(first, last + 1), bool(attracts[first])) for first, last in zip(edges[:-1], edges[1:], strict=True)]
+
+
+def draw_line(axes: Axes, table: pandas.DataFrame) -> Axes:
+    """Branches as `Result.line` returns them: mean height of the bob at the strobe points over the key; dashed where they repel."""
+    named: dict[str, str] = {}
+    for _, rows in table.groupby("branch", sort=False):
+        first = rows.iloc[0]
+        colour = style.motion_colour(int(first["period"]), int(first["winding"]), CENTRES[first["centre"]])
+        for part, attracts in parts(rows["multiplier"].values < 1):
+            axes.plot(rows["value"].values[part], rows["height"].values[part], color=colour, zorder=3 if attracts else 2,
+                      linestyle="-" if attracts else (0, (3, 1.6)), linewidth=(1.9 if first["period"] <= 2 else 1.2) if attracts else 0.8,
+                      alpha=1 if attracts else 0.75, solid_capstyle="round")
+            if attracts and first["period"] <= 4:
+                named.setdefault(motion_text(first["name"]), colour)
+        mark_ends(axes, rows)
+    handles = [Line2D([], [], color=colour, linewidth=1.9, label=name) for name, colour in named.items()]
+    axes.legend(handles=handles, loc="center left", bbox_to_anchor=(1.02, 0.5), fontsize="small", frameon=False)
+    axes.set_ylabel("mean height of the bob at the strobe points")
+    axes.set_ylim(-1.06, 1.06)
+    axes.set_yticks([-1, -0.5, 0, 0.5, 1], ["hangs −1", "−0.5", "0", "0.5", "stands 1"])
+    return axes
+
+
+def mark_ends(axes: Axes, rows: pandas.DataFrame) -> None:
+    """Dots where a branch gains or loses its stability."""
+    attracts, value, height = rows["multiplier"].values < 1, rows["value"].values, rows["height"].values
+    for at in np.flatnonzero(attracts[1:] != attracts[:-1]):
+        inner = at if attracts[at] else at + 1
+        axes.plot(value[inner], height[inner], "o", markersize=2.6, color=style.INK, zorder=5)

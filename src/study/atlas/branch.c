@@ -1,0 +1,62 @@
+/* A branch of cycles as users see it: values of the key, a strobe point, multipliers. */
+#include <math.h>
+#include <stdlib.h>
+
+#include "atlas.h"
+
+kz_status kz_atlas_place(const kz_atlas *atlas, int axis, double value, double *place) {
+  const kz_atlas_plan *plan = &atlas->scene->atlas;
+  const kz_chart_axis *of = axis ? &plan->y : &plan->x;
+  if (!(value >= of->values.min && value <= of->values.max))
+    return kz_fail(KZ_REFUSED, "%c: %.10g lies outside of the atlas; %s is from %.10g to %.10g there", axis ? 'y' : 'x', value,
+                   kz_sweep_parameters[of->parameter].name, of->values.min, of->values.max);
+  *place = (value - of->values.min) / (of->values.max - of->values.min);
+  return KZ_OK;
+}
+
+/* Those of the half map are squared. */
+void kz_atlas_multipliers(const kz_atlas_kind *kind, const double number[2], double re[2], double im[2]) {
+  const double half = number[0] / 2, root = half * half - number[1];
+  const double large = half + (half < 0 ? -1 : 1) * sqrt(fmax(root, 0)), imaginary = sqrt(fmax(-root, 0));
+  const bool squared = kind->of.side < 0 && kind->rest < 0;
+  for (int i = 0; i < 2; i++) {
+    const double a = root < 0 || i == 0 ? large : number[1] / large, b = i == 0 ? imaginary : -imaginary;
+    re[i] = squared ? a * a - b * b : a;
+    im[i] = squared ? 2 * a * b : b;
+  }
+}
+
+void kz_atlas_draw(const kz_atlas *atlas, int axis, const kz_atlas_kind *kind, int64_t n, const double *row,
+                   kz_atlas_branches *line) {
+  const kz_atlas_class class = kz_atlas_class_of(kind);
+  const int points = kind->of.points, width = 4 + 2 * points;
+  kz_atlas_branch branch = {.period = class.period,
+                            .winding = class.type == KZ_CLASS_OTHER ? class.turns : 0,
+                            .centre = kz_atlas_class_centre(&class),
+                            .symmetric = class.type != KZ_CLASS_OTHER,
+                            .images = kz_atlas_images(atlas, &class),
+                            .first = line->n_points,
+                            .points = n};
+  if (n < 2) return;
+  kz_atlas_class_name(atlas, &class, branch.name);
+  line->branch = kz_realloc(line->branch, (size_t)(line->count + 1) * sizeof *line->branch);
+  line->branch[line->count++] = branch;
+  line->point = kz_realloc(line->point, (size_t)(line->n_points + n) * sizeof *line->point);
+  for (int64_t i = 0; i < n; i++, row += width) {
+    double *to = line->point[line->n_points++], value[2], cosine = 0, re[2], im[2];
+    kz_atlas_values(&atlas->scene->atlas, row, value);
+    kz_atlas_multipliers(kind, row + 2, re, im);
+    for (int p = 0; p < points; p++) cosine += cos(row[4 + 2 * p]);
+    to[KZ_LINE_VALUE] = value[axis];
+    to[KZ_LINE_HEIGHT] = -cosine / points;
+    to[KZ_LINE_THETA] = remainder(row[4], 2 * M_PI);
+    to[KZ_LINE_VELOCITY] = row[5];
+    to[KZ_LINE_MULTIPLIER] = fmax(hypot(re[0], im[0]), hypot(re[1], im[1]));
+  }
+}
+
+void kz_atlas_branches_free(kz_atlas_branches *line) {
+  free(line->branch);
+  free(line->point);
+  *line = (kz_atlas_branches){0};
+}

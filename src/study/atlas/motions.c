@@ -1,0 +1,167 @@
+/* The motions of a point: their list by counting crossings of its column, and their states, carried from where they begin or end. */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "atlas.h"
+
+enum { MOST_ROWS = 400, STARTS = 512 };
+/* rad: two cycles nearer than this are one. */
+static const double ONE = 1e-6;
+
+/* A place, one class of its attractors, and those that are known by now. */
+typedef struct {
+  kz_atlas *atlas;
+  const double *place;
+  kz_atlas_class class;
+  int32_t wanted, found;
+  kz_atlas_seed *cycle; /* [found] */
+  double (*number)[2];  /* [found]: trace and determinant */
+  int64_t *curve;       /* [found] */
+} hunt;
+
+static bool attracts(const double number[2]) {
+  return fabs(number[0]) < 1 + number[1];
+}
+
+static void take(hunt *h, const kz_atlas_seed *cycle, const double number[2], int64_t curve) {
+  for (int32_t i = 0; i < h->found; i++)
+    if (kz_atlas_same(h->atlas, h->cycle + i, cycle->y, ONE)) return;
+  h->cycle[h->found] = *cycle;
+  memcpy(h->number[h->found], number, sizeof *h->number);
+  h->curve[h->found++] = curve;
+}
+
+/* Follows a cycle along an axis to the place; true if it attracts on all of the way. side: 1 or -1: one of the branches of a fold. */
+static bool carry(const hunt *h, int axis, const kz_atlas_seed *from, int32_t side, kz_atlas_seed *to, double number[2]) {
+  const int n = 2 * from->kind.of.points, width = n + 4;
+  const double target = h->place[axis], sign = target > from->y[n + axis] ? 1 : -1;
+  const double along[2] = {axis == 0 ? sign : 0, axis == 1 ? sign : 0};
+  KZ_FREED double *row = kz_malloc((size_t)(MOST_ROWS * width) * sizeof *row);
+  kz_plane plane = h->atlas->plane;
+  int64_t events;
+  int32_t ending;
+  *(sign > 0 ? plane.high + axis : plane.low + axis) = target;
+  const int64_t rows = kz_curve_branch(&plane, &from->kind.of, from->y, along, side, KZ_ATLAS_BRANCH_STEP, MOST_ROWS, row, 0,
+                                       NULL, &events, &ending);
+  if (rows < 2 || ending != KZ_TRACE_LEFT) return false;
+  for (int64_t i = 1; i + 1 < rows; i++)
+    if (!attracts(row + i * width + 2)) return false;
+  const double *a = row + (rows - 2) * width, *b = a + width;
+  const double share = (target - a[axis]) / (b[axis] - a[axis]);
+  if (!(share >= 0 && share <= 1)) return false; /* it has left on the other side */
+  *to = (kz_atlas_seed){.kind = from->kind};
+  for (int i = 0; i < n; i++) to->y[i] = a[4 + i] + share * (b[4 + i] - a[4 + i]);
+  memcpy(to->y + n, h->place, 2 * sizeof *to->y);
+  return kz_curve_solve(&h->atlas->plane, &to->kind.of, to->y, number) && attracts(number);
+}
+
+/* What a crossing begins on the side of the place: the stable branch of a fold, the curve's own cycle, or what branches off. */
+static void carry_from(hunt *h, int axis, const kz_atlas_crossing *crossing) {
+  const kz_atlas_curve *curve = h->atlas->curve + crossing->curve;
+  const kz_atlas_class own = kz_atlas_class_of(&curve->kind);
+  const bool is_own = !memcmp(&own, &h->class, sizeof own);
+  kz_atlas_seed from, child, to;
+  double number[2], along[2];
+  if (!kz_atlas_crossing_point(h->atlas, axis, h->place[1 - axis], crossing, &from)) return;
+  if (!is_own && !kz_atlas_grown(h->atlas, &from, axis, &child, along)) return;
+  const bool is_fold = is_own && curve->kind.of.multiplier > 0;
+  for (int32_t side = is_fold ? -1 : 0; side <= (is_fold ? 1 : 0); side += 2)
+    if (carry(h, axis, is_own ? &from : &child, side, &to, number)) take(h, &to, number, crossing->curve);
+}
+
+/* From the crossings of a line through the place, the nearest first, at which the class gains an attractor on the way to the place. */
+static void hunt_along(hunt *h, int axis) {
+  KZ_FREED_BY(kz_atlas_crossings_free) kz_atlas_crossings crossings = {0};
+  const int32_t number = kz_atlas_class_number(h->atlas, &h->class);
+  kz_atlas_crossings_of(h->atlas, 1 - axis, h->place[1 - axis], true, &crossings);
+  int64_t above = 0;
+  while (above < crossings.count && crossings.list[above].at <= h->place[axis]) above++;
+  for (int64_t down = above - 1; h->found < h->wanted && (down >= 0 || above < crossings.count);) {
+    const double below_by = down >= 0 ? h->place[axis] - crossings.list[down].at : INFINITY;
+    const double above_by = above < crossings.count ? crossings.list[above].at - h->place[axis] : INFINITY;
+    const kz_atlas_crossing *next = crossings.list + (below_by <= above_by ? down : above);
+    if (next->class == number && next->change == (below_by <= above_by ? 1 : -1)) carry_from(h, axis, next);
+    below_by <= above_by ? down-- : above++;
+  }
+}
+
+/* Attractors that no curve bounds are searched. */
+static void hunt_by_starts(hunt *h) {
+  kz_atlas_probe probe;
+  double number[2];
+  if (kz_atlas_probe_at(h->atlas, h->place, STARTS, 1, &probe) != KZ_OK) return;
+  for (int64_t i = 0; i < probe.found.count && h->found < h->wanted; i++) {
+    const kz_atlas_class class = kz_atlas_class_of(&probe.found.list[i].kind);
+    if (!memcmp(&class, &h->class, sizeof class) &&
+        kz_curve_solve(&h->atlas->plane, &probe.found.list[i].kind.of, probe.found.list[i].y, number))
+      take(h, probe.found.list + i, number, -1);
+  }
+  kz_atlas_seeds_free(&probe.found);
+}
+
+static void hunt_rest(hunt *h) {
+  kz_atlas_seed rest = {{{1, 1, 0, 0}, h->class.turns}, {M_PI * h->class.turns, 0, h->place[0], h->place[1]}};
+  double number[2];
+  if (kz_curve_solve(&h->atlas->plane, &rest.kind.of, rest.y, number) && attracts(number)) take(h, &rest, number, -1);
+}
+
+static void set_state(const hunt *h, int32_t i, kz_motion *motion) {
+  const kz_atlas_seed *cycle = h->cycle + i;
+  motion->curve = h->curve[i];
+  motion->strobes = motion->period;
+  for (int32_t s = 0; s < motion->period; s++) {
+    const int32_t at = s % cycle->kind.of.points;
+    const double sign = s < cycle->kind.of.points ? 1 : -1; /* the second half of a symmetric cycle */
+    motion->theta[s] = remainder(sign * cycle->y[2 * at], 2 * M_PI);
+    motion->velocity[s] = sign * cycle->y[2 * at + 1];
+  }
+  kz_atlas_multipliers(&cycle->kind, h->number[i], motion->multiplier_re, motion->multiplier_im);
+}
+
+/* The states of all attractors of a class at a place. */
+static void set_states(kz_atlas *atlas, const double place[2], const kz_atlas_class *class, int32_t wanted, kz_motion *motion) {
+  enum { CARRIED_AT_ONCE = 2 }; /* both branches of a fold may attract where both are carried */
+  KZ_FREED kz_atlas_seed *cycle = kz_malloc((size_t)(wanted + CARRIED_AT_ONCE) * sizeof *cycle);
+  KZ_FREED double (*number)[2] = kz_malloc((size_t)(wanted + CARRIED_AT_ONCE) * sizeof *number);
+  KZ_FREED int64_t *curve = kz_malloc((size_t)(wanted + CARRIED_AT_ONCE) * sizeof *curve);
+  hunt h = {
+      .atlas = atlas, .place = place, .class = *class, .wanted = wanted, .cycle = cycle, .number = number, .curve = curve};
+  if (class->type == KZ_CLASS_REST) hunt_rest(&h);
+  for (int axis = 1; axis >= 0 && h.found < wanted && class->type != KZ_CLASS_REST; axis--) hunt_along(&h, axis);
+  if (h.found < wanted) hunt_by_starts(&h);
+  for (int32_t i = 0; i < h.found && i < wanted; i++) set_state(&h, i, motion + i);
+}
+
+kz_status kz_atlas_motions(kz_atlas *atlas, double x, double y, bool states, kz_motions *motions) {
+  const double value[2] = {x, y};
+  double place[2];
+  *motions = (kz_motions){.x = x, .y = y};
+  for (int i = 0; i < 2; i++) KZ_TRY(kz_atlas_place(atlas, i, value[i], place + i));
+  KZ_FREED int32_t *counts = kz_malloc(KZ_ATLAS_MOST_CLASSES * sizeof *counts);
+  kz_atlas_pendulum(atlas->scene, place, &motions->pendulum);
+  kz_atlas_count(atlas, place, counts);
+  for (int32_t c = 0; c < atlas->n_classes; c++) {
+    const kz_atlas_class *class = atlas->class + c;
+    if (counts[c] <= 0) continue;
+    motions->motion = kz_realloc(motions->motion, (size_t)(motions->count + counts[c]) * sizeof *motions->motion);
+    kz_motion *first = motions->motion + motions->count;
+    for (int32_t i = 0; i < counts[c]; i++) {
+      first[i] = (kz_motion){.period = class->period,
+                             .winding = class->type == KZ_CLASS_OTHER ? class->turns : 0,
+                             .centre = kz_atlas_class_centre(class),
+                             .symmetric = class->type != KZ_CLASS_OTHER,
+                             .images = kz_atlas_images(atlas, class),
+                             .curve = -1};
+      kz_atlas_class_name(atlas, class, first[i].name);
+    }
+    motions->count += counts[c];
+    if (states) set_states(atlas, place, class, counts[c], first);
+  }
+  return KZ_OK;
+}
+
+void kz_motions_free(kz_motions *motions) {
+  free(motions->motion);
+  *motions = (kz_motions){0};
+}
