@@ -16,6 +16,8 @@ typedef enum {
   KZ_STOPPED = 75, /* stopped early on request, all finished work is saved */
 } kz_status;
 
+enum { KZ_MESSAGE_BYTES = 2048 }; /* longest message, its end included */
+
 /* Sets the message (printf format, without "kapitza: error:") and returns `status`. The first message stays: later ones
  * are consequences. */
 kz_status kz_fail(kz_status status, const char *format, ...) __attribute__((format(printf, 2, 3)));

@@ -4,7 +4,7 @@
 #include <stdio.h>
 
 /* Each thread has its own: another one may fail, or speak, at the same moment. */
-static _Thread_local char message[2048];
+static _Thread_local char message[KZ_MESSAGE_BYTES];
 
 kz_status kz_fail(kz_status status, const char *format, ...) {
   if (message[0] == '\0') {

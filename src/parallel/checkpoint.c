@@ -8,7 +8,6 @@
 #include "checkpoint.h"
 #include "ranks.h"
 
-enum { MESSAGE_BYTES = 2048 };
 
 const char *kz_checkpoint_saved(const kz_checkpoint *checkpoint) {
   return checkpoint && checkpoint->ours && kz_header_is_marked(checkpoint) ? checkpoint->path : NULL;
@@ -21,7 +20,7 @@ void kz_checkpoint_forget(const kz_checkpoint *checkpoint) {
 }
 
 kz_status kz_checkpoint_stopped(const kz_checkpoint *checkpoint) {
-  char reason[MESSAGE_BYTES];
+  char reason[KZ_MESSAGE_BYTES];
   const char *saved = kz_checkpoint_saved(checkpoint);
   snprintf(reason, sizeof reason, "%s", kz_message());
   kz_message_clear();

@@ -8,7 +8,7 @@
 
 #include "bytes.h"
 
-enum { MESSAGE_BYTES = 2048, ABANDON_SECONDS = 5 };
+enum { ABANDON_SECONDS = 5 };
 static const size_t CHUNK_BYTES = (size_t)1 << 30; /* MPI counts are int */
 
 kz_status kz_mpi_fail(int code, const char *file, int line) {
@@ -110,7 +110,7 @@ kz_status kz_ranks_agree(kz_ranks *ranks, kz_status mine) {
   if (worst.severity == 0) return KZ_OK;
   struct {
     kz_status status;
-    char message[MESSAGE_BYTES];
+    char message[KZ_MESSAGE_BYTES];
   } failure = {.status = mine};
   snprintf(failure.message, sizeof failure.message, "%s", kz_message());
   KZ_MPI(MPI_Bcast(&failure, sizeof failure, MPI_BYTE, worst.rank, ranks->comm));

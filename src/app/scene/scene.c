@@ -152,7 +152,7 @@ static bool are_keys(const char *keys) {
 }
 
 kz_status kz_scene_locate(kz_status status, const char *text, size_t length, const char *file, int n_sets, char *const *sets) {
-  char message[2048];
+  char message[KZ_MESSAGE_BYTES];
   snprintf(message, sizeof message, "%s", kz_message());
   char *end = strstr(message, ": ");
   if ((status != KZ_REFUSED && status != KZ_FAILED) || !end) return status;

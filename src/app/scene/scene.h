@@ -154,7 +154,7 @@ typedef struct {
   kz_node *root;
   void *scene;
   int first; /* order of the complaint kept; INT_MAX = none */
-  char message[2000];
+  char message[KZ_MESSAGE_BYTES];
 } kz_reading;
 
 /* Records a complaint about the key `path` at its value; a key that the scene does not give is reported at its mapping. */

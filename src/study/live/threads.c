@@ -21,7 +21,7 @@ typedef struct {
   pthread_cond_t ended;
   int at_work; /* helpers that have not ended */
   kz_status status;
-  char message[256]; /* of the helper that has failed */
+  char message[KZ_MESSAGE_BYTES]; /* of the helper that has failed */
 } sharing;
 
 /* A further thread. Its prepared pendulum is a copy that lists the states of its own unsettled cells; pendulum, map and regions are shared. */

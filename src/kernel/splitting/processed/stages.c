@@ -21,9 +21,9 @@ OPERATION void polynomial(int n, const double *c, const vector *q, vector *p) {
   for (int j = n - 2; j >= 0; j--) EACH p[i] = p[i] * q[i] + c[j];
 }
 
-/* keep: into kept go the reduced angles at each kick, KZ_LANES a stage. */
+/* kept: into it go the reduced angles at each kick, KZ_LANES a stage, if it is not NULL. */
 OPERATION void block(bool mirrored, int n_drift, int n_kick, int64_t n_stages, const double *restrict row, vector *u, vector *v,
-                     bool keep, float *restrict kept) {
+                     float *restrict kept) {
   vector a[CHAINS], b[CHAINS], r[CHAINS], q[CHAINS], p[CHAINS];
   const int n = n_drift + n_kick;
   EACH a[i] = u[i];
@@ -38,7 +38,7 @@ OPERATION void block(bool mirrored, int n_drift, int n_kick, int64_t n_stages, c
     }
     EACH r[i] = a[i] - ((a[i] + round_to_even) - round_to_even);
     EACH q[i] = r[i] * r[i];
-    if (keep) {
+    if (kept) {
       EACH *(narrow *)(kept + i * LANES) = __builtin_convertvector(r[i], narrow);
       kept += KZ_LANES;
     }
@@ -57,31 +57,21 @@ OPERATION void block(bool mirrored, int n_drift, int n_kick, int64_t n_stages, c
 
 #define ALL(D, K)                                 \
   for (int64_t i = 0; i < n; i += CHAINS * LANES) \
-  block(mirrored, D, K, n_stages, row, (vector *)(u + i), (vector *)(v + i), KEEP)
-#ifdef __SANITIZE_ADDRESS__ /* one body for all lengths: the checks of 32 take a minute to compile */
-#define RUN ALL(n_drift, n_kick);
-#else
+  block(mirrored, D, K, n_stages, row, (vector *)(u + i), (vector *)(v + i), kept ? kept + i : 0)
 #define CASE(D, K)     \
   case 16 * (D) + (K): \
     ALL(D, K);         \
     break;
 #define CASES(K) CASE(1, K) CASE(2, K) CASE(3, K) CASE(4, K)
-#define RUN \
-  switch (16 * n_drift + n_kick) { CASES(4) CASES(5) CASES(6) CASES(7) CASES(8) CASES(9) CASES(10) CASES(11) }
-#endif
 
 /* `mirrored` is a constant where it is called: each kind of pendulum has loops of its own. */
 OPERATION void run(bool mirrored, int32_t n_drift, int32_t n_kick, int64_t n_stages, const double *row, int64_t n, double *u,
                    double *v, float *kept) {
-  if (kept) {
-#define KEEP true, kept + i
-    RUN
-#undef KEEP
-  } else {
-#define KEEP false, 0
-    RUN
-#undef KEEP
-  }
+#ifdef __SANITIZE_ADDRESS__ /* one body for all lengths: the checks of 32 take a minute to compile */
+  ALL(n_drift, n_kick);
+#else
+  switch (16 * n_drift + n_kick) { CASES(4) CASES(5) CASES(6) CASES(7) CASES(8) CASES(9) CASES(10) CASES(11) }
+#endif
 }
 
 /* Does all drifts and kicks of a period. u (half-turns) and v (velocity times exp(beta t)) have KZ_LANES lanes; the first n lanes move, and
