@@ -17,6 +17,7 @@ const FIRST = { theta: "2.9", velocity: "0", pane: "a" }; // the start that is p
 const [LEAST, MOST] = [24, 400]; // drive periods of a motion
 const [REACH, DRAWN] = [0.15, 0.4]; // how far boundaries draw the wheel (of the window), and which part of the way each step goes
 const FRAME_KEYS = ["window", "pendulum", "other", "quality", "samples", "shade"];
+const stillness = matchMedia("(prefers-reduced-motion: reduce)"); // a wish of the reader's system: nothing moves until it is asked to
 const element = (id) => document.getElementById(id);
 
 export class Basins {
@@ -192,7 +193,7 @@ export class Basins {
     this.writeEnding();
     element("ending").dataset.ending = JSON.stringify(motion.ending);
     element("save-csv").disabled = element("play").disabled = false;
-    this.state.change({ playing: true });
+    this.state.change({ playing: this.state.start !== null || !stillness.matches });
   }
 
   drawStage() {
@@ -203,7 +204,7 @@ export class Basins {
     if (this.motion) element("ending").textContent = signed(endingWords(this.motion.ending, this.units));
   }
 
-  /** Thirty pictures a second: each draws the basins too, and the rest of the time is theirs that are computed. */
+  /** Thirty pictures a second; the rest of the time is theirs that are computed. */
   tick(now) {
     requestAnimationFrame((next) => this.tick(next));
     if (now - this.last < 30) return;
@@ -212,7 +213,7 @@ export class Basins {
     if (this.motion && this.state.playing) {
       this.motion.advance(seconds * SECOND);
       this.drawStage();
-      for (const pane of this.panes) if (pane.plain.motion) pane.draw();
+      for (const pane of this.panes) if (pane.plain.motion) pane.drawAbove();
     }
   }
 

@@ -221,13 +221,18 @@ export class Pane {
   drawNow() {
     cancelAnimationFrame(this.drawn);
     this.drawn = null;
-    const ratio = devicePixelRatio || 1;
     this.painter.draw(seen(this.frames, this.window), this.window, this.state.shade === "settling" ? 0.8 : 0);
+    this.drawAbove();
+    this.inset.draw(this.window);
+  }
+
+  /** What lies over the basins, which stay as they are: all that a motion changes. */
+  drawAbove() {
+    const ratio = devicePixelRatio || 1;
     const context = this.over.getContext("2d");
     context.setTransform(ratio, 0, 0, ratio, 0, 0);
     context.clearRect(0, 0, this.over.clientWidth, this.over.clientHeight);
     this.drawOver(new CanvasSurface(context, this.state.colours), this.plane);
-    this.inset.draw(this.window);
   }
 
   /** All that lies over the basins, on any surface. */
