@@ -24,10 +24,10 @@ const char *kz_parallel_library(void);
 
 typedef enum { KZ_PROGRESS_AUTO, KZ_PROGRESS_ALWAYS, KZ_PROGRESS_NEVER } kz_progress;
 
-/* Installs signal handlers (SIGUSR1, SIGUSR2, SIGXCPU, SIGTERM and SIGINT ask for a stop), starts MPI and sets up the ranks. If *ranks is
- * not NULL, the caller must end it, also after a failure. Collective. */
+/* Installs signal handlers (SIGUSR1, SIGUSR2, SIGXCPU, SIGTERM and SIGINT ask for a stop), starts MPI and sets up the ranks; a process that
+ * no launcher has started is one rank without MPI. If *ranks is not NULL, the caller must end it, also after a failure. Collective. */
 kz_status kz_ranks_start(int *argc, char ***argv, kz_ranks **ranks);
-/* Calls MPI_Finalize and frees `ranks`, which may be NULL. Collective. */
+/* Ends MPI if it was started, and frees `ranks`, which may be NULL. Collective. */
 void kz_ranks_end(kz_ranks *ranks);
 
 /* Ends every rank at once and does not return: for a rank that cannot go on to the next collective call. `ranks` may be NULL. */

@@ -40,29 +40,19 @@ int kz_launch_count(void) {
   return launch.count;
 }
 
-/* Beginnings of what launchers tell the processes that they start, known or not. */
-static const char *const launchers[] = {"PMI",      "PMIX_", "OMPI_COMM_WORLD", "ORTE_",         "SLURM_STEP",
-                                        "ALPS_APP", "PALS_", "FLUX_",           "MPI_LOCALRANK", "MPIRUN_RANK",
-                                        "MV2_COMM", "HYDRA", "LSB_MCPU",        "PBS_TASKNUM"};
+/* Beginnings of what launchers tell the processes that they start: one too many costs MPI's start, one too few makes each process run
+ * alone. */
+static const char *const launchers[] = {"PMI",      "PMIX_",    "OMPI_COMM_WORLD", "ORTE_",       "SLURM_STEP", "ALPS_APP",
+                                        "PALS_",    "FLUX_",    "MPI_LOCAL",       "MPIRUN_RANK", "MV2_COMM",   "HYDRA",
+                                        "LSB_MCPU", "MP_CHILD", "PBS_TASKNUM",     "JSM_",        "MPIRANK",    "MPT_LRANK"};
 
 extern char **environ;
 
-static bool is_launched(void) {
+bool kz_is_launched(void) {
   for (char **variable = environ; *variable; variable++)
     for (size_t i = 0; i < sizeof launchers / sizeof *launchers; i++)
       if (strncmp(*variable, launchers[i], strlen(launchers[i])) == 0) return true;
   return false;
-}
-
-void kz_launch_alone(void) {
-  static const char *const settings[][2] = {
-      {"OMPI_MCA_ess_singleton_isolated", "1"},
-      {"OMPI_MCA_orte_create_session_dirs", "0"}, /* lone processes share one, and the first to end removes it */
-      {"OMPI_MCA_btl", "self"},
-      {"OMPI_MCA_pml", "ob1"},
-      {"HWLOC_COMPONENTS", "-pci,-linuxio"}}; /* devices are not looked for: a third of MPI's start */
-  if (is_launched()) return;
-  for (size_t i = 0; i < sizeof settings / sizeof *settings; i++) setenv(settings[i][0], settings[i][1], false);
 }
 
 const char *kz_parallel_library(void) {

@@ -123,17 +123,17 @@ static kz_status receive_rest(mail *m, kz_status *status) {
 /* Rank 0 takes what has come between two records of its own. */
 static kz_status take_records(mail *m) {
   kz_status status = KZ_OK;
-  const bool alone = m->ranks->size == 1;
-  for (int slot = 0; !alone && slot <= BUFFERS; slot++) KZ_TRY(expect(m, slot));
+  const bool several = kz_ranks_several(m->ranks);
+  for (int slot = 0; several && slot <= BUFFERS; slot++) KZ_TRY(expect(m, slot));
   for (int64_t i = 0; i < m->records->n && status == KZ_OK; i++) {
     size_t bytes = 0;
     if ((status = kz_ranks_interrupted(m->ranks)) != KZ_OK) break;
     status = make(m, i, m->buffer[BUFFERS], &bytes);
     if (status == KZ_OK) status = take(m, m->buffer[BUFFERS], bytes);
     kz_meter_show(&m->meter, ++m->done);
-    KZ_TRY(receive_waiting(m, &status));
+    if (several) KZ_TRY(receive_waiting(m, &status));
   }
-  if (!alone) KZ_TRY(receive_rest(m, &status));
+  if (several) KZ_TRY(receive_rest(m, &status));
   return status;
 }
 

@@ -36,12 +36,14 @@ static kz_status connect_ranks(kz_ranks *ranks) {
 
 kz_status kz_ranks_start(int *argc, char ***argv, kz_ranks **ranks) {
   kz_signals_catch();
-  kz_launch_alone();
   kz_launch_rank(); /* remembers what the launcher said, before MPI_Init writes the same names */
   kz_ranks *started = kz_calloc(1, sizeof *started); /* before MPI_Init, so that no rank waits for one that fails here */
   started->comm = MPI_COMM_NULL;
+  started->size = 1;
+  started->start = kz_clock();
   started->mutex = (pthread_mutex_t)PTHREAD_MUTEX_INITIALIZER;
   *ranks = started;
+  if (!kz_is_launched()) return KZ_OK;
   KZ_MPI(MPI_Init_thread(argc, argv, MPI_THREAD_SERIALIZED, &started->thread_level));
   kz_signals_catch();
   started->start = kz_clock();
@@ -68,7 +70,7 @@ static void give_up(int number) {
 
 void kz_ranks_abandon(kz_ranks *ranks, kz_status status) {
   int ended = 1;
-  if (ranks && MPI_Finalized(&ended) == MPI_SUCCESS && !ended && ranks->size > 1) {
+  if (kz_ranks_several(ranks) && MPI_Finalized(&ended) == MPI_SUCCESS && !ended) {
     signal(SIGALRM, give_up); /* MPI may also be out of memory */
     alarm(ABANDON_SECONDS);
     pthread_mutex_lock(&ranks->mutex);
@@ -87,6 +89,9 @@ int kz_ranks_count(const kz_ranks *ranks) {
 
 kz_status kz_ranks_node(kz_ranks *ranks, double mine, double *sum, int *count) {
   MPI_Comm node;
+  *sum = mine;
+  *count = 1;
+  if (!kz_ranks_several(ranks)) return KZ_OK;
   KZ_MPI(MPI_Comm_split_type(ranks->comm, MPI_COMM_TYPE_SHARED, ranks->rank, MPI_INFO_NULL, &node));
   KZ_MPI(MPI_Comm_size(node, count));
   KZ_MPI(MPI_Allreduce(&mine, sum, 1, MPI_DOUBLE, MPI_SUM, node));
@@ -102,7 +107,7 @@ static int severity(kz_status status) {
 }
 
 kz_status kz_ranks_agree(kz_ranks *ranks, kz_status mine) {
-  if (!ranks) return mine;
+  if (!kz_ranks_several(ranks)) return mine;
   struct {
     int severity, rank;
   } own = {severity(mine), ranks->rank}, worst;
@@ -129,7 +134,7 @@ kz_status kz_ranks_compare(kz_ranks *ranks, const char *text, const char *what) 
 }
 
 kz_status kz_ranks_broadcast(kz_ranks *ranks, void *data, size_t bytes) {
-  for (size_t sent = 0; ranks && sent < bytes; sent += CHUNK_BYTES) {
+  for (size_t sent = 0; kz_ranks_several(ranks) && sent < bytes; sent += CHUNK_BYTES) {
     const size_t left = bytes - sent;
     KZ_MPI(MPI_Bcast((char *)data + sent, (int)(left < CHUNK_BYTES ? left : CHUNK_BYTES), MPI_BYTE, 0, ranks->comm));
   }
@@ -138,7 +143,7 @@ kz_status kz_ranks_broadcast(kz_ranks *ranks, void *data, size_t bytes) {
 
 kz_status kz_ranks_sum(kz_ranks *ranks, int64_t *numbers, int64_t n) {
   static const int64_t part = (int64_t)1 << 27; /* MPI counts are int */
-  for (int64_t done = 0; ranks && done < n; done += part) {
+  for (int64_t done = 0; kz_ranks_several(ranks) && done < n; done += part) {
     const int count = (int)(n - done < part ? n - done : part);
     KZ_MPI(MPI_Allreduce(MPI_IN_PLACE, numbers + done, count, MPI_INT64_T, MPI_SUM, ranks->comm));
   }

@@ -8,7 +8,7 @@
 #include "kapitza/parallel.h"
 
 struct kz_ranks {
-  MPI_Comm comm; /* own duplicate of the world, errors are returned */
+  MPI_Comm comm; /* own duplicate of the world, errors are returned; MPI_COMM_NULL: MPI is not started, size is 1 */
   int rank, size;
   int thread_level;      /* of MPI, MPI_THREAD_SINGLE ... */
   pthread_mutex_t mutex; /* rank 0: who holds it may use MPI while two threads run */
@@ -30,10 +30,14 @@ struct kz_ranks {
   } while (0)
 kz_status kz_mpi_fail(int code, const char *file, int line);
 
-/* Call it before MPI_Init. If no launcher has started this process, it keeps Open MPI from starting a daemon and from looking for networks,
- * which takes two thirds of its start. Settings of the user stay. Processes of a launcher that cannot be recognised run alone, with and
- * without this call; the lock of the checkpoint then lets one of them write. */
-void kz_launch_alone(void);
+/* Whether a launcher has started this process. A process of its own does not start MPI, which takes longer than a small run. Processes of
+ * a launcher that cannot be recognised run alone; the lock of the checkpoint then lets one of them write. */
+bool kz_is_launched(void);
+
+/* Whether there is another rank to talk to. If not, no function of MPI may be called: it may not have been started. */
+static inline bool kz_ranks_several(const kz_ranks *ranks) {
+  return ranks && ranks->size > 1;
+}
 
 /* From here on signals that ask for a stop are recorded. Call it before MPI_Init and again after it. */
 void kz_signals_catch(void);

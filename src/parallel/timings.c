@@ -62,12 +62,14 @@ static void add(kz_timing *row, const kz_timing *t) {
 
 kz_status kz_timing_note(kz_ranks *ranks, int64_t tiles, const kz_stopwatch *watch, const kz_work *work, double *idle) {
   const double own[] = {work->busy, work->processor};
-  double sum[] = {0, 0}, most = 0;
+  double sum[] = {work->busy, work->processor}, most = work->processor;
   const kz_stopwatch now = kz_stopwatch_start();
   const double wall = now.wall - watch->wall;
   ranks->staged += now.process - watch->process;
-  KZ_MPI(MPI_Reduce(own, sum, 2, MPI_DOUBLE, MPI_SUM, 0, ranks->comm));
-  KZ_MPI(MPI_Reduce(&own[1], &most, 1, MPI_DOUBLE, MPI_MAX, 0, ranks->comm));
+  if (kz_ranks_several(ranks)) {
+    KZ_MPI(MPI_Reduce(own, sum, 2, MPI_DOUBLE, MPI_SUM, 0, ranks->comm));
+    KZ_MPI(MPI_Reduce(&own[1], &most, 1, MPI_DOUBLE, MPI_MAX, 0, ranks->comm));
+  }
   if (ranks->rank != 0) return KZ_OK;
   const double share = wall > 0 ? sum[0] / (wall * ranks->size) : 1;
   *idle = share < 1 ? 1 - share : 0;
