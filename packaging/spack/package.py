@@ -1,9 +1,10 @@
-"""Spack recipe of kapitza. Copied as packages/kapitza/package.py into a Spack repository, it builds this folder's sources:
+"""Recipe of kapitza for Spack 1.0 or newer. Copied as packages/kapitza/package.py into a Spack repository, it builds this folder's sources:
 
 spack dev-build --source-path FOLDER kapitza@0.4.0
 """
 
-from spack.package import CMakePackage, conflicts, depends_on, generator, license, version
+from spack.package import conflicts, depends_on, license, version
+from spack_repo.builtin.build_systems.cmake import CMakePackage, generator
 
 
 class Kapitza(CMakePackage):
