@@ -78,6 +78,22 @@ def test_install_names_every_library():
     assert all(re.search(rf"\b{name}\b", wheel) for name in libraries(2) - built)
 
 
+# What tries the commands of the page on installing: a script or a test, and a text in it.
+TRIED = {
+    "pip install kapitza-VERSION-py3-none-manylinux_2_28_x86_64.whl": ("packaging/wheel/try", "--disable-pip-version-check ./kapitza-*.whl"),
+    "pip install kapitza-VERSION.tar.gz": ("scripts/test_install", '"$folder"/kapitza-*.tar.gz'),
+    "scripts/setup": ("tests/python/test_setup.py", "source scripts/setup"),
+    "cmake --preset release": ("scripts/setup", 'cmake --fresh --preset "$1"'),
+    "cmake --build build": ("tests/python/test_build.py", 'call("cmake", "--build", build')}
+
+
+def test_every_block_of_the_page_on_installing_is_tried():
+    blocks = re.findall(r"^```\n(.*?)^```$", (ROOT / "docs" / "start" / "install.md").read_text(), re.MULTILINE | re.DOTALL)
+    commands = [line.partition("#")[0].strip().replace(VERSION, "VERSION") for block in blocks for line in block.splitlines()]
+    assert commands == list(TRIED)
+    assert not [name for name, text in TRIED.values() if text not in (ROOT / name).read_text()]
+
+
 @pytest.fixture(scope="module")
 def environment(tmp_path_factory):
     """An environment as pip makes it: bin/kapitza, three builds that say how they were started, and an MPI."""
