@@ -1,5 +1,6 @@
-"""The explorer in headless Chromium: pictures a second, and the slowest of them, while the wheel zooms from 1 to 1e-20 and while a slider
-is dragged. Frames are drawn by software where there is no graphics card, and clocks count what else the machine does."""
+"""The explorer in headless Chromium: pictures a second, the slowest of them, and frames of basins a second, while the wheel zooms from 1 to
+1e-20, while a slider is dragged, and while the point of the map is. Frames are drawn by software where there is no graphics card, and
+clocks count what else the machine does."""
 
 import argparse
 import json
@@ -19,10 +20,13 @@ WATCH = """
 const [place] = arguments, done = arguments[arguments.length - 1], times = [];
 let last = performance.now(), over = false, count = 0;
 const pane = explorer.basins.panes[0];
-const picture = () => { const now = performance.now(); times.push(now - last); last = now; if (!over) requestAnimationFrame(picture); };
+let frames = 0, shown = pane.latest;
+const picture = () => {
+  if (pane.latest !== shown) { frames++; shown = pane.latest; }
+  const now = performance.now(); times.push(now - last); last = now; if (!over) requestAnimationFrame(picture); };
 const step = STEP;
 requestAnimationFrame(picture);
-const rest = () => { clearInterval(hand); setTimeout(() => { over = true; done(times); }, 500); };
+const rest = () => { clearInterval(hand); setTimeout(() => { over = true; done([times, frames]); }, 500); };
 const hand = setInterval(() => { if (step(count++)) rest(); }, EVERY);
 """
 WHEEL = """() => {
@@ -36,20 +40,22 @@ SLIDER = """(n) => {
   slider.dispatchEvent(new Event("input"));
   return n >= 300; }"""
 
+MAP = """(n) => { explorer.map.go([0.3 + n / 3000, 0.4 + n / 6000]); return n >= 300; }"""
+
 
 def watch(driver, step):
     return driver.execute_async_script(WATCH.replace("STEP", step).replace("EVERY", str(EVERY)))
 
 
 def measure(size):
-    """name -> times between pictures, ms."""
+    """name -> times between pictures, ms, and the number of frames of basins."""
     found = {}
     with tempfile.TemporaryDirectory() as folder, browser(Path(folder), size) as driver:
         driver.set_script_timeout(300)
         server = Server(SCENE)
-        for name, step in (("zoom-1e-20", WHEEL), ("slider-drive-amplitude", SLIDER)):
+        for name, step in (("zoom-1e-20", WHEEL), ("slider-drive-amplitude", SLIDER), ("map", MAP)):
             driver.get("about:blank")
-            page = Page(driver, server.address() + "#samples=1")
+            page = Page(driver, server.address() + f"#samples=1&map={'on' if step is MAP else 'off'}")
             page.wait()
             found[name] = watch(driver, step)
             page.wait()
@@ -64,13 +70,14 @@ def main():
     parser.add_argument("--json", action="store_true", help="figures for other programs")
     options = parser.parse_args()
     rows = [{"name": name, "pictures": len(times), "pictures_per_second": 1e3 * len(times) / sum(times),
-             "median_ms": statistics.median(times), "slowest_ms": max(times)} for name, times in measure(options.size).items()]
+             "median_ms": statistics.median(times), "slowest_ms": max(times), "frames_per_second": 1e3 * frames / sum(times)}
+            for name, (times, frames) in measure(options.size).items()]
     if options.json:
         print(json.dumps(rows, indent=1))
         return
     for row in rows:
         print(f"{row['name']:24}{row['pictures_per_second']:7.1f} pictures/s, median {row['median_ms']:.0f} ms, "
-              f"slowest {row['slowest_ms']:.0f} ms")
+              f"slowest {row['slowest_ms']:.0f} ms, {row['frames_per_second']:.1f} frames/s")
 
 
 if __name__ == "__main__":

@@ -181,7 +181,7 @@ class Page:
     def hand(self, x, y, to_x, to_y):
         """A drag between shares of the plot; a click where they are equal."""
         from selenium.webdriver import ActionChains
-        pane = self.driver.find_element("css selector", ".over")
+        pane = self.driver.find_element("css selector", "#panes .over")
         def offset(across, up):
             left, top, wide, high = self.run("[...explorer.basins.panes[0].plane.placeOf(arguments[0], arguments[1]), "
                                              "explorer.basins.panes[0].over.clientWidth, explorer.basins.panes[0].over.clientHeight]",
@@ -234,7 +234,7 @@ def striped():
 def page(driver, striped):
     """A fresh page of stripes, one cell a pixel."""
     driver.get("about:blank")
-    fresh = Page(driver, striped.address() + "#samples=1&quality=moving&middle=hanging")
+    fresh = Page(driver, striped.address() + "#samples=1&quality=moving&middle=hanging&map=off")
     fresh.wait()
     yield fresh
     driver.get("about:blank")  # it asks no more when its server ends

@@ -148,7 +148,10 @@ def test_keys_do_what_hands_do(page):
         page.key(key)
     assert page.window()["theta"]["min"] == pytest.approx(-np.pi)
     _ = page.key("c"), page.key("m")
-    assert page.run("document.querySelectorAll('.pane').length") == 3
+    assert page.run("[document.querySelectorAll('.pane').length, $('map').hidden]") == [2, False]
+    page.key("?")
+    listed = page.run("[...$('keys').querySelectorAll('dt')].map((key) => key.textContent)")
+    assert page.run("$('help').open") and {"n", "w", "space", "Enter", "?"} <= set(listed)
 
 
 def test_dive_goes_to_a_boundary_between_two_starts(page):
@@ -280,18 +283,6 @@ def test_two_values_stand_side_by_side_with_linked_cursors(page):
     assert page.run("document.querySelectorAll('.pane').length") == 1 and "|" not in page.run("$('pointer').textContent")
 
 
-def test_a_click_on_the_chart_sets_the_pendulum(page):
-    page.press("chart")
-    assert wait_for(lambda: page.run("explorer.charts.have?.level") == 1)
-    listed = page.run("[...document.querySelectorAll('.kinds > span')].map((entry) => entry.textContent)")
-    assert listed == ["inverted", "down nodding", "chaotic"]  # every colour of the chart
-    page.run("explorer.charts.pick(0.5, 0.25)")
-    page.wait()
-    assert page.run("[explorer.state.pendulum.k, explorer.state.pendulum.m]") == ["0.125", "0.2625"]
-    page.press("chart")
-    assert page.run("document.querySelectorAll('.chart').length") == 0
-
-
 def test_both_painters_draw_the_same(page, driver, striped):
     page.choose("shade", "settling")
     page.choose("quality", "exact")
@@ -299,7 +290,7 @@ def test_both_painters_draw_the_same(page, driver, striped):
     first = np.array(page.pixels())
     assert page.run("explorer.basins.panes[0].painter.kind") == "webgl"
     driver.get("about:blank")
-    plain = Page(driver, striped.address() + "#samples=1&shade=settling&painter=2d&middle=hanging")
+    plain = Page(driver, striped.address() + "#samples=1&shade=settling&painter=2d&middle=hanging&map=off")
     plain.wait()
     second = np.array(plain.pixels())
     assert plain.run("explorer.basins.panes[0].painter.kind") == "2d" and len(np.unique(second, axis=0)) > 2
@@ -324,6 +315,11 @@ def test_pictures_tables_and_films_are_saved(page, folder):
     assert table["theta_rad"][0] == pytest.approx(-np.pi + 0.7 * TURN, abs=0.01)
     picture = matplotlib.image.imread(page.saved("save-png", folder / "view.png"))
     assert picture.shape[1] > 1500 and picture[..., :3].std() > 0.05
+    page.choose("save-width", "900")
+    (folder / "view.png").unlink()
+    assert matplotlib.image.imread(page.saved("save-png", folder / "view.png")).shape[1] == 900
+    alone = page.saved("save-html", folder / "view.html").read_text()
+    assert alone.count("<button") == 0 and "data:image/png" in alone and "import " not in alone.split("<script>")[1].split("modules[")[0]
     drawing = ElementTree.parse(page.saved("save-svg", folder / "view.svg")).getroot()
     words = [item.text for item in drawing.iter("{http://www.w3.org/2000/svg}text")]
     assert "inverted" in words and len(list(drawing.iter("{http://www.w3.org/2000/svg}image"))) == 1

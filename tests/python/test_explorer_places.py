@@ -1,4 +1,7 @@
-"""Where the explorer's page says that a window lies, and how it finds boundaries, in a real browser over the double of the program."""
+"""Where the explorer's page says that a window lies, how it finds boundaries, its map, sliders, stories and tables, in a real browser over
+the double of the program."""
+
+import re
 
 import numpy as np
 import pytest
@@ -65,3 +68,84 @@ def test_the_wheel_goes_to_boundaries_where_it_is_asked_to(page):
     assert plain == pytest.approx(-np.pi + 0.3 * TURN * (1 - np.exp(-0.22)), abs=0.01)
     page.key("w")
     assert wait_for(lambda: edge() != plain)  # once the picture's labels are there
+
+
+def test_the_point_of_the_map_is_the_pendulum(page):
+    """The double of the program draws charts, and no atlas."""
+    page.press("map-shown")
+    assert wait_for(lambda: "No curves: wrong: no such key" in page.run("document.querySelector('#map .note').textContent"))
+    listed = page.run("[...document.querySelectorAll('.kinds > span')].map((entry) => entry.textContent)")
+    assert listed == ["inverted", "down nodding", "chaotic"]  # every colour of the chart
+    page.run("explorer.map.go([0.75, 0.5])")
+    page.wait()
+    assert page.run("[explorer.state.pendulum.k, explorer.state.pendulum.m]") == ["1", "0.375"]
+    page.run("explorer.map.over.dispatchEvent(new KeyboardEvent('keydown', {key: 'ArrowUp', bubbles: true, cancelable: true}))")
+    assert page.run("[explorer.state.pendulum.m, explorer.map.place[1]]") == ["0.3825", pytest.approx(0.51)]
+    page.press("map-shown")
+    assert page.run("$('map').hidden")
+
+
+ATLAS = """(() => { const curve = { kind: "period_doubling", period: 1, words: "upright rest", name: "inverted", first: 0, points: 2 };
+    const header = { max_period: 2, mirrored: true, cells: 2, points: 2, curves: [curve], lists: [[[0, 1]], [[1, 1]]],
+        classes: [{ name: "inverted", words: "upright rest", symmetric: true }, { name: "flutter", words: "flutter", symmetric: true }] };
+    const bytes = new Uint8Array(42);  // a level line at y = 0.5, below which upright attracts
+    new Float32Array(bytes.buffer, 0, 8).set([0, 1, 0.5, 0.5, 0, 0, -1, -1]);
+    new Uint16Array(bytes.buffer, 32, 4).set([0, 0, 1, 1]);
+    bytes.set([1, 1], 40); return [header, bytes]; })()"""
+
+
+def test_crossing_a_curve_says_what_happens_and_sliders_mark_it(page):
+    script = f"""const done = arguments[0]; Promise.all(["atlas", "happenings", "sliders"].map((name) => import(`/${{name}}.js`)))
+        .then(([atlas, happenings, sliders]) => {{ const map = new atlas.Atlas(...{ATLAS});
+            const axes = [{{name: "q", unit: "", low: 0, high: 10}}, {{name: "a", unit: "mm", low: 0, high: 0.936}}];
+            done([happenings.happening(map, [0.3, 0.2], [0.3, 0.9]), happenings.happening(map, [0.3, 0.9], [0.3, 0.2]),
+                  happenings.happening(map, [0.3, 0.2], [0.6, 0.3]), map.motionsAt([0.1, 0.7])[0].words,
+                  map.nearest([0.2, 0.52], [0.1, 0.1]).name,
+                  sliders.marksOf({{ atlas: map, axes }}, "a", {{q: "5", a: "0.3 mm"}}, "0.3 mm")[0].words]); }})"""
+    up, down, along, there, near, mark = page.driver.execute_async_script(script)
+    assert up == "Flutter is born: upright rest loses its stability by period doubling"
+    assert down == "Upright rest is stable again; flutter ends in it" and along == "" and (there, near) == ("flutter", "inverted")
+    assert mark == "0.468 mm: upright rest, period doubling"
+
+
+def test_sliders_know_their_unit_and_say_what_is_no_number(page):
+    words = "[its.typed('9', '8 mm'), its.typed('1e1 cm', '8 mm'), its.typed('.5', '0.3'), its.typed('x', '0.3')]"
+    assert page.module("sliders.js", words) == ["9 mm", "10 cm", "0.5", None]
+    page.choose("value-m", "much")
+    assert page.run("[$('message-m').textContent, explorer.state.pendulum.m]") == ["much is not a number; write for example 0.3", "0.3"]
+    page.run("$('slider-m').dispatchEvent(new KeyboardEvent('keydown', {key: 'ArrowRight', cancelable: true}))")
+    assert page.run("[$('slider-m').getAttribute('aria-valuetext'), $('message-m').textContent]") == [str(round(0.3 * 4**0.01, 6)), ""]
+    page.run("$('slider-m').dispatchEvent(new MouseEvent('dblclick'))")
+    assert page.run("explorer.state.pendulum.m") == "0.3"
+
+
+def test_stories_are_told_by_keys_and_leave_the_page_as_it_was(page):
+    before = page.run("[explorer.state.pendulum, explorer.state.view]")
+    page.key("s")
+    assert wait_for(lambda: len(page.run("[...$('stories').querySelectorAll('div button')]")) == 6)
+    page.run("$('stories').querySelector('div button').click()")
+    assert page.run("[$('story-place').textContent, explorer.state.pendulum.quality_factor]") == ["1 / 5", "5"]
+    _ = page.key("ArrowRight"), page.key("PageDown")
+    assert page.run("[$('story-place').textContent, explorer.state.view]") == ["3 / 5", "trace"]
+    assert wait_for(lambda: page.run("explorer.state.pendulum.drive_amplitude") == "0.3")  # it went there in steps
+    page.key("PageUp")
+    assert page.run("explorer.state.view") == "pendulum"
+    page.key("Escape")
+    assert page.run("[explorer.state.pendulum, explorer.state.view]") == before and page.run("document.body.dataset.story ?? null") is None
+    page.wait()
+
+
+def test_releases_of_a_table_are_compared(page):
+    text = "theta_deg;velocity;end\\n5.7;0;hanging\\n-17.2;0;flutter\\n28.6;0;upright"
+    page.run(f"""(() => {{ const data = new DataTransfer(); data.items.add(new File(["{text}"], "mine.csv"));
+        $('panes').dispatchEvent(new DragEvent("drop", {{dataTransfer: data, cancelable: true}})); }})()""")
+    assert wait_for(lambda: page.run("$('agreement').textContent").count("agree") == 3)
+    assert page.run("$('agreement').textContent").split("\n")[0].startswith("hanging: ")
+    wrong = page.module("table.js", "(() => { try { its.releasesOf('a,b', null) } catch (error) { return error.message } })()")
+    assert wrong.startswith("a table of releases needs a head")
+    page.choose("spread", "10")
+    page.run("explorer.basins.point(explorer.basins.panes[0], [0.5, 0.5])")
+    shares = [int(share) for share in re.findall(r"(\d+) %", page.run("$('pointer').textContent"))]
+    assert len(shares) > 1 and sum(shares) == pytest.approx(100, abs=2)
+    page.run("$('releases-gone').click()")
+    assert page.run("$('agreement').textContent") == ""

@@ -2,14 +2,17 @@
 
 import { endingWords, Motion, settledAfter } from "./motion.js";
 import { edgeNear } from "./boundary.js";
+import { likelyEnds } from "./experiment.js";
 import { asScene, sharesOf, unlabelled } from "./frames.js";
 import { listen } from "./gestures.js";
 import { listenLegend, passportWords, rowsOf, writeLegend } from "./legend.js";
 import { Pane } from "./pane.js";
 import { Stage } from "./stage.js";
 import { placementOf } from "./placement.js";
+import { isOnBoundary, Skeleton } from "./skeleton.js";
 import { signed } from "./ticks.js";
 import { Units } from "./units.js";
+import { TURN } from "./window.js";
 
 const SECOND = 1.2; // drive periods that a second shows
 const SAMPLES = 48; // of a motion, a drive period
@@ -28,6 +31,7 @@ export class Basins {
     this.states = new Map();
     this.followed = 0;
     this.stage = new Stage(element("pendulum"));
+    this.skeleton = new Skeleton(state, this, (words) => (element("status").textContent = words));
     state.listen((keys) => this.changed(keys));
     listenLegend(element("legend"), state, (key) => this.playAttractor(key));
     requestAnimationFrame((now) => this.tick(now));
@@ -125,6 +129,7 @@ export class Basins {
   click(pane, across, up) {
     const start = this.startAt(across, up);
     if (this.onClick) return this.onClick(pane, start);
+    if (isOnBoundary(pane, across, up)) this.skeleton.toggle(pane);
     this.state.change({ start: { ...start, pane: pane.name } });
   }
 
@@ -151,7 +156,7 @@ export class Basins {
 
   forgetMotion() {
     this.motion = null;
-    for (const pane of this.panes) Object.assign(pane.plain, { motion: null, overlays: this.overlaysOf(pane) });
+    for (const pane of this.panes) Object.assign(pane.plain, { motion: null, overlays: this.overlaysOf(pane), skeleton: null });
     this.awaitMotion();
     this.drawStage();
   }
@@ -197,7 +202,9 @@ export class Basins {
   }
 
   drawStage() {
-    this.stage.draw(this.motion, this.state.view, this.state.colours, this.units);
+    const { pivotFrequency, speed, view, colours } = this.state;
+    const slower = pivotFrequency ? pivotFrequency / (TURN * SECOND * speed) : null;
+    this.stage.draw(this.motion, view, colours, this.units, slower);
   }
 
   writeEnding() {
@@ -211,7 +218,7 @@ export class Basins {
     const seconds = Math.min(0.1, (now - (this.last ?? now)) / 1000);
     this.last = now;
     if (this.motion && this.state.playing) {
-      this.motion.advance(seconds * SECOND);
+      this.motion.advance(seconds * SECOND * this.state.speed);
       this.drawStage();
       for (const pane of this.panes) if (pane.plain.motion) pane.drawAbove();
     }
@@ -226,18 +233,29 @@ export class Basins {
 
   /** Linked cursors; `at`: shares of the window, null where the pointer has left. */
   point(pane, at) {
+    const half = this.spread;
     for (const other of this.panes) {
       other.plain.cursor = other === pane ? null : at;
-      if (this.panes.length > 1) other.draw();
+      other.plain.spread = at && half && [at, half];
+      if (this.panes.length > 1 || half) other.draw();
     }
     this.pointed = at;
     this.writePointed();
   }
 
+  /** Half axes of the spread of releases by hand, in shares of the window: as much in angle (its setting) as in velocity; null = none. */
+  get spread() {
+    const reach = (Number(this.state.spread) * Math.PI) / 180;
+    const { theta, velocity } = this.state.window;
+    const slow = this.state.home.velocity.width / TURN; // an angle counts as the same part of the first window
+    return reach > 0 ? [reach / theta.width, (reach * slow) / velocity.width] : null;
+  }
+
   /** What lies under the pointer, also when other frames come there. */
   writePointed() {
     const at = this.pointed;
-    const words = at ? this.panes.map((each) => wordsAt(each, ...at)).join("  |  ") : "";
+    const wordsOf = (pane) => (this.spread ? likelyWords(pane, at, this.spread) : wordsAt(pane, ...at));
+    const words = at ? this.panes.map(wordsOf).join("  |  ") : "";
     const start = at && this.startAt(...at);
     const place = at && `θ ${brief(this.units.angle(start.theta))}  velocity ${brief(this.units.velocity(start.velocity))}`;
     element("pointer").textContent = at ? signed(`${place}  ${words}`) : "";
@@ -302,6 +320,14 @@ function wordsAt(pane, across, up) {
   const { frame, cell } = found;
   const name = frame.labels[cell] === 255 ? unlabelled(frame) : frame.catalogue.attractors[frame.labels[cell]].name;
   return name + (frame.cells[4 * cell + 2] === 255 ? " (undecided)" : "");
+}
+
+/** How likely each end is for starts about a place. */
+function likelyWords(pane, at, spread) {
+  return likelyEnds(pane, at, spread)
+    .slice(0, 4)
+    .map(([name, share]) => `${name} ${(100 * share).toFixed(0)} %`)
+    .join(", ");
 }
 
 const brief = (text) => (text.length > 26 ? `${text.slice(0, 12)}…${text.slice(-12)}` : text);

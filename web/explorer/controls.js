@@ -2,21 +2,29 @@
 
 import { Dive } from "./dive.js";
 import { ask } from "./engine.js";
+import { Experiment } from "./experiment.js";
 import { Film } from "./film.js";
+import { MotionMap } from "./map.js";
+import { saveHtml } from "./portable.js";
 import { copyText, savePng, saveScene, saveSvg, saveText } from "./save.js";
 import { Sliders } from "./sliders.js";
 import { VIEWS } from "./stage.js";
+import { Stories } from "./stories.js";
 
-const CHOICES = ["quality", "samples", "shade", "units", "theme", "middle"];
+const CHOICES = ["quality", "samples", "shade", "units", "theme", "middle", "spread"];
 const SWITCHES = ["points", "drawn"];
 const element = (id) => document.getElementById(id);
 
-export function listenControls(state, basins, charts) {
-  const film = listenPendulums(state, basins, charts);
+/** Returns the map. */
+export function listenControls(state, basins) {
+  const { film, map } = listenPendulums(state, basins);
   listenWindow(state, basins, film);
   listenChoices(state, basins);
   listenSaving(state, basins);
   listenStage(state, basins);
+  const stories = new Stories(state, basins);
+  new Experiment(state, basins, complain, (file) => guarded(() => stories.open(file))());
+  return map;
 }
 
 /** Tabs of the motion, and buttons that let a part of the page fill it. */
@@ -70,23 +78,30 @@ function listenWindow(state, basins, film) {
   };
 }
 
-function listenPendulums(state, basins, charts) {
+function listenPendulums(state, basins) {
   const key = () => (state.pane === "b" && state.other ? "other" : "pendulum");
-  const set = (name, value) => state.change({ [key()]: { ...state[key()], [name]: value }, jump: false });
-  const sliders = new Sliders(element("sliders"), state.scene, { change: set, say: complain });
-  const show = () => {
-    sliders.show(state[key()]);
+  const setAll = (values) => state.change({ [key()]: { ...state[key()], ...values }, jump: false });
+  const set = (name, value) => setAll({ [name]: value });
+  let sliders = new Sliders(element("sliders"), state.scene, set);
+  const show = (keys) => {
+    if (keys?.has("scene")) {
+      sliders = new Sliders(element("sliders"), state.scene, set);
+      map.rename(sliders.names);
+    }
+    sliders.show(state[key()], state.ground);
+    element("map-shown").setAttribute("aria-pressed", String(state.map === "on"));
     element("compare").setAttribute("aria-pressed", String(Boolean(state.other)));
     element("which").hidden = !state.other;
     for (const button of element("which").children) button.setAttribute("aria-pressed", String(button.dataset.pane === state.pane));
   };
   for (const button of element("which").children) button.onclick = () => state.change({ pane: button.dataset.pane });
   element("compare").onclick = () => state.change(state.other ? { other: null, pane: "a" } : { other: { ...state.pendulum }, pane: "b" });
-  element("chart").onclick = () => charts.toggle(sliders.names, set);
+  element("map-shown").onclick = () => state.change({ map: state.map === "on" ? "off" : "on" });
   const film = new Film(state, basins, sliders.names, set, complain);
+  const map = new MotionMap(state, sliders.names, { set: setAll, say: (words) => (element("happening").textContent = words) });
   state.listen(show);
   show();
-  return film;
+  return { film, map };
 }
 
 function listenChoices(state, basins) {
@@ -100,6 +115,14 @@ function listenChoices(state, basins) {
   for (const name of Object.keys(state.overlays)) element("overlays").append(overlayBox(name, basins));
   state.listen(show);
   show();
+}
+
+/** The width that is asked for, px; 0 where it is that of the screen. */
+function pictureWidth() {
+  const { value } = element("save-width");
+  const width = Number(value);
+  if (value !== "" && !(width >= 300 && width <= 8000)) throw new Error(`${value} is no width of a picture; it must be 300 to 8000 px`);
+  return width;
 }
 
 function overlayBox(name, basins) {
@@ -118,7 +141,8 @@ function overlayBox(name, basins) {
 
 function listenSaving(state, basins) {
   element("save-scene").onclick = guarded(() => saveScene(state, basins.active));
-  element("save-png").onclick = guarded(() => savePng(state, basins));
+  element("save-png").onclick = guarded(() => savePng(state, basins, pictureWidth()));
+  element("save-html").onclick = guarded(() => saveHtml(state, basins));
   element("save-svg").onclick = guarded(() => saveSvg(state, basins));
   element("save-csv").onclick = () => saveText("orbit.csv", basins.motion.toCsv(), "text/csv");
   element("copy").onclick = guarded(() => copyText(JSON.stringify(state.window.toRequest())));

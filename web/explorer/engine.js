@@ -44,10 +44,15 @@ export async function ask(path, body = {}) {
   return (await post(path, body)).json();
 }
 
+/** Each answer, [header, bytes], to a request that the server answers in parts. */
+export async function* stream(path, body, signal) {
+  yield* answersOf((await post(path, body, signal)).body);
+}
+
 /** Splits a stream into [header, bytes] as the program sent them. */
-async function* answersOf(stream) {
+async function* answersOf(body) {
   let buffer = new Uint8Array(0);
-  const reader = stream.getReader();
+  const reader = body.getReader();
   // Reads on until the buffer holds `count` bytes; joined once, so that a large frame is copied once.
   const hold = async (count) => {
     const parts = [buffer];
@@ -94,8 +99,7 @@ export class Engine {
 
   /** Each answer to `request` in turn; throws the program's own words where it refuses. Catalogues are kept, not handed on. */
   async *answers(request, signal) {
-    const stream = (await post(`ask?view=${this.view}`, request, signal)).body;
-    for await (const [header, bytes] of answersOf(stream)) {
+    for await (const [header, bytes] of stream(`ask?view=${this.view}`, request, signal)) {
       if (header.answer === "error") throw new Error(header.message);
       if (header.answer === "catalogue") this.catalogue = header;
       if (header.answer === "catalogue" && request.request !== "catalogue") continue;

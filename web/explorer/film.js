@@ -1,7 +1,7 @@
 // A film: one value of the pendulum moves from a first value to a last. Played on the page, or recorded picture by picture.
 
 import { pictureCanvas, pictureSize, pngOf, saveBlob } from "./save.js";
-import { numberOf, withUnit } from "./sliders.js";
+import { keyWords, numberOf, withUnit } from "./values.js";
 import { zipOf } from "./zip.js";
 
 const MOST = 1000; // pictures
@@ -12,7 +12,7 @@ const pause = (milliseconds) => new Promise((resolve) => setTimeout(resolve, mil
 export class Film {
   constructor(state, basins, names, set, complain) {
     Object.assign(this, { state, basins, set, complain, running: null });
-    for (const name of names) element("film-key").append(new Option(name.replace(/_/g, " "), name));
+    for (const name of names) element("film-key").append(new Option(keyWords(name), name));
     element("film-key").value = names.find((name) => /amplitude|^m$/.test(name)) ?? names[0];
     element("film-key").onchange = () => this.propose();
     element("film-play").onclick = () => this.toggle(() => this.play());

@@ -10,8 +10,8 @@ const FADED = 0.22; // what stays of the colour of a basin while another one is 
 export const HATCHING = 0.25; // how much darker every second stripe of them is
 
 /** The request for a frame that fills a canvas; `samples` x `samples` cells a pixel. */
-export function requestOf(window, pendulum, canvas, { quality, levels, samples, largest, shade }) {
-  const most = quality === "moving" && samples === 1 ? MOST_MOVING : MOST_RESTING;
+export function requestOf(window, pendulum, canvas, { quality, levels, samples, largest, shade, most: allowed }) {
+  const most = allowed ?? (quality === "moving" && samples === 1 ? MOST_MOVING : MOST_RESTING);
   const scale = Math.min(samples, Math.sqrt(most / (canvas.width * canvas.height)), largest / canvas.width, largest / canvas.height);
   const times = [...(quality === "exact" ? ["settling_time"] : []), ...(shade !== "none" ? ["smooth_time"] : [])];
   const planes = ["labels", ...times, ...(quality === "exact" ? ["doubt", "other"] : [])];

@@ -13,8 +13,8 @@ export function zoomOfWheel({ deltaY, deltaMode, ctrlKey }) {
 }
 
 /**
- * What hands do on `canvas`. `target`: holds(x, y); zoom(factor, x, y), move(dx, dy), click(x, y), hover(x, y) or hover(null) in px;
- * grip() and release() at the beginning and the end of a drag.
+ * What hands do on `canvas`. `target`: holds(x, y); zoom(factor, x, y), where it has that; move(dx, dy, x, y), click(x, y), hover(x, y) or
+ * hover(null) in px; grip() and release() at the beginning and the end of a drag.
  */
 export function listen(canvas, target) {
   const fingers = new Map();
@@ -28,7 +28,7 @@ export function listen(canvas, target) {
     "wheel",
     (event) => {
       const [x, y] = placeOf(event);
-      if (!target.holds(x, y)) return;
+      if (!target.zoom || !target.holds(x, y)) return;
       event.preventDefault();
       target.zoom(zoomOfWheel(event), x, y);
     },
@@ -53,8 +53,8 @@ export function listen(canvas, target) {
     if (!dragged && Math.hypot(x - finger.from[0], y - finger.from[1]) < SLOP) return;
     dragged = true;
     Object.assign(finger, { x, y });
-    if (fingers.size === 1) target.move(x - before.x, y - before.y);
-    else pinch(target, [...fingers].filter(([id]) => id !== event.pointerId)[0][1], before, finger);
+    if (fingers.size === 1) target.move(x - before.x, y - before.y, x, y);
+    else if (target.zoom) pinch(target, [...fingers].filter(([id]) => id !== event.pointerId)[0][1], before, finger);
   });
 
   const lift = (event) => {

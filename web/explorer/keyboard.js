@@ -1,42 +1,61 @@
-// Keys: everything that hands do with the mouse.
+// Keys: everything that hands do with the mouse, and the list of them.
 
 const STEP = 1 / 8; // of the window
 const ZOOM = 1.6;
-const press = (id) => document.getElementById(id).click();
+const element = (id) => document.getElementById(id);
+const press = (id) => element(id).click();
 
-export function listenKeys(state, basins) {
-  const move = (x, y) => {
+/** [keys, what they do in words, what they do]; the first of the keys is listed. */
+function actionsOn(state, basins) {
+  const move = (x, y) => () => {
     state.past.push(state.window);
     state.change({ window: state.window.moved(x, y).wrapped(), jump: false });
   };
-  const actions = {
-    ArrowLeft: () => move(-STEP, 0),
-    ArrowRight: () => move(STEP, 0),
-    ArrowUp: () => move(0, STEP),
-    ArrowDown: () => move(0, -STEP),
-    "+": () => basins.zoom(1 / ZOOM),
-    "=": () => basins.zoom(1 / ZOOM),
-    "-": () => basins.zoom(ZOOM),
-    f: () => press(document.body.dataset.filled === "motion" ? "fill-motion" : "fill-basins"),
-    p: () => press("fill-motion"),
-    Enter: () => basins.click(basins.active, 0.5, 0.5),
-    " ": () => press("play"),
-    Escape: () => {
-      for (const id of ["dive", "film-play"]) if (document.getElementById(id).getAttribute("aria-pressed") === "true") press(id);
-      press("cancel");
-    },
-    Backspace: () => press("back"),
-    h: () => press("home"),
-    d: () => press("dive"),
-    n: () => press("nearest"),
-    w: () => press("drawn"),
-    c: () => press("compare"),
-    m: () => press("chart"),
+  const stop = () => {
+    for (const id of ["dive", "film-play"]) if (element(id).getAttribute("aria-pressed") === "true") press(id);
+    press("cancel");
   };
+  return [
+    [["ArrowLeft"], "move left", move(-STEP, 0)],
+    [["ArrowRight"], "move right", move(STEP, 0)],
+    [["ArrowUp"], "move up", move(0, STEP)],
+    [["ArrowDown"], "move down", move(0, -STEP)],
+    [["+", "="], "zoom in", () => basins.zoom(1 / ZOOM)],
+    [["-"], "zoom out", () => basins.zoom(ZOOM)],
+    [["h"], "the first window", () => press("home")],
+    [["Backspace"], "the window before", () => press("back")],
+    [["n"], "go to the nearest boundary", () => press("nearest")],
+    [["w"], "the wheel finds boundaries, or not", () => press("drawn")],
+    [["d"], "dive between two starts", () => press("dive")],
+    [["Enter"], "play the start in the middle", () => basins.click(basins.active, 0.5, 0.5)],
+    [[" "], "play or pause", () => press("play")],
+    [["f"], "the basins fill the page, or not", () => press(document.body.dataset.filled === "motion" ? "fill-motion" : "fill-basins")],
+    [["p"], "the pendulum fills the page, or not", () => press("fill-motion")],
+    [["m"], "show the map, or not", () => press("map-shown")],
+    [["c"], "compare two pendulums, or not", () => press("compare")],
+    [["s"], "tell a story", () => press("tell")],
+    [["Escape"], "stop what runs", stop],
+    [["?"], "this list", () => press("help-shown")],
+  ];
+}
+
+const NAMES = { " ": "space", ArrowLeft: "←", ArrowRight: "→", ArrowUp: "↑", ArrowDown: "↓" };
+
+export function listenKeys(state, basins) {
+  const actions = actionsOn(state, basins);
+  const known = new Map(actions.flatMap(([keys, , action]) => keys.map((key) => [key, action])));
+  element("keys").append(
+    ...actions.flatMap(([[key], words]) => [
+      Object.assign(document.createElement("dt"), { textContent: NAMES[key] ?? key }),
+      Object.assign(document.createElement("dd"), { textContent: words }),
+    ]),
+  );
+  element("help-shown").onclick = () => element("help").showModal();
   addEventListener("keydown", (event) => {
-    const typing = event.target.matches("input, select, textarea, button");
-    const action = actions[event.key];
-    if (!action || event.ctrlKey || event.metaKey || event.altKey || (typing && event.key !== "Escape")) return;
+    const typing = event.target.matches("input, select, textarea, button, summary");
+    const action = known.get(event.key);
+    const taken = event.ctrlKey || event.metaKey || event.altKey || element("help").open;
+    if (!action || taken || (typing && event.key !== "Escape")) return;
     event.preventDefault();
     action();
   });

@@ -17,6 +17,8 @@ export const ORDER = [
   "not settled",
 ];
 
+const MARKED = 4000; // ms
+
 /** Rows of the last frames, by pane: {key, name, colour, shares: [of a, of b]}. */
 export function rowsOf(frames) {
   const rows = new Map();
@@ -44,7 +46,7 @@ export function writeLegend(table, rows) {
   const body = table.tBodies[0];
   const old = new Map([...body.rows].map((line) => [line.dataset.key, line]));
   const lines = rows.map((row) => {
-    const line = old.get(row.key) ?? newLine(row);
+    const line = old.get(row.key) ?? newLine(row, old.size > 0);
     Object.assign(line.dataset, { id: row.id, name: row.name, share: row.shares[0] });
     line.classList.toggle(
       "absent",
@@ -59,8 +61,11 @@ export function writeLegend(table, rows) {
   body.replaceChildren(...lines);
 }
 
-function newLine(row) {
+/** A line; one that comes to others is marked for a moment. */
+function newLine(row, comes) {
   const line = document.createElement("tr");
+  line.classList.toggle("new", comes);
+  setTimeout(() => line.classList.remove("new"), MARKED);
   const patch = document.createElement("span");
   patch.className = "patch";
   line.dataset.key = row.key;

@@ -1,7 +1,6 @@
 // The page: the state, the panes that show it, and what the controls do to it.
 
 import { Basins } from "./basins.js";
-import { Charts } from "./charts.js";
 import { listenControls } from "./controls.js";
 import { neutralFor } from "./drive.js";
 import { ask, signIn } from "./engine.js";
@@ -32,6 +31,8 @@ async function begin() {
     pinned: null,
     playing: true,
     jump: false,
+    ground: null,
+    speed: 1,
   });
   Object.assign(state, remembered(), readAddress(location.hash, { pendulum: scene }));
   state.home = state.whole.centred(state.middle);
@@ -43,11 +44,10 @@ async function begin() {
   keepAddress(state);
   keepMiddle(state);
   const basins = new Basins(state);
-  const charts = new Charts(state);
-  listenControls(state, basins, charts);
+  const map = listenControls(state, basins);
   listenKeys(state, basins);
   basins.show();
-  window.explorer = { state, basins, charts }; // for the browser's console
+  window.explorer = { state, basins, map }; // for the browser's console
 }
 
 /** Numbers as texts; lists and mappings stay. */

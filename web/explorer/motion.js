@@ -97,7 +97,7 @@ export class Motion {
   }
 
   /** The pendulum on its shaker: pivot, rod, bob and the bob's trace. */
-  drawPendulum(surface, width, height, units) {
+  drawPendulum(surface, width, height, units, slower) {
     const { theme } = surface;
     const most = Math.max(...this.pivot.flat().map(Math.abs));
     const rod = Math.min(width, height) / 2 / (1.12 + most);
@@ -115,6 +115,7 @@ export class Motion {
     surface.circle(x, y, Math.max(4, 0.05 * rod), theme.ink, theme.ink);
     surface.circle(...bob(angle, pivot), Math.max(8, 0.12 * rod), theme.mark, theme.paper);
     surface.text(units.omega ? units.time(this.period) : `period ${this.period}`, 6, height - 8, "left", { colour: theme.faint });
+    if (slower) surface.text(`${Number(slower.toPrecision(2))} times slower than life`, 6, height - 26, "left", { colour: theme.faint });
   }
 
   /** Lines of time (drive radians), theta, velocity, the pivot's height and how far it is aside. */

@@ -1,6 +1,7 @@
 // One picture of basins: it asks the program for frames, keeps the last ones, and draws them with axes and marks over them.
 
 import { Engine } from "./engine.js";
+import { drawReleases } from "./experiment.js";
 import { decoded, paletteOf, requestOf, sharesOf } from "./frames.js";
 import { Inset } from "./inset.js";
 import { frameOf, painterOn } from "./painter.js";
@@ -12,6 +13,7 @@ const MOST_FRAMES = 6; // kept under each other while the window moves
 const PATIENCE = 90; // ms after which a frame of a window that is no longer wanted is given up
 const QUIET = 60; // ms in which coarse levels of another pendulum are not shown: the whole frame comes at once
 const REST = 160; // ms without a change, after which labels are made as right and fine as asked for
+const LARGEST = 8192; // cells of a side, of a frame
 const EASE = 0.4; // of the way to the window wanted, a picture of the screen
 const LEAP = 30;
 
@@ -28,7 +30,7 @@ export class Pane {
     this.frames = [];
     this.window = state.window;
     this.version = 0;
-    this.plain = { motion: null, marks: [], cursor: null, overlays: [] };
+    this.plain = { motion: null, marks: [], cursor: null, overlays: [], skeleton: null, releases: [], spread: null };
     this.controller = new AbortController();
     new ResizeObserver(() => this.resized()).observe(root);
   }
@@ -125,9 +127,9 @@ export class Pane {
     this.draw();
   }
 
-  /** A quick frame of any window, of that many cells. */
-  async glance(window, size) {
-    const settings = { quality: "moving", levels: [1], samples: 1, largest: this.painter.largest, shade: "none" };
+  /** A frame of any window, of that many cells; quick unless `quality` and `shade` say otherwise. */
+  async glance(window, size, { quality = "moving", shade = "none", most } = {}) {
+    const settings = { quality, shade, most, levels: [1], samples: 1, largest: LARGEST };
     const request = requestOf(window, this.pendulum, size, settings);
     const [header, bytes] = await this.engine.answer(request, (this.controller = new AbortController()).signal);
     if (header.answer !== "frame") throw new DOMException("another frame was asked for", "AbortError");
@@ -237,16 +239,18 @@ export class Pane {
 
   /** All that lies over the basins, on any surface. */
   drawOver(surface, plane) {
-    const { motion, marks, cursor, overlays } = this.plain;
+    const { motion, marks, cursor, overlays, skeleton, releases, spread } = this.plain;
     surface.clipped(plane.box, () => {
-      for (const { lines = [], points = [] } of overlays) {
+      for (const { lines = [], points = [] } of [...overlays, ...(skeleton ?? [])]) {
         for (const line of lines) drawLine(surface, plane, line, "#000000", 1);
         drawPoints(surface, plane, points, "#ffffff", 3.6, "#000000");
       }
       if (this.state.points === "on" && this.top)
         for (const row of this.top.catalogue.attractors)
           drawPoints(surface, plane, row.strobe, "#1c2127", row.strobe.length > 2 ? 3.2 : 4.6);
+      drawReleases(surface, plane, releases);
       if (motion) motion.drawOver(surface, plane);
+      if (spread) surface.line(ellipse(plane, ...spread), "#ffffff", 2);
       const { theta: angles, velocity: speeds } = plane.window;
       const places = marks.map(([theta, velocity]) => plane.placeOf(angles.shareOf(theta), speeds.shareOf(velocity)));
       if (places.length > 1) surface.line(places, "#b3261e", 2);
@@ -274,6 +278,12 @@ function cellOf(frame) {
 function decidedWords(doubtful) {
   if (doubtful === undefined) return "exact labels";
   return doubtful === 0 ? "every label decided" : `${doubtful} undecided (striped)`;
+}
+
+/** Places of an ellipse about a place, both in shares of the window. */
+function ellipse(plane, [across, up], [wide, high]) {
+  const angles = Array.from({ length: 49 }, (_, i) => (Math.PI * i) / 24);
+  return angles.map((angle) => plane.placeOf(across + wide * Math.cos(angle), up + high * Math.sin(angle)));
 }
 
 function drawCross(surface, plane, [across, up]) {

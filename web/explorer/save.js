@@ -3,12 +3,14 @@
 import { ask } from "./engine.js";
 import { asScene } from "./frames.js";
 import { rowsOf, shareWords } from "./legend.js";
+import { Painter2d } from "./painter2d.js";
 import { Plane } from "./plane.js";
 import { CanvasSurface, LIGHT, SvgSurface } from "./surface.js";
 import { signed } from "./ticks.js";
 
 const LEGEND = 250; // px beside a saved picture
 const HEAD = 28;
+const MOST = 1 << 24; // cells of a frame
 
 export function saveBlob(name, blob) {
   const link = document.createElement("a");
@@ -44,14 +46,14 @@ export function pictureSize(basins) {
   return [wide + LEGEND, basins.panes[0].over.clientHeight + HEAD];
 }
 
-/** All panes beside each other, title above and legend beside, on white. */
-export function drawPicture(surface, state, basins) {
+/** All panes beside each other, title above and legend beside, on white. `pictures`: of the basins, of panes that have another one. */
+export function drawPicture(surface, state, basins, pictures = new Map()) {
   const [width, height] = pictureSize(basins);
   surface.rectangle(0, 0, width, height, LIGHT.paper);
   surface.text(state.title, 66, 20, "left", { size: 15 });
   let left = 0;
   for (const pane of basins.panes) {
-    drawPane(surface, pane, left, basins.captionOf(pane));
+    drawPane(surface, pane, left, basins.captionOf(pane), pictures.get(pane));
     left += pane.over.clientWidth;
   }
   rowsOf(basins.panes.map((pane) => pane.top)).forEach((row, i) => {
@@ -62,26 +64,40 @@ export function drawPicture(surface, state, basins) {
   });
 }
 
-function drawPane(surface, pane, left, caption) {
+function drawPane(surface, pane, left, caption, picture) {
   const plane = new Plane(pane.window, pane.over.clientWidth, pane.over.clientHeight);
   plane.box = [plane.box[0] + left, plane.box[1] + HEAD, plane.box[2], plane.box[3]];
   pane.drawNow(); // the painter's canvas is read in the same turn in which it is drawn
-  surface.image(pane.basins, plane.box);
+  surface.image(picture ?? pane.basins, plane.box);
   pane.drawOver(surface, plane);
   if (caption) surface.text(caption, plane.box[0] + 6, plane.box[1] + 16, "left");
 }
 
-export function pictureCanvas(state, basins, scale = 2) {
+export function pictureCanvas(state, basins, scale = 2, pictures = new Map()) {
   const [width, height] = pictureSize(basins);
   const canvas = Object.assign(document.createElement("canvas"), { width: scale * width, height: scale * height });
   const context = canvas.getContext("2d");
   context.scale(scale, scale);
-  drawPicture(new CanvasSurface(context, LIGHT), state, basins);
+  drawPicture(new CanvasSurface(context, LIGHT), state, basins, pictures);
   return canvas;
 }
 
-export async function savePng(state, basins) {
-  saveBlob("view.png", await pngOf(pictureCanvas(state, basins)));
+/** A picture `width` px wide, whose basins are computed for that size; as large as the screen shows it without `width`. */
+export async function savePng(state, basins, width) {
+  if (!width) return saveBlob("view.png", await pngOf(pictureCanvas(state, basins)));
+  const scale = width / pictureSize(basins)[0];
+  const pictures = new Map();
+  for (const pane of basins.panes) pictures.set(pane, await computed(state, pane, scale));
+  saveBlob("view.png", await pngOf(pictureCanvas(state, basins, scale, pictures)));
+}
+
+/** The basins of a pane, a cell a pixel of a picture that is `scale` times as large as that on the page. */
+async function computed(state, pane, scale) {
+  const [, , wide, high] = pane.plane.box;
+  const canvas = Object.assign(document.createElement("canvas"), { width: Math.round(wide * scale), height: Math.round(high * scale) });
+  const frame = await pane.glance(state.window, canvas, { quality: state.quality, shade: state.shade, most: MOST });
+  new Painter2d(canvas).draw([frame], state.window, state.shade === "settling" ? 0.8 : 0);
+  return canvas;
 }
 
 export function pngOf(canvas) {

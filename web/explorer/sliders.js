@@ -1,19 +1,20 @@
-// A slider and a typed value for every number of the pendulum's mapping.
+// A slider and a typed value for every number of the pendulum's mapping, with marks where the map has curves.
 
 import { formsOf, isNeutral, isOfDrive } from "./drive.js";
+import { shareOf } from "./ground.js";
+import { keyWords, numberOf, withUnit } from "./values.js";
 
-const PARTS = /^\s*([-+]?[\d.]+(?:[eE][-+]?\d+)?)\s*(.*?)\s*$/; // a number and its unit, if it has one
 const REACH = 4; // a slider goes from the scene's value / 4 to its 4-fold, in equal ratios; from 0 to -1 and 1, finer near 0
-
-/** Number and unit of a value as a scene has it ("0.3", "12 Hz"); null where it is none (words, lists). */
-export function numberOf(value) {
-  const match = typeof value === "string" ? PARTS.exec(value) : null;
-  return match && Number.isFinite(Number(match[1])) ? { number: Number(match[1]), unit: match[2] } : null;
-}
-
-export function withUnit(number, unit) {
-  return unit ? `${number} ${unit}` : String(number);
-}
+const STEP = 0.01; // of half a slider, that an arrow or a notch of the wheel goes; with shift ten of them
+const SYMBOLS = {
+  quality_factor: "Q",
+  drive_frequency: "ω/ω₀",
+  drive_amplitude: "ε",
+  damping: "β",
+  torque: "γ",
+  tilt: "rad",
+};
+const LIMITS = { rest_leans: "stands", rest_swings: "flutters" }; // of upright, as marks are called
 
 /** The value at a slider's place, -1 to 1, of a key that the scene gives as `home`. */
 export function valueAt(place, home) {
@@ -23,28 +24,46 @@ export function valueAt(place, home) {
   return withUnit(Number(value.toPrecision(6)), unit);
 }
 
-/** The slider's place of a value. */
-export function placeOf(value, home) {
+/** The slider's place of a value; beyond its ends too where `ends` is false. */
+export function placeOf(value, home, ends = true) {
   const { number } = numberOf(home);
   const at = numberOf(value)?.number ?? number;
-  const place = number === 0 ? Math.cbrt(at) : at / number > 0 ? Math.log(at / number) / Math.log(REACH) : -1;
-  return Math.max(-1, Math.min(1, place));
+  const place = number === 0 ? Math.cbrt(at) : at / number > 0 ? Math.log(at / number) / Math.log(REACH) : -Infinity;
+  return ends ? Math.max(-1, Math.min(1, place)) : place;
 }
 
-/** Fills `holder`; `change(name, text)` hears of each new value, `say(words)` of what is no number. */
+/** What is typed, as a value of a scene: a number alone has the unit that the scene gives; null where it is no number. */
+export function typed(text, home) {
+  const found = numberOf(text.trim());
+  return found && withUnit(found.number, found.unit || numberOf(home).unit);
+}
+
+/** Marks of a slider: {place, words, limit, below: upright is stable beyond it}, where the line through a pendulum's place crosses curves of the map. */
+export function marksOf(ground, name, pendulum, home) {
+  const axis = ground?.axes.findIndex((one) => one.name === name) ?? -1;
+  if (axis < 0) return [];
+  const { low, high, unit } = ground.axes[axis];
+  const ends = [0, 1].map((share) => ground.axes.map((other, i) => (i === axis ? share : shareOf(other, pendulum))));
+  if (!ground.atlas.holds(ends[0]) || !ground.atlas.holds(ends[1])) return [];
+  return ground.atlas.crossed(...ends).flatMap(({ curve, at }) => {
+    const number = Number((low + at * (high - low)).toPrecision(3));
+    const place = placeOf(withUnit(number, unit), home, false);
+    const limit = curve.words.startsWith("upright") ? (LIMITS[curve.kind] ?? null) : null;
+    const words = `${withUnit(number, unit)}: ${curve.words}, ${limit ?? curve.kind.replace("_", " ")}`;
+    return Math.abs(place) < 1 ? [{ place, words, limit: limit && `${limit} ${number}`, below: limit === LIMITS.rest_leans }] : [];
+  });
+}
+
+/** Fills `holder`; `change(name, text)` hears of each new value. */
 export class Sliders {
-  constructor(holder, scene, { change, say }) {
+  constructor(holder, scene, change) {
     this.scene = scene;
     this.rows = new Map();
     this.drive = newDrive(scene);
+    holder.replaceChildren();
     for (const name of Object.keys(scene).filter((key) => numberOf(scene[key]))) {
-      const row = newRow(name);
-      row.range.oninput = () => change(name, valueAt(Number(row.range.value), scene[name]));
-      row.number.onchange = () => {
-        if (numberOf(row.number.value)) change(name, row.number.value.trim());
-        else say(`${name}: ${row.number.value} is not a number`);
-      };
-      row.range.ondblclick = () => change(name, scene[name]);
+      const row = newRow(name, scene[name]);
+      listen(row, name, scene[name], change);
       this.rows.set(name, row);
       (isOfDrive(name) ? this.drive : holder).append(row.element);
     }
@@ -54,12 +73,13 @@ export class Sliders {
 
   /** The list of wave forms. */
   addForms(change) {
-    const { element, range, number } = newRow("waveform");
+    const { element, range, number, marks } = newRow("waveform", "0");
     this.forms = document.createElement("select");
     for (const form of formsOf(this.scene)) this.forms.append(new Option(form, form));
     this.forms.id = number.id;
     this.forms.onchange = () => change("waveform", this.forms.value);
     range.remove();
+    marks.remove();
     number.replaceWith(this.forms);
     this.drive.append(element);
   }
@@ -68,15 +88,45 @@ export class Sliders {
     return [...this.rows.keys()];
   }
 
-  /** Shows the values of a pendulum. */
-  show(pendulum) {
-    for (const [name, { range, number }] of this.rows) {
-      range.value = placeOf(pendulum[name], this.scene[name]);
+  /** Shows the values of a pendulum, and the curves that `ground` (the map's atlas and its axes, or null) has on the way. */
+  show(pendulum, ground) {
+    for (const [name, { range, number, marks, message }] of this.rows) {
+      const home = this.scene[name];
+      range.value = placeOf(pendulum[name], home);
+      range.setAttribute("aria-valuetext", pendulum[name]);
       if (document.activeElement !== number) number.value = pendulum[name];
-      number.title = `the scene has ${this.scene[name]}`;
+      if (message.dataset.of !== pendulum[name]) message.textContent = "";
+      number.title = range.title = `the scene has ${home}; a double click goes there`;
+      marks.replaceChildren(...marksOf(ground, name, pendulum, home).map(newMark));
     }
     if (this.forms) this.forms.value = pendulum.waveform;
   }
+}
+
+function listen({ range, number, message }, name, home, change) {
+  const go = (place) => change(name, valueAt(Math.max(-1, Math.min(1, place)), home));
+  const move = (steps) => go(Number(range.value) + STEP * steps);
+  range.oninput = () => go(Number(range.value));
+  range.ondblclick = () => change(name, home);
+  range.onkeydown = (event) => {
+    const steps = { ArrowRight: 1, ArrowUp: 1, ArrowLeft: -1, ArrowDown: -1 }[event.key];
+    if (!steps) return;
+    event.preventDefault();
+    move(event.shiftKey ? 10 * steps : steps);
+  };
+  const turn = (event) => {
+    if (document.activeElement !== range) return; // else the wheel scrolls
+    event.preventDefault();
+    move(-Math.sign(event.deltaY));
+  };
+  range.addEventListener("wheel", turn, { passive: false });
+  number.onchange = () => {
+    const value = typed(number.value, home);
+    number.setAttribute("aria-invalid", String(!value));
+    message.textContent = value ? "" : `${number.value} is not a number; write for example ${home}`;
+    message.dataset.of = home;
+    if (value) change(name, value);
+  };
 }
 
 /** The part for drives beyond the sine, which is open where the scene has one. */
@@ -89,17 +139,28 @@ function newDrive(scene) {
   return part;
 }
 
-function newRow(name) {
-  const element = document.createElement("div");
-  const label = document.createElement("label");
-  const range = document.createElement("input");
-  const number = document.createElement("input");
+function newMark({ place, words, limit, below }) {
+  const mark = document.createElement("span");
+  mark.title = words;
+  mark.style.setProperty("--share", (1 + place) / 2);
+  if (limit) Object.assign(mark, { className: below ? "limit below" : "limit", textContent: limit });
+  return mark;
+}
+
+function newRow(name, home) {
+  const [element, label, marks, message] = ["div", "label", "div", "p"].map((kind) => document.createElement(kind));
+  const [range, number] = [document.createElement("input"), document.createElement("input")];
   element.className = "slider";
-  label.textContent = name.replace(/_/g, " ");
+  label.textContent = keyWords(name);
   label.htmlFor = number.id = `value-${name}`;
+  const symbol = Object.assign(document.createElement("span"), { className: "symbol", textContent: SYMBOLS[name] ?? numberOf(home).unit });
+  label.append(" ", symbol);
   Object.assign(range, { type: "range", min: -1, max: 1, step: 0.002, value: 0, id: `slider-${name}` });
-  range.setAttribute("aria-label", label.textContent);
+  range.setAttribute("aria-label", keyWords(name));
   Object.assign(number, { type: "text", inputMode: "decimal", autocomplete: "off" });
-  element.append(label, range, number);
-  return { element, range, number };
+  marks.className = "marks";
+  Object.assign(message, { className: "message", id: `message-${name}` }).setAttribute("role", "alert");
+  number.setAttribute("aria-describedby", message.id);
+  element.append(label, range, number, marks, message);
+  return { element, range, number, marks, message };
 }

@@ -14,9 +14,11 @@ export class Stage {
     this.canvas = canvas;
   }
 
-  /** One picture of a motion (null: none yet), in a view of VIEWS. */
-  draw(motion, view, theme, units) {
+  /** One picture of a motion (null: none yet), in a view of VIEWS; `slower`: how many times slower than life it is, or null. */
+  draw(motion, view, theme, units, slower) {
     const { canvas } = this;
+    canvas.classList.toggle("awaits", !motion); // the last picture of another motion stays, pale
+    if (!motion) return;
     const ratio = devicePixelRatio || 1;
     const [width, height] = [canvas.clientWidth, canvas.clientHeight];
     if (canvas.width !== Math.round(width * ratio) || canvas.height !== Math.round(height * ratio))
@@ -24,9 +26,9 @@ export class Stage {
     const context = canvas.getContext("2d");
     context.setTransform(ratio, 0, 0, ratio, 0, 0);
     context.clearRect(0, 0, width, height);
-    if (!motion || width === 0) return;
+    if (width === 0) return;
     const surface = new CanvasSurface(context, theme);
-    if (view === "pendulum") motion.drawPendulum(surface, width, height, units);
+    if (view === "pendulum") motion.drawPendulum(surface, width, height, units, slower);
     else this[view](surface, motion, width, height);
   }
 

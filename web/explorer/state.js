@@ -13,6 +13,8 @@ export const DEFAULTS = {
   middle: "upright",
   drawn: "off",
   view: "pendulum",
+  spread: "0",
+  map: innerWidth >= 1100 ? "on" : "off",
 };
 
 /** The state: change() tells everyone who listens which keys have changed. */

@@ -3,8 +3,8 @@
 const FONT = '"DejaVu Sans", "Helvetica Neue", Arial, sans-serif';
 
 /** Colours of lines and letters. Saved pictures are always on white. */
-export const LIGHT = { paper: "#ffffff", ink: "#1c2127", faint: "#6b747e", trace: "#a9c4df", mark: "#b3261e", shaker: "#dfe4e9" };
-export const DARK = { paper: "#14181d", ink: "#e4e8ec", faint: "#98a2ad", trace: "#3f5f80", mark: "#ff8a7a", shaker: "#2a323b" };
+export const LIGHT = { paper: "#ffffff", ink: "#1c2127", faint: "#6b747e", trace: "#a9c4df", mark: "#b3261e", shaker: "#dfe4e9", cross: "#1c212770" };
+export const DARK = { paper: "#14181d", ink: "#e4e8ec", faint: "#98a2ad", trace: "#3f5f80", mark: "#ff8a7a", shaker: "#2a323b", cross: "#ffffff70" };
 
 export class CanvasSurface {
   constructor(context, theme = LIGHT) {
@@ -16,8 +16,9 @@ export class CanvasSurface {
     this.context.drawImage(canvas, x, y, width, height);
   }
 
-  line(points, colour, width) {
+  line(points, colour, width, dashes = []) {
     const c = this.context;
+    c.setLineDash(dashes);
     c.beginPath();
     points.forEach(([x, y], i) => (i ? c.lineTo(x, y) : c.moveTo(x, y)));
     c.strokeStyle = colour;
@@ -79,9 +80,9 @@ export class SvgSurface {
     );
   }
 
-  line(points, colour, width) {
+  line(points, colour, width, dashes = []) {
     const path = points.map(([x, y]) => `${x.toFixed(2)},${y.toFixed(2)}`).join(" ");
-    this.parts.push(`<polyline fill="none" stroke="${colour}" stroke-width="${width}" points="${path}"/>`);
+    this.parts.push(`<polyline fill="none" stroke="${colour}" stroke-width="${width}" stroke-dasharray="${dashes.join(" ")}" points="${path}"/>`);
   }
 
   circle(x, y, radius, fill, stroke) {

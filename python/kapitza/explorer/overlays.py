@@ -1,8 +1,11 @@
-"""What the groups /saddles and /manifolds of a result bring over the basins."""
+"""What lies over the basins: saddles and manifolds, of a result or of a pendulum that the page asks for."""
 
 import numpy as np
 
+from .scene import BadRequest
+
 OVERLAYS = ("saddles", "manifolds")
+LENGTH = 14  # of each branch: rad and rad per drive radian together
 
 
 def overlays(result):
@@ -14,6 +17,17 @@ def overlays(result):
         table = result.group(group)
         found[group] = {"points": _points(table)} if group == "saddles" else {"lines": _lines(table)}
     return found
+
+
+def skeleton(kept, request):
+    """(header, payload) of each answer: `progress`, then `skeleton` with the overlays of a pendulum: its saddles of one period and their
+    stable manifolds, which are the boundaries, inside of velocities up to `fastest`."""
+    pendulum, fastest = request.get("pendulum"), request.get("fastest")
+    if not isinstance(pendulum, dict) or isinstance(fastest, bool) or not isinstance(fastest, int | float) or not 0 < fastest <= 1000:
+        raise BadRequest("a skeleton needs the mapping pendulum, and fastest: a velocity above 0 and up to 1000")
+    scene = {"pendulum": pendulum, "saddles": {"velocity": {"min": -fastest, "max": fastest}, "max_period": 1},
+             "manifolds": {"kind": "stable", "length": LENGTH, "max_speed": fastest}}
+    return kept.answers(scene, lambda result: ({"overlays": overlays(result)}, b""), answer="skeleton", final=True)
 
 
 def _points(table):

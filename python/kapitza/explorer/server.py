@@ -12,10 +12,13 @@ from kapitza.result import BadFile
 from kapitza.units import written_frequency
 
 from .access import Access
+from .atlas import maps
 from .connections import Door, Gate
-from .overlays import overlays
+from .kept import Kept
+from .overlays import overlays, skeleton
 from .program import Refused, Views
 from .scene import BadRequest, Start
+from .stories import read, written
 
 MOST_BYTES = 65_536  # of a request
 MOST_NAME = 64       # characters of a view's name
@@ -35,6 +38,7 @@ class Explorer:
     def __init__(self, start: Start, program, port=0, origins=(), frames=()):
         words, descriptors = start.words()
         self.start, self.views = start, Views([str(program), "serve", *words], descriptors)
+        self.kept = Kept(program, start.tree.get("numerics"))
         self.files = {path.name: path.read_bytes() for path in page_folder().iterdir() if path.suffix in KINDS}
         self.access, self.frames = Access(origins), tuple(frames)
         try:
@@ -66,6 +70,7 @@ class Explorer:
 
     def close(self):
         """Ends every program and every connection."""
+        self.kept.close()
         self.views.close()
         for door in self._doors:
             door.shutdown()
@@ -110,12 +115,20 @@ def link(explorer, request):
     return {"once": explorer.access.new_address()}
 
 
-ANSWERS = {"state": state, "scene": scene, "link": link}
+def stories(explorer, request):
+    """The stories that come with the page; that of a text where there is one."""
+    if "text" not in request:
+        return {"stories": written(page_folder() / "stories")}
+    return {"stories": [read(str(request["text"]), str(request.get("name", "the story")))]}
+
+
+ANSWERS = {"state": state, "scene": scene, "link": link, "stories": stories}
+RUNS = {"atlas": maps, "skeleton": skeleton}  # what takes longer: each takes the kept runs and the request, and gives answers in parts
 
 
 class Handler(BaseHTTPRequestHandler):
-    """GET: the page's files. POST: `token` and `close`, which bring their token in the body; `ask?view=NAME`, whose answers are passed on;
-    and what ANSWERS holds."""
+    """GET: the page's files. POST: `token` and `close`, which bring their token in the body; `ask?view=NAME` and what RUNS holds, whose
+    answers are passed on as they come; and what ANSWERS holds."""
 
     explorer: Explorer
     protocol_version = "HTTP/1.1"
@@ -184,22 +197,29 @@ class Handler(BaseHTTPRequestHandler):
     def _answer(self, name, query):
         request = self._request()
         if name == "ask" and query.startswith("view=") and len(query) <= MOST_NAME:
-            self._pass_on(query.removeprefix("view="), request)
+            self._pass_on(self._asked(query.removeprefix("view="), request))
+        elif name in RUNS:
+            self._pass_on(RUNS[name](self.explorer.kept, request))
         elif name in ANSWERS:
             self._send_json(200, ANSWERS[name](self.explorer, request))
         else:
             self._refuse(404, "no such request")
 
-    def _pass_on(self, view, request):
-        """The program's answers, each as a chunk: header, line feed, bytes."""
+    def _asked(self, view, request):
         self.explorer.views.rename(FIRST, view)
-        answers = self.explorer.views.answers(view, request)
+        return self.explorer.views.answers(view, request)
+
+    def _pass_on(self, answers):
+        """Answers, each as a chunk: header, line feed, bytes. What goes wrong after the first one is the last."""
         try:
             first = next(answers)
             self._begin(200, {"Content-Type": "application/octet-stream", "Transfer-Encoding": "chunked"})
             self._chunk(*first)
-            for answer in answers:
-                self._chunk(*answer)
+            try:
+                for answer in answers:
+                    self._chunk(*answer)
+            except Refused as error:
+                self._chunk({"answer": "error", "final": True, "bytes": 0, "status": 2, "message": str(error)}, b"")
             self.wfile.write(b"0\r\n\r\n")
         finally:
             answers.close()

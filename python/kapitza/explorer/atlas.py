@@ -1,0 +1,60 @@
+"""Maps of the explorer: atlases over two keys of a pendulum."""
+
+import numpy as np
+
+from kapitza import style
+from kapitza.plots.atlas import centre_of
+from kapitza.plots.atlas_labels import motion_text
+
+from .scene import BadRequest
+
+# A map comes soon, and then with more: cycles of more periods, gaps between the curves looked for, finer cells.
+STAGES = ({"max_period": 2, "checks": 0, "points": 160}, {"max_period": 4, "checks": 60, "points": 400})
+
+
+def maps(kept, request):
+    """(header, payload) of each answer: `progress` while the program computes, `atlas` for each stage. `kept`: runs of the explorer."""
+    axes = {axis: request.get(axis) for axis in ("x", "y")}
+    if any(not isinstance(value, dict) for value in (*axes.values(), request.get("pendulum"))):
+        raise BadRequest("a map needs the mappings pendulum, x and y")
+    scenes = [{"pendulum": request["pendulum"], "atlas": {**axes, **stage}} for stage in STAGES]
+    for scene in scenes:
+        if scene is scenes[-1] or not kept.has(scenes[-1]):
+            yield from kept.answers(scene, lambda result: packed(result.group("atlas")), answer="atlas", final=scene is scenes[-1])
+
+
+def packed(atlas):
+    """An atlas as the page takes it: a header, and bytes: x, y, side_x, side_y of all points (float32; places are shares of the plane), the
+    number of the list of every cell (uint16), whether the cycle that branches off attracts (uint8)."""
+    low, width = zip(*(_edges(atlas[name].values) for name in ("column", "row")), strict=True)
+    numbers, cells = np.unique(atlas["list"].values, return_inverse=True)
+    attracting = atlas["attracting"].values.reshape(atlas.sizes["class"], -1)
+    first = {int(number): int(np.argmax(atlas["list"].values.ravel() == number)) for number in numbers}
+    lists = [[[int(row), int(attracting[row, first[int(number)]])] for row in np.flatnonzero(attracting[:, first[int(number)]])]
+             for number in numbers]
+    header = {
+        "max_period": int(atlas.attrs["max_period"]), "mirrored": bool(atlas.attrs["mirrored"]), "cells": atlas.sizes["row"],
+        "points": atlas.sizes["point"], "curves": [_curve(atlas, i) for i in range(atlas.sizes["curve"])],
+        "classes": [_motion(atlas, i) for i in range(atlas.sizes["class"])], "lists": lists}
+    places = [(atlas[name].values - low[i]) / width[i] for i, name in enumerate("xy")]
+    floats = np.array([*places, atlas["side_x"].values, atlas["side_y"].values], dtype="<f4")
+    return header, floats.tobytes() + cells.astype("<u2").tobytes() + atlas["supercritical"].values.astype("u1").tobytes()
+
+
+def _edges(middles):
+    """Lower edge and width of an axis of cells."""
+    step = middles[1] - middles[0]
+    return middles[0] - step / 2, step * len(middles)
+
+
+def _curve(atlas, i):
+    name = style.name_text(atlas["curve_name"].values[i]).rpartition(": ")[0]
+    kinds = ("fold", "period_doubling", "symmetry_breaking", "rest_swings", "rest_leans")
+    return {"kind": kinds[int(atlas["curve_kind"][i])], "period": int(atlas["curve_period"][i]), "words": motion_text(name),
+            "first": int(atlas["curve_first"][i]), "points": int(atlas["curve_points"][i]), "name": name}
+
+
+def _motion(atlas, i):
+    name, period = style.name_text(atlas["class_name"].values[i]), int(atlas["class_period"][i])
+    colour = style.motion_colour(period, int(atlas["class_winding"][i]), centre_of(atlas, i))
+    return {"name": name, "words": motion_text(name), "period": period, "symmetric": bool(atlas["class_symmetric"][i]), "colour": colour}

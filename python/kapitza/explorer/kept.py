@@ -1,0 +1,93 @@
+"""Runs that the page asks for: computed in the background, and kept for the next time."""
+
+import hashlib
+import json
+import os
+import subprocess
+import tempfile
+from contextlib import suppress
+from pathlib import Path
+
+from kapitza.program import environment
+from kapitza.result import Result
+
+from .program import Refused, plain
+
+PATIENCE = 0.2   # seconds between two words on the progress; a page that has gone is noticed by them
+MOST_KEPT = 100  # results; the oldest go first
+CALM = 5         # of its nice value: the pictures of the page go first
+
+
+class Kept:
+    """Those of one explorer. `program`: the executable; `numerics`: of its scene, or None; `folder`: None = in the user's cache."""
+
+    def __init__(self, program, numerics=None, folder=None):
+        self._program, self._folder = Path(program), folder
+        self._common = {"numerics": numerics} if numerics else {}
+        self._running = set()
+
+    def has(self, scene):
+        """Whether the result of a scene is there."""
+        return self._place(scene).exists()
+
+    def answers(self, scene, make, **more):
+        """(header, payload) of each answer: `progress` while the program computes, then what `make` makes of the result, with the keys
+        `more`. Refused, with the program's words, where it cannot compute it."""
+        path = self._place(scene)
+        if not path.exists():
+            for _ in self._run(scene, path):
+                yield {"answer": "progress", "final": False, "bytes": 0}, b""
+        header, payload = make(Result(path))
+        yield header | {"bytes": len(payload)} | more, payload
+
+    def close(self):
+        """Ends what is being computed."""
+        for process in list(self._running):
+            process.kill()
+
+    def _text(self, scene):
+        return json.dumps(self._common | scene, sort_keys=True)
+
+    def _place(self, scene):
+        """Where the result of a scene is kept: that of another program, or of another scene, has another place."""
+        program = self._program.stat()
+        name = hashlib.sha256(f"{program.st_size} {program.st_mtime_ns} {self._text(scene)}".encode()).hexdigest()
+        return self._results() / f"{name[:32]}.h5"
+
+    def _results(self):
+        """The folder of the results; one that ends with this process where nothing can be written to the cache."""
+        if self._folder is None:
+            self._folder = Path(os.environ.get("XDG_CACHE_HOME") or Path.home() / ".cache") / "kapitza"
+            try:
+                self._folder.mkdir(parents=True, exist_ok=True)
+                tempfile.TemporaryFile(dir=self._folder).close()
+            except OSError:
+                self._temporary = tempfile.TemporaryDirectory(prefix="kapitza-view-")
+                self._folder = Path(self._temporary.name)
+        return self._folder
+
+    def _run(self, scene, path):
+        """Computes a result; yields now and then."""
+        with tempfile.TemporaryDirectory(dir=path.parent) as folder:
+            made, words, errors = (Path(folder) / name for name in ("result.h5", "scene", "errors"))
+            words.write_text(self._text(scene))
+            with words.open() as given, errors.open("w") as said:
+                process = subprocess.Popen([str(self._program), "run", "-", "-o", str(made), "--progress", "never"], stdin=given,
+                                           stdout=subprocess.DEVNULL, stderr=said, env=environment(), start_new_session=True)
+            self._running.add(process)
+            try:
+                os.setpriority(os.PRIO_PROCESS, process.pid, CALM)
+                while process.poll() is None:
+                    yield
+                    with suppress(subprocess.TimeoutExpired):
+                        process.wait(PATIENCE)
+            finally:
+                process.kill()
+                process.wait()
+                self._running.discard(process)
+            if process.returncode != 0:
+                raise Refused(plain((errors.read_text().strip().splitlines() or ["it could not be computed"])[-1]))
+            os.replace(made, path)
+        kept = sorted(path.parent.glob("*.h5"), key=lambda file: file.stat().st_mtime)
+        for old in kept[:-MOST_KEPT]:
+            old.unlink(missing_ok=True)

@@ -1,0 +1,71 @@
+"""What the explorer computes in the background and keeps, and the stories that it tells."""
+
+import numpy as np
+import pytest
+import yaml
+from conftest import PROGRAM, ROOT
+from kapitza.explorer import atlas, overlays, stories
+from kapitza.explorer.kept import Kept
+from kapitza.explorer.program import Refused
+from kapitza.explorer.scene import BadRequest
+
+PENDULUM = {"quality_factor": 5, "drive_frequency": 11, "drive_amplitude": 0.3}
+PLANE = {"x": {"parameter": "drive_frequency", "min": 8, "max": 14}, "y": {"parameter": "drive_amplitude", "min": 0, "max": 0.6}}
+
+
+@pytest.fixture
+def kept(tmp_path):
+    return Kept(PROGRAM, folder=tmp_path)
+
+
+def test_a_map_is_computed_once_and_has_the_limits_of_rest(kept, monkeypatch):
+    monkeypatch.setattr(atlas, "STAGES", ({"max_period": 1, "checks": 0, "points": 24},))
+    first = list(atlas.maps(kept, {"pendulum": PENDULUM, **PLANE}))
+    assert [header["answer"] for header, _ in first[:-1]] == ["progress"] * (len(first) - 1) and len(first) > 1
+    again = list(atlas.maps(kept, {"pendulum": PENDULUM, **PLANE}))
+    assert again == first[-1:] and again[0][0]["final"]
+    header, payload = again[0]
+    assert len(payload) == header["bytes"] == 17 * header["points"] + 2 * header["cells"] ** 2
+    x, y = np.frombuffer(payload, "<f4", 2 * header["points"]).reshape(2, -1)
+    limits = {curve["kind"]: np.interp(0.5, *sorted_by_x(x, y, curve)) * 0.6 for curve in header["curves"] if curve["name"] == "inverted"}
+    assert limits["rest_leans"] == pytest.approx(0.129, abs=1e-3) and limits["rest_swings"] == pytest.approx(0.468, abs=1e-3)
+
+
+def sorted_by_x(x, y, curve):
+    part = slice(curve["first"], curve["first"] + curve["points"])
+    order = np.argsort(x[part])
+    return x[part][order], y[part][order]
+
+
+def test_what_cannot_be_computed_is_refused_in_the_programs_words(kept):
+    with pytest.raises(Refused, match="damping"):
+        list(atlas.maps(kept, {"pendulum": {"k": 0.1, "damping": 0, "m": 0.3},
+                               "x": {"parameter": "k", "min": 0, "max": 1}, "y": {"parameter": "m", "min": 0, "max": 1}}))
+    with pytest.raises(BadRequest, match="pendulum, x and y"):
+        list(atlas.maps(kept, {"pendulum": PENDULUM}))
+    with pytest.raises(BadRequest, match="fastest"):
+        overlays.skeleton(kept, {"pendulum": PENDULUM, "fastest": -1})
+
+
+def test_a_boundary_has_saddles_and_lines(kept, monkeypatch):
+    monkeypatch.setattr(overlays, "LENGTH", 0.5)
+    header, _ = list(overlays.skeleton(kept, {"pendulum": PENDULUM, "fastest": 2}))[-1]
+    assert header["final"] and header["overlays"]["saddles"]["points"] and header["overlays"]["manifolds"]["lines"]
+
+
+def test_the_stories_that_come_with_the_page_can_be_told():
+    told = stories.written(ROOT / "web" / "explorer" / "stories")
+    assert len(told) == 6 and all(len(story["steps"]) > 3 for story in told)
+    assert told[-1]["pivot_frequency"] == pytest.approx(100 * np.pi) and told[0]["pivot_frequency"] is None
+
+
+@pytest.mark.parametrize(("change", "words"), [
+    ("title: [", "mine.yaml:2: is not YAML"), ("steps: [{view: trace}]", "mine.yaml: step 1: say: is missing"),
+    ("steps: [{say: a, view: side}]", "step 1: view: side is unknown"), ("steps: [{say: a, start: {theta: 1}}]", "step 1: start"),
+    ("steps: [{say: a, pendulum: {m: 1}}]", r"step 1: pendulum.m: the story's own"), ("steps: [{say: a, map: on}]", "map: True is not"),
+    ("color: red", "color: unknown key; known are title"), ("steps: all", "steps: all is not")])
+def test_a_story_that_is_wrong_is_refused_with_its_place(change, words):
+    right = {"title": "a", "pendulum": {"k": 0.1}, "steps": [{"say": "a"}]}
+    text = change + "\n" if "[" in change and change.endswith("[") else yaml.safe_dump(right | yaml.safe_load(change))
+    with pytest.raises(BadRequest, match=words):
+        stories.read(text, "mine.yaml")

@@ -1,0 +1,42 @@
+// What happens to the motions where a way over the map crosses curves, in words.
+
+/** A sentence on the way from one place of an atlas to another; "" where nothing happens. */
+export function happening(atlas, from, to) {
+  const crossings = atlas.crossed(from, to);
+  if (!crossings.length) return "";
+  const [first, ...others] = crossings.sort((one, other) => one.curve.period - other.curve.period);
+  const change = changed(atlas, ...beside(first, from, to, 1.5 / atlas.cells));
+  return capital(sentence(atlas, first, change)) + (others.length ? ` (${others.length} more)` : "");
+}
+
+/** Places before and behind a crossing of a way, so far from it. */
+function beside({ at }, from, to, reach) {
+  const way = [to[0] - from[0], to[1] - from[1]];
+  const share = reach / Math.hypot(...way);
+  return [at - share, at + share].map((part) => way.map((step, i) => Math.max(0, Math.min(1, from[i] + part * step))));
+}
+
+/** Words of the motions that a place has more, and less, than another. */
+function changed(atlas, from, to) {
+  const [before, after] = [from, to].map((place) => new Map(atlas.motionsAt(place).map(({ words, count }) => [words, count])));
+  const more = (one, other) => [...one.keys()].filter((words) => one.get(words) > (other.get(words) ?? 0));
+  return { born: more(after, before), gone: more(before, after) };
+}
+
+function sentence(atlas, { curve, point, into }, { born, gone }) {
+  const { words, kind } = curve;
+  const others = (list) => list.filter((name) => name !== words).join(" and ");
+  const child = others(into ? gone : born);
+  const attracts = atlas.supercritical[point] === 1;
+  if (kind === "fold") return into ? `${words} is born: a stable and an unstable motion part (fold)` : `${words} ends: it meets an unstable motion (fold)`;
+  if (kind === "rest_leans") {
+    if (into) return `${words} becomes stable`;
+    return `${words} is no longer stable: the pendulum leans to a side${child ? ` (${child})` : ""}`;
+  }
+  const way = kind === "symmetry_breaking" ? "by losing its symmetry" : "by period doubling";
+  if (into) return attracts ? `${words} is stable again${child ? `; ${child} ends in it` : ""}` : `${words} becomes stable`;
+  if (!attracts) return `${words} loses its stability ${way}: nothing near it takes over`;
+  return child ? `${child} is born: ${words} loses its stability ${way}` : `${words} loses its stability ${way}`;
+}
+
+const capital = (text) => text.charAt(0).toUpperCase() + text.slice(1);

@@ -1,0 +1,290 @@
+// The map: a plane of two keys of the pendulum, its curves, and the point of the pendulum, which hands move.
+
+import { countPicture, kindPicture } from "./backdrop.js";
+import { Decimal } from "./decimal.js";
+import { Engine } from "./engine.js";
+import { listen } from "./gestures.js";
+import { atlases, axisAround, charts, shareOf, usualKeys, valueAt } from "./ground.js";
+import { happening } from "./happenings.js";
+import { drawAxes, Plane } from "./plane.js";
+import { CanvasSurface } from "./surface.js";
+import { keyWords } from "./values.js";
+import { Range } from "./window.js";
+
+const FIRST = 300; // ms in which basins begin
+const REST = 900; // ms without a change of other keys, after which the map is made anew
+const REACH = 7; // px within which a curve is named
+const STEP = 0.01; // of the map that an arrow moves the point
+const DASHES = { fold: [], period_doubling: [6, 3], symmetry_breaking: [2, 2], rest_swings: [6, 3], rest_leans: [2, 2] };
+const element = (id) => document.getElementById(id);
+
+/** Takes all answers, until nobody wants them; what went wrong, or null. */
+async function taken(answers, take, signal) {
+  try {
+    for await (const answer of answers) {
+      if (signal.aborted) return null;
+      take(answer);
+    }
+    return null;
+  } catch (error) {
+    return error;
+  }
+}
+
+export class MotionMap {
+  /** `set(values)` gives the pendulum other values; `say(words)` hears what happens on the way. */
+  constructor(state, names, { set, say }) {
+    Object.assign(this, { state, set, say, root: element("map"), atlas: null, picture: null });
+    this.engine = new Engine("chart");
+    this.over = this.root.querySelector(".over");
+    this.ground = this.root.querySelector(".ground");
+    this.bubble = this.root.querySelector(".bubble");
+    this.lists = [...this.root.querySelectorAll("select")];
+    for (const list of this.lists) list.onchange = () => this.choose(...this.lists.map(({ value }) => value));
+    listen(this.over, this.hands());
+    this.over.addEventListener("keydown", (event) => this.arrow(event));
+    new ResizeObserver(() => this.draw()).observe(this.root);
+    state.listen((keys) => this.changed(keys));
+    this.rename(names);
+  }
+
+  /** Other keys may be chosen: another scene is shown. */
+  rename(names) {
+    this.names = names;
+    for (const list of this.lists) list.replaceChildren(...names.map((name) => new Option(keyWords(name), name)));
+    this.forget();
+    this.show();
+  }
+
+  get isOpen() {
+    return this.state.map === "on" && this.names.length > 1;
+  }
+
+  /** The pendulum that the sliders move. */
+  get pendulum() {
+    return (this.state.pane === "b" && this.state.other) || this.state.pendulum;
+  }
+
+  /** Where it lies on the plane. */
+  get place() {
+    return this.axes.map((axis) => shareOf(axis, this.pendulum));
+  }
+
+  get isInside() {
+    return this.place.every((share) => share >= 0 && share <= 1);
+  }
+
+  show() {
+    this.root.hidden = !this.isOpen;
+    if (this.isOpen && !this.axes) this.choose(...usualKeys(this.names));
+    else if (!this.isOpen) this.forget();
+  }
+
+  forget() {
+    this.controller?.abort();
+    if (this.axes) this.engine.close();
+    Object.assign(this, { axes: null, atlas: null, picture: null });
+  }
+
+  /** Another plane, about the pendulum's values. */
+  choose(along, up) {
+    if (along === up) return this.note("The map needs two different values.");
+    [this.lists[0].value, this.lists[1].value] = [along, up];
+    this.axes = [along, up].map((name) => axisAround(name, this.pendulum));
+    Object.assign(this, { atlas: null, picture: null });
+    this.askSoon(FIRST);
+  }
+
+  note(words) {
+    this.root.querySelector(".note").textContent = words;
+  }
+
+  /** What the map depends on beside its axes. */
+  get others() {
+    const [x, y] = this.axes.map(({ name }) => name);
+    return JSON.stringify({ ...this.pendulum, [x]: null, [y]: null });
+  }
+
+  async ask() {
+    this.controller?.abort();
+    const { signal } = (this.controller = new AbortController());
+    this.asked = this.others;
+    Object.assign(this, { atlas: null, from: null });
+    this.note("drawing the map …");
+    this.say("");
+    this.state.change({ ground: null });
+    const chart = (answer) => {
+      this.chart = answer;
+      if (!this.atlas) this.paint();
+    };
+    const atlas = (found) => {
+      this.atlas = found;
+      this.paint();
+      this.note(`motions of up to ${found.longest} drive periods`);
+      this.state.change({ ground: { atlas: found, axes: this.axes } });
+    };
+    const ways = [
+      [atlases(this.axes, this.pendulum, signal), atlas],
+      [charts(this.engine, this.axes, this.pendulum, signal), chart],
+    ];
+    const [failure] = await Promise.all(ways.map(([answers, take]) => taken(answers, take, signal)));
+    if (failure && !signal.aborted) this.note(`No curves: ${failure.message}`);
+  }
+
+  changed(keys) {
+    if (keys.has("map")) this.show();
+    if (!this.isOpen || !this.axes) return;
+    if (keys.has("colours") && (this.chart || this.atlas)) this.paint();
+    if (!["pendulum", "other", "pane"].some((key) => keys.has(key))) return;
+    this.drawPoint();
+    if (this.others !== this.asked || !this.isInside) return this.askSoon();
+    this.tell();
+  }
+
+  /** The other values have changed: the map is pale until it is made anew. */
+  askSoon(delay = REST) {
+    this.root.classList.add("stale");
+    clearTimeout(this.timer);
+    this.timer = setTimeout(() => {
+      if (!this.isOpen) return;
+      if (!this.isInside) this.choose(...this.axes.map(({ name }) => name));
+      else if (!this.picture || this.others !== this.asked) this.ask();
+    }, delay);
+  }
+
+  /** What has happened on the way to the present place. */
+  tell() {
+    const { place } = this;
+    if (this.atlas && this.from && this.atlas.holds(place)) {
+      const words = happening(this.atlas, this.from, place);
+      if (words) this.say(words);
+    }
+    this.from = this.atlas?.holds(place) ? place : null;
+  }
+
+  // ---- hands ----
+
+  hands() {
+    const share = (x, y) => this.plane.sharesOf(x, y).map((value) => Math.max(0, Math.min(1, value)));
+    return {
+      holds: (x, y) => Boolean(this.axes) && this.plane.holds(x, y),
+      move: (dx, dy, x, y) => this.go(share(x, y)),
+      click: (x, y) => this.go(share(x, y)),
+      hover: (at) => this.point(at),
+      grip: () => {},
+      release: () => {},
+    };
+  }
+
+  /** Moves the pendulum to a place. */
+  go(place) {
+    this.set(Object.fromEntries(this.axes.map((axis, i) => [axis.name, valueAt(axis, place[i])])));
+  }
+
+  arrow(event) {
+    const steps = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] };
+    if (!(event.key in steps) || !this.axes) return;
+    event.preventDefault();
+    event.stopPropagation();
+    const step = event.shiftKey ? 10 * STEP : STEP;
+    this.go(this.place.map((share, i) => Math.max(0, Math.min(1, share + step * steps[event.key][i]))));
+  }
+
+  /** Names the motions that live under the pointer, and a curve that is near it. */
+  point(at) {
+    this.bubble.hidden = !(at && this.atlas);
+    if (this.bubble.hidden) return;
+    const place = this.plane.sharesOf(...at);
+    const [, , width, height] = this.plane.box;
+    const curve = this.atlas.nearest(place, [REACH / width, REACH / height]);
+    const motions = this.atlas.motionsAt(place);
+    const number = this.atlas.countOf(this.atlas.listAt(place));
+    const title = document.createElement("strong");
+    title.textContent = curve ? `${curve.words}: ${curve.kind.replace("_", " ")}` : `${number} motion${number === 1 ? "" : "s"} here`;
+    const lines = motions.map(({ words, colour, count }) => {
+      const line = document.createElement("span");
+      const patch = Object.assign(document.createElement("span"), { className: "patch" });
+      patch.style.background = colour;
+      line.append(patch, words + (count > 1 ? ` (${count})` : ""));
+      return line;
+    });
+    this.bubble.replaceChildren(title, ...lines);
+    const side = at[0] > this.over.clientWidth / 2;
+    Object.assign(this.bubble.style, {
+      left: side ? "auto" : `${at[0] + 14}px`,
+      right: side ? `${this.over.clientWidth - at[0] + 14}px` : "auto",
+      top: `${Math.max(0, Math.min(at[1] - 20, this.over.clientHeight - 30 - 19 * lines.length))}px`,
+    });
+  }
+
+  // ---- pictures ----
+
+  get plane() {
+    const [theta, velocity] = this.axes.map(({ low, high }) => new Range(Decimal.from(low), Decimal.from(high)));
+    return new Plane({ theta, velocity }, this.over.clientWidth, this.over.clientHeight);
+  }
+
+  /** What changes seldom: shades, curves, axes. */
+  paint() {
+    this.root.classList.remove("stale");
+    const theme = document.documentElement.dataset.theme;
+    this.picture = this.atlas ? countPicture(this.atlas, theme) : kindPicture(...this.chart, this.state.kinds);
+    this.root.querySelector(".kinds").replaceChildren(
+      ...this.picture.kinds.map(([words, colour]) => {
+        const entry = document.createElement("span");
+        const patch = Object.assign(document.createElement("span"), { className: "patch" });
+        patch.style.background = colour;
+        entry.append(patch, words);
+        return entry;
+      }),
+    );
+    this.draw();
+  }
+
+  surfaceOn(canvas) {
+    const ratio = devicePixelRatio || 1;
+    const [width, height] = [canvas.clientWidth, canvas.clientHeight];
+    Object.assign(canvas, { width: Math.round(width * ratio), height: Math.round(height * ratio) });
+    const context = canvas.getContext("2d");
+    context.setTransform(ratio, 0, 0, ratio, 0, 0);
+    context.imageSmoothingEnabled = false;
+    return new CanvasSurface(context, this.state.colours);
+  }
+
+  draw() {
+    if (!this.axes || !this.isOpen) return;
+    const surface = this.surfaceOn(this.ground);
+    const { plane } = this;
+    surface.clipped(plane.box, () => {
+      if (this.picture) surface.image(this.picture.canvas, plane.box);
+      for (const curve of this.atlas?.curves ?? []) this.drawCurve(surface, plane, curve);
+    });
+    const words = ({ name, unit }) => ({ words: keyWords(name) + (unit ? ` (${unit})` : "") });
+    drawAxes(surface, plane, { theta: words(this.axes[0]), velocity: words(this.axes[1]) });
+    this.drawPoint();
+  }
+
+  drawCurve(surface, plane, { kind, name, first, points }) {
+    const line = Array.from({ length: points }, (_, i) => plane.placeOf(this.atlas.x[first + i], this.atlas.y[first + i]));
+    const rest = kind.startsWith("rest");
+    const colour = rest ? surface.theme.ink : this.colourOf(name, surface);
+    surface.line(line, colour, rest ? 2 : 1.2, DASHES[kind]);
+  }
+
+  colourOf(name, surface) {
+    return this.atlas.classes.find((motion) => motion.name === name)?.colour ?? surface.theme.faint;
+  }
+
+  drawPoint() {
+    if (!this.axes) return;
+    const surface = this.surfaceOn(this.over);
+    const { plane, place } = this;
+    if (!this.isInside) return;
+    const [x, y] = plane.placeOf(...place);
+    const [left, top, width, height] = plane.box;
+    surface.line([[left, y], [left + width, y]], surface.theme.cross, 1);
+    surface.line([[x, top], [x, top + height]], surface.theme.cross, 1);
+    surface.circle(x, y, 9, "#1c2127", "#ffffff");
+    surface.circle(x, y, 5, "#f2b233", "#ffffff");
+  }
+}
