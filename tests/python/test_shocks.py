@@ -2,6 +2,7 @@
 
 import json
 import os
+import re
 
 import numpy as np
 import pytest
@@ -86,6 +87,16 @@ def test_shocks_are_mirrored_and_agree_with_each_other(fig11):
     assert np.all(harmless[size > 0.05][:, 0] == 1) and np.all(harmless >= 0) and np.all(harmless <= 1)
     assert np.all(harmless[size < 0.5][:, 1] < 1)
     assert "smallest shocks that leave the basin" in summary
+
+
+def test_a_laboratory_reads_kicks_in_rad_per_second(kapitza, tmp_path):
+    scene = {"pendulum": {"length": "20 cm", "frequency": "12.26 Hz", "amplitude": "3 cm", "quality_factor": 5},
+             "basin": {"theta": {"count": 20}, "velocity": {"min": -2, "max": 2, "count": 20}, "shocks": {"sizes": [0.1]}}}
+    result, summary = run(kapitza, tmp_path, scene, ranks=1)
+    kicks = np.abs(result.group("shocks", si=True)["kick"].values)
+    said = re.findall(r"^ +\d+ +\S+ -> \d+ +([\d.]+) -> ", summary.split("velocity, rad/s")[1], re.MULTILINE)
+    assert said and [float(one) for one in said] == pytest.approx([kicks[result.group("shocks")["attractor"] == row].min() for row in
+                                                                   dict.fromkeys(result.group("shocks")["attractor"].values)], abs=2e-8)
 
 
 def test_a_thin_tongue_before_the_boundary(kapitza, tmp_path):

@@ -36,8 +36,9 @@ static kz_status write_harmless(const kz_resilience_plan *plan, int64_t n, const
   return KZ_OK;
 }
 
-/* The smallest of each kind over the strobe points of an attractor. */
-static void print_attractor(const kz_catalogue *catalogue, int64_t number, int64_t n, const kz_resilience *p, FILE *summary) {
+/* The smallest of each kind over the strobe points of an attractor; `speed`: what one rad per drive radian is in the summary. */
+static void print_attractor(const kz_catalogue *catalogue, int64_t number, int64_t n, const kz_resilience *p, double speed,
+                            FILE *summary) {
   const kz_shock *least[KINDS] = {0};
   for (int64_t i = 0; i < n; i++)
     for (int kind = 0; p[i].number == number && kind < KINDS; kind++)
@@ -46,15 +47,16 @@ static void print_attractor(const kz_catalogue *catalogue, int64_t number, int64
   fprintf(summary, "%4d ", (int)catalogue->id_of[number]);
   for (int kind = 0; kind < KINDS; kind++) {
     if (least[kind])
-      fprintf(summary, " %12.8f -> %-3d", least[kind]->size, (int)id_of(catalogue, least[kind]));
+      fprintf(summary, " %12.8f -> %-3d", least[kind]->size * (kind == 1 ? speed : 1), (int)id_of(catalogue, least[kind]));
     else
       fprintf(summary, "            none   ");
   }
   fprintf(summary, "\n");
 }
 
+/* `omega`: of the pivot, rad/s, in which the summary is then; NaN where the scene is not in SI units. */
 static kz_status write_shocks(const kz_resilience_plan *plan, const kz_catalogue *catalogue, int64_t n,
-                              const kz_resilience *point, kz_store *store, FILE *summary) {
+                              const kz_resilience *point, double omega, kz_store *store, FILE *summary) {
   KZ_TRY(kz_store_dimension(store, "shocks", "point", n, NULL));
   KZ_TRY(kz_store_dimension(store, "shocks", "size", plan->sizes.count, plan->sizes.values));
   KZ_TRY(kz_store_real(store, "shocks", "scale", plan->scale));
@@ -62,10 +64,10 @@ static kz_status write_shocks(const kz_resilience_plan *plan, const kz_catalogue
   KZ_TRY(write_harmless(plan, n, point, store));
   fprintf(summary,
           "smallest shocks that leave the basin, and the id where they lead:\n"
-          "  id      angle, rad       velocity, rad/drive rad   both (scale %g)\n",
-          plan->scale);
+          "  id      angle, rad       velocity, %-14s  both (scale %g)\n",
+          isnan(omega) ? "rad/drive rad" : "rad/s", plan->scale);
   for (int64_t i = 0; i < n; i++)
-    if (point[i].phase == 0) print_attractor(catalogue, point[i].number, n, point, summary);
+    if (point[i].phase == 0) print_attractor(catalogue, point[i].number, n, point, isnan(omega) ? 1 : omega, summary);
   return KZ_OK;
 }
 
@@ -80,7 +82,8 @@ kz_status kz_shocks_find_all(const kz_scene *scene, const kz_window_labels *labe
   if (!plan->has_shocks) return KZ_OK;
   kz_resilience *point = kz_resilience_list(labelling->dynamics, catalogue, &n);
   kz_status status = kz_resilience_run(labelling->run, labelling->dynamics, &asked, n, point);
-  if (status == KZ_OK && store) status = write_shocks(&asked, catalogue, n, point, store, summary);
+  if (status == KZ_OK && store)
+    status = write_shocks(&asked, catalogue, n, point, scene->parameters.pivot_frequency, store, summary);
   free(point);
   return kz_ranks_agree(labelling->run->ranks, status);
 }
