@@ -38,8 +38,8 @@ def main(*kind: str) -> None:
     if words[:1] in (["-h"], ["--help"]):
         print(USAGE)
         return
-    kind_meant = words[1:2] and not words[1].startswith("-") or words[:1] and words[0].startswith("-")
-    if not words or (words[0] not in KINDS and kind_meant):
+    is_file = [word.startswith("-") for word in words[:2]] in ([False], [False, True])  # FILE [options]
+    if not words or (words[0] not in KINDS and not is_file):
         print(USAGE, file=sys.stderr)
         sys.exit(2)
     run_apart(lambda: _draw(words))

@@ -35,6 +35,23 @@ def test_links_lead_to_files(page):
     assert not [link for link in links if not (page.parent / link).exists()]
 
 
+FOLDERS = "tests|scripts|src|include|docs|benchmarks|packaging|python|scenes|web|cmake"
+
+
+def test_pages_name_only_what_exists():
+    """Paths, tests in Python and names for `ctest -R`. Words in capitals stand for names."""
+    tests = [path for path in (ROOT / "tests").rglob("*") if path.suffix in (".c", ".cmake")]
+    known = "".join(path.read_text() for path in tests if path.suffix == ".cmake") + " ".join(path.stem for path in tests)
+    missing = []
+    for page in (ROOT / "README.md", ROOT / "CONTRIBUTING.md", *PAGES):
+        text = page.read_text()
+        paths = re.findall(rf"(?<![\w./<-])((?:{FOLDERS})/[\w./*-]*\w)", text)
+        paths += [f"tests/python/{name}" for name in re.findall(r"(?<![/\w])test_\w+\.py", text)]
+        missing += [(page.name, name) for name in paths if not re.search(r"[A-Z]{4}", name) and not list(ROOT.glob(name))]
+        missing += [(page.name, name) for name in re.findall(r"ctest -R ([\w.]+)", text) if name.rsplit(".")[-1] not in known]
+    assert missing == []
+
+
 @pytest.fixture
 def site(tmp_path):
     """The folder of the site, made without a warning."""
