@@ -36,7 +36,8 @@ falls = ends[ends["name"] != "inverted"]
 print(f"It stands {falls['velocity'].iloc[0] - pushes[1]:.4f} and falls at {falls['velocity'].iloc[0]:.4f}, onto {falls['name'].iloc[0]}.")
 
 # %% [markdown]
-# The smallest shock in any direction, and where it leads, is `basin: {shocks: {scale: 0.5}}` in a scene ([skeleton.md](../skeleton.md)).
+# The smallest shock in any direction, and where it leads, is `basin: {shocks: {scale: 0.5}}` in a scene
+# ([how far to the edge](../explanation/shocks.md)).
 
 # %% [markdown]
 # Where a release near the upright position ends, over frequency and amplitude of the drive.
