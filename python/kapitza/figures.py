@@ -4,10 +4,14 @@ A row is a scene, named after the paper and its figure (docs/explanation/theory.
 """
 
 _Row = tuple[str, str, list[str]]
-PRINT = ["--width", "178mm", "--font-size", "8", "--dpi", "300"]  # two columns of a journal
+_LETTERS = ["--font-size", "8", "--dpi", "300"]
+PAGE, COLUMN = ["--width", "178mm", *_LETTERS], ["--width", "86mm", *_LETTERS]  # two columns of a journal, and one
 _BASIN: _Row = ("", "basin", ["--centre", "inverted"])
 _ZOOM: _Row = ("", "basin", [])
 _INVERTED: _Row = ("-inverted", "basin", ["--centre", "inverted", "--attractor", "inverted"])
+_TIMES: _Row = ("-settling-time", "basin", ["--centre", "inverted", "--quantity", "settling_time"])
+_ALIKE = "What ends alike at all 12 phases of release"
+_COMMON: _Row = ("-common", "basin", ["--centre", "inverted", "--quantity", "common", "--title", _ALIKE])
 _FLUTTER: _Row = ("-flutter", "basin", ["--centre", "inverted", "--attractor", "flutter"])
 _SADDLES: _Row = ("", "basin", ["--centre", "inverted", "--saddles"])
 _MANIFOLDS: _Row = ("", "basin", ["--centre", "inverted", "--saddles", "--manifolds"])
@@ -16,6 +20,7 @@ _ORBIT: _Row = ("", "orbit", [])
 _PHASE: _Row = ("", "orbit", ["--panels", "phase,path"])
 _TIME: _Row = ("", "orbit", ["--panels", "time"])
 _SWEEP: _Row = ("", "sweep", [])
+_UP: _Row = ("", "sweep", ["--view", "up"])
 _BRANCHES: _Row = ("-branches", "sweep", ["--view", "branches"])
 _CHART: _Row = ("", "stability", [])
 _GROWTH: _Row = ("", "stability", ["--view", "growth"])
@@ -37,7 +42,7 @@ _SCENES = {
     "atlas-blackburn": [_ATLAS, _MOTIONS, _LINE, _BLACKBURN],
     "atlas-butikov": [_ATLAS, _BUTIKOV],
     "atlas-tilted": [_ATLAS],
-    "bifurcation": [_SWEEP],
+    "bifurcation": [_UP],
     "blackburn-fig02": [_GROWTH],
     "blackburn-fig03": [_CHART],
     "blackburn-fig04": [_FREQUENCY],
@@ -54,7 +59,7 @@ _SCENES = {
     "blackburn-fig09d": [_PHASE],
     "blackburn-fig10": [_SWEEP],
     "blackburn-fig11": [_BASIN, _INVERTED],
-    "blackburn-fig12": [_BASIN, _INVERTED],
+    "blackburn-fig12": [_BASIN, _INVERTED, _TIMES],
     "blackburn-fig13": [_BASIN, _INVERTED],
     "blackburn-fig14": [_BASIN, _FLUTTER],
     "blackburn-fig15": [_BASIN, _FLUTTER],
@@ -89,7 +94,7 @@ _SCENES = {
     "small": [_BASIN],
     "square-chart": [_CHART],
     "square-wave": [_BASIN],
-    "start-phase": [_BASIN],
+    "start-phase": [_BASIN, _COMMON],
     "tilted": [_BASIN],
     "tradeoff-fig11": [_TRADE],
     "tradeoff-fig12": [_TRADE],
@@ -102,5 +107,16 @@ _SCENES = {
     "zoom-fig12": [_ZOOM],
 }
 
+# Figures that stand side by side on the pages.
+_NARROW = {"blackburn-fig04-dots", "blackburn-fig06-omega11", "square-wave", "tilted", "start-phase",
+           "start-phase-common", "tradeoff-fig12", "tradeoff-fig13"}
+
 # (name, scene, kind, options); a scene is run once for all its figures.
-FIGURES = [(scene + suffix, scene, kind, [*options, *PRINT]) for scene, rows in _SCENES.items() for suffix, kind, options in rows]
+FIGURES = [(scene + suffix, scene, kind, [*options, *(COLUMN if scene + suffix in _NARROW else PAGE)])
+           for scene, rows in _SCENES.items() for suffix, kind, options in rows]
+
+# Name -> (page of docs/tutorials, result that its commands make, kind, options).
+TUTORIALS = {
+    "tutorial-first": ("first-basin", "first.h5", "basin", ["--centre", "inverted", *PAGE]),
+    "tutorial-mine": ("my-pendulum", "eight.h5", "basin", ["--centre", "inverted", "--si", "--degrees", *PAGE]),
+}

@@ -2,11 +2,9 @@
 
 import hashlib
 import html
-import os
 import re
 import shutil
 from contextlib import chdir
-from pathlib import Path
 
 import h5py
 import numpy as np
@@ -95,6 +93,3 @@ def test_it_opens_in_a_browser_from_the_file_system(report, tmp_path):
         widths = driver.execute_script("return [...document.images].map((image) => image.complete && image.naturalWidth)")
         assert len(widths) == 2 and all(width > 500 for width in widths) and "small look" in driver.title
         assert [entry for entry in driver.get_log("browser") if entry["level"] == "SEVERE" and "favicon" not in entry["message"]] == []
-        if folder := os.environ.get("KAPITZA_SCREENSHOTS"):
-            driver.execute_script("document.images[1].parentElement.remove()")
-            driver.save_screenshot(str(Path(folder) / "report.png"))

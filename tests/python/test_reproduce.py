@@ -10,7 +10,7 @@ import numpy as np
 import reproduce
 from conftest import PROGRAM, ROOT
 from kapitza.command import KINDS
-from kapitza.figures import FIGURES, PRINT
+from kapitza.figures import COLUMN, FIGURES, PAGE
 from papers import butikov
 from papers.number import FAILED, Number
 from papers.page import write_page
@@ -30,7 +30,7 @@ def test_names_are_used_once_and_kinds_exist():
 
 
 def test_every_figure_has_one_style_and_keeps_its_colours_as_it_shrinks(tmp_path):
-    assert all(options[-len(PRINT):] == PRINT and options.count("--dpi") == 1 for _, _, _, options in FIGURES)
+    assert all(options[-len(PAGE):] in (PAGE, COLUMN) and options.count("--dpi") == 1 for _, _, _, options in FIGURES)
     path = tmp_path / "a.png"
     noise = np.random.default_rng(1).integers(0, 2, (200, 200, 3), dtype=np.uint8) * np.array([240, 9, 77], dtype=np.uint8)
     Image.fromarray(noise).save(path, dpi=(300, 300))

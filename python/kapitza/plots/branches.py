@@ -11,7 +11,7 @@ from matplotlib.patches import Patch
 
 from kapitza import style
 
-NAMED = 0.004  # branches whose share is smaller everywhere are drawn as one band
+NAMED = 0.02  # branches whose share is smaller everywhere are drawn as one band
 # Code of what happens at an end of a branch -> its mark and name.
 ENDS = {1: ("|", "fold"), 2: ("D", "period doubling"), 3: ("*", "Neimark-Sacker"), 4: ("s", "symmetry breaking"), 5: ("x", "not located")}
 SYMBOLS = {"quality_factor": "Q", "drive_frequency": r"$\Omega$", "drive_amplitude": r"$\epsilon$", "damping": r"$\beta$"}
@@ -101,9 +101,10 @@ def _entries(sweep: xarray.Dataset, colours: Sequence[str], branches: Iterable[i
 
 
 def draw_lives(axes: Axes, sweep: xarray.Dataset, *, colours: Sequence[str] | None = None, legend: bool = True,
-               names: bool = False) -> Axes:
-    """A line from birth to death of each branch, with what happens there; `names`: each branch's name beside it."""
-    colours, order = colours or branch_colours(sweep), stack_order(sweep)
+               names: bool = False, only: Sequence[int] | None = None) -> Axes:
+    """A line from birth to death of each branch, with what happens there; `names`: each branch's name beside it; `only`: of these
+    branches, in this order."""
+    colours, order = colours or branch_colours(sweep), stack_order(sweep) if only is None else list(only)
     start, end = sweep["branch_start"].values, sweep["branch_end"].values
     for row, branch in enumerate(order):
         axes.plot([start[branch], end[branch]], [row, row], color=colours[branch], lw=2.2, solid_capstyle="butt")
@@ -111,10 +112,11 @@ def draw_lives(axes: Axes, sweep: xarray.Dataset, *, colours: Sequence[str] | No
             code = int(sweep[kind].values[branch])
             if code in ENDS:
                 axes.plot(place[branch], row, ENDS[code][0], color=style.INK, markersize=3.4, markeredgewidth=0.9, zorder=3)
-    seen = {int(code) for kind in ("branch_start_kind", "branch_end_kind") for code in sweep[kind].values}
+    seen = {int(code) for kind in ("branch_start_kind", "branch_end_kind") for code in sweep[kind].values[order]}
     if legend:
-        axes.legend(handles=[Line2D([], [], ls="", marker=ENDS[code][0], color=style.INK, markersize=4, label=ENDS[code][1])
-                             for code in sorted(seen & ENDS.keys())], loc="upper left", bbox_to_anchor=(1, 1), borderaxespad=0.4)
+        marks = [Line2D([], [], ls="", marker=ENDS[code][0], color=style.INK, markersize=4, label=ENDS[code][1])
+                 for code in sorted(seen & ENDS.keys())]
+        axes.legend(handles=marks, loc="upper left", bbox_to_anchor=(1, 1), borderaxespad=0.4, fontsize="small")
     axes.set(xlabel=parameter_text(sweep), ylabel="branches", yticks=[], ylim=(-1, len(order)))
     if names:
         ids = style.names_with_ids(sweep["branch_name"].values)

@@ -55,7 +55,8 @@ def draw_ends(axes: Axes, chart: xarray.Dataset, *, colours: Mapping[str, str] |
     if legend:
         known = style.KINDS | dict(colours or {})
         patches = [Patch(facecolor=known.get(name, style.UNSETTLED), edgecolor=style.FAINT, label=name) for name in names]
-        axes.legend(handles=patches, loc="upper left", bbox_to_anchor=(1.01, 1), fontsize="small")
+        axes.legend(handles=patches, loc="upper left", bbox_to_anchor=(1.01, 1), fontsize="small", title="paler: longer periods",
+                    title_fontsize="small", alignment="left")
     return axes
 
 

@@ -8,7 +8,7 @@ from pathlib import Path
 from matplotlib.figure import Figure
 
 from kapitza import style
-from kapitza.plots.page import SEPARATOR, Picture, add_page_options, drawing, lay_out, new_figure, page_of
+from kapitza.plots.page import SEPARATOR, Picture, add_page_options, current, drawing, lay_out, new_figure, page_of
 from kapitza.plots.strokes import scale_strokes
 from kapitza.result import BadFile, Result
 
@@ -76,8 +76,9 @@ def title_text(result: Result) -> str:
 
 
 def entitle(figure: Figure, result: Result, *parts: str) -> None:
-    """The scene's title above the figure, the parts that are not empty below it."""
-    heading = figure.suptitle(title_text(result), x=0.01, ha="left", fontsize="large", fontweight="bold", parse_math=False)
+    """The title that the page asks for, else the scene's, above the figure; the parts that are not empty below it."""
+    title = current().heading or title_text(result)
+    heading = figure.suptitle(title, x=0.01, ha="left", fontsize="large", fontweight="bold", parse_math=False)
     footer = figure.supxlabel(SEPARATOR.join(filter(None, parts)), x=0.01, ha="left", fontsize="small", color=style.FAINT)
     if isinstance(figure, Picture):
         figure.heading, figure.footer = heading, footer

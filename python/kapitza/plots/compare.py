@@ -73,7 +73,7 @@ def comparison_panels(comparison: Comparison, centre: str, si: bool = False) -> 
         axes.set_xlabel("")
     _write_both(panels[-1], comparison)
     entitle(figure, comparison.first, "shares of the starts: first → second")
-    if comparison.first.title != comparison.second.title and figure.heading:
+    if comparison.first.title != comparison.second.title and figure.heading and not current().heading:
         figure.heading.set_text(f"{title_text(comparison.first)} → {title_text(comparison.second)}")
     return figure
 

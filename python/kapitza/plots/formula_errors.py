@@ -57,7 +57,7 @@ def error_figure(chart: xarray.Dataset) -> Figure:
     if not errors_of(chart):
         raise BadFile("this view needs curves by formulas together with the exact curves; add both to stability.curves")
     narrow = current().narrow
-    figure = new_figure(6.4, 14) if narrow else new_figure(12.5, 6.4)
+    figure = new_figure(6.4, 14) if narrow else new_figure(12.5, 11)
     left, right = figure.subplots(2, 1, height_ratios=[2, 1]) if narrow else figure.subplots(1, 2, width_ratios=[3, 2])
     draw_error_rows(left, chart)
     draw_error_curves(right, chart)

@@ -31,12 +31,13 @@ SEPARATOR = "   |   "  # between the parts of the line under a picture
 @dataclass(frozen=True)
 class Page:
     """`width` in inches, None = that of each kind of picture; `font_size` in points; `legend`: one of LEGENDS; `colours`: name of an
-    attractor or kind of motion -> colour."""
+    attractor or kind of motion -> colour; `heading`: instead of the scene's title."""
 
     width: float | None = None
     font_size: float = style.FONT_SIZE
     legend: str = "right"
     title: bool = True
+    heading: str | None = None
     colours: dict[str, str] = field(default_factory=dict)
 
     @property
@@ -101,12 +102,13 @@ def add_page_options(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--legend", choices=LEGENDS, help=f"where it stands (default: right; below on pages under {NARROW:g} in)")
     parser.add_argument("--colours", type=colour_file, metavar="FILE", default={},
                         help='YAML file of "name of an attractor or kind of motion: colour"')
+    parser.add_argument("--title", metavar="TEXT", help="instead of the scene's title")
     parser.add_argument("--no-title", action="store_true", help="neither title nor parameters")
 
 
 def page_of(arguments: argparse.Namespace) -> Page:
     """The page that the options ask for."""
-    page = Page(arguments.width, arguments.font_size, "none", not arguments.no_title, arguments.colours)
+    page = Page(arguments.width, arguments.font_size, "none", not arguments.no_title, arguments.title, arguments.colours)
     if getattr(arguments, "no_legend", False):
         return page
     return replace(page, legend=arguments.legend or ("below" if page.narrow else "right"))

@@ -111,12 +111,12 @@ def strobe_range(sweep: xarray.Dataset) -> tuple[float, float]:
 
 
 def fractions_figure(sweep: xarray.Dataset) -> Figure:
-    """Shares of the starts; under them the life of every branch."""
-    figure = new_figure(8.6, 8.2)
+    """Shares of the starts; under them the lives of the branches that the legend names."""
+    figure, named = new_figure(8.6, 8.2), named_branches(sweep)
     top, bottom = figure.subplots(2, 1, sharex=True, height_ratios=[3, 2])
-    colours = branch_colours(sweep, named_branches(sweep))
+    colours = branch_colours(sweep, named)
     draw_shares(top, sweep, colours=colours)
-    draw_lives(bottom, sweep, colours=colours)
+    draw_lives(bottom, sweep, colours=colours, only=named)
     top.set_xlabel("")
     return figure
 
@@ -166,6 +166,13 @@ def strobe_figure(sweep: xarray.Dataset) -> Figure:
     return figure
 
 
+def up_figure(sweep: xarray.Dataset) -> Figure:
+    """The walk up alone."""
+    figure = new_figure(8.6, 4.2)
+    draw_strobe(figure.subplots(), sweep, legend=False)
+    return figure
+
+
 # name, a variable that it needs, what makes its page
 VIEWS: list[tuple[str, str, Callable[[xarray.Dataset], Figure]]] = [
     ("fractions", "fraction", fractions_figure),
@@ -175,6 +182,7 @@ VIEWS: list[tuple[str, str, Callable[[xarray.Dataset], Figure]]] = [
     ("zone", "flutter_onset", zone_figure),
     ("releases", "release_stays", releases_figure),
     ("strobe", "strobe_theta", strobe_figure),
+    ("up", "strobe_theta", up_figure),
 ]
 
 
@@ -194,6 +202,8 @@ def fixed_text(result: Result, sweep: xarray.Dataset) -> str:
     if result.pivot_frequency:
         return ",  ".join(text for name, text in si_parameters(result.pendulum).items() if name != swept.removeprefix("pivot_"))
     names = {"quality_factor": "Q", "drive_frequency": r"$\Omega$", "drive_amplitude": r"$\epsilon$"}
+    if not result.pendulum.get("drive_amplitude", np.nan):  # a pivot at rest, under a torque
+        names = {"k": "k", "beta": r"$\beta$"}
     kept = [f"{symbol} = {result.pendulum[name]:.6g}" for name, symbol in names.items()
             if name != swept and np.isfinite(result.pendulum.get(name, np.nan))]
     if "flutter_onset" in sweep:
