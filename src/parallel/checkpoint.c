@@ -8,7 +8,6 @@
 #include "checkpoint.h"
 #include "ranks.h"
 
-
 const char *kz_checkpoint_saved(const kz_checkpoint *checkpoint) {
   return checkpoint && checkpoint->ours && kz_header_is_marked(checkpoint) ? checkpoint->path : NULL;
 }

@@ -46,6 +46,13 @@ def pytest_configure(config):
     hypothesis.settings.load_profile("patient")
 
 
+def pytest_collection_modifyitems(items):
+    """What takes long waits for KAPITZA_EXTENSIVE=1."""
+    for item in items:
+        if item.get_closest_marker("extensive") and not os.environ.get("KAPITZA_EXTENSIVE"):
+            item.add_marker(pytest.mark.skip(reason="extensive: KAPITZA_EXTENSIVE=1"))
+
+
 def attractor_name(period, winding, centre):
     """The contract's name of a periodic attractor."""
     if centre == 2:

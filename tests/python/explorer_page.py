@@ -99,8 +99,8 @@ def browser(folder, size):
         pytest.skip("chromium or chromedriver is not installed: the explorer is not tested in a browser")
     options = webdriver.ChromeOptions()
     options.binary_location = chromium
-    for word in ("headless=new", "no-sandbox", "disable-dev-shm-usage", "disable-gpu", "enable-unsafe-swiftshader", "force-prefers-reduced-motion", f"window-size={size}",
-                 f"user-data-dir={folder / 'profile'}"):
+    for word in ("headless=new", "no-sandbox", "disable-dev-shm-usage", "disable-gpu", "enable-unsafe-swiftshader",
+                 "force-prefers-reduced-motion", f"window-size={size}", f"user-data-dir={folder / 'profile'}"):
         options.add_argument(f"--{word}")
     options.add_experimental_option("prefs", {
         "download.default_directory": str(folder), "profile.default_content_setting_values.automatic_downloads": 1})

@@ -9,8 +9,9 @@ from conftest import ROOT
 
 ELSEWHERE = {"cluster", "how-hard", "lesson"}  # run by test_cluster.py, test_tutorial.py; no commands
 PAGES = [ROOT / "README.md", *sorted((ROOT / "docs").glob("howto/*.md")), *sorted((ROOT / "docs").glob("tutorials/*.md"))]
-LONG = set() if os.environ.get("KAPITZA_EXTENSIVE") else {"questions"}  # two minutes: KAPITZA_EXTENSIVE=1
-PAGES = [page for page in PAGES if page.stem not in ELSEWHERE | LONG]
+LONG = {"film", "ion-trap", "map", "my-pendulum", "paper", "questions", "shaker"}  # ten seconds and more each
+PAGES = [pytest.param(page, marks=[pytest.mark.extensive] * (page.stem in LONG), id=page.stem)
+         for page in PAGES if page.stem not in ELSEWHERE]
 
 
 def blocks(page):
@@ -26,7 +27,7 @@ def clone(tmp_path):
     return tmp_path
 
 
-@pytest.mark.parametrize("page", PAGES, ids=lambda page: page.stem)
+@pytest.mark.parametrize("page", PAGES)
 def test_the_commands_of_a_page_work(clone, page):
     settings = os.environ | {"PYTHONPATH": str(ROOT / "python"), "KAPITZA": str(ROOT / "build" / "kapitza"), "MPLBACKEND": "agg"}
     texts = blocks(page)

@@ -31,6 +31,7 @@ def fractal(kapitza, tmp_path_factory):
     return *run(kapitza, folder, scene(0.47)), folder / "s.yaml"
 
 
+@pytest.mark.extensive
 def test_a_fractal_boundary(fractal):
     """The exponent is small over all decades, and is 2 less the dimension; every share is inside its interval and falls."""
     result, summary, _ = fractal

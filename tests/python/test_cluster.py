@@ -68,10 +68,9 @@ def test_a_run_that_is_killed_on_one_host_is_resumed_on_both(tmp_path, alone_lar
     assert datasets(tmp_path / "small.h5") == alone_large
 
 
-EXTENSIVE = pytest.mark.skipif(not os.environ.get("KAPITZA_EXTENSIVE"), reason="takes half a minute: KAPITZA_EXTENSIVE=1")
 
 
-@EXTENSIVE
+@pytest.mark.extensive
 def test_a_host_that_stands_still_for_a_while_changes_nothing(tmp_path, alone_large):
     done = run("two_hosts", tmp_path, *HOSTS, *rank_1("kill -STOP $$; touch stood; sleep 3; kill -CONT $$"), PROGRAM, "run", SMALL, *LARGE)
     assert done.returncode == 0 and (tmp_path / "stood").exists(), done.stderr
@@ -99,7 +98,7 @@ scontrol show job 1"""
     assert datasets(tmp_path / "small.h5") == alone_large
 
 
-@EXTENSIVE
+@pytest.mark.extensive
 def test_a_job_array_over_a_parameter(tmp_path):
     few = ["--set", "basin.theta.count=20", "--set", "basin.velocity.count=20", "--set", "basin.attractors.starts=64"]
     words = [*SUBMIT, "--wait", "--array=0-1", BATCH, SMALL, *DIRECT, *few]
@@ -148,7 +147,7 @@ def test_an_array_without_its_values_is_refused_in_words(sweep, message):
     assert done.returncode != 0 and message in done.stderr, done.stderr
 
 
-@EXTENSIVE
+@pytest.mark.extensive
 def test_the_apptainer_build_has_all_its_files(tmp_path):
     """Its steps on the files that it copies, for the instruction set that it names; no container is needed."""
     lines = (ROOT / "packaging" / "images" / "kapitza.def").read_text().split("%files\n")[1].split("\n\n")[0].splitlines()

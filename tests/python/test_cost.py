@@ -11,9 +11,8 @@ import pytest
 from conftest import PROGRAM, ROOT, datasets
 
 FIG12 = ROOT / "scenes" / "blackburn-fig12.yaml"
-EXTENSIVE = pytest.mark.skipif(not os.environ.get("KAPITZA_EXTENSIVE"), reason="takes minutes: KAPITZA_EXTENSIVE=1")
 UNITS = {"B": 1, "kB": 1e3, "MB": 1e6, "GB": 1e9, "TB": 1e12}
-LARGE = [pytest.param(n, ranks, marks=EXTENSIVE) for n in (1000, 8000) for ranks in (1, 4)]
+LARGE = [pytest.param(n, ranks, marks=pytest.mark.extensive) for n in (1000, 8000) for ranks in (1, 4)]
 
 
 def words(n, method):
@@ -62,13 +61,14 @@ def test_estimates_are_near(kapitza, tmp_path, n, ranks, method):
     assert 1 / 1.5 < (each + first + shared / ranks) / used < 1.5, (each, first, shared, used)
 
 
+@pytest.mark.extensive
 def test_ten_billion_cells_can_be_checked(kapitza):
     disk, each, first, shared = estimates(kapitza, 100_000, "direct")
     assert "10000000000" in kapitza("check", *words(100_000, "direct")).stdout
     assert each + first < 2e8 and 1e9 < shared < 1e10 and 1e9 < disk < 1e10
 
 
-@EXTENSIVE
+@pytest.mark.extensive
 def test_many_unsettled_cells_are_labelled_again_in_parts(kapitza, tmp_path):
     """Two starts find two attractors; 1.4 million cells end elsewhere, more than a rank lists at a time. The same bytes on three ranks."""
     few = ["--set", "basin.attractors.starts=2", "--set", "basin.max_periods=40"]
@@ -79,7 +79,7 @@ def test_many_unsettled_cells_are_labelled_again_in_parts(kapitza, tmp_path):
     assert datasets(tmp_path / "1.h5") == datasets(tmp_path / "3.h5")
 
 
-@EXTENSIVE
+@pytest.mark.extensive
 @pytest.mark.parametrize("keys", [["boundary.pairs=200000"], ["method=exact", "boundary.pairs=10000"], ["shocks.scale=0.5"]], ids=str)
 def test_the_time_of_boundaries_and_shocks_is_tried(kapitza, tmp_path, keys):
     """One rank's processor time, most of which is that stage's."""
@@ -108,6 +108,11 @@ TIMED = {
 }
 
 
+def marked(studies, name):
+    """The names of the studies; one of them takes long."""
+    return [pytest.param(study, marks=[pytest.mark.extensive] * (study == name)) for study in studies]
+
+
 def processor_seconds(kapitza, scene, folder):
     """(foretold, taken); all of a run, MPI's start too."""
     (folder / "s.yaml").write_text(PENDULUM + scene)
@@ -118,7 +123,7 @@ def processor_seconds(kapitza, scene, folder):
     return foretold, after.children_user + after.children_system - before.children_user - before.children_system
 
 
-@pytest.mark.parametrize("study", TIMED)
+@pytest.mark.parametrize("study", marked(TIMED, "atlas"))
 def test_the_time_is_foretold_from_samples(kapitza, tmp_path, study):
     ratio = 0.0
     for _ in range(3):  # a machine that is busy with other things may disturb one of them
@@ -139,7 +144,7 @@ LONG = {
 }
 
 
-@pytest.mark.parametrize("study", LONG)
+@pytest.mark.parametrize("study", marked(LONG, "tradeoff"))
 def test_a_check_ends_soon_and_leaves_nothing(kapitza, tmp_path, study):
     (tmp_path / "s.yaml").write_text(PENDULUM + LONG[study])
     before = os.times()

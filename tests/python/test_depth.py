@@ -2,7 +2,6 @@
 
 import functools
 import json
-import os
 import random
 import re
 import sys
@@ -85,7 +84,7 @@ def test_deep_windows_of_other_drives_are_decided(kapitza, tmp_path, boundary):
         assert len(set(file["basin/attractor"][:].ravel())) > 1 and (file["basin/evidence"][:] != 3).mean() > 0.9
 
 
-@pytest.mark.skipif(not os.environ.get("KAPITZA_EXTENSIVE"), reason="takes minutes: KAPITZA_EXTENSIVE=1")
+@pytest.mark.extensive
 @pytest.mark.timeout(7200)
 @pytest.mark.parametrize("name, depth, cells", WINDOWS)
 def test_own_orbits_contradict_no_label(kapitza, tmp_path, boundary, name, depth, cells):

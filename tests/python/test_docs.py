@@ -52,24 +52,28 @@ def test_pages_name_only_what_exists():
     assert missing == []
 
 
-@pytest.fixture
-def site(tmp_path):
+@pytest.fixture(scope="module")
+def site(tmp_path_factory):
     """The folder of the site, made without a warning."""
     for module in ("sphinx", "myst_parser", "furo", "sphinx_copybutton"):
         pytest.importorskip(module, reason="scripts/requirements-docs.txt is not installed: the site is not made")
-    command = [sys.executable, "-m", "sphinx", "--quiet", "--fail-on-warning", "-b", "html", ROOT / "docs", tmp_path / "site"]
-    done = subprocess.run([*command, "-d", tmp_path / "doctrees"], capture_output=True, text=True)
+    folder = tmp_path_factory.mktemp("site")
+    command = [sys.executable, "-m", "sphinx", "--quiet", "--fail-on-warning", "-b", "html", ROOT / "docs", folder / "site"]
+    done = subprocess.run([*command, "-d", folder / "doctrees"], capture_output=True, text=True)
     assert (done.returncode, done.stderr) == (0, "")
-    return tmp_path / "site"
+    return folder / "site"
 
 
-def test_the_site_has_every_page_and_none_is_wider_than_a_phone(site):
-    """One test, because the site takes seconds to make."""
+def test_the_site_has_every_page(site):
     pages = [(site / f"{name_of(path)}.html").read_text() for path in PAGES]
     assert all("<h1>" in page for page in pages) and "tutorials/how-hard.html" in pages[PAGES.index(DOCS / "index.md")]
     version = re.search(r"project\(kapitza VERSION ([0-9.]+)", (ROOT / "CMakeLists.txt").read_text())[1]
     assert all(f"../{version}/index.html" in page for page in pages)
     assert "kapitza.Result.labels" in (site / "reference" / "api.html").read_text()
+
+
+@pytest.mark.extensive
+def test_no_page_is_wider_than_a_phone(site):
     if not shutil.which("chromedriver"):
         pytest.skip("no chromium and chromium-driver: the pages are not opened at a phone's width")
     command = [sys.executable, ROOT / "tests" / "tools" / "phone_pages.py", site]

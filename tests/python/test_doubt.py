@@ -1,6 +1,5 @@
 """The share of labels that steps and rounding may change: its attributes, its sample, and what quad precision says of it."""
 
-import os
 import subprocess
 import sys
 
@@ -79,7 +78,7 @@ def test_wrong_share_is_not_understated(tmp_path):
     assert exact[0] == 0 and exact[1] < 0.1
 
 
-@pytest.mark.skipif(not os.environ.get("KAPITZA_EXTENSIVE"), reason="takes minutes; KAPITZA_EXTENSIVE=1 runs it")
+@pytest.mark.extensive
 def test_twenty_random_pendulums():
     done = subprocess.run([sys.executable, ROOT / "tests" / "tools" / "doubt_coverage.py"], capture_output=True, text=True, check=False)
     assert done.returncode == 0, done.stdout + done.stderr

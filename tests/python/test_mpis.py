@@ -1,17 +1,15 @@
 """MPICH and Open MPI 5 from their Python wheels: both build the program and pass the MPI tests, and take over each other's work."""
 
-import os
 import subprocess
 import sys
 
 import pytest
 from conftest import ROOT, datasets
 
-EXTENSIVE = bool(os.environ.get("KAPITZA_EXTENSIVE"))
 MPIS = ["mpich", "openmpi"]
 SCENE = [ROOT / "scenes" / "small.yaml", "--set", "basin.method=direct", "--set", "basin.theta.count=1200",
          "--set", "basin.velocity.count=1200", "-o", "x.h5"]
-pytestmark = [pytest.mark.skipif(not EXTENSIVE, reason="builds the program twice: KAPITZA_EXTENSIVE=1"), pytest.mark.timeout(2400)]
+pytestmark = [pytest.mark.extensive, pytest.mark.timeout(2400)]
 
 
 def call(*words, status=0, **more):

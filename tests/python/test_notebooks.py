@@ -7,14 +7,12 @@ from conftest import ROOT
 
 jupytext = pytest.importorskip("jupytext")
 nbclient = pytest.importorskip("nbclient")
-SOME = {"2-my-laboratory"}  # the others in CI (.ci/run), which sets KAPITZA_EXTENSIVE
 NOTEBOOKS = sorted((ROOT / "docs" / "notebooks").glob("*.py"))
 
 
+@pytest.mark.extensive
 @pytest.mark.parametrize("path", NOTEBOOKS, ids=lambda path: path.stem)
 def test_a_notebook_runs(path, tmp_path, monkeypatch):
-    if path.stem not in SOME and not os.environ.get("KAPITZA_EXTENSIVE"):
-        pytest.skip("some 10 s each: KAPITZA_EXTENSIVE=1")
     monkeypatch.setenv("KAPITZA_NOTEBOOK_COUNT", "16")
     monkeypatch.setenv("PYTHONPATH", os.pathsep.join([str(ROOT / "python"), *filter(None, [os.environ.get("PYTHONPATH")])]))
     notebook = jupytext.read(path)

@@ -77,6 +77,7 @@ def test_the_sdist_has_all_that_a_build_needs(sdist):
     assert len(tracked) > 300 and not set(tracked) - held
 
 
+@pytest.mark.extensive
 def test_what_pip_installs(sdist, made_file, tmp_path):
     """The package of the sdist, with the program of build/: an example, results lazily, no backend of its own, and the command draws what
     the script draws. That pip builds the program as well is tested below."""
@@ -98,7 +99,7 @@ def test_what_pip_installs(sdist, made_file, tmp_path):
     assert (tmp_path / "one.png").read_bytes() == (tmp_path / "other.png").read_bytes()
 
 
-@pytest.mark.skipif(not os.environ.get("KAPITZA_EXTENSIVE"), reason="builds the program anew, minutes: KAPITZA_EXTENSIVE=1")
+@pytest.mark.extensive
 def test_a_fresh_environment_builds_and_runs_an_example():
     done = subprocess.run([ROOT / "scripts" / "test_install"], capture_output=True, text=True)
     assert done.returncode == 0 and "rotation +1/1" in done.stdout and done.stdout.endswith("small.png\n"), done.stderr

@@ -32,6 +32,7 @@ def test_the_legend_has_its_place(made_file, tmp_path):
     assert np.std(image[: image.shape[0] // 3, 200:, :3]) > 0.05  # the plane takes the width, not half of it
 
 
+@pytest.mark.extensive
 def test_a_page_for_a_talk_is_a_larger_page(made_file):
     """Letters twice as large on a page twice as wide: lines, dots and panels are twice as large too."""
     usual, talk = (kapitza.Result(made_file).plot(width=f"{86 * scale}mm", font_size=8 * scale) for scale in (1, 2))

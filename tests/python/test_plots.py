@@ -265,12 +265,13 @@ def from_program(*words):
 def test_the_program_draws_the_main_study_and_says_what_a_file_holds(made_file, tmp_path):
     alone, named = tmp_path / "alone.png", tmp_path / "named.png"
     assert from_program("plot", made_file, "-o", alone, "--dpi", "40").stdout == f"{alone}\n"
-    assert from_program("plot", "basin", made_file, "-o", named, "--dpi", "40").returncode == 0
+    assert plot(made_file, "-o", named, "--dpi", "40").returncode == 0
     assert alone.read_bytes() == named.read_bytes()
     said = from_program("info", made_file).stdout
     assert said == "\n".join(repr(Result(made_file)).splitlines()[1:]) + "\n" and "inverted" in said
     for command in ("plot", "info"):
         refused = from_program(command, tmp_path / "none.h5")
         assert (refused.returncode, refused.stderr) == (1, f"kapitza: error: {tmp_path / 'none.h5'}: no such file\n")
-    assert from_program("plot").returncode == 2 and "KIND: atlas, basin" in from_program("plot").stderr
+    usage = from_program("plot")
+    assert usage.returncode == 2 and "KIND: atlas, basin" in usage.stderr
     assert from_program("info").stderr == "kapitza: error: info: FILE is missing; kapitza info FILE\n"

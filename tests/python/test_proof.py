@@ -1,7 +1,6 @@
 """basin.proof: proved labels are marked and are the proved ones, whoever worked on them; what cannot be proved is not."""
 
 import json
-import os
 import signal
 import subprocess
 import time
@@ -169,13 +168,14 @@ def contradicted(kapitza, folder, name, count, most):
     return proved.sum(), (labels[proved] != true_labels[proved]).sum()
 
 
+@pytest.mark.extensive
 def test_quad_precision_contradicts_no_proof_of_another_drive(kapitza, tmp_path):
     """Of the other drives below."""
     proved, wrong = contradicted(kapitza, tmp_path, "tilted", 12, 30)
     assert wrong == 0 and proved > 22
 
 
-@pytest.mark.skipif(not os.environ.get("KAPITZA_EXTENSIVE"), reason="takes minutes: KAPITZA_EXTENSIVE=1")
+@pytest.mark.extensive
 @pytest.mark.parametrize("name", PENDULUMS)
 def test_quad_precision_contradicts_no_proof(kapitza, tmp_path, name):
     """4000 proved labels in doubles and pairs; what only quads prove is beyond it."""
@@ -183,7 +183,7 @@ def test_quad_precision_contradicts_no_proof(kapitza, tmp_path, name):
     assert wrong == 0 and proved > 3000
 
 
-@pytest.mark.skipif(not os.environ.get("KAPITZA_EXTENSIVE"), reason="takes minutes: KAPITZA_EXTENSIVE=1")
+@pytest.mark.extensive
 def test_48_digits_prove_what_quads_leave(kapitza, tmp_path):
     """A window of the lace under a square wave: the same labels are proved, and more."""
     (tmp_path / "s.yaml").write_text(f"pendulum: {PENDULUMS['square wave']}\nbasin:\n  theta: {{count: 40}}\n"

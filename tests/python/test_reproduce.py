@@ -7,6 +7,7 @@ import subprocess
 import sys
 
 import numpy as np
+import pytest
 import reproduce
 from conftest import PROGRAM, ROOT
 from kapitza.command import KINDS
@@ -57,6 +58,7 @@ def test_the_gallery_names_every_figure_of_the_papers():
     assert len(scenes) > 30 and not [name for name in scenes if f"`{name}`" not in gallery]
 
 
+@pytest.mark.extensive
 def test_the_commands_of_the_gallery_are_valid(kapitza, tmp_path):
     """Each is tried as far as the checks before the work: its keys, its values, its steps."""
     commands = re.findall(r"^\| .* \| `(scenes/.*)` \|$", (ROOT / "docs" / "reference" / "gallery.md").read_text(), re.MULTILINE)

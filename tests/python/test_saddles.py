@@ -1,7 +1,6 @@
 """The study saddles: cycles against an independent integration, the index sums, symmetry, ranks, what the summary says."""
 
 import json
-import os
 import re
 from collections import Counter
 
@@ -110,11 +109,10 @@ def test_ranks_do_not_matter(kapitza, fig12, tmp_path, ranks):
     assert datasets(tmp_path / "s.h5") == datasets(fig12[2])
 
 
-extensive = pytest.mark.skipif(not os.environ.get("KAPITZA_EXTENSIVE"), reason="minutes: set KAPITZA_EXTENSIVE=1")
 LONG = [(0.15, 8, 8), (0.3, 12, 98), (0.46, 8, 5515), (0.47, 8, 6584), (0.52, 8, 13516)]
 
 
-@pytest.mark.parametrize("epsilon, period, cycles", [(0.52, 4, 150), *(pytest.param(*case, marks=extensive) for case in LONG)])
+@pytest.mark.parametrize("epsilon, period, cycles", [(0.52, 4, 150), *(pytest.param(*case, marks=pytest.mark.extensive) for case in LONG)])
 def test_no_cycle_of_the_figures_is_missing(kapitza, tmp_path, epsilon, period, cycles):
     """The sums are 0, and all points are right, not the first of each cycle alone, though one in 1e4 to 1e10 is left of an error."""
     (tmp_path / "s.yaml").write_text(scene_text({**FIG12, "drive_amplitude": epsilon}, max_period=period))
@@ -130,7 +128,7 @@ def test_no_cycle_of_the_figures_is_missing(kapitza, tmp_path, epsilon, period, 
     assert np.all(np.abs(np.remainder(gap[0] + np.pi, 2 * np.pi) - np.pi) < 1e-11) and np.all(np.abs(gap[1]) < 1e-11)
 
 
-@extensive
+@pytest.mark.extensive
 def test_too_many_cycles_are_refused(kapitza, tmp_path):
     scene = {**FIG12, "drive_amplitude": 0.52}
     (tmp_path / "s.yaml").write_text(scene_text(scene, max_period=14))

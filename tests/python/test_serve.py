@@ -219,7 +219,7 @@ def drag(server, views):
         server.frame(50, 80, pendulum=pendulum, window=window, levels=[8, 1], quality="exact" if i % 25 == 0 else "moving")
 
 
-@pytest.mark.skipif(not os.environ.get("KAPITZA_EXTENSIVE"), reason="takes minutes: KAPITZA_EXTENSIVE=1")
+@pytest.mark.extensive
 def test_a_thousand_views_leave_nothing_behind(tmp_path):
     with Server(FIG12, folder=tmp_path) as server:
         drag(server, 200)

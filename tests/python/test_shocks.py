@@ -149,6 +149,7 @@ def test_any_number_of_ranks(fig11, kapitza, tmp_path):
     assert datasets(tmp_path / "again.h5") == datasets(path)
 
 
+@pytest.mark.extensive
 def test_a_sweep_has_the_same_shocks(fig11, kapitza, tmp_path):
     """At the value of Fig. 11 the smallest over the strobe points of each attractor."""
     shocks, attractors = fig11[0].group("shocks"), fig11[0].group("attractors")

@@ -115,6 +115,7 @@ sweep: {parameter: damping, min: 0, max: 0.02, count: 3, measure: [attractors], 
         assert np.isnan(group["branch_amplitude"][0]).all() and group["branch_amplitude"][1, row] == 0
 
 
+@pytest.mark.extensive
 def test_gravity_upside_down(kapitza, tmp_path):
     """k -> -k turns the pendulum over and shifts the drive by half a period: branches are mirrored, down becomes inverted."""
     (tmp_path / "turned.yaml").write_text("""\
@@ -195,6 +196,7 @@ sweep: {parameter: drive_amplitude, min: 0.2, max: 0.3, count: 2, measure: [attr
         assert file["sweep/branch"].shape == (0,) and np.isnan(file["sweep/flutter_onset"][:]).all()
 
 
+@pytest.mark.extensive
 def test_flutter_zone_over_the_frequency(sweep):
     arrays, _ = sweep("flutter_zone", *((7, 15, 5) if EXTENSIVE else (11, 15, 2)), parameter="drive_frequency")
     for row, omega in enumerate(arrays["value"]):

@@ -1,6 +1,5 @@
 """The trade between speed and accuracy: the study, the cache of true labels, and basin.accuracy."""
 
-import os
 import signal
 import subprocess
 import sys
@@ -71,6 +70,7 @@ def test_a_stopped_study_is_resumed(kapitza, tmp_path, reference):
     assert untimed(tmp_path / "two.h5") == untimed(reference)
 
 
+@pytest.mark.extensive
 def test_a_killed_study_is_resumed(tmp_path, reference):
     """Killed whenever a few tiles more are saved, on one rank, until it gets through."""
     command = [PROGRAM, "run", SMALL, "-o", "two.h5", "--set", "pendulum.drive_amplitude=0.46", "--set", SETTINGS, "--resume"]
@@ -120,6 +120,7 @@ def without_method(accuracy):
     return WINDOW[0], WINDOW[1] % accuracy
 
 
+@pytest.mark.extensive
 def test_what_no_other_setting_reaches_is_exact(kapitza, tmp_path):
     window = "basin={theta: {count: 20}, velocity: {min: -2, max: 2, count: 20}, accuracy: 0.999}"
     done = kapitza("run", SMALL, "-o", "exact.h5", "--set", "pendulum.drive_amplitude=0.460", "--set", window, folder=tmp_path)
@@ -179,7 +180,7 @@ def test_the_picture(reference, tmp_path):
         assert matplotlib.image.imread(tmp_path / "trade.png")[..., :3].std() > 0.05
 
 
-@pytest.mark.skipif(not os.environ.get("KAPITZA_EXTENSIVE"), reason="takes an hour; KAPITZA_EXTENSIVE=1 runs it")
+@pytest.mark.extensive
 @pytest.mark.timeout(0)
 def test_intervals_hold_on_pendulums_of_no_scene():
     done = subprocess.run([sys.executable, COVERAGE], capture_output=True, text=True, check=False)
