@@ -80,7 +80,7 @@ def test_install_names_every_library():
 
 # What tries the commands of the page on installing: a script or a test, and a text in it.
 TRIED = {
-    "pip install kapitza-VERSION-py3-none-manylinux_2_28_x86_64.whl": ("packaging/wheel/try", "--disable-pip-version-check ./kapitza-*.whl"),
+    "pip install kapitza-VERSION-py3-none-manylinux_2_28_x86_64.whl": ("packaging/wheel/try", "version-check ./kapitza-*.whl"),
     "pip install kapitza-VERSION.tar.gz": ("scripts/test_install", '"$folder"/kapitza-*.tar.gz'),
     "scripts/setup": ("tests/python/test_setup.py", "source scripts/setup"),
     "cmake --preset release": ("scripts/setup", 'cmake --fresh --preset "$1"'),
