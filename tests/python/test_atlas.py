@@ -158,6 +158,11 @@ def test_pictures(atlas, tmp_path):
     for view in picture.VIEWS:
         plot("atlas", atlas[2], "--view", view, "-o", tmp_path / f"{view}.svg")
         assert (tmp_path / f"{view}.svg").stat().st_size > 10000
+    (tmp_path / "points.csv").write_text("x,y,label\n11,0.3,mine\n12,0.4,yours\n")
+    plot("atlas", atlas[2], "--points", tmp_path / "points.csv", "-o", tmp_path / "points.pdf")
+    (tmp_path / "points.csv").write_text("x,y\n11,0.3\n")
+    refused = plot("atlas", atlas[2], "--points", tmp_path / "points.csv")
+    assert refused.returncode == 1 and "lacks the column label" in refused.stderr
 
 
 def test_ranks_and_resumed_runs_write_the_same(atlas, kapitza, tmp_path):

@@ -8,6 +8,7 @@
 """
 
 import argparse
+import itertools
 import math
 from collections.abc import Mapping
 from typing import Any
@@ -110,7 +111,8 @@ def set_axes(axes: Axes, atlas: xarray.Dataset, *, labels: bool = True) -> None:
             (axes.set_xlabel if which == "x" else axes.set_ylabel)(NAMES.get(key, key.replace("_", " ")))
 
 
-def write_legend(axes: Axes, atlas: xarray.Dataset, shades: ListedColormap, most: int, colours: Mapping[int, str], longest: int) -> None:
+def write_legend(axes: Axes, atlas: xarray.Dataset, shades: ListedColormap, most: int, colours: Mapping[int, str], longest: int,
+                 marks: list[Line2D]) -> None:
     """Beside the map: the numbers, the kinds of curves, the periods, the marks."""
     kinds = set(atlas["curve_kind"].values.tolist())
     words = {SWINGS: "rest: swings grow", LEANS: "rest: leans over", FOLD: "a motion is born (fold)", DOUBLING: "its period doubles",
@@ -126,7 +128,7 @@ def write_legend(axes: Axes, atlas: xarray.Dataset, shades: ListedColormap, most
     for mark, word in (("^", "cusp"), ("o", "degenerate point")):
         handles.append(Line2D([], [], linestyle="", marker=mark, markersize=4, markerfacecolor="white", markeredgecolor=style.INK,
                               label=word))
-    axes.legend(handles=handles, loc="lower left", bbox_to_anchor=(1.02, 0), fontsize="small", handlelength=2.6, borderaxespad=0,
+    axes.legend(handles=handles + marks, loc="lower left", bbox_to_anchor=(1.02, 0), fontsize="small", handlelength=2.6, borderaxespad=0,
                 frameon=False)
     scale = axes.inset_axes((1.03, 0.56, 0.028, 0.4))
     scale.pcolormesh([0, 1], np.arange(most + 2), np.arange(most + 1)[:, None], cmap=shades,
@@ -139,38 +141,39 @@ def write_legend(axes: Axes, atlas: xarray.Dataset, shades: ListedColormap, most
 
 
 def draw_map(axes: Axes, atlas: xarray.Dataset, *, colours: Mapping[int, str] = PERIODS, legend: bool = True,
-             longest: int = LONGEST) -> Axes:
-    """The plane with the curves of cycles of up to `longest` periods, in `colours` (period -> colour), over the number of attractors."""
+             longest: int = LONGEST, points: str | None = None) -> Axes:
+    """The plane with the curves of cycles of up to `longest` periods, in `colours` (period -> colour), over the number of attractors.
+
+    `points`: a CSV file of points on top.
+    """
     shades, most = shade_counts(axes, atlas)
     mark_curves(axes, atlas, colours, longest)
     mark_special(axes, atlas, longest)
     set_axes(axes, atlas)
+    marks = mark_points(axes, points) if points else []
     if legend:
-        write_legend(axes, atlas, shades, most, colours, longest)
+        write_legend(axes, atlas, shades, most, colours, longest, marks)
     return axes
 
 
-def mark_points(axes: Axes, atlas: xarray.Dataset, path: str) -> None:
-    """Points of a CSV file in open marks, one for each label, with a legend of their own."""
+def mark_points(axes: Axes, path: str) -> list[Line2D]:
+    """Points of a CSV file, a mark for each label; the marks, for the legend."""
     import pandas
 
     table = pandas.read_csv(path, comment="#")
     if missing := {"x", "y", "label"} - set(table.columns):
         raise BadFile(f"{path}: lacks the column {sorted(missing)[0]}")
-    for (label, rows), mark in zip(table.groupby("label", sort=False), "osD^vPX*", strict=False):
-        axes.plot(rows["x"], rows["y"], mark, markersize=5, markerfacecolor="#ffd24a", markeredgecolor=style.INK, markeredgewidth=0.9,
-                  linestyle="", zorder=7, label=str(label))
-    marks = axes.lines[-table["label"].nunique():]
-    axes.add_artist(axes.legend(handles=marks, loc="upper left", bbox_to_anchor=(0.01, 0.99), fontsize="small", framealpha=0.9))
+    handles = []
+    for (label, rows), mark in zip(table.groupby("label", sort=False), itertools.cycle("osD^vPX*"), strict=False):
+        handles += axes.plot(rows["x"], rows["y"], mark, markersize=4.6, markerfacecolor="#ffd24a", markeredgecolor=style.INK,
+                             markeredgewidth=0.8, linestyle="", zorder=7, label=str(label))
+    return handles
 
 
 def map_page(result: Result, atlas: xarray.Dataset, longest: int, points: str | None = None) -> Figure:
     """The plane with all curves, and labels of its regions; `points`: a CSV file of points on top."""
     figure = new_figure(8.6, 6.2)
-    axes = figure.subplots()
-    if points:
-        mark_points(axes, atlas, points)
-    draw_map(axes, atlas, longest=longest)
+    axes = draw_map(figure.subplots(), atlas, longest=longest, points=points)
     entitle(figure, result, f"every motion of up to {int(atlas.attrs['max_period'])} periods: {atlas.sizes['curve']} curves")
     figure.draw_without_rendering()
     label_regions(axes, atlas)

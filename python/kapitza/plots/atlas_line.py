@@ -40,8 +40,10 @@ def draw_line(axes: Axes, table: pandas.DataFrame) -> Axes:
 
 
 def mark_ends(axes: Axes, rows: pandas.DataFrame) -> None:
-    """Dots where a branch gains or loses its stability."""
-    attracts, value, height = rows["multiplier"].values < 1, rows["value"].values, rows["height"].values
-    for at in np.flatnonzero(attracts[1:] != attracts[:-1]):
-        inner = at if attracts[at] else at + 1
-        axes.plot(value[inner], height[inner], "o", markersize=2.6, color=style.INK, zorder=5)
+    """Dots where a branch gains or loses its stability: where the multiplier passes 1 between two points."""
+    multiplier, value, height = (rows[name].values for name in ("multiplier", "value", "height"))
+    for at in np.flatnonzero((multiplier[1:] < 1) != (multiplier[:-1] < 1)):
+        ends = np.log(multiplier[at:at + 2])
+        share = ends[0] / (ends[0] - ends[1])
+        axes.plot(value[at] + share * (value[at + 1] - value[at]), height[at] + share * (height[at + 1] - height[at]), "o", markersize=2.6,
+                  color=style.INK, zorder=5)

@@ -6,10 +6,10 @@
 #include "atlas.h"
 
 enum {
-  GRID = 12,  /* places along each axis whose attractors are the first seeds */
-  FEW = 128,  /* starts at each of them */
-  MANY = 256, /* and at places that check the curves */
-  ROUNDS = 6, /* of checks at most; of cycles of more periods than the next number most atlases take all */
+  GRID = 12,   /* places along each axis whose attractors are the first seeds */
+  FEW = 128,   /* starts at each of them */
+  MANY = 256,  /* and at places that check the curves */
+  ROUNDS = 16, /* of checks at most; of cycles of more periods than the next number most atlases take all */
   USUAL_PERIOD = 2,
   LINES = 8 /* along each axis on which all branches are followed */
 };
