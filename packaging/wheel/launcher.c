@@ -98,13 +98,14 @@ static void find_python(const char *root) {
   fclose(script);
 }
 
-/* Ranks of MPICH that outnumber the cores of their only machine wait in shared memory without sleeping, 15 ms a barrier; over TCP they sleep. All three
- * variables are needed: with NOLOCAL alone, over UCX, 3 of 12 runs of three ranks hung. */
+/* Ranks of MPICH wait in shared memory without sleeping, which needs a core for each and one for the rest of the machine: where ranks take all cores,
+ * two of them on a busy machine stood still for a minute, and more ranks than cores take 15 ms for a barrier. Over TCP they sleep. All three variables
+ * are needed: with NOLOCAL alone, over UCX, 3 of 12 runs of three ranks hung. */
 static void share_cores(void) {
   const char *local = variable("MPI_LOCALNRANKS"), *all = variable("PMI_SIZE");
   cpu_set_t cores;
   if (!local || !all || atoi(local) != atoi(all) || sched_getaffinity(0, sizeof cores, &cores) != 0) return;
-  if (atoi(local) <= CPU_COUNT(&cores)) return;
+  if (atoi(local) == 1 || atoi(local) < CPU_COUNT(&cores)) return;
   setenv("MPIR_CVAR_NOLOCAL", "1", 0);
   setenv("MPIR_CVAR_CH4_NETMOD", "ofi", 0);
   setenv("FI_PROVIDER", "tcp", 0);

@@ -1,5 +1,6 @@
 """Packages, without a build of them: one version, what each recipe names, the launcher of the wheel, its lists and metadata."""
 
+import os
 import re
 import subprocess
 import sys
@@ -141,8 +142,11 @@ def test_a_missing_mpi_is_named(environment, tmp_path):
         moved.rename(hidden)
 
 
-def test_ranks_that_outnumber_the_cores_wait_over_tcp(environment):
-    assert " 1 tcp " in start(environment, MPI_LOCALNRANKS="4096", PMI_SIZE="4096")[1]
+def test_ranks_that_take_all_cores_wait_over_tcp(environment):
+    cores = len(os.sched_getaffinity(0))
+    for ranks in {max(cores, 2), 4096}:
+        assert " 1 tcp " in start(environment, MPI_LOCALNRANKS=str(ranks), PMI_SIZE=str(ranks))[1]
+    assert cores < 3 or "tcp" not in start(environment, MPI_LOCALNRANKS=str(cores - 1), PMI_SIZE=str(cores - 1))[1]
     assert "tcp" not in start(environment, MPI_LOCALNRANKS="1", PMI_SIZE="1")[1]
     assert "tcp" not in start(environment, MPI_LOCALNRANKS="4096", PMI_SIZE="8192")[1]  # on several machines the network is theirs
 
