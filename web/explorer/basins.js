@@ -199,6 +199,7 @@ export class Basins {
     element("ending").dataset.ending = JSON.stringify(motion.ending);
     element("save-csv").disabled = element("play").disabled = false;
     this.state.change({ playing: this.state.start !== null || !stillness.matches });
+    this.drawStage(); // where it stands still, too
   }
 
   drawStage() {
@@ -237,7 +238,7 @@ export class Basins {
     for (const other of this.panes) {
       other.plain.cursor = other === pane ? null : at;
       other.plain.spread = at && half && [at, half];
-      if (this.panes.length > 1 || half) other.draw();
+      if (this.panes.length > 1 || half) other.drawAbove();
     }
     this.pointed = at;
     this.writePointed();

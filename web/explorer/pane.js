@@ -10,7 +10,8 @@ import { axesOf, drawAxes, drawLine, drawPoints, Plane } from "./plane.js";
 import { CanvasSurface } from "./surface.js";
 
 const MOST_FRAMES = 6; // kept under each other while the window moves
-const PATIENCE = 90; // ms after which a frame of a window that is no longer wanted is given up
+const PATIENCE = 90; // ms after which a frame of a window that is no longer wanted is given up,
+const BLIND = 1000; // and where nothing of it has been shown yet: on a slow machine things would never be seen to move
 const QUIET = 60; // ms in which coarse levels of another pendulum are not shown: the whole frame comes at once
 const REST = 160; // ms without a change, after which labels are made as right and fine as asked for
 const LARGEST = 8192; // cells of a side, of a frame
@@ -62,9 +63,18 @@ export class Pane {
   changed() {
     this.version++;
     this.offer.hidden = true;
-    if (this.resting || performance.now() - this.begun > PATIENCE) this.controller.abort();
+    this.giveUp();
     this.move();
     this.pursue();
+  }
+
+  /** Gives up a frame that is no longer wanted; soon, where its first level is not there. */
+  giveUp() {
+    const { controller } = this;
+    const left = (this.arrived ? PATIENCE : BLIND) - (performance.now() - this.begun);
+    clearTimeout(this.waiting);
+    if (this.resting || left < 0) controller.abort();
+    else if (!this.arrived) this.waiting = setTimeout(() => this.version !== this.pursued && controller.abort(), left);
   }
 
   /** Moves the old picture towards the window wanted, a step for each picture of the screen. */
@@ -97,7 +107,7 @@ export class Pane {
     if (this.pursuing) return;
     this.pursuing = true;
     for (let done = -1; done !== this.version && !this.closed;) {
-      const version = this.version;
+      const version = (this.pursued = this.version);
       try {
         await this.frame({ quality: "moving", levels: [8, 4, 2, 1], samples: 1 });
         if (version === this.version) await pause(REST);
@@ -149,6 +159,7 @@ export class Pane {
     const key = JSON.stringify(pendulum);
     this.controller = new AbortController();
     this.begun = performance.now();
+    this.arrived = false;
     if (!this.resting) this.say(this, "moving", "");
     let last = null;
     for await (const [header, bytes] of this.engine.answers(request, this.controller.signal)) {
@@ -159,6 +170,7 @@ export class Pane {
       const full = { ...header, full: [request.rows, request.columns] };
       const made = Object.assign(frameOf(full, decoded(header, bytes), window, paletteOf(catalogue, this.state.lit)), { key, catalogue, quality, samples });
       this.keep(made, last);
+      this.arrived = true;
       last = made;
       this.say(this, null, null, 1 / header.level ** 2);
     }
