@@ -57,11 +57,11 @@ def test_threads_share_an_engine(engine):
 
 
 @pytest.mark.parametrize(("theta", "more", "words"), [
-    ("\U0001f600", {}, "theta: is not a finite decimal number"),
+    ("\U0001f600", {}, "is not a finite decimal number; it must be a number from -1000000 to 1000000 in rad"),
     (1, {"x" * 2000: 1}, "pendulum." + "x" * 20),
     (1, {"k": np.zeros([1] * 17)}, "pendulum.k"),
     ("1" * 70000, {}, "has more than 65536 bytes"),
-    (float("nan"), {}, "theta: is not a finite decimal number"),
+    (float("nan"), {}, "is not a finite decimal number; it must be a number from -1000000 to 1000000 in rad"),
 ])
 def test_what_is_refused_is_told_in_the_programs_words(engine, theta, more, words):
     with pytest.raises(kapitza.SceneError, match=words.replace(".", r"\.")):

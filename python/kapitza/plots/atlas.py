@@ -38,6 +38,7 @@ DASHES: dict[int, Any] = {FOLD: "-", DOUBLING: (0, (5, 2)), BREAKING: (0, (1.2, 
 BOLD_UP_TO = 4  # longer cycles live in thin bands: their curves are thin
 MOST_SHADES = 14
 LONGEST = 16  # periods of the cycles whose curves are drawn
+POINTS = 7  # zorder of points from a file
 VIEWS = ("map", "motions", "line")
 
 
@@ -166,7 +167,7 @@ def mark_points(axes: Axes, path: str) -> list[Line2D]:
     handles = []
     for (label, rows), mark in zip(table.groupby("label", sort=False), itertools.cycle("osD^vPX*"), strict=False):
         handles += axes.plot(rows["x"], rows["y"], mark, markersize=4.6, markerfacecolor="#ffd24a", markeredgecolor=style.INK,
-                             markeredgewidth=0.8, linestyle="", zorder=7, label=str(label))
+                             markeredgewidth=0.8, linestyle="", zorder=POINTS, label=str(label))
     return handles
 
 
@@ -176,7 +177,7 @@ def map_page(result: Result, atlas: xarray.Dataset, longest: int, points: str | 
     axes = draw_map(figure.subplots(), atlas, longest=longest, points=points)
     entitle(figure, result, f"every motion of up to {int(atlas.attrs['max_period'])} periods: {atlas.sizes['curve']} curves")
     figure.draw_without_rendering()
-    label_regions(axes, atlas)
+    label_regions(axes, atlas, np.vstack([np.empty((0, 2)), *(mark.get_xydata() for mark in axes.lines if mark.get_zorder() == POINTS)]))
     return figure
 
 

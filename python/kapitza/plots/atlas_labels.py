@@ -52,12 +52,15 @@ def region_text(atlas: xarray.Dataset, region: int) -> str:
     return "\n".join(parts + [f"− {name}" for name in lost[:1] if len(lost) == len(gained) == 1])
 
 
-def label_regions(axes: Axes, atlas: xarray.Dataset) -> list[Text]:
-    """Labels at the places farthest from the edges, the roomiest first; none where it would lie on another, or outside of the map."""
+def label_regions(axes: Axes, atlas: xarray.Dataset, points: np.ndarray) -> list[Text]:
+    """Labels at the places farthest from the edges, the roomiest first; none where it would lie on another or on one of the points
+    [n][2], or outside of the map.
+    """
     figure = axes.figure
     renderer = figure.canvas.get_renderer()  # type: ignore[attr-defined]
     placed: list[Text] = []
     inside = axes.get_window_extent(renderer)
+    marks = axes.transData.transform(points) if len(points) else points
     for region in np.argsort(-atlas["region_radius"].values, kind="stable"):
         text = region_text(atlas, int(region))
         if float(atlas["region_share"][region]) < LABELLED or not text:
@@ -69,7 +72,7 @@ def label_regions(axes: Axes, atlas: xarray.Dataset) -> list[Text]:
         box = label.get_window_extent(renderer).expanded(1.06, 1.25)
         tall = 2.6 * float(atlas["region_radius"][region]) * inside.height
         if tall < box.height or not inside.contains(box.x0, box.y0) or not inside.contains(box.x1, box.y1) or any(
-                box.overlaps(other.get_window_extent(renderer)) for other in placed):
+                box.overlaps(other.get_window_extent(renderer)) for other in placed) or box.expanded(1.04, 1.3).count_contains(marks):
             label.remove()
         else:
             placed.append(label)
