@@ -40,11 +40,15 @@ class Fit:
         self.omega = omega
         self._check()
         self.models = {}
-        first = _guess(self.time, self.theta, omega)
+        guess = _guess(self.time, self.theta, omega)
+        known = {key: value for key, value in guess.items() if key != "dry"}
         for name, kinds in MODELS.items():
-            begin = dict.fromkeys(kinds, 0.0) | first
-            self.models[name] = fitted(name, self.time, self.theta, begin, omega)
-            first |= {key: value for key, value in self.models[name].values.items() if key in first}
+            begins = [dict.fromkeys(kinds, 0.0) | known]
+            if "dry" in kinds and omega is None:  # dry friction that stops a pendulum leaves little viscous friction
+                begins.append(dict.fromkeys(kinds, 0.0) | guess | {"viscous": 1e-3 * guess["omega0"]})
+            found = [fitted(name, self.time, self.theta, begin, omega) for begin in begins]
+            self.models[name] = min(found, key=lambda model: model.residual)
+            known = dict(self.models[name].values)
 
     def _check(self) -> None:
         if self.time.size != self.theta.size:
@@ -66,9 +70,10 @@ class Fit:
                 return model
         return models[-1]
 
-    def quality_factor(self, amplitude: Any = "10 deg") -> float:
-        """Q of the viscous damping that loses as much energy in a swing of this amplitude (rad, or a text such as "10 deg")."""
-        values, swing = self.best.values, angle(amplitude)
+    def quality_factor(self, amplitude: Any = None) -> float:
+        """Q of the viscous damping that loses as much energy in a swing of this amplitude: rad, or a text such as "10 deg"; None = 10 deg,
+        or the largest swing of the track if that is smaller."""
+        values, swing = self.best.values, angle(f"{min(10.0, self.largest)} deg" if amplitude is None else amplitude)
         if not 0 < swing < math.pi:
             raise ValueError(f"the amplitude {amplitude!r} must be above 0 and below 180 deg")
         omega0 = values["omega0"]
@@ -77,16 +82,21 @@ class Fit:
         return omega0 / rate if rate > 0 else math.inf
 
     @property
+    def largest(self) -> float:
+        """Largest swing of the track in degrees; what it says of larger ones is no measurement."""
+        return float(np.degrees(np.abs(self.theta - self.best.values["offset"]).max()))
+
+    @property
     def length(self) -> float:
         """Length in m of the simple pendulum that swings as fast."""
         return float(GRAVITY / self.best.values["omega0"] ** 2)
 
-    def scene(self, frequency: Any = None, amplitude: Any = None, swing: Any = "10 deg") -> dict[str, Any]:
+    def scene(self, frequency: Any = None, amplitude: Any = None, swing: Any = None) -> dict[str, Any]:
         """A scene of this pendulum on a shaker.
 
         :param frequency: of the pivot, such as "50 Hz"; None = that of the track's drive
         :param amplitude: of the pivot, such as "8 mm"; None = that of the track's drive
-        :param swing: amplitude of the swings whose equivalent quality factor is taken
+        :param swing: amplitude of the swings whose equivalent quality factor is taken; None = as for quality_factor
         """
         if frequency is None and self.omega is not None:
             frequency = f"{self.omega / TURN:.12g} Hz"
@@ -110,7 +120,10 @@ class Fit:
             lines.append(f"What {best.name} leaves is no noise: neighbouring residuals are alike, so that the errors below are too small.")
         lines += [f"  {name:10s} {value:12.6g} ± {best.errors[name]:.2g} {UNITS[name]}" for name, value in best.values.items()]
         lines.append(f"natural frequency {best.values['omega0'] / TURN:.6g} Hz, length of a simple pendulum {self.length:.5g} m")
-        lines.append("equivalent Q " + ", ".join(f"{self.quality_factor(f'{swing} deg'):.4g} at {swing} deg" for swing in (2, 10, 40)))
+        if min(best.values.get(kind, 0.0) for kind in ("viscous", "quadratic", "dry")) < 0:
+            lines.append("A negative coefficient says that friction falls with speed, within the speeds of this track alone.")
+        swings = [swing for swing in (2.0, 10.0, 40.0) if swing < 0.95 * self.largest] + [self.largest]
+        lines.append("equivalent Q " + ", ".join(f"{self.quality_factor(f'{swing} deg'):.4g} at {swing:.3g} deg" for swing in swings))
         return "\n".join(lines)
 
 
@@ -138,7 +151,8 @@ def _guess(time: np.ndarray, theta: np.ndarray, omega: float | None) -> dict[str
     first = np.polynomial.Polynomial.fit(time[:5] - time[0], theta[:5], 1).convert().coef
     omega0 = TURN * (up.size - 1) / float(crossings[-1] - crossings[0]) * (1 + size[0] ** 2 / 16 * (size[0] < 2))
     guess = {"omega0": omega0, "offset": offset, "theta": float(first[0]), "velocity": float(first[1] if len(first) > 1 else 0),
-             "viscous": max(2 * math.log(max(size[0] / max(size[1], 1e-9), 1.0001)) / span, 1e-4)}
+             "viscous": max(2 * math.log(max(size[0] / max(size[1], 1e-9), 1.0001)) / span, 1e-4),
+             "dry": omega0 * math.pi / 2 * max(size[0] - size[1], 0.0) / span}
     return guess | ({"drive": 0.0, "phase": 0.0} if omega is not None else {})
 
 

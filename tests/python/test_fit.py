@@ -69,6 +69,15 @@ def test_drag_and_friction_are_told_from_viscous_damping():
     assert found.quality_factor("20 deg") == pytest.approx(7 / rate, rel=0.03)
 
 
+def test_a_bearing_that_stops_the_pendulum():
+    """Swings of 4 degrees that shrink evenly, as dry friction makes them."""
+    time, truth = np.linspace(0, 4.5, 120), DECAY | {"theta": 0.085, "velocity": 0.0, "viscous": 0.02, "dry": 0.13}
+    found = kapitza.fit(time, track(truth, time))
+    full = found.models["viscous + quadratic + dry"]
+    assert full.residual == pytest.approx(NOISE, rel=0.25) and full.values["dry"] == pytest.approx(0.13, rel=0.3)
+    assert found.largest < 5 and " at 10 deg" not in repr(found) and found.quality_factor() == found.quality_factor(f"{found.largest} deg")
+
+
 @pytest.mark.extensive
 def test_a_driven_track_gives_drive_and_phase():
     """Shaken eight times as fast as it swings; the amplitude of the pivot comes with its length."""

@@ -4,13 +4,14 @@ import numpy as np
 
 
 def runge_kutta(pendulum, state, periods, steps, kind=np.longdouble):
-    """The state, (angle, velocity) or arrays of them, after whole drive periods; angles are not wrapped."""
-    k, beta, m = (kind(pendulum[name]) for name in ("k", "beta", "m"))
+    """The state, (angle, velocity) or arrays of them, after whole drive periods; angles are not wrapped.
+    `drag`: of friction drag |v| v beside the viscous one."""
+    k, beta, m, drag = (kind(pendulum.get(name, 0)) for name in ("k", "beta", "m", "drag"))
     theta, velocity = (np.array(part, dtype=kind) for part in state)
     h = 2 * np.arccos(kind(-1)) / steps
 
     def slope(t, x, v):
-        return v, -beta * v - (k - m * np.cos(t)) * np.sin(x)
+        return v, -(beta + drag * np.abs(v)) * v - (k - m * np.cos(t)) * np.sin(x)
 
     for i in range(periods * steps):
         t = (i % steps) * h
