@@ -1,5 +1,6 @@
-"""docs/validation/results.md, and what is said on the terminal."""
+"""docs/validation/results.md, results.csv beside it with every number, and what is said on the terminal."""
 
+import csv
 import json
 from pathlib import Path
 
@@ -12,24 +13,22 @@ PAPERS = [(BLACKBURN, blackburn.PARTS + flutter.PARTS), (BUTIKOV, butikov.PARTS 
 HEAD = """\
 # Every number of the two papers
 
-The tables compare each number that the two papers print or draw with the number that this program finds.
+What the two papers print or draw, beside what this program finds.
 
-`scripts/reproduce --numbers` runs the program and writes this page. Its words stand in `scripts/papers`. The column
-`agreement` has one of four words:
+`scripts/reproduce --numbers` runs the program and writes this page, and [results.csv](results.csv) with a row for each number:
+paper, place, quantity, printed, reference, ours, bar, agreement, remark. The words stand in `scripts/papers`. `agreement` is one of four:
 
 | word | meaning |
 | --- | --- |
 | `right` | The program's number rounds to the printed number, or it differs from the reference by at most the `bar` of its row. |
 | `approximation` | The paper prints the result of a formula that it calls approximate. The program's number has no such approximation. |
-| `erratum` | The paper's own equations do not give the printed number. The column `remark` says what is right. |
+| `erratum` | The paper's own equations do not give the printed number. The remark says what is right. |
 | `FAILED` | The two numbers differ and no remark explains why, or a remark explains a difference that does not exist. |
 
-The column `place` has the paper's number of the figure, the section or, in parentheses, the equation. The column `ours` has the
-program's number. The bar of whole numbers is "equal".
-
-A reference is a value with 10 to 16 digits that was computed without this program (`tests/literature/reference.json`). A Taylor-series
-integrator in 80-bit arithmetic followed the orbits, and Newton's method closed the cycles. Another integrator, of order 8, integrated
-every cycle again; each closed with an error of at most 2.8e-12. Linear problems were solved by Hill determinants with 30 digits.
+A place is the paper's number of the figure, the section or, in parentheses, the equation. A reference is a value with 10 to 16
+digits that was computed without this program (`tests/literature/reference.json`): a Taylor-series integrator in 80-bit arithmetic
+followed the orbits, and Newton's method closed the cycles; another integrator, of order 8, integrated every cycle again, and each
+closed with an error of at most 2.8e-12. Linear problems were solved by Hill determinants with 30 digits.
 """
 SYMBOLS = {
     BLACKBURN: """\
@@ -72,7 +71,7 @@ def find_numbers(say):
 
 
 def write_page(found, path: Path):
-    """The page; returns the numbers that failed."""
+    """The page, and every number as rows of a CSV file of its name; returns the numbers that failed."""
     every = [number for _, numbers in found for number in numbers]
     failed = [number for number in every if number.agreement == FAILED]
     right, approximate, erratum = (sum(number.agreement == word for number in every) for word in ("right", "approximation", "erratum"))
@@ -90,33 +89,43 @@ def write_page(found, path: Path):
             *([SYMBOLS[title]] if title in SYMBOLS else []),
             *_table(printed, "place", "quantity", "paper", "ours", "ours - paper", "agreement", "remark"),
             f"## {title}: numbers of its figures and equations\n",
-            *_table(
-                [number for number in numbers if not number.printed],
-                "place",
-                "quantity",
-                "reference",
-                "ours",
-                "ours - reference",
-                "bar",
-                "agreement",
-            ),
+            *_summary([number for number in numbers if not number.printed]),
         ]
     lines += [(Path(__file__).parent / "errata.md").read_text()]
     path.write_text("\n".join(lines))
+    with path.with_suffix(".csv").open("w", newline="") as file:
+        rows = csv.writer(file, lineterminator="\n")
+        rows.writerow(["paper", *COLUMNS])
+        rows.writerows([title, *(COLUMNS[column](number) for column in COLUMNS)] for title, numbers in found for number in numbers)
     return failed
 
 
-CELLS = {
+def _summary(numbers):
+    """A row for each place: what is compared there, and how far it lies from the references at most."""
+    places = {}
+    for number in numbers:
+        places.setdefault(number.place, []).append(number)
+    rows = ["| place | numbers | from | to | largest difference, as a part of its bar |", "| --- | --- | --- | --- | --- |"]
+    for place, here in places.items():
+        parts = [abs(number.ours - number.reference) / number.bar for number in here if number.bar]
+        rows.append(f"| {place} | {len(here)} | {here[0].quantity} | {here[-1].quantity} | {f'{max(parts):.1g}' if parts else 'equal'} |")
+    return [*rows, ""]
+
+
+COLUMNS = {
     "place": lambda number: number.place,
     "quantity": lambda number: number.quantity,
-    "paper": lambda number: ("about " if number.printed_bar else "") + number.printed or "-",
-    "reference": lambda number: "-" if number.reference is None else f"{number.reference:.12g}",
+    "printed": lambda number: ("about " if number.printed_bar else "") + number.printed,
+    "reference": lambda number: "" if number.reference is None else f"{number.reference:.12g}",
     "ours": lambda number: f"{number.ours:.12g}",
-    "ours - paper": lambda number: f"{number.ours - float(number.printed):.1e}",
-    "ours - reference": lambda number: f"{number.ours - number.reference:.1e}",
-    "bar": lambda number: f"{number.bar:.1e}" if number.bar else "equal",
+    "bar": lambda number: f"{number.bar:.1e}" if number.bar else "",
     "agreement": lambda number: number.agreement,
     "remark": lambda number: number.remark,
+}
+CELLS = COLUMNS | {
+    "paper": lambda number: COLUMNS["printed"](number) or "-",
+    "reference": lambda number: COLUMNS["reference"](number) or "-",
+    "ours - paper": lambda number: f"{number.ours - float(number.printed):.1e}",
 }
 
 

@@ -1,5 +1,6 @@
 """The table of figures: every scene that it names exists, every scene is named, every name is used once. The papers' numbers."""
 
+import csv
 import json
 import re
 import shlex
@@ -11,7 +12,7 @@ import pytest
 import reproduce
 from conftest import PROGRAM, ROOT
 from kapitza.command import KINDS
-from kapitza.figures import COLUMN, FIGURES, PAGE
+from kapitza.figures import COLUMN, FIGURES, PAGE, TUTORIALS
 from papers import butikov
 from papers.number import FAILED, Number
 from papers.page import write_page
@@ -38,6 +39,23 @@ def test_every_figure_has_one_style_and_keeps_its_colours_as_it_shrinks(tmp_path
     reproduce.shrink(path)
     kept = Image.open(path)
     assert kept.mode == "P" and round(kept.info["dpi"][0]) == 300 and np.abs(np.array(kept.convert("RGB")).astype(int) - noise).max() <= 4
+
+
+def test_the_pages_show_figures_of_print_size():
+    """One column of a journal or two, 300 dots per inch; what no table draws is named here."""
+    known = {name: options for name, _, _, options in FIGURES} | {name: options for name, (_, _, _, options) in TUTORIALS.items()}
+    shown = {name for name in reproduce.shown() if not name.startswith("drawing-")}
+    assert len(shown) > 40 and shown - known.keys() == {"explorer", "report", "scaling"}
+    older = {"atlas-blackburn", "atlas-blackburn-motions", "blackburn-fig04-dots", "blackburn-walk", "chart-blackburn",
+             "chart-butikov", "proof-fig13", "tradeoff-fig12", "tradeoff-fig13"}
+    for name in (shown & known.keys()) - older:
+        picture = Image.open(ROOT / "docs" / "figures" / f"{name}.png")
+        millimetres = 178 if "178mm" in known[name] else 86
+        assert round(picture.info["dpi"][0]) == 300 and abs(picture.width - millimetres / 25.4 * 300) < 2, name
+    drawings = {path.stem: path.read_text() for path in (ROOT / "docs" / "figures").glob("drawing-*.svg")}
+    widths = {name: float(re.search(r'width="([\d.]+)pt"', text)[1]) / 72 * 25.4 for name, text in drawings.items()}
+    assert all(min(abs(width - 86), abs(width - 178)) < 0.1 for width in widths.values()), widths
+    assert not any("font-family" in text or "<text" in text for text in drawings.values())
 
 
 def test_scenes_say_what_they_show_and_how_to_run_them():
@@ -84,11 +102,13 @@ def test_a_part_of_the_papers_numbers(kapitza):
     """The cheapest parts are found anew; the page in docs/ holds every part of them, with what is not right explained."""
     known = json.loads((ROOT / "tests" / "literature" / "reference.json").read_text())
     with Runs(PROGRAM) as runs:
-        numbers = [number for part in (butikov.zones, butikov.subharmonic_orbits) for number in part(runs, known)]
+        numbers = [number for part in (butikov.zones, butikov.turns, butikov.subharmonic_orbits) for number in part(runs, known)]
     assert len(numbers) > 100 and {number.agreement for number in numbers} == {"right", "approximation", "erratum"}
-    page = (ROOT / "docs" / "validation" / "results.md").read_text()
-    assert all(f"| {number.place} | {number.quantity} |" in page for number in numbers)
-    assert page.count("\n| ") > 900 and "FAILED |" not in page
+    page = ROOT / "docs" / "validation" / "results.md"
+    with page.with_suffix(".csv").open() as file:
+        rows = list(csv.DictReader(file))
+    assert {(number.place, number.quantity) for number in numbers} <= {(row["place"], row["quantity"]) for row in rows}
+    assert len(rows) > 900 and "FAILED" not in {row["agreement"] for row in rows} and f"of the {len(rows)} numbers" in page.read_text()
 
 
 def test_a_number_that_fails_is_said(tmp_path):
@@ -96,4 +116,6 @@ def test_a_number_that_fails_is_said(tmp_path):
     assert write_page([("A paper", [wrong, Number("Fig. 2", "k", 0.1, reference=0.1)])], tmp_path / "results.md") == [wrong]
     text = (tmp_path / "results.md").read_text()
     assert "1 of the 2 numbers are right." in text and "paper. 1 failed." in text
-    assert "| Fig. 1 | m | 0.1 | 0.2 | 1.0e-01 | FAILED |" in text
+    assert "| Fig. 1 | m | 0.1 | 0.2 | 1.0e-01 | FAILED |" in text and "| Fig. 2 | 1 | k | k | equal |" in text
+    rows = (tmp_path / "results.csv").read_text().splitlines()
+    assert rows[1:] == ["A paper,Fig. 1,m,0.1,,0.2,,FAILED,", "A paper,Fig. 2,k,,0.1,0.1,,right,"]
