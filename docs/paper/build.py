@@ -16,7 +16,8 @@ MOST_PAGES = 2
 STYLE = """
 @page { size: A4; margin: 14mm 15mm; }
 body { font: 8.6pt/1.28 "DejaVu Serif", serif; text-align: justify; }
-h1 { font-size: 15pt; } h2 { font-size: 10pt; margin: 0.7em 0 0.2em; } p, ul, table { margin: 0.3em 0; }
+h1 { font-size: 15pt; text-align: left; }
+h2 { font-size: 10pt; margin: 0.7em 0 0.2em; break-after: avoid; } p, ul, table { margin: 0.3em 0; }
 td, th { padding: 0.1em 0.8em 0.1em 0; text-align: left; border-bottom: 0.4pt solid #999; } a { color: inherit; text-decoration: none; }
 """
 

@@ -19,7 +19,7 @@ def mark_strobe_points(axes: Axes, plane: Plane, basin: xarray.Dataset, attracto
         size, line = (4.6, 0.9) if attractors["period"].values[index] <= 2 else (3.2, 0.6)
         points = plane.inside(attractors["strobe_theta"].values[index], attractors["strobe_velocity"].values[index])
         scale = room.taken_by(*points, strokes * (size + line))
-        if scale:
+        if scale and points[0].size:  # a line without points would count as one at the corner of the page
             axes.plot(*points, "o", markersize=scale * size, markerfacecolor=face, markeredgecolor=edge, markeredgewidth=scale * line,
                       clip_on=False, zorder=3)
     return axes

@@ -162,7 +162,7 @@ def lay_out(figure: Figure, page: Page | None = None) -> Figure:
         heading.set_size("medium")
     _break_lines(figure)
     for _ in range(3 if page.width is not None or page.legend != "right" else 0):
-        figure.draw_without_rendering()
+        _break_labels(figure)
         box = figure.axes[0].get_position()
         wide = box.width * figure.get_figwidth()
         figure.set_figheight(min(max(figure.get_figheight() + (shape - _shape(figure)) * wide, 0.8), 4 * figure.get_figwidth()))

@@ -203,7 +203,7 @@ def fixed_text(result: Result, sweep: xarray.Dataset) -> str:
         return ",  ".join(text for name, text in si_parameters(result.pendulum).items() if name != swept.removeprefix("pivot_"))
     names = {"quality_factor": "Q", "drive_frequency": r"$\Omega$", "drive_amplitude": r"$\epsilon$"}
     if not result.pendulum.get("drive_amplitude", np.nan):  # a pivot at rest, under a torque
-        names = {"k": "k", "beta": r"$\beta$"}
+        names = {"beta": r"$\beta$"}
     kept = [f"{symbol} = {result.pendulum[name]:.6g}" for name, symbol in names.items()
             if name != swept and np.isfinite(result.pendulum.get(name, np.nan))]
     if "flutter_onset" in sweep:
