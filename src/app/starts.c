@@ -44,7 +44,7 @@ static kz_status read_number(const char *text, int which, const char *place, kz_
   const char *wrong = NULL;
   long divisor;
   char multiple[64];
-  if (which == 0 && kz_pi_parts(text, multiple, sizeof multiple, &divisor))
+  if (which == 0 && (kz_pi_parts(text, multiple, sizeof multiple, &divisor) || strstr(text, "\xc2\xb0")))
     wrong = kz_scalar_angle(&node, &value.high);
   else if (which == 0 || !read_per_second(text, starts, &value.high, &wrong))
     wrong = kz_scalar_decimal(&node, which == 0, &value);

@@ -79,6 +79,10 @@ def test_the_time_until_a_motion_looks_like_its_end(kapitza, tmp_path, start):
     assert f"within 1 deg    after {answer['near_time']} drive periods" in where(SMALL, *start, *QUICK).stdout
 
 
+def test_degrees_have_a_sign_too():
+    assert where(SMALL, "150°", "0", *QUICK).stdout == where(SMALL, "150 deg", "0", *QUICK).stdout != ""
+
+
 def test_all_digits_of_a_start_count():
     """Beside a boundary: the orbit of the start in 24 digits stays near it for twice as long as that of its nearest doubles."""
     starts = ("-0.264011425069458192092654", "-0.2640114250694582")
