@@ -7,7 +7,7 @@ import subprocess
 import pytest
 from conftest import ROOT
 
-ELSEWHERE = {"cluster", "how-hard", "lesson"}  # run by test_cluster.py, test_tutorial.py; no commands
+ELSEWHERE = {"cluster", "how-hard", "lesson", "stories"}  # run by test_cluster.py, test_tutorial.py; no commands
 PAGES = [ROOT / "README.md", *sorted((ROOT / "docs").glob("howto/*.md")), *sorted((ROOT / "docs").glob("tutorials/*.md"))]
 LONG = {"film", "ion-trap", "map", "my-pendulum", "paper", "questions", "shaker"}  # ten seconds and more each
 PAGES = [pytest.param(page, marks=[pytest.mark.extensive] * (page.stem in LONG), id=page.stem)

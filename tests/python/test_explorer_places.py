@@ -86,8 +86,10 @@ def test_the_point_of_the_map_is_the_pendulum(page):
 
 
 ATLAS = """(() => { const curve = { kind: "period_doubling", period: 1, words: "upright rest", name: "inverted", first: 0, points: 2 };
-    const header = { max_period: 2, mirrored: true, cells: 2, points: 2, curves: [curve], lists: [[[0, 1]], [[1, 1]]],
-        classes: [{ name: "inverted", words: "upright rest", symmetric: true }, { name: "flutter", words: "flutter", symmetric: true }] };
+    const header = { max_period: 2, mirrored: true, cells: 2, points: 2, curves: [curve], lists: [[[0, 1]], [[2, 1], [1, 1]]],
+        classes: [{ name: "inverted", words: "upright rest", period: 1, symmetric: true },
+                  { name: "flutter", words: "flutter", period: 2, symmetric: true },
+                  { name: "rotation 2/2", words: "rotations 2/2", period: 2 }] };
     const bytes = new Uint8Array(42);  // a level line at y = 0.5, below which upright attracts
     new Float32Array(bytes.buffer, 0, 8).set([0, 1, 0.5, 0.5, 0, 0, -1, -1]);
     new Uint16Array(bytes.buffer, 32, 4).set([0, 0, 1, 1]);
@@ -99,7 +101,7 @@ def test_crossing_a_curve_says_what_happens_and_sliders_mark_it(page):
         .then(([atlas, happenings, sliders]) => {{ const map = new atlas.Atlas(...{ATLAS});
             const axes = [{{name: "q", unit: "", low: 0, high: 10}}, {{name: "a", unit: "mm", low: 0, high: 0.936}}];
             done([happenings.happening(map, [0.3, 0.2], [0.3, 0.9]), happenings.happening(map, [0.3, 0.9], [0.3, 0.2]),
-                  happenings.happening(map, [0.3, 0.2], [0.6, 0.3]), map.motionsAt([0.1, 0.7])[0].words,
+                  happenings.happening(map, [0.3, 0.2], [0.6, 0.3]), map.motionsAt([0.1, 0.7])[1].words,
                   map.nearest([0.2, 0.52], [0.1, 0.1]).name,
                   sliders.marksOf({{ atlas: map, axes }}, "a", {{q: "5", a: "0.3 mm"}}, "0.3 mm")[0].words]); }})"""
     up, down, along, there, near, mark = page.driver.execute_async_script(script)

@@ -16,17 +16,25 @@ function beside({ at }, from, to, reach) {
   return [at - share, at + share].map((part) => way.map((step, i) => Math.max(0, Math.min(1, from[i] + part * step))));
 }
 
-/** Words of the motions that a place has more, and less, than another. */
+/** Motions that a place has more, and less, than another. */
 function changed(atlas, from, to) {
-  const [before, after] = [from, to].map((place) => new Map(atlas.motionsAt(place).map(({ words, count }) => [words, count])));
-  const more = (one, other) => [...one.keys()].filter((words) => one.get(words) > (other.get(words) ?? 0));
+  const [before, after] = [from, to].map((place) => new Map(atlas.motionsAt(place).map((motion) => [motion.name, motion])));
+  const more = (one, other) => [...one.values()].filter(({ name, count }) => count > (other.get(name)?.count ?? 0));
   return { born: more(after, before), gone: more(before, after) };
+}
+
+const family = (name) => /rotation|^inverted|^flutter|^down/.exec(name)?.[0].replace("flutter", "inverted") ?? null;
+
+/** Whether a motion is what branches off on a curve: another curve may lie near. */
+function isChild({ kind, period, name }, motion) {
+  const [own, other] = [family(name), family(motion.name)];
+  const fits = own === other || ((own === null || other === null) && own !== "rotation" && other !== "rotation");
+  return motion.name !== name && fits && motion.period === (kind === "symmetry_breaking" ? 1 : 2) * period;
 }
 
 function sentence(atlas, { curve, point, into }, { born, gone }) {
   const { words, kind } = curve;
-  const others = (list) => list.filter((name) => name !== words).join(" and ");
-  const child = others(into ? gone : born);
+  const child = (into ? gone : born).find((motion) => isChild(curve, motion))?.words;
   const attracts = atlas.supercritical[point] === 1;
   if (kind === "fold") return into ? `${words} is born: a stable and an unstable motion part (fold)` : `${words} ends: it meets an unstable motion (fold)`;
   if (kind === "rest_leans") {

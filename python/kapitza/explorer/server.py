@@ -7,29 +7,19 @@ import threading
 from http.server import BaseHTTPRequestHandler
 from pathlib import Path
 
-from kapitza import style
 from kapitza.result import BadFile
-from kapitza.units import written_frequency
 
 from .access import Access
-from .atlas import maps
+from .answers import ANSWERS, RUNS, page_folder
 from .connections import Door, Gate
 from .kept import Kept
-from .overlays import overlays, skeleton
 from .program import Refused, Views
 from .scene import BadRequest, Start
-from .stories import read, written
 
 MOST_BYTES = 65_536  # of a request
 MOST_NAME = 64       # characters of a view's name
 KINDS = {".html": "text/html", ".css": "text/css", ".js": "text/javascript"}
 FIRST = "first"      # the view that is begun before a page comes
-
-
-def page_folder():
-    """Where the page is: in the package where it is installed, in a folder of its own in the sources."""
-    places = [Path(__file__).resolve().parents[up] / "web" / "explorer" for up in (1, 3)]
-    return next((place for place in places if place.is_dir()), places[-1])
 
 
 class Explorer:
@@ -93,37 +83,6 @@ def _doors(port, gate, handler):
                 raise
             first.server_close()
     raise AssertionError("unreachable")
-
-
-# ---- what a page may ask: each takes the server and the request, and gives JSON ----
-
-
-def state(explorer, request):
-    """What the page needs before its first frame."""
-    pendulum = explorer.ready["pendulum"]
-    return {"title": explorer.title, "pendulum": pendulum, "window": explorer.start.window(explorer.ready), "kinds": style.KINDS,
-            "pivot_frequency": written_frequency(pendulum), "overlays": overlays(explorer.start.result)}
-
-
-def scene(explorer, request):
-    """The scene of a view."""
-    return {"text": explorer.start.view(request)}
-
-
-def link(explorer, request):
-    """The token of another address."""
-    return {"once": explorer.access.new_address()}
-
-
-def stories(explorer, request):
-    """The stories that come with the page; that of a text where there is one."""
-    if "text" not in request:
-        return {"stories": written(page_folder() / "stories")}
-    return {"stories": [read(str(request["text"]), str(request.get("name", "the story")))]}
-
-
-ANSWERS = {"state": state, "scene": scene, "link": link, "stories": stories}
-RUNS = {"atlas": maps, "skeleton": skeleton}  # what takes longer: each takes the kept runs and the request, and gives answers in parts
 
 
 class Handler(BaseHTTPRequestHandler):
