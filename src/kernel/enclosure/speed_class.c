@@ -27,7 +27,7 @@ typedef struct {
   real r, y, w, a[2], slope[2];
 } majorant;
 
-enum { MAJORANTS = 2400 };
+enum { MAJORANTS = 2400, MOTION = -1 };
 
 /* The bounds of a step. */
 typedef struct {
@@ -152,49 +152,86 @@ static void set_errors(bounds *b, double fastest) {
   }
 }
 
-/* (B3) Errors of the coefficients, rounding of their sums from the last one on, and the rest of the polynomials. */
-static void bound_centre(const bounds *b, double fastest, kz_speed_class *speed) {
-  const real h = b->h, farthest = 4 + 2 * (real)M_PI * fastest * CAUTION; /* theta before whole turns are taken out */
-  real velocity = 0, theta = 0, sum = 0, product = 0, sums = 0, products = 0, rest = HUGE_VALL;
-  real small_sum = 0, small_product = 0, quad_sum = 0, quad_product = h * fastest;
+/* What a step misses of the angle and of the velocity. */
+typedef struct {
+  real theta, velocity;
+} missed;
+
+/* The sum of a series from the last coefficient on. Each partial sum is rounded, so that errors are shares of the partial sums. */
+typedef struct {
+  real sum, partial; /* of the coefficients that are no quads; of all its partial sums */
+  real in_doubles;   /* of those that are doubles beside pairs */
+  real in_quads;
+} series;
+
+static void add_term(const bounds *b, int n, real size, series *of) {
+  if (is_quad(b, n)) {
+    of->in_quads += size;
+    return;
+  }
+  of->partial += of->sum += size;
+  if (n == KZ_COEFFICIENTS_PAIRS) of->in_doubles = of->sum;
+}
+
+/* (B2) The errors of the coefficients. */
+static void add_errors(const bounds *b, missed *step) {
+  for (int n = b->order - 1; n >= 1; n--) {
+    step->velocity += b->velocity_error[n];
+    step->theta += b->velocity_error[n] * b->h / (n + 1);
+  }
+}
+
+/* (B3) The rounding of the sums v = sum nu_n and theta = theta(0) + h sum nu_n / (n + 1), whose first term is h `fastest`. In quads the angle's
+ * has six roundings more: the products by h / (n + 1). */
+static void add_rounding(const bounds *b, double fastest, missed *step) {
+  enum { SUMS_OF_QUADS = KZ_COEFFICIENTS_QUADS + 2 };
+  const real h = b->h, farthest = 4 + 2 * (real)M_PI * fastest * CAUTION; /* (B7) theta before whole turns are taken out */
+  series v = {0}, angle = {.in_quads = h * fastest};
   for (int n = b->order - 1; n >= 1; n--) {
     const real size = b->velocity[n] + b->velocity_error[n];
-    velocity += b->velocity_error[n];
-    theta += b->velocity_error[n] * h / (n + 1);
-    if (is_quad(b, n)) {
-      quad_sum += size;
-      quad_product += size * h / (n + 1);
-      continue;
-    }
-    sums += sum += size;
-    products += product += size * h / (n + 1);
-    if (n != KZ_COEFFICIENTS_PAIRS) continue;
-    small_sum = sum;
-    small_product = product;
+    add_term(b, n, size, &v);
+    add_term(b, n, size * h / (n + 1), &angle);
   }
-  if (b->pairs) { /* those of the coefficients that are doubles are summed in doubles */
-    velocity += (b->order + 2) * U * HIGHER * small_sum;
-    theta += (b->order + 4) * U * HIGHER * small_product;
+  if (b->pairs) {
+    step->velocity += (b->order + 2) * U * HIGHER * v.in_doubles;
+    step->theta += (b->order + 4) * U * HIGHER * angle.in_doubles;
   }
   if (b->quads) {
-    const int sums_of_quads = KZ_COEFFICIENTS_QUADS + 2;
-    velocity += PLUS * U * U * sums + U_QUAD * HIGHER * (sums_of_quads * (quad_sum + sum) + fastest + quad_sum + sum);
-    theta += PLUS * U * U * products + TIMES * U * U * product +
-             U_QUAD * HIGHER * ((sums_of_quads + 6) * (quad_product + product) + farthest);
+    step->velocity +=
+        PLUS * U * U * v.partial + U_QUAD * HIGHER * (SUMS_OF_QUADS * (v.in_quads + v.sum) + fastest + v.in_quads + v.sum);
+    step->theta += PLUS * U * U * angle.partial + TIMES * U * U * angle.sum +
+                   U_QUAD * HIGHER * ((SUMS_OF_QUADS + 6) * (angle.in_quads + angle.sum) + farthest);
   } else if (b->pairs) {
-    velocity += PLUS * U * U * (sums + fastest + sum);
-    theta += PLUS * U * U * (products + product + h * fastest + farthest) + TIMES * U * U * (product + h * fastest);
+    step->velocity += PLUS * U * U * (v.partial + fastest + v.sum);
+    step->theta +=
+        PLUS * U * U * (angle.partial + angle.sum + h * fastest + farthest) + TIMES * U * U * (angle.sum + h * fastest);
   } else {
-    velocity += HIGHER * U * (sums + sum + U * fastest);
-    theta += HIGHER * U * (products + 4 * product + TIMES * U * (h * fastest + farthest));
+    step->velocity += HIGHER * U * (v.partial + v.sum + U * fastest);
+    step->theta += HIGHER * U * (angle.partial + 4 * angle.sum + TIMES * U * (h * fastest + farthest));
   }
-  if (b->digits) velocity = theta = 0;
+}
+
+/* (B0) What the terms below `order` leave: of the motion's velocity, or of that of a column of the tangent map. */
+static real rest_of(const bounds *b, int order, int column) {
+  real rest = HUGE_VALL;
   for (int i = 0; i < b->n_majorants; i++) {
-    const real ratio = h / b->majorant[i].r * CAUTION;
-    if (ratio < 0.99L) rest = fminl(rest, b->majorant[i].w * powl(ratio, b->order) / (1 - ratio));
+    const majorant *at = &b->majorant[i];
+    const real ratio = b->h / at->r * CAUTION;
+    if (ratio < 0.99L) rest = fminl(rest, (column == MOTION ? at->w : at->slope[column]) * powl(ratio, order) / (1 - ratio));
   }
-  speed->velocity_error = (double)((velocity + rest) * CAUTION + TINY);
-  speed->theta_error = (double)((theta + rest * h / (b->order + 1)) * CAUTION + TINY);
+  return rest;
+}
+
+/* (B3) A step of the centre: errors of its coefficients, rounding of their sums, and what the polynomials leave. Balls know the first two. */
+static void bound_centre(const bounds *b, double fastest, kz_speed_class *speed) {
+  missed step = {0};
+  if (!b->digits) {
+    add_errors(b, &step);
+    add_rounding(b, fastest, &step);
+  }
+  const real rest = rest_of(b, b->order, MOTION);
+  speed->velocity_error = (double)((step.velocity + rest) * CAUTION + TINY);
+  speed->theta_error = (double)((step.theta + rest * b->h / (b->order + 1)) * CAUTION + TINY);
 }
 
 /* Rounding in a column that begins with a = 1 or b = 1, computed in doubles: of its angle and velocity at the step's end. */
@@ -237,12 +274,9 @@ static void bound_tangent(const bounds *b, int T, double tangent_error[2][2]) {
     }
   }
   for (int c = 0; c < 2; c++) {
-    real rounding[2], rest = HUGE_VALL;
+    real rounding[2];
     column_rounding(b, T, stiffness, stiffness_error, c, rounding);
-    for (int i = 0; i < b->n_majorants; i++) {
-      const real ratio = b->h / b->majorant[i].r * CAUTION;
-      if (ratio < 0.99L) rest = fminl(rest, b->majorant[i].slope[c] * powl(ratio, T) / (1 - ratio));
-    }
+    const real rest = rest_of(b, T, c);
     tangent_error[0][c] = (double)((rounding[0] + rest * b->h / (T + 1)) * CAUTION);
     tangent_error[1][c] = (double)((rounding[1] + rest) * CAUTION);
   }
