@@ -11,7 +11,7 @@ import xarray
 
 from kapitza import layout, units
 from kapitza.reading import BadFile, elsewhere, group_of, opened
-from kapitza.table import attractors_table, cells_of, flag_word, labels_array
+from kapitza.table import attractors_table, labels_array, starts_table
 
 if TYPE_CHECKING:
     from kapitza.chances import Agreement
@@ -101,16 +101,7 @@ class Result:
             name, settling_time (drive periods) and evidence; for arrays, which are broadcast, a DataFrame with a row each
         :raises ValueError: if a start lies outside the window
         """
-        basin, names = self.group("basin"), {-1: "not settled", **dict(enumerate(self.names))}
-        pairs = np.broadcast(np.asarray(theta, dtype=object), np.asarray(velocity, dtype=object))
-        starts = [(units.angle(one), units.velocity(other, self.pivot_frequency)) for one, other in pairs]
-        angles, speeds = np.array(starts).reshape(-1, 2).T
-        angles, rows, columns = cells_of(basin, angles, speeds)
-        labels = basin["attractor"].values[rows, columns]
-        table = pandas.DataFrame({"theta": angles, "velocity": speeds, "attractor": labels, "name": [names[int(label)] for label in labels],
-                                  "settling_time": basin["settling_time"].values[rows, columns],
-                                  "evidence": [flag_word(basin["evidence"], code) for code in basin["evidence"].values[rows, columns]]})
-        return table if pairs.shape else table.iloc[0]
+        return starts_table(self.group("basin"), self.names, theta, velocity, self.pivot_frequency)
 
     def basin(self, name: int | str) -> xarray.DataArray:
         """True for every start that ends on this attractor, with the dimensions velocity and theta.
@@ -190,8 +181,7 @@ class Result:
     def motions(self, x: float, y: float, *, states: bool = True) -> pandas.DataFrame:
         """The motions that attract at any point of an atlas, of up to its `max_period` periods, in some milliseconds.
 
-        The list follows from the curves alone. Each cycle is then carried to the point from the curve on which it is born, and solved for
-        there: no start is followed.
+        Each cycle is carried to the point from the curve on which it is born, and solved for there: no start is followed.
 
         :param x: value of the key along the horizontal axis
         :param y: value of the key along the vertical axis

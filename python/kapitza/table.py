@@ -1,11 +1,13 @@
 """The attractors of a result as a table, and the labels of its basin as an array with its flags."""
 
 import re
+from typing import Any
 
 import numpy as np
 import pandas
 import xarray
 
+from kapitza import units
 from kapitza.units import TURN
 
 CENTRES = ("down", "inverted", "rotating", "neither")  # codes of the variable centre
@@ -84,3 +86,17 @@ def cells_of(basin: xarray.Dataset, theta: np.ndarray, velocity: np.ndarray) -> 
     rows, columns = (np.clip(((place - first) / (last - first) * basin.sizes[name]).astype(int), 0, basin.sizes[name] - 1)
                      for place, first, last, name in ((velocity, low, high, "velocity"), (theta, left, right, "theta")))
     return theta, rows, columns
+
+
+def starts_table(basin: xarray.Dataset, names: list[str], theta: Any, velocity: Any, frequency: float | None) -> pandas.DataFrame | pandas.Series:
+    """What the cells of starts say, as `Result.at` returns it. `frequency`: of the pivot, rad/s, for velocities with a unit."""
+    named = {-1: "not settled", **dict(enumerate(names))}
+    pairs = np.broadcast(np.asarray(theta, dtype=object), np.asarray(velocity, dtype=object))
+    starts = [(units.angle(one), units.velocity(other, frequency)) for one, other in pairs]
+    angles, speeds = np.array(starts).reshape(-1, 2).T
+    angles, rows, columns = cells_of(basin, angles, speeds)
+    labels = basin["attractor"].values[rows, columns]
+    table = pandas.DataFrame({"theta": angles, "velocity": speeds, "attractor": labels, "name": [named[int(label)] for label in labels],
+                              "settling_time": basin["settling_time"].values[rows, columns],
+                              "evidence": [flag_word(basin["evidence"], code) for code in basin["evidence"].values[rows, columns]]})
+    return table if pairs.shape else table.iloc[0]

@@ -8,7 +8,6 @@
 """
 
 import argparse
-import itertools
 import math
 from collections.abc import Mapping
 from typing import Any
@@ -22,12 +21,12 @@ from matplotlib.lines import Line2D
 from matplotlib.ticker import FixedLocator, FuncFormatter, NullLocator
 
 from kapitza import style
-from kapitza.plots.atlas_labels import label_regions, motion_text
+from kapitza.plots.atlas_labels import POINTS, label_regions, mark_points, motion_text
 from kapitza.plots.atlas_labels import region_text as region_text
 from kapitza.plots.atlas_line import draw_line
 from kapitza.plots.chart import NAMES
 from kapitza.plots.common import argument_parser, entitle, new_figure, parsed, write_picture
-from kapitza.result import BadFile, Result
+from kapitza.result import Result
 
 FOLD, DOUBLING, BREAKING, SWINGS, LEANS = range(5)  # codes of curve_kind
 CUSP = 0  # of special_kind
@@ -38,7 +37,6 @@ DASHES: dict[int, Any] = {FOLD: "-", DOUBLING: (0, (5, 2)), BREAKING: (0, (1.2, 
 BOLD_UP_TO = 4  # longer cycles live in thin bands: their curves are thin
 MOST_SHADES = 14
 LONGEST = 16  # periods of the cycles whose curves are drawn
-POINTS = 7  # zorder of points from a file
 VIEWS = ("map", "motions", "line")
 
 
@@ -155,20 +153,6 @@ def draw_map(axes: Axes, atlas: xarray.Dataset, *, colours: Mapping[int, str] = 
     if legend:
         write_legend(axes, atlas, shades, most, colours, longest, marks)
     return axes
-
-
-def mark_points(axes: Axes, path: str) -> list[Line2D]:
-    """Points of a CSV file, a mark for each label; the marks, for the legend."""
-    import pandas
-
-    table = pandas.read_csv(path, comment="#")
-    if missing := {"x", "y", "label"} - set(table.columns):
-        raise BadFile(f"{path}: lacks the column {sorted(missing)[0]}")
-    handles = []
-    for (label, rows), mark in zip(table.groupby("label", sort=False), itertools.cycle("osD^vPX*"), strict=False):
-        handles += axes.plot(rows["x"], rows["y"], mark, markersize=4.6, markerfacecolor="#ffd24a", markeredgecolor=style.INK,
-                             markeredgewidth=0.8, linestyle="", zorder=POINTS, label=str(label))
-    return handles
 
 
 def map_page(result: Result, atlas: xarray.Dataset, longest: int, points: str | None = None) -> Figure:

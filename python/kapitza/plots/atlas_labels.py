@@ -1,13 +1,18 @@
 """Words on an atlas: what its motions are called, and what each region has more than the one below it."""
 
+import itertools
+
 import matplotlib.patheffects as effects
 import numpy as np
 import xarray
 from matplotlib.axes import Axes
+from matplotlib.lines import Line2D
 from matplotlib.text import Text
 
 from kapitza import style
+from kapitza.reading import BadFile
 
+POINTS = 7  # zorder of points from a file
 LABELLED = 0.004  # share of the plane from which on a region has a label, if it has room
 
 
@@ -22,6 +27,20 @@ def motion_text(name: str) -> str:
         if name.startswith(kind) and name.endswith("-nodding"):
             return f"{text} in {name.removeprefix(kind).removesuffix('-nodding')}"
     return name
+
+
+def mark_points(axes: Axes, path: str) -> list[Line2D]:
+    """Points of a CSV file, a mark for each label; the marks, for the legend."""
+    import pandas
+
+    table = pandas.read_csv(path, comment="#")
+    if missing := {"x", "y", "label"} - set(table.columns):
+        raise BadFile(f"{path}: lacks the column {sorted(missing)[0]}")
+    handles = []
+    for (label, rows), mark in zip(table.groupby("label", sort=False), itertools.cycle("osD^vPX*"), strict=False):
+        handles += axes.plot(rows["x"], rows["y"], mark, markersize=4.6, markerfacecolor="#ffd24a", markeredgecolor=style.INK,
+                             markeredgewidth=0.8, linestyle="", zorder=POINTS, label=str(label))
+    return handles
 
 
 def lower_neighbour(atlas: xarray.Dataset, row: int, column: int) -> tuple[int, int] | None:

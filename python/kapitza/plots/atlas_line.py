@@ -1,5 +1,7 @@
 """One line through an atlas: the branches of all cycles, as a bifurcation diagram."""
 
+from collections.abc import Mapping
+
 import numpy as np
 import pandas
 from matplotlib.axes import Axes
@@ -18,30 +20,35 @@ def parts(attracts: np.ndarray) -> list[tuple[slice, bool]]:
     return [(slice(first, last + 1), bool(attracts[first])) for first, last in zip(edges[:-1], edges[1:], strict=True)]
 
 
-def draw_line(axes: Axes, table: pandas.DataFrame) -> Axes:
-    """Branches as `Result.line` returns them: mean height of the bob at the strobe points over the key; dashed where they repel."""
+def draw_line(axes: Axes, table: pandas.DataFrame, *, colours: Mapping[int, str] | None = None, legend: bool = True) -> Axes:
+    """Branches as `Result.line` returns them: mean height of the bob at the strobe points over the key; dashed where they repel.
+
+    `colours`: of periods, in place of those of motions.
+    """
     named: dict[str, str] = {}
     for _, rows in table.groupby("branch", sort=False):
         first = rows.iloc[0]
-        colour = style.motion_colour(int(first["period"]), int(first["winding"]), CENTRES[first["centre"]])
-        for part, attracts in parts(rows["multiplier"].values < 1):
-            axes.plot(rows["value"].values[part], rows["height"].values[part], color=colour, zorder=3 if attracts else 2,
-                      linestyle="-" if attracts else (0, (3, 1.6)), linewidth=(1.9 if first["period"] <= 2 else 1.2) if attracts else 0.8,
+        period = int(first["period"])
+        colour = (colours or {}).get(period) or style.motion_colour(period, int(first["winding"]), CENTRES[first["centre"]])
+        value, height, multiplier = (rows[name].to_numpy(float) for name in ("value", "height", "multiplier"))
+        for part, attracts in parts(multiplier < 1):
+            axes.plot(value[part], height[part], color=colour, zorder=3 if attracts else 2,
+                      linestyle="-" if attracts else (0, (3, 1.6)), linewidth=(1.9 if period <= 2 else 1.2) if attracts else 0.8,
                       alpha=1 if attracts else 0.75, solid_capstyle="round")
-            if attracts and first["period"] <= 4:
+            if attracts and period <= 4:
                 named.setdefault(motion_text(first["name"]), colour)
-        mark_ends(axes, rows)
-    handles = [Line2D([], [], color=colour, linewidth=1.9, label=name) for name, colour in named.items()]
-    axes.legend(handles=handles, loc="center left", bbox_to_anchor=(1.02, 0.5), fontsize="small", frameon=False)
+        mark_ends(axes, value, height, multiplier)
+    if legend:
+        handles = [Line2D([], [], color=colour, linewidth=1.9, label=name) for name, colour in named.items()]
+        axes.legend(handles=handles, loc="center left", bbox_to_anchor=(1.02, 0.5), fontsize="small", frameon=False)
     axes.set_ylabel("mean height of the bob at the strobe points")
     axes.set_ylim(-1.06, 1.06)
     axes.set_yticks([-1, -0.5, 0, 0.5, 1], ["hangs −1", "−0.5", "0", "0.5", "stands 1"])
     return axes
 
 
-def mark_ends(axes: Axes, rows: pandas.DataFrame) -> None:
+def mark_ends(axes: Axes, value: np.ndarray, height: np.ndarray, multiplier: np.ndarray) -> None:
     """Dots where a branch gains or loses its stability: where the multiplier passes 1 between two points."""
-    multiplier, value, height = (rows[name].values for name in ("multiplier", "value", "height"))
     for at in np.flatnonzero((multiplier[1:] < 1) != (multiplier[:-1] < 1)):
         ends = np.log(multiplier[at:at + 2])
         share = ends[0] / (ends[0] - ends[1])
