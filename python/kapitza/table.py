@@ -88,7 +88,8 @@ def cells_of(basin: xarray.Dataset, theta: np.ndarray, velocity: np.ndarray) -> 
     return theta, rows, columns
 
 
-def starts_table(basin: xarray.Dataset, names: list[str], theta: Any, velocity: Any, frequency: float | None) -> pandas.DataFrame | pandas.Series:
+def starts_table(basin: xarray.Dataset, names: list[str], theta: Any, velocity: Any,
+                 frequency: float | None) -> pandas.DataFrame | pandas.Series:
     """What the cells of starts say, as `Result.at` returns it. `frequency`: of the pivot, rad/s, for velocities with a unit."""
     named = {-1: "not settled", **dict(enumerate(names))}
     pairs = np.broadcast(np.asarray(theta, dtype=object), np.asarray(velocity, dtype=object))
