@@ -3,13 +3,11 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "majorants.h"
 #include "sets.h"
 
-typedef long double real;
-
-enum { MOST_STEPS = 4096, P = KZ_ORDER_PAIRS, MOST = KZ_ORDER_JACOBIAN };
-static const real MARGIN = 1e-9L,
-                  CAUTION = 1 + 1e-9L; /* relative, far above the rounding of the bounds and in the C library's functions */
+enum { MOST_STEPS = 4096, P = KZ_ORDER_PAIRS, MOST = KZ_ORDER_JACOBIAN, MOTION = -1 };
+static const real CAUTION = 1 + 1e-9L; /* relative, far above the rounding of the bounds and in the C library's functions */
 static const real U = 0x1p-53L, U_QUAD = 0x1p-113L;
 /* In units of U_QUAD: of constants in quads, which are products of 2 pi, cosines and powers of h (2^-108, 19 and 36 units). */
 static const real QUAD_CONSTANTS = 96;
@@ -20,14 +18,6 @@ static const real TINY = 1e-280L; /* products below the range of doubles */
 /* h beta, h, h torque, and the first n powers of s in h a(t + h s) and -h b(t + h s) [n_steps][n]; h = 2 pi / n_steps. */
 void kz_interval_constants(const kz_pendulum *pendulum, int32_t n_steps, int32_t n, __float128 *damping, __float128 *step,
                            __float128 *push, __float128 *along, __float128 *across);
-
-/* Bounds for |z| <= r around any time of a motion that is as fast as its class allows there: |Im theta| <= y, |theta'| <= w. slope [2]:
- * bounds of the velocities of the tangent map's columns that begin with (1, 0) and (0, 1). */
-typedef struct {
-  real r, y, w, a[2], slope[2];
-} majorant;
-
-enum { MAJORANTS = 2400, MOTION = -1 };
 
 /* The bounds of a step. */
 typedef struct {
@@ -41,45 +31,6 @@ typedef struct {
   real velocity_error[P], sine_error[P]; /* of the computed ones */
   majorant majorant[MAJORANTS];
 } bounds;
-
-/* Majorants. For complex time t + z, |z| <= R, the motion from a real state is compared with the solution of
- *   w' = beta w + a(r) cosh y,  y' = w,  y(0) = 0,  w(0) = fastest
- * along the ray r = |z|: |theta'| <= w(r), |Im theta| <= y(r), since kz_force_majorant a(r) bounds the force and |sin theta|, |cos theta| <= cosh y.
- * Its neighbours likewise with a(r) cosh(y) times their distance. */
-
-/* An Euler step with the slopes at its end, found by repetition and then checked: all of them grow. */
-static bool march(const kz_pendulum *p, real dr, majorant *at) {
-  const real r = at->r + dr, torque = kz_force_majorant(p, r);
-  majorant to = *at;
-  to.r = r;
-  bool holds = false;
-  for (int i = 0; i < 60 && !holds && to.y < 25; i++) {
-    const real w = at->w + dr * (p->beta * to.w + torque * coshl(to.y)), y = at->y + dr * to.w;
-    if (w * (1 + MARGIN / 8) <= to.w && y * (1 + MARGIN / 8) <= to.y) {
-      holds = true;
-    } else {
-      to.w = w * (1 + MARGIN);
-      to.y = (at->y + dr * to.w) * (1 + MARGIN);
-    }
-  }
-  if (!holds) return false;
-  const real stiffness = torque * coshl(to.y), rest = 1 - dr * p->beta - dr * dr * stiffness;
-  if (!(rest > 0.5L)) return false;
-  for (int c = 0; c < 2; c++) { /* linear: slope = old + dr (beta slope + stiffness (a + dr slope)) */
-    to.slope[c] = (at->slope[c] + dr * stiffness * at->a[c]) / rest * (1 + MARGIN);
-    to.a[c] = (at->a[c] + dr * to.slope[c]) * (1 + MARGIN);
-  }
-  *at = to;
-  return true;
-}
-
-static int find_majorants(const kz_pendulum *pendulum, double fastest, majorant *list) {
-  const double scale = fmax(fmax(1, fastest), sqrt(kz_stiffness(pendulum)));
-  majorant at = {.w = fastest, .a = {1, 0}, .slope = {0, 1}};
-  int n = 0;
-  while (n < MAJORANTS && march(pendulum, 6.0L / MAJORANTS / scale, &at)) list[n++] = at;
-  return n;
-}
 
 /* Is coefficient n a quad? */
 static bool is_quad(const bounds *b, int n) {
@@ -334,7 +285,7 @@ static void make_constants(const kz_pendulum *pendulum, kz_speed_class *speed) {
 }
 
 static kz_speed_class *create(bounds *b, double fastest) {
-  b->n_majorants = find_majorants(b->pendulum, fastest, b->majorant);
+  b->n_majorants = kz_majorants_find(b->pendulum, fastest, b->majorant);
   const int32_t n_steps = choose_steps(b);
   if (n_steps == 0) return NULL;
   kz_speed_class *made = kz_calloc(
