@@ -148,6 +148,7 @@ def test_shares_are_of_attractors_that_the_list_has(kapitza, tmp_path):
         assert not (shares[region] > 0)[group["attracting"].values[:, row, column] == 0].any()
 
 
+@pytest.mark.extensive
 def test_pictures(atlas, tmp_path):
     """The map and the small maps; what a region has more than the one below it."""
     from kapitza.plots import atlas as picture
@@ -191,6 +192,7 @@ def test_no_curve_is_missing(kapitza, tmp_path):
     assert pairs > 1500
 
 
+@pytest.mark.extensive
 def test_a_fold_ends_where_it_meets_a_degenerate_period_doubling(kapitza, tmp_path):
     """A fold of four periods runs into one of two periods, and does not go on along the period doubling."""
     scene = {"pendulum": dict(PENDULUM, tilt="5 deg"),

@@ -110,9 +110,9 @@ def test_starts_are_told_in_the_units_of_the_axes(page):
     words = page.run("$('ending').textContent")
     assert "certain after 0.24 s, within 1° of it after 0.6 s" in words and re.search(r"velocity \S+ rad/s", words)
     page.run("explorer.basins.point(explorer.basins.panes[0], [0.25, 0.75])")
-    assert "rad/s" in page.run("$('pointer').textContent") and "after" not in page.run("$('pointer').textContent")
+    assert wait_for(lambda: "rad/s" in page.run("$('pointer').textContent")) and "after" not in page.run("$('pointer').textContent")
     page.run("explorer.state.change({units: 'degrees'})")
-    assert page.run("$('pointer').textContent").startswith("θ −90") and "°" in page.run("$('ending').textContent")
+    assert wait_for(lambda: page.run("$('pointer').textContent").startswith("θ −90")) and "°" in page.run("$('ending').textContent")
 
 
 def test_cells_without_a_label_are_hatched_until_they_are_settled(page):

@@ -151,8 +151,9 @@ TRIED = {
 
 
 # The commands share the check; that of a reference takes seconds.
-@pytest.mark.parametrize("command, name", [(command, name) for name in TRIED for command in ("run", "check")
-                                           if command == "check" or "reference" not in name])
+@pytest.mark.parametrize("command, name", [
+    pytest.param(command, name, marks=[pytest.mark.extensive] * (name == "reference of a trade-off"))
+    for name in TRIED for command in ("run", "check") if command == "check" or "reference" not in name])
 def test_every_study_is_tried_beforehand(kapitza, tmp_path, command, name):
     text, place, said = TRIED[name]
     (tmp_path / "x.yaml").write_text(text)
@@ -264,6 +265,7 @@ FEW = ["basin.theta.count=4", "basin.velocity.count=4", "basin.attractors.starts
 
 
 # A period limit that the scene does not give follows from the damping; one that leaves most motions unsettled is named before the work.
+@pytest.mark.extensive
 def test_periods_follow_from_the_damping(kapitza, tmp_path):
     def check(*settings):
         words = [word for setting in [*GRID, *FEW, *settings] for word in ("--set", setting)]

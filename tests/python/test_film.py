@@ -72,6 +72,7 @@ def test_frames_without_a_record_are_another_film(film, tmp_path):
     assert (tmp_path / "film" / "frame-0000.png").read_bytes() == b"a holiday"
 
 
+@pytest.mark.extensive
 def test_films_from_python_have_a_legend_that_stays(tmp_path):
     """The same kinds in the same order in every picture, with shares that are those of the labels."""
     assert kapitza.film(SCENE, "pendulum.drive_amplitude", [0.15, 0.3], tmp_path / "two.gif").name == "two.gif"

@@ -69,6 +69,7 @@ def test_drag_and_friction_are_told_from_viscous_damping():
     assert found.quality_factor("20 deg") == pytest.approx(7 / rate, rel=0.03)
 
 
+@pytest.mark.extensive
 def test_a_bearing_that_stops_the_pendulum():
     """Swings of 4 degrees that shrink evenly, as dry friction makes them."""
     time, truth = np.linspace(0, 4.5, 120), DECAY | {"theta": 0.085, "velocity": 0.0, "viscous": 0.02, "dry": 0.13}

@@ -100,6 +100,7 @@ def test_tables_of_starts_are_in_si_too():
     assert table["strobe_velocity_rad_per_s"][0] == pytest.approx(OMEGA * np.array(table["strobe_velocity"][0]))
 
 
+@pytest.mark.extensive
 def test_reports_and_comparisons_are_in_si(tmp_path):
     for name, amplitude in (("one", "8 mm"), ("other", "9 mm")):
         kapitza.run(SCENE, tmp_path / f"{name}.h5", set=FEW | {"pendulum.amplitude": amplitude}, progress=False)

@@ -132,6 +132,7 @@ def test_an_unknown_saddle_is_refused(kapitza, tmp_path):
     assert not (tmp_path / "s.h5").exists()
 
 
+@pytest.mark.extensive
 def test_manifolds_are_drawn(kapitza, tmp_path):
     scene = json.loads(scene_text(length=3, kind="stable"))
     scene["basin"] = {"theta": {"count": 40}, "velocity": {"min": -2, "max": 2, "count": 40}, "method": "direct"}

@@ -111,7 +111,7 @@ def test_the_command_names_its_kinds(words, status):
     assert done.returncode == status and "KIND: atlas, basin, chart" in done.stdout + done.stderr and "Traceback" not in done.stderr
 
 
-@pytest.mark.parametrize("tool", [["mypy"], ["ruff", "check"]])
+@pytest.mark.parametrize("tool", [pytest.param(["mypy"], marks=pytest.mark.extensive), ["ruff", "check"]])
 def test_checkers_find_nothing(tool):
     done = python("-m", *tool, cwd=ROOT)
     assert done.returncode == 0, done.stdout + done.stderr

@@ -20,6 +20,7 @@ def test_a_picture_is_as_wide_as_it_is_asked_to_be(made_file, tmp_path, width, i
     assert abs(matplotlib.image.imread(tmp_path / "a.png").shape[1] - 100 * inches) <= 1
 
 
+@pytest.mark.extensive
 def test_the_legend_has_its_place(made_file, tmp_path):
     words = {}
     for place in ("right", "below", "none"):

@@ -81,6 +81,7 @@ def test_rounding_noise_is_no_motion(axes_of, name, options):
         assert axes["spectrum"].get_yscale() == "linear" and not axes["spectrum"].lines and not axes["spectrum"].collections
 
 
+@pytest.mark.extensive
 def test_long_records_show_their_last_periods(axes_of):
     axes, words = axes_of("long")
     assert axes["time"].get_xlim() == pytest.approx((1400, 1500)) and "last 100 periods" in words
@@ -97,6 +98,7 @@ def test_a_long_closed_orbit_shows_one_round(axes_of):
     assert axes["time"].get_xlim() == pytest.approx((0, 6)) and "last" not in words
 
 
+@pytest.mark.extensive
 @pytest.mark.parametrize("name, words", [("chaotic", ["chaotic", "velocity (rad per drive radian),"]),
                                          ("open", ["open record   |   settles on inverted", "amplitude (rad),"])])
 def test_open_records_say_what_they_are(files, tmp_path, name, words):

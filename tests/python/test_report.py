@@ -44,6 +44,7 @@ def test_it_holds_pictures_attractors_numbers_scene_and_provenance(report, small
     assert result.attributes["git_revision"] in text and hashlib.sha256(small_result.read_bytes()).hexdigest() in text
 
 
+@pytest.mark.extensive
 def test_intervals_stand_beside_their_numbers(small_result, tmp_path):
     shutil.copy(small_result, tmp_path / "more.h5")
     with h5py.File(tmp_path / "more.h5", "a") as file:
@@ -70,6 +71,7 @@ def test_words_of_a_scene_are_no_html(small_result, tmp_path):
     assert "<title>a &lt; b &amp; c</title>" in text and "<script" not in text
 
 
+@pytest.mark.extensive
 def test_a_result_without_a_grid_has_its_own_pictures(model):
     result = model({"k": 1 / 121, "damping": 1 / 55, "m": 0.3}, orbit={"start": {"theta": 3, "velocity": 0}, "periods": 20},
                    potential={"drive_amplitudes": [0.3]})

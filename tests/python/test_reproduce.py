@@ -45,7 +45,7 @@ def test_the_pages_show_figures_of_print_size():
     """One column of a journal or two, 300 dots per inch; what no table draws is named here."""
     known = {name: options for name, _, _, options in FIGURES} | {name: options for name, (_, _, _, options) in TUTORIALS.items()}
     shown = {name for name in reproduce.shown() if not name.startswith("drawing-")}
-    assert len(shown) > 40 and shown - known.keys() == {"explorer", "report", "scaling"}
+    assert len(shown) > 40 and shown - known.keys() == {"explorer", "explorer-phone", "report", "scaling"}
     older = {"atlas-blackburn", "atlas-blackburn-motions", "blackburn-fig04-dots", "blackburn-walk", "chart-blackburn",
              "chart-butikov", "proof-fig13", "tradeoff-fig12", "tradeoff-fig13"}
     for name in (shown & known.keys()) - older:

@@ -209,6 +209,7 @@ def test_potential_draws(kapitza, tmp_path):
     assert image.imread(tmp_path / "potential.png")[..., :3].std() > 0.05
 
 
+@pytest.mark.extensive
 def test_benchmark_measures_speed_and_error(kapitza):
     script = [sys.executable, ROOT / "benchmarks" / "benchmark_stability.py", "--json", "--count", "60", "--points", "6", "--exact", "6",
               "--rounds", "1"]

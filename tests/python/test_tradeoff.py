@@ -101,6 +101,7 @@ def test_the_cache_is_used_extended_and_not_trusted_blindly(kapitza, tmp_path, r
     assert untimed(trade(kapitza, tmp_path, "cached.h5", "--force")) == untimed(reference)
 
 
+@pytest.mark.extensive
 def test_an_accuracy_within_reach_is_met(kapitza, tmp_path):
     done = kapitza("run", SMALL, "-o", "met.h5", "--set", "pendulum.drive_amplitude=0.150", *without_method(0.98),
                    folder=tmp_path, ranks=2)

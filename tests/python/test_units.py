@@ -78,6 +78,7 @@ def test_an_orbit_in_seconds_and_hertz(result):
     assert lab["phase"].lines[0].get_ydata() == pytest.approx(OMEGA * drive["phase"].lines[0].get_ydata())
 
 
+@pytest.mark.extensive
 def test_potentials_and_strobe_points_in_degrees(result, swept):
     assert_shows(page(potential, result, "--degrees").axes[1].xaxis, "angle", 0, 360)
     for panel in page(sweep, Result(swept), "--view", "strobe", "--degrees").axes:

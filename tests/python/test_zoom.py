@@ -126,7 +126,7 @@ def labels_of_typed_starts(kapitza, folder, width, count):
     return np.array([json.loads(line)["attractor"] for line in done.stdout.splitlines()]).reshape(count, count)
 
 
-@pytest.mark.parametrize("width", ["2e-7", "1e-20"])
+@pytest.mark.parametrize("width", ["2e-7", pytest.param("1e-20", marks=pytest.mark.extensive)])
 def test_a_zoom_is_as_right_as_the_plane(kapitza, tmp_path, width):
     kapitza("run", deep(tmp_path, BOUNDARY, "17", width, 30 if EXTENSIVE else 8), folder=tmp_path)
     assert wrong_labels(tmp_path / "deep.h5") == (0, 0)
