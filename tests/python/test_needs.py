@@ -28,7 +28,8 @@ def test_the_slow_equation_gives_the_smallest_amplitude_of_a_fast_pivot():
 def test_it_says_the_limits_that_check_says():
     standing = ask("--length", "20", "cm", "--frequency", "3000 rpm").stdout.splitlines()[2]
     few = ["--set", "basin.theta.count=4", "--set", "basin.velocity.count=4"]
-    checked = subprocess.run([PROGRAM, "check", ROOT / "scenes" / "laboratory.yaml", *few], capture_output=True, text=True, timeout=60).stdout
+    checked = subprocess.run([PROGRAM, "check", ROOT / "scenes" / "laboratory.yaml", *few],
+                             capture_output=True, text=True, timeout=60).stdout
     low, high = (word for word in standing.split() if word.replace(".", "").isdigit())
     assert f"Rest upside down: stable (for amplitude from {low} mm to {high} mm)" in checked
 
