@@ -25,7 +25,7 @@ static bool pendulum_at(const void *context, const double place[2], kz_pendulum 
 static kz_curve_kind cycle_at_end(const kz_plane *plane, const kz_branch_point *end, int end_kind, double *y) {
   const int n = end->period, half = n / 2, multiplier = end_kind == KZ_END_FOLD ? 1 : -1;
   const bool doubles = end_kind == KZ_END_PERIOD_DOUBLING, is_flutter = end->symmetric && doubles && n == 2;
-  double cycle[2 * KZ_CURVE_POINTS + 4], next[4];
+  double cycle[2 * KZ_CURVE_POINTS + 4];
   int event = 0;
   if (end->symmetric && (n == 1 || is_flutter))
     event = doubles ? KZ_EVENT_REST : KZ_EVENT_MIRROR;
@@ -40,9 +40,7 @@ static kz_curve_kind cycle_at_end(const kz_plane *plane, const kz_branch_point *
   if (event != 0) return kz_parent_of(plane, event, n, cycle, MERGING, y);
   const int points = end->symmetric ? half : n, side = end->symmetric ? -1 : 1;
   memcpy(y + 2 * points, (double[]){0, 0}, 2 * sizeof *y);
-  memcpy(next, cycle + 2 * points - 2, 2 * sizeof *next);
-  if (!kz_curve_orbit(plane, cycle + 2 * n, 1, next)) return (kz_curve_kind){0};
-  return (kz_curve_kind){side, points, multiplier, (int32_t)rint((next[2] - side * cycle[0]) / (2 * M_PI))};
+  return kz_kind_of(plane, side, points, multiplier, y);
 }
 
 double kz_locate_end(const kz_path *path, double stopped, const kz_branch_point *end, int end_kind) {
