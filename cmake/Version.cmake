@@ -4,7 +4,7 @@
 if(CMAKE_SCRIPT_MODE_FILE)
   cmake_path(GET SOURCE PARENT_PATH above)
   set(ENV{GIT_CEILING_DIRECTORIES} ${above}) # a repository around SOURCE is another project's
-  execute_process(COMMAND git --no-optional-locks describe --always --dirty WORKING_DIRECTORY ${SOURCE}
+  execute_process(COMMAND git --no-optional-locks describe --always --dirty --abbrev=10 WORKING_DIRECTORY ${SOURCE}
                   OUTPUT_VARIABLE KAPITZA_GIT_REVISION OUTPUT_STRIP_TRAILING_WHITESPACE ERROR_QUIET)
   if(NOT KAPITZA_GIT_REVISION)
     set(KAPITZA_GIT_REVISION unknown)

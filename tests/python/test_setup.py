@@ -121,12 +121,12 @@ def test_a_copied_or_moved_project_builds_its_own_sources(project):
 
 def test_the_revision_is_that_of_the_build(project):
     first = built(project)[0]
-    assert first == git(project, "describe", "--always")
+    assert first == git(project, "describe", "--always", "--abbrev=10")
     write_word(project, "second")
     assert built(project)[0] == first + "-dirty"
     git(project, "commit", "--quiet", "--all", "--message", "second")
     second = built(project)[0]
-    assert second == git(project, "describe", "--always") != first
+    assert second == git(project, "describe", "--always", "--abbrev=10") != first
     header = project / "build" / "include" / "kapitza" / "version.h"
     written = header.stat().st_mtime_ns
     assert built(project)[0] == second and header.stat().st_mtime_ns == written
