@@ -15,20 +15,6 @@
 #include "kapitza/study_axis.h"
 #include "kapitza/study_pendulum.h"
 
-/* The plans of the studies stand in their folders. */
-#include "../../src/study/accuracy/plan.h"
-#include "../../src/study/atlas/plan.h"
-#include "../../src/study/attractors/plan.h"
-#include "../../src/study/basin/plan.h"
-#include "../../src/study/chart/plan.h"
-#include "../../src/study/edge/plan.h"
-#include "../../src/study/manifolds/plan.h"
-#include "../../src/study/orbit/plan.h"
-#include "../../src/study/potential/plan.h"
-#include "../../src/study/saddles/plan.h"
-#include "../../src/study/stability/plan.h"
-#include "../../src/study/sweep/plan.h"
-
 /* The labels of the settings that a trade-off compares, joined by '|'. */
 const char *kz_tradeoff_words(void);
 
@@ -40,23 +26,24 @@ typedef struct {
 } kz_numerics_keys;
 enum { KZ_AUTO = 0 };
 
-/* The list of the studies, in the order in which they run: name, and the function that refuses a scene that the study cannot model, for
- * example because the steps are too coarse (NULL = nothing to refuse). Its message begins with the keys that a user could change
- * ("numerics.steps_per_period|basin.velocity: ..."). Everything else about a study follows from its name: its plan kz_NAME_plan, its fields in
- * kz_scene, its functions, its variables. */
-#define KZ_STUDIES(STUDY)                \
-  STUDY(basin, kz_basin_check)           \
-  STUDY(attractors, kz_attractors_check) \
-  STUDY(saddles, NULL)                   \
-  STUDY(manifolds, NULL)                 \
-  STUDY(edge, NULL)                      \
-  STUDY(orbit, kz_orbit_check)           \
-  STUDY(stability, NULL)                 \
-  STUDY(potential, NULL)                 \
-  STUDY(sweep, kz_sweep_check)           \
-  STUDY(chart, NULL)                     \
-  STUDY(atlas, kz_atlas_check)           \
-  STUDY(tradeoff, kz_tradeoff_check)
+/* The list of the studies, in the order in which they run. Everything else about a study stands in its folder: plan.h has what a scene says of
+ * it, keys.c its keys and its row, variables.c what it writes. */
+#define KZ_STUDIES(STUDY) \
+  STUDY(basin)            \
+  STUDY(attractors)       \
+  STUDY(saddles)          \
+  STUDY(manifolds)        \
+  STUDY(edge)             \
+  STUDY(orbit)            \
+  STUDY(stability)        \
+  STUDY(potential)        \
+  STUDY(sweep)            \
+  STUDY(chart)            \
+  STUDY(atlas)            \
+  STUDY(tradeoff)
+
+#define KZ_STUDY_PLAN(name) typedef struct kz_##name##_plan kz_##name##_plan;
+KZ_STUDIES(KZ_STUDY_PLAN)
 
 typedef struct {
   char *title; /* may be "" */
@@ -66,9 +53,9 @@ typedef struct {
   kz_numerics_keys asked;
   kz_numerics numerics;   /* resolved from `asked` by kz_numerics_resolve */
   kz_kept_series *series; /* of its pendulums; kz_scene_free frees it, and copies of the scene share it; NULL = none is kept */
-#define KZ_STUDY_FIELDS(name, check) \
-  bool has_##name;                   \
-  kz_##name##_plan name;
+#define KZ_STUDY_FIELDS(name)                                \
+  bool has_##name;        /* the scene asks for the study */ \
+  kz_##name##_plan *name; /* never NULL in a scene of kz_plans_create */
   KZ_STUDIES(KZ_STUDY_FIELDS)
 } kz_scene;
 
@@ -133,10 +120,17 @@ typedef struct {
   double shared_bytes; /* more on all ranks together */
 } kz_cost;
 
-/* A row of the list. All ranks call `run`; `summary` (text for people) and `store` are NULL on all ranks but rank 0. */
+/* A key of a scene (study_keys.h). */
+typedef struct kz_key kz_key;
+
+/* A study. All ranks call `run`; `summary` (text for people) and `store` are NULL on all ranks but rank 0. `check` refuses a scene that the study
+ * cannot model, for example because the steps are too coarse (NULL = nothing to refuse); its message begins with the keys that a user could
+ * change ("numerics.steps_per_period|basin.velocity: ..."). */
 typedef struct {
   const char *name;
-  size_t wanted; /* offset of the bool of kz_scene that says whether the scene asks for it */
+  size_t wanted, plan; /* offsets in kz_scene of has_NAME and of the pointer to the plan */
+  size_t plan_bytes;
+  const kz_key *keys; /* that of its mapping first; a key without path ends them */
   kz_cost (*cost)(const kz_scene *scene);
   kz_status (*run)(const kz_scene *scene, const kz_run *run, kz_store *store, FILE *summary);
   kz_status (*check)(const kz_scene *scene);
@@ -144,14 +138,20 @@ typedef struct {
 static inline bool kz_study_is_wanted(const kz_study *study, const kz_scene *scene) {
   return *(const bool *)((const char *)scene + study->wanted);
 }
-extern const kz_study kz_studies[];
+extern const kz_study *const kz_studies[];
 extern const int kz_study_count;
 
-/* What the folder of a study gives: the functions of its row (NAME_check if it has one), and the variables that it writes. */
-#define KZ_STUDY_DECLARED(name, check)                                                                 \
+/* Gives a scene plans of its own, of zeros; copies of those that it shares with another; frees them. */
+void kz_plans_create(kz_scene *scene);
+void kz_plans_copy(kz_scene *scene);
+void kz_plans_free(kz_scene *scene);
+
+/* What the folder of a study gives: its row, the functions of that row (NAME_check if it has one), and the variables that it writes. */
+#define KZ_STUDY_DECLARED(name)                                                                        \
   kz_cost kz_##name##_cost(const kz_scene *scene);                                                     \
   kz_status kz_##name##_check(const kz_scene *scene);                                                  \
   kz_status kz_##name##_run(const kz_scene *scene, const kz_run *run, kz_store *store, FILE *summary); \
+  extern const kz_study kz_##name##_study;                                                             \
   extern const kz_variable kz_##name##_variables[];
 KZ_STUDIES(KZ_STUDY_DECLARED)
 /* What a result file may hold, for kz_store_create. */

@@ -7,6 +7,9 @@
 
 typedef struct kz_atlas kz_atlas;
 
+/* The longest period of cycles that an atlas can have, in drive periods. */
+enum { KZ_ATLAS_MOST_PERIOD = 16 };
+
 /* A motion that attracts at a point of the plane. */
 typedef struct {
   char name[KZ_NAME_LENGTH];

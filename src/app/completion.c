@@ -17,8 +17,8 @@ static bool has_choices(const kz_option *row) {
 
 /* What the argument can be, with blanks between; `end` is written behind each key. */
 static void print_choices(const kz_option *row, const char *end) {
-  for (const kz_key *key = kz_keys; is_key(row) && key->path; key++)
-    printf("%s%s%s", key == kz_keys ? "" : " ", key->path, end);
+  for (const kz_key *key = kz_scene_keys(); is_key(row) && key->path; key++)
+    printf("%s%s%s", key == kz_scene_keys() ? "" : " ", key->path, end);
   for (const char *c = row->words ? row->words : ""; *c; c++) putchar(*c == '|' ? ' ' : *c);
 }
 

@@ -12,8 +12,8 @@ static const double PROCESS_BYTES = 3.7e7;
 kz_cost kz_cost_of(const kz_scene *scene) {
   kz_cost total = {0};
   for (int i = 0; i < kz_study_count; i++) {
-    if (!kz_study_is_wanted(&kz_studies[i], scene)) continue;
-    const kz_cost cost = kz_studies[i].cost(scene);
+    if (!kz_study_is_wanted(kz_studies[i], scene)) continue;
+    const kz_cost cost = kz_studies[i]->cost(scene);
     total.cells += cost.cells;
     total.disk_bytes += cost.disk_bytes;
     total.memory_bytes = fmax(total.memory_bytes, cost.memory_bytes);

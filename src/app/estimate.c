@@ -32,7 +32,7 @@ static void free_samples(samples *s) {
 static kz_status run_studies(const kz_scene *scene, const kz_run *run, kz_store *store, FILE *summary) {
   KZ_TRY(kz_pendulum_write(&scene->parameters, store));
   for (int i = 0; i < kz_study_count; i++)
-    if (kz_study_is_wanted(&kz_studies[i], scene)) KZ_TRY(kz_studies[i].run(scene, run, store, summary));
+    if (kz_study_is_wanted(kz_studies[i], scene)) KZ_TRY(kz_studies[i]->run(scene, run, store, summary));
   return KZ_OK;
 }
 

@@ -20,7 +20,7 @@ typedef struct {
 
 /* Reads an option as the key of the same name is read. `text` NULL: it has not been given, and *value stays. */
 static kz_status read_quantity(const char *option, const char *path, const char *text, double *value) {
-  const kz_key *key = kz_key_find(kz_keys, path);
+  const kz_key *key = kz_key_find(kz_scene_keys(), path);
   const kz_node node = {.kind = KZ_SCALAR, .text = (char *)text, .plain = true};
   char accepts[512];
   if (!text) return KZ_OK;
@@ -29,7 +29,7 @@ static kz_status read_quantity(const char *option, const char *path, const char 
   if (!wrong && (*value < key->low || *value > key->high)) wrong = "is out of range";
   if (!wrong && bare && *value > kz_key_most_bare(key)) wrong = "is taken for metres; give its unit";
   if (!wrong) return KZ_OK;
-  kz_key_accepts(kz_keys, key, accepts, sizeof accepts);
+  kz_key_accepts(kz_scene_keys(), key, accepts, sizeof accepts);
   return kz_fail(KZ_REFUSED, "--%s: \"%.40s\" %s; give %s", option, text, wrong, accepts);
 }
 

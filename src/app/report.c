@@ -6,13 +6,14 @@
 #include "app.h"
 #include "json.h"
 #include "kapitza/version.h"
+#include "../study/basin/plan.h"
 
 char *kz_scene_text(const kz_scene *scene, bool fingerprint) {
   char *text = NULL;
   size_t size = 0;
   FILE *out = open_memstream(&text, &size);
   if (!out) return NULL;
-  kz_scene_write(kz_keys, scene, fingerprint, out);
+  kz_scene_write(kz_scene_keys(), scene, fingerprint, out);
   if (fingerprint)
     fprintf(out, "program version: %s\ngit revision: %s\ninstruction set: %s\n", KZ_VERSION, KZ_GIT_REVISION,
             kz_instruction_names());
@@ -22,7 +23,7 @@ char *kz_scene_text(const kz_scene *scene, bool fingerprint) {
 }
 
 void kz_warnings_print(const kz_scene *scene, FILE *out) {
-  if (scene->basin.table_is_idle)
+  if (scene->basin->table_is_idle)
     fputs("warning: basin.icm: is not used by this basin.method; leave it out, or choose basin.method: icm\n", out);
   if (scene->bare[0]) fprintf(out, "note: pendulum: numbers without a unit are taken so: %s\n", scene->bare);
   kz_settling_warn(scene, out);
@@ -47,7 +48,7 @@ static void print_check(const kz_options *options, const kz_scene *scene, const 
   kz_drive_print(&scene->parameters, out);
   fputs("studies         ", out);
   for (int i = 0; i < kz_study_count; i++)
-    if (kz_study_is_wanted(&kz_studies[i], scene)) fprintf(out, " %s", kz_studies[i].name);
+    if (kz_study_is_wanted(kz_studies[i], scene)) fprintf(out, " %s", kz_studies[i]->name);
   fprintf(out,
           "\ncells            %lld\ndisk             %s\nmemory per rank  %s, %s more on rank 0, and a share of %s\n"
           "estimated time   ",
@@ -63,7 +64,7 @@ static void print_check(const kz_options *options, const kz_scene *scene, const 
 static kz_json *studies_of(const kz_scene *scene) {
   kz_json *list = json_object_new_array();
   for (int i = 0; i < kz_study_count; i++)
-    if (kz_study_is_wanted(&kz_studies[i], scene)) json_object_array_add(list, kz_json_text(kz_studies[i].name));
+    if (kz_study_is_wanted(kz_studies[i], scene)) json_object_array_add(list, kz_json_text(kz_studies[i]->name));
   return list;
 }
 
@@ -135,7 +136,7 @@ kz_status kz_app_keys(const kz_options *options) {
   if (options->speaks && options->layout)
     kz_layout_print(stdout);
   else if (options->speaks)
-    (options->json_schema ? kz_scene_schema : kz_scene_reference)(kz_keys, stdout);
+    (options->json_schema ? kz_scene_schema : kz_scene_reference)(kz_scene_keys(), stdout);
   return KZ_OK;
 }
 

@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "kapitza/study.h"
+#include "sweep/plan.h"
 
 #define NAMED(name_, field_, unit_) {name_, unit_, offsetof(kz_pendulum_keys, field_)}
 #define KEY(name_, unit_) NAMED(#name_, name_, unit_)
@@ -67,7 +68,8 @@ static bool parameters_at(const kz_scene *scene, int n, const int32_t *parameter
 
 kz_release kz_sweep_release_at(const kz_scene *scene, double value) {
   kz_parameters parameters;
-  return parameters_at(scene, 1, &scene->sweep.parameter, &value, &parameters) ? parameters.release : scene->parameters.release;
+  return parameters_at(scene, 1, &scene->sweep->parameter, &value, &parameters) ? parameters.release
+                                                                                : scene->parameters.release;
 }
 
 bool kz_pendulum_at(const kz_scene *scene, int n, const int32_t *parameter, const double *value, kz_pendulum *pendulum) {
@@ -78,7 +80,7 @@ bool kz_pendulum_at(const kz_scene *scene, int n, const int32_t *parameter, cons
 }
 
 bool kz_sweep_pendulum(const kz_scene *scene, double value, kz_pendulum *pendulum) {
-  return kz_pendulum_at(scene, 1, &scene->sweep.parameter, &value, pendulum);
+  return kz_pendulum_at(scene, 1, &scene->sweep->parameter, &value, pendulum);
 }
 
 double kz_axis_value(const kz_axis *values, int64_t i) {

@@ -11,7 +11,7 @@ static inline char *resolved(const kz_scene *scene) {
   char *text;
   size_t size;
   FILE *out = open_memstream(&text, &size);
-  kz_scene_write(kz_keys, scene, false, out);
+  kz_scene_write(kz_scene_keys(), scene, false, out);
   fclose(out);
   return text;
 }

@@ -12,6 +12,7 @@
 #include "numerics/cells.h"
 #include "window/window.h"
 #include "scene/scene.h"
+#include "../../src/study/basin/plan.h"
 
 #define K01 "pendulum: {k: 0.1, damping: 0.1, m: 0.4}"
 #define FIG12 "pendulum: {quality_factor: 5, drive_frequency: 11, drive_amplitude: 0.3}"
@@ -52,7 +53,7 @@ static view open_view(const window *w) {
            "  method: exact\n  attractors: {starts: 512}\n",
            w->pendulum, w->theta, w->width, COUNT, w->velocity, w->width, COUNT);
   if (kz_scene_read(text, strlen(text), "s.yaml", 0, NULL, &v.scene) != KZ_OK) fail_msg("%s", kz_message());
-  const kz_basin_plan *plan = &v.scene.basin;
+  const kz_basin_plan *plan = v.scene.basin;
   v.dynamics = kz_dynamics_create(&v.scene.parameters.pendulum, &v.scene.numerics, plan->max_period);
   find_attractors(&v);
   v.images = kz_images_create(&v.scene.parameters.pendulum, &plan->theta, &plan->velocity);
@@ -69,14 +70,14 @@ static void close_view(view *v) {
 
 static kz_status start_cell(void *context, int64_t cell, int32_t level, kz_start *start) {
   const view *v = context;
-  const kz_basin_plan *plan = &v->scene.basin;
+  const kz_basin_plan *plan = v->scene.basin;
   kz_hand_over_start(&v->hand_over[level], kz_axis_share(&plan->theta, cell % COUNT),
                      kz_axis_share(&plan->velocity, cell / COUNT), start);
   return KZ_OK;
 }
 
 static void own_label(const view *v, int64_t cell, kz_decision *decision) {
-  const kz_basin_plan *plan = &v->scene.basin;
+  const kz_basin_plan *plan = v->scene.basin;
   const kz_coordinate start[2] = {kz_axis_coordinate(&plan->theta, cell % COUNT),
                                   kz_axis_coordinate(&plan->velocity, cell / COUNT)};
   assert_int_equal(kz_own_orbit_decide(v->dynamics, &v->scene.parameters.pendulum, start, plan->max_periods, decision), KZ_OK);
@@ -91,7 +92,7 @@ static void compare(const window *w) {
   kz_label label[MOST];
   kz_decision own;
   const kz_labeller labeller = {.dynamics = v.dynamics,
-                                .max_periods = v.scene.basin.max_periods,
+                                .max_periods = v.scene.basin->max_periods,
                                 .way = KZ_BY_LEVELS,
                                 .start = start_cell,
                                 .context = &v};
@@ -148,7 +149,7 @@ TEST(deep_windows_are_curves) {
     view v = open_view(i == 0 ? &deep : &wide);
     kz_window_starts starts;
     kz_window_curve curve;
-    kz_window_starts_make(&v.scene.basin, &v.scene.parameters.pendulum, v.dynamics, v.images, &starts);
+    kz_window_starts_make(v.scene.basin, &v.scene.parameters.pendulum, v.dynamics, v.images, &starts);
     kz_window_curve_make(&starts, &curve);
     assert_true(i == 0 ? curve.count > 16 * COUNT && curve.count <= 2 * 16 * COUNT + 3 : curve.count == 0);
     if (i == 0) compare_samples(&starts, &curve);

@@ -1,9 +1,11 @@
-/* The table of every key of a scene. A study's keys stand under its own row; the row's field says whether it is wanted. */
+/* The table of the keys of a scene: those of the pendulum and of numerics, which stand here, and those of each study, from its folder. */
 #include <math.h>
+#include <pthread.h>
 #include <string.h>
 
 #include "kapitza/analysis.h"
-#include "key_rows.h"
+#include "kapitza/study_key_rows.h"
+#include "scene.h"
 
 /* The names of the kernel's table of schemes. */
 static const char *scheme_words(void) {
@@ -16,10 +18,14 @@ static const char *scheme_words(void) {
   return words;
 }
 
-const kz_key kz_keys[] = {
+#define PENDULUM(form_, name, unit_, low_, fallback, help)                                                     \
+  ROW("pendulum." #name, KZ_KEY_REAL, fallback, AT(parameters.written.name), help, .unit = unit_, .low = low_, \
+      .high = DBL_MAX, .form = form_)
+
+static const kz_key own[] = {
     TEXT("title", "", title, "One line that names the scene in files and pictures."),
 
-    MAPPING("pendulum", NULL, KZ_NO_FIELD,
+    MAPPING("pendulum", NULL,
             "The pendulum, given in one of three ways (a, b, c). A scene with the study `stability` alone needs none."),
     PENDULUM("ac", quality_factor, "", KZ_ABOVE_ZERO, "",
              "Quality factor Q = omega0 I/b, so that beta = 1/(Omega Q). Left out in (a): no damping."),
@@ -57,8 +63,8 @@ const kz_key kz_keys[] = {
     ROW("pendulum.samples", KZ_KEY_REALS, "", AT(parameters.written.samples),
         "The drive at equal times of a period, the first at t = 0, in units of drive_amplitude; its mean is left out.",
         .unit = "", .low = -1e6, .high = 1e6),
-    MAPPING("pendulum.ramp", "", AT(parameters.has_ramp),
-            "Damping or drive begins at another value when a cell of a basin is released, and comes to its own value."),
+    PART("pendulum.ramp", "", parameters.has_ramp,
+         "Damping or drive begins at another value when a cell of a basin is released, and comes to its own value."),
     WORD("pendulum.ramp.key", "damping|drive_amplitude", NULL, parameters.written.ramp_key,
          "The quantity that changes: beta, or all of the drive in proportion."),
     REAL("pendulum.ramp.from", "", -1e6, 1e6, NULL, parameters.written.ramp_from, "beta or m at the beginning, t = 0."),
@@ -76,7 +82,7 @@ const kz_key kz_keys[] = {
     ROW("pendulum.horizontal", KZ_KEY_REALS, "", AT(parameters.written.horizontal),
         "The same of a pivot that moves aside: b(t) of the equation.", .unit = "", .low = -1e7, .high = 1e7),
 
-    ROW("numerics", KZ_KEY_MAPPING, "", KZ_NO_FIELD, "How one drive period is integrated.", .unit = "",
+    ROW("numerics", KZ_KEY_MAPPING, "", NOWHERE, "How one drive period is integrated.", .unit = "",
         .former = "precision=basin.method exact"),
     ROW("numerics.scheme", KZ_KEY_WORD, "processed", AT(asked.scheme),
         "Integrator. processed: one kick a step, the fastest; the program takes split6 if it does not reach the tolerance; "
@@ -90,18 +96,35 @@ const kz_key kz_keys[] = {
         "Error of one drive period that auto allows the scheme processed, measured against quad precision; small cells allow "
         "less, and method exact a tenth of it where rounding lets it.",
         .unit = "rad", .low = 1e-15, .high = 0.01, CHOSEN),
-
-#include "../../study/basin/keys.inc"
-#include "../../study/accuracy/keys.inc"
-#include "../../study/attractors/keys.inc"
-#include "../../study/saddles/keys.inc"
-#include "../../study/manifolds/keys.inc"
-#include "../../study/edge/keys.inc"
-#include "../../study/orbit/keys.inc"
-#include "../../study/stability/keys.inc"
-#include "../../study/potential/keys.inc"
-#include "../../study/sweep/keys.inc"
-#include "../../study/chart/keys.inc"
-#include "../../study/atlas/keys.inc"
     {.path = NULL},
 };
+
+static int64_t length_of(const kz_key *keys) {
+  int64_t n = 0;
+  while (keys[n].path) n++;
+  return n;
+}
+
+static const kz_key *table;
+
+/* Puts `keys` behind the `n` first ones of `joined`, and an end; returns their number. */
+static int64_t append(kz_key *joined, int64_t n, const kz_key *keys) {
+  const int64_t more = length_of(keys);
+  memcpy(joined + n, keys, ((size_t)more + 1) * sizeof *keys);
+  return n + more;
+}
+
+static void join(void) {
+  int64_t n = length_of(own);
+  for (int i = 0; i < kz_study_count; i++) n += length_of(kz_studies[i]->keys);
+  kz_key *joined = kz_malloc(((size_t)n + 1) * sizeof *joined);
+  n = append(joined, 0, own);
+  for (int i = 0; i < kz_study_count; i++) n = append(joined, n, kz_studies[i]->keys);
+  table = joined;
+}
+
+const kz_key *kz_scene_keys(void) {
+  static pthread_once_t once = PTHREAD_ONCE_INIT;
+  pthread_once(&once, join);
+  return table;
+}

@@ -98,7 +98,7 @@ static void read_key(kz_reading *reading, const kz_key *key, const kz_node *node
   if (key->type != KZ_KEY_MAPPING) {
     wrong = kz_value_read(key, node, reading->scene, &culprit);
   } else if (node->kind == KZ_MAPPING) {
-    if (key->offset != KZ_NO_FIELD) *(bool *)((char *)reading->scene + key->offset) = true;
+    kz_value_give(key, reading->scene);
     read_mapping(reading, node, key->path);
   } else {
     wrong = node->kind == KZ_SCALAR && !node->text[0] ? "is empty" : "is not a mapping";

@@ -3,6 +3,14 @@
 #include <stdio.h>
 
 #include "rules.h"
+#include "../../study/basin/plan.h"
+#include "../../study/attractors/plan.h"
+#include "../../study/saddles/plan.h"
+#include "../../study/orbit/plan.h"
+#include "../../study/stability/plan.h"
+#include "../../study/sweep/plan.h"
+#include "../../study/chart/plan.h"
+#include "../../study/atlas/plan.h"
 
 /* Complains about a key where it is given. */
 static void refuse(kz_reading *reading, const char *path, const char *why) {
@@ -16,7 +24,7 @@ static void window_rules(kz_reading *reading, kz_axis *theta, const kz_axis *vel
 
 static void basin_rules(kz_reading *reading, kz_scene *scene) {
   if (!scene->has_basin) return;
-  kz_basin_plan *plan = &scene->basin;
+  kz_basin_plan *plan = scene->basin;
   kz_axis_set(reading, plan, plan->theta_edges, &plan->theta, "basin.theta");
   kz_axis_set(reading, plan, plan->velocity_edges, &plan->velocity, "basin.velocity");
   if (!plan->theta.centre.text[0]) {
@@ -32,20 +40,20 @@ static void basin_rules(kz_reading *reading, kz_scene *scene) {
 static void table_rules(kz_reading *reading, kz_scene *scene) {
   const kz_node *method = kz_tree_find(reading->root, "basin.method");
   const bool given = kz_tree_find(reading->root, "basin.icm") && !(method && method->line == 0);
-  scene->basin.table_is_idle = given && isnan(scene->basin.accuracy) && scene->basin.method != KZ_METHOD_ICM;
+  scene->basin->table_is_idle = given && isnan(scene->basin->accuracy) && scene->basin->method != KZ_METHOD_ICM;
 }
 
 /* undecided: decide needs method exact. */
 static void undecided_rules(kz_reading *reading, kz_scene *scene) {
-  if (!scene->has_basin || scene->basin.undecided == KZ_UNDECIDED_FLAG) return;
-  if (scene->basin.method != KZ_METHOD_EXACT || !isnan(scene->basin.accuracy))
+  if (!scene->has_basin || scene->basin->undecided == KZ_UNDECIDED_FLAG) return;
+  if (scene->basin->method != KZ_METHOD_EXACT || !isnan(scene->basin->accuracy))
     kz_complain(reading, "basin.undecided", "decide needs basin.method: exact; choose that method, or flag");
 }
 
 /* The sizes of shocks must increase. */
 static void shocks_rules(kz_reading *reading, kz_scene *scene) {
-  const kz_reals *sizes = &scene->basin.shocks.sizes;
-  if (!scene->has_basin || !scene->basin.has_shocks) return;
+  const kz_reals *sizes = &scene->basin->shocks.sizes;
+  if (!scene->has_basin || !scene->basin->has_shocks) return;
   if (sizes->count < 1 || sizes->count > KZ_MOST_SHOCK_SIZES)
     kz_complain(reading, "basin.shocks.sizes", "has %lld values; give 1 to %d", (long long)sizes->count, KZ_MOST_SHOCK_SIZES);
   for (int64_t i = 1; i < sizes->count; i++)
@@ -56,14 +64,14 @@ static void shocks_rules(kz_reading *reading, kz_scene *scene) {
 
 static void attractors_rules(kz_reading *reading, kz_scene *scene) {
   if (!scene->has_attractors) return;
-  window_rules(reading, &scene->attractors.theta, &scene->attractors.velocity, "attractors");
+  window_rules(reading, &scene->attractors->theta, &scene->attractors->velocity, "attractors");
   if (scene->has_basin)
     kz_complain(reading, "attractors",
                 "repeats what basin does, which finds the attractors of its window itself; give one of them");
 }
 
 static void saddles_rules(kz_reading *reading, kz_scene *scene) {
-  if (scene->has_saddles) window_rules(reading, &scene->saddles.theta, &scene->saddles.velocity, "saddles");
+  if (scene->has_saddles) window_rules(reading, &scene->saddles->theta, &scene->saddles->velocity, "saddles");
 }
 
 /* What edge and orbit.attractor need. */
@@ -90,18 +98,18 @@ static void tradeoff_rules(kz_reading *reading, kz_scene *scene) {
 static void orbit_attractor_rules(kz_reading *reading, kz_scene *scene) {
   list_rule(reading, scene, "orbit.attractor");
   refuse(reading, "orbit.start", "contradicts attractor; give one of them");
-  if (!scene->orbit.closed)
+  if (!scene->orbit->closed)
     refuse(reading, "orbit.closed",
            "contradicts attractor, whose orbit is closed; set true, or give a start instead of attractor");
-  scene->orbit.closed = true;
+  scene->orbit->closed = true;
   refuse(reading, "orbit.period", "follows from orbit.attractor; leave it out");
-  if (scene->orbit.model != KZ_PENDULUM)
+  if (scene->orbit->model != KZ_PENDULUM)
     refuse(reading, "orbit.model",
            "has no attractors; choose the model pendulum, or give orbit.start instead of orbit.attractor");
 }
 
 static void orbit_rules(kz_reading *reading, kz_scene *scene) {
-  kz_orbit_plan *orbit = &scene->orbit;
+  kz_orbit_plan *orbit = scene->orbit;
   if (!scene->has_orbit) return;
   const bool linear = orbit->model == KZ_MATHIEU;
   if (orbit->attractor != KZ_UNSET_INTEGER)
@@ -130,7 +138,7 @@ static void stability_axis_rules(kz_reading *reading, kz_axis *axis, const char 
 
 static void stability_rules(kz_reading *reading, kz_scene *scene) {
   if (!scene->has_stability) return;
-  kz_stability_plan *plan = &scene->stability;
+  kz_stability_plan *plan = scene->stability;
   stability_axis_rules(reading, &plan->k, "stability.k");
   stability_axis_rules(reading, &plan->m, "stability.m");
   stability_axis_rules(reading, &plan->a, "stability.a");
@@ -198,10 +206,10 @@ static void parameter_values(kz_reading *reading, const kz_scene *scene, int32_t
 }
 
 static void sweep_rules(kz_reading *reading, kz_scene *scene) {
-  kz_sweep_plan *sweep = &scene->sweep;
+  kz_sweep_plan *sweep = scene->sweep;
   if (!scene->has_sweep) return;
   window_rules(reading, &sweep->theta, &sweep->velocity, "sweep");
-  if (scene->has_basin && !isnan(scene->basin.accuracy))
+  if (scene->has_basin && !isnan(scene->basin->accuracy))
     kz_complain(reading, "basin.accuracy",
                 "is chosen for one pendulum, and a sweep has many; give method, icm and numerics instead");
   parameter_values(reading, scene, sweep->parameter, &sweep->values, "sweep");
@@ -218,11 +226,11 @@ static void plane_rules(kz_reading *reading, const kz_scene *scene, kz_chart_axi
 }
 
 static void atlas_rules(kz_reading *reading, kz_scene *scene) {
-  if (scene->has_atlas) plane_rules(reading, scene, &scene->atlas.x, &scene->atlas.y, "atlas");
+  if (scene->has_atlas) plane_rules(reading, scene, &scene->atlas->x, &scene->atlas->y, "atlas");
 }
 
 static void chart_rules(kz_reading *reading, kz_scene *scene) {
-  kz_chart_plan *chart = &scene->chart;
+  kz_chart_plan *chart = scene->chart;
   if (!scene->has_chart) return;
   plane_rules(reading, scene, &chart->x, &chart->y, "chart");
   if (chart->velocity.count != 1 && chart->velocity.count != chart->theta.count)
@@ -234,8 +242,8 @@ static void chart_rules(kz_reading *reading, kz_scene *scene) {
 static void symmetry_rules(kz_reading *reading, kz_scene *scene) {
   const kz_pendulum_keys *written = &scene->parameters.written;
   (void)reading;
-  scene->basin.unmirrored = !isnan(written->tilt) || !isnan(written->ellipse) || !isnan(written->torque) ||
-                            !isnan(written->torque_amplitude) || scene->parameters.pendulum.unmirrored;
+  scene->basin->unmirrored = !isnan(written->tilt) || !isnan(written->ellipse) || !isnan(written->torque) ||
+                             !isnan(written->torque_amplitude) || scene->parameters.pendulum.unmirrored;
 }
 
 /* Refuses orbits for which the motion is too fast or the model does not hold. */
@@ -247,15 +255,15 @@ static void orbit_range_rules(kz_reading *reading, kz_scene *scene) {
         reading, "orbit",
         "needs %.3g steps a period for a motion this fast, at most %d are possible; use a slower start or weaker forces", steps,
         KZ_MOST_ORBIT_STEPS);
-  if (scene->orbit.model == KZ_EFFECTIVE && fabs(k) >= 1)
+  if (scene->orbit->model == KZ_EFFECTIVE && fabs(k) >= 1)
     kz_complain(reading, "orbit.model",
                 "effective averages over a fast drive, abs(k) < 1, but k = %.9g; use another model or a faster drive", k);
 }
 
 /* Sets basin.max_periods, if the scene does not, from the weakest damping. */
 static void settling_rules(kz_reading *reading, kz_scene *scene) {
-  if (!scene->has_basin || reading->message[0] || scene->basin.max_periods != KZ_UNSET_INTEGER) return;
-  scene->basin.max_periods = kz_settling_scene(scene);
+  if (!scene->has_basin || reading->message[0] || scene->basin->max_periods != KZ_UNSET_INTEGER) return;
+  scene->basin->max_periods = kz_settling_scene(scene);
 }
 
 typedef void (*rule)(kz_reading *reading, kz_scene *scene);

@@ -93,7 +93,7 @@ kz_status kz_scene_tree_read(const char *text, size_t length, const char *file, 
   KZ_TRY(kz_tree_read(text, length, file, false, &tree->root));
   for (int i = 0; tree->root->kind == KZ_MAPPING && i < n_sets; i++) {
     print_label(sets[i], tree->labels[i]);
-    KZ_TRY(apply_set(kz_keys, tree->root, sets[i], tree->labels[i]));
+    KZ_TRY(apply_set(kz_scene_keys(), tree->root, sets[i], tree->labels[i]));
   }
   return KZ_OK;
 }
@@ -104,7 +104,7 @@ void kz_scene_tree_free(kz_scene_tree *tree) {
 }
 
 static kz_status read_tree(kz_node *root, kz_scene *scene) {
-  kz_reading reading = {.keys = kz_keys, .root = root, .scene = scene};
+  kz_reading reading = {.keys = kz_scene_keys(), .root = root, .scene = scene};
   KZ_TRY(kz_reading_keys(&reading));
   if (root->kind == KZ_MAPPING) kz_reading_rules(&reading);
   if (reading.message[0]) return kz_fail(KZ_REFUSED, "%s", reading.message);
@@ -114,6 +114,7 @@ static kz_status read_tree(kz_node *root, kz_scene *scene) {
 
 kz_status kz_scene_of_tree(kz_node *root, kz_scene *scene) {
   *scene = (kz_scene){.series = kz_kept_series_create()};
+  kz_plans_create(scene);
   const kz_status status = read_tree(root, scene);
   if (status != KZ_OK) kz_scene_free(scene);
   return status;
@@ -146,7 +147,7 @@ static bool are_keys(const char *keys) {
   for (size_t n; *keys; keys += n + (keys[n] == '|')) {
     n = strcspn(keys, "|");
     snprintf(key, sizeof key, "%.*s", (int)n, keys);
-    if (!kz_key_find(kz_keys, key) && strcmp(key, "scene") != 0) return false;
+    if (!kz_key_find(kz_scene_keys(), key) && strcmp(key, "scene") != 0) return false;
   }
   return true;
 }
@@ -159,7 +160,7 @@ kz_status kz_scene_locate(kz_status status, const char *text, size_t length, con
   *end = '\0';
   if (!are_keys(message)) return status;
   kz_scene_tree tree;
-  kz_reading reading = {.keys = kz_keys, .first = INT_MAX};
+  kz_reading reading = {.keys = kz_scene_keys(), .first = INT_MAX};
   if (kz_scene_tree_read(text, length, file, n_sets, sets, &tree) == KZ_OK) {
     reading.root = tree.root;
     complain_first(&reading, message, end + 2);
@@ -171,18 +172,16 @@ kz_status kz_scene_locate(kz_status status, const char *text, size_t length, con
 }
 
 void kz_scene_free(kz_scene *scene) {
-  for (const kz_key *key = kz_keys; key->path; key++)
-    if (key->type == KZ_KEY_TEXT) free(*(char **)((char *)scene + key->offset));
+  free(scene->title);
+  kz_plans_free(scene);
   kz_kept_series_free(scene->series);
   memset(scene, 0, sizeof *scene);
 }
 
 void kz_scene_copy(const kz_scene *scene, kz_scene *copy) {
   *copy = *scene;
-  for (const kz_key *key = kz_keys; key->path; key++) {
-    char **text = (char **)((char *)copy + key->offset);
-    if (key->type == KZ_KEY_TEXT && *text) *text = kz_strdup(*text);
-  }
+  if (copy->title) copy->title = kz_strdup(copy->title);
+  kz_plans_copy(copy);
   copy->series = kz_kept_series_create();
   copy->numerics.series = copy->series;
 }

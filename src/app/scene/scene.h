@@ -1,6 +1,6 @@
 /* scene: reads the YAML text of a user into kz_scene, and writes it back (C; layer 4).
  *
- * ONE table, kz_keys, holds every key of a scene. Checks, defaults, suggestions, `check`, the resolved text and docs/reference/scene.md
+ * ONE table, kz_scene_keys, holds every key of a scene. Checks, defaults, suggestions, `check`, the resolved text and docs/reference/scene.md
  * all come from its rows: a new key is a new row. */
 #ifndef KAPITZA_APP_SCENE_H
 #define KAPITZA_APP_SCENE_H
@@ -11,49 +11,10 @@
 #include <stdio.h>
 
 #include "kapitza/study.h"
+#include "kapitza/study_keys.h"
 
-/* The type of a key, and the C type of its field. */
-typedef enum {
-  KZ_KEY_MAPPING,  /* bool: the mapping is given (a study), or no field at all (KZ_NO_FIELD) */
-  KZ_KEY_TEXT,     /* char *, owned by the scene; "" where absent */
-  KZ_KEY_WORD,     /* int32_t: index in `words`; KZ_UNSET_WORD */
-  KZ_KEY_BOOLEAN,  /* bool */
-  KZ_KEY_INTEGER,  /* int64_t; KZ_UNSET_INTEGER */
-  KZ_KEY_COUNT,    /* int32_t; KZ_UNSET_WORD */
-  KZ_KEY_REAL,     /* double; NaN where absent */
-  KZ_KEY_DECIMAL,  /* kz_decimal; its text is "" where absent */
-  KZ_KEY_WORDS,    /* kz_integers: indices */
-  KZ_KEY_INTEGERS, /* kz_integers */
-  KZ_KEY_REALS,    /* kz_reals */
-  KZ_KEY_HARMONICS /* kz_harmonics: a list of mappings */
-} kz_key_type;
-
-#define KZ_NO_FIELD ((size_t)-1)
-#define KZ_UNSET_WORD (-1)
-#define KZ_UNSET_INTEGER INT64_MIN
-#define KZ_ABOVE_ZERO DBL_TRUE_MIN /* lowest value of a range that excludes zero */
-
-typedef struct {
-  const char *path; /* "basin.theta.count"; a mapping's row stands before the rows of its keys */
-  kz_key_type type;
-  const char *unit;                /* "" = none */
-  double low, high;                /* accepted values, ends included */
-  const char *fallback;            /* default as YAML text; "" = may be left out without one; NULL = required */
-  const char *words;               /* "icm|direct"; of a count one word that stands for 0: "auto" */
-  const char *(*words_from)(void); /* returns the words if another layer has them */
-  const char *former;              /* removed words, or keys of a mapping, and their replacements: "old=new|old=new" */
-  const char *form;      /* letters; keys of one mapping without a common letter exclude each other; NULL = of no form */
-  size_t offset;         /* of the field in kz_scene */
-  const char *chosen_by; /* path of a number that excludes this key, because the program then chooses it; NULL = none */
-  size_t chooser;        /* offset of that number */
-  const char *help;      /* one sentence of the scene reference */
-} kz_key;
-
-/* Placeholder for the unit of the key that a sweep or chart changes. */
-#define KZ_OWN_UNIT "the unit of the parameter"
-
-/* The table; a row without path ends it. */
-extern const kz_key kz_keys[];
+/* The table: the keys of the pendulum and of numerics, then those of each study; a row without path ends it. */
+const kz_key *kz_scene_keys(void);
 
 /* The words of a key, joined by '|'; "" for other types. */
 const char *kz_key_words(const kz_key *key);
@@ -146,6 +107,9 @@ const char *kz_value_read(const kz_key *key, const kz_node *node, void *scene, c
 /* Sets the field to the default of the key, which is read as a user's value is. */
 kz_status kz_value_default(const kz_key *key, void *scene);
 bool kz_value_is_set(const kz_key *key, const void *scene);
+/* Marks a mapping as given; false if a mapping with a field is not. */
+void kz_value_give(const kz_key *mapping, void *scene);
+bool kz_value_is_given(const kz_key *key, const void *scene);
 void kz_value_print(const kz_key *key, const void *scene, FILE *out);
 
 /* A reading in progress: only the first complaint in document order is kept; complaints without a node come last. */

@@ -210,8 +210,18 @@ static bool is_list(const kz_key *key) {
   return key->type >= KZ_KEY_WORDS;
 }
 
+/* The field of a key, in the scene or in one of its plans. */
 static void *field_of(const kz_key *key, const void *scene) {
-  return (char *)scene + key->offset;
+  char *holder = key->plan ? *(char *const *)((const char *)scene + key->plan) : (char *)scene;
+  return holder + key->offset;
+}
+
+bool kz_value_is_given(const kz_key *key, const void *scene) {
+  return key->type != KZ_KEY_MAPPING || key->offset == KZ_NO_FIELD || *(const bool *)field_of(key, scene);
+}
+
+void kz_value_give(const kz_key *mapping, void *scene) {
+  if (mapping->offset != KZ_NO_FIELD) *(bool *)field_of(mapping, scene) = true;
 }
 
 static const char *read_list(const kz_key *key, const kz_node *node, void *list, const kz_node **culprit) {

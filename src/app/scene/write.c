@@ -1,5 +1,4 @@
 /* Output of the table of keys: a scene as YAML, and the reference of all keys. */
-#include <math.h>
 #include <string.h>
 
 #include "scene.h"
@@ -8,16 +7,15 @@
 static bool is_left_out(const kz_key *keys, const kz_key *key, const void *scene) {
   for (const kz_key *row = keys; row->path; row++) {
     const size_t length = strlen(row->path);
-    if (row->type == KZ_KEY_MAPPING && row->offset != KZ_NO_FIELD && strncmp(row->path, key->path, length) == 0 &&
-        (key->path[length] == '.' || key->path[length] == '\0') && !*((const bool *)((const char *)scene + row->offset)))
-      return true;
+    const bool above = strncmp(row->path, key->path, length) == 0 && (key->path[length] == '.' || key->path[length] == '\0');
+    if (above && !kz_value_is_given(row, scene)) return true;
   }
   return false;
 }
 
 /* True where another key answers this one. */
-static bool is_chosen(const kz_key *key, const void *scene) {
-  return key->chosen_by && !isnan(*(const double *)((const char *)scene + key->chooser));
+static bool is_chosen(const kz_key *keys, const kz_key *key, const void *scene) {
+  return key->chosen_by && kz_value_is_set(kz_key_find(keys, key->chosen_by), scene);
 }
 
 static void indent(int depth, FILE *out) {
@@ -42,7 +40,8 @@ static void write_name(const char *path, const char *last, FILE *out) {
 void kz_scene_write(const kz_key *keys, const void *scene, bool flat, FILE *out) {
   const char *last = "";
   for (const kz_key *key = keys; key->path; key++) {
-    if (key->type == KZ_KEY_MAPPING || !kz_value_is_set(key, scene) || is_left_out(keys, key, scene) || is_chosen(key, scene))
+    if (key->type == KZ_KEY_MAPPING || !kz_value_is_set(key, scene) || is_left_out(keys, key, scene) ||
+        is_chosen(keys, key, scene))
       continue;
     if (flat)
       fprintf(out, "%s: ", key->path);

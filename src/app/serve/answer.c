@@ -11,6 +11,8 @@
 #include "../app.h"
 #include "../json.h"
 #include "kapitza/version.h"
+#include "../../study/basin/plan.h"
+#include "../../study/orbit/plan.h"
 
 /* A header with the members that all have. */
 static kz_json *begin(const char *answer, int64_t sequence, bool final) {
@@ -55,7 +57,7 @@ static kz_json *value_of(const kz_key *key, const kz_scene *scene) {
 /* The keys of a mapping ("pendulum.") that the scene gives. */
 static kz_json *mapping_of(const char *mapping, const kz_scene *scene) {
   kz_json *object = json_object_new_object();
-  for (const kz_key *key = kz_keys; key->path; key++) {
+  for (const kz_key *key = kz_scene_keys(); key->path; key++) {
     const char *name = key->path + strlen(mapping);
     if (strncmp(key->path, mapping, strlen(mapping)) != 0 || strchr(name, '.') || !kz_value_is_set(key, scene)) continue;
     char inner[64];
@@ -79,8 +81,8 @@ kz_status kz_answer_ready(const kz_scene *scene) {
   kz_json_add_text(header, "program", KZ_VERSION);
   kz_json_add_text(header, "title", scene->title);
   kz_json_add(header, "pendulum", mapping_of("pendulum.", scene));
-  kz_json_add(window, "theta", axis_of(&scene->basin.theta));
-  kz_json_add(window, "velocity", axis_of(&scene->basin.velocity));
+  kz_json_add(window, "theta", axis_of(&scene->basin->theta));
+  kz_json_add(window, "velocity", axis_of(&scene->basin->velocity));
   kz_json_add(header, "window", window);
   return finish(header);
 }
@@ -192,7 +194,7 @@ static kz_json *pivot_of(const kz_parameters *parameters, int64_t samples) {
 }
 
 kz_status kz_answer_orbit(const kz_request *request, int64_t samples, const double *theta, const double *velocity) {
-  const kz_orbit_plan *plan = &request->scene.orbit;
+  const kz_orbit_plan *plan = request->scene.orbit;
   const kz_pendulum *p = &request->scene.parameters.pendulum;
   kz_json *header = begin("orbit", request->sequence, true);
   kz_json_add_integer(header, "samples", samples);

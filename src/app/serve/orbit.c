@@ -7,6 +7,7 @@
 #include <time.h>
 
 #include "answer.h"
+#include "../../study/orbit/plan.h"
 
 enum { PAUSE = 10000000 /* ns between two calls of `meanwhile` */ };
 
@@ -80,7 +81,7 @@ static kz_status start_thread(job *j, pthread_t *thread) {
 }
 
 kz_status kz_orbit_answer(const kz_request *request, kz_status (*meanwhile)(void *context), void *context) {
-  const kz_orbit_plan *plan = &request->scene.orbit;
+  const kz_orbit_plan *plan = request->scene.orbit;
   const int64_t samples = plan->periods * plan->samples_per_period + 1;
   const size_t bytes = (size_t)samples * sizeof(double);
   pthread_t thread;

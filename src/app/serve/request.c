@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "../json.h"
+#include "../../study/orbit/plan.h"
 
 enum { MOST_CELLS = 1 << 24 /* of a frame, or samples of an orbit */ };
 static const char SOURCE[] = "request";
@@ -106,7 +107,7 @@ static kz_status check_frame(const kz_request *request) {
 }
 
 static kz_status check_orbit(const kz_request *request) {
-  const kz_orbit_plan *plan = &request->scene.orbit;
+  const kz_orbit_plan *plan = request->scene.orbit;
   if (kz_release_strobes(&request->scene.parameters.release) > 0)
     return kz_fail(KZ_REFUSED,
                    "%s: orbit: a motion begins at phase 0 and without a ramp; leave out basin.start_phase and pendulum.ramp",

@@ -4,6 +4,7 @@
 
 #include "numerics/cells.h"
 #include "numerics/share.h"
+#include "basin/plan.h"
 
 /* Samples, in multiples of the fewest that can prove an accuracy: then some labels may be wrong. */
 static const double MARGIN = 3;
@@ -86,7 +87,7 @@ static void print(const kz_choice *choice, double accuracy, FILE *summary) {
 }
 
 kz_status kz_accuracy_choose(const kz_scene *scene, const kz_run *run, kz_store *store, FILE *summary, kz_choice *choice) {
-  const double accuracy = scene->basin.accuracy;
+  const double accuracy = scene->basin->accuracy;
   kz_reference_labels reference = {0};
   KZ_FREED char *path = kz_reference_path(store);
   kz_status status = kz_reference_labels_make(scene, run, samples_for(accuracy), path, &reference);

@@ -4,6 +4,7 @@
 #define KAPITZA_STUDY_ACCURACY_H
 
 #include "reference.h"
+#include "plan.h"
 
 typedef struct {
   const char *label;

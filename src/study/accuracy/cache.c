@@ -6,6 +6,7 @@
 #include <unistd.h>
 
 #include "reference.h"
+#include "basin/plan.h"
 
 enum { KEY_LENGTH = 512 + 4 * KZ_DECIMAL_LENGTH };
 

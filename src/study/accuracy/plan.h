@@ -2,11 +2,11 @@
 #ifndef KAPITZA_STUDY_ACCURACY_PLAN_H
 #define KAPITZA_STUDY_ACCURACY_PLAN_H
 
-#include "kapitza/study_axis.h"
+#include "kapitza/study.h"
 
-typedef struct {
+struct kz_tradeoff_plan {
   int64_t samples;      /* cells compared with quad precision */
   kz_integers settings; /* indices in the table of settings; empty = all */
-} kz_tradeoff_plan;
+};
 
 #endif

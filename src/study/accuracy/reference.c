@@ -10,6 +10,7 @@
 #include "numerics/share.h"
 #include "numerics/steps.h"
 #include "kapitza/kernel.h"
+#include "basin/plan.h"
 
 enum {
   STEPS = 48,    /* of split6 a period, for a gentle drive */
@@ -157,7 +158,7 @@ static kz_status follow_samples(kz_reference_labels *reference, const kz_run *ru
 
 kz_status kz_reference_labels_make(const kz_scene *scene, const kz_run *run, int64_t samples, const char *path,
                                    kz_reference_labels *reference) {
-  const kz_basin_plan *plan = &scene->basin;
+  const kz_basin_plan *plan = scene->basin;
   *reference = (kz_reference_labels){.plan = plan,
                                      .pendulum = scene->parameters.pendulum,
                                      .series = scene->series,

@@ -8,6 +8,7 @@
 #include "labelling/labeller.h"
 #include "numerics/cells.h"
 #include "numerics/resolve.h"
+#include "basin/plan.h"
 
 enum { MANY = 1 << 19 };       /* cells that are timed by method exact, where they do not take longer than LONG */
 static const double LONG = 20; /* s */
@@ -60,7 +61,7 @@ kz_numerics kz_setting_numerics(const kz_setting *setting, const kz_pendulum *pe
 }
 
 void kz_setting_apply(const kz_setting *setting, kz_scene *scene) {
-  kz_basin_plan *plan = &scene->basin;
+  kz_basin_plan *plan = scene->basin;
   scene->numerics = kz_setting_numerics(setting, &scene->parameters.pendulum, scene->series, plan);
   plan->method = setting->method;
   plan->interpolation = setting->interpolation;

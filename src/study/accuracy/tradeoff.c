@@ -9,6 +9,7 @@
 
 #include "numerics/cells.h"
 #include "numerics/share.h"
+#include "basin/plan.h"
 
 enum { TIMED = 16384 }; /* cells that are enough for a measured time */
 
@@ -27,8 +28,8 @@ static const kz_setting *setting_at(const kz_tradeoff_plan *plan, int64_t i) {
 
 kz_cost kz_tradeoff_cost(const kz_scene *scene) {
   double nodes = 0;
-  for (int64_t i = 0; i < count_settings(&scene->tradeoff); i++) {
-    const kz_setting *setting = setting_at(&scene->tradeoff, i);
+  for (int64_t i = 0; i < count_settings(scene->tradeoff); i++) {
+    const kz_setting *setting = setting_at(scene->tradeoff, i);
     nodes = fmax(nodes, (double)setting->nodes * (double)setting->nodes);
   }
   return (kz_cost){.disk_bytes = 1e6, .memory_bytes = 120 * nodes};
@@ -38,7 +39,7 @@ kz_cost kz_tradeoff_cost(const kz_scene *scene) {
 kz_status kz_tradeoff_check(const kz_scene *scene) {
   const kz_pendulum *pendulum = &scene->parameters.pendulum;
   kz_numerics reference;
-  return pendulum->beta > 0 ? kz_reference_labels_numerics(&scene->basin, pendulum, &reference) : KZ_OK;
+  return pendulum->beta > 0 ? kz_reference_labels_numerics(scene->basin, pendulum, &reference) : KZ_OK;
 }
 
 char *kz_reference_path(const kz_store *store) {
@@ -96,9 +97,9 @@ static kz_status run_settings(const kz_reference_labels *reference, kz_trade *tr
 
 static kz_status run_damped(const kz_scene *scene, const kz_run *run, kz_store *store, FILE *summary) {
   kz_reference_labels reference = {0};
-  kz_trade trade = trade_of(&scene->tradeoff);
+  kz_trade trade = trade_of(scene->tradeoff);
   KZ_FREED char *path = kz_reference_path(store);
-  kz_status status = kz_reference_labels_make(scene, run, scene->tradeoff.samples, path, &reference);
+  kz_status status = kz_reference_labels_make(scene, run, scene->tradeoff->samples, path, &reference);
   if (status == KZ_OK) status = kz_ranks_agree(run->ranks, path ? kz_reference_labels_save(&reference, path) : KZ_OK);
   if (status == KZ_OK) status = run_settings(&reference, &trade, run);
   if (status == KZ_OK && store) status = kz_tradeoff_write(&reference, &trade, store, summary);

@@ -7,6 +7,7 @@
 #include "numerics/steps.h"
 #include "kapitza/kernel.h"
 #include "accuracy.h"
+#include "basin/plan.h"
 
 #define COLUMN(type, name, expression) KZ_COLUMN(store, "tradeoff", name, trade->count, type, expression)
 

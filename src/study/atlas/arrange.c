@@ -103,7 +103,7 @@ static void cross(kz_atlas *atlas, int64_t number, int64_t row, int axis, double
     add(crossings, crossing);
     if (curve->kind.of.multiplier > 0 || form <= 0) continue;
     const kz_atlas_kind child = kz_atlas_child(&curve->kind);
-    if (kz_atlas_period(&child) > atlas->scene->atlas.max_period) continue;
+    if (kz_atlas_period(&child) > atlas->scene->atlas->max_period) continue;
     const kz_atlas_class grown = kz_atlas_class_of(&child);
     crossing.class = kz_atlas_class_number(atlas, &grown);
     crossing.change = -change;

@@ -14,8 +14,8 @@ kz_status kz_atlas_run(const kz_scene *scene, const kz_run *run, kz_store *store
   KZ_TRY(kz_atlas_search(&atlas, run));
   KZ_FREED_BY(kz_atlas_raster_free) kz_atlas_raster raster = {0};
   kz_atlas_order(&atlas);
-  if (store || scene->atlas.shares > 0) kz_atlas_raster_make(&atlas, &raster);
-  if (scene->atlas.shares > 0) {
+  if (store || scene->atlas->shares > 0) kz_atlas_raster_make(&atlas, &raster);
+  if (scene->atlas->shares > 0) {
     const double more = (double)KZ_ATLAS_REGIONS / (double)raster.n_regions; /* a sampled run knows few regions */
     kz_sampling_weigh(run, more);
     const kz_status status = kz_atlas_shares(&atlas, run, &raster);
@@ -30,7 +30,7 @@ kz_status kz_atlas_run(const kz_scene *scene, const kz_run *run, kz_store *store
 static const double POINTS = 500, POWER = 1.8, BYTES = 120;
 
 kz_cost kz_atlas_cost(const kz_scene *scene) {
-  const double points = POINTS * pow((double)scene->atlas.max_period, POWER),
-               cells = (double)(scene->atlas.points * scene->atlas.points);
+  const double points = POINTS * pow((double)scene->atlas->max_period, POWER),
+               cells = (double)(scene->atlas->points * scene->atlas->points);
   return (kz_cost){.disk_bytes = points * BYTES + 0.3 * cells, .rank0_bytes = 4 * points * BYTES + 60 * cells};
 }

@@ -8,6 +8,7 @@
 #include "kapitza/dynamics_curves.h"
 #include "kapitza/study.h"
 #include "kapitza/study_atlas.h"
+#include "plan.h"
 
 /* Longest step of branches along a line, in sides of the plane. */
 #define KZ_ATLAS_BRANCH_STEP 0.03

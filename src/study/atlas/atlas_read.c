@@ -48,7 +48,7 @@ static kz_atlas_kind kind_of(const columns *c, int64_t i) {
 /* Of the points of a cycle a row has the first alone, from which the others follow. */
 static kz_status read_rows(const kz_atlas *atlas, const columns *points, int64_t first, int64_t n_points,
                            kz_atlas_curve *curve) {
-  const kz_axis *axis[] = {&atlas->scene->atlas.x.values, &atlas->scene->atlas.y.values};
+  const kz_axis *axis[] = {&atlas->scene->atlas->x.values, &atlas->scene->atlas->y.values};
   const int64_t width = kz_atlas_width(&curve->kind);
   if (curve->kind.of.points < 1 || curve->kind.of.points > KZ_CURVE_POINTS || first < 0 || curve->n < 0 ||
       first + curve->n > n_points)
@@ -101,7 +101,7 @@ static kz_status read_classes(kz_atlas *atlas, kz_store *store) {
     KZ_TRY(kz_store_number(store, GROUP, "attracting", (int64_t[]){i, 0, 0}, &count));
     atlas->at_reference[kz_atlas_class_number(atlas, &class)] = (int32_t)count;
   }
-  for (int i = 0; i < 2; i++) atlas->reference[i] = 0.5 / (double)atlas->scene->atlas.points;
+  for (int i = 0; i < 2; i++) atlas->reference[i] = 0.5 / (double)atlas->scene->atlas->points;
   return KZ_OK;
 }
 

@@ -74,7 +74,7 @@ static void listing_free(listing *l) {
 
 static double at(const kz_atlas *atlas, const double *place, int axis) {
   double value[2];
-  kz_atlas_values(&atlas->scene->atlas, place, value);
+  kz_atlas_values(atlas->scene->atlas, place, value);
   return value[axis];
 }
 
@@ -141,7 +141,7 @@ static kz_status write_points(const kz_atlas *atlas, const listing *l, kz_store 
 }
 
 static double middle_of(const kz_atlas *atlas, int64_t i, int axis) {
-  const double share = ((double)i + 0.5) / (double)atlas->scene->atlas.points, place[2] = {share, share};
+  const double share = ((double)i + 0.5) / (double)atlas->scene->atlas->points, place[2] = {share, share};
   return at(atlas, place, axis);
 }
 
@@ -164,21 +164,21 @@ static kz_status write_raster(const kz_atlas *atlas, const kz_atlas_raster *r, k
   COLUMN(double, "region_share", r->n_regions, (double)r->region[i].cells / (double)(n * n));
   COLUMN(double, "region_radius", r->n_regions, r->region[i].radius / (double)n);
   if (!r->hits) return KZ_OK;
-  const double starts = (double)atlas->scene->atlas.shares;
+  const double starts = (double)atlas->scene->atlas->shares;
   COLUMN(double, "region_fraction", r->n_regions * r->n_classes, (double)r->hits[i] / starts);
   COLUMN(double, "region_other", r->n_regions, (double)r->other[i] / starts);
   return KZ_OK;
 }
 
 static kz_status write_attributes(const kz_atlas *atlas, const kz_atlas_raster *raster, kz_store *store) {
-  const kz_chart_axis *axis[] = {&atlas->scene->atlas.x, &atlas->scene->atlas.y};
+  const kz_chart_axis *axis[] = {&atlas->scene->atlas->x, &atlas->scene->atlas->y};
   const kz_share wrong = kz_share_of(atlas->disagreed, atlas->checked);
   for (int i = 0; i < 2; i++) {
     const kz_sweep_parameter *parameter = kz_sweep_parameters + axis[i]->parameter;
     KZ_TRY(kz_store_text(store, GROUP, i ? "y_parameter" : "x_parameter", parameter->name));
     KZ_TRY(kz_store_text(store, GROUP, i ? "y_units" : "x_units", parameter->unit));
   }
-  KZ_TRY(kz_store_integer(store, GROUP, "max_period", atlas->scene->atlas.max_period));
+  KZ_TRY(kz_store_integer(store, GROUP, "max_period", atlas->scene->atlas->max_period));
   KZ_TRY(kz_store_integer(store, GROUP, "mirrored", atlas->plane.mirrored));
   KZ_TRY(kz_store_integer(store, GROUP, "lists", raster->lists));
   KZ_TRY(kz_store_integer(store, GROUP, "negative", raster->negative));
@@ -193,8 +193,8 @@ static void print(const kz_atlas *atlas, const kz_atlas_raster *r, const listing
   for (int64_t i = 0; i < r->points * r->points; i++)
     if (r->count[i] > most) most = r->count[i];
   fprintf(summary, "atlas: %s x %s, cycles of up to %" PRId64 " periods: %" PRId64 " curves (%" PRId64 " points)\n",
-          kz_sweep_parameters[atlas->scene->atlas.x.parameter].name, kz_sweep_parameters[atlas->scene->atlas.y.parameter].name,
-          atlas->scene->atlas.max_period, atlas->n_curves, l->n);
+          kz_sweep_parameters[atlas->scene->atlas->x.parameter].name,
+          kz_sweep_parameters[atlas->scene->atlas->y.parameter].name, atlas->scene->atlas->max_period, atlas->n_curves, l->n);
   fprintf(summary, "  folds %" PRId64 ", period doublings %" PRId64 ", symmetry breakings %" PRId64 ", of rest %" PRId64 "\n",
           kinds[KZ_CURVE_FOLD], kinds[KZ_CURVE_PERIOD_DOUBLING], kinds[KZ_CURVE_SYMMETRY_BREAKING],
           kinds[KZ_CURVE_REST_SWINGS] + kinds[KZ_CURVE_REST_LEANS]);

@@ -5,7 +5,7 @@
 #include "atlas.h"
 
 kz_status kz_atlas_place(const kz_atlas *atlas, int axis, double value, double *place) {
-  const kz_atlas_plan *plan = &atlas->scene->atlas;
+  const kz_atlas_plan *plan = atlas->scene->atlas;
   const kz_chart_axis *of = axis ? &plan->y : &plan->x;
   if (!(value >= of->values.min && value <= of->values.max))
     return kz_fail(KZ_REFUSED, "%c: %.10g lies outside of the atlas; %s is from %.10g to %.10g there", axis ? 'y' : 'x', value,
@@ -44,7 +44,7 @@ void kz_atlas_draw(const kz_atlas *atlas, int axis, const kz_atlas_kind *kind, i
   line->point = kz_realloc(line->point, (size_t)(line->n_points + n) * sizeof *line->point);
   for (int64_t i = 0; i < n; i++, row += width) {
     double *to = line->point[line->n_points++], value[2], cosine = 0, re[2], im[2];
-    kz_atlas_values(&atlas->scene->atlas, row, value);
+    kz_atlas_values(atlas->scene->atlas, row, value);
     kz_atlas_multipliers(kind, row + 2, re, im);
     for (int p = 0; p < points; p++) cosine += cos(row[4 + 2 * p]);
     to[KZ_LINE_VALUE] = value[axis];

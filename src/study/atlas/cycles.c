@@ -123,7 +123,7 @@ bool kz_atlas_add(const kz_atlas *atlas, kz_atlas_kind kind, const double *y, kz
     if (y[n + i] < atlas->plane.low[i] || y[n + i] > atlas->plane.high[i]) return false;
   while (kz_atlas_reduce(atlas, ONE, &seed.kind, seed.y)) continue;
   set_rest(atlas, &seed.kind, seed.y);
-  if (kz_atlas_period(&seed.kind) > atlas->scene->atlas.max_period) return false;
+  if (kz_atlas_period(&seed.kind) > atlas->scene->atlas->max_period) return false;
   canonical(atlas, &seed.kind, seed.y);
   if (seeds->count == seeds->capacity) {
     seeds->capacity = 2 * seeds->capacity + 16;

@@ -2,14 +2,13 @@
 #ifndef KAPITZA_STUDY_ATLAS_PLAN_H
 #define KAPITZA_STUDY_ATLAS_PLAN_H
 
-#include "kapitza/study_axis.h"
+#include "kapitza/study_atlas.h"
 
-enum { KZ_ATLAS_MOST_PERIOD = 16 };
-typedef struct {
+struct kz_atlas_plan {
   kz_chart_axis x, y;         /* the counts are not used */
   int64_t max_period, checks; /* drive periods; random points of a round */
   int64_t points;             /* cells of the raster along each axis */
   int64_t shares;             /* starts at one point of each region; 0 = none */
-} kz_atlas_plan;
+};
 
 #endif

@@ -16,9 +16,9 @@ void kz_atlas_values(const kz_atlas_plan *plan, const double place[2], double va
 
 bool kz_atlas_pendulum(const void *context, const double place[2], kz_pendulum *pendulum) {
   const kz_scene *scene = context;
-  const int32_t parameter[] = {scene->atlas.x.parameter, scene->atlas.y.parameter};
+  const int32_t parameter[] = {scene->atlas->x.parameter, scene->atlas->y.parameter};
   double value[2];
-  kz_atlas_values(&scene->atlas, place, value);
+  kz_atlas_values(scene->atlas, place, value);
   return kz_pendulum_at(scene, 2, parameter, value, pendulum) && pendulum->beta > 0;
 }
 
@@ -48,7 +48,7 @@ static kz_status check_keys(const kz_scene *scene) {
     }
     if (same)
       return kz_fail(KZ_REFUSED, "atlas.%c.parameter: %s changes no motion of this pendulum; name a key that does",
-                     axis ? 'y' : 'x', kz_sweep_parameters[axis ? scene->atlas.y.parameter : scene->atlas.x.parameter].name);
+                     axis ? 'y' : 'x', kz_sweep_parameters[axis ? scene->atlas->y.parameter : scene->atlas->x.parameter].name);
   }
   return KZ_OK;
 }
@@ -56,7 +56,7 @@ static kz_status check_keys(const kz_scene *scene) {
 /* Steps of the stiffest pendulum; what all places have in common. */
 static kz_status survey(kz_atlas *atlas) {
   const kz_scene *scene = atlas->scene;
-  const kz_chart_axis *axis[] = {&scene->atlas.x, &scene->atlas.y};
+  const kz_chart_axis *axis[] = {&scene->atlas->x, &scene->atlas->y};
   double stiffest = -1;
   atlas->undriven = true;
   atlas->plane.mirrored = 1;
@@ -66,7 +66,7 @@ static kz_status survey(kz_atlas *atlas) {
     double value[2];
     kz_numerics fine;
     if (!kz_atlas_pendulum(scene, place, &pendulum)) {
-      kz_atlas_values(&scene->atlas, place, value);
+      kz_atlas_values(scene->atlas, place, value);
       return kz_fail(KZ_REFUSED,
                      "atlas.x.min|atlas.y.min: there is no damped pendulum at %s = %.10g, %s = %.10g; an atlas needs damping "
                      "above 0 in the whole rectangle",
@@ -100,7 +100,7 @@ static bool is_turned(const kz_atlas *atlas) {
 }
 
 bool kz_atlas_image(const kz_atlas *atlas, const double place[2], double image[2]) {
-  const kz_chart_axis *axis[] = {&atlas->scene->atlas.x, &atlas->scene->atlas.y};
+  const kz_chart_axis *axis[] = {&atlas->scene->atlas->x, &atlas->scene->atlas->y};
   for (int i = 0; i < 2; i++) {
     const char *name = kz_sweep_parameters[axis[i]->parameter].name;
     if (strcmp(name, "k") && strcmp(name, "gravity")) continue;
@@ -113,7 +113,8 @@ bool kz_atlas_image(const kz_atlas *atlas, const double place[2], double image[2
 }
 
 kz_status kz_atlas_begin(const kz_scene *scene, kz_atlas *atlas) {
-  *atlas = (kz_atlas){.scene = scene, .longest = LONGEST, .max_period = scene->atlas.max_period, .reference = {0.0123, 0.0071}};
+  *atlas =
+      (kz_atlas){.scene = scene, .longest = LONGEST, .max_period = scene->atlas->max_period, .reference = {0.0123, 0.0071}};
   atlas->plane =
       (kz_plane){.pendulum = kz_atlas_pendulum, .context = scene, .low = {-MARGIN, -MARGIN}, .high = {1 + MARGIN, 1 + MARGIN}};
   KZ_TRY(survey(atlas));

@@ -111,7 +111,7 @@ static bool settle(const kz_atlas *atlas, const double state[2], int n, kz_atlas
 
 /* Motions that repeat themselves within the longest period leave. */
 static void look(const kz_atlas *atlas, const kz_flow *flow, motions *m, kz_atlas_probe *probe) {
-  const int64_t longest = atlas->scene->atlas.max_period;
+  const int64_t longest = atlas->scene->atlas->max_period;
   int64_t left = 0;
   KZ_FREED int8_t *period = kz_calloc((size_t)m->n + 1, 1);
   KZ_FREED double *theta = kz_malloc((size_t)(m->n + 1) * sizeof *theta);

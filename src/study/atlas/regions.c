@@ -18,7 +18,7 @@ void kz_atlas_order(kz_atlas *atlas) {
     const kz_atlas_kind child = kz_atlas_child(&atlas->curve[i].kind);
     const kz_atlas_class own = kz_atlas_class_of(&atlas->curve[i].kind), grown = kz_atlas_class_of(&child);
     kz_atlas_class_number(atlas, &own);
-    if (atlas->curve[i].kind.of.multiplier < 0 && kz_atlas_period(&child) <= atlas->scene->atlas.max_period)
+    if (atlas->curve[i].kind.of.multiplier < 0 && kz_atlas_period(&child) <= atlas->scene->atlas->max_period)
       kz_atlas_class_number(atlas, &grown);
   }
   memcpy(reference, atlas->class, sizeof atlas->class);
@@ -157,7 +157,7 @@ void kz_atlas_region_place(const kz_atlas_raster *raster, int64_t region, double
 }
 
 void kz_atlas_raster_make(kz_atlas *atlas, kz_atlas_raster *raster) {
-  const int64_t n = atlas->scene->atlas.points;
+  const int64_t n = atlas->scene->atlas->points;
   *raster = (kz_atlas_raster){.points = n, .n_classes = atlas->n_classes};
   raster->attracting = kz_calloc((size_t)(n * n * atlas->n_classes) + 1, 1);
   raster->count = kz_calloc((size_t)(n * n), sizeof *raster->count);

@@ -132,7 +132,7 @@ static kz_status explore(kz_atlas *atlas, const kz_run *run, int64_t n_cycles, c
 /* Follows cycles, and then every curve that comes of it, until nothing is left. A sampled run does so for cycles of one period: as measured, the
  * time for all grows like the longest period. */
 static kz_status drain(kz_atlas *atlas, const kz_run *run, int64_t n_cycles, const kz_atlas_seed *cycle) {
-  const double growth = (double)atlas->scene->atlas.max_period / (double)atlas->max_period;
+  const double growth = (double)atlas->scene->atlas->max_period / (double)atlas->max_period;
   kz_sampling_weigh(run, growth);
   kz_status status = explore(atlas, run, n_cycles, cycle);
   while (status == KZ_OK && (atlas->pending.count > 0 || atlas->n_explored < atlas->n_curves)) {
@@ -288,7 +288,7 @@ static kz_status search_grid(kz_atlas *atlas, const kz_run *run) {
 
 /* A round of random places; *wrong = how many had an attractor without an explanation. */
 static kz_status check(kz_atlas *atlas, const kz_run *run, int round, int64_t *wrong) {
-  const int64_t n = atlas->scene->atlas.checks;
+  const int64_t n = atlas->scene->atlas->checks;
   kz_atlas_probe *probe = kz_calloc((size_t)n, sizeof *probe);
   probing p = {atlas, n, MANY, 2 + round, probe};
   for (int64_t i = 0; i < n; i++) random_place(1000 + round * n + i, probe[i].place);
@@ -302,13 +302,13 @@ kz_status kz_atlas_search(kz_atlas *atlas, const kz_run *run) {
   if (!atlas->undriven) KZ_TRY(search_reference(atlas, run));
   if (run->sample) atlas->max_period = 1;
   KZ_TRY(search_grid(atlas, run));
-  for (int round = 0; round < ROUNDS && atlas->scene->atlas.checks > 0; round++) {
-    const double stands_for = run->sample && atlas->scene->atlas.max_period > USUAL_PERIOD ? ROUNDS : 1;
+  for (int round = 0; round < ROUNDS && atlas->scene->atlas->checks > 0; round++) {
+    const double stands_for = run->sample && atlas->scene->atlas->max_period > USUAL_PERIOD ? ROUNDS : 1;
     kz_sampling_weigh(run, stands_for);
     const kz_status status = check(atlas, run, round, &atlas->disagreed);
     kz_sampling_weigh(run, 1 / stands_for);
     KZ_TRY(status);
-    atlas->checked = atlas->scene->atlas.checks;
+    atlas->checked = atlas->scene->atlas->checks;
     atlas->rounds = round + 1;
     if (atlas->disagreed == 0 || run->sample) break;
   }

@@ -27,7 +27,7 @@ typedef struct {
 
 /* False for attractors that no class of the atlas has. */
 static bool class_of(const kz_atlas *atlas, const kz_attractor *row, kz_atlas_class *class) {
-  if (row->period < 1 || row->period > atlas->scene->atlas.max_period) return false;
+  if (row->period < 1 || row->period > atlas->scene->atlas->max_period) return false;
   const int32_t turns = atlas->plane.mirrored ? abs(row->winding) : row->winding;
   *class = (kz_atlas_class){KZ_CLASS_OTHER, row->period, turns};
   if (row->symmetric && atlas->plane.mirrored)
@@ -57,7 +57,7 @@ static void count(const kz_atlas *atlas, kz_dynamics *dynamics, int64_t starts, 
 static kz_status share_tile(void *context, int64_t tile, void *record) {
   const counting *c = context;
   const kz_scene *scene = c->atlas->scene;
-  const int64_t starts = scene->atlas.shares;
+  const int64_t starts = scene->atlas->shares;
   kz_numerics numerics = kz_steps_plain();
   kz_pendulum pendulum;
   double place[2];
@@ -70,7 +70,7 @@ static kz_status share_tile(void *context, int64_t tile, void *record) {
                             .max_periods = kz_settling_periods(pendulum.beta)};
   const kz_run alone = {0};
   KZ_FREED int32_t *label = kz_calloc((size_t)starts, sizeof *label);
-  kz_dynamics *dynamics = kz_dynamics_create(&pendulum, &numerics, scene->atlas.max_period);
+  kz_dynamics *dynamics = kz_dynamics_create(&pendulum, &numerics, scene->atlas->max_period);
   const kz_status status = kz_search_window(&alone, dynamics, &search, label);
   if (status == KZ_OK) count(c->atlas, dynamics, starts, label, record);
   kz_dynamics_free(dynamics);

@@ -4,13 +4,14 @@
 #include "labelling/search.h"
 #include "numerics/cells.h"
 #include "numerics/step_check.h"
+#include "plan.h"
 
 kz_cost kz_attractors_cost(const kz_scene *scene) {
-  return (kz_cost){.disk_bytes = 1e5, .memory_bytes = 100 * (double)scene->attractors.starts};
+  return (kz_cost){.disk_bytes = 1e5, .memory_bytes = 100 * (double)scene->attractors->starts};
 }
 
 static kz_motions motions_of_starts(const kz_scene *scene) {
-  return kz_motions_of(scene, kz_axis_fastest(&scene->attractors.velocity), "numerics.steps_per_period|attractors.velocity");
+  return kz_motions_of(scene, kz_axis_fastest(&scene->attractors->velocity), "numerics.steps_per_period|attractors.velocity");
 }
 
 kz_status kz_attractors_check(const kz_scene *scene) {
@@ -19,17 +20,17 @@ kz_status kz_attractors_check(const kz_scene *scene) {
 }
 
 static kz_dynamics *dynamics_of(const kz_scene *scene) {
-  return kz_dynamics_create(&scene->parameters.pendulum, &scene->numerics, scene->attractors.max_period);
+  return kz_dynamics_create(&scene->parameters.pendulum, &scene->numerics, scene->attractors->max_period);
 }
 
 static kz_search search_of(const kz_scene *scene) {
-  return kz_search_of_attractors(&scene->attractors, kz_settling_periods(scene->parameters.pendulum.beta));
+  return kz_search_of_attractors(scene->attractors, kz_settling_periods(scene->parameters.pendulum.beta));
 }
 
 /* label [starts]: where they end. */
 static kz_status publish(const kz_scene *scene, const kz_dynamics *dynamics, const int32_t *label, kz_store *store,
                          FILE *summary) {
-  const int64_t starts = scene->attractors.starts;
+  const int64_t starts = scene->attractors->starts;
   KZ_FREED int64_t *reached = kz_calloc((size_t)kz_dynamics_count(dynamics) + 1, sizeof *reached);
   kz_catalogue catalogue = {0};
   const kz_motions motions = motions_of_starts(scene);

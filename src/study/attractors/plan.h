@@ -2,11 +2,11 @@
 #ifndef KAPITZA_STUDY_ATTRACTORS_PLAN_H
 #define KAPITZA_STUDY_ATTRACTORS_PLAN_H
 
-#include "kapitza/study_axis.h"
+#include "kapitza/study.h"
 
-typedef struct {
+struct kz_attractors_plan {
   kz_axis theta, velocity;
   int64_t starts, max_period, seed;
-} kz_attractors_plan;
+};
 
 #endif

@@ -15,7 +15,7 @@ static double packed_bytes(double cells) {
 }
 
 kz_cost kz_basin_cost(const kz_scene *scene) {
-  const kz_basin_plan *plan = &scene->basin;
+  const kz_basin_plan *plan = scene->basin;
   const kz_tiles tiles = kz_tiles_of(scene, KZ_TILE_CELLS);
   const int64_t cells = plan->theta.count * plan->velocity.count;
   const double nodes = plan->method == KZ_METHOD_ICM ? (double)plan->table_theta * (double)plan->table_velocity : 0;
@@ -33,7 +33,7 @@ static void print_numerics(const kz_scene *scene, FILE *summary) {
   const kz_scheme scheme = kz_scheme_at(numerics->scheme);
   fprintf(summary, "Integrator: %s%s, %d steps per drive period", scheme.name,
           kz_is_processed(numerics->scheme) ? " splitting" : "", (int)numerics->steps_per_period);
-  if (kz_is_processed(scene->asked.scheme) && !kz_is_processed(numerics->scheme) && isnan(scene->basin.accuracy))
+  if (kz_is_processed(scene->asked.scheme) && !kz_is_processed(numerics->scheme) && isnan(scene->basin->accuracy))
     fprintf(summary, " (processed does not reach numerics.tolerance = %g for this pendulum)", scene->asked.tolerance);
   else if (!kz_is_processed(numerics->scheme) && numerics->steps_per_period != scheme.default_steps)
     fprintf(summary, " (its default is %d)", (int)scheme.default_steps);
@@ -55,9 +55,9 @@ static double warn_steps(const kz_scene *scene, FILE *summary) {
 static void measure_numerics(const kz_scene *scene, kz_dynamics *dynamics, kz_window_summary *labels, FILE *summary) {
   labels->step_error = warn_steps(scene, summary);
   labels->table_error = NAN;
-  if (scene->basin.method != KZ_METHOD_ICM) return;
-  labels->table_error = kz_dynamics_table_error(dynamics, kz_stencil(scene->basin.interpolation));
-  kz_steps_warn_table(&scene->basin, labels->table_error, summary);
+  if (scene->basin->method != KZ_METHOD_ICM) return;
+  labels->table_error = kz_dynamics_table_error(dynamics, kz_stencil(scene->basin->interpolation));
+  kz_steps_warn_table(scene->basin, labels->table_error, summary);
 }
 
 /* Writes everything that follows from the labels of the cells. Rank 0. */
@@ -67,11 +67,11 @@ static kz_status write_results(const kz_scene *scene, const kz_chunks *chunks, c
   kz_window_summary labels = {.cells = chunks->labelling->tiles.cells,
                               .counts = chunks->counts,
                               .trapped_share = kz_dynamics_trapped_share(dynamics),
-                              .doubt = kz_doubt_of(&scene->basin, chunks->sample, chunks->counts.doubtful)};
+                              .doubt = kz_doubt_of(scene->basin, chunks->sample, chunks->counts.doubtful)};
   measure_numerics(scene, dynamics, &labels, summary);
   KZ_TRY(kz_basin_write(scene, chunks->catalogue, &labels, chunks->store, summary));
   if (proof) KZ_TRY(kz_proof_write(proof, chunks->catalogue, labels.cells, &chunks->counts, proved, chunks->store, summary));
-  return kz_lifetime_write(&scene->basin, chunks->transients, chunks->store, summary);
+  return kz_lifetime_write(scene->basin, chunks->transients, chunks->store, summary);
 }
 
 static kz_status write_window(const kz_scene *scene, kz_proof *proof, kz_chunks *chunks, FILE *summary) {
@@ -81,7 +81,7 @@ static kz_status write_window(const kz_scene *scene, kz_proof *proof, kz_chunks 
   kz_proof_sample proved = {.starts = 0};
   KZ_TRY(kz_label_window(labelling));
   if (proof) KZ_TRY(kz_prove_window(labelling, proof, &proved));
-  KZ_TRY(kz_doubt_follow(&scene->basin, run, labelling->dynamics, chunks->sample));
+  KZ_TRY(kz_doubt_follow(scene->basin, run, labelling->dynamics, chunks->sample));
   kz_catalogue_make(labelling->dynamics, labelling->reached, chunks->catalogue);
   KZ_TRY(kz_ranks_agree(run->ranks, store ? kz_basin_declare(scene, &labelling->tiles, store) : KZ_OK));
   KZ_TRY(kz_cells_write(chunks));
@@ -92,7 +92,7 @@ static kz_status write_window(const kz_scene *scene, kz_proof *proof, kz_chunks 
 }
 
 static kz_status run_damped(const kz_scene *scene, const kz_run *run, kz_store *store, FILE *summary) {
-  const kz_basin_plan *plan = &scene->basin;
+  const kz_basin_plan *plan = scene->basin;
   kz_window_labels labelling = {.plan = plan,
                                 .pendulum = &scene->parameters.pendulum,
                                 .run = run,
@@ -146,7 +146,7 @@ static kz_status write_undamped(const kz_scene *scene, kz_chunks *chunks, FILE *
 }
 
 static kz_status run_undamped(const kz_scene *scene, const kz_run *run, kz_store *store, FILE *summary) {
-  kz_window_labels labelling = {.plan = &scene->basin, .run = run, .tiles = kz_tiles_of(scene, KZ_TILE_CELLS)};
+  kz_window_labels labelling = {.plan = scene->basin, .run = run, .tiles = kz_tiles_of(scene, KZ_TILE_CELLS)};
   kz_catalogue none = {0};
   kz_chunks chunks = {&labelling, &none, store};
   labelling.cell = kz_calloc((size_t)kz_tile_capacity(&labelling.tiles), sizeof *labelling.cell);
@@ -160,14 +160,17 @@ static kz_status run_accurate(const kz_scene *scene, const kz_run *run, kz_store
   kz_choice choice;
   kz_scene chosen = *scene;
   KZ_TRY(kz_accuracy_choose(scene, run, store, summary, &choice));
+  kz_plans_copy(&chosen);
   kz_setting_apply(choice.setting, &chosen);
-  KZ_TRY(run_damped(&chosen, run, store, summary));
-  return kz_ranks_agree(run->ranks, store ? kz_accuracy_write(&choice, scene->basin.accuracy, store) : KZ_OK);
+  const kz_status status = run_damped(&chosen, run, store, summary);
+  kz_plans_free(&chosen);
+  KZ_TRY(status);
+  return kz_ranks_agree(run->ranks, store ? kz_accuracy_write(&choice, scene->basin->accuracy, store) : KZ_OK);
 }
 
 kz_status kz_basin_run(const kz_scene *scene, const kz_run *run, kz_store *store, FILE *summary) {
   if (scene->parameters.pendulum.beta <= 0) return run_undamped(scene, run, store, summary);
-  return (isnan(scene->basin.accuracy) ? run_damped : run_accurate)(scene, run, store, summary);
+  return (isnan(scene->basin->accuracy) ? run_damped : run_accurate)(scene, run, store, summary);
 }
 
 /* Without damping nothing is labelled. What basin.accuracy chooses is compared with reference labels. */
@@ -175,11 +178,11 @@ kz_status kz_basin_check(const kz_scene *scene) {
   const kz_motions motions = kz_motions_of_basin(scene);
   kz_numerics reference;
   if (!(motions.pendulum.beta > 0)) return KZ_OK;
-  KZ_TRY(kz_pairs_check(&scene->basin));
+  KZ_TRY(kz_pairs_check(scene->basin));
   kz_proof *proof;
   const kz_status status = kz_proof_plan(scene, &proof);
   kz_proof_free(proof);
   KZ_TRY(status);
-  if (isnan(scene->basin.accuracy)) return kz_motions_check(&motions);
-  return kz_reference_labels_numerics(&scene->basin, &motions.pendulum, &reference);
+  if (isnan(scene->basin->accuracy)) return kz_motions_check(&motions);
+  return kz_reference_labels_numerics(scene->basin, &motions.pendulum, &reference);
 }

@@ -8,6 +8,7 @@
 #include "label.h"
 #include "labelling/doubt.h"
 #include "resilience/resilience.h"
+#include "plan.h"
 
 enum { KZ_TILE_CELLS = 16384 }; /* cells of a tile, about: enough to keep all lanes busy while a few cells take long */
 

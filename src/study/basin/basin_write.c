@@ -61,7 +61,7 @@ static kz_status write_measures(const kz_basin_plan *plan, const kz_window_summa
 }
 
 static kz_status write_numerics(const kz_scene *scene, kz_store *store) {
-  const kz_basin_plan *plan = &scene->basin;
+  const kz_basin_plan *plan = scene->basin;
   KZ_TRY(kz_store_text(store, "basin", "method", kz_method_names[plan->method]));
   KZ_TRY(kz_store_integer(store, "basin", "max_periods", plan->max_periods));
   KZ_TRY(kz_store_text(store, "basin", "scheme", kz_scheme_at(scene->numerics.scheme).name));
@@ -123,13 +123,13 @@ static kz_status write_flags(const kz_catalogue *catalogue, kz_store *store) {
 }
 
 kz_status kz_basin_declare(const kz_scene *scene, const kz_tiles *tiles, kz_store *store) {
-  KZ_TRY(write_axis(&scene->basin.theta, "theta", store));
-  KZ_TRY(write_axis(&scene->basin.velocity, "velocity", store));
-  return kz_chunks_declare(&scene->basin, tiles, store);
+  KZ_TRY(write_axis(&scene->basin->theta, "theta", store));
+  KZ_TRY(write_axis(&scene->basin->velocity, "velocity", store));
+  return kz_chunks_declare(scene->basin, tiles, store);
 }
 
 static void print_settled(const kz_scene *scene, const kz_window_summary *labels, bool attracts, FILE *summary) {
-  const long long unsettled = labels->counts.unsettled, cells = labels->cells, periods = scene->basin.max_periods;
+  const long long unsettled = labels->counts.unsettled, cells = labels->cells, periods = scene->basin->max_periods;
   if (unsettled == 0)
     fprintf(summary, "All %lld cells settled within %lld drive periods.\n", cells, periods);
   else
@@ -161,7 +161,7 @@ static void print_decided(const kz_basin_plan *plan, const kz_window_summary *la
 
 kz_status kz_basin_write(const kz_scene *scene, const kz_catalogue *catalogue, const kz_window_summary *labels, kz_store *store,
                          FILE *summary) {
-  const kz_basin_plan *plan = &scene->basin;
+  const kz_basin_plan *plan = scene->basin;
   kz_catalogue_print(catalogue, true, summary);
   print_settled(scene, labels, catalogue->count > 0, summary);
   if (plan->method == KZ_METHOD_EXACT) {

@@ -83,7 +83,7 @@ static kz_status write_boxes(const kz_box_counts *b, int64_t count, kz_store *st
 
 kz_status kz_boundary_find(const kz_scene *scene, const kz_window_labels *labelling, const kz_catalogue *catalogue,
                            kz_store *store, FILE *summary) {
-  const kz_basin_plan *plan = &scene->basin;
+  const kz_basin_plan *plan = scene->basin;
   kz_uncertain uncertain[KZ_PAIR_DISTANCES];
   kz_box_counts counts = {0};
   if (!plan->has_boundary) return KZ_OK;

@@ -2,6 +2,7 @@
 #include <stdlib.h>
 
 #include "label.h"
+#include "plan.h"
 
 enum {
   MOST_DECIDED = 100000

@@ -34,14 +34,14 @@ static kz_status write_group(const kz_basin_plan *plan, const kz_phases *p, cons
 
 kz_status kz_phases_find(const kz_scene *scene, const kz_window_labels *labelling, const kz_catalogue *catalogue,
                          kz_store *store, FILE *summary) {
-  if (scene->basin.phases <= 0) return KZ_OK;
-  kz_phases p = {.labeller = kz_cell_labeller(&scene->basin, labelling->dynamics),
+  if (scene->basin->phases <= 0) return KZ_OK;
+  kz_phases p = {.labeller = kz_cell_labeller(scene->basin, labelling->dynamics),
                  .release = scene->parameters.release,
-                 .phases = scene->basin.phases,
-                 .n = scene->basin.theta.count * scene->basin.velocity.count,
+                 .phases = scene->basin->phases,
+                 .n = scene->basin->theta.count * scene->basin->velocity.count,
                  .stage = "phases"};
   kz_status status = kz_phases_label(&p, labelling->run);
-  if (status == KZ_OK && store) status = write_group(&scene->basin, &p, catalogue, store, summary);
+  if (status == KZ_OK && store) status = write_group(scene->basin, &p, catalogue, store, summary);
   free(p.label);
   return kz_ranks_agree(labelling->run->ranks, status);
 }

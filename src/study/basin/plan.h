@@ -2,7 +2,7 @@
 #ifndef KAPITZA_STUDY_BASIN_PLAN_H
 #define KAPITZA_STUDY_BASIN_PLAN_H
 
-#include "kapitza/study_axis.h"
+#include "kapitza/study.h"
 
 enum { KZ_METHOD_ICM = 0, KZ_METHOD_DIRECT = 1, KZ_METHOD_EXACT = 2 };
 enum { KZ_UNDECIDED_FLAG = 0, KZ_UNDECIDED_DECIDE = 1 }; /* what happens to cells that quad precision does not decide */
@@ -17,7 +17,7 @@ typedef struct {
   kz_reals sizes;
 } kz_shocks_plan;
 
-typedef struct {
+struct kz_basin_plan {
   kz_axis theta;    /* rad; the whole circle is [-pi, pi) */
   kz_axis velocity; /* rad per drive radian */
   kz_edges theta_edges, velocity_edges;
@@ -41,6 +41,6 @@ typedef struct {
   bool has_shocks;
   kz_shocks_plan shocks;
   int64_t phases; /* number of phases of the drive at which the cells are also released; 0 or less = none */
-} kz_basin_plan;
+};
 
 #endif

@@ -14,7 +14,7 @@ static const double GAIN = 0.01; /* of the cells: a round that adds less is the 
 
 static double top_of(const kz_scene *scene) {
   const kz_pendulum *pendulum = &scene->parameters.pendulum;
-  return fmin(fmax(kz_axis_fastest(&scene->basin.velocity), LOWEST), HIGHEST) + 0.5 * kz_stiffness(pendulum);
+  return fmin(fmax(kz_axis_fastest(&scene->basin->velocity), LOWEST), HIGHEST) + 0.5 * kz_stiffness(pendulum);
 }
 
 static int64_t rows_of(const kz_scene *scene) {
@@ -22,11 +22,11 @@ static int64_t rows_of(const kz_scene *scene) {
 }
 
 double kz_proof_bytes(const kz_scene *scene) {
-  return scene->basin.proof ? 2 * (double)rows_of(scene) * COLUMNS + 2e6 : 0;
+  return scene->basin->proof ? 2 * (double)rows_of(scene) * COLUMNS + 2e6 : 0;
 }
 
 kz_status kz_proof_plan(const kz_scene *scene, kz_proof **proof) {
-  const kz_basin_plan *plan = &scene->basin;
+  const kz_basin_plan *plan = scene->basin;
   *proof = NULL;
   if (!plan->proof || !(scene->parameters.pendulum.beta > 0)) return KZ_OK;
   if (fmin(kz_axis_step(&plan->theta), kz_axis_step(&plan->velocity)) < SMALLEST)

@@ -5,6 +5,7 @@
 #include "numerics/step_check.h"
 #include "label.h"
 #include "window/window.h"
+#include "plan.h"
 
 enum { ROUNDS = 3 /* of search among cells that end nowhere known, at most */ };
 

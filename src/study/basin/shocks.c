@@ -73,7 +73,7 @@ static kz_status write_shocks(const kz_resilience_plan *plan, const kz_catalogue
 
 kz_status kz_shocks_find_all(const kz_scene *scene, const kz_window_labels *labelling, const kz_catalogue *catalogue,
                              kz_store *store, FILE *summary) {
-  const kz_basin_plan *plan = &scene->basin;
+  const kz_basin_plan *plan = scene->basin;
   const kz_resilience_plan asked = {.scale = plan->shocks.scale,
                                     .farthest = 2 * kz_axis_fastest(&plan->velocity),
                                     .sizes = plan->shocks.sizes,

@@ -1,4 +1,5 @@
 #include "label.h"
+#include "plan.h"
 
 enum { MOST_CELLS = 1 << 19 }; /* of a tile: few MB */
 
@@ -32,7 +33,7 @@ static void choose(kz_tiles *tiles, int64_t target, int64_t most, bool mirrored)
 }
 
 kz_tiles kz_tiles_of(const kz_scene *scene, int64_t target) {
-  const kz_basin_plan *plan = &scene->basin;
+  const kz_basin_plan *plan = scene->basin;
   kz_tiles tiles = {.rows = plan->velocity.count, .columns = plan->theta.count, .unique_cells = kz_unique_cells(plan)};
   tiles.cells = tiles.rows * tiles.columns;
   const int64_t enough = kz_tile_cells(scene, MOST_CELLS); /* as if no motion settled; nearly all settle long before */

@@ -17,7 +17,7 @@ static int64_t points_of(const kz_chart_plan *plan) {
 
 /* The pendulum of a point; false if there is none, or if it has no damping. */
 static bool pendulum_of(const kz_scene *scene, int64_t point, kz_pendulum *pendulum) {
-  const kz_chart_plan *plan = &scene->chart;
+  const kz_chart_plan *plan = scene->chart;
   const int64_t columns = plan->x.values.count;
   const int32_t parameter[] = {plan->x.parameter, plan->y.parameter};
   const double value[] = {kz_axis_value(&plan->x.values, point % columns), kz_axis_value(&plan->y.values, point / columns)};
@@ -29,7 +29,7 @@ static int64_t periods_of(const kz_chart_plan *plan, double beta) {
 }
 
 kz_cost kz_chart_cost(const kz_scene *scene) {
-  const kz_chart_plan *plan = &scene->chart;
+  const kz_chart_plan *plan = scene->chart;
   const double motions = (double)points_of(plan) * (double)plan->theta.count;
   return (kz_cost){.cells = (int64_t)motions,
                    .disk_bytes = 2 * motions * sizeof(kz_chart_ending),
@@ -48,7 +48,7 @@ static int32_t steps_for(int64_t n, const kz_pendulum *pendulum, double start_sp
 }
 
 void kz_chart_points(const kz_scene *scene, int64_t place, int64_t n, const int64_t *point, kz_chart_ending *ending) {
-  const kz_chart_plan *plan = &scene->chart;
+  const kz_chart_plan *plan = scene->chart;
   kz_pendulum pendulum[KZ_CHART_POINTS];
   int64_t periods[KZ_CHART_POINTS];
   double start[2];
@@ -65,7 +65,7 @@ void kz_chart_points(const kz_scene *scene, int64_t place, int64_t n, const int6
 
 static kz_status find_ends(void *context, int64_t first, int64_t n, void *record) {
   const kz_scene *scene = context;
-  const int64_t points = points_of(&scene->chart);
+  const int64_t points = points_of(scene->chart);
   int64_t point[KZ_CHART_POINTS];
   for (int64_t i = 0; i < n; i++) point[i] = first % points + i;
   kz_chart_points(scene, first / points, n, point, record);
@@ -73,7 +73,7 @@ static kz_status find_ends(void *context, int64_t first, int64_t n, void *record
 }
 
 kz_status kz_chart_run(const kz_scene *scene, const kz_run *run, kz_store *store, FILE *summary) {
-  const kz_chart_plan *plan = &scene->chart;
+  const kz_chart_plan *plan = scene->chart;
   const int64_t points = points_of(plan);
   const kz_stage stage = kz_stage_of_rows("ends", plan->theta.count, points, KZ_CHART_POINTS,
                                           KZ_CHART_POINTS * sizeof(kz_chart_ending), find_ends, (void *)scene);

@@ -4,6 +4,7 @@
 
 #include "kapitza/dynamics.h"
 #include "kapitza/study.h"
+#include "plan.h"
 
 enum { KZ_NO_PENDULUM = -2 }; /* in place of a period: no pendulum, or one without damping */
 

@@ -6,6 +6,8 @@
 #include <math.h>
 
 #include "labelling/search.h"
+#include "basin/plan.h"
+#include "attractors/plan.h"
 
 typedef struct {
   const kz_scene *scene;
@@ -14,7 +16,7 @@ typedef struct {
 } edge_job;
 
 kz_cost kz_edge_cost(const kz_scene *scene) {
-  const double bytes = 64 * ((double)scene->edge.periods + 1) + 40 * (double)kz_search_of(scene).starts;
+  const double bytes = 64 * ((double)scene->edge->periods + 1) + 40 * (double)kz_search_of(scene).starts;
   return (kz_cost){.disk_bytes = bytes, .memory_bytes = bytes};
 }
 
@@ -97,19 +99,19 @@ static kz_status publish(const edge_job *e, const kz_edge *edge, const double *o
     fprintf(summary,
             "no cycle of at most %" PRId64 " periods was found in %" PRId64
             " periods; the distance of the two sides grows by exp(%.4g) per period: %s.\n",
-            e->scene->edge.max_period, edge->n_periods, edge->exponent,
+            e->scene->edge->max_period, edge->n_periods, edge->exponent,
             edge->exponent > 0 ? "a chaotic saddle, or a long cycle" : "not settled");
   return KZ_OK;
 }
 
 static edge_job job_of(const kz_scene *scene) {
-  const int64_t max_period = scene->has_basin ? scene->basin.max_period : scene->attractors.max_period;
+  const int64_t max_period = scene->has_basin ? scene->basin->max_period : scene->attractors->max_period;
   return (edge_job){scene, kz_dynamics_create(&scene->parameters.pendulum, &scene->numerics, max_period),
                     kz_search_of(scene).max_periods};
 }
 
 kz_status kz_edge_run(const kz_scene *scene, const kz_run *run, kz_store *store, FILE *summary) {
-  const size_t bytes = sizeof(kz_edge) + 2 * ((size_t)scene->edge.periods + 1) * sizeof(double);
+  const size_t bytes = sizeof(kz_edge) + 2 * ((size_t)scene->edge->periods + 1) * sizeof(double);
   const kz_search search = kz_search_of(scene);
   edge_job e = job_of(scene);
   const kz_stage stage = kz_stage_for_rank0("edge", 1, bytes, edge_tile, &e);

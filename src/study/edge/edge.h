@@ -4,6 +4,7 @@
 
 #include "kapitza/dynamics.h"
 #include "kapitza/study.h"
+#include "plan.h"
 
 /* The cycle or chaotic set on the edge. */
 typedef struct {

@@ -2,13 +2,13 @@
 #ifndef KAPITZA_STUDY_EDGE_PLAN_H
 #define KAPITZA_STUDY_EDGE_PLAN_H
 
-#include "kapitza/study_axis.h"
+#include "kapitza/study.h"
 
-typedef struct {
+struct kz_edge_plan {
   double first[2], second[2]; /* rad, rad per drive radian */
   int64_t periods;            /* largest number of drive periods for which the edge is followed */
   int64_t max_period;         /* longest period of a cycle that is recognised */
-} kz_edge_plan;
+};
 enum { KZ_EDGE_MOST_PERIOD = 64 };
 
 #endif

@@ -94,7 +94,7 @@ static bool find_saddle(const kz_scene *scene, const double *state, int64_t n, k
 }
 
 static kz_status follow_edge(const kz_scene *scene, pair *p, kz_edge *edge, double *orbit) {
-  const kz_edge_plan *plan = &scene->edge;
+  const kz_edge_plan *plan = scene->edge;
   double growth = 0;
   for (int64_t t = 0;; t++) {
     if (distance(p->side[0], p->side[1]) > FAR || t == 0) KZ_TRY(bisect(p));
@@ -112,7 +112,7 @@ static kz_status follow_edge(const kz_scene *scene, pair *p, kz_edge *edge, doub
 }
 
 kz_status kz_edge_track(const kz_scene *scene, kz_dynamics *dynamics, int64_t max_periods, kz_edge *edge, double *orbit) {
-  const kz_edge_plan *plan = &scene->edge;
+  const kz_edge_plan *plan = scene->edge;
   const kz_pendulum *pendulum = &scene->parameters.pendulum;
   pair p = {.dynamics = dynamics,
             .max_periods = max_periods,

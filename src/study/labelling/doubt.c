@@ -4,6 +4,7 @@
 
 #include "labeller.h"
 #include "numerics/cells.h"
+#include "basin/plan.h"
 
 enum { SAMPLE = 7300, TILE = 256 }; /* cells: a share of 5 % is known to +-0.5 points */
 

@@ -6,6 +6,7 @@
 
 #include "numerics/cells.h"
 #include "search.h"
+#include "basin/plan.h"
 
 enum {
   BATCH = 16384, /* items that are followed together */

@@ -1,4 +1,5 @@
 #include "levels.h"
+#include "basin/plan.h"
 
 #include <stddef.h>
 

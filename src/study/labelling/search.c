@@ -7,6 +7,8 @@
 #include <string.h>
 
 #include "numerics/cells.h"
+#include "basin/plan.h"
+#include "attractors/plan.h"
 
 enum {
   FIRST_LENGTH = 128,  /* periods of the first round; a round that finds nothing doubles it */
@@ -270,8 +272,8 @@ kz_search kz_search_of_attractors(const kz_attractors_plan *plan, int64_t max_pe
 
 kz_search kz_search_of(const kz_scene *scene) {
   if (!scene->has_basin)
-    return kz_search_of_attractors(&scene->attractors, kz_settling_periods(scene->parameters.pendulum.beta));
-  kz_search search = kz_search_of_basin(&scene->basin);
+    return kz_search_of_attractors(scene->attractors, kz_settling_periods(scene->parameters.pendulum.beta));
+  kz_search search = kz_search_of_basin(scene->basin);
   search.table_theta = 0;
   return search;
 }

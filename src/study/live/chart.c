@@ -1,6 +1,7 @@
 /* A chart level by level, as frames are. */
 #include "chart/chart.h"
 #include "live.h"
+#include "chart/plan.h"
 
 typedef struct {
   const kz_scene *scene;
@@ -41,7 +42,7 @@ static kz_status draw(drawing *d, const kz_chart_level *level) {
 
 kz_status kz_chart_draw(const kz_scene *scene, const kz_integers *levels, kz_status (*pause)(void *context),
                         kz_status (*show)(void *context, const kz_chart_level *level), void *context) {
-  const int64_t rows = scene->chart.y.values.count, columns = scene->chart.x.values.count, n = rows * columns;
+  const int64_t rows = scene->chart->y.values.count, columns = scene->chart->x.values.count, n = rows * columns;
   KZ_FREED uint8_t *planes = kz_malloc(4 * (size_t)n);
   KZ_FREED int64_t *pending = kz_malloc((size_t)n * sizeof *pending);
   KZ_FREED bool *listed = kz_calloc((size_t)n, sizeof *listed);

@@ -6,6 +6,7 @@
 
 #include "numerics/cells.h"
 #include "where/where.h"
+#include "basin/plan.h"
 
 kz_engine *kz_engine_create(void) {
   kz_engine *engine = kz_calloc(1, sizeof *engine);
@@ -27,13 +28,15 @@ void kz_engine_free(kz_engine *engine) {
   free(engine);
 }
 
-/* The whole circle, and velocities up to the fastest of the window: what is known of a pendulum does not depend on where one looks. */
+/* The whole circle, and velocities up to the fastest of the window: what is known of a pendulum does not depend on where one looks. The caller frees its
+ * plans. */
 static kz_scene searched(const kz_engine *engine, const kz_scene *scene) {
   kz_scene wide = *scene;
   wide.series = engine->series;
-  const double fastest = fmax(1, exp2(ceil(log2(kz_axis_fastest(&scene->basin.velocity) * (1 - 1e-9)))));
-  wide.basin.theta = (kz_axis){.min = -M_PI, .max = M_PI, .count = scene->basin.theta.count};
-  wide.basin.velocity = (kz_axis){.min = -fastest, .max = fastest, .count = scene->basin.velocity.count};
+  kz_plans_copy(&wide);
+  const double fastest = fmax(1, exp2(ceil(log2(kz_axis_fastest(&scene->basin->velocity) * (1 - 1e-9)))));
+  wide.basin->theta = (kz_axis){.min = -M_PI, .max = M_PI, .count = scene->basin->theta.count};
+  wide.basin->velocity = (kz_axis){.min = -fastest, .max = fastest, .count = scene->basin->velocity.count};
   return wide;
 }
 
@@ -72,9 +75,10 @@ void kz_engine_list(kz_engine *engine, kz_prepared *prepared) {
 }
 
 static kz_status make(kz_engine *engine, const kz_scene *scene, double tolerance, kz_prepared *place) {
-  const kz_scene wide = searched(engine, scene);
+  kz_scene wide = searched(engine, scene);
   kz_prepared fresh;
   const kz_status status = kz_prepared_make(&wide, tolerance, &fresh);
+  kz_plans_free(&wide);
   if (status == KZ_OK) kz_prepared_list(&fresh, ++engine->versions, engine->shown, &engine->tracks);
   if (engine->shown == &place->catalogue) engine->shown = NULL;
   kz_prepared_free(place);

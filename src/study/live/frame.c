@@ -4,6 +4,7 @@
 
 #include "live.h"
 #include "numerics/cells.h"
+#include "basin/plan.h"
 
 enum { MOST_STARTS = 64 /* of the search among cells that do not settle */ };
 
@@ -102,7 +103,7 @@ static void put(const making *m, int64_t f, int64_t at, void *const plane[KZ_PLA
 }
 
 static kz_status show(making *m, int64_t level) {
-  const int64_t columns = m->scene->basin.theta.count, rows = m->scene->basin.velocity.count;
+  const int64_t columns = m->scene->basin->theta.count, rows = m->scene->basin->velocity.count;
   kz_live_level shown = {.level = level,
                          .rows = kz_level_size(level, rows),
                          .columns = kz_level_size(level, columns),
@@ -126,11 +127,11 @@ static kz_status show(making *m, int64_t level) {
 
 static kz_status make(making *m) {
   allocate(m);
-  if (m->prepared->dynamics) KZ_TRY(kz_cells_begin(m->prepared, &m->scene->basin, m->frame, &m->starts));
+  if (m->prepared->dynamics) KZ_TRY(kz_cells_begin(m->prepared, m->scene->basin, m->frame, &m->starts));
   if (kz_prepared_moves(m->prepared) && m->prepared->dynamics) kz_samples_make(&m->starts, &m->samples);
   for (int64_t i = 0; i < m->frame->levels->count; i++) {
     const int64_t level = m->frame->levels->values[i];
-    KZ_TRY(label(m, kz_level_pending(level, m->scene->basin.velocity.count, m->scene->basin.theta.count, m->own, m->listed,
+    KZ_TRY(label(m, kz_level_pending(level, m->scene->basin->velocity.count, m->scene->basin->theta.count, m->own, m->listed,
                                      m->pending)));
     if (m->prepared->catalogue.list.count >= KZ_NO_LABEL)
       return kz_fail(
@@ -147,8 +148,8 @@ kz_status kz_engine_frame(kz_engine *engine, const kz_scene *scene, const kz_fra
               .scene = scene,
               .frame = frame,
               .begin = kz_process_clock(),
-              .total = scene->basin.theta.count * scene->basin.velocity.count,
-              .own = kz_unique_cells(&scene->basin)};
+              .total = scene->basin->theta.count * scene->basin->velocity.count,
+              .own = kz_unique_cells(scene->basin)};
   KZ_TRY(kz_engine_prepared(engine, scene, frame->moving, &m.prepared));
   const bool was_busy = m.prepared->busy;
   m.prepared->busy = true;

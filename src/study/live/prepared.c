@@ -6,6 +6,7 @@
 
 #include "numerics/cells.h"
 #include "numerics/resolve.h"
+#include "basin/plan.h"
 
 /* rad: the error of a period that moving frames bear where their cells are wider than SMALL, and where they are not, which at any depth are
  * some 1e-7 wide when they are handed over; and the starts of the search. */
@@ -33,20 +34,20 @@ static const double ORBITS = 2048, WEAK = 60;
 enum { VISITS = 500000 };
 
 double kz_moving_tolerance(const kz_scene *scene) {
-  const kz_axis *theta = &scene->basin.theta, *velocity = &scene->basin.velocity;
+  const kz_axis *theta = &scene->basin->theta, *velocity = &scene->basin->velocity;
   const double cells[2] = {(double)kz_axis_width(theta) / (double)theta->count,
                            (double)kz_axis_width(velocity) / (double)velocity->count};
   return fmin(cells[0], cells[1]) < SMALL ? FINE : COARSE;
 }
 
 static kz_window window_of(const kz_scene *scene) {
-  return kz_window_of(&scene->basin.theta, &scene->basin.velocity);
+  return kz_window_of(&scene->basin->theta, &scene->basin->velocity);
 }
 
 /* Steps and terms: those of a scene of method exact, or the cheapest to the tolerance of moving frames. */
 static void choose_numerics(kz_prepared *r) {
   kz_scene *scene = &r->scene;
-  scene->basin.method = KZ_METHOD_EXACT;
+  scene->basin->method = KZ_METHOD_EXACT;
   if (!kz_prepared_moves(r)) {
     kz_numerics_resolve(scene);
     return;
@@ -75,7 +76,7 @@ static void learn(kz_prepared *r) {
 }
 
 static kz_status search(kz_prepared *r) {
-  r->dynamics = kz_dynamics_create(&r->scene.parameters.pendulum, &r->scene.numerics, r->scene.basin.max_period);
+  r->dynamics = kz_dynamics_create(&r->scene.parameters.pendulum, &r->scene.numerics, r->scene.basin->max_period);
   r->search.max_velocity = kz_dynamics_max_velocity(r->dynamics, &r->search.window);
   KZ_TRY(kz_search_window(NULL, r->dynamics, &r->search, NULL));
   kz_dynamics_set_release(r->dynamics, &r->scene.parameters.release);
@@ -85,7 +86,7 @@ static kz_status search(kz_prepared *r) {
 
 static int64_t periods_of(const kz_scene *scene, bool moving) {
   const double enough = fmax(LEAST_PERIODS, LIFETIMES / (2 * M_PI * scene->parameters.pendulum.beta));
-  return moving ? (int64_t)fmin(enough, (double)scene->basin.max_periods) : scene->basin.max_periods;
+  return moving ? (int64_t)fmin(enough, (double)scene->basin->max_periods) : scene->basin->max_periods;
 }
 
 kz_status kz_prepared_make(const kz_scene *scene, double tolerance, kz_prepared *prepared) {
@@ -94,6 +95,7 @@ kz_status kz_prepared_make(const kz_scene *scene, double tolerance, kz_prepared 
   prepared->chosen = prepared->grown = scene->parameters.pendulum;
   prepared->periods = periods_of(scene, moving);
   prepared->scene.title = NULL;
+  kz_plans_copy(&prepared->scene);
   prepared->search = kz_search_of(scene);
   prepared->search.cells = CELLS;
   if (moving) {
@@ -114,6 +116,7 @@ static void free_catalogue(kz_live_catalogue *catalogue) {
 void kz_prepared_free(kz_prepared *prepared) {
   if (prepared->dynamics) kz_dynamics_free(prepared->dynamics);
   kz_images_free(prepared->images);
+  kz_plans_free(&prepared->scene);
   free_catalogue(&prepared->catalogue);
   *prepared = (kz_prepared){0};
 }
@@ -142,7 +145,7 @@ bool kz_prepared_discover(kz_prepared *r) {
 }
 
 static bool same_search(const kz_prepared *prepared, const kz_scene *scene) {
-  const kz_basin_plan *mine = &prepared->scene.basin, *plan = &scene->basin;
+  const kz_basin_plan *mine = prepared->scene.basin, *plan = scene->basin;
   const kz_window own = window_of(&prepared->scene), asked = window_of(scene);
   return asked.velocity_min >= own.velocity_min && asked.velocity_max <= own.velocity_max &&
          mine->max_period == plan->max_period && mine->starts == plan->starts && mine->seed == plan->seed;
@@ -177,8 +180,8 @@ void kz_prepared_move(kz_prepared *r, const kz_scene *scene) {
   const double tolerance = kz_moving_tolerance(scene);
   int64_t lost;
   r->scene.parameters = scene->parameters;
-  r->scene.basin.max_periods = scene->basin.max_periods;
-  r->search.max_periods = scene->basin.max_periods;
+  r->scene.basin->max_periods = scene->basin->max_periods;
+  r->search.max_periods = scene->basin->max_periods;
   r->periods = periods_of(scene, true);
   if (parted(&r->chosen, pendulum) > RECHOSEN || tolerance != r->tolerance) {
     r->tolerance = tolerance;
@@ -205,7 +208,7 @@ bool kz_prepared_serves(const kz_prepared *prepared, const kz_scene *scene, doub
   return prepared->used > 0 && prepared->tolerance == tolerance &&
          memcmp(&prepared->scene.parameters.pendulum, &scene->parameters.pendulum, sizeof(kz_pendulum)) == 0 &&
          same_release(&prepared->scene.parameters.release, &scene->parameters.release) &&
-         prepared->scene.basin.max_periods == scene->basin.max_periods && same_search(prepared, scene);
+         prepared->scene.basin->max_periods == scene->basin->max_periods && same_search(prepared, scene);
 }
 
 /* rad: how far the nearest strobe point of `b` lies from the first one of `a`. Chaotic attractors have none. */

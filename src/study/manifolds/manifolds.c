@@ -6,6 +6,8 @@
 #include "kapitza/dynamics.h"
 #include "kapitza/study.h"
 #include "saddles/saddles.h"
+#include "saddles/plan.h"
+#include "plan.h"
 
 enum { MOST_POINTS = 32768 }; /* of a branch */
 
@@ -36,10 +38,10 @@ typedef struct {
 
 /* Branches of the chosen cycles; of those that are not yet known, most have the longest period. */
 kz_cost kz_manifolds_cost(const kz_scene *scene) {
-  const kz_manifolds_plan *plan = &scene->manifolds;
+  const kz_manifolds_plan *plan = scene->manifolds;
   const double saddles = plan->saddles.count > 0 ? (double)plan->saddles.count : kz_saddles_expected(scene);
   const double kinds = plan->kind == KZ_MANIFOLDS_STABLE || plan->kind == KZ_MANIFOLDS_UNSTABLE ? 1 : 2;
-  const double branches = 2 * kinds * saddles * (double)scene->saddles.max_period;
+  const double branches = 2 * kinds * saddles * (double)scene->saddles->max_period;
   const double points = fmin(2 * plan->length / plan->spacing, MOST_POINTS), kept = PAGE_BYTES + POINT_BYTES * points;
   return (kz_cost){.disk_bytes = branches * (kept + FILE_BYTES * points),
                    .memory_bytes = 2 * sizeof(grown),
@@ -179,13 +181,13 @@ static kz_status write(const kz_scene *scene, const work_list *list, const line 
   int64_t n;
   KZ_FREED row *rows = rows_of(list, lines, &n);
   KZ_TRY(write_rows(n, rows, store));
-  print(&scene->manifolds, list, lines, n, summary);
+  print(scene->manifolds, list, lines, n, summary);
   return KZ_OK;
 }
 
 kz_status kz_manifolds_run(const kz_scene *scene, const kz_run *run, kz_store *store, FILE *summary) {
   KZ_FREED_BY(free_tasks) work_list list = {.pendulum = &scene->parameters.pendulum};
-  KZ_TRY(kz_ranks_agree(run->ranks, store ? make_tasks(&scene->manifolds, store, &list) : KZ_OK));
+  KZ_TRY(kz_ranks_agree(run->ranks, store ? make_tasks(scene->manifolds, store, &list) : KZ_OK));
   KZ_TRY(share_tasks(run, &list));
   KZ_FREED line *lines = kz_calloc((size_t)list.count + 1, sizeof *lines);
   kz_status status = list.count > 0 ? grow_all(run, &list, lines) : KZ_OK;

@@ -2,13 +2,13 @@
 #ifndef KAPITZA_STUDY_MANIFOLDS_PLAN_H
 #define KAPITZA_STUDY_MANIFOLDS_PLAN_H
 
-#include "kapitza/study_axis.h"
+#include "kapitza/study.h"
 
 enum { KZ_MANIFOLDS_BOTH, KZ_MANIFOLDS_STABLE, KZ_MANIFOLDS_UNSTABLE };
-typedef struct {
+struct kz_manifolds_plan {
   kz_integers saddles; /* ids; none = all */
   int32_t kind;
   double length, spacing, max_speed;
-} kz_manifolds_plan;
+};
 
 #endif

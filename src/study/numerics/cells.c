@@ -1,4 +1,5 @@
 #include "cells.h"
+#include "basin/plan.h"
 
 #include <float.h>
 #include <math.h>
@@ -158,6 +159,6 @@ int64_t kz_tile_cells(const kz_scene *scene, int64_t most) {
   static const double tile_kicks = 4e9; /* some seconds, where all cells take max_periods */
   enum { FEWEST = 16 };
   const double kicks = (double)kz_scheme_at(scene->numerics.scheme).kicks * scene->numerics.steps_per_period;
-  const double enough = tile_kicks / (kicks * (double)scene->basin.max_periods);
+  const double enough = tile_kicks / (kicks * (double)scene->basin->max_periods);
   return (int64_t)fmax(FEWEST, fmin((double)most, FEWEST * floor(enough / FEWEST)));
 }

@@ -3,6 +3,10 @@
 #include <math.h>
 
 #include "cells.h"
+#include "basin/plan.h"
+#include "attractors/plan.h"
+#include "orbit/plan.h"
+#include "sweep/plan.h"
 
 enum {
   SWEEP_VALUES = 9,  /* of a sweep that are tried, both ends included */
@@ -54,19 +58,19 @@ static void add_basin(demand *d, const kz_basin_plan *plan) {
 static void add_pendulum(demand *d, const kz_scene *scene) {
   if (!(scene->parameters.pendulum.beta > 0) || !(scene->has_basin || scene->has_attractors)) return;
   d->pendulum[d->count++] = scene->parameters.pendulum;
-  if (scene->has_basin) add_basin(d, &scene->basin);
-  if (scene->has_attractors) add_window(d, &scene->attractors.theta, &scene->attractors.velocity, 0);
+  if (scene->has_basin) add_basin(d, scene->basin);
+  if (scene->has_attractors) add_window(d, &scene->attractors->theta, &scene->attractors->velocity, 0);
 }
 
 static void add_sweep(demand *d, const kz_scene *scene) {
-  const kz_sweep_plan *plan = &scene->sweep;
+  const kz_sweep_plan *plan = scene->sweep;
   const int64_t n = plan->values.count < SWEEP_VALUES - 1 ? plan->values.count : SWEEP_VALUES - 1;
   for (int64_t i = 0; i < n; i++) {
     const double value = kz_sweep_value(plan, i * (plan->values.count - 1) / (n - 1));
     if (!kz_sweep_pendulum(scene, value, d->pendulum + d->count)) continue;
     d->count++;
     add_window(d, &plan->theta, &plan->velocity, 0);
-    if (scene->has_basin) add_basin(d, &scene->basin);
+    if (scene->has_basin) add_basin(d, scene->basin);
   }
   d->fastest = fmax(d->fastest, fabs(plan->start_velocity));
 }
@@ -104,10 +108,10 @@ static bool choose_processed(kz_scene *scene) {
   demand d = {.tolerance = scene->asked.tolerance};
   kz_numerics numerics = {
       .scheme = scene->asked.scheme, .steps_per_period = scene->asked.steps_per_period, .series = scene->series};
-  if (scene->has_basin && !isnan(scene->basin.accuracy)) return false;
+  if (scene->has_basin && !isnan(scene->basin->accuracy)) return false;
   add_pendulum(&d, scene);
   if (scene->has_sweep) add_sweep(&d, scene);
-  if (!serve_method(&d, scene->has_basin ? scene->basin.method : KZ_METHOD_DIRECT, &numerics)) return false;
+  if (!serve_method(&d, scene->has_basin ? scene->basin->method : KZ_METHOD_DIRECT, &numerics)) return false;
   scene->numerics = numerics;
   return true;
 }
@@ -121,11 +125,11 @@ kz_numerics kz_processed_or_split(const kz_pendulum *pendulum, kz_kept_series *s
 
 kz_motions kz_motions_of_basin(const kz_scene *scene) {
   kz_motions motions =
-      kz_motions_of(scene, kz_axis_fastest(&scene->basin.velocity), "numerics.steps_per_period|basin.velocity");
-  if (scene->basin.method == KZ_METHOD_EXACT) /* errors are followed: they need not be small beside a cell */
-    motions.cell = kz_cell_size(&scene->basin);
+      kz_motions_of(scene, kz_axis_fastest(&scene->basin->velocity), "numerics.steps_per_period|basin.velocity");
+  if (scene->basin->method == KZ_METHOD_EXACT) /* errors are followed: they need not be small beside a cell */
+    motions.cell = kz_cell_size(scene->basin);
   else
-    kz_motions_label_cells(&scene->basin, &motions);
+    kz_motions_label_cells(scene->basin, &motions);
   return motions;
 }
 
@@ -133,7 +137,7 @@ kz_motions kz_motions_of_basin(const kz_scene *scene) {
 static void choose_steps(kz_scene *scene, bool enough) {
   kz_numerics chosen;
   scene->numerics.steps_per_period = kz_scheme_at(scene->numerics.scheme).default_steps;
-  if (!scene->has_basin || !isnan(scene->basin.accuracy) || !(scene->parameters.pendulum.beta > 0)) return;
+  if (!scene->has_basin || !isnan(scene->basin->accuracy) || !(scene->parameters.pendulum.beta > 0)) return;
   const kz_motions motions = kz_motions_of_basin(scene);
   if ((enough || motions.refuse_above < KZ_STEPS_REFUSED) && kz_motions_find_steps(&motions, &chosen)) scene->numerics = chosen;
 }
@@ -158,7 +162,7 @@ static double swing(const kz_pendulum *p) {
 }
 
 static double samples_of(const kz_scene *scene) {
-  return multiple((double)scene->orbit.samples_per_period, LEAST_SAMPLES * fmax(1, swing(&scene->parameters.pendulum)));
+  return multiple((double)scene->orbit->samples_per_period, LEAST_SAMPLES * fmax(1, swing(&scene->parameters.pendulum)));
 }
 
 /* Within a period the processed splitting shows nothing. */
@@ -167,7 +171,7 @@ static int32_t orbit_scheme(const kz_scene *scene) {
 }
 
 double kz_orbit_steps(const kz_scene *scene) {
-  const double start = isfinite(scene->orbit.velocity) ? fabs(scene->orbit.velocity) : 0;
+  const double start = isfinite(scene->orbit->velocity) ? fabs(scene->orbit->velocity) : 0;
   const double speed = 1 + 2 * swing(&scene->parameters.pendulum) + start;
   const int32_t steps = kz_scheme_at(orbit_scheme(scene)).default_steps;
   const double asked = scene->asked.steps_per_period == KZ_AUTO ? steps : scene->asked.steps_per_period;

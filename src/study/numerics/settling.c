@@ -3,6 +3,8 @@
 #include <math.h>
 
 #include "kapitza/study.h"
+#include "basin/plan.h"
+#include "sweep/plan.h"
 
 /* Mean number of lifetimes until a motion is trapped: that times the logarithm of the lifetime. Measured at Q = 5, 20, 50, 200,
  * 1000 (Omega = 11 and 8): 3.4, 5.9, 7.5, 10.9, 14.3 lifetimes of 9, 25, 88, 350, 1751 periods; 999 of 1000 are trapped within
@@ -26,7 +28,7 @@ int64_t kz_settling_periods(double beta) {
 /* Damping changes one way along every key, so that it is weakest at an end. */
 static double weakest_damping(const kz_scene *scene) {
   double beta = scene->parameters.pendulum.beta;
-  const double ends[] = {scene->sweep.values.min, scene->sweep.values.max};
+  const double ends[] = {scene->sweep->values.min, scene->sweep->values.max};
   kz_pendulum pendulum;
   for (int i = 0; scene->has_sweep && i < 2; i++)
     if (kz_sweep_pendulum(scene, ends[i], &pendulum) && pendulum.beta > 0)
@@ -58,6 +60,6 @@ void kz_settling_warn(const kz_scene *scene, FILE *out) {
         "orbit or saddles\n",
         out);
   if (!(beta > 0)) return;
-  if (scene->has_basin) warn("basin.max_periods", beta, scene->basin.max_periods, out);
+  if (scene->has_basin) warn("basin.max_periods", beta, scene->basin->max_periods, out);
   if (scene->has_attractors) warn("pendulum", beta, kz_settling_periods(beta), out);
 }

@@ -4,6 +4,7 @@
 #include <math.h>
 
 #include "cells.h"
+#include "basin/plan.h"
 
 enum {
   DOUBLINGS = 8,       /* of the steps that are tried as advice */

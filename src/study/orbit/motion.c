@@ -11,7 +11,7 @@ enum { CHUNK = 1024 };
 enum { PAUSE_STEPS = 1 << 20 };
 
 void kz_model_make(const kz_scene *scene, kz_model *model) {
-  const kz_orbit_plan *orbit = &scene->orbit;
+  const kz_orbit_plan *orbit = scene->orbit;
   const kz_pendulum *p = &scene->parameters.pendulum;
   bool inverted = orbit->model == KZ_MATHIEU && orbit->about == KZ_ABOUT_INVERTED;
   *model = (kz_model){.kind = orbit->model, .pendulum = *p, .samples = kz_orbit_samples(scene)};
@@ -88,7 +88,7 @@ static kz_status record_stretch(const kz_model *model, int64_t first, int64_t n,
 
 kz_status kz_orbit_record(const kz_scene *scene, kz_status (*pause)(void *context), void *context, double *theta,
                           double *velocity) {
-  const kz_orbit_plan *plan = &scene->orbit;
+  const kz_orbit_plan *plan = scene->orbit;
   kz_state state = {plan->theta, plan->velocity};
   double turns = 0;
   KZ_FREED_BY(kz_model_free) kz_model model;

@@ -13,9 +13,9 @@ enum { OPEN_PERIODS = 100 };
 enum { STRETCH = 100000 };
 
 kz_status kz_orbit_check(const kz_scene *scene) {
-  const double start = scene->orbit.velocity;
+  const double start = scene->orbit->velocity;
   kz_motions motions = kz_motions_of(scene, isfinite(start) ? fabs(start) : 0, "numerics.steps_per_period|orbit.start|orbit");
-  if (scene->orbit.model != KZ_PENDULUM) return KZ_OK;
+  if (scene->orbit->model != KZ_PENDULUM) return KZ_OK;
   motions.numerics = kz_orbit_numerics(scene);
   return kz_motions_check(&motions);
 }
@@ -25,7 +25,7 @@ static int64_t given(int64_t value, int64_t fallback) {
 }
 
 kz_cost kz_orbit_cost(const kz_scene *scene) {
-  const kz_orbit_plan *plan = &scene->orbit;
+  const kz_orbit_plan *plan = scene->orbit;
   double periods = (double)given(plan->periods, OPEN_PERIODS), rows = periods * (double)plan->samples_per_period;
   double samples = fmax(96, (double)plan->samples_per_period) * periods;
   return (kz_cost){.cells = 0, .disk_bytes = 32 * rows + 300 * periods, .rank0_bytes = 80 * samples + 32 * rows};
@@ -53,7 +53,7 @@ static kz_status recall(kz_store *store, int64_t id, kz_state *start, int64_t *p
 
 /* Where the motion starts, on every rank; `period` of a listed attractor. Collective. */
 static kz_status start(kz_orbit *orbit, const kz_run *run, kz_store *store) {
-  const kz_orbit_plan *plan = &orbit->scene->orbit;
+  const kz_orbit_plan *plan = orbit->scene->orbit;
   orbit->cycle = (kz_cycle){.state = {plan->theta, plan->velocity}, .period = given(plan->period, 0)};
   const bool recalls = plan->attractor >= 0 && kz_rank(run->ranks) == 0;
   KZ_TRY(
@@ -78,7 +78,7 @@ static kz_status skip_stretch(void *context, int64_t tile, void *record) {
 
 /* The transient in stretches, so that a stop request ends it between two of them and what is done is kept. Collective. */
 static kz_status skip_transient(kz_orbit *orbit, const kz_run *run) {
-  const int64_t transient = orbit->scene->orbit.transient;
+  const int64_t transient = orbit->scene->orbit->transient;
   const kz_sampling_mark mark = kz_sampling_mark_now(run);
   for (int64_t done = 0; done < transient; done += STRETCH) {
     char name[32];
@@ -94,7 +94,7 @@ static kz_status skip_transient(kz_orbit *orbit, const kz_run *run) {
 
 /* The motion after the transient: its record and its features. */
 static kz_status follow(kz_orbit *orbit) {
-  const kz_orbit_plan *plan = &orbit->scene->orbit;
+  const kz_orbit_plan *plan = orbit->scene->orbit;
   kz_cycle *cycle = &orbit->cycle;
   if (plan->closed) KZ_TRY(kz_cycle_close(&orbit->model, cycle->period, cycle->state, cycle));
   int64_t periods = given(plan->periods, plan->closed ? cycle->period : OPEN_PERIODS);

@@ -5,6 +5,7 @@
 #include "kapitza/analysis.h"
 #include "kapitza/dynamics.h"
 #include "kapitza/study.h"
+#include "plan.h"
 
 /* ---- the motion ---- */
 

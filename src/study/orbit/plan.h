@@ -2,9 +2,9 @@
 #ifndef KAPITZA_STUDY_ORBIT_PLAN_H
 #define KAPITZA_STUDY_ORBIT_PLAN_H
 
-#include "kapitza/study_axis.h"
+#include "kapitza/study.h"
 
-typedef struct {
+struct kz_orbit_plan {
   double theta, velocity; /* start */
   int64_t attractor;      /* id in the catalogue of the same scene, instead of a start */
   int32_t model;          /* KZ_PENDULUM, KZ_MATHIEU, KZ_EFFECTIVE */
@@ -14,6 +14,6 @@ typedef struct {
   int64_t samples_per_period;
   bool closed;
   int64_t period; /* of a closed orbit; not given = the program finds it */
-} kz_orbit_plan;
+};
 
 #endif

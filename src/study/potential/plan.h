@@ -2,11 +2,11 @@
 #ifndef KAPITZA_STUDY_POTENTIAL_PLAN_H
 #define KAPITZA_STUDY_POTENTIAL_PLAN_H
 
-#include "kapitza/study_axis.h"
+#include "kapitza/study.h"
 
-typedef struct {
+struct kz_potential_plan {
   kz_reals drive_amplitudes;
   int64_t theta_count;
-} kz_potential_plan;
+};
 
 #endif

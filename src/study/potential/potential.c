@@ -3,11 +3,12 @@
 
 #include "kapitza/analysis.h"
 #include "kapitza/study.h"
+#include "plan.h"
 
 static const char *const GROUP = "potential";
 
 kz_cost kz_potential_cost(const kz_scene *scene) {
-  double points = (double)scene->potential.drive_amplitudes.count * (double)scene->potential.theta_count;
+  double points = (double)scene->potential->drive_amplitudes.count * (double)scene->potential->theta_count;
   return (kz_cost){.disk_bytes = 24 * points, .rank0_bytes = 24 * points};
 }
 
@@ -45,7 +46,7 @@ static void summarise(const kz_potential_plan *plan, const kz_rim *rim, FILE *su
 }
 
 kz_status kz_potential_run(const kz_scene *scene, const kz_run *run, kz_store *store, FILE *summary) {
-  const kz_potential_plan *plan = &scene->potential;
+  const kz_potential_plan *plan = scene->potential;
   const kz_pendulum *p = &scene->parameters.pendulum;
   const int64_t columns = plan->theta_count;
   KZ_FREED kz_energy *energy = kz_malloc((size_t)(columns * plan->drive_amplitudes.count) * sizeof *energy);

@@ -3,6 +3,7 @@
 #ifndef KAPITZA_STUDY_RESILIENCE_H
 #define KAPITZA_STUDY_RESILIENCE_H
 
+#include "basin/plan.h"
 #include "labelling/catalogue.h"
 #include "labelling/labeller.h"
 #include "kapitza/parallel.h"

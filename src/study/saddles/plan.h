@@ -2,12 +2,12 @@
 #ifndef KAPITZA_STUDY_SADDLES_PLAN_H
 #define KAPITZA_STUDY_SADDLES_PLAN_H
 
-#include "kapitza/study_axis.h"
+#include "kapitza/study.h"
 
 enum { KZ_SADDLES_MAX_PERIOD = 32, KZ_SADDLES_MOST = 200000 /* cycles */ };
-typedef struct {
+struct kz_saddles_plan {
   kz_axis theta, velocity;
   int64_t max_period;
-} kz_saddles_plan;
+};
 
 #endif

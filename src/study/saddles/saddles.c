@@ -12,7 +12,7 @@ enum {
 };
 /* Everything about the cycles that were found. Rank 0. */
 static void list_cycles(const kz_scene *scene, const kz_found *found, kz_cycle_list *cycles, kz_index_sums *sums) {
-  const int64_t max_period = scene->saddles.max_period;
+  const int64_t max_period = scene->saddles->max_period;
   kz_dynamics *dynamics = kz_dynamics_create(&scene->parameters.pendulum, &scene->numerics, max_period);
   kz_cycle_list_free(cycles);
   free(sums->entries);
@@ -31,7 +31,7 @@ static kz_status run_rounds(const kz_scene *scene, const kz_run *run, kz_found *
   for (int round = 0, quiet = 0; round < ROUNDS && !enough; round++) {
     char name[32];
     snprintf(name, sizeof name, "saddles %d", round + 1);
-    const kz_lines lines = kz_lines_of(&scene->parameters.pendulum, &scene->saddles, round);
+    const kz_lines lines = kz_lines_of(&scene->parameters.pendulum, scene->saddles, round);
     const int64_t before = found->count;
     KZ_TRY(kz_lines_run(run, &lines, name, found));
     quiet = round > 0 && found->count == before ? quiet + 1 : 0;
@@ -77,7 +77,7 @@ typedef struct {
 } effort;
 
 static effort sample(const kz_scene *scene, int64_t max_period, double *found) {
-  kz_saddles_plan plan = scene->saddles;
+  kz_saddles_plan plan = *scene->saddles;
   plan.max_period = max_period;
   const kz_lines lines = kz_lines_of(&scene->parameters.pendulum, &plan, 1);
   const int64_t all = lines.count * lines.pieces, n = all < SAMPLE_PIECES ? all : SAMPLE_PIECES;
@@ -95,8 +95,8 @@ static effort sample(const kz_scene *scene, int64_t max_period, double *found) {
 
 /* Of all lines of constant angle. Periods are added until the effort shows how it grows. */
 static effort estimate(const kz_scene *scene) {
-  const int64_t longest = scene->saddles.max_period;
-  KZ_FREED double *found = kz_malloc(kz_piece_bytes(&scene->saddles));
+  const int64_t longest = scene->saddles->max_period;
+  KZ_FREED double *found = kz_malloc(kz_piece_bytes(scene->saddles));
   effort now = {0}, before = {0};
   int64_t period = 0;
   while (period < longest && now.sampled < SAMPLE_SECONDS) {
@@ -109,7 +109,7 @@ static effort estimate(const kz_scene *scene) {
 }
 
 kz_cost kz_saddles_cost(const kz_scene *scene) {
-  const kz_saddles_plan *plan = &scene->saddles;
+  const kz_saddles_plan *plan = scene->saddles;
   const effort all = estimate(scene);
   const double cycles = fmin(all.cycles, KZ_SADDLES_MOST), bytes = PIECES_OF_A_CYCLE * (double)kz_cycle_bytes(plan);
   double pieces = 0;

@@ -5,6 +5,7 @@
 
 #include "kapitza/dynamics.h"
 #include "kapitza/study.h"
+#include "plan.h"
 
 /* Lines of constant angle, or rows of constant velocity; each is cut into `pieces` pieces, and a piece is a tile. */
 typedef struct {

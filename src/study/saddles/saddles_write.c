@@ -99,7 +99,8 @@ static void print_sums(const kz_scene *scene, const kz_index_sums *sums, FILE *s
 
 void kz_saddles_print(const kz_scene *scene, const kz_cycle_list *cycles, const kz_index_sums *sums, FILE *summary) {
   fprintf(summary, "saddles: %lld unstable cycles of up to %lld periods, and %lld that attract\n",
-          (long long)cycles->n_unstable, (long long)scene->saddles.max_period, (long long)(cycles->count - cycles->n_unstable));
+          (long long)cycles->n_unstable, (long long)scene->saddles->max_period,
+          (long long)(cycles->count - cycles->n_unstable));
   if (cycles->n_unstable > 0) print_cycles(cycles, summary);
   print_sums(scene, sums, summary);
 }

@@ -2,13 +2,13 @@
 #ifndef KAPITZA_STUDY_STABILITY_PLAN_H
 #define KAPITZA_STUDY_STABILITY_PLAN_H
 
-#include "kapitza/study_axis.h"
+#include "kapitza/study.h"
 
-typedef struct {
+struct kz_stability_plan {
   kz_axis k, m; /* values with both ends; min NaN = given as a, q */
   kz_axis a, q; /* 4k, 2m; min NaN = given as k, m */
   double damping, quality_factor;
   kz_integers curves, subharmonics;
-} kz_stability_plan;
+};
 
 #endif

@@ -32,7 +32,7 @@ kz_chart_axes kz_stability_axes(const kz_stability_plan *plan) {
 }
 
 kz_cost kz_stability_cost(const kz_scene *scene) {
-  const kz_stability_plan *plan = &scene->stability;
+  const kz_stability_plan *plan = scene->stability;
   const kz_chart_axes axes = kz_stability_axes(plan);
   double points = (double)axes.k.count * (double)axes.m.count;
   double curves = (double)kz_chart_row(&axes) * (double)(plan->curves.count + plan->subharmonics.count);
@@ -86,7 +86,7 @@ static void make_tasks(kz_chart *chart) {
 }
 
 static kz_chart begin(const kz_scene *scene, bool here) {
-  const kz_stability_plan *plan = &scene->stability;
+  const kz_stability_plan *plan = scene->stability;
   const kz_chart_axes axes = kz_stability_axes(plan);
   const size_t points = here ? (size_t)(axes.k.count * axes.m.count) : 1;
   kz_chart chart = {.plan = plan,

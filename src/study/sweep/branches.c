@@ -55,7 +55,7 @@ static kz_status walk_tile(void *context, int64_t tile, void *record) {
   const walking *w = context;
   const task *t = w->tasks + tile;
   const kz_sweep_node *node = w->branches->nodes + t->node;
-  const kz_sweep_plan *plan = &w->scene->sweep;
+  const kz_sweep_plan *plan = w->scene->sweep;
   const kz_path path = kz_sweep_path(w->scene);
   outcome *out = record;
   const double to = kz_sweep_value(plan, aim(w, t));
@@ -71,7 +71,7 @@ static kz_status walk_tile(void *context, int64_t tile, void *record) {
 /* The node of a value that is this very cycle; -1 where there is none. */
 static int64_t find_node(const walking *w, int64_t value, const kz_branch_point *point) {
   kz_pendulum pendulum;
-  if (!kz_sweep_pendulum(w->scene, kz_sweep_value(&w->scene->sweep, value), &pendulum)) return -1;
+  if (!kz_sweep_pendulum(w->scene, kz_sweep_value(w->scene->sweep, value), &pendulum)) return -1;
   for (int64_t i = 0; i < w->branches->n_nodes; i++) {
     const kz_sweep_node *node = w->branches->nodes + i;
     if (node->value == value && node->entry.point.period > 0 && kz_branch_same(&pendulum, &node->entry.point, point)) return i;
@@ -104,7 +104,7 @@ static void join(const walking *w, const task *t, const outcome *out) {
 
 /* The cycles from node `first` on that have no neighbour in the direction of the walk, the ends of the range left out. */
 static int64_t list_tasks(const walking *w, bool forward, int64_t first, task *tasks) {
-  const int64_t edge = forward ? w->scene->sweep.values.count - 1 : 0;
+  const int64_t edge = forward ? w->scene->sweep->values.count - 1 : 0;
   int64_t n = 0;
   for (int64_t i = first; i < w->branches->n_nodes; i++) {
     const kz_sweep_node *node = w->branches->nodes + i;
@@ -180,12 +180,12 @@ static void list_branches(kz_sweep_branches *b) {
 static void set_known_ends(const kz_scene *scene, kz_sweep_branches *b) {
   for (int64_t i = 0; i < b->n_nodes; i++) {
     kz_sweep_node *node = b->nodes + i;
-    const double value = kz_sweep_value(&scene->sweep, node->value);
+    const double value = kz_sweep_value(scene->sweep, node->value);
     if (node->value == 0)
       set_end(node, false, value, KZ_END_OF_RANGE);
     else if (isnan(node->first))
       node->first = value;
-    if (node->value == scene->sweep.values.count - 1)
+    if (node->value == scene->sweep->values.count - 1)
       set_end(node, true, value, KZ_END_OF_RANGE);
     else if (isnan(node->last))
       node->last = value;
@@ -195,7 +195,7 @@ static void set_known_ends(const kz_scene *scene, kz_sweep_branches *b) {
 kz_status kz_sweep_branches_make(const kz_scene *scene, const kz_run *run, const kz_sweep_catalogue *catalogue,
                                  kz_sweep_branches *branches) {
   walking w = {.scene = scene, .branches = branches};
-  for (int64_t i = 0; i < scene->sweep.values.count; i++)
+  for (int64_t i = 0; i < scene->sweep->values.count; i++)
     for (int64_t j = 0; j < catalogue[i].count; j++) add_node(branches, catalogue[i].entries + j, i);
   KZ_TRY(walk_all(&w, run, true));
   KZ_TRY(walk_all(&w, run, false));

@@ -36,7 +36,7 @@ static bool mirrors(const kz_scene *scene, const kz_sweep_node *node, const kz_b
   const kz_branch_point *point = &node->entry.point;
   if (image->period == 0)
     return point->period == 0 && fabs(point->velocity - image->velocity) < 1e-3 && fabs(point->theta - image->theta) < 1e-3;
-  return kz_sweep_pendulum(scene, kz_sweep_value(&scene->sweep, node->value), &pendulum) &&
+  return kz_sweep_pendulum(scene, kz_sweep_value(scene->sweep, node->value), &pendulum) &&
          kz_branch_same(&pendulum, point, image);
 }
 
@@ -97,7 +97,7 @@ static const kz_sweep_entry **arrange(const writing *w, int64_t n) {
 #define SHARE kz_share_of(at[i]->hits, w->catalogue[i / w->branches->n_branches].samples)
 
 static kz_status write_matrices(const writing *w) {
-  const kz_sweep_plan *plan = &w->scene->sweep;
+  const kz_sweep_plan *plan = w->scene->sweep;
   const int64_t n = plan->values.count * w->branches->n_branches;
   KZ_FREED const kz_sweep_entry **at = arrange(w, n);
   MATRIX("branch_amplitude", at[i]->point.centre > 1 ? NAN : at[i]->point.amplitude);
@@ -123,7 +123,7 @@ static kz_status write_matrices(const writing *w) {
 
 /* Measures of the values themselves: lifetimes, and shares that end alike at all phases. */
 static kz_status write_values(const writing *w) {
-  const kz_sweep_plan *plan = &w->scene->sweep;
+  const kz_sweep_plan *plan = w->scene->sweep;
   if (kz_sweep_measures(plan, KZ_SWEEP_LIFETIME)) {
     OF_VALUE("lifetime", w->catalogue[i].lifetime.mean);
     OF_VALUE("lifetime_low", w->catalogue[i].lifetime.low);
@@ -152,7 +152,7 @@ static void print_share(const writing *w, int64_t branch, FILE *summary) {
 
 static void print_table(const writing *w, FILE *summary) {
   const kz_sweep_branches *b = w->branches;
-  const bool shares = kz_sweep_measures(&w->scene->sweep, KZ_SWEEP_BASIN_FRACTIONS);
+  const bool shares = kz_sweep_measures(w->scene->sweep, KZ_SWEEP_BASIN_FRACTIONS);
   if (b->n_branches == 0) {
     fprintf(summary, "no attractor at any value (without damping there are none)\n");
     return;

@@ -10,6 +10,7 @@
 #include "labelling/search.h"
 #include "labelling/labeller.h"
 #include "sweep.h"
+#include "basin/plan.h"
 
 enum {
   CHUNK = 4096, /* cells followed at once */
@@ -31,11 +32,11 @@ typedef struct {
 
 static void begin(const kz_pendulum *pendulum, const kz_release *release, searching *s) {
   const kz_scene *scene = s->scene;
-  s->n_starts = scene->sweep.starts;
+  s->n_starts = scene->sweep->starts;
   s->max_periods = kz_settling_periods(pendulum->beta);
-  if (kz_sweep_has_grid(scene)) s->n_cells = kz_unique_cells(&scene->basin);
+  if (kz_sweep_has_grid(scene)) s->n_cells = kz_unique_cells(scene->basin);
   const size_t most = (size_t)(s->n_starts > CHUNK ? s->n_starts : CHUNK);
-  s->dynamics = kz_dynamics_create(pendulum, &scene->numerics, scene->sweep.max_period);
+  s->dynamics = kz_dynamics_create(pendulum, &scene->numerics, scene->sweep->max_period);
   if (s->n_cells > 0) kz_dynamics_set_release(s->dynamics, release);
   s->state = kz_malloc(2 * most * sizeof *s->state);
   s->label = kz_malloc(most * sizeof *s->label);
@@ -52,7 +53,7 @@ static void end(searching *s) {
 
 /* Labels the grid, whatever the basin's method, by states alone. */
 static kz_status label_grid(searching *s) {
-  const kz_basin_plan *basin = &s->scene->basin;
+  const kz_basin_plan *basin = s->scene->basin;
   const kz_search_on search = {ROUNDS, s->n_starts, NULL};
   kz_labeller labeller = kz_cell_labeller(basin, s->dynamics);
   labeller.way = kz_stepping(basin->method, basin->interpolation);
@@ -65,7 +66,7 @@ static kz_status label_grid(searching *s) {
 /* Hits of the cells followed and of those that mirror them; without a grid of the starts. */
 static int64_t count_hits(const searching *s) {
   kz_attractor row;
-  const int64_t total = s->scene->basin.theta.count * s->scene->basin.velocity.count;
+  const int64_t total = s->scene->basin->theta.count * s->scene->basin->velocity.count;
   for (int64_t i = 0; s->n_cells == 0 && i < s->n_starts; i++) s->hits[s->label[i]]++;
   if (s->n_cells == 0) return s->n_starts;
   for (int64_t i = 0; i < s->n_cells; i++) {
@@ -117,9 +118,9 @@ static kz_status collect(const searching *s, kz_sweep_catalogue *catalogue) {
 
 /* The attractors of the window of the grid, or without one of the sweep's own. */
 static kz_status sweep_catalogue_discover(searching *s) {
-  const kz_sweep_plan *sweep = &s->scene->sweep;
+  const kz_sweep_plan *sweep = s->scene->sweep;
   kz_search search = {.window = kz_window_of(&sweep->theta, &sweep->velocity)};
-  if (s->n_cells > 0) search = kz_search_of_basin(&s->scene->basin);
+  if (s->n_cells > 0) search = kz_search_of_basin(s->scene->basin);
   search.starts = s->n_starts;
   search.seed = sweep->seed;
   search.max_periods = s->max_periods;
@@ -128,10 +129,10 @@ static kz_status sweep_catalogue_discover(searching *s) {
 
 /* The smallest shocks over the strobe points of each attractor. Catalogues of a sweep and of a file are in the same order. */
 static kz_status find_shocks(searching *s, kz_sweep_catalogue *catalogue) {
-  const kz_sweep_plan *sweep = &s->scene->sweep;
+  const kz_sweep_plan *sweep = s->scene->sweep;
   const kz_resilience_plan plan = {
       .scale = sweep->shock_scale,
-      .farthest = 2 * kz_axis_fastest(s->n_cells > 0 ? &s->scene->basin.velocity : &sweep->velocity),
+      .farthest = 2 * kz_axis_fastest(s->n_cells > 0 ? &s->scene->basin->velocity : &sweep->velocity),
       .max_periods = s->max_periods};
   KZ_FREED_BY(kz_catalogue_free) kz_catalogue listed = {0};
   int64_t n;
@@ -147,8 +148,8 @@ static kz_status find_shocks(searching *s, kz_sweep_catalogue *catalogue) {
 }
 
 static kz_status search(searching *s, const kz_release *release, kz_sweep_catalogue *catalogue) {
-  const kz_sweep_plan *plan = &s->scene->sweep;
-  const int64_t periods = s->n_cells > 0 ? s->scene->basin.max_periods : s->max_periods;
+  const kz_sweep_plan *plan = s->scene->sweep;
+  const int64_t periods = s->n_cells > 0 ? s->scene->basin->max_periods : s->max_periods;
   KZ_TRY(sweep_catalogue_discover(s));
   if (s->n_cells > 0) KZ_TRY(label_grid(s));
   s->hits = kz_calloc((size_t)kz_dynamics_count(s->dynamics) + 1, sizeof *s->hits);
@@ -171,7 +172,7 @@ static kz_status sweep_catalogue_tile(void *context, int64_t tile, void *record)
   const kz_scene *scene = sweep->scene;
   KZ_FREED_BY(end) searching s = {.scene = scene, .run = sweep->run};
   kz_pendulum pendulum;
-  const double value = kz_sweep_value(&scene->sweep, tile);
+  const double value = kz_sweep_value(scene->sweep, tile);
   if (!kz_sweep_pendulum(scene, value, &pendulum) || pendulum.beta <= 0) return KZ_OK;
   const kz_release release = kz_sweep_release_at(scene, value);
   begin(&pendulum, &release, &s);
@@ -181,7 +182,7 @@ static kz_status sweep_catalogue_tile(void *context, int64_t tile, void *record)
 kz_status kz_sweep_catalogues(const kz_scene *scene, const kz_run *run, kz_sweep_catalogue *catalogue) {
   sweeping sweep = {scene, run};
   kz_stage stage =
-      kz_stage_for_all("sweep attractors", scene->sweep.values.count, sizeof *catalogue, sweep_catalogue_tile, &sweep);
+      kz_stage_for_all("sweep attractors", scene->sweep->values.count, sizeof *catalogue, sweep_catalogue_tile, &sweep);
   stage.collective = true;
   return kz_stage_run(run, &stage, catalogue);
 }

@@ -55,7 +55,7 @@ static kz_status find_critical(void *context, int64_t tile, void *record) {
   const flutter_job *f = context;
   const double piece = (double)(f->piece + tile);
   double low, high;
-  neighbourhood(&f->scene->sweep.values, &low, &high);
+  neighbourhood(&f->scene->sweep->values, &low, &high);
   *(double *)record =
       kz_flutter_critical(&f->path, low + (high - low) * piece / PIECES, low + (high - low) * (piece + 1) / PIECES);
   return KZ_OK;
@@ -64,7 +64,7 @@ static kz_status find_critical(void *context, int64_t tile, void *record) {
 /* Flutter beside the critical value, on one side. */
 static kz_status begin(void *context, int64_t tile, void *record) {
   const flutter_job *f = context;
-  const kz_axis *range = &f->scene->sweep.values;
+  const kz_axis *range = &f->scene->sweep->values;
   beginning *out = record;
   kz_pendulum pendulum;
   (void)tile;
@@ -79,13 +79,13 @@ static kz_status begin(void *context, int64_t tile, void *record) {
 
 /* The value at a step away from the critical one. */
 static int64_t value_at(const flutter_job *f, int64_t step) {
-  return f->side > 0 ? step : f->scene->sweep.values.count - 1 - step;
+  return f->side > 0 ? step : f->scene->sweep->values.count - 1 - step;
 }
 
 /* Carries flutter on to the next values of the range. */
 static kz_status follow_leg(void *context, int64_t tile, void *record) {
   const flutter_job *f = context;
-  const kz_sweep_plan *plan = &f->scene->sweep;
+  const kz_sweep_plan *plan = f->scene->sweep;
   leg *out = record;
   (void)tile;
   *out = f->before;
@@ -104,7 +104,7 @@ static kz_status follow_leg(void *context, int64_t tile, void *record) {
 /* Values that lie between the critical one and the place where flutter was found. */
 static kz_status follow_back(void *context, int64_t first, int64_t n, void *record) {
   const flutter_job *f = context;
-  const kz_sweep_plan *plan = &f->scene->sweep;
+  const kz_sweep_plan *plan = f->scene->sweep;
   double *amplitude = record;
   for (int64_t i = 0; i < LEG; i++) amplitude[i] = NAN;
   for (int64_t i = 0; i < n; i++) {
@@ -126,7 +126,7 @@ static kz_status run_stage(flutter_job *f, const char *name, kz_tile_fn work, in
 static kz_status follow_on(flutter_job *f) {
   leg after;
   f->before = (leg){.at = f->begun.at, .flutter = f->begun.flutter};
-  for (f->step = 0; f->step < f->scene->sweep.values.count && !f->before.lost; f->step += LEG) {
+  for (f->step = 0; f->step < f->scene->sweep->values.count && !f->before.lost; f->step += LEG) {
     KZ_TRY(run_stage(f, "flutter", follow_leg, 1, sizeof after, &after));
     for (int64_t i = 0; i < LEG; i++)
       if (!isnan(after.amplitude[i])) f->amplitude[value_at(f, f->step + i)] = after.amplitude[i];
@@ -136,7 +136,7 @@ static kz_status follow_on(flutter_job *f) {
 }
 
 static kz_status return_to_birth(flutter_job *f) {
-  const int64_t count = f->scene->sweep.values.count;
+  const int64_t count = f->scene->sweep->values.count;
   const kz_stage stage = kz_stage_of_items("flutter's birth", count, LEG, LEG * sizeof(double), follow_back, f);
   KZ_FREED double *amplitude = kz_malloc((size_t)stage.n_tiles * stage.record_bytes);
   KZ_TRY(kz_stage_run(f->run, &stage, amplitude));
@@ -154,7 +154,7 @@ static kz_status follow(flutter_job *f, bool *reaches) {
     KZ_TRY(return_to_birth(f));
   }
   *reaches = false;
-  for (int64_t i = 0; i < f->scene->sweep.values.count; i++) *reaches = *reaches || !isnan(f->amplitude[i]);
+  for (int64_t i = 0; i < f->scene->sweep->values.count; i++) *reaches = *reaches || !isnan(f->amplitude[i]);
   return KZ_OK;
 }
 
@@ -178,9 +178,9 @@ static kz_status find_flutter(flutter_job *f) {
 /* Points of the fit: (distance from the critical value, amplitude^2); returns how many. */
 static int64_t gather(const flutter_job *f, double *x, double *y) {
   int64_t n = 0;
-  for (int64_t i = 0; i < f->scene->sweep.values.count; i++) {
+  for (int64_t i = 0; i < f->scene->sweep->values.count; i++) {
     if (isnan(f->amplitude[i])) continue;
-    x[n] = kz_sweep_value(&f->scene->sweep, i) - f->critical;
+    x[n] = kz_sweep_value(f->scene->sweep, i) - f->critical;
     y[n++] = f->amplitude[i] * f->amplitude[i];
   }
   return n;
@@ -213,7 +213,7 @@ static power_law fit(int64_t n, const double *x, const double *y, double *worksp
 }
 
 static kz_status write_flutter(const flutter_job *f, kz_store *store, FILE *summary) {
-  const size_t n = (size_t)f->scene->sweep.values.count;
+  const size_t n = (size_t)f->scene->sweep->values.count;
   KZ_FREED double *x = kz_malloc(4 * n * sizeof *x);
   const power_law law = fit(gather(f, x, x + n), x, x + n, x + 2 * n);
   if (isnan(f->critical))
@@ -236,12 +236,12 @@ static kz_status write_flutter(const flutter_job *f, kz_store *store, FILE *summ
 /* The scene's flutter by this rank, or by all; amplitude [values]. */
 static kz_status follow_scene(const kz_scene *scene, const kz_run *run, double *amplitude, flutter_job *f) {
   *f = (flutter_job){scene, run, kz_sweep_path(scene), NAN, amplitude};
-  for (int64_t i = 0; i < scene->sweep.values.count; i++) amplitude[i] = NAN;
+  for (int64_t i = 0; i < scene->sweep->values.count; i++) amplitude[i] = NAN;
   return find_flutter(f);
 }
 
 kz_status kz_sweep_flutter(const kz_scene *scene, const kz_run *run, kz_store *store, FILE *summary) {
-  KZ_FREED double *amplitude = kz_malloc((size_t)scene->sweep.values.count * sizeof *amplitude);
+  KZ_FREED double *amplitude = kz_malloc((size_t)scene->sweep->values.count * sizeof *amplitude);
   flutter_job f;
   KZ_TRY(follow_scene(scene, run, amplitude, &f));
   return kz_ranks_agree(run->ranks, store ? write_flutter(&f, store, summary) : KZ_OK);

@@ -114,7 +114,7 @@ static kz_status flutter_range_tile(void *context, int64_t tile, void *record) {
   kz_pendulum pendulum;
   const kz_path path = {pendulum_of_drive, &pendulum};
   *range = (flutter_range){{NAN, NAN, NAN}, NAN};
-  if (!kz_sweep_pendulum(scene, kz_sweep_value(&scene->sweep, tile), &pendulum)) return KZ_OK;
+  if (!kz_sweep_pendulum(scene, kz_sweep_value(scene->sweep, tile), &pendulum)) return KZ_OK;
   range->cycle = kz_flutter_drives_find(&pendulum);
   if (!isnan(range->cycle.onset)) follow_releases(&path, &scene->numerics, range);
   return KZ_OK;
@@ -131,14 +131,14 @@ static void print_cell(FILE *summary, int width, int digits, double value) {
 
 static kz_status write_ranges(const kz_scene *scene, const void *records, kz_store *store, FILE *summary) {
   const flutter_range *ranges = records;
-  const int64_t n = scene->sweep.values.count;
+  const int64_t n = scene->sweep->values.count;
   COLUMN("flutter_onset", ranges[i].cycle.onset);
   COLUMN("flutter_asymmetry", ranges[i].cycle.asymmetry);
   COLUMN("flutter_end", ranges[i].cycle.end);
   COLUMN("flutter_release_end", ranges[i].release_end);
   fprintf(summary, "flutter zone over m    value        begins  1 deg release fails  asymmetric from  period doubles at\n");
   for (int64_t i = 0; i < n; i++) {
-    fprintf(summary, "%28.9g", kz_sweep_value(&scene->sweep, i));
+    fprintf(summary, "%28.9g", kz_sweep_value(scene->sweep, i));
     print_cell(summary, 12, 9, ranges[i].cycle.onset);
     print_cell(summary, 19, 6, ranges[i].release_end);
     print_cell(summary, 15, 9, ranges[i].cycle.asymmetry);
@@ -149,7 +149,7 @@ static kz_status write_ranges(const kz_scene *scene, const void *records, kz_sto
 }
 
 kz_status kz_sweep_flutter_range(const kz_scene *scene, const kz_run *run, kz_store *store, FILE *summary) {
-  const kz_stage stage = kz_stage_for_rank0("sweep flutter zone", scene->sweep.values.count, sizeof(flutter_range),
+  const kz_stage stage = kz_stage_for_rank0("sweep flutter zone", scene->sweep->values.count, sizeof(flutter_range),
                                             flutter_range_tile, (void *)scene);
   return kz_sweep_stage(run, &stage, write_ranges, store, summary);
 }

@@ -8,7 +8,7 @@ bool kz_sweep_measures(const kz_sweep_plan *plan, int64_t measure) {
 }
 
 bool kz_sweep_has_grid(const kz_scene *scene) {
-  const kz_sweep_plan *plan = &scene->sweep;
+  const kz_sweep_plan *plan = scene->sweep;
   return scene->has_basin && (kz_sweep_measures(plan, KZ_SWEEP_BASIN_FRACTIONS) || kz_sweep_measures(plan, KZ_SWEEP_PHASES));
 }
 

@@ -2,9 +2,9 @@
 #ifndef KAPITZA_STUDY_SWEEP_PLAN_H
 #define KAPITZA_STUDY_SWEEP_PLAN_H
 
-#include "kapitza/study_axis.h"
+#include "kapitza/study.h"
 
-typedef struct {
+struct kz_sweep_plan {
   int32_t parameter;       /* row of kz_sweep_parameters */
   kz_axis values;          /* both ends included */
   kz_integers measure;     /* indices in the list of kz_sweep_measure_words() */
@@ -14,6 +14,6 @@ typedef struct {
   int64_t transient, samples;         /* drive periods at each value: before the record, and recorded */
   double shock_scale;                 /* for resilience: see kz_shocks_plan */
   int64_t phases;                     /* number of phases of release, for the measure phases */
-} kz_sweep_plan;
+};
 
 #endif

@@ -120,7 +120,7 @@ static kz_status release_tile(void *context, int64_t tile, void *record) {
   kz_pendulum pendulum;
   double angle[HALF_DEGREES];
   out->first = out->scan = out->largest = NAN;
-  if (!kz_sweep_pendulum(scene, kz_sweep_value(&scene->sweep, tile), &pendulum)) return KZ_OK;
+  if (!kz_sweep_pendulum(scene, kz_sweep_value(scene->sweep, tile), &pendulum)) return KZ_OK;
   for (int64_t i = 0; i < HALF_DEGREES; i++) angle[i] = half_degrees(i);
   kz_release_from_rest(&pendulum, &scene->numerics, HALF_DEGREES, angle, out->stays);
   int64_t first = 0, last = HALF_DEGREES - 1;
@@ -136,7 +136,7 @@ static kz_status release_tile(void *context, int64_t tile, void *record) {
 
 static kz_status write_release(const kz_scene *scene, const void *all, kz_store *store, FILE *summary) {
   const released *records = all;
-  const int64_t n = scene->sweep.values.count;
+  const int64_t n = scene->sweep->values.count;
   COLUMN("release_angle", records[i].first);
   COLUMN("release_angle_scan", records[i].scan);
   COLUMN("release_angle_largest", records[i].largest);
@@ -144,13 +144,13 @@ static kz_status write_release(const kz_scene *scene, const void *all, kz_store 
   KZ_COLUMN(store, "sweep", "release_stays", n * HALF_DEGREES, uint8_t, records[i / HALF_DEGREES].stays[i % HALF_DEGREES]);
   fprintf(summary, "releases from rest, degrees from inverted:\n         value  first gap  of whole degrees  last stays\n");
   for (int64_t i = 0; i < n; i++)
-    fprintf(summary, "%14.9g  %9.4f  %16.4f  %10.4f\n", kz_sweep_value(&scene->sweep, i), records[i].first * 180 / M_PI,
+    fprintf(summary, "%14.9g  %9.4f  %16.4f  %10.4f\n", kz_sweep_value(scene->sweep, i), records[i].first * 180 / M_PI,
             records[i].scan * 180 / M_PI, records[i].largest * 180 / M_PI);
   return KZ_OK;
 }
 
 kz_status kz_sweep_release(const kz_scene *scene, const kz_run *run, kz_store *store, FILE *summary) {
   const kz_stage stage =
-      kz_stage_for_rank0("sweep releases", scene->sweep.values.count, sizeof(released), release_tile, (void *)scene);
+      kz_stage_for_rank0("sweep releases", scene->sweep->values.count, sizeof(released), release_tile, (void *)scene);
   return kz_sweep_stage(run, &stage, write_release, store, summary);
 }

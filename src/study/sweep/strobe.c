@@ -47,7 +47,7 @@ static void record_value(const walking *w, const kz_flow *map, bool pushed, stro
 /* record: the state after the leg, then [values][2][samples] angles and velocities. */
 static kz_status strobe_tile(void *context, int64_t tile, void *record) {
   const walking *w = context;
-  const kz_sweep_plan *plan = &w->scene->sweep;
+  const kz_sweep_plan *plan = w->scene->sweep;
   strobe_state state = w->state[tile];
   double *out = (double *)((strobe_state *)record + 1);
   for (int64_t i = 0; i < w->values && w->first + i < plan->values.count; i++, out += 2 * w->samples) {
@@ -63,7 +63,7 @@ static kz_status strobe_tile(void *context, int64_t tile, void *record) {
 
 /* One leg of both walks; its points go to their places in `points` [walks][values][2][samples]. */
 static kz_status run_leg(walking *w, const kz_run *run, double *points) {
-  const kz_sweep_plan *plan = &w->scene->sweep;
+  const kz_sweep_plan *plan = w->scene->sweep;
   const size_t value = (size_t)(2 * w->samples) * sizeof(double);
   const kz_stage stage = kz_stage_for_all(
       "sweep strobe", WALKS, sizeof(strobe_state) + (size_t)(w->values * 2 * w->samples) * sizeof(double), strobe_tile, w);
@@ -81,7 +81,7 @@ static kz_status run_leg(walking *w, const kz_run *run, double *points) {
 
 /* All values, in legs. */
 static kz_status walk(const kz_scene *scene, const kz_run *run, double *points) {
-  const kz_sweep_plan *plan = &scene->sweep;
+  const kz_sweep_plan *plan = scene->sweep;
   const strobe_state start = {plan->start_theta, plan->start_velocity};
   const int64_t at_once = LEG_PERIODS / (plan->transient + plan->samples);
   walking w = {.scene = scene, .state = {start, start}, .values = at_once > 0 ? at_once : 1};
@@ -100,7 +100,7 @@ static kz_status walk(const kz_scene *scene, const kz_run *run, double *points) 
 
 /* The walks side by side: [values][up, then down]. */
 static kz_status write_strobe(const kz_scene *scene, const double *points, kz_store *store, FILE *summary) {
-  const int64_t values = scene->sweep.values.count, samples = scene->sweep.samples, all = WALKS * samples;
+  const int64_t values = scene->sweep->values.count, samples = scene->sweep->samples, all = WALKS * samples;
 #define POINT(coordinate) points[((i % all / samples * values + i / all) * 2 + coordinate) * samples + i % samples]
   KZ_TRY(kz_store_dimension(store, "sweep", "sample", all, NULL));
   KZ_COLUMN(store, "sweep", "sample_walk", all, int8_t, i / samples);
@@ -111,7 +111,7 @@ static kz_status write_strobe(const kz_scene *scene, const double *points, kz_st
 }
 
 kz_status kz_sweep_strobe(const kz_scene *scene, const kz_run *run, kz_store *store, FILE *summary) {
-  KZ_FREED double *points = kz_calloc((size_t)(WALKS * scene->sweep.values.count * 2 * scene->sweep.samples), sizeof *points);
+  KZ_FREED double *points = kz_calloc((size_t)(WALKS * scene->sweep->values.count * 2 * scene->sweep->samples), sizeof *points);
   KZ_TRY(walk(scene, run, points));
   return kz_ranks_agree(run->ranks, store ? write_strobe(scene, points, store, summary) : KZ_OK);
 }

@@ -1,5 +1,6 @@
 /* Study `sweep`: quantities along one key of the pendulum mapping. */
 #include "sweep.h"
+#include "basin/plan.h"
 
 #define BARRED(code, word, run) "|" word
 const char *kz_sweep_measure_words(void) {
@@ -8,11 +9,11 @@ const char *kz_sweep_measure_words(void) {
 }
 
 kz_cost kz_sweep_cost(const kz_scene *scene) {
-  const double values = (double)scene->sweep.values.count;
+  const double values = (double)scene->sweep->values.count;
   const bool grid = kz_sweep_has_grid(scene);
-  const double times = kz_sweep_measures(&scene->sweep, KZ_SWEEP_PHASES) ? 1 + (double)scene->sweep.phases : 1;
-  const double nodes = grid ? (double)scene->basin.table_theta * (double)scene->basin.table_velocity : 0;
-  const double cells = grid ? (double)scene->basin.theta.count * (double)scene->basin.velocity.count : 0;
+  const double times = kz_sweep_measures(scene->sweep, KZ_SWEEP_PHASES) ? 1 + (double)scene->sweep->phases : 1;
+  const double nodes = grid ? (double)scene->basin->table_theta * (double)scene->basin->table_velocity : 0;
+  const double cells = grid ? (double)scene->basin->theta.count * (double)scene->basin->velocity.count : 0;
   return (kz_cost){.cells = (int64_t)(cells * values * times),
                    .disk_bytes = values * (sizeof(kz_sweep_catalogue) + 1e3),
                    .memory_bytes = 3 * values * sizeof(kz_sweep_catalogue) + 100 * nodes + (times > 1 ? 24 : 2) * cells};
@@ -26,7 +27,7 @@ static bool has_branches(const kz_sweep_plan *plan) {
 
 /* The catalogues and what joins them. */
 static kz_status run_branches(const kz_scene *scene, const kz_run *run, kz_store *store, FILE *summary) {
-  const kz_sweep_plan *plan = &scene->sweep;
+  const kz_sweep_plan *plan = scene->sweep;
   if (!has_branches(plan)) return KZ_OK;
   KZ_FREED_BY(kz_sweep_branches_free) kz_sweep_branches branches = {0};
   KZ_FREED kz_sweep_catalogue *catalogue = kz_malloc((size_t)plan->values.count * sizeof *catalogue);
@@ -40,7 +41,7 @@ static kz_status run_branches(const kz_scene *scene, const kz_run *run, kz_store
 }
 
 static kz_status write_values(const kz_scene *scene, kz_store *store, FILE *summary) {
-  const kz_sweep_plan *plan = &scene->sweep;
+  const kz_sweep_plan *plan = scene->sweep;
   const kz_sweep_parameter *parameter = kz_sweep_parameters + plan->parameter;
   KZ_TRY(kz_store_text(store, "sweep", "parameter", parameter->name));
   KZ_TRY(kz_store_text(store, "sweep", "parameter_units", parameter->unit));
@@ -58,6 +59,6 @@ kz_status kz_sweep_run(const kz_scene *scene, const kz_run *run, kz_store *store
   KZ_TRY(kz_ranks_agree(run->ranks, store ? write_values(scene, store, summary) : KZ_OK));
   KZ_TRY(run_branches(scene, run, store, summary));
   for (int64_t i = 0; i < (int64_t)(sizeof runs / sizeof runs[0]); i++)
-    if (runs[i] && kz_sweep_measures(&scene->sweep, i)) KZ_TRY(runs[i](scene, run, store, summary));
+    if (runs[i] && kz_sweep_measures(scene->sweep, i)) KZ_TRY(runs[i](scene, run, store, summary));
   return KZ_OK;
 }

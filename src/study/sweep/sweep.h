@@ -4,6 +4,7 @@
 
 #include "kapitza/dynamics.h"
 #include "kapitza/study.h"
+#include "plan.h"
 
 /* The measures of a sweep: code, word in the scene, the function that runs it. The first five come from the branches and have no functions of
  * their own. */

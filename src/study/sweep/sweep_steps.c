@@ -4,6 +4,7 @@
 #include "numerics/cells.h"
 #include "numerics/step_check.h"
 #include "sweep.h"
+#include "basin/plan.h"
 
 enum {
   VALUES = 17,  /* that are tried, fewer where they take many steps */
@@ -12,22 +13,22 @@ enum {
 
 /* The fastest start at any value of a sweep. */
 static double fastest_of_sweep(const kz_scene *scene) {
-  const double fastest = fmax(kz_axis_fastest(&scene->sweep.velocity), fabs(scene->sweep.start_velocity));
-  return scene->has_basin ? fmax(fastest, kz_axis_fastest(&scene->basin.velocity)) : fastest;
+  const double fastest = fmax(kz_axis_fastest(&scene->sweep->velocity), fabs(scene->sweep->start_velocity));
+  return scene->has_basin ? fmax(fastest, kz_axis_fastest(&scene->basin->velocity)) : fastest;
 }
 
 static int64_t tried_values(const kz_scene *scene) {
   const int64_t affordable = STEPS / scene->numerics.steps_per_period;
   const int64_t n = affordable < 2 ? 2 : affordable < VALUES ? affordable : VALUES;
-  return n < scene->sweep.values.count ? n : scene->sweep.values.count;
+  return n < scene->sweep->values.count ? n : scene->sweep->values.count;
 }
 
 /* Motions at tried value i of n; false where that is no pendulum, or nothing is followed without damping. */
 static bool motions_at(const kz_scene *scene, int64_t i, int64_t n, kz_motions *motions) {
-  const kz_sweep_plan *plan = &scene->sweep;
+  const kz_sweep_plan *plan = scene->sweep;
   const double value = kz_sweep_value(plan, i * (plan->values.count - 1) / (n - 1));
   *motions = kz_motions_of(scene, fastest_of_sweep(scene), "numerics.steps_per_period|sweep");
-  if (kz_sweep_has_grid(scene)) kz_motions_label_cells(&scene->basin, motions);
+  if (kz_sweep_has_grid(scene)) kz_motions_label_cells(scene->basin, motions);
   snprintf(motions->where, sizeof motions->where, "at %s = %.6g, ", kz_sweep_parameters[plan->parameter].name, value);
   const bool damped_alone = !kz_sweep_measures(plan, KZ_SWEEP_RELEASE_ANGLE) && !kz_sweep_measures(plan, KZ_SWEEP_STROBE);
   return kz_sweep_pendulum(scene, value, &motions->pendulum) && (motions->pendulum.beta > 0 || !damped_alone);

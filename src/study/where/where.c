@@ -5,6 +5,8 @@
 #include "numerics/cells.h"
 #include "labelling/search.h"
 #include "where.h"
+#include "basin/plan.h"
+#include "attractors/plan.h"
 
 typedef struct {
   kz_question question;
@@ -14,10 +16,11 @@ typedef struct {
 /* The attractors that the window's starts end on; label [search->starts]. */
 static kz_status find_attractors(kz_question *q, kz_search *search, int32_t *label) {
   const kz_scene *scene = q->scene;
-  const kz_window motions = scene->has_basin ? kz_motions_window(&scene->basin.theta, &scene->basin.velocity) : search->window;
+  const kz_window motions =
+      scene->has_basin ? kz_motions_window(&scene->basin->theta, &scene->basin->velocity) : search->window;
   q->max_periods = search->max_periods;
   q->dynamics = kz_dynamics_create(&scene->parameters.pendulum, &scene->numerics,
-                                   scene->has_basin ? scene->basin.max_period : scene->attractors.max_period);
+                                   scene->has_basin ? scene->basin->max_period : scene->attractors->max_period);
   if (scene->has_basin) kz_dynamics_set_release(q->dynamics, &scene->parameters.release);
   search->max_velocity = kz_dynamics_max_velocity(q->dynamics, &motions);
   return kz_search_window(NULL, q->dynamics, search, label);

@@ -3,6 +3,7 @@
 #include <stdlib.h>
 
 #include "numerics/cells.h"
+#include "basin/plan.h"
 
 /* Places of the cells of an axis. */
 static __float128 *places(const kz_axis *axis, const kz_view *view, int i) {

@@ -5,6 +5,7 @@
 #include "../../tools/test.h"
 
 #include "scene/scene.h"
+#include "../../../src/study/basin/plan.h"
 
 static const char text[] =
     "pendulum: {quality_factor: 5, drive_frequency: 11, drive_amplitude: 0.3}\nbasin:\n  method: exact\n";
@@ -21,15 +22,15 @@ TEST(digits_beyond_double_precision_count) {
   assert_int_equal(read_window("basin.theta={centre: '180 deg', width: 1}",
                                "basin.velocity={centre: 0.1, width: 1.00000000000000000000000000000001e-20, count: 2}", &scene),
                    KZ_OK);
-  const kz_decimal *velocity = &scene.basin.velocity.centre, *theta = &scene.basin.theta.centre,
-                   *width = &scene.basin.velocity.width;
+  const kz_decimal *velocity = &scene.basin->velocity.centre, *theta = &scene.basin->theta.centre,
+                   *width = &scene.basin->velocity.width;
   assert_true(velocity->high == 0.1 && fabs(velocity->low + 5.5511151231257827e-18) < 1e-33);
   assert_true(theta->high == M_PI && fabs(theta->low - 1.2246467991473532e-16) < 1e-31);
   assert_true(width->high == 1e-20 && fabs(width->low - 5.484672854579044e-37) < 1e-51);
   assert_string_equal(velocity->text, "0.1");
   assert_string_equal(theta->text, "180 deg");
-  assert_true(scene.basin.velocity.min == 0.1 && scene.basin.velocity.max == 0.1);
-  assert_true(kz_axis_is_deep(&scene.basin.velocity) && !kz_axis_is_deep(&scene.basin.theta));
+  assert_true(scene.basin->velocity.min == 0.1 && scene.basin->velocity.max == 0.1);
+  assert_true(kz_axis_is_deep(&scene.basin->velocity) && !kz_axis_is_deep(&scene.basin->theta));
   kz_scene_free(&scene);
 }
 

@@ -6,6 +6,7 @@
 
 #include "kapitza/study.h"
 #include "scene/scene.h"
+#include "../../../src/study/basin/plan.h"
 
 static const char TEXT[] = "pendulum: {k: 0, damping: 0.05, m: 0.5}\nbasin: {velocity: {min: -1, max: 1}}\n";
 
@@ -46,7 +47,7 @@ TEST(gravity_is_the_standard_one_where_it_is_left_out) {
 TEST(angles_are_parts_of_pi) {
   kz_scene scene;
   read_with("basin.theta={min: -pi/2, max: 0.5 pi}", &scene);
-  assert_true(scene.basin.theta.min == -M_PI / 2 && scene.basin.theta.max == M_PI / 2);
+  assert_true(scene.basin->theta.min == -M_PI / 2 && scene.basin->theta.max == M_PI / 2);
   kz_scene_free(&scene);
   static const char *const wrong[] = {"pi/0", "pi/", "2 pie", "pi pi", "pi/2x", "e pi"};
   for (size_t i = 0; i < sizeof wrong / sizeof wrong[0]; i++) {

@@ -3,6 +3,7 @@
 
 #include "../../tools/resolved.h"
 #include "scene/scene.h"
+#include "../../../src/study/basin/plan.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -31,10 +32,10 @@ TEST(defaults_are_those_of_the_table) {
   assert_int_equal(read_scene(GOOD, NULL, &scene), KZ_OK);
   assert_true(scene.has_basin);
   assert_string_equal(scene.title, "");
-  assert_int_equal(scene.basin.theta.count, 1000);
-  assert_true(scene.basin.theta.min == -M_PI && scene.basin.theta.max == M_PI);
-  assert_int_equal(scene.basin.method, KZ_METHOD_EXACT);
-  assert_int_equal(scene.basin.interpolation, KZ_QUINTIC);
+  assert_int_equal(scene.basin->theta.count, 1000);
+  assert_true(scene.basin->theta.min == -M_PI && scene.basin->theta.max == M_PI);
+  assert_int_equal(scene.basin->method, KZ_METHOD_EXACT);
+  assert_int_equal(scene.basin->interpolation, KZ_QUINTIC);
   kz_scheme scheme;
   kz_scheme_row(scene.numerics.scheme, &scheme);
   assert_string_equal(scheme.name, "processed");
@@ -71,7 +72,7 @@ TEST(forms_agree) {
 TEST(angles_are_in_degrees_where_they_say_so) {
   kz_scene scene;
   assert_int_equal(read_scene(GOOD, "basin.theta={min: -90 deg, max: 180 deg}", &scene), KZ_OK);
-  assert_true(scene.basin.theta.min == -M_PI / 2 && scene.basin.theta.max == M_PI);
+  assert_true(scene.basin->theta.min == -M_PI / 2 && scene.basin->theta.max == M_PI);
   kz_scene_free(&scene);
   expect_refused(
       GOOD "  theta: {min: 1 degree, max: 2}\n", NULL,
@@ -124,11 +125,11 @@ TEST(resolved_text_is_a_fixed_point) {
 TEST(options_override_and_create) {
   kz_scene scene;
   assert_int_equal(read_scene(GOOD, "basin.attractors.seed=7", &scene), KZ_OK);
-  assert_int_equal(scene.basin.seed, 7);
+  assert_int_equal(scene.basin->seed, 7);
   kz_scene_free(&scene);
   assert_int_equal(read_scene(GOOD, "basin.velocity={min: 0, max: 1, count: 3}", &scene), KZ_OK);
-  assert_int_equal(scene.basin.velocity.count, 3);
-  assert_true(scene.basin.velocity.min == 0.0 && scene.basin.velocity.max == 1.0);
+  assert_int_equal(scene.basin->velocity.count, 3);
+  assert_true(scene.basin->velocity.min == 0.0 && scene.basin->velocity.max == 1.0);
   kz_scene_free(&scene);
 }
 
@@ -296,13 +297,13 @@ TEST(lists_are_read_and_written) {
 TEST(table_is_sound) {
   kz_scene scene;
   memset(&scene, 0, sizeof scene);
-  for (const kz_key *key = kz_keys; key->path; key++) {
+  for (const kz_key *key = kz_scene_keys(); key->path; key++) {
     char parent[128];
     const char *dot = strrchr(key->path, '.');
     assert_true(key->help && key->help[0]);
-    assert_ptr_equal(kz_key_find(kz_keys, key->path), key);
+    assert_ptr_equal(kz_key_find(kz_scene_keys(), key->path), key);
     snprintf(parent, sizeof parent, "%.*s", dot ? (int)(dot - key->path) : 0, key->path);
-    const kz_key *above = dot ? kz_key_find(kz_keys, parent) : NULL;
+    const kz_key *above = dot ? kz_key_find(kz_scene_keys(), parent) : NULL;
     assert_true(!dot || (above && above < key && above->type == KZ_KEY_MAPPING));
   }
   assert_int_equal(read_scene(GOOD, NULL, &scene), KZ_OK);

@@ -8,10 +8,10 @@
 #include "basin/basin.h"
 
 static kz_scene scene_of(int64_t theta, int64_t velocity, double min, int64_t max_periods) {
-  kz_scene scene = {.numerics = {.steps_per_period = 24}};
-  scene.basin = (kz_basin_plan){
+  static kz_basin_plan plan;
+  plan = (kz_basin_plan){
       .theta = {-M_PI, M_PI, theta}, .velocity = {min, 2, velocity}, .max_periods = max_periods, .method = KZ_METHOD_ICM};
-  return scene;
+  return (kz_scene){.numerics = {.steps_per_period = 24}, .basin = &plan};
 }
 
 /* Consecutive cells, each once; the own tiles hold the own cells; mirrored tiles are as long. */

@@ -1,0 +1,79 @@
+/* study: how a study, and the scene for the keys of the pendulum, writes the rows of its table of keys (C; layer 3). */
+#ifndef KAPITZA_STUDY_KEY_ROWS_H
+#define KAPITZA_STUDY_KEY_ROWS_H
+
+#include "kapitza/study_keys.h"
+
+/* The place of a field: of the scene, or, in a file that defines KEYS_OF as the name of its study, of the plan of that study. */
+#define OF_SCENE(field) .offset = offsetof(kz_scene, field)
+#define NOWHERE .offset = KZ_NO_FIELD
+#ifdef KEYS_OF
+#define NAMED(before, name, after) before##name##after
+#define PLAN_OF(name) NAMED(kz_, name, _plan)
+#define STORED(name) NAMED(has_, name, )
+#define AT(field) .plan = offsetof(kz_scene, KEYS_OF), .offset = offsetof(PLAN_OF(KEYS_OF), field)
+#else
+#define AT(field) OF_SCENE(field)
+#endif
+
+/* One row: the first four of every type, then what the type needs. */
+#define ROW(path_, type_, fallback_, place, help_, ...) \
+  {.path = path_, .type = type_, .fallback = fallback_, place, .help = help_, __VA_ARGS__}
+/* A mapping; and one of which the field says whether it is given. */
+#define MAPPING(path, fallback, help) ROW(path, KZ_KEY_MAPPING, fallback, NOWHERE, help, .unit = "")
+#define PART(path, fallback, field, help) ROW(path, KZ_KEY_MAPPING, fallback, AT(field), help, .unit = "")
+/* Keys that basin.accuracy answers. */
+#define CHOSEN .chosen_by = "basin.accuracy"
+#define TEXT(path, fallback, field, help) ROW(path, KZ_KEY_TEXT, fallback, AT(field), help, .unit = "")
+#define WORD(path, words_, fallback, field, help, ...) \
+  ROW(path, KZ_KEY_WORD, fallback, AT(field), help, .unit = "", .words = words_, __VA_ARGS__)
+#define WORDS(path, words_, fallback, field, help) \
+  ROW(path, KZ_KEY_WORDS, fallback, AT(field), help, .unit = "", .words_from = words_)
+#define INTEGER(path, low_, high_, fallback, field, help, ...) \
+  ROW(path, KZ_KEY_INTEGER, fallback, AT(field), help, .unit = "", .low = low_, .high = high_, __VA_ARGS__)
+#define COUNT(path, low_, high_, fallback, field, help, ...) \
+  ROW(path, KZ_KEY_COUNT, fallback, AT(field), help, .unit = "", .low = low_, .high = high_, __VA_ARGS__)
+#define BOOLEAN(path, fallback, field, help) ROW(path, KZ_KEY_BOOLEAN, fallback, AT(field), help, .unit = "")
+#define REAL(path, unit_, low_, high_, fallback, field, help) \
+  ROW(path, KZ_KEY_REAL, fallback, AT(field), help, .unit = unit_, .low = low_, .high = high_)
+/* The two ways to give a window: by its edges, and by its middle. */
+#define EDGE(path, unit_, limit, fallback, field, help) \
+  ROW(path, KZ_KEY_REAL, fallback, AT(field), help, .unit = unit_, .low = -limit, .high = limit, .form = "a")
+#define DECIMAL(path, unit_, low_, high_, fallback, field, help) \
+  ROW(path, KZ_KEY_DECIMAL, fallback, AT(field), help, .unit = unit_, .low = low_, .high = high_, .form = "b")
+#define CENTRE_HELP "Middle of the window; up to 1000 digits, all of which count."
+
+/* The window of a study's starts or points; it may be the whole circle. */
+#define THETA_WINDOW(study, help)                                                                                              \
+  MAPPING(#study ".theta", "", help), REAL(#study ".theta.min", "rad", -1e6, 1e6, "", theta.min, "Lower edge of the window."), \
+      REAL(#study ".theta.max", "rad", -1e6, 1e6, "", theta.max, "Upper edge of the window.")
+#define VELOCITY_WINDOW(study, most, fallback, lowest, highest, help)                                                       \
+  MAPPING(#study ".velocity", fallback, help),                                                                              \
+      REAL(#study ".velocity.min", "rad per drive radian", -most, most, lowest, velocity.min, "Lower edge of the window."), \
+      REAL(#study ".velocity.max", "rad per drive radian", -most, most, highest, velocity.max, "Upper edge of the window.")
+#define PLANE_AXIS(study, axis, help)                                                                                         \
+  MAPPING(#study "." #axis, NULL, help),                                                                                      \
+      ROW(#study "." #axis ".parameter", KZ_KEY_WORD, NULL, AT(axis.parameter),                                               \
+          "Key of the pendulum mapping, as written there, that takes the values.", .unit = "", .words_from = kz_sweep_words), \
+      REAL(#study "." #axis ".min", KZ_OWN_UNIT, -DBL_MAX, DBL_MAX, NULL, axis.values.min, "First value."),                   \
+      REAL(#study "." #axis ".max", KZ_OWN_UNIT, -DBL_MAX, DBL_MAX, NULL, axis.values.max, "Last value.")
+
+/* The row of a study and its keys: the mapping of its name, the rows of the list that follows, an end. `check` may be NULL (see kz_study). */
+#ifdef KEYS_OF
+#define TEXT_OF(name) #name
+#define STRING_OF(name) TEXT_OF(name)
+#define STUDY(help, ...) ROW(STRING_OF(KEYS_OF), KZ_KEY_MAPPING, "", OF_SCENE(STORED(KEYS_OF)), help, .unit = "", __VA_ARGS__)
+#define KZ_STUDY_ROW(check) KZ_STUDY_ROW_OF(KEYS_OF, check)
+#define KZ_STUDY_ROW_OF(name, check) KZ_STUDY_ROW_NAMED(name, check)
+#define KZ_STUDY_ROW_NAMED(name, check)                               \
+  const kz_study kz_##name##_study = {#name,                          \
+                                      offsetof(kz_scene, has_##name), \
+                                      offsetof(kz_scene, name),       \
+                                      sizeof(kz_##name##_plan),       \
+                                      keys,                           \
+                                      kz_##name##_cost,               \
+                                      kz_##name##_run,                \
+                                      check}
+#endif
+
+#endif

@@ -1,0 +1,23 @@
+/* The study `atlas`: its row, and the table of its keys. */
+#define KEYS_OF atlas
+
+#include "kapitza/study_key_rows.h"
+#include "plan.h"
+
+static const kz_key keys[] = {
+    STUDY("Study: all curves on which cycles are born, lose their stability or their symmetry, over a plane of two keys of the "
+          "pendulum mapping, and the attractors of every point of it."),
+    PLANE_AXIS(atlas, x, "The key along the horizontal axis."),
+    PLANE_AXIS(atlas, y, "The key along the vertical axis."),
+    INTEGER("atlas.max_period", 1, KZ_ATLAS_MOST_PERIOD, "6", max_period, "Longest period of the cycles, drive periods."),
+    INTEGER(
+        "atlas.checks", 0, 1e5, "300", checks,
+        "Random points of a round whose attractors are searched; rounds go on until one finds nothing that the curves do not "
+        "tell, at most 16."),
+    INTEGER("atlas.points", 16, 4000, "400", points, "Cells along each axis for the number and the lists of attractors."),
+    INTEGER("atlas.shares", 0, 1e6, "0", shares,
+            "Starts at one point of each of the largest regions, whose ends give the shares of the basins there; 0 = none."),
+    {.path = NULL},
+};
+
+KZ_STUDY_ROW(kz_atlas_check);

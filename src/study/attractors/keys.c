@@ -1,0 +1,18 @@
+/* The study `attractors`: its row, and the table of its keys. */
+#define KEYS_OF attractors
+
+#include "kapitza/study_key_rows.h"
+#include "plan.h"
+
+static const kz_key keys[] = {
+    STUDY("Study: the attractors of a window of starts, without a grid."),
+    THETA_WINDOW(attractors, "Angles of the starts; left out: the whole circle [-pi, pi)."),
+    VELOCITY_WINDOW(attractors, KZ_MOST_SPEED, NULL, NULL, NULL, "Velocities of the starts."),
+    INTEGER("attractors.starts", 1, 1e8, "8192", starts, "Starts of the search."),
+    INTEGER("attractors.max_period", 1, 512, "48", max_period, "Longest period of the search."),
+    INTEGER("attractors.seed", 0, 9007199254740992.0, "1", seed,
+            "Number that chooses the starts; another seed gives other starts."),
+    {.path = NULL},
+};
+
+KZ_STUDY_ROW(kz_attractors_check);

@@ -1,0 +1,81 @@
+/* The study `basin`: its row, and the table of its keys. */
+#define KEYS_OF basin
+
+#include "kapitza/study_key_rows.h"
+#include "plan.h"
+
+static const kz_key keys[] = {
+    STUDY("Study: the attractors, then a label for every cell of a window.", .former = "flag_undecided=basin.method exact"),
+    MAPPING("basin.theta", "",
+            "Angles of the cells; min and max, or centre and width, at most 2 pi; neither: the whole circle [-pi, pi)."),
+    EDGE("basin.theta.min", "rad", 1e6, "", theta_edges.min, "Lower edge of the window."),
+    EDGE("basin.theta.max", "rad", 1e6, "", theta_edges.max, "Upper edge of the window."),
+    DECIMAL("basin.theta.centre", "rad", -1e6, 1e6, "", theta.centre, CENTRE_HELP),
+    DECIMAL("basin.theta.width", "rad", 1e-300, 7, "", theta.width, "Width of the window."),
+    INTEGER("basin.theta.count", 1, 1e6, "1000", theta.count, "Cells along theta."),
+    MAPPING("basin.velocity", NULL, "Velocities of the cells."),
+    EDGE("basin.velocity.min", "rad per drive radian", KZ_MOST_SPEED, NULL, velocity_edges.min, "Lower edge of the window."),
+    EDGE("basin.velocity.max", "rad per drive radian", KZ_MOST_SPEED, NULL, velocity_edges.max, "Upper edge of the window."),
+    DECIMAL("basin.velocity.centre", "rad per drive radian", -KZ_MOST_SPEED, KZ_MOST_SPEED, NULL, velocity.centre, CENTRE_HELP),
+    DECIMAL("basin.velocity.width", "rad per drive radian", 1e-300, 2e9, NULL, velocity.width, "Width of the window."),
+    INTEGER("basin.velocity.count", 1, 1e6, "1000", velocity.count, "Cells along the velocity."),
+    WORD("basin.method", KZ_JOINED(KZ_METHOD_WORDS), "exact", method,
+         "exact: the error of each orbit decides its label; undecided cells are followed again in more precision, and flagged "
+         "in evidence if quad precision does not decide them; direct: double precision alone, doubtful labels are marked in "
+         "evidence; icm: interpolated cell mapping, the method of the papers. A sweep uses direct.",
+         .former = "hybrid=direct", CHOSEN),
+    WORD("basin.undecided", KZ_JOINED(KZ_UNDECIDED_WORDS), "flag", undecided,
+         "Cells that quad precision does not decide, by method exact. flag: flagged with two candidates; decide: followed in "
+         "as many digits as needed, some 0.1 to 0.4 s a cell."),
+    MAPPING("basin.icm", "", "The map table of method icm."),
+    INTEGER("basin.icm.theta", 8, 1e5, "1000", table_theta, "Nodes along theta.", CHOSEN),
+    INTEGER("basin.icm.velocity", 8, 1e5, "1000", table_velocity, "Nodes along the velocity.", CHOSEN),
+    ROW("basin.icm.interpolation", KZ_KEY_WORD, "quintic", AT(interpolation), "Interpolation between the nodes.", .unit = "",
+        .words = KZ_JOINED(KZ_INTERPOLATION_WORDS), .former = "cubic=quintic", CHOSEN),
+    INTEGER(
+        "basin.max_periods", 1, 4e9, "", max_periods,
+        "Drive periods after which a cell counts as not settled; left out: the number that the damping needs, at least 2000."),
+    ROW("basin.start_phase", KZ_KEY_REAL, "", OF_SCENE(parameters.written.start_phase),
+        "Phase of the drive at which the cells are released; the strobe points of the file are at phase 0 as always.",
+        .unit = "rad", .low = -1e6, .high = 1e6),
+    MAPPING("basin.attractors", "", "The search for attractors before the cells are labelled."),
+    INTEGER("basin.attractors.starts", 1, 1e8, "8192", starts, "Starts of the first round."),
+    INTEGER("basin.attractors.max_period", 1, 512, "48", max_period, "Longest period of the search."),
+    INTEGER("basin.attractors.seed", 0, 9007199254740992.0, "1", seed,
+            "Number that chooses the starts; another seed gives other starts."),
+    BOOLEAN(
+        "basin.proof", "false", proof,
+        "Prove the labels under the differential equation itself: `evidence` marks those that are proved, `proved_share` is "
+        "their share, `other_share_high` bounds the area that ends elsewhere. Some ten times the time of the cells."),
+    INTEGER("basin.proof_digits", 34, 48, "34", proof_digits,
+            "Digits in which a proof follows starts at last. Above 34 it goes on in 48 digits, which proves longer orbits and "
+            "takes a second a start."),
+    REAL("basin.accuracy", "", 0.5, 0.999999, "", accuracy,
+         "Share of right labels, instead of method, icm and numerics: the program takes the cheapest setting whose labels "
+         "agree with a sample in quad precision to this share (95 % bound), or method exact if there is none."),
+
+    PART("basin.boundary", "", has_boundary,
+         "How fractal the boundaries are: uncertainty exponents decade by decade, box-counting dimension, basins that share "
+         "their boundary."),
+    INTEGER("basin.boundary.pairs", 100, 1e8, "50000", boundary.pairs,
+            "Starts of the window, each with a partner at `farthest`, a tenth of that, ... rad."),
+    REAL("basin.boundary.farthest", "rad", 1e-300, 1, "0.01", boundary.farthest,
+         "Distance of the first partner. With method exact it may be any share of the width of a deep window."),
+    INTEGER("basin.boundary.decades", KZ_BOUNDARY_FEWEST_DECADES, KZ_BOUNDARY_MOST_DECADES, "10", boundary.decades,
+            "Decades of these distances: 10 go from 0.01 down to 1e-12 rad; nearer partners need basin.method exact, because "
+            "doubles cannot distinguish such starts."),
+    INTEGER("basin.phases", 2, 64, "", phases,
+            "Also releases every cell at so many phases of the drive, spread evenly over a period from 0 on: how much of the "
+            "window ends "
+            "alike at all of them."),
+    PART("basin.shocks", "", has_shocks,
+         "The smallest shocks (a sudden change of angle, of velocity, of both) that push each attractor out of its basin."),
+    REAL("basin.shocks.scale", "rad per drive radian", 1e-6, 1e6, "1", shocks.scale,
+         "Change of the velocity that counts as much as 1 rad; the size of a shock is hypot(dtheta, dv/scale)."),
+    ROW("basin.shocks.sizes", KZ_KEY_REALS, "[0.1, 0.3, 1]", AT(shocks.sizes),
+        "Sizes, ascending, for which the share of harmless shocks is computed.", .unit = "rad", .low = KZ_ABOVE_ZERO,
+        .high = 1e3),
+    {.path = NULL},
+};
+
+KZ_STUDY_ROW(kz_basin_check);

@@ -1,0 +1,16 @@
+/* The study `saddles`: its row, and the table of its keys. */
+#define KEYS_OF saddles
+
+#include "kapitza/study_key_rows.h"
+#include "plan.h"
+
+static const kz_key keys[] = {
+    STUDY("Study: all unstable cycles of the strobe map up to a period, and a test whether any is missing."),
+    THETA_WINDOW(saddles, "Angles of the cycles' points; left out: the whole circle [-pi, pi)."),
+    VELOCITY_WINDOW(saddles, 1e3, NULL, NULL, NULL, "Velocities of the cycles' points."),
+    INTEGER("saddles.max_period", 1, KZ_SADDLES_MAX_PERIOD, "1", max_period,
+            "Longest period, in drive periods; their number and the time grow exponentially with it."),
+    {.path = NULL},
+};
+
+KZ_STUDY_ROW(NULL);
