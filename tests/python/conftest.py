@@ -21,6 +21,7 @@ from mpi_settings import MPI_SETTINGS
 
 pytest.register_assert_rewrite("explorer_page")  # its fixtures are a plugin of the modules that name it
 ROOT = Path(__file__).resolve().parents[2]
+EXTENSIVE = bool(os.environ.get("KAPITZA_EXTENSIVE"))  # what takes long is tried too
 PROGRAM = Path(os.environ.get("KAPITZA", ROOT / "build" / "kapitza"))
 TEXT = h5py.string_dtype("utf-8")
 WALK = """\
@@ -49,7 +50,7 @@ def pytest_configure(config):
 def pytest_collection_modifyitems(items):
     """What takes long waits for KAPITZA_EXTENSIVE=1."""
     for item in items:
-        if item.get_closest_marker("extensive") and not os.environ.get("KAPITZA_EXTENSIVE"):
+        if item.get_closest_marker("extensive") and not EXTENSIVE:
             item.add_marker(pytest.mark.skip(reason="extensive: KAPITZA_EXTENSIVE=1"))
 
 

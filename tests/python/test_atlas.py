@@ -1,11 +1,10 @@
 """The study atlas: curves against the linear equation and the flutter table, lists against `attractors`, ranks, resumed runs, bad input."""
 
 import json
-import os
 
 import numpy as np
 import pytest
-from conftest import datasets, plot, run_until_saved
+from conftest import EXTENSIVE, datasets, plot, run_until_saved
 from kapitza import Result, SceneError
 from scipy.integrate import solve_ivp
 
@@ -13,7 +12,6 @@ PENDULUM = {"quality_factor": 5, "drive_frequency": 11, "drive_amplitude": 0.3}
 SCENE = {"pendulum": PENDULUM,
          "atlas": {"x": {"parameter": "drive_frequency", "min": 3, "max": 30}, "y": {"parameter": "drive_amplitude", "min": 0, "max": 0.8},
                    "max_period": 2, "checks": 24, "points": 64}}
-EXTENSIVE = bool(os.environ.get("KAPITZA_EXTENSIVE"))
 FOLD, DOUBLING, BREAKING, SWINGS, LEANS = range(5)
 
 
@@ -243,6 +241,7 @@ def test_planes_without_damping_or_without_effect_are_refused(kapitza, tmp_path)
         assert message in kapitza("run", "s.yaml", status=2, folder=tmp_path).stderr
 
 
+@pytest.mark.extensive
 def test_a_stopped_run_goes_on(atlas, kapitza, tmp_path):
     (tmp_path / "s.yaml").write_text(json.dumps(SCENE))
     run_until_saved("s.yaml", file="s.h5", folder=tmp_path)

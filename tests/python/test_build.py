@@ -5,9 +5,7 @@ import shutil
 import subprocess
 
 import pytest
-from conftest import PROGRAM, ROOT
-
-EXTENSIVE = bool(os.environ.get("KAPITZA_EXTENSIVE"))
+from conftest import EXTENSIVE, PROGRAM, ROOT
 
 
 def call(*words, folder=ROOT, **more):

@@ -68,6 +68,7 @@ def test_direct_integration_tells_doubtful_cells_one_by_one(kapitza, tmp_path):
             assert np.any(differ) and np.all(doubtful[differ])
 
 
+@pytest.mark.extensive
 def test_wrong_share_is_not_understated(tmp_path):
     """All cells of a small window against the wrong ones of 200: some 13 % are wrong by any method in double precision, up to four
     times as many doubtful. (tests/unit/dynamics/dynamics.c compares cell by cell at epsilon = 0.46.)"""

@@ -269,6 +269,7 @@ def test_sliders_stand_above_the_fold_and_nothing_jumps(page):
         assert {"k": 0.1, "damping": 0.05} | sent == page.module("frames.js", "(({m, ...p}) => p)(its.asScene(explorer.state.pendulum))")
 
 
+@pytest.mark.extensive
 def test_two_values_stand_side_by_side_with_linked_cursors(page):
     page.press("compare")
     page.slide("m", 0.5)

@@ -25,6 +25,7 @@ def test_upright_is_in_the_middle_until_another_choice_which_is_remembered(drive
     driver.get("about:blank")
 
 
+@pytest.mark.extensive
 def test_a_plain_deep_picture_says_where_it_is_and_goes_to_a_boundary(page):
     page.run("explorer.state.change({window: explorer.state.window.zoomed(1e-7, 0.513, 0.4), jump: true})")
     page.wait()
@@ -137,6 +138,7 @@ def test_stories_are_told_by_keys_and_leave_the_page_as_it_was(page):
     page.wait()
 
 
+@pytest.mark.extensive
 def test_releases_of_a_table_are_compared(page):
     text = "theta_deg;velocity;end\\n5.7;0;hanging\\n-17.2;0;flutter\\n28.6;0;upright"
     page.run(f"""(() => {{ const data = new DataTransfer(); data.items.add(new File(["{text}"], "mine.csv"));

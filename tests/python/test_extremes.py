@@ -55,9 +55,10 @@ REFUSED = {
     "one step of split6 at m = 1": [pendulum(m=1.0), "numerics.steps_per_period=1"],
     "one step of rk4": ["numerics={scheme: rk4, steps_per_period: 1}"],
 }
+DEAR = ("beta = 1e4", "k = 1e4", "beta = 1e3 with rk4", "one step of split6 at m = 1", "m = 1e4")
 
 
-@pytest.mark.parametrize("name", REFUSED)
+@pytest.mark.parametrize("name", [pytest.param(name, marks=[pytest.mark.extensive] * (name in DEAR)) for name in REFUSED])
 def test_refused_with_the_steps_that_would_do(kapitza, model, name, tmp_path):
     message = model(*REFUSED[name], status=2)
     assert "numerics.steps_per_period" in message and ("rad after one drive period" in message or "diverge" in message)
@@ -76,7 +77,7 @@ HOPELESS = {
 }
 
 
-@pytest.mark.parametrize("name", HOPELESS)
+@pytest.mark.parametrize("name", [pytest.param(name, marks=[pytest.mark.extensive] * (name in DEAR)) for name in HOPELESS])
 def test_refused_where_no_steps_help(model, name):
     message = model(*HOPELESS[name], status=2)
     assert "not even" in message and "slower starts" in message

@@ -44,6 +44,7 @@ def film(tmp_path, monkeypatch):
     return call
 
 
+@pytest.mark.extensive
 def test_a_film_goes_on_and_another_one_is_refused(film, tmp_path):
     done, drawn = film(0.15, 0.16)
     assert (done.returncode, drawn) == (0, 2), done.stderr

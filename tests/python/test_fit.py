@@ -1,15 +1,12 @@
 """Pendulums from tracks: the truth lies within the stated errors, and what a model cannot describe is said."""
 
-import os
 import subprocess
 
 import kapitza
 import numpy as np
 import pytest
-from conftest import PROGRAM
+from conftest import EXTENSIVE, PROGRAM
 from kapitza import fitting
-
-EXTENSIVE = bool(os.environ.get("KAPITZA_EXTENSIVE"))
 
 NOISE = 2e-3  # rad
 DECAY = {"omega0": 7.0, "offset": 0.02, "theta": 0.9, "velocity": 0.3, "viscous": 0.15}

@@ -1,15 +1,14 @@
 """Memory that runs out in the middle, at any allocation of the program: the right bytes or one line and status 1, never a hang, a
 crash, a half file or a lost checkpoint. KAPITZA_EXTENSIVE=1 tries 60 places of each scene instead of a few."""
 
-import os
 import shutil
 import subprocess
 from concurrent.futures import ThreadPoolExecutor
 
 import pytest
-from conftest import PROGRAM, datasets
+from conftest import EXTENSIVE, PROGRAM, datasets
 
-PLACES = 60 if os.environ.get("KAPITZA_EXTENSIVE") else 2
+PLACES = 60 if EXTENSIVE else 2
 FOREVER = 10**12
 PENDULUM = "pendulum: {quality_factor: 5, drive_frequency: 11, drive_amplitude: 0.3}\n"
 BASIN = ("basin: {theta: {count: 24}, velocity: {min: -1, max: 1, count: 24}, icm: {theta: 64, velocity: 64}, method: icm, "

@@ -25,6 +25,7 @@ def test_the_slow_equation_gives_the_smallest_amplitude_of_a_fast_pivot():
     assert found["stands_g"][0] == pytest.approx(low * (2 * math.pi * 400) ** 2 / GRAVITY)
 
 
+@pytest.mark.extensive
 def test_it_says_the_limits_that_check_says():
     standing = ask("--length", "20", "cm", "--frequency", "3000 rpm").stdout.splitlines()[2]
     few = ["--set", "basin.theta.count=4", "--set", "basin.velocity.count=4"]

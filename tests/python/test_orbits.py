@@ -1,11 +1,10 @@
 """Orbits, cycles and their lines against the literature (reference.json)."""
 
-import os
 from math import log, pi
 
 import numpy as np
 import pytest
-from conftest import ROOT
+from conftest import EXTENSIVE, ROOT
 from kapitza import Result
 from orbit_scenes import BLACKBURN, FIGURES, NODDING, REFERENCE, WINDOW, closed, near, parameters
 
@@ -165,7 +164,7 @@ def test_every_search_finds_small_basins(model, epsilon):
     large = np.flatnonzero(owners["fraction"].values >= 1e-3)
     assert len(large) >= 4
     found = 0
-    seeds = range(1, 101 if os.environ.get("KAPITZA_EXTENSIVE") else 3)
+    seeds = range(1, 101 if EXTENSIVE else 3)
     for seed in seeds:
         listed = model(pendulum, attractors={**WINDOW, "seed": seed}).group("attractors")
         gaps = [near(listed["strobe_theta"].values, owners["strobe_theta"].values[id_, 0]) +

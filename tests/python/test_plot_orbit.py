@@ -23,6 +23,8 @@ ORBITS = {
                {"start": {"theta": 0, "velocity": 0.1}, "model": "mathieu", "closed": True, "period": 2}),
 }
 
+COMMON = ("nodding", "chaotic", "linear")
+
 
 @pytest.fixture(scope="module")
 def files(kapitza, tmp_path_factory):
@@ -38,7 +40,7 @@ def plot(*arguments):
     return plot_kind("orbit", *arguments)
 
 
-@pytest.mark.parametrize("name", ORBITS)
+@pytest.mark.parametrize("name", [pytest.param(name, marks=[pytest.mark.extensive] * (name not in COMMON)) for name in ORBITS])
 def test_every_orbit_is_drawn(files, tmp_path, name):
     done = plot(files / f"{name}.h5", "-o", tmp_path / "out.png", "--dpi", 100)
     assert (done.returncode, done.stderr) == (0, "")

@@ -2,7 +2,6 @@
 
 import json
 import math
-import os
 
 import h5py
 import kapitza as kapitza_package
@@ -60,7 +59,7 @@ def test_decided_labels_are_those_of_exactly_the_phase(phase, theta, velocity, e
     basin = {"velocity": {"min": -2, "max": 2, "count": 8}, "theta": {"count": 8}, "start_phase": phase}
     found = kapitza_package.where({"pendulum": PHASED, "basin": basin}, theta, velocity).iloc[0]
     assert found["decided"] and found["name"] == end
-    if os.environ.get("KAPITZA_EXTENSIVE"):  # an integrator that shares nothing with the program
+    if EXTENSIVE:  # an integrator that shares nothing with the program
         points = [[(0.0, 0.0)], [*zip(found["strobe_theta"], found["strobe_velocity"], strict=True)]]
         assert own_orbit.end_of(tuple(PHASED.values()), (theta, velocity), points, 20, phase=phase) == 1
 

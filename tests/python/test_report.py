@@ -62,6 +62,7 @@ def test_it_needs_nothing_else_and_is_the_same_again(report, small_result, tmp_p
     assert (tmp_path / "again.html").read_bytes() == report.read_bytes()
 
 
+@pytest.mark.extensive
 def test_words_of_a_scene_are_no_html(small_result, tmp_path):
     shutil.copy(small_result, tmp_path / "crafted.h5")
     with h5py.File(tmp_path / "crafted.h5", "a") as file:
@@ -89,6 +90,7 @@ def test_what_cannot_be_reported_is_said(arguments, status, message):
     assert done.returncode == status and message in done.stderr and "Traceback" not in done.stderr
 
 
+@pytest.mark.extensive
 def test_it_opens_in_a_browser_from_the_file_system(report, tmp_path):
     with browser(tmp_path, "1140,1400") as driver:
         driver.get(report.as_uri())

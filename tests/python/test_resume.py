@@ -1,9 +1,8 @@
 """Runs that are stopped again and again come to their end, with the same bytes: everything that takes longer than seconds is kept."""
 
-import os
 
 import pytest
-from conftest import datasets, run_until_saved
+from conftest import EXTENSIVE, datasets, run_until_saved
 
 SCENES = {
     # orbits take thousands of periods to settle: the search for attractors is nearly all of the work
@@ -43,7 +42,7 @@ sweep: {parameter: drive_amplitude, min: 0.3, max: 0.31, count: 3, starts: 1024,
 STOPS = 3
 
 
-@pytest.mark.parametrize("name", SCENES if os.environ.get("KAPITZA_EXTENSIVE") else list(SCENES)[:1])
+@pytest.mark.parametrize("name", SCENES if EXTENSIVE else list(SCENES)[:1])
 def test_a_run_that_is_stopped_again_and_again_ends(kapitza, tmp_path, name):
     """Stopped as soon as something more is saved, each time on other ranks, then left to end."""
     (tmp_path / "s.yaml").write_text(SCENES[name])

@@ -73,7 +73,7 @@ def coefficients(file):
 
 
 @pytest.mark.parametrize("keys, basin", [
-    ({"tilt": "5 deg", "ellipse": 0.1, "torque": 0.001}, {}),
+    pytest.param({"tilt": "5 deg", "ellipse": 0.1, "torque": 0.001}, {}, marks=pytest.mark.extensive),
     ({"waveform": "square", "harmonics": [{"order": 2, "amplitude": 0.1, "phase": "50 deg"}], "ramp": SMOOTH}, {"start_phase": 7.5}),
     ({"waveform": "samples", "samples": [1, 0.3, -0.8, -0.4, 0.1], "tilt": 0.01, "ramp": LINEAR}, {"start_phase": "-40 deg"}),
     ({"torque_amplitude": 0.7, "drive_amplitude": 0, "torque": 0.01}, {})])

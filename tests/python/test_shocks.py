@@ -1,16 +1,15 @@
 """Smallest shocks and edges: against brute force on grids, the saddles between basins, ranks, sweeps."""
 
 import json
-import os
 import re
 
 import numpy as np
 import pytest
-from conftest import datasets
+from conftest import EXTENSIVE, datasets
 from kapitza import Result
 
 FIG11 = {"quality_factor": 5, "drive_frequency": 11, "drive_amplitude": 0.15}
-EXTENSIVE = os.environ.get("KAPITZA_EXTENSIVE")
+EXTENSIVE = EXTENSIVE
 SCALE = 0.5
 EDGE = {"first": {"theta": 3.1, "velocity": 0}, "second": {"theta": 0.1, "velocity": 0}}
 
@@ -89,6 +88,7 @@ def test_shocks_are_mirrored_and_agree_with_each_other(fig11):
     assert "smallest shocks that leave the basin" in summary
 
 
+@pytest.mark.extensive
 def test_a_laboratory_reads_kicks_in_rad_per_second(kapitza, tmp_path):
     scene = {"pendulum": {"length": "20 cm", "frequency": "12.26 Hz", "amplitude": "3 cm", "quality_factor": 5},
              "basin": {"theta": {"count": 20}, "velocity": {"min": -2, "max": 2, "count": 20}, "shocks": {"sizes": [0.1]}}}

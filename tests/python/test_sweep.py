@@ -1,15 +1,13 @@
 """The study sweep against the literature (tests/literature/reference.json), and its promises: ranks, resuming, agreement."""
 
 import json
-import os
 
 import h5py
 import numpy as np
 import pytest
-from conftest import ROOT, datasets, plot, run_until_saved
+from conftest import EXTENSIVE, ROOT, datasets, plot, run_until_saved
 
 REFERENCE = json.loads((ROOT / "tests" / "literature" / "reference.json").read_text())
-EXTENSIVE = bool(os.environ.get("KAPITZA_EXTENSIVE"))
 KINDS = ["left_the_range", "fold", "period_doubling", "neimark_sacker", "symmetry_breaking", "not_located"]
 SCENE = """\
 pendulum: {{quality_factor: {q}, drive_frequency: {omega}, drive_amplitude: 0.3}}
@@ -135,6 +133,7 @@ sweep: {parameter: k, min: -0.1, max: 0.1, count: 5, measure: [attractors], star
     assert lives["inverted"][2] == pytest.approx(0.0749420725, abs=1e-8)
 
 
+@pytest.mark.extensive
 def test_chaos_is_one_branch(kapitza, tmp_path):
     (tmp_path / "chaos.yaml").write_text("""\
 pendulum: {k: 0.25, damping: 0.05, m: 0.5}

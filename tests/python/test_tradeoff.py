@@ -160,6 +160,7 @@ def test_without_damping_there_is_nothing_to_trade(kapitza, tmp_path):
     assert "without damping" in kapitza("run", "scene.yaml", folder=tmp_path).stdout
 
 
+@pytest.mark.extensive
 @pytest.mark.parametrize("amplitude", [0.46])
 def test_true_labels_agree_with_the_independent_judge(kapitza, tmp_path, amplitude):
     """Every cell of a small grid: quad precision stopped by trapping regions against quad precision followed into small circles."""
