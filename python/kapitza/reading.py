@@ -38,11 +38,18 @@ def opened(path: Path) -> tuple[dict[str, Any], list[str], dict[str, Any]]:
     return attributes, groups, pendulum
 
 
-def group_of(path: Path, name: str) -> xarray.Dataset:
+def group_of(path: Path, name: str, groups: list[str], pendulum: dict[str, Any]) -> xarray.Dataset:
     """A group of a file, read completely.
 
-    :raises BadFile: if the group is damaged or too large for the memory
+    :param groups: the names of the groups of the file
+    :param pendulum: the numbers of its pendulum
+    :raises BadFile: if there is no such group, or if it is damaged or too large for the memory
     """
+    if name not in groups:
+        held = ", ".join(group for group in groups if group != "pendulum") or "none"
+        raise BadFile(f"{path}: holds no {name} (studies in it: {held})")
+    if name in layout.WITH_PENDULUM and not pendulum:
+        raise BadFile(f"{path}: incomplete, lacks the group pendulum")
     try:
         wrong = elsewhere(path, name) or _too_large(path, name)
         if not wrong:

@@ -9,9 +9,9 @@ import numpy as np
 import pandas
 import xarray
 
-from kapitza import layout, units
+from kapitza import units
 from kapitza.reading import BadFile, elsewhere, group_of, opened
-from kapitza.table import attractors_table, labels_array, starts_table
+from kapitza.table import attractors_table, ids_of, labels_array, starts_table
 
 if TYPE_CHECKING:
     from kapitza.chances import Agreement
@@ -116,11 +116,7 @@ class Result:
 
         :raises KeyError: if there is none
         """
-        table = self.attractors
-        found = [index for index, (plain, full) in enumerate(zip(table["name"], self.names, strict=True)) if name in (plain, full, index)]
-        if not found:
-            raise KeyError(f"no attractor has the name {name!r}; the names are {', '.join(self.names)}")
-        return found
+        return ids_of(name, self.attractors["name"].tolist(), self.names)
 
     def basins_fractions(self) -> dict[int, float]:
         """A dict from the id of each attractor to its share of the starts; -1 = not settled."""
@@ -250,10 +246,5 @@ class Result:
         """
         if si and self.pivot_frequency is None:
             raise BadFile(f"{self.path}: has no pivot_frequency, because its scene is not in SI units; leave out si")
-        if name not in self.groups:
-            held = ", ".join(group for group in self.groups if group != "pendulum") or "none"
-            raise BadFile(f"{self.path}: holds no {name} (studies in it: {held})")
-        if name in layout.WITH_PENDULUM and not self.pendulum:
-            raise BadFile(f"{self.path}: incomplete, lacks the group pendulum")
-        dataset = group_of(self.path, name)
+        dataset = group_of(self.path, name, self.groups, self.pendulum)
         return units.in_units(dataset, self.pivot_frequency if si else None, degrees) if si or degrees else dataset

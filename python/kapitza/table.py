@@ -34,6 +34,19 @@ def attractors_table(attractors: xarray.Dataset) -> pandas.DataFrame:
     return pandas.DataFrame(columns, index=pandas.RangeIndex(count, name="attractor"))
 
 
+def ids_of(name: int | str, plain: list[str], full: list[str]) -> list[int]:
+    """The ids of all attractors of a name.
+
+    :param plain: the name of each attractor
+    :param full: the same, with the id where two attractors have the same name
+    :raises KeyError: if there is none
+    """
+    found = [index for index, names in enumerate(zip(plain, full, strict=True)) if name in (*names, index)]
+    if not found:
+        raise KeyError(f"no attractor has the name {name!r}; the names are {', '.join(full)}")
+    return found
+
+
 def flag_words(names: list[str]) -> list[str]:
     """The names as words of a CF flag_meanings: rotation_+1_in_2, inverted_3-nodding_2 (with its id where two have one name)."""
     words = [re.sub(r"[^A-Za-z0-9_.+@-]", "_", name.replace("/", "_in_")) for name in names]

@@ -22,7 +22,7 @@ from kapitza.plots.orbit_time import draw_time
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-LIMIT = 260  # lines of a file
+LIMIT = 250  # lines of a file
 SCENES = {
     "orbit": "pendulum: {k: 0.1, damping: 0.2, m: 0.1}\norbit: {start: {theta: 1, velocity: 0}, periods: 5}\n",
     "stability": "stability: {k: {min: -0.5, max: 1, count: 7}, m: {min: 0, max: 1, count: 5}, damping: 0.05,"
