@@ -1,6 +1,7 @@
 """Predicts how long the command for a basin takes on many ranks, from the --log of a run on one rank.
 
     scaling.py predict [--grid N] [--plot FILE] [--ranks R...] NAME=LOG...    seconds and efficiency; --grid: on N x N cells
+    scaling.py page FILE                                                      the figure of docs/validation/scaling.md, from its table
     scaling.py load [--grid N] LOG                                            seconds of its tiles, for build/tests/uneven
     scaling.py share [--slower X] [--ranks R...] FILE                         what build/tests/uneven FILE X will measure
 
@@ -26,6 +27,7 @@ TILE_CELLS, BOX = 16384, 5  # of a tile: whole rows, a multiple of five (src/stu
 GRID = ("cells 1", "file")  # stages whose tiles become more with the grid
 WRITING = "file: writing"
 WRITING_CELL = 2.2e-10  # s of rank 0 for the packed bytes of a cell: messages of 10^6 cells against those of 80,000
+PAGE = Path(__file__).resolve().parents[1] / "docs" / "validation" / "scaling.md"
 COLOURS = ("#2f6db3", "#c2452f", "#12806a")
 
 
@@ -88,19 +90,32 @@ def predictions(run, numbers, costs):
 
 
 def draw(curves, path):
-    """Seconds and efficiency of each scene against the number of ranks."""
-    style.use()
-    figure = Figure(figsize=(8, 3.6), layout="constrained")
-    left, right = figure.subplots(1, 2)
-    for (name, rows), colour, marker in zip(curves.items(), COLOURS, "osv", strict=False):
-        ranks, seconds, efficiency, _ = zip(*rows, strict=True)
-        left.loglog(ranks, seconds, color=colour, marker=marker, label=name)
-        left.loglog(ranks, [seconds[0] * ranks[0] / n for n in ranks], color=colour, linestyle=":", linewidth=0.8)
-        right.semilogx(ranks, efficiency, color=colour, marker=marker)
-    left.set(xlabel="ranks", ylabel="whole command (s)")
-    right.set(xlabel="ranks", ylabel="efficiency", ylim=(0, 1.05))
-    left.legend()
-    style.save(figure, Path(path), 150)
+    """Seconds and efficiency of each scene against the number of ranks, 178 mm wide."""
+    with style.using(8):
+        figure = Figure(figsize=(178 / 25.4, 3.1), layout="constrained")
+        left, right = figure.subplots(1, 2)
+        for (name, rows), colour, marker in zip(curves.items(), COLOURS, "osv", strict=False):
+            ranks, seconds, efficiency, *_ = zip(*rows, strict=True)
+            left.loglog(ranks, seconds, color=colour, marker=marker, markersize=4, label=name)
+            left.loglog(ranks, [seconds[0] * ranks[0] / n for n in ranks], color=colour, linestyle=":", linewidth=0.8)
+            right.semilogx(ranks, efficiency, color=colour, marker=marker, markersize=4)
+        left.plot([], [], color=style.INK, linestyle=":", linewidth=0.8, label="shared evenly")
+        left.set(xlabel="ranks", ylabel="whole command (s)")
+        right.set(xlabel="ranks", ylabel="efficiency", ylim=(0, 1.05))
+        left.legend(fontsize="small", loc="lower left")
+        style.save(figure, Path(path), 300)
+
+
+def page(options):
+    """Rows "| name | seconds (efficiency) | ..." of the table with the ranks in its head."""
+    lines = [[cell.strip() for cell in line.strip("| \n").split("|")] for line in PAGE.read_text().splitlines() if line.startswith("|")]
+    head = next(i for i, cells in enumerate(lines) if cells[0] == "seconds (efficiency)")
+    ranks = [int(cell.split()[0].replace(",", "")) for cell in lines[head][1:-1]]
+    curves = {}
+    for name, *cells, _ in lines[head + 2:head + 5]:
+        seconds = [float(cell.split()[0].replace(",", "")) for cell in cells]
+        curves[name] = [(n, s, seconds[0] / (n * s)) for n, s in zip(ranks, seconds, strict=True)]
+    draw(curves, options.file)
 
 
 def named_logs(words):
@@ -136,13 +151,14 @@ def share(options):
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     commands = parser.add_subparsers(dest="command", required=True)
-    makers = {"predict": predict, "load": load, "share": share}
+    makers = {"predict": predict, "page": page, "load": load, "share": share}
     parsers = {name: commands.add_parser(name) for name in makers}
     for name in ("predict", "share"):
         for field in fields(Costs):
             parsers[name].add_argument(f"--{field.name}", type=float, default=field.default)
     parsers["predict"].add_argument("logs", nargs="+", metavar="NAME=LOG")
     parsers["predict"].add_argument("--plot", metavar="FILE")
+    parsers["page"].add_argument("file", metavar="FILE")
     for name in ("predict", "load"):
         parsers[name].add_argument("--grid", type=int, help="cells along each axis, instead of those of the log")
     parsers["load"].add_argument("log", metavar="LOG")

@@ -25,6 +25,7 @@ from kapitza.result import BadFile, Result
 CYCLE, CHAOTIC = 0, 1  # codes of the variable `end`
 NAMES = {"k": "gravity k", "m": "drive amplitude m", "drive_frequency": "drive frequency Ω (natural frequencies)",
          "drive_amplitude": "drive amplitude ε", "damping": "damping β", "quality_factor": "quality factor Q"}
+LINEAR = "limits of rest (linear)"
 VIEWS = ("ends", "exponent", "settling")
 
 
@@ -55,8 +56,8 @@ def draw_ends(axes: Axes, chart: xarray.Dataset, *, colours: Mapping[str, str] |
     if legend:
         known = style.KINDS | dict(colours or {})
         patches = [Patch(facecolor=known.get(name, style.UNSETTLED), edgecolor=style.FAINT, label=name) for name in names]
-        axes.legend(handles=patches, loc="upper left", bbox_to_anchor=(1.01, 1), fontsize="small", title="paler: longer periods",
-                    title_fontsize="small", alignment="left")
+        axes.legend(handles=[*patches, *axes.get_legend_handles_labels()[0]], loc="upper left", bbox_to_anchor=(1.01, 1), fontsize="small",
+                    title="paler: longer periods", title_fontsize="small", alignment="left")
     return axes
 
 
@@ -111,12 +112,12 @@ def linear_curves(result: Result, chart: xarray.Dataset) -> Iterator[tuple[np.nd
 
 def panel(axes: Axes, result: Result, chart: xarray.Dataset, view: str, *, legend: bool = True) -> Axes:
     """One start."""
+    for number, (x, y) in enumerate(linear_curves(result, chart)):
+        axes.plot(x, y, color=style.INK, linewidth=0.8, label="_" * (number > 0) + LINEAR)
     if view == "ends":
         draw_ends(axes, chart, legend=legend)
     else:
         draw_number(axes, chart, view, legend=legend)
-    for x, y in linear_curves(result, chart):
-        axes.plot(x, y, color=style.INK, linewidth=0.8)
     axes.set(xlim=chart["x"].values[[0, -1]], ylim=chart["y"].values[[0, -1]])
     for which, label in (("x", axes.set_xlabel), ("y", axes.set_ylabel)):
         key = chart.attrs[f"{which}_parameter"]
@@ -133,7 +134,11 @@ def draw(result: Result, arguments: argparse.Namespace) -> Figure:
     figure = new_figure(8.2, 4.8 * chart.sizes["start"])
     for place, axes in enumerate(np.atleast_1d(figure.subplots(chart.sizes["start"], 1))):
         panel(axes, result, chart.isel(start=place), arguments.view)
-    entitle(figure, result, f"{chart.sizes['x']} x {chart.sizes['y']} points")
+    swept = {chart.attrs["x_parameter"], chart.attrs["y_parameter"]}
+    names = {"beta": "β"} if swept & {"k", "m", "damping"} else {"quality_factor": "Q"}
+    kept = [f"{symbol} = {result.pendulum[name]:.6g}" for name, symbol in names.items()
+            if name in result.pendulum and not swept & {name, "damping"}]
+    entitle(figure, result, f"{chart.sizes['x']} × {chart.sizes['y']} points", ",  ".join(kept))
     return figure
 
 

@@ -81,6 +81,16 @@ def _mark_1992(axes: Axes, trade: xarray.Dataset, x: np.ndarray) -> None:
             axes.annotate("1992", (x[i], height), xytext=(7, 7), textcoords="offset points", fontsize="small", fontweight="bold")
 
 
+def _marks(trade: xarray.Dataset, floor: float) -> list[Line2D]:
+    """What the signs mean, as entries of a legend."""
+    marks = [Line2D([], [], ls="", marker="o", mfc="none", mec=style.INK, ms=9, mew=0.9, label="nothing beats it")]
+    if (trade["wrong"].values == 0).any():
+        marks.append(Line2D([], [], ls="", marker="v", mfc="white", mec=style.INK, ms=5, label="none wrong: at most this"))
+    if floor > 0:
+        marks.append(Line2D([], [], color=style.INK, lw=1, ls="--", label="last place of the start"))
+    return marks
+
+
 def draw_tradeoff(axes: Axes, trade: xarray.Dataset, *, per_cell: bool = False, colours: Mapping[str, str] | None = None,
                   legend: bool = True) -> Axes:
     """Share of wrong labels against time; `colours`: of the keys of WAYS."""
@@ -92,8 +102,7 @@ def draw_tradeoff(axes: Axes, trade: xarray.Dataset, *, per_cell: bool = False, 
     floor = 100 * float(trade.attrs["floor"])
     if floor > 0:
         axes.axhline(floor, color=style.INK, lw=1, ls="--", zorder=1)
-        axes.annotate("last place of the start", (1, floor), xycoords=("axes fraction", "data"), xytext=(-4, 3),
-                      textcoords="offset points", ha="right", fontsize="small")
+    axes.margins(0.07, 0.11)
     axes.set(xscale="log", yscale="log", ylabel="wrong labels / %",
              xlabel="processor time per million cells (s)" if per_cell else "processor time for the map of this scene (s)")
     for axis in (axes.xaxis, axes.yaxis):
@@ -105,7 +114,7 @@ def draw_tradeoff(axes: Axes, trade: xarray.Dataset, *, per_cell: bool = False, 
     if legend:
         looks = [(name, *WAYS.get(name, (style.FAINT, "o"))) for name in grouped(trade)]
         handles = [Line2D([], [], color=(colours or {}).get(name, colour), marker=marker, label=name) for name, colour, marker in looks]
-        axes.legend(handles=handles, loc="upper left", bbox_to_anchor=(1.01, 1), fontsize="small")
+        axes.legend(handles=[*handles, *_marks(trade, floor)], loc="upper left", bbox_to_anchor=(1.01, 1), fontsize="small")
     return axes
 
 
