@@ -49,8 +49,8 @@
       REAL(#study ".theta.max", "rad", -1e6, 1e6, "", theta.max, "Upper edge of the window.")
 #define VELOCITY_WINDOW(study, most, fallback, lowest, highest, help)                                                       \
   MAPPING(#study ".velocity", fallback, help),                                                                              \
-      REAL(#study ".velocity.min", "rad per drive radian", -most, most, lowest, velocity.min, "Lower edge of the window."), \
-      REAL(#study ".velocity.max", "rad per drive radian", -most, most, highest, velocity.max, "Upper edge of the window.")
+      REAL(#study ".velocity.min", KZ_VELOCITY_UNIT, -most, most, lowest, velocity.min, "Lower edge of the window."), \
+      REAL(#study ".velocity.max", KZ_VELOCITY_UNIT, -most, most, highest, velocity.max, "Upper edge of the window.")
 #define PLANE_AXIS(study, axis, help)                                                                                         \
   MAPPING(#study "." #axis, NULL, help),                                                                                      \
       ROW(#study "." #axis ".parameter", KZ_KEY_WORD, NULL, AT(axis.parameter),                                               \

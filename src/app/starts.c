@@ -21,42 +21,23 @@ static bool is_long(const char *text) {
   return digits > DBL_DECIMAL_DIG;
 }
 
-/* A velocity in rad/s or deg/s of a scene in SI units, as rad per drive radian; *wrong is NULL where it is right, and false comes back where
- * it is in neither. */
-static bool read_per_second(const char *text, const kz_starts *starts, double *value, const char **wrong) {
-  char number[64];
-  const char *slash = strstr(text, "rad/s");
-  const bool degrees = !slash;
-  if (degrees) slash = strstr(text, "deg/s");
-  if (!slash || slash[5] != '\0' || slash - text >= (long)sizeof number) return false;
-  while (slash > text && slash[-1] == ' ') slash--;
-  snprintf(number, sizeof number, "%.*s", (int)(slash - text), text);
-  *wrong = kz_text_real(number, value);
-  if (!*wrong && isnan(starts->pivot_frequency)) *wrong = "is per second, but the scene is not in SI units";
-  if (!*wrong) *value = (degrees ? *value / 180 * M_PI : *value) / starts->pivot_frequency;
-  return true;
-}
-
 /* One number of start i; `place` names it. */
 static kz_status read_number(const char *text, int which, const char *place, kz_starts *starts, int64_t i) {
   const kz_node node = {.kind = KZ_SCALAR, .text = (char *)text, .plain = true};
   kz_decimal value = {0};
   const char *wrong = NULL;
-  long divisor;
-  char multiple[64];
-  if (which == 0 && (kz_pi_parts(text, multiple, sizeof multiple, &divisor) || strstr(text, "\xc2\xb0")))
-    wrong = kz_scalar_angle(&node, &value.high);
-  else if (which == 0 || !read_per_second(text, starts, &value.high, &wrong))
+  char number[64];
+  if (which == 0 || !kz_scalar_per_second(&node, starts->pivot_frequency, &value.high, &wrong))
     wrong = kz_scalar_decimal(&node, which == 0, &value);
   if (!wrong && (value.high < -MOST[which] || value.high > MOST[which])) wrong = "is out of range";
   starts->start[i][which] = (kz_coordinate){.high = value.high, .low = value.low};
   if (!wrong) return KZ_OK;
   char hint[96] = "";
-  if (kz_scalar_with_a_point(text, multiple, sizeof multiple))
-    snprintf(hint, sizeof hint, " (with a decimal point: %s)", multiple);
+  if (kz_scalar_with_a_point(text, number, sizeof number))
+    snprintf(hint, sizeof hint, " (with a decimal point: %s)", number);
   return kz_fail(KZ_REFUSED, "%s: %s: \"%.60s\" %s%s; it must be a number from %g to %g in %s", place, NAMES[which], text,
                  wrong, hint, -MOST[which], MOST[which],
-                 which == 0 ? "rad, or in degrees such as 90 deg, or a part of pi such as pi/2" : "rad per drive radian");
+                 which == 0 ? "rad, or in degrees such as 90 deg, or a part of pi such as pi/2" : KZ_VELOCITY_UNIT);
 }
 
 /* Whether a text is digits alone, maybe with " deg" behind them. */

@@ -5,6 +5,7 @@ import re
 import kapitza
 import numpy as np
 import pytest
+import yaml
 from conftest import ROOT, plot
 from kapitza.plots import compare
 
@@ -117,3 +118,43 @@ def test_sweeps_take_units():
     with pytest.raises(kapitza.SceneError, match="another quantity"):
         kapitza.check({"pendulum": {"length": "20 cm", "frequency": 50, "amplitude": "8 mm", "quality_factor": 9},
                        "sweep": {"parameter": "amplitude", "min": "1 mm", "max": "2 Hz", "count": 2, "measure": ["strobe"]}})
+
+
+IN_SI = """\
+pendulum: {length: 20 cm, frequency: 50 Hz, amplitude: 2.5 cm, quality_factor: 10}
+basin: {theta: {count: 8}, velocity: {min: -16 rad/s, max: 900 deg/s, count: 8}, attractors: {starts: 64}, shocks: {scale: 10 °/s}}
+saddles: {velocity: {min: -1, max: 3rad/s}}
+orbit: {start: {theta: 150°, velocity: "170 deg/s"}}
+chart: {x: {parameter: amplitude, min: 1 mm, max: 1 cm, count: 2}, y: {parameter: length, min: 0.1, max: 0.2, count: 2},
+        start: {theta: [1, 90°], velocity: [0, 3 rad/s]}}
+"""
+
+
+def test_velocities_take_units_wherever_they_are_keys():
+    """The resolved scene has them in units of the drive, to the bit of velocity / omega, and reads as the same scene again."""
+    resolved = kapitza.check(IN_SI).scene
+    numbers = yaml.safe_load(resolved)
+    assert numbers["basin"]["velocity"]["min"] == -16 / OMEGA and numbers["basin"]["velocity"]["max"] == np.radians(900) / OMEGA
+    assert numbers["basin"]["shocks"]["scale"] == np.radians(10) / OMEGA and numbers["saddles"]["velocity"] == {"min": -1, "max": 3 / OMEGA}
+    assert numbers["orbit"]["start"] == {"theta": np.radians(150), "velocity": np.radians(170) / OMEGA}
+    assert numbers["chart"]["start"] == {"theta": [1, np.pi / 2], "velocity": [0, 3 / OMEGA]}
+    assert kapitza.check(resolved).scene == resolved
+    window = {"basin.velocity": {"centre": "10 rad/s", "width": "1 deg/s", "count": 8},
+              "basin.theta": {"centre": "170°", "width": "pi/8", "count": 8}}
+    deep = yaml.safe_load(kapitza.check(IN_SI, set=window).scene)["basin"]
+    assert float(deep["velocity"]["centre"]) == 10 / OMEGA and float(deep["theta"]["centre"]) == pytest.approx(np.radians(170), rel=1e-15)
+    assert float(deep["theta"]["width"]) == np.pi / 8
+
+
+@pytest.mark.parametrize(("change", "words"), [
+    ({"pendulum": {"k": 0.1, "damping": 0.1, "m": 0.1}},
+     '"-16 rad/s" is per second, but the scene is not in SI units; it must be a number'),
+    ({"orbit.start.velocity": "3 m/s"}, "is not a finite decimal number; it must be a number from -1000000000 to 1000000000 in "
+                                        "rad per drive radian, or with its unit: rad/s, deg/s"),
+    ({"orbit.start.velocity": "3 Hz"}, "is in a unit of another quantity"),
+    ({"chart.y": {"parameter": "frequency", "min": 10, "max": 20, "count": 2}}, "but the scene changes the frequency of the pivot"),
+    ({"pendulum.frequency": "50 mm"}, 'pendulum.frequency: "50 mm" is in a unit of another quantity'),
+])
+def test_velocities_with_a_wrong_unit_are_refused(change, words):
+    with pytest.raises(kapitza.SceneError, match=re.escape(words)):
+        kapitza.check(IN_SI, set=change)

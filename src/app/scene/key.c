@@ -74,6 +74,25 @@ void kz_key_children(const kz_key *keys, const char *parent, char *text, size_t 
       snprintf(text + strlen(text), bytes - strlen(text), "%s%s", text[0] ? "|" : "", keys->path + skip);
 }
 
+void kz_key_unit_words(const kz_key *key, char *text, size_t bytes) {
+  char others[128] = "";
+  kz_unit_names(key->unit, others, sizeof others);
+  snprintf(text, bytes, "%s%s%s%s%s", key->unit[0] ? " in " : "", key->unit, others[0] ? ", or with its unit: " : "", others,
+           kz_key_is_angle(key) ? ", or in degrees such as 90 deg, or a part of pi such as pi/2" : "");
+}
+
+void kz_key_accepts_with(const kz_key *keys, const kz_key *key, const char *noun, const char *unit, char *text, size_t bytes) {
+  char names[512] = "", detail[512] = "";
+  if (key->type == KZ_KEY_MAPPING)
+    kz_key_children(keys, key->path, names, sizeof names);
+  else
+    snprintf(names, sizeof names, "%s", kz_key_words(key));
+  kz_key_list(names, detail, sizeof detail);
+  if (key->high > key->low) print_range(key, detail, sizeof detail);
+  const bool word_too = key->type == KZ_KEY_COUNT && names[0];
+  snprintf(text, bytes, "%s%s%s%s%s", noun, detail, unit, word_too ? ", or " : "", word_too ? names : "");
+}
+
 void kz_key_accepts(const kz_key *keys, const kz_key *key, char *text, size_t bytes) {
   static const char *const nouns[] = {
       [KZ_KEY_MAPPING] = "a mapping of ",
@@ -89,21 +108,9 @@ void kz_key_accepts(const kz_key *keys, const kz_key *key, char *text, size_t by
       [KZ_KEY_REALS] = "a list of numbers",
       [KZ_KEY_HARMONICS] = "a list of {order: 1 to 16, amplitude, phase}",
   };
-  char names[512] = "", detail[512] = "";
-  if (key->type == KZ_KEY_MAPPING)
-    kz_key_children(keys, key->path, names, sizeof names);
-  else
-    snprintf(names, sizeof names, "%s", kz_key_words(key));
-  kz_key_list(names, detail, sizeof detail);
-  if (key->high > key->low) print_range(key, detail, sizeof detail);
-  char others[128] = "";
-  kz_unit_names(key->unit, others, sizeof others);
-  snprintf(text, bytes, "%s%s%s%s%s%s%s%s%s", nouns[key->type], detail, key->unit[0] ? " in " : "", key->unit,
-           others[0] ? ", or with its unit: " : "", others,
-           !kz_key_is_angle(key)         ? ""
-           : key->type == KZ_KEY_DECIMAL ? ", or in degrees such as 90 deg"
-                                         : ", or in degrees such as 90 deg, or a part of pi such as pi/2",
-           key->type == KZ_KEY_COUNT && names[0] ? ", or " : "", key->type == KZ_KEY_COUNT ? names : "");
+  char unit[256];
+  kz_key_unit_words(key, unit, sizeof unit);
+  kz_key_accepts_with(keys, key, nouns[key->type], unit, text, bytes);
 }
 
 static size_t least(size_t a, size_t b) {

@@ -77,3 +77,11 @@ const char *kz_scalar_quantity(const kz_node *node, const char *unit, double *va
   if (!wrong && factor != 1) *value *= factor;
   return wrong;
 }
+
+bool kz_scalar_per_second(const kz_node *node, double pivot_frequency, double *value, const char **wrong) {
+  double bare, speed;
+  if (!kz_scalar_real(node, &bare) || kz_scalar_quantity(node, KZ_VELOCITY_UNIT, &speed)) return false;
+  *wrong = isnan(pivot_frequency) ? "is per second, but the scene is not in SI units" : NULL;
+  *value = speed / pivot_frequency;
+  return true;
+}

@@ -234,6 +234,7 @@ kz_status kz_reading_keys(kz_reading *reading) {
                    "is not a mapping; write lines such as \"pendulum: {k: 0, damping: 0.05, m: 0.5}\"");
     return KZ_OK;
   }
+  kz_reading_velocities(reading);
   read_mapping(reading, reading->root, "");
   check_missing(reading);
   for (const kz_key *key = reading->keys; key->path; key++) check_chosen(reading, key);

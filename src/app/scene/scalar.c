@@ -80,6 +80,15 @@ static const char *text_wrong(const kz_node *node, size_t most, const char *too_
   return strlen(node->text) > most ? too_long : NULL;
 }
 
+/* The nearest double to an angle that is no decimal number: a part of pi, or one with the sign of degrees. */
+static const char *angle_decimal(const kz_node *node, kz_decimal *value) {
+  double angle;
+  const char *wrong = kz_scalar_angle(node, &angle);
+  if (wrong) return wrong;
+  kz_short_text number = kz_shortest(angle);
+  return kz_scalar_decimal(&(kz_node){.kind = KZ_SCALAR, .text = number.text, .plain = true}, false, value);
+}
+
 /* A number, as the sum of two doubles that is nearest to it; the text may be longer than doubles can tell. */
 const char *kz_scalar_decimal(const kz_node *node, bool is_angle, kz_decimal *value) {
   static const char unit[] = " deg";
@@ -87,6 +96,7 @@ const char *kz_scalar_decimal(const kz_node *node, bool is_angle, kz_decimal *va
   bool whole;
   const char *wrong = text_wrong(node, sizeof number - 1, "has more than 1023 characters");
   if (wrong) return wrong;
+  if (is_angle && (strstr(node->text, "pi") || strpbrk(node->text, "\xc2\xcf"))) return angle_decimal(node, value);
   const char *tail = is_angle ? strstr(node->text, unit) : NULL;
   const bool degrees = tail && tail[sizeof unit - 1] == '\0';
   snprintf(number, sizeof number, "%.*s", (int)(degrees ? tail - node->text : (long)strlen(node->text)), node->text);

@@ -31,6 +31,13 @@ void kz_key_children(const kz_key *keys, const char *parent, char *text, size_t 
 void kz_key_list(const char *words, char *text, size_t bytes);
 /* Writes what the key accepts, such as "an integer from 1 to 512", to `text` [bytes]. */
 void kz_key_accepts(const kz_key *keys, const kz_key *key, char *text, size_t bytes);
+/* The same with another noun in front and other words for the unit; kz_key_unit_words: " in m, or with its unit: cm, mm". */
+void kz_key_accepts_with(const kz_key *keys, const kz_key *key, const char *noun, const char *unit, char *text, size_t bytes);
+void kz_key_unit_words(const kz_key *key, char *text, size_t bytes);
+/* The types of numbers in the reference of keys: accepts = as kz_key_accepts, with the type's name as a link for its units; write = the
+ * definitions to which these links lead. */
+void kz_type_accepts(const kz_key *keys, const kz_key *key, char *text, size_t bytes);
+void kz_types_write(const kz_key *keys, FILE *out);
 /* Copies the replacement of a removed word to `now` [bytes]; false if `word` is not a removed word. */
 bool kz_key_renamed(const kz_key *key, const char *word, char *now, size_t bytes);
 /* Copies the word of `words` ("a|b|c") that is most similar to `word` to `nearest` [bytes]; false if none is similar. */
@@ -79,6 +86,9 @@ const char *kz_scalar_decimal(const kz_node *node, bool is_angle, kz_decimal *va
 bool kz_scalar_with_a_point(const char *text, char *number, size_t bytes);
 /* A number, or one with a unit ("20 cm"); *value is in `unit`; "" accepts any unit of the table. */
 const char *kz_scalar_quantity(const kz_node *node, const char *unit, double *value);
+/* True for a velocity per second ("3 rad/s", "170 deg/s"): *value in rad per drive radian of a pivot at pivot_frequency (rad/s; NaN = the scene
+ * is not in SI units), *wrong = what is wrong, or NULL. */
+bool kz_scalar_per_second(const kz_node *node, double pivot_frequency, double *value, const char **wrong);
 /* Splits "3 pi/4" into the text "3", written to multiple [bytes], and the divisor 4; false if the text is not a part of pi. */
 bool kz_pi_parts(const char *text, char *multiple, size_t bytes, long *divisor);
 const char *kz_scalar_boolean(const kz_node *node, bool *value);
@@ -128,6 +138,8 @@ void kz_complain_at(kz_reading *reading, const kz_node *node, const char *path, 
     __attribute__((format(printf, 4, 5)));
 /* Sets every field of `scene` to its default, then reads the tree into it by the table. */
 kz_status kz_reading_keys(kz_reading *reading);
+/* Replaces velocities per second in the tree, of every key in KZ_VELOCITY_UNIT, by numbers in that unit. */
+void kz_reading_velocities(kz_reading *reading);
 /* Checks rules that connect several keys (an axis, the pendulum's parameters), and sets the values that follow from others. */
 void kz_reading_rules(kz_reading *reading);
 

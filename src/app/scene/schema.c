@@ -72,13 +72,14 @@ static void write_key(const kz_key *key, FILE *out) {
   const bool list = key->type >= KZ_KEY_WORDS, angle = kz_key_is_angle(key), decimal = key->type == KZ_KEY_DECIMAL;
   if (list) fprintf(out, "{\"type\": \"array\", \"minItems\": 1, \"maxItems\": %d, \"items\": ", KZ_LIST_MAX);
   const bool word_too = key->type == KZ_KEY_COUNT && key->words; /* a number or a word, as "auto" */
-  const bool unit = key->type == KZ_KEY_REAL && (kz_unit_is_known(key->unit) || strcmp(key->unit, KZ_OWN_UNIT) == 0);
+  const bool real = key->type == KZ_KEY_REAL || decimal || key->type == KZ_KEY_REALS;
+  const bool unit = real && (kz_unit_is_known(key->unit) || strcmp(key->unit, KZ_OWN_UNIT) == 0);
   if (angle)
-    fprintf(out, "{\"anyOf\": [{\"type\": \"string\", \"pattern\": \"^([-+.0-9eE]+ ?deg|%s)$\"}, ",
-            decimal ? "[-+.0-9eE]+" : "[-+.0-9eE]* ?pi(/[0-9]+)?");
+    fprintf(out, "{\"anyOf\": [{\"type\": \"string\", \"pattern\": \"^([-+.0-9eE]+ ?(deg|\xc2\xb0)|%s)$\"}, ",
+            decimal ? "[-+.0-9eE]+|[-+.0-9eE]* ?pi(/[0-9]+)?" : "[-+.0-9eE]* ?pi(/[0-9]+)?");
   else if (decimal || unit)
     fprintf(out, "{\"anyOf\": [{\"type\": \"string\", \"pattern\": \"^[-+.0-9eE]+%s$\"}, ",
-            unit ? " ?[A-Za-z1][A-Za-z0-9/^ *]*" : "");
+            unit ? decimal ? "( ?(rad|deg|\xc2\xb0)/s)?" : " ?(\xc2\xb0/s|[A-Za-z1][A-Za-z0-9/^ *]*)" : "");
   if (word_too) {
     fputs("{\"anyOf\": [", out);
     write_words(key->words, out);

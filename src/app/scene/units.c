@@ -31,6 +31,9 @@ static const unit units[] = {
     {"rad s-1", "rad/s", 1},
     {"rad s-1", "Hz", 2 * M_PI},
     {"rad s-1", "rpm", 2 * M_PI / 60},
+    {KZ_VELOCITY_UNIT, "rad/s", 1}, /* per second: what a drive radian is depends on the scene (quantity.c) */
+    {KZ_VELOCITY_UNIT, "deg/s", M_PI / 180},
+    {KZ_VELOCITY_UNIT, "\xc2\xb0/s", M_PI / 180},
     {"m s-2", "m/s2", 1},
     {"m s-2", "cm/s2", 1e-2},
     {"kg m2", "kg m2", 1},

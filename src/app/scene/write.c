@@ -60,7 +60,7 @@ static const char *default_of(const kz_key *key) {
 
 static void write_row(const kz_key *keys, const kz_key *key, FILE *out) {
   char accepted[700];
-  kz_key_accepts(keys, key, accepted, sizeof accepted);
+  kz_type_accepts(keys, key, accepted, sizeof accepted);
   fprintf(out, "| `%s` | %s | %s | %s%s%s%s |\n", key->path, accepted, default_of(key), key->form ? "(" : "",
           key->form ? key->form : "", key->form ? ") " : "", key->help);
 }
@@ -73,7 +73,7 @@ void kz_scene_reference(const kz_key *keys, FILE *out) {
       "Written by `kapitza keys` from the program's own table; do not edit. `-` = may be left out and has no default.\n"
       "A letter in parentheses marks one of several ways to give the same. Use the keys of one letter only; `required` then "
       "holds for "
-      "that letter.\n\n",
+      "that letter. Names of types lead to [their definitions](#types-of-numbers).\n\n",
       out);
   fputs("| key | accepted | default | meaning |\n| --- | --- | --- | --- |\n", out);
   for (const kz_key *key = keys; key->path; key++) {
@@ -83,4 +83,5 @@ void kz_scene_reference(const kz_key *keys, FILE *out) {
     else
       write_row(keys, key, out);
   }
+  kz_types_write(keys, out);
 }

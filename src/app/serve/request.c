@@ -122,7 +122,7 @@ static const kz_key start_rows[] = {
     {.path = "theta", .type = KZ_KEY_DECIMAL, .unit = "rad", .low = -1e6, .high = 1e6, .offset = AT(theta)},
     {.path = "velocity",
      .type = KZ_KEY_DECIMAL,
-     .unit = "rad per drive radian",
+     .unit = "rad per drive radian, without a unit behind it",
      .low = -1e9,
      .high = 1e9,
      .offset = AT(velocity)},

@@ -16,7 +16,7 @@ static const kz_key keys[] = {
     MAPPING("chart.start", NULL, "Starts, at t = 0; each has a chart of its own."),
     ROW("chart.start.theta", KZ_KEY_REALS, NULL, AT(theta), "Angles from down.", .unit = "rad", .low = -1e6, .high = 1e6),
     ROW("chart.start.velocity", KZ_KEY_REALS, "[0]", AT(velocity), "Velocities: one for each angle, or one for all.",
-        .unit = "rad per drive radian", .low = -1e3, .high = 1e3),
+        .unit = KZ_VELOCITY_UNIT, .low = -1e3, .high = 1e3),
     INTEGER("chart.max_period", 1, KZ_CHART_MOST_PERIOD, "16", max_period, "Longest period of a cycle that is recognised."),
     INTEGER("chart.max_periods", 1, 1e8, "", max_periods,
             "Drive periods after which a motion counts as not settled; left out: the number that the damping needs, at least "

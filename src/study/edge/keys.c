@@ -6,7 +6,7 @@
 
 #define EDGE_START(place, help)                                                                                             \
   MAPPING("edge." #place, NULL, help), REAL("edge." #place ".theta", "rad", -1e6, 1e6, NULL, place[0], "Angle from down."), \
-      REAL("edge." #place ".velocity", "rad per drive radian", -KZ_MOST_SPEED, KZ_MOST_SPEED, NULL, place[1], "Velocity.")
+      REAL("edge." #place ".velocity", KZ_VELOCITY_UNIT, -KZ_MOST_SPEED, KZ_MOST_SPEED, NULL, place[1], "Velocity.")
 
 static const kz_key keys[] = {
     STUDY("Study: the saddle on the edge between the basins of two starts, by edge tracking."),

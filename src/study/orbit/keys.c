@@ -8,7 +8,7 @@ static const kz_key keys[] = {
     STUDY("Study: one motion, its strobe points, turning points and spectrum."),
     MAPPING("orbit.start", "", "The start, at t = 0. Give this or an attractor."),
     REAL("orbit.start.theta", "rad", -1e6, 1e6, NULL, theta, "Angle from down."),
-    REAL("orbit.start.velocity", "rad per drive radian", -1e9, 1e9, NULL, velocity, "Velocity."),
+    REAL("orbit.start.velocity", KZ_VELOCITY_UNIT, -1e9, 1e9, NULL, velocity, "Velocity."),
     INTEGER("orbit.attractor", 0, 32767, "", attractor,
             "Id in the catalogue of the basin or attractors study of the same scene: its closed orbit from the first strobe "
             "point."),
