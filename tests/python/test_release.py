@@ -8,6 +8,7 @@ import kapitza as kapitza_package
 import numpy as np
 import own_orbit
 import pytest
+from conftest import EXTENSIVE
 from rigs import BETA, LINEAR, PENDULUM, SMOOTH, WINDOW, K, M, run, step
 
 
