@@ -47,8 +47,8 @@
 #define THETA_WINDOW(study, help)                                                                                              \
   MAPPING(#study ".theta", "", help), REAL(#study ".theta.min", "rad", -1e6, 1e6, "", theta.min, "Lower edge of the window."), \
       REAL(#study ".theta.max", "rad", -1e6, 1e6, "", theta.max, "Upper edge of the window.")
-#define VELOCITY_WINDOW(study, most, fallback, lowest, highest, help)                                                       \
-  MAPPING(#study ".velocity", fallback, help),                                                                              \
+#define VELOCITY_WINDOW(study, most, fallback, lowest, highest, help)                                                 \
+  MAPPING(#study ".velocity", fallback, help),                                                                        \
       REAL(#study ".velocity.min", KZ_VELOCITY_UNIT, -most, most, lowest, velocity.min, "Lower edge of the window."), \
       REAL(#study ".velocity.max", KZ_VELOCITY_UNIT, -most, most, highest, velocity.max, "Upper edge of the window.")
 #define PLANE_AXIS(study, axis, help)                                                                                         \

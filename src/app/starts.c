@@ -33,8 +33,7 @@ static kz_status read_number(const char *text, int which, const char *place, kz_
   starts->start[i][which] = (kz_coordinate){.high = value.high, .low = value.low};
   if (!wrong) return KZ_OK;
   char hint[96] = "";
-  if (kz_scalar_with_a_point(text, number, sizeof number))
-    snprintf(hint, sizeof hint, " (with a decimal point: %s)", number);
+  if (kz_scalar_with_a_point(text, number, sizeof number)) snprintf(hint, sizeof hint, " (with a decimal point: %s)", number);
   return kz_fail(KZ_REFUSED, "%s: %s: \"%.60s\" %s%s; it must be a number from %g to %g in %s", place, NAMES[which], text,
                  wrong, hint, -MOST[which], MOST[which],
                  which == 0 ? "rad, or in degrees such as 90 deg, or a part of pi such as pi/2" : KZ_VELOCITY_UNIT);

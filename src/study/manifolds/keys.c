@@ -13,8 +13,7 @@ static const kz_key keys[] = {
          "Length of each branch: rad and rad per drive radian together, below max_speed."),
     REAL("manifolds.spacing", "rad", 1e-6, 1, "0.02", spacing,
          "Largest distance of neighbouring points; up to 32 times smaller where a manifold bends by over 0.3 rad."),
-    REAL("manifolds.max_speed", KZ_VELOCITY_UNIT, KZ_ABOVE_ZERO, 1e3, "2", max_speed,
-         "Parts at larger speeds are left out."),
+    REAL("manifolds.max_speed", KZ_VELOCITY_UNIT, KZ_ABOVE_ZERO, 1e3, "2", max_speed, "Parts at larger speeds are left out."),
     {.path = NULL},
 };
 
