@@ -49,6 +49,7 @@ def test_the_pages_show_figures_of_print_size():
     known["scaling"] = ["178mm"]  # benchmarks/scaling.py
     for name in shown & known.keys():
         picture = Image.open(ROOT / "docs" / "figures" / f"{name}.png")
+        picture.load()  # whole, not the beginning of a file
         millimetres = 178 if "178mm" in known[name] else 86
         assert round(picture.info["dpi"][0]) == 300 and abs(picture.width - millimetres / 25.4 * 300) < 2, name
     drawings = {path.stem: path.read_text() for path in (ROOT / "docs" / "figures").glob("drawing-*.svg")}

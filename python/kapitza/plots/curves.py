@@ -1,7 +1,7 @@
 """Transition curves of a stability chart: their names, colours and ways, exact and by the papers' formulas."""
 
 import re
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 
 import numpy as np
 import xarray
@@ -114,9 +114,10 @@ def is_branch(chart: xarray.Dataset, name: str) -> bool:
     return name.endswith("_upper") and name.removesuffix("_upper") in chart and not name.startswith("blackburn")
 
 
-def draw_curves(axes: Axes, chart: xarray.Dataset, *, colours: Mapping[str, str] | None = None, legend: bool = True) -> Axes:
+def draw_curves(axes: Axes, chart: xarray.Dataset, *, colours: Mapping[str, str] | None = None, legend: bool = True,
+                zones: Sequence[Artist] = ()) -> Axes:
     """Exact curves solid, formulas dashed, undamped ones faint where damped ones stand beside them. `colours`: by name of the
-    curve (default: family)."""
+    curve (default: family); `zones`: further entries of the legend."""
     names = [name for name in curve_names(chart) if not is_branch(chart, name)]
     damped = any(name.startswith("damped") for name in names)
     across, up, *_ = axes_of(chart)
@@ -127,7 +128,7 @@ def draw_curves(axes: Axes, chart: xarray.Dataset, *, colours: Mapping[str, str]
                   linestyle=(0, (1, 1.2)) if "refined" in name else (0, (4, 2)) if formula else "-",
                   linewidth=0.7 if faint else 1.3 if formula else 1.6, label=_entry(chart, name) + (", undamped" if faint else ""))
     if names and legend:
-        axes.legend(handles=_entries(axes, names, damped), loc="upper left", bbox_to_anchor=(1.01, 1), fontsize="small")
+        axes.legend(handles=[*_entries(axes, names, damped), *zones], loc="upper left", bbox_to_anchor=(1.01, 1), fontsize="small")
     return axes
 
 

@@ -48,7 +48,7 @@ def draw_zones(axes: Axes, chart: xarray.Dataset, *, colours: Sequence[str] = ("
     across, up, *_ = axes_of(chart)
     axes.pcolormesh(across * chart["k"], up * chart["m"], chart["stable"], cmap=ListedColormap(list(colours)), vmin=0, vmax=1,
                     shading="nearest", rasterized=True)
-    draw_curves(axes, chart, legend=legend)
+    draw_curves(axes, chart, legend=legend, zones=[Patch(facecolor=colours[1], edgecolor=style.FAINT, label="rest is stable")])
     mark_thresholds(axes, chart)
     return frame(axes, chart)
 
