@@ -64,7 +64,7 @@ static const kz_key own[] = {
         "The drive at equal times of a period, the first at t = 0, in units of drive_amplitude; its mean is left out.",
         .unit = "", .low = -1e6, .high = 1e6),
     PART("pendulum.ramp", "", parameters.has_ramp,
-         "Damping or drive begins at another value when a cell of a basin is released, and comes to its own value."),
+         "Damping or drive has the value `from` when a cell of a basin is released, and the pendulum's own after `periods`."),
     WORD("pendulum.ramp.key", "damping|drive_amplitude", NULL, parameters.written.ramp_key,
          "The quantity that changes: beta, or all of the drive in proportion."),
     REAL("pendulum.ramp.from", "", -1e6, 1e6, NULL, parameters.written.ramp_from, "beta or m at the beginning, t = 0."),

@@ -65,9 +65,9 @@ static const kz_key keys[] = {
             "Decades of these distances: 10 go from 0.01 down to 1e-12 rad; nearer partners need basin.method exact, because "
             "doubles cannot distinguish such starts."),
     INTEGER("basin.phases", 2, 64, "", phases,
-            "Also releases every cell at so many phases of the drive, spread evenly over a period from 0 on: how much of the "
-            "window ends "
-            "alike at all of them."),
+            "Number of phases of the drive, spread evenly over a period from 0 on, at which every cell is released as well; "
+            "the result "
+            "has the share of the window that ends alike at all of them."),
     PART("basin.shocks", "", has_shocks,
          "The smallest shocks (a sudden change of angle, of velocity, of both) that push each attractor out of its basin."),
     REAL("basin.shocks.scale", KZ_VELOCITY_UNIT, 1e-6, 1e6, "1", shocks.scale,
