@@ -11,10 +11,8 @@ find_path(FLINT_3_FOLDER flint/arb.h)
 find_path(FLINT_ARB_FOLDER arb.h)
 if(FLINT_LIBRARY AND GMP_LIBRARY AND FLINT_3_FOLDER)
   set(KAPITZA_FLINT_LIBRARIES ${FLINT_LIBRARY} ${beneath})
-  set(KAPITZA_FLINT_DEFINITIONS KAPITZA_FLINT_3)
 elseif(FLINT_LIBRARY AND GMP_LIBRARY AND FLINT_ARB_LIBRARY AND FLINT_ARB_FOLDER)
   set(KAPITZA_FLINT_LIBRARIES ${FLINT_ARB_LIBRARY} ${FLINT_LIBRARY} ${beneath})
-  set(KAPITZA_FLINT_DEFINITIONS "")
 else()
   message(FATAL_ERROR "kapitza needs FLINT with Arb. Install it with one of\n"
                       "  sudo apt-get install libflint-dev (Debian 12 and before: libflint-arb-dev)\n"

@@ -275,8 +275,6 @@ typedef struct kz_proof kz_proof;
  * *proof in every case; it may be NULL. */
 kz_status kz_proof_create(const kz_pendulum *pendulum, int64_t columns, int64_t rows, double top, double fastest,
                           kz_proof **proof);
-/* Adds what starts need that are followed with KZ_ENCLOSE_DIGITS; the status is that of kz_proof_create. */
-kz_status kz_proof_refine(kz_proof *proof, const kz_pendulum *pendulum, double fastest);
 void kz_proof_free(kz_proof *proof);
 
 /* An ellipse around a strobe point: all states point + axes z with |z| <= radius. Radius 0 = no ellipse. */
@@ -318,7 +316,7 @@ int64_t kz_proof_adopt(kz_proof *proof, const uint8_t *label, const uint8_t mirr
 typedef struct {
   double theta[2], velocity[2], radius;
 } kz_proof_start;
-/* Follows n starts in one of the precisions KZ_ENCLOSE_DOUBLES, .. (KZ_ENCLOSE_DIGITS after kz_proof_refine). number [n] = the attractor on which a
+/* Follows n starts in one of the precisions KZ_ENCLOSE_DOUBLES, .. number [n] = the attractor on which a
  * start is proved to end; 0 = no proof because its enclosure has grown too large, so more digits may help; KZ_PROOF_LATE = no proof within
  * most_periods. */
 void kz_proof_follow(const kz_proof *proof, int32_t precision, int64_t n, const kz_proof_start *start, int64_t most_periods,

@@ -217,9 +217,9 @@ kz_status kz_arbitrary_restore(kz_arbitrary *orbit, const char *text);
 /* ---- enclosures ---- */
 
 /* Sets of states that are proved to contain the true motion: they include every error of the method and every rounding
- * (docs/explanation/proof.md). Taylor polynomials have order 22 in doubles, and 40 in pairs of doubles, in quad precision and in 48 digits. The pendulum
+ * (docs/explanation/proof.md). Taylor polynomials have order 22 in doubles, and 40 in sums of two and of three doubles. The pendulum
  * is exactly the given doubles. */
-enum { KZ_ENCLOSE_DOUBLES, KZ_ENCLOSE_PAIRS, KZ_ENCLOSE_QUADS, KZ_ENCLOSE_DIGITS, KZ_ENCLOSURES };
+enum { KZ_ENCLOSE_DOUBLES, KZ_ENCLOSE_PAIRS, KZ_ENCLOSE_TRIPLES, KZ_ENCLOSURES };
 
 /* The set of all states centre + matrix z with |z[i]| <= reach[i]. A set that could not be followed has reach INFINITY: it is lost. */
 typedef struct {

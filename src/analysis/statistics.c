@@ -17,7 +17,10 @@ kz_line kz_fit_line(int64_t n, const double *x, const double *y) {
 double kz_share_upper(int64_t hits, int64_t n, double confidence) {
   if (hits >= n) return 1;
   if (hits == 0) return -expm1(log1p(-confidence) / (double)n);
-  return gsl_cdf_beta_Pinv(confidence, (double)hits + 1, (double)(n - hits));
+  double low = 0, high = 1; /* GSL's inverse does not converge for some shares of thousands, and ends the program */
+  for (double share = 0.5; low < share && share < high; share = (low + high) / 2)
+    *(gsl_cdf_beta_P(share, (double)hits + 1, (double)(n - hits)) < confidence ? &low : &high) = share;
+  return high;
 }
 
 /* Quantile of the chi-squared distribution: GSL's does not converge for many degrees of freedom, where the formula of E. B. Wilson and

@@ -8,7 +8,7 @@
 
 #include "kapitza/kernel.h"
 
-#ifdef KAPITZA_FLINT_3
+#if __has_include(<flint/arb.h>)
 #include <flint/arb.h>
 #include <flint/fmpq.h>
 #else

@@ -31,7 +31,7 @@ kz_status kz_enclosure_tables_create(const kz_pendulum *pendulum, int32_t precis
 }
 
 void kz_enclosure_tables_free(kz_enclosure_tables *tables) {
-  for (int32_t c = 0; tables && c < tables->n_classes; c++) kz_speed_class_free(tables->classes[c]);
+  for (int32_t c = 0; tables && c < tables->n_classes; c++) free(tables->classes[c]);
   free(tables);
 }
 
@@ -54,15 +54,14 @@ typedef struct {
 } arithmetic;
 static const arithmetic arithmetic_of[KZ_ENCLOSURES] = {[KZ_ENCLOSE_DOUBLES] = {kz_centres_step_doubles, kz_sets_wrap},
                                                         [KZ_ENCLOSE_PAIRS] = {kz_centres_step_pairs, kz_sets_wrap},
-                                                        [KZ_ENCLOSE_QUADS] = {kz_centres_step_quads, kz_sets_wrap_quads},
-                                                        [KZ_ENCLOSE_DIGITS] = {kz_centres_step_digits, kz_sets_wrap_digits}};
+                                                        [KZ_ENCLOSE_TRIPLES] = {kz_centres_step_triples, kz_sets_wrap_triples}};
 
 static void advance_group(const kz_enclosure_tables *tables, const kz_speed_class *speed, kz_enclosure_frame frame, group *g) {
   const bool jacobian = frame == KZ_KEEP_FRAME;
   kz_circle circle[KZ_PARTS];
   const arithmetic *centres = &arithmetic_of[tables->precision];
   const int n_circle = jacobian ? KZ_ORDER_JACOBIAN : KZ_ORDER_TANGENT;
-  for (int p = 0; p < KZ_PARTS && tables->precision < KZ_ENCLOSE_QUADS; p++) {
+  for (int p = 0; p < KZ_PARTS && tables->precision < KZ_ENCLOSE_TRIPLES; p++) {
     kz_sets_check(speed, &g->sets[p]);
     kz_sets_drop_rest(&g->sets[p]);
   }
@@ -71,7 +70,6 @@ static void advance_group(const kz_enclosure_tables *tables, const kz_speed_clas
     centres->step(speed, i, g->sets, n_circle, circle);
     for (int p = 0; p < KZ_PARTS; p++) {
       kz_neighbours_step(speed, i, &circle[p], jacobian, &g->sets[p]);
-      if (speed->digits) kz_sets_widen(g->sets[p].error, &g->sets[p]);
       if (!jacobian && (i + 1) % speed->frame_steps == 0 && i + 1 < speed->n_steps) kz_sets_renew_frame(&g->sets[p]);
     }
   }

@@ -9,32 +9,22 @@
 #include "kapitza/kernel.h"
 #include "taylor/pairs_arithmetic.h"
 
-/* Orders of the Taylor polynomials: of the centre in doubles; in pairs or quads; of the tangent map with new frames, where its remainder is
+/* Orders of the Taylor polynomials: of the centre in doubles; in pairs or triples; of the tangent map with new frames, where its remainder is
  * small compared with the set; of the tangent map with a kept frame. KZ_PARTS vectors are advanced together, so that the processor has
  * work while it waits for sums. */
 enum { KZ_ORDER_DOUBLES = 22, KZ_ORDER_PAIRS = 40, KZ_ORDER_TANGENT = 8, KZ_ORDER_JACOBIAN = 20, KZ_PARTS = 2 };
 
-/* Number of coefficients of a centre that are pairs; the others, below 1e-18 of the velocity, are doubles. Number of coefficients that are
- * quads, for a centre in quads; the others are as for a centre in pairs. */
-enum { KZ_COEFFICIENTS_PAIRS = 25, KZ_COEFFICIENTS_QUADS = 6 };
+/* Number of coefficients of a centre in pairs that are pairs; the others, below 1e-18 of the velocity, are doubles. Number of coefficients of a
+ * centre in triples that are triples, and of those that are triples or pairs. */
+enum { KZ_COEFFICIENTS_PAIRS = 25, KZ_COEFFICIENTS_TRIPLES = 14, KZ_COEFFICIENTS_FINE = 29 };
 
 /* Relative margin: far above the rounding of the few operations on positive numbers in a bound. */
 #define KZ_LARGER (1 + 0x1p-40)
 
-/* A real number: high + low, |low| at most half a unit in the last place of high. */
+/* A real number as a sum of three doubles, each at most half a unit in the last place of the one before. */
 typedef struct {
-  double high, low;
+  double high, low, rest;
 } kz_constant;
-
-/* Constants of a step in quad precision: h beta, h, h torque, powers of s in h a(t) and in -h b(t). */
-typedef struct {
-  __float128 damping, step, push, *along, *across; /* [n_steps][order] */
-} kz_quad_constants;
-
-/* The same as balls that hold them, for centres in digits. */
-typedef struct kz_digit_constants kz_digit_constants;
-kz_digit_constants *kz_digit_constants_create(const kz_pendulum *pendulum, int32_t n_steps);
-void kz_digit_constants_free(kz_digit_constants *constants, int32_t n_steps);
 
 /* A step of 2 pi / n_steps for centres that are at most `fastest` at its beginning. Time s in steps: 0 .. 1. */
 typedef struct {
@@ -55,8 +45,6 @@ typedef struct {
   kz_constant step[KZ_ORDER_PAIRS];    /* h / (n + 1) */
   kz_constant inverse[KZ_ORDER_PAIRS]; /* 1 / (n + 1) */
   kz_constant push;                    /* h torque */
-  kz_quad_constants quads;             /* the same, unrounded */
-  kz_digit_constants *digits;          /* NULL but for centres in digits */
   kz_constant *across;                 /* [n_steps][order] powers of s in -h b(t), behind those along */
   kz_constant along[];                 /* [n_steps][order] powers of s in h a(t) */
 } kz_speed_class;
@@ -68,7 +56,7 @@ struct kz_enclosure_tables {
   kz_speed_class *classes[];
 };
 
-/* LANES sets, first the numbers of kz_enclosure in their order. A centre is the sum of a pair and a rest, which is 0 except in quads and in digits. */
+/* LANES sets, first the numbers of kz_enclosure in their order. A centre is the sum of a pair and a rest, which is 0 except in triples. */
 typedef struct {
   pair theta;
   vector theta_rest;
@@ -76,7 +64,6 @@ typedef struct {
   vector velocity_rest;
   vector matrix[2][2], reach[2], jacobian_error[2][2];
   vector most_sine; /* upper bound of |sin theta| of the centre on the present step */
-  vector error[2];  /* of centres in digits, theta and velocity: on the present step */
   mask too_fast, lost;
 } kz_sets;
 enum { KZ_SET_NUMBERS = sizeof(kz_enclosure) / sizeof(double) };
@@ -93,28 +80,29 @@ void kz_sets_check(const kz_speed_class *speed, kz_sets *sets);
 typedef struct {
   vector sine[KZ_ORDER_JACOBIAN], cosine[KZ_ORDER_JACOBIAN];
 } kz_circle;
-/* Step i of the centres of KZ_PARTS vectors. circle = the first n coefficients along them. In quads and digits lost sets do not move. */
+/* Step i of the centres of KZ_PARTS vectors. circle = the first n coefficients along them. */
 typedef void kz_centres_step(const kz_speed_class *speed, int32_t i, kz_sets *sets, int n, kz_circle circle[KZ_PARTS]);
-kz_centres_step kz_centres_step_doubles, kz_centres_step_pairs, kz_centres_step_quads, kz_centres_step_digits;
+kz_centres_step kz_centres_step_doubles, kz_centres_step_pairs, kz_centres_step_triples;
 /* The same step of the sets around the centres; jacobian = true updates jacobian_error too. */
 void kz_neighbours_step(const kz_speed_class *speed, int32_t step, const kz_circle *circle, bool jacobian, kz_sets *sets);
 /* Widens the sets by an error p of their centres. */
 void kz_sets_widen(const vector p[2], kz_sets *sets);
 /* Sets the rest of each centre to 0 and widens the sets by it. */
 void kz_sets_drop_rest(kz_sets *sets);
-/* Removes whole turns from the centres, in pairs, in quads or in digits. */
+/* Removes whole turns from the centres, in pairs or in triples. */
 void kz_sets_wrap(kz_sets *sets);
-void kz_sets_wrap_quads(kz_sets *sets);
-void kz_sets_wrap_digits(kz_sets *sets);
+void kz_sets_wrap_triples(kz_sets *sets);
 /* Replaces each set by a rectangle around it, along its longer side. */
 void kz_sets_renew_frame(kz_sets *sets);
 
 /* A class of the given precision, for centres up to `fastest` (rad per drive radian); NULL if it needs too many steps. */
 kz_speed_class *kz_speed_class_create(const kz_pendulum *pendulum, int32_t precision, double fastest);
-void kz_speed_class_free(kz_speed_class *speed);
-/* Sine and cosine of theta [n][2], high and low, as a step takes them (for tests): [n] in doubles, [n][2] in pairs. */
+/* Sets the constants of a class whose number of steps and order are set. */
+void kz_speed_class_set_constants(const kz_pendulum *pendulum, kz_speed_class *speed);
+/* Sine and cosine of theta [n][2], high and low, as a step takes them (for tests): [n] in doubles, [n][2] in pairs; [n][3] in triples. */
 void kz_enclosure_sine_doubles(int64_t n, const double *theta, double *sine, double *cosine);
 void kz_enclosure_sine_pairs(int64_t n, const double *theta, double *sine, double *cosine);
+void kz_enclosure_sine_triples(int64_t n, const double *theta, double *sine, double *cosine);
 
 OPERATION vector size_of(vector x) {
   return (vector)((mask)x & INT64_MAX);

@@ -8,23 +8,17 @@
 
 enum { MOST_STEPS = 4096, P = KZ_ORDER_PAIRS, MOST = KZ_ORDER_JACOBIAN, MOTION = -1 };
 static const real CAUTION = 1 + 1e-9L; /* relative, far above the rounding of the bounds and in the C library's functions */
-static const real U = 0x1p-53L, U_QUAD = 0x1p-113L;
-/* In units of U_QUAD: of constants in quads, which are products of 2 pi, cosines and powers of h (2^-108, 19 and 36 units). */
-static const real QUAD_CONSTANTS = 96;
-/* And of each harmonic more: 26 by the angle of its cosine, and the roundings of its sum. */
-static const real HARMONIC_CONSTANTS = 32;
+static const real U = 0x1p-53L;
+/* Of the sizes of the products in a coefficient, over its own: then |x_1| and |x_2| of a triple are as small as its operations take them. */
+static const real LARGEST_SUM = 1e10L;
 static const real TINY = 1e-280L; /* products below the range of doubles */
-
-/* h beta, h, h torque, and the first n powers of s in h a(t + h s) and -h b(t + h s) [n_steps][n]; h = 2 pi / n_steps. */
-void kz_interval_constants(const kz_pendulum *pendulum, int32_t n_steps, int32_t n, __float128 *damping, __float128 *step,
-                           __float128 *push, __float128 *along, __float128 *across);
 
 /* The bounds of a step. */
 typedef struct {
   const kz_pendulum *pendulum;
   int n_majorants, order;
-  bool pairs, quads; /* quads: with the first coefficients in quads, else as pairs */
-  bool digits;       /* balls, which know their errors; bounds of coefficients are those of quads, which are larger */
+  bool pairs, triples; /* triples: with the first coefficients in triples, else as pairs */
+  bool fits;           /* whether the sizes of products are what (B2) counts on */
   real h;
   real torque[P];                        /* sizes of the torque's powers of s */
   real velocity[P], sine[P];             /* sizes of coefficients; of the cosine's too */
@@ -32,23 +26,34 @@ typedef struct {
   majorant majorant[MAJORANTS];
 } bounds;
 
-/* Is coefficient n a quad? */
-static bool is_quad(const bounds *b, int n) {
-  return b->quads && n < KZ_COEFFICIENTS_QUADS;
+/* Is coefficient n a triple? */
+static bool is_triple(const bounds *b, int n) {
+  return b->triples && n < KZ_COEFFICIENTS_TRIPLES;
+}
+
+/* Number of coefficients that are more than doubles. */
+static int fine_ones(const bounds *b) {
+  return b->triples ? KZ_COEFFICIENTS_FINE : b->pairs ? KZ_COEFFICIENTS_PAIRS : 0;
 }
 
 /* Is it a pair? */
 static bool is_pair(const bounds *b, int n) {
-  return b->pairs && n < KZ_COEFFICIENTS_PAIRS;
+  return n < fine_ones(b);
 }
 
 /* Factors of u^2, (B3) of docs/explanation/bounds.md: of a sum of two pairs (3.01, `plus` of operations.h); of a product of a pair and a rounded
  * constant (6.01, `times`, and 1 for the constant). And the factor for what is of higher order, (1 + u)^n with n u below 1e-2. */
 static const real PLUS = 3.1L, TIMES = 8, HIGHER = 1.01L;
 
+/* Factors of u^3: of a sum of two triples; of a product of a triple and a rounded constant. And (B2) of a sum of n products of triples. */
+static const real PLUS_TRIPLES = 9, TIMES_TRIPLES = 41;
+static real sum_of_triples(real n) {
+  return 4.1L * n * n * n + 25 * n * n + 42 * n + 29;
+}
+
 /* Relative: of a sum of products for coefficient n, one factor of which is a constant or computed, times a constant. */
 static real sum_error(const bounds *b, int n, int products) {
-  if (is_quad(b, n)) return (products + 4) * U_QUAD * HIGHER;
+  if (is_triple(b, n)) return (sum_of_triples(products) + TIMES_TRIPLES) * U * U * U * HIGHER;
   return is_pair(b, n) ? (real)(products + 4) * (products + 4) * U * U * HIGHER : (products + 4) * U * HIGHER;
 }
 
@@ -69,12 +74,12 @@ static void set_sizes(bounds *b) {
   }
 }
 
-/* Relative: of the factors of coefficient n that were rounded, to pairs or, where high parts are multiplied, to doubles. The damping's, 1 / n
- * and h / n: in sum_error, but in quads here too. */
+/* Relative: of the factors of coefficient n that were rounded, to triples, to pairs or, where high parts are multiplied, to doubles. The
+ * damping's, 1 / n and h / n: in sum_error. Beside triples, both factors of a product are. */
 static real factor_error(const bounds *b, int n) {
-  const real of_harmonics = HARMONIC_CONSTANTS * (real)b->pendulum->harmonics * U_QUAD;
-  if (is_quad(b, n)) return QUAD_CONSTANTS * U_QUAD + of_harmonics;
-  return is_pair(b, n) ? (b->quads ? 4 : 2) * U * U + of_harmonics : 2 * U * (1 + U);
+  if (is_triple(b, n)) return 3 * U * U * U;
+  if (is_pair(b, n)) return (b->triples ? 4 : 2) * U * U;
+  return (b->triples ? 2.1L : 2) * U * (1 + U);
 }
 
 /* Number of products in the force of coefficient n + 1: the damping's, and those along; those across and the torque. */
@@ -82,22 +87,30 @@ static int products_of(const bounds *b, int n) {
   return n + 2 + (b->pendulum->unmirrored ? n + 2 : 0);
 }
 
+/* (B7) An angle of a centre before whole turns are taken out. */
+static real farthest_angle(double fastest) {
+  return 4 + 2 * (real)M_PI * fastest * CAUTION;
+}
+
 /* (B2) The recurrences of the step, on errors. */
 static void set_errors(bounds *b, double fastest) {
   b->velocity[0] = fastest;
   b->sine[0] = 1;
   b->velocity_error[0] = b->pairs ? 0 : U * fastest;
-  b->sine_error[0] = b->quads ? 0x1p-108L : b->pairs ? 48 * U * U : 8 * U;
+  b->sine_error[0] = b->triples ? (500 + 160 * (farthest_angle(fastest) + 1)) * U * U * U : b->pairs ? 48 * U * U : 8 * U;
   for (int n = 0; n + 1 < b->order; n++) {
     const real damping = b->h * b->pendulum->beta * CAUTION, constant = factor_error(b, n + 1);
     const real summed = sum_error(b, n + 1, products_of(b, n)) + constant;
-    real v = damping * (b->velocity_error[n] + summed * (b->velocity[n] + b->velocity_error[n])), s = 0;
+    real v = damping * (b->velocity_error[n] + summed * (b->velocity[n] + b->velocity_error[n])), s = 0, size[2] = {0};
     for (int i = 0; i <= n; i++) {
       const real sine = b->sine[n - i] + b->sine_error[n - i], velocity = b->velocity[i] + b->velocity_error[i];
       v += b->torque[i] * (b->sine_error[n - i] + summed * sine);
       s += b->velocity_error[i] * sine + b->velocity[i] * b->sine_error[n - i] +
            (sum_error(b, n + 1, n + 1) + constant) * velocity * sine;
+      size[0] += b->torque[i] * sine;
+      size[1] += b->h * velocity * sine;
     }
+    b->fits = b->fits && size[0] < LARGEST_SUM * b->velocity[n + 1] && size[1] < LARGEST_SUM * b->sine[n + 1];
     b->velocity_error[n + 1] = v / (n + 1) * CAUTION + TINY;
     b->sine_error[n + 1] = s * b->h / (n + 1) * CAUTION + TINY;
   }
@@ -110,18 +123,20 @@ typedef struct {
 
 /* The sum of a series from the last coefficient on. Each partial sum is rounded, so that errors are shares of the partial sums. */
 typedef struct {
-  real sum, partial; /* of the coefficients that are no quads; of all its partial sums */
+  real sum, partial; /* of the coefficients; of all partial sums of those that are no triples */
   real in_doubles;   /* of those that are doubles beside pairs */
-  real in_quads;
+  real in_pairs;     /* of those that are no triples */
+  real in_triples;   /* of all partial sums of triples */
 } series;
 
 static void add_term(const bounds *b, int n, real size, series *of) {
-  if (is_quad(b, n)) {
-    of->in_quads += size;
+  of->sum += size;
+  if (is_triple(b, n)) {
+    of->in_triples += of->sum;
     return;
   }
-  of->partial += of->sum += size;
-  if (n == KZ_COEFFICIENTS_PAIRS) of->in_doubles = of->sum;
+  of->partial += of->in_pairs = of->sum;
+  if (n == fine_ones(b)) of->in_doubles = of->sum;
 }
 
 /* (B2) The errors of the coefficients. */
@@ -132,12 +147,10 @@ static void add_errors(const bounds *b, missed *step) {
   }
 }
 
-/* (B3) The rounding of the sums v = sum nu_n and theta = theta(0) + h sum nu_n / (n + 1), whose first term is h `fastest`. In quads the angle's
- * has six roundings more: the products by h / (n + 1). */
+/* (B3) The rounding of the sums v = sum nu_n and theta = theta(0) + h sum nu_n / (n + 1), whose first term is h `fastest`. */
 static void add_rounding(const bounds *b, double fastest, missed *step) {
-  enum { SUMS_OF_QUADS = KZ_COEFFICIENTS_QUADS + 2 };
-  const real h = b->h, farthest = 4 + 2 * (real)M_PI * fastest * CAUTION; /* (B7) theta before whole turns are taken out */
-  series v = {0}, angle = {.in_quads = h * fastest};
+  const real h = b->h, farthest = farthest_angle(fastest);
+  series v = {0}, angle = {0};
   for (int n = b->order - 1; n >= 1; n--) {
     const real size = b->velocity[n] + b->velocity_error[n];
     add_term(b, n, size, &v);
@@ -147,11 +160,12 @@ static void add_rounding(const bounds *b, double fastest, missed *step) {
     step->velocity += (b->order + 2) * U * HIGHER * v.in_doubles;
     step->theta += (b->order + 4) * U * HIGHER * angle.in_doubles;
   }
-  if (b->quads) {
-    step->velocity +=
-        PLUS * U * U * v.partial + U_QUAD * HIGHER * (SUMS_OF_QUADS * (v.in_quads + v.sum) + fastest + v.in_quads + v.sum);
-    step->theta += PLUS * U * U * angle.partial + TIMES * U * U * angle.sum +
-                   U_QUAD * HIGHER * ((SUMS_OF_QUADS + 6) * (angle.in_quads + angle.sum) + farthest);
+  if (b->triples) {
+    step->velocity += PLUS * U * U * v.partial + PLUS_TRIPLES * U * U * U * HIGHER * (v.in_triples + fastest + v.sum);
+    step->theta += PLUS * U * U * angle.partial + TIMES * U * U * angle.in_pairs +
+                   U * U * U * HIGHER *
+                       (PLUS_TRIPLES * (angle.in_triples + 2 * (angle.sum + h * fastest) + farthest) +
+                        TIMES_TRIPLES * (angle.sum + h * fastest));
   } else if (b->pairs) {
     step->velocity += PLUS * U * U * (v.partial + fastest + v.sum);
     step->theta +=
@@ -173,13 +187,11 @@ static real rest_of(const bounds *b, int order, int column) {
   return rest;
 }
 
-/* (B3) A step of the centre: errors of its coefficients, rounding of their sums, and what the polynomials leave. Balls know the first two. */
+/* (B3) A step of the centre: errors of its coefficients, rounding of their sums, and what the polynomials leave. */
 static void bound_centre(const bounds *b, double fastest, kz_speed_class *speed) {
   missed step = {0};
-  if (!b->digits) {
-    add_errors(b, &step);
-    add_rounding(b, fastest, &step);
-  }
+  add_errors(b, &step);
+  add_rounding(b, fastest, &step);
   const real rest = rest_of(b, b->order, MOTION);
   speed->velocity_error = (double)((step.velocity + rest) * CAUTION + TINY);
   speed->theta_error = (double)((step.theta + rest * b->h / (b->order + 1)) * CAUTION + TINY);
@@ -250,7 +262,7 @@ static void bound_neighbours(const bounds *b, kz_speed_class *speed) {
 
 /* The number of steps for which the last coefficient is small beside rounding, 0 where that takes too many. */
 static int32_t choose_steps(const bounds *b) {
-  const real target = b->digits ? 1e-48L : b->quads ? 1e-34L : b->pairs ? 1e-31L : 1e-16L;
+  const real target = b->triples ? 1e-46L : b->pairs ? 1e-31L : 1e-16L;
   real longest = 0;
   for (int i = 0; i < b->n_majorants; i++)
     longest = fmaxl(longest, b->majorant[i].r * powl(target / b->majorant[i].w, 1.0L / b->order));
@@ -261,27 +273,6 @@ static int32_t choose_steps(const bounds *b) {
 static int32_t steps_of_frame(const kz_pendulum *pendulum, int32_t n_steps) {
   const double frames = fmin(ceil(2 * M_PI * pendulum->beta), n_steps);
   return frames > 1 ? (int32_t)(n_steps / frames) : n_steps;
-}
-
-static kz_constant rounded(__float128 x) {
-  const double high = (double)x;
-  return (kz_constant){high, (double)(x - high)};
-}
-
-/* As sums of two doubles they are off by at most 2^-106 of the number, the torque's by 2^-105 of the largest of its power. */
-static void make_constants(const kz_pendulum *pendulum, kz_speed_class *speed) {
-  const int32_t n = speed->n_steps * speed->order;
-  kz_quad_constants *q = &speed->quads;
-  q->along = kz_malloc(2 * (size_t)n * sizeof *q->along);
-  q->across = q->along + n;
-  kz_interval_constants(pendulum, speed->n_steps, speed->order, &q->damping, &q->step, &q->push, q->along, q->across);
-  speed->damping = rounded(q->damping);
-  speed->push = rounded(q->push);
-  for (int32_t i = 0; i < speed->order; i++) {
-    speed->step[i] = rounded(q->step / (i + 1));
-    speed->inverse[i] = rounded((__float128)1 / (i + 1));
-  }
-  for (int32_t i = 0; i < 2 * n; i++) speed->along[i] = rounded(q->along[i]);
 }
 
 static kz_speed_class *create(bounds *b, double fastest) {
@@ -297,11 +288,14 @@ static kz_speed_class *create(bounds *b, double fastest) {
   made->order = b->order;
   made->fastest = fastest;
   made->frame_steps = steps_of_frame(b->pendulum, n_steps);
-  make_constants(b->pendulum, made);
-  if (b->digits) made->digits = kz_digit_constants_create(b->pendulum, n_steps);
+  kz_speed_class_set_constants(b->pendulum, made);
   b->h = 2 * (real)M_PI / n_steps * CAUTION;
   set_sizes(b);
   set_errors(b, fastest);
+  if (b->triples && !b->fits) {
+    free(made);
+    return NULL;
+  }
   bound_centre(b, fastest, made);
   bound_tangent(b, KZ_ORDER_TANGENT, made->tangent_error[false]);
   bound_tangent(b, KZ_ORDER_JACOBIAN, made->tangent_error[true]);
@@ -312,18 +306,11 @@ static kz_speed_class *create(bounds *b, double fastest) {
 kz_speed_class *kz_speed_class_create(const kz_pendulum *pendulum, int32_t precision, double fastest) {
   bounds *b = kz_calloc(1, sizeof *b);
   b->pendulum = pendulum;
-  b->digits = precision == KZ_ENCLOSE_DIGITS;
-  b->quads = b->digits || precision == KZ_ENCLOSE_QUADS;
-  b->pairs = b->quads || precision == KZ_ENCLOSE_PAIRS;
+  b->triples = precision == KZ_ENCLOSE_TRIPLES;
+  b->pairs = b->triples || precision == KZ_ENCLOSE_PAIRS;
+  b->fits = true;
   b->order = b->pairs ? KZ_ORDER_PAIRS : KZ_ORDER_DOUBLES;
   kz_speed_class *speed = create(b, fastest);
   free(b);
   return speed;
-}
-
-void kz_speed_class_free(kz_speed_class *speed) {
-  if (!speed) return;
-  free(speed->quads.along);
-  kz_digit_constants_free(speed->digits, speed->n_steps);
-  free(speed);
 }

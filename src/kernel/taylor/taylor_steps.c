@@ -7,7 +7,7 @@
  * where d, f and g are damping, along and across. The orders up to KZ_TAYLOR_DEEP are sums of three doubles, those up to KZ_TAYLOR_FINE of
  * two (32 digits); those beyond, smaller than 1e-16 of the motion, need 16 digits and are plain doubles. States are sums of three doubles:
  * steps add up without loss. */
-#include "pairs_arithmetic.h"
+#include "triples.h"
 
 /* Number of orbits at once; highest order in sums of three doubles; in pairs of doubles; highest order; powers of time in a damping that changes. */
 enum { KZ_TAYLOR_LANES = 8, KZ_TAYLOR_DEEP = 4, KZ_TAYLOR_FINE = 28, KZ_TAYLOR_LAST = 56, KZ_TAYLOR_RAMP = 4 };
@@ -30,50 +30,6 @@ typedef struct {
   double theta[3][KZ_TAYLOR_LANES], w[3][KZ_TAYLOR_LANES], s[3][KZ_TAYLOR_LANES], c[3][KZ_TAYLOR_LANES];
 } kz_taylor_state;
 
-/* A number as a sum of three doubles, the largest first: some 48 digits, in the lanes of a vector. Every operation takes mirror images to
- * mirror images. */
-typedef struct {
-  vector part[3];
-} triple;
-
-/* The same number: its parts may overlap before, or cancel. */
-OPERATION triple in_order(triple x) {
-  const pair b = sum(x.part[1], x.part[2]), a = sum(x.part[0], b.high), c = sum(a.low, b.low);
-  return (triple){{a.high, c.high, c.low}};
-}
-
-/* x + y; the error is some 2^-155 (|x| + |y|). */
-OPERATION triple add_triples(triple x, triple y) {
-  const pair a = sum(x.part[0], y.part[0]), b = sum(x.part[1], y.part[1]), c = sum(b.high, a.low);
-  return in_order((triple){{a.high, c.high, (x.part[2] + y.part[2]) + (b.low + c.low)}});
-}
-
-/* total += a b; its parts may overlap afterwards. */
-OPERATION void gain_triple(triple *total, triple a, triple b) {
-  const vector *x = a.part, *y = b.part, p = x[0] * y[0], q = x[0] * y[1], r = x[1] * y[0];
-  const pair first = sum(total->part[0], p), second = sum(total->part[1], first.low),
-             third = sum(second.high, fused(x[0], y[0], -p)), fourth = sum(third.high, q), fifth = sum(fourth.high, r);
-  const vector small = fused(x[0], y[2], fused(x[1], y[1], fused(x[2], y[0], fused(x[0], y[1], -q) + fused(x[1], y[0], -r))));
-  total->part[0] = first.high;
-  total->part[1] = fifth.high;
-  total->part[2] += small + ((second.low + third.low) + (fourth.low + fifth.low));
-}
-
-OPERATION triple multiply_triples(triple x, triple y) {
-  triple product = {{same(0), same(0), same(0)}};
-  gain_triple(&product, x, y);
-  return in_order(product);
-}
-
-OPERATION triple negative_triple(triple x) {
-  return (triple){{-x.part[0], -x.part[1], -x.part[2]}};
-}
-
-/* The first two of its doubles: to 32 digits. */
-OPERATION pair upper(triple x) {
-  return (pair){x.part[0], x.part[1]};
-}
-
 enum { DEEP = KZ_TAYLOR_DEEP, FINE = KZ_TAYLOR_FINE, LAST = KZ_TAYLOR_LAST, GENTLE = 5 };
 
 /* Largest coefficients at FINE and at LAST, relative to the motion's own size, which the orders below GENTLE tell. */
@@ -90,22 +46,6 @@ typedef struct {
   coefficients w, s, c;
 } series;
 
-/* sum += a b; the low part of the sum is not carried up. */
-OPERATION void gain(pair *total, pair a, pair b) {
-  const vector p = a.high * b.high;
-  const pair t = sum(total->high, p);
-  total->high = t.high;
-  total->low += t.low + fused(a.high, b.low, fused(a.low, b.high, fused(a.high, b.high, -p)));
-}
-
-OPERATION triple shared_triple(const kz_taylor_shared *x, int64_t i) {
-  return (triple){{same(x->high[i]), same(x->low[i]), same(x->rest[i])}};
-}
-
-OPERATION pair shared(const kz_taylor_shared *x, int64_t i) {
-  return (pair){same(x->high[i]), same(x->low[i])};
-}
-
 /* 1/n to 32 digits, n = 1 .. LAST + 1. */
 #define INVERSE(n) {1.0 / (n), __builtin_fma(-(1.0 / (n)), n, 1.0) / (n)}
 #define INVERSES(n) \
@@ -114,89 +54,66 @@ static const double inverses[][2] = {INVERSES(1),  INVERSES(9),  INVERSES(17), I
                                      INVERSES(33), INVERSES(41), INVERSES(49), INVERSE(57)};
 _Static_assert(sizeof inverses / sizeof *inverses == LAST + 1, "one for each order, and one beyond");
 
-/* 1/n: what its first two parts leave of 1, over n, is the third. */
-OPERATION triple inverse_triple(int64_t n) {
-  const double *i = inverses[n - 1], left = __builtin_fma(-i[1], (double)n, __builtin_fma(-i[0], (double)n, 1.0));
-  return (triple){{same(i[0]), same(i[1]), same(left / (double)n)}};
+OPERATION triple inverse_triple(double sign, int64_t n) {
+  return inverse_with(sign, (double)n, inverses[n - 1]);
 }
 
-OPERATION pair inverse(int64_t n) {
-  return (pair){same(inverses[n - 1][0]), same(inverses[n - 1][1])};
+OPERATION pair inverse(double sign, int64_t n) {
+  return (pair){same(sign * inverses[n - 1][0]), same(sign * inverses[n - 1][1])};
 }
 
-OPERATION void set_order(coefficients *x, int64_t n, pair total) {
-  x->fine[n] = multiply(quick_sum(total.high, total.low), inverse(n));
+/* Order n is sign total / n. */
+OPERATION void set_coarse(coefficients *x, int64_t n, double sign, vector total) {
+  x->coarse[n] = total * inverse(sign, n).high;
+}
+
+OPERATION void set_fine(coefficients *x, int64_t n, double sign, pair total) {
+  x->fine[n] = multiply(quick_sum(total.high, total.low), inverse(sign, n));
   x->coarse[n] = x->fine[n].high;
 }
 
-OPERATION void set_deep(coefficients *x, int64_t n, triple total) {
-  x->deep[n] = multiply_triples(in_order(total), inverse_triple(n));
+OPERATION void set_deep(coefficients *x, int64_t n, double sign, triple total) {
+  x->deep[n] = multiply_triples(in_order(total), inverse_triple(sign, n));
   x->fine[n] = upper(x->deep[n]);
   x->coarse[n] = x->fine[n].high;
 }
 
-/* Order n + 1 from the orders up to n, in triples. */
-static void next_triple(int64_t n, const kz_taylor_force *force, series *x) {
-  const triple zero = {{same(0), same(0), same(0)}}, one = {{same(1), same(0), same(0)}};
-  triple of_w = zero, of_s = zero, of_c = zero;
-  for (int64_t i = 0; i <= n; i++) {
-    gain_triple(&of_w, shared_triple(&force->along, i), x->s.deep[n - i]);
-    gain_triple(&of_s, x->c.deep[i], x->w.deep[n - i]);
-    gain_triple(&of_c, x->s.deep[i], x->w.deep[n - i]);
-  }
-  for (int64_t i = 0; i <= n && i < (force->has_ramp ? KZ_TAYLOR_RAMP : 1); i++)
-    gain_triple(&of_w, (triple){{same(force->damping[0][i]), same(force->damping[1][i]), same(force->damping[2][i])}},
-                x->w.deep[n - i]);
-  for (int64_t i = 0; force->has_across && i <= n; i++) gain_triple(&of_w, shared_triple(&force->across, i), x->c.deep[n - i]);
-  if (force->has_across && n == 0)
-    gain_triple(&of_w, (triple){{same(-force->torque[0]), same(-force->torque[1]), same(-force->torque[2])}}, one);
-  set_deep(&x->w, n + 1, negative_triple(of_w));
-  set_deep(&x->s, n + 1, of_s);
-  set_deep(&x->c, n + 1, negative_triple(of_c));
-}
+#define ORDER(name, i) x->name.KZ_LEVEL[i]
+#define SHARED(name, i) OF_LEVEL(made_)(force->name.high[i], force->name.low[i], force->name.rest[i])
+#define PLAIN(name, i) OF_LEVEL(made_)(force->name[0] i, force->name[1] i, force->name[2] i)
+#define GAIN_along(total, b) OF_LEVEL(gain_)(&total, SHARED(along, i), ORDER(b, n - i))
+#define GAIN_across(total, b) OF_LEVEL(gain_)(&total, SHARED(across, i), ORDER(b, n - i))
+#define GAIN_w(total, b) OF_LEVEL(gain_)(&total, ORDER(b, i), ORDER(w, n - i))
+#define KZ_NEXT OF_LEVEL(next_)
+#define KZ_ARGUMENTS const kz_taylor_force *force, series *x
+#define KZ_SUM(total) OF_LEVEL(number_) total = OF_LEVEL(made_)(0, 0, 0)
+#define KZ_TERMS for (int64_t i = 0; i <= n; i++)
+#define KZ_GAIN(total, a, b) GAIN_##a(total, b)
+#define KZ_DAMP(total)                                                           \
+  for (int64_t i = 0; i <= n && i < (force->has_ramp ? KZ_TAYLOR_RAMP : 1); i++) \
+  OF_LEVEL(gain_)(&total, PLAIN(damping, [i]), ORDER(w, n - i))
+#define KZ_DAMPS_LATER
+#define KZ_HAS_ACROSS force->has_across
+#define KZ_PUSH(total) OF_LEVEL(gain_)(&total, PLAIN(torque, ), OF_LEVEL(made_)(-1, 0, 0))
+#define KZ_SET(name, sign, total) OF_LEVEL(set_)(&x->name, n + 1, sign 1.0, total)
 
-/* Order n + 1 from the orders up to n, in pairs. */
-static void next_pair(int64_t n, const kz_taylor_force *force, series *x) {
-  pair of_w = {same(0), same(0)}, of_s = of_w, of_c = of_w;
-  for (int64_t i = 0; i <= n; i++) {
-    gain(&of_w, shared(&force->along, i), x->s.fine[n - i]);
-    gain(&of_s, x->c.fine[i], x->w.fine[n - i]);
-    gain(&of_c, x->s.fine[i], x->w.fine[n - i]);
-  }
-  for (int64_t i = 0; i <= n && i < (force->has_ramp ? KZ_TAYLOR_RAMP : 1); i++)
-    gain(&of_w, (pair){same(force->damping[0][i]), same(force->damping[1][i])}, x->w.fine[n - i]);
-  for (int64_t i = 0; force->has_across && i <= n; i++) gain(&of_w, shared(&force->across, i), x->c.fine[n - i]);
-  set_order(&x->w, n + 1, negative(of_w));
-  set_order(&x->s, n + 1, of_s);
-  set_order(&x->c, n + 1, negative(of_c));
-}
-
-/* Order n + 1 in doubles. */
-static void next_double(int64_t n, const kz_taylor_force *force, series *x) {
-  vector of_w = same(0), of_s = same(0), of_c = same(0);
-  for (int64_t i = 0; i <= n; i++) {
-    of_w = fused(same(force->along.high[i]), x->s.coarse[n - i], of_w);
-    of_s = fused(x->c.coarse[i], x->w.coarse[n - i], of_s);
-    of_c = fused(x->s.coarse[i], x->w.coarse[n - i], of_c);
-  }
-  for (int64_t i = 0; i < (force->has_ramp ? KZ_TAYLOR_RAMP : 1); i++)
-    of_w = fused(same(force->damping[0][i]), x->w.coarse[n - i], of_w);
-  for (int64_t i = 0; force->has_across && i <= n; i++) of_w = fused(same(force->across.high[i]), x->c.coarse[n - i], of_w);
-  x->w.coarse[n + 1] = -of_w * inverse(n + 1).high;
-  x->s.coarse[n + 1] = of_s * inverse(n + 1).high;
-  x->c.coarse[n + 1] = -of_c * inverse(n + 1).high;
-}
+#define KZ_LEVEL deep
+#include "motion.inc"
+#define KZ_LEVEL fine
+#include "motion.inc"
+#define KZ_LEVEL coarse
+#include "motion.inc"
 
 /* The sum of the orders from 1 on, each divided by its number plus 1 where they are `integrated`; smallest terms first. */
 OPERATION triple sum_of(const coefficients *x, bool integrated) {
   pair total = {same(0), same(0)};
-  for (int64_t n = LAST; n > FINE; n--) total.high += x->coarse[n] * (integrated ? inverse(n + 1).high : same(1));
+  for (int64_t n = LAST; n > FINE; n--) total.high += x->coarse[n] * (integrated ? inverse(1, n + 1).high : same(1));
   for (int64_t n = FINE; n > DEEP; n--)
-    total = loose_sum(total, integrated ? multiply(x->fine[n], inverse(n + 1)) : x->fine[n]);
+    total = loose_sum(total, integrated ? multiply(x->fine[n], inverse(1, n + 1)) : x->fine[n]);
   total = quick_sum(total.high, total.low);
   triple whole = {{total.high, total.low, same(0)}};
   for (int64_t n = DEEP; n >= 1; n--)
-    whole = add_triples(whole, integrated ? multiply_triples(x->deep[n], inverse_triple(n + 1)) : x->deep[n]);
+    whole = add_triples(whole, integrated ? multiply_triples(x->deep[n], inverse_triple(1, n + 1)) : x->deep[n]);
   return whole;
 }
 
@@ -259,9 +176,9 @@ static mask advance(int64_t n, const kz_taylor_force *force, kz_taylor_state *st
     begin(&x.w, w);
     begin(&x.s, s);
     begin(&x.c, c);
-    for (int64_t i = 0; i < DEEP; i++) next_triple(i, force + step, &x);
-    for (int64_t i = DEEP; i < FINE; i++) next_pair(i, force + step, &x);
-    for (int64_t i = FINE; i < LAST; i++) next_double(i, force + step, &x);
+    for (int64_t i = 0; i < DEEP; i++) next_deep(force + step, &x, i);
+    for (int64_t i = DEEP; i < FINE; i++) next_fine(force + step, &x, i);
+    for (int64_t i = FINE; i < LAST; i++) next_coarse(force + step, &x, i);
     well &= is_complete(&x);
     theta = add_triples(add_triples(theta, w), sum_of(&x.w, true));
     w = keep(well, add_triples(w, sum_of(&x.w, false)));

@@ -23,7 +23,7 @@ enum { KZ_DISTANCES = 8, KZ_BOX_CELLS = KZ_BOX * KZ_BOX };
 /* All fields are int64_t, so that kz_ranks_sum can add them. */
 typedef struct {
   int64_t proved, refuted;                           /* proved cells; those of them whose label the proof changed */
-  int64_t proved_in_pairs, proved_in_quads;          /* parts of `proved` */
+  int64_t proved_in_pairs, proved_in_triples;        /* parts of `proved` */
   int64_t unsettled, nowhere, undecided, doubtful;   /* cells; unsettled: with nowhere; doubtful: without mirror images */
   int64_t boxes[KZ_BOX_CELLS + 1];                   /* [i]: boxes with i settled cells */
   int64_t parts[KZ_BOX_CELLS + 1][KZ_BOX_CELLS + 1]; /* [i][j]: attractors that have j cells of such a box */

@@ -39,9 +39,9 @@ static void count(kz_chunks *c, int64_t tile) {
     c->counts.undecided += c->evidence[i] == KZ_UNDECIDED;
     c->counts.nowhere += c->evidence[i] == KZ_NOWHERE;
     c->counts.proved_in_pairs += c->evidence[i] == KZ_PROVED_IN_PAIRS;
-    c->counts.proved_in_quads += c->evidence[i] == KZ_PROVED_IN_QUADS;
+    c->counts.proved_in_triples += c->evidence[i] == KZ_PROVED_IN_TRIPLES;
     c->counts.proved +=
-        c->evidence[i] == KZ_PROVED || c->evidence[i] == KZ_PROVED_IN_PAIRS || c->evidence[i] == KZ_PROVED_IN_QUADS;
+        c->evidence[i] == KZ_PROVED || c->evidence[i] == KZ_PROVED_IN_PAIRS || c->evidence[i] == KZ_PROVED_IN_TRIPLES;
     if (c->ids[i] < 0)
       c->counts.unsettled++;
     else

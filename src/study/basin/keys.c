@@ -47,9 +47,6 @@ static const kz_key keys[] = {
         "basin.proof", "false", proof,
         "Prove the labels under the differential equation itself: `evidence` marks those that are proved, `proved_share` is "
         "their share, `other_share_high` bounds the area that ends elsewhere. Some ten times the time of the cells."),
-    INTEGER("basin.proof_digits", 34, 48, "34", proof_digits,
-            "Digits in which a proof follows starts at last. Above 34 it goes on in 48 digits, which proves longer orbits and "
-            "takes a second a start."),
     REAL("basin.accuracy", "", 0.5, 0.999999, "", accuracy,
          "Share of right labels, instead of method, icm and numerics: the program takes the cheapest setting whose labels "
          "agree with a sample in quad precision to this share (95 % bound), or method exact if there is none."),

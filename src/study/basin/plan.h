@@ -6,7 +6,6 @@
 
 enum { KZ_METHOD_ICM = 0, KZ_METHOD_DIRECT = 1, KZ_METHOD_EXACT = 2 };
 enum { KZ_UNDECIDED_FLAG = 0, KZ_UNDECIDED_DECIDE = 1 }; /* what happens to cells that quad precision does not decide */
-enum { KZ_PROOF_IN_QUADS = 34 };                         /* digits */
 enum { KZ_LINEAR = 0, KZ_QUINTIC = 1 };
 
 enum { KZ_BOUNDARY_FEWEST_DECADES = 2, KZ_BOUNDARY_MOST_DECADES = 23 };
@@ -29,10 +28,9 @@ struct kz_basin_plan {
   int64_t starts;
   int64_t max_period;
   int64_t seed;
-  bool proof;           /* prove the labels */
-  int64_t proof_digits; /* in which starts are followed at last */
-  bool unmirrored;      /* the pendulum has no mirror symmetry */
-  double accuracy;      /* NaN, or the share of right labels for which the program chooses method, table and numerics */
+  bool proof;      /* prove the labels */
+  bool unmirrored; /* the pendulum has no mirror symmetry */
+  double accuracy; /* NaN, or the share of right labels for which the program chooses method, table and numerics */
   bool has_boundary;
   struct {
     int64_t pairs, decades; /* starts; of their partners' distances */

@@ -36,8 +36,7 @@ kz_status kz_proof_plan(const kz_scene *scene, kz_proof **proof) {
                    SMALLEST);
   const double fastest = kz_axis_fastest(&plan->velocity);
   const kz_pendulum *pendulum = &scene->parameters.pendulum;
-  kz_status status = kz_proof_create(pendulum, COLUMNS, rows_of(scene), top_of(scene), fastest, proof);
-  if (status == KZ_OK && plan->proof_digits > KZ_PROOF_IN_QUADS) status = kz_proof_refine(*proof, pendulum, fastest);
+  const kz_status status = kz_proof_create(pendulum, COLUMNS, rows_of(scene), top_of(scene), fastest, proof);
   if (status != KZ_REFUSED) return status;
   return kz_fail(
       KZ_REFUSED,

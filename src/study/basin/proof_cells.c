@@ -1,5 +1,5 @@
-/* Labels that are proved: starts are followed into the region, in doubles and, where their sets grow too large, in pairs of doubles and at
- * last in quad precision. The starts are the cells - of some tiles at a time, so that what all ranks know of them stays small - and random
+/* Labels that are proved: starts are followed into the region, in doubles and, where their sets grow too large, in sums of two doubles and at
+ * last of three. The starts are the cells - of some tiles at a time, so that what all ranks know of them stays small - and random
  * real starts of the window, which bound the share of its area that may end elsewhere than on attractors that are proved. */
 #include <math.h>
 #include <stdlib.h>
@@ -19,14 +19,8 @@ enum {
 static const kz_level proof_levels[KZ_ENCLOSURES] = {
     [KZ_ENCLOSE_DOUBLES] = {.stage = "proof in doubles", .evidence = KZ_PROVED, .tile = 8192},
     [KZ_ENCLOSE_PAIRS] = {.stage = "proof in pairs", .evidence = KZ_PROVED_IN_PAIRS, .tile = 1024},
-    [KZ_ENCLOSE_QUADS] = {.stage = "proof in quads", .evidence = KZ_PROVED_IN_QUADS, .tile = 32},
-    [KZ_ENCLOSE_DIGITS] = {.stage = "proof in 48 digits", .evidence = KZ_PROVED_IN_QUADS, .tile = 8},
+    [KZ_ENCLOSE_TRIPLES] = {.stage = "proof in triples", .evidence = KZ_PROVED_IN_TRIPLES, .tile = 64},
 };
-
-/* The number of levels for cells. */
-static int32_t levels_of(const kz_basin_plan *plan) {
-  return plan->proof_digits > KZ_PROOF_IN_QUADS ? KZ_ENCLOSURES : KZ_ENCLOSE_DIGITS;
-}
 
 /* Tiles from .. to - 1. */
 typedef struct {
@@ -89,12 +83,8 @@ static kz_status prove_at(void *context, int32_t level, int64_t n, const int64_t
 }
 
 static kz_status prove_left(const kz_run *run, part *p) {
-  const kz_labeller labeller = {.way = KZ_BY_LEVELS,
-                                .context = p,
-                                .at = prove_at,
-                                .levels = proof_levels,
-                                .n_levels = levels_of(p->labelling->plan),
-                                .run = run};
+  const kz_labeller labeller = {
+      .way = KZ_BY_LEVELS, .context = p, .at = prove_at, .levels = proof_levels, .n_levels = KZ_ENCLOSURES, .run = run};
   KZ_FREED kz_label *label = kz_malloc((size_t)p->n_left * sizeof *label + 1);
   const double stands_for = kz_tiles_stand_for(p->labelling);
   kz_sampling_weigh(run, stands_for);
@@ -205,10 +195,10 @@ static kz_status prove_random(void *context, int32_t level, int64_t n, const int
   return KZ_OK;
 }
 
-/* Record: how many of the tile's starts are not proved; quad precision is not tried. */
+/* Record: how many of the tile's starts are not proved; triples are not tried. */
 static kz_status follow_random(void *context, int64_t first, int64_t n, void *record) {
   const kz_labeller labeller = {
-      .way = KZ_BY_LEVELS, .context = context, .at = prove_random, .levels = proof_levels, .n_levels = KZ_ENCLOSE_QUADS};
+      .way = KZ_BY_LEVELS, .context = context, .at = prove_random, .levels = proof_levels, .n_levels = KZ_ENCLOSE_TRIPLES};
   int64_t item[TILE], unproved = 0;
   KZ_FREED kz_label *label = kz_malloc(TILE * sizeof *label);
   for (int64_t i = 0; i < n; i++) item[i] = first + i;

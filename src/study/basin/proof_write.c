@@ -45,10 +45,10 @@ static kz_status write_attractors(const kz_catalogue *catalogue, const kz_proof 
 
 static void print_labels(const kz_counts *counts, int64_t cells, FILE *summary) {
   fprintf(summary,
-          "%.6g %% of the labels are proved, those of %lld cells in pairs of doubles, of %lld in quad precision. %lld "
+          "%.6g %% of the labels are proved, those of %lld cells in sums of two doubles, of %lld in sums of three. %lld "
           "labels are not proved.\n",
-          100 * (double)counts->proved / (double)cells, (long long)counts->proved_in_pairs, (long long)counts->proved_in_quads,
-          (long long)(cells - counts->proved));
+          100 * (double)counts->proved / (double)cells, (long long)counts->proved_in_pairs,
+          (long long)counts->proved_in_triples, (long long)(cells - counts->proved));
   if (counts->refuted > 0)
     fprintf(summary,
             "warning: the proof gives %lld cells another label than the method did; their labels are replaced. The numerics "

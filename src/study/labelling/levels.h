@@ -8,7 +8,7 @@
 #include "kapitza/dynamics.h"
 
 /* How a label was found: the values of the file's variable `evidence`. From KZ_UNDECIDED on the scene's own numerics did not decide it. The
- * values KZ_PROVED, KZ_PROVED_IN_PAIRS and KZ_PROVED_IN_QUADS are from basin.proof with any method; they and KZ_NOWHERE, the motion is
+ * values KZ_PROVED, KZ_PROVED_IN_PAIRS and KZ_PROVED_IN_TRIPLES are from basin.proof with any method; they and KZ_NOWHERE, the motion is
  * quasi-periodic, occur in the file only. KZ_LEFT is a doubtful label of method direct. */
 enum {
   KZ_UNSETTLED = 0,
@@ -22,7 +22,7 @@ enum {
   KZ_IN_ARBITRARY = 8,
   KZ_LEFT = 9,
   KZ_PROVED_IN_PAIRS = 10,
-  KZ_PROVED_IN_QUADS = 11,
+  KZ_PROVED_IN_TRIPLES = 11,
   KZ_NOWHERE = 12
 };
 

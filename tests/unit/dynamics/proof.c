@@ -112,22 +112,22 @@ TEST(starts_end_where_they_are_said_to) {
   kz_proof_free(proof);
 }
 
-/* A start's result is its own, whoever goes with it; pairs prove what doubles do, and quads what pairs do. */
+/* A start's result is its own, whoever goes with it; pairs prove what doubles do, and triples what pairs do. */
 TEST(results_do_not_depend_on_neighbours) {
   enum { N = 64 };
   kz_proof *proof = region_of_rotations();
   kz_proof_start start[N];
-  uint8_t number[N], in_pairs[N], in_quads[N];
+  uint8_t number[N], in_pairs[N], in_triples[N];
   for (int i = 0; i < N; i++) start[i] = (kz_proof_start){.theta = {-3 + 0.09 * i}, .velocity = {1.9 - 0.05 * i}};
   kz_proof_follow(proof, KZ_ENCLOSE_DOUBLES, N, start, PERIODS, number);
   kz_proof_follow(proof, KZ_ENCLOSE_PAIRS, N, start, PERIODS, in_pairs);
-  kz_proof_follow(proof, KZ_ENCLOSE_QUADS, N, start, PERIODS, in_quads);
+  kz_proof_follow(proof, KZ_ENCLOSE_TRIPLES, N, start, PERIODS, in_triples);
   for (int i = 0; i < N; i++) {
     uint8_t alone;
     kz_proof_follow(proof, KZ_ENCLOSE_DOUBLES, 1, &start[i], PERIODS, &alone);
     assert_int_equal(alone, number[i]);
     if (number[i] != 0 && number[i] != KZ_PROOF_LATE) assert_int_equal(in_pairs[i], number[i]);
-    if (in_pairs[i] != 0 && in_pairs[i] != KZ_PROOF_LATE) assert_int_equal(in_quads[i], in_pairs[i]);
+    if (in_pairs[i] != 0 && in_pairs[i] != KZ_PROOF_LATE) assert_int_equal(in_triples[i], in_pairs[i]);
   }
   kz_proof_free(proof);
 }

@@ -1,11 +1,13 @@
-/* Sums of products of pairs, as enclosures take them, against exact sums. */
+/* Sums of products of pairs and triples, as enclosures take them, against exact sums; their sines against those in many digits. */
 #include <math.h>
 #include <stdbool.h>
 #include <stdlib.h>
 
 #include "../../tools/test.h"
 
+#include "digits/number.h"
 #include "enclosure/operations.h"
+#include "taylor/triples.h"
 
 static double uniform(double low, double high) {
   return low + (high - low) * rand() / RAND_MAX;
@@ -31,12 +33,12 @@ static int grow_product(int n, double *part, double a, double b) {
 static double sum_is_off(int n, bool cancel) {
   double part[1000] = {0}, size = 0;
   int parts = 0;
-  products s = {same(0), same(0)};
+  pair s = {same(0), same(0)};
   for (int i = 0; i < n; i++) {
     const double scale = cancel ? (i % 2 ? -1 : 1) * ldexp(1, rand() % 30) : ldexp(1, -i);
     const double a[2] = {scale * uniform(0.5, 1), 0}, b[2] = {uniform(0.5, 1), 0};
     const double low[2] = {a[0] * uniform(-0x1p-54, 0x1p-54), b[0] * uniform(-0x1p-54, 0x1p-54)};
-    add_product(&s, (pair){same(a[0]), same(low[0])}, (pair){same(b[0]), same(low[1])});
+    gain(&s, (pair){same(a[0]), same(low[0])}, (pair){same(b[0]), same(low[1])});
     parts = grow_product(parts, part, a[0], b[0]);
     parts = grow_product(parts, part, low[0], b[0]);
     parts = grow_product(parts, part, a[0], low[1]);
@@ -49,13 +51,85 @@ static double sum_is_off(int n, bool cancel) {
   return fabs(off) / (0x1p-106 * size);
 }
 
+/* The same for triples, over u^3. */
+static double sum_of_triples_is_off(int n, bool cancel) {
+  double part[1000] = {0}, size = 0, off = 0;
+  int parts = 0;
+  triple s = made_deep(0, 0, 0);
+  for (int i = 0; i < n; i++) {
+    const double scale = cancel ? (i % 2 ? -1 : 1) * ldexp(1, rand() % 30) : ldexp(1, -i);
+    double a[3] = {scale * uniform(0.5, 1)}, b[3] = {uniform(0.5, 1)};
+    for (int k = 1; k < 3; k++) a[k] = a[k - 1] * uniform(-0x1p-54, 0x1p-54), b[k] = b[k - 1] * uniform(-0x1p-54, 0x1p-54);
+    gain_triple(&s, made_deep(a[0], a[1], a[2]), made_deep(b[0], b[1], b[2]));
+    for (int k = 0; k < 9; k++) parts = grow_product(parts, part, a[k / 3], b[k % 3]);
+    size += fabs(a[0] * b[0]);
+  }
+  s = in_order(s);
+  for (int k = 0; k < 3; k++) parts = grow(parts, part, -s.part[k][0]);
+  for (int i = 0; i < parts; i++) off += part[i];
+  return fabs(off) / (0x1p-159 * size);
+}
+
 /* (B2) */
 TEST(sums_of_products_are_as_good_as_their_bound) {
-  double worst = 0;
+  double worst = 0, worst_triples = 0;
   srand(5);
   for (int i = 0; i < 20000; i++) {
     const int n = 1 + rand() % 26;
     worst = fmax(worst, sum_is_off(n, i % 2) / (n * n + 4 * n + 9));
+    if (n <= 15)
+      worst_triples = fmax(worst_triples, sum_of_triples_is_off(n, i % 2) / (4.1 * n * n * n + 25 * n * n + 42 * n + 29));
   }
   assert_true(worst < 1 && worst > 0.1);
+  assert_true(worst_triples < 1 && worst_triples > 1e-3);
+}
+
+/* Angles anywhere, and next to multiples of pi/2, up to a hundred turns away. */
+static void angle_at(int i, double theta[2]) {
+  const double turns = i % 3 ? 0 : 100;
+  theta[0] = i % 2 ? uniform(-M_PI - 6 * turns, M_PI + 6 * turns)
+                   : M_PI / 2 * (rand() % 400 - 200) + uniform(-1, 1) * exp(-uniform(0, 40));
+  theta[1] = theta[0] * uniform(-0x1p-54, 0x1p-54);
+}
+
+/* sine [n], cosine [n] less those of the sum of theta [n], over 2^-53n. */
+static double sine_is_off(int n, const double *theta, const double *sine, const double *cosine) {
+  KZ_NUMBER(x);
+  KZ_NUMBER(part);
+  KZ_NUMBER(s);
+  KZ_NUMBER(c);
+  for (int i = 0; i < n; i++) {
+    kz_number_of_double(theta[i], &part);
+    kz_number_add(&x, &x, &part, 300);
+  }
+  kz_number_sin_cos(&x, &s, &c, 300);
+  for (int i = 0; i < n; i++) {
+    kz_number_of_double(sine[i], &part);
+    kz_number_subtract(&s, &s, &part, 300);
+    kz_number_of_double(cosine[i], &part);
+    kz_number_subtract(&c, &c, &part, 300);
+  }
+  return ldexp(fmax(fabs(kz_number_double(&s)), fabs(kz_number_double(&c))), 53 * n);
+}
+
+/* (B1): 8 and 48 units of rounding are not passed, and a tenth of them is; in triples 500 and 160 for each rad. */
+TEST(sines_are_as_good_as_their_bounds) {
+  double worst = 0, worst_pair = 0, worst_triple = 0;
+  srand(4);
+  for (int i = 0; i < 100000; i++) {
+    double theta[3], sine[3], cosine[3];
+    angle_at(i, theta);
+    theta[2] = theta[1] * uniform(-0x1p-54, 0x1p-54);
+    __float128 exact[2];
+    sincosf128((__float128)theta[0] + theta[1], &exact[0], &exact[1]);
+    kz_enclosure_sine_doubles(1, theta, sine, cosine);
+    worst = fmax(worst, fmax(fabs((double)(sine[0] - exact[0])), fabs((double)(cosine[0] - exact[1]))));
+    if (i % 10 != 0) continue;
+    kz_enclosure_sine_pairs(1, theta, sine, cosine);
+    worst_pair = fmax(worst_pair, sine_is_off(2, theta, sine, cosine));
+    kz_enclosure_sine_triples(1, theta, sine, cosine);
+    worst_triple = fmax(worst_triple, sine_is_off(3, theta, sine, cosine) / (500 + 160 * (fabs(theta[0]) + 1)));
+  }
+  assert_true(worst < 0x8p-53 && worst > 0.1 * 0x8p-53);
+  assert_true(worst_pair < 0x30 && worst_triple < 1);
 }

@@ -9,7 +9,7 @@ enum { POOL = 2048, CELLS = 256, CELL_PERIODS = 16 };
 /* Of a set's sides: a wider start does not reach an attractor as a whole, and no larger cell gets small again. */
 static const double WIDEST = 0.03, LARGEST = 0.5;
 /* A precision is too coarse for sets whose longer side is shorter than this, rad. */
-static const double SMALLEST[] = {[KZ_ENCLOSE_DOUBLES] = 1e-7, [KZ_ENCLOSE_PAIRS] = 1e-26, [KZ_ENCLOSE_QUADS] = 1e-28};
+static const double SMALLEST[] = {[KZ_ENCLOSE_DOUBLES] = 1e-7, [KZ_ENCLOSE_PAIRS] = 1e-26};
 
 /* Items 0 .. n - 1 to be followed. */
 typedef struct {

@@ -14,14 +14,9 @@ kz_status kz_proof_create(const kz_pendulum *pendulum, int64_t columns, int64_t 
   made->beta = pendulum->beta;
   made->label = kz_calloc((size_t)(columns * rows), sizeof *made->label);
   const double most = fmax(top, fastest) + 1.5 * kz_stiffness(pendulum);
-  for (int32_t precision = 0; precision < KZ_ENCLOSE_DIGITS; precision++)
+  for (int32_t precision = 0; precision < KZ_ENCLOSURES; precision++)
     KZ_TRY(kz_enclosure_tables_create(pendulum, precision, most, &made->tables[precision]));
   return KZ_OK;
-}
-
-kz_status kz_proof_refine(kz_proof *proof, const kz_pendulum *pendulum, double fastest) {
-  const double most = fmax(proof->top, fastest) + 1.5 * kz_stiffness(pendulum);
-  return kz_enclosure_tables_create(pendulum, KZ_ENCLOSE_DIGITS, most, &proof->tables[KZ_ENCLOSE_DIGITS]);
 }
 
 void kz_proof_free(kz_proof *proof) {
