@@ -132,6 +132,9 @@ int64_t kz_dynamics_chaos_size(void);
 void kz_dynamics_find_quasiperiodic(kz_dynamics *dynamics, int64_t n, const double *state, double *found);
 /* Adds the attractors in `found`, of one of the calls above, to the catalogue. */
 void kz_dynamics_adopt(kz_dynamics *dynamics, const double *found);
+/* Adds the cycle of `period` <= max_period drive periods within 0.2 rad of a strobe point (rad, rad per drive radian), and its mirror image,
+ * to the catalogue, if it attracts and is not there. */
+void kz_dynamics_add_cycle(kz_dynamics *dynamics, int64_t period, double theta, double velocity);
 
 /* The catalogue as doubles, flat [n], for messages between ranks; n = kz_dynamics_packed_size. */
 int64_t kz_dynamics_packed_size(const kz_dynamics *dynamics);

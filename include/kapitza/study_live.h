@@ -10,6 +10,7 @@
 
 /* The engine: maps, attractors and trapping regions of the pendulums of the last requests. */
 typedef struct kz_engine kz_engine;
+typedef struct kz_atlas kz_atlas; /* study_atlas.h */
 
 kz_engine *kz_engine_create(void);
 void kz_engine_free(kz_engine *engine);
@@ -56,9 +57,11 @@ size_t kz_plane_bytes(int plane);
 
 /* How a frame is made, and where it goes. */
 typedef struct {
-  bool moving;                       /* true: fast, with an error per period much smaller than a cell; false: as method exact */
-  const kz_integers *levels;         /* 8, 4, 2 or 1, falling */
-  bool plane[KZ_PLANES];             /* the planes to show */
+  bool moving;               /* true: fast, with an error per period much smaller than a cell; false: as method exact */
+  const kz_integers *levels; /* 8, 4, 2 or 1, falling */
+  bool plane[KZ_PLANES];     /* the planes to show */
+  kz_atlas *atlas;           /* what attracts at its point x, y, where the scene's pendulum lies, needs no search; NULL: none */
+  double x, y;               /* values of its two keys */
   kz_status (*pause)(void *context); /* called every few milliseconds; any status but KZ_OK ends the frame with that status */
   kz_status (*show)(void *context, const kz_live_level *level);
   void *context;

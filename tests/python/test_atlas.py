@@ -4,9 +4,10 @@ import json
 
 import numpy as np
 import pytest
-from conftest import EXTENSIVE, datasets, plot, run_until_saved
+from conftest import EXTENSIVE, ROOT, datasets, plot, run_until_saved
 from kapitza import Result, SceneError
 from scipy.integrate import solve_ivp
+from serving import Server
 
 PENDULUM = {"quality_factor": 5, "drive_frequency": 11, "drive_amplitude": 0.3}
 SCENE = {"pendulum": PENDULUM,
@@ -74,6 +75,27 @@ def test_lists_are_those_of_the_search(atlas, kapitza, tmp_path):
         found = Result(tmp_path / "a.h5").group("attractors")
         short = (found["period"].values > 0) & (found["period"].values <= 2)
         assert int(short.sum()) == int(group["count"][row, column]), here
+
+
+def test_a_moving_frame_takes_the_motions_of_its_point(atlas):
+    """Flutter that is born on the way is there at once; the attractors of the pendulum before know nothing of it."""
+    with Server(ROOT / "scenes" / "blackburn-fig12.yaml") as server:
+        def names(epsilon, **keys):
+            pendulum = PENDULUM | {"drive_amplitude": epsilon}
+            catalogue, frames = server.frame(32, 48, quality="moving", pendulum=pendulum, **keys)
+            assert frames or keys
+            return catalogue and [row["name"] for row in catalogue["attractors"]]
+
+        def listed(epsilon):
+            return {"atlas": str(atlas[2]), "x": 11, "y": epsilon}
+
+        names(0.463)
+        assert "flutter" not in names(0.475) and "inverted" in names(0.463, **listed(0.463)) and "flutter" in names(0.476, **listed(0.476))
+        assert "flutter" in names(0.55, **listed(0.55))
+        for keys, message in (({"x": 11, "y": 0.3}, "x: is a point of an atlas"), (listed(0.4), "the atlas has another pendulum there"),
+                              (listed(0.4) | {"y": 2}, "lies outside of the atlas"), ({"atlas": str(atlas[2]), "x": 11}, "y: is missing")):
+            answer = server.ask("frame", rows=8, columns=8, quality="moving", pendulum=PENDULUM | {"drive_amplitude": 0.41}, **keys)[-1][0]
+            assert answer["answer"] == "error" and message in answer["message"]
 
 
 def test_motions_of_a_point_are_cycles_of_its_pendulum(atlas):

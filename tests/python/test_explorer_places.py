@@ -86,8 +86,21 @@ def test_the_point_of_the_map_is_the_pendulum(page):
     assert page.run("$('map').hidden")
 
 
+def test_basins_move_while_the_point_does_on_a_slow_machine(page):
+    """A level takes 0.6 s, and the point moves every 30 ms: frames that were given up as soon as another was wanted never came."""
+    assert page.driver.execute_async_script("""const done = arguments[0], pane = explorer.basins.panes[0], before = pane.latest; let n = 0;
+        const hand = setInterval(() => { const pendulum = {...explorer.state.pendulum, m: String(5.6 + 1e-4 * n++)};
+            const came = pane.latest !== before && pane.latest.key.includes('"5.6');
+            if (came || n > 400) { clearInterval(hand); done(came); }
+            explorer.state.change({pendulum}); }, 30)""")
+    page.run("explorer.state.change({pendulum: explorer.state.scene})")
+    page.wait()
+    assert page.run("((pane) => (pane.most = 1e5, pane.measure(300), pane.measure(15), pane.most))(explorer.basins.panes[0])") == 72000
+
+
 ATLAS = """(() => { const curve = { kind: "period_doubling", period: 1, words: "upright rest", name: "inverted", first: 0, points: 2 };
-    const header = { max_period: 2, mirrored: true, cells: 2, points: 2, curves: [curve], lists: [[[0, 1]], [[2, 1], [1, 1]]],
+    const header = { max_period: 2, mirrored: true, cells: 2, points: 2, file: "f", low: [0, 2],
+        width: [100, 2], curves: [curve], lists: [[[0, 1]], [[2, 1], [1, 1]]],
         classes: [{ name: "inverted", words: "upright rest", period: 1, symmetric: true },
                   { name: "flutter", words: "flutter", period: 2, symmetric: true },
                   { name: "rotation 2/2", words: "rotations 2/2", period: 2 }] };
@@ -98,16 +111,19 @@ ATLAS = """(() => { const curve = { kind: "period_doubling", period: 1, words: "
 
 
 def test_crossing_a_curve_says_what_happens_and_sliders_mark_it(page):
-    script = f"""const done = arguments[0]; Promise.all(["atlas", "happenings", "sliders"].map((name) => import(`/${{name}}.js`)))
-        .then(([atlas, happenings, sliders]) => {{ const map = new atlas.Atlas(...{ATLAS});
+    script = f"""const done = arguments[0]; Promise.all(["atlas", "happenings", "ground", "sliders"].map((name) => import(`/${{name}}.js`)))
+        .then(([atlas, happenings, ground, sliders]) => {{ const map = new atlas.Atlas(...{ATLAS});
             const axes = [{{name: "q", unit: "", low: 0, high: 10}}, {{name: "a", unit: "mm", low: 0, high: 0.936}}];
             done([happenings.happening(map, [0.3, 0.2], [0.3, 0.9]), happenings.happening(map, [0.3, 0.9], [0.3, 0.2]),
                   happenings.happening(map, [0.3, 0.2], [0.6, 0.3]), map.motionsAt([0.1, 0.7])[1].words,
                   map.nearest([0.2, 0.52], [0.1, 0.1]).name,
+                  ground.listedAt({{ atlas: map, axes, others: '{{"q":null,"a":null}}' }}, {{q: "5", a: "0.234 mm"}}),
+                  ground.listedAt({{ atlas: map, axes, others: '{{"q":null,"a":null}}' }}, {{q: "5", a: "1 mm"}}),
                   sliders.marksOf({{ atlas: map, axes }}, "a", {{q: "5", a: "0.3 mm"}}, "0.3 mm")[0].words]); }})"""
-    up, down, along, there, near, mark = page.driver.execute_async_script(script)
+    up, down, along, there, near, listed, outside, mark = page.driver.execute_async_script(script)
     assert up == "Flutter is born: upright rest loses its stability by period doubling"
     assert down == "Upright rest is stable again; flutter ends in it" and along == "" and (there, near) == ("flutter", "inverted")
+    assert listed == {"atlas": "f", "x": 50, "y": pytest.approx(2.5)} and outside == {}  # by the numbers of the file
     assert mark == "0.468 mm: upright rest, period doubling"
 
 

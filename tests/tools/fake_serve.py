@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """A double of `kapitza serve` (docs/reference/serve.md) without mechanics: its basins are stripes. As the program of an explorer it shows
-what page and server do with what the program gives seldom: deafness (pendulum m = 6), slow frames (m = 7), refusals (m = 8), a sudden
-end (m = 9)."""
+what page and server do with what the program gives seldom: slow levels (pendulum m from 5 to 6: 0 to 1 s), deafness (m = 6), slow frames
+(m = 7), refusals (m = 8), a sudden end (m = 9)."""
 
 import json
 import math
@@ -57,8 +57,8 @@ def frame(request):
     low, width = edges(request["window"]["theta"])
     levels = request.get("levels", [1])
     for level in levels:
-        if pendulum["m"] == 7:
-            time.sleep(1.0)
+        if pendulum["m"] == 7 or 5 < pendulum["m"] < 6:
+            time.sleep(1.0 if pendulum["m"] == 7 else pendulum["m"] - 5)
         if newest.get(view) != sequence:
             return answer("ended", sequence)
         rows, columns = (math.ceil(request[name] / level) for name in ("rows", "columns"))

@@ -2,7 +2,7 @@
 
 import { isNeutral, isUnused } from "./drive.js";
 
-const MOST_MOVING = 250_000; // cells of a frame while things move
+export const MOST_MOVING = 250_000; // cells of a frame while things move
 const MOST_RESTING = 4_000_000;
 const UNSETTLED = "#ffffff";
 const WAITING = "#dfe4e9"; // of cells that have no label yet, hatched on the page
@@ -13,7 +13,7 @@ export const HATCHING = 0.25; // how much darker every second stripe of them is
 export function requestOf(window, pendulum, canvas, { quality, levels, samples, largest, shade, most: allowed }) {
   const most = allowed ?? (quality === "moving" && samples === 1 ? MOST_MOVING : MOST_RESTING);
   const scale = Math.min(samples, Math.sqrt(most / (canvas.width * canvas.height)), largest / canvas.width, largest / canvas.height);
-  const times = [...(quality === "exact" ? ["settling_time"] : []), ...(shade !== "none" ? ["smooth_time"] : [])];
+  const times = [...(quality === "exact" ? ["settling_time"] : []), ...(shade === "settling" ? ["smooth_time"] : [])];
   const planes = ["labels", ...times, ...(quality === "exact" ? ["doubt", "other"] : [])];
   return {
     request: "frame",

@@ -7,6 +7,7 @@ import { numberOf, withUnit } from "./values.js";
 
 const CELLS = 120; // of the chart, along an axis
 const DIGITS = 2; // of the edges
+const RIM = 1e-6; // of the plane, outside of which rounding may lie
 
 /** The keys that a map has where none are chosen: [along, up]. */
 export function usualKeys(names) {
@@ -33,6 +34,21 @@ export function axisAround(name, pendulum) {
 export function shareOf({ name, unit, low, high }, pendulum) {
   const value = numberOf(pendulum[name]);
   return value?.unit === unit ? (value.number - low) / (high - low) : NaN;
+}
+
+/** What a map depends on beside its axes. */
+export function othersOf([x, y], pendulum) {
+  return JSON.stringify({ ...pendulum, [x.name]: null, [y.name]: null });
+}
+
+/** Keys of a request that name the point of an atlas at which a pendulum lies, so that nothing is searched; none where it is on no map. */
+export function listedAt(ground, pendulum) {
+  if (!ground || ground.others !== othersOf(ground.axes, pendulum)) return {};
+  const place = ground.axes.map((axis) => shareOf(axis, pendulum));
+  if (!place.every((share) => share > RIM && share < 1 - RIM)) return {};
+  const { file, low, width } = ground.atlas;
+  const [x, y] = place.map((share, i) => low[i] + share * width[i]);
+  return { atlas: file, x, y };
 }
 
 /** The value at a share of an axis, as a scene has it. */

@@ -4,7 +4,7 @@ import { countPicture, kindPicture } from "./backdrop.js";
 import { Decimal } from "./decimal.js";
 import { Engine } from "./engine.js";
 import { listen } from "./gestures.js";
-import { atlases, axisAround, charts, shareOf, usualKeys, valueAt } from "./ground.js";
+import { atlases, axisAround, charts, othersOf, shareOf, usualKeys, valueAt } from "./ground.js";
 import { happening } from "./happenings.js";
 import { drawAxes, Plane } from "./plane.js";
 import { CanvasSurface } from "./surface.js";
@@ -99,10 +99,8 @@ export class MotionMap {
     this.root.querySelector(".note").textContent = words;
   }
 
-  /** What the map depends on beside its axes. */
   get others() {
-    const [x, y] = this.axes.map(({ name }) => name);
-    return JSON.stringify({ ...this.pendulum, [x]: null, [y]: null });
+    return othersOf(this.axes, this.pendulum);
   }
 
   async ask() {
@@ -121,7 +119,7 @@ export class MotionMap {
       this.atlas = found;
       this.paint();
       this.note(`motions of up to ${found.longest} drive periods`);
-      this.state.change({ ground: { atlas: found, axes: this.axes } });
+      this.state.change({ ground: { atlas: found, axes: this.axes, others: this.asked } });
     };
     const ways = [
       [atlases(this.axes, this.pendulum, signal), atlas],

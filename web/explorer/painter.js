@@ -46,6 +46,8 @@ void main() {
   colour = vec4(sqrt(sum / float(count.x * count.y)), 1.0);
 }`;
 
+/** How much darker late ends are drawn, 0 to 1, by the word of the state. */
+export const shadingOf = (shade) => ({ relief: 0.35, settling: 0.8 })[shade] ?? 0;
 const DOUBLINGS = 10; // of the time after which the end is certain, until it is as dark as it gets
 
 /**
@@ -55,7 +57,8 @@ const DOUBLINGS = 10; // of the time after which the end is certain, until it is
 export function frameOf(header, planes, window, palette) {
   const { rows, columns } = header;
   const cells = new Uint8Array(4 * rows * columns);
-  const { labels, settling_time: times, smooth_time: shades, doubt, other } = planes;
+  const { labels, settling_time: times, doubt, other } = planes;
+  const shades = planes.smooth_time ?? times; // whole periods are terraces, which are gentle enough for a relief
   let doubtful = 0;
   for (let i = 0; i < labels.length; i++) {
     cells[4 * i] = labels[i];

@@ -2,9 +2,10 @@
 
 import { Engine } from "./engine.js";
 import { drawReleases } from "./experiment.js";
-import { decoded, paletteOf, requestOf, sharesOf } from "./frames.js";
+import { decoded, MOST_MOVING, paletteOf, requestOf, sharesOf } from "./frames.js";
+import { listedAt } from "./ground.js";
 import { Inset } from "./inset.js";
-import { frameOf, painterOn } from "./painter.js";
+import { frameOf, painterOn, shadingOf } from "./painter.js";
 import { placementOf, seen } from "./placement.js";
 import { axesOf, drawAxes, drawLine, drawPoints, Plane } from "./plane.js";
 import { CanvasSurface } from "./surface.js";
@@ -15,6 +16,8 @@ const BLIND = 1000; // and where nothing of it has been shown yet: on a slow mac
 const QUIET = 60; // ms in which coarse levels of another pendulum are not shown: the whole frame comes at once
 const REST = 160; // ms without a change, after which labels are made as right and fine as asked for
 const LARGEST = 8192; // cells of a side, of a frame
+const SMOOTH = 30; // ms that a frame may take while things move, which decides how many cells it has,
+const FEWEST = 24_000; // at least
 const EASE = 0.4; // of the way to the window wanted, a picture of the screen
 const LEAP = 30;
 
@@ -31,6 +34,7 @@ export class Pane {
     this.frames = [];
     this.window = state.window;
     this.version = 0;
+    this.most = MOST_MOVING;
     this.plain = { motion: null, marks: [], cursor: null, overlays: [], skeleton: null, releases: [], spread: null };
     this.controller = new AbortController();
     new ResizeObserver(() => this.resized()).observe(root);
@@ -109,7 +113,8 @@ export class Pane {
     for (let done = -1; done !== this.version && !this.closed;) {
       const version = (this.pursued = this.version);
       try {
-        await this.frame({ quality: "moving", levels: [8, 4, 2, 1], samples: 1 });
+        await this.frame({ quality: "moving", levels: [8, 4, 2, 1], samples: 1, most: this.most });
+        this.measure(performance.now() - this.begun);
         if (version === this.version) await pause(REST);
         this.resting = true;
         if (version === this.version) await this.rest(version);
@@ -122,12 +127,18 @@ export class Pane {
     this.pursuing = false;
   }
 
+  /** The next moving frames have so many cells that they take no longer than they may. */
+  measure(milliseconds) {
+    const change = Math.max(0.6, Math.min(1.2, SMOOTH / milliseconds));
+    this.most = Math.max(FEWEST, Math.min(MOST_MOVING, this.most * change));
+  }
+
   /** One request whose coarse levels already are as right as the last, which has several samples a pixel. */
   async rest(version) {
     const { quality } = this.state;
     const samples = Number(this.state.samples);
     this.say(this, "computing", quality === "exact" ? "deciding every label ..." : "computing more samples ...", 0);
-    if (quality === "exact" || samples > 1) await this.frame({ quality, levels: [8, 4, 2, 1], samples });
+    if (quality === "exact" || samples > 1 || this.most < MOST_MOVING) await this.frame({ quality, levels: [8, 4, 2, 1], samples });
     if (version !== this.version) return;
     this.say(this, "done", this.words());
     this.offer.hidden = !(this.top && sharesOf(this.top).filter(({ share }) => share > 0).length === 1);
@@ -146,16 +157,19 @@ export class Pane {
     return frameOf({ ...header, full: [request.rows, request.columns] }, decoded(header, bytes), window, paletteOf(this.engine.catalogue));
   }
 
-  async frame({ quality, levels, samples }) {
+  async frame({ quality, levels, samples, most }) {
     const { pendulum } = this;
     const window = this.state.window.centred("hanging"); // a whole circle that is its own mirror image takes half the work
-    const request = requestOf(window, pendulum, this.basins, {
+    const settings = {
       quality,
       levels,
       samples,
       largest: this.painter.largest,
       shade: this.state.shade,
-    });
+      most,
+    };
+    const listed = quality === "moving" ? listedAt(this.state.ground, pendulum) : {};
+    const request = { ...requestOf(window, pendulum, this.basins, settings), ...listed };
     const key = JSON.stringify(pendulum);
     this.controller = new AbortController();
     this.begun = performance.now();
@@ -235,7 +249,7 @@ export class Pane {
   drawNow() {
     cancelAnimationFrame(this.drawn);
     this.drawn = null;
-    this.painter.draw(seen(this.frames, this.window), this.window, this.state.shade === "settling" ? 0.8 : 0);
+    this.painter.draw(seen(this.frames, this.window), this.window, shadingOf(this.state.shade));
     this.drawAbove();
     this.inset.draw(this.window);
   }

@@ -5,7 +5,7 @@ import { Window } from "./window.js";
 export const DEFAULTS = {
   quality: "exact",
   samples: "2",
-  shade: "none",
+  shade: "relief",
   units: "pi",
   theme: "auto",
   points: "on",

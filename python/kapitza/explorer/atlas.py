@@ -20,7 +20,8 @@ def maps(kept, request):
     scenes = [{"pendulum": request["pendulum"], "atlas": {**axes, **stage}} for stage in STAGES]
     for scene in scenes:
         if scene is scenes[-1] or not kept.has(scenes[-1]):
-            yield from kept.answers(scene, lambda result: packed(result.group("atlas")), answer="atlas", final=scene is scenes[-1])
+            yield from kept.answers(scene, lambda result: packed(result.group("atlas")), answer="atlas", final=scene is scenes[-1],
+                                    file=kept.name(scene))
 
 
 def packed(atlas):
@@ -34,7 +35,7 @@ def packed(atlas):
              for number in numbers]
     header = {
         "max_period": int(atlas.attrs["max_period"]), "mirrored": bool(atlas.attrs["mirrored"]), "cells": atlas.sizes["row"],
-        "points": atlas.sizes["point"], "curves": [_curve(atlas, i) for i in range(atlas.sizes["curve"])],
+        "points": atlas.sizes["point"], "low": low, "width": width, "curves": [_curve(atlas, i) for i in range(atlas.sizes["curve"])],
         "classes": [_motion(atlas, i) for i in range(atlas.sizes["class"])], "lists": lists}
     places = [(atlas[name].values - low[i]) / width[i] for i, name in enumerate("xy")]
     floats = np.array([*places, atlas["side_x"].values, atlas["side_y"].values], dtype="<f4")

@@ -3,6 +3,7 @@
 import hashlib
 import json
 import os
+import re
 import subprocess
 import tempfile
 from contextlib import suppress
@@ -29,6 +30,15 @@ class Kept:
     def has(self, scene):
         """Whether the result of a scene is there."""
         return self._place(scene).exists()
+
+    def name(self, scene):
+        """By which requests of the page name the result of a scene."""
+        return self._place(scene).stem
+
+    def path(self, name):
+        """Of the result of that name; None where there is none any more."""
+        path = self._results() / f"{name}.h5"
+        return str(path) if re.fullmatch("[0-9a-f]{32}", str(name)) and path.exists() else None
 
     def answers(self, scene, make, **more):
         """(header, payload) of each answer: `progress` while the program computes, then what `make` makes of the result, with the keys

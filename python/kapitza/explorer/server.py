@@ -166,6 +166,10 @@ class Handler(BaseHTTPRequestHandler):
 
     def _asked(self, view, request):
         self.explorer.views.rename(FIRST, view)
+        if "atlas" in request:  # the page knows files by name alone, and one may have gone
+            path = self.explorer.kept.path(request["atlas"])
+            rest = {key: value for key, value in request.items() if key not in ("atlas", "x", "y")}
+            request = rest if path is None else request | {"atlas": path}
         return self.explorer.views.answers(view, request)
 
     def _pass_on(self, answers):

@@ -128,12 +128,15 @@ static const kz_key start_rows[] = {
      .offset = AT(velocity)},
     {.path = NULL},
 };
-static const kz_key point_rows[] = {
-    {.path = "atlas", .type = KZ_KEY_TEXT, .unit = "", .offset = AT(atlas)},
-    {.path = "x", .type = KZ_KEY_REAL, .unit = "", .fallback = "", .low = -DBL_MAX, .high = DBL_MAX, .offset = AT(x)},
-    {.path = "y", .type = KZ_KEY_REAL, .unit = "", .fallback = "", .low = -DBL_MAX, .high = DBL_MAX, .offset = AT(y)},
-    {.path = NULL},
-};
+#define POINT_ROWS(no_atlas)                                                                                                 \
+  {                                                                                                                          \
+    {.path = "atlas", .type = KZ_KEY_TEXT, .unit = "", .fallback = no_atlas, .offset = AT(atlas)},                           \
+        {.path = "x", .type = KZ_KEY_REAL, .unit = "", .fallback = "", .low = -DBL_MAX, .high = DBL_MAX, .offset = AT(x)},   \
+        {.path = "y", .type = KZ_KEY_REAL, .unit = "", .fallback = "", .low = -DBL_MAX, .high = DBL_MAX, .offset = AT(y)}, { \
+      .path = NULL                                                                                                           \
+    }                                                                                                                        \
+  }
+static const kz_key point_rows[] = POINT_ROWS(NULL), frame_rows[] = POINT_ROWS("\"\"");
 static const kz_key state_rows[] = {
     {.path = "states", .type = KZ_KEY_BOOLEAN, .unit = "", .fallback = "true", .offset = AT(states)},
     {.path = NULL},
@@ -147,16 +150,29 @@ static kz_status check_rest(kz_node *root) {
                  root->first->name);
 }
 
-/* A point of an atlas, or a line: one of its coordinates. */
-static kz_status read_point(kz_node *root, kz_request *request) {
+/* A point of an atlas, or a line: one of its coordinates. A frame without an atlas has none. */
+static kz_status check_point(const kz_request *request) {
   const bool is_line = request->kind == KZ_REQUEST_LINE;
-  KZ_TRY(read_rows(point_rows, root, request));
-  if (!is_line) KZ_TRY(read_rows(state_rows, root, request));
-  KZ_TRY(check_rest(root));
   const int given = !isnan(request->x) + !isnan(request->y);
+  if (!*request->atlas && given > 0)
+    return kz_fail(KZ_REFUSED, "%s: x: is a point of an atlas; give the name of its file as atlas", SOURCE);
+  if (!*request->atlas && request->kind == KZ_REQUEST_FRAME) return KZ_OK;
   if (given == (is_line ? 1 : 2)) return KZ_OK;
   return kz_fail(KZ_REFUSED, is_line ? "%s: x: a line has x or y, not both" : "%s: %s: is missing; it must be a number", SOURCE,
                  isnan(request->x) ? "x" : "y");
+}
+
+static kz_status read_point(kz_node *root, kz_request *request) {
+  KZ_TRY(read_rows(point_rows, root, request));
+  if (request->kind == KZ_REQUEST_MOTIONS) KZ_TRY(read_rows(state_rows, root, request));
+  KZ_TRY(check_rest(root));
+  return check_point(request);
+}
+
+static kz_status read_frame(kz_node *root, kz_request *request) {
+  KZ_TRY(read_rows(frame_rows, root, request));
+  KZ_TRY(check_point(request));
+  return check_frame(request);
 }
 
 static kz_status set_text(kz_node *tree, const char *path, const char *text) {
@@ -206,7 +222,7 @@ static kz_status read_root(const kz_node *tree, kz_node *root, kz_request *reque
   if (root->kind != KZ_MAPPING) return kz_fail(KZ_REFUSED, "%s: is not a JSON object", SOURCE);
   KZ_TRY(read_rows(rows, root, request));
   if (request->kind == KZ_REQUEST_CANCEL || request->kind == KZ_REQUEST_QUIT) return check_rest(root);
-  if (request->kind == KZ_REQUEST_FRAME) KZ_TRY(check_frame(request));
+  if (request->kind == KZ_REQUEST_FRAME) KZ_TRY(read_frame(root, request));
   if (request->kind == KZ_REQUEST_CHART) KZ_TRY(check_levels(&request->levels));
   if (request->kind == KZ_REQUEST_WHERE) KZ_TRY(read_rows(start_rows, root, request));
   if (request->kind == KZ_REQUEST_MOTIONS || request->kind == KZ_REQUEST_LINE) return read_point(root, request);

@@ -28,7 +28,7 @@ typedef struct kz_request {
   int64_t rows, columns;
   kz_integers levels, planes;
   kz_decimal theta, velocity; /* start, for the request where */
-  char *atlas;                /* for the request motions: name of a result file, */
+  char *atlas;                /* for motions and frames: name of a result file, "" = none, */
   double x, y;                /* values of its keys, */
   bool states;                /* and whether the strobe points are asked for */
   bool has_scene;

@@ -219,8 +219,14 @@ static kz_status draw(server *s, kz_request *request) {
                     .levels = &request->levels,
                     .pause = pause_drawing,
                     .show = show,
-                    .context = s};
+                    .context = s,
+                    .x = request->x,
+                    .y = request->y};
   for (int64_t i = 0; i < request->planes.count; i++) frame.plane[request->planes.values[i]] = true;
+  if (*request->atlas) {
+    KZ_TRY(kz_map_open(&s->map, request->atlas));
+    frame.atlas = s->map.atlas;
+  }
   return kz_engine_frame(s->engine, &request->scene, &frame);
 }
 

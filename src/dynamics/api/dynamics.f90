@@ -11,7 +11,7 @@ module kz_api_dynamics
   use kz_vector_locks, only: create_lock, free_lock
   use kz_labels_levels, only: levels_t
   use kz_labels_released, only: released_t
-  use kz_vector_map, only: flow_t
+  use kz_vector_map, only: flow_t, PI
   use kz_vector_step_table, only: numerics_t
   use kz_maps_map_table, only: table_t
   use kz_model_pendulum, only: pendulum_t, is_mirrored
@@ -108,7 +108,9 @@ contains
     lost = 0
     do a = 1, size(from%attractors)
       if (from%attractors(a)%mirror < a .or. from%attractors(a)%period <= 0) cycle
-      call carry(d%search, from%attractors(a), d%attractors, number(a))
+      associate (old => from%attractors(a))
+        call carry(d%search, old%period, old%u(1), old%v(1), d%attractors, number(a))
+      end associate
       if (number(a) == 0) lost = lost + 1
       if (number(a) > 0) number(from%attractors(a)%mirror) = d%attractors(number(a))%mirror
     end do
@@ -124,17 +126,29 @@ contains
     moved = c_loc(d)
   end function continued
 
-  !> Appends the cycle that continues `old`, and its mirror image; number = 0 where there is none, or none that is new.
-  subroutine carry(search, old, attractors, number)
+  subroutine add_cycle(handle, period, theta, velocity) bind(C, name='kz_dynamics_add_cycle')
+    type(c_ptr), value :: handle
+    integer(c_int64_t), value :: period
+    real(dp), value :: theta, velocity
+    type(dynamics_t), pointer :: d
+    integer :: number
+
+    d => of_handle(handle)
+    call carry(d%search, int(period), theta/PI, velocity, d%attractors, number)
+  end subroutine add_cycle
+
+  !> Appends the cycle near a strobe point, and its mirror image; number = 0 where none attracts, or none that is new.
+  subroutine carry(search, period, u, v, attractors, number)
     type(search_t), intent(inout) :: search
-    type(attractor_t), intent(in) :: old
+    integer, intent(in) :: period
+    real(dp), intent(in) :: u, v !< half-turns, rad per drive radian
     type(attractor_t), allocatable, intent(inout) :: attractors(:)
     integer, intent(out) :: number
     type(attractor_t) :: new
     logical :: found, blurred
 
     number = 0
-    call close_cycle(search%fine, search%pendulum%beta, old%period, old%u(1), old%v(1), FARTHEST, new, found, blurred)
+    call close_cycle(search%fine, search%pendulum%beta, period, u, v, FARTHEST, new, found, blurred)
     new%mirrored = is_mirrored(search%pendulum) /= 0
     if (found) call complete_attractor(new, found)
     if (.not. found) return

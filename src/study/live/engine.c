@@ -74,14 +74,18 @@ void kz_engine_list(kz_engine *engine, kz_prepared *prepared) {
   engine->shown = &prepared->catalogue;
 }
 
-static kz_status make(kz_engine *engine, const kz_scene *scene, double tolerance, kz_prepared *place) {
-  kz_scene wide = searched(engine, scene);
-  kz_prepared fresh;
-  const kz_status status = kz_prepared_make(&wide, tolerance, &fresh);
-  kz_plans_free(&wide);
-  if (status == KZ_OK) kz_prepared_list(&fresh, ++engine->versions, engine->shown, &engine->tracks);
+static void forget(kz_engine *engine, kz_prepared *place) {
   if (engine->shown == &place->catalogue) engine->shown = NULL;
   kz_prepared_free(place);
+}
+
+static kz_status make(kz_engine *engine, const kz_scene *scene, double tolerance, const kz_frame *frame, kz_prepared *place) {
+  kz_scene wide = searched(engine, scene);
+  kz_prepared fresh;
+  const kz_status status = kz_prepared_make(&wide, tolerance, frame, &fresh);
+  kz_plans_free(&wide);
+  if (status == KZ_OK) kz_prepared_list(&fresh, ++engine->versions, engine->shown, &engine->tracks);
+  forget(engine, place);
   if (status == KZ_OK)
     *place = fresh;
   else
@@ -89,18 +93,23 @@ static kz_status make(kz_engine *engine, const kz_scene *scene, double tolerance
   return status;
 }
 
-kz_status kz_engine_prepared(kz_engine *engine, const kz_scene *scene, bool moving, kz_prepared **prepared) {
+kz_status kz_engine_prepared(kz_engine *engine, const kz_scene *scene, const kz_frame *frame, kz_prepared **prepared) {
   KZ_TRY(kz_drive_check_window(scene));
   kz_prepared *near = NULL;
+  const bool moving = frame && frame->moving;
   const double tolerance = moving ? kz_moving_tolerance(scene) : 0;
   *prepared = find(engine, scene, tolerance);
   if (!*prepared && moving && (near = nearest(engine, scene))) {
-    kz_prepared_move(near, scene);
+    const kz_status status = kz_prepared_move(near, scene, frame);
+    if (status != KZ_OK) {
+      forget(engine, near);
+      return status;
+    }
     kz_engine_list(engine, near);
     *prepared = near;
   } else if (!*prepared) {
     *prepared = oldest(engine);
-    KZ_TRY(make(engine, scene, tolerance, *prepared));
+    KZ_TRY(make(engine, scene, tolerance, frame, *prepared));
   }
   (*prepared)->used = ++engine->calls;
   engine->shown = &(*prepared)->catalogue;
@@ -116,7 +125,7 @@ void kz_engine_rest(kz_engine *engine) {
 
 kz_status kz_engine_catalogue(kz_engine *engine, const kz_scene *scene, const kz_live_catalogue **catalogue) {
   kz_prepared *prepared;
-  KZ_TRY(kz_engine_prepared(engine, scene, false, &prepared));
+  KZ_TRY(kz_engine_prepared(engine, scene, NULL, &prepared));
   *catalogue = &prepared->catalogue;
   return KZ_OK;
 }
@@ -135,7 +144,7 @@ kz_status kz_engine_where(kz_engine *engine, const kz_scene *scene, int64_t n, c
                           kz_ending *endings) {
   kz_prepared *r;
   kz_endings_clear(n, endings);
-  KZ_TRY(kz_engine_prepared(engine, scene, false, &r));
+  KZ_TRY(kz_engine_prepared(engine, scene, NULL, &r));
   if (!r->dynamics || n == 0) return KZ_OK;
   KZ_FREED_BY(kz_question_free)
   kz_question q = {.scene = &r->scene, .dynamics = r->dynamics, .max_periods = r->search.max_periods, .n = n, .start = start};

@@ -150,7 +150,7 @@ kz_status kz_engine_frame(kz_engine *engine, const kz_scene *scene, const kz_fra
               .begin = kz_process_clock(),
               .total = scene->basin->theta.count * scene->basin->velocity.count,
               .own = kz_unique_cells(scene->basin)};
-  KZ_TRY(kz_engine_prepared(engine, scene, frame->moving, &m.prepared));
+  KZ_TRY(kz_engine_prepared(engine, scene, frame, &m.prepared));
   const bool was_busy = m.prepared->busy;
   m.prepared->busy = true;
   m.prepared->smooth = frame->plane[KZ_PLANE_SMOOTH_TIME];

@@ -57,14 +57,20 @@ static inline bool kz_prepared_moves(const kz_prepared *prepared) {
 /* The tolerance of moving frames of the scene's window, rad: much smaller than a cell. */
 double kz_moving_tolerance(const kz_scene *scene);
 
-/* Prepares a pendulum: attractors of the scene's window, trapping regions, catalogue without tracks. The caller frees it in every case. */
-kz_status kz_prepared_make(const kz_scene *scene, double tolerance, kz_prepared *prepared);
+/* Prepares a pendulum: attractors of the scene's window, or of the frame's atlas where it has one (`frame` NULL: no frame), trapping
+ * regions, catalogue without tracks. The caller frees it in every case. */
+kz_status kz_prepared_make(const kz_scene *scene, double tolerance, const kz_frame *frame, kz_prepared *prepared);
 void kz_prepared_free(kz_prepared *prepared);
 
+/* How far two pendulums are apart, of the size of their parameters; INFINITY where only one has mirror symmetry. */
+double kz_pendulums_parted(const kz_pendulum *a, const kz_pendulum *b);
 /* The relative distance of the scene's pendulum from the prepared one; INFINITY = too far to move it there. */
 double kz_prepared_distance(const kz_prepared *prepared, const kz_scene *scene);
-/* Moves it to the scene's pendulum: its attractors are continued; trapping regions are grown anew after some pendulums only. */
-void kz_prepared_move(kz_prepared *prepared, const kz_scene *scene);
+/* Moves it to the scene's pendulum: its attractors are continued, and those that the frame's atlas lists join them; trapping regions are
+ * grown anew after some pendulums only. KZ_REFUSED: the atlas does not have this pendulum. */
+kz_status kz_prepared_move(kz_prepared *prepared, const kz_scene *scene, const kz_frame *frame);
+/* Adds the attractors that the frame's atlas lists and that are not known. KZ_REFUSED: the atlas has another pendulum at this point. */
+kz_status kz_prepared_take_listed(kz_prepared *prepared, const kz_frame *frame);
 
 /* Looks for attractors near its unsettled states, and drops these. Returns true if it has found some. */
 bool kz_prepared_discover(kz_prepared *prepared);
@@ -88,8 +94,8 @@ struct kz_engine {
   const kz_live_catalogue *shown;  /* the last catalogue: tracks go on from it */
 };
 
-/* *prepared = that for a scene; the engine makes it if necessary and owns it. */
-kz_status kz_engine_prepared(kz_engine *engine, const kz_scene *scene, bool moving, kz_prepared **prepared);
+/* *prepared = that for a frame of a scene, or with `frame` NULL for decided labels; the engine makes it if necessary and owns it. */
+kz_status kz_engine_prepared(kz_engine *engine, const kz_scene *scene, const kz_frame *frame, kz_prepared **prepared);
 
 /* Makes the catalogue of a prepared pendulum anew after new attractors were found. */
 void kz_engine_list(kz_engine *engine, kz_prepared *prepared);

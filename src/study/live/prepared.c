@@ -75,10 +75,16 @@ static void learn(kz_prepared *r) {
   kz_dynamics_learn_regions(r->dynamics, n, state, r->periods, 2 * VISITS);
 }
 
-static kz_status search(kz_prepared *r) {
+static kz_status search(kz_prepared *r, const kz_frame *frame) {
   r->dynamics = kz_dynamics_create(&r->scene.parameters.pendulum, &r->scene.numerics, r->scene.basin->max_period);
   r->search.max_velocity = kz_dynamics_max_velocity(r->dynamics, &r->search.window);
-  KZ_TRY(kz_search_window(NULL, r->dynamics, &r->search, NULL));
+  if (kz_prepared_moves(r) && frame->atlas) {
+    kz_dynamics_coarse_regions(r->dynamics, r->search.max_velocity);
+    KZ_TRY(kz_prepared_take_listed(r, frame));
+    kz_regions_grow(r->dynamics, CELLS, r->search.max_velocity);
+  } else {
+    KZ_TRY(kz_search_window(NULL, r->dynamics, &r->search, NULL));
+  }
   kz_dynamics_set_release(r->dynamics, &r->scene.parameters.release);
   learn(r);
   return KZ_OK;
@@ -89,7 +95,7 @@ static int64_t periods_of(const kz_scene *scene, bool moving) {
   return moving ? (int64_t)fmin(enough, (double)scene->basin->max_periods) : scene->basin->max_periods;
 }
 
-kz_status kz_prepared_make(const kz_scene *scene, double tolerance, kz_prepared *prepared) {
+kz_status kz_prepared_make(const kz_scene *scene, double tolerance, const kz_frame *frame, kz_prepared *prepared) {
   const bool moving = tolerance > 0;
   *prepared = (kz_prepared){.scene = *scene, .tolerance = tolerance};
   prepared->chosen = prepared->grown = scene->parameters.pendulum;
@@ -104,7 +110,7 @@ kz_status kz_prepared_make(const kz_scene *scene, double tolerance, kz_prepared 
   }
   if (scene->parameters.pendulum.beta <= 0) return KZ_OK; /* without damping nothing attracts */
   choose_numerics(prepared);
-  return search(prepared);
+  return search(prepared, frame);
 }
 
 static void free_catalogue(kz_live_catalogue *catalogue) {
@@ -151,17 +157,6 @@ static bool same_search(const kz_prepared *prepared, const kz_scene *scene) {
          mine->max_period == plan->max_period && mine->starts == plan->starts && mine->seed == plan->seed;
 }
 
-/* How far two pendulums are apart, of the size of their parameters; INFINITY where only one has mirror symmetry. */
-static double parted(const kz_pendulum *a, const kz_pendulum *b) {
-  double size = fabs(a->k) + fabs(a->m) + a->beta;
-  double difference = fabs(a->k - b->k) + fabs(a->m - b->m) + fabs(a->beta - b->beta) + fabs(a->torque - b->torque);
-  if (kz_is_mirrored(a) != kz_is_mirrored(b)) return INFINITY;
-  for (int j = 0; j < KZ_HARMONICS; j++)
-    for (int i = 0; i < 2; i++)
-      difference += fabs(a->vertical[j][i] - b->vertical[j][i]) + fabs(a->horizontal[j][i] - b->horizontal[j][i]);
-  return difference / size;
-}
-
 /* How far the damping of two pendulums is apart, of the larger one. */
 static double damped_apart(const kz_pendulum *a, const kz_pendulum *b) {
   return fabs(a->beta - b->beta) / fmax(a->beta, b->beta);
@@ -171,11 +166,11 @@ double kz_prepared_distance(const kz_prepared *prepared, const kz_scene *scene) 
   if (prepared->used == 0 || !kz_prepared_moves(prepared) || !prepared->dynamics || prepared->busy) return INFINITY;
   if (!(scene->parameters.pendulum.beta > 0) || !same_search(prepared, scene)) return INFINITY;
   const kz_pendulum *own = &prepared->scene.parameters.pendulum, *other = &scene->parameters.pendulum;
-  const double distance = parted(own, other);
+  const double distance = kz_pendulums_parted(own, other);
   return distance < FARTHEST && damped_apart(own, other) < FARTHEST ? distance : INFINITY;
 }
 
-void kz_prepared_move(kz_prepared *r, const kz_scene *scene) {
+kz_status kz_prepared_move(kz_prepared *r, const kz_scene *scene, const kz_frame *frame) {
   const kz_pendulum *pendulum = &scene->parameters.pendulum;
   const double tolerance = kz_moving_tolerance(scene);
   int64_t lost;
@@ -183,7 +178,7 @@ void kz_prepared_move(kz_prepared *r, const kz_scene *scene) {
   r->scene.basin->max_periods = scene->basin->max_periods;
   r->search.max_periods = scene->basin->max_periods;
   r->periods = periods_of(scene, true);
-  if (parted(&r->chosen, pendulum) > RECHOSEN || tolerance != r->tolerance) {
+  if (kz_pendulums_parted(&r->chosen, pendulum) > RECHOSEN || tolerance != r->tolerance) {
     r->tolerance = tolerance;
     choose_numerics(r);
     r->chosen = *pendulum;
@@ -193,7 +188,8 @@ void kz_prepared_move(kz_prepared *r, const kz_scene *scene) {
   r->dynamics = moved;
   r->n_unsettled = 0;
   kz_dynamics_set_release(moved, &scene->parameters.release);
-  const bool far = parted(&r->grown, pendulum) > REGROWN || damped_apart(&r->grown, pendulum) > RESETTLED;
+  if (frame->atlas) KZ_TRY(kz_prepared_take_listed(r, frame));
+  const bool far = kz_pendulums_parted(&r->grown, pendulum) > REGROWN || damped_apart(&r->grown, pendulum) > RESETTLED;
   if (lost > 0 || far || ++r->age >= OLDEST) {
     kz_dynamics_fine_regions(moved, MOVING_CELLS, r->search.max_velocity);
     learn(r);
@@ -202,6 +198,7 @@ void kz_prepared_move(kz_prepared *r, const kz_scene *scene) {
   } else if (has_cover(r)) {
     learn(r);
   }
+  return KZ_OK;
 }
 
 bool kz_prepared_serves(const kz_prepared *prepared, const kz_scene *scene, double tolerance) {
