@@ -159,6 +159,13 @@ def test_commands_of_the_package_take_the_python_of_pip(environment):
     script.unlink()
 
 
+def test_a_folder_of_other_files_is_left_alone(tmp_path):
+    (tmp_path / "venv").mkdir()
+    done = subprocess.run([ROOT / "scripts" / "wheel", tmp_path], capture_output=True, text=True)
+    assert (done.returncode, done.stderr) == (1, f"wheel: {tmp_path} holds other files: name a new folder, or one of an earlier build\n")
+    assert [path.name for path in tmp_path.iterdir()] == ["venv"]
+
+
 def test_every_source_and_tool_has_its_hash():
     rows = [line.split() for line in (WHEEL / "sources.txt").read_text().splitlines() if not line.startswith("#")]
     assert len(rows) > 5 and all(row[0] in ("binary", "source") and re.fullmatch("[0-9a-f]{64}", row[2]) for row in rows)
