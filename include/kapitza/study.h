@@ -48,8 +48,8 @@ KZ_STUDIES(KZ_STUDY_PLAN)
 typedef struct {
   char *title; /* may be "" */
   kz_parameters parameters;
-  char bare
-      [400]; /* the numbers of a laboratory's pendulum that have no unit, with the units that they are taken in; "" = none */
+  /* The numbers of a laboratory's pendulum that have no unit, with the units that they are taken in; "" = none. */
+  char bare[400];
   kz_numerics_keys asked;
   kz_numerics numerics;   /* resolved from `asked` by kz_numerics_resolve */
   kz_kept_series *series; /* of its pendulums; kz_scene_free frees it, and copies of the scene share it; NULL = none is kept */
@@ -88,8 +88,8 @@ typedef struct {
   const char *name, *unit;
   size_t offset; /* in kz_pendulum_keys */
 } kz_sweep_parameter;
-enum { KZ_SWEEP_PARAMETERS = 23 };
-extern const kz_sweep_parameter kz_sweep_parameters[KZ_SWEEP_PARAMETERS];
+extern const kz_sweep_parameter kz_sweep_parameters[];
+extern const int kz_sweep_parameter_count;
 /* The names of these keys, and of the measures of a sweep, each list joined by '|'. */
 const char *kz_sweep_words(void);
 const char *kz_sweep_measure_words(void);

@@ -47,9 +47,9 @@ typedef struct {
 typedef struct {
   int64_t count, n_points;
   kz_atlas_branch *branch; /* [count] */
-  double (*point)
-      [KZ_LINE_COLUMNS]; /* [n_points]: value of the key; mean height of the bob at the strobe points, -1 to 1; a strobe point; largest
-                                     * modulus of a multiplier over the period */
+  /* [n_points]: value of the key; mean height of the bob at the strobe points, -1 to 1; a strobe point; largest modulus of a multiplier over the
+   * period. */
+  double (*point)[KZ_LINE_COLUMNS];
 } kz_atlas_branches;
 /* All branches of cycles of up to max_period periods along the line where the other key than that of `axis` (0: x, 1: y) is `value`, from its crossings
  * with the curves. KZ_REFUSED outside of the plane. The caller frees *line. */

@@ -43,6 +43,16 @@ typedef struct {
   kz_reals vertical, horizontal; /* cosine and sine of harmonics 1, 2, .. of kz_pendulum, if these are written */
 } kz_pendulum_keys;
 
+/* A number that makes another drive than k - m cos t, without mirror symmetry; a row without path ends the list. */
+typedef struct {
+  const char *path; /* "pendulum.tilt" */
+  size_t offset;    /* in kz_pendulum_keys */
+} kz_drive_key;
+extern const kz_drive_key kz_drive_keys[];
+/* The first of them that is written, NULL = none; the key that makes the drive, as the beginning of a message. */
+const char *kz_drive_unmirrored_by(const kz_pendulum_keys *written);
+const char *kz_drive_made_by(const kz_pendulum_keys *written);
+
 /* All three forms give `pendulum`. Other numbers are NaN if they are not defined (Q without damping, Omega at k <= 0). */
 typedef struct {
   kz_pendulum_keys written;

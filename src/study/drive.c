@@ -11,6 +11,28 @@ static bool has(double value) {
   return !isnan(value) && value != 0;
 }
 
+const kz_drive_key kz_drive_keys[] = {
+    {"pendulum.tilt", offsetof(kz_pendulum_keys, tilt)},
+    {"pendulum.ellipse", offsetof(kz_pendulum_keys, ellipse)},
+    {"pendulum.torque", offsetof(kz_pendulum_keys, torque)},
+    {"pendulum.torque_amplitude", offsetof(kz_pendulum_keys, torque_amplitude)},
+    {NULL, 0},
+};
+
+const char *kz_drive_unmirrored_by(const kz_pendulum_keys *written) {
+  const kz_drive_key *key = kz_drive_keys;
+  while (key->path && isnan(*(const double *)((const char *)written + key->offset))) key++;
+  return key->path;
+}
+
+const char *kz_drive_made_by(const kz_pendulum_keys *written) {
+  const char *path = kz_drive_unmirrored_by(written);
+  if (path) return path;
+  if (written->harmonics.count > 0) return "pendulum.harmonics";
+  if (written->vertical.count > 0) return "pendulum.vertical";
+  return written->horizontal.count > 0 ? "pendulum.horizontal" : "pendulum.waveform";
+}
+
 static bool has_coefficients(const kz_pendulum_keys *written) {
   return written->vertical.count > 0 || written->horizontal.count > 0;
 }

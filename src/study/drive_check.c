@@ -62,19 +62,6 @@ static const char *needs_cells(const kz_scene *scene) {
   return of_cells ? NULL : "a sweep over a ramp needs the study basin and measures basin_fractions and phases only";
 }
 
-/* The keys that define the drive, as the beginning of a message. */
-static const char *keys_of(const kz_scene *scene) {
-  const kz_pendulum_keys *written = &scene->parameters.written;
-  if (!isnan(written->tilt)) return "pendulum.tilt";
-  if (!isnan(written->ellipse)) return "pendulum.ellipse";
-  if (!isnan(written->torque)) return "pendulum.torque";
-  if (!isnan(written->torque_amplitude)) return "pendulum.torque_amplitude";
-  if (written->harmonics.count > 0) return "pendulum.harmonics";
-  if (written->vertical.count > 0) return "pendulum.vertical";
-  if (written->horizontal.count > 0) return "pendulum.horizontal";
-  return "pendulum.waveform";
-}
-
 /* The first study or method that needs the sine; NULL = none. */
 static const char *needs_sine(const kz_scene *scene) {
   if (scene->has_chart) return needs_pivot;
@@ -154,7 +141,7 @@ kz_status kz_drive_check(const kz_scene *scene) {
   const bool varied = drive_is_varied(scene);
   const char *why = kz_is_sine(p) && !varied ? NULL : needs_sine(scene);
   if (!why && (!kz_is_mirrored(p) || varied)) why = needs_mirror(scene);
-  if (why) return kz_fail(KZ_REFUSED, "%s: %s", keys_of(scene), why);
+  if (why) return kz_fail(KZ_REFUSED, "%s: %s", kz_drive_made_by(&scene->parameters.written), why);
   return check_release(scene);
 }
 
@@ -167,5 +154,5 @@ kz_status kz_drive_check_window(const kz_scene *scene) {
 
 kz_status kz_drive_check_chart(const kz_scene *scene) {
   if (kz_is_sine(&scene->parameters.pendulum) && !drive_is_varied(scene)) return KZ_OK;
-  return kz_fail(KZ_REFUSED, "%s: %s", keys_of(scene), needs_pivot);
+  return kz_fail(KZ_REFUSED, "%s: %s", kz_drive_made_by(&scene->parameters.written), needs_pivot);
 }

@@ -7,7 +7,7 @@
 
 #define NAMED(name_, field_, unit_) {name_, unit_, offsetof(kz_pendulum_keys, field_)}
 #define KEY(name_, unit_) NAMED(#name_, name_, unit_)
-const kz_sweep_parameter kz_sweep_parameters[KZ_SWEEP_PARAMETERS] = {
+const kz_sweep_parameter kz_sweep_parameters[] = {
     KEY(quality_factor, "1"),
     KEY(drive_frequency, "1"),
     KEY(drive_amplitude, "1"),
@@ -32,11 +32,12 @@ const kz_sweep_parameter kz_sweep_parameters[KZ_SWEEP_PARAMETERS] = {
     NAMED("ramp.periods", ramp_periods, "1"),
     NAMED("ramp.from", ramp_from, "1"),
 };
+const int kz_sweep_parameter_count = sizeof kz_sweep_parameters / sizeof kz_sweep_parameters[0];
 
 const char *kz_sweep_words(void) {
   static char words[512];
   words[0] = '\0';
-  for (int i = 0; i < KZ_SWEEP_PARAMETERS; i++) {
+  for (int i = 0; i < kz_sweep_parameter_count; i++) {
     if (i > 0) strcat(words, "|");
     strcat(words, kz_sweep_parameters[i].name);
   }
@@ -49,10 +50,8 @@ bool kz_sweep_is_of_release(int32_t parameter) {
 }
 
 bool kz_sweep_is_of_drive(int32_t parameter) {
-  static const size_t drives[] = {offsetof(kz_pendulum_keys, tilt), offsetof(kz_pendulum_keys, ellipse),
-                                  offsetof(kz_pendulum_keys, torque), offsetof(kz_pendulum_keys, torque_amplitude)};
-  for (size_t i = 0; i < sizeof drives / sizeof drives[0]; i++)
-    if (kz_sweep_parameters[parameter].offset == drives[i]) return true;
+  for (const kz_drive_key *key = kz_drive_keys; key->path; key++)
+    if (kz_sweep_parameters[parameter].offset == key->offset) return true;
   return false;
 }
 

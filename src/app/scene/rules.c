@@ -240,10 +240,8 @@ static void chart_rules(kz_reading *reading, kz_scene *scene) {
 
 /* Whether the pendulum, or one of the sweep's, has no mirror symmetry. */
 static void symmetry_rules(kz_reading *reading, kz_scene *scene) {
-  const kz_pendulum_keys *written = &scene->parameters.written;
   (void)reading;
-  scene->basin->unmirrored = !isnan(written->tilt) || !isnan(written->ellipse) || !isnan(written->torque) ||
-                             !isnan(written->torque_amplitude) || scene->parameters.pendulum.unmirrored;
+  scene->basin->unmirrored = kz_drive_unmirrored_by(&scene->parameters.written) || scene->parameters.pendulum.unmirrored;
 }
 
 /* Refuses orbits for which the motion is too fast or the model does not hold. */

@@ -32,9 +32,8 @@ typedef struct {
   int32_t frame_steps;                /* number of steps after which the frame is renewed */
   double fastest;                     /* rad per drive radian */
   double theta_error, velocity_error; /* (B3) of the centre, a step */
-  double tangent_error
-      [2][2]
-      [2]; /* (B4) [whether the frame is kept] of (theta, velocity) by a neighbour's (theta, velocity) at the step's beginning */
+  /* (B4) of (theta, velocity), by a neighbour's (theta, velocity) at the beginning of the step: frame renewed, frame kept. */
+  double tangent_error[2][2][2];
   double turn;                         /* (B5) rad: theta of a centre on a step, beyond h |velocity| */
   double farthest[2];                  /* (B5) theta of a neighbour on the step, by the same */
   double nonlinear[2];                 /* (B6) (theta, velocity) by a torque that acts for the whole step */
