@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 from conftest import EXTENSIVE, PROGRAM
 from kapitza import fitting
+from kapitza.least_squares import half_width
 
 NOISE = 2e-3  # rad
 DECAY = {"omega0": 7.0, "offset": 0.02, "theta": 0.9, "velocity": 0.3, "viscous": 0.15}
@@ -53,6 +54,11 @@ def test_the_truth_lies_within_the_stated_errors():
     held = [holds(fitting.fitted("viscous", time, track(DECAY, time, seed), dict(DECAY), None), DECAY) for seed in range(count)]
     for name in DECAY:
         assert sum(one[name] for one in held) >= (88 if EXTENSIVE else 15), name
+
+
+def test_few_samples_have_wider_intervals():
+    """Student's t of 95 %, from tables."""
+    assert [half_width(spare) for spare in (10, 14, 55, 1000)] == pytest.approx([2.228, 2.145, 2.004, 1.962], abs=4e-3)
 
 
 def test_drag_and_friction_are_told_from_viscous_damping():
