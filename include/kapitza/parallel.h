@@ -57,6 +57,9 @@ kz_status kz_ranks_interrupted(const kz_ranks *ranks);
 /* auto: a bar on a terminal, else a line every 10 s. always: a bar on a terminal, else a line every second and one at the end of each
  * stage. never: nothing. Stages of one tile are silent. */
 void kz_ranks_set_progress(kz_ranks *ranks, kz_progress progress);
+/* Progress names stages by what `describe` writes for their names to words [bytes]; without it by these names. */
+typedef void (*kz_stage_describe)(const char *name, char *words, size_t bytes);
+void kz_ranks_name_stages(kz_ranks *ranks, kz_stage_describe describe);
 /* Makes rank 0 write JSON lines to `log` (NULL = none): progress {"event": "progress", "seconds", "stage", "done", "total"}, the end of each
  * stage {"event": "stage", "seconds", "stage", "tiles", "wall", "processor", "most", "busy"}, and the processor seconds of each tile that
  * rank 0 does {"event": "tiles", "seconds", "stage", "tile", "processor"}. */

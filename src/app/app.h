@@ -72,6 +72,8 @@ kz_status kz_say(kz_status status);
 
 /* The commands. */
 kz_status kz_app_run(const kz_options *options);
+/* What a stage does, for progress: "labels in quad precision (1)" for "quad 1". */
+void kz_stage_words(const char *name, char *words, size_t bytes);
 kz_status kz_app_check(const kz_options *options);
 kz_status kz_app_where(const kz_options *options);
 kz_status kz_app_serve(const kz_options *options);

@@ -223,6 +223,7 @@ static kz_status leave_complete(job *j) {
 static kz_status carry_out(job *j) {
   bool complete = false;
   kz_ranks_set_progress(j->run.ranks, j->options->progress);
+  kz_ranks_name_stages(j->run.ranks, kz_stage_words);
   kz_ranks_set_time_limit(j->run.ranks, j->options->time_limit);
   kz_abandon_run(&j->run, NULL); /* the limit holds for what comes before modelling, too */
   KZ_TRY(prepare(j, &complete));

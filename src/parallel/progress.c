@@ -5,7 +5,7 @@
 #include <unistd.h>
 
 static const double BAR_DELAY = 0.5, BAR_PERIOD = 0.2, LINE_PERIOD = 10.0, LINE_PERIOD_ALWAYS = 1.0; /* s */
-enum { BAR_CELLS = 32, CLOCK_BYTES = 24 };
+enum { BAR_CELLS = 24, CLOCK_BYTES = 24 };
 
 /* Under a launcher neither stderr nor stdout tells whether a person looks on: ask for the terminal itself. */
 static FILE *find_terminal(kz_ranks *ranks) {
@@ -17,6 +17,10 @@ static FILE *find_terminal(kz_ranks *ranks) {
 void kz_meter_begin(kz_meter *meter, kz_ranks *ranks, const char *name, int64_t total, int64_t first) {
   *meter = (kz_meter){.name = name, .ranks = ranks, .total = total, .first = first, .begun = kz_clock()};
   meter->log_due = meter->begun + LINE_PERIOD_ALWAYS;
+  if (ranks->describe)
+    ranks->describe(name, meter->words, sizeof meter->words);
+  else
+    snprintf(meter->words, sizeof meter->words, "%s", name);
   if (ranks->rank != 0 || ranks->progress == KZ_PROGRESS_NEVER || total < 2) return;
   FILE *terminal = find_terminal(ranks);
   const bool always = ranks->progress == KZ_PROGRESS_ALWAYS;
@@ -49,10 +53,10 @@ static void draw(const kz_meter *meter, int64_t done, double elapsed) {
   if (fresh > 0) clock_text(elapsed * (double)(meter->total - done) / (double)fresh, left);
   for (int i = 0; i < BAR_CELLS; ++i) bar[i] = i < share * BAR_CELLS ? '#' : '.';
   if (meter->live)
-    fprintf(meter->out, "\r%-12s [%s] %3.0f %%  %s, %s left \033[K", meter->name, bar, 100 * share, clock_text(elapsed, spent),
+    fprintf(meter->out, "\r%-12s [%s] %3.0f %%  %s, %s left \033[K", meter->words, bar, 100 * share, clock_text(elapsed, spent),
             left);
   else
-    fprintf(meter->out, "kapitza: %s: %.0f %%, %s, %s left\n", meter->name, 100 * share, clock_text(elapsed, spent), left);
+    fprintf(meter->out, "kapitza: %s: %.0f %%, %s, %s left\n", meter->words, 100 * share, clock_text(elapsed, spent), left);
   fflush(meter->out);
 }
 
@@ -82,7 +86,7 @@ void kz_meter_end(kz_meter *meter, bool complete, double idle) {
   if (!meter->out) return;
   if (meter->live && meter->shown && has_terminal(meter->out)) fputs("\r\033[K", meter->out);
   if (meter->last && complete)
-    fprintf(meter->out, "kapitza: %s: 100 %%, %s, ranks idle %.1f %%\n", meter->name,
+    fprintf(meter->out, "kapitza: %s: 100 %%, %s, ranks idle %.1f %%\n", meter->words,
             clock_text(kz_clock() - meter->begun, spent), 100 * idle);
   fflush(meter->out);
 }

@@ -154,6 +154,10 @@ void kz_ranks_set_progress(kz_ranks *ranks, kz_progress progress) {
   ranks->progress = progress;
 }
 
+void kz_ranks_name_stages(kz_ranks *ranks, kz_stage_describe describe) {
+  ranks->describe = describe;
+}
+
 void kz_ranks_set_time_limit(kz_ranks *ranks, double seconds) {
   ranks->limit = seconds;
 }

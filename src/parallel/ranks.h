@@ -15,8 +15,9 @@ struct kz_ranks {
   double start;          /* s, kz_clock */
   double limit;          /* s after start; 0 = none */
   kz_progress progress;
-  FILE *log;          /* JSON lines, rank 0; NULL: none */
-  kz_timing *timings; /* [n_timings] of the stages, rank 0 */
+  kz_stage_describe describe; /* words for the names of stages; NULL: the names */
+  FILE *log;                  /* JSON lines, rank 0; NULL: none */
+  kz_timing *timings;         /* [n_timings] of the stages, rank 0 */
   int64_t n_timings;
   double staged;  /* processor seconds of this process within stages */
   FILE *terminal; /* /dev/tty once opened, else NULL */

@@ -6,9 +6,10 @@
 
 typedef struct {
   const char *name;
-  FILE *out; /* NULL: silent */
-  bool live; /* a bar that is redrawn, else lines */
-  bool last; /* the end of the stage is printed too */
+  char words[64]; /* what progress calls it */
+  FILE *out;      /* NULL: silent */
+  bool live;      /* a bar that is redrawn, else lines */
+  bool last;      /* the end of the stage is printed too */
   bool shown;
   int64_t total, first; /* tiles; `first` were done before */
   double begun, due;    /* s, kz_clock; nothing is shown before `due` */

@@ -56,3 +56,11 @@ def test_a_log_never_harms_another_file(kapitza, tmp_path, name):
     assert "--log" in done.stderr and done.stderr.count("\n") == 1
     assert (tmp_path / "notes.txt").read_text() == "mine\n"
     assert {path.name for path in tmp_path.iterdir()} == {"notes.txt", "link.jsonl"}
+
+
+def test_progress_names_stages_in_words(kapitza, tmp_path):
+    """A file gets lines, no bar that is drawn again and again."""
+    grid = [word for axis in ("theta", "velocity") for word in ("--set", f"basin.{axis}.count=300")]
+    said = kapitza("run", ROOT / "scenes" / "small.yaml", "--progress", "always", *grid, "-o", tmp_path / "x.h5").stderr
+    assert "kapitza: labels in double precision, round 1: 100 %" in said and "kapitza: writing the file: 100 %" in said
+    assert "cells" not in said and "\r" not in said
