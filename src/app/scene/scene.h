@@ -138,8 +138,6 @@ void kz_complain_at(kz_reading *reading, const kz_node *node, const char *path, 
     __attribute__((format(printf, 4, 5)));
 /* Sets every field of `scene` to its default, then reads the tree into it by the table. */
 kz_status kz_reading_keys(kz_reading *reading);
-/* Replaces velocities per second in the tree, of every key in KZ_VELOCITY_UNIT, by numbers in that unit. */
-void kz_reading_velocities(kz_reading *reading);
 /* Checks rules that connect several keys (an axis, the pendulum's parameters), and sets the values that follow from others. */
 void kz_reading_rules(kz_reading *reading);
 
