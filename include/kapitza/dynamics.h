@@ -189,28 +189,21 @@ void kz_dynamics_order(const kz_dynamics *dynamics, int64_t *number);
 
 /* ---- branches ---- */
 
-/* One cycle of the stroboscopic map, followed from one pendulum to another.
+/* One cycle of the stroboscopic map, attracting or not; kapitza/dynamics_curves.h follows it from one pendulum to another.
  *
  * Angles in rad from the DOWN position, velocities in rad per drive radian. The map is the one of published values (split6, 96
  * steps or more), whatever the scene's numerics. Nothing here is collective. */
 
 /* A cycle at one value of the parameters. */
 typedef struct {
-  double theta, velocity;                    /* the strobe point that is followed; theta in [-pi, pi] */
-  double amplitude;                          /* rad from its centre over continuous time; 0 for rotations */
-  double multiplier_re[2], multiplier_im[2]; /* over the period: larger modulus first, + imaginary first */
-  double half_re[2],
-      half_im[2];         /* multipliers of the half map x -> -F^(n/2)(x) of a symmetric cycle (n = 1: -F); else of F^n */
-  double halves_distance; /* rad: least distance of two strobe points half a period apart; HUGE_VAL for odd periods */
-  double mirror_distance; /* rad: distance of the strobe point from the mirror image of the cycle; 0 if symmetric */
+  double theta, velocity;                     /* one strobe point; theta in [-pi, pi] */
+  double amplitude;                           /* rad from its centre over continuous time; 0 for rotations */
+  double multiplier_re[2], multiplier_im[2];  /* over the period: larger modulus first, + imaginary first */
   int32_t period, winding, centre, symmetric; /* centre: 0 down, 1 inverted, 2 rotating, 3 none of these */
 } kz_branch_point;
 
-/* Finds the cycle of `pendulum` that continues the cycle `from` of another pendulum; it need not attract. Newton's method starts at the
- * strobe point of `from`. Each of its steps is at most half the one before, so it cannot jump to another cycle. Symmetric cycles are
- * solved on the half map (BSG's flutter: -F(x) = x). Returns 1 if a cycle of the same period, winding and symmetry lies within
- * `max_distance` rad; else 0, and *to is undefined. to may equal from. */
-int32_t kz_branch_continue(const kz_pendulum *pendulum, const kz_branch_point *from, double max_distance, kz_branch_point *to);
+/* Sets everything of a cycle from a strobe point, its period and its symmetry. */
+void kz_branch_describe(const kz_pendulum *pendulum, kz_branch_point *point);
 
 /* Whether a and b are the same cycle at the same parameters: one is among the strobe points of the other. */
 int32_t kz_branch_same(const kz_pendulum *pendulum, const kz_branch_point *a, const kz_branch_point *b);

@@ -22,10 +22,11 @@ typedef struct {
 } kz_plane;
 
 /* Which cycles: F(x(i)) = x(i+1), side (F(x(n)) - 2 pi turns) = x(1). side 1: cycles of `points` periods with so many net turns; side -1:
- * symmetric cycles of twice as many periods, about down (turns 0) or inverted (1). multiplier: of curves, 1 or -1 of this map. */
+ * symmetric cycles of twice as many periods, about down (turns 0) or inverted (1). multiplier: of curves, 1 or -1 of this map. stride: drive periods between
+ * two points where cycles have more periods than points, so that F is its power; 0 = 1. */
 enum { KZ_CURVE_POINTS = 16 };
 typedef struct {
-  int32_t side, points, multiplier, turns;
+  int32_t side, points, multiplier, turns, stride;
 } kz_curve_kind;
 
 /* How a trace ends: outside of the plane, at its own start, at its longest, where a cycle meets its parent (at a degenerate flip or symmetry

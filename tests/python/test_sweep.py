@@ -33,9 +33,11 @@ def sweep(kapitza, tmp_path_factory):
     return run
 
 
-def ends(branches, name, count=1):
-    """(start, kind, end, kind) of the branch of that name; `count` branches must have it, mirror images alike."""
-    rows = [index for index, found in enumerate(branches["branch_name"]) if found == name]
+def ends(branches, name, count=1, *, symmetric=None):
+    """(start, kind, end, kind) of the branch of that name that attracts at a value; `count` branches must have it, mirror images alike."""
+    rows = [index for index, found in enumerate(branches["branch_name"])
+            if found == name and branches["branch_stable"][index] and np.isfinite(branches["branch_theta"][:, index]).any()
+            and symmetric in (None, branches["branch_symmetric"][index])]
     assert len(rows) == count, list(branches["branch_name"])
     table = [(branches["branch_start"][row], KINDS[branches["branch_start_kind"][row]], branches["branch_end"][row],
               KINDS[branches["branch_end_kind"][row]]) for row in rows]
@@ -61,7 +63,8 @@ def test_inverted_gives_way_to_flutter(sweep):
         assert ends(branches, name, 2) == (near(RANGES[key]["low"]["eps"]), "fold",
                                            near(RANGES[key]["high"]["eps"]), "period_doubling")
     names, mirrors = branches["branch_name"], branches["branch_mirror"]
-    for row, mirror in enumerate(mirrors):
+    for row in np.flatnonzero(branches["branch_stable"] & np.isfinite(branches["branch_theta"]).any(axis=0)):
+        mirror = mirrors[row]
         assert mirrors[mirror] == row and names[mirror].replace("-1/", "+1/") == names[row].replace("-1/", "+1/")
         assert (mirror == row) == bool(branches["branch_symmetric"][row])
 
@@ -76,7 +79,7 @@ def test_hanging_state_and_its_doubling(sweep):
     branches, _ = sweep("attractors", 0.43, 0.55, 9, more=", starts: 512")
     low, high = (RANGES["period2_bottom"][key]["eps"] for key in ("low", "high"))
     assert ends(branches, "down")[2:] == (near(low), "period_doubling")
-    assert ends(branches, "down 2-nodding") == (near(low), "period_doubling", near(high), "symmetry_breaking")
+    assert ends(branches, "down 2-nodding", symmetric=1) == (near(low), "period_doubling", near(high), "symmetry_breaking")
 
 
 def test_rotation_is_born_in_a_fold(sweep):
@@ -84,11 +87,27 @@ def test_rotation_is_born_in_a_fold(sweep):
     low = RANGES["spin_+1/1"]["low"]["eps"]
     assert ends(branches, "rotation +1/1") == (near(low), "fold", 0.06, "left_the_range")
     assert ends(branches, "rotation -1/1") == (near(low), "fold", 0.06, "left_the_range")
+    turned = np.flatnonzero((branches["branch_name"] == "rotation +1/1") & (branches["branch_stable"] == 0))
+    assert len(turned) == 1 and KINDS[branches["branch_start_kind"][turned[0]]] == "fold"
+    assert branches["branch_start"][turned[0]] == pytest.approx(ends(branches, "rotation +1/1")[0], abs=1e-11)
+    multiplier = branches["branch_multiplier"][:, turned[0]]
+    assert np.isfinite(multiplier).sum() == 3 and np.nanmin(multiplier) > 1
+
+
+def test_a_branch_between_two_values(sweep):
+    """The pair that a symmetric cycle of six periods turns into doubles before the next value."""
+    branches, _ = sweep("attractors", 0.3, 0.312, 2, more=", starts: 1024")
+    unseen = ~np.isfinite(branches["branch_theta"]).any(axis=0)
+    hidden = np.flatnonzero(branches["branch_stable"] & unseen & (branches["branch_period"] == 6) & (branches["branch_centre"] == 0))
+    assert len(hidden) == 1
+    assert branches["branch_start"][hidden[0]] == ends(branches, "down 6-nodding")[2] == pytest.approx(0.305920438, abs=1e-9)
+    assert branches["branch_end"][hidden[0]] == pytest.approx(0.308037212, abs=1e-9)
+    assert KINDS[branches["branch_end_kind"][hidden[0]]] == "period_doubling"
 
 
 def test_flutter_loses_its_symmetry_then_doubles(sweep):
     branches, _ = sweep("attractors", 0.555, 0.5715, 6, more=", starts: 2048")
-    rows = np.flatnonzero(branches["branch_name"] == "flutter")
+    rows = np.flatnonzero((branches["branch_name"] == "flutter") & (branches["branch_stable"] == 1))
     broken = float(REFERENCE["blackburn_flutter_loss_Q5_Omega11"]["eps_symmetry_breaking"])
     symmetric = [row for row in rows if branches["branch_symmetric"][row]]
     exact = pytest.approx(broken, abs=1e-11)
@@ -142,7 +161,7 @@ sweep: {parameter: m, min: 0.45, max: 0.5, count: 3, measure: [basin_fractions],
     said = kapitza("run", "chaos.yaml", ranks=2, folder=tmp_path).stdout
     with h5py.File(tmp_path / "chaos.h5") as file:
         group = file["sweep"]
-        names = list(group["branch_name"].asstr()[:])
+        names = list(group["branch_name"].asstr()[group["branch_stable"][:] == 1])
         row = names.index("chaotic")
         share = 100 * group["fraction"][:, row]
         assert f"{np.nanmin(share):.2f} to {np.nanmax(share):.2f} %" in next(line for line in said.splitlines() if "chaotic" in line)

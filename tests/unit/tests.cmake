@@ -1,4 +1,4 @@
-kapitza_test(dynamics/continuation LABEL unit LAYER dynamics)
+kapitza_test(dynamics/described LABEL unit LAYER dynamics)
 kapitza_test(dynamics/curves LABEL unit LAYER dynamics)
 kapitza_test(dynamics/proof LABEL unit LAYER dynamics)
 kapitza_test(dynamics/dynamics LABEL unit LAYER dynamics SECONDS 600 COST 8)

@@ -12,6 +12,7 @@ from matplotlib.patches import Patch
 from kapitza import style
 
 NAMED = 0.02  # branches whose share is smaller everywhere are drawn as one band
+SHORTEST = 1 / 400  # of the range: shorter branches cannot be seen
 # Code of what happens at an end of a branch -> its mark and name.
 ENDS = {1: ("|", "fold"), 2: ("D", "period doubling"), 3: ("*", "Neimark-Sacker"), 4: ("s", "symmetry breaking"), 5: ("x", "not located")}
 SYMBOLS = {"quality_factor": "Q", "drive_frequency": r"$\Omega$", "drive_amplitude": r"$\epsilon$", "damping": r"$\beta$"}
@@ -34,8 +35,8 @@ def motions(sweep: xarray.Dataset) -> list[tuple[int, int, int, bool]]:
 
 def branch_colours(sweep: xarray.Dataset, named: Iterable[int] | None = None) -> list[str]:
     """One colour per branch: branches of one motion share it, however far apart they live; those of `named` can be told apart."""
-    kinds = motions(sweep)
-    firsts = sorted({kind: kinds.index(kind) for kind in kinds}.values())
+    kinds, attracting = motions(sweep), attracting_branches(sweep)
+    firsts = sorted({kinds[branch]: branch for branch in reversed(attracting)}.values())
     dimension = sweep["branch_period"].dims
     table = xarray.Dataset({name: (dimension, [kinds[branch][column] for branch in firsts])
                             for column, name in enumerate(("period", "winding", "centre"))})
@@ -43,7 +44,31 @@ def branch_colours(sweep: xarray.Dataset, named: Iterable[int] | None = None) ->
     wanted = None if named is None else {kinds[one] for one in named}
     apart = None if wanted is None else [row for row, branch in enumerate(firsts) if kinds[branch] in wanted]
     colour = dict(zip((kinds[branch] for branch in firsts), style.colours(table, apart), strict=True))
-    return [colour[kind] for kind in kinds]
+    return [colour.get(kind, style.FAINT) for kind in kinds]
+
+
+def attracting_branches(sweep: xarray.Dataset) -> list[int]:
+    """The branches that attract, but those between two values that are too short to be seen in a picture."""
+    if "branch_stable" not in sweep:
+        return list(range(sweep.sizes["branch"]))
+    seen = np.isfinite(sweep["branch_theta"].values).any(axis=0)
+    length = sweep["branch_end"].values - sweep["branch_start"].values
+    return list(np.flatnonzero((sweep["branch_stable"].values == 1) & (seen | (length > SHORTEST * np.ptp(sweep["value"].values)))))
+
+
+def repelling_beside(sweep: xarray.Dataset, order: Sequence[int]) -> list[tuple[int, int]]:
+    """(row, branch) of the branches that repel: in the row of a branch of the same motion that turns into them."""
+    if "branch_stable" not in sweep:
+        return []
+    kind, near = [one[:2] for one in motions(sweep)], 1e-9 * np.ptp(sweep["value"].values)
+    ends = np.array([sweep["branch_start"].values, sweep["branch_end"].values])
+    taken: list[tuple[int, int]] = []
+    for branch in np.flatnonzero(sweep["branch_stable"].values == 0):
+        rows = [row for row, other in enumerate(order) if kind[other] == kind[branch]
+                and (abs(ends[:, other, None] - ends[None, :, branch]) < near).any()]
+        if rows:
+            taken.append((min(rows, key=lambda row: sum(row == one for one, _ in taken)), int(branch)))
+    return taken
 
 
 def named_branches(sweep: xarray.Dataset) -> list[int]:
@@ -55,7 +80,7 @@ def named_branches(sweep: xarray.Dataset) -> list[int]:
 def draw_shares(axes: Axes, sweep: xarray.Dataset, *, colours: Sequence[str] | None = None, legend: bool = True) -> Axes:
     """Shares stacked over the parameter, with their intervals; `colours`: one per branch (default: branch_colours)."""
     value, share, named = sweep["value"].values, np.nan_to_num(sweep["fraction"].values), named_branches(sweep)
-    small = [branch for branch in range(share.shape[1]) if branch not in named]
+    small = [branch for branch in attracting_branches(sweep) if branch not in named]
     colours = colours or branch_colours(sweep, named)
     bands = np.column_stack([share[:, named], share[:, small].sum(axis=1)])
     axes.stackplot(value, bands.T, colors=[*(colours[branch] for branch in named), style.FAINT], edgecolor="white", linewidth=0.25)
@@ -87,7 +112,8 @@ def stack_order(sweep: xarray.Dataset) -> list[int]:
     place = {1: 0, 0: 1, 3: 2, 2: 3}
     keys = zip((place[int(centre)] for centre in sweep["branch_centre"].values), sweep["branch_start"].values,
                sweep["branch_period"].values, -sweep["branch_winding"].values, strict=True)
-    return [branch for _, branch in sorted((key, branch) for branch, key in enumerate(keys))]
+    attracting = set(attracting_branches(sweep))
+    return [branch for _, branch in sorted((key, branch) for branch, key in enumerate(keys)) if branch in attracting]
 
 
 def _entries(sweep: xarray.Dataset, colours: Sequence[str], branches: Iterable[int]) -> list[Patch]:
@@ -102,8 +128,9 @@ def _entries(sweep: xarray.Dataset, colours: Sequence[str], branches: Iterable[i
 
 def draw_lives(axes: Axes, sweep: xarray.Dataset, *, colours: Sequence[str] | None = None, legend: bool = True,
                names: bool = False, only: Sequence[int] | None = None) -> Axes:
-    """A line from birth to death of each branch, with what happens there; `names`: each branch's name beside it; `only`: of these
-    branches, in this order."""
+    """A line from birth to death of each branch that attracts, with what happens there; dashed, what it turns into where it repels.
+
+    `names`: each branch's name beside it; `only`: of these branches, in this order."""
     colours, order = colours or branch_colours(sweep), stack_order(sweep) if only is None else list(only)
     start, end = sweep["branch_start"].values, sweep["branch_end"].values
     for row, branch in enumerate(order):
@@ -112,6 +139,8 @@ def draw_lives(axes: Axes, sweep: xarray.Dataset, *, colours: Sequence[str] | No
             code = int(sweep[kind].values[branch])
             if code in ENDS:
                 axes.plot(place[branch], row, ENDS[code][0], color=style.INK, markersize=3.4, markeredgewidth=0.9, zorder=3)
+    for row, branch in repelling_beside(sweep, order):
+        axes.plot([start[branch], end[branch]], [row, row], color=colours[order[row]], lw=0.9, ls=(0, (3, 2)), zorder=1)
     seen = {int(code) for kind in ("branch_start_kind", "branch_end_kind") for code in sweep[kind].values[order]}
     if legend:
         marks = [Line2D([], [], ls="", marker=ENDS[code][0], color=style.INK, markersize=4, label=ENDS[code][1])

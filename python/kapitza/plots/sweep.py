@@ -20,7 +20,7 @@ from matplotlib.figure import Figure
 from matplotlib.patches import Patch
 
 from kapitza import style
-from kapitza.plots.branches import branch_colours, draw_lives, draw_shares, named_branches, parameter_text
+from kapitza.plots.branches import attracting_branches, branch_colours, draw_lives, draw_shares, named_branches, parameter_text
 from kapitza.plots.common import argument_parser, entitle, new_figure, parsed, write_picture
 from kapitza.plots.flutter import draw_amplitude, draw_square, draw_zone
 from kapitza.plots.page import current
@@ -122,8 +122,8 @@ def fractions_figure(sweep: xarray.Dataset) -> Figure:
 
 
 def branches_figure(sweep: xarray.Dataset) -> Figure:
-    """The life of every branch, named."""
-    figure = new_figure(6.4 if current().narrow else 8.6, 1.6 + (0.18 if current().narrow else 0.16) * sweep.sizes["branch"])
+    """The life of every branch, named, and where it repels."""
+    figure = new_figure(6.4 if current().narrow else 8.6, 1.6 + (0.18 if current().narrow else 0.16) * len(attracting_branches(sweep)))
     draw_lives(figure.subplots(), sweep, names=True)
     return figure
 

@@ -23,7 +23,7 @@ module kz_cycles_curves
   real(dp), parameter :: OF_POINTS = 0.04_dp
 
   type, bind(C) :: curve_kind_t
-    integer(c_int32_t) :: side, points, multiplier, turns
+    integer(c_int32_t) :: side, points, multiplier, turns, stride = 0
   end type curve_kind_t
 
   type, bind(C) :: plane_t
@@ -38,6 +38,7 @@ module kz_cycles_curves
     type(plane_t) :: plane
     type(curve_kind_t) :: kind
     integer :: n = 0                          !< points
+    integer :: stride = 1                     !< drive periods from one point to the next
     integer :: columns = 0                    !< directions in which the place may move
     logical :: on_curve = .false.             !< the trace has its own equation
     real(dp) :: basis(2, 2) = 0               !< these directions
@@ -69,13 +70,13 @@ contains
     system%plane = plane
     system%kind = kind
     system%n = kind%points
+    system%stride = max(1, kind%stride)
     system%columns = columns
     system%on_curve = on_curve
     system%basis = reshape([1, 0, 0, 1], [2, 2])
   end subroutine make_system
 
-  !> Sets the pendulum of a place, and how its numbers grow with the place: by central differences, which the convergence of Newton's
-  !> method needs, but not its result.
+  !> Sets the pendulum of a place, and how its numbers grow, by differences: convergence needs these, the result does not.
   subroutine set_place(system, jets, at, exists)
     type(system_t), intent(in) :: system
     type(jets_t), intent(inout) :: jets
@@ -84,25 +85,29 @@ contains
     real(dp), parameter :: BESIDE = 1e-5_dp
     procedure(pendulum_at_i), pointer :: pendulum_at
     type(pendulum_t) :: pendulum(0:2), up, down
-    real(dp) :: place(2)
+    real(dp) :: place(2), width
+    logical :: there(2)
     integer :: i
 
     call c_f_procpointer(system%plane%pendulum, pendulum_at)
     exists = pendulum_at(system%plane%context, at, pendulum(0))
-    do i = 1, 2
+    do i = 1, merge(2, 0, exists)
       place = at
       place(i) = at(i) + BESIDE
-      if (exists) exists = pendulum_at(system%plane%context, place, up)
+      there(1) = pendulum_at(system%plane%context, place, up)
       place(i) = at(i) - BESIDE
-      if (exists) exists = pendulum_at(system%plane%context, place, down)
-      if (.not. exists) return
+      there(2) = pendulum_at(system%plane%context, place, down)
+      if (.not. there(1)) up = pendulum(0)
+      if (.not. there(2)) down = pendulum(0)
+      exists = exists .and. any(there)
+      width = BESIDE*count(there)
       pendulum(i) = up
-      pendulum(i)%k = (up%k - down%k)/(2*BESIDE)
-      pendulum(i)%beta = (up%beta - down%beta)/(2*BESIDE)
-      pendulum(i)%m = (up%m - down%m)/(2*BESIDE)
-      pendulum(i)%torque = (up%torque - down%torque)/(2*BESIDE)
-      pendulum(i)%vertical = (up%vertical - down%vertical)/(2*BESIDE)
-      pendulum(i)%horizontal = (up%horizontal - down%horizontal)/(2*BESIDE)
+      pendulum(i)%k = (up%k - down%k)/width
+      pendulum(i)%beta = (up%beta - down%beta)/width
+      pendulum(i)%m = (up%m - down%m)/width
+      pendulum(i)%torque = (up%torque - down%torque)/width
+      pendulum(i)%vertical = (up%vertical - down%vertical)/width
+      pendulum(i)%horizontal = (up%horizontal - down%horizontal)/width
     end do
     exists = pendulum(0)%beta > 0
     if (exists) call set_pendulum(jets, pendulum)
@@ -114,14 +119,14 @@ contains
     integer, intent(in) :: level !< COARSE or FINE
     integer, intent(in) :: order !< 0 .. 3
     integer, intent(in) :: n !< points
-    integer, intent(in) :: halves !< 1: to half a period; 2: to a period
+    integer, intent(in) :: halves !< 1: to half a period; 2: to the next point of the cycle
     real(dp), intent(in) :: y(:) !< the points: rad, rad per drive radian
     real(dp), intent(in) :: at(2) !< the place
     real(dp), intent(out) :: image(2, 0:TERMS, POINTS) !< (angle and velocity, value and derivatives, point): rad
     logical, intent(out) :: exists !< whether there is a damped pendulum
     real(dp), dimension(LANES) :: u, v
     real(dp), dimension(LANES, TERMS) :: theta, velocity
-    integer :: first, lane, i
+    integer :: first, lane, i, period
 
     if (system%jets(level)%n_steps == 0) call make_jets(int(system%plane%steps)*level/FINE, system%jets(level))
     call set_place(system, system%jets(level), at, exists)
@@ -136,7 +141,9 @@ contains
         u(lane) = y(2*i - 1)/PI
         v(lane) = y(2*i)
       end do
-      call advance_jets(system%jets(level), order, 1, halves*system%jets(level)%n_steps/2, u, v, theta, velocity)
+      do period = 1, merge(system%stride, 1, halves == 2)
+        call advance_jets(system%jets(level), order, 1, halves*system%jets(level)%n_steps/2, u, v, theta, velocity)
+      end do
       do lane = 1, min(LANES, n - first + 1)
         image(1, :, first + lane - 1) = [PI*u(lane), theta(lane, :)]
         image(2, :, first + lane - 1) = [v(lane), velocity(lane, :)]
@@ -217,8 +224,8 @@ contains
     real(dp) :: decay(0:2)
 
     decay = system%jets(level)%damping
-    system%determinant = exp(-2*PI*system%n*decay(0))
-    system%of_determinant = -2*PI*system%n*decay(1:2)*system%determinant
+    system%determinant = exp(-2*PI*system%n*system%stride*decay(0))
+    system%of_determinant = -2*PI*system%n*system%stride*decay(1:2)*system%determinant
   end subroutine set_determinant
 
   !> y becomes the solution near it: with a normal, on the plane through y across it. Its steps shrink until rounding stops them.

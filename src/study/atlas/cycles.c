@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "atlas.h"
+#include "numerics/parent.h"
 
 /* rad: two states nearer than this are one; a cycle this near to rest is rest. */
 static const double ONE = 1e-5, AT_REST = 1e-9;
@@ -19,10 +20,7 @@ kz_atlas_class kz_atlas_class_of(const kz_atlas_kind *kind) {
 }
 
 kz_atlas_kind kz_atlas_child(const kz_atlas_kind *kind) {
-  const kz_curve_kind of = kind->of;
-  if (kind->rest >= 0 && of.side > 0) return (kz_atlas_kind){{-1, 1, 0, kind->rest}, -1};
-  if (kind->rest >= 0) return (kz_atlas_kind){{1, 1, 0, 0}, -1};
-  return (kz_atlas_kind){{1, 2 * of.points, 0, of.side > 0 ? 2 * of.turns : 0}, -1};
+  return (kz_atlas_kind){kz_child_kind(&kind->of, kind->rest), -1};
 }
 
 int32_t kz_atlas_images(const kz_atlas *atlas, const kz_atlas_class *class) {

@@ -7,11 +7,10 @@
 #include "atlas.h"
 
 enum { MOST_ROWS = 500, MOST_EVENTS = 100 };
-/* Longest step of a branch. What branches off begins so far from a curve at most: in sides of the plane; in rad; where the multiplier -1 has
- * changed by so much. */
-static const double LONGEST = KZ_ATLAS_BRANCH_STEP, BESIDE = 3e-5, FARTHEST = 0.05, CHANGED = 0.04;
+/* Longest step of a branch, in sides of the plane. */
+static const double LONGEST = KZ_ATLAS_BRANCH_STEP;
 /* Along an axis on which a curve's number changes less than this nothing branches off. */
-static const double FLAT = 1e-12;
+static const double FLAT = KZ_CHILD_FLAT;
 
 /* A line through the plane: the curves that cross it, and what of them branches have met already. */
 typedef struct {
@@ -51,7 +50,7 @@ static void add_parent(const kz_atlas *atlas, const line *l, int event, const kz
   const int n = cycle->kind.of.points;
   kz_atlas_kind kind = {.rest = -1};
   double y[KZ_ATLAS_UNKNOWNS];
-  kind.of = kz_parent_of(&atlas->plane, event, n, cycle->y, INFINITY, y);
+  kind.of = kz_parent_of(&atlas->plane, event, &cycle->kind.of, cycle->y, INFINITY, y);
   if (event == KZ_EVENT_REST || (event == KZ_EVENT_MIRROR && n == 1)) kind.rest = cos(y[0]) < 0;
   if (kind.of.points > 0 && kz_curve_locate(&atlas->plane, &kind.of, y, along)) take(atlas, l, kind, y, true, seeds);
 }
@@ -97,26 +96,9 @@ static void explore_fold(const kz_atlas *atlas, const line *l, const kz_atlas_ki
 }
 
 bool kz_atlas_grown(const kz_atlas *atlas, const kz_atlas_seed *flip, int axis, kz_atlas_seed *child, double along[2]) {
-  const int n = 2 * flip->kind.of.points;
-  double form, side[2], vector[2], state[2 * KZ_CURVE_POINTS + 2];
-  kz_pendulum pendulum;
   child->kind = kz_atlas_child(&flip->kind);
-  const int m = 2 * child->kind.of.points;
-  if (kz_atlas_period(&child->kind) > atlas->max_period || !kz_atlas_pendulum(atlas->scene, flip->y + n, &pendulum) ||
-      !kz_curve_form(&atlas->plane, &flip->kind.of, flip->y, &form, side, vector) || form == 0 || fabs(side[axis]) < FLAT)
-    return false;
-  const double gradient = side[axis], other = 1 - exp(-2 * M_PI * pendulum.beta * flip->kind.of.points);
-  const double by = fmin(BESIDE, fmin(CHANGED, FARTHEST * FARTHEST * fabs(form)) * other / fabs(gradient));
-  const double size = sqrt(fabs(gradient / form) * by / other);
-  along[axis] = gradient * form > 0 ? -1 : 1;
-  along[1 - axis] = 0;
-  for (int i = 0; i < 2; i++) {
-    child->y[m + i] = flip->y[n + i] + by * along[i];
-    state[i] = flip->y[i] + size * vector[i];
-  }
-  if (!kz_curve_orbit(&atlas->plane, child->y + m, child->kind.of.points, state)) return false;
-  memcpy(child->y, state, (size_t)m * sizeof *state);
-  return true;
+  return kz_atlas_period(&child->kind) <= atlas->max_period &&
+         kz_child_of(&atlas->plane, &flip->kind.of, flip->kind.rest, flip->y, axis, child->y, along);
 }
 
 /* The cycle to both sides along an axis, if `itself`, and what branches off, if `grown`. */
@@ -207,7 +189,7 @@ bool kz_atlas_crossing_point(const kz_atlas *atlas, int axis, double value, cons
 static void follow_rest(const line *l, double value) {
   const double along[2] = {l->axis == 0, l->axis == 1};
   for (int32_t rest = 0; rest < 2 && l->atlas->plane.mirrored; rest++) {
-    const kz_atlas_kind kind = {{1, 1, 0, 0}, rest};
+    const kz_atlas_kind kind = {{1, 1, 0, 0, 0}, rest};
     const double start[] = {M_PI * rest, 0, along[1] * value, along[0] * value};
     follow(l->atlas, l, &kind, start, along, 0, l->seeds);
   }

@@ -101,7 +101,7 @@ static void hunt_by_starts(hunt *h) {
 }
 
 static void hunt_rest(hunt *h) {
-  kz_atlas_seed rest = {{{1, 1, 0, 0}, h->class.turns}, {M_PI * h->class.turns, 0, h->place[0], h->place[1]}};
+  kz_atlas_seed rest = {{{1, 1, 0, 0, 0}, h->class.turns}, {M_PI * h->class.turns, 0, h->place[0], h->place[1]}};
   double number[2];
   if (kz_curve_solve(&h->atlas->plane, &rest.kind.of, rest.y, number) && attracts(number)) take(h, &rest, number, -1);
 }

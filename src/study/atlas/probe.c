@@ -37,18 +37,18 @@ bool kz_atlas_same(const kz_atlas *atlas, const kz_atlas_seed *cycle, const doub
 
 /* The kind of a cycle of period n whose points are y: rest, symmetric, or neither. */
 static kz_atlas_kind kind_of(const kz_atlas *atlas, int n, const double *y, const double *image) {
-  kz_atlas_kind kind = {{1, n, 0, (int32_t)rint((image[0] - y[0]) / (2 * M_PI))}, -1};
+  kz_atlas_kind kind = {{1, n, 0, (int32_t)rint((image[0] - y[0]) / (2 * M_PI)), 0}, -1};
   if (!atlas->plane.mirrored || kind.of.turns != 0) return kind;
   if (n == 1 && distance(y, y, -1) < ONE) kind.rest = cos(y[0]) > 0 ? 0 : 1;
   if (n % 2 == 0 && distance(y, y + n, -1) < ONE)
-    kind.of = (kz_curve_kind){-1, n / 2, 0, (int32_t)rint((y[n] + y[0]) / (2 * M_PI))};
+    kind.of = (kz_curve_kind){-1, n / 2, 0, (int32_t)rint((y[n] + y[0]) / (2 * M_PI)), 0};
   return kind;
 }
 
 bool kz_atlas_identify(const kz_atlas *atlas, const double place[2], const double *state, int n, kz_atlas_seed *cycle) {
   double y[2 * KZ_CURVE_POINTS + 4] = {state[0], state[1]}, numbers[2], image[2];
   if (n > KZ_CURVE_POINTS || !kz_curve_orbit(&atlas->plane, place, n, y)) return false;
-  const kz_curve_kind closed = {1, n, 0, (int32_t)rint((y[2 * n] - y[0]) / (2 * M_PI))};
+  const kz_curve_kind closed = {1, n, 0, (int32_t)rint((y[2 * n] - y[0]) / (2 * M_PI)), 0};
   y[2 * n] = place[0], y[2 * n + 1] = place[1];
   if (!kz_curve_solve(&atlas->plane, &closed, y, numbers) || distance(y, state, 1) > GUESSED) return false;
   for (int d = 1; d < n; d++)

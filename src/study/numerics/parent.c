@@ -3,6 +3,9 @@
 #include <math.h>
 #include <string.h>
 
+/* What branches off begins so far from a curve at most: in sides of the plane; in rad; where the multiplier -1 has changed by so much. */
+static const double BESIDE = 3e-5, FARTHEST = 0.05, CHANGED = 0.04;
+
 /* The means of the pairs of points that lie half a period apart; side -1: of a point and the mirror image of the other. */
 static bool take_means(int points, double side, const double *cycle, double near, double *y) {
   const double lift = 2 * M_PI * rint((cycle[2 * points] - side * cycle[0]) / (2 * M_PI));
@@ -15,13 +18,18 @@ static bool take_means(int points, double side, const double *cycle, double near
   return true;
 }
 
-kz_curve_kind kz_kind_of(const kz_plane *plane, int side, int points, int multiplier, const double *y) {
-  double next[4] = {y[2 * points - 2], y[2 * points - 1]};
-  if (!kz_curve_orbit(plane, y + 2 * points, 1, next)) return (kz_curve_kind){0};
-  return (kz_curve_kind){side, points, multiplier, (int32_t)rint((next[2] - side * y[0]) / (2 * M_PI))};
+kz_curve_kind kz_kind_of(const kz_plane *plane, int side, int points, int stride, int multiplier, const double *y) {
+  const int periods = stride > 1 ? stride : 1;
+  KZ_FREED double *next = kz_malloc(2 * ((size_t)periods + 1) * sizeof *next);
+  memcpy(next, y + 2 * points - 2, 2 * sizeof *next);
+  if (!kz_curve_orbit(plane, y + 2 * points, periods, next)) return (kz_curve_kind){0};
+  const int32_t turns = (int32_t)rint((next[2 * periods] - side * y[0]) / (2 * M_PI));
+  return (kz_curve_kind){side, points, multiplier, turns, stride};
 }
 
-kz_curve_kind kz_parent_of(const kz_plane *plane, int event, int n, const double *cycle, double near, double *parent) {
+kz_curve_kind kz_parent_of(const kz_plane *plane, int event, const kz_curve_kind *of, const double *cycle, double near,
+                           double *parent) {
+  const int n = of->points;
   const bool at_rest = event == KZ_EVENT_REST || (event == KZ_EVENT_MIRROR && n == 1);
   const int points = at_rest ? 1 : n / 2, side = event == KZ_EVENT_MIRROR ? -1 : 1;
   if (at_rest)
@@ -29,5 +37,36 @@ kz_curve_kind kz_parent_of(const kz_plane *plane, int event, int n, const double
   else if (n % 2 != 0 || !take_means(points, side, cycle, near, parent))
     return (kz_curve_kind){0};
   memcpy(parent + 2 * points, cycle + 2 * n, 2 * sizeof *parent);
-  return kz_kind_of(plane, side, points, -1, parent);
+  return kz_kind_of(plane, side, points, of->stride, -1, parent);
+}
+
+kz_curve_kind kz_child_kind(const kz_curve_kind *kind, int rest) {
+  if (rest >= 0 && kind->side > 0) return (kz_curve_kind){-1, 1, 0, rest, 0};
+  if (rest >= 0) return (kz_curve_kind){1, 1, 0, 0, 0};
+  return (kz_curve_kind){1, 2 * kind->points, 0, kind->side > 0 ? 2 * kind->turns : 0, kind->stride};
+}
+
+bool kz_child_of(const kz_plane *plane, const kz_curve_kind *kind, int rest, const double *flip, int axis, double *child,
+                 double along[2]) {
+  const int n = 2 * kind->points, stride = kind->stride > 1 ? kind->stride : 1;
+  const kz_curve_kind of = kz_child_kind(kind, rest);
+  const int m = 2 * of.points;
+  double form, side[2], vector[2];
+  kz_pendulum pendulum;
+  if (of.points > KZ_CURVE_POINTS || !plane->pendulum(plane->context, flip + n, &pendulum) ||
+      !kz_curve_form(plane, kind, flip, &form, side, vector) || form == 0 || fabs(side[axis]) < KZ_CHILD_FLAT)
+    return false;
+  const double gradient = side[axis], other = 1 - exp(-2 * M_PI * pendulum.beta * kind->points * stride);
+  const double by = fmin(BESIDE, fmin(CHANGED, FARTHEST * FARTHEST * fabs(form)) * other / fabs(gradient));
+  const double size = sqrt(fabs(gradient / form) * by / other);
+  KZ_FREED double *state = kz_malloc(2 * ((size_t)(of.points * stride) + 1) * sizeof *state);
+  along[axis] = gradient * form > 0 ? -1 : 1;
+  along[1 - axis] = 0;
+  for (int i = 0; i < 2; i++) {
+    child[m + i] = flip[n + i] + by * along[i];
+    state[i] = flip[i] + size * vector[i];
+  }
+  if (!kz_curve_orbit(plane, child + m, (of.points - 1) * stride, state)) return false;
+  for (int i = 0; i < of.points; i++) memcpy(child + 2 * i, state + 2 * i * stride, 2 * sizeof *child);
+  return true;
 }

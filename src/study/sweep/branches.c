@@ -1,22 +1,16 @@
-/* Catalogues of neighbouring values joined into branches. Every attractor of a value is carried to the next one by continuation;
- * where it arrives, it is the same branch, whether the search there had found it or not. What no lower value leads to is
- * carried back to where it began. Rounds of walks, spread over the run, until nothing is left to walk. */
+/* Catalogues of neighbouring values joined into branches. Every cycle of a value is followed to the next one, attracting or not, through folds,
+ * with what branches off; where it arrives, it is the same branch, whether the search there had found it or not. Rounds of walks, spread over
+ * the run, until nothing is left to walk. */
 #include <math.h>
 #include <stdlib.h>
 
 #include "sweep.h"
 
-/* A walk from a node to the neighbour value, and its result. */
+/* A walk from a node to the neighbour value. */
 typedef struct {
   int64_t node;
   int32_t forward;
 } task;
-
-typedef struct {
-  double last; /* value reached */
-  int32_t arrived, kind;
-  kz_branch_point point;
-} outcome;
 
 typedef struct {
   const kz_scene *scene;
@@ -30,7 +24,7 @@ void kz_sweep_branches_free(kz_sweep_branches *branches) {
   *branches = (kz_sweep_branches){0};
 }
 
-static void add_node(kz_sweep_branches *branches, const kz_sweep_entry *entry, int64_t value) {
+static int64_t add_node(kz_sweep_branches *branches, const kz_sweep_entry *entry, int64_t value, bool attracts) {
   if (branches->n_nodes == branches->capacity) {
     const int64_t capacity = 2 * branches->capacity + 64;
     branches->nodes = kz_realloc(branches->nodes, (size_t)capacity * sizeof *branches->nodes);
@@ -38,12 +32,14 @@ static void add_node(kz_sweep_branches *branches, const kz_sweep_entry *entry, i
   }
   branches->nodes[branches->n_nodes++] = (kz_sweep_node){.entry = *entry,
                                                          .value = value,
+                                                         .attracts = attracts,
                                                          .previous = -1,
                                                          .next = -1,
                                                          .first = NAN,
                                                          .last = NAN,
                                                          .first_kind = KZ_END_NOT_LOCATED,
                                                          .last_kind = KZ_END_NOT_LOCATED};
+  return branches->n_nodes - 1;
 }
 
 /* The value to which a walk leads. */
@@ -57,14 +53,8 @@ static kz_status walk_tile(void *context, int64_t tile, void *record) {
   const kz_sweep_node *node = w->branches->nodes + t->node;
   const kz_sweep_plan *plan = w->scene->sweep;
   const kz_path path = kz_sweep_path(w->scene);
-  outcome *out = record;
-  const double to = kz_sweep_value(plan, aim(w, t));
-  out->point = node->entry.point;
-  out->last = kz_walk(&path, kz_sweep_value(plan, node->value), to, &out->point);
-  out->arrived = out->last == to;
-  if (out->arrived) return KZ_OK;
-  out->kind = kz_end_kind(&out->point);
-  out->last = kz_locate_end(&path, out->last, &out->point, out->kind);
+  kz_sweep_follow(&path, kz_sweep_value(plan, node->value), kz_sweep_value(plan, aim(w, t)), plan->max_period,
+                  &node->entry.point, record);
   return KZ_OK;
 }
 
@@ -74,7 +64,9 @@ static int64_t find_node(const walking *w, int64_t value, const kz_branch_point 
   if (!kz_sweep_pendulum(w->scene, kz_sweep_value(w->scene->sweep, value), &pendulum)) return -1;
   for (int64_t i = 0; i < w->branches->n_nodes; i++) {
     const kz_sweep_node *node = w->branches->nodes + i;
-    if (node->value == value && node->entry.point.period > 0 && kz_branch_same(&pendulum, &node->entry.point, point)) return i;
+    if (node->value == value && !node->between && node->entry.point.period > 0 &&
+        kz_branch_same(&pendulum, &node->entry.point, point))
+      return i;
   }
   return -1;
 }
@@ -84,47 +76,119 @@ static void set_end(kz_sweep_node *node, bool forward, double last, int32_t kind
   *(forward ? &node->last_kind : &node->first_kind) = kind;
 }
 
-/* Joins the node of a walk to where it arrived. */
-static void join(const walking *w, const task *t, const outcome *out) {
-  kz_sweep_branches *b = w->branches;
-  if (!out->arrived) {
-    set_end(b->nodes + t->node, t->forward, out->last, out->kind);
-    return;
-  }
-  int64_t there = find_node(w, aim(w, t), &out->point);
-  if (there < 0) {
-    there = b->n_nodes;
-    add_node(b, &(kz_sweep_entry){.point = out->point}, aim(w, t));
-  }
-  int64_t *back = t->forward ? &b->nodes[there].previous : &b->nodes[there].next;
-  if (*back >= 0) return; /* another cycle has arrived there before */
-  *back = t->node;
-  *(t->forward ? &b->nodes[t->node].next : &b->nodes[t->node].previous) = there;
+/* Whether the way on from a node is known: to its neighbour, or its end. */
+static bool is_known(const kz_sweep_node *node, bool forward) {
+  return (forward ? node->next : node->previous) >= 0 || !isnan(forward ? node->last : node->first);
 }
 
-/* The cycles from node `first` on that have no neighbour in the direction of the walk, the ends of the range left out. */
-static int64_t list_tasks(const walking *w, bool forward, int64_t first, task *tasks) {
+/* The node where a piece arrives; -1 = nowhere, or there are too many. */
+static int64_t arrival(const walking *w, const task *t, const kz_sweep_piece *piece, const kz_branch_point *point) {
+  kz_sweep_branches *b = w->branches;
+  if (piece->reached < 0) return -1;
+  const int64_t value = piece->reached ? aim(w, t) : b->nodes[t->node].value;
+  const int64_t known = find_node(w, value, point);
+  int64_t here = 0;
+  for (int64_t i = 0; i < b->n_nodes && known < 0; i++) here += b->nodes[i].value == value;
+  if (known >= 0 || here >= 2 * KZ_SWEEP_MOST) return known;
+  return add_node(b, &(kz_sweep_entry){.point = *point, .shock = {NAN, NAN, NAN}}, value, piece->attracts);
+}
+
+/* A piece that reaches neither value: one for a motion and its mirror image. */
+static void add_between(kz_sweep_branches *b, int64_t value, const kz_sweep_piece *piece) {
+  const double low = fmin(piece->begin, piece->end), high = fmax(piece->begin, piece->end),
+               near = 1e-9 * fmax(fabs(low), fabs(high));
+  const bool turned = piece->begin > piece->end;
+  for (int64_t i = 0; i < b->n_nodes; i++) {
+    const kz_sweep_node *node = b->nodes + i;
+    if (node->between && node->attracts == piece->attracts && node->entry.point.period == piece->point.period &&
+        node->entry.point.symmetric == piece->point.symmetric && abs(node->entry.point.winding) == abs(piece->point.winding) &&
+        fabs(node->first - low) <= near && fabs(node->last - high) <= near)
+      return;
+  }
+  const int64_t number =
+      add_node(b, &(kz_sweep_entry){.point = piece->point, .shock = {NAN, NAN, NAN}}, value, piece->attracts);
+  kz_sweep_node *node = b->nodes + number;
+  node->between = 1;
+  set_end(node, false, low, turned ? piece->end_kind : piece->begin_kind);
+  set_end(node, true, high, turned ? piece->begin_kind : piece->end_kind);
+}
+
+/* Joins both ends of a piece: `point` is its end, or that of its mirror image. */
+static void join(const walking *w, const task *t, const kz_sweep_piece *piece, const kz_branch_point *point) {
+  kz_sweep_branches *b = w->branches;
+  const int64_t from = piece->from_start ? t->node : -1, there = arrival(w, t, piece, point);
+  const bool side = piece->reached == 1 ? !t->forward : t->forward; /* on which the piece arrives */
+  if (from >= 0 && there >= 0 && piece->reached == 1) {
+    kz_sweep_node *a = b->nodes + from, *c = b->nodes + there;
+    if (is_known(a, t->forward) || a->attracts != c->attracts) return;
+    if (is_known(c, side)) return; /* another cycle has arrived there before */
+    *(t->forward ? &a->next : &a->previous) = there;
+    *(side ? &c->next : &c->previous) = from;
+    return;
+  }
+  if (from >= 0 && !is_known(b->nodes + from, t->forward)) {
+    const bool lost = piece->reached >= 0;
+    set_end(b->nodes + from, t->forward, lost ? kz_sweep_value(w->scene->sweep, b->nodes[from].value) : piece->end,
+            lost ? KZ_END_NOT_LOCATED : piece->end_kind);
+  }
+  if (from < 0 && there >= 0 && !is_known(b->nodes + there, side))
+    set_end(b->nodes + there, side, piece->begin, piece->begin_kind);
+  const int64_t value = b->nodes[t->node].value - (t->forward ? 0 : 1);
+  if (from < 0 && piece->reached < 0 && piece->end_kind != KZ_END_NOT_LOCATED) add_between(b, value, piece);
+}
+
+static void join_walk(const walking *w, const task *t, const kz_sweep_walk *walk) {
+  for (int64_t i = 0; i < walk->count; i++) {
+    const kz_sweep_piece *piece = walk->piece + i;
+    kz_branch_point image = piece->point;
+    join(w, t, piece, &piece->point);
+    if (!piece->twice || piece->reached < 0) continue;
+    image.theta = -image.theta;
+    image.velocity = -image.velocity;
+    image.winding = -image.winding;
+    join(w, t, piece, &image);
+  }
+}
+
+/* The cycles whose way on is not known, the ends of the range left out. */
+static int64_t list_tasks(const walking *w, bool forward, task *tasks) {
   const int64_t edge = forward ? w->scene->sweep->values.count - 1 : 0;
   int64_t n = 0;
-  for (int64_t i = first; i < w->branches->n_nodes; i++) {
+  for (int64_t i = 0; i < w->branches->n_nodes; i++) {
     const kz_sweep_node *node = w->branches->nodes + i;
-    if (node->entry.point.period == 0 || node->value == edge || (forward ? node->next : node->previous) >= 0) continue;
+    if (node->entry.point.period == 0 || node->between || node->value == edge || is_known(node, forward)) continue;
     tasks[n++] = (task){i, forward};
   }
   return n;
 }
 
-/* Rounds of walks: those of a round start at the nodes that the round before has added. */
-static kz_status walk_all(walking *w, const kz_run *run, bool forward) {
+/* One round of walks from all cycles whose way on is not known; *n = how many there were. */
+static kz_status walk_round(walking *w, const kz_run *run, bool forward, int64_t *n) {
   KZ_FREED task *tasks = kz_malloc((size_t)(w->branches->n_nodes + 1) * sizeof *tasks);
-  KZ_FREED outcome *outcomes = kz_malloc((size_t)(w->branches->n_nodes + 1) * sizeof *outcomes);
+  *n = list_tasks(w, forward, tasks);
+  if (*n == 0) return KZ_OK;
+  KZ_FREED kz_sweep_walk *walks = kz_malloc((size_t)*n * sizeof *walks);
+  const kz_stage stage = kz_stage_for_all("sweep branches", *n, sizeof *walks, walk_tile, w);
   w->tasks = tasks;
-  for (int64_t n = list_tasks(w, forward, 0, tasks); n > 0;) {
-    const kz_stage stage = kz_stage_for_all("sweep branches", n, sizeof *outcomes, walk_tile, w);
-    const int64_t known = w->branches->n_nodes;
-    KZ_TRY(kz_stage_run(run, &stage, outcomes));
-    for (int64_t i = 0; i < n; i++) join(w, tasks + i, outcomes + i);
-    n = kz_sampling_weight(run) == 1 ? list_tasks(w, forward, known, tasks) : 0; /* a sample knows few values */
+  KZ_TRY(kz_stage_run(run, &stage, walks));
+  for (int64_t i = 0; i < *n; i++) {
+    join_walk(w, tasks + i, walks + i);
+    kz_sweep_node *node = w->branches->nodes + tasks[i].node;
+    if (!is_known(node, forward)) /* what lies there has been reached by another cycle */
+      set_end(node, forward, kz_sweep_value(w->scene->sweep, node->value), KZ_END_NOT_LOCATED);
+  }
+  return KZ_OK;
+}
+
+static kz_status walk_all(walking *w, const kz_run *run) {
+  const bool once = kz_sampling_weight(run) != 1; /* a sample knows few values */
+  int64_t n, walked = 1;
+  for (int round = 0; walked > 0 && !(once && round > 0); round++) {
+    walked = 0;
+    for (int forward = 1; forward >= 0; forward--) do {
+        KZ_TRY(walk_round(w, run, forward, &n));
+        walked += n;
+      } while (n > 0 && !once);
   }
   return KZ_OK;
 }
@@ -151,10 +215,12 @@ static void join_chaotic(kz_sweep_branches *b) {
   }
 }
 
-/* By centre, period (chaotic last), |winding|/period, + first, the value where it begins, first strobe velocity and angle. */
+/* Those that attract first; by centre, period (chaotic last), |winding|/period, + first, the value where it begins, first strobe velocity and angle. */
 static bool before(const kz_sweep_node *a, const kz_sweep_node *b) {
   const kz_branch_point *p = &a->entry.point, *q = &b->entry.point;
-  const double keys[][2] = {{p->centre, q->centre},
+  const double keys[][2] = {{!a->attracts, !b->attracts},
+                            {a->between, b->between},
+                            {p->centre, q->centre},
                             {p->period > 0 ? p->period : INFINITY, q->period > 0 ? q->period : INFINITY},
                             {abs(p->winding) / fmax(p->period, 1), abs(q->winding) / fmax(q->period, 1)},
                             {-p->winding, -q->winding},
@@ -181,6 +247,7 @@ static void set_known_ends(const kz_scene *scene, kz_sweep_branches *b) {
   for (int64_t i = 0; i < b->n_nodes; i++) {
     kz_sweep_node *node = b->nodes + i;
     const double value = kz_sweep_value(scene->sweep, node->value);
+    if (node->between) continue;
     if (node->value == 0)
       set_end(node, false, value, KZ_END_OF_RANGE);
     else if (isnan(node->first))
@@ -196,9 +263,8 @@ kz_status kz_sweep_branches_make(const kz_scene *scene, const kz_run *run, const
                                  kz_sweep_branches *branches) {
   walking w = {.scene = scene, .branches = branches};
   for (int64_t i = 0; i < scene->sweep->values.count; i++)
-    for (int64_t j = 0; j < catalogue[i].count; j++) add_node(branches, catalogue[i].entries + j, i);
-  KZ_TRY(walk_all(&w, run, true));
-  KZ_TRY(walk_all(&w, run, false));
+    for (int64_t j = 0; j < catalogue[i].count; j++) add_node(branches, catalogue[i].entries + j, i, true);
+  KZ_TRY(walk_all(&w, run));
   join_chaotic(branches);
   set_known_ends(scene, branches);
   list_branches(branches);

@@ -45,13 +45,14 @@ static int32_t mirror_of(const writing *w, int64_t branch) {
   const kz_sweep_node *first = first_of(w->branches, branch);
   kz_branch_point image = first->entry.point;
   if (image.symmetric) return (int32_t)branch;
+  if (first->between) return -1;
   image.theta = -image.theta;
   image.velocity = -image.velocity;
   image.winding = -image.winding;
   for (int64_t other = 0; other < w->branches->n_branches; other++) {
     const kz_sweep_node *node = first_of(w->branches, other);
     while (node->value < first->value && node->next >= 0) node = w->branches->nodes + node->next;
-    if (node->value == first->value && mirrors(w->scene, node, &image)) return (int32_t)other;
+    if (node->value == first->value && !node->between && mirrors(w->scene, node, &image)) return (int32_t)other;
   }
   return -1;
 }
@@ -64,6 +65,7 @@ static kz_status write_columns(const writing *w) {
   COLUMN(int32_t, "branch_winding", first_of(b, i)->entry.point.winding);
   COLUMN(int8_t, "branch_centre", first_of(b, i)->entry.point.centre);
   COLUMN(int8_t, "branch_symmetric", first_of(b, i)->entry.point.symmetric);
+  COLUMN(int8_t, "branch_stable", first_of(b, i)->attracts);
   COLUMN(int32_t, "branch_mirror", mirror_of(w, i));
   COLUMN(double, "branch_start", first_of(b, i)->first);
   COLUMN(double, "branch_end", last_of(b, i)->last);
@@ -89,16 +91,20 @@ static const kz_sweep_entry **arrange(const writing *w, int64_t n) {
   const kz_sweep_entry **at = kz_calloc((size_t)n + 1, sizeof *at);
   for (int64_t branch = 0; branch < b->n_branches; branch++)
     for (int64_t i = b->first_node[branch]; i >= 0; i = b->nodes[i].next)
-      if (w->catalogue[b->nodes[i].value].samples > 0) at[b->nodes[i].value * b->n_branches + branch] = &b->nodes[i].entry;
+      if (w->catalogue[b->nodes[i].value].samples > 0 && !b->nodes[i].between)
+        at[b->nodes[i].value * b->n_branches + branch] = &b->nodes[i].entry;
   return at;
 }
 
 #define MATRIX(name, expression) KZ_COLUMN(w->store, "sweep", name, n, double, at[i] ? (expression) : NAN)
+#define SHARED(name, expression) MATRIX(name, is_stable[i % n_branches] ? (expression) : NAN)
 #define SHARE kz_share_of(at[i]->hits, w->catalogue[i / w->branches->n_branches].samples)
 
 static kz_status write_matrices(const writing *w) {
   const kz_sweep_plan *plan = w->scene->sweep;
-  const int64_t n = plan->values.count * w->branches->n_branches;
+  const int64_t n_branches = w->branches->n_branches, n = plan->values.count * n_branches;
+  KZ_FREED bool *is_stable = kz_malloc((size_t)n_branches + 1);
+  for (int64_t i = 0; i < n_branches; i++) is_stable[i] = first_of(w->branches, i)->attracts;
   KZ_FREED const kz_sweep_entry **at = arrange(w, n);
   MATRIX("branch_amplitude", at[i]->point.centre > 1 ? NAN : at[i]->point.amplitude);
   MATRIX("branch_multiplier",
@@ -106,9 +112,9 @@ static kz_status write_matrices(const writing *w) {
   MATRIX("branch_theta", at[i]->point.theta);
   MATRIX("branch_velocity", at[i]->point.velocity);
   if (kz_sweep_measures(plan, KZ_SWEEP_BASIN_FRACTIONS)) {
-    MATRIX("fraction", SHARE.share);
-    MATRIX("fraction_low", SHARE.low);
-    MATRIX("fraction_high", SHARE.high);
+    SHARED("fraction", SHARE.share);
+    SHARED("fraction_low", SHARE.low);
+    SHARED("fraction_high", SHARE.high);
   }
   if (!kz_sweep_measures(plan, KZ_SWEEP_RESILIENCE)) return KZ_OK;
   MATRIX("shock_angle", at[i]->shock[0]);
@@ -159,15 +165,21 @@ static void print_table(const writing *w, FILE *summary) {
   }
   fprintf(summary, "branch  name                   from           begins by          to             ends by%s\n",
           shares ? "            share" : "");
+  int64_t repelling = 0;
   for (int64_t branch = 0; branch < b->n_branches; branch++) {
     char name[KZ_NAME_LENGTH];
     const kz_sweep_node *first = first_of(b, branch), *last = last_of(b, branch);
+    if (!first->attracts) {
+      repelling++;
+      continue;
+    }
     name_of(b, branch, name);
     fprintf(summary, "%6lld  %-21s  %-13.9g  %-17s  %-13.9g  %-*s", (long long)branch, name, first->first,
             END_NAMES[first->first_kind], last->last, shares ? 17 : 0, END_NAMES[last->last_kind]);
-    if (shares) print_share(w, branch, summary);
+    if (shares && !first->between) print_share(w, branch, summary);
     fputc('\n', summary);
   }
+  if (repelling > 0) fprintf(summary, "and %lld branches that repel (branch_stable = 0 in the file)\n", (long long)repelling);
 }
 
 kz_status kz_sweep_branches_write(const kz_scene *scene, const kz_sweep_catalogue *catalogue, const kz_sweep_branches *branches,

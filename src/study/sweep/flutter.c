@@ -73,7 +73,8 @@ static kz_status begin(void *context, int64_t tile, void *record) {
     out->found = f->path.pendulum(f->path.context, out->at, &pendulum) && kz_flutter_find(&pendulum, &out->flutter);
   }
   kz_branch_point back = out->flutter;
-  if (out->found) out->birth = kz_walk(&f->path, out->at, f->critical, &back);
+  int32_t end_kind;
+  if (out->found) out->birth = kz_walk(&f->path, out->at, f->critical, &back, &end_kind);
   return KZ_OK;
 }
 
@@ -87,13 +88,14 @@ static kz_status follow_leg(void *context, int64_t tile, void *record) {
   const flutter_job *f = context;
   const kz_sweep_plan *plan = f->scene->sweep;
   leg *out = record;
+  int32_t end_kind;
   (void)tile;
   *out = f->before;
   for (int64_t i = 0; i < LEG; i++) out->amplitude[i] = NAN;
   for (int64_t i = 0; i < LEG && f->step + i < plan->values.count; i++) {
     const double value = kz_sweep_value(plan, value_at(f, f->step + i));
     if (f->side > 0 ? value < out->at : value > out->at) continue;
-    out->at = kz_walk(&f->path, out->at, value, &out->flutter);
+    out->at = kz_walk(&f->path, out->at, value, &out->flutter, &end_kind);
     out->lost = out->at != value;
     if (out->lost) return KZ_OK;
     out->amplitude[i] = out->flutter.amplitude;
@@ -111,7 +113,8 @@ static kz_status follow_back(void *context, int64_t first, int64_t n, void *reco
     const double value = kz_sweep_value(plan, first + i);
     if ((value - f->begun.birth) * (value - f->begun.at) >= 0) continue;
     kz_branch_point back = f->begun.flutter;
-    if (kz_walk(&f->path, f->begun.at, value, &back) == value) amplitude[i] = back.amplitude;
+    int32_t end_kind;
+    if (kz_walk(&f->path, f->begun.at, value, &back, &end_kind) == value) amplitude[i] = back.amplitude;
   }
   return KZ_OK;
 }

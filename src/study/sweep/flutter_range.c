@@ -46,23 +46,20 @@ static bool find_asymmetric(const kz_path *path, double m, const kz_branch_point
   for (double above = 1e-5; above < 5e-3; above *= 2)
     for (double size = 1e-3; size < 0.3; size *= 1.3)
       for (int i = 0; i < 8; i++) {
-        kz_branch_point guess = *symmetric;
-        guess.symmetric = 0;
-        guess.theta += size * cos(i * M_PI / 4);
-        guess.velocity += size * sin(i * M_PI / 4);
+        const double guess[2] = {symmetric->theta + size * cos(i * M_PI / 4), symmetric->velocity + size * sin(i * M_PI / 4)};
+        *found = (kz_branch_point){.period = symmetric->period};
         *at = m + above;
         path->pendulum(path->context, *at, &pendulum);
-        if (kz_branch_continue(&pendulum, &guess, size, found) && hypot(found->multiplier_re[0], found->multiplier_im[0]) < 1)
-          return true;
+        if (kz_cycle_near(&pendulum, guess, size, found)) return true; /* the symmetric one repels there */
       }
   return false;
 }
 
 /* The drive up to which the cycle at m exists and attracts, in steps so short that it is not taken for another one far above. */
-static double walk_up(const kz_path *path, double m, kz_branch_point *cycle) {
+static double walk_up(const kz_path *path, double m, kz_branch_point *cycle, int32_t *end_kind) {
   for (double next = m; m == next && m < TOP;) {
     next = fmin(m + STEP, TOP);
-    m = kz_walk(path, m, next, cycle);
+    m = kz_walk(path, m, next, cycle, end_kind);
   }
   return m;
 }
@@ -70,13 +67,14 @@ static double walk_up(const kz_path *path, double m, kz_branch_point *cycle) {
 /* Along the cycle: where it loses its mirror symmetry, and where the cycles that take over end. */
 static void follow_cycle(const kz_path *path, kz_flutter_drives *range) {
   kz_branch_point flutter, asymmetric;
+  int32_t end_kind;
   double m;
   if (!find_flutter(path, range->onset, &m, &flutter)) return;
-  const double last = walk_up(path, m, &flutter);
-  if (last == TOP || kz_end_kind(&flutter) != KZ_END_SYMMETRY_BREAKING) return;
-  range->asymmetry = kz_locate_end(path, last, &flutter, KZ_END_SYMMETRY_BREAKING);
+  const double last = walk_up(path, m, &flutter, &end_kind);
+  if (last == TOP || end_kind != KZ_END_SYMMETRY_BREAKING) return;
+  range->asymmetry = last;
   if (!find_asymmetric(path, last, &flutter, &m, &asymmetric)) return;
-  range->end = walk_up(path, m, &asymmetric);
+  range->end = walk_up(path, m, &asymmetric, &end_kind);
 }
 
 static bool release_stays(const kz_path *path, const kz_numerics *numerics, double m) {

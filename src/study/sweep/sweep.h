@@ -47,16 +47,34 @@ typedef struct {
 /* The path of the sweep itself; `scene` must outlive it. */
 kz_path kz_sweep_path(const kz_scene *scene);
 
-/* Continues an attracting cycle from the value `from` towards `to`, in steps that shrink if it changes fast. Returns the last value at which
- * it exists and attracts: `to`, or its end, known to 1e-10 relative. In and out: *point, the cycle at that value. */
-double kz_walk(const kz_path *path, double from, double to, kz_branch_point *point);
+/* A piece of a branch between two values: all along it the cycle attracts, or nowhere. It begins at the cycle that is followed, or where something
+ * happens; it ends at one of the values, or where something happens (KZ_END_...). */
+typedef struct {
+  double begin, end; /* values; of the ends that are events */
+  int32_t begin_kind, end_kind;
+  int32_t from_start;      /* 1: begins at the cycle that is followed */
+  int32_t reached;         /* 0: ends at the first value, 1: at the second, -1: at an event */
+  int32_t attracts, twice; /* twice: its mirror image branches off with it */
+  kz_branch_point point;   /* where it ends */
+} kz_sweep_piece;
+enum { KZ_SWEEP_PIECES = 32 };
+typedef struct {
+  int64_t count;
+  kz_sweep_piece piece[KZ_SWEEP_PIECES];
+} kz_sweep_walk;
 
-/* The kind of end (KZ_END_FOLD, ...) from the multipliers of a cycle at its end. */
-int kz_end_kind(const kz_branch_point *end);
+/* Follows a cycle from one value towards another one by pseudo-arclength, attracting or not, through folds, and all cycles of up to max_period
+ * periods that branch off on the way. The first piece is that from the cycle itself. Ends are right to rounding. */
+void kz_sweep_follow(const kz_path *path, double from, double to, int64_t max_period, const kz_branch_point *point,
+                     kz_sweep_walk *found);
+/* Carries a cycle from the value `from` towards `to`. Returns `to`, or where the cycle ends or its stability changes, and how (end_kind).
+ * In and out: *point, the cycle at that value. */
+double kz_walk(const kz_path *path, double from, double to, kz_branch_point *point, int32_t *end_kind);
 
-/* The value at which a branch ends, to rounding: where the equations of its bifurcation hold. stopped: where a walk ended; end: the cycle there;
- * end_kind: KZ_END_FOLD, ... Where they have no solution beside it, `stopped` itself. */
-double kz_locate_end(const kz_path *path, double stopped, const kz_branch_point *end, int end_kind);
+bool kz_branch_attracts(const kz_branch_point *point);
+
+/* The attracting cycle of the period and the symmetry of *point within `farthest` rad of a state; false if there is none. */
+bool kz_cycle_near(const kz_pendulum *pendulum, const double state[2], double farthest, kz_branch_point *point);
 
 /* Finds the attracting symmetric period-2 cycle about inverted (flutter) of a pendulum whose inverted state has lost its stability by the
  * multiplier -1. It searches along the eigenvector with growing amplitudes; false if it finds none. */
@@ -100,9 +118,10 @@ kz_status kz_sweep_catalogues(const kz_scene *scene, const kz_run *run, kz_sweep
 /* An attractor at one value, joined to its neighbours of the same branch. */
 typedef struct {
   kz_sweep_entry entry;
-  int64_t value;          /* index */
-  int64_t previous, next; /* nodes; -1 = none */
-  double first, last;     /* value at which the branch begins before, or ends after, this node */
+  int64_t value;             /* index */
+  int32_t attracts, between; /* between: it lives between this value and the next one, and at neither */
+  int64_t previous, next;    /* nodes; -1 = none */
+  double first, last;        /* value at which the branch begins before, or ends after, this node */
   int32_t first_kind, last_kind;
 } kz_sweep_node;
 

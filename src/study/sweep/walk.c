@@ -1,16 +1,36 @@
-/* One cycle carried along a parameter, and what happens at its ends. */
+/* One cycle carried along a parameter, and what happens on the way: the case of one key of the continuation of the atlas. */
 #include <math.h>
+#include <string.h>
 
+#include "numerics/parent.h"
 #include "sweep.h"
 
-/* rad: farthest that a strobe point may move in one step. */
-static const double MAX_DISTANCE = 0.3;
-/* Ends are located to this share of the parameter. */
-static const double LOCATED = 1e-10;
-/* rad: at the very end of a branch a cycle this near to another one merges with it. */
-static const double MERGING = 1e-3;
-/* A multiplier this near to the unit circle has reached it. */
-static const double NEUTRAL = 0.05;
+enum { MOST_ROWS = 400, MOST_EVENTS = 64, DEEPEST = 8 };
+/* Longest step of a branch, in distances of the two values. */
+static const double LONGEST = 1;
+/* An event that is not a merger lies so near to where the walk has found it. */
+static const double NEAR = 0.3;
+
+/* The way from one value to another: a place is 0 at the first, 1 at the second. */
+typedef struct {
+  const kz_path *path;
+  double from, to;
+} way;
+
+/* A cycle on its way. rest: 0 down, 1 inverted, -1 none of them. */
+typedef struct {
+  kz_curve_kind of;
+  int32_t rest, symmetric;
+  double y[2 * KZ_CURVE_POINTS + 2];
+} cycle;
+
+/* What follows a cycle: where, up to which period, and what it finds. */
+typedef struct {
+  const way *way;
+  kz_plane plane;
+  int64_t max_period;
+  kz_sweep_walk *found;
+} walking;
 
 static bool pendulum_of_scene(const void *context, double value, kz_pendulum *pendulum) {
   return kz_sweep_pendulum(context, value, pendulum);
@@ -20,50 +40,225 @@ kz_path kz_sweep_path(const kz_scene *scene) {
   return (kz_path){pendulum_of_scene, scene};
 }
 
-static bool attracts(const kz_branch_point *point) {
+bool kz_branch_attracts(const kz_branch_point *point) {
   return hypot(point->multiplier_re[0], point->multiplier_im[0]) < 1;
 }
 
-/* The cycle at another value, where it still attracts. */
-static bool step_to(const kz_path *path, double value, const kz_branch_point *from, kz_branch_point *to) {
+static double value_at(const way *w, double place) {
+  return place == 1 ? w->to : w->from + place * (w->to - w->from);
+}
+
+static bool pendulum_at(const void *context, const double place[2], kz_pendulum *pendulum) {
+  const way *w = context;
+  return w->path->pendulum(w->path->context, value_at(w, place[0]), pendulum) && pendulum->beta > 0;
+}
+
+/* The plane of the way; false where its first value has no pendulum. */
+static bool plane_of(const way *w, kz_plane *plane) {
   kz_pendulum pendulum;
-  return path->pendulum(path->context, value, &pendulum) && pendulum.beta > 0 &&
-         kz_branch_continue(&pendulum, from, MAX_DISTANCE, to) && attracts(to);
+  kz_numerics fine;
+  if (!pendulum_at(w, (double[]){0, 0}, &pendulum)) return false;
+  kz_numerics_fine(&pendulum, &fine);
+  *plane = (kz_plane){.pendulum = pendulum_at,
+                      .context = w,
+                      .low = {0, -1},
+                      .high = {1, 1},
+                      .steps = 2 * fine.steps_per_period, /* Newton's method takes half of them */
+                      .mirrored = kz_is_mirrored(&pendulum)};
+  return true;
 }
 
-double kz_walk(const kz_path *path, double from, double to, kz_branch_point *point) {
-  const double least = LOCATED * fmax(fabs(from), fabs(to));
-  double at = from, step = to - from;
-  kz_branch_point there;
-  while (at != to) {
-    const double next = fabs(step) >= fabs(to - at) ? to : at + step;
-    if (step_to(path, next, point, &there)) {
-      at = next;
-      *point = there;
-      step *= 2;
-    } else if (fabs(step /= 2) < least) {
-      break;
-    }
+static int32_t period_of(const cycle *c) {
+  const int stride = c->of.stride > 1 ? c->of.stride : 1;
+  return c->of.points * stride * (c->of.side < 0 ? 2 : 1);
+}
+
+/* The cycle through a strobe point at a place. Long ones have points several periods apart: so few that a pair of them lies half a cycle apart. */
+static bool cycle_of(const kz_plane *plane, const kz_branch_point *point, double place, cycle *c) {
+  const bool halved = point->symmetric && point->period > 1;
+  const int n = halved ? point->period / 2 : point->period;
+  int stride = 1;
+  while (n % stride != 0 || n / stride > KZ_CURVE_POINTS || (n % 2 == 0 && n / stride % 2 != 0)) stride++;
+  KZ_FREED double *state = kz_malloc(2 * ((size_t)n + 1) * sizeof *state);
+  const double at[2] = {place, 0};
+  state[0] = point->theta, state[1] = point->velocity;
+  c->rest = point->symmetric && point->period == 1 ? cos(point->theta) < 0 : -1;
+  c->symmetric = point->symmetric;
+  if (!kz_curve_orbit(plane, at, n - stride, state)) return false;
+  for (int i = 0; i < n / stride; i++) memcpy(c->y + 2 * i, state + 2 * i * stride, 2 * sizeof *c->y);
+  memcpy(c->y + 2 * (n / stride), at, sizeof at);
+  c->of = kz_kind_of(plane, halved ? -1 : 1, n / stride, stride > 1 ? stride : 0, 0, c->y);
+  return c->of.points > 0;
+}
+
+/* The point of a branch that a cycle is. */
+static bool describe(const walking *w, const cycle *c, kz_branch_point *point) {
+  kz_pendulum pendulum;
+  if (!pendulum_at(w->way, c->y + 2 * c->of.points, &pendulum)) return false;
+  *point = (kz_branch_point){.theta = c->y[0], .velocity = c->y[1], .period = period_of(c), .symmetric = c->symmetric};
+  kz_branch_describe(&pendulum, point);
+  return true;
+}
+
+/* The cycle at place 0 or 1, between two rows of a branch. */
+static bool solve_at(const walking *w, const cycle *c, const double *before, const double *after, double place, cycle *there) {
+  const int n = 2 * c->of.points;
+  const double share = (place - before[0]) / (after[0] - before[0]);
+  double numbers[2], farthest = 1e-6;
+  *there = *c;
+  for (int i = 0; i < n; i++) {
+    there->y[i] = before[4 + i] + share * (after[4 + i] - before[4 + i]);
+    farthest = fmax(farthest, fabs(after[4 + i] - before[4 + i]));
   }
-  return at;
+  cycle guess = *there;
+  there->y[n] = place, there->y[n + 1] = 0;
+  if (!kz_curve_solve(&w->plane, &c->of, there->y, numbers)) return false;
+  for (int i = 0; i < n; i++)
+    if (!(fabs(there->y[i] - guess.y[i]) <= farthest)) return false;
+  return true;
 }
 
-int kz_end_kind(const kz_branch_point *end) {
-  const double re = end->multiplier_re[0];
-  if (hypot(re, end->multiplier_im[0]) < 1 - NEUTRAL) return KZ_END_NOT_LOCATED;
-  if (end->multiplier_im[0] != 0) return KZ_END_NEIMARK_SACKER;
-  if (re < 0) return KZ_END_PERIOD_DOUBLING;
-  if (end->symmetric ? end->half_re[0] < 0 : end->mirror_distance < MERGING) return KZ_END_SYMMETRY_BREAKING;
-  return end->halves_distance < MERGING ? KZ_END_PERIOD_DOUBLING : KZ_END_FOLD;
+/* What happens at an event of a branch, and the cycle that has the multiplier there, refined: multiplier 1, or -1 of its own map. */
+static int kind_of_event(const walking *w, const cycle *c, const double *event, cycle *at) {
+  const int n = 2 * c->of.points, what = (int)event[0];
+  const double along[2] = {1, 0};
+  int kind = KZ_END_FOLD;
+  *at = *c;
+  memcpy(at->y, event + 3, (size_t)n * sizeof *at->y);
+  at->y[n] = event[1], at->y[n + 1] = 0;
+  if (what > KZ_EVENT_FLIP) {
+    double y[2 * KZ_CURVE_POINTS + 2];
+    at->of = kz_parent_of(&w->plane, what, &c->of, at->y, INFINITY, y);
+    if (at->of.points == 0) return KZ_END_NOT_LOCATED;
+    memcpy(at->y, y, (2 * (size_t)at->of.points + 2) * sizeof *y);
+    at->rest = what == KZ_EVENT_REST || (what == KZ_EVENT_MIRROR && c->of.points == 1) ? cos(y[0]) < 0 : -1;
+    at->symmetric = at->of.side < 0 || at->rest >= 0;
+    kind = what == KZ_EVENT_MIRROR ? KZ_END_SYMMETRY_BREAKING : KZ_END_PERIOD_DOUBLING;
+  } else if (what == KZ_EVENT_FLIP) {
+    at->of.multiplier = -1;
+    kind = c->of.side < 0 ? KZ_END_SYMMETRY_BREAKING : KZ_END_PERIOD_DOUBLING;
+  } else if (c->rest >= 0) { /* on the half map this is a multiplier -1 */
+    at->of = (kz_curve_kind){-1, 1, -1, c->rest, 0};
+    at->y[0] = M_PI * c->rest, at->y[1] = 0; /* not -pi */
+    kind = KZ_END_SYMMETRY_BREAKING;
+  } else {
+    at->of.multiplier = 1;
+  }
+  cycle refined = *at;
+  const bool found = kz_curve_locate(&w->plane, &at->of, refined.y, along);
+  if (!found) return what > KZ_EVENT_FLIP ? KZ_END_NOT_LOCATED : kind;
+  const double moved = refined.y[2 * at->of.points] - at->y[2 * at->of.points];
+  if (what > KZ_EVENT_FLIP || fabs(moved) < NEAR) *at = refined;
+  return kind;
+}
+
+static void follow(const walking *w, const cycle *c, const double along[2], kz_sweep_piece piece, int depth);
+
+/* What branches off at an event, within the way. */
+static void follow_child(const walking *w, const cycle *flip, int kind, int depth) {
+  cycle child = {.rest = -1};
+  double along[2];
+  if (depth == DEEPEST || !kz_child_of(&w->plane, &flip->of, flip->rest, flip->y, 0, child.y, along)) return;
+  child.of = kz_child_kind(&flip->of, flip->rest);
+  child.symmetric = child.of.side < 0;
+  if (period_of(&child) > w->max_period) return;
+  const double at = value_at(w->way, flip->y[2 * flip->of.points]);
+  const kz_sweep_piece piece = {
+      .begin = at, .begin_kind = kind, .reached = -1, .twice = flip->symmetric && w->plane.mirrored && child.of.side > 0};
+  follow(w, &child, along, piece, depth + 1);
+}
+
+static void add_piece(const walking *w, const kz_sweep_piece *piece) {
+  if (w->found->count < KZ_SWEEP_PIECES) w->found->piece[w->found->count++] = *piece;
+}
+
+/* Follows a cycle along the way, with what branches off, until it leaves the way or ends. `piece`: how it begins. */
+static void follow(const walking *w, const cycle *c, const double along[2], kz_sweep_piece piece, int depth) {
+  const int n = 2 * c->of.points;
+  KZ_FREED double *row = kz_malloc(MOST_ROWS * (size_t)(4 + n) * sizeof *row);
+  KZ_FREED double *event = kz_malloc(MOST_EVENTS * (size_t)(3 + n) * sizeof *event);
+  int64_t events = 0;
+  int32_t ending = KZ_TRACE_NO_SEED;
+  cycle at = *c;
+  const int64_t rows =
+      kz_curve_branch(&w->plane, &c->of, c->y, along, 0, LONGEST, MOST_ROWS, row, MOST_EVENTS, event, &events, &ending);
+  if (rows == 0) { /* nothing is known beyond its beginning */
+    piece.end = value_at(w->way, c->y[n]), piece.end_kind = KZ_END_NOT_LOCATED;
+    if (piece.from_start) add_piece(w, &piece);
+    return;
+  }
+  double beyond[4 + 2 * KZ_CURVE_POINTS] = {NAN};
+  bool sign[2] = {1 + row[3] - row[2] > 0, 1 + row[3] + row[2] > 0}, ended = false;
+  for (int64_t i = 0; i < events; i++) {
+    const double *e = event + i * (3 + n);
+    const bool merges = e[0] > KZ_EVENT_FLIP;
+    if (!merges && !(e[1] >= 0 && e[1] <= 1)) continue;
+    const int kind = kind_of_event(w, c, e, &at);
+    const double where = at.y[2 * at.of.points];
+    if (merges && !(where >= 0 && where <= 1)) { /* beyond the value, which the cycle still reaches */
+      beyond[0] = where;
+      memcpy(beyond + 4, e + 3, (size_t)n * sizeof *beyond);
+      continue;
+    }
+    piece.end = value_at(w->way, at.y[2 * at.of.points]), piece.end_kind = kind, piece.attracts = sign[0] && sign[1];
+    cycle here = *c;
+    memcpy(here.y, e + 3, (size_t)n * sizeof *here.y);
+    here.y[n] = e[1], here.y[n + 1] = 0;
+    if (!describe(w, &here, &piece.point)) piece.point.period = period_of(c);
+    add_piece(w, &piece);
+    ended = merges;
+    if (!ended) sign[e[0] == KZ_EVENT_FOLD ? 0 : 1] ^= true;
+    piece = (kz_sweep_piece){.begin = piece.end, .begin_kind = kind, .reached = -1};
+    if (!ended && at.of.multiplier < 0 && w->max_period > 0) follow_child(w, &at, kind, depth);
+  }
+  if (ended) return;
+  const bool before = !isnan(beyond[0]); /* it ends beyond the value */
+  const double *last = before ? beyond : row + (rows - 1) * (4 + n), *former = row + (rows - (before ? 1 : 2)) * (4 + n);
+  const double place = last[0] > 1 ? 1 : 0;
+  piece.attracts = sign[0] && sign[1];
+  cycle there;
+  if ((before || (ending == KZ_TRACE_LEFT && rows > 1)) && solve_at(w, c, former, last, place, &there) &&
+      describe(w, &there, &piece.point))
+    piece.reached = place == 1;
+  else
+    piece.end = value_at(w->way, fmin(fmax(last[0], 0), 1)), piece.end_kind = KZ_END_NOT_LOCATED;
+  if (piece.reached < 0 && !describe(w, c, &piece.point)) return;
+  add_piece(w, &piece);
+}
+
+void kz_sweep_follow(const kz_path *path, double from, double to, int64_t max_period, const kz_branch_point *point,
+                     kz_sweep_walk *found) {
+  const way w = {path, from, to};
+  const double along[2] = {1, 0};
+  walking walk = {.way = &w, .max_period = max_period, .found = found};
+  cycle c;
+  found->count = 0;
+  if (plane_of(&w, &walk.plane) && cycle_of(&walk.plane, point, 0, &c))
+    follow(&walk, &c, along, (kz_sweep_piece){.from_start = 1, .reached = -1}, 0);
+  if (found->count == 0)
+    found->piece[found->count++] =
+        (kz_sweep_piece){.from_start = 1, .reached = -1, .end = from, .end_kind = KZ_END_NOT_LOCATED, .point = *point};
+}
+
+double kz_walk(const kz_path *path, double from, double to, kz_branch_point *point, int32_t *end_kind) {
+  kz_sweep_walk found;
+  *end_kind = KZ_END_OF_RANGE;
+  if (from == to) return to;
+  kz_sweep_follow(path, from, to, 0, point, &found);
+  const kz_sweep_piece *first = found.piece;
+  *point = first->point;
+  *end_kind = first->end_kind;
+  return first->reached == 1 ? to : first->reached == 0 ? from : first->end;
 }
 
 /* 1 + trace + det: the characteristic polynomial at -1 of the one-period map about inverted. NaN without a pendulum. */
 static double flip_test(const kz_path *path, double value) {
-  kz_pendulum pendulum;
-  kz_branch_point rest = {.theta = M_PI, .period = 1, .symmetric = 1, .centre = 1};
-  if (!path->pendulum(path->context, value, &pendulum) || !kz_branch_continue(&pendulum, &rest, MAX_DISTANCE, &rest))
-    return NAN;
-  return 1 + rest.multiplier_re[0] + rest.multiplier_re[1] + exp(-2 * M_PI * pendulum.beta);
+  const way here = {path, value, value};
+  const kz_curve_kind rest = {1, 1, 0, 0, 0};
+  double y[] = {M_PI, 0, 0, 0}, numbers[2];
+  kz_plane plane;
+  if (!plane_of(&here, &plane) || !kz_curve_solve(&plane, &rest, y, numbers)) return NAN;
+  return 1 + numbers[0] + numbers[1];
 }
 
 double kz_flutter_critical(const kz_path *path, double low, double high) {
@@ -98,13 +293,32 @@ static bool leaving_direction(const kz_pendulum *pendulum, double direction[2]) 
   return leaving < -1 && length > 0;
 }
 
+static bool same_pendulum(const void *context, double value, kz_pendulum *pendulum) {
+  (void)value;
+  *pendulum = *(const kz_pendulum *)context;
+  return true;
+}
+
+bool kz_cycle_near(const kz_pendulum *pendulum, const double state[2], double farthest, kz_branch_point *point) {
+  const kz_path path = {same_pendulum, pendulum};
+  const way here = {&path, 0, 1};
+  walking w = {.way = &here};
+  double numbers[2];
+  cycle c;
+  point->theta = state[0], point->velocity = state[1];
+  if (!plane_of(&here, &w.plane) || !cycle_of(&w.plane, point, 0, &c) || !kz_curve_solve(&w.plane, &c.of, c.y, numbers))
+    return false;
+  if (!(hypot(c.y[0] - state[0], c.y[1] - state[1]) <= farthest) || !(numbers[1] < 1)) return false;
+  return describe(&w, &c, point) && kz_branch_attracts(point);
+}
+
 bool kz_flutter_find(const kz_pendulum *pendulum, kz_branch_point *flutter) {
   double direction[2];
   if (!leaving_direction(pendulum, direction)) return false;
   for (double size = 1e-3; size < 1.5; size *= 1.2) {
-    const kz_branch_point guess = {
-        .theta = remainder(M_PI + size * direction[0], 2 * M_PI), .velocity = size * direction[1], .period = 2, .symmetric = 1};
-    if (kz_branch_continue(pendulum, &guess, size / 2, flutter) && flutter->centre == 1 && attracts(flutter)) return true;
+    const double guess[2] = {M_PI + size * direction[0], size * direction[1]};
+    *flutter = (kz_branch_point){.period = 2, .symmetric = 1};
+    if (kz_cycle_near(pendulum, guess, size / 2, flutter) && flutter->centre == 1) return true;
   }
   return false;
 }

@@ -44,7 +44,7 @@ static double next_flip(const kz_curve_kind *kind, double *y) {
 
 /* On a vertical line: flutter is born out of inverted rest, loses its symmetry, and then doubles. */
 TEST(test_flutter) {
-  const kz_curve_kind rest = {1, 1, -1, 0}, symmetric = {-1, 1, -1, 1}, pair = {1, 2, -1, 0};
+  const kz_curve_kind rest = {1, 1, -1, 0, 0}, symmetric = {-1, 1, -1, 1, 0}, pair = {1, 2, -1, 0, 0};
   for (int i = 0; i < 4; i++) {
     double y[4] = {PI, 0, (FLUTTER[i][0] - 3) / 27, 0.47 / 0.8}, child[6], form, side[2], vector[2];
     assert_int_equal(kz_curve_locate(&PLANE, &rest, y, UP), 1);
@@ -65,7 +65,7 @@ TEST(test_flutter) {
 /* At Omega = 20 a rotation of six periods is born at 0.3505459 and doubles 1.8e-5 above: from the fold its branches meet that. */
 TEST(test_branches_of_a_fold) {
   enum { MOST = 400, EVENTS = 20, N = 12 };
-  const kz_curve_kind fold = {1, 6, 1, 2};
+  const kz_curve_kind fold = {1, 6, 1, 2, 0};
   double y[N + 2] = {0.792497560880641, 0.408106903865102}, row[MOST][4 + N], event[EVENTS][3 + N], nearest = 1;
   const double place[2] = {17.0 / 27, 0.35054538465 / 0.8};
   int64_t events;
@@ -85,7 +85,7 @@ TEST(test_branches_of_a_fold) {
 /* The whole curve of the birth: every point is one of the published map to 1e-11, and the tangent map there has the multiplier -1. */
 TEST(test_trace) {
   enum { MOST = 300 };
-  const kz_curve_kind rest = {1, 1, -1, 0};
+  const kz_curve_kind rest = {1, 1, -1, 0, 0};
   double seed[4] = {PI, 0, 0.3, 0.47 / 0.8}, row[MOST][10], special[4][5];
   int64_t specials;
   int32_t ending;
@@ -107,7 +107,7 @@ TEST(test_trace) {
 
 /* Refused: a seed far from any curve, and a place without damping. */
 TEST(test_refused) {
-  const kz_curve_kind rest = {1, 1, -1, 0};
+  const kz_curve_kind rest = {1, 1, -1, 0, 0};
   double seed[4] = {PI, 0, -0.12, 0.3}, row[10], special[5];
   int64_t specials;
   int32_t ending;

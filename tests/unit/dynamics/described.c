@@ -1,0 +1,72 @@
+/* Everything of a cycle from one of its strobe points, against physics known to many digits (Q = 5, Omega = 11); maps of neighbouring
+ * pendulums. */
+#include "../../tools/test.h"
+
+#include <math.h>
+
+#include "../../tools/part.h"
+#include "kapitza/dynamics.h"
+
+static const double PI = 3.14159265358979323846;
+
+static kz_pendulum pendulum(double m) {
+  return (kz_pendulum){1.0 / 121, 1.0 / 55, m};
+}
+
+/* The published amplitude of flutter; the product of its multipliers. */
+TEST(test_flutter) {
+  const kz_pendulum p = pendulum(0.47);
+  kz_branch_point point = {.theta = PI + 0.161076997267223124, .velocity = -0.002241504186408954, .period = 2, .symmetric = 1};
+  kz_branch_describe(&p, &point);
+  assert_true(point.centre == 1 && point.winding == 0 && point.theta < 0);
+  assert_true(fabs(point.amplitude - 0.16111093243808042) < 1e-9);
+  assert_true(fabs(hypot(point.multiplier_re[0], point.multiplier_im[0]) - exp(-2 * PI / 55)) < 1e-9);
+}
+
+/* Rotations have their winding, mirror images are other cycles, and the whole orbit is the same cycle from any of its points. */
+TEST(test_rotation) {
+  const kz_pendulum p = pendulum(0.3);
+  kz_branch_point point = {.theta = 3.0164225972238, .velocity = 1.06881051489920, .period = 1}, image;
+  kz_branch_describe(&p, &point);
+  assert_true(point.winding == 1 && point.centre == 2);
+  assert_true(fabs(point.multiplier_re[0] + 0.7133) < 1e-4 && fabs(point.multiplier_im[0] - 0.6191) < 1e-4);
+  image = (kz_branch_point){.theta = -point.theta, .velocity = -point.velocity, .period = 1};
+  kz_branch_describe(&p, &image);
+  assert_int_equal(image.winding, -1);
+  assert_int_equal(kz_branch_same(&p, &point, &image), 0);
+  assert_int_equal(kz_branch_same(&p, &point, &point), 1);
+}
+
+/* Where three periods take a start, in the coordinates of the map. */
+static void carry(kz_dynamics *dynamics, double end[2]) {
+  int32_t label;
+  int64_t periods;
+  end[0] = 0.3;
+  end[1] = 0.4;
+  kz_dynamics_follow(dynamics, KZ_FOLLOW_DIRECT, 1, 3, end, &label, &periods);
+}
+
+/* Along a slider the coefficients are interpolated: the map is that of a pendulum made anew, forwards, back, and after a leap. */
+TEST(test_slider) {
+  enum { STEPS = PART > 1 ? 8 : 40 };
+  const kz_numerics numerics = {.scheme = kz_scheme_find("processed"), .steps_per_period = 40};
+  for (int by_k = 0; by_k < (PART > 1 ? 1 : 2); by_k++) {
+    kz_pendulum p = pendulum(0.3);
+    kz_dynamics *moved = kz_dynamics_create(&p, &numerics, 4);
+    kz_dynamics_coarse_regions(moved, 3);
+    for (int i = 1; i <= STEPS; i++) {
+      int64_t lost;
+      double end[2], known[2];
+      *(by_k ? &p.k : &p.m) += i == STEPS / 2 ? 0.05 : i < 3 * STEPS / 4 ? 3e-4 : -1e-3;
+      kz_dynamics *next = kz_dynamics_continue(moved, &p, &numerics, &lost), *anew = kz_dynamics_create(&p, &numerics, 4);
+      kz_dynamics_coarse_regions(anew, 3);
+      carry(next, end);
+      carry(anew, known);
+      assert_true(fabs(end[0] - known[0]) < 1e-10 && fabs(end[1] - known[1]) < 1e-10);
+      kz_dynamics_free(moved);
+      kz_dynamics_free(anew);
+      moved = next;
+    }
+    kz_dynamics_free(moved);
+  }
+}
