@@ -62,6 +62,36 @@ const char *kz_scalar_angle(const kz_node *node, double *value) {
   return wrong;
 }
 
+/* The nearest double to an angle that is no decimal number: a part of pi, or one with the sign of degrees. */
+static const char *angle_decimal(const kz_node *node, kz_decimal *value) {
+  double angle;
+  const char *wrong = kz_scalar_angle(node, &angle);
+  if (wrong) return wrong;
+  kz_short_text number = kz_shortest(angle);
+  return kz_scalar_decimal(&(kz_node){.kind = KZ_SCALAR, .text = number.text, .plain = true}, false, value);
+}
+
+const char *kz_scalar_decimal(const kz_node *node, bool is_angle, kz_decimal *value) {
+  static const char unit[] = " deg";
+  char number[KZ_DECIMAL_LENGTH];
+  bool whole;
+  const char *wrong = kz_scalar_text_within(node, sizeof number - 1, "has more than 1023 characters");
+  if (wrong) return wrong;
+  if (is_angle && (strstr(node->text, "pi") || strpbrk(node->text, "\xc2\xcf"))) return angle_decimal(node, value);
+  const char *tail = is_angle ? strstr(node->text, unit) : NULL;
+  const bool degrees = tail && tail[sizeof unit - 1] == '\0';
+  snprintf(number, sizeof number, "%.*s", (int)(degrees ? tail - node->text : (long)strlen(node->text)), node->text);
+  if (!kz_text_is_decimal(number, &whole)) return "is not a finite decimal number";
+  const __float128 quad = kz_decimal_quad(node->text);
+  value->high = (double)quad;
+  if (!isfinite(value->high)) return "is too large for double precision";
+  const size_t mantissa = strcspn(number, "eE");
+  if (value->high == 0.0 && strcspn(number, "123456789") < mantissa) return "is too small for double precision";
+  value->low = (double)(quad - value->high);
+  memcpy(value->text, node->text, strlen(node->text) + 1);
+  return NULL;
+}
+
 const char *kz_scalar_quantity(const kz_node *node, const char *unit, double *value) {
   double factor;
   if (node->kind != KZ_SCALAR) return kz_scalar_real(node, value);

@@ -13,8 +13,7 @@ static const char *skip_digits(const char *c) {
   return c;
 }
 
-/* [-+] digits [. digits] [e [-+] digits], no leading zeros. *whole: neither point nor exponent. */
-static bool is_decimal(const char *text, bool *whole) {
+bool kz_text_is_decimal(const char *text, bool *whole) {
   const char *start = text + (*text == '-' || *text == '+');
   const char *c = skip_digits(start);
   long digits = c - start;
@@ -46,7 +45,7 @@ const char *kz_scalar_integer(const kz_node *node, int64_t *value) {
   bool whole;
   const char *wrong = not_plain(node);
   if (wrong) return wrong;
-  if (!is_decimal(node->text, &whole)) return "is not a decimal number";
+  if (!kz_text_is_decimal(node->text, &whole)) return "is not a decimal number";
   if (!whole) return "is not an integer";
   errno = 0;
   *value = strtoll(node->text, NULL, 10);
@@ -57,7 +56,7 @@ const char *kz_scalar_real(const kz_node *node, double *value) {
   bool whole;
   const char *wrong = not_plain(node);
   if (wrong) return wrong;
-  if (!is_decimal(node->text, &whole)) return "is not a finite decimal number";
+  if (!kz_text_is_decimal(node->text, &whole)) return "is not a finite decimal number";
   *value = strtod(node->text, NULL);
   if (!isfinite(*value)) return "is too large for double precision";
   const size_t mantissa = strcspn(node->text, "eE");
@@ -70,45 +69,13 @@ const char *kz_text_real(const char *text, double *value) {
   return kz_scalar_real(&node, value);
 }
 
-/* What keeps a node from being a text of at most `most` bytes, or NULL. */
-static const char *text_wrong(const kz_node *node, size_t most, const char *too_long) {
+const char *kz_scalar_text_within(const kz_node *node, size_t most, const char *too_long) {
   if (node->kind == KZ_SEQUENCE) return "is a list";
   if (node->kind == KZ_MAPPING) return "is a mapping";
   if (node->plain && node->text[0] == '\0') return "is empty";
   for (const char *c = node->text; *c; c++)
     if (kz_control_bytes(c)) return "holds a line break or a control character";
   return strlen(node->text) > most ? too_long : NULL;
-}
-
-/* The nearest double to an angle that is no decimal number: a part of pi, or one with the sign of degrees. */
-static const char *angle_decimal(const kz_node *node, kz_decimal *value) {
-  double angle;
-  const char *wrong = kz_scalar_angle(node, &angle);
-  if (wrong) return wrong;
-  kz_short_text number = kz_shortest(angle);
-  return kz_scalar_decimal(&(kz_node){.kind = KZ_SCALAR, .text = number.text, .plain = true}, false, value);
-}
-
-/* A number, as the sum of two doubles that is nearest to it; the text may be longer than doubles can tell. */
-const char *kz_scalar_decimal(const kz_node *node, bool is_angle, kz_decimal *value) {
-  static const char unit[] = " deg";
-  char number[KZ_DECIMAL_LENGTH];
-  bool whole;
-  const char *wrong = text_wrong(node, sizeof number - 1, "has more than 1023 characters");
-  if (wrong) return wrong;
-  if (is_angle && (strstr(node->text, "pi") || strpbrk(node->text, "\xc2\xcf"))) return angle_decimal(node, value);
-  const char *tail = is_angle ? strstr(node->text, unit) : NULL;
-  const bool degrees = tail && tail[sizeof unit - 1] == '\0';
-  snprintf(number, sizeof number, "%.*s", (int)(degrees ? tail - node->text : (long)strlen(node->text)), node->text);
-  if (!is_decimal(number, &whole)) return "is not a finite decimal number";
-  const __float128 quad = kz_decimal_quad(node->text);
-  value->high = (double)quad;
-  if (!isfinite(value->high)) return "is too large for double precision";
-  const size_t mantissa = strcspn(number, "eE");
-  if (value->high == 0.0 && strcspn(number, "123456789") < mantissa) return "is too small for double precision";
-  value->low = (double)(quad - value->high);
-  memcpy(value->text, node->text, strlen(node->text) + 1);
-  return NULL;
 }
 
 const char *kz_scalar_boolean(const kz_node *node, bool *value) {
@@ -129,7 +96,7 @@ int kz_control_bytes(const char *c) {
 }
 
 const char *kz_scalar_text(const kz_node *node) {
-  return text_wrong(node, 500, "is longer than 500 bytes");
+  return kz_scalar_text_within(node, 500, "is longer than 500 bytes");
 }
 
 kz_short_text kz_shortest(double value) {

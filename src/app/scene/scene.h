@@ -74,13 +74,16 @@ kz_node *kz_tree_take(kz_node *root, const char *path);
 /* A copy of a tree, without the siblings of its root. */
 kz_node *kz_tree_copy(const kz_node *root);
 
+/* [-+] digits [. digits] [e [-+] digits], no leading zeros. *whole: neither point nor exponent. */
+bool kz_text_is_decimal(const char *text, bool *whole);
 /* Reads one scalar strictly. Returns what is wrong with it ("is not a number"), or NULL. */
 const char *kz_scalar_integer(const kz_node *node, int64_t *value);
 const char *kz_scalar_real(const kz_node *node, double *value);
 const char *kz_text_real(const char *text, double *value); /* as kz_scalar_real, of a text without quotes */
 /* An angle in rad, or in degrees with "deg" behind the number, or a part of pi such as "3 pi/4"; value in rad. */
 const char *kz_scalar_angle(const kz_node *node, double *value);
-/* A number of any digits, with or without quotes; an angle may be in degrees. *value keeps the text. */
+/* A number of any digits, with or without quotes, as the sum of two doubles that is nearest to it; an angle may be in degrees.
+ * *value keeps the text. */
 const char *kz_scalar_decimal(const kz_node *node, bool is_angle, kz_decimal *value);
 /* Writes "0.3" for "0,3" to number [bytes]; false if the text is not a number with one comma. */
 bool kz_scalar_with_a_point(const char *text, char *number, size_t bytes);
@@ -92,6 +95,8 @@ bool kz_scalar_per_second(const kz_node *node, double pivot_frequency, double *v
 /* Splits "3 pi/4" into the text "3", written to multiple [bytes], and the divisor 4; false if the text is not a part of pi. */
 bool kz_pi_parts(const char *text, char *multiple, size_t bytes, long *divisor);
 const char *kz_scalar_boolean(const kz_node *node, bool *value);
+/* A text of at most `most` bytes, with or without quotes, on one line; kz_scalar_text: of at most 500. */
+const char *kz_scalar_text_within(const kz_node *node, size_t most, const char *too_long);
 const char *kz_scalar_text(const kz_node *node);
 
 /* The table of units (units.c). kz_unit_is_known: true if other units can be converted to `of`. kz_unit_factor: *factor = size of the unit

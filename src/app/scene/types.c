@@ -13,9 +13,8 @@ static const type types[] = {
     {"rad", "", "an", "angle",
      "A degree sign may stand for the word: 90°. Angles are counted from the down position, counterclockwise."},
     {KZ_VELOCITY_UNIT, "", "a", "velocity",
-     "Units are for scenes in SI units whose studies do not change the frequency of the pivot. A velocity of 1 is one turn in "
-     "a "
-     "drive period."},
+     "Units are for scenes in SI units whose studies do not change the frequency of the pivot. A velocity of 1 is one turn "
+     "in a drive period."},
     {"Hz", "", "a", "frequency", "A frequency is a number of periods a second: 1 rad/s is 1/(2 pi) Hz."},
     {"rad s-1", "", "an", "angular frequency", "1 Hz is 2 pi rad/s."},
     {"m", "amplitude", "an", "amplitude", "It is half of the pivot's stroke. Without a unit it is at most 1 m."},

@@ -1,8 +1,7 @@
 !> Cycles over a plane of two parameters: the equations of multiple shooting for cycles, for branches of them along a line, and for the curves
 !> on which a multiplier is 1 or -1; their solution and tangents (docs/explanation/atlas.md).
 !>
-!> The unknowns y are the points x(i) of a cycle, rad and rad per drive radian, not wrapped, and then its place, in units of the rectangle's
-!> sides. F(x(i)) = x(i+1), side*(F(x(n)) - 2 pi turns) = x(1): side = 1 for cycles of n periods, side = -1 for those of 2 n periods that are
+!> The unknowns y are the points x(i) of a cycle, rad and rad per drive radian, not wrapped, and then its place, in the rectangle's sides. F(x(i)) = x(i+1), side*(F(x(n)) - 2 pi turns) = x(1): side = 1 for cycles of n periods, side = -1 for those of 2 n periods that are
 !> their own mirror image. G is this map of x(1). The damping is constant, so that det DG = exp(-2 pi beta n), and one of the multipliers is e
 !> where trace DG = e (1 + det DG).
 module kz_cycles_curves

@@ -10,6 +10,8 @@ enum { MOST_ROWS = 400, MOST_EVENTS = 64, DEEPEST = 8 };
 static const double LONGEST = 1;
 /* An event that is not a merger lies so near to where the walk has found it. */
 static const double NEAR = 0.3;
+/* A cycle is followed so near to the value where damping ends. */
+static const double STUCK = 1e-6;
 
 /* The way from one value to another: a place is 0 at the first, 1 at the second. */
 typedef struct {
@@ -50,7 +52,7 @@ static double value_at(const way *w, double place) {
 
 static bool pendulum_at(const void *context, const double place[2], kz_pendulum *pendulum) {
   const way *w = context;
-  return w->path->pendulum(w->path->context, value_at(w, place[0]), pendulum) && pendulum->beta > 0;
+  return w->path->pendulum(w->path->context, value_at(w, place[0]), pendulum);
 }
 
 /* The plane of the way; false where its first value has no pendulum. */
@@ -98,6 +100,12 @@ static bool describe(const walking *w, const cycle *c, kz_branch_point *point) {
   *point = (kz_branch_point){.theta = c->y[0], .velocity = c->y[1], .period = period_of(c), .symmetric = c->symmetric};
   kz_branch_describe(&pendulum, point);
   return true;
+}
+
+/* Without damping areas stay, and nothing attracts. */
+static bool is_damped(const walking *w, double place) {
+  kz_pendulum pendulum;
+  return pendulum_at(w->way, (double[]){place, 0}, &pendulum) && pendulum.beta > 0;
 }
 
 /* The cycle at place 0 or 1, between two rows of a branch. */
@@ -220,6 +228,8 @@ static void follow(const walking *w, const cycle *c, const double along[2], kz_s
   if ((before || (ending == KZ_TRACE_LEFT && rows > 1)) && solve_at(w, c, former, last, place, &there) &&
       describe(w, &there, &piece.point))
     piece.reached = place == 1;
+  else if (piece.attracts && fabs(1 - last[0]) < STUCK && !is_damped(w, 1)) /* complex multipliers come to the unit circle */
+    piece.end = w->way->to, piece.end_kind = KZ_END_NEIMARK_SACKER;
   else
     piece.end = value_at(w->way, fmin(fmax(last[0], 0), 1)), piece.end_kind = KZ_END_NOT_LOCATED;
   if (piece.reached < 0 && !describe(w, c, &piece.point)) return;

@@ -84,7 +84,7 @@ TEST(angles_are_in_degrees_where_they_say_so) {
       "or in degrees such as 90 deg, or a part of pi such as pi/2");
   expect_refused(GOOD, "basin.velocity.min=-1 deg",
                  "--set basin.velocity.min=-1 deg: basin.velocity.min: \"-1 deg\" is not a finite decimal number; it must be a "
-                 "number from -10000 to 10000 in rad per drive radian");
+                 "number from -10000 to 10000 in rad per drive radian, or with its unit: rad/s, deg/s, °/s");
 }
 
 TEST(the_frequency_of_the_pivot_is_given_once) {
