@@ -7,6 +7,7 @@
 #include "json.h"
 #include "kapitza/version.h"
 #include "../study/basin/plan.h"
+#include "../study/numerics/cells.h"
 
 char *kz_scene_text(const kz_scene *scene, bool fingerprint) {
   char *text = NULL;
@@ -38,27 +39,38 @@ static void print_duration(double seconds, FILE *out) {
     fprintf(out, "%.3g h", seconds / 3600.0);
 }
 
+static void print_studies(const kz_scene *scene, FILE *out) {
+  const char *before = "studies          ";
+  for (int i = 0; i < kz_study_count; i++) {
+    if (!kz_study_is_wanted(kz_studies[i], scene)) continue;
+    fprintf(out, "%s%s", before, kz_studies[i]->name);
+    if (kz_studies[i] == &kz_basin_study)
+      fprintf(out, " (%s)", isnan(scene->basin->accuracy) ? kz_method_names[scene->basin->method] : "method by basin.accuracy");
+    before = ", ";
+  }
+}
+
+/* Five lines at most, then warnings; the rest for `all`. */
 static void print_check(const kz_options *options, const kz_scene *scene, const char *resolved, const kz_estimate *estimate,
                         FILE *out) {
   const kz_cost cost = kz_cost_of(scene);
   const kz_pendulum *p = &scene->parameters.pendulum;
   fprintf(out, "%s is a valid scene.\n", options->scene);
+  print_studies(scene, out);
+  if (cost.cells > 0) fprintf(out, ", %lld cells", (long long)cost.cells);
+  fputs("\n", out);
   if (!isnan(p->k)) fprintf(out, "pendulum         k = %.10g, beta = %.10g, m = %.10g\n", p->k, p->beta, p->m);
   kz_rest_print(&scene->parameters, out);
-  kz_drive_print(&scene->parameters, out);
-  fputs("studies         ", out);
-  for (int i = 0; i < kz_study_count; i++)
-    if (kz_study_is_wanted(kz_studies[i], scene)) fprintf(out, " %s", kz_studies[i]->name);
-  fprintf(out,
-          "\ncells            %lld\ndisk             %s\nmemory per rank  %s, %s more on rank 0, and a share of %s\n"
-          "estimated time   ",
-          (long long)cost.cells, kz_cost_bytes(cost.disk_bytes).text, kz_cost_bytes(cost.memory_bytes).text,
-          kz_cost_bytes(cost.rank0_bytes).text, kz_cost_bytes(cost.shared_bytes).text);
-  if (!estimate->is_whole) fputs("more than ", out);
+  fputs(estimate->is_whole ? "cost             " : "cost             more than ", out);
   print_duration(estimate->seconds, out);
-  fputs(" on one core; N ranks take an N-th of it\n", out);
+  fprintf(out, " on one core (N ranks take an N-th of it), %s of memory, %s on disk\n",
+          kz_cost_bytes(cost.memory_bytes + cost.rank0_bytes + cost.shared_bytes).text, kz_cost_bytes(cost.disk_bytes).text);
   kz_warnings_print(scene, out);
-  if (options->all) fprintf(out, "\n%s", resolved);
+  if (!options->all) return;
+  fprintf(out, "memory per rank  %s, %s more on rank 0, and a share of %s\n", kz_cost_bytes(cost.memory_bytes).text,
+          kz_cost_bytes(cost.rank0_bytes).text, kz_cost_bytes(cost.shared_bytes).text);
+  kz_drive_print(&scene->parameters, out);
+  fprintf(out, "\n%s", resolved);
 }
 
 static kz_json *studies_of(const kz_scene *scene) {

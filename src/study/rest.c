@@ -10,6 +10,9 @@ enum { POINTS = 4000, HALVINGS = 40 };
 /* |k| + |m| up to which the answer takes less than a second. */
 static const double STIFFEST = 1e5;
 
+/* A limit below is that of a drive of 0, at which nothing moves the pendulum away or back. */
+static const double NOTHING = 1e-12;
+
 /* The interval of drives m about `at` in which the position keeps its answer, or the next one in which it is stable. */
 typedef struct {
   bool stable;      /* at the scene's drive */
@@ -119,8 +122,11 @@ static void print_position(const char *name, const rest *r, const drive_words *w
     return;
   }
   fprintf(out, r->stable ? " (for %s" : " (stable for %s", words->name);
-  if (!isnan(low)) fprintf(out, " from %.4g%s", low, words->unit);
-  if (!isnan(high)) fprintf(out, isnan(low) ? " up to %.4g%s" : " to %.4g%s", high, words->unit);
+  if (low < NOTHING)
+    fputs(" above 0,", out);
+  else if (!isnan(low))
+    fprintf(out, " from %.4g%s", low, words->unit);
+  if (!isnan(high)) fprintf(out, low >= NOTHING ? " to %.4g%s" : " up to %.4g%s", high, words->unit);
   if (!isnan(low) && isnan(high)) fputs(" up", out);
   fputs(").", out);
 }

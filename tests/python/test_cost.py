@@ -21,8 +21,8 @@ def words(n, method):
 
 def estimates(kapitza, n, method):
     """Bytes: disk, of each rank, of the first besides, of all together besides."""
-    text = kapitza("check", *words(n, method)).stdout
-    disk = re.search(r"disk +([\d.]+) (\w+)", text)
+    text = kapitza("check", "--all", *words(n, method)).stdout
+    disk = re.search(r"([\d.]+) (\w+) on disk", text)
     memory = re.search(r"memory per rank +([\d.]+) (\w+), ([\d.]+) (\w+) more on rank 0, and a share of ([\d.]+) (\w+)", text)
     numbers = [*disk.groups(), *memory.groups()]
     return [float(number) * UNITS[unit] for number, unit in zip(numbers[::2], numbers[1::2], strict=True)]
@@ -84,7 +84,7 @@ def test_many_unsettled_cells_are_labelled_again_in_parts(kapitza, tmp_path):
 def test_the_time_of_boundaries_and_shocks_is_tried(kapitza, tmp_path, keys):
     """One rank's processor time, most of which is that stage's."""
     scene = [*words(200, "direct"), *(word for key in keys for word in ("--set", f"basin.{key}"))]
-    estimate = float(re.search(r"estimated time +([\d.]+) s", kapitza("check", *scene).stdout)[1])
+    estimate = float(re.search(r"cost +([\d.]+) s", kapitza("check", *scene).stdout)[1])
     taken = kapitza("run", *scene, "-o", tmp_path / "x.h5", "--timings").stdout
     seconds = float(re.search(r"^all +[\d.]+ +([\d.]+)", taken, re.MULTILINE)[1])
     assert 1 / 1.5 < estimate / seconds < 1.5, (estimate, seconds)
@@ -116,7 +116,7 @@ def marked(studies, name):
 def processor_seconds(kapitza, scene, folder):
     """(foretold, taken); all of a run, MPI's start too."""
     (folder / "s.yaml").write_text(PENDULUM + scene)
-    foretold = float(re.search(r"estimated time +([\d.]+) s", kapitza("check", "s.yaml", folder=folder).stdout)[1])
+    foretold = float(re.search(r"cost +([\d.]+) s", kapitza("check", "s.yaml", folder=folder).stdout)[1])
     before = os.times()
     kapitza("run", "s.yaml", "--force", folder=folder)
     after = os.times()
@@ -150,7 +150,7 @@ def test_a_check_ends_soon_and_leaves_nothing(kapitza, tmp_path, study):
     before = os.times()
     text = kapitza("check", "s.yaml", folder=tmp_path).stdout
     after = os.times()
-    assert "estimated time" in text
+    assert re.search("^cost .* on one core", text, re.MULTILINE)
     assert after.children_user + after.children_system - before.children_user - before.children_system < 20
     assert [path.name for path in tmp_path.iterdir()] == ["s.yaml"]
 
@@ -160,4 +160,4 @@ def test_rare_attractors_are_known_before_cells_are_timed(kapitza, seed):
     """Of these starts few end on a rare attractor; without it, a cell of its basin would be followed for all of max_periods."""
     keys = ["--set", f"basin.attractors.seed={seed}", "--set", "basin.max_periods=4000000"]
     text = kapitza("check", ROOT / "scenes" / "small.yaml", *keys).stdout
-    assert "estimated time" in text and "more than" not in text
+    assert re.search("^cost +[0-9.]+ s", text, re.MULTILINE)

@@ -68,8 +68,8 @@ def test_check_predicts_what_run_would_do(kapitza, tmp_path):
     done = kapitza("check", SMALL, folder=tmp_path)
     assert not list(tmp_path.iterdir())
     rows = dict(re.findall(r"^(.+?)\s{2,}(.+)$", done.stdout, re.MULTILINE))
-    assert rows["studies"] == "basin" and rows["cells"] == "10000"
-    assert "MB" in rows["memory per rank"] and "on one core" in rows["estimated time"]
+    assert len(done.stdout.splitlines()) == 5 and rows["studies"] == "basin (icm), 10000 cells"
+    assert re.fullmatch(r"[\d.]+ s on one core \(.+\), [\d.]+ MB of memory, 1.1 MB on disk", rows["cost"])
 
 
 def test_si_values_stand_in_the_file(kapitza, tmp_path):
