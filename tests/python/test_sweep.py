@@ -69,6 +69,18 @@ def test_inverted_gives_way_to_flutter(sweep):
         assert (mirror == row) == bool(branches["branch_symmetric"][row])
 
 
+def test_flutter_begins_where_rest_ends_however_its_angle_is_written(kapitza, tmp_path):
+    """Upright rest may stand at -pi in a catalogue: what it turns into is found all the same."""
+    (tmp_path / "s.yaml").write_text("""\
+pendulum: {k: 0.1, damping: 0.1, m: 0.5}
+sweep: {parameter: m, min: 0.6, max: 0.65, count: 2, measure: [attractors], starts: 256, max_period: 4}
+""")
+    kapitza("run", "s.yaml", folder=tmp_path)
+    with h5py.File(tmp_path / "s.h5") as file:
+        branches = {name: item[:] for name, item in file["sweep"].items()} | {"branch_name": file["sweep/branch_name"].asstr()[:]}
+    assert ends(branches, "flutter") == (pytest.approx(0.625495916, abs=1e-9), "period_doubling", 0.65, "left_the_range")
+
+
 def test_short_lived_pair(sweep):
     branches, _ = sweep("attractors", 0.5195, 0.5235, 5, more=", starts: 2048")
     low, high = (RANGES["period4_top"][key]["eps"] for key in ("low", "high"))
