@@ -47,6 +47,11 @@ def pytest_configure(config):
     hypothesis.settings.load_profile("patient")
 
 
+def with_extensive(common, more):
+    """Parameters of a test: the common ones, and more that wait for KAPITZA_EXTENSIVE=1; a tuple has several values."""
+    return [*common, *(pytest.param(*(row if isinstance(row, tuple) else (row,)), marks=pytest.mark.extensive) for row in more)]
+
+
 def pytest_collection_modifyitems(items):
     """What takes long waits for KAPITZA_EXTENSIVE=1."""
     for item in items:

@@ -43,6 +43,7 @@ def built():
     subprocess.run(["cmake", "--build", "build", "--target", "benchmark"], cwd=ROOT, check=True, capture_output=True)
 
 
+@pytest.mark.extensive
 def test_textbook_programs_agree_with_the_truth(built, tmp_path, fig12_attractors):
     fig12_catalogue = catalogue_of(tmp_path / "fig12.h5", fig12_attractors)
     generator = np.random.default_rng(1)

@@ -9,8 +9,8 @@ from conftest import ROOT
 
 ELSEWHERE = {"cluster", "how-hard", "lesson", "stories"}  # run by test_cluster.py, test_tutorial.py; no commands
 PAGES = [ROOT / "README.md", *sorted((ROOT / "docs").glob("howto/*.md")), *sorted((ROOT / "docs").glob("tutorials/*.md"))]
-LONG = {"compare", "film", "ion-trap", "map", "my-pendulum", "paper", "parameters", "questions", "shaker", "track",
-        "why-it-stands", "zoom"}  # the longest
+LONG = {"certain", "compare", "film", "first-basin", "ion-trap", "map", "my-pendulum", "pandas", "paper", "parameters", "push", "questions",
+        "shaker", "track", "where", "why-it-stands", "zoom"}  # the longest
 PAGES = [pytest.param(page, marks=[pytest.mark.extensive] * (page.stem in LONG), id=page.stem)
          for page in PAGES if page.stem not in ELSEWHERE]
 

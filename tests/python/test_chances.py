@@ -4,7 +4,7 @@ import kapitza
 import numpy as np
 import pandas
 import pytest
-from conftest import ROOT, plot
+from conftest import ROOT, plot, with_extensive
 from kapitza.chances import wilson
 
 SMALL = ROOT / "scenes" / "small.yaml"
@@ -27,7 +27,7 @@ def test_a_start_without_spread_is_its_cell(small):
     assert table["name"].tolist()[0] == small.at(3.1, 0.0)["name"] == "inverted" and table["probability"][0] == 1
 
 
-@pytest.mark.parametrize("kind", ["normal", "uniform"])
+@pytest.mark.parametrize("kind", with_extensive(["normal"], ["uniform"]))
 def test_weights_of_cells_are_those_of_random_starts(small, kind):
     """By drawing a hundred thousand starts and looking them up in the same map; across the seam of the angle."""
     random = np.random.default_rng(1)
@@ -114,6 +114,7 @@ def test_measured_releases_beside_the_map(lab, tmp_path):
             lab.agree(table)
 
 
+@pytest.mark.extensive
 def test_measured_points_on_the_picture(lab, tmp_path):
     axes = lab.plot(points=RELEASES, si=True, degrees=True).axes[0]
     marks = {dots.get_gid(): dots.get_offsets() for dots in axes.collections if dots.get_gid()}

@@ -8,7 +8,7 @@ import time
 from pathlib import Path
 
 import pytest
-from conftest import PROGRAM, ROOT, datasets
+from conftest import PROGRAM, ROOT, datasets, with_extensive
 
 FIG12 = ROOT / "scenes" / "blackburn-fig12.yaml"
 UNITS = {"B": 1, "kB": 1e3, "MB": 1e6, "GB": 1e9, "TB": 1e12}
@@ -108,9 +108,9 @@ TIMED = {
 }
 
 
-def marked(studies, name):
-    """The names of the studies; one of them takes long."""
-    return [pytest.param(study, marks=[pytest.mark.extensive] * (study == name)) for study in studies]
+def marked(studies, *names):
+    """The names of the studies; those that are named take long."""
+    return with_extensive([study for study in studies if study not in names], names)
 
 
 def processor_seconds(kapitza, scene, folder):
@@ -144,7 +144,7 @@ LONG = {
 }
 
 
-@pytest.mark.parametrize("study", marked(LONG, "tradeoff"))
+@pytest.mark.parametrize("study", marked(LONG, "tradeoff", "strobe", "saddles"))
 def test_a_check_ends_soon_and_leaves_nothing(kapitza, tmp_path, study):
     (tmp_path / "s.yaml").write_text(PENDULUM + LONG[study])
     before = os.times()

@@ -91,6 +91,7 @@ def test_the_time_limit_is_heard_before_modelling(tmp_path):
     assert done.returncode == 75 and "time limit" in done.stderr and not list(tmp_path.iterdir()), done.stderr
 
 
+@pytest.mark.extensive
 def test_a_signal_is_heard_before_modelling(tmp_path):
     process = subprocess.Popen(STIFF, cwd=tmp_path, stderr=subprocess.PIPE, text=True)
     time.sleep(0.3)

@@ -5,7 +5,7 @@ import json
 import h5py
 import numpy as np
 import pytest
-from conftest import ROOT, datasets
+from conftest import ROOT, datasets, with_extensive
 
 SMALL = ROOT / "scenes" / "small.yaml"
 # Some 13 % of these labels are wrong by any method in double precision.
@@ -118,7 +118,7 @@ def test_the_former_flag_names_what_replaces_it(kapitza, tmp_path):
 DRIVEN = {"torque": ("{k: 0.1, damping: 0.05, m: 0.05, torque: 0.1137}", 0), "ellipse": ("{k: 0, damping: 0.05, m: 0.5, ellipse: 1}", 1)}
 
 
-@pytest.mark.parametrize("name", DRIVEN)
+@pytest.mark.parametrize("name", with_extensive(["ellipse"], ["torque"]))
 def test_quasi_periodic_motions_are_recognised(kapitza, tmp_path, name):
     """They were followed for all of max_periods, most of them in every precision."""
     pendulum, cycles = DRIVEN[name]

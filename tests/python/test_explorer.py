@@ -16,7 +16,7 @@ import h5py
 import numpy as np
 import pytest
 import yaml
-from conftest import PROGRAM, ROOT
+from conftest import PROGRAM, ROOT, with_extensive
 from explorer_page import Server, wait_for
 from kapitza.explorer.access import Access
 from kapitza.result import Result
@@ -95,6 +95,7 @@ def test_what_the_program_refuses_is_said_in_its_words_and_ends_nothing(server, 
     assert server.ask(FRAME)[-1][0]["answer"] == "frame" and len(server.children()) == 1
 
 
+@pytest.mark.extensive
 def test_set_changes_the_scene():
     running = Server(SMALL, "--set", "pendulum.drive_amplitude=0.4", "--set", "basin.method=exact", "--set",
                      "basin.theta={centre: 1, width: 1e-20}", "--set", "basin.velocity={centre: 0, width: 1e-20}")
@@ -224,6 +225,7 @@ def processor_time(process):
     return (int(fields[11]) + int(fields[12])) / os.sysconf("SC_CLK_TCK")
 
 
+@pytest.mark.extensive
 def test_few_descriptors_are_an_answer_not_a_traceback(tmp_path):
     limit = tmp_path / "limited"
     limit.write_text(f'#!/bin/sh\nulimit -n 40\nexec "{PROGRAM}" "$@"\n')
@@ -253,7 +255,7 @@ def answers(running):
 # ---- what stays behind ----
 
 
-@pytest.mark.parametrize("number", [signal.SIGTERM, signal.SIGKILL])
+@pytest.mark.parametrize("number", with_extensive([signal.SIGTERM], [signal.SIGKILL]))
 def test_it_leaves_no_process_and_no_file_behind(tmp_path, number):
     environment = os.environ | {"TMPDIR": str(tmp_path)}
     running = Server(SMALL, environment=environment)
@@ -287,6 +289,7 @@ def attempt(call, *arguments):
 # ---- what it is opened with ----
 
 
+@pytest.mark.extensive
 def test_a_result_opens_with_what_lies_over_its_basins(small_result, tmp_path):
     shutil.copy(small_result, tmp_path / "more.h5")
     with h5py.File(tmp_path / "more.h5", "a") as file:
@@ -322,11 +325,11 @@ def test_a_result_opens_with_what_lies_over_its_basins(small_result, tmp_path):
     assert "max_periods" not in text
 
 
-@pytest.mark.parametrize(("arguments", "message"), [
-    (["nothing.yaml"], "nothing.yaml: cannot be opened"), ([SMALL, "--port", "80"], "--port: 80 is not a port"),
-    ([SMALL, "--port", "8\u00b2"], "is not a port"), ([SMALL, "--origin", "hub.example.org"], "--origin: hub.example.org is not an origin"),
-    ([SMALL, "--set", "pendulum.m=x"], "pendulum.m"), ([ROOT / "README.md"], "README.md"), ([], "view: SCENE is missing"),
-])
+@pytest.mark.parametrize(("arguments", "message"), with_extensive(
+    [(["nothing.yaml"], "nothing.yaml: cannot be opened"), ([SMALL, "--port", "80"], "--port: 80 is not a port"),
+     ([], "view: SCENE is missing")],
+    [([SMALL, "--port", "8\u00b2"], "is not a port"), ([SMALL, "--set", "pendulum.m=x"], "pendulum.m"), ([ROOT / "README.md"], "README.md"),
+     ([SMALL, "--origin", "hub.example.org"], "--origin: hub.example.org is not an origin")]))
 def test_what_cannot_be_opened_is_one_line(arguments, message):
     done = subprocess.run([PROGRAM, "view", *arguments, "--no-browser"], capture_output=True, text=True)
     assert done.returncode == 2 and message in done.stderr and len(done.stderr.splitlines()) == 1, done.stderr

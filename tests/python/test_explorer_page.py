@@ -154,6 +154,7 @@ def test_keys_do_what_hands_do(page):
     assert page.run("$('help').open") and {"n", "w", "space", "Enter", "?"} <= set(listed)
 
 
+@pytest.mark.extensive
 def test_dive_goes_to_a_boundary_between_two_starts(page):
     page.press("dive")
     for across in np.linspace(0.52, 0.58, 7):
@@ -284,6 +285,7 @@ def test_two_values_stand_side_by_side_with_linked_cursors(page):
     assert page.run("document.querySelectorAll('.pane').length") == 1 and "|" not in page.run("$('pointer').textContent")
 
 
+@pytest.mark.extensive
 def test_both_painters_draw_the_same(page, driver, striped):
     page.choose("shade", "settling")
     page.choose("quality", "exact")
@@ -308,7 +310,7 @@ def test_samples_soften_what_is_finer_than_a_pixel(page):
 # ---- what is saved ----
 
 
-def test_pictures_tables_and_films_are_saved(page, folder):
+def test_pictures_and_tables_are_saved(page, folder):
     page.hand(0.7, 0.5, 0.7, 0.5)
     assert wait_for(lambda: not page.run("$('save-csv').disabled"))
     table = np.genfromtxt(page.saved("save-csv", folder / "orbit.csv"), delimiter=",", names=True)
@@ -324,6 +326,10 @@ def test_pictures_tables_and_films_are_saved(page, folder):
     drawing = ElementTree.parse(page.saved("save-svg", folder / "view.svg")).getroot()
     words = [item.text for item in drawing.iter("{http://www.w3.org/2000/svg}text")]
     assert "inverted" in words and len(list(drawing.iter("{http://www.w3.org/2000/svg}image"))) == 1
+
+
+@pytest.mark.extensive
+def test_films_are_saved(page, folder):
     page.choose("film-count", "3")
     with zipfile.ZipFile(page.saved("film-png", folder / "film.zip", 60)) as film:
         assert film.testzip() is None and film.namelist() == [f"film-00{n}.png" for n in range(3)]

@@ -11,6 +11,7 @@ pytest_plugins = ("explorer_page",)
 TURN = 2 * np.pi
 
 
+@pytest.mark.extensive
 def test_upright_is_in_the_middle_until_another_choice_which_is_remembered(driver, striped):
     driver.get("about:blank")
     driver.execute_cdp_cmd("Network.clearBrowserCookies", {})
@@ -38,6 +39,7 @@ def test_a_plain_deep_picture_says_where_it_is_and_goes_to_a_boundary(page):
     assert page.window()["theta"]["min"] == pytest.approx(-np.pi) and wait_for(lambda: page.run("document.querySelector('.inset').hidden"))
 
 
+@pytest.mark.extensive
 def test_the_list_lights_a_basin_and_keeps_the_one_that_is_clicked(page):
     page.wait()
     plain = np.unique(np.array(page.pixels()), axis=0).tolist()

@@ -179,6 +179,7 @@ def test_attractors_and_sweeps_warn_of_loose_steps(kapitza, tmp_path):
         assert f"warning: {said}" in done.stdout and "steps or more" in done.stdout, done.stdout
 
 
+@pytest.mark.extensive
 def test_settings_that_do_not_carry_are_said(kapitza, tmp_path):
     """Their labels are random: measured as wrong, and named in a warning."""
     (tmp_path / "x.yaml").write_text("numerics: {scheme: split6, steps_per_period: 96}\n" + SPRING +

@@ -112,6 +112,7 @@ def test_reports_and_comparisons_are_in_si(tmp_path):
     assert panels[0].get_ylabel() == "velocity dθ/dt (rad/s)"
 
 
+@pytest.mark.extensive
 def test_sweeps_take_units():
     swept = kapitza.sweep(SCENE, "amplitude", ("7 mm", "0.9 cm"), 2, "basin_fractions", starts=32, progress=False)
     assert swept.group("sweep")["value"].values == pytest.approx([0.007, 0.009]) and swept.group("sweep")["value"].attrs["units"] == "m"
@@ -122,7 +123,7 @@ def test_sweeps_take_units():
 
 IN_SI = """\
 pendulum: {length: 20 cm, frequency: 50 Hz, amplitude: 2.5 cm, quality_factor: 10}
-basin: {theta: {count: 8}, velocity: {min: -16 rad/s, max: 900 deg/s, count: 8}, attractors: {starts: 64}, shocks: {scale: 10 °/s}}
+basin: {theta: {count: 2}, velocity: {min: -16 rad/s, max: 900 deg/s, count: 2}, attractors: {starts: 8}}
 saddles: {velocity: {min: -1, max: 3rad/s}}
 orbit: {start: {theta: 150°, velocity: "170 deg/s"}}
 chart: {x: {parameter: amplitude, min: 1 mm, max: 1 cm, count: 2}, y: {parameter: length, min: 0.1, max: 0.2, count: 2},
@@ -130,12 +131,18 @@ chart: {x: {parameter: amplitude, min: 1 mm, max: 1 cm, count: 2}, y: {parameter
 """
 
 
+@pytest.mark.extensive
+def test_scales_of_shocks_take_units():
+    resolved = yaml.safe_load(kapitza.check(IN_SI, set={"basin.shocks.scale": "10 °/s"}).scene)
+    assert resolved["basin"]["shocks"]["scale"] == np.radians(10) / OMEGA
+
+
 def test_velocities_take_units_wherever_they_are_keys():
     """The resolved scene has them in units of the drive, to the bit of velocity / omega, and reads as the same scene again."""
     resolved = kapitza.check(IN_SI).scene
     numbers = yaml.safe_load(resolved)
     assert numbers["basin"]["velocity"]["min"] == -16 / OMEGA and numbers["basin"]["velocity"]["max"] == np.radians(900) / OMEGA
-    assert numbers["basin"]["shocks"]["scale"] == np.radians(10) / OMEGA and numbers["saddles"]["velocity"] == {"min": -1, "max": 3 / OMEGA}
+    assert numbers["saddles"]["velocity"] == {"min": -1, "max": 3 / OMEGA}
     assert numbers["orbit"]["start"] == {"theta": np.radians(150), "velocity": np.radians(170) / OMEGA}
     assert numbers["chart"]["start"] == {"theta": [1, np.pi / 2], "velocity": [0, 3 / OMEGA]}
     assert kapitza.check(resolved).scene == resolved

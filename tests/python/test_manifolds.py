@@ -64,6 +64,7 @@ def test_manifolds_are_carried_into_themselves(fig12, kind):
             assert distance_to(image, line).max() < 2e-3
 
 
+@pytest.mark.extensive
 def test_a_stable_manifold_divides_the_basins(fig12):
     """1e-8 to either side of the one of rotation +1/1 starts end on the attracting rotation and elsewhere, for 99 % of 400 points."""
     result, _ = fig12

@@ -137,7 +137,7 @@ def test_contradictions_are_refused(kapitza, tmp_path, name):
 
 def test_a_long_transient_stops_and_goes_on(kapitza, tmp_path):
     """Stopped by the clock in its transient, resumed on two ranks: the same motion."""
-    orbit = {"start": {"theta": 1, "velocity": 0.2}, "transient": 60000, "periods": 5}
+    orbit = {"start": {"theta": 1, "velocity": 0.2}, "transient": 25000, "periods": 5}
     (tmp_path / "s.yaml").write_text(json.dumps({"pendulum": {"k": 0.25, "damping": 0, "m": 0.5}, "orbit": orbit}))
     kapitza("run", "s.yaml", "-o", "whole.h5", folder=tmp_path)
     stopped = kapitza("run", "s.yaml", "-o", "parts.h5", "--time-limit", "0.05", folder=tmp_path, status=None)

@@ -4,7 +4,7 @@ from math import log, pi
 
 import numpy as np
 import pytest
-from conftest import EXTENSIVE, ROOT
+from conftest import EXTENSIVE, ROOT, with_extensive
 from kapitza import Result
 from orbit_scenes import BLACKBURN, FIGURES, NODDING, REFERENCE, WINDOW, closed, near, parameters
 
@@ -108,6 +108,7 @@ def test_butikov_fig3_third_harmonic(model):
     assert abs(third / first - float(row["C3/C1_exact"])) < 1e-9
 
 
+@pytest.mark.extensive
 def test_butikov_fig4(model):
     """Flutter without gravity: the ratios of the harmonics, damped and not."""
     for key, row in REFERENCE["butikov_fig4_k0"].items():
@@ -155,7 +156,7 @@ def test_butikov_fig12(drawn):
 
 
 @pytest.mark.timeout(1800)
-@pytest.mark.parametrize("epsilon", FIGURES)
+@pytest.mark.parametrize("epsilon", with_extensive(FIGURES[:2], FIGURES[2:]))
 def test_every_search_finds_small_basins(model, epsilon):
     """Attractors that own 0.1 % of the window are in the catalogue of any seed; KAPITZA_EXTENSIVE=1 tries a hundred."""
     pendulum = {**BLACKBURN, "drive_amplitude": float(epsilon)}

@@ -13,7 +13,7 @@ import tarfile
 import h5py
 import numpy as np
 import pytest
-from conftest import PROGRAM, ROOT, plot
+from conftest import PROGRAM, ROOT, plot, with_extensive
 from kapitza import Result, plots, style
 from kapitza.plots.basin import draw_basins, draw_evidence, draw_one, draw_settling_time
 from kapitza.plots.orbit_panels import draw_path, draw_phase, draw_spectrum
@@ -68,6 +68,7 @@ def sdist(tmp_path_factory):
     return folder / done.stdout.split()[-1]
 
 
+@pytest.mark.extensive
 def test_the_sdist_has_all_that_a_build_needs(sdist):
     """Every file under version control but those of the repository itself."""
     parts = "CMakeLists.txt cmake include src python web scenes LICENSE README.md".split()
@@ -105,7 +106,7 @@ def test_a_fresh_environment_builds_and_runs_an_example():
     assert done.returncode == 0 and "rotation +1/1" in done.stdout and done.stdout.endswith("small.png\n"), done.stderr
 
 
-@pytest.mark.parametrize("words, status", [([], 2), (["portrait", "FILE"], 2), (["--help"], 0)])
+@pytest.mark.parametrize("words, status", with_extensive([([], 2)], [(["portrait", "FILE"], 2), (["--help"], 0)]))
 def test_the_command_names_its_kinds(words, status):
     done = python("-c", "from kapitza.command import main; main()", *words, env=os.environ | {"PYTHONPATH": str(ROOT / "python")})
     assert done.returncode == status and "KIND: atlas, basin, chart" in done.stdout + done.stderr and "Traceback" not in done.stderr
@@ -138,6 +139,7 @@ def test_every_panel_takes_and_returns_an_axes():
         assert {"colour" if function is draw_one else "colours", "legend"} <= signature.parameters.keys(), function
 
 
+@pytest.mark.extensive
 def test_panels_keep_to_their_axes(made_file, results):
     """On one figure of somebody else: the same Axes comes back, its neighbours stay empty, and without a legend there is none."""
     result, orbit = Result(made_file), Orbit(Result(results["orbit"]))

@@ -8,13 +8,13 @@ import kapitza
 import matplotlib.image
 import numpy as np
 import pytest
-from conftest import ROOT, plot
+from conftest import ROOT, plot, with_extensive
 from kapitza.plots.stability import columns_of_both
 from kapitza.result import BadFile
 from matplotlib.colors import to_rgb
 
 
-@pytest.mark.parametrize("width, inches", [("86mm", 86 / 25.4), ("8.6cm", 86 / 25.4), ("6in", 6.0)])
+@pytest.mark.parametrize("width, inches", with_extensive([("86mm", 86 / 25.4)], [("8.6cm", 86 / 25.4), ("6in", 6.0)]))
 def test_a_picture_is_as_wide_as_it_is_asked_to_be(made_file, tmp_path, width, inches):
     assert plot("basin", made_file, "-o", tmp_path / "a.png", "--dpi", 100, "--width", width, "--font-size", 8).returncode == 0
     assert abs(matplotlib.image.imread(tmp_path / "a.png").shape[1] - 100 * inches) <= 1
@@ -78,6 +78,7 @@ def crafted(made_file, attribute, value, group="/"):
     return made_file
 
 
+@pytest.mark.extensive
 def test_crafted_texts(made_file, tmp_path):
     crafted(made_file, "title", [1, 2, 3])
     crafted(made_file, "scene_resolved", 5)

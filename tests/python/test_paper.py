@@ -25,6 +25,7 @@ def test_its_numbers_are_those_of_the_validation(page, words):
     assert words in (ROOT / "docs" / "validation" / f"{page}.md").read_text() and f"../validation/{page}.md" in PAPER.read_text()
 
 
+@pytest.mark.extensive
 def test_the_page_is_made(tmp_path):
     pytest.importorskip("markdown_it", reason="scripts/requirements-docs.txt is not installed")
     done = subprocess.run([sys.executable, ROOT / "docs" / "paper" / "build.py", tmp_path], capture_output=True, text=True, timeout=300)

@@ -48,6 +48,7 @@ def test_every_orbit_is_drawn(files, tmp_path, name):
     assert image.shape[1] > 700 and image[..., :3].std() > 0.05
 
 
+@pytest.mark.extensive
 def test_the_picture_says_what_the_file_holds(files, tmp_path):
     assert plot(files / "nodding.h5", "-o", tmp_path / "out.svg").returncode == 0
     text = (tmp_path / "out.svg").read_text()
@@ -95,6 +96,7 @@ def test_long_records_show_their_last_periods(axes_of):
     assert len(strobes.get_xdata()) == 11
 
 
+@pytest.mark.extensive
 def test_a_long_closed_orbit_shows_one_round(axes_of):
     axes, words = axes_of("closed and long")
     assert axes["time"].get_xlim() == pytest.approx((0, 6)) and "last" not in words

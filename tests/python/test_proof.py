@@ -75,6 +75,7 @@ def test_labels_that_the_proof_refutes_are_replaced_and_counted(kapitza, tmp_pat
     assert f"warning: the proof gives {refuted} cells another label" in done.stdout
 
 
+@pytest.mark.extensive
 def test_a_wrong_list_of_attractors_leaves_basins_unproved(kapitza, tmp_path):
     """Without the cycles of 2 and 6 periods nothing is proved about starts that end on them, and everything about the others."""
     (tmp_path / "s.yaml").write_text(FIG12)

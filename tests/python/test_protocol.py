@@ -112,6 +112,7 @@ def test_an_orbit_is_cancelled_at_once():
                     frame.remove(header["sequence"])
 
 
+@pytest.mark.extensive
 def test_a_thousand_requests_wait_at_most():
     """While a frame is made, each of the others waits in a view of its own: the oldest are ended."""
     with Server(FIG12) as server:

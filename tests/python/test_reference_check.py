@@ -59,6 +59,7 @@ def test_verdict_counts_wrong_and_unsettled_cells(fig12_file):
     assert (counts["cells"], counts["wrong"], counts["unsettled"], counts["homeless"]) == (30, 2, 1, 0)
 
 
+@pytest.mark.extensive
 @NEEDS_TOOL
 def test_attractor_missing_from_the_file_is_noticed(fig12_file):
     write, true_labels, attractors = fig12_file

@@ -54,6 +54,7 @@ def test_intervals_stand_beside_their_numbers(small_result, tmp_path):
     assert ">basin: wrong</td><td class=number>0.004 (0.003 to 0.0055)<" in text and "wrong low" not in text
 
 
+@pytest.mark.extensive
 def test_it_needs_nothing_else_and_is_the_same_again(report, small_result, tmp_path):
     text = report.read_text()
     outside = [link for link in re.findall(r'(?:src|href)="([^"]*)"', text) if not link.startswith("data:")]

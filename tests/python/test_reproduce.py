@@ -98,6 +98,7 @@ def test_verdicts():
     assert found(0.129, printed="0.129", reference=0.13, bar=1e-6) == FAILED
 
 
+@pytest.mark.extensive
 def test_a_part_of_the_papers_numbers(kapitza):
     """The cheapest parts are found anew; the page in docs/ holds every part of them, with what is not right explained."""
     known = json.loads((ROOT / "tests" / "literature" / "reference.json").read_text())

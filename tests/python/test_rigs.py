@@ -7,7 +7,7 @@ import math
 import kapitza as kapitza_package
 import numpy as np
 import pytest
-from conftest import ROOT
+from conftest import ROOT, with_extensive
 from rigs import LINEAR, PENDULUM, RIGS, SMOOTH, WINDOW, period, run, step
 from serving import Server
 
@@ -43,6 +43,7 @@ def test_attractors_have_mirror_images_where_the_pendulum_is_mirrored(rig):
         assert (labels == image).mean() > 0.99  # flagged cells have two candidates
 
 
+@pytest.mark.extensive
 def test_samples_are_the_harmonics_that_they_hold(kapitza, tmp_path):
     """Cosine of order 1 and sine of order 2, 8 samples; 64 samples of a square wave hold more, and what is left is told."""
     samples = [math.cos(math.pi * i / 4) + 0.25 * math.sin(math.pi * i / 2) for i in range(8)]
@@ -76,7 +77,7 @@ def coefficients(file):
     pytest.param({"tilt": "5 deg", "ellipse": 0.1, "torque": 0.001}, {}, marks=pytest.mark.extensive),
     ({"waveform": "square", "harmonics": [{"order": 2, "amplitude": 0.1, "phase": "50 deg"}], "ramp": SMOOTH}, {"start_phase": 7.5}),
     ({"waveform": "samples", "samples": [1, 0.3, -0.8, -0.4, 0.1], "tilt": 0.01, "ramp": LINEAR}, {"start_phase": "-40 deg"}),
-    ({"torque_amplitude": 0.7, "drive_amplitude": 0, "torque": 0.01}, {})])
+    pytest.param({"torque_amplitude": 0.7, "drive_amplitude": 0, "torque": 0.01}, {}, marks=pytest.mark.extensive)])
 def test_a_file_holds_every_coefficient_that_was_integrated(kapitza, tmp_path, keys, basin):
     basin = {**WINDOW, **basin, "attractors": {"starts": 256}}
     file = run(kapitza, tmp_path, {"pendulum": {**PENDULUM, **keys}, "basin": basin})
@@ -177,7 +178,7 @@ def test_an_edge_leads_to_a_saddle_of_the_drive(kapitza, tmp_path, keys):
     assert abs(edge["multiplier_1_re"] - file["saddles/multiplier_re"][edge["saddle"], 0]) < 1e-8
 
 
-@pytest.mark.parametrize("keys", [{"waveform": "triangle"}, {"drive_amplitude": 0, "torque_amplitude": 0.5}])
+@pytest.mark.parametrize("keys", with_extensive([{"waveform": "triangle"}], [{"drive_amplitude": 0, "torque_amplitude": 0.5}]))
 def test_folding_changes_no_byte(kapitza, tmp_path, keys):
     """A window that is its own mirror image is computed by half, if the pendulum has mirror images; with a row more nothing is folded."""
     basin = {"method": "exact", "theta": {"count": 24}, "attractors": {"starts": 256}}
@@ -229,7 +230,7 @@ def test_what_a_drive_does_not_allow_is_refused_by_name(kapitza, tmp_path, keys,
 
 
 FRAMED = [({"tilt": math.pi / 36}, {}), ({"harmonics": [{"order": 2, "amplitude": 0.1, "phase": 0.5}], "torque": 0.002}, {}),
-          ({"ramp": SMOOTH}, {"start_phase": 1})]
+          pytest.param({"ramp": SMOOTH}, {"start_phase": 1}, marks=pytest.mark.extensive)]
 
 
 def ends(server, **keys):

@@ -5,12 +5,12 @@ import subprocess
 
 import pytest
 import yaml
-from conftest import PROGRAM, ROOT
+from conftest import EXTENSIVE, PROGRAM, ROOT
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 from test_bad_scenes import GOOD, program
 
-SETTINGS = settings(max_examples=5, suppress_health_check=[HealthCheck.function_scoped_fixture])
+SETTINGS = settings(max_examples=100 if EXTENSIVE else 3, suppress_health_check=[HealthCheck.function_scoped_fixture])
 FINITE = st.floats(allow_nan=False, allow_infinity=False)
 
 

@@ -97,7 +97,7 @@ def shared(process):
 
 
 @pytest.mark.skipif(len(os.sched_getaffinity(0)) < 2, reason="one core")
-@pytest.mark.parametrize("quality, size", [("moving", (720, 960)), ("exact", (110, 150))])
+@pytest.mark.parametrize("quality, size", [("moving", (360, 480)), ("exact", (110, 150))])
 def test_cores_share_a_frame(quality, size):
     """The same bytes on one core and on two, in threads: there is no child that a signal could stop or end."""
     cores = sorted(os.sched_getaffinity(0))

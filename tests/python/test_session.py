@@ -126,6 +126,7 @@ def test_a_result_tells_what_it_holds(result):
             result.plot(**options)
 
 
+@pytest.mark.extensive
 def test_two_results_beside_each_other(result):
     other = kapitza.run(SMALL, set=FEW | {"pendulum.drive_amplitude": 0.31}, progress=False)
     found = result.compare(other)
@@ -140,6 +141,7 @@ def test_two_results_beside_each_other(result):
         _ = result.compare(kapitza.run(SMALL, set=FEW | {"basin.velocity.max": 1}, progress=False)).differing
 
 
+@pytest.mark.extensive
 def test_grids_of_different_counts_are_compared_on_the_coarser(result):
     """Of three times as many cells along each axis every third has the same centre."""
     finer = kapitza.run(SMALL, set=FEW | {"basin.theta.count": 72, "basin.velocity.count": 60}, progress=False)
@@ -274,6 +276,7 @@ print("ended")
 """
 
 
+@pytest.mark.extensive
 @pytest.mark.parametrize("ranks", [pytest.param("1", marks=pytest.mark.extensive), "2"])
 def test_the_package_works_within_a_job_of_mpi(tmp_path, ranks):
     """The variables of its launcher are not those of the processes that it starts."""

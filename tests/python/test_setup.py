@@ -108,6 +108,7 @@ def built(folder):
     return shell(folder / "build" / "kapitza").stdout.split()
 
 
+@pytest.mark.extensive
 def test_a_copied_or_moved_project_builds_its_own_sources(project):
     assert built(project)[1] == "first"
     copy, moved = project.with_name("copy"), project.with_name("moved")

@@ -64,6 +64,7 @@ def check_against_grids(kapitza, folder, pendulum, shocks, row):
     assert nearest(point + shock, (fine, fine * SCALE), 41) == pytest.approx(size, abs=fine / 20)
 
 
+@pytest.mark.extensive
 def test_no_shorter_shock_leaves_the_basin(fig11, kapitza, tmp_path):
     result, _, _ = fig11
     shocks = result.group("shocks")

@@ -8,7 +8,7 @@ import sys
 import h5py
 import numpy as np
 import pytest
-from conftest import ROOT, datasets, plot
+from conftest import ROOT, datasets, plot, with_extensive
 from kapitza import Result
 from kapitza.plots.curves import whole_curve
 from matplotlib import image
@@ -186,7 +186,7 @@ VIEWS = {
 }
 
 
-@pytest.mark.parametrize("view", VIEWS)
+@pytest.mark.parametrize("view", with_extensive(["zones", "frequency"], ["growth", "errors"]))
 def test_every_view_draws(kapitza, tmp_path, view):
     chart = CHART
     if view == "frequency":  # it needs stability at k and at -k, close enough at small k

@@ -53,6 +53,7 @@ def test_group_holds_what_the_contract_says(reference):
         assert np.all(np.isnan(group["wrong_distance"][:]) == (wrong == 0))
 
 
+@pytest.mark.extensive
 @pytest.mark.parametrize("ranks", [3])  # 1 and 2 in the stopped study
 def test_any_number_of_ranks_gives_the_same(kapitza, tmp_path, reference, ranks):
     assert untimed(trade(kapitza, tmp_path, "some.h5", ranks=ranks)) == untimed(reference)
@@ -87,6 +88,7 @@ def test_a_killed_study_is_resumed(tmp_path, reference):
     assert untimed(tmp_path / "two.h5") == untimed(reference)
 
 
+@pytest.mark.extensive
 def test_the_cache_is_used_extended_and_not_trusted_blindly(kapitza, tmp_path, reference):
     path = trade(kapitza, tmp_path, "cached.h5", "--set", "tradeoff.samples=40")
     cache = path.with_name("cached.h5.truth")
@@ -132,6 +134,7 @@ def test_what_no_other_setting_reaches_is_exact(kapitza, tmp_path):
         assert (basin["setting"], basin["method"]) == ("exact", "exact") and "wrong" not in basin
 
 
+@pytest.mark.extensive
 def test_starts_too_fast_to_judge_are_refused(kapitza, tmp_path):
     done = kapitza("run", SMALL, "-o", "no.h5", *without_method(0.9), "--set", "basin.velocity.max=1e4", folder=tmp_path, status=2)
     assert "basin.velocity: 3072 steps a period are too few for reference labels of starts with speed 1e+04" in done.stderr
@@ -175,6 +178,7 @@ def test_true_labels_agree_with_the_independent_judge(kapitza, tmp_path, amplitu
     assert sorted(Counter(line.split()[0] for line in lines).values()) == sorted(Counter(true_labels.tolist()).values())
 
 
+@pytest.mark.extensive
 def test_the_picture(reference, tmp_path):
     for options in ([], ["--per-cell"]):
         done = plot("tradeoff", reference, "-o", tmp_path / "trade.png", *options)

@@ -43,6 +43,7 @@ def assert_shows(axis, label, low, high):
     assert sorted(axis.get_view_interval()) == pytest.approx([low, high], rel=1e-9)
 
 
+@pytest.mark.extensive
 def test_a_measured_point_lands_on_its_cell(result):
     """Data coordinates are those of the labels: degrees and rad/s, also of dots, legends aside."""
     axes = page(basin, result, "--degrees", "--si").axes[0]
@@ -62,6 +63,7 @@ def test_a_measured_point_lands_on_its_cell(result):
     assert any(np.any(np.abs(np.abs(line.get_xdata()) - 180) < 1e-6) for line in dots)  # the inverted state
 
 
+@pytest.mark.extensive
 def test_times_in_seconds(result):
     times = page(basin, result, "--si", "--quantity", "settling_time").axes[0].child_axes[0]
     longest = float(result.convergence_times(si=True).where(result.labels(si=True) >= 0).max())

@@ -136,6 +136,7 @@ def test_a_zoom_is_as_right_as_the_plane(kapitza, tmp_path, width):
         assert np.array_equal(labels_of_typed_starts(kapitza, tmp_path, width, len(labels)), labels)
 
 
+@pytest.mark.extensive
 def test_a_deep_window_in_its_file(kapitza, tmp_path):
     """Offsets that tell the cells apart, the centre as it was written, a scene that gives the same file again, a picture with axes."""
     path = deep(tmp_path, BOUNDARY, "17", "1e-18", 6)
