@@ -48,8 +48,9 @@ def pytest_configure(config):
 
 
 def with_extensive(common, more):
-    """Parameters of a test: the common ones, and more that wait for KAPITZA_EXTENSIVE=1; a tuple has several values."""
-    return [*common, *(pytest.param(*(row if isinstance(row, tuple) else (row,)), marks=pytest.mark.extensive) for row in more)]
+    """Parameters of a test: the common ones, and those of `more` that wait for KAPITZA_EXTENSIVE=1; a tuple has several values."""
+    rare = [row if isinstance(row, tuple) else (row,) for row in more if row not in common]
+    return [*common, *(pytest.param(*row, marks=pytest.mark.extensive) for row in rare)]
 
 
 def pytest_collection_modifyitems(items):

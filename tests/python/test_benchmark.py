@@ -56,6 +56,7 @@ def test_textbook_programs_agree_with_the_truth(built, tmp_path, fig12_attractor
     assert len(np.unique(true_labels)) >= 4 and (true_labels >= 0).all()
 
 
+@pytest.mark.extensive
 def test_kernel_rows_keep_their_tolerance(built):
     """The harness of scripts/benchmark kernel, few states: every processed row errs less than it was asked to, and less than others."""
     core = min(benchmark.os.sched_getaffinity(0))

@@ -101,6 +101,7 @@ def test_any_number_of_ranks(kapitza, tmp_path):
     assert datasets(tmp_path / "again.h5") == datasets(tmp_path / "s.h5")
 
 
+@pytest.mark.extensive
 def test_lifetimes_of_a_basin_and_of_a_sweep(fractal, kapitza, tmp_path):
     """The tail of the settling times; the same from the starts of a sweep, within the intervals."""
     result, _, _ = fractal

@@ -5,7 +5,7 @@ import math
 import h5py
 import numpy as np
 import pytest
-from conftest import ROOT
+from conftest import ROOT, with_extensive
 
 SMALL = ROOT / "scenes" / "small.yaml"
 
@@ -61,7 +61,7 @@ CRITICAL = {
 }
 
 
-@pytest.mark.parametrize("distance", [-1e-9, 1e-9])
+@pytest.mark.parametrize("distance", with_extensive([1e-9], [-1e-9]))
 @pytest.mark.parametrize("name", CRITICAL)
 def test_either_side_of_a_bifurcation(basin, name, distance):
     """No attractor of the other side, none twice, and slow is not chaotic."""

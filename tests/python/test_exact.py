@@ -93,6 +93,7 @@ def test_nothing_is_exact_without_damping(kapitza, tmp_path):
     assert np.all(basin["attractor"] == -1) and np.all(basin["other_attractor"] == -1) and np.all(basin["evidence"] == UNSETTLED)
 
 
+@pytest.mark.extensive
 def test_what_is_open_is_decided_on_demand(kapitza, tmp_path):
     """By orbits of their own in as many digits as it takes; all other labels stay."""
     (tmp_path / "s.yaml").write_text(LONG.replace("count: 24", "count: 10"))

@@ -240,8 +240,7 @@ def test_few_descriptors_are_an_answer_not_a_traceback(tmp_path):
         except (OSError, ValueError):
             pass  # turned away, or several answers
     assert wait_for(lambda: answers(running), 30)
-    for stranger in strangers:
-        stranger.close()
+    _ = [stranger.close() for stranger in strangers]
     assert running.end() == (0, "")
 
 
@@ -326,8 +325,7 @@ def test_a_result_opens_with_what_lies_over_its_basins(small_result, tmp_path):
 
 
 @pytest.mark.parametrize(("arguments", "message"), with_extensive(
-    [(["nothing.yaml"], "nothing.yaml: cannot be opened"), ([SMALL, "--port", "80"], "--port: 80 is not a port"),
-     ([], "view: SCENE is missing")],
+    [(["nothing.yaml"], "nothing.yaml: cannot be opened"), ([SMALL, "--port", "80"], "is not a port"), ([], "view: SCENE is missing")],
     [([SMALL, "--port", "8\u00b2"], "is not a port"), ([SMALL, "--set", "pendulum.m=x"], "pendulum.m"), ([ROOT / "README.md"], "README.md"),
      ([SMALL, "--origin", "hub.example.org"], "--origin: hub.example.org is not an origin")]))
 def test_what_cannot_be_opened_is_one_line(arguments, message):

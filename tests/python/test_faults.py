@@ -171,6 +171,7 @@ def test_memory_that_one_rank_may_not_have_ends_all(tmp_path):
 LONG = "orbit={start: {theta: 0.5, velocity: 0}, periods: 300000, samples_per_period: 32}"  # a minute in one piece
 
 
+@pytest.mark.extensive
 def test_work_in_one_piece_is_left_where_a_stop_is_asked(tmp_path):
     """No tile ends for a minute: the run is left by the clock, what was finished before stays."""
     reasons = {"SIGUSR1": [], "the time limit": ["--time-limit", "3"]}

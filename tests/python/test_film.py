@@ -94,6 +94,7 @@ def test_an_mp4_of_odd_pictures(tmp_path):
         films.write_film(tmp_path / "none.gif", [], 5)
 
 
+@pytest.mark.extensive
 def test_a_film_that_falls_into_a_boundary(tmp_path):
     """Six frames to 1e-24 as GIF: none is empty, none is like the one before."""
     (tmp_path / "k01.yaml").write_text("pendulum: {k: 0.1, damping: 0.1, m: 0.4}\n"

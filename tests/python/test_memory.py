@@ -6,7 +6,7 @@ import subprocess
 from concurrent.futures import ThreadPoolExecutor
 
 import pytest
-from conftest import EXTENSIVE, PROGRAM, datasets
+from conftest import EXTENSIVE, PROGRAM, datasets, with_extensive
 
 PLACES = 60 if EXTENSIVE else 2
 FOREVER = 10**12
@@ -53,7 +53,7 @@ def pool():
         yield threads
 
 
-@pytest.fixture(scope="module", params=SCENES)
+@pytest.fixture(scope="module", params=with_extensive(["basin", "sweep"], SCENES))
 def knocks(request, tmp_path_factory, pool):
     """(folder of each knock, its future), and the result of an undisturbed run."""
     folder = tmp_path_factory.mktemp(request.param)

@@ -156,7 +156,7 @@ def test_butikov_fig12(drawn):
 
 
 @pytest.mark.timeout(1800)
-@pytest.mark.parametrize("epsilon", with_extensive(FIGURES[:2], FIGURES[2:]))
+@pytest.mark.parametrize("epsilon", with_extensive(list(FIGURES)[:2], FIGURES))
 def test_every_search_finds_small_basins(model, epsilon):
     """Attractors that own 0.1 % of the window are in the catalogue of any seed; KAPITZA_EXTENSIVE=1 tries a hundred."""
     pendulum = {**BLACKBURN, "drive_amplitude": float(epsilon)}

@@ -102,6 +102,7 @@ def pixels(made_file, colour, *options):
     return int(np.all(np.abs(image - to_rgb(colour)) < 0.004, axis=-1).sum())
 
 
+@pytest.mark.extensive
 @pytest.mark.parametrize("cells", [1])
 def test_dots_never_cover_a_small_basin(made_file, cells):
     """The basin of a rotation is a few cells around its strobe point, most of which a dot of the usual size would hide."""

@@ -12,7 +12,7 @@ from rigs import LINEAR, PENDULUM, RIGS, SMOOTH, WINDOW, period, run, step
 from serving import Server
 
 
-@pytest.fixture(scope="module", params=RIGS)
+@pytest.fixture(scope="module", params=with_extensive(["square", "tilted"], RIGS))
 def rig(request, kapitza, tmp_path_factory):
     keys, force = RIGS[request.param]
     basin = {**WINDOW, "method": "exact", "attractors": {"starts": 256}}
@@ -131,7 +131,7 @@ def test_shapiro_steps_are_as_wide_as_bessel_functions(kapitza, tmp_path, n):
     assert abs((file["sweep/branch_end"][step] - beta * n) / half - 1) < 2e-3
 
 
-@pytest.mark.parametrize("torque", [0, 0.13])
+@pytest.mark.parametrize("torque", with_extensive([0], [0.13]))
 def test_an_oscillating_torque_is_that_of_the_equation(kapitza, tmp_path, torque):
     """Cycles in the frame of the swing g obey theta'' + beta theta' + k sin theta = torque + T cos t with theta + g."""
     k, beta, amplitude = 0.3, 0.5, 1.2

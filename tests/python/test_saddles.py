@@ -34,6 +34,7 @@ def strobe_map(pendulum, state, periods):
     return ((32 * (16 * fine - middle) - (16 * middle - coarse)) / (31 * 15)).astype(float)
 
 
+@pytest.mark.extensive
 def test_cycles_close_by_an_independent_integration(fig12):
     """Every listed point comes back after its period, as often around as said, and the multipliers are those of the map."""
     group, _, path = fig12

@@ -47,6 +47,7 @@ def test_whole_commands_follow_amdahl():
     assert delivered(workers, [5.0] * 10, 0.1) == pytest.approx(6)
 
 
+@pytest.mark.extensive
 def test_a_log_is_read(kapitza, tmp_path):
     """The seconds of the stages are those of the log, which the program itself wrote."""
     kapitza("run", ROOT / "scenes" / "small.yaml", "--log", "log.jsonl", folder=tmp_path)

@@ -5,7 +5,7 @@ import subprocess
 
 import pytest
 import yaml
-from conftest import EXTENSIVE, PROGRAM, ROOT
+from conftest import EXTENSIVE, PROGRAM, ROOT, with_extensive
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 from test_bad_scenes import GOOD, program
@@ -72,7 +72,10 @@ def test_whole_circle_is_the_default(tmp_path):
     assert theta == {"min": -math.pi, "max": math.pi, "count": 20}
 
 
-@pytest.mark.parametrize("name", sorted(path.name for path in (ROOT / "scenes").glob("*.yaml")))
+NAMES = sorted(path.name for path in (ROOT / "scenes").glob("*.yaml"))
+
+
+@pytest.mark.parametrize("name", with_extensive(NAMES[::4], NAMES))
 def test_every_scene_of_the_repository_is_valid(tmp_path, name):
     """By the checks that come before modelling, which a time limit ends."""
     status, _, err = program(tmp_path, "run", ROOT / "scenes" / name, "--time-limit", "1e-6")

@@ -184,6 +184,7 @@ def test_single_starts(result):
         kapitza.where(SMALL, "up", 0)
 
 
+@pytest.mark.extensive
 def test_an_orbit_and_a_sweep():
     orbit = kapitza.orbit({"pendulum": FIG12}, "170 deg", 0, periods=5, progress=False)
     assert orbit.group("orbit")["theta"].values[0] == pytest.approx(np.radians(170)) and orbit.groups == ["pendulum", "orbit"]

@@ -20,6 +20,7 @@ def test_an_argument_starts_nothing(name):
     assert asked.stdout == mistaken.stdout and asked.stdout.count("\n") in (1, 3) and "# " not in asked.stdout
 
 
+@pytest.mark.extensive
 def test_sourcing_leaves_the_options_of_the_shell():
     """With errexit left behind, the next command that fails would close the user's terminal."""
     done = shell("bash", "-c", "before=$-; source scripts/setup && [ $- = $before ] && command -v python")
@@ -120,6 +121,7 @@ def test_a_copied_or_moved_project_builds_its_own_sources(project):
     assert built(moved)[1] == "moved"
 
 
+@pytest.mark.extensive
 def test_the_revision_is_that_of_the_build(project):
     first = built(project)[0]
     assert first == git(project, "describe", "--always", "--abbrev=10")

@@ -144,6 +144,7 @@ def test_starts_that_end_alike_have_no_edge(kapitza, tmp_path):
     assert "edge.second: ends on the same attractor as the other start" in done.stderr and not (tmp_path / "s.h5").exists()
 
 
+@pytest.mark.extensive
 def test_any_number_of_ranks(fig11, kapitza, tmp_path):
     _, _, path = fig11
     kapitza("run", path.with_suffix(".yaml"), "-o", "again.h5", ranks=3, folder=tmp_path)

@@ -71,6 +71,7 @@ def test_times_in_seconds(result):
     assert longest == pytest.approx(float(result.convergence_times().where(result.labels() >= 0).max()) / 12.25)
 
 
+@pytest.mark.extensive
 def test_an_orbit_in_seconds_and_hertz(result):
     drive, lab = ({panel.get_label(): panel for panel in page(orbit, result, *words).axes} for words in ([], ["--degrees", "--si"]))
     for name, axis, label, factor in (("time", "x", "time (s)", 1 / 12.25), ("phase", "y", "(rad/s)", OMEGA),
@@ -113,6 +114,7 @@ def test_what_people_write_behind_a_number():
         units.velocity("3 rad/s", None)
 
 
+@pytest.mark.extensive
 def test_starts_are_looked_up(result, small_result):
     """The angle is wrapped; outside the window there is no answer. `labels().sel(..., method="nearest")` clamps."""
     again = result.at(["190 deg", "-170 deg", np.radians(190) - 20 * np.pi], 0.1)

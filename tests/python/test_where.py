@@ -8,7 +8,7 @@ from decimal import Decimal, getcontext
 
 import numpy as np
 import pytest
-from conftest import PROGRAM, ROOT
+from conftest import PROGRAM, ROOT, with_extensive
 from kapitza.result import Result
 
 SMALL = ROOT / "scenes" / "small.yaml"
@@ -30,7 +30,7 @@ def table(*arguments, starts):
     return list(csv.DictReader(io.StringIO(done.stdout)))
 
 
-@pytest.mark.parametrize("words", [[], LONG], ids=["window", "long"])
+@pytest.mark.parametrize("words", with_extensive([[]], [LONG]), ids=["window", "long"])
 def test_the_labels_of_a_run(kapitza, tmp_path, words):
     """Labels, times, precisions and candidates are those of method exact, and the orbits those of the file, to the last bit."""
     words = [*words, "--set", "basin.theta={min: 2, max: 4, count: 24}", "--set", "basin.velocity.count=24", "--set", "basin.method=exact"]

@@ -65,7 +65,7 @@ static void bisect(kz_dynamics *d, double a[2], const double b[2]) {
 TEST(test_decided_is_right) {
   enum { PAIRS = 4000 };
   static double x[2 * PAIRS];
-  const int boundaries = PART > 1 ? 1 : getenv("KAPITZA_EXTENSIVE") ? 40 : 2;
+  const int boundaries = getenv("KAPITZA_EXTENSIVE") ? 40 : 1;
   for (size_t p = 0; p < sizeof pendulums / sizeof pendulums[0]; p++) {
     int found = 0, decided = 0, wrong = 0, by_level[KZ_LEVELS] = {0};
     kz_dynamics *d = explored_pendulum(pendulums + p, numerics(), 1, 0, 4.0);

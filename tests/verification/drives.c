@@ -211,7 +211,7 @@ TEST(test_decided_is_right) {
   for (int which = 0; which < DRIVES; which++) {
     const kz_pendulum p = drive_of(which);
     kz_dynamics *d = explored_pendulum(&p, numerics(), 1, 0, 4.0);
-    check(which, d, &p, getenv("KAPITZA_EXTENSIVE") ? MOST : 12 / PART);
+    check(which, d, &p, getenv("KAPITZA_EXTENSIVE") ? MOST : 5);
     kz_dynamics_free(d);
   }
 }
@@ -249,7 +249,7 @@ TEST(test_decided_after_a_ramp_is_right) {
   kz_dynamics *d = explored_pendulum(&p, numerics(), 1, 0, 4.0);
   for (int which = 0; which < 2; which++) {
     kz_dynamics_set_release(d, ramps + which);
-    check(which, d, &p, getenv("KAPITZA_EXTENSIVE") ? MOST : 4 / PART);
+    check(which, d, &p, getenv("KAPITZA_EXTENSIVE") ? MOST : 1);
   }
   kz_dynamics_free(d);
 }

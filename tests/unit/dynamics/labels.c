@@ -89,7 +89,7 @@ TEST(test_processed) {
     memcpy(y, x, sizeof x);
     kz_dynamics_follow(d, KZ_FOLLOW_DIRECT, N, 2000, y, label, periods);
     kz_dynamics_follow(d, KZ_FOLLOW_DIRECT, N, 2000, z, mirrored, late);
-    with_table(d, 300, 3);
+    with_table(d, PART > 1 ? 100 : 300, 3);
     memcpy(y, x, sizeof x);
     kz_dynamics_follow(d, KZ_FOLLOW_DIRECT, N, 2000, y, cells, late);
     for (int i = 0; i < N; i++) {

@@ -1,6 +1,7 @@
 /* The kernel: sine, mirror symmetry, lanes, tangent map, sampling; every scheme. */
 #include "../../tools/test.h"
 
+#include "../../tools/part.h"
 #include "kapitza/kernel.h"
 
 #include <float.h>
@@ -160,7 +161,7 @@ TEST(test_choice) {
                {{0, 0, 0.3}, 8, 1e-10},
                {{-1, 0.1, 0.6}, 2, 1e-9},
                {{0.1, 2.4, 0.5}, 2, 1e-11}};
-  for (size_t c = 0; c < sizeof cases / sizeof *cases; c++) {
+  for (size_t c = 0; c < sizeof cases / sizeof *cases; c += PART > 1 ? 2 : 1) {
     kz_numerics numerics = {0};
     double error, a[N], va[N], b[N], vb[N];
     int64_t ta[N], tb[N];
@@ -294,7 +295,7 @@ TEST(test_neighbours) {
                {&turned, "processed", 40, 2},
                {&PENDULUM, "processed", 40, 6},
                {&PENDULUM, "split6", 24, 2}};
-  for (int i = 0; i < 4; i++)
+  for (int i = 0; i < 4; i += PART > 1 ? 3 : 1)
     for (double distance = 3e-4; distance < 0.1; distance *= 10)
       assert_true(kz_test_neighbour_error(kinds[i].pendulum, kz_scheme_find(kinds[i].scheme), kinds[i].steps, kinds[i].fastest,
                                           distance) < 1e-3);

@@ -1,6 +1,7 @@
 /* Pairs of doubles: the operations against quad precision, a period against the reference, mirror images, lanes. */
 #include "../../tools/test.h"
 
+#include "../../tools/part.h"
 #include "kapitza/kernel.h"
 #include "taylor/pairs_arithmetic.h"
 
@@ -134,7 +135,7 @@ TEST(periods_are_right) {
                {{0.1, 3, 0.5}, 1e-20, 2},
                {{0.05, 0.1, 0.4, 0.1, {{0, 0.05}, {0.2, -0.1}}, {{0.1, 0.07}}, 2, 1}, 1e-28, 2},
                {{.k = 0.05, .beta = 0.1, .m = 0.4, .vertical = {{0}, {0}, {-0.15, 0.1}}, .harmonics = 3}, 1e-24, 2}};
-  for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+  for (size_t i = 0; i < sizeof cases / sizeof *cases; i += PART > 1 ? 2 : 1) {
     double measured;
     void *pairs = kz_test_pairs_create(&cases[i].pendulum, cases[i].tolerance, cases[i].fastest, &measured);
     assert_non_null(pairs);
