@@ -307,3 +307,23 @@ def test_the_pivot_moves_as_the_drive_says(kapitza, tmp_path):
     with Server(tmp_path / "rig.yaml", "--set", "basin.velocity={min: -2, max: 2}") as server:
         (header, _), = server.ask("orbit", theta=0.1, velocity=0, periods=1, samples_per_period=512)
         assert np.allclose(header["pivot"], np.column_stack([aside, height]), atol=1e-15)
+
+
+DRIVES = {"overtones": {"waveform": "square"}, "across": {"tilt": "5 deg"}}
+STUDIES = {
+    "icm": [{"basin": {**WINDOW, "method": "icm"}}, {"basin": {**WINDOW, "method": "direct"}, "numerics": {"scheme": "rk4"}}],
+    "stability": [{"stability": {"k": {"min": 0, "max": 1, "count": 3}, "m": {"min": 0, "max": 1, "count": 3}}}],
+    "orbit.model": [{"orbit": {"start": {"theta": 1, "velocity": 0}, "model": "effective"}},
+                    {"sweep": {"parameter": "drive_amplitude", "min": 0.4, "max": 0.5, "count": 2, "measure": ["flutter_amplitude"]}}],
+}
+
+
+@pytest.mark.parametrize("row", STUDIES)
+def test_what_the_table_of_drives_says_no_to_is_refused(kapitza, tmp_path, row):
+    """docs/reference/commands.md; by the key of the drive."""
+    lines = (ROOT / "docs" / "reference" / "commands.md").read_text().split("### Drives")[1].split("### ")[0].splitlines()
+    cells = next(line for line in lines if line.startswith("| ") and f"`{row}`" in line.split("|")[1]).split("|")
+    for column, keys in enumerate(DRIVES.values(), 3):
+        for study in STUDIES[row] if cells[column].strip().startswith("no") else []:
+            (tmp_path / "s.yaml").write_text(json.dumps({"pendulum": {**PENDULUM, **keys}, **study}))
+            assert "pendulum." in kapitza("check", "s.yaml", folder=tmp_path, status=2).stderr
