@@ -60,7 +60,8 @@ bool kz_child_of(const kz_plane *plane, const kz_curve_kind *kind, int rest, con
   const double by = fmin(BESIDE, fmin(CHANGED, FARTHEST * FARTHEST * fabs(form)) * other / fabs(gradient));
   const double size = sqrt(fabs(gradient / form) * by / other);
   KZ_FREED double *state = kz_malloc(2 * ((size_t)(of.points * stride) + 1) * sizeof *state);
-  const double at_rest[2] = {M_PI * rest, 0}, *from = rest >= 0 ? at_rest : flip; /* of the angle that the child's turns are for */
+  const double at_rest[2] = {M_PI * rest, 0},
+               *from = rest >= 0 ? at_rest : flip; /* of the angle that the child's turns are for */
   along[axis] = gradient * form > 0 ? -1 : 1;
   along[1 - axis] = 0;
   for (int i = 0; i < 2; i++) {
