@@ -69,7 +69,7 @@ def test_the_scene_given_by_a_bare_name_writes_into_the_current_folder(kapitza, 
 
 def test_check_runs_nothing(kapitza, tmp_path):
     done = kapitza("check", SMALL, folder=tmp_path)
-    assert done.stdout.splitlines()[1].startswith("pendulum ") and "max_periods" not in done.stdout
+    assert len(done.stdout.splitlines()) == 5 and "max_periods" not in done.stdout
     assert "\n\ntitle: " in kapitza("check", SMALL, "--all", folder=tmp_path).stdout
     assert "basin" in done.stdout and "10000" in done.stdout.replace(" ", "").replace(",", "")
     assert list(tmp_path.iterdir()) == []
