@@ -19,7 +19,8 @@ SI: dict[str, tuple[str, float, int]] = {
 COUNTED = re.compile(r"(.*_)?period")  # variables that name a motion by its period, which stays a whole number
 HERTZ = {"Hz": 1.0, "kHz": 1e3, "rpm": 1 / 60, "1/min": 1 / 60, "1/s": 1.0, "rad/s": 1 / TURN}
 LENGTHS = {"m": 1.0, "cm": 1e-2, "mm": 1e-3, "um": 1e-6}
-WRITTEN = {"m": LENGTHS | {"in": 0.0254}, "Hz": HERTZ, "s": {"ms": 1e-3, "min": 60.0}, "kg": {"g": 1e-3, "mg": 1e-6}}
+WRITTEN = {"m": LENGTHS | {"in": 0.0254}, "Hz": HERTZ, "s": {"ms": 1e-3, "min": 60.0}, "kg": {"g": 1e-3, "mg": 1e-6},
+           "rad": {"deg": math.pi / 180, "°": math.pi / 180}}
 OF_KEY = ("value", "branch_start", "branch_end")  # variables of a sweep that are values of its key
 
 
@@ -52,7 +53,7 @@ def written_units(sweep: xarray.Dataset, scene: str) -> xarray.Dataset:
     """A sweep with the values of its key in the unit in which the scene has them: mm rather than m."""
     try:
         plan = yaml.load(scene, yaml.BaseLoader)["sweep"]
-        unit = str(plan["min"]).strip().partition(" ")[2].strip()
+        unit = re.sub(r"^[-+.\d]+([eE][-+]?\d+)?\s*", "", str(plan["min"]).strip())
     except (KeyError, TypeError, yaml.YAMLError):
         return sweep
     factor = WRITTEN.get(str(sweep["value"].attrs.get("units")), {}).get(unit)

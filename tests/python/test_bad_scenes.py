@@ -54,6 +54,9 @@ SCENES = {
         "9:20", "sweep.parameter: m is not given in the pendulum mapping"),
     "sweep out of the key's range": (GOOD + "sweep: {parameter: drive_frequency, min: -1, max: 1, count: 3, measure: [strobe]}\n",
         "9:42", "sweep.min: -1 is below what pendulum.drive_frequency takes"),
+    "sweep of an angle in mm": (GOOD.replace("pendulum:\n", "pendulum:\n  tilt: 0\n", 1)
+        + "sweep: {parameter: tilt, min: 1°, max: 6 mm, count: 3, measure: [strobe]}\n",
+        "10:40", "sweep.max: \"6 mm\" is not a finite decimal number; it must be a number in rad"),
     "sweep of nothing": (GOOD + "sweep: {parameter: drive_amplitude, min: 0.2, max: 0.2, count: 3, measure: [strobe]}\n",
         "9:52", "sweep.max: 0.2 is too small; it must be"),
     "saddles without velocities": (GOOD + "saddles: {max_period: 3}\n", "9:10", "saddles.velocity: is missing"),

@@ -4,6 +4,7 @@ import re
 
 import numpy as np
 import pytest
+import xarray
 from conftest import plot
 from kapitza import Result, units
 from kapitza.plots import basin, orbit, potential, sweep
@@ -112,6 +113,13 @@ def test_what_people_write_behind_a_number():
             units.angle(wrong)
     with pytest.raises(ValueError, match="not in SI units"):
         units.velocity("3 rad/s", None)
+
+
+@pytest.mark.parametrize("text", ["2 deg", "2deg", "2e0°"])
+def test_a_sweep_keeps_the_unit_that_was_written(text):
+    found = xarray.Dataset(coords={"value": ("value", np.radians([2, 5]), {"units": "rad"})})
+    value = units.written_units(found, f"sweep: {{min: {text}, max: 5 deg}}")["value"]
+    assert value.values == pytest.approx([2, 5]) and value.attrs["units"] == text.lstrip("2e0 ")
 
 
 @pytest.mark.extensive

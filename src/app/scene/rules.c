@@ -1,6 +1,7 @@
 /* Rules between keys, and values that follow from others. Each rule complains at the node that a user would change. */
 #include <math.h>
 #include <stdio.h>
+#include <string.h>
 
 #include "rules.h"
 #include "../../study/basin/plan.h"
@@ -165,7 +166,9 @@ static void stiffness_rules(kz_reading *reading, kz_scene *scene) {
 static void read_in_unit(kz_reading *reading, int32_t parameter, const char *path, double *value) {
   const char *unit = kz_sweep_parameters[parameter].unit;
   const kz_node *node = kz_tree_find(reading->root, path);
-  const char *wrong = node && !isnan(*value) ? kz_scalar_quantity(node, unit, value) : NULL;
+  const char *wrong = !node || isnan(*value)      ? NULL
+                      : strcmp(unit, "rad") == 0 ? kz_scalar_angle(node, value)
+                                                 : kz_scalar_quantity(node, unit, value);
   if (wrong)
     kz_complain(reading, path, "\"%.60s\" %s; it must be a number%s%s, as pendulum.%s is", node->text, wrong,
                 unit[0] == '1' ? "" : " in ", unit[0] == '1' ? "" : unit, kz_sweep_parameters[parameter].name);

@@ -78,8 +78,9 @@ static void write_key(const kz_key *key, FILE *out) {
     fprintf(out, "{\"anyOf\": [{\"type\": \"string\", \"pattern\": \"^([-+.0-9eE]+ ?(deg|\xc2\xb0)|%s)$\"}, ",
             decimal ? "[-+.0-9eE]+|[-+.0-9eE]* ?pi(/[0-9]+)?" : "[-+.0-9eE]* ?pi(/[0-9]+)?");
   else if (decimal || unit)
-    fprintf(out, "{\"anyOf\": [{\"type\": \"string\", \"pattern\": \"^[-+.0-9eE]+%s$\"}, ",
-            unit ? decimal ? "( ?(rad|deg|\xc2\xb0)/s)?" : " ?(\xc2\xb0/s|[A-Za-z1][A-Za-z0-9/^ *]*)" : "");
+    fprintf(out, "{\"anyOf\": [{\"type\": \"string\", \"pattern\": \"^([-+.0-9eE]+%s%s)$\"}, ",
+            unit ? decimal ? "( ?(rad|deg|\xc2\xb0)/s)?" : " ?(\xc2\xb0(/s)?|[A-Za-z1][A-Za-z0-9/^ *]*)" : "",
+            unit && strcmp(key->unit, KZ_OWN_UNIT) == 0 ? "|[-+.0-9eE]* ?pi(/[0-9]+)?" : "");
   if (word_too) {
     fputs("{\"anyOf\": [", out);
     write_words(key->words, out);

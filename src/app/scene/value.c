@@ -63,11 +63,17 @@ static const char *read_count(const kz_key *key, const kz_node *node, void *fiel
   return wrong;
 }
 
+/* A value of a key that another key names: its unit is not known yet. */
+static const char *read_any(const kz_node *node, double *value) {
+  const char *wrong = kz_scalar_quantity(node, "", value);
+  return wrong && !kz_scalar_angle(node, value) ? NULL : wrong;
+}
+
 static const char *read_real(const kz_key *key, const kz_node *node, void *field) {
   double value;
   const char *wrong = kz_key_is_angle(key)                  ? kz_scalar_angle(node, &value)
                       : kz_unit_is_known(key->unit)         ? kz_scalar_quantity(node, key->unit, &value)
-                      : strcmp(key->unit, KZ_OWN_UNIT) == 0 ? kz_scalar_quantity(node, "", &value)
+                      : strcmp(key->unit, KZ_OWN_UNIT) == 0 ? read_any(node, &value)
                                                             : kz_scalar_real(node, &value);
   if (wrong) return wrong;
   if (value < key->low || value > key->high) return "is out of range";
