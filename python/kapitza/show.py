@@ -10,6 +10,8 @@ from typing import TYPE_CHECKING, Any
 
 import xarray
 
+from kapitza.units import si_parameters
+
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
@@ -20,11 +22,12 @@ COLUMNS: dict[str, Callable[[Any], str]] = {"name": str, "period": str, "winding
 
 
 def _head(result: "Result") -> str:
+    """The pendulum: of a scene in SI units as people build it, else in the papers' symbols."""
     pendulum = result.pendulum
     papers = [f"{symbol} = {pendulum[key]:.6g}" for symbol, key in
               (("Q", "quality_factor"), ("Omega", "drive_frequency"), ("epsilon", "drive_amplitude")) if key in pendulum]
     own = [f"{name} = {pendulum[name]:.6g}" for name in ("k", "beta", "m") if name in pendulum]
-    return ", ".join(own + papers)
+    return ", ".join([*si_parameters(pendulum).values(), *own] if "pivot_frequency" in pendulum else own + papers)
 
 
 def _studies(result: "Result") -> list[str]:

@@ -1,4 +1,6 @@
 /* Study `sweep`: quantities along one key of the pendulum mapping. */
+#include <string.h>
+
 #include "sweep.h"
 #include "basin/plan.h"
 
@@ -46,8 +48,9 @@ static kz_status write_values(const kz_scene *scene, kz_store *store, FILE *summ
   KZ_TRY(kz_store_text(store, "sweep", "parameter", parameter->name));
   KZ_TRY(kz_store_text(store, "sweep", "parameter_units", parameter->unit));
   KZ_SCALE(store, "sweep", "value", plan->values.count, kz_sweep_value(plan, i));
-  fprintf(summary, "sweep of %s, %lld values from %.10g to %.10g\n", parameter->name, (long long)plan->values.count,
-          plan->values.min, plan->values.max);
+  const bool bare = strcmp(parameter->unit, "1") == 0;
+  fprintf(summary, "sweep of %s%s%s, %lld values from %.10g to %.10g\n", parameter->name, bare ? "" : " in ",
+          bare ? "" : parameter->unit, (long long)plan->values.count, plan->values.min, plan->values.max);
   kz_sweep_warn_steps(scene, summary);
   return KZ_OK;
 }
