@@ -139,12 +139,14 @@ def draw_lives(axes: Axes, sweep: xarray.Dataset, *, colours: Sequence[str] | No
             code = int(sweep[kind].values[branch])
             if code in ENDS:
                 axes.plot(place[branch], row, ENDS[code][0], color=style.INK, markersize=3.4, markeredgewidth=0.9, zorder=3)
-    for row, branch in repelling_beside(sweep, order):
+    repelling = repelling_beside(sweep, order)
+    for row, branch in repelling:
         axes.plot([start[branch], end[branch]], [row, row], color=colours[order[row]], lw=0.9, ls=(0, (3, 2)), zorder=1)
     seen = {int(code) for kind in ("branch_start_kind", "branch_end_kind") for code in sweep[kind].values[order]}
     if legend:
         marks = [Line2D([], [], ls="", marker=ENDS[code][0], color=style.INK, markersize=4, label=ENDS[code][1])
                  for code in sorted(seen & ENDS.keys())]
+        marks += [Line2D([], [], color=style.INK, lw=0.9, ls=(0, (3, 2)), label="repels")] * bool(repelling)
         axes.legend(handles=marks, loc="upper left", bbox_to_anchor=(1, 1), borderaxespad=0.4, fontsize="small")
     axes.set(xlabel=parameter_text(sweep), ylabel="branches", yticks=[], ylim=(-1, len(order)))
     if names:
