@@ -166,7 +166,7 @@ static void stiffness_rules(kz_reading *reading, kz_scene *scene) {
 static void read_in_unit(kz_reading *reading, int32_t parameter, const char *path, double *value) {
   const char *unit = kz_sweep_parameters[parameter].unit;
   const kz_node *node = kz_tree_find(reading->root, path);
-  const char *wrong = !node || isnan(*value)      ? NULL
+  const char *wrong = !node || isnan(*value)     ? NULL
                       : strcmp(unit, "rad") == 0 ? kz_scalar_angle(node, value)
                                                  : kz_scalar_quantity(node, unit, value);
   if (wrong)

@@ -65,7 +65,8 @@ static kz_status write_shocks(const kz_resilience_plan *plan, const kz_catalogue
   fprintf(summary,
           "smallest shocks that leave the basin, and the id where they lead:\n"
           "  id      angle, rad       velocity, %-14s  both (scale %g%s)\n",
-          isnan(omega) ? "rad/drive rad" : "rad/s", isnan(omega) ? plan->scale : plan->scale * omega, isnan(omega) ? "" : " rad/s");
+          isnan(omega) ? "rad/drive rad" : "rad/s", isnan(omega) ? plan->scale : plan->scale * omega,
+          isnan(omega) ? "" : " rad/s");
   for (int64_t i = 0; i < n; i++)
     if (point[i].phase == 0) print_attractor(catalogue, point[i].number, n, point, isnan(omega) ? 1 : omega, summary);
   return KZ_OK;

@@ -179,8 +179,9 @@ static void print_table(const writing *w, FILE *summary) {
     if (shares && !first->between) print_share(w, branch, summary);
     fputc('\n', summary);
   }
-  if (repelling > 0) fprintf(summary, "and %lld that %s (branch_stable = 0 in the file)\n", (long long)repelling,
-                             repelling == 1 ? "repels" : "repel");
+  if (repelling > 0)
+    fprintf(summary, "and %lld that %s (branch_stable = 0 in the file)\n", (long long)repelling,
+            repelling == 1 ? "repels" : "repel");
 }
 
 kz_status kz_sweep_branches_write(const kz_scene *scene, const kz_sweep_catalogue *catalogue, const kz_sweep_branches *branches,
