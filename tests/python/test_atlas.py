@@ -4,7 +4,7 @@ import json
 
 import numpy as np
 import pytest
-from conftest import EXTENSIVE, ROOT, datasets, plot, run_until_saved
+from conftest import EXTENSIVE, ROOT, datasets, plot, run_until_saved, with_extensive
 from kapitza import Result, SceneError
 from scipy.integrate import solve_ivp
 from serving import Server
@@ -202,14 +202,29 @@ def test_no_curve_is_missing(kapitza, tmp_path):
     kapitza("run", "s.yaml", ranks=2, folder=tmp_path)
     group = Result(tmp_path / "s.h5").group("atlas")
     assert int(group.attrs["negative"]) == 0
-    pairs = 0
+    curves, pairs = curves_of(group), 0
     for k in np.linspace(0.011, 0.58, 40):
-        here, there = crossings(group, k), crossings(group, -k)
+        here, there = crossings(curves, k), crossings(curves, -k)
         for one, other in ((here, there), (there, here)):
-            for kind, period, winding, m in one:
-                assert min(abs(m - y) for *same, y in other if same == [kind, period, winding]) < 2e-3, (k, kind, period, m)
+            for *kind, m in one:
+                assert min(abs(m - y) for *same, y in other if same == kind) < 2e-3, (k, kind, m)
                 pairs += 1
     assert pairs > 1500
+
+
+@pytest.mark.parametrize("x", with_extensive([{"parameter": "k", "min": -0.3, "max": 0.3}],
+                                             [{"parameter": "damping", "min": 0.1, "max": 0.3}]))
+def test_without_gravity_both_rests_attract(kapitza, tmp_path, x):
+    """Where k = 0 any drive holds both: in the middle of the first plane, and all over the second one."""
+    scene = {"pendulum": {"k": 0, "damping": 0.1, "m": 0.3},
+             "atlas": {"x": x, "y": {"parameter": "m", "min": 0, "max": 0.4}, "max_period": 1, "checks": 0, "points": 17}}
+    (tmp_path / "s.yaml").write_text(json.dumps(scene))
+    kapitza("run", "s.yaml", ranks=2, folder=tmp_path)
+    result = Result(tmp_path / "s.h5")
+    group = result.group("atlas")
+    assert int(group.attrs["negative"]) == 0 and (group["count"].values[:, 8] >= 2).all()
+    place = 0 if x["parameter"] == "k" else 0.2
+    assert {"down", "inverted"} <= set(result.motions(place, 0.3)["name"])
 
 
 @pytest.mark.extensive
@@ -223,16 +238,21 @@ def test_a_fold_ends_where_it_meets_a_degenerate_period_doubling(kapitza, tmp_pa
     assert int(Result(tmp_path / "s.h5").group("atlas").attrs["negative"]) == 0
 
 
-def crossings(group, x):
+def curves_of(group):
+    """(kind, period, |winding|, x, y) of each curve."""
+    numbers = [group[f"curve_{name}"].values.tolist() for name in ("kind", "period", "winding", "first", "points")]
+    x, y = group["x"].values, group["y"].values
+    return [(kind, period, abs(winding), x[first:first + n], y[first:first + n])
+            for kind, period, winding, first, n in zip(*numbers, strict=True)]
+
+
+def crossings(curves, x):
     """(kind, period, |winding|, y) where curves pass x within the plane."""
     found = []
-    for i in range(group.sizes["curve"]):
-        part = slice(int(group["curve_first"][i]), int(group["curve_first"][i]) + int(group["curve_points"][i]))
-        xs, ys = group["x"].values[part], group["y"].values[part]
-        for at in np.flatnonzero((xs[:-1] < x) != (xs[1:] < x)):
-            y = ys[at] + (x - xs[at]) / (xs[at + 1] - xs[at]) * (ys[at + 1] - ys[at])
-            if 0 < y < 2:
-                found.append((int(group["curve_kind"][i]), int(group["curve_period"][i]), abs(int(group["curve_winding"][i])), y))
+    for *named, xs, ys in curves:
+        at = np.flatnonzero((xs[:-1] < x) != (xs[1:] < x))
+        y = ys[at] + (x - xs[at]) / (xs[at + 1] - xs[at]) * (ys[at + 1] - ys[at])
+        found += [(*named, one) for one in y if 0 < one < 2]
     return found
 
 
@@ -241,13 +261,19 @@ BAD = {"one key": ({"y": {"parameter": "drive_frequency", "min": 3, "max": 30}},
        "no damping": ({"x": {"parameter": "drive_frequency", "min": 0, "max": 30}}, "atlas.x.min: 0 is below what pendulum"),
        "an edge that is no number": ({"x": {"parameter": "drive_frequency", "min": ".nan", "max": 30}}, "atlas.x.min"),
        "reversed": ({"x": {"parameter": "drive_frequency", "min": 30, "max": 3}}, "atlas.x.max: 3 is too small"),
+       "an edge without end": ({"y": {"parameter": "drive_amplitude", "min": 0, "max": ".inf"}}, "atlas.y.max: \".inf\" is not a finite"),
+       "no width": ({"x": {"parameter": "drive_frequency", "min": 30, "max": 30}}, "atlas.x.max: 30 is too small"),
+       "a key of no pendulum": ({"y": {"parameter": "phase", "min": 0, "max": 1}}, "atlas.y.parameter: \"phase\" is unknown"),
+       "too strong": ({"y": {"parameter": "drive_amplitude", "min": 0, "max": 1e9}}, "atlas.y.max: gives abs(k) + abs(m) = 1e+09"),
+       "fewer checks than none": ({"checks": -1}, "atlas.checks: \"-1\" is out of range"),
        "too long": ({"max_period": 17}, "atlas.max_period: \"17\" is out of range")}
 
 
 @pytest.mark.parametrize("name", BAD)
 def test_bad_planes_are_refused(kapitza, tmp_path, name):
     change, message = BAD[name]
-    (tmp_path / "s.yaml").write_text(json.dumps(dict(SCENE, atlas=dict(SCENE["atlas"], **change))).replace('".nan"', ".nan"))
+    text = json.dumps(dict(SCENE, atlas=dict(SCENE["atlas"], **change)))
+    (tmp_path / "s.yaml").write_text(text.replace('".nan"', ".nan").replace('".inf"', ".inf"))
     done = kapitza("run", "s.yaml", status=2, folder=tmp_path)
     assert message in done.stderr and not (tmp_path / "s.h5").exists()
 

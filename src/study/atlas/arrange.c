@@ -7,6 +7,8 @@
 
 /* Tangents shorter than this end at a cusp: steps beside it are straight. */
 static const double AT_CUSP = 0.02;
+/* No rest attracts without drive where abs(k) is smaller; how far beside such a place a column is counted. */
+static const double NO_GRAVITY = 1e-9, BESIDE = 1e-8;
 
 static void add(kz_atlas_crossings *crossings, kz_atlas_crossing crossing) {
   if (crossings->count == crossings->capacity) {
@@ -150,6 +152,13 @@ void kz_atlas_crossings_free(kz_atlas_crossings *crossings) {
   free(crossings->list);
 }
 
+double kz_atlas_column(const kz_atlas *atlas, double x) {
+  kz_pendulum pendulum;
+  const double place[2] = {x, 0};
+  if (!atlas->undriven || !kz_atlas_pendulum(atlas->scene, place, &pendulum) || fabs(pendulum.k) > NO_GRAVITY) return x;
+  return x < 0.5 ? x + BESIDE : x - BESIDE;
+}
+
 void kz_atlas_base(kz_atlas *atlas, double x, int32_t *counts) {
   memset(counts, 0, KZ_ATLAS_MOST_CLASSES * sizeof *counts);
   if (!atlas->undriven) {
@@ -161,14 +170,15 @@ void kz_atlas_base(kz_atlas *atlas, double x, int32_t *counts) {
   }
   kz_pendulum pendulum;
   const double place[2] = {x, 0};
-  if (!kz_atlas_pendulum(atlas->scene, place, &pendulum) || pendulum.k == 0) return;
+  if (!kz_atlas_pendulum(atlas->scene, place, &pendulum)) return;
   const kz_atlas_class rest = {KZ_CLASS_REST, 1, pendulum.k < 0};
   counts[kz_atlas_class_number(atlas, &rest)] = 1;
 }
 
 void kz_atlas_count(kz_atlas *atlas, const double place[2], int32_t *counts) {
   KZ_FREED_BY(kz_atlas_crossings_free) kz_atlas_crossings crossings = {0};
-  kz_atlas_base(atlas, place[0], counts);
-  kz_atlas_crossings_of(atlas, 0, place[0], true, &crossings);
+  const double x = kz_atlas_column(atlas, place[0]);
+  kz_atlas_base(atlas, x, counts);
+  kz_atlas_crossings_of(atlas, 0, x, true, &crossings);
   kz_atlas_changes(&crossings, kz_atlas_floor(atlas), place[1], counts);
 }

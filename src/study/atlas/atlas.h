@@ -177,6 +177,8 @@ bool kz_atlas_identify(const kz_atlas *atlas, const double place[2], const doubl
 void kz_atlas_crossings_of(kz_atlas *atlas, int axis, double value, bool classes, kz_atlas_crossings *crossings);
 /* counts [KZ_ATLAS_MOST_CLASSES] of the attractors where a column begins to be counted, at the y kz_atlas_floor; at any place. */
 double kz_atlas_floor(const kz_atlas *atlas);
+/* Where the column of x is counted: a little beside x where k = 0 and an undriven edge meet, as curves of rest turn there. */
+double kz_atlas_column(const kz_atlas *atlas, double x);
 void kz_atlas_base(kz_atlas *atlas, double x, int32_t *counts);
 void kz_atlas_count(kz_atlas *atlas, const double place[2], int32_t *counts);
 /* Adds to counts what changes between two values along a line. */

@@ -58,6 +58,7 @@ static kz_status survey(kz_atlas *atlas) {
   const kz_scene *scene = atlas->scene;
   const kz_chart_axis *axis[] = {&scene->atlas->x, &scene->atlas->y};
   double stiffest = -1;
+  bool rests = false; /* at some place of the lowest y: without gravity no rest attracts there */
   atlas->undriven = true;
   atlas->plane.mirrored = 1;
   for (int i = 0; i < PLACES * PLACES; i++) {
@@ -74,7 +75,10 @@ static kz_status survey(kz_atlas *atlas) {
                      value[1]);
     }
     if (!kz_is_mirrored(&pendulum)) atlas->plane.mirrored = 0;
-    if (place[1] == 0 && !is_undriven(&pendulum)) atlas->undriven = false;
+    if (place[1] == 0) {
+      if (!is_undriven(&pendulum)) atlas->undriven = false;
+      rests = rests || pendulum.k != 0;
+    }
     if (kz_stiffness(&pendulum) <= stiffest) continue;
     stiffest = kz_stiffness(&pendulum);
     if (stiffest > 1e4)
@@ -82,6 +86,7 @@ static kz_status survey(kz_atlas *atlas) {
     kz_numerics_fine(&pendulum, &fine);
     atlas->plane.steps = fine.steps_per_period;
   }
+  atlas->undriven = atlas->undriven && rests;
   return KZ_OK;
 }
 

@@ -35,7 +35,7 @@ static double middle(int64_t i, int64_t points) {
 
 static void fill_column(kz_atlas *atlas, int64_t column, kz_atlas_raster *raster) {
   const int64_t n = raster->points;
-  const double x = middle(column, n);
+  const double x = kz_atlas_column(atlas, middle(column, n));
   KZ_FREED_BY(kz_atlas_crossings_free) kz_atlas_crossings crossings = {0};
   KZ_FREED int32_t *counts = kz_malloc(KZ_ATLAS_MOST_CLASSES * sizeof *counts);
   kz_atlas_base(atlas, x, counts);
