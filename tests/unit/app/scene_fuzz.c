@@ -95,7 +95,7 @@ static size_t number(const char *name, size_t otherwise) {
 TEST(mutated_scenes_are_read_or_refused) {
   state = number("KZ_FUZZ_SEED", 1) * 2654435769u + 1;
   size_t read = 0;
-  for (size_t i = number("KZ_FUZZ_INPUTS", PART > 1 ? 4000 : 20000); i > 0; i--) {
+  for (size_t i = number("KZ_FUZZ_INPUTS", PART > 1 ? 1500 : 20000); i > 0; i--) {
     char text[LONGEST];
     size_t length = sizeof seed - 1;
     memcpy(text, seed, length);

