@@ -160,7 +160,7 @@ TEST(test_chaos) {
   for (int i = 0; i < N; i++) doubtful += label[i] == KZ_DOUBTFUL;
   for (int i = 0; i < N; i++) assert_true(label[i] == 1 || label[i] == KZ_DOUBTFUL);
   assert_in_range(doubtful, 0, 1);
-  with_table(d, 200 / (PART > 1 ? 5 : 1), TOP);
+  with_table(d, 200, TOP);
   kz_dynamics_starts(&WINDOW, 1, N, x);
   kz_dynamics_follow(d, KZ_FOLLOW_QUINTIC, N, 2000, x, label, periods);
   for (int i = 0; i < N; i++) assert_int_equal(label[i], 1);
