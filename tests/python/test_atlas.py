@@ -53,6 +53,20 @@ def test_rest_is_that_of_the_linear_equation(atlas):
             assert abs(ends[0][0] + ends[1][1] - multiplier * (1 + np.exp(-2 * np.pi * beta))) < 3e-11
 
 
+def test_rest_is_that_of_the_study_stability(atlas, kapitza, tmp_path):
+    """The transition curves of Hill's determinant at the k of points of the atlas."""
+    group = atlas[0].group("atlas")
+    for kind, centre, name in ((SWINGS, 1, "damped_1"), (LEANS, 1, "damped_0"), (SWINGS, 0, "damped_1")):
+        xs, ys = curve(group, kind, centre=centre)
+        at = np.flatnonzero((xs > 5) & (xs < 30) & (ys > 0) & (ys < 0.8))[7]
+        k = (1 if centre == 0 else -1) / xs[at] ** 2
+        axes = {"k": {"min": min(k, 2 * k), "max": max(k, 2 * k), "count": 2}, "m": {"min": 0, "max": 0.8, "count": 2}}
+        (tmp_path / "s.yaml").write_text(json.dumps({"stability": axes | {"quality_factor": 5, "curves": [name]}}))
+        kapitza("run", "s.yaml", "--force", folder=tmp_path)
+        found = Result(tmp_path / "s.h5").group("stability")[name].values[0 if k > 0 else 1]
+        assert abs(found - ys[at]) < 1e-12
+
+
 def test_flutter_is_that_of_the_studies(atlas):
     """Birth, loss of symmetry, doubling, where the table of docs/validation/studies.md has them."""
     group = atlas[0].group("atlas")
