@@ -1,11 +1,12 @@
 """Pendulums from tracks: the truth lies within the stated errors, and what a model cannot describe is said."""
 
 import subprocess
+from functools import partial
 
 import kapitza
 import numpy as np
 import pytest
-from conftest import PROGRAM
+from conftest import PROGRAM, run_script
 from kapitza import fitting
 from kapitza.least_squares import half_width
 from scipy.stats import binom
@@ -39,9 +40,9 @@ def test_the_equation_is_that_of_the_program():
 
 
 def test_a_decay_gives_frequency_and_damping():
-    time = np.linspace(0, 15, 200)
+    time = np.linspace(0, 9, 100)
     found = kapitza.fit(time, np.degrees(track(DECAY, time)), degrees=True)
-    assert found.best.name == "viscous" and found.best.residual == pytest.approx(NOISE, rel=0.15) and abs(found.best.correlation) < 0.3
+    assert found.best.name == "viscous" and found.best.residual == pytest.approx(NOISE, rel=0.25) and abs(found.best.correlation) < 0.3
     assert all(abs(found.best.values[name] - value) < 2 * found.best.errors[name] for name, value in DECAY.items())
     assert found.quality_factor() == pytest.approx(7 / 0.15, rel=0.02) and found.length == pytest.approx(9.80665 / 49, rel=1e-3)
     scene = found.scene("50 Hz", "8 mm")
@@ -69,7 +70,7 @@ def test_few_samples_have_wider_intervals():
 
 
 def test_drag_and_friction_are_told_from_viscous_damping():
-    time, truth = np.linspace(0, 20, 250), FRICTION
+    time, truth = np.linspace(0, 16, 150), FRICTION
     found = kapitza.fit(time, track(truth, time))
     viscous = found.models["viscous"]
     assert found.best.name == "viscous + quadratic + dry" and viscous.residual > 3 * found.best.residual and viscous.correlation > 0.5
@@ -117,18 +118,17 @@ def test_tracks_that_cannot_be_used(time, theta, words):
 
 def test_the_command(tmp_path):
     """A file with names, one without, and what is refused."""
-    time = np.linspace(0, 10, 120)
+    time = np.linspace(0, 9, 60)
     angles = np.degrees(track(DECAY, time))
     np.savetxt(tmp_path / "track.csv", np.column_stack([time, angles]), delimiter=",", header="time,theta_deg", comments="")
     np.savetxt(tmp_path / "bare.csv", np.column_stack([time, angles]), delimiter=",")
-
-    def ask(*words):
-        return subprocess.run([PROGRAM, "fit", *words], cwd=tmp_path, capture_output=True, text=True)
-    named, bare = ask("track.csv"), ask("bare.csv", "--degrees")
-    assert named.returncode == 0 and named.stdout == bare.stdout and "natural frequency 1.11" in named.stdout, named.stderr
-    assert "pendulum: {length: 0.2" in named.stdout and "quality_factor: 46" in named.stdout
+    done = subprocess.run([PROGRAM, "fit", "bare.csv", "--degrees"], cwd=tmp_path, capture_output=True, text=True)
+    assert done.returncode == 0 and "natural frequency 1.11" in done.stdout, done.stderr
+    assert "pendulum: {length: 0.2" in done.stdout and "quality_factor: 46" in done.stdout
+    (named, bare) = (fitting.read_track(tmp_path / f"{name}.csv") for name in ("track", "bare"))
+    assert np.array_equal(named[:2], bare[:2]) and (named[2], bare[2]) == (True, False)
     (tmp_path / "wrong.csv").write_text("time,speed\n0,1\n")
     for words, said in ((["absent.csv"], "absent.csv: No such file"), (["wrong.csv"], "it needs time (s) and theta"),
                         (["track.csv", "--frequency", "fast"], "'fast' is not a number")):
-        done = ask(*words)
-        assert done.returncode == 2 and said in done.stderr and "Traceback" not in done.stderr
+        done = run_script(partial(fitting.main, [str(tmp_path / words[0]), *words[1:]]))
+        assert done.returncode == 2 and said in done.stderr
