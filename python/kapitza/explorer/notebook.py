@@ -9,8 +9,8 @@ from kapitza.scene import Scene, SceneLike
 
 from .access import origin
 
-LOCAL = ("http://localhost:*", "http://127.0.0.1:*", "http://[::1]:*")
-_FRAME = re.compile(r"('self'|https?://[\w.\-*]+(:(\d+|\*))?|http://\[::1\]:(\d+|\*)|vscode-webview:)")
+LOCAL = ("http://localhost:*", "http://127.0.0.1:*")  # a policy's sources have no form for [::1]
+_FRAME = re.compile(r"('self'|https?://[\w.\-*]+(:(\d+|\*))?|vscode-webview:)")
 
 
 class Shown:
