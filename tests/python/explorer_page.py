@@ -194,11 +194,11 @@ class Page:
         chain.release().perform()
 
     def pixels(self):
-        """The basins as drawn: rows of [r, g, b, a] of every 61st pixel."""
+        """The basins as drawn: rows of [r, g, b, a] of every 7th pixel."""
         return self.run("""(() => { const pane = explorer.basins.panes[0]; pane.drawNow(); const copy = document.createElement("canvas");
             Object.assign(copy, {width: pane.basins.width, height: pane.basins.height}); const context = copy.getContext("2d");
             context.drawImage(pane.basins, 0, 0); const data = context.getImageData(0, 0, copy.width, copy.height).data, found = [];
-            for (let i = 0; i < data.length; i += 244) found.push([...data.slice(i, i + 4)]); return found; })()""")
+            for (let i = 0; i < data.length; i += 28) found.push([...data.slice(i, i + 4)]); return found; })()""")
 
     def saved(self, button, path, seconds=30):
         """The file that a button saves, whole: the browser first makes an empty one."""
@@ -208,22 +208,22 @@ class Page:
         return path
 
 
-# ---- fixtures of the modules that name this one in pytest_plugins: one browser for all of them ----
+# ---- fixtures of the modules that name this one in pytest_plugins ----
 
 
-@pytest.fixture(scope="session")
+@pytest.fixture(scope="module")
 def folder(tmp_path_factory):
     return tmp_path_factory.mktemp("browser")
 
 
-@pytest.fixture(scope="session")
+@pytest.fixture(scope="module")
 def driver(folder):
-    with browser(folder, "960,659") as found:  # 520 px are left inside of the window: few cells
+    with browser(folder, "1280,829") as found:  # 690 px are left inside of the window
         yield found
         assert [entry for entry in found.get_log("browser") if entry["level"] == "SEVERE"] == []
 
 
-@pytest.fixture(scope="session")
+@pytest.fixture(scope="module")
 def striped():
     running = Server(ROOT / "scenes" / "small.yaml", fake=True)
     yield running
@@ -238,10 +238,3 @@ def page(driver, striped):
     fresh.wait()
     yield fresh
     driver.get("about:blank")  # it asks no more when its server ends
-
-
-@pytest.fixture(scope="module")
-def modules(driver, striped):
-    """A page for tests that only call what its modules export; the next fresh page ends it."""
-    driver.get("about:blank")
-    return Page(driver, striped.address() + "#samples=1&quality=moving&middle=hanging&map=off")

@@ -12,9 +12,8 @@ from http.server import BaseHTTPRequestHandler, ThreadingHTTPServer
 import kapitza
 import pytest
 from conftest import ROOT
-from explorer_page import Page
+from explorer_page import Page, browser
 
-pytest_plugins = ("explorer_page",)
 SMALL = ROOT / "scenes" / "small.yaml"
 HUB = "/user/me/"
 
@@ -84,14 +83,13 @@ def proxy(port, prefix):
     server.server_close()
 
 
-def test_the_page_works_through_a_proxy_with_a_prefix_and_another_port(shown, driver):
-    with proxy(shown.port, f"{HUB}proxy/{shown.port}/") as port:
+def test_the_page_works_through_a_proxy_with_a_prefix_and_another_port(shown, tmp_path):
+    with proxy(shown.port, f"{HUB}proxy/{shown.port}/") as port, browser(tmp_path, "600,420") as driver:
         address = address_of(shown).replace(f"127.0.0.1:{shown.port}/", f"localhost:{port}{HUB}proxy/{shown.port}/")
-        page = Page(driver, address + "#samples=1&quality=moving&map=off")
+        page = Page(driver, address + "#samples=1&quality=moving")
         page.wait()
         assert page.run("explorer.state.pendulum.drive_amplitude") == "0.35" and len(page.shares()) > 3
         assert driver.current_url.startswith(f"http://localhost:{port}{HUB}proxy/{shown.port}/#")
-        driver.get("about:blank")
 
 
 def test_a_hub_must_be_named_and_is_then_let_in(monkeypatch):

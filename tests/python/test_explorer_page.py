@@ -21,55 +21,46 @@ mpmath.mp.dps = 120
 # ---- modules ----
 
 
-def test_windows_are_counted_in_all_their_digits(modules):
-    assert modules.module("decimal.js", "its.turn(110).toString()") == mpmath.nstr(2 * mpmath.pi, 111)
-    text = modules.module("decimal.js", "its.Decimal.from('-1.25e-3').plus(its.Decimal.from('1e-40')).toString()")
+def test_windows_are_counted_in_all_their_digits(page):
+    assert page.module("decimal.js", "its.turn(110).toString()") == mpmath.nstr(2 * mpmath.pi, 111)
+    text = page.module("decimal.js", "its.Decimal.from('-1.25e-3').plus(its.Decimal.from('1e-40')).toString()")
     assert text == "-0.001249" + "9" * 34
     deep = """(() => { let w = its.Window.from({theta: {min: -3, max: 3}, velocity: {min: -2, max: 2}});
         for (let i = 0; i < 90; i++) w = w.zoomed(0.1, 0.31, 0.77);
         return [w.theta.width, w.theta.centre.toString(), w.moved(0.25, 0).moved(-0.25, 0).theta.low.minus(w.theta.low).toString(),
                 w.placeOf(w.moved(0.5, 0)).left, JSON.stringify(w.toRequest())]; })()"""
-    width, centre, back, left, request = modules.module("window.js", deep)
+    width, centre, back, left, request = page.module("window.js", deep)
     assert width == pytest.approx(6e-90) and back == "0" and left == pytest.approx(0.5)
     point = -3 + mpmath.mpf(repr(6 * 0.31))  # stays where it is
     assert abs(mpmath.mpf(centre) - point) < mpmath.mpf("6e-90") and json.loads(request)["theta"]["centre"] == centre
 
 
-def test_windows_have_bounds_and_wrap(modules):
+def test_windows_have_bounds_and_wrap(page):
     script = """(() => { const w = its.Window.from({theta: {min: -3.14159, max: 3.14159}, velocity: {min: -2, max: 2}});
         const out = w.zoomed(50, 0.5, 0.5), far = out.moved(3.25, 0).wrapped(); let deep = w;
         for (let i = 0; i < 60; i++) deep = deep.zoomed(0.01, 0.5, 0.5);
         return [out.theta.width, out.velocity.width, far.theta.centre.toNumber(), deep.theta.width]; })()"""
-    width, fast, centre, deep = modules.module("window.js", script)
+    width, fast, centre, deep = page.module("window.js", script)
     assert width == pytest.approx(TURN) and fast == pytest.approx(200) and centre == pytest.approx(0.25 * TURN) and 1e-100 <= deep < 1e-97
 
 
-def test_ticks_differ_and_lie_where_they_say(modules):
+@pytest.mark.parametrize("width", ["3", "0.02", "1e-5", "3e-13", "7e-40", "2e-99"])
+def test_ticks_differ_and_lie_where_they_say(page, width):
     """1e-5, 1e-5 stood twice on an axis."""
-    widths = ["3", "0.02", "1e-5", "3e-13", "7e-40", "2e-99"]
-    axes = [{"centre": "-1.2345678901234567890123", "width": width} for width in widths]
-    every = modules.driver.execute_async_script("""const [axes, done] = arguments; Promise.all([import('/ticks.js'), import('/window.js')])
-        .then(([ticks, window]) => done(axes.map((axis) => ticks.ticksOf(window.Range.from(axis), 8))))""", axes)
-    for width, found in zip(widths, every, strict=True):
-        words = [tick["words"] for tick in found["ticks"]]
-        assert 3 <= len(words) == len(set(words)) and not any(re.search("e", word) for word in words)
-        origin, unit = re.fullmatch(r"(.*) \+ n × (.*)", found["origin"]).groups() if found["origin"] else ("0", "1")
-        low = mpmath.mpf("-1.2345678901234567890123") - mpmath.mpf(width) / 2
-        for tick in found["ticks"] if "…" not in origin else []:
-            value = number(origin) + number(tick["words"]) * number(unit)
-            assert abs((value - low) / mpmath.mpf(width) - tick["share"]) < 1e-6
+    axis = json.dumps({"centre": "-1.2345678901234567890123", "width": width})
+    found = page.driver.execute_async_script(f"""const done = arguments[0]; Promise.all([import('/ticks.js'), import('/window.js')])
+        .then(([ticks, window]) => done(ticks.ticksOf(window.Range.from({axis}), 8)))""")
+    words = [tick["words"] for tick in found["ticks"]]
+    assert 3 <= len(words) == len(set(words)) and not any(re.search("e", word) for word in words)
+    origin, unit = re.fullmatch(r"(.*) \+ n × (.*)", found["origin"]).groups() if found["origin"] else ("0", "1")
+    low = mpmath.mpf("-1.2345678901234567890123") - mpmath.mpf(width) / 2
+    for tick in found["ticks"] if "…" not in origin else []:
+        value = number(origin) + number(tick["words"]) * number(unit)
+        assert abs((value - low) / mpmath.mpf(width) - tick["share"]) < 1e-6
 
 
 def number(text):
     return mpmath.mpf(text.replace("−", "-"))
-
-
-def test_cells_without_a_label_are_hatched_until_they_are_settled(modules):
-    """Quick labels leave cells open; only exact ones say that a cell settles nowhere."""
-    script = """(() => { const cells = new Uint8Array(64).fill(255); const planes = { labels: cells };
-        const of = (quality) => its.countedShares({ labels: cells, quality, catalogue: { attractors: [] } })[0];
-        return [of("moving").name, of("moving").hatched, of("exact").name, of("exact").hatched]; })()"""
-    assert modules.module("frames.js", script) == ["not labelled yet", True, "not settled", False]
 
 
 # ---- hands and keys ----
@@ -122,6 +113,14 @@ def test_starts_are_told_in_the_units_of_the_axes(page):
     assert wait_for(lambda: "rad/s" in page.run("$('pointer').textContent")) and "after" not in page.run("$('pointer').textContent")
     page.run("explorer.state.change({units: 'degrees'})")
     assert wait_for(lambda: page.run("$('pointer').textContent").startswith("θ −90")) and "°" in page.run("$('ending').textContent")
+
+
+def test_cells_without_a_label_are_hatched_until_they_are_settled(page):
+    """Quick labels leave cells open; only exact ones say that a cell settles nowhere."""
+    script = """(() => { const cells = new Uint8Array(64).fill(255); const planes = { labels: cells };
+        const of = (quality) => its.countedShares({ labels: cells, quality, catalogue: { attractors: [] } })[0];
+        return [of("moving").name, of("moving").hatched, of("exact").name, of("exact").hatched]; })()"""
+    assert page.module("frames.js", script) == ["not labelled yet", True, "not settled", False]
 
 
 def test_dragging_wraps_the_angle_and_moves_the_picture_at_once(page):
@@ -256,9 +255,7 @@ def test_a_slow_frame_can_be_cancelled(page):
 
 
 def test_sliders_stand_above_the_fold_and_nothing_jumps(page):
-    page.driver.execute_cdp_cmd("Emulation.setDeviceMetricsOverride",
-                                {"width": 1280, "height": 690, "deviceScaleFactor": 1, "mobile": False})
-    page.wait()
+    assert page.run("innerHeight") == pytest.approx(690, abs=12)
     bottoms = page.run("[...document.querySelectorAll('#sliders > *')].map((row) => row.getBoundingClientRect().bottom)")
     assert len(bottoms) == 4 and max(bottoms) < 690 and page.run("document.documentElement.scrollHeight") <= page.run("innerHeight")
     places = "JSON.stringify(['legend', 'ending', 'pendulum', 'slider-m'].map((id) => $(id).getBoundingClientRect().top))"
@@ -305,8 +302,8 @@ def test_both_painters_draw_the_same(page, driver, striped):
 
 def test_samples_soften_what_is_finer_than_a_pixel(page):
     before = len(np.unique(np.array(page.pixels()), axis=0))
-    page.choose("samples", "2")
-    assert "2 × 2 a pixel" in page.wait()
+    page.choose("samples", "3")
+    assert "3 × 3 a pixel" in page.wait()
     assert len(np.unique(np.array(page.pixels()), axis=0)) > before
 
 

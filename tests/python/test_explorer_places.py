@@ -112,7 +112,7 @@ ATLAS = """(() => { const curve = { kind: "period_doubling", period: 1, words: "
     bytes.set([1, 1], 40); return [header, bytes]; })()"""
 
 
-def test_crossing_a_curve_says_what_happens_and_sliders_mark_it(modules):
+def test_crossing_a_curve_says_what_happens_and_sliders_mark_it(page):
     script = f"""const done = arguments[0]; Promise.all(["atlas", "happenings", "ground", "sliders"].map((name) => import(`/${{name}}.js`)))
         .then(([atlas, happenings, ground, sliders]) => {{ const map = new atlas.Atlas(...{ATLAS});
             const axes = [{{name: "q", unit: "", low: 0, high: 10}}, {{name: "a", unit: "mm", low: 0, high: 0.936}}];
@@ -122,7 +122,7 @@ def test_crossing_a_curve_says_what_happens_and_sliders_mark_it(modules):
                   ground.listedAt({{ atlas: map, axes, others: '{{"q":null,"a":null}}' }}, {{q: "5", a: "0.234 mm"}}),
                   ground.listedAt({{ atlas: map, axes, others: '{{"q":null,"a":null}}' }}, {{q: "5", a: "1 mm"}}),
                   sliders.marksOf({{ atlas: map, axes }}, "a", {{q: "5", a: "0.3 mm"}}, "0.3 mm")[0].words]); }})"""
-    up, down, along, there, near, listed, outside, mark = modules.driver.execute_async_script(script)
+    up, down, along, there, near, listed, outside, mark = page.driver.execute_async_script(script)
     assert up == "Flutter is born: upright rest loses its stability by period doubling"
     assert down == "Upright rest is stable again; flutter ends in it" and along == "" and (there, near) == ("flutter", "inverted")
     assert listed == {"atlas": "f", "x": 50, "y": pytest.approx(2.5)} and outside == {}  # by the numbers of the file
