@@ -280,6 +280,7 @@ BAD = {"one key": ({"y": {"parameter": "drive_frequency", "min": 3, "max": 30}},
        "a key of no pendulum": ({"y": {"parameter": "phase", "min": 0, "max": 1}}, "atlas.y.parameter: \"phase\" is unknown"),
        "too strong": ({"y": {"parameter": "drive_amplitude", "min": 0, "max": 1e9}}, "atlas.y.max: gives abs(k) + abs(m) = 1e+09"),
        "fewer checks than none": ({"checks": -1}, "atlas.checks: \"-1\" is out of range"),
+       "one place": ({"seeds": 1}, "atlas.seeds: \"1\" is out of range"),
        "too long": ({"max_period": 17}, "atlas.max_period: \"17\" is out of range")}
 
 

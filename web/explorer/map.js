@@ -118,7 +118,7 @@ export class MotionMap {
     const atlas = (found) => {
       this.atlas = found;
       this.paint();
-      this.note(`motions of up to ${found.longest} drive periods`);
+      this.note(`motions of up to ${found.longest} drive period${found.longest === 1 ? "" : "s"}`);
       this.state.change({ ground: { atlas: found, axes: this.axes, others: this.asked } });
     };
     const ways = [

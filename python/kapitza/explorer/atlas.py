@@ -9,7 +9,8 @@ from kapitza.plots.atlas_labels import motion_text
 from .scene import BadRequest
 
 # A map comes soon, and then with more: cycles of more periods, gaps between the curves looked for, finer cells.
-STAGES = ({"max_period": 2, "checks": 0, "points": 160}, {"max_period": 4, "checks": 60, "points": 400})
+STAGES = ({"max_period": 1, "seeds": 4, "checks": 0, "points": 160}, {"max_period": 2, "checks": 0, "points": 160},
+          {"max_period": 4, "checks": 60, "points": 400})
 
 
 def maps(kept, request):
@@ -18,10 +19,10 @@ def maps(kept, request):
     if any(not isinstance(value, dict) for value in (*axes.values(), request.get("pendulum"))):
         raise BadRequest("a map needs the mappings pendulum, x and y")
     scenes = [{"pendulum": request["pendulum"], "atlas": {**axes, **stage}} for stage in STAGES]
-    for scene in scenes:
-        if scene is scenes[-1] or not kept.has(scenes[-1]):
-            yield from kept.answers(scene, lambda result: packed(result.group("atlas")), answer="atlas", final=scene is scenes[-1],
-                                    file=kept.name(scene))
+    known = max((number for number, scene in enumerate(scenes) if kept.has(scene)), default=0)
+    for scene in scenes[known:]:
+        yield from kept.answers(scene, lambda result: packed(result.group("atlas")), answer="atlas", final=scene is scenes[-1],
+                                file=kept.name(scene))
 
 
 def packed(atlas):

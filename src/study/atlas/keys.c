@@ -14,6 +14,8 @@ static const kz_key keys[] = {
         "atlas.checks", 0, 1e5, "300", checks,
         "Random points of a round whose attractors are searched; rounds go on until one finds nothing that the curves do not "
         "tell, at most 16."),
+    INTEGER("atlas.seeds", 2, 100, "12", seeds,
+            "Places along each axis whose attractors are searched first: curves are followed from what is found there."),
     INTEGER("atlas.points", 16, 4000, "400", points, "Cells along each axis for the number and the lists of attractors."),
     INTEGER("atlas.shares", 0, 1e6, "0", shares,
             "Starts at one point of each of the largest regions, whose ends give the shares of the basins there; 0 = none."),

@@ -6,8 +6,7 @@
 #include "atlas.h"
 
 enum {
-  GRID = 12,   /* places along each axis whose attractors are the first seeds */
-  FEW = 128,   /* starts at each of them */
+  FEW = 128,   /* starts at each place whose attractors are the first seeds */
   MANY = 256,  /* and at places that check the curves */
   ROUNDS = 16, /* of checks at most; of cycles of more periods than the next number most atlases take all */
   USUAL_PERIOD = 2,
@@ -271,14 +270,15 @@ static kz_status search_reference(kz_atlas *atlas, const kz_run *run) {
 }
 
 static kz_status search_grid(kz_atlas *atlas, const kz_run *run) {
-  kz_atlas_probe *probe = kz_calloc(GRID * GRID, sizeof *probe);
-  probing p = {atlas, GRID * GRID, FEW, 1, probe};
+  const int64_t seeds = atlas->scene->atlas->seeds, n = seeds * seeds;
+  kz_atlas_probe *probe = kz_calloc((size_t)n, sizeof *probe);
+  probing p = {atlas, n, FEW, 1, probe};
   int64_t wrong;
-  for (int i = 0; i < GRID * GRID; i++) {
+  for (int64_t i = 0; i < n; i++) {
     double within[2];
     random_place(i, within);
-    probe[i].place[0] = (i % GRID + within[0]) / GRID;
-    probe[i].place[1] = (i / GRID + within[1]) / GRID;
+    probe[i].place[0] = ((double)(i % seeds) + within[0]) / (double)seeds;
+    probe[i].place[1] = ((double)(i / seeds) + within[1]) / (double)seeds;
   }
   kz_status status = probe_all(run, "atlas seeds", &p);
   if (status == KZ_OK) status = explain(atlas, run, p.n, probe, &wrong);
