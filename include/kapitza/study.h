@@ -40,6 +40,7 @@ enum { KZ_AUTO = 0 };
   STUDY(sweep)            \
   STUDY(chart)            \
   STUDY(atlas)            \
+  STUDY(measures)         \
   STUDY(tradeoff)
 
 #define KZ_STUDY_PLAN(name) typedef struct kz_##name##_plan kz_##name##_plan;

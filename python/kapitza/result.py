@@ -11,7 +11,7 @@ import xarray
 
 from kapitza import units
 from kapitza.reading import BadFile, elsewhere, group_of, opened
-from kapitza.table import attractors_table, ids_of, labels_array, starts_table
+from kapitza.table import attractors_table, ids_of, labels_array, measures_table, starts_table
 
 if TYPE_CHECKING:
     from kapitza.chances import Agreement
@@ -69,6 +69,12 @@ class Result:
         """A table with a row for each attractor, in the order of ids: name, period, winding, centre, mirror, fraction, multipliers, strobe
         points (lists) and so on."""
         return attractors_table(self.group("attractors"))
+
+    @cached_property
+    def measures(self) -> pandas.DataFrame:
+        """The table of the study `measures`: a row for each attractor, with its name and a column for each measure. What belongs to the
+        whole pendulum is the same in all rows; what has several numbers for an attractor is a list."""
+        return measures_table(self.group("measures"))
 
     @property
     def names(self) -> list[str]:

@@ -1,4 +1,4 @@
-"""The attractors of a result as a table, and the labels of its basin as an array with its flags."""
+"""The attractors of a result as a table, and the labels of its basin as an array with its flags; the table of measures."""
 
 import re
 from typing import Any
@@ -11,6 +11,7 @@ from kapitza import units
 from kapitza.units import TURN
 
 CENTRES = ("down", "inverted", "rotating", "neither")  # codes of the variable centre
+OPTIONS = {"starts", "cells", "shock_scale"}  # attributes of the group measures that are no measures
 PLAIN = ("amplitude", "lyapunov", "lyapunov_error", "fraction")  # columns that a file may lack
 
 
@@ -32,6 +33,17 @@ def attractors_table(attractors: xarray.Dataset) -> pandas.DataFrame:
         rows = attractors[name].values
         columns[name] = [[float(value) for value in rows[index] if np.isfinite(value)] for index in range(count)]
     return pandas.DataFrame(columns, index=pandas.RangeIndex(count, name="attractor"))
+
+
+def measures_table(measures: xarray.Dataset) -> pandas.DataFrame:
+    """A row each: name, period, winding, centre, and the measures; those over a second dimension as lists."""
+    columns: dict[str, object] = {"name": [str(name) for name in measures["name"].values]}
+    for name, values in measures.data_vars.items():
+        if name not in columns and values.dims[:1] == ("attractor",):
+            columns[str(name)] = values.values if values.ndim == 1 else values.values.tolist()
+    columns["centre"] = [CENTRES[int(code)] for code in measures["centre"].values]
+    columns |= {name: value for name, value in measures.attrs.items() if name not in OPTIONS}
+    return pandas.DataFrame(columns, index=pandas.RangeIndex(measures.sizes["attractor"], name="attractor"))
 
 
 def ids_of(name: int | str, plain: list[str], full: list[str]) -> list[int]:

@@ -12,6 +12,7 @@
 #include "../../study/sweep/plan.h"
 #include "../../study/chart/plan.h"
 #include "../../study/atlas/plan.h"
+#include "../../study/measures/plan.h"
 
 /* Complains about a key where it is given. */
 static void refuse(kz_reading *reading, const char *path, const char *why) {
@@ -69,6 +70,22 @@ static void attractors_rules(kz_reading *reading, kz_scene *scene) {
   if (scene->has_basin)
     kz_complain(reading, "attractors",
                 "repeats what basin does, which finds the attractors of its window itself; give one of them");
+}
+
+/* What the measures of a study lack, at the key that is to be changed. */
+static void options_rules(kz_reading *reading, const kz_integers *names, const kz_measure_options *options, const char *study) {
+  const char *lack = kz_measures_lack(names, options);
+  if (!lack) return;
+  char key[16];
+  snprintf(key, sizeof key, "%.*s", (int)strcspn(lack, ":"), lack);
+  kz_complain(reading, kz_key_in(study, key).text, "%s", lack + strlen(key) + 2);
+}
+
+static void measures_rules(kz_reading *reading, kz_scene *scene) {
+  const kz_measures_plan *plan = scene->measures;
+  if (!scene->has_measures) return;
+  window_rules(reading, &scene->measures->theta, &scene->measures->velocity, "measures");
+  options_rules(reading, &plan->names, &plan->options, "measures");
 }
 
 static void saddles_rules(kz_reading *reading, kz_scene *scene) {
@@ -158,7 +175,8 @@ static void check_stiffness(kz_reading *reading, const kz_pendulum *pendulum, co
 
 /* The scene's own pendulum, where a study follows motions of it. */
 static void stiffness_rules(kz_reading *reading, kz_scene *scene) {
-  const bool follows = scene->has_basin || scene->has_attractors || scene->has_saddles || scene->has_orbit;
+  const bool follows =
+      scene->has_basin || scene->has_attractors || scene->has_saddles || scene->has_orbit || scene->has_measures;
   if (follows && !reading->message[0]) check_stiffness(reading, &scene->parameters.pendulum, "pendulum");
 }
 
@@ -268,10 +286,10 @@ static void settling_rules(kz_reading *reading, kz_scene *scene) {
 }
 
 typedef void (*rule)(kz_reading *reading, kz_scene *scene);
-static const rule rules[] = {basin_rules,       table_rules,     undecided_rules,   shocks_rules,    attractors_rules,
-                             saddles_rules,     manifolds_rules, orbit_rules,       stability_rules, tradeoff_rules,
-                             kz_pendulum_rules, symmetry_rules,  stiffness_rules,   sweep_rules,     chart_rules,
-                             atlas_rules,       edge_rules,      orbit_range_rules, settling_rules};
+static const rule rules[] = {basin_rules,    table_rules,       undecided_rules, shocks_rules,      attractors_rules,
+                             saddles_rules,  measures_rules,    manifolds_rules, orbit_rules,       stability_rules,
+                             tradeoff_rules, kz_pendulum_rules, symmetry_rules,  stiffness_rules,   sweep_rules,
+                             chart_rules,    atlas_rules,       edge_rules,      orbit_range_rules, settling_rules};
 
 void kz_reading_rules(kz_reading *reading) {
   for (size_t i = 0; i < sizeof rules / sizeof rules[0]; i++) rules[i](reading, reading->scene);

@@ -27,10 +27,6 @@ static size_t message_room(int64_t cells) {
   return 2 * buffer;
 }
 
-static bool is_circle(const kz_basin_plan *plan) {
-  return plan->theta.max - plan->theta.min == 2 * M_PI;
-}
-
 /* The cells of the tile in c->ids, c->evidence. */
 static void count(kz_chunks *c, int64_t tile) {
   const kz_tiles *tiles = &c->labelling->tiles;
@@ -49,7 +45,7 @@ static void count(kz_chunks *c, int64_t tile) {
   }
   if (!tiles->whole) return;
   kz_count_boxes(tiles->columns, rows, c->ids, &c->counts);
-  kz_count_pairs(tiles->columns, rows, c->ids, is_circle(c->labelling->plan), &c->counts);
+  kz_count_pairs(tiles->columns, rows, c->ids, kz_axis_is_circle(&c->labelling->plan->theta), &c->counts);
 }
 
 static kz_status pack(const kz_chunks *c, int64_t tile, char *message, size_t *bytes) {
@@ -191,7 +187,7 @@ static kz_status count_rows(kz_chunks *c) {
     const int64_t n = tiles->rows - row < most ? tiles->rows - row : most;
     if ((status = kz_store_rows(c->store, "basin", "attractor", row, n, ids)) != KZ_OK) break;
     kz_count_boxes(tiles->columns, n, ids, &c->counts);
-    kz_count_pairs(tiles->columns, n, ids, is_circle(c->labelling->plan), &c->counts);
+    kz_count_pairs(tiles->columns, n, ids, kz_axis_is_circle(&c->labelling->plan->theta), &c->counts);
   }
   return status;
 }

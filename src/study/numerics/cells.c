@@ -86,6 +86,10 @@ double kz_axis_fastest(const kz_axis *velocity) {
   return fmax(fabs(velocity->min), fabs(velocity->max));
 }
 
+bool kz_axis_is_circle(const kz_axis *theta) {
+  return theta->max - theta->min == 2 * M_PI;
+}
+
 double kz_axis_step(const kz_axis *axis) {
   return (axis->centre.text[0] ? axis->width.high : axis->max - axis->min) / (double)axis->count;
 }

@@ -22,6 +22,8 @@ double kz_axis_place(const kz_axis *axis, int64_t i, double pair[2]);
 /* A random real point of the axis, from two numbers of 53 random bits, as a pair of doubles. Returns a bound of its error, which includes
  * all further digits of the real number. */
 double kz_axis_random(const kz_axis *axis, const uint64_t bits[2], double pair[2]);
+/* True if an axis of angles is the whole circle. */
+bool kz_axis_is_circle(const kz_axis *theta);
 /* Width of a cell. */
 double kz_axis_step(const kz_axis *axis);
 /* The largest speed on an axis of velocities. */

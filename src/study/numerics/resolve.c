@@ -7,6 +7,7 @@
 #include "attractors/plan.h"
 #include "orbit/plan.h"
 #include "sweep/plan.h"
+#include "measures/plan.h"
 
 enum {
   SWEEP_VALUES = 9,  /* of a sweep that are tried, both ends included */
@@ -56,10 +57,11 @@ static void add_basin(demand *d, const kz_basin_plan *plan) {
 }
 
 static void add_pendulum(demand *d, const kz_scene *scene) {
-  if (!(scene->parameters.pendulum.beta > 0) || !(scene->has_basin || scene->has_attractors)) return;
+  if (!(scene->parameters.pendulum.beta > 0) || !(scene->has_basin || scene->has_attractors || scene->has_measures)) return;
   d->pendulum[d->count++] = scene->parameters.pendulum;
   if (scene->has_basin) add_basin(d, scene->basin);
   if (scene->has_attractors) add_window(d, &scene->attractors->theta, &scene->attractors->velocity, 0);
+  if (scene->has_measures) add_window(d, &scene->measures->theta, &scene->measures->velocity, 0);
 }
 
 static void add_sweep(demand *d, const kz_scene *scene) {

@@ -1,0 +1,87 @@
+/* Measures of how intricate the boundaries in the picture are: entropy (A. Daza et al., Sci. Rep. 6 (2016) 31416), uncertainty exponent and
+ * dimension (C. Grebogi et al., Phys. Lett. A 99 (1983) 415), boundaries that basins share (A. Daza et al., Sci. Rep. 8 (2018) 9954). */
+#include <math.h>
+
+#include "basin/basin.h"
+#include "measures.h"
+#include "numerics/cells.h"
+
+enum { SHARED_LEVEL = 3 }; /* boxes of 8 cells */
+static const double ALL = 0.99;
+
+static void entropies(const kz_measured *measured, double *entropy, double *boundary) {
+  const int64_t cells = measured->plan->options.cells;
+  KZ_FREED kz_counts *counts = kz_calloc(1, sizeof *counts);
+  kz_count_boxes(cells, cells, measured->picture.id, counts);
+  kz_entropy_of(counts, entropy, boundary);
+}
+
+void kz_measure_entropy(const kz_measured *measured, double *value) {
+  double boundary;
+  entropies(measured, value, &boundary);
+}
+
+void kz_measure_boundary_entropy(const kz_measured *measured, double *value) {
+  double whole;
+  entropies(measured, &whole, value);
+}
+
+/* The exponent of the boundary of each basin: of pairs of cells beside each other along theta, how many lie on either side of it. */
+void kz_measure_uncertainty_exponent(const kz_measured *measured, double *value) {
+  const kz_measures_plan *plan = measured->plan;
+  const int64_t cells = plan->options.cells, n = measured->catalogue.count;
+  const double across = (plan->theta.max - plan->theta.min) / (double)cells;
+  KZ_FREED int16_t *side = kz_malloc((size_t)(cells * cells) * sizeof *side);
+  KZ_FREED kz_counts *counts = kz_malloc(sizeof *counts);
+  for (int64_t id = 0; id < n; id++) {
+    kz_uncertain uncertain[KZ_DISTANCES];
+    kz_slope slope[KZ_DISTANCES];
+    int distances = 0;
+    *counts = (kz_counts){0};
+    for (int64_t i = 0; i < cells * cells; i++) side[i] = measured->picture.id[i] < 0 ? -1 : measured->picture.id[i] == id;
+    kz_count_pairs(cells, cells, side, kz_axis_is_circle(&plan->theta), counts);
+    for (int d = KZ_DISTANCES - 1; d >= 0; d--)
+      if (counts->compared[d] > 0)
+        uncertain[distances++] = (kz_uncertain){ldexp(across, d), counts->compared[d], counts->uncertain[d]};
+    const kz_slope whole =
+        distances > 1 ? kz_uncertainty_slopes(distances, uncertain, slope) : (kz_slope){.slope = NAN, .low = NAN, .high = NAN};
+    value[id] = whole.slope;
+    value[n + id] = whole.low;
+    value[2 * n + id] = whole.high;
+  }
+}
+
+/* 2 minus the exponent. */
+void kz_measure_boundary_dimension(const kz_measured *measured, double *value) {
+  const int64_t n = measured->catalogue.count;
+  kz_measure_uncertainty_exponent(measured, value);
+  for (int64_t id = 0; id < n; id++) {
+    const double low = value[n + id];
+    value[id] = 2 - value[id];
+    value[n + id] = 2 - value[2 * n + id];
+    value[2 * n + id] = 2 - low;
+  }
+}
+
+/* Of the boxes on any boundary, the share that each basin is in. */
+void kz_measure_shared_boundary(const kz_measured *measured, double *value) {
+  const int64_t cells = measured->plan->options.cells;
+  KZ_FREED kz_box_counts *counts = kz_calloc(1, sizeof *counts);
+  const bool counted = kz_boxes_count(cells, cells, measured->picture.id, counts) == KZ_OK;
+  const double boxes = (double)counts->boxes[SHARED_LEVEL];
+  for (int64_t id = 0; id < measured->catalogue.count; id++)
+    value[id] = counted && id < KZ_BOX_LABELS - 1 && boxes > 0 ? (double)counts->with[SHARED_LEVEL][id] / boxes : NAN;
+}
+
+/* Whether three or more basins share all of their boundary on the grid: each is in nearly every box of it. */
+void kz_measure_wada_on_grid(const kz_measured *measured, double *value) {
+  const int64_t n = measured->catalogue.count;
+  KZ_FREED double *share = kz_malloc((size_t)n * sizeof *share + 1);
+  int64_t basins = 0, all = 0;
+  kz_measure_shared_boundary(measured, share);
+  for (int64_t id = 0; id < n; id++) {
+    basins += share[id] > 0;
+    all += share[id] >= ALL;
+  }
+  *value = basins > 2 && all == basins;
+}

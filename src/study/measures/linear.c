@@ -1,0 +1,63 @@
+/* Measures of the linear motion near a cycle: return time by Floquet's multipliers, growth of small disturbances by singular values of the
+ * map's derivatives, in the norm hypot(dtheta, dvelocity / shock_scale). */
+#include <math.h>
+#include <string.h>
+
+#include "measures.h"
+
+/* The largest singular value of a matrix of 2 x 2 in that norm. */
+static double growth(const double matrix[4], double scale) {
+  const double a = matrix[0], b = matrix[1] * scale, c = matrix[2] / scale, d = matrix[3];
+  return (hypot(a + d, b - c) + hypot(a - d, b + c)) / 2;
+}
+
+/* product = left * right. */
+static void multiply(const double left[4], const double right[4], double product[4]) {
+  const double of[4] = {left[0] * right[0] + left[1] * right[2], left[0] * right[1] + left[1] * right[3],
+                        left[2] * right[0] + left[3] * right[2], left[2] * right[1] + left[3] * right[3]};
+  memcpy(product, of, sizeof of);
+}
+
+/* Drive periods in which the slowest disturbance falls to 1/e. */
+void kz_measure_return_time(const kz_measured *measured, double *value) {
+  for (int64_t id = 0; id < measured->catalogue.count; id++) {
+    const kz_attractor *row = &measured->catalogue.entries[id].row;
+    const double largest = hypot(row->multiplier_re[0], row->multiplier_im[0]);
+    value[id] = row->period > 0 ? -row->period / log(largest) : NAN;
+  }
+}
+
+void kz_measure_reactivity(const kz_measured *measured, double *value) {
+  const kz_tangent *tangent = measured->tangent;
+  for (int64_t id = 0; id < measured->catalogue.count; id++) {
+    const int32_t period = measured->catalogue.entries[id].row.period;
+    value[id] = NAN;
+    for (int32_t phase = 0; phase < period; phase++)
+      value[id] = fmax(value[id], growth((tangent++)->matrix, measured->plan->options.shock_scale));
+  }
+}
+
+/* The largest growth of a disturbance of the strobe point `phase` at any later strobe. After whole turns of the orbit that leave no
+ * disturbance larger than it was, none becomes larger than before. */
+static double amplification(const kz_tangent *tangent, int32_t period, int32_t phase, double scale) {
+  enum { MOST = 1000000 };
+  double product[4] = {1, 0, 0, 1}, largest = 1;
+  for (int step = 0; step < MOST; step++) {
+    multiply(tangent[(phase + step) % period].matrix, product, product);
+    const double now = growth(product, scale);
+    largest = fmax(largest, now);
+    if ((step + 1) % period == 0 && now <= 1) return largest;
+  }
+  return NAN; /* so slowly that it is not known */
+}
+
+void kz_measure_amplification(const kz_measured *measured, double *value) {
+  const kz_tangent *tangent = measured->tangent;
+  for (int64_t id = 0; id < measured->catalogue.count; id++) {
+    const int32_t period = measured->catalogue.entries[id].row.period;
+    value[id] = NAN;
+    for (int32_t phase = 0; phase < period; phase++)
+      value[id] = fmax(value[id], amplification(tangent, period, phase, measured->plan->options.shock_scale));
+    tangent += period > 0 ? period : 0;
+  }
+}

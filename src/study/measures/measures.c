@@ -1,0 +1,87 @@
+/* Study `measures`: the table of one pendulum. */
+#include "measures.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+#include "labelling/labeller.h"
+#include "numerics/cells.h"
+#include "numerics/step_check.h"
+
+static const char *const GROUP = "measures";
+
+kz_cost kz_measures_cost(const kz_scene *scene) {
+  const kz_measures_plan *plan = scene->measures;
+  const int32_t needs = kz_measures_need(&plan->names);
+  const double cells = needs & KZ_NEEDS_PICTURE ? (double)(plan->options.cells * plan->options.cells) : 0;
+  const double starts = 2 * (double)plan->starts + cells;
+  return (kz_cost){.cells = (int64_t)starts, .disk_bytes = 1e5 + 40 * starts, .memory_bytes = 100 * starts};
+}
+
+static kz_motions motions_of_starts(const kz_scene *scene) {
+  return kz_motions_of(scene, kz_axis_fastest(&scene->measures->velocity), "numerics.steps_per_period|measures.velocity");
+}
+
+kz_status kz_measures_check(const kz_scene *scene) {
+  const kz_motions motions = motions_of_starts(scene);
+  if (!(motions.pendulum.beta > 0))
+    return kz_fail(KZ_REFUSED, "measures: needs damping, because without it there are no attractors; give damping");
+  return kz_motions_check(&motions);
+}
+
+static kz_status write_attractors(const kz_measured *m, kz_store *store) {
+  const kz_catalogue *list = &m->catalogue;
+  const int64_t n = list->count;
+  const kz_entry *e = list->entries;
+  KZ_TRY(kz_store_dimension(store, GROUP, "attractor", n, NULL));
+  KZ_TRY(kz_store_dimension(store, GROUP, "other", n, NULL));
+  KZ_TRY(kz_store_dimension(store, GROUP, "size", m->plan->options.sizes.count, m->plan->options.sizes.values));
+#define COLUMN(type, name, expression) KZ_COLUMN(store, GROUP, name, n, type, expression)
+  COLUMN(const char *, "name", e[i].name);
+  COLUMN(int32_t, "period", e[i].row.period);
+  COLUMN(int32_t, "winding", e[i].row.winding);
+  COLUMN(int8_t, "centre", e[i].row.centre);
+  COLUMN(double, "theta", e[i].row.period > 0 ? e[i].theta[0] : e[i].row.mean);
+  COLUMN(double, "velocity", e[i].row.period > 0 ? e[i].velocity[0] : e[i].row.mean_velocity);
+  return KZ_OK;
+}
+
+/* The variables of one measure, and its line of the summary. */
+static kz_status write_measure(const kz_measure *measure, const kz_measured *m, kz_store *store, FILE *summary) {
+  const int64_t n = m->catalogue.count, length = kz_measure_length(measure, m);
+  KZ_FREED double *value = kz_malloc((size_t)length * sizeof *value + 1);
+  measure->fill(m, value);
+  fprintf(summary, "  %-22s", measure->word);
+  for (int64_t i = 0; i < length && measure->shape != KZ_PER_PAIR && (measure->shape != KZ_PER_INTERVAL || i < n); i++)
+    fprintf(summary, " %12.6g", value[i]);
+  fprintf(summary, measure->shape == KZ_PER_PAIR ? " for each pair, in the file\n" : "\n");
+  if (measure->shape == KZ_PER_PENDULUM) return kz_store_real(store, GROUP, measure->word, value[0]);
+  KZ_TRY(kz_store_variable(store, GROUP, measure->word, value));
+  for (int end = 1; end <= 2 && measure->shape == KZ_PER_INTERVAL; end++) {
+    char name[64];
+    snprintf(name, sizeof name, "%s_%s", measure->word, end == 1 ? "low" : "high");
+    KZ_TRY(kz_store_variable(store, GROUP, name, value + end * n));
+  }
+  return KZ_OK;
+}
+
+static kz_status publish(const kz_measured *m, kz_store *store, FILE *summary) {
+  const kz_integers *names = &m->plan->names;
+  KZ_TRY(write_attractors(m, store));
+  KZ_TRY(kz_store_integer(store, GROUP, "starts", m->plan->starts));
+  KZ_TRY(kz_store_integer(store, GROUP, "cells", m->plan->options.cells));
+  KZ_TRY(kz_store_real(store, GROUP, "shock_scale", m->plan->options.shock_scale));
+  fprintf(summary, "measures of %lld attractors:\n", (long long)m->catalogue.count);
+  for (int64_t id = 0; id < m->catalogue.count; id++)
+    fprintf(summary, "  %lld: %s\n", (long long)id, m->catalogue.entries[id].name);
+  for (int64_t i = 0; i < names->count; i++) KZ_TRY(write_measure(kz_measures + names->values[i], m, store, summary));
+  return KZ_OK;
+}
+
+kz_status kz_measures_run(const kz_scene *scene, const kz_run *run, kz_store *store, FILE *summary) {
+  const kz_measures_plan *plan = scene->measures;
+  KZ_FREED_BY(kz_measured_free) kz_measured measured = {0};
+  KZ_TRY(kz_measured_make(&scene->parameters.pendulum, &scene->numerics, plan, KZ_BY_LEVELS, kz_measures_need(&plan->names),
+                          run, &measured));
+  return kz_ranks_agree(run->ranks, store ? publish(&measured, store, summary) : KZ_OK);
+}

@@ -1,0 +1,29 @@
+/* What a scene says of the study `measures`, and of the measures of a sweep. */
+#ifndef KAPITZA_STUDY_MEASURES_PLAN_H
+#define KAPITZA_STUDY_MEASURES_PLAN_H
+
+#include "kapitza/study.h"
+
+/* What single measures need to know; the same keys in `measures` and in `sweep`. */
+typedef struct {
+  bool has_weight; /* for weighted_share: a Gaussian distribution of starts */
+  struct {
+    double theta, velocity, theta_spread, velocity_spread; /* mean and standard deviation: rad, rad per drive radian */
+  } weight;
+  int64_t within;     /* drive periods, for share_within; KZ_UNSET_INTEGER = not given */
+  kz_reals sizes;     /* of shocks, rad, for harmless */
+  int64_t cells;      /* of the picture along each axis */
+  double shock_scale; /* velocity, rad per drive radian, that counts as much as 1 rad */
+} kz_measure_options;
+
+struct kz_measures_plan {
+  kz_integers names;       /* rows of kz_measures */
+  kz_axis theta, velocity; /* window of starts and picture; the counts of the axes are not used */
+  int64_t starts, max_period, seed;
+  kz_measure_options options;
+};
+
+/* NULL, or what the options lack for these measures, as "KEY: what is wrong" where KEY is a key of kz_measure_options. */
+const char *kz_measures_lack(const kz_integers *names, const kz_measure_options *options);
+
+#endif

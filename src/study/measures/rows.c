@@ -1,0 +1,53 @@
+/* The table of measures as rows, and what follows from them. */
+#include <stddef.h>
+
+#include "measures.h"
+#include "kapitza/study_keys.h"
+
+#define ROW(word, shape, needs) {#word, shape, needs, kz_measure_##word},
+#define NUMBER(word, needs, unit, name) ROW(word, KZ_PER_ATTRACTOR, needs)
+#define INTERVAL(word, needs, unit, name) ROW(word, KZ_PER_INTERVAL, needs)
+#define SIZES(word, needs, unit, name) ROW(word, KZ_PER_SIZE, needs)
+#define PAIR(word, needs, unit, name) ROW(word, KZ_PER_PAIR, needs)
+#define PENDULUM(word, needs, unit, name) ROW(word, KZ_PER_PENDULUM, needs)
+const kz_measure kz_measures[] = {KZ_MEASURES(NUMBER, INTERVAL, SIZES, PAIR, PENDULUM)};
+const int kz_measure_count = sizeof kz_measures / sizeof kz_measures[0];
+
+#define BARRED(word, ...) "|" #word
+const char *kz_measure_words(void) {
+  static const char words[] = KZ_MEASURES(BARRED, BARRED, BARRED, BARRED, BARRED);
+  return words + 1;
+}
+
+int64_t kz_measure_length(const kz_measure *measure, const kz_measured *measured) {
+  const int64_t n = measured->catalogue.count;
+  const int64_t length[] = {[KZ_PER_ATTRACTOR] = n,
+                            [KZ_PER_INTERVAL] = 3 * n,
+                            [KZ_PER_SIZE] = n * measured->plan->options.sizes.count,
+                            [KZ_PER_PAIR] = n * n,
+                            [KZ_PER_PENDULUM] = 1};
+  return length[measure->shape];
+}
+
+int32_t kz_measures_need(const kz_integers *names) {
+  int32_t needs = 0;
+  for (int64_t i = 0; i < names->count; i++) needs |= kz_measures[names->values[i]].needs;
+  return needs;
+}
+
+static bool names(const kz_integers *list, kz_measure_fn measure) {
+  for (int64_t i = 0; i < list->count; i++)
+    if (kz_measures[list->values[i]].fill == measure) return true;
+  return false;
+}
+
+const char *kz_measures_lack(const kz_integers *list, const kz_measure_options *options) {
+  if (names(list, kz_measure_weighted_share) && !options->has_weight)
+    return "weight: is missing, which weighted_share needs; give a mapping of theta and theta_spread";
+  if (names(list, kz_measure_share_within) && options->within == KZ_UNSET_INTEGER)
+    return "within: is missing, which share_within needs; give a number of drive periods";
+  if (options->sizes.count < 1 || options->sizes.count > KZ_MOST_SHOCK_SIZES) return "sizes: must be a list of 1 to 16 sizes";
+  for (int64_t i = 1; i < options->sizes.count; i++)
+    if (!(options->sizes.values[i] > options->sizes.values[i - 1])) return "sizes: must be in rising order";
+  return NULL;
+}

@@ -1,0 +1,110 @@
+"""The study measures: one table of numbers about attractors and basins, against other studies and known answers; ranks; refusals."""
+
+import json
+import math
+
+import numpy as np
+import pytest
+from conftest import datasets, run_until_saved
+from kapitza import Result
+
+FIG12 = {"quality_factor": 5, "drive_frequency": 11, "drive_amplitude": 0.3}
+WINDOW = {"velocity": {"min": -2, "max": 2}}
+CHEAP = ["share", "weighted_share", "share_within", "settling_mean", "settling_median", "settling_largest", "return_time", "reactivity",
+         "amplification", "integrity_local", "integrity_global", "integrity_factor", "entropy", "boundary_entropy", "uncertainty_exponent",
+         "boundary_dimension", "intermingledness", "intermingled_with", "shared_boundary", "wada_on_grid"]
+
+
+@pytest.fixture(scope="module")
+def fig12(kapitza, tmp_path_factory):
+    """All measures of Fig. 12 but shocks, and its basin beside them."""
+    folder = tmp_path_factory.mktemp("measures")
+    scene = {"pendulum": FIG12, "basin": {"theta": {"count": 128}, "velocity": WINDOW["velocity"] | {"count": 128}},
+             "measures": WINDOW | {"names": CHEAP, "starts": 2048, "cells": 128, "within": 40,
+                                   "weight": {"theta": "170 deg", "theta_spread": "3 deg", "velocity_spread": 0.001}}}
+    (folder / "s.yaml").write_text(json.dumps(scene))
+    kapitza("run", "s.yaml", ranks=2, folder=folder)
+    return Result(folder / "s.h5")
+
+
+def test_the_table_agrees_with_the_basin(fig12):
+    """Shares, entropies and areas are those of the cells."""
+    table, basin = fig12.measures, fig12.attractors
+    fraction = basin.groupby("name")["fraction"].sum()
+    for name, rows in table.groupby("name"):
+        assert abs(rows["share"].sum() - fraction.get(name, 0)) < 0.02, name
+        assert rows["integrity_global"].sum() == pytest.approx(fraction.get(name, 0) * 8 * math.pi, abs=1e-9), name
+    assert ((table["share_low"] <= table["share"]) & (table["share"] <= table["share_high"])).all()
+    assert (table["share_within"] <= table["share"]).all() and (table["share_within"] < table["share"]).any()
+    seen = table[table["share"] > 0]
+    assert (seen["settling_median"] <= seen["settling_largest"]).all() and len(seen) >= 5
+    assert table["entropy"].iloc[0] == pytest.approx(fig12.basin_entropy()[0], rel=1e-12)
+    assert table["boundary_entropy"].iloc[0] == pytest.approx(fig12.basin_entropy()[1], rel=1e-12)
+    assert table["wada_on_grid"].iloc[0] == 0
+
+
+def test_near_the_attractor(fig12):
+    """Complex multipliers have the modulus exp(-pi beta n); mirror images grow alike; any later strobe includes the next one."""
+    table, beta = fig12.measures, fig12.pendulum["beta"]
+    complex_pairs = np.array([abs(row[0].imag) > 0 for row in fig12.attractors["multipliers"]])
+    if len(table) == len(complex_pairs):
+        assert np.allclose(table["return_time"][complex_pairs], 1 / (math.pi * beta), rtol=1e-9)
+    rotations = table[table["name"].isin(["rotation +1/1", "rotation -1/1"])]
+    assert len(rotations) == 2 and np.ptp(rotations["reactivity"]) < 1e-9
+    assert (table["amplification"] >= np.maximum(1, table["reactivity"]) * (1 - 1e-12)).all()
+
+
+def test_released_by_hand(fig12):
+    """170 +- 3 degrees: the pendulum stands, as fresh random starts say too."""
+    table = fig12.measures
+    stands = table[table["name"].str.startswith("inverted")]["weighted_share"].sum()
+    chances = fig12.probability("170 deg", 0, ("3 deg", 0.001), starts=300)
+    assert stands == pytest.approx(chances[chances["name"].str.startswith("inverted")]["probability"].sum(), abs=0.05)
+    assert table["weighted_share"].sum() == pytest.approx(1, abs=1e-12)
+
+
+def test_shocks_are_those_of_the_basin(kapitza, tmp_path):
+    """And the circle about the strobe point in the picture has the radius of the smallest shock, to a cell."""
+    pendulum = {"k": 0.05, "damping": 0.3, "m": 0.4}
+    scene = {"pendulum": pendulum,
+             "basin": {"theta": {"count": 64}, "velocity": WINDOW["velocity"] | {"count": 64}, "shocks": {"sizes": [0.3]}},
+             "measures": WINDOW | {"names": ["shock_angle", "shock_velocity", "shock", "harmless", "integrity_local"], "cells": 256}}
+    (tmp_path / "s.yaml").write_text(json.dumps(scene))
+    kapitza("run", "s.yaml", folder=tmp_path)
+    result = Result(tmp_path / "s.h5")
+    table, shocks = result.measures, result.group("shocks")
+    for name in table["name"]:
+        points = shocks.isel(point=[int(one) in result.ids(name) for one in shocks["attractor"]])
+        row = table[table["name"] == name].iloc[0]
+        assert row["shock"] == pytest.approx(float(points["shock_size"].min()), rel=1e-9)
+        assert row["shock_angle"] == pytest.approx(float(abs(points["angle"]).min()), rel=1e-9, nan_ok=True)
+        assert row["harmless"] == pytest.approx([float(points["harmless"].mean())], abs=1e-12)
+        assert row["integrity_local"] == pytest.approx(row["shock"], abs=2 * math.pi / 256)
+
+
+def test_any_number_of_ranks_and_a_stop(kapitza, tmp_path):
+    names = ["share", "settling_mean", "entropy", "reactivity"]
+    scene = {"pendulum": FIG12 | {"quality_factor": 100}, "measures": WINDOW | {"names": names, "starts": 2000, "cells": 160}}
+    (tmp_path / "s.yaml").write_text(json.dumps(scene))
+    run_until_saved("s.yaml", file="s.h5", folder=tmp_path, ranks=2)
+    kapitza("run", "s.yaml", "--resume", ranks=3, folder=tmp_path)
+    kapitza("run", "s.yaml", "-o", "one.h5", folder=tmp_path)
+    assert datasets(tmp_path / "s.h5") == datasets(tmp_path / "one.h5")
+
+
+@pytest.mark.parametrize(("changes", "words"), [
+    ({"names": ["share", "stare"]}, "measures.names"),
+    ({"names": ["weighted_share"]}, "measures.weight: is missing, which weighted_share needs"),
+    ({"names": ["share_within"]}, "measures.within: is missing, which share_within needs"),
+    ({"names": ["harmless"], "sizes": [0.3, 0.1]}, "measures.sizes: must be in rising order"),
+    ({"names": ["share"], "damping": 0}, "measures: needs damping"),
+])
+def test_refused(kapitza, tmp_path, changes, words):
+    pendulum = {"k": 0.05, "damping": changes.pop("damping", 0.1), "m": 0.3}
+    (tmp_path / "s.yaml").write_text(json.dumps({"pendulum": pendulum, "measures": WINDOW | changes}))
+    assert words in kapitza("run", "s.yaml", folder=tmp_path, status=2).stderr
+
+
+def test_check_says_what_it_costs(kapitza, tmp_path):
+    (tmp_path / "s.yaml").write_text(json.dumps({"pendulum": FIG12, "measures": WINDOW | {"names": ["share", "shock"]}}))
+    assert "measures" in kapitza("check", "s.yaml", folder=tmp_path).stdout
