@@ -113,7 +113,7 @@ void kz_dynamics_label(kz_dynamics *dynamics, int32_t level, int32_t before, int
 
 /* Sets how starts are released. The errors of a release are measured at its first use, which must come after the trapping regions are made. */
 void kz_dynamics_set_release(kz_dynamics *dynamics, const kz_release *release);
-/* Moves n starts, with their errors, from their release to the strobe from which on the drive has its final form, in the precision of
+/* Moves those of n starts that have spent no periods, with their errors, from their release to the strobe from which on the drive has its final form, in the precision of
  * `level`. An orbit whose error exceeds 1e-4 rad gets a very large error, so that no level decides it. If the release takes no time, the
  * starts stay as they are. */
 void kz_dynamics_release(kz_dynamics *dynamics, int32_t level, int64_t n, kz_start *start);

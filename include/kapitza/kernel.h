@@ -186,8 +186,10 @@ typedef struct {
 typedef struct kz_arbitrary kz_arbitrary;
 kz_arbitrary *kz_arbitrary_create(const kz_pendulum *pendulum, const kz_coordinate start[2], int64_t bits);
 void kz_arbitrary_free(kz_arbitrary *orbit);
+/* The orbit begins at a release, whose phase and ramp count as exact; else at a strobe of the final drive. To be called before it advances. */
+void kz_arbitrary_release(kz_arbitrary *orbit, const kz_release *release);
 
-/* Advances the orbit through one drive period with `bits` bits behind the point, at least KZ_FEWEST_BITS. *jet becomes the neighbourhood at
+/* Advances the orbit to the next strobe, through one drive period but for a release, with `bits` bits behind the point, at least KZ_FEWEST_BITS. *jet becomes the neighbourhood at
  * its end up to `degree` 1 or 3; with degree 0 jet may be NULL. The period adds an error of some 2^-bits; errors of earlier periods grow
  * with the motion. KZ_FAILED if the motion is too fast for 2^14 steps a period. */
 kz_status kz_arbitrary_advance(kz_arbitrary *orbit, int64_t bits, int degree, kz_jet *jet);

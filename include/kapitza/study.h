@@ -163,8 +163,7 @@ extern const kz_group kz_groups[];
 
 /* KZ_REFUSED if a study or method does not support the drive. */
 kz_status kz_drive_check(const kz_scene *scene);
-/* The same for the window of the scene's basin only, and for its chart only. */
-kz_status kz_drive_check_window(const kz_scene *scene);
+/* The same for the chart of the scene only. */
 kz_status kz_drive_check_chart(const kz_scene *scene);
 /* KZ_REFUSED, with the message of the first study of the scene that does not pass its check. */
 kz_status kz_studies_check(const kz_scene *scene);

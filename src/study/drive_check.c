@@ -9,7 +9,6 @@
 #include "sweep/plan.h"
 #include "chart/plan.h"
 
-static const char needs_strobe[] = "a window by centre and width needs starts at phase 0 and no ramp; give min and max";
 static const char needs_pivot[] = "study chart needs a pivot that moves up and down as a sine; leave one of them out";
 
 static bool is_centred(const kz_scene *scene) {
@@ -24,9 +23,7 @@ static const char *needs_no_release(const kz_scene *scene) {
     return "basin.method icm follows whole drive periods from phase 0 only; choose exact or direct";
   if (!isnan(plan->accuracy)) return "basin.accuracy needs starts at phase 0 and no ramp; leave one of them out";
   if (plan->proof) return "basin.proof needs starts at phase 0 and no ramp; leave one of them out";
-  if (plan->undecided == KZ_UNDECIDED_DECIDE) return "basin.undecided decide needs starts at phase 0 and no ramp; choose flag";
   if (plan->has_boundary) return "basin.boundary needs starts at phase 0 and no ramp; leave one of them out";
-  if (is_centred(scene)) return needs_strobe;
   if (scene->has_tradeoff) return "study tradeoff needs starts at phase 0 and no ramp; leave one of them out";
   if (scene->has_orbit && scene->parameters.has_ramp) return "study orbit does not follow a ramp; leave one of them out";
   return NULL;
@@ -88,10 +85,18 @@ static const char *needs_mirror(const kz_scene *scene) {
   return NULL;
 }
 
+/* The complaint about what contradicts the release of all cells at many phases; NULL = none. */
+static const char *needs_phases(const kz_scene *scene) {
+  if (scene->has_basin && scene->basin->undecided == KZ_UNDECIDED_DECIDE)
+    return "basin.undecided decide needs starts at one phase; choose flag";
+  if (is_centred(scene)) return "a window by centre and width needs starts at one phase; give min and max";
+  return needs_no_release(scene);
+}
+
 /* The complaint about what contradicts the measure phases of a sweep; NULL = none. */
 static const char *needs_all_phases(const kz_scene *scene) {
   const bool wanted = scene->has_sweep && kz_sweep_measures(scene->sweep, KZ_SWEEP_PHASES);
-  return wanted && scene->has_basin ? needs_no_release(scene) : NULL;
+  return wanted && scene->has_basin ? needs_phases(scene) : NULL;
 }
 
 /* The complaint about what contradicts basin.phases; NULL = none. */
@@ -100,7 +105,7 @@ static const char *needs_one_phase(const kz_scene *scene) {
   if (scene->basin->method != KZ_METHOD_EXACT) return "needs basin.method exact; choose that method";
   if (!(scene->parameters.pendulum.beta > 0))
     return "needs damping, because without it there are no attractors; leave it out, or give damping";
-  return needs_no_release(scene);
+  return needs_phases(scene);
 }
 
 static kz_status check_release(const kz_scene *scene) {
@@ -143,13 +148,6 @@ kz_status kz_drive_check(const kz_scene *scene) {
   if (!why && (!kz_is_mirrored(p) || varied)) why = needs_mirror(scene);
   if (why) return kz_fail(KZ_REFUSED, "%s: %s", kz_drive_made_by(&scene->parameters.written), why);
   return check_release(scene);
-}
-
-kz_status kz_drive_check_window(const kz_scene *scene) {
-  if (!is_centred(scene)) return KZ_OK;
-  if (kz_release_strobes(&scene->parameters.release) > 0)
-    return kz_fail(KZ_REFUSED, "%s: %s", scene->parameters.has_ramp ? "pendulum.ramp" : "basin.start_phase", needs_strobe);
-  return KZ_OK;
 }
 
 kz_status kz_drive_check_chart(const kz_scene *scene) {

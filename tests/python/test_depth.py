@@ -5,11 +5,12 @@ import json
 import random
 import re
 import sys
+from decimal import Decimal, getcontext
 from fractions import Fraction
 
 import h5py
 import pytest
-from conftest import ROOT
+from conftest import ROOT, with_extensive
 
 sys.path.insert(0, str(ROOT / "tests" / "tools"))
 import own_orbit
@@ -82,6 +83,34 @@ def test_deep_windows_of_other_drives_are_decided(kapitza, tmp_path, boundary):
     path = run_window(kapitza, tmp_path, "tilted", boundary("tilted", 34), 30)
     with h5py.File(path) as file:
         assert len(set(file["basin/attractor"][:].ravel())) > 1 and (file["basin/evidence"][:] != 3).mean() > 0.9
+
+
+RELEASES = {"phase": ({}, {"start_phase": 1}, ("-0.27", "1.42", "0.4", "1.42")),
+            "ramp": ({"ramp": {"key": "drive_amplitude", "from": 0.1, "periods": 2.5, "shape": "smooth"}}, {"start_phase": "-40 deg"},
+                     ("-0.27", "0.3", "0.4", "0.9"))}
+
+
+@pytest.mark.parametrize("name", with_extensive(["ramp"], ["phase"]))
+def test_deep_windows_are_released_as_single_starts_are(kapitza, tmp_path, name):
+    """The window by orbits in many digits, 1e-20 wide; each start by itself in quad precision, whose release is another program's text."""
+    keys, released, starts = RELEASES[name]
+    scene = {"pendulum": TILTED | keys, "basin": {"theta": {"count": 40}, "velocity": {"min": -2, "max": 2, "count": 40}} | released}
+    (tmp_path / "s.yaml").write_text(json.dumps(scene))
+    said = kapitza("where", "s.yaml", *starts, "--boundary", 26, folder=tmp_path).stdout
+    centre = [re.search(rf"^{axis} +(\S+)", said, re.M)[1] for axis in ("theta", "velocity")]
+    axes = {axis: {"centre": text, "width": 1e-20, "count": 7} for axis, text in zip(("theta", "velocity"), centre, strict=True)}
+    (tmp_path / "deep.yaml").write_text(json.dumps(scene | {"basin": axes | released}))
+    kapitza("run", "deep.yaml", folder=tmp_path)
+    with h5py.File(tmp_path / "deep.h5") as file:
+        labels, evidence, names = file["basin/attractor"][:], file["basin/evidence"][:], file["attractors/name"].asstr()[:]
+    getcontext().prec = 60
+    seen = set()
+    for row, column in [(0, 0), (1, 5), (3, 3), (5, 1), (6, 6)]:
+        start = [Decimal(text) + Decimal(f"{2 * i - 6}e-20") / 14 for text, i in zip(centre, (column, row), strict=True)]
+        end = json.loads(kapitza("where", "s.yaml", *map(str, start), "--json", folder=tmp_path).stdout)
+        seen.add(end["name"])
+        assert evidence[row, column] != 3 and end["name"] == names[labels[row, column]]
+    assert len(seen) > 1
 
 
 @pytest.mark.extensive

@@ -1,5 +1,6 @@
 kapitza_test(dynamics/described LABEL unit LAYER dynamics)
 kapitza_test(dynamics/curves LABEL unit LAYER dynamics)
+kapitza_test(dynamics/released LABEL unit LAYER dynamics)
 kapitza_test(dynamics/proof LABEL unit LAYER dynamics)
 kapitza_test(dynamics/dynamics LABEL unit LAYER dynamics SECONDS 600 COST 8)
 kapitza_test(dynamics/labels LABEL unit LAYER dynamics SECONDS 600 COST 8)

@@ -149,11 +149,14 @@ contains
     type(start_t), intent(inout) :: start(n)
     type(dynamics_t), pointer :: d
     type(orbit_t), allocatable :: orbit(:)
+    integer(c_int64_t), allocatable :: at_release(:)
     integer(c_int64_t) :: i
     logical :: precisely
 
     d => of_handle(handle)
-    if (.not. allocated(d%release) .or. n == 0) return
+    if (.not. allocated(d%release)) return
+    at_release = pack([(i, i=1, n)], start%periods == 0)
+    if (size(at_release) == 0) return
     call take_lock(d%lock)
     if (.not. allocated(d%released)) then
       allocate (d%released)
@@ -161,13 +164,13 @@ contains
     end if
     call leave_lock(d%lock)
     precisely = level > LEVEL_FINE
-    allocate (orbit(n))
-    do i = 1, n
-      call begin_orbit(start(i), precisely, orbit(i))
+    allocate (orbit(size(at_release)))
+    do i = 1, size(at_release)
+      call begin_orbit(start(at_release(i)), precisely, orbit(i))
     end do
     call carry_released(d%released, d%search%pendulum, precisely, orbit)
-    do i = 1, n
-      start(i) = start_of(orbit(i), precisely)
+    do i = 1, size(at_release)
+      start(at_release(i)) = start_of(orbit(i), precisely)
     end do
   end subroutine release_starts
 

@@ -23,17 +23,28 @@ static void add_product(int64_t n, long double factor, const row a, const row b,
   }
 }
 
+typedef long double ramp[KZ_RAMP_POWER + 1];
+
+#define KZ_NEXT next_order
+#define KZ_ARGUMENTS const ramp damping, const row gain, const row source, row x, row y
+#define KZ_SUM(sum) long double sum = 0
+#define KZ_DAMP(sum) \
+  for (int64_t i = 0; i <= n && i <= KZ_RAMP_POWER; i++) sum += damping[i] * y[n - i]
+#define KZ_PUSH(sum) sum -= source[n]
+#define KZ_TERMS for (int64_t i = 0; i <= n; i++)
+#define KZ_GAIN(sum) sum += gain[i] * x[n - i]
+#define KZ_MOVE x[n + 1] = y[n] / (long double)(n + 1)
+#define KZ_SET(sum) y[n + 1] = -sum / (long double)(n + 1)
+#include "taylor/tangent.inc"
+
 /* x'' = -damping x' - gain x + source from x[0], *rate on; *rate becomes the rate at the end. */
-static void solve(int64_t n, long double damping, const row gain, const row source, row x, long double *rate) {
-  long double y = *rate, sum = *rate;
+static void solve(int64_t n, const ramp damping, const row gain, const row source, row x, long double *rate) {
+  row y;
+  y[0] = *rate;
   for (int64_t i = 0; i + 1 < n; i++) {
-    long double pull = source[i] - damping * y;
-    for (int64_t j = 0; j <= i; j++) pull -= gain[j] * x[i - j];
-    x[i + 1] = y / (long double)(i + 1);
-    y = pull / (long double)(i + 1);
-    sum += y;
+    next_order(damping, gain, source, x, y, i);
+    *rate += y[i + 1];
   }
-  *rate = sum;
 }
 
 static long double sum_of(int64_t n, const row x) {
@@ -46,7 +57,8 @@ static long double sum_of(int64_t n, const row x) {
 typedef struct {
   int64_t n;   /* orders */
   int columns; /* 2, or 1: y is not used */
-  long double h, damping;
+  long double h;
+  ramp damping;
   row gain, lift; /* g, w */
   row x[2];       /* P1: of x and of y */
   row square[3];  /* P1^2 / 2: xx, xy, yy */
@@ -119,11 +131,15 @@ static void add_force(const kz_series *series, const kz_steps *steps, int64_t or
   add_product(n, sign, force, factor, out);
 }
 
+/* The units of time, and the damping. */
+static void read_steps(const kz_steps *steps, parts *p) {
+  p->h = kz_number_long(&steps->h);
+  for (int64_t j = 0; j <= steps->damping_orders; j++) p->damping[j] = kz_number_long(steps->damping + j);
+}
+
 void kz_bent_advance(const kz_series *series, const kz_steps *steps, int64_t tangent_orders, int columns, kz_jet *jet) {
-  parts p = {.n = orders_of(series, tangent_orders, columns),
-             .columns = columns,
-             .h = kz_number_long(&steps->h),
-             .damping = kz_number_long(&steps->damping)};
+  parts p = {.n = orders_of(series, tangent_orders, columns), .columns = columns};
+  read_steps(steps, &p);
   read_series(series->gain, tangent_orders - 1, p.n, p.gain);
   add_force(series, steps, tangent_orders, p.n, 1, series->s, series->c, p.lift);
   for (int axis = 0; axis < columns; axis++) read_series(series->angle[axis], tangent_orders, p.n, p.x[axis]);
@@ -141,9 +157,9 @@ static int64_t last_order(const kz_number *series, int64_t last) {
 bool kz_tangent_advance(const kz_series *series, const kz_steps *steps, int64_t orders, kz_jet *jet) {
   enum { FEWEST = 24, MORE = 8 };
   const int64_t n = kz_larger(FEWEST, kz_larger(last_order(series->c, orders), last_order(series->w, orders))) + MORE;
-  parts p = {
-      .n = n < KZ_BENT_ORDERS ? n : KZ_BENT_ORDERS, .h = kz_number_long(&steps->h), .damping = kz_number_long(&steps->damping)};
+  parts p = {.n = n < KZ_BENT_ORDERS ? n : KZ_BENT_ORDERS};
   row none = {0}, x;
+  read_steps(steps, &p);
   add_force(series, steps, orders, p.n, -1, series->c, series->s, p.gain);
   for (int axis = 0; axis < 2; axis++) {
     long double rate = (long double)jet->linear[1][axis] * p.h;

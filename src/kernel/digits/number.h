@@ -69,6 +69,12 @@ static inline void kz_number_divide_by(kz_number *x, const kz_number *a, int64_t
 static inline void kz_number_multiply_by(kz_number *x, int64_t n, int64_t bits) {
   arf_mul_si(arb_midref(x), arb_midref(x), n, bits, ARF_RND_DOWN);
 }
+static inline void kz_number_floor(kz_number *x, const kz_number *a) {
+  arf_floor(arb_midref(x), arb_midref(a));
+}
+static inline bool kz_number_is_less(const kz_number *a, double b) {
+  return arf_cmp_d(arb_midref(a), b) < 0;
+}
 static inline void kz_number_negate(kz_number *x) {
   arf_neg(arb_midref(x), arb_midref(x));
 }

@@ -5,12 +5,13 @@
 
 #include "step.h"
 
-enum { FEWEST_STEPS = 14, HALVINGS = 10, SERIES = 10 };
+enum { FEWEST_STEPS = 14, HALVINGS = 10, SERIES = 10, STROBE = 24 /* characters of a number of drive periods */ };
 
 struct kz_arbitrary {
   kz_pendulum pendulum;
   int64_t bits; /* the most */
   kz_steps steps;
+  kz_stretch stretch; /* the last one that it went through */
   kz_series series;
   kz_number *workspace; /* of all series */
   kz_place place;       /* at the beginning of a period */
@@ -33,7 +34,9 @@ static void each_number(kz_arbitrary *o, void (*action)(kz_number *)) {
   each_of_place(&o->place, action);
   each_of_place(&o->mark, action);
   action(&o->steps.h);
-  action(&o->steps.damping);
+  for (int j = 0; j <= KZ_RAMP_POWER; j++) action(&o->steps.damping[j]);
+  action(&o->stretch.begin);
+  action(&o->stretch.span);
   action(&o->steps.gravity);
   action(&o->steps.torque);
 }
@@ -53,6 +56,7 @@ static kz_arbitrary *allocate_orbit(const kz_pendulum *pendulum, int64_t bits) {
   kz_arbitrary *o = kz_calloc(1, sizeof *o);
   o->pendulum = *pendulum;
   o->steps.pendulum = &o->pendulum;
+  o->steps.stretch = &o->stretch;
   o->bits = bits < KZ_FEWEST_BITS ? KZ_FEWEST_BITS : bits;
   o->series.orders = orders_for(o->bits);
   o->workspace = kz_numbers_make(numbers_of(o));
@@ -68,6 +72,10 @@ kz_arbitrary *kz_arbitrary_create(const kz_pendulum *pendulum, const kz_coordina
   return o;
 }
 
+void kz_arbitrary_release(kz_arbitrary *o, const kz_release *release) {
+  o->stretch.release = *release;
+}
+
 void kz_arbitrary_free(kz_arbitrary *o) {
   if (!o) return;
   each_number(o, kz_number_clear);
@@ -76,6 +84,7 @@ void kz_arbitrary_free(kz_arbitrary *o) {
 }
 
 static void copy_place(const kz_place *from, kz_place *to) {
+  to->strobe = from->strobe;
   kz_number_set(&to->theta, &from->theta);
   kz_number_set(&to->velocity, &from->velocity);
   for (int axis = 0; axis < 2; axis++) {
@@ -84,7 +93,7 @@ static void copy_place(const kz_place *from, kz_place *to) {
   }
 }
 
-/* One period in the present steps; false where a series does not converge. */
+/* One stretch in the present steps; false where a series does not converge. */
 static bool advance_in_steps(kz_arbitrary *o, int64_t bits, int degree, kz_jet *jet) {
   kz_number_sin_cos(&o->place.theta, &o->place.sine, &o->place.cosine, bits + 8);
   for (int64_t i = 0; i < o->steps.n; i++) {
@@ -132,24 +141,43 @@ static void get_tangent(const kz_place *place, kz_jet *jet) {
   }
 }
 
-kz_status kz_arbitrary_advance(kz_arbitrary *o, int64_t bits, int degree, kz_jet *jet) {
-  const int64_t fine = bits > o->bits ? o->bits : bits;
+/* As many as a whole period of gentle motion takes. */
+static int64_t fewest_steps(const kz_stretch *stretch) {
+  return stretch->is_whole ? FEWEST_STEPS : 1 + (int64_t)(FEWEST_STEPS * kz_number_double(&stretch->span));
+}
+
+/* The present stretch: in steps that are halved until every series converges. */
+static kz_status advance_stretch(kz_arbitrary *o, int64_t fine, int degree, kz_jet *jet) {
   kz_place before = {0};
   kz_jet bent = {.bent = {{0}}};
   bool done = false;
-  wrap(o, o->bits);
-  begin_tangent(o, fine, degree > 1 ? jet : NULL);
   copy_place(&o->place, &before);
   for (int64_t halvings = 0; !done && halvings <= HALVINGS; halvings++) {
-    kz_steps_make(&o->steps, o->series.orders, o->bits + 32, (int64_t)FEWEST_STEPS << halvings);
+    kz_steps_make(&o->steps, o->series.orders, o->bits + 32, fewest_steps(&o->stretch) << halvings);
     copy_place(&before, &o->place);
     if (degree > 0) bent = *jet;
     done = advance_in_steps(o, fine, degree, &bent);
   }
   each_of_place(&before, kz_number_clear);
   if (!done) return kz_fail(KZ_FAILED, "a motion is too fast for an orbit of %lld bits", (long long)fine);
-  wrap(o, fine);
   if (degree > 0) *jet = bent;
+  return KZ_OK;
+}
+
+kz_status kz_arbitrary_advance(kz_arbitrary *o, int64_t bits, int degree, kz_jet *jet) {
+  const int64_t fine = bits > o->bits ? o->bits : bits, finest = o->bits + 32;
+  const bool was_whole = o->stretch.is_whole;
+  wrap(o, o->bits);
+  begin_tangent(o, fine, degree > 1 ? jet : NULL);
+  kz_stretch_begin(&o->stretch, o->place.strobe, finest);
+  if (!was_whole) o->steps.n = 0; /* those of another stretch */
+  KZ_TRY(advance_stretch(o, fine, degree, jet));
+  while (!o->stretch.is_whole && kz_stretch_next(&o->stretch, finest)) {
+    o->steps.n = 0;
+    KZ_TRY(advance_stretch(o, fine, degree, jet));
+  }
+  o->place.strobe++;
+  wrap(o, fine);
   if (degree > 1) get_tangent(&o->place, jet);
   return KZ_OK;
 }
@@ -174,20 +202,23 @@ void kz_arbitrary_read_quads(const kz_arbitrary *o, __float128 state[2]) {
 
 size_t kz_arbitrary_size(const kz_arbitrary *o) {
   enum { REST = 128 }; /* exponents, signs, blanks */
-  return 2 * ((size_t)(o->bits + 64) / 4 + REST);
+  return 2 * ((size_t)(o->bits + 64) / 4 + REST + STROBE);
 }
 
 void kz_arbitrary_write(const kz_arbitrary *o, char *text) {
   const size_t half = kz_arbitrary_size(o) / 2;
   memset(text, 0, 2 * half);
   kz_number_write(&o->place.theta, text, half);
-  kz_number_write(&o->place.velocity, text + half, half);
+  kz_number_write(&o->place.velocity, text + half, half - STROBE);
+  snprintf(text + 2 * half - STROBE, STROBE, "%lld", (long long)o->place.strobe);
 }
 
 kz_status kz_arbitrary_restore(kz_arbitrary *o, const char *text) {
   const size_t half = kz_arbitrary_size(o) / 2;
-  if (kz_number_read(text, &o->place.theta) && kz_number_read(text + half, &o->place.velocity)) return KZ_OK;
-  return kz_fail(KZ_FAILED, "the state of an orbit that was kept cannot be read");
+  if (!kz_number_read(text, &o->place.theta) || !kz_number_read(text + half, &o->place.velocity))
+    return kz_fail(KZ_FAILED, "the state of an orbit that was kept cannot be read");
+  o->place.strobe = atoll(text + 2 * half - STROBE);
+  return KZ_OK;
 }
 
 kz_arbitrary *kz_arbitrary_on_line(const kz_pendulum *pendulum, const kz_coordinate start[2], int64_t bits,
@@ -225,6 +256,7 @@ static void move_along(kz_number *x, kz_number *slope, const long double *bent, 
 kz_arbitrary *kz_arbitrary_beside(const kz_arbitrary *parent, const kz_jet *at_mark, __float128 share, int exponent,
                                   int64_t bits, int64_t tangent_bits, kz_jet *jet) {
   kz_arbitrary *o = allocate_orbit(&parent->pendulum, bits);
+  kz_arbitrary_release(o, &parent->stretch.release);
   o->tangent_bits = tangent_bits;
   copy_place(&parent->mark, &o->place);
   move_along(&o->place.theta, o->place.angle, at_mark->bent[0], share, exponent, o->bits);

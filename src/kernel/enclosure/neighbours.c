@@ -58,6 +58,17 @@ OPERATION vector largest_inverse(kz_sets *x) {
   return KZ_LARGER / pick(good, least, same(1));
 }
 
+#define KZ_NEXT next_order
+#define KZ_ARGUMENTS const kz_speed_class *speed, const vector *gain, vector *x, vector *y
+#define KZ_SUM(sum) vector sum
+#define KZ_DAMP(sum) sum = same(speed->damping.high) * y[n]
+#define KZ_PUSH(sum)
+#define KZ_TERMS for (int64_t i = 0; i <= n; i++)
+#define KZ_GAIN(sum) sum = fused(gain[i], x[n - i], sum)
+#define KZ_MOVE x[n + 1] = y[n] * speed->step[n].high
+#define KZ_SET(sum) y[n + 1] = sum * -speed->inverse[n].high
+#include "taylor/tangent.inc"
+
 /* The matrix by Taylor series of h (a(t) cos theta + b(t) sin theta) and of its columns. */
 OPERATION void move_matrix(const kz_speed_class *speed, int32_t first, int P, const kz_circle *circle, kz_sets *x) {
   vector stiffness[KZ_ORDER_JACOBIAN];
@@ -73,10 +84,7 @@ OPERATION void move_matrix(const kz_speed_class *speed, int32_t first, int P, co
     b[0] = x->matrix[1][column];
     vector farther = b[0] * speed->step[0].high, faster = same(0);
     for (int n = 0; n + 1 < P; n++) {
-      vector s = same(speed->damping.high) * b[n];
-      for (int j = 0; j <= n; j++) s = fused(stiffness[j], a[n - j], s);
-      a[n + 1] = b[n] * speed->step[n].high;
-      b[n + 1] = s * -speed->inverse[n].high;
+      next_order(speed, stiffness, a, b, n);
       faster += b[n + 1];
       farther = fused(same(speed->step[n + 1].high), b[n + 1], farther);
     }

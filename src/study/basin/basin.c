@@ -94,7 +94,7 @@ static kz_status write_window(const kz_scene *scene, kz_proof *proof, kz_chunks 
 static kz_status run_damped(const kz_scene *scene, const kz_run *run, kz_store *store, FILE *summary) {
   const kz_basin_plan *plan = scene->basin;
   kz_window_labels labelling = {.plan = plan,
-                                .pendulum = &scene->parameters.pendulum,
+                                .parameters = &scene->parameters,
                                 .run = run,
                                 .tiles = kz_tiles_of(scene, KZ_TILE_CELLS),
                                 .tile = kz_tile_cells(scene, KZ_TILE_CELLS),

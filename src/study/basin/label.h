@@ -32,7 +32,7 @@ int64_t kz_tile_capacity(const kz_tiles *tiles);
 
 typedef struct {
   const kz_basin_plan *plan;
-  const kz_pendulum *pendulum;
+  const kz_parameters *parameters;
   kz_dynamics *dynamics;
   kz_search search; /* of the starts */
   kz_tiles tiles;

@@ -15,7 +15,7 @@ typedef struct {
 } head;
 
 void kz_window_labels_start(kz_window_labels *l) {
-  kz_window_starts_make(l->plan, l->pendulum, l->dynamics, l->images, &l->starts);
+  kz_window_starts_make(l->plan, l->parameters, l->dynamics, l->images, &l->starts);
   l->labeller = kz_window_labeller(&l->starts,
                                    l->plan->undecided == KZ_UNDECIDED_DECIDE || (l->images && l->tiles.cells <= MOST_DECIDED));
   l->labeller.way = kz_way_of(l->plan->method, l->plan->interpolation);

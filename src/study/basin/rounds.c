@@ -42,7 +42,7 @@ static kz_status label_tiles(kz_window_labels *l) {
 static kz_status make_starts(kz_window_labels *l) {
   const kz_basin_plan *plan = l->plan;
   if (kz_plan_is_centred(plan) && plan->method == KZ_METHOD_EXACT) {
-    l->images = kz_images_create(l->pendulum, &plan->theta, &plan->velocity);
+    l->images = kz_images_create(l->parameters, &plan->theta, &plan->velocity);
     KZ_TRY(kz_images_run(l->run, l->dynamics, l->images, plan->max_periods));
   }
   kz_window_labels_start(l);

@@ -94,7 +94,6 @@ static kz_status make(kz_engine *engine, const kz_scene *scene, double tolerance
 }
 
 kz_status kz_engine_prepared(kz_engine *engine, const kz_scene *scene, const kz_frame *frame, kz_prepared **prepared) {
-  KZ_TRY(kz_drive_check_window(scene));
   kz_prepared *near = NULL;
   const bool moving = frame && frame->moving;
   const double tolerance = moving ? kz_moving_tolerance(scene) : 0;

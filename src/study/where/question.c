@@ -24,8 +24,7 @@ static kz_status decide(void *context, int64_t i, kz_decision *decision) {
   const kz_question *q = context;
   *decision = (kz_decision){.label = KZ_DOUBTFUL, .level = KZ_LEVELS, .error = NAN};
   if (!q->start[i][0].centre && !q->start[i][1].centre) return KZ_OK;
-  if (kz_release_strobes(&q->scene->parameters.release) > 0) return KZ_OK; /* own orbits begin at a strobe */
-  return kz_own_orbit_decide(q->dynamics, &q->scene->parameters.pendulum, q->start[i], q->max_periods, decision);
+  return kz_own_orbit_decide(q->dynamics, &q->scene->parameters, q->start[i], q->max_periods, decision);
 }
 
 /* A kz_note_fn. */

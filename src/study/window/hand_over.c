@@ -44,6 +44,10 @@ static long double error_of(const kz_images *images, int64_t n, const sizes *s) 
          image->lost * whole + state;
 }
 
+bool kz_image_is_final(const kz_images *images, int64_t n) {
+  return images->before + n >= kz_release_strobes(&images->release);
+}
+
 bool kz_image_is_straight(const kz_images *images, int64_t n, int64_t digits) {
   enum { MORE = 3 };
   const sizes s = sizes_of(&images->image[n].jet, 0.5);
@@ -57,6 +61,7 @@ static int64_t last_image(const kz_images *images, const kz_level *level, double
     const sizes s = sizes_of(&images->image[n].jet, reach);
     const long double bound = level->error + pair_error * hypotl(images->image[n].theta[0], images->image[n].velocity[0]);
     if (!(s.linear < widest)) break;
+    if (!kz_image_is_final(images, n)) continue;
     if (left_out(&s) + bent_error * (long double)n * (s.square + s.cube) <= bound) last = n;
   }
   return last;

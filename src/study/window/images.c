@@ -38,11 +38,12 @@ static int64_t bits_for(long double size, int64_t guard) {
   return bits < KZ_FEWEST_BITS ? KZ_FEWEST_BITS : bits;
 }
 
-static kz_images *allocate_images(const kz_pendulum *pendulum) {
+static kz_images *allocate_images(const kz_pendulum *pendulum, const kz_release *release) {
   enum { FIRST_CAPACITY = 64 };
   kz_images *images = kz_calloc(1, sizeof *images);
   images->holders = 1;
   images->pendulum = *pendulum;
+  images->release = *release;
   images->capacity = FIRST_CAPACITY;
   images->image = kz_calloc(FIRST_CAPACITY, sizeof *images->image);
   return images;
@@ -52,14 +53,15 @@ static int64_t at_most(int64_t bits) {
   return bits < KZ_MOST_BITS ? bits : KZ_MOST_BITS;
 }
 
-kz_images *kz_images_create(const kz_pendulum *pendulum, const kz_axis *theta, const kz_axis *velocity) {
-  kz_images *images = allocate_images(pendulum);
+kz_images *kz_images_create(const kz_parameters *parameters, const kz_axis *theta, const kz_axis *velocity) {
+  kz_images *images = allocate_images(&parameters->pendulum, &parameters->release);
   kz_image *first = images->image;
   take_axis(theta, &images->centre[0], &images->width[0]);
   take_axis(velocity, &images->centre[1], &images->width[1]);
   for (int i = 0; i < 2; i++) first->jet.linear[i][i] = images->width[i];
   images->bits = at_most(bits_for(size_of(&first->jet), GUARD));
-  images->orbit = kz_arbitrary_create(pendulum, images->centre, images->bits);
+  images->orbit = kz_arbitrary_create(&images->pendulum, images->centre, images->bits);
+  kz_arbitrary_release(images->orbit, &images->release);
   kz_arbitrary_read(images->orbit, first->theta, first->velocity);
   return images;
 }
@@ -75,19 +77,20 @@ static int64_t guard_of(const kz_images *images) {
   return guard > GUARD ? guard : GUARD;
 }
 
-kz_images *kz_images_on_line(const kz_pendulum *pendulum, const kz_coordinate point[2], int64_t digits) {
-  kz_images *images = allocate_images(pendulum);
+kz_images *kz_images_on_line(const kz_parameters *parameters, const kz_coordinate point[2], int64_t digits) {
+  kz_images *images = allocate_images(&parameters->pendulum, &parameters->release);
   kz_image *first = images->image;
   const long double size = fabsl(strtold(point[0].width, NULL)) + fabsl(strtold(point[1].width, NULL));
   images->digits = digits;
   images->bits = at_most(bits_for(size / 2, guard_of(images)));
-  images->orbit = kz_arbitrary_on_line(pendulum, point, images->bits, bits_of(digits, TANGENT_GUARD), &first->jet);
+  images->orbit = kz_arbitrary_on_line(&images->pendulum, point, images->bits, bits_of(digits, TANGENT_GUARD), &first->jet);
+  kz_arbitrary_release(images->orbit, &images->release);
   kz_arbitrary_read(images->orbit, first->theta, first->velocity);
   return images;
 }
 
 kz_images *kz_images_beside(const kz_images *parent, __float128 share, int exponent, int64_t digits) {
-  kz_images *images = allocate_images(&parent->pendulum);
+  kz_images *images = allocate_images(&parent->pendulum, &parent->release);
   kz_image *first = images->image;
   const kz_jet *jet = &parent->image[parent->marked].jet;
   images->digits = digits;
@@ -112,8 +115,10 @@ void kz_images_free(kz_images *images) {
   free(images);
 }
 
-/* Whether a trapping region holds the whole image: its size counts as an error of the centre. */
-static bool is_trapped(const kz_image *image, kz_dynamics *dynamics) {
+/* Whether a trapping region holds the whole last image: its size counts as an error of the centre. */
+static bool is_trapped(const kz_images *images, kz_dynamics *dynamics) {
+  const kz_image *image = images->image + images->n;
+  if (!kz_image_is_final(images, images->n)) return false;
   const double size = (double)size_of(&image->jet);
   const kz_start start = {.theta = {image->theta[0], image->theta[1]},
                           .velocity = {image->velocity[0], image->velocity[1]},
@@ -127,12 +132,13 @@ static void make_room(kz_images *images, int64_t n) {
   images->image = kz_realloc(images->image, (size_t)images->capacity * sizeof *images->image);
 }
 
-/* Marks the last image; the first one that is too bent for it ends the marking. */
+/* Marks the last image, from the final drive on; the first one that is too bent for it ends the marking. */
 static void mark(kz_images *images) {
   if (!kz_image_is_straight(images, images->n, images->digits)) {
     images->digits = 0;
     return;
   }
+  if (!kz_image_is_final(images, images->n)) return;
   kz_arbitrary_mark(images->orbit);
   images->marked = images->n;
 }
@@ -156,7 +162,7 @@ kz_status kz_images_follow(kz_images *images, kz_dynamics *dynamics, int64_t mos
   for (int64_t i = 0; i < most && !images->finished; i++) {
     const kz_image *last = images->image + images->n;
     images->finished =
-        images->before + images->n >= max_periods || !(size_of(&last->jet) < widest) || is_trapped(last, dynamics);
+        images->before + images->n >= max_periods || !(size_of(&last->jet) < widest) || is_trapped(images, dynamics);
     if (!images->finished) KZ_TRY(add_image(images));
   }
   return KZ_OK;
@@ -170,11 +176,20 @@ double kz_images_left(const kz_images *images) {
   return (double)log2l(widest / now) / growth * (1 + share + share * share) / 3;
 }
 
-bool kz_images_serve(const kz_images *images, const kz_pendulum *pendulum, const kz_axis *theta, const kz_axis *velocity,
+/* Whether motions begin alike. */
+static bool is_same_release(const kz_release *a, const kz_release *b) {
+  const int64_t strobes = kz_release_strobes(a);
+  if (strobes == 0 || kz_release_strobes(b) != strobes) return kz_release_strobes(b) == strobes;
+  return a->phase == b->phase && a->periods == b->periods && a->damping == b->damping && a->drive == b->drive &&
+         a->smooth == b->smooth;
+}
+
+bool kz_images_serve(const kz_images *images, const kz_parameters *parameters, const kz_axis *theta, const kz_axis *velocity,
                      kz_view *view) {
   static const double narrowest = 0.1, farthest = 16; /* shares of the images' width, and of the window's */
   const kz_axis *axes[2] = {theta, velocity};
-  bool is_near = memcmp(pendulum, &images->pendulum, sizeof *pendulum) == 0, is_wide = false;
+  bool is_wide = false, is_near = memcmp(&parameters->pendulum, &images->pendulum, sizeof images->pendulum) == 0 &&
+                                  is_same_release(&parameters->release, &images->release);
   *view = (kz_view){.reach = 0};
   for (int i = 0; i < 2; i++) {
     const kz_coordinate centre = centre_of(axes[i]);

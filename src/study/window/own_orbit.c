@@ -36,7 +36,7 @@ static void carry(const kz_jet *tangent, long double own, ellipse *e) {
 /* The orbit and what is known of it. */
 typedef struct {
   kz_arbitrary *orbit;
-  int64_t bits, periods;
+  int64_t bits, periods, released; /* released: periods after which the drive has its final form */
   ellipse error;
 } path;
 
@@ -75,13 +75,14 @@ static kz_start start_of(const path *p) {
 static kz_status follow(path *p, kz_dynamics *dynamics, int64_t max_periods, kz_decision *decision) {
   decision->label = KZ_DOUBTFUL;
   for (; !is_lost(p); p->periods++) {
-    if (p->periods % TRY_EVERY == 0 || p->periods >= max_periods) {
+    if (p->periods >= p->released && (p->periods % TRY_EVERY == 0 || p->periods >= max_periods)) {
       const kz_start start = start_of(p);
       kz_decide_in_doubles(dynamics, &start, max_periods, p->periods % LOOK_EVERY == 0, decision);
       if (decision->label != KZ_DOUBTFUL || p->periods >= max_periods) return KZ_OK;
     }
     KZ_TRY(advance(p));
   }
+  if (p->periods < p->released) return KZ_OK;
   const kz_start start = start_of(p);
   kz_decide_in_quads(dynamics, &start, max_periods, decision);
   return KZ_OK;
@@ -94,13 +95,15 @@ static int64_t first_bits(const kz_coordinate start[2]) {
   return (int64_t)bits;
 }
 
-kz_status kz_own_orbit_decide(kz_dynamics *dynamics, const kz_pendulum *pendulum, const kz_coordinate start[2],
+kz_status kz_own_orbit_decide(kz_dynamics *dynamics, const kz_parameters *parameters, const kz_coordinate start[2],
                               int64_t max_periods, kz_decision *decision) {
   kz_status status = KZ_OK;
   *decision = (kz_decision){.label = KZ_DOUBTFUL, .level = KZ_LEVELS, .error = NAN};
   for (int64_t bits = first_bits(start); status == KZ_OK && decision->label == KZ_DOUBTFUL; bits += bits / 3) {
-    path p = {.bits = bits < MOST_BITS ? bits : MOST_BITS, .error = {1, 0, 1}};
-    p.orbit = kz_arbitrary_create(pendulum, start, p.bits);
+    path p = {
+        .bits = bits < MOST_BITS ? bits : MOST_BITS, .released = kz_release_strobes(&parameters->release), .error = {1, 0, 1}};
+    p.orbit = kz_arbitrary_create(&parameters->pendulum, start, p.bits);
+    kz_arbitrary_release(p.orbit, &parameters->release);
     status = follow(&p, dynamics, max_periods, decision);
     kz_arbitrary_free(p.orbit);
     if (bits >= MOST_BITS) break;
