@@ -105,10 +105,10 @@ def test_starts_are_told_in_the_units_of_the_axes(page):
     page.hand(0.7, 0.5, 0.7, 0.5)
     assert wait_for(lambda: page.run("$('ending').dataset.ending"))
     words = page.run("$('ending').textContent")
-    assert "certain after 12 drive periods, within 1° of it after 30 drive periods" in words and "rad/s" not in words
+    assert "certain after 12 drive periods, within 1° after 30 drive periods" in words and "rad/s" not in words
     page.run("explorer.state.change({units: 'si'})")
     words = page.run("$('ending').textContent")
-    assert "certain after 0.24 s, within 1° of it after 0.6 s" in words and re.search(r"velocity \S+ rad/s", words)
+    assert "certain after 0.24 s, within 1° after 0.6 s" in words and re.search(r"velocity \S+ rad/s", words)
     page.run("explorer.basins.point(explorer.basins.panes[0], [0.25, 0.75])")
     assert wait_for(lambda: "rad/s" in page.run("$('pointer').textContent")) and "after" not in page.run("$('pointer').textContent")
     page.run("explorer.state.change({units: 'degrees'})")
@@ -325,7 +325,7 @@ def test_pictures_and_tables_are_saved(page, folder):
     assert alone.count("<button") == 0 and "data:image/png" in alone and "import " not in alone.split("<script>")[1].split("modules[")[0]
     drawing = ElementTree.parse(page.saved("save-svg", folder / "view.svg")).getroot()
     words = [item.text for item in drawing.iter("{http://www.w3.org/2000/svg}text")]
-    assert "inverted" in words and len(list(drawing.iter("{http://www.w3.org/2000/svg}image"))) == 1
+    assert "upright rest" in words and len(list(drawing.iter("{http://www.w3.org/2000/svg}image"))) == 1
 
 
 @pytest.mark.extensive

@@ -35,7 +35,7 @@ def test_with_the_program(driver, kapitza, tmp_path):
     page.hand(0.68, 0.36, 0.68, 0.36)
     assert wait_for(lambda: page.run("$('ending').dataset.ending"))
     ending = json.loads(page.run("$('ending').dataset.ending"))
-    assert ending["name"] in page.run("$('ending').textContent").replace("−", "-") and ending["decided"]
+    assert ending["words"] in page.run("$('ending').textContent").replace("−", "-") and ending["decided"]
     if SCREENSHOTS:
         page.choose("samples", "2")
         page.choose("value-drive_amplitude", "0.3")

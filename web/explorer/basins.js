@@ -182,11 +182,12 @@ export class Basins {
     try {
       const [ending] = await pane.engine.answer({ request: "where", ...request });
       if (order !== this.followed) return;
-      found = `${signed(endingWords({ ...ending, ...start }, this.units))}\n`;
+      Object.assign(ending, start);
+      found = `${signed(endingWords(ending, this.units))}\n`;
       const wanted = settledAfter(ending) + 4 * (ending.period || 1) + 8;
       const periods = Math.round(Math.max(LEAST, Math.min(MOST, wanted)));
       const [header, bytes] = await pane.engine.answer({ request: "orbit", ...request, periods, samples_per_period: SAMPLES });
-      if (order === this.followed) this.play(pane, new Motion(header, bytes, { ...ending, ...start }));
+      if (order === this.followed) this.play(pane, new Motion(header, bytes, ending));
     } catch (error) {
       if (order === this.followed) element("ending").textContent = found + error.message; // a motion is not shown for every release
     }
@@ -205,7 +206,9 @@ export class Basins {
   drawStage() {
     const { pivotFrequency, speed, view, colours } = this.state;
     const slower = pivotFrequency ? pivotFrequency / (TURN * SECOND * speed) : null;
-    this.stage.draw(this.motion, view, colours, this.units, slower);
+    const rows = this.panes.flatMap(({ engine }) => engine.catalogue?.attractors ?? []);
+    const bob = rows.find(({ name }) => name === this.motion?.ending.name)?.colour;
+    this.stage.draw(this.motion, view, bob ? { ...colours, bob } : colours, this.units, slower);
   }
 
   writeEnding() {
@@ -319,7 +322,7 @@ function wordsAt(pane, across, up) {
   const found = pane.cellAt(across, up);
   if (!found) return "not labelled yet";
   const { frame, cell } = found;
-  const name = frame.labels[cell] === 255 ? unlabelled(frame) : frame.catalogue.attractors[frame.labels[cell]].name;
+  const name = frame.labels[cell] === 255 ? unlabelled(frame) : frame.catalogue.attractors[frame.labels[cell]].words;
   return name + (frame.cells[4 * cell + 2] === 255 ? " (undecided)" : "");
 }
 

@@ -72,7 +72,7 @@ function newLine(row, comes) {
   line.insertCell().append(patch);
   if (row.id < 0) line.insertCell().textContent = row.name;
   else {
-    const button = Object.assign(document.createElement("button"), { textContent: signed(row.name) });
+    const button = Object.assign(document.createElement("button"), { textContent: signed(row.words) });
     button.setAttribute("aria-pressed", "false");
     line.insertCell().append(button);
   }
@@ -105,13 +105,13 @@ export function listenLegend(table, state, play) {
 }
 
 /** What is known of an attractor, in words; `share`: of its basin. */
-export function passportWords({ name, period, winding, symmetric, multiplier, strobe }, share) {
+export function passportWords({ name, words, period, winding, symmetric, multiplier, strobe }, share) {
   const closes = period === 0 ? "chaotic" : `closes after ${period} drive period${period === 1 ? "" : "s"}`;
   const turns = winding === 0 ? "" : `, ${Math.abs(winding)} turn${Math.abs(winding) === 1 ? "" : "s"} in them`;
   const image = symmetric ? "its own mirror image" : "has a mirror image";
   const [theta, velocity] = strobe[0].map((value) => value.toPrecision(5));
   return (
-    `${name}: ${shareWords(share)} of this window\n${closes}${turns}; ${image}\n` +
+    `${words}: ${shareWords(share)} of this window; in files ${name}\n${closes}${turns}; ${image}\n` +
     `largest multiplier ${multiplier.toPrecision(4)}; strobe point θ ${theta}, velocity ${velocity}`
   );
 }

@@ -7,7 +7,7 @@ import { listen } from "./gestures.js";
 import { atlases, axisAround, charts, othersOf, shareOf, usualKeys, valueAt } from "./ground.js";
 import { happening } from "./happenings.js";
 import { drawAxes, Plane } from "./plane.js";
-import { CanvasSurface } from "./surface.js";
+import { CanvasSurface, lettersOf } from "./surface.js";
 import { keyWords } from "./values.js";
 import { Range } from "./window.js";
 
@@ -118,7 +118,7 @@ export class MotionMap {
     const atlas = (found) => {
       this.atlas = found;
       this.paint();
-      this.note(`motions of up to ${found.longest} drive period${found.longest === 1 ? "" : "s"}`);
+      this.note(`up to ${found.longest} drive period${found.longest === 1 ? "" : "s"}`);
       this.state.change({ ground: { atlas: found, axes: this.axes, others: this.asked } });
     };
     const ways = [
@@ -246,7 +246,7 @@ export class MotionMap {
     const context = canvas.getContext("2d");
     context.setTransform(ratio, 0, 0, ratio, 0, 0);
     context.imageSmoothingEnabled = false;
-    return new CanvasSurface(context, this.state.colours);
+    return new CanvasSurface(context, this.state.colours, lettersOf(document.body));
   }
 
   draw() {

@@ -113,7 +113,7 @@ export class Motion {
     surface.line(this.trace().map((i) => bob(this.theta[i], this.pivotAt(i))), theme.trace, 2);
     surface.line([[x, y], bob(angle, pivot)], theme.ink, Math.max(3, 0.045 * rod));
     surface.circle(x, y, Math.max(4, 0.05 * rod), theme.ink, theme.ink);
-    surface.circle(...bob(angle, pivot), Math.max(8, 0.12 * rod), theme.mark, theme.paper);
+    surface.circle(...bob(angle, pivot), Math.max(8, 0.12 * rod), theme.bob ?? theme.mark, theme.ink);
     surface.text(units.omega ? units.time(this.period) : `period ${this.period}`, 6, height - 8, "left", { colour: theme.faint });
     if (slower) surface.text(`${Number(slower.toPrecision(2))} times slower than life`, 6, height - 26, "left", { colour: theme.faint });
   }
@@ -132,9 +132,10 @@ export const settledAfter = ({ settling_time: certain, near_time: near }) => Mat
 
 /** Where a start ends, in words; `units`: of the page. */
 export function endingWords(ending, units) {
-  const from = `From θ = ${units.angle(ending.theta)}, velocity ${units.velocity(ending.velocity)}`;
-  if (ending.attractor < 0) return `${from}\nnot settled`;
-  const near = Number.isFinite(ending.near_time) ? `, within 1° of it after ${units.time(ending.near_time)}` : "";
-  const sure = ending.decided ? `decided: ${ending.precision}` : `not decided: ${ending.name} or ${ending.other_name ?? "another"}`;
-  return `${from}\nends on ${ending.name}: certain after ${units.time(ending.settling_time)}${near}\n${sure}`;
+  const from = `from θ = ${units.angle(ending.theta)}, velocity ${units.velocity(ending.velocity)}`;
+  if (ending.attractor < 0) return `not settled\n${from}`;
+  const near = Number.isFinite(ending.near_time) ? `, within 1° after ${units.time(ending.near_time)}` : "";
+  const sure = ending.decided ? `decided: ${ending.precision}` : `not decided: ${ending.words} or ${ending.other_words ?? "another"}`;
+  const certain = ending.settling_time > 0 ? `certain after ${units.time(ending.settling_time)}` : "certain at once";
+  return `ends on ${ending.words}: ${certain}${near}\n${from}\n${sure}`;
 }

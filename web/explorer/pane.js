@@ -8,7 +8,7 @@ import { Inset } from "./inset.js";
 import { frameOf, painterOn, shadingOf } from "./painter.js";
 import { placementOf, seen } from "./placement.js";
 import { axesOf, drawAxes, drawLine, drawPoints, Plane } from "./plane.js";
-import { CanvasSurface } from "./surface.js";
+import { CanvasSurface, lettersOf } from "./surface.js";
 
 const MOST_FRAMES = 6; // kept under each other while the window moves
 const PATIENCE = 90; // ms after which a frame of a window that is no longer wanted is given up,
@@ -260,7 +260,7 @@ export class Pane {
     const context = this.over.getContext("2d");
     context.setTransform(ratio, 0, 0, ratio, 0, 0);
     context.clearRect(0, 0, this.over.clientWidth, this.over.clientHeight);
-    this.drawOver(new CanvasSurface(context, this.state.colours), this.plane);
+    this.drawOver(new CanvasSurface(context, this.state.colours, lettersOf(document.body)), this.plane);
   }
 
   /** All that lies over the basins, on any surface. */

@@ -60,7 +60,7 @@ export function drawPicture(surface, state, basins, pictures = new Map()) {
   rowsOf(basins.panes.map((pane) => pane.top)).forEach((row, i) => {
     surface.rectangle(left + 8, HEAD + 12 + 20 * i, 13, 13, LIGHT.ink);
     surface.rectangle(left + 9, HEAD + 13 + 20 * i, 11, 11, row.colour);
-    surface.text(signed(row.name), left + 28, HEAD + 23 + 20 * i, "left");
+    surface.text(signed(row.words ?? row.name), left + 28, HEAD + 23 + 20 * i, "left");
     surface.text(row.shares.map(shareWords).join("  "), left + 240, HEAD + 23 + 20 * i, "right");
   });
 }

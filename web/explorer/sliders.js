@@ -54,6 +54,16 @@ export function marksOf(ground, name, pendulum, home) {
   });
 }
 
+/** Where upright stands, as shares of a slider: the first stretch that marks bound. */
+function stretchOf(marks) {
+  const limits = marks.filter(({ limit }) => limit);
+  const from = limits.findIndex(({ below }) => below);
+  const to = limits.find(({ below }, i) => !below && i > from);
+  const share = ({ place }) => `${50 * (1 + place)}%`;
+  const [low, high] = [from < 0 ? "0%" : share(limits[from]), to ? share(to) : "100%"];
+  return [["--from", limits.length ? low : "0%"], ["--to", limits.length ? high : "0%"]];
+}
+
 /** Fills `holder`; `change(name, text)` hears of each new value. */
 export class Sliders {
   constructor(holder, scene, change) {
@@ -97,7 +107,9 @@ export class Sliders {
       if (document.activeElement !== number) number.value = pendulum[name];
       if (message.dataset.of !== pendulum[name]) message.textContent = "";
       number.title = range.title = `the scene has ${home}; a double click goes there`;
-      marks.replaceChildren(...marksOf(ground, name, pendulum, home).map(newMark));
+      const found = marksOf(ground, name, pendulum, home);
+      marks.replaceChildren(...found.map(newMark));
+      for (const [property, share] of stretchOf(found)) range.style.setProperty(property, share);
     }
     if (this.forms) this.forms.value = pendulum.waveform;
   }
@@ -143,7 +155,8 @@ function newMark({ place, words, limit, below }) {
   const mark = document.createElement("span");
   mark.title = words;
   mark.style.setProperty("--share", (1 + place) / 2);
-  if (limit) Object.assign(mark, { className: below ? "limit below" : "limit", textContent: limit });
+  const left = below && place > -0.4; // else it has no room there
+  if (limit) Object.assign(mark, { className: left ? "limit below" : "limit", textContent: limit });
   return mark;
 }
 

@@ -1,12 +1,14 @@
 // The pendulum on its shaker, and what its motion looks like otherwise: trace, phase portrait, strobe points, spectrum.
 
-import { CanvasSurface } from "./surface.js";
+import { CanvasSurface, lettersOf } from "./surface.js";
 import { signed } from "./ticks.js";
 
 export const VIEWS = ["pendulum", "trace", "phase", "strobe", "spectrum"];
 const RECENT = 8; // drive periods of the trace
 const MOST_LINES = 3; // drive frequencies of the spectrum
 const DECADES = 6;
+const SMALL = 500; // px, below which nothing is enlarged
+const LECTURE = 1.3; // how much larger everything is in one, beside letters
 const MARGIN = { left: 40, right: 10, top: 12, bottom: 30 };
 
 export class Stage {
@@ -19,15 +21,17 @@ export class Stage {
     const { canvas } = this;
     canvas.classList.toggle("awaits", !motion); // the last picture of another motion stays, pale
     if (!motion) return;
-    const ratio = devicePixelRatio || 1;
-    const [width, height] = [canvas.clientWidth, canvas.clientHeight];
+    const letters = canvas.clientWidth < SMALL ? 1 : lettersOf(document.body);
+    const zoom = letters === 1 ? 1 : LECTURE;
+    const ratio = zoom * (devicePixelRatio || 1);
+    const [width, height] = [canvas.clientWidth / zoom, canvas.clientHeight / zoom];
     if (canvas.width !== Math.round(width * ratio) || canvas.height !== Math.round(height * ratio))
       Object.assign(canvas, { width: Math.round(width * ratio), height: Math.round(height * ratio) });
     const context = canvas.getContext("2d");
     context.setTransform(ratio, 0, 0, ratio, 0, 0);
     context.clearRect(0, 0, width, height);
     if (width === 0) return;
-    const surface = new CanvasSurface(context, theme);
+    const surface = new CanvasSurface(context, theme, letters);
     if (view === "pendulum") motion.drawPendulum(surface, width, height, units, slower);
     else this[view](surface, motion, width, height);
   }
@@ -55,7 +59,7 @@ export class Stage {
   /** Angle and velocity once a drive period. */
   strobe(surface, motion, width, height) {
     const plot = this.plane(surface, motion, width, height);
-    for (let i = 0; i <= motion.at; i += motion.perPeriod) plot.point(motion.wrapped(i), motion.velocity[i], 3);
+    for (let i = 0; i <= motion.at; i += motion.perPeriod) plot.point(motion.wrapped(i), motion.velocity[i], 4);
   }
 
   plane(surface, motion, width, height) {

@@ -3,13 +3,15 @@
 const FONT = '"DejaVu Sans", "Helvetica Neue", Arial, sans-serif';
 
 /** Colours of lines and letters. Saved pictures are always on white. */
-export const LIGHT = { paper: "#ffffff", ink: "#1c2127", faint: "#6b747e", trace: "#a9c4df", mark: "#b3261e", shaker: "#dfe4e9", cross: "#1c212770" };
-export const DARK = { paper: "#14181d", ink: "#e4e8ec", faint: "#98a2ad", trace: "#3f5f80", mark: "#ff8a7a", shaker: "#2a323b", cross: "#ffffff70" };
+export const LIGHT = { paper: "#ffffff", ink: "#1c2127", faint: "#5a646e", trace: "#a9c4df", mark: "#b3261e", shaker: "#dfe4e9", cross: "#1c212770" };
+export const DARK = { paper: "#161b21", ink: "#e4e8ec", faint: "#98a2ad", trace: "#3f5f80", mark: "#ff8a7a", shaker: "#2a323b", cross: "#ffffff70" };
+
+/** How much larger letters on the page's canvases are in a lecture. */
+export const lettersOf = (page) => (page.dataset.story === undefined ? 1 : 1.35);
 
 export class CanvasSurface {
-  constructor(context, theme = LIGHT) {
-    this.context = context;
-    this.theme = theme;
+  constructor(context, theme = LIGHT, letters = 1) {
+    Object.assign(this, { context, theme, letters });
   }
 
   image(canvas, [x, y, width, height]) {
@@ -47,7 +49,7 @@ export class CanvasSurface {
     c.save();
     c.translate(x, y);
     if (turned) c.rotate(-Math.PI / 2);
-    c.font = `${size}px ${FONT}`;
+    c.font = `${size * this.letters}px ${FONT}`;
     c.fillStyle = colour;
     c.textAlign = align;
     c.fillText(words, 0, 0);
