@@ -202,11 +202,16 @@ typedef struct {
   int32_t period, winding, centre, symmetric; /* centre: 0 down, 1 inverted, 2 rotating, 3 none of these */
 } kz_branch_point;
 
-/* Sets everything of a cycle from a strobe point, its period and its symmetry. */
-void kz_branch_describe(const kz_pendulum *pendulum, kz_branch_point *point);
+/* The maps of n >= 1 pendulums, of which the oldest go: their tables cost more than a short cycle. One thread uses them. */
+typedef struct kz_fine_maps kz_fine_maps;
+kz_fine_maps *kz_fine_maps_create(int64_t n);
+void kz_fine_maps_free(kz_fine_maps *maps);
 
-/* Whether a and b are the same cycle at the same parameters: one is among the strobe points of the other. */
-int32_t kz_branch_same(const kz_pendulum *pendulum, const kz_branch_point *a, const kz_branch_point *b);
+/* Sets everything of a cycle from a strobe point, its period and its symmetry. maps: where maps are kept; NULL = each is made anew. */
+void kz_branch_describe(kz_fine_maps *maps, const kz_pendulum *pendulum, kz_branch_point *point);
+
+/* Whether a and b are the same cycle at the same parameters: one is among the strobe points of the other. maps: as above. */
+int32_t kz_branch_same(kz_fine_maps *maps, const kz_pendulum *pendulum, const kz_branch_point *a, const kz_branch_point *b);
 
 /* The centre of a motion (KZ_ABOUT_DOWN ...) from samples of its angle, theta [n] (rad, not wrapped), and whether it rotates: down or inverted where it stays within
  * pi of it and its mean within pi/4. *origin = the copy of this position, rad; 0 for other motions. */

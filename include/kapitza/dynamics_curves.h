@@ -53,7 +53,7 @@ int64_t kz_curve_branch(const kz_plane *plane, const kz_curve_kind *kind, const 
                         int32_t side, double longest, int64_t most, double *rows, int64_t most_events, double *events,
                         int64_t *n_events, int32_t *ending);
 
-/* Newton's method at the place of y; numbers = trace and determinant. 1 if it converges, else 0. */
+/* Newton's method at the place of y; numbers = trace and determinant, NULL = not asked for. 1 if it converges, else 0. */
 int32_t kz_curve_solve(const kz_plane *plane, const kz_curve_kind *kind, double *y, double numbers[2]);
 /* Moves y along a line to where the kind's multiplier is that of the curve. 1 if Newton's method converges, else 0. */
 int32_t kz_curve_locate(const kz_plane *plane, const kz_curve_kind *kind, double *y, const double along[2]);

@@ -25,6 +25,9 @@ module kz_attractors_quasiperiodic
   real(dp), parameter :: SAME = 1e-6_dp
   !> A tangent grows or shrinks by less in both windows: else the motion is chaotic, or locked to a cycle.
   real(dp), parameter :: BOUNDED = 100
+  !> A tangent that has grown or shrunk by more within a window does not come back to that; looked at every so many periods.
+  real(dp), parameter :: LOST = 1e8_dp
+  integer, parameter :: LOOKED_AT = 100
 
   !> What is known of the orbits in the lanes of a flow after a window.
   type :: record_t
@@ -57,6 +60,7 @@ contains
     call search%flow%to_map(n)
     record%tangent(1, 1, :) = 1
     call follow_window(search%flow, regions, attractors, n, record)
+    if (.not. any([(may_fill(record, i, BOUNDED), i=1, n)])) return
     before = record%average
     call follow_window(search%flow, regions, attractors, n, record)
     lane = pack([(i, i=1, n)], [(is_steady(record, before, i), i=1, n)])
@@ -76,11 +80,19 @@ contains
     real(dp), intent(in) :: before(AVERAGES, WIDTH) !< averages of the window before
     integer, intent(in) :: lane
 
-    is_steady = .not. record%trapped(lane) .and. all(abs(record%average(:, lane) - before(:, lane)) < SAME) .and. &
-                abs(record%growth(lane)) < log(BOUNDED)
+    is_steady = may_fill(record, lane, BOUNDED) .and. all(abs(record%average(:, lane) - before(:, lane)) < SAME)
   end function is_steady
 
-  !> Follows the lanes 1 .. n through a window.
+  !> Whether a lane may be on a closed curve: nothing has trapped it, and its tangent has neither grown nor shrunk by more than a factor.
+  pure logical function may_fill(record, lane, factor)
+    type(record_t), intent(in) :: record
+    integer, intent(in) :: lane
+    real(dp), intent(in) :: factor
+
+    may_fill = .not. record%trapped(lane) .and. abs(record%growth(lane)) < log(factor)
+  end function may_fill
+
+  !> Follows the lanes 1 .. n through a window, or until none can be on a closed curve.
   subroutine follow_window(flow, regions, attractors, n, record)
     class(flow_t), intent(inout) :: flow
     type(regions_t), intent(in) :: regions
@@ -104,6 +116,8 @@ contains
         record%growth(i) = record%growth(i) + log(length)
         record%tangent(:, :, i) = reshape([record%tangent(:, 1, i)/length, 0.0_dp, 0.0_dp], [2, 2])
       end do
+      if (mod(period, LOOKED_AT) /= 0) cycle
+      if (.not. any([(may_fill(record, i, LOST), i=1, n)])) exit
     end do
     record%average = record%average/weights
   end subroutine follow_window

@@ -124,7 +124,7 @@ contains
     real(dp), intent(in) :: start(:), longest
     integer, intent(in) :: side !< 0: the start is no fold
     logical, intent(out) :: found
-    real(dp) :: numbers(2), guess(UNKNOWNS)
+    real(dp) :: guess(UNKNOWNS)
     integer :: n
 
     n = 2*walker%system%n
@@ -132,7 +132,7 @@ contains
     guess = 0
     found = side /= 0
     if (side == 0) then
-      found = at_place(walker%system%plane, walker%system%kind, walker%y, numbers) /= 0
+      found = at_place(walker%system%plane, walker%system%kind, walker%y) /= 0
       guess(n + 1) = 1
     else
       guess(:n) = side*tangent_of_fold(walker, start)

@@ -1,9 +1,9 @@
 !> A cycle of one pendulum as branches of a sweep hold it: include/kapitza/dynamics.h.
 module kz_cycles_described
-  use, intrinsic :: iso_c_binding, only: dp => c_double, c_int32_t
+  use, intrinsic :: iso_c_binding, only: dp => c_double, c_int32_t, c_int64_t, c_ptr, c_associated, c_f_pointer, c_loc
   use kz_vector_map, only: flow_t, PI
   use kz_kernel_flows, only: make_flow, fine_numerics
-  use kz_model_pendulum, only: pendulum_t
+  use kz_model_pendulum, only: pendulum_t, is_same
   use kz_cycles_cycles, only: attractor_t, orbit_of
   use kz_cycles_features, only: find_features
   use kz_maps_matrices, only: eigenvalues
@@ -21,35 +21,94 @@ module kz_cycles_described
   !> One cycle has one multiplier: two that differ by more belong to two.
   real(dp), parameter :: ALIKE = 1e-2_dp
 
+  type :: fine_map_t
+    type(pendulum_t) :: pendulum
+    class(flow_t), allocatable :: flow !< whose steps are not fused
+  end type fine_map_t
+
+  !> What kz_fine_maps of dynamics.h points at.
+  type :: fine_maps_t
+    type(fine_map_t), allocatable :: map(:)
+    integer :: oldest = 1 !< the next map that is made takes its place
+  end type fine_maps_t
+
 contains
 
-  subroutine describe(pendulum, point) bind(C, name='kz_branch_describe')
+  type(c_ptr) function maps_create(n) bind(C, name='kz_fine_maps_create') result(handle)
+    integer(c_int64_t), value :: n
+    type(fine_maps_t), pointer :: maps
+
+    allocate (maps)
+    allocate (maps%map(n))
+    handle = c_loc(maps)
+  end function maps_create
+
+  subroutine maps_free(handle) bind(C, name='kz_fine_maps_free')
+    type(c_ptr), value :: handle
+    type(fine_maps_t), pointer :: maps
+
+    if (.not. c_associated(handle)) return
+    call c_f_pointer(handle, maps)
+    deallocate (maps)
+  end subroutine maps_free
+
+  !> The map of a pendulum, kept or made.
+  subroutine find_map(handle, pendulum, own, map)
+    type(c_ptr), intent(in) :: handle !< kz_fine_maps; null = none are kept
+    type(pendulum_t), intent(in) :: pendulum
+    type(fine_map_t), intent(inout), target :: own !< serves where none are kept
+    type(fine_map_t), intent(out), pointer :: map
+    type(fine_maps_t), pointer :: maps
+    integer :: i
+
+    map => own
+    if (c_associated(handle)) then
+      call c_f_pointer(handle, maps)
+      do i = 1, size(maps%map)
+        map => maps%map(i)
+        if (.not. allocated(map%flow)) exit
+        if (is_same(map%pendulum, pendulum)) return
+      end do
+      if (i > size(maps%map)) map => maps%map(maps%oldest)
+      if (i > size(maps%map)) maps%oldest = mod(maps%oldest, size(maps%map)) + 1
+    end if
+    map%pendulum = pendulum
+    call make_flow(pendulum, fine_numerics(pendulum), .false., map%flow)
+  end subroutine find_map
+
+  subroutine describe(handle, pendulum, point) bind(C, name='kz_branch_describe')
+    type(c_ptr), value :: handle
     type(pendulum_t), intent(in) :: pendulum !< k, beta, m
     type(branch_point_t), intent(inout) :: point !< strobe point and period, in; the rest, out
-    class(flow_t), allocatable :: flow
+    type(fine_map_t), target :: own
+    type(fine_map_t), pointer :: map
     type(attractor_t) :: cycle
     complex(dp) :: multiplier(2)
     real(dp) :: matrix(2, 2), u
 
     u = angle_difference(point%theta/PI, 0.0_dp)
     point%theta = PI*u
-    call make_flow(pendulum, fine_numerics(pendulum), .false., flow)
-    call orbit_of(flow, int(point%period), [u, point%velocity], cycle, matrix)
+    call find_map(handle, pendulum, own, map)
+    associate (flow => map%flow)
+      call orbit_of(flow, int(point%period), [u, point%velocity], cycle, matrix)
+      call find_features(flow, pendulum, cycle, u, point%velocity, int(point%period))
+    end associate
     multiplier = eigenvalues(matrix, exp(-2*PI*pendulum%beta*point%period))
     point%multiplier_re = real(multiplier, dp)
     point%multiplier_im = aimag(multiplier)
-    call find_features(flow, pendulum, cycle, u, point%velocity, int(point%period))
     point%winding = cycle%winding
     point%centre = cycle%centre
     point%amplitude = cycle%amplitude
   end subroutine describe
 
-  function same_cycle(pendulum, a, b) bind(C, name='kz_branch_same') result(same)
+  function same_cycle(handle, pendulum, a, b) bind(C, name='kz_branch_same') result(same)
+    type(c_ptr), value :: handle
     type(pendulum_t), intent(in) :: pendulum !< k, beta, m of both
     type(branch_point_t), intent(in) :: a !< a cycle
     type(branch_point_t), intent(in) :: b !< and perhaps the same
     integer(c_int32_t) :: same
-    class(flow_t), allocatable :: flow
+    type(fine_map_t), target :: own
+    type(fine_map_t), pointer :: map
     integer :: i
 
     same = 0
@@ -58,12 +117,14 @@ contains
         > ALIKE*max(1.0_dp, abs(b%multiplier_re(1)))) return
     if (separation(a%theta/PI, a%velocity, b%theta/PI, b%velocity) < ONE) same = 1
     if (same == 1 .or. a%period == 1) return
-    call make_flow(pendulum, fine_numerics(pendulum), .true., flow)
-    call flow%put(1, a%theta/PI, a%velocity)
-    do i = 1, a%period - 1
-      call flow%advance(1)
-      if (separation(flow%u(1), flow%v(1), b%theta/PI, b%velocity) < ONE) same = 1
-    end do
+    call find_map(handle, pendulum, own, map)
+    associate (flow => map%flow)
+      call flow%put(1, a%theta/PI, a%velocity)
+      do i = 1, a%period - 1
+        call flow%advance(1)
+        if (separation(flow%u(1), flow%v(1), b%theta/PI, b%velocity) < ONE) same = 1
+      end do
+    end associate
   end function same_cycle
 
 end module kz_cycles_described

@@ -121,7 +121,7 @@ contains
     type(plane_t), intent(in) :: plane
     type(curve_kind_t), intent(in) :: kind
     real(dp), intent(inout) :: y(2*kind%points + 2)
-    real(dp), intent(out) :: numbers(2)
+    real(dp), intent(out), optional :: numbers(2)
     integer(c_int32_t) :: found
     real(dp), parameter :: LONGEST = 0.5_dp
     real(dp) :: residual(UNKNOWNS), matrix(UNKNOWNS, UNKNOWNS)
@@ -129,14 +129,15 @@ contains
     integer :: iterations
     logical :: exists
 
-    found = 0
-    numbers = 0
     call make_system(plane, kind, 0, .false., system)
     call newton(system, 25, LONGEST, 1e-12_dp, y, iterations)
-    if (iterations == 0) return
+    found = merge(1, 0, iterations > 0)
+    if (.not. present(numbers)) return
+    numbers = 0
+    if (found == 0) return
     call linearise(system, FINE, 1, y, residual, matrix, exists)
     numbers = [system%trace, system%determinant]
-    if (exists) found = 1
+    if (.not. exists) found = 0
   end function at_place
 
   function on_line(plane, kind, y, along) bind(C, name='kz_curve_locate') result(found)

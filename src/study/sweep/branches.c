@@ -6,6 +6,8 @@
 
 #include "sweep.h"
 
+enum { MOST_MAPS = 256 }; /* of values, that are kept: each takes 50 KiB */
+
 /* A walk from a node to the neighbour value. */
 typedef struct {
   int64_t node;
@@ -21,6 +23,7 @@ typedef struct {
 void kz_sweep_branches_free(kz_sweep_branches *branches) {
   free(branches->nodes);
   free(branches->first_node);
+  kz_fine_maps_free(branches->maps);
   *branches = (kz_sweep_branches){0};
 }
 
@@ -52,7 +55,7 @@ static kz_status walk_tile(void *context, int64_t tile, void *record) {
   const task *t = w->tasks + tile;
   const kz_sweep_node *node = w->branches->nodes + t->node;
   const kz_sweep_plan *plan = w->scene->sweep;
-  const kz_path path = kz_sweep_path(w->scene);
+  const kz_path path = kz_sweep_path(w->scene, w->branches->maps);
   kz_sweep_follow(&path, kz_sweep_value(plan, node->value), kz_sweep_value(plan, aim(w, t)), plan->max_period,
                   &node->entry.point, record);
   return KZ_OK;
@@ -65,7 +68,7 @@ static int64_t find_node(const walking *w, int64_t value, const kz_branch_point 
   for (int64_t i = 0; i < w->branches->n_nodes; i++) {
     const kz_sweep_node *node = w->branches->nodes + i;
     if (node->value == value && !node->between && node->entry.point.period > 0 &&
-        kz_branch_same(&pendulum, &node->entry.point, point))
+        kz_branch_same(w->branches->maps, &pendulum, &node->entry.point, point))
       return i;
   }
   return -1;
@@ -262,6 +265,7 @@ static void set_known_ends(const kz_scene *scene, kz_sweep_branches *b) {
 kz_status kz_sweep_branches_make(const kz_scene *scene, const kz_run *run, const kz_sweep_catalogue *catalogue,
                                  kz_sweep_branches *branches) {
   walking w = {.scene = scene, .branches = branches};
+  branches->maps = kz_fine_maps_create(scene->sweep->values.count < MOST_MAPS ? scene->sweep->values.count : MOST_MAPS);
   for (int64_t i = 0; i < scene->sweep->values.count; i++)
     for (int64_t j = 0; j < catalogue[i].count; j++) add_node(branches, catalogue[i].entries + j, i, true);
   KZ_TRY(walk_all(&w, run));

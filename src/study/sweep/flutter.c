@@ -238,7 +238,7 @@ static kz_status write_flutter(const flutter_job *f, kz_store *store, FILE *summ
 
 /* The scene's flutter by this rank, or by all; amplitude [values]. */
 static kz_status follow_scene(const kz_scene *scene, const kz_run *run, double *amplitude, flutter_job *f) {
-  *f = (flutter_job){scene, run, kz_sweep_path(scene), NAN, amplitude};
+  *f = (flutter_job){scene, run, kz_sweep_path(scene, NULL), NAN, amplitude};
   for (int64_t i = 0; i < scene->sweep->values.count; i++) amplitude[i] = NAN;
   return find_flutter(f);
 }

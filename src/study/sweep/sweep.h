@@ -42,10 +42,11 @@ typedef bool (*kz_pendulum_fn)(const void *context, double value, kz_pendulum *p
 typedef struct {
   kz_pendulum_fn pendulum;
   const void *context;
+  kz_fine_maps *maps; /* where those of both ends of a walk are kept; NULL = nowhere */
 } kz_path;
 
-/* The path of the sweep itself; `scene` must outlive it. */
-kz_path kz_sweep_path(const kz_scene *scene);
+/* The path of the sweep itself; `scene` and `maps` must outlive it. */
+kz_path kz_sweep_path(const kz_scene *scene, kz_fine_maps *maps);
 
 /* A piece of a branch between two values: all along it the cycle attracts, or nowhere. It begins at the cycle that is followed, or where something
  * happens; it ends at one of the values, or where something happens (KZ_END_...). */
@@ -129,6 +130,7 @@ typedef struct {
   int64_t n_nodes, capacity;
   kz_sweep_node *nodes;
   int64_t n_branches, *first_node; /* [n_branches] in the order of the file */
+  kz_fine_maps *maps;              /* of the values */
 } kz_sweep_branches;
 
 /* Joins the catalogues by continuation. *branches is the same on every rank; freed by kz_sweep_branches_free. Collective. */

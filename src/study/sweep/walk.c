@@ -38,8 +38,8 @@ static bool pendulum_of_scene(const void *context, double value, kz_pendulum *pe
   return kz_sweep_pendulum(context, value, pendulum);
 }
 
-kz_path kz_sweep_path(const kz_scene *scene) {
-  return (kz_path){pendulum_of_scene, scene};
+kz_path kz_sweep_path(const kz_scene *scene, kz_fine_maps *maps) {
+  return (kz_path){pendulum_of_scene, scene, maps};
 }
 
 bool kz_branch_attracts(const kz_branch_point *point) {
@@ -78,6 +78,7 @@ static int32_t period_of(const cycle *c) {
 /* The cycle through a strobe point at a place. Long ones have points several periods apart: so few that a pair of them lies half a cycle apart. */
 static bool cycle_of(const kz_plane *plane, const kz_branch_point *point, double place, cycle *c) {
   const bool halved = point->symmetric && point->period > 1;
+  const int side = halved ? -1 : 1;
   const int n = halved ? point->period / 2 : point->period;
   int stride = 1;
   while (n % stride != 0 || n / stride > KZ_CURVE_POINTS || (n % 2 == 0 && n / stride % 2 != 0)) stride++;
@@ -86,19 +87,22 @@ static bool cycle_of(const kz_plane *plane, const kz_branch_point *point, double
   state[0] = point->theta, state[1] = point->velocity;
   c->rest = point->symmetric && point->period == 1 ? cos(point->theta) < 0 : -1;
   c->symmetric = point->symmetric;
-  if (!kz_curve_orbit(plane, at, n - stride, state)) return false;
+  if (!kz_curve_orbit(plane, at, n, state)) return false;
   for (int i = 0; i < n / stride; i++) memcpy(c->y + 2 * i, state + 2 * i * stride, 2 * sizeof *c->y);
   memcpy(c->y + 2 * (n / stride), at, sizeof at);
-  c->of = kz_kind_of(plane, halved ? -1 : 1, n / stride, stride > 1 ? stride : 0, 0, c->y);
-  return c->of.points > 0;
+  const int32_t turns = (int32_t)rint((state[2 * n] - side * state[0]) / (2 * M_PI));
+  c->of = (kz_curve_kind){side, n / stride, 0, turns, stride > 1 ? stride : 0};
+  return true;
 }
 
 /* The point of a branch that a cycle is. */
 static bool describe(const walking *w, const cycle *c, kz_branch_point *point) {
   kz_pendulum pendulum;
-  if (!pendulum_at(w->way, c->y + 2 * c->of.points, &pendulum)) return false;
+  const double *place = c->y + 2 * c->of.points;
+  const bool at_end = *place == 0 || *place == 1;
+  if (!pendulum_at(w->way, place, &pendulum)) return false;
   *point = (kz_branch_point){.theta = c->y[0], .velocity = c->y[1], .period = period_of(c), .symmetric = c->symmetric};
-  kz_branch_describe(&pendulum, point);
+  kz_branch_describe(at_end ? w->way->path->maps : NULL, &pendulum, point);
   return true;
 }
 
@@ -112,7 +116,7 @@ static bool is_damped(const walking *w, double place) {
 static bool solve_at(const walking *w, const cycle *c, const double *before, const double *after, double place, cycle *there) {
   const int n = 2 * c->of.points;
   const double share = (place - before[0]) / (after[0] - before[0]);
-  double numbers[2], farthest = 1e-6;
+  double farthest = 1e-6;
   *there = *c;
   for (int i = 0; i < n; i++) {
     there->y[i] = before[4 + i] + share * (after[4 + i] - before[4 + i]);
@@ -120,7 +124,7 @@ static bool solve_at(const walking *w, const cycle *c, const double *before, con
   }
   cycle guess = *there;
   there->y[n] = place, there->y[n + 1] = 0;
-  if (!kz_curve_solve(&w->plane, &c->of, there->y, numbers)) return false;
+  if (!kz_curve_solve(&w->plane, &c->of, there->y, NULL)) return false;
   for (int i = 0; i < n; i++)
     if (!(fabs(there->y[i] - guess.y[i]) <= farthest)) return false;
   return true;

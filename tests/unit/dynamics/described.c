@@ -17,7 +17,7 @@ static kz_pendulum pendulum(double m) {
 TEST(test_flutter) {
   const kz_pendulum p = pendulum(0.47);
   kz_branch_point point = {.theta = PI + 0.161076997267223124, .velocity = -0.002241504186408954, .period = 2, .symmetric = 1};
-  kz_branch_describe(&p, &point);
+  kz_branch_describe(NULL, &p, &point);
   assert_true(point.centre == 1 && point.winding == 0 && point.theta < 0);
   assert_true(fabs(point.amplitude - 0.16111093243808042) < 1e-9);
   assert_true(fabs(hypot(point.multiplier_re[0], point.multiplier_im[0]) - exp(-2 * PI / 55)) < 1e-9);
@@ -27,14 +27,30 @@ TEST(test_flutter) {
 TEST(test_rotation) {
   const kz_pendulum p = pendulum(0.3);
   kz_branch_point point = {.theta = 3.0164225972238, .velocity = 1.06881051489920, .period = 1}, image;
-  kz_branch_describe(&p, &point);
+  kz_branch_describe(NULL, &p, &point);
   assert_true(point.winding == 1 && point.centre == 2);
   assert_true(fabs(point.multiplier_re[0] + 0.7133) < 1e-4 && fabs(point.multiplier_im[0] - 0.6191) < 1e-4);
   image = (kz_branch_point){.theta = -point.theta, .velocity = -point.velocity, .period = 1};
-  kz_branch_describe(&p, &image);
+  kz_branch_describe(NULL, &p, &image);
   assert_int_equal(image.winding, -1);
-  assert_int_equal(kz_branch_same(&p, &point, &image), 0);
-  assert_int_equal(kz_branch_same(&p, &point, &point), 1);
+  assert_int_equal(kz_branch_same(NULL, &p, &point, &image), 0);
+  assert_int_equal(kz_branch_same(NULL, &p, &point, &point), 1);
+}
+
+/* More pendulums than maps are kept, in turns: what is said of a cycle does not depend on which maps are kept. */
+TEST(test_kept_maps) {
+  kz_fine_maps *maps = kz_fine_maps_create(2);
+  const double m[] = {0.3, 0.3, 0.31, 0.32, 0.3, 0.32};
+  for (size_t i = 0; i < sizeof m / sizeof m[0]; i++) {
+    const kz_pendulum p = pendulum(m[i]);
+    kz_branch_point point = {.theta = 3.0164225972238, .velocity = 1.06881051489920, .period = 3}, again = point;
+    kz_branch_describe(NULL, &p, &point);
+    kz_branch_describe(maps, &p, &again);
+    assert_memory_equal(&point, &again, sizeof point);
+    again.velocity += 1e-3;
+    assert_int_equal(kz_branch_same(maps, &p, &point, &again), kz_branch_same(NULL, &p, &point, &again));
+  }
+  kz_fine_maps_free(maps);
 }
 
 /* Where three periods take a start, in the coordinates of the map. */
