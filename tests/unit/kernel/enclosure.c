@@ -1,5 +1,6 @@
 /* Enclosures of drive periods hold the motion in quad precision: random and adversarial starts, every kind of set; and bounds that are made
  * smaller do not. */
+#include "../../tools/enclosed.h"
 #include "../../tools/part.h"
 #include "../../tools/test.h"
 
@@ -12,7 +13,6 @@
 #include "enclosure/operations.h"
 
 enum { SETS = 16, PERIODS = 3, DRAWS = PART > 1 ? 5 : 10 };
-typedef __float128 quad;
 
 static double uniform(double from, double to) {
   return from + (to - from) * rand() / RAND_MAX;
@@ -38,27 +38,7 @@ static kz_pendulum some_pendulum(int draw) {
   return (kz_pendulum){uniform(-0.05, 0.3), uniform(0, 0.1), uniform(-0.6, 0.6)};
 }
 
-static kz_enclosure set_at(double theta, double velocity, double half) {
-  return (kz_enclosure){.theta = {theta}, .velocity = {velocity}, .matrix = {{1, 0}, {0, 1}}, .reach = {half, half}};
-}
-
-/* z of a state at a distance from the centre of a set, in its coordinates. */
-static void place_at(quad x, quad v, const kz_enclosure *set, double z[2]) {
-  const double (*A)[2] = set->matrix;
-  const quad det = (quad)A[0][0] * A[1][1] - (quad)A[0][1] * A[1][0];
-  z[0] = (double)((A[1][1] * x - A[0][1] * v) / det);
-  z[1] = (double)((A[0][0] * v - A[1][0] * x) / det);
-}
-
-static void place_of(const quad end[2], const kz_enclosure *set, double z[2]) {
-  const quad turn = 2 * 3.14159265358979323846264338327950288419716939937510582Q;
-  quad x = end[0] - set->theta[0] - set->theta[1] - set->theta[2];
-  if (x > 3) x -= turn;
-  if (x < -3) x += turn;
-  place_at(x, end[1] - set->velocity[0] - set->velocity[1] - set->velocity[2], set, z);
-}
-
-/* The same for an orbit in many digits. */
+/* z of an orbit in many digits, in the coordinates of a set. */
 static void place_of_orbit(const kz_arbitrary *orbit, const kz_enclosure *set, double z[2]) {
   enum { BITS = 300 };
   const size_t size = kz_arbitrary_size(orbit);
