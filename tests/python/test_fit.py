@@ -1,30 +1,19 @@
 """Pendulums from tracks: the truth lies within the stated errors, and what a model cannot describe is said."""
 
 import subprocess
+import sys
 from functools import partial
 
 import kapitza
 import numpy as np
 import pytest
-from conftest import PROGRAM, run_script
+from conftest import EXTENSIVE, PROGRAM, ROOT, run_script, with_extensive
 from kapitza import fitting
 from kapitza.least_squares import half_width
 from scipy.stats import binom
 
-NOISE = 2e-3  # rad
-DECAY = {"omega0": 7.0, "offset": 0.02, "theta": 0.9, "velocity": 0.3, "viscous": 0.15}
-FRICTION = DECAY | {"quadratic": 0.06, "dry": 0.05}
-
-
-def track(truth, time, seed=1, omega=None):
-    """Angles of the equation with noise."""
-    exact = fitting.simulated(time, {name: np.array([value]) for name, value in truth.items()}, omega)[0]
-    return exact + np.random.default_rng(seed).normal(0, NOISE, time.size)
-
-
-def holds(model, truth):
-    """Whether each number lies within its stated error."""
-    return {name: abs(model.values[name] - value) <= model.errors[name] for name, value in truth.items()}
+sys.path.insert(0, str(ROOT / "tests" / "tools"))
+from fit_coverage import DECAY, FRICTION, NOISE, counted, track  # noqa: E402
 
 
 def test_the_equation_is_that_of_the_program():
@@ -39,10 +28,14 @@ def test_the_equation_is_that_of_the_program():
     assert found == pytest.approx(orbit["theta"].values[::4], abs=1e-3)
 
 
-def test_a_decay_gives_frequency_and_damping():
-    time = np.linspace(0, 9, 100)
+LENGTHS = {"decay": with_extensive([(9, 100, 0.25)], [(15, 200, 0.15)]), "all kinds": with_extensive([(16, 150)], [(20, 250)])}
+
+
+@pytest.mark.parametrize(("seconds", "samples", "chance"), LENGTHS["decay"])
+def test_a_decay_gives_frequency_and_damping(seconds, samples, chance):
+    time = np.linspace(0, seconds, samples)
     found = kapitza.fit(time, np.degrees(track(DECAY, time)), degrees=True)
-    assert found.best.name == "viscous" and found.best.residual == pytest.approx(NOISE, rel=0.25) and abs(found.best.correlation) < 0.3
+    assert found.best.name == "viscous" and found.best.residual == pytest.approx(NOISE, rel=chance) and abs(found.best.correlation) < 0.3
     assert all(abs(found.best.values[name] - value) < 2 * found.best.errors[name] for name, value in DECAY.items())
     assert found.quality_factor() == pytest.approx(7 / 0.15, rel=0.02) and found.length == pytest.approx(9.80665 / 49, rel=1e-3)
     scene = found.scene("50 Hz", "8 mm")
@@ -51,17 +44,12 @@ def test_a_decay_gives_frequency_and_damping():
         found.scene()
 
 
-@pytest.mark.parametrize(("count", "truth", "time"), [
-    (20, DECAY, np.linspace(0, 9, 60)),
-    pytest.param(200, DECAY, np.linspace(0, 9, 60), marks=pytest.mark.extensive),
-    pytest.param(100, FRICTION, np.linspace(0, 20, 250), marks=pytest.mark.extensive),
-], ids=["few", "viscous", "all kinds"])
-def test_the_truth_lies_within_the_stated_errors(count, truth, time):
+@pytest.mark.parametrize(("pendulum", "tracks"), with_extensive([("viscous", 20)], [("viscous", 200), ("viscous + quadratic + dry", 100)]))
+def test_the_truth_lies_within_the_stated_errors(pendulum, tracks):
     """Of 95 % intervals 95 of 100 hold the truth, up to the chance of so many tracks: one number in 5000 lies outside of these bounds."""
-    low, high = binom.ppf([1e-4, 1 - 1e-4], count, 0.95)
-    held = [holds(fitting.fitted("", time, track(truth, time, seed), dict(truth), None), truth) for seed in range(count)]
-    for name in truth:
-        assert low <= sum(one[name] for one in held) <= high, name
+    low, high = binom.ppf([1e-4, 1 - 1e-4], tracks, 0.95)
+    for name, held in counted(pendulum, tracks).items():
+        assert low <= held <= high, name
 
 
 def test_few_samples_have_wider_intervals():
@@ -69,8 +57,9 @@ def test_few_samples_have_wider_intervals():
     assert [half_width(spare) for spare in (10, 14, 55, 1000)] == pytest.approx([2.228, 2.145, 2.004, 1.962], abs=4e-3)
 
 
-def test_drag_and_friction_are_told_from_viscous_damping():
-    time, truth = np.linspace(0, 16, 150), FRICTION
+@pytest.mark.parametrize(("seconds", "samples"), LENGTHS["all kinds"])
+def test_drag_and_friction_are_told_from_viscous_damping(seconds, samples):
+    time, truth = np.linspace(0, seconds, samples), FRICTION
     found = kapitza.fit(time, track(truth, time))
     viscous = found.models["viscous"]
     assert found.best.name == "viscous + quadratic + dry" and viscous.residual > 3 * found.best.residual and viscous.correlation > 0.5
@@ -127,6 +116,9 @@ def test_the_command(tmp_path):
     assert "pendulum: {length: 0.2" in done.stdout and "quality_factor: 46" in done.stdout
     (named, bare) = (fitting.read_track(tmp_path / f"{name}.csv") for name in ("track", "bare"))
     assert np.array_equal(named[:2], bare[:2]) and (named[2], bare[2]) == (True, False)
+    if EXTENSIVE:
+        again = subprocess.run([PROGRAM, "fit", "track.csv"], cwd=tmp_path, capture_output=True, text=True)
+        assert again.returncode == 0 and again.stdout == done.stdout, again.stderr
     (tmp_path / "wrong.csv").write_text("time,speed\n0,1\n")
     for words, said in ((["absent.csv"], "absent.csv: No such file"), (["wrong.csv"], "it needs time (s) and theta"),
                         (["track.csv", "--frequency", "fast"], "'fast' is not a number")):

@@ -7,7 +7,7 @@ import h5py
 import matplotlib.image
 import numpy as np
 import pytest
-from conftest import PROGRAM, ROOT, run_script, with_extensive
+from conftest import EXTENSIVE, PROGRAM, ROOT, run_script, with_extensive
 from conftest import plot as plot_kind
 from kapitza import Result, style
 from kapitza.command import KINDS, main
@@ -273,6 +273,12 @@ def test_the_program_draws_the_main_study_and_says_what_a_file_holds(made_file, 
     assert said == "\n".join(repr(Result(made_file)).splitlines()[1:]) + "\n" and "inverted" in said
     refused = from_program("info", tmp_path / "none.h5")
     assert (refused.returncode, refused.stderr) == (1, f"kapitza: error: {tmp_path / 'none.h5'}: no such file\n")
+    if EXTENSIVE:
+        assert from_program("plot", made_file, "-o", tmp_path / "alone.png", "--dpi", "40").returncode == 0
+        assert plot(made_file, "-o", tmp_path / "named.png", "--dpi", "40").returncode == 0
+        assert (tmp_path / "alone.png").read_bytes() == (tmp_path / "named.png").read_bytes()
+        refused = from_program("plot", tmp_path / "none.h5")
+        assert (refused.returncode, refused.stderr) == (1, f"kapitza: error: {tmp_path / 'none.h5'}: no such file\n")
     usage = run_script(main)
     assert usage.returncode == 2 and "KIND: atlas, basin" in usage.stderr
     assert from_program("info").stderr == "kapitza: error: info: FILE is missing; kapitza info FILE\n"

@@ -1,0 +1,64 @@
+#!/usr/bin/env python3
+"""How often the stated errors of a fit hold the truth: synthetic tracks with noise, fitted, and counted.
+
+    tests/tools/fit_coverage.py                  100 tracks of each of two pendulums
+    tests/tools/fit_coverage.py --tracks 400     more tracks, for less noise in the count
+
+A line for each number of the model: its share of intervals that hold, with the 95 % interval (Clopper and Pearson) of this count.
+"""
+
+import argparse
+import sys
+from multiprocessing import Pool
+from pathlib import Path
+
+import numpy as np
+from scipy.stats import beta
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "python"))
+from kapitza import fitting
+
+NOISE = 2e-3  # rad
+DECAY = {"omega0": 7.0, "offset": 0.02, "theta": 0.9, "velocity": 0.3, "viscous": 0.15}
+FRICTION = DECAY | {"quadratic": 0.06, "dry": 0.05}
+PENDULUMS = {"viscous": (DECAY, np.linspace(0, 9, 60)), "viscous + quadratic + dry": (FRICTION, np.linspace(0, 20, 250))}
+
+
+def track(truth, time, seed=1, omega=None):
+    """Angles of the equation with noise."""
+    exact = fitting.simulated(time, {name: np.array([value]) for name, value in truth.items()}, omega)[0]
+    return exact + np.random.default_rng(seed).normal(0, NOISE, time.size)
+
+
+def holds(name, seed):
+    """Whether each number of the track of this seed lies within its stated error."""
+    truth, time = PENDULUMS[name]
+    model = fitting.fitted("", time, track(truth, time, seed), dict(truth), None)
+    return {key: bool(abs(model.values[key] - value) <= model.errors[key]) for key, value in truth.items()}
+
+
+def counted(name, tracks, processes=1):
+    """The number of tracks whose intervals hold, of each number of the model."""
+    words = [(name, seed) for seed in range(tracks)]
+    if processes == 1:
+        held = [holds(*one) for one in words]
+    else:
+        with Pool(processes) as pool:
+            held = pool.starmap(holds, words)
+    return {key: sum(one[key] for one in held) for key in PENDULUMS[name][0]}
+
+
+def main():
+    options = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    options.add_argument("--tracks", type=int, default=100)
+    options.add_argument("--processes", type=int, default=1)
+    chosen = options.parse_args()
+    for name in PENDULUMS:
+        print(f"{name}: {chosen.tracks} tracks of {PENDULUMS[name][1].size} samples")
+        for key, count in counted(name, chosen.tracks, chosen.processes).items():
+            low, high = beta.ppf([0.025, 0.975], [count, count + 1], [chosen.tracks - count + 1, chosen.tracks - count])
+            print(f"  {key:<10} {100 * count / chosen.tracks:5.1f} %   {100 * low:.1f} to {100 * (1 if np.isnan(high) else high):.1f} %")
+
+
+if __name__ == "__main__":
+    main()
