@@ -1,4 +1,4 @@
-"""The pictures of a report: those of kapitza plot."""
+"""The pictures of a report: those of kapitza plot, without titles: the page has its own."""
 
 import tempfile
 from collections.abc import Callable, Iterator
@@ -31,5 +31,5 @@ def pictures(result: Result) -> Iterator[tuple[str, bytes]]:
             units = UNITS.get(group, []) if result.pivot_frequency else []
             for caption, draw, options in rows if group in result.groups else ():
                 with redirect_stdout(StringIO()):  # the picture's name
-                    draw([str(result.path), "-o", str(picture), "--dpi", str(DPI), *options, *units])
+                    draw([str(result.path), "-o", str(picture), "--dpi", str(DPI), "--no-title", *options, *units])
                 yield caption, picture.read_bytes()
