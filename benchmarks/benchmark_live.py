@@ -26,6 +26,10 @@ SLIDERS = {
     "slider-k01": ({"k": 0.1, "damping": 0.1}, "m", 0.40, 0.41),
     "slider-eps046": (BLACKBURN, "drive_amplitude", 0.46, 0.47),
 }
+# The plane of the explorer's map for Fig. 12; its point goes along a line that crosses curves.
+PLANE = {"x": {"parameter": "drive_frequency", "min": 3.1, "max": 30}, "y": {"parameter": "drive_amplitude", "min": 0, "max": 0.75},
+         "max_period": 4, "checks": 0}
+WAY = ((11, 0.30), (12, 0.32))
 # name: scene keys of whole commands against another build
 RUNS = {
     "direct-1000x1000": ["basin.method=direct"],
@@ -98,6 +102,23 @@ def slide(engine, pendulum, key, first, last):
     return 1e3 * (engine.seconds() - begin) / 50
 
 
+def map_drag(engine, folder):
+    """Mean over 50 points of the explorer's map, whose atlas gives the attractors."""
+    scene, atlas = (Path(folder) / name for name in ("map.yaml", "map.h5"))
+    scene.write_text(json.dumps({"pendulum": {"quality_factor": 5, "drive_frequency": 11, "drive_amplitude": 0.3}, "atlas": PLANE}))
+    subprocess.run([str(PROGRAM), "run", str(scene), "-o", str(atlas)], check=True, stdout=subprocess.DEVNULL)
+
+    def go(share):
+        x, y = (first + share * (last - first) for first, last in zip(*WAY, strict=True))
+        pendulum = {"quality_factor": 5, "drive_frequency": x, "drive_amplitude": y}
+        engine.frame(250, 400, levels=[8, 4, 2, 1], pendulum=pendulum, atlas=str(atlas), x=x, y=y)
+    go(0)
+    begin = engine.seconds()
+    for i in range(1, 51):
+        go(i / 50)
+    return 1e3 * (engine.seconds() - begin) / 50
+
+
 def first_picture(core):
     """A new program: 8x8 cells, and the whole picture, with all that it took to start."""
     engine = Engine(core)
@@ -114,6 +135,9 @@ def measure(core, rounds):
     for name, slider in SLIDERS.items():
         frames[name] = slide(engine, *slider)
         yardstick.append(spin())
+    with tempfile.TemporaryDirectory() as folder:
+        frames["map-fig12"] = map_drag(engine, folder)
+    yardstick.append(spin())
     engine.close()
     pictures = [first_picture(core) for _ in range(min(rounds, 3))]
     frames["first-1000x551"] = min(picture[1] for picture in pictures)
