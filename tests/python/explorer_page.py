@@ -207,6 +207,19 @@ class Page:
         assert wait_for(lambda: path.is_file() and path.stat().st_size > 0 and not part.exists(), seconds)
         return path
 
+    def plays_alone(self, path):
+        """A saved view, opened without its server: the list, and a motion that a line of it plays."""
+        first = self.driver.current_window_handle
+        self.driver.switch_to.new_window("tab")
+        self.driver.get(path.as_uri())
+        *others, last = self.driver.find_elements("css selector", "#list button")
+        assert len(others) == 2 and "upright rest" in others[1].text and not last.get_attribute("disabled")
+        before, words = self.run("[$('pendulum').toDataURL(), $('words').textContent]")
+        last.click()
+        assert wait_for(lambda: self.run("$('pendulum').toDataURL()") != before) and self.run("$('words').textContent") != words
+        self.driver.close()
+        self.driver.switch_to.window(first)
+
 
 # ---- fixtures of the modules that name this one in pytest_plugins ----
 

@@ -323,6 +323,7 @@ def test_pictures_and_tables_are_saved(page, folder):
     assert matplotlib.image.imread(page.saved("save-png", folder / "view.png")).shape[1] == 900
     alone = page.saved("save-html", folder / "view.html").read_text()
     assert alone.count("<button") == 0 and "data:image/png" in alone and "import " not in alone.split("<script>")[1].split("modules[")[0]
+    page.plays_alone(folder / "view.html")
     drawing = ElementTree.parse(page.saved("save-svg", folder / "view.svg")).getroot()
     words = [item.text for item in drawing.iter("{http://www.w3.org/2000/svg}text")]
     assert "upright rest" in words and len(list(drawing.iter("{http://www.w3.org/2000/svg}image"))) == 1
@@ -330,7 +331,9 @@ def test_pictures_and_tables_are_saved(page, folder):
 
 @pytest.mark.extensive
 def test_films_are_saved(page, folder):
-    page.choose("film-count", "3")
+    _ = page.choose("film-count", "3"), page.press("film-loop")
     with zipfile.ZipFile(page.saved("film-png", folder / "film.zip", 60)) as film:
-        assert film.testzip() is None and film.namelist() == [f"film-00{n}.png" for n in range(3)]
-    assert page.saved("film-webm", folder / "film.webm", 60).stat().st_size > 2000  # a head without pictures has 110 bytes
+        assert film.testzip() is None and film.namelist() == [f"film-00{n}.png" for n in range(4)]  # there and back
+    for kind in ("webm", "mp4"):
+        assert page.saved(f"film-{kind}", folder / f"film.{kind}", 60).stat().st_size > 2000  # a head without pictures has 110 bytes
+        assert wait_for(lambda: page.run("$('film-state').textContent") == "")

@@ -47,7 +47,8 @@ def test_the_list_lights_a_basin_and_keeps_the_one_that_is_clicked(page):
     assert page.run("[explorer.state.pinned, explorer.state.lit]") == ["inverted 1", "inverted 1"]
     lit = np.unique(np.array(page.pixels()), axis=0).tolist()
     assert sum(colour in plain for colour in lit) == 1 and len(lit) == len(plain) > 1  # one keeps its colour
-    assert wait_for(lambda: page.run("$('passport').textContent").startswith("inverted: "))
+    assert wait_for(lambda: page.run("$('passport').textContent").startswith("upright rest: "))
+    assert wait_for(lambda: "smallest push: beyond this window" in page.run("$('passport').textContent"))  # stripes along theta
     assert "closes after 1 drive period;" in page.run("$('passport').textContent") and page.run("explorer.state.start.theta") == "0.1"
     page.run("document.querySelector('#legend tr:nth-child(2) button').click()")
     assert page.run("explorer.state.lit") is None and np.unique(np.array(page.pixels()), axis=0).tolist() == plain

@@ -1,11 +1,13 @@
 // Boundaries of basins: where the end changes between two starts, and the nearest start that ends elsewhere.
 
+import { Decimal } from "./decimal.js";
 import { asScene } from "./frames.js";
 import { Range, TURN, Window } from "./window.js";
 
 const LOOK = { width: 120, height: 80 }; // cells of the pictures in which another basin is looked for
 const WIDER = 4; // how much wider each of them is than the one before
 const FASTEST = 40; // rad per drive radian: windows beyond it are not looked at
+const FINE = 1e-3; // of a push, to which it is halved
 const TRIED = 5; // starts with another quick label whose end is asked for
 
 /** Id of the attractor that a start, [theta, velocity] as Decimals, ends on; -1: it settles on none. */
@@ -53,6 +55,37 @@ export async function nearestBoundary(pane, window) {
 function around({ theta, velocity }, point) {
   const range = ({ width }, at) => new Range(at.moved(width, -0.5), at.moved(width, 0.5));
   return new Window(range(theta, point[0]), range(velocity, point[1]));
+}
+
+/**
+ * The smallest change of velocity seen that takes an attractor from one of its strobe points, { id, strobe: [[theta, velocity], ...] }, into
+ * another basin: found among the cells of the last frame, then halved. Null: none in that window. Tongues thinner than a cell may lie nearer.
+ */
+export async function smallestPush(pane, { id, strobe }) {
+  const { top: frame } = pane;
+  if (!frame) return null;
+  let best = null;
+  for (const [angle, speed] of strobe) {
+    const [theta, velocity] = [Decimal.from(angle), Decimal.from(speed)];
+    const turns = frame.window.theta.shareOf(theta);
+    const period = TURN / frame.window.theta.width;
+    const column = Math.floor((turns - period * Math.floor(turns / period)) * frame.columns);
+    const row = Math.floor(frame.window.velocity.shareOf(velocity) * frame.rows);
+    if (column >= frame.columns || row < 0 || row >= frame.rows) continue;
+    for (const step of [-1, 1])
+      for (let at = row + step; at >= 0 && at < frame.rows; at += step) {
+        const label = frame.labels[at * frame.columns + column];
+        if (label === id || label === 255) continue;
+        if (!best || Math.abs(at - row) < best.cells) best = { cells: Math.abs(at - row), theta, velocity, at: (at + 0.5) / frame.rows };
+        break;
+      }
+  }
+  if (!best) return null;
+  const other = [best.theta, frame.window.velocity.at(best.at)];
+  const end = await endOf(pane, [best.theta, best.velocity]);
+  for await (const [, beyond, share] of halvings(pane, [best.theta, best.velocity], other, end))
+    if (share < FINE) return beyond[1].minus(best.velocity).toNumber();
+  return null;
 }
 
 /** The edge between labels that is nearest to a place of a frame (shares of it), within `reach`; null where there is none. */

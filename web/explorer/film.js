@@ -6,6 +6,7 @@ import { zipOf } from "./zip.js";
 
 const MOST = 1000; // pictures
 const RATE = 25; // pictures a second
+const KINDS = ["webm", "mp4"];
 const element = (id) => document.getElementById(id);
 const pause = (milliseconds) => new Promise((resolve) => setTimeout(resolve, milliseconds));
 
@@ -16,7 +17,10 @@ export class Film {
     element("film-key").value = names.find((name) => /amplitude|^m$/.test(name)) ?? names[0];
     element("film-key").onchange = () => this.propose();
     element("film-play").onclick = () => this.toggle(() => this.play());
-    element("film-webm").onclick = () => this.toggle(() => this.webm());
+    for (const kind of KINDS) {
+      element(`film-${kind}`).disabled = !globalThis.MediaRecorder?.isTypeSupported(`video/${kind}`);
+      element(`film-${kind}`).onclick = () => this.toggle(() => this.record(kind));
+    }
     element("film-png").onclick = () => this.toggle(() => this.pngs());
     if (names.length) this.propose();
   }
@@ -46,9 +50,14 @@ export class Film {
       this.complain(error.message);
     }
     if (this.running === mine) this.running = null;
+    this.say("");
     element("film-play").textContent = "Play";
     element("film-play").setAttribute("aria-pressed", "false");
     this.state.change({ [this.state.pane === "b" ? "other" : "pendulum"]: before });
+  }
+
+  say(words) {
+    element("film-state").textContent = words;
   }
 
   /** Value number n of `count`. */
@@ -78,8 +87,10 @@ export class Film {
   /** Calls `take(n)` on every picture, each when its labels are there as right and fine as the page asks for. */
   async pictures(take) {
     const count = this.count();
-    for (let n = 0; this.running && n < count; n++) {
-      this.set(element("film-key").value, this.valueAt(n, count));
+    const all = element("film-loop").checked ? 2 * count - 2 : count; // back without the pictures at both ends
+    for (let n = 0; this.running && n < all; n++) {
+      this.say(`picture ${n + 1} of ${all}`);
+      this.set(element("film-key").value, this.valueAt(n < count ? n : 2 * count - 2 - n, count));
       await pause(20);
       while (this.running && !["done", "error"].includes(document.body.dataset.state)) await pause(20);
       if (this.running && document.body.dataset.state === "error") throw new Error(element("status").textContent);
@@ -96,19 +107,23 @@ export class Film {
     if (files.length) saveBlob("film.zip", zipOf(files));
   }
 
-  async webm() {
+  /** As a video of one of KINDS. */
+  async record(kind) {
     const bitmaps = [];
     await this.pictures(async () => bitmaps.push(await createImageBitmap(pictureCanvas(this.state, this.basins, 1))));
-    if (bitmaps.length) saveBlob("film.webm", await recorded(bitmaps, pictureSize(this.basins)));
+    if (!bitmaps.length) return;
+    this.say("recording …");
+    saveBlob(`film.${kind}`, await recorded(bitmaps, pictureSize(this.basins), `video/${kind}`));
   }
 }
 
-/** A WebM film of pictures, recorded as they are shown in turn. */
-async function recorded(bitmaps, [width, height]) {
+/** A film of pictures, recorded as they are shown in turn; codecs take even sizes alone. */
+async function recorded(bitmaps, [wide, high], mimeType) {
+  const [width, height] = [wide, high].map((side) => 2 * Math.floor(side / 2));
   const canvas = Object.assign(document.createElement("canvas"), { width, height });
   const context = canvas.getContext("2d");
   const stream = canvas.captureStream(0);
-  const recorder = new MediaRecorder(stream, { mimeType: "video/webm", videoBitsPerSecond: 8e6 });
+  const recorder = new MediaRecorder(stream, { mimeType, videoBitsPerSecond: 8e6 });
   const parts = [];
   recorder.ondataavailable = (event) => parts.push(event.data);
   let started = false;
@@ -125,5 +140,5 @@ async function recorded(bitmaps, [width, height]) {
   await pause(500); // the last pictures are still under way
   recorder.stop();
   await ended;
-  return new Blob(parts, { type: "video/webm" });
+  return new Blob(parts, { type: mimeType });
 }

@@ -103,15 +103,3 @@ export function listenLegend(table, state, play) {
     for (const line of table.rows) line.querySelector("button")?.setAttribute("aria-pressed", String(line.dataset.key === state.pinned));
   });
 }
-
-/** What is known of an attractor, in words; `share`: of its basin. */
-export function passportWords({ name, words, period, winding, symmetric, multiplier, strobe }, share) {
-  const closes = period === 0 ? "chaotic" : `closes after ${period} drive period${period === 1 ? "" : "s"}`;
-  const turns = winding === 0 ? "" : `, ${Math.abs(winding)} turn${Math.abs(winding) === 1 ? "" : "s"} in them`;
-  const image = symmetric ? "its own mirror image" : "has a mirror image";
-  const [theta, velocity] = strobe[0].map((value) => value.toPrecision(5));
-  return (
-    `${words}: ${shareWords(share)} of this window; in files ${name}\n${closes}${turns}; ${image}\n` +
-    `largest multiplier ${multiplier.toPrecision(4)}; strobe point θ ${theta}, velocity ${velocity}`
-  );
-}

@@ -1,7 +1,8 @@
 // A view as one HTML file that needs no server: the picture, the list, and a recorded motion of each attractor.
 
 import { asScene, sharesOf } from "./frames.js";
-import { passportWords, rowsOf, shareWords } from "./legend.js";
+import { rowsOf, shareWords } from "./legend.js";
+import { passportWords } from "./passport.js";
 import { pictureCanvas, saveText } from "./save.js";
 import { signed } from "./ticks.js";
 

@@ -1,0 +1,64 @@
+// The passport of the motion that is pinned in the list: lines of words, each from what is known at the time.
+
+import { smallestPush } from "./boundary.js";
+import { shareWords } from "./legend.js";
+import { signed } from "./ticks.js";
+
+const HIGHEST = 3; // drive frequencies of the spectrum,
+const STRONGEST = 3; // and lines of it that are named
+const FAINT = 1e-6; // amplitude below which a line is rounding
+const element = (id) => document.getElementById(id);
+
+/** What is known of an attractor itself, in words; `share`: of its basin. Measures of other kinds join here as further lines. */
+export function passportWords({ name, words, period, winding, symmetric, multiplier, strobe }, share) {
+  const closes = period === 0 ? "chaotic" : `closes after ${period} drive period${period === 1 ? "" : "s"}`;
+  const turns = winding === 0 ? "" : `, ${Math.abs(winding)} turn${Math.abs(winding) === 1 ? "" : "s"} in them`;
+  const image = symmetric ? "its own mirror image" : "has a mirror image";
+  const [theta, velocity] = strobe[0].map((value) => value.toPrecision(5));
+  return (
+    `${words}: ${shareWords(share)} of this window; in files ${name}\n${closes}${turns}; ${image}\n` +
+    `largest multiplier ${multiplier.toPrecision(4)}; strobe point θ ${theta}, velocity ${velocity}`
+  );
+}
+
+/** The strongest lines of a motion's spectrum, in words. */
+export function spectrumWords(motion) {
+  const lines = motion.spectrum(HIGHEST).filter(([frequency, amplitude]) => frequency > 0 && amplitude > FAINT);
+  const strongest = lines.sort(([, one], [, other]) => other - one).slice(0, STRONGEST);
+  if (!strongest.length) return "spectrum: no line, it rests";
+  return `spectrum: ${strongest.map(([frequency, amplitude]) => `${Number(frequency.toPrecision(3))} (${amplitude.toPrecision(2)})`).join(", ")} drive frequencies`;
+}
+
+export class Passport {
+  constructor(state, basins) {
+    Object.assign(this, { state, basins, push: null });
+  }
+
+  /** Shows the row that is pinned, of the rows of the list. */
+  write(rows) {
+    const row = rows.find(({ key }) => key === this.state.pinned);
+    element("passport").hidden = !row;
+    if (!row) return;
+    this.measure(row);
+    const { motion } = this.basins;
+    const own = motion && Number(motion.ending.theta) === row.strobe[0][0] && Number(motion.ending.velocity) === row.strobe[0][1];
+    const lines = [passportWords(row, row.shares.find((share) => share !== null) ?? null), own ? spectrumWords(motion) : "", this.push.words];
+    element("passport").textContent = signed(lines.filter(Boolean).join("\n"));
+  }
+
+  /** Looks for the smallest push, once for a motion of a pendulum. */
+  async measure(row) {
+    const pane = this.basins.active;
+    const of = `${row.key} ${JSON.stringify(pane.pendulum)}`;
+    if (this.push?.of === of) return;
+    const mine = (this.push = { of, words: "smallest push …" });
+    try {
+      const push = await smallestPush(pane, row);
+      const speed = push && this.basins.units.velocity(Math.abs(push).toPrecision(3));
+      mine.words = push ? `smallest push seen, at the strobe: ${push > 0 ? "+" : "-"}${speed}` : "smallest push: beyond this window";
+    } catch (error) {
+      mine.words = `smallest push: ${error.message}`;
+    }
+    this.basins.write();
+  }
+}
