@@ -36,7 +36,8 @@ export function view({ rows, pivotFrequency }) {
   if (first) play(first);
   let last = performance.now();
   const tick = (now) => {
-    shown.motion?.advance((Math.min(0.1, (now - last) / 1000)) * SECOND);
+    const seconds = Math.max(0, Math.min(0.1, (now - last) / 1000)); // the first picture may be older than this script
+    shown.motion?.advance(seconds * SECOND);
     last = now;
     stage.draw(shown.motion, shown.view, theme, new Units("pi", pivotFrequency));
     requestAnimationFrame(tick);
