@@ -161,7 +161,7 @@ extern const kz_group kz_groups[];
 /* FILE.truth, the reference labels of a window, begins with these words. */
 #define KZ_REFERENCE_WORDS "kapitza truth"
 
-/* KZ_REFUSED if a study or method does not support the drive. */
+/* KZ_REFUSED if the scene asks for what does not take its drive or its release (src/study/drive_limits.c). */
 kz_status kz_drive_check(const kz_scene *scene);
 /* The same for the chart of the scene only. */
 kz_status kz_drive_check_chart(const kz_scene *scene);

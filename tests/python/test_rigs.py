@@ -309,19 +309,29 @@ def test_the_pivot_moves_as_the_drive_says(kapitza, tmp_path):
 
 DRIVES = {"overtones": {"waveform": "square"}, "across": {"tilt": "5 deg"}}
 STUDIES = {
-    "icm": [{"basin": {**WINDOW, "method": "icm"}}, {"basin": {**WINDOW, "method": "direct"}, "numerics": {"scheme": "rk4"}}],
+    "icm": [{"basin": {**WINDOW, "method": "icm"}}],
+    "numerics.scheme: rk4": [{"basin": {**WINDOW, "method": "direct"}, "numerics": {"scheme": "rk4"}}],
     "stability": [{"stability": {"k": {"min": 0, "max": 1, "count": 3}, "m": {"min": 0, "max": 1, "count": 3}}}],
     "orbit.model": [{"orbit": {"start": {"theta": 1, "velocity": 0}, "model": "effective"}},
                     {"sweep": {"parameter": "drive_amplitude", "min": 0.4, "max": 0.5, "count": 2, "measure": ["flutter_amplitude"]}}],
+    "proof": [{"basin": {**WINDOW, **keys}} for keys in ({"proof": True}, {"boundary": {}}, {"accuracy": 0.99})],
 }
+RELEASED = {5: ({}, {"start_phase": 1}), 6: ({"ramp": LINEAR}, {})}  # by column
 
 
 @pytest.mark.parametrize("row", STUDIES)
 def test_what_the_table_of_drives_says_no_to_is_refused(kapitza, tmp_path, row):
-    """docs/reference/commands.md; by the key of the drive."""
+    """docs/reference/commands.md; by the key of the drive, or of the release."""
     lines = (ROOT / "docs" / "reference" / "commands.md").read_text().split("### Drives")[1].split("### ")[0].splitlines()
     cells = next(line for line in lines if line.startswith("| ") and f"`{row}`" in line.split("|")[1]).split("|")
     for column, keys in enumerate(DRIVES.values(), 3):
         for study in STUDIES[row] if cells[column].strip().startswith("no") else []:
             (tmp_path / "s.yaml").write_text(json.dumps({"pendulum": {**PENDULUM, **keys}, **study}))
             assert "pendulum." in kapitza("check", "s.yaml", folder=tmp_path, status=2).stderr
+    for column, (keys, released) in RELEASED.items():
+        refused = cells[column].strip() == "no"
+        for study in [study for study in STUDIES[row] if "basin" in study]:
+            scene = {"pendulum": PENDULUM | keys, **study, "basin": study["basin"] | released}
+            (tmp_path / "s.yaml").write_text(json.dumps(scene))
+            done = kapitza("check", "s.yaml", folder=tmp_path, status=2 if refused else 0)
+            assert not refused or ("basin.start_phase: " if released else "pendulum.ramp: ") in done.stderr
