@@ -150,7 +150,7 @@ def si_parameters(pendulum: Mapping[str, Any]) -> dict[str, str]:
     words = {name: f"{name} {length_text(pendulum[name])}" for name in ("length", "radius") if name in pendulum}
     words["frequency"] = f"{pendulum['pivot_frequency'] / TURN:.6g} Hz"
     if "pivot_amplitude" in pendulum:
-        words["amplitude"] = f"amplitude {length_text(pendulum['pivot_amplitude'])}"
+        words["amplitude"] = f"amplitude {1e3 * pendulum['pivot_amplitude']:.6g} mm"  # as the program's messages
     if math.isfinite(pendulum.get("quality_factor", math.nan)):
         words["quality_factor"] = f"Q = {pendulum['quality_factor']:.6g}"
     return words

@@ -115,6 +115,12 @@ def test_what_people_write_behind_a_number():
         units.velocity("3 rad/s", None)
 
 
+def test_the_footer_says_an_amplitude_in_mm():
+    """As the program's messages do; a length in the largest unit of which it is at least one."""
+    found = units.si_parameters({"length": 0.2, "pivot_frequency": 100 * np.pi, "pivot_amplitude": 0.012, "quality_factor": 10})
+    assert list(found.values()) == ["length 20 cm", "50 Hz", "amplitude 12 mm", "Q = 10"]
+
+
 @pytest.mark.parametrize("text", ["2 deg", "2deg", "2e0°"])
 def test_a_sweep_keeps_the_unit_that_was_written(text):
     found = xarray.Dataset(coords={"value": ("value", np.radians([2, 5]), {"units": "rad"})})
