@@ -25,7 +25,8 @@ const kz_command kz_commands[] = {
      "check SCENE; print what a run would model, and the time, memory and disk that it would take"},
     {"where", WHERE, " SCENE THETA VELOCITY", 2, 5, kz_app_where,
      "say on which attractor a start ends; THETA is in rad from down, VELOCITY in rad per drive radian, with any number of "
-     "digits, or both with units ('170 deg', of a scene in SI '3 rad/s'); write - in their place to read starts as CSV from standard input; --boundary takes two starts"},
+     "digits, or both with units ('170 deg', of a scene in SI '3 rad/s'); write - in their place to read starts as CSV from "
+     "standard input; --boundary takes two starts"},
     {"view", VIEW, " SCENE|FILE", 1, 1, kz_app_view, "open the basins of a scene or of a result in the browser"},
     {"plot", PLOT, " [KIND] FILE", 1, 1, kz_app_plot,
      "draw the result FILE as a picture; kapitza plot KIND --help lists the options of a kind, kapitza plot alone the kinds"},
