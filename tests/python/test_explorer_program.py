@@ -1,9 +1,6 @@
 """The explorer's page with the program itself, in a real browser."""
 
 import json
-import os
-import time
-from pathlib import Path
 
 import numpy as np
 import pytest
@@ -13,13 +10,12 @@ from explorer_page import Page, Server, browser, wait_for
 from kapitza.result import Result
 
 SMALL = ROOT / "scenes" / "small.yaml"
-SCREENSHOTS = os.environ.get("KAPITZA_SCREENSHOTS")  # a folder for the pictures of the documentation
 TURN = 2 * np.pi
 
 
 @pytest.fixture
 def driver(tmp_path):
-    with browser(tmp_path, "1280,829" if SCREENSHOTS else "760,520") as found:  # fewer cells
+    with browser(tmp_path, "760,520") as found:  # fewer cells
         yield found
 
 
@@ -36,12 +32,6 @@ def test_with_the_program(driver, kapitza, tmp_path):
     assert wait_for(lambda: page.run("$('ending').dataset.ending"))
     ending = json.loads(page.run("$('ending').dataset.ending"))
     assert ending["words"] in page.run("$('ending').textContent").replace("−", "-") and ending["decided"]
-    if SCREENSHOTS:
-        page.choose("samples", "2")
-        page.choose("value-drive_amplitude", "0.3")
-        page.wait()
-        time.sleep(3)
-        driver.save_screenshot(str(Path(SCREENSHOTS) / "explorer.png"))
     page.run("explorer.basins.zoom(1e-20, 0.4, 0.6)")
     page.wait()
     assert page.run("explorer.state.window.theta.width") == pytest.approx(TURN * 1e-20)

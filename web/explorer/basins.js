@@ -268,6 +268,7 @@ export class Basins {
   }
 
   say(pane, state, words, progress) {
+    if (pane.closed) return; // its last frame may still come
     const known = this.states.get(pane) ?? {};
     this.states.set(pane, {
       state: state ?? known.state,

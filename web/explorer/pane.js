@@ -289,6 +289,7 @@ export class Pane {
   /** Ends its program. */
   close() {
     this.closed = true;
+    this.version++; // nothing more is wanted
     this.controller.abort();
     this.engine.close();
   }

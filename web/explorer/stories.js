@@ -48,7 +48,7 @@ export class Stories {
   begin(story) {
     this.before = Object.fromEntries(KEPT.map((name) => [name, this.state[name]]));
     this.story = story;
-    document.body.dataset.story = story.title;
+    document.body.dataset.story = element("story-title").textContent = story.title;
     element("tell").setAttribute("aria-pressed", "true");
     document.documentElement.requestFullscreen?.().catch(() => {}); // the browser may not want it
     const whole = Window.from(story.window ?? this.state.whole.toRequest());
