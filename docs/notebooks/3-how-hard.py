@@ -6,7 +6,7 @@
 
 # %% [markdown]
 # # 3. How hard may it be pushed?
-# Three answers: along the drive amplitude (a sweep), by single pushes, over a plane of two parameters (a chart).
+# Three answers: along the drive amplitude (a sweep), by single pushes, over a plane of two parameters (a plane).
 
 # %%
 import os
@@ -43,6 +43,7 @@ print(f"It stands {falls['velocity'].iloc[0] - pushes[1]:.4f} and falls at {fall
 # Where a release near the upright position ends, over frequency and amplitude of the drive.
 
 # %%
-chart = {"x": {"parameter": "drive_frequency", "min": 3, "max": 20, "count": COUNT},
-         "y": {"parameter": "drive_amplitude", "min": 0.01, "max": 0.7, "count": COUNT}, "start": {"theta": [3.04]}}
-kapitza.run({"pendulum": pendulum, "chart": chart}).plot()
+plane = {"x": {"parameter": "drive_frequency", "min": 3, "max": 20, "count": COUNT},
+         "y": {"parameter": "drive_amplitude", "min": 0.01, "max": 0.7, "count": COUNT},
+         "measure": ["ends"], "ends": {"theta": [3.04]}}
+kapitza.run({"pendulum": pendulum, "sweep": plane}).plot()

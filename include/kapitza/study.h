@@ -38,7 +38,6 @@ enum { KZ_AUTO = 0 };
   STUDY(stability)        \
   STUDY(potential)        \
   STUDY(sweep)            \
-  STUDY(chart)            \
   STUDY(atlas)            \
   STUDY(measures)         \
   STUDY(tradeoff)
@@ -163,7 +162,7 @@ extern const kz_group kz_groups[];
 
 /* KZ_REFUSED if the scene asks for what does not take its drive or its release (src/study/drive_limits.c). */
 kz_status kz_drive_check(const kz_scene *scene);
-/* The same for the chart of the scene only. */
+/* The same for ends over a plane only. */
 kz_status kz_drive_check_chart(const kz_scene *scene);
 /* KZ_REFUSED, with the message of the first study of the scene that does not pass its check. */
 kz_status kz_studies_check(const kz_scene *scene);

@@ -14,7 +14,7 @@ if TYPE_CHECKING:
     from kapitza.result import Result
 
 Z = 1.959963984540054  # of a 95 % interval
-CYCLE, CHAOTIC = 0, 1  # codes of the variable `end` of a chart
+CYCLE, CHAOTIC = 0, 1  # codes of the variable `end` of a plane
 Row = tuple[str, float, float, float]  # name, probability, low, high
 OUTSIDE, NOT_SETTLED = "outside the window", "not settled"
 
@@ -107,12 +107,12 @@ def share(result: "Result", name: str) -> xarray.DataArray:
         chosen = _chosen(name, names, kinds)
         return sweep["fraction"].fillna(0).isel(branch=chosen).sum("branch").rename(f"share of {name}").assign_attrs(
             long_name=f"share of the starts that end on {name}", units="1")
-    chart = result.group("chart")
+    chart = result.group("plane")
     ends = chart["end"].isin([CYCLE, CHAOTIC])
     kinds = [CENTRES[code] if code < len(CENTRES) else "neither" for code in range(4)]
     if name not in kinds:
-        raise KeyError(f"a chart knows no {name!r}; give {', '.join(kinds)}")
-    return (ends & (chart["centre"] == kinds.index(name))).mean("start").rename(f"share of {name}").assign_attrs(
+        raise KeyError(f"a plane knows no {name!r}; give {', '.join(kinds)}")
+    return (ends & (chart["end_centre"] == kinds.index(name))).mean("start").rename(f"share of {name}").assign_attrs(
         long_name=f"share of the starts that end {name}", units="1")
 
 
@@ -128,7 +128,7 @@ def largest(result: "Result", name: str, least: float) -> float:
     """As Result.largest."""
     along = share(result, name)
     if along.ndim != 1:
-        raise ValueError("a chart has no single value; take .share(name) of it")
+        raise ValueError("a plane has no single value; take .share(name) of it")
     enough = along["value"].values[along.values >= least]
     return float(enough.max()) if enough.size else math.nan
 

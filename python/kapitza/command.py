@@ -15,10 +15,10 @@ from kapitza.show import main_kind
 KINDS: dict[str, Callable[[list[str]], None]] = {
     "atlas": atlas.main,
     "basin": basin.main,
-    "chart": chart.main,
     "compare": compare.main,
     "film": recording.main,
     "orbit": orbit.main,
+    "plane": chart.main,
     "potential": potential.main,
     "report": report.main,
     "stability": stability.main,

@@ -36,7 +36,7 @@ NEEDED = {
     "tradeoff": _part("label method scheme interpolation wrong wrong_low wrong_high seconds seconds_per_million_cells pareto",
                       "floor samples"),
     "basin": _part("theta velocity attractor settling_time evidence"),
-    "chart": _part("x y start_theta start_velocity period winding centre end exponent settling_time", "x_parameter y_parameter"),
+    "plane": _part("x y", "x_parameter y_parameter"),
     "manifolds": _part("theta velocity arc_length saddle branch kind polyline"),
     "saddles": _part("period winding name index strobe_theta strobe_velocity multiplier_re multiplier_im"),
     "sweep": _part("value", "parameter"),
@@ -44,6 +44,8 @@ NEEDED = {
 _BRANCHES = "branch_start branch_end branch_start_kind branch_end_kind branch_name branch_period branch_winding branch_centre branch_mirror"
 # What a group may hold, and then whole: a part is there if its first variable is.
 OPTIONAL = {
+    "plane": [_part("end start_theta start_velocity end_period end_winding end_centre exponent settling_time"),
+              _part("name period winding centre points")],
     "sweep": [
         _part(f"fraction fraction_low fraction_high {_BRANCHES}"),
         _part("alike alike_low alike_high", "phases"),
@@ -55,7 +57,7 @@ OPTIONAL = {
     ],
 }
 # Never below 0.
-COUNTS = {"period", "settling_time", "branch_period", "class_period", "curve_period", "curve_first", "curve_points", "list"}
+COUNTS = {"period", "settling_time", "branch_period", "class_period", "curve_period", "curve_first", "curve_points", "list", "end_period"}
 GRIDS = {"theta", "velocity", "time", "k", "m", "value", "release", "x", "y", "row", "column"}  # axes that go up
 WORDS = {"parameter", "parameter_units", "x_parameter", "y_parameter"}  # attributes that are text; all others that a part names are numbers
 WITH_PENDULUM = {"basin", "orbit", "potential", "tradeoff"}  # groups whose pictures name its parameters

@@ -162,9 +162,9 @@ class Result:
         return probability(self, theta, velocity, spread, kind, starts, seed)
 
     def share(self, name: str) -> xarray.DataArray:
-        """The share of the starts that end on attractors of a name along a sweep, or in motions about a centre over a chart.
+        """The share of the starts that end on attractors of a name along a sweep, or in motions about a centre over a plane.
 
-        :param name: name of branches, or a centre: "down", "inverted", "rotating", "neither"; a chart knows centres only
+        :param name: name of branches, or a centre: "down", "inverted", "rotating", "neither"; a plane knows centres only
         :raises KeyError: if there is none
         """
         from kapitza.chances import share

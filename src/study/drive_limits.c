@@ -7,16 +7,12 @@
 #include "basin/plan.h"
 #include "orbit/plan.h"
 #include "sweep/plan.h"
-#include "chart/plan.h"
 
-/* Whether an axis of the scene's chart is of such a key. */
-static bool is_charted(const kz_scene *scene, bool (*is_such)(int32_t parameter)) {
-  return scene->has_chart && (is_such(scene->chart->x.parameter) || is_such(scene->chart->y.parameter));
-}
-
-/* Whether a sweep or a chart gives the drive other forms than the scene's. */
-static bool drive_is_varied(const kz_scene *scene) {
-  return (scene->has_sweep && kz_sweep_is_of_drive(scene->sweep->parameter)) || is_charted(scene, kz_sweep_is_of_drive);
+/* Whether a key of the scene's sweep is such a one. */
+static bool is_swept(const kz_scene *scene, bool (*is_such)(int32_t parameter)) {
+  const kz_sweep_plan *plan = scene->sweep;
+  if (!scene->has_sweep) return false;
+  return kz_sweep_is_plane(plan) ? is_such(plan->x.parameter) || is_such(plan->y.parameter) : is_such(plan->parameter);
 }
 
 /* Whether a scene asks for something. */
@@ -24,7 +20,7 @@ static bool drive_is_varied(const kz_scene *scene) {
   static bool asks_##name(const kz_scene *s) { \
     return what;                               \
   }
-ASKS(chart, s->has_chart)
+ASKS(ends, s->has_sweep &&kz_sweep_measures(s->sweep, KZ_SWEEP_ENDS))
 ASKS(curves_of_sine, s->has_stability && !kz_is_sine(&s->parameters.pendulum) && kz_stability_needs_sine(s->stability))
 ASKS(potential, s->has_potential)
 ASKS(other_models, s->has_orbit && s->orbit->model != KZ_PENDULUM)
@@ -41,10 +37,10 @@ ASKS(boundary, s->has_basin && s->basin->has_boundary)
 ASKS(orbit_on_ramp, s->has_orbit && s->parameters.has_ramp)
 ASKS(decisions, s->has_basin && s->basin->undecided == KZ_UNDECIDED_DECIDE)
 ASKS(depth, s->has_basin && (s->basin->theta.centre.text[0] || s->basin->velocity.centre.text[0]))
-ASKS(chart_over_ramp, is_charted(s, kz_sweep_is_of_release))
+ASKS(plane_over_ramp, s->has_sweep &&kz_sweep_is_plane(s->sweep) && is_swept(s, kz_sweep_is_of_release))
 /* A sweep over a ramp: its values differ in their cells alone. */
 static bool asks_more_than_cells(const kz_scene *s) {
-  if (!s->has_sweep || !kz_sweep_is_of_release(s->sweep->parameter)) return false;
+  if (!is_swept(s, kz_sweep_is_of_release)) return false;
   bool of_cells = s->has_basin;
   for (int64_t i = 0; i < s->sweep->measure.count; i++) {
     const int64_t measure = s->sweep->measure.values[i];
@@ -63,7 +59,7 @@ static const struct {
   int needs;
   const char *complaint;
 } limits[] = {
-    {asks_chart, SINE, "study chart needs a pivot that moves up and down as a sine; leave one of them out"},
+    {asks_ends, SINE, "sweep.measure ends needs a pivot that moves up and down as a sine; leave one of them out"},
     {asks_curves_of_sine, SINE,
      "stability.curves over k and subharmonics are those of the sine; leave them out, or ask for hill_1 to hill_5"},
     {asks_potential, SINE, "study potential needs a pivot that moves up and down as a sine; leave one of them out"},
@@ -76,7 +72,7 @@ static const struct {
     {asks_tradeoff, MIRRORED, "study tradeoff needs mirror symmetry, which this drive does not have; leave one of them out"},
     {asks_rk4, MIRRORED,
      "numerics.scheme rk4 needs mirror symmetry, which this drive does not have; choose processed or split6"},
-    {asks_chart_over_ramp, NO_RAMP_OVER, "study chart does not follow a ramp; choose another parameter for the chart"},
+    {asks_plane_over_ramp, NO_RAMP_OVER, "a sweep over a plane does not follow a ramp; choose another parameter for its axis"},
     {asks_more_than_cells, NO_RAMP_OVER,
      "a sweep over a ramp needs the study basin and measures basin_fractions and phases only"},
     {asks_decisions, ONE_PHASE, "basin.undecided decide needs starts at one phase; choose flag"},
@@ -155,7 +151,7 @@ kz_status kz_drive_check(const kz_scene *scene) {
   const kz_pendulum *p = &scene->parameters.pendulum;
   const char *chart = wrong_chart(scene);
   if (chart) return kz_fail(KZ_REFUSED, "%s", chart);
-  const bool varied = drive_is_varied(scene);
+  const bool varied = is_swept(scene, kz_sweep_is_of_drive);
   const char *why = kz_is_sine(p) && !varied ? NULL : limit_of(scene, SINE);
   if (!why && (!kz_is_mirrored(p) || varied)) why = limit_of(scene, MIRRORED);
   if (why) return kz_fail(KZ_REFUSED, "%s: %s", kz_drive_made_by(&scene->parameters.written), why);
@@ -163,6 +159,6 @@ kz_status kz_drive_check(const kz_scene *scene) {
 }
 
 kz_status kz_drive_check_chart(const kz_scene *scene) {
-  if (kz_is_sine(&scene->parameters.pendulum) && !drive_is_varied(scene)) return KZ_OK;
-  return kz_fail(KZ_REFUSED, "%s: %s", kz_drive_made_by(&scene->parameters.written), limits[0].complaint); /* of a chart */
+  if (kz_is_sine(&scene->parameters.pendulum) && !is_swept(scene, kz_sweep_is_of_drive)) return KZ_OK;
+  return kz_fail(KZ_REFUSED, "%s: %s", kz_drive_made_by(&scene->parameters.written), limits[0].complaint); /* of ends */
 }

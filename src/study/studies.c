@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "basin/basin.h"
+#include "sweep/sweep.h"
 #include "kapitza/study.h"
 
 #define ROW(name) &kz_##name##_study,
@@ -16,6 +17,8 @@ const kz_group kz_groups[] = {
     {"phases", kz_phases_variables},
     {"boundary", kz_boundary_variables},
     {"shocks", kz_shocks_variables},
+    {"plane", kz_plane_variables},
+    {"line", kz_line_variables},
     KZ_STUDIES(GROUP)
     {NULL, NULL},
 };

@@ -63,13 +63,22 @@ SCENES = {
     "saddles of a long period": (GOOD + "saddles: {velocity: {min: -1, max: 1}, max_period: 33}\n", "9:52", "saddles.max_period"),
     "saddles of an empty window": (GOOD + "saddles: {velocity: {min: 1, max: 1}}\n", "9:35", "saddles.velocity.max: 1 is too small"),
     "manifolds without saddles": (GOOD + "manifolds: {kind: stable}\n", "9:1", "manifolds: needs a list of unstable cycles"),
-    "chart of one key": (GOOD + "chart: {x: {parameter: drive_amplitude, min: 0, max: 1}, y: {parameter: drive_amplitude, min: 0, max: 1}, "
-        "start: {theta: [1]}}\n", "9:73", "chart.y.parameter: is also the parameter of chart.x"),
-    "chart of a key of another form": (GOOD + "chart: {x: {parameter: k, min: 0, max: 1}, y: {parameter: m, min: 0, max: 1}, "
-        "start: {theta: [1]}}\n", "9:24", "chart.x.parameter: k is not given in the pendulum mapping"),
-    "chart with velocities for other angles": (GOOD + "chart: {x: {parameter: drive_frequency, min: 2, max: 3}, "
-        "y: {parameter: drive_amplitude, min: 0, max: 1}, start: {theta: [1, 2, 3], velocity: [0, 1]}}\n",
-        "9:143", "chart.start.velocity: has 2 values for 3 angles"),
+    "plane of one key": (GOOD + "sweep: {x: {parameter: drive_amplitude, min: 0, max: 1, count: 2}, y: {parameter: drive_amplitude, "
+        "min: 0, max: 1, count: 2}, measure: [ends], ends: {theta: [1]}}\n", "9:83", "sweep.y.parameter: is also the parameter of"),
+    "plane of a key of another form": (GOOD + "sweep: {x: {parameter: k, min: 0, max: 1, count: 2}, y: {parameter: m, min: 0, "
+        "max: 1, count: 2}, measure: [ends], ends: {theta: [1]}}\n", "9:24", "sweep.x.parameter: k is not given in the pendulum"),
+    "plane with velocities for other angles": (GOOD + "sweep: {x: {parameter: drive_frequency, min: 2, max: 3, count: 2}, "
+        "y: {parameter: drive_amplitude, min: 0, max: 1, count: 2}, measure: [ends], ends: {theta: [1, 2, 3], velocity: [0, 1]}}\n",
+        "", "sweep.ends.velocity: has 2 values for 3 angles"),
+    "the study that is a measure now": (GOOD + "chart: {x: {parameter: drive_frequency, min: 2, max: 3}}\n",
+        "9:1", "chart: is no longer a key; use sweep.measure ends"),
+    "plane of what goes along a line": (GOOD + "sweep: {x: {parameter: drive_frequency, min: 2, max: 3, count: 2}, "
+        "y: {parameter: drive_amplitude, min: 0, max: 1, count: 2}, measure: [strobe]}\n", "", "give parameter, min, max and count"),
+    "line of ends": (GOOD + "sweep: {parameter: drive_frequency, min: 2, max: 3, count: 2, measure: [ends], ends: {theta: [1]}}\n", "",
+        "give x and y"),
+    "plane without ends": (GOOD + "sweep: {x: {parameter: drive_frequency, min: 2, max: 3, count: 2}, "
+        "y: {parameter: drive_amplitude, min: 0, max: 1, count: 2}, measure: [ends]}\n", "", "sweep.ends: is missing"),
+    "measure twice": (GOOD + "measures: {names: [share, share], velocity: {min: -1, max: 1}}\n", "", "measures.names: has a word twice"),
     "edge without ends": ("pendulum: {k: 0, damping: 0.1, m: 0.3}\nedge: {first: {theta: 0, "
         "velocity: 0}, second: {theta: 1, velocity: 0}}\n", "2:7", "edge: needs a list of attractors"),
     "shocks whose sizes go down": (GOOD + "  shocks: {sizes: [1, 0.5]}\n", "9:19", "basin.shocks.sizes: 0.5 is not above"),

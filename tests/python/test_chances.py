@@ -87,11 +87,12 @@ def test_shares_along_a_sweep_by_name(swept):
 
 def test_shares_over_a_plane(model):
     result = model({"k": 0.1, "damping": 0.1, "m": 0.4},
-                   chart={"x": {"parameter": "k", "min": 0.05, "max": 0.2, "count": 3},
-                          "y": {"parameter": "m", "min": 0.1, "max": 0.6, "count": 4}, "start": {"theta": [0.1, 3.0], "velocity": [0]}})
+                   sweep={"x": {"parameter": "k", "min": 0.05, "max": 0.2, "count": 3},
+                          "y": {"parameter": "m", "min": 0.1, "max": 0.6, "count": 4}, "measure": ["ends"],
+                          "ends": {"theta": [0.1, 3.0], "velocity": [0]}})
     shares = [result.share(name) for name in ("down", "inverted", "rotating", "neither")]
     assert shares[0].shape == (4, 3) and set(np.unique(shares[0])) <= {0.0, 0.5, 1.0} and float(sum(shares).max()) <= 1
-    with pytest.raises(KeyError, match="a chart knows no"):
+    with pytest.raises(KeyError, match="a plane knows no"):
         result.share("nobody")
 
 

@@ -1,4 +1,4 @@
-"""The study chart: ends against single runs and the linear theory, starts that cannot settle, ranks, pictures."""
+"""Ends over a plane, a measure of sweeps: ends against single runs and the linear theory, starts that cannot settle, ranks, pictures."""
 
 import json
 
@@ -10,9 +10,9 @@ from kapitza import Result
 STARTS = [0.3, 2.9, np.pi]
 CYCLE, CHAOTIC, NOT_SETTLED, NO_PENDULUM = range(4)
 SCENE = {"pendulum": {"k": 0.05, "damping": 0.1, "m": 0},
-         "chart": {"x": {"parameter": "m", "min": 0, "max": 0.72, "count": 13},
+         "sweep": {"x": {"parameter": "m", "min": 0, "max": 0.72, "count": 13},
                    "y": {"parameter": "damping", "min": 0, "max": 0.3, "count": 5},
-                   "start": {"theta": STARTS}, "max_period": 8}}
+                   "measure": ["ends"], "ends": {"theta": STARTS, "max_period": 8}}}
 
 
 @pytest.fixture(scope="module")
@@ -21,7 +21,7 @@ def chart(kapitza, tmp_path_factory):
     folder = tmp_path_factory.mktemp("chart")
     (folder / "s.yaml").write_text(json.dumps(SCENE))
     done = kapitza("run", "s.yaml", ranks=2, folder=folder)
-    return Result(folder / "s.h5").group("chart"), done.stdout, folder / "s.h5"
+    return Result(folder / "s.h5").group("plane"), done.stdout, folder / "s.h5"
 
 
 def test_ends_are_those_of_single_runs(chart, kapitza, tmp_path):
@@ -37,7 +37,7 @@ def test_ends_are_those_of_single_runs(chart, kapitza, tmp_path):
         if not end["decided"] or end["period"] == 0 or end["period"] > 8:
             continue
         decided += 1
-        assert (int(point["end"]), int(point["period"]), int(point["winding"])) == (CYCLE, end["period"], end["winding"]), pendulum
+        assert (int(point["end"]), int(point["end_period"]), int(point["end_winding"])) == (CYCLE, end["period"], end["winding"]), pendulum
     assert decided >= 6
 
 
@@ -47,7 +47,7 @@ def test_what_cannot_settle_is_told(chart):
     assert (group["end"].isel(y=0) == NO_PENDULUM).all() and np.isnan(group["exponent"].isel(y=0)).all()
     resting = group.isel(start=2, y=slice(1, None))
     attracts = resting["end"] == CYCLE
-    assert (resting["centre"].values[attracts] == 1).all() and (resting["exponent"].values[attracts] < 0).all()
+    assert (resting["end_centre"].values[attracts] == 1).all() and (resting["exponent"].values[attracts] < 0).all()
     assert (resting["end"].values[~attracts] == NOT_SETTLED).all() and (resting["exponent"].values[~attracts] > 0).all()
     assert attracts.any() and not attracts.all() and not attracts.isel(x=0).any()
     assert "no damped pendulum 20.00 %" in summary
@@ -58,7 +58,7 @@ def test_any_number_of_ranks_and_every_view(chart, kapitza, tmp_path):
     kapitza("run", path.with_suffix(".yaml"), "-o", "again.h5", ranks=3, folder=tmp_path)
     assert datasets(tmp_path / "again.h5") == datasets(path)
     for view in ("ends", "exponent", "settling") if EXTENSIVE else ("ends",):
-        done = plot("chart", path, "-o", tmp_path / f"{view}.png", "--view", view, "--dpi", 40)
+        done = plot("plane", path, "-o", tmp_path / f"{view}.png", "--view", view, "--dpi", 40)
         assert done.returncode == 0 and (tmp_path / f"{view}.png").stat().st_size > 4000, done.stderr
 
 
@@ -67,7 +67,7 @@ def test_an_interrupted_chart_resumes_on_other_ranks(kapitza, tmp_path):
     axes = {axis: {"parameter": parameter, "min": least, "max": most, "count": 16}
             for axis, parameter, least, most in (("x", "m", 0.1, 0.3), ("y", "damping", 0.003, 0.005))}
     scene = {"pendulum": {"k": 0.05, "damping": 0.1, "m": 0},
-             "chart": {**axes, "start": {"theta": np.linspace(0.2, 3, 5).tolist()}, "max_period": 8}}
+             "sweep": {**axes, "measure": ["ends"], "ends": {"theta": np.linspace(0.2, 3, 5).tolist(), "max_period": 8}}}
     (tmp_path / "s.yaml").write_text(json.dumps(scene))
     run_until_saved("s.yaml", file="s.h5", folder=tmp_path, ranks=1)
     kapitza("run", "s.yaml", "--resume", ranks=3, folder=tmp_path)

@@ -99,8 +99,8 @@ TIMED = {
     "attractors": "attractors: {velocity: {min: -2, max: 2}, starts: 2048}\n",
     "strobe": "sweep: {parameter: drive_amplitude, min: 0.46, max: 0.58, count: 8, measure: [strobe], start: {theta: 3.1, velocity: 0}, "
               "transient: 600, samples: 64}\n",
-    "chart": "chart: {x: {parameter: drive_amplitude, min: 0.2, max: 0.5, count: 24}, y: {parameter: quality_factor, min: 3, max: 9, "
-             "count: 24}, start: {theta: [1], velocity: [0]}}\n",
+    "ends": "sweep: {x: {parameter: drive_amplitude, min: 0.2, max: 0.5, count: 24}, y: {parameter: quality_factor, min: 3, max: 9, "
+             "count: 24}, measure: [ends], ends: {theta: [1], velocity: [0]}}\n",
     "stability": "stability: {k: {min: -1, max: 2, count: 600}, m: {min: 0, max: 3, count: 600}, curves: [exact_1, exact_2]}\n",
     "orbit": "orbit: {start: {theta: 0.5, velocity: 0}, transient: 4000}\n",
     "atlas": "atlas: {x: {parameter: drive_amplitude, min: 0, max: 0.5}, y: {parameter: quality_factor, min: 3, max: 9}, max_period: 1, "

@@ -126,8 +126,8 @@ pendulum: {length: 20 cm, frequency: 50 Hz, amplitude: 2.5 cm, quality_factor: 1
 basin: {theta: {count: 2}, velocity: {min: -16 rad/s, max: 900 deg/s, count: 2}, attractors: {starts: 8}}
 saddles: {velocity: {min: -1, max: 3rad/s}}
 orbit: {start: {theta: 150°, velocity: "170 deg/s"}}
-chart: {x: {parameter: amplitude, min: 1 mm, max: 1 cm, count: 2}, y: {parameter: length, min: 0.1, max: 0.2, count: 2},
-        start: {theta: [1, 90°], velocity: [0, 3 rad/s]}}
+sweep: {x: {parameter: amplitude, min: 1 mm, max: 1 cm, count: 2}, y: {parameter: length, min: 0.1, max: 0.2, count: 2},
+        measure: [ends], ends: {theta: [1, 90°], velocity: [0, 3 rad/s]}}
 """
 
 
@@ -144,7 +144,7 @@ def test_velocities_take_units_wherever_they_are_keys():
     assert numbers["basin"]["velocity"]["min"] == -16 / OMEGA and numbers["basin"]["velocity"]["max"] == np.radians(900) / OMEGA
     assert numbers["saddles"]["velocity"] == {"min": -1, "max": 3 / OMEGA}
     assert numbers["orbit"]["start"] == {"theta": np.radians(150), "velocity": np.radians(170) / OMEGA}
-    assert numbers["chart"]["start"] == {"theta": [1, np.pi / 2], "velocity": [0, 3 / OMEGA]}
+    assert {name: numbers["sweep"]["ends"][name] for name in ("theta", "velocity")} == {"theta": [1, np.pi / 2], "velocity": [0, 3 / OMEGA]}
     assert kapitza.check(resolved).scene == resolved
     window = {"basin.velocity": {"centre": "10 rad/s", "width": "1 deg/s", "count": 8},
               "basin.theta": {"centre": "170°", "width": "pi/8", "count": 8}}
@@ -159,7 +159,7 @@ def test_velocities_take_units_wherever_they_are_keys():
     ({"orbit.start.velocity": "3 m/s"}, "is not a finite decimal number; it must be a number from -1000000000 to 1000000000 in "
                                         "rad per drive radian, or with its unit: rad/s, deg/s"),
     ({"orbit.start.velocity": "3 Hz"}, "is in a unit of another quantity"),
-    ({"chart.y": {"parameter": "frequency", "min": 10, "max": 20, "count": 2}}, "but the scene changes the frequency of the pivot"),
+    ({"sweep.y": {"parameter": "frequency", "min": 10, "max": 20, "count": 2}}, "but the scene changes the frequency of the pivot"),
     ({"pendulum.frequency": "50 mm"}, 'pendulum.frequency: "50 mm" is in a unit of another quantity'),
 ])
 def test_velocities_with_a_wrong_unit_are_refused(change, words):

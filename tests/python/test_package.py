@@ -109,7 +109,7 @@ def test_a_fresh_environment_builds_and_runs_an_example():
 @pytest.mark.parametrize("words, status", with_extensive([([], 2)], [(["portrait", "FILE"], 2), (["--help"], 0)]))
 def test_the_command_names_its_kinds(words, status):
     done = python("-c", "from kapitza.command import main; main()", *words, env=os.environ | {"PYTHONPATH": str(ROOT / "python")})
-    assert done.returncode == status and "KIND: atlas, basin, chart" in done.stdout + done.stderr and "Traceback" not in done.stderr
+    assert done.returncode == status and "KIND: atlas, basin, compare" in done.stdout + done.stderr and "Traceback" not in done.stderr
 
 
 @pytest.mark.parametrize("tool", [pytest.param(["mypy"], marks=pytest.mark.extensive), ["ruff", "check"]])

@@ -1,8 +1,8 @@
-"""Draws a chart of kapitza: where the same starts end, over a plane of two keys of the pendulum.
+"""Draws a sweep over a plane of two keys of the pendulum: where the same starts end.
 
-    kapitza plot chart chart-blackburn.h5                      the ends, with the curves of a study stability of the same file
-    kapitza plot chart chart-blackburn.h5 --view exponent      the largest Lyapunov exponent
-    kapitza plot chart chart-blackburn.h5 --view settling      how long the motions take
+    kapitza plot plane chart-blackburn.h5                      the ends, with the curves of a study stability of the same file
+    kapitza plot plane chart-blackburn.h5 --view exponent      the largest Lyapunov exponent
+    kapitza plot plane chart-blackburn.h5 --view settling      how long the motions take
 """
 
 import argparse
@@ -30,15 +30,15 @@ VIEWS = ("ends", "exponent", "settling")
 
 
 def parse_arguments(words: list[str]) -> argparse.Namespace:
-    parser = argument_parser("chart", __doc__, "a chart of ends")
+    parser = argument_parser("plane", __doc__, "ends over a plane")
     parser.add_argument("--view", choices=VIEWS, default="ends")
     return parsed(parser, words)
 
 
 def kinds(chart: xarray.Dataset, colours: Mapping[str, str] | None = None) -> tuple[np.ndarray, list[str]]:
     """The colours (rgb) of one start's ends, and the kinds of motion among them, the most frequent first; `colours`: of a kind."""
-    classes, place, counts = np.unique(np.stack([chart[name].values.ravel() for name in ("end", "period", "winding", "centre")]), axis=1,
-                                       return_inverse=True, return_counts=True)
+    variables = [chart[name].values.ravel() for name in ("end", "end_period", "end_winding", "end_centre")]
+    classes, place, counts = np.unique(np.stack(variables), axis=1, return_inverse=True, return_counts=True)
     rows = [tuple(int(value) for value in row) for row in classes.T]
     names = [style.kind(*row[1:]) if row[0] in (CYCLE, CHAOTIC) else "not settled" for row in rows]
     usual = [style.motion_colour(*row[1:]) if row[0] in (CYCLE, CHAOTIC) else style.UNSETTLED for row in rows]
@@ -128,7 +128,9 @@ def panel(axes: Axes, result: Result, chart: xarray.Dataset, view: str, *, legen
 
 def draw(result: Result, arguments: argparse.Namespace) -> Figure:
     """The page: one panel for each start."""
-    chart = result.group("chart")
+    chart = result.group("plane")
+    if "end" not in chart:
+        raise BadFile(f"{result.path}: the plane has no ends; add ends to sweep.measure")
     if chart.sizes["x"] < 2 or chart.sizes["y"] < 2:
         raise BadFile(f"{result.path}: the chart has one value only along an axis, so there is no area to draw")
     figure = new_figure(8.2, 4.8 * chart.sizes["start"])

@@ -4,5 +4,5 @@ from types import ModuleType
 
 from kapitza.plots import atlas, basin, chart, orbit, potential, stability, sweep, tradeoff
 
-KINDS: dict[str, ModuleType] = {"basin": basin, "sweep": sweep, "chart": chart, "orbit": orbit, "stability": stability,
+KINDS: dict[str, ModuleType] = {"basin": basin, "sweep": sweep, "plane": chart, "orbit": orbit, "stability": stability,
                                 "potential": potential, "tradeoff": tradeoff, "atlas": atlas}

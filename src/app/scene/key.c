@@ -179,12 +179,19 @@ static const kz_key *find_elsewhere(const kz_key *keys, const char *name) {
   return n == 1 ? found : NULL;
 }
 
+/* The same for a name beside the studies, of which a study knows what became of it. */
+static bool was_a_study(const kz_key *keys, const char *name, char *now, size_t bytes) {
+  for (; keys->path; keys++)
+    if (keys->type == KZ_KEY_MAPPING && !strchr(keys->path, '.') && kz_key_renamed(keys, name, now, bytes)) return true;
+  return false;
+}
+
 void kz_key_unknown(const kz_key *keys, const char *parent, const char *name, const char *prefix, char *text, size_t bytes) {
   char names[1024], list[1024], nearest[64];
   const kz_key *mapping = kz_key_find(keys, parent), *elsewhere = find_elsewhere(keys, name);
   kz_key_children(keys, parent, names, sizeof names);
   kz_key_list(names, list, sizeof list);
-  if (mapping && kz_key_renamed(mapping, name, nearest, sizeof nearest))
+  if (mapping ? kz_key_renamed(mapping, name, nearest, sizeof nearest) : was_a_study(keys, name, nearest, sizeof nearest))
     snprintf(text, bytes, "is no longer a key; use %s", nearest);
   else if (kz_key_suggest(name, names, nearest, sizeof nearest))
     snprintf(text, bytes, "unknown key; did you mean %s%s?", prefix, nearest);

@@ -241,7 +241,7 @@ static double pivot_frequency(const kz_node *root) {
 
 /* Whether a study changes the frequency: its pendulums have different drive radians. */
 static bool frequency_changes(const kz_node *root) {
-  static const char *const parameters[] = {"sweep.parameter", "chart.x.parameter", "chart.y.parameter"};
+  static const char *const parameters[] = {"sweep.parameter", "sweep.x.parameter", "sweep.y.parameter"};
   for (size_t i = 0; i < sizeof parameters / sizeof *parameters; i++) {
     const kz_node *node = kz_tree_find(root, parameters[i]);
     if (node && node->text && (strcmp(node->text, "frequency") == 0 || strcmp(node->text, "pivot_frequency") == 0)) return true;

@@ -10,7 +10,6 @@
 #include "../../study/orbit/plan.h"
 #include "../../study/stability/plan.h"
 #include "../../study/sweep/plan.h"
-#include "../../study/chart/plan.h"
 #include "../../study/atlas/plan.h"
 #include "../../study/measures/plan.h"
 
@@ -72,9 +71,8 @@ static void attractors_rules(kz_reading *reading, kz_scene *scene) {
                 "repeats what basin does, which finds the attractors of its window itself; give one of them");
 }
 
-/* What the measures of a study lack, at the key that is to be changed. */
-static void options_rules(kz_reading *reading, const kz_integers *names, const kz_measure_options *options, const char *study) {
-  const char *lack = kz_measures_lack(names, options);
+/* What a study lacks, "KEY: what is wrong", at the key that is to be changed; NULL = nothing. */
+static void lack_rule(kz_reading *reading, const char *lack, const char *study) {
   if (!lack) return;
   char key[16];
   snprintf(key, sizeof key, "%.*s", (int)strcspn(lack, ":"), lack);
@@ -85,7 +83,7 @@ static void measures_rules(kz_reading *reading, kz_scene *scene) {
   const kz_measures_plan *plan = scene->measures;
   if (!scene->has_measures) return;
   window_rules(reading, &scene->measures->theta, &scene->measures->velocity, "measures");
-  options_rules(reading, &plan->names, &plan->options, "measures");
+  lack_rule(reading, kz_measures_lack(&plan->names, &plan->options), "measures");
 }
 
 static void saddles_rules(kz_reading *reading, kz_scene *scene) {
@@ -226,16 +224,6 @@ static void parameter_values(kz_reading *reading, const kz_scene *scene, int32_t
   parameter_value(reading, scene, parameter, max.text, values->max);
 }
 
-static void sweep_rules(kz_reading *reading, kz_scene *scene) {
-  kz_sweep_plan *sweep = scene->sweep;
-  if (!scene->has_sweep) return;
-  window_rules(reading, &sweep->theta, &sweep->velocity, "sweep");
-  if (scene->has_basin && !isnan(scene->basin->accuracy))
-    kz_complain(reading, "basin.accuracy",
-                "is chosen for one pendulum, and a sweep has many; give method, icm and numerics instead");
-  parameter_values(reading, scene, sweep->parameter, &sweep->values, "sweep");
-}
-
 /* The two keys of a plane. */
 static void plane_rules(kz_reading *reading, const kz_scene *scene, kz_chart_axis *x, kz_chart_axis *y, const char *study) {
   const kz_short_text of_x = kz_key_in(study, "x"), of_y = kz_key_in(study, "y");
@@ -246,17 +234,25 @@ static void plane_rules(kz_reading *reading, const kz_scene *scene, kz_chart_axi
                 "is also the parameter of %s; name another key of the pendulum mapping", of_x.text);
 }
 
-static void atlas_rules(kz_reading *reading, kz_scene *scene) {
-  if (scene->has_atlas) plane_rules(reading, scene, &scene->atlas->x, &scene->atlas->y, "atlas");
+static void sweep_rules(kz_reading *reading, kz_scene *scene) {
+  kz_sweep_plan *sweep = scene->sweep;
+  if (!scene->has_sweep) return;
+  window_rules(reading, &sweep->theta, &sweep->velocity, "sweep");
+  if (scene->has_basin && !isnan(scene->basin->accuracy))
+    kz_complain(reading, "basin.accuracy",
+                "is chosen for one pendulum, and a sweep has many; give method, icm and numerics instead");
+  if (kz_sweep_is_plane(sweep))
+    plane_rules(reading, scene, &sweep->x, &sweep->y, "sweep");
+  else
+    parameter_values(reading, scene, sweep->parameter, &sweep->values, "sweep");
+  lack_rule(reading, kz_sweep_lack(sweep), "sweep");
+  if (sweep->ends.theta.count > 0 && sweep->ends.velocity.count != 1 && sweep->ends.velocity.count != sweep->ends.theta.count)
+    kz_complain(reading, "sweep.ends.velocity", "has %lld values for %lld angles; give one for each angle, or one for all",
+                (long long)sweep->ends.velocity.count, (long long)sweep->ends.theta.count);
 }
 
-static void chart_rules(kz_reading *reading, kz_scene *scene) {
-  kz_chart_plan *chart = scene->chart;
-  if (!scene->has_chart) return;
-  plane_rules(reading, scene, &chart->x, &chart->y, "chart");
-  if (chart->velocity.count != 1 && chart->velocity.count != chart->theta.count)
-    kz_complain(reading, "chart.start.velocity", "has %lld values for %lld angles; give one for each angle, or one for all",
-                (long long)chart->velocity.count, (long long)chart->theta.count);
+static void atlas_rules(kz_reading *reading, kz_scene *scene) {
+  if (scene->has_atlas) plane_rules(reading, scene, &scene->atlas->x, &scene->atlas->y, "atlas");
 }
 
 /* Whether the pendulum, or one of the sweep's, has no mirror symmetry. */
@@ -286,10 +282,10 @@ static void settling_rules(kz_reading *reading, kz_scene *scene) {
 }
 
 typedef void (*rule)(kz_reading *reading, kz_scene *scene);
-static const rule rules[] = {basin_rules,    table_rules,       undecided_rules, shocks_rules,      attractors_rules,
-                             saddles_rules,  measures_rules,    manifolds_rules, orbit_rules,       stability_rules,
-                             tradeoff_rules, kz_pendulum_rules, symmetry_rules,  stiffness_rules,   sweep_rules,
-                             chart_rules,    atlas_rules,       edge_rules,      orbit_range_rules, settling_rules};
+static const rule rules[] = {basin_rules,    table_rules,       undecided_rules,   shocks_rules,    attractors_rules,
+                             saddles_rules,  measures_rules,    manifolds_rules,   orbit_rules,     stability_rules,
+                             tradeoff_rules, kz_pendulum_rules, symmetry_rules,    stiffness_rules, sweep_rules,
+                             atlas_rules,    edge_rules,        orbit_range_rules, settling_rules};
 
 void kz_reading_rules(kz_reading *reading) {
   for (size_t i = 0; i < sizeof rules / sizeof rules[0]; i++) rules[i](reading, reading->scene);

@@ -37,8 +37,8 @@ static const struct {
     {KZ_REQUEST_ORBIT, "periods", "orbit.periods"},
     {KZ_REQUEST_ORBIT, "transient", "orbit.transient"},
     {KZ_REQUEST_ORBIT, "samples_per_period", "orbit.samples_per_period"},
-    {KZ_REQUEST_CHART, "x", "chart.x"},
-    {KZ_REQUEST_CHART, "y", "chart.y"},
+    {KZ_REQUEST_CHART, "x", "sweep.x"},
+    {KZ_REQUEST_CHART, "y", "sweep.y"},
 };
 enum { N_MOVED = sizeof moved / sizeof moved[0] };
 
@@ -46,7 +46,9 @@ enum { N_MOVED = sizeof moved / sizeof moved[0] };
 static const struct {
   int32_t kind;
   const char *path;
-} dropped[] = {{KZ_REQUEST_ORBIT, "orbit"}, {KZ_REQUEST_FRAME, "basin.accuracy"}, {KZ_REQUEST_WHERE, "basin.accuracy"}};
+} dropped[] = {{KZ_REQUEST_ORBIT, "orbit"},         {KZ_REQUEST_FRAME, "basin.accuracy"},  {KZ_REQUEST_WHERE, "basin.accuracy"},
+               {KZ_REQUEST_CHART, "sweep.measure"}, {KZ_REQUEST_CHART, "sweep.parameter"}, {KZ_REQUEST_CHART, "sweep.min"},
+               {KZ_REQUEST_CHART, "sweep.max"},     {KZ_REQUEST_CHART, "sweep.count"}};
 enum { N_DROPPED = sizeof dropped / sizeof dropped[0] };
 
 /* What a request adds where neither it nor the scene says anything: key, YAML. */
@@ -56,7 +58,8 @@ static const struct {
 } added[] = {
     {KZ_REQUEST_ORBIT, "orbit.periods", "100"},
     {KZ_REQUEST_ORBIT, "orbit.samples_per_period", "64"},
-    {KZ_REQUEST_CHART, "chart.start.theta", "[3.0]"},
+    {KZ_REQUEST_CHART, "sweep.measure", "[ends]"},
+    {KZ_REQUEST_CHART, "sweep.ends.theta", "[3.0]"},
 };
 enum { N_ADDED = sizeof added / sizeof added[0] };
 

@@ -10,7 +10,7 @@
 #include "inbox.h"
 #include "map.h"
 #include "orbit.h"
-#include "../../study/chart/plan.h"
+#include "../../study/sweep/plan.h"
 
 enum { MOST_WAITING = 1000 /* requests */ };
 
@@ -203,7 +203,7 @@ static kz_status show_chart(void *context, const kz_chart_level *level) {
 }
 
 static kz_status check_size(const kz_scene *scene) {
-  const int64_t most = 1 << 20, points = scene->chart->x.values.count * scene->chart->y.values.count;
+  const int64_t most = 1 << 20, points = scene->sweep->x.values.count * scene->sweep->y.values.count;
   if (points <= most) return KZ_OK;
   return kz_fail(KZ_REFUSED, "request: x: %lld points are too many for a chart on request, at most %lld", (long long)points,
                  (long long)most);

@@ -2,12 +2,11 @@
 #ifndef KAPITZA_STUDY_LABEL_H
 #define KAPITZA_STUDY_LABEL_H
 
+#include "measures/counts.h"
 #include "labelling/search.h"
 #include "labelling/labeller.h"
 #include "numerics/cells.h"
 #include "window/window.h"
-
-enum { KZ_BOX = 5 }; /* cells along an edge of a box of the basin entropy */
 
 /* A tile is a number of whole rows of cells, or a part of one row, so its cells are consecutive. If the window is its own mirror image,
  * tile t is the mirror image of tile n - 1 - t. */

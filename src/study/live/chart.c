@@ -1,7 +1,7 @@
 /* A chart level by level, as frames are. */
-#include "chart/chart.h"
+#include "sweep/ends.h"
 #include "live.h"
-#include "chart/plan.h"
+#include "sweep/plan.h"
 
 typedef struct {
   const kz_scene *scene;
@@ -14,11 +14,11 @@ typedef struct {
 } drawing;
 
 static kz_status follow(drawing *d, int64_t n) {
-  kz_chart_ending ending[KZ_CHART_POINTS];
-  for (int64_t done = 0; done < n; done += KZ_CHART_POINTS) {
-    const int64_t part = n - done < KZ_CHART_POINTS ? n - done : KZ_CHART_POINTS;
+  kz_chart_ending ending[KZ_ENDS_POINTS];
+  for (int64_t done = 0; done < n; done += KZ_ENDS_POINTS) {
+    const int64_t part = n - done < KZ_ENDS_POINTS ? n - done : KZ_ENDS_POINTS;
     KZ_TRY(d->pause(d->context));
-    kz_chart_points(d->scene, 0, part, d->pending + done, ending);
+    kz_ends_points(d->scene, 0, part, d->pending + done, ending);
     for (int64_t i = 0; i < part; i++) {
       d->period[d->pending[done + i]] = ending[i].period >= 0 ? (uint8_t)ending[i].period : KZ_NO_LABEL;
       d->centre[d->pending[done + i]] = (uint8_t)ending[i].centre;
@@ -42,7 +42,7 @@ static kz_status draw(drawing *d, const kz_chart_level *level) {
 
 kz_status kz_chart_draw(const kz_scene *scene, const kz_integers *levels, kz_status (*pause)(void *context),
                         kz_status (*show)(void *context, const kz_chart_level *level), void *context) {
-  const int64_t rows = scene->chart->y.values.count, columns = scene->chart->x.values.count, n = rows * columns;
+  const int64_t rows = scene->sweep->y.values.count, columns = scene->sweep->x.values.count, n = rows * columns;
   KZ_FREED uint8_t *planes = kz_malloc(4 * (size_t)n);
   KZ_FREED int64_t *pending = kz_malloc((size_t)n * sizeof *pending);
   KZ_FREED bool *listed = kz_calloc((size_t)n, sizeof *listed);

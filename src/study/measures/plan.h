@@ -23,6 +23,8 @@ struct kz_measures_plan {
   kz_measure_options options;
 };
 
+/* Whether a list has something twice. */
+bool kz_words_repeat(const kz_integers *words);
 /* NULL, or what the options lack for these measures, as "KEY: what is wrong" where KEY is a key of kz_measure_options. */
 const char *kz_measures_lack(const kz_integers *names, const kz_measure_options *options);
 

@@ -41,7 +41,15 @@ static bool names(const kz_integers *list, kz_measure_fn measure) {
   return false;
 }
 
+bool kz_words_repeat(const kz_integers *words) {
+  for (int64_t i = 1; i < words->count; i++)
+    for (int64_t j = 0; j < i; j++)
+      if (words->values[i] == words->values[j]) return true;
+  return false;
+}
+
 const char *kz_measures_lack(const kz_integers *list, const kz_measure_options *options) {
+  if (kz_words_repeat(list)) return "names: has a word twice; name each measure once";
   if (names(list, kz_measure_weighted_share) && !options->has_weight)
     return "weight: is missing, which weighted_share needs; give a mapping of theta and theta_spread";
   if (names(list, kz_measure_share_within) && options->within == KZ_UNSET_INTEGER)

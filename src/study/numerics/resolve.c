@@ -64,8 +64,24 @@ static void add_pendulum(demand *d, const kz_scene *scene) {
   if (scene->has_measures) add_window(d, &scene->measures->theta, &scene->measures->velocity, 0);
 }
 
+/* The edges of a plane where measures follow motions; ends has steps of its own. */
+static void add_plane(demand *d, const kz_sweep_plan *plan, const kz_scene *scene) {
+  const int32_t parameter[] = {plan->x.parameter, plan->y.parameter};
+  for (int64_t i = 0; i < 9; i++) {
+    const int64_t column = i % 3 * (plan->x.values.count - 1) / 2, row = i / 3 * (plan->y.values.count - 1) / 2;
+    const double value[] = {kz_axis_value(&plan->x.values, column), kz_axis_value(&plan->y.values, row)};
+    if (i == 4 || !kz_pendulum_at(scene, 2, parameter, value, d->pendulum + d->count)) continue;
+    d->count++;
+    add_window(d, &plan->theta, &plan->velocity, 0);
+  }
+}
+
 static void add_sweep(demand *d, const kz_scene *scene) {
   const kz_sweep_plan *plan = scene->sweep;
+  if (kz_sweep_is_plane(plan)) {
+    if (kz_sweep_has_table(plan)) add_plane(d, plan, scene);
+    return;
+  }
   const int64_t n = plan->values.count < SWEEP_VALUES - 1 ? plan->values.count : SWEEP_VALUES - 1;
   for (int64_t i = 0; i < n; i++) {
     const double value = kz_sweep_value(plan, i * (plan->values.count - 1) / (n - 1));

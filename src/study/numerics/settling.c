@@ -30,7 +30,7 @@ static double weakest_damping(const kz_scene *scene) {
   double beta = scene->parameters.pendulum.beta;
   const double ends[] = {scene->sweep->values.min, scene->sweep->values.max};
   kz_pendulum pendulum;
-  for (int i = 0; scene->has_sweep && i < 2; i++)
+  for (int i = 0; scene->has_sweep && !kz_sweep_is_plane(scene->sweep) && i < 2; i++)
     if (kz_sweep_pendulum(scene, ends[i], &pendulum) && pendulum.beta > 0)
       beta = beta > 0 ? fmin(beta, pendulum.beta) : pendulum.beta;
   return beta;

@@ -131,7 +131,7 @@ static kz_status sweep_catalogue_discover(searching *s) {
 static kz_status find_shocks(searching *s, kz_sweep_catalogue *catalogue) {
   const kz_sweep_plan *sweep = s->scene->sweep;
   const kz_resilience_plan plan = {
-      .scale = sweep->shock_scale,
+      .scale = sweep->options.shock_scale,
       .farthest = 2 * kz_axis_fastest(s->n_cells > 0 ? &s->scene->basin->velocity : &sweep->velocity),
       .max_periods = s->max_periods};
   KZ_FREED_BY(kz_catalogue_free) kz_catalogue listed = {0};

@@ -1,21 +1,33 @@
 /* The study `sweep`: its row, and the table of its keys. */
 #define KEYS_OF sweep
 
-#include "kapitza/study_key_rows.h"
+#include "measures/option_keys.h"
 #include "plan.h"
 
+/* An axis of a plane, whose mapping belongs to form b. */
+#define PLANE_OF(axis, help)                                                                                  \
+  ROW("sweep." #axis, KZ_KEY_MAPPING, NULL, NOWHERE, help, .unit = "", .form = "b"), PLANE_KEYS(sweep, axis), \
+      INTEGER("sweep." #axis ".count", 2, 1e5, NULL, axis.values.count, "Number of values, both ends included.")
+
 static const kz_key keys[] = {
-    STUDY("Study: quantities along one key of the pendulum mapping."),
+    STUDY("Study: quantities along one key of the pendulum mapping (a), or over two (b).",
+          .former = "chart=sweep.measure ends, with sweep.x, sweep.y and sweep.ends"),
     ROW("sweep.parameter", KZ_KEY_WORD, NULL, AT(parameter),
-        "Key of the pendulum mapping, as written there, that takes the values.", .unit = "", .words_from = kz_sweep_words),
-    REAL("sweep.min", KZ_OWN_UNIT, -DBL_MAX, DBL_MAX, NULL, values.min, "First value."),
-    REAL("sweep.max", KZ_OWN_UNIT, -DBL_MAX, DBL_MAX, NULL, values.max, "Last value."),
-    INTEGER("sweep.count", 2, 1e5, NULL, values.count, "Number of values, both ends included."),
+        "Key of the pendulum mapping, as written there, that takes the values.", .unit = "", .words_from = kz_sweep_words,
+        .form = "a"),
+    ROW("sweep.min", KZ_KEY_REAL, NULL, AT(values.min), "First value.", .unit = KZ_OWN_UNIT, .low = -DBL_MAX, .high = DBL_MAX,
+        .form = "a"),
+    ROW("sweep.max", KZ_KEY_REAL, NULL, AT(values.max), "Last value.", .unit = KZ_OWN_UNIT, .low = -DBL_MAX, .high = DBL_MAX,
+        .form = "a"),
+    INTEGER("sweep.count", 2, 1e5, NULL, values.count, "Number of values, both ends included.", .form = "a"),
+    PLANE_OF(x, "Over a plane instead: the key along the horizontal axis."),
+    PLANE_OF(y, "The key along the vertical axis."),
     ROW("sweep.measure", KZ_KEY_WORDS, NULL, AT(measure),
         "attractors: branches joined by continuation, with their ends; basin_fractions: their shares of the cells of basin, or "
         "of the starts; lifetime: mean settling time of long transients; resilience: smallest shocks that leave the basins; "
         "phases: share of cells or starts that ends alike at all phases of release; flutter_amplitude: of the period-2 cycle "
-        "about inverted; flutter_zone: how far it reaches when m is raised; release_angle: from rest; strobe: bifurcations.",
+        "about inverted; flutter_zone: how far it reaches when m is raised; release_angle: from rest; strobe: bifurcations. "
+        "Over a plane: ends of the starts of sweep.ends. Both ways: the words of measures.names.",
         .unit = "", .words_from = kz_sweep_measure_words),
     THETA_WINDOW(sweep, "Angles of the starts; left out: the whole circle [-pi, pi)."),
     VELOCITY_WINDOW(sweep, KZ_MOST_SPEED, "", "-2", "2", "Velocities of the starts; a grid of basin has its own window."),
@@ -26,9 +38,17 @@ static const kz_key keys[] = {
     REAL("sweep.start.theta", "rad", -1e6, 1e6, "3.1", start_theta, "Angle from down."),
     REAL("sweep.start.velocity", KZ_VELOCITY_UNIT, -KZ_MOST_SPEED, KZ_MOST_SPEED, "0", start_velocity, "Velocity."),
     INTEGER("sweep.transient", 0, 1e7, "400", transient, "Drive periods of strobe at each value before the record."),
-    REAL("sweep.shock_scale", KZ_VELOCITY_UNIT, 1e-6, 1e6, "1", shock_scale,
-         "Change of the velocity that counts as much as 1 rad in resilience."),
+    MEASURE_OPTIONS(sweep, "64"),
     INTEGER("sweep.phases", 2, 64, "8", phases, "Phases of release for the measure phases, evenly over a period."),
+    MAPPING("sweep.ends", "", "The measure ends: where the same starts end, at t = 0; each has a picture of its own."),
+    ROW("sweep.ends.theta", KZ_KEY_REALS, NULL, AT(ends.theta), "Angles from down.", .unit = "rad", .low = -1e6, .high = 1e6),
+    ROW("sweep.ends.velocity", KZ_KEY_REALS, "[0]", AT(ends.velocity), "Velocities: one for each angle, or one for all.",
+        .unit = KZ_VELOCITY_UNIT, .low = -1e3, .high = 1e3),
+    INTEGER("sweep.ends.max_period", 1, KZ_ENDS_MOST_PERIOD, "16", ends.max_period,
+            "Longest period of a cycle that is recognised."),
+    INTEGER("sweep.ends.max_periods", 1, 1e8, "", ends.max_periods,
+            "Drive periods after which a motion counts as not settled; left out: the number that the damping needs, at least "
+            "2000."),
     INTEGER("sweep.samples", 1, 1e5, "64", samples, "Strobe points of each walk at each value."),
     {.path = NULL},
 };

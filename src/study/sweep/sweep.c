@@ -1,24 +1,43 @@
 /* Study `sweep`: quantities along one key of the pendulum mapping. */
 #include <string.h>
 
+#include "measures/table.h"
 #include "sweep.h"
 #include "basin/plan.h"
 
 #define BARRED(code, word, run) "|" word
+#define BARRED_WORD(word, ...) "|" #word
 const char *kz_sweep_measure_words(void) {
-  static const char words[] = KZ_SWEEP_MEASURES(BARRED);
+  static const char words[] =
+      KZ_SWEEP_MEASURES(BARRED) KZ_MEASURES(BARRED_WORD, BARRED_WORD, BARRED_WORD, BARRED_WORD, BARRED_WORD);
   return words + 1;
 }
 
+/* Of the measures of the table, and of ends. */
+static kz_cost points_cost(const kz_scene *scene) {
+  kz_cost cost = kz_sweep_measures(scene->sweep, KZ_SWEEP_ENDS) ? kz_ends_cost(scene) : (kz_cost){0};
+  if (!kz_sweep_has_table(scene->sweep)) return cost;
+  const kz_cost of_points = kz_points_cost(scene);
+  cost.cells += of_points.cells;
+  cost.disk_bytes += of_points.disk_bytes;
+  cost.memory_bytes += of_points.memory_bytes;
+  cost.rank0_bytes += of_points.rank0_bytes;
+  return cost;
+}
+
 kz_cost kz_sweep_cost(const kz_scene *scene) {
+  if (kz_sweep_is_plane(scene->sweep)) return points_cost(scene);
+  const kz_cost of_points = points_cost(scene);
   const double values = (double)scene->sweep->values.count;
   const bool grid = kz_sweep_has_grid(scene);
   const double times = kz_sweep_measures(scene->sweep, KZ_SWEEP_PHASES) ? 1 + (double)scene->sweep->phases : 1;
   const double nodes = grid ? (double)scene->basin->table_theta * (double)scene->basin->table_velocity : 0;
   const double cells = grid ? (double)scene->basin->theta.count * (double)scene->basin->velocity.count : 0;
-  return (kz_cost){.cells = (int64_t)(cells * values * times),
-                   .disk_bytes = values * (sizeof(kz_sweep_catalogue) + 1e3),
-                   .memory_bytes = 3 * values * sizeof(kz_sweep_catalogue) + 100 * nodes + (times > 1 ? 24 : 2) * cells};
+  return (kz_cost){.cells = (int64_t)(cells * values * times) + of_points.cells,
+                   .disk_bytes = values * (sizeof(kz_sweep_catalogue) + 1e3) + of_points.disk_bytes,
+                   .memory_bytes = 3 * values * sizeof(kz_sweep_catalogue) + 100 * nodes + (times > 1 ? 24 : 2) * cells +
+                                   of_points.memory_bytes,
+                   .rank0_bytes = of_points.rank0_bytes};
 }
 
 static bool has_branches(const kz_sweep_plan *plan) {
@@ -44,6 +63,10 @@ static kz_status run_branches(const kz_scene *scene, const kz_run *run, kz_store
 
 static kz_status write_values(const kz_scene *scene, kz_store *store, FILE *summary) {
   const kz_sweep_plan *plan = scene->sweep;
+  if (kz_sweep_is_plane(plan)) {
+    if (kz_sweep_has_table(plan)) kz_sweep_warn_steps(scene, summary);
+    return kz_points_write_axes(plan, store);
+  }
   const kz_sweep_parameter *parameter = kz_sweep_parameters + plan->parameter;
   KZ_TRY(kz_store_text(store, "sweep", "parameter", parameter->name));
   KZ_TRY(kz_store_text(store, "sweep", "parameter_units", parameter->unit));
@@ -61,6 +84,7 @@ kz_status kz_sweep_run(const kz_scene *scene, const kz_run *run, kz_store *store
   static const run_fn runs[] = {KZ_SWEEP_MEASURES(RUN)};
   KZ_TRY(kz_ranks_agree(run->ranks, store ? write_values(scene, store, summary) : KZ_OK));
   KZ_TRY(run_branches(scene, run, store, summary));
+  if (kz_sweep_has_table(scene->sweep)) KZ_TRY(kz_points_run(scene, run, store, summary));
   for (int64_t i = 0; i < (int64_t)(sizeof runs / sizeof runs[0]); i++)
     if (runs[i] && kz_sweep_measures(scene->sweep, i)) KZ_TRY(runs[i](scene, run, store, summary));
   return KZ_OK;

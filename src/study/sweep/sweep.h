@@ -6,21 +6,6 @@
 #include "kapitza/study.h"
 #include "plan.h"
 
-/* The measures of a sweep: code, word in the scene, the function that runs it. The first five come from the branches and have no functions of
- * their own. */
-#define KZ_SWEEP_MEASURES(MEASURE)                                           \
-  MEASURE(KZ_SWEEP_ATTRACTORS, "attractors", NULL)                           \
-  MEASURE(KZ_SWEEP_BASIN_FRACTIONS, "basin_fractions", NULL)                 \
-  MEASURE(KZ_SWEEP_LIFETIME, "lifetime", NULL)                               \
-  MEASURE(KZ_SWEEP_RESILIENCE, "resilience", NULL)                           \
-  MEASURE(KZ_SWEEP_PHASES, "phases", NULL)                                   \
-  MEASURE(KZ_SWEEP_FLUTTER_AMPLITUDE, "flutter_amplitude", kz_sweep_flutter) \
-  MEASURE(KZ_SWEEP_FLUTTER_RANGE, "flutter_zone", kz_sweep_flutter_range)    \
-  MEASURE(KZ_SWEEP_RELEASE_ANGLE, "release_angle", kz_sweep_release)         \
-  MEASURE(KZ_SWEEP_STROBE, "strobe", kz_sweep_strobe)
-#define KZ_MEASURE_CODE(code, word, run) code,
-enum { KZ_SWEEP_MEASURES(KZ_MEASURE_CODE) };
-
 bool kz_sweep_measures(const kz_sweep_plan *plan, int64_t measure);
 /* Whether the cells of the scene's basin are labelled at each value, else the starts of the sweep. */
 bool kz_sweep_has_grid(const kz_scene *scene);
@@ -148,6 +133,17 @@ kz_status kz_sweep_flutter(const kz_scene *scene, const kz_run *run, kz_store *s
 kz_status kz_sweep_flutter_range(const kz_scene *scene, const kz_run *run, kz_store *store, FILE *summary);
 kz_status kz_sweep_release(const kz_scene *scene, const kz_run *run, kz_store *store, FILE *summary);
 kz_status kz_sweep_strobe(const kz_scene *scene, const kz_run *run, kz_store *store, FILE *summary);
+kz_status kz_ends_run(const kz_scene *scene, const kz_run *run, kz_store *store, FILE *summary);
+kz_cost kz_ends_cost(const kz_scene *scene);
+
+/* Measures of the table (src/study/measures) at every point of a line or plane of pendulums: what they cost, and all of them. Collective. */
+kz_cost kz_points_cost(const kz_scene *scene);
+kz_status kz_points_run(const kz_scene *scene, const kz_run *run, kz_store *store, FILE *summary);
+/* Writes the axes of a plane, their keys and those keys' units. Rank 0. */
+kz_status kz_points_write_axes(const kz_sweep_plan *plan, kz_store *store);
+
+/* What a sweep writes besides kz_sweep_variables: over a plane, and measures of the table along a line. */
+extern const kz_variable kz_plane_variables[], kz_line_variables[];
 
 /* Writes the records of such a measure, on rank 0. */
 typedef kz_status (*kz_records_fn)(const kz_scene *scene, const void *records, kz_store *store, FILE *summary);

@@ -18,14 +18,28 @@ static double fastest_of_sweep(const kz_scene *scene) {
 }
 
 static int64_t tried_values(const kz_scene *scene) {
+  if (kz_sweep_is_plane(scene->sweep)) return 4;
   const int64_t affordable = STEPS / scene->numerics.steps_per_period;
   const int64_t n = affordable < 2 ? 2 : affordable < VALUES ? affordable : VALUES;
   return n < scene->sweep->values.count ? n : scene->sweep->values.count;
 }
 
+/* The same at corner i of a plane, whose error is the largest. */
+static bool motions_at_corner(const kz_scene *scene, int64_t i, kz_motions *motions) {
+  const kz_sweep_plan *plan = scene->sweep;
+  const int32_t parameter[] = {plan->x.parameter, plan->y.parameter};
+  const double value[] = {i % 2 ? plan->x.values.max : plan->x.values.min, i / 2 ? plan->y.values.max : plan->y.values.min};
+  *motions = kz_motions_of(scene, fastest_of_sweep(scene), "numerics.steps_per_period|sweep");
+  snprintf(motions->where, sizeof motions->where, "at %s = %.6g, %s = %.6g, ", kz_sweep_parameters[plan->x.parameter].name,
+           value[0], kz_sweep_parameters[plan->y.parameter].name, value[1]);
+  return kz_sweep_has_table(plan) && kz_pendulum_at(scene, 2, parameter, value, &motions->pendulum) &&
+         motions->pendulum.beta > 0;
+}
+
 /* Motions at tried value i of n; false where that is no pendulum, or nothing is followed without damping. */
 static bool motions_at(const kz_scene *scene, int64_t i, int64_t n, kz_motions *motions) {
   const kz_sweep_plan *plan = scene->sweep;
+  if (kz_sweep_is_plane(plan)) return motions_at_corner(scene, i, motions);
   const double value = kz_sweep_value(plan, i * (plan->values.count - 1) / (n - 1));
   *motions = kz_motions_of(scene, fastest_of_sweep(scene), "numerics.steps_per_period|sweep");
   if (kz_sweep_has_grid(scene)) kz_motions_label_cells(scene->basin, motions);

@@ -1,6 +1,6 @@
-#include <math.h>
+#include "counts.h"
 
-#include "basin.h"
+#include <math.h>
 
 /* One box: its settled cells, and how many of them each label has. */
 static void count_box(int64_t columns, const int16_t *label, kz_counts *counts) {

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Draws a chart of ends from a result file: `kapitza plot chart` without installing it."""
+"""Draws ends over a plane from a result file: `kapitza plot plane` without installing it."""
 
 import sys
 from pathlib import Path
@@ -8,4 +8,4 @@ sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "python"))
 from kapitza.command import main
 
 if __name__ == "__main__":
-    main("chart")
+    main("plane")
