@@ -20,7 +20,7 @@ kz_status kz_enclosure_tables_create(const kz_pendulum *pendulum, int32_t precis
   made->swing = 1.1 * fabs(pendulum->m) + 2 * fabs(pendulum->k) + 0.03;
   if (!kz_is_sine(pendulum)) made->swing = 1.5 * kz_stiffness(pendulum) + 0.03;
   for (double speed = fmin(SLOWEST, fastest); made->n_classes < MOST_CLASSES; speed = fmin(speed * FASTER, fastest)) {
-    kz_speed_class *next = kz_speed_class_create(pendulum, precision, speed);
+    kz_speed_class *next = kz_speed_class_create(pendulum, precision, speed, 0);
     if (!next) break;
     made->classes[made->n_classes++] = next;
     if (speed >= fastest) return KZ_OK;

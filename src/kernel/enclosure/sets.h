@@ -94,8 +94,9 @@ void kz_sets_wrap_triples(kz_sets *sets);
 /* Replaces each set by a rectangle around it, along its longer side. */
 void kz_sets_renew_frame(kz_sets *sets);
 
-/* A class of the given precision, for centres up to `fastest` (rad per drive radian); NULL if it needs too many steps. */
-kz_speed_class *kz_speed_class_create(const kz_pendulum *pendulum, int32_t precision, double fastest);
+/* A class of the given precision, for centres up to `fastest` (rad per drive radian), of so many steps; 0 = as many as make Taylor's rest small
+ * beside rounding. NULL if it needs too many. */
+kz_speed_class *kz_speed_class_create(const kz_pendulum *pendulum, int32_t precision, double fastest, int32_t n_steps);
 /* Sets the constants of a class whose number of steps and order are set. */
 void kz_speed_class_set_constants(const kz_pendulum *pendulum, kz_speed_class *speed);
 /* Sine and cosine of theta [n][2], high and low, as a step takes them (for tests): [n] in doubles, [n][2] in pairs; [n][3] in triples. */

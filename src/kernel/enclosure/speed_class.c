@@ -275,9 +275,9 @@ static int32_t steps_of_frame(const kz_pendulum *pendulum, int32_t n_steps) {
   return frames > 1 ? (int32_t)(n_steps / frames) : n_steps;
 }
 
-static kz_speed_class *create(bounds *b, double fastest) {
+static kz_speed_class *create(bounds *b, double fastest, int32_t wanted) {
   b->n_majorants = kz_majorants_find(b->pendulum, fastest, b->majorant);
-  const int32_t n_steps = choose_steps(b);
+  const int32_t n_steps = wanted > 0 ? wanted : choose_steps(b);
   if (n_steps == 0) return NULL;
   kz_speed_class *made = kz_calloc(
       1, sizeof *made + 2 * (size_t)(n_steps * b->order) * sizeof *made->along + (size_t)n_steps * sizeof *made->most_torque);
@@ -303,14 +303,14 @@ static kz_speed_class *create(bounds *b, double fastest) {
   return made;
 }
 
-kz_speed_class *kz_speed_class_create(const kz_pendulum *pendulum, int32_t precision, double fastest) {
+kz_speed_class *kz_speed_class_create(const kz_pendulum *pendulum, int32_t precision, double fastest, int32_t n_steps) {
   bounds *b = kz_calloc(1, sizeof *b);
   b->pendulum = pendulum;
   b->triples = precision == KZ_ENCLOSE_TRIPLES;
   b->pairs = b->triples || precision == KZ_ENCLOSE_PAIRS;
   b->fits = true;
   b->order = b->pairs ? KZ_ORDER_PAIRS : KZ_ORDER_DOUBLES;
-  kz_speed_class *speed = create(b, fastest);
+  kz_speed_class *speed = create(b, fastest, n_steps);
   free(b);
   return speed;
 }

@@ -127,6 +127,29 @@ TEST(points_hold_the_motion) {
   assert_true(farthest[0] < 1 && farthest[1] < 1 && kept > 0.9 * 2 * DRAWS * SETS * (PERIODS - 1));
 }
 
+/* Where steps are long, Taylor's rest is what a step of a centre misses: starts lie inside with it, and outside with the rounding of short steps
+ * alone in its place. */
+TEST(taylors_rest_is_needed) {
+  const kz_pendulum pendulum = some_pendulum(0);
+  for (int32_t precision = 0; precision < 2; precision++)
+    for (int is_cut = 0; is_cut < 2; is_cut++) {
+      kz_enclosure_tables *plan = plan_for(&pendulum, precision, 3);
+      int kept = 0;
+      for (int c = 0; c < plan->n_classes; c++) {
+        kz_speed_class *fine = plan->classes[c],
+                       *longer = kz_speed_class_create(&pendulum, precision, fine->fastest, fine->n_steps / 2);
+        if (is_cut) longer->theta_error = fine->theta_error, longer->velocity_error = fine->velocity_error;
+        assert_true(longer->velocity_error > (is_cut ? 0 : 1e3) * fine->velocity_error);
+        plan->classes[c] = longer;
+        free(fine);
+      }
+      srand(8);
+      assert_true((farthest_place(&pendulum, plan, 0, 3, &kept) < 1) == !is_cut);
+      assert_true(is_cut || kept > 0);
+      kz_enclosure_tables_free(plan);
+    }
+}
+
 /* The bounds of a lemma of docs/explanation/bounds.md, of all classes of speeds, times `left`. */
 static void cut(const kz_enclosure_tables *plan, int lemma, double left) {
   for (int c = 0; c < plan->n_classes; c++) {
