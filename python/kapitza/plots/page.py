@@ -147,7 +147,7 @@ def colour_file(text: str) -> dict[str, str]:
 def lay_out(figure: Figure, page: Page | None = None) -> Figure:
     """Gives the figure the page's width, its legend its place, its words their lines; its first panel keeps its shape."""
     page = page or current()
-    figure.draw_without_rendering()
+    _arrange(figure)
     shape = _shape(figure) if figure.axes else 1.0
     if not page.title:
         figure.suptitle("")
@@ -170,6 +170,13 @@ def lay_out(figure: Figure, page: Page | None = None) -> Figure:
     if page.width is not None:
         fix_ticks(figure)
     return figure
+
+
+def _arrange(figure: Figure) -> None:
+    """Puts panels and words where the page has room for them, which takes less than half as long as to draw them."""
+    engine = figure.get_layout_engine()
+    if engine is not None:
+        engine.execute(figure)
 
 
 def _shape(figure: Figure) -> float:
@@ -241,7 +248,7 @@ def _broken(figure: Figure, text: Text, parts: list[str], joint: str) -> str:
 
 def _break_labels(figure: Figure) -> None:
     """Labels of axes that are longer than their panel get their unit on a line of its own."""
-    figure.draw_without_rendering()
+    _arrange(figure)
     for axes in figure.axes:
         for axis, room in ((axes.xaxis, axes.bbox.width), (axes.yaxis, axes.bbox.height)):
             box = axis.label.get_window_extent()
