@@ -40,9 +40,10 @@ TEST(orphans_are_waited_for) {
   assert_all(close_checkpoint(true) == KZ_OK);
 }
 
+/* Alone: other ranks would wait for the first one, at work all the time. */
 TEST(a_running_program_is_refused) {
-  const double took = open_against(60, KZ_REFUSED);
-  assert_all(kz_rank(ranks) != 0 || took > 14.0);
+  if (kz_ranks_count(ranks) > 1) return;
+  assert_true(open_against(60, KZ_REFUSED) > 14.0);
 }
 
 TEST(a_rank_of_this_run_holds_it) {
