@@ -71,7 +71,7 @@ def test_kernel_rows_keep_their_tolerance(built):
     assert benchmark_kernel.rival_ns(split6, rows) == min(row["ns"] for row in processed if row["error"] <= split6["error"])
 
 
-def test_an_integrator_that_errs_is_seen_to_err(built):
+def test_an_integrator_that_errs_is_seen_to_err():
     probes = np.zeros((64, 4))
     probes[:, 2:] = [np.pi, 0.5]
     row = benchmark_kernel.other_row("wrong", lambda states, periods: states + [-np.pi + 0.03, 0.54], 1e-6, probes, 1)

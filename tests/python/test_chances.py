@@ -29,14 +29,14 @@ def test_a_start_without_spread_is_its_cell(small):
 
 @pytest.mark.parametrize("kind", with_extensive(["normal"], ["uniform"]))
 def test_weights_of_cells_are_those_of_random_starts(small, kind):
-    """By drawing a hundred thousand starts and looking them up in the same map; across the seam of the angle."""
+    """By drawing many starts and looking them up in the same map; across the seam of the angle."""
     random = np.random.default_rng(1)
-    drawn = random.normal(size=(2, 100_000)) if kind == "normal" else random.uniform(-1, 1, (2, 100_000))
+    drawn = random.normal(size=(2, 40_000)) if kind == "normal" else random.uniform(-1, 1, (2, 40_000))
     found = small.at(3.0 + 0.5 * drawn[0], 0.3 * drawn[1])["name"].value_counts(normalize=True)
     table = small.probability(3.0, 0.0, (0.5, 0.3), kind=kind).set_index("name")
     for name in found.index:
         same = table[[str(row).split(" (")[0] == name.split(" (")[0] for row in table.index]]
-        assert table.loc[name, "probability"] == pytest.approx(found[name], abs=0.006) and len(same)
+        assert table.loc[name, "probability"] == pytest.approx(found[name], abs=0.01) and len(same)
     assert table["probability"].sum() == pytest.approx(1, abs=1e-9)
     assert ((table["low"] <= table["probability"]) & (table["probability"] <= table["high"])).all()
 

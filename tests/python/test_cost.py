@@ -50,7 +50,7 @@ def most(process, folder):
 
 
 @pytest.mark.parametrize("n, ranks", [(600, 2), *LARGE])
-@pytest.mark.parametrize("method", ["direct", "icm"])
+@pytest.mark.parametrize("method", with_extensive(["icm"], ["direct"]))
 def test_estimates_are_near(kapitza, tmp_path, n, ranks, method):
     process = subprocess.Popen(list(map(str, ["mpirun", "-n", ranks, PROGRAM, "run", *words(n, method)])), cwd=tmp_path,
                                stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
@@ -155,7 +155,7 @@ def test_a_check_ends_soon_and_leaves_nothing(kapitza, tmp_path, study):
     assert [path.name for path in tmp_path.iterdir()] == ["s.yaml"]
 
 
-@pytest.mark.parametrize("seed", [4, 7])
+@pytest.mark.parametrize("seed", with_extensive([4], [7]))
 def test_rare_attractors_are_known_before_cells_are_timed(kapitza, seed):
     """Of these starts few end on a rare attractor; without it, a cell of its basin would be followed for all of max_periods."""
     keys = ["--set", f"basin.attractors.seed={seed}", "--set", "basin.max_periods=4000000"]

@@ -13,7 +13,7 @@ from pathlib import Path
 
 import h5py
 import pytest
-from conftest import PROGRAM, ROOT, datasets, plot, saved_bytes
+from conftest import PROGRAM, ROOT, datasets, plot, saved_bytes, with_extensive
 from kapitza.command import KINDS
 
 SMALL = ROOT / "scenes" / "small.yaml"
@@ -291,7 +291,7 @@ def test_a_reader_of_the_old_result_is_not_disturbed(kapitza, tmp_path):
         assert new["basin/attractor"].shape == (9, 7)
 
 
-@pytest.mark.parametrize("ranks", [5, 7])
+@pytest.mark.parametrize("ranks", with_extensive([7], [5]))
 def test_odd_counts_of_ranks_and_more_ranks_than_tiles(kapitza, tmp_path, undisturbed, ranks):
     kapitza("run", SMALL, *SLOW, ranks=ranks, folder=tmp_path)
     assert datasets(tmp_path / "small.h5") == undisturbed

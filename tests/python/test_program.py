@@ -4,7 +4,7 @@ import shutil
 
 import numpy as np
 import pytest
-from conftest import ROOT, datasets
+from conftest import ROOT, datasets, with_extensive
 from kapitza import Result
 
 SMALL = ROOT / "scenes" / "small.yaml"
@@ -19,7 +19,7 @@ def tiny(kapitza, tmp_path_factory):
     return folder / "small.h5"
 
 
-@pytest.mark.parametrize("method", ["icm", "direct"])
+@pytest.mark.parametrize("method", with_extensive(["icm"], ["direct"]))
 def test_the_same_bytes_on_any_number_of_ranks(kapitza, tmp_path, method):
     contents = []
     for ranks in (1, 2, 3, 5):
@@ -35,7 +35,7 @@ def test_a_symmetric_window_has_mirrored_labels(small_result):
     assert np.array_equal(labels[::-1, ::-1], np.append(mirror, -1)[labels])
 
 
-@pytest.mark.parametrize("method", ["icm", "direct"])
+@pytest.mark.parametrize("method", with_extensive(["icm"], ["direct"]))
 def test_a_mirrored_scene_has_mirrored_labels(kapitza, tmp_path, method):
     found = []
     for low, high in ((-1.5, 0.5), (-0.5, 1.5)):

@@ -150,7 +150,7 @@ def test_an_oscillating_torque_is_that_of_the_equation(kapitza, tmp_path, torque
     assert abs(math.remainder(x[0] - start[0], 2 * math.pi)) < 1e-9 and abs(x[1] - start[1]) < 1e-9
 
 
-@pytest.mark.parametrize("name", ["tilted", "square"])
+@pytest.mark.parametrize("name", with_extensive(["tilted"], ["square"]))
 def test_saddles_manifolds_and_orbits_are_of_the_drive(kapitza, tmp_path, name):
     """Unstable cycles obey the equation, manifolds begin at them, an orbit settles on an attractor."""
     keys, force = RIGS[name]

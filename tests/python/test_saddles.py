@@ -7,7 +7,7 @@ from collections import Counter
 import h5py
 import numpy as np
 import pytest
-from conftest import datasets
+from conftest import datasets, with_extensive
 from kapitza import Result
 from runge_kutta import runge_kutta
 
@@ -103,7 +103,7 @@ def test_without_damping_nothing_is_claimed(kapitza, tmp_path):
     assert "unstable inverted" in done.stdout
 
 
-@pytest.mark.parametrize("ranks", [1, 3])
+@pytest.mark.parametrize("ranks", with_extensive([3], [1]))
 def test_ranks_do_not_matter(kapitza, fig12, tmp_path, ranks):
     (tmp_path / "s.yaml").write_text(scene_text(max_period=4))
     kapitza("run", "s.yaml", ranks=ranks, folder=tmp_path)

@@ -75,7 +75,7 @@ def test_whole_circle_is_the_default(tmp_path):
 NAMES = sorted(path.name for path in (ROOT / "scenes").glob("*.yaml"))
 
 
-@pytest.mark.parametrize("name", with_extensive(NAMES[::4], NAMES))
+@pytest.mark.parametrize("name", with_extensive(NAMES[::8], NAMES))
 def test_every_scene_of_the_repository_is_valid(tmp_path, name):
     """By the checks that come before modelling, which a time limit ends."""
     status, _, err = program(tmp_path, "run", ROOT / "scenes" / name, "--time-limit", "1e-6")
