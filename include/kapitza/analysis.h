@@ -52,6 +52,13 @@ int64_t kz_spectrum_period(const kz_record *record, int64_t n_lines, const doubl
  * with an even n. amplitude [n_lines] belongs to a record of n = periods. */
 bool kz_spectrum_symmetric(const kz_record *record, int64_t n_lines, const double *amplitude);
 
+/* ---- roots ---- */
+
+typedef double (*kz_real_fn)(double x, void *context);
+/* The root of fn between low and high by Brent's method, to rounding; low or high if fn is 0 there; NaN if fn does not change its sign, or has no
+ * value at an end. */
+double kz_root(kz_real_fn fn, void *context, double low, double high);
+
 /* ---- shares ---- */
 
 /* Upper bound of a share that occurred `hits` times in n independent draws; it holds with probability `confidence`, such as 0.95 (C. J.

@@ -33,6 +33,8 @@ enum { KZ_AUTO = 0 };
   STUDY(attractors)       \
   STUDY(saddles)          \
   STUDY(manifolds)        \
+  STUDY(wada)             \
+  STUDY(tangency)         \
   STUDY(edge)             \
   STUDY(orbit)            \
   STUDY(stability)        \

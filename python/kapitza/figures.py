@@ -104,6 +104,7 @@ _SCENES = {
     "tradeoff-strong-drive": [_TRADE],
     "tradeoff-weak-damping": [_TRADE],
     "tradeoff-zero-gravity": [_TRADE],
+    "wada-forced": [("", "basin", ["--saddles", "--manifolds"])],
     "zoom-fig12": [_ZOOM],
 }
 

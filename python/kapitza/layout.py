@@ -40,6 +40,8 @@ NEEDED = {
     "manifolds": _part("theta velocity arc_length saddle branch kind polyline"),
     "saddles": _part("period winding name index strobe_theta strobe_velocity multiplier_re multiplier_im"),
     "sweep": _part("value", "parameter"),
+    "tangency": _part("strobe theta velocity", "value error parameter crossing saddle into"),
+    "wada": _part("theta velocity arc_length periods followed basins wada pair_cycles pair_shared"),
 }
 _BRANCHES = "branch_start branch_end branch_start_kind branch_end_kind branch_name branch_period branch_winding branch_centre branch_mirror"
 # What a group may hold, and then whole: a part is there if its first variable is.
@@ -59,7 +61,7 @@ OPTIONAL = {
 # Never below 0.
 COUNTS = {"period", "settling_time", "branch_period", "class_period", "curve_period", "curve_first", "curve_points", "list", "end_period"}
 GRIDS = {"theta", "velocity", "time", "k", "m", "value", "release", "x", "y", "row", "column"}  # axes that go up
-WORDS = {"parameter", "parameter_units", "x_parameter", "y_parameter"}  # attributes that are text; all others that a part names are numbers
+WORDS = {"parameter", "crossing", "parameter_units", "x_parameter", "y_parameter"}  # attributes that are text; others are numbers
 WITH_PENDULUM = {"basin", "orbit", "potential", "tradeoff"}  # groups whose pictures name its parameters
 NUMBERS = {"quality_factor", "damping", *(f"tongue_{tongue}_lowest_{axis}" for tongue in (1, 2) for axis in "km")}  # where they are given
 

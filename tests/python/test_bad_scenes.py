@@ -79,6 +79,11 @@ SCENES = {
     "plane without ends": (GOOD + "sweep: {x: {parameter: drive_frequency, min: 2, max: 3, count: 2}, "
         "y: {parameter: drive_amplitude, min: 0, max: 1, count: 2}, measure: [ends]}\n", "", "sweep.ends: is missing"),
     "measure twice": (GOOD + "measures: {names: [share, share], velocity: {min: -1, max: 1}}\n", "", "measures.names: has a word twice"),
+    "wada without saddles": (GOOD + "wada: {length: 3}\n", "9:7", "wada: needs a list of unstable cycles"),
+    "wada without attractors": ("pendulum: {k: 0, damping: 0.1, m: 0.3}\nsaddles: {velocity: {min: -1, max: 1}}\n"
+        "wada: {length: 3}\n", "3:7", "wada: needs a list of attractors"),
+    "wada without damping": ("pendulum: {k: 0, damping: 0, m: 0.3}\nattractors: {velocity: {min: -1, max: 1}}\n"
+        "saddles: {velocity: {min: -1, max: 1}}\nwada: {length: 3}\n", "4:7", "wada: needs damping"),
     "edge without ends": ("pendulum: {k: 0, damping: 0.1, m: 0.3}\nedge: {first: {theta: 0, "
         "velocity: 0}, second: {theta: 1, velocity: 0}}\n", "2:7", "edge: needs a list of attractors"),
     "shocks whose sizes go down": (GOOD + "  shocks: {sizes: [1, 0.5]}\n", "9:19", "basin.shocks.sizes: 0.5 is not above"),

@@ -12,6 +12,7 @@
 #include "../../study/sweep/plan.h"
 #include "../../study/atlas/plan.h"
 #include "../../study/measures/plan.h"
+#include "../../study/tangency/plan.h"
 
 /* Complains about a key where it is given. */
 static void refuse(kz_reading *reading, const char *path, const char *why) {
@@ -96,14 +97,21 @@ static void list_rule(kz_reading *reading, const kz_scene *scene, const char *pa
     refuse(reading, path, "needs a list of attractors; add a basin or attractors study to the scene");
 }
 
+static void basins_rule(kz_reading *reading, const kz_scene *scene, const char *path) {
+  list_rule(reading, scene, path);
+  if (!reading->message[0] && !(scene->parameters.pendulum.beta > 0))
+    refuse(reading, path, "needs damping, because without it there are no attractors; give damping");
+}
+
 static void edge_rules(kz_reading *reading, kz_scene *scene) {
-  list_rule(reading, scene, "edge");
-  if (scene->has_edge && !reading->message[0] && !(scene->parameters.pendulum.beta > 0))
-    kz_complain(reading, "edge", "needs damping, because without it there are no attractors; give damping");
+  basins_rule(reading, scene, "edge");
+  basins_rule(reading, scene, "wada");
 }
 
 static void manifolds_rules(kz_reading *reading, kz_scene *scene) {
-  if (!scene->has_saddles) refuse(reading, "manifolds", "needs a list of unstable cycles; add a saddles study to the scene");
+  static const char *const paths[] = {"manifolds", "wada", "tangency"};
+  for (size_t i = 0; !scene->has_saddles && i < sizeof paths / sizeof paths[0]; i++)
+    refuse(reading, paths[i], "needs a list of unstable cycles; add a saddles study to the scene");
 }
 
 static void tradeoff_rules(kz_reading *reading, kz_scene *scene) {
@@ -224,6 +232,10 @@ static void parameter_values(kz_reading *reading, const kz_scene *scene, int32_t
   parameter_value(reading, scene, parameter, max.text, values->max);
 }
 
+static void tangency_rules(kz_reading *reading, kz_scene *scene) {
+  if (scene->has_tangency) parameter_values(reading, scene, scene->tangency->parameter, &scene->tangency->values, "tangency");
+}
+
 /* The two keys of a plane. */
 static void plane_rules(kz_reading *reading, const kz_scene *scene, kz_chart_axis *x, kz_chart_axis *y, const char *study) {
   const kz_short_text of_x = kz_key_in(study, "x"), of_y = kz_key_in(study, "y");
@@ -282,10 +294,10 @@ static void settling_rules(kz_reading *reading, kz_scene *scene) {
 }
 
 typedef void (*rule)(kz_reading *reading, kz_scene *scene);
-static const rule rules[] = {basin_rules,    table_rules,       undecided_rules,   shocks_rules,    attractors_rules,
-                             saddles_rules,  measures_rules,    manifolds_rules,   orbit_rules,     stability_rules,
-                             tradeoff_rules, kz_pendulum_rules, symmetry_rules,    stiffness_rules, sweep_rules,
-                             atlas_rules,    edge_rules,        orbit_range_rules, settling_rules};
+static const rule rules[] = {basin_rules,    table_rules,       undecided_rules, shocks_rules,      attractors_rules,
+                             saddles_rules,  measures_rules,    manifolds_rules, orbit_rules,       stability_rules,
+                             tradeoff_rules, kz_pendulum_rules, symmetry_rules,  stiffness_rules,   sweep_rules,
+                             atlas_rules,    tangency_rules,    edge_rules,      orbit_range_rules, settling_rules};
 
 void kz_reading_rules(kz_reading *reading) {
   for (size_t i = 0; i < sizeof rules / sizeof rules[0]; i++) rules[i](reading, reading->scene);

@@ -5,11 +5,10 @@
 
 #include "kapitza/dynamics.h"
 #include "kapitza/study.h"
+#include "manifolds.h"
 #include "saddles/saddles.h"
 #include "saddles/plan.h"
 #include "plan.h"
-
-enum { MOST_POINTS = 32768 }; /* of a branch */
 
 typedef struct {
   int64_t saddle, number; /* number: 2 * place of the strobe point, + 1 for the other side */
@@ -27,7 +26,7 @@ enum { POINT_BYTES = 4 * sizeof(double), FILE_BYTES = 50 /* of a point in the fi
 /* The record of a branch. */
 typedef struct {
   uint64_t bytes; /* in use */
-  double point[4 * MOST_POINTS];
+  double point[4 * KZ_BRANCH_POINTS];
 } grown;
 
 /* The points of a branch, on rank 0. */
@@ -42,7 +41,7 @@ kz_cost kz_manifolds_cost(const kz_scene *scene) {
   const double saddles = plan->saddles.count > 0 ? (double)plan->saddles.count : kz_saddles_expected(scene);
   const double kinds = plan->kind == KZ_MANIFOLDS_STABLE || plan->kind == KZ_MANIFOLDS_UNSTABLE ? 1 : 2;
   const double branches = 2 * kinds * saddles * (double)scene->saddles->max_period;
-  const double points = fmin(2 * plan->length / plan->spacing, MOST_POINTS), kept = PAGE_BYTES + POINT_BYTES * points;
+  const double points = fmin(2 * plan->length / plan->spacing, KZ_BRANCH_POINTS), kept = PAGE_BYTES + POINT_BYTES * points;
   return (kz_cost){.disk_bytes = branches * (kept + FILE_BYTES * points),
                    .memory_bytes = 2 * sizeof(grown),
                    .rank0_bytes = branches * (POINT_BYTES + sizeof(void *) + 4) * points,
@@ -60,10 +59,8 @@ static kz_status add_saddle(const kz_manifolds_plan *plan, int64_t saddle, kz_st
   const size_t most = (size_t)(list->count + 4 * (int64_t)period);
   list->tasks = kz_realloc(list->tasks, most * sizeof *list->tasks);
   for (int64_t phase = 0; phase < (int64_t)period; phase++) {
-    kz_branch branch = {
-        .period = (int32_t)period, .spacing = plan->spacing, .length = plan->length, .fastest = plan->max_speed};
-    KZ_TRY(kz_store_number(store, "saddles", "strobe_theta", (int64_t[]){saddle, phase}, &branch.theta));
-    KZ_TRY(kz_store_number(store, "saddles", "strobe_velocity", (int64_t[]){saddle, phase}, &branch.velocity));
+    kz_branch branch = {.spacing = plan->spacing, .length = plan->length, .fastest = plan->max_speed};
+    KZ_TRY(kz_branch_read(store, saddle, phase, &branch));
     for (int i = 0; i < 4; i++) {
       branch.stable = i / 2;
       branch.side = i % 2 ? -1 : 1;
@@ -100,8 +97,8 @@ static kz_status share_tasks(const kz_run *run, work_list *list) {
 static kz_status grow(void *context, int64_t tile, void *record) {
   const work_list *list = context;
   grown *out = record;
-  out->bytes = offsetof(grown, point) +
-               POINT_BYTES * (uint64_t)kz_manifold_grow(list->pendulum, &list->tasks[tile].branch, MOST_POINTS, out->point);
+  out->bytes = offsetof(grown, point) + POINT_BYTES * (uint64_t)kz_manifold_grow(list->pendulum, &list->tasks[tile].branch,
+                                                                                 KZ_BRANCH_POINTS, out->point);
   return KZ_OK;
 }
 
@@ -162,8 +159,8 @@ static void print(const kz_manifolds_plan *plan, const work_list *list, const li
   int64_t shorter = 0, full = 0;
   for (int64_t i = 0; i < list->count; i++) {
     const double *last = lines[i].point + 4 * (lines[i].count - 1);
-    full += lines[i].count == MOST_POINTS;
-    shorter += lines[i].count < MOST_POINTS && last[2] < plan->length;
+    full += lines[i].count == KZ_BRANCH_POINTS;
+    shorter += lines[i].count < KZ_BRANCH_POINTS && last[2] < plan->length;
   }
   fprintf(summary, "manifolds: %lld branches, %lld points\n", (long long)list->count, (long long)n);
   if (shorter > 0)
@@ -173,8 +170,8 @@ static void print(const kz_manifolds_plan *plan, const work_list *list, const li
         "double precision does not resolve them\n",
         (long long)shorter, plan->length, plan->max_speed);
   if (full > 0)
-    fprintf(summary, "%lld branches end at %d points before length = %g; give a larger spacing\n", (long long)full, MOST_POINTS,
-            plan->length);
+    fprintf(summary, "%lld branches end at %d points before length = %g; give a larger spacing\n", (long long)full,
+            KZ_BRANCH_POINTS, plan->length);
 }
 
 static kz_status write(const kz_scene *scene, const work_list *list, const line *lines, kz_store *store, FILE *summary) {

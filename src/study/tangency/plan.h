@@ -1,0 +1,15 @@
+/* What a scene says of the study `tangency`: where, along a key of the pendulum, manifolds of the cycles that the study `saddles` of the same scene
+ * finds begin to cross. */
+#ifndef KAPITZA_STUDY_TANGENCY_PLAN_H
+#define KAPITZA_STUDY_TANGENCY_PLAN_H
+
+#include "kapitza/study.h"
+
+struct kz_tangency_plan {
+  int32_t parameter;    /* row of kz_sweep_parameters */
+  kz_axis values;       /* min, max; the count is not used */
+  int64_t saddle, into; /* ids: the cycle of the unstable manifold, that of the stable one; KZ_UNSET_INTEGER = the same */
+  double length;        /* of each branch */
+};
+
+#endif
