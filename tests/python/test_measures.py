@@ -108,3 +108,16 @@ def test_refused(kapitza, tmp_path, changes, words):
 def test_check_says_what_it_costs(kapitza, tmp_path):
     (tmp_path / "s.yaml").write_text(json.dumps({"pendulum": FIG12, "measures": WINDOW | {"names": ["share", "shock"]}}))
     assert "measures" in kapitza("check", "s.yaml", folder=tmp_path).stdout
+
+
+def test_wada_basins_of_the_forced_pendulum(kapitza, tmp_path):
+    """Nusse and Yorke's case, theta'' + .2 theta' + sin theta = 1.66 cos t: three fractal basins in nearly every box of the boundary."""
+    (tmp_path / "s.yaml").write_text(json.dumps(
+        {"pendulum": {"k": 1, "damping": 0.2, "m": 0, "torque_amplitude": 1.66},
+         "measures": {"velocity": {"min": -3, "max": 3}, "starts": 256, "cells": 128,
+                      "names": ["share", "boundary_entropy", "shared_boundary", "uncertainty_exponent"]}}))
+    kapitza("run", "s.yaml", ranks=2, folder=tmp_path)
+    table = Result(tmp_path / "s.h5").measures
+    assert len(table) == 3 and table["share"].min() > 0.15
+    assert table["boundary_entropy"].iloc[0] > math.log(2)
+    assert table["shared_boundary"].min() > 0.95 and table["uncertainty_exponent"].max() < 0.5

@@ -6,7 +6,7 @@
 #include "measures.h"
 #include "numerics/cells.h"
 
-enum { SHARED_LEVEL = 3 }; /* boxes of 8 cells */
+enum { SHARED_LEVEL = 4 }; /* boxes of 16 cells, as basin.boundary shows them */
 static const double ALL = 0.99;
 
 static void entropies(const kz_measured *measured, double *entropy, double *boundary) {

@@ -40,7 +40,7 @@ enum {
   INTERVAL(boundary_dimension, KZ_NEEDS_PICTURE, "1", "dimension of the boundary of the basin")                              \
   NUMBER(intermingledness, KZ_NEEDS_STARTS, "1", "intermingledness with the other basins, their mean")                       \
   PAIR(intermingled_with, KZ_NEEDS_STARTS, "1", "intermingledness with the other basin")                                     \
-  NUMBER(shared_boundary, KZ_NEEDS_PICTURE, "1", "share of the boxes of 8 x 8 cells on any boundary that the basin is in")   \
+  NUMBER(shared_boundary, KZ_NEEDS_PICTURE, "1", "share of the boxes of 16 x 16 cells on any boundary that the basin is in") \
   PENDULUM(wada_on_grid, KZ_NEEDS_PICTURE, "1", "1 where all basins, three or more, are in 99 % of these boxes; else 0")
 
 typedef enum { KZ_PER_ATTRACTOR, KZ_PER_INTERVAL, KZ_PER_SIZE, KZ_PER_PAIR, KZ_PER_PENDULUM } kz_measure_shape;
