@@ -17,16 +17,16 @@ from PIL import Image  # noqa: E402
 
 SCENE = ROOT / "scenes" / "blackburn-fig12.yaml"
 DESK, PHONE = (1440, 900), (390, 844)
-FILM = (720, 450)
+FILM = (640, 400)
 EACH = 130  # ms of a picture of the film
 READY = "document.body.dataset.state === 'done' && ($('map').hidden || /up to 4/.test(document.querySelector('#map .note').textContent))"
-AMPLITUDES = [0.30 + 0.20 * i / 18 for i in range(19)] + [0.50 - 0.20 * i / 9 for i in range(1, 10)]
-NOTCHES = 16  # of the wheel
+AMPLITUDES = [0.30 + 0.20 * i / 14 for i in range(15)] + [0.50 - 0.20 * i / 6 for i in range(1, 7)]
+NOTCHES = 14  # of the wheel
 
 
 def opened(driver, server, size, more):
     """A page at rest, with its map complete."""
-    screen = {"width": size[0], "height": size[1], "deviceScaleFactor": 1, "mobile": False}
+    screen = {"width": size[0], "height": size[1], "deviceScaleFactor": 1, "mobile": size == PHONE}
     driver.execute_cdp_cmd("Emulation.setDeviceMetricsOverride", screen)
     driver.get("about:blank")
     page = Page(driver, server.address() + f"#start=2.9~0~a&{more}")
@@ -44,13 +44,15 @@ def film(driver, page):
     """The point of the map goes to a larger amplitude and back, and the wheel zooms into a boundary."""
     pictures = []
     for amplitude in AMPLITUDES:
-        page.run("explorer.state.change({pendulum: {...explorer.state.pendulum, drive_amplitude: arguments[0]}, jump: false})",
-                 str(round(amplitude, 4)))
-        wait_for(lambda: page.run("explorer.basins.panes[0].latest?.key === JSON.stringify(explorer.state.pendulum)"))
+        page.run("(explorer.basins.panes[0].most = 2.5e5, explorer.state.change({pendulum: {...explorer.state.pendulum, "
+                 "drive_amplitude: arguments[0]}, jump: false}))", str(round(amplitude, 4)))  # as fine as on a machine at rest
+        wait_for(lambda: page.run("((pane) => pane.latest?.key === JSON.stringify(pane.pendulum) && pane.latest.level === 1)"
+                                  "(explorer.basins.panes[0])"))
         pictures.append(shown(driver))
     page.wait()
+    page.run("explorer.state.change({drawn: 'on'})")  # the zoom stays on a boundary
     for _ in range(NOTCHES):
-        page.wheel(0.72, 0.63, -100)
+        page.wheel(0.5, 0.6, -120)
         page.wait()
         pictures.append(shown(driver))
     return pictures + [pictures[-1]] * math.ceil(1000 / EACH)
@@ -63,7 +65,8 @@ def main():
         page = opened(driver, server, DESK, "theme=light")
         shown(driver).save(folder / "explorer.png", optimize=True)
         page.run("explorer.state.change({samples: '1', quality: 'moving'})")
-        first, *others = [picture.resize(FILM, Image.Resampling.LANCZOS).quantize(128) for picture in film(driver, page)]
+        small = [picture.resize(FILM, Image.Resampling.LANCZOS) for picture in film(driver, page)]
+        first, *others = [picture.quantize(64, dither=Image.Dither.NONE) for picture in small]
         first.save(folder / "explorer.gif", save_all=True, append_images=others, duration=EACH, loop=0, optimize=True)
         opened(driver, server, PHONE, "theme=dark&map=off")
         shown(driver).save(folder / "explorer-phone.png", optimize=True)
