@@ -6,6 +6,7 @@ yardstick tells by how much it varied. Ratios of whole commands against another 
 import argparse
 import json
 import os
+import re
 import statistics
 import subprocess
 import sys
@@ -30,12 +31,20 @@ SLIDERS = {
 PLANE = {"x": {"parameter": "drive_frequency", "min": 3.1, "max": 30}, "y": {"parameter": "drive_amplitude", "min": 0, "max": 0.75},
          "max_period": 4, "checks": 0}
 WAY = ((11, 0.30), (12, 0.32))
-# name: scene keys of whole commands against another build
+# Q of weakly damped pendulums, whose first picture is made by a new program
+WEAK = [20, 200]
+EXACT = ["basin.method=exact", "basin.theta.count=500", "basin.velocity.count=320"]
+# name: scene and keys of whole commands against another build
 RUNS = {
-    "direct-1000x1000": ["basin.method=direct"],
-    "direct-400x250": ["basin.method=direct", "basin.theta.count=400", "basin.velocity.count=250"],
-    "icm-1000x1000": ["basin.method=icm"],
-    "exact-1000x1000": ["basin.method=exact"],
+    "direct-1000x1000": ("blackburn-fig12", ["basin.method=direct"]),
+    "direct-400x250": ("blackburn-fig12", ["basin.method=direct", "basin.theta.count=400", "basin.velocity.count=250"]),
+    "icm-1000x1000": ("blackburn-fig12", ["basin.method=icm"]),
+    "exact-1000x1000": ("blackburn-fig12", ["basin.method=exact"]),
+    "exact-fig13": ("blackburn-fig13", EXACT),
+    "exact-fig15": ("blackburn-fig15", EXACT),
+    "drive-square": ("blackburn-fig12", [*EXACT, "pendulum.waveform=square"]),
+    "sweep-walk": ("blackburn-walk", ["sweep.count=30"]),
+    "sweep-torque": ("josephson", []),
 }
 
 
@@ -119,11 +128,11 @@ def map_drag(engine, folder):
     return 1e3 * (engine.seconds() - begin) / 50
 
 
-def first_picture(core):
+def first_picture(core, **keys):
     """A new program: 8x8 cells, and the whole picture, with all that it took to start."""
     engine = Engine(core)
     begin = 1e3 * engine.seconds()
-    times = engine.frame(551, 1000, levels=[8, 4, 2, 1])
+    times = engine.frame(551, 1000, levels=[8, 4, 2, 1], **keys)
     engine.close()
     return {level: begin + milliseconds for level, milliseconds in times.items()}
 
@@ -139,27 +148,33 @@ def measure(core, rounds):
         frames["map-fig12"] = map_drag(engine, folder)
     yardstick.append(spin())
     engine.close()
-    pictures = [first_picture(core) for _ in range(min(rounds, 3))]
-    frames["first-1000x551"] = min(picture[1] for picture in pictures)
-    frames["first-1000x551-8x8"] = min(picture[8] for picture in pictures)
+    kinds = {"first-1000x551": {}}
+    kinds |= {f"first-Q{q}": {"pendulum": {**BLACKBURN, "drive_amplitude": 0.3, "quality_factor": q}} for q in WEAK}
+    for name, keys in kinds.items():
+        pictures = [first_picture(core, **keys) for _ in range(min(rounds, 3))]
+        frames[name] = min(picture[1] for picture in pictures)
+        frames[name + "-8x8"] = min(picture[8] for picture in pictures)
     return frames, yardstick
 
 
-def run_seconds(program, sets, output):
+def run_seconds(program, scene, sets, output):
     """Of all processes of a run, daemons of MPI included."""
     words = [word for key in sets for word in ("--set", key)]
-    command = [str(program), "run", str(SCENE), "-o", str(output), "--force", *words]
+    path = ROOT / "scenes" / f"{scene}.yaml"
+    command = [str(program), "run", str(path), "-o", str(output), "--force", "--progress", "never", *words]
     counted = subprocess.run(["perf", "stat", "-x", ",", "-e", "task-clock", *command], check=True, text=True, stdout=subprocess.DEVNULL,
                              stderr=subprocess.PIPE)
     return float(counted.stderr.strip().splitlines()[-1].split(",")[0])
 
 
-def compare(base, rounds):
+def compare(base, rounds, wanted):
     """Least time of this build over that of another one, in turns."""
     ratios = {}
     with tempfile.TemporaryDirectory() as folder:
-        for name, sets in RUNS.items():
-            times = [[run_seconds(program, sets, Path(folder) / "out.h5") for program in (base, PROGRAM)] for _ in range(rounds)]
+        for name, (scene, sets) in RUNS.items():
+            if not re.fullmatch(wanted, name):
+                continue
+            times = [[run_seconds(program, scene, sets, Path(folder) / "out.h5") for program in (base, PROGRAM)] for _ in range(rounds)]
             ratios[name] = min(own for _, own in times) / min(other for other, _ in times)
     return ratios
 
@@ -169,6 +184,7 @@ def main():
     parser.add_argument("--rounds", type=int, default=5, help="frames of which the least counts")
     parser.add_argument("--core", type=int, default=0, help="on which it runs")
     parser.add_argument("--base", type=Path, help="another kapitza: ratios of whole commands too (needs perf)")
+    parser.add_argument("--runs", default=".*", help="names of those commands, a regular expression (default: all)")
     parser.add_argument("--json", action="store_true", help="figures for other programs")
     options = parser.parse_args()
     frames, yardstick = measure(options.core, options.rounds)
@@ -177,7 +193,7 @@ def main():
         "yardstick_ms": {"least": min(yardstick), "median": statistics.median(yardstick), "most": max(yardstick)},
     }
     if options.base:
-        result["runs"] = [{"name": name, "ratio": ratio} for name, ratio in compare(options.base, options.rounds).items()]
+        result["runs"] = [{"name": name, "ratio": ratio} for name, ratio in compare(options.base, options.rounds, options.runs).items()]
     if options.json:
         print(json.dumps(result, indent=1))
         return

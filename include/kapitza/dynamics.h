@@ -127,9 +127,10 @@ int64_t kz_dynamics_cycle_size(const kz_dynamics *dynamics);
  * [kz_dynamics_chaos_size]: a chaotic attractor, for kz_dynamics_adopt, if the orbits separate and no region traps them; else nothing. */
 void kz_dynamics_find_chaos(kz_dynamics *dynamics, const double *state, double *found);
 int64_t kz_dynamics_chaos_size(void);
-/* Looks for a quasi-periodic motion among n <= 64 states, whose orbits it follows through 8000 periods. found [kz_dynamics_chaos_size]: the motion,
- * for kz_dynamics_adopt, or nothing. */
-void kz_dynamics_find_quasiperiodic(kz_dynamics *dynamics, int64_t n, const double *state, double *found);
+/* Looks for a quasi-periodic motion among n <= 64 states, whose orbits it follows through 8000 periods at most. age: periods after their starts; where damping
+ * has not had the time to bring them to an attractor, nothing is looked for. found [kz_dynamics_chaos_size]: the motion, for kz_dynamics_adopt, or
+ * nothing. */
+void kz_dynamics_find_quasiperiodic(kz_dynamics *dynamics, int64_t n, const double *state, int64_t age, double *found);
 /* Adds the attractors in `found`, of one of the calls above, to the catalogue. */
 void kz_dynamics_adopt(kz_dynamics *dynamics, const double *found);
 /* Adds the cycle of `period` <= max_period drive periods within 0.2 rad of a strobe point (rad, rad per drive radian), and its mirror image,

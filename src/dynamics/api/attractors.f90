@@ -71,17 +71,18 @@ contains
     call take_new(d, n_known, found)
   end subroutine search_chaos
 
-  subroutine search_quasiperiodic(handle, n, state, found) bind(C, name='kz_dynamics_find_quasiperiodic')
+  subroutine search_quasiperiodic(handle, n, state, age, found) bind(C, name='kz_dynamics_find_quasiperiodic')
     type(c_ptr), value :: handle
     integer(c_int64_t), value :: n
     real(dp), intent(in) :: state(2, n)
+    integer(c_int64_t), value :: age
     real(dp), intent(inout) :: found(*)
     type(dynamics_t), pointer :: d
     integer :: n_known
 
     d => of_handle(handle)
     n_known = size(d%attractors)
-    call find_quasiperiodic(d%search, d%regions, state, d%attractors)
+    call find_quasiperiodic(d%search, d%regions, state, real(age, dp), d%attractors)
     call take_new(d, n_known, found)
   end subroutine search_quasiperiodic
 

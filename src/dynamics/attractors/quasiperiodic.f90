@@ -28,6 +28,8 @@ module kz_attractors_quasiperiodic
   !> A tangent that has grown or shrunk by more within a window does not come back to that; looked at every so many periods.
   real(dp), parameter :: LOST = 1e8_dp
   integer, parameter :: LOOKED_AT = 100
+  !> Lifetimes 1/(2 pi beta) at the end of the first window, before which the averages of hardly any orbit have converged to that.
+  real(dp), parameter :: EARLIEST = 10
 
   !> What is known of the orbits in the lanes of a flow after a window.
   type :: record_t
@@ -40,10 +42,11 @@ module kz_attractors_quasiperiodic
 contains
 
   !> Looks for a quasi-periodic motion among orbits. It appends the first one with its cover, and its mirror image if that is another one.
-  subroutine find_quasiperiodic(search, regions, state, attractors)
+  subroutine find_quasiperiodic(search, regions, state, age, attractors)
     type(search_t), intent(inout) :: search !< the flows of the search
     type(regions_t), intent(in) :: regions !< the trapping regions: what they hold is not looked at
     real(dp), intent(in) :: state(:, :) !< [2, n <= WIDTH] where the orbits begin, half-turns, rad per drive radian
+    real(dp), intent(in) :: age !< drive periods after their starts: nothing is looked for too early
     type(attractor_t), allocatable, intent(inout) :: attractors(:) !< the catalogue, which gains what is found
     type(attractor_t) :: attractor
     type(record_t) :: record
@@ -53,7 +56,7 @@ contains
     integer :: n, i
 
     n = size(state, 2)
-    if (.not. is_damped(search%pendulum)) return
+    if (.not. is_damped(search%pendulum) .or. 2*PI*search%pendulum%beta*(age + WINDOW) < EARLIEST) return
     do i = 1, n
       call search%flow%put(i, state(1, i), state(2, i))
     end do

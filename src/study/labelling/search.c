@@ -36,6 +36,7 @@ typedef struct {
   double *state;                /* [all] */
   int32_t *label;               /* [all] */
   int64_t all, sought;          /* how many of the pending ones a round looks for cycles from */
+  int64_t age;                  /* periods through which the pending ones have been followed; INT64_MAX in the last round */
 } following;
 
 typedef struct {
@@ -86,7 +87,7 @@ static kz_status follow_pending(const kz_run *run, following *f, int64_t periods
 typedef struct {
   kz_dynamics *dynamics;
   enum { CYCLE, QUASIPERIODIC, CHAOS } kind;
-  int64_t n;               /* states */
+  int64_t n, age;          /* states; periods after their starts */
   double state[2 * CHUNK]; /* of the starts; of chaos the first alone counts */
   double closeness;        /* rad; of cycles */
   double *found;           /* [size] what was found before, then what is found */
@@ -100,7 +101,7 @@ static kz_status seek_tile(void *context, int64_t tile, void *record) {
   if (s->kind == CYCLE)
     kz_dynamics_find_cycle(s->dynamics, s->n, s->state, s->closeness, record);
   else if (s->kind == QUASIPERIODIC)
-    kz_dynamics_find_quasiperiodic(s->dynamics, s->n, s->state, record);
+    kz_dynamics_find_quasiperiodic(s->dynamics, s->n, s->state, s->age, record);
   else
     kz_dynamics_find_chaos(s->dynamics, s->state, record);
   return KZ_OK;
@@ -134,7 +135,7 @@ static kz_status find_cycles(const kz_run *run, const following *f, double close
 /* Starts that end on no cycle: attractors with covers are found one by one, a chaotic one from one pending start, a quasi-periodic one among
  * some of them. */
 static kz_status find_covered(const kz_run *run, following *f, int kind) {
-  seeking s = {.dynamics = f->dynamics, .kind = kind, .size = kz_dynamics_chaos_size()};
+  seeking s = {.dynamics = f->dynamics, .kind = kind, .age = f->age, .size = kz_dynamics_chaos_size()};
   kz_status status = KZ_OK;
   s.found = kz_calloc(2 * (size_t)s.size, sizeof(double));
   for (int attempt = 0; attempt < COVER_TRIES && f->n > 0 && status == KZ_OK; attempt++) {
@@ -163,6 +164,7 @@ static kz_status search_discover(const kz_run *run, following *f, int64_t max_pe
     kz_dynamics_update(f->dynamics);
     KZ_TRY(follow_pending(run, f, length));
     done += length;
+    f->age = done < max_periods ? done : INT64_MAX;
     if (f->n == 0) return KZ_OK;
     const int64_t known = kz_dynamics_count(f->dynamics);
     KZ_TRY(find_cycles(run, f, done >= max_periods ? LAST_CLOSENESS : CLOSENESS));
