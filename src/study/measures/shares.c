@@ -70,3 +70,27 @@ void kz_measure_settling_largest(const kz_measured *measured, double *value) {
       if (ended->id[i] == id) value[id] = fmax(value[id], ended->time[i]); /* of a number and NaN the number */
   }
 }
+
+/* The distance of a start from the nearest strobe point of an attractor; NaN if it has none. */
+static double distance_of(const kz_measured *measured, const double start[2], const kz_entry *entry) {
+  double least = NAN;
+  for (int32_t phase = 0; phase < entry->row.period; phase++) {
+    const double theta = remainder(start[0] - entry->theta[phase], 2 * M_PI);
+    least = fmin(least, hypot(theta, (start[1] - entry->velocity[phase]) / measured->plan->options.shock_scale));
+  }
+  return least;
+}
+
+void kz_measure_settling_pace(const kz_measured *measured, double *value) {
+  const kz_ended *ended = &measured->starts;
+  for (int64_t id = 0; id < measured->catalogue.count; id++) {
+    double sum = 0;
+    int64_t hits = 0;
+    for (int64_t i = 0; i < ended->n; i++) {
+      if (ended->id[i] != id) continue;
+      sum += ended->time[i] / distance_of(measured, ended->start + 2 * i, measured->catalogue.entries + id);
+      hits++;
+    }
+    value[id] = hits > 0 ? sum / (double)hits : NAN;
+  }
+}

@@ -24,6 +24,8 @@ enum {
   NUMBER(settling_mean, KZ_NEEDS_STARTS, "1|drive periods", "mean settling time of the starts that end on it")               \
   NUMBER(settling_median, KZ_NEEDS_STARTS, "1|drive periods", "median settling time of the starts that end on it")           \
   NUMBER(settling_largest, KZ_NEEDS_STARTS, "1|drive periods", "largest settling time of the starts that end on it")         \
+  NUMBER(settling_pace, KZ_NEEDS_STARTS, "1|drive periods",                                                                  \
+         "mean of settling time over distance, per rad, of the starts that end on it")                                       \
   NUMBER(return_time, 0, "1|drive periods", "time in which the slowest small disturbance falls to 1/e")                      \
   NUMBER(reactivity, KZ_NEEDS_TANGENTS, "1", "largest growth of a small disturbance in one drive period")                    \
   NUMBER(amplification, KZ_NEEDS_TANGENTS, "1", "largest growth of a small disturbance by any later strobe")                 \

@@ -189,6 +189,20 @@ TEST(test_shares_and_times) {
   free(s);
 }
 
+TEST(test_pace) {
+  const int16_t id[] = {0, 0, -1};
+  const uint32_t time[] = {6, 20, 9};
+  const double start[] = {0, 0.5, M_PI + 0.3, 0, 1, 1};
+  scene *s = make(2, 1, NULL);
+  double value[MOST];
+  s->theta[0] = 0.4;
+  s->velocity[0] = 0.2;
+  s->measured.starts = (kz_ended){.n = 3, .start = start, .id = id, .time = time};
+  kz_measure_settling_pace(&s->measured, value);
+  assert_true(fabs(value[0] - (6 / 0.5 + 20 / hypot(M_PI - 0.1, 0.2)) / 2) < 1e-12 && isnan(value[1]));
+  free(s);
+}
+
 /* Two starts 0.2 apart and one across the seam. */
 TEST(test_intermingledness) {
   const int16_t id[] = {0, 0, 1, -1};
