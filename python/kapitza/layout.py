@@ -36,6 +36,7 @@ NEEDED = {
     "tradeoff": _part("label method scheme interpolation wrong wrong_low wrong_high seconds seconds_per_million_cells pareto",
                       "floor samples"),
     "basin": _part("theta velocity attractor settling_time evidence"),
+    "line": _part("value name period winding centre", "parameter"),
     "plane": _part("x y", "x_parameter y_parameter"),
     "manifolds": _part("theta velocity arc_length saddle branch kind polyline"),
     "saddles": _part("period winding name index strobe_theta strobe_velocity multiplier_re multiplier_im"),

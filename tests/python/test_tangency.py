@@ -11,6 +11,7 @@ import numpy as np
 import pytest
 from conftest import datasets
 from kapitza import Result
+from kapitza.plots import line
 
 TOOL = Path(__file__).parents[1] / "tools" / "tangency_scipy.py"
 SCIPY = 0.058589688430988  # of that tool, for k = 1, beta = 0.02
@@ -68,6 +69,19 @@ def test_a_range_without_a_tangency_is_refused(kapitza, tmp_path, words, named):
     (tmp_path / "s.yaml").write_text(json.dumps(scene(**words)))
     done = kapitza("run", "s.yaml", folder=tmp_path, status=2)
     assert named in done.stderr and not (tmp_path / "s.h5").exists()
+
+
+def test_a_picture_of_measures_marks_the_value(kapitza, tmp_path):
+    """Shares of a sweep of the same key, with their band, and the dashed line at the value."""
+    content = scene() | {"sweep": {"parameter": "m", "min": 0.04, "max": 0.08, "count": 3, "measure": ["share"], "starts": 64,
+                                   "velocity": {"min": -1, "max": 1}}}
+    result, _ = run(kapitza, tmp_path, content)
+    figure = line.draw(result, line.parse_arguments([str(result.path)]))
+    axes, = figure.axes
+    lines = [list(drawn.get_xdata()) for drawn in axes.lines]
+    shares = [list(drawn.get_ydata()) for drawn in axes.lines if len(drawn.get_xdata()) == 3]
+    assert [SCIPY, SCIPY] in [pytest.approx(x) for x in lines] and axes.collections
+    assert np.array_equal(shares[0], result.group("line")["share"].values[0], equal_nan=True)
 
 
 @pytest.mark.extensive

@@ -2,7 +2,7 @@
 
 from types import ModuleType
 
-from kapitza.plots import atlas, basin, chart, orbit, potential, stability, sweep, tradeoff
+from kapitza.plots import atlas, basin, chart, line, orbit, potential, stability, sweep, tradeoff
 
-KINDS: dict[str, ModuleType] = {"basin": basin, "sweep": sweep, "plane": chart, "orbit": orbit, "stability": stability,
+KINDS: dict[str, ModuleType] = {"basin": basin, "sweep": sweep, "plane": chart, "line": line, "orbit": orbit, "stability": stability,
                                 "potential": potential, "tradeoff": tradeoff, "atlas": atlas}

@@ -1,0 +1,77 @@
+"""Draws measures of attractors along a key of the pendulum: a panel for each measure, a line for each attractor, intervals as bands.
+
+    kapitza plot line erosion.h5
+"""
+
+import argparse
+
+import numpy as np
+import xarray
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from kapitza import style
+from kapitza.plots.branches import parameter_text
+from kapitza.plots.common import argument_parser, entitle, new_figure, parsed, write_picture
+from kapitza.result import Result
+
+
+def measures_of(line: xarray.Dataset) -> list[str]:
+    """The measures that belong to each attractor; their bounds, and measures of the whole window, are left out."""
+    return [str(name) for name, values in line.data_vars.items()
+            if values.dims == ("attractor", "value") and not str(name).endswith(("_low", "_high"))]
+
+
+def draw_measure(axes: Axes, line: xarray.Dataset, name: str) -> Axes:
+    """One measure of every attractor over the key; a band is its interval, a dot a value without neighbours."""
+    value, styles = line["value"].values, ("-", (0, (4, 1.5)), (0, (1, 1.2)))
+    seen: dict[str, int] = {}
+    for i, title in enumerate(style.names_with_ids(line["name"].values)):
+        colour = style.motion_colour(*(int(line[word].values[i]) for word in ("period", "winding", "centre")))
+        dashes = styles[seen.setdefault(colour, 0) % len(styles)]
+        seen[colour] += 1
+        axes.plot(value, line[name].values[i], color=style.INK, lw=2.2, marker=".", markersize=5)  # pale colours need a rim
+        axes.plot(value, line[name].values[i], color=colour, lw=1.4, ls=dashes, marker=".", markersize=3.5, label=title)
+        if f"{name}_low" in line:
+            axes.fill_between(value, line[f"{name}_low"].values[i], line[f"{name}_high"].values[i], color=style.shade(colour, 0.6), lw=0)
+    units = str(line[name].attrs.get("units", "1"))
+    axes.set_ylabel(name.replace("_", " ") + ("" if units == "1" else f" / {units}"))
+    axes.set_ylim(0, None)
+    return axes
+
+
+def mark_tangency(axes: Axes, tangency: xarray.Dataset, *, named: bool) -> Axes:
+    """The value at which manifolds begin to cross."""
+    value = tangency.attrs["value"]
+    axes.axvline(value, color=style.INK, lw=0.8, ls="--")
+    if named:
+        axes.annotate(f"manifolds touch at {value:.9g}", (value, 0.5), (4, 0), xycoords=("data", "axes fraction"),
+                      textcoords="offset points", va="center", fontsize="small", color=style.INK)
+    return axes
+
+
+def draw(result: Result, arguments: argparse.Namespace) -> Figure:
+    """The page: the panels over each other, with one legend."""
+    line = result.group("line")
+    names = arguments.measure or measures_of(line)
+    figure = new_figure(7.2, 1.2 + 2.2 * len(names))
+    panels = np.atleast_1d(figure.subplots(len(names), 1, sharex=True))
+    tangency = result.group("tangency") if "tangency" in result.groups else None
+    for axes, name in zip(panels, names, strict=True):
+        draw_measure(axes, line, name)
+        if tangency is not None and tangency.attrs["parameter"] == line.attrs["parameter"]:
+            mark_tangency(axes, tangency, named=axes is panels[0])
+    panels[0].legend(loc="upper left", bbox_to_anchor=(1.01, 1), fontsize="small")
+    panels[-1].set_xlabel(parameter_text(line))
+    entitle(figure, result, f"{line.sizes['value']} values")
+    return figure
+
+
+def parse_arguments(words: list[str]) -> argparse.Namespace:
+    parser = argument_parser("line", __doc__, "measures along a line")
+    parser.add_argument("--measure", nargs="+", metavar="NAME", help="the measures to draw; left out: all")
+    return parsed(parser, words)
+
+
+def main(words: list[str]) -> None:
+    write_picture(parse_arguments(words), draw)
