@@ -1,13 +1,14 @@
-"""What is read of a result file, and checked: its attributes, its pendulum, one group."""
+"""What is read of a result file, and checked: its attributes, its pendulum, its groups."""
 
 import os
+from functools import cached_property
 from pathlib import Path
 from typing import Any
 
 import h5py
 import xarray
 
-from kapitza import layout
+from kapitza import layout, units
 
 
 class BadFile(Exception):
@@ -92,3 +93,56 @@ def _plain(value: Any) -> Any:
     if isinstance(value, bytes):
         return value.decode()
     return value.item() if getattr(value, "size", 0) == 1 else value
+
+
+class File:
+    """A complete file: its attributes, and its groups as numbers. `summary`: what the run has printed.
+
+    :raises BadFile: if the file is not a complete result, or is damaged
+    """
+
+    def __init__(self, path: str | os.PathLike[str]) -> None:
+        self.path = Path(path)
+        self.summary = ""
+        self.attributes, self.groups, self.pendulum = opened(self.path)
+
+    @cached_property
+    def tree(self) -> xarray.DataTree:
+        """All groups as an xarray.DataTree, which reads values from the file when they are needed. `tree.close()` closes the file."""
+        for name in self.groups:
+            if wrong := elsewhere(self.path, name):
+                raise BadFile(f"{self.path}: {wrong}")
+        try:
+            return xarray.open_datatree(self.path, engine="h5netcdf", phony_dims="sort")
+        except Exception as error:
+            raise BadFile(f"{self.path}: damaged") from error
+
+    @property
+    def title(self) -> str:
+        """The title of the scene; the name of the file if the scene has no title."""
+        title = self.attributes.get("title")
+        return title if isinstance(title, str) and title else self.path.stem
+
+    @property
+    def scene(self) -> str:
+        """The scene with every default, as YAML text. `kapitza.run` of it gives the same numbers."""
+        return str(self.attributes.get("scene_resolved", ""))
+
+    @property
+    def pivot_frequency(self) -> float | None:
+        """The angular frequency of the drive in rad/s; None if the scene is not in SI units."""
+        value = self.pendulum.get("pivot_frequency")
+        return value if isinstance(value, float) and value > 0 else None
+
+    def group(self, name: str, *, si: bool = False, degrees: bool = False) -> xarray.Dataset:
+        """Reads a group of the file completely.
+
+        :param si: velocities in rad/s, times in s and frequencies in Hz, of a scene in SI units; the attribute `units` of each says so
+        :param degrees: angles in degrees
+        :raises BadFile: if the file has no such group, if the group is damaged or too large for the memory, or if `si` is asked of a scene
+            that is not in SI units
+        """
+        if si and self.pivot_frequency is None:
+            raise BadFile(f"{self.path}: has no pivot_frequency, because its scene is not in SI units; leave out si")
+        dataset = group_of(self.path, name, self.groups, self.pendulum)
+        return units.in_units(dataset, self.pivot_frequency if si else None, degrees) if si or degrees else dataset

@@ -9,8 +9,8 @@ import numpy as np
 import pandas
 import xarray
 
-from kapitza import units
-from kapitza.reading import BadFile, elsewhere, group_of, opened
+from kapitza.reading import BadFile as BadFile
+from kapitza.reading import File
 from kapitza.table import attractors_table, ids_of, labels_array, measures_table, starts_table
 
 if TYPE_CHECKING:
@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from kapitza.engine import Engine
 
 
-class Result:
+class Result(File):
     """A complete result file of kapitza.
 
     `attributes` has the attributes of the file, `groups` the names of its groups, and `pendulum` the numbers of the pendulum. `summary`
@@ -29,11 +29,6 @@ class Result:
     :raises BadFile: if the file is not a complete result, or is damaged
     """
 
-    def __init__(self, path: str | os.PathLike[str]) -> None:
-        self.path = Path(path)
-        self.summary = ""
-        self.attributes, self.groups, self.pendulum = opened(self.path)
-
     def __repr__(self) -> str:
         from kapitza.show import as_text
         return f"<kapitza.Result {self.path}>\n{as_text(self)}"
@@ -41,28 +36,6 @@ class Result:
     def _repr_html_(self) -> str:
         from kapitza.show import as_html
         return as_html(self)
-
-    @cached_property
-    def tree(self) -> xarray.DataTree:
-        """All groups as an xarray.DataTree, which reads values from the file when they are needed. `tree.close()` closes the file."""
-        for name in self.groups:
-            if wrong := elsewhere(self.path, name):
-                raise BadFile(f"{self.path}: {wrong}")
-        try:
-            return xarray.open_datatree(self.path, engine="h5netcdf", phony_dims="sort")
-        except Exception as error:
-            raise BadFile(f"{self.path}: damaged") from error
-
-    @property
-    def title(self) -> str:
-        """The title of the scene; the name of the file if the scene has no title."""
-        title = self.attributes.get("title")
-        return title if isinstance(title, str) and title else self.path.stem
-
-    @property
-    def scene(self) -> str:
-        """The scene with every default, as YAML text. `kapitza.run` of it gives the same numbers."""
-        return str(self.attributes.get("scene_resolved", ""))
 
     @cached_property
     def attractors(self) -> pandas.DataFrame:
@@ -81,12 +54,6 @@ class Result:
         """The names of the attractors, in the order of ids. If two attractors have the same name, the id is added to each of them."""
         from kapitza.style import names_with_ids
         return names_with_ids(self.attractors["name"])
-
-    @property
-    def pivot_frequency(self) -> float | None:
-        """The angular frequency of the drive in rad/s; None if the scene is not in SI units."""
-        value = self.pendulum.get("pivot_frequency")
-        return value if isinstance(value, float) and value > 0 else None
 
     def labels(self, *, si: bool = False, degrees: bool = False) -> xarray.DataArray:
         """The label of every start, with the dimensions velocity and theta: the id of its attractor, -1 = not settled.
@@ -241,16 +208,3 @@ class Result:
         """Compares the basins of this result with those of another one, whose attractors are matched by their strobe points."""
         from kapitza.compare import Comparison
         return Comparison(self, other if isinstance(other, Result) else Result(other))
-
-    def group(self, name: str, *, si: bool = False, degrees: bool = False) -> xarray.Dataset:
-        """Reads a group of the file completely.
-
-        :param si: velocities in rad/s, times in s and frequencies in Hz, of a scene in SI units; the attribute `units` of each says so
-        :param degrees: angles in degrees
-        :raises BadFile: if the file has no such group, if the group is damaged or too large for the memory, or if `si` is asked of a scene
-            that is not in SI units
-        """
-        if si and self.pivot_frequency is None:
-            raise BadFile(f"{self.path}: has no pivot_frequency, because its scene is not in SI units; leave out si")
-        dataset = group_of(self.path, name, self.groups, self.pendulum)
-        return units.in_units(dataset, self.pivot_frequency if si else None, degrees) if si or degrees else dataset

@@ -8,7 +8,8 @@ from pathlib import Path
 from matplotlib.figure import Figure
 
 from kapitza import style
-from kapitza.plots.page import SEPARATOR, Picture, add_page_options, current, drawing, lay_out, new_figure, page_of
+from kapitza.plots.page import SEPARATOR, Picture, current, drawing, lay_out, new_figure
+from kapitza.plots.page_options import add_page_options, page_of
 from kapitza.plots.strokes import scale_strokes
 from kapitza.result import BadFile, Result
 

@@ -17,7 +17,8 @@ from kapitza import style
 from kapitza.compare import Comparison
 from kapitza.plots.basin import draw_basins, write_legend
 from kapitza.plots.common import argument_parser, entitle, new_figure, parsed, title_text, write_picture
-from kapitza.plots.page import Page, Picture, current, drawing, lay_out, length
+from kapitza.plots.page import Page, Picture, current, drawing, lay_out
+from kapitza.plots.page_options import length
 from kapitza.plots.plane import Plane, label_axes
 from kapitza.plots.units import add_si
 from kapitza.result import BadFile, Result

@@ -4,6 +4,7 @@
 """
 
 import argparse
+from collections.abc import Mapping
 
 import numpy as np
 import xarray
@@ -22,12 +23,12 @@ def measures_of(line: xarray.Dataset) -> list[str]:
             if values.dims == ("attractor", "value") and not str(name).endswith(("_low", "_high"))]
 
 
-def draw_measure(axes: Axes, line: xarray.Dataset, name: str) -> Axes:
-    """One measure of every attractor over the key; a band is its interval, a dot a value without neighbours."""
+def draw_measure(axes: Axes, line: xarray.Dataset, name: str, *, colours: Mapping[str, str] | None = None, legend: bool = True) -> Axes:
+    """One measure of every attractor over the key; a band is its interval, a dot a value without neighbours. `colours`: of names."""
     value, styles = line["value"].values, ("-", (0, (4, 1.5)), (0, (1, 1.2)))
     seen: dict[str, int] = {}
     for i, title in enumerate(style.names_with_ids(line["name"].values)):
-        colour = style.motion_colour(*(int(line[word].values[i]) for word in ("period", "winding", "centre")))
+        colour = (colours or {}).get(title) or style.motion_colour(*(int(line[word].values[i]) for word in ("period", "winding", "centre")))
         dashes = styles[seen.setdefault(colour, 0) % len(styles)]
         seen[colour] += 1
         axes.plot(value, line[name].values[i], color=style.INK, lw=2.2, marker=".", markersize=5)  # pale colours need a rim
@@ -37,6 +38,8 @@ def draw_measure(axes: Axes, line: xarray.Dataset, name: str) -> Axes:
     units = str(line[name].attrs.get("units", "1"))
     axes.set_ylabel(name.replace("_", " ") + ("" if units == "1" else f" / {units}"))
     axes.set_ylim(0, None)
+    if legend:
+        axes.legend(loc="upper left", bbox_to_anchor=(1.01, 1), fontsize="small")
     return axes
 
 
@@ -58,10 +61,9 @@ def draw(result: Result, arguments: argparse.Namespace) -> Figure:
     panels = np.atleast_1d(figure.subplots(len(names), 1, sharex=True))
     tangency = result.group("tangency") if "tangency" in result.groups else None
     for axes, name in zip(panels, names, strict=True):
-        draw_measure(axes, line, name)
+        draw_measure(axes, line, name, legend=axes is panels[0])
         if tangency is not None and tangency.attrs["parameter"] == line.attrs["parameter"]:
             mark_tangency(axes, tangency, named=axes is panels[0])
-    panels[0].legend(loc="upper left", bbox_to_anchor=(1.01, 1), fontsize="small")
     panels[-1].set_xlabel(parameter_text(line))
     entitle(figure, result, f"{line.sizes['value']} values")
     return figure
