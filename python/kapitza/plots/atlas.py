@@ -24,8 +24,8 @@ from kapitza import style
 from kapitza.plots.atlas_labels import POINTS, label_regions, mark_points, motion_text
 from kapitza.plots.atlas_labels import region_text as region_text
 from kapitza.plots.atlas_line import draw_line
-from kapitza.plots.chart import NAMES
 from kapitza.plots.common import argument_parser, entitle, new_figure, parsed, write_picture
+from kapitza.plots.plane_axes import NAMES
 from kapitza.result import Result
 
 FOLD, DOUBLING, BREAKING, SWINGS, LEANS = range(5)  # codes of curve_kind

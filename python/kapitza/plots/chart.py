@@ -1,5 +1,7 @@
-"""Draws a sweep over a plane of two keys of the pendulum: where the same starts end.
+"""Draws a sweep over a plane of two keys of the pendulum: where the same starts end, or a measure of attractors.
 
+    kapitza plot plane measures-plane.h5 --measure share       a panel for each name of attractors, a measure of the pendulum in one
+    kapitza plot plane measures-plane.h5 --measure shock --attractor inverted --atlas atlas-blackburn.h5    with the curves of an atlas
     kapitza plot plane chart-blackburn.h5                      the ends, with the curves of a study stability of the same file
     kapitza plot plane chart-blackburn.h5 --view exponent      the largest Lyapunov exponent
     kapitza plot plane chart-blackburn.h5 --view settling      how long the motions take
@@ -8,6 +10,7 @@
 import argparse
 import math
 from collections.abc import Iterator, Mapping
+from pathlib import Path
 
 import numpy as np
 import xarray
@@ -20,19 +23,26 @@ from matplotlib.ticker import MaxNLocator
 from kapitza import style
 from kapitza.plots.common import argument_parser, entitle, new_figure, parsed, write_picture
 from kapitza.plots.curves import curve_names, exact_of, is_branch, whole_curve
+from kapitza.plots.plane_axes import label_keys
+from kapitza.plots.plane_measures import MOST, draw_page
 from kapitza.result import BadFile, Result
 
 CYCLE, CHAOTIC = 0, 1  # codes of the variable `end`
-NAMES = {"k": "gravity k", "m": "drive amplitude m", "drive_frequency": "drive frequency Ω (natural frequencies)",
-         "drive_amplitude": "drive amplitude ε", "damping": "damping β", "quality_factor": "quality factor Q"}
 LINEAR = "limits of rest (linear)"
 VIEWS = ("ends", "exponent", "settling")
 
 
 def parse_arguments(words: list[str]) -> argparse.Namespace:
-    parser = argument_parser("plane", __doc__, "ends over a plane")
-    parser.add_argument("--view", choices=VIEWS, default="ends")
-    return parsed(parser, words)
+    parser = argument_parser("plane", __doc__, "ends or measures over a plane")
+    parser.add_argument("--view", choices=VIEWS, help="of ends (default: ends)")
+    parser.add_argument("--measure", metavar="NAME", help="the measure to draw (default: ends if there are any, else the first measure)")
+    parser.add_argument("--attractor", metavar="NAME", nargs="+", help=f"names, or numbers; left out: the {MOST} most frequent names")
+    parser.add_argument("--atlas", metavar="FILE", type=Path, help="result with the study atlas, whose curves are drawn on top (default: "
+                        "those of the same file)")
+    arguments = parsed(parser, words)
+    if arguments.view and (arguments.measure or arguments.attractor or arguments.atlas):
+        parser.error("--view cannot be combined with --measure, --attractor or --atlas")
+    return arguments
 
 
 def kinds(chart: xarray.Dataset, colours: Mapping[str, str] | None = None) -> tuple[np.ndarray, list[str]]:
@@ -119,23 +129,23 @@ def panel(axes: Axes, result: Result, chart: xarray.Dataset, view: str, *, legen
     else:
         draw_number(axes, chart, view, legend=legend)
     axes.set(xlim=chart["x"].values[[0, -1]], ylim=chart["y"].values[[0, -1]])
-    for which, label in (("x", axes.set_xlabel), ("y", axes.set_ylabel)):
-        key = chart.attrs[f"{which}_parameter"]
-        label(NAMES.get(key, key.replace("_", " ")))
+    label_keys(axes, chart)
     axes.set_title(f"start: θ = {float(chart['start_theta']):g}, velocity {float(chart['start_velocity']):g}", fontsize="medium")
     return axes
 
 
 def draw(result: Result, arguments: argparse.Namespace) -> Figure:
-    """The page: one panel for each start."""
+    """The page: of a measure, or one panel for each start."""
     chart = result.group("plane")
-    if "end" not in chart:
-        raise BadFile(f"{result.path}: the plane has no ends; add ends to sweep.measure")
     if chart.sizes["x"] < 2 or chart.sizes["y"] < 2:
         raise BadFile(f"{result.path}: the chart has one value only along an axis, so there is no area to draw")
+    if not arguments.view and (arguments.measure or arguments.attractor or arguments.atlas or "end" not in chart):
+        return draw_page(result, chart, arguments)
+    if "end" not in chart:
+        raise BadFile(f"{result.path}: the plane has no ends; add ends to sweep.measure")
     figure = new_figure(8.2, 4.8 * chart.sizes["start"])
     for place, axes in enumerate(np.atleast_1d(figure.subplots(chart.sizes["start"], 1))):
-        panel(axes, result, chart.isel(start=place), arguments.view)
+        panel(axes, result, chart.isel(start=place), arguments.view or "ends")
     swept = {chart.attrs["x_parameter"], chart.attrs["y_parameter"]}
     names = {"beta": "β"} if swept & {"k", "m", "damping"} else {"quality_factor": "Q"}
     kept = [f"{symbol} = {result.pendulum[name]:.6g}" for name, symbol in names.items()

@@ -1,0 +1,74 @@
+"""Pictures of measures: over a plane, of one attractor, in a report."""
+
+import json
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+import xarray
+from conftest import plot
+from kapitza import Result
+from kapitza.plots.plane_measures import atlas_of, draw_curves, of_name
+from kapitza.result import BadFile
+from matplotlib.figure import Figure
+
+SI = {"length": "20 cm", "decay_time": "5 s", "gravity": "9.81 m/s^2", "frequency": "50 Hz", "amplitude": "15 mm"}
+SCENE = {"pendulum": SI, "sweep": {"x": {"parameter": "frequency", "min": "45 Hz", "max": "50 Hz", "count": 3},
+                                   "y": {"parameter": "amplitude", "min": "4 mm", "max": "14 mm", "count": 2},
+                                   "measure": ["share", "entropy"], "velocity": {"min": -1, "max": 1}, "starts": 64, "cells": 16}}
+
+
+@pytest.fixture(scope="module")
+def plane(kapitza, tmp_path_factory):
+    """A file with shares over a plane of a scene in SI units."""
+    folder = tmp_path_factory.mktemp("plane")
+    (folder / "s.yaml").write_text(json.dumps(SCENE))
+    kapitza("run", "s.yaml", folder=folder)
+    return folder / "s.h5"
+
+
+def test_a_plane_has_a_panel_for_each_name_and_one_for_a_measure_of_the_pendulum(plane, tmp_path):
+    group = Result(plane).group("plane")
+    assert plot("plane", plane, "-o", tmp_path / "share.svg").returncode == 0
+    text = (tmp_path / "share.svg").read_text()
+    assert all(f">{words}<" in text for words in ("inverted", "share of the starts of the window that end on the attractor",
+                                                  "frequency (Hz)", "amplitude (m)")), text
+    assert np.isnan(group["share"]).any() and "hatched: no value, or the attractor is not seen" in text
+    assert plot("plane", plane, "-o", tmp_path / "entropy.svg", "--measure", "entropy").returncode == 0
+    text = (tmp_path / "entropy.svg").read_text()
+    assert "basin entropy over boxes of 5 x 5 cells" in text and ">inverted<" not in text
+
+
+@pytest.mark.parametrize("options, words", [
+    (["--measure", "shock"], "its plane has no shock; it has share, entropy"),
+    (["--attractor", "nobody"], "has no attractor nobody; it has "),
+    (["--view", "ends"], "the plane has no ends"),
+    (["--view", "ends", "--measure", "share"], "cannot be combined")])
+def test_what_a_plane_lacks_is_named(plane, tmp_path, options, words):
+    done = plot("plane", plane, "-o", tmp_path / "out.png", *options)
+    assert done.returncode != 0 and words in done.stderr and "Traceback" not in done.stderr
+
+
+def test_attractors_of_one_name_are_added_or_the_smallest_counts():
+    values = ("attractor", "y", "x"), [[[1.0, 2, np.nan]], [[3, np.nan, np.nan]], [[9, 9, 9]]]
+    group = xarray.Dataset({"share": values, "shock": values})
+    for measure, first in (("share", 4), ("shock", 1)):
+        together, several = of_name(group, measure, [0, 1])
+        assert several and np.array_equal(together, [[first, 2, np.nan]], equal_nan=True)
+    assert not of_name(group, "shock", [2])[1]
+
+
+def test_the_curves_of_an_atlas_of_the_same_pendulum_lie_on_top():
+    """Of both mirror images of the motion of the panel; an atlas of other keys or of another pendulum is refused."""
+    atlas = xarray.Dataset({"curve_name": ("curve", ["rotation 1/1: fold", "down: swings grow"]), "curve_first": ("curve", [0, 2]),
+                            "curve_points": ("curve", [2, 1]), "x": ("point", [1.0, 2, 3]), "y": ("point", [4.0, 5, 6])},
+                           attrs={"x_parameter": "k", "y_parameter": "m"})
+    axes = draw_curves(Figure().add_subplot(), atlas, "rotation -1/1")
+    line, = axes.lines
+    assert np.array_equal(line.get_xydata(), [[1, 4], [2, 5]])
+
+    def held(damping, group):
+        return SimpleNamespace(path="file.h5", groups=["atlas"], group=lambda name: group, scene=f"pendulum: {{k: 1, m: 2, damping: {damping}}}")
+    assert atlas_of(held(0.1, atlas), atlas, None) is atlas
+    with pytest.raises(BadFile, match=r"its atlas is over k and m, the plane over m and k"):
+        atlas_of(held(0.1, atlas), atlas.assign_attrs(x_parameter="m", y_parameter="k"), None)
