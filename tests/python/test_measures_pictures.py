@@ -8,6 +8,7 @@ import pytest
 import xarray
 from conftest import plot
 from kapitza import Result
+from kapitza.plots import plane_measures
 from kapitza.plots.plane_measures import atlas_of, draw_curves, of_name
 from kapitza.result import BadFile
 from matplotlib.figure import Figure
@@ -58,7 +59,7 @@ def test_attractors_of_one_name_are_added_or_the_smallest_counts():
     assert not of_name(group, "shock", [2])[1]
 
 
-def test_the_curves_of_an_atlas_of_the_same_pendulum_lie_on_top():
+def test_the_curves_of_an_atlas_of_the_same_pendulum_lie_on_top(monkeypatch):
     """Of both mirror images of the motion of the panel; an atlas of other keys or of another pendulum is refused."""
     atlas = xarray.Dataset({"curve_name": ("curve", ["rotation 1/1: fold", "down: swings grow"]), "curve_first": ("curve", [0, 2]),
                             "curve_points": ("curve", [2, 1]), "x": ("point", [1.0, 2, 3]), "y": ("point", [4.0, 5, 6])},
@@ -67,8 +68,12 @@ def test_the_curves_of_an_atlas_of_the_same_pendulum_lie_on_top():
     line, = axes.lines
     assert np.array_equal(line.get_xydata(), [[1, 4], [2, 5]])
 
-    def held(damping, group):
-        return SimpleNamespace(path="file.h5", groups=["atlas"], group=lambda name: group, scene=f"pendulum: {{k: 1, m: 2, damping: {damping}}}")
-    assert atlas_of(held(0.1, atlas), atlas, None) is atlas
+    def held(damping):
+        scene = f"pendulum: {{k: 1, m: 2, damping: {damping}}}"
+        return SimpleNamespace(path="file.h5", groups=["atlas"], group=lambda name: atlas, scene=scene)
+    assert atlas_of(held(0.1), atlas, None) is atlas
     with pytest.raises(BadFile, match=r"its atlas is over k and m, the plane over m and k"):
-        atlas_of(held(0.1, atlas), atlas.assign_attrs(x_parameter="m", y_parameter="k"), None)
+        atlas_of(held(0.1), atlas.assign_attrs(x_parameter="m", y_parameter="k"), None)
+    monkeypatch.setattr(plane_measures, "Result", lambda path: held(0.2))
+    with pytest.raises(BadFile, match=r"of another pendulum: damping is 0.2, that of the plane 0.1"):
+        atlas_of(held(0.1), atlas, "other.h5")

@@ -24,7 +24,7 @@ from kapitza import style
 from kapitza.plots.common import argument_parser, entitle, new_figure, parsed, write_picture
 from kapitza.plots.curves import curve_names, exact_of, is_branch, whole_curve
 from kapitza.plots.plane_axes import label_keys
-from kapitza.plots.plane_measures import MOST, draw_page
+from kapitza.plots.plane_measures import MOST, measure_page
 from kapitza.result import BadFile, Result
 
 CYCLE, CHAOTIC = 0, 1  # codes of the variable `end`
@@ -140,7 +140,7 @@ def draw(result: Result, arguments: argparse.Namespace) -> Figure:
     if chart.sizes["x"] < 2 or chart.sizes["y"] < 2:
         raise BadFile(f"{result.path}: the chart has one value only along an axis, so there is no area to draw")
     if not arguments.view and (arguments.measure or arguments.attractor or arguments.atlas or "end" not in chart):
-        return draw_page(result, chart, arguments)
+        return measure_page(result, chart, arguments)
     if "end" not in chart:
         raise BadFile(f"{result.path}: the plane has no ends; add ends to sweep.measure")
     figure = new_figure(8.2, 4.8 * chart.sizes["start"])

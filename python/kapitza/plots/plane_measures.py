@@ -131,7 +131,7 @@ def grid_of(count: int) -> tuple[Figure, list[Axes]]:
     return figure, list(panels[:count])
 
 
-def draw_page(result: Result, plane: xarray.Dataset, arguments: argparse.Namespace) -> Figure:
+def measure_page(result: Result, plane: xarray.Dataset, arguments: argparse.Namespace) -> Figure:
     """The page of one measure."""
     known = measures_of(plane)
     measure = arguments.measure or known[0]
