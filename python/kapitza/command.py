@@ -5,7 +5,7 @@ import sys
 from collections.abc import Callable
 
 from kapitza import recording, vtkhdf
-from kapitza.plots import atlas, basin, chart, compare, line, orbit, potential, stability, sweep, tradeoff
+from kapitza.plots import atlas, basin, chart, compare, line, orbit, passport, potential, stability, sweep, tradeoff
 from kapitza.report import command as report
 from kapitza.result import Result
 from kapitza.script import run_apart
@@ -19,6 +19,7 @@ KINDS: dict[str, Callable[[list[str]], None]] = {
     "film": recording.main,
     "line": line.main,
     "orbit": orbit.main,
+    "passport": passport.main,
     "plane": chart.main,
     "potential": potential.main,
     "report": report.main,

@@ -191,7 +191,7 @@ def orbit(scene: SceneLike, theta: Any = None, velocity: Any = None, *, attracto
         plan["start"] = {"theta": units.angle(theta), "velocity": units.velocity(velocity, omega)}
     if periods is not None:
         plan["periods"] = periods
-    return run({name: value for name, value in asked.tree().items() if name in kept} | {"orbit": plan}, progress=progress)
+    return run({name: value for name, value in asked.tree().items() if name in kept and value != ""} | {"orbit": plan}, progress=progress)
 
 
 def _attractor_id(scene: Scene, wanted: int | str) -> int:

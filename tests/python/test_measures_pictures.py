@@ -1,8 +1,11 @@
 """Pictures of measures: over a plane, of one attractor, in a report."""
 
 import json
+import re
+import shutil
 from types import SimpleNamespace
 
+import h5py
 import numpy as np
 import pytest
 import xarray
@@ -77,3 +80,51 @@ def test_the_curves_of_an_atlas_of_the_same_pendulum_lie_on_top(monkeypatch):
     monkeypatch.setattr(plane_measures, "Result", lambda path: held(0.2))
     with pytest.raises(BadFile, match=r"of another pendulum: damping is 0.2, that of the plane 0.1"):
         atlas_of(held(0.1), atlas, "other.h5")
+
+
+WORDS = ["share", "return_time", "intermingled_with", "entropy"]
+
+
+@pytest.fixture(scope="module")
+def table(kapitza, tmp_path_factory):
+    """A file with a basin and measures, without a title."""
+    folder = tmp_path_factory.mktemp("table")
+    window = {"velocity": {"min": -2, "max": 2}}
+    scene = {"pendulum": {"quality_factor": 5, "drive_frequency": 11, "drive_amplitude": 0.3},
+             "basin": {"theta": {"count": 24}, "velocity": {**window["velocity"], "count": 24}},
+             "measures": {"names": WORDS, "starts": 128, "cells": 16, **window}}
+    (folder / "s.yaml").write_text(json.dumps(scene))
+    kapitza("run", "s.yaml", folder=folder)
+    return folder / "s.h5"
+
+
+def test_a_passport_is_one_page_about_an_attractor(table, tmp_path):
+    """Its multipliers have the modulus that the damping gives, its table the values of the file."""
+    done = plot("passport", table, "--attractor", "rotation +1/1", "-o", tmp_path / "out.svg")
+    assert done.returncode == 0, done.stderr
+    text, row = (tmp_path / "out.svg").read_text(), Result(table).measures.set_index("name").loc["rotation +1/1"]
+    modulus = np.exp(-np.pi * Result(table).pendulum["beta"])
+    assert all(f">{words}<" in text for words in ("time (drive periods)", "frequency / drive frequency", "real part of the multiplier",
+                                                  f"modulus {modulus:.4g}", "angle θ from down (rad)", "return time", "entropy",
+                                                  f"{row['return_time']:.4g} drive periods", f"{row['entropy']:.4g}"))
+    assert "in the file" not in text and "intermingled" not in text
+
+
+def test_a_passport_says_what_the_file_lacks(plane, table, tmp_path):
+    with h5py.File(shutil.copy(table, tmp_path / "less.h5"), "a") as file:
+        del file["basin"], file["attractors"]
+    assert plot("passport", tmp_path / "less.h5", "--attractor", 0, "-o", tmp_path / "out.svg").returncode == 0
+    assert "in the file: no multipliers, no basin" in (tmp_path / "out.svg").read_text()
+    for path, words in ((plane, "holds neither attractors nor measures"), (table, "has no attractor nobody; it has 0..")):
+        done = plot("passport", path, "--attractor", "nobody", "-o", tmp_path / "no.png")
+        assert done.returncode == 1 and words in done.stderr and not (tmp_path / "no.png").exists()
+
+
+def test_a_report_has_the_table_of_measures_and_the_plane(plane, table, tmp_path):
+    assert plot("report", table, "-o", tmp_path / "t.html").returncode == 0
+    text, rows = (tmp_path / "t.html").read_text(), Result(table).measures
+    assert "<h2>Measures</h2>" in text
+    cells = re.search(r"<tr><td>share</td>(.*?)</tr>", text)[1]
+    assert [float(cell.split()[0]) for cell in re.findall(r">([^<]+)<", cells)] == pytest.approx(rows["share"].tolist(), rel=1e-3)
+    assert plot("report", plane, "-o", tmp_path / "p.html").returncode == 0
+    assert "Over the plane of two keys." in (tmp_path / "p.html").read_text()

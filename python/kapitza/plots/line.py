@@ -4,6 +4,7 @@
 """
 
 import argparse
+import math
 from collections.abc import Mapping
 
 import numpy as np
@@ -45,10 +46,11 @@ def draw_measure(axes: Axes, line: xarray.Dataset, name: str, *, colours: Mappin
 
 def mark_tangency(axes: Axes, tangency: xarray.Dataset, *, named: bool) -> Axes:
     """The value at which manifolds begin to cross."""
-    value = tangency.attrs["value"]
+    value, error = float(tangency.attrs["value"]), float(tangency.attrs["error"])
+    decimals = int(np.clip(-math.floor(math.log10(error)) if error > 0 else 12, 0, 12))
     axes.axvline(value, color=style.INK, lw=0.8, ls="--")
     if named:
-        axes.annotate(f"manifolds touch at {value:.9g}", (value, 0.5), (4, 0), xycoords=("data", "axes fraction"),
+        axes.annotate(f"manifolds touch at {value:.{decimals}f}", (value, 0.5), (4, 0), xycoords=("data", "axes fraction"),
                       textcoords="offset points", va="center", fontsize="small", color=style.INK)
     return axes
 

@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 
 from kapitza import style
+from kapitza.measures import measures_of, value_text
 from kapitza.report.pictures import pictures
 from kapitza.result import Result
 
@@ -39,7 +40,7 @@ PROVENANCE = ["program", "version", "git_revision", "created", "command", "ranks
 def report(result: Result) -> str:
     """The whole page; the same result gives the same bytes."""
     title = result.title
-    parts = [_pictures(result), _attractors(result), _numbers(result), _scene(result), _provenance(result)]
+    parts = [_pictures(result), _attractors(result), _measures(result), _numbers(result), _scene(result), _provenance(result)]
     return (f'<!DOCTYPE html>\n<html lang="en">\n<head><meta charset="utf-8"><title>{_text(title)}</title>'
             f"<style>{STYLE}</style></head>\n<body>\n<h1>{_text(title)}</h1>\n" + "\n".join(filter(None, parts)) + "\n</body>\n</html>\n")
 
@@ -78,6 +79,17 @@ def _attractors(result: Result) -> str:
             cells.append(_text(words(value)) if np.isfinite(value) else "-")
         rows.append(cells)
     return "<h2>Attractors</h2>\n" + (_table(["id, name", *(head for head, _, _ in known)], rows) if rows else "<p>None.</p>")
+
+
+def _measures(result: Result) -> str:
+    """A row for each measure, a column for each attractor; those of the pendulum are among the numbers."""
+    if "measures" not in result.groups:
+        return ""
+    table = result.group("measures")
+    heads = ["", *(f"{index} {style.name_text(name)}" for index, name in enumerate(table["name"].values))]
+    rows = [[_text(name.replace("_", " ")), *(_text(value_text(table, name, row)) for row in range(table.sizes["attractor"]))]
+            for name in measures_of(table)]
+    return "<h2>Measures</h2>\n" + _table(heads, rows)
 
 
 def _numbers(result: Result) -> str:

@@ -6,7 +6,7 @@ from contextlib import redirect_stdout
 from io import StringIO
 from pathlib import Path
 
-from kapitza.plots import basin, orbit, potential, stability, sweep, tradeoff
+from kapitza.plots import basin, chart, line, orbit, potential, stability, sweep, tradeoff
 from kapitza.result import Result
 
 # Group of a result -> the pictures of it: caption, what draws it, options. Those with UNITS are in them if the scene is in SI.
@@ -17,6 +17,8 @@ PICTURES: dict[str, list[tuple[str, Callable[[list[str]], None], list[str]]]] = 
     "orbit": [("One motion: in time, in space, in the phase plane, and its spectral lines.", orbit.main, [])],
     "stability": [("Where small oscillations stay small.", stability.main, [])],
     "potential": [("The effective potential of the slow motion.", potential.main, [])],
+    "line": [("Measures along the swept key.", line.main, [])],
+    "plane": [("Over the plane of two keys.", chart.main, [])],
     "sweep": [("Along the swept key.", sweep.main, [])],
     "tradeoff": [("Wrong labels against time.", tradeoff.main, [])],
 }
