@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 import xarray
 
+from kapitza.style import TORQUES
 from kapitza.units import si_parameters
 
 if TYPE_CHECKING:
@@ -26,7 +27,7 @@ def _head(result: "Result") -> str:
     pendulum = result.pendulum
     papers = [f"{symbol} = {pendulum[key]:.6g}" for symbol, key in
               (("Q", "quality_factor"), ("Omega", "drive_frequency"), ("epsilon", "drive_amplitude")) if key in pendulum]
-    own = [f"{name} = {pendulum[name]:.6g}" for name in ("k", "beta", "m") if name in pendulum]
+    own = [f"{name} = {pendulum[name]:.6g}" for name in ("k", "beta", "m", *TORQUES) if name in pendulum]
     return ", ".join([*si_parameters(pendulum).values(), *own] if "pivot_frequency" in pendulum else own + papers)
 
 

@@ -51,6 +51,8 @@ _OKLAB = (np.array([[0.4122214708, 0.5363325363, 0.0514459929], [0.2119034982, 0
                     [0.0259040371, 0.7827717662, -0.8086757660]]))
 _OKLAB_INVERSE = tuple(np.linalg.inv(matrix) for matrix in _OKLAB)
 
+TORQUES = ("torque", "torque_amplitude")  # of the group pendulum
+
 # Codes of the variable `centre`.
 DOWN, INVERTED, ROTATING = 0, 1, 2
 
@@ -184,7 +186,10 @@ def parameters_text(pendulum: Mapping[str, Any]) -> str:
     known = [(symbol, pendulum.get(name, np.nan)) for name, symbol in names]
     if not all(np.isfinite(value) for _, value in known):
         known = [("k", pendulum["k"]), (r"$\beta$", pendulum["beta"]), ("m", pendulum["m"])]
-    return ",  ".join(f"{symbol} = {value:.6g}" for symbol, value in known)
+    torques = [(name.replace("_", " "), pendulum[name]) for name in TORQUES if pendulum.get(name)]
+    if "torque_amplitude" in pendulum:
+        known = known[:-1]  # the pivot is at rest
+    return ",  ".join(f"{symbol} = {value:.6g}" for symbol, value in [*known, *torques])
 
 
 def pi_text(multiple: float) -> str:

@@ -41,7 +41,7 @@ static kz_status write_release(const kz_parameters *p, kz_store *store) {
 }
 
 kz_status kz_pendulum_write(const kz_parameters *p, kz_store *store) {
-  const kz_pendulum_keys *si = &p->written; /* NaN but for a pendulum in SI units */
+  const kz_pendulum_keys *si = &p->written; /* NaN where the scene has no such key */
   const struct {
     const char *name;
     double value;
@@ -49,6 +49,7 @@ kz_status kz_pendulum_write(const kz_parameters *p, kz_store *store) {
                {"beta", p->pendulum.beta},
                {"m", p->pendulum.m},
                {"torque", p->pendulum.torque == 0 ? NAN : p->pendulum.torque},
+               {"torque_amplitude", si->torque_amplitude},
                {"quality_factor", p->quality_factor},
                {"drive_frequency", p->drive_frequency},
                {"drive_amplitude", p->drive_amplitude},

@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 from conftest import datasets, run_until_saved
 from kapitza import Result
+from kapitza.style import parameters_text
 
 FIG12 = {"quality_factor": 5, "drive_frequency": 11, "drive_amplitude": 0.3}
 WINDOW = {"velocity": {"min": -2, "max": 2}}
@@ -117,7 +118,9 @@ def test_wada_basins_of_the_forced_pendulum(kapitza, tmp_path):
          "measures": {"velocity": {"min": -3, "max": 3}, "starts": 256, "cells": 128,
                       "names": ["share", "boundary_entropy", "shared_boundary", "uncertainty_exponent"]}}))
     kapitza("run", "s.yaml", ranks=2, folder=tmp_path)
-    table = Result(tmp_path / "s.h5").measures
+    result = Result(tmp_path / "s.h5")
+    assert parameters_text(result.pendulum) == "Q = 5,  $\\Omega$ = 1,  torque amplitude = 1.66"
+    table = result.measures
     assert len(table) == 3 and table["share"].min() > 0.15
     assert table["boundary_entropy"].iloc[0] > math.log(2)
     assert table["shared_boundary"].min() > 0.95 and table["uncertainty_exponent"].max() < 0.5
