@@ -84,6 +84,11 @@ _SCENES = {
     "josephson": [_SWEEP],
     "laboratory": [_LABORATORY],
     "manifolds-fig12": [_MANIFOLDS],
+    "measures-erosion": [("", "line", ["--measure", "share", "integrity_factor"])],
+    "measures-fig12": [("", "passport", ["--attractor", "rotation +1/1"])],
+    "measures-forced": [("", "passport", ["--attractor", "rotation +2/2"])],
+    "measures-plane": [("", "plane", ["--measure", "shock"])],
+    "measures-share": [("", "plane", ["--measure", "share"])],
     "paul-trap": [_TRAP],
     "phases-walk": [_SWEEP],
     "proof-fig12": [_PROVED],
@@ -107,6 +112,9 @@ _SCENES = {
     "wada-forced": [("", "basin", ["--saddles", "--manifolds"])],
     "zoom-fig12": [_ZOOM],
 }
+
+# Scenes whose results are a few numbers, which no picture shows.
+NUMBERS = {"tangency"}
 
 # Figures that stand side by side on the pages.
 _NARROW = {"blackburn-fig04-dots", "blackburn-fig06-omega11", "square-wave", "tilted", "start-phase",
