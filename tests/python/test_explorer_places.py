@@ -49,6 +49,7 @@ def test_the_list_lights_a_basin_and_keeps_the_one_that_is_clicked(page):
     assert sum(colour in plain for colour in lit) == 1 and len(lit) == len(plain) > 1  # one keeps its colour
     assert wait_for(lambda: page.run("$('passport').textContent").startswith("upright rest: "))
     assert wait_for(lambda: "smallest push: beyond this window" in page.run("$('passport').textContent"))  # stripes along theta
+    assert re.search(r"largest multiplier 0\.\d+, return time [\d.]+ drive periods; strobe", page.run("$('passport').textContent"))
     assert "closes after 1 drive period;" in page.run("$('passport').textContent") and page.run("explorer.state.start.theta") == "0.1"
     page.run("document.querySelector('#legend tr:nth-child(2) button').click()")
     assert page.run("explorer.state.lit") is None and np.unique(np.array(page.pixels()), axis=0).tolist() == plain

@@ -14,10 +14,11 @@ export function passportWords({ name, words, period, winding, symmetric, multipl
   const closes = period === 0 ? "chaotic" : `closes after ${period} drive period${period === 1 ? "" : "s"}`;
   const turns = winding === 0 ? "" : `, ${Math.abs(winding)} turn${Math.abs(winding) === 1 ? "" : "s"} in them`;
   const image = symmetric ? "its own mirror image" : "has a mirror image";
+  const back = period > 0 && multiplier > 0 && multiplier < 1 ? `, return time ${(-period / Math.log(multiplier)).toPrecision(3)} drive periods` : "";
   const [theta, velocity] = strobe[0].map((value) => value.toPrecision(5));
   return (
     `${words}: ${shareWords(share)} of this window; in files ${name}\n${closes}${turns}; ${image}\n` +
-    `largest multiplier ${multiplier.toPrecision(4)}; strobe point θ ${theta}, velocity ${velocity}`
+    `largest multiplier ${multiplier.toPrecision(4)}${back}; strobe point θ ${theta}, velocity ${velocity}`
   );
 }
 
