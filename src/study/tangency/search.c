@@ -9,6 +9,8 @@ enum { HALVINGS = 10, WIDER = 8, PATH = 16 /* steps of a cycle along the whole r
 static const double NEXT = 0.5;
 /* How much farther from the cycles branches begin to measure the error. */
 static const double FARTHER = 5;
+/* The change of the value is one sample of its error, which may be larger. */
+static const double MARGIN = 4;
 
 bool kz_tangency_pendulum(const kz_tangency_search *s, double value, kz_pendulum *pendulum) {
   return kz_pendulum_at(s->scene, 1, &s->scene->tangency->parameter, &value, pendulum) && pendulum->beta >= 0;
@@ -148,7 +150,7 @@ kz_status kz_tangency_find(kz_tangency_search *s, kz_tangency *found) {
   KZ_TRY(bracket(s, &apart, &crossed));
   found->above = crossed > apart;
   found->value = root_near(s, apart, crossed);
-  if (!isnan(found->value)) found->error = fabs(found->value - root_again(s, found->value, fabs(crossed - apart)));
+  if (!isnan(found->value)) found->error = MARGIN * fabs(found->value - root_again(s, found->value, fabs(crossed - apart)));
   if (isnan(found->value) || isnan(found->error))
     return kz_fail(
         KZ_REFUSED,
