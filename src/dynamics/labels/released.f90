@@ -55,7 +55,7 @@ contains
         call make_stretch_flow(pendulum, stretch, flow)
         call make_speed_probes(pendulum, fastest, probes, stretch)
         call measure_period(flow, probes, error)
-        error%noise = max(MARGIN*error%noise, released%error%noise)
+        error%noise = max(MARGIN*min(error%noise, huge(1.0_dp)/MARGIN), released%error%noise) ! the last is huge
         released%error = error
         call make_drive(drive, pendulum, TAYLOR_STEPS, stretch)
         released%quad_error = max(released%quad_error, MARGIN*measure_quad(drive, fastest))

@@ -203,7 +203,8 @@ contains
       left(0) = 1
       do n = 0, TERMS - 1
         left(n + 1) = -sum(rate(:min(n, CUBIC))*left(n:max(0, n - CUBIC):-1))/(n + 1)
-        if (n > CUBIC .and. maxval(abs(left(n - CUBIC + 1:n + 1))) < epsilon(turn)**2) exit
+        if (n <= CUBIC) cycle
+        if (maxval(abs(left(n - CUBIC + 1:n + 1))) < epsilon(turn)**2) exit
       end do
       last = min(n + 1, TERMS)
       call set_drift(period, i, sum(left(:last)), time(i)*sum([(left(n)/(n + 1), n=0, last)]))
