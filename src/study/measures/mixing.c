@@ -23,14 +23,17 @@ static void mean_distances(const kz_measured *measured, double *mean) {
       mean[ended->id[j] * n + ended->id[i]] += distance;
     }
   }
-  for (int64_t i = 0; i < n * n; i++) mean[i] /= (double)(hits[i / n] * hits[i % n]); /* NaN without starts */
+  for (int64_t i = 0; i < n * n; i++) {
+    const int64_t pairs = hits[i / n] * hits[i % n];
+    mean[i] = pairs > 0 ? mean[i] / (double)pairs : NAN;
+  }
 }
 
 void kz_measure_intermingled_with(const kz_measured *measured, double *value) {
   const int64_t n = measured->catalogue.count;
   KZ_FREED double *mean = kz_malloc((size_t)(n * n) * sizeof *mean + 1);
   mean_distances(measured, mean);
-  for (int64_t i = 0; i < n * n; i++) value[i] = mean[i / n * n + i / n] / mean[i];
+  for (int64_t i = 0; i < n * n; i++) value[i] = isgreater(mean[i], 0) ? mean[i / n * n + i / n] / mean[i] : NAN;
 }
 
 /* The mean over the other basins. */
