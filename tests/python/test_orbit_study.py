@@ -135,12 +135,13 @@ def test_contradictions_are_refused(kapitza, tmp_path, name):
     assert [path.name for path in tmp_path.iterdir()] == ["s.yaml"]
 
 
-def test_a_long_transient_stops_and_goes_on(kapitza, tmp_path):
-    """Stopped by the clock in its transient, resumed on two ranks: the same motion."""
-    orbit = {"start": {"theta": 1, "velocity": 0.2}, "transient": 25000, "periods": 5}
+@pytest.mark.parametrize(("transient", "limit"), with_extensive([(25000, "0.001")], [(500000, "0.05")]))
+def test_a_long_transient_stops_and_goes_on(kapitza, tmp_path, transient, limit):
+    """Stopped by the clock before its transient, or after the first stretch of it; resumed on two ranks: the same motion."""
+    orbit = {"start": {"theta": 1, "velocity": 0.2}, "transient": transient, "periods": 5}
     (tmp_path / "s.yaml").write_text(json.dumps({"pendulum": {"k": 0.25, "damping": 0, "m": 0.5}, "orbit": orbit}))
     kapitza("run", "s.yaml", "-o", "whole.h5", folder=tmp_path)
-    stopped = kapitza("run", "s.yaml", "-o", "parts.h5", "--time-limit", "0.05", folder=tmp_path, status=None)
+    stopped = kapitza("run", "s.yaml", "-o", "parts.h5", "--time-limit", limit, folder=tmp_path, status=None)
     assert stopped.returncode == 75, stopped.stderr
     kapitza("run", "s.yaml", "-o", "parts.h5", "--resume", folder=tmp_path, ranks=2)
     assert datasets(tmp_path / "whole.h5") == datasets(tmp_path / "parts.h5")

@@ -30,7 +30,7 @@ SAME = 1e-6  # rad: strobe points of one attractor in two groups differ less
 
 def parse_arguments(words: list[str]) -> argparse.Namespace:
     parser = argument_parser("passport", __doc__, "attractors or measures")
-    parser.add_argument("--attractor", metavar="ID|NAME", required=True)
+    parser.add_argument("--attractor", metavar="ID|NAME", default="0", help="default: the first one")
     return parsed(parser, words)
 
 
