@@ -23,6 +23,7 @@ typedef struct {
 typedef struct {
   double x, y; /* the point: values of the two keys */
   kz_pendulum pendulum;
+  bool known; /* false: the curves contradict each other there, so that one is missing */
   int64_t count;
   kz_motion *motion; /* [count] */
 } kz_motions;

@@ -59,7 +59,8 @@ OPTIONAL = {
         _part("strobe_theta sample_walk"),
     ],
 }
-# Never below 0.
+# Never below 0; one of them is -1 where it is not known.
+NOT_KNOWN = "list"
 COUNTS = {"period", "settling_time", "branch_period", "class_period", "curve_period", "curve_first", "curve_points", "list", "end_period"}
 GRIDS = {"theta", "velocity", "time", "k", "m", "value", "release", "x", "y", "row", "column"}  # axes that go up
 WORDS = {"parameter", "crossing", "parameter_units", "x_parameter", "y_parameter"}  # attributes that are text; others are numbers
@@ -95,7 +96,8 @@ def _fault(dataset: xarray.Dataset, group: str, name: str) -> str | None:
     code = bool(row["flags"]) or name in COUNTS
     if (values.dtype.kind not in "OSU") if row["type"] == "text" else values.dtype.kind not in ("iu" if code else "iuf"):
         return f"{name} is of another type"
-    if code and values.size and not 0 <= values.min() <= values.max() <= (len(row["flags"]) - 1 if row["flags"] else np.inf):
+    least = -1 if name == NOT_KNOWN else 0
+    if code and values.size and not least <= values.min() <= values.max() <= (len(row["flags"]) - 1 if row["flags"] else np.inf):
         return f"{name} has values that mean nothing"
     if name in dataset.dims and values.dtype.kind == "f" and not np.isfinite(values).all():
         return f"{name} is an axis with values that are not finite"

@@ -158,7 +158,7 @@ class Result(File):
         :return: a row for each motion: name, period, winding, centre, symmetric, images (2: its mirror image attracts too), curve (number
             of the curve from which it was carried), multipliers (over its period), strobe_theta, strobe_velocity (lists; empty without
             `states`)
-        :raises SceneError: outside of the plane
+        :raises SceneError: outside of the plane, and where the list is not known: the curves contradict each other, so that one is missing
         """
         return self._engine.motions(self.path, x, y, states=states)
 

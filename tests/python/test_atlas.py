@@ -1,11 +1,14 @@
 """The study atlas: curves against the linear equation and the flutter table, lists against `attractors`, ranks, resumed runs, bad input."""
 
 import json
+import shutil
 
+import h5py
 import numpy as np
 import pytest
 from conftest import EXTENSIVE, ROOT, datasets, plot, run_until_saved, with_extensive
 from kapitza import Result, SceneError
+from kapitza.style import name_text
 from scipy.integrate import solve_ivp
 from serving import Server
 
@@ -81,6 +84,8 @@ def test_lists_are_those_of_the_search(atlas, kapitza, tmp_path):
     """The classes and their numbers at single places."""
     group = atlas[0].group("atlas")
     assert int(group.attrs["negative"]) == 0 and int(group.attrs["disagreed"]) == 0 and int(group.attrs["checked"]) == 24
+    assert int(group.attrs["told"]) > 48 and int(group.attrs["unsolved"]) == 0 and 0 < float(group.attrs["unsolved_high"]) < 0.1
+    assert int(group.attrs["open_ends"]) == 0 and not group["curve_open"].values.any()
     for column, row in ((8, 12), (20, 30), (40, 40), (50, 52), (30, 46)):
         here = dict(PENDULUM, drive_frequency=float(group["column"][column]), drive_amplitude=float(group["row"][row]))
         (tmp_path / "a.yaml").write_text(json.dumps({"pendulum": here, "attractors": {"velocity": {"min": -2.5, "max": 2.5},
@@ -156,6 +161,39 @@ def test_a_line_has_every_crossing_and_what_repels(atlas):
         result.line(x=99)
     with pytest.raises(SceneError, match="lies outside of the atlas; drive_amplitude is from 0 to 0.8"):
         result.motions(11, 2)
+
+
+def test_lists_that_are_not_known_are_told_by_nobody(atlas, tmp_path):
+    """A file whose folds of rotations have the wrong side: where the count is negative, motions are refused, pages and pictures say so."""
+    from kapitza.explorer.atlas import packed
+    from kapitza.plots.atlas import map_page
+
+    shutil.copy(atlas[2], tmp_path / "wrong.h5")
+    with h5py.File(tmp_path / "wrong.h5", "r+") as file:
+        group = file["atlas"]
+        for curve in np.flatnonzero((group["curve_kind"][:] == FOLD) & (group["curve_period"][:] == 1)):
+            points = slice(group["curve_first"][curve], group["curve_first"][curve] + group["curve_points"][curve])
+            for side in ("side_x", "side_y"):
+                group[side][points] = -group[side][points]
+        group["count"][40:, :], group["list"][40:, :], group["attracting"][:, 40:, :] = -1, -1, 255
+    wrong = Result(tmp_path / "wrong.h5")
+    with pytest.raises(SceneError, match="the list of motions is not known at 11, 0.3"):
+        wrong.motions(11, 0.3)
+    assert None in packed(wrong.group("atlas"))[0]["lists"] and None not in packed(atlas[0].group("atlas"))[0]["lists"]
+    texts = {word: [text.get_text() for text in map_page(result, result.group("atlas"), 16).axes[0].get_legend().get_texts()]
+             for word, result in (("wrong", wrong), ("right", atlas[0]))}
+    assert "not known: a curve is missing" in texts["wrong"] and "not known: a curve is missing" not in texts["right"]
+
+
+def test_small_maps_show_where_a_motion_branches_off(atlas):
+    """The panel of flutter has the curve on which swings of upright rest begin; no other rest gives birth to it."""
+    from kapitza.plots.atlas import gives_birth
+
+    group = atlas[0].group("atlas")
+    flutter = [name_text(name) for name in group["class_name"].values].index("flutter")
+    births = [i for i in range(group.sizes["curve"]) if gives_birth(group, i, flutter)]
+    born = [(int(group["curve_kind"][i]), int(group["curve_centre"][i])) for i in births]
+    assert born and set(born) == {(SWINGS, 1)}
 
 
 def test_every_point_belongs_to_its_curve(atlas):

@@ -25,8 +25,9 @@ export class Atlas {
     return box;
   }
 
-  /** How many motions a list has, mirror images too. */
+  /** How many motions a list has, mirror images too; null where it is not known, as a curve is missing. */
   countOf(list) {
+    if (!this.lists[list]) return null;
     const images = ({ symmetric }) => (this.mirrored && !symmetric ? 2 : 1);
     return this.lists[list].reduce((sum, [motion, count]) => sum + count * images(this.classes[motion]), 0);
   }
@@ -42,7 +43,7 @@ export class Atlas {
 
   /** The motions of a place, of which nobody knows which one comes first: {name, words, period, colour, count}. */
   motionsAt(place) {
-    return this.lists[this.listAt(place)].map(([motion, count]) => ({ ...this.classes[motion], count }));
+    return (this.lists[this.listAt(place)] ?? []).map(([motion, count]) => ({ ...this.classes[motion], count }));
   }
 
   /** Crossings of the way from one place to another, in their order: {curve, point, at, into}; into: to the side where the motion lives. */

@@ -9,6 +9,7 @@ const SHADES = {
   light: [[251, 251, 239], [110, 166, 201]],
   dark: [[16, 24, 32], [46, 118, 124]],
 };
+const UNKNOWN = { light: [231, 185, 196], dark: [96, 52, 64] }; // where a curve is missing
 
 /** A canvas of one pixel a cell; `colour(i)`: [r, g, b] of cell i, rows from below. */
 function painted(rows, columns, colour) {
@@ -26,12 +27,14 @@ function painted(rows, columns, colour) {
 /** Shades of the number of motions: {canvas, kinds: [[words, colour], ...]}. */
 export function countPicture(atlas, theme) {
   const [low, high] = SHADES[theme];
-  const counts = atlas.lists.map((_, list) => Math.min(MOST, atlas.countOf(list)));
+  const all = atlas.lists.map((_, list) => atlas.countOf(list));
+  const counts = all.filter((count) => count !== null).map((count) => Math.min(MOST, count));
   const most = Math.max(1, ...counts);
   const shade = (count) => low.map((from, i) => Math.round(from + ((high[i] - from) * Math.max(0, count - 1)) / Math.max(1, most - 1)));
-  const shades = counts.map(shade);
+  const shades = all.map((count) => (count === null ? UNKNOWN[theme] : shade(Math.min(MOST, count))));
   const canvas = painted(atlas.cells, atlas.cells, (i) => shades[atlas.list[i]]);
   const kinds = [...new Set([Math.min(...counts), most])].map((count) => [`${count} motion${count === 1 ? "" : "s"}`, `rgb(${shade(count)})`]);
+  if (counts.length < all.length) kinds.push(["not known", `rgb(${UNKNOWN[theme]})`]);
   return { canvas, kinds };
 }
 

@@ -198,7 +198,8 @@ export class MotionMap {
     const motions = this.atlas.motionsAt(place);
     const number = this.atlas.countOf(this.atlas.listAt(place));
     const title = document.createElement("strong");
-    title.textContent = curve ? `${curve.words}: ${curve.kind.replace("_", " ")}` : `${number} motion${number === 1 ? "" : "s"} here`;
+    const here = number === null ? "not known: a curve is missing" : `${number} motion${number === 1 ? "" : "s"} here`;
+    title.textContent = curve ? `${curve.words}: ${curve.kind.replace("_", " ")}` : here;
     const lines = motions.map(({ words, colour, count }) => {
       const line = document.createElement("span");
       const patch = Object.assign(document.createElement("span"), { className: "patch" });

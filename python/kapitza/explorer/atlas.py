@@ -27,13 +27,13 @@ def maps(kept, request):
 
 def packed(atlas):
     """An atlas as the page takes it: a header, and bytes: x, y, side_x, side_y of all points (float32; places are shares of the plane), the
-    number of the list of every cell (uint16), whether the cycle that branches off attracts (uint8)."""
+    number of the list of every cell (uint16; a list that is not known is null), whether the cycle that branches off attracts (uint8)."""
     low, width = zip(*(_edges(atlas[name].values) for name in ("column", "row")), strict=True)
     numbers, cells = np.unique(atlas["list"].values, return_inverse=True)
     attracting = atlas["attracting"].values.reshape(atlas.sizes["class"], -1)
     first = {int(number): int(np.argmax(atlas["list"].values.ravel() == number)) for number in numbers}
-    lists = [[[int(row), int(attracting[row, first[int(number)]])] for row in np.flatnonzero(attracting[:, first[int(number)]])]
-             for number in numbers]
+    lists = [None if number < 0 else [[int(row), int(attracting[row, first[int(number)]])]
+                                      for row in np.flatnonzero(attracting[:, first[int(number)]])] for number in numbers]
     header = {
         "max_period": int(atlas.attrs["max_period"]), "mirrored": bool(atlas.attrs["mirrored"]), "cells": atlas.sizes["row"],
         "points": atlas.sizes["point"], "low": low, "width": width, "curves": [_curve(atlas, i) for i in range(atlas.sizes["curve"])],

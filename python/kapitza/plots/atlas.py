@@ -36,6 +36,7 @@ LONGER = "#8a929b"
 DASHES: dict[int, Any] = {FOLD: "-", DOUBLING: (0, (5, 2)), BREAKING: (0, (1.2, 1.4)), SWINGS: (0, (5, 2)), LEANS: (0, (1.2, 1.4))}
 BOLD_UP_TO = 4  # longer cycles live in thin bands: their curves are thin
 MOST_SHADES = 14
+NOT_KNOWN, UNKNOWN = 255, "#e7b9c4"  # of `attracting` where a curve is missing, and its colour
 LONGEST = 16  # periods of the cycles whose curves are drawn
 VIEWS = ("map", "motions", "line")
 
@@ -60,7 +61,8 @@ def shade_counts(axes: Axes, atlas: xarray.Dataset) -> tuple[ListedColormap, int
     most = max(1, min(MOST_SHADES, int(count.max())))
     light, deep = np.array(to_rgb("#fbfbef")), np.array(to_rgb("#6ea6c9"))
     shades = ListedColormap(["#8d8787", *(tuple(light + (deep - light) * i / max(1, most - 1)) for i in range(most))])
-    axes.pcolormesh(atlas["column"], atlas["row"], np.clip(count, 0, most), cmap=shades,
+    axes.set_facecolor(UNKNOWN if (count < 0).any() else "white")
+    axes.pcolormesh(atlas["column"], atlas["row"], np.ma.masked_where(count < 0, np.clip(count, 0, most)), cmap=shades,
                     norm=BoundaryNorm(np.arange(-0.5, most + 1), most + 1), shading="nearest", rasterized=True)
     return shades, most
 
@@ -127,6 +129,8 @@ def write_legend(axes: Axes, atlas: xarray.Dataset, shades: ListedColormap, most
     for mark, word in (("^", "cusp"), ("o", "degenerate point")):
         handles.append(Line2D([], [], linestyle="", marker=mark, markersize=4, markerfacecolor="white", markeredgecolor=style.INK,
                               label=word))
+    if (atlas["count"].values < 0).any():
+        handles.append(Line2D([], [], linestyle="", marker="s", color=UNKNOWN, label="not known: a curve is missing"))
     axes.legend(handles=handles + marks, loc="lower left", bbox_to_anchor=(1.02, 0), fontsize="small", handlelength=2.6, borderaxespad=0,
                 frameon=False)
     scale = axes.inset_axes((1.03, 0.56, 0.028, 0.4))
@@ -167,13 +171,14 @@ def map_page(result: Result, atlas: xarray.Dataset, longest: int, points: str | 
 
 def motions(atlas: xarray.Dataset) -> list[int]:
     """The classes that fill most of the plane, the shortest first: what small maps show."""
-    filled = (atlas["attracting"].values > 0).mean(axis=(1, 2))
+    attracting = atlas["attracting"].values
+    filled = ((attracting > 0) & (attracting != NOT_KNOWN)).mean(axis=(1, 2))
     chosen = [i for i in np.argsort(-filled, kind="stable")[:12] if filled[i] > 0]
     return sorted(chosen)
 
 
 def motions_page(result: Result, atlas: xarray.Dataset) -> Figure:
-    """Small maps, one for each motion, with its own curves."""
+    """Small maps, one for each motion, with its own curves and those where it branches off another motion."""
     chosen = motions(atlas)
     columns = 4 if len(chosen) > 6 else max(1, min(3, len(chosen)))
     rows = max(1, math.ceil(len(chosen) / columns))
@@ -181,12 +186,14 @@ def motions_page(result: Result, atlas: xarray.Dataset) -> Figure:
     panels = np.atleast_1d(figure.subplots(rows, columns, sharex=True, sharey=True)).ravel()
     for axes, number in zip(panels, chosen, strict=False):
         attracting = atlas["attracting"].values[number]
+        known = attracting != NOT_KNOWN
+        axes.set_facecolor("white" if known.all() else UNKNOWN)
         colour = style.motion_colour(int(atlas["class_period"][number]), int(atlas["class_winding"][number]), centre_of(atlas, number))
         shades = ListedColormap(["white", style.shade(colour, 0.35), colour, style.shade(colour, -0.25)])
-        axes.pcolormesh(atlas["column"], atlas["row"], np.clip(attracting, 0, 3), cmap=shades, vmin=0, vmax=3, shading="nearest",
-                        rasterized=True)
+        axes.pcolormesh(atlas["column"], atlas["row"], np.ma.masked_where(~known, np.clip(attracting, 0, 3)), cmap=shades, vmin=0, vmax=3,
+                        shading="nearest", rasterized=True)
         for curve in range(atlas.sizes["curve"]):
-            if belongs(atlas, curve, number):
+            if belongs(atlas, curve, number) or gives_birth(atlas, curve, number):
                 axes.plot(*curve_points(atlas, curve), color=style.INK, linewidth=0.7, linestyle=DASHES[int(atlas["curve_kind"][curve])])
         set_axes(axes, atlas, labels=False)
         axes.set_title(motion_text(style.name_text(atlas["class_name"].values[number])), fontsize="medium", loc="left")
@@ -210,6 +217,15 @@ def centre_of(atlas: xarray.Dataset, number: int) -> int:
 def belongs(atlas: xarray.Dataset, curve: int, number: int) -> bool:
     """Whether a curve is about the motion of a class."""
     return style.name_text(atlas["curve_name"].values[curve]).rpartition(": ")[0] == style.name_text(atlas["class_name"].values[number])
+
+
+def gives_birth(atlas: xarray.Dataset, curve: int, number: int) -> bool:
+    """Whether what branches off on a curve is the motion of a class."""
+    kind, centre = int(atlas["curve_kind"][curve]), int(atlas["curve_centre"][curve])
+    period, winding = int(atlas["curve_period"][curve]), int(atlas["curve_winding"][curve])
+    child = {DOUBLING: (2 * period, 2 * winding, False), BREAKING: (period, 0, False), SWINGS: (2, 0, True), LEANS: (1, 0, False)}.get(kind)
+    own = int(atlas["class_period"][number]), int(atlas["class_winding"][number]), bool(atlas["class_symmetric"][number])
+    return own == child and (kind != SWINGS or centre == int(atlas["class_centre"][number]))
 
 
 def line_page(result: Result, atlas: xarray.Dataset, x: float | None, y: float | None, longest: int) -> Figure:

@@ -48,7 +48,7 @@ def lower_neighbour(atlas: xarray.Dataset, row: int, column: int) -> tuple[int, 
     lists = atlas["list"].values[:, column]
     thin, below = len(lists) // 60, row
     while below >= 0:
-        if lists[below] != lists[row] and below >= thin and (lists[below - thin:below + 1] == lists[below]).all():
+        if 0 <= lists[below] != lists[row] and below >= thin and (lists[below - thin:below + 1] == lists[below]).all():
             return below, column
         below -= 1
     return None

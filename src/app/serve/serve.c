@@ -132,6 +132,11 @@ static kz_status answer_motions(server *s, const kz_request *request) {
   KZ_FREED_BY(kz_motions_free) kz_motions motions = {0};
   KZ_TRY(kz_map_open(&s->map, request->atlas));
   KZ_TRY(kz_atlas_motions(s->map.atlas, request->x, request->y, request->states, &motions));
+  if (!motions.known)
+    return kz_fail(KZ_REFUSED,
+                   "request: x: the list of motions is not known at %.10g, %.10g: a curve is missing, as some class of "
+                   "attractors has a negative count there",
+                   request->x, request->y);
   return kz_answer_motions(request->sequence, &motions);
 }
 

@@ -175,6 +175,12 @@ void kz_atlas_base(kz_atlas *atlas, double x, int32_t *counts) {
   counts[kz_atlas_class_number(atlas, &rest)] = 1;
 }
 
+bool kz_atlas_plausible(const kz_atlas *atlas, const int32_t *counts) {
+  for (int32_t c = 0; c < atlas->n_classes; c++)
+    if (counts[c] < 0) return false;
+  return true;
+}
+
 void kz_atlas_count(kz_atlas *atlas, const double place[2], int32_t *counts) {
   KZ_FREED_BY(kz_atlas_crossings_free) kz_atlas_crossings crossings = {0};
   const double x = kz_atlas_column(atlas, place[0]);

@@ -13,7 +13,6 @@ kz_status kz_atlas_run(const kz_scene *scene, const kz_run *run, kz_store *store
   KZ_TRY(kz_atlas_begin(scene, &atlas));
   KZ_TRY(kz_atlas_search(&atlas, run));
   KZ_FREED_BY(kz_atlas_raster_free) kz_atlas_raster raster = {0};
-  kz_atlas_order(&atlas);
   if (store || scene->atlas->shares > 0) kz_atlas_raster_make(&atlas, &raster);
   if (scene->atlas->shares > 0) {
     const double more = (double)KZ_ATLAS_REGIONS / (double)raster.n_regions; /* a sampled run knows few regions */

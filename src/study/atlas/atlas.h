@@ -36,12 +36,14 @@ typedef struct {
   int32_t type, period, turns; /* turns: rest and symmetric cycles: 0 about down, 1 about inverted */
 } kz_atlas_class;
 
+/* How a curve ends that was joined to a degenerate point. */
+enum { KZ_ATLAS_JOINED = KZ_TRACE_NO_SEED + 1 };
 /* A row of a curve: KZ_ROW_... of kz_curve_trace. */
 enum { KZ_ROW_PLACE = 0, KZ_ROW_TANGENT = 2, KZ_ROW_FORM = 4, KZ_ROW_SIDE = 5, KZ_ROW_POINTS = 8, KZ_SPECIAL_POINTS = 3 };
 enum { KZ_SIGNATURE = 5 };
 typedef struct {
   kz_atlas_kind kind;
-  int32_t ending[2]; /* of the first row and of the last one */
+  int32_t ending[2]; /* of the first row and of the last one: KZ_TRACE_..., KZ_ATLAS_JOINED */
   int64_t n, n_special;
   double *row, *special;
   double (*signature)[KZ_SIGNATURE]; /* [n]: equal for all ways to write a cycle and its mirror image */
@@ -82,6 +84,7 @@ struct kz_atlas {
   int32_t at_reference[KZ_ATLAS_MOST_CLASSES]; /* and what attracts there */
   int64_t refused;                             /* seeds that lead to no curve */
   int64_t rounds, checked, disagreed;          /* of random places, the last two of the last round */
+  int64_t told, unsolved;                      /* motions in the lists of these places; those that could not be solved for */
 };
 
 /* What happens on a curve; the codes of the file. */
@@ -143,6 +146,8 @@ void kz_atlas_curve_free(kz_atlas_curve *curve);
 void kz_atlas_sign(kz_atlas_curve *curve);
 /* Joins ends of folds to the degenerate points that they run into. */
 void kz_atlas_join(kz_atlas *atlas);
+/* How many ends of a curve lie within the plane without a reason: it is not whole. */
+int kz_atlas_open_ends(const kz_atlas_curve *curve);
 static inline int64_t kz_atlas_width(const kz_atlas_kind *kind) {
   return KZ_ROW_POINTS + 2 * kind->of.points;
 }
@@ -181,11 +186,17 @@ double kz_atlas_floor(const kz_atlas *atlas);
 double kz_atlas_column(const kz_atlas *atlas, double x);
 void kz_atlas_base(kz_atlas *atlas, double x, int32_t *counts);
 void kz_atlas_count(kz_atlas *atlas, const double place[2], int32_t *counts);
+/* Whether counts may be right: none is negative. */
+bool kz_atlas_plausible(const kz_atlas *atlas, const int32_t *counts);
 /* Adds to counts what changes between two values along a line. */
 void kz_atlas_changes(const kz_atlas_crossings *crossings, double from, double to, int32_t *counts);
 void kz_atlas_crossings_free(kz_atlas_crossings *crossings);
 
 /* ---- what a point and a line of an atlas from a file have ---- */
+
+/* Solves for the motions of the list of a place; `known`: attractors that starts have found there. *told = length of the list, one for each
+ * pair of mirror images; *unsolved = those that were not found; both 0 where the list is not known. */
+void kz_atlas_confirm(kz_atlas *atlas, const double place[2], const kz_atlas_seeds *known, int64_t *told, int64_t *unsolved);
 
 /* The place of a value along an axis. KZ_REFUSED outside of the plane. */
 kz_status kz_atlas_place(const kz_atlas *atlas, int axis, double value, double *place);
@@ -228,13 +239,13 @@ typedef struct {
 } kz_atlas_region;
 
 /* The attractors of the cells of a raster, points x points, and its largest regions. */
-enum { KZ_ATLAS_REGIONS = 120 };
+enum { KZ_ATLAS_REGIONS = 120, KZ_ATLAS_NOT_KNOWN = 255 };
 typedef struct {
   int64_t points, n_classes, n_regions, lists,
-      negative;        /* different lists; cells with a negative count, which there must not be */
-  uint8_t *attracting; /* [class][y][x] */
-  int16_t *count;      /* [y][x]: of all, mirror images too */
-  int32_t *list;       /* [y][x]: number of the list of attractors */
+      negative;        /* different lists; cells whose list is not known, as some count is negative there */
+  uint8_t *attracting; /* [class][y][x]; KZ_ATLAS_NOT_KNOWN where the list is not known */
+  int16_t *count;      /* [y][x]: of all, mirror images too; -1 = not known */
+  int32_t *list;       /* [y][x]: number of the list of attractors; -1 = not known */
   kz_atlas_region region[KZ_ATLAS_REGIONS];
   int64_t *hits, *other; /* [region][class], [region]: of the starts at the region's place; NULL = not asked for */
 } kz_atlas_raster;

@@ -114,6 +114,7 @@ static kz_status write_curves(const kz_atlas *atlas, const listing *l, kz_store 
   COLUMN(int32_t, "curve_first", atlas->n_curves, l->first[i]);
   COLUMN(int32_t, "curve_points", atlas->n_curves, c[i].n);
   COLUMN(int8_t, "curve_closed", atlas->n_curves, c[i].ending[1] == KZ_TRACE_CLOSED);
+  COLUMN(int8_t, "curve_open", atlas->n_curves, kz_atlas_open_ends(c + i));
   return write_texts(atlas, "curve_name", atlas->n_curves, name_curve, store);
 }
 
@@ -170,9 +171,15 @@ static kz_status write_raster(const kz_atlas *atlas, const kz_atlas_raster *r, k
   return KZ_OK;
 }
 
+static int64_t open_ends(const kz_atlas *atlas) {
+  int64_t open = 0;
+  for (int64_t i = 0; i < atlas->n_curves; i++) open += kz_atlas_open_ends(atlas->curve + i);
+  return open;
+}
+
 static kz_status write_attributes(const kz_atlas *atlas, const kz_atlas_raster *raster, kz_store *store) {
   const kz_chart_axis *axis[] = {&atlas->scene->atlas->x, &atlas->scene->atlas->y};
-  const kz_share wrong = kz_share_of(atlas->disagreed, atlas->checked);
+  const kz_share wrong = kz_share_of(atlas->disagreed, atlas->checked), missing = kz_share_of(atlas->unsolved, atlas->told);
   for (int i = 0; i < 2; i++) {
     const kz_sweep_parameter *parameter = kz_sweep_parameters + axis[i]->parameter;
     KZ_TRY(kz_store_text(store, GROUP, i ? "y_parameter" : "x_parameter", parameter->name));
@@ -184,7 +191,12 @@ static kz_status write_attributes(const kz_atlas *atlas, const kz_atlas_raster *
   KZ_TRY(kz_store_integer(store, GROUP, "negative", raster->negative));
   KZ_TRY(kz_store_integer(store, GROUP, "checked", atlas->checked));
   KZ_TRY(kz_store_integer(store, GROUP, "disagreed", atlas->disagreed));
-  return atlas->checked > 0 ? kz_store_real(store, GROUP, "disagreed_high", wrong.high) : KZ_OK;
+  KZ_TRY(kz_store_integer(store, GROUP, "told", atlas->told));
+  KZ_TRY(kz_store_integer(store, GROUP, "unsolved", atlas->unsolved));
+  KZ_TRY(kz_store_integer(store, GROUP, "open_ends", open_ends(atlas)));
+  if (atlas->checked == 0) return KZ_OK;
+  KZ_TRY(kz_store_real(store, GROUP, "unsolved_high", missing.high));
+  return kz_store_real(store, GROUP, "disagreed_high", wrong.high);
 }
 
 static void print(const kz_atlas *atlas, const kz_atlas_raster *r, const listing *l, FILE *summary) {
@@ -201,12 +213,23 @@ static void print(const kz_atlas *atlas, const kz_atlas_raster *r, const listing
   fprintf(summary,
           "  %" PRId64 " lists of attractors in %" PRId64 " x %" PRId64 " cells, up to %" PRId64 " attractors at once\n",
           r->lists, r->points, r->points, most);
-  if (r->negative > 0) fprintf(summary, "  warning: %" PRId64 " cells lie beyond a curve that is missing\n", r->negative);
+  if (r->negative > 0)
+    fprintf(summary, "  warning: %" PRId64 " cells lie beyond a curve that is missing; their lists are not known\n",
+            r->negative);
+  if (open_ends(atlas) > 0)
+    fprintf(summary,
+            "  warning: %" PRId64 " ends of curves lie within the plane without a reason; lists beside them may be wrong\n",
+            open_ends(atlas));
   if (atlas->checked > 0)
     fprintf(summary,
             "  checked: %" PRId64 " random points in the last of %" PRId64 " rounds, %" PRId64
             " with an attractor that no curve tells (share at most %.2g)\n",
             atlas->checked, atlas->rounds, atlas->disagreed, kz_share_of(atlas->disagreed, atlas->checked).high);
+  if (atlas->told > 0)
+    fprintf(summary,
+            "  of %" PRId64 " motions that the lists of these points tell, %" PRId64
+            " could not be solved for (share at most %.2g)\n",
+            atlas->told, atlas->unsolved, kz_share_of(atlas->unsolved, atlas->told).high);
 }
 
 kz_status kz_atlas_write(kz_atlas *atlas, const kz_atlas_raster *raster, kz_store *store, FILE *summary) {

@@ -181,7 +181,19 @@ void kz_atlas_join(kz_atlas *atlas) {
         continue;
       const double *last = curve->row + (end ? curve->n - 1 : 0) * kz_atlas_width(&curve->kind);
       const double *place = degenerate_near(atlas, last);
-      if (place) extend(curve, end, place);
+      if (!place) continue;
+      extend(curve, end, place);
+      curve->ending[end] = KZ_ATLAS_JOINED;
     }
   }
+}
+
+int kz_atlas_open_ends(const kz_atlas_curve *curve) {
+  int open = 0;
+  for (int end = 0; end < 2; end++) {
+    const double *place = curve->row + (end ? curve->n - 1 : 0) * kz_atlas_width(&curve->kind);
+    const bool within = place[0] > 0 && place[0] < 1 && place[1] > 0 && place[1] < 1;
+    open += within && curve->ending[end] != KZ_TRACE_CLOSED && curve->ending[end] != KZ_ATLAS_JOINED;
+  }
+  return open;
 }

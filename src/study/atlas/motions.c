@@ -86,17 +86,22 @@ static void hunt_along(hunt *h, int axis) {
   }
 }
 
+/* Attractors of the place that starts have found. */
+static void hunt_among(hunt *h, const kz_atlas_seeds *known) {
+  for (int64_t i = 0; i < known->count && h->found < h->wanted; i++) {
+    kz_atlas_seed cycle = known->list[i];
+    const kz_atlas_class class = kz_atlas_class_of(&cycle.kind);
+    double number[2];
+    if (!memcmp(&class, &h->class, sizeof class) && kz_curve_solve(&h->atlas->plane, &cycle.kind.of, cycle.y, number))
+      take(h, &cycle, number, -1);
+  }
+}
+
 /* Attractors that no curve bounds are searched. */
 static void hunt_by_starts(hunt *h) {
   kz_atlas_probe probe;
-  double number[2];
   if (kz_atlas_probe_at(h->atlas, h->place, STARTS, 1, &probe) != KZ_OK) return;
-  for (int64_t i = 0; i < probe.found.count && h->found < h->wanted; i++) {
-    const kz_atlas_class class = kz_atlas_class_of(&probe.found.list[i].kind);
-    if (!memcmp(&class, &h->class, sizeof class) &&
-        kz_curve_solve(&h->atlas->plane, &probe.found.list[i].kind.of, probe.found.list[i].y, number))
-      take(h, probe.found.list + i, number, -1);
-  }
+  hunt_among(h, &probe.found);
   kz_atlas_seeds_free(&probe.found);
 }
 
@@ -119,8 +124,10 @@ static void set_state(const hunt *h, int32_t i, kz_motion *motion) {
   kz_atlas_multipliers(&cycle->kind, h->number[i], motion->multiplier_re, motion->multiplier_im);
 }
 
-/* The states of all attractors of a class at a place. */
-static void set_states(kz_atlas *atlas, const double place[2], const kz_atlas_class *class, int32_t wanted, kz_motion *motion) {
+/* The states of all attractors of a class at a place: to `motion`, if not NULL. known: attractors that starts have found there; NULL: starts are
+ * followed if need be. Returns how many were found. */
+static int32_t set_states(kz_atlas *atlas, const double place[2], const kz_atlas_class *class, int32_t wanted,
+                          const kz_atlas_seeds *known, kz_motion *motion) {
   enum { CARRIED_AT_ONCE = 2 }; /* both branches of a fold may attract where both are carried */
   KZ_FREED kz_atlas_seed *cycle = kz_malloc((size_t)(wanted + CARRIED_AT_ONCE) * sizeof *cycle);
   KZ_FREED double (*number)[2] = kz_malloc((size_t)(wanted + CARRIED_AT_ONCE) * sizeof *number);
@@ -129,8 +136,22 @@ static void set_states(kz_atlas *atlas, const double place[2], const kz_atlas_cl
       .atlas = atlas, .place = place, .class = *class, .wanted = wanted, .cycle = cycle, .number = number, .curve = curve};
   if (class->type == KZ_CLASS_REST) hunt_rest(&h);
   for (int axis = 1; axis >= 0 && h.found < wanted && class->type != KZ_CLASS_REST; axis--) hunt_along(&h, axis);
-  if (h.found < wanted) hunt_by_starts(&h);
-  for (int32_t i = 0; i < h.found && i < wanted; i++) set_state(&h, i, motion + i);
+  if (h.found < wanted && known) hunt_among(&h, known);
+  if (h.found < wanted && !known) hunt_by_starts(&h);
+  for (int32_t i = 0; i < h.found && i < wanted && motion; i++) set_state(&h, i, motion + i);
+  return h.found < wanted ? h.found : wanted;
+}
+
+void kz_atlas_confirm(kz_atlas *atlas, const double place[2], const kz_atlas_seeds *known, int64_t *told, int64_t *unsolved) {
+  KZ_FREED int32_t *counts = kz_malloc(KZ_ATLAS_MOST_CLASSES * sizeof *counts);
+  *told = *unsolved = 0;
+  kz_atlas_count(atlas, place, counts);
+  if (!kz_atlas_plausible(atlas, counts)) return;
+  for (int32_t c = 0; c < atlas->n_classes; c++) {
+    if (counts[c] == 0) continue;
+    *told += counts[c];
+    *unsolved += counts[c] - set_states(atlas, place, atlas->class + c, counts[c], known, NULL);
+  }
 }
 
 kz_status kz_atlas_motions(kz_atlas *atlas, double x, double y, bool states, kz_motions *motions) {
@@ -141,7 +162,8 @@ kz_status kz_atlas_motions(kz_atlas *atlas, double x, double y, bool states, kz_
   KZ_FREED int32_t *counts = kz_malloc(KZ_ATLAS_MOST_CLASSES * sizeof *counts);
   kz_atlas_pendulum(atlas->scene, place, &motions->pendulum);
   kz_atlas_count(atlas, place, counts);
-  for (int32_t c = 0; c < atlas->n_classes; c++) {
+  motions->known = kz_atlas_plausible(atlas, counts);
+  for (int32_t c = 0; c < atlas->n_classes && motions->known; c++) {
     const kz_atlas_class *class = atlas->class + c;
     if (counts[c] <= 0) continue;
     motions->motion = kz_realloc(motions->motion, (size_t)(motions->count + counts[c]) * sizeof *motions->motion);
@@ -156,7 +178,7 @@ kz_status kz_atlas_motions(kz_atlas *atlas, double x, double y, bool states, kz_
       kz_atlas_class_name(atlas, class, first[i].name);
     }
     motions->count += counts[c];
-    if (states) set_states(atlas, place, class, counts[c], first);
+    if (states) set_states(atlas, place, class, counts[c], NULL, first);
   }
   return KZ_OK;
 }

@@ -43,16 +43,15 @@ static void fill_column(kz_atlas *atlas, int64_t column, kz_atlas_raster *raster
   double from = kz_atlas_floor(atlas);
   for (int64_t row = 0; row < n; row++) {
     int total = 0;
-    bool negative = false;
     kz_atlas_changes(&crossings, from, middle(row, n), counts);
     from = middle(row, n);
+    const bool known = kz_atlas_plausible(atlas, counts);
     for (int64_t c = 0; c < raster->n_classes; c++) {
-      negative = negative || counts[c] < 0;
-      raster->attracting[(c * n + row) * n + column] = (uint8_t)(counts[c] < 0 ? 0 : counts[c]);
-      total += counts[c] < 0 ? 0 : counts[c] * kz_atlas_images(atlas, atlas->class + c);
+      raster->attracting[(c * n + row) * n + column] = (uint8_t)(known ? counts[c] : KZ_ATLAS_NOT_KNOWN);
+      total += counts[c] * kz_atlas_images(atlas, atlas->class + c);
     }
-    raster->count[row * n + column] = (int16_t)total;
-    raster->negative += negative;
+    raster->count[row * n + column] = (int16_t)(known ? total : -1);
+    raster->negative += !known;
   }
 }
 
@@ -76,6 +75,8 @@ static void number_lists(kz_atlas_raster *r) {
   KZ_FREED int64_t *slot = kz_malloc(SLOTS * sizeof *slot);
   for (int i = 0; i < SLOTS; i++) slot[i] = -1;
   for (int64_t cell = 0; cell < cells; cell++) {
+    r->list[cell] = -1;
+    if (r->count[cell] < 0) continue;
     uint64_t place = hash_of(r, cell) % SLOTS;
     for (int tried = 0; tried < SLOTS && slot[place] >= 0 && !is_equal(r, slot[place], cell); tried++)
       place = (place + 1) % SLOTS;
@@ -141,7 +142,7 @@ static void find_regions(kz_atlas_raster *r) {
   KZ_FREED int64_t *stack = kz_malloc(cells * sizeof *stack);
   memset(free_cell, 1, cells);
   for (int64_t cell = 0; cell < (int64_t)cells; cell++) {
-    if (!free_cell[cell]) continue;
+    if (!free_cell[cell] || r->list[cell] < 0) continue;
     const kz_atlas_region region = grow(r, distance, free_cell, cell, stack);
     int64_t place = r->n_regions < KZ_ATLAS_REGIONS ? r->n_regions++ : KZ_ATLAS_REGIONS;
     for (; place > 0 && r->region[place - 1].cells < region.cells; place--)

@@ -286,32 +286,63 @@ static kz_status search_grid(kz_atlas *atlas, const kz_run *run) {
   return status;
 }
 
-/* A round of random places; *wrong = how many had an attractor without an explanation. */
-static kz_status check(kz_atlas *atlas, const kz_run *run, int round, int64_t *wrong) {
+/* A round of random places; *wrong = how many had an attractor without an explanation. The probes of the former round go. */
+static kz_status check(kz_atlas *atlas, const kz_run *run, int round, int64_t *wrong, probing *p) {
   const int64_t n = atlas->scene->atlas->checks;
-  kz_atlas_probe *probe = kz_calloc((size_t)n, sizeof *probe);
-  probing p = {atlas, n, MANY, 2 + round, probe};
-  for (int64_t i = 0; i < n; i++) random_place(1000 + round * n + i, probe[i].place);
-  kz_status status = probe_all(run, "atlas checks", &p);
-  if (status == KZ_OK) status = explain(atlas, run, n, probe, wrong);
-  probes_free(n, probe);
-  return status;
+  probes_free(p->n, p->probe);
+  *p = (probing){atlas, n, MANY, 2 + round, kz_calloc((size_t)n, sizeof *p->probe)};
+  for (int64_t i = 0; i < n; i++) random_place(1000 + round * n + i, p->probe[i].place);
+  KZ_TRY(probe_all(run, "atlas checks", p));
+  return explain(atlas, run, n, p->probe, wrong);
 }
 
-kz_status kz_atlas_search(kz_atlas *atlas, const kz_run *run) {
-  if (!atlas->undriven) KZ_TRY(search_reference(atlas, run));
-  if (run->sample) atlas->max_period = 1;
-  KZ_TRY(search_grid(atlas, run));
+/* Rounds of random places, until one finds nothing that the curves do not tell. */
+static kz_status check_all(kz_atlas *atlas, const kz_run *run, probing *last) {
   for (int round = 0; round < ROUNDS && atlas->scene->atlas->checks > 0; round++) {
     const double stands_for = run->sample && atlas->scene->atlas->max_period > USUAL_PERIOD ? ROUNDS : 1;
     kz_sampling_weigh(run, stands_for);
-    const kz_status status = check(atlas, run, round, &atlas->disagreed);
+    const kz_status status = check(atlas, run, round, &atlas->disagreed, last);
     kz_sampling_weigh(run, 1 / stands_for);
     KZ_TRY(status);
     atlas->checked = atlas->scene->atlas->checks;
     atlas->rounds = round + 1;
     if (atlas->disagreed == 0 || run->sample) break;
   }
-  kz_atlas_join(atlas);
   return KZ_OK;
+}
+
+/* ---- the motions that the lists tell ---- */
+
+typedef struct {
+  int64_t told, unsolved;
+} answers;
+
+static kz_status confirm_tile(void *context, int64_t tile, void *record) {
+  const probing *p = context;
+  answers *a = record;
+  kz_atlas_confirm(p->atlas, p->probe[tile].place, &p->probe[tile].found, &a->told, &a->unsolved);
+  return KZ_OK;
+}
+
+/* Solves for every motion that the lists of the places of the last round tell. */
+static kz_status confirm(kz_atlas *atlas, const kz_run *run, probing *p) {
+  KZ_FREED answers *of = kz_calloc((size_t)p->n + 1, sizeof *of);
+  const kz_stage stage = kz_stage_for_all("atlas motions", p->n, sizeof *of, confirm_tile, p);
+  if (p->n == 0) return KZ_OK;
+  KZ_TRY(kz_stage_run(run, &stage, of));
+  for (int64_t i = 0; i < p->n; i++) atlas->told += of[i].told, atlas->unsolved += of[i].unsolved;
+  return KZ_OK;
+}
+
+kz_status kz_atlas_search(kz_atlas *atlas, const kz_run *run) {
+  if (!atlas->undriven) KZ_TRY(search_reference(atlas, run));
+  if (run->sample) atlas->max_period = 1;
+  KZ_TRY(search_grid(atlas, run));
+  probing last = {0};
+  kz_status status = check_all(atlas, run, &last);
+  kz_atlas_join(atlas);
+  kz_atlas_order(atlas);
+  if (status == KZ_OK) status = confirm(atlas, run, &last);
+  probes_free(last.n, last.probe);
+  return status;
 }

@@ -34,7 +34,7 @@ kz_status kz_prepared_take_listed(kz_prepared *r, const kz_frame *frame) {
   KZ_FREED_BY(kz_motions_free) kz_motions list = {0}, motions = {0};
   KZ_TRY(kz_atlas_motions(frame->atlas, frame->x, frame->y, false, &list));
   KZ_TRY(check(r, &list));
-  if (!lacks_some(r, &list)) return KZ_OK;
+  if (!list.known || !lacks_some(r, &list)) return KZ_OK;
   KZ_TRY(kz_atlas_motions(frame->atlas, frame->x, frame->y, true, &motions));
   for (int64_t i = 0; i < motions.count; i++) {
     const kz_motion *motion = motions.motion + i;
