@@ -96,6 +96,20 @@ extern const int kz_sweep_parameter_count;
 const char *kz_sweep_words(void);
 const char *kz_sweep_measure_words(void);
 
+/* What one of a unit of the drive is in SI: *unit becomes "s" for "drive periods", "rad/s" for "rad per drive radian". 1, and *unit as it is, for
+ * other units and where omega (of the pivot, rad/s) is NaN. kz_periods_print: prints "50 drive periods (1 s)". */
+double kz_si_factor(double omega, const char **unit);
+void kz_periods_print(int64_t periods, double omega, FILE *out);
+
+/* A value along an axis of values of a key, in the unit that the scene writes; the name of this unit, "" of a pure number. */
+double kz_axis_written(const kz_axis *values, double value);
+const char *kz_axis_unit(const kz_axis *values, int32_t parameter);
+/* Writes "amplitude = 8 mm", with that many digits, to text [bytes]. */
+void kz_axis_say(const kz_axis *values, int32_t parameter, int digits, double value, char *text, size_t bytes);
+/* Writes which key an axis is of, its unit, and the unit that the scene writes, as attributes of a group: `parameter`, `parameter_units`, ..,
+ * or with the name of the axis in front: `x_parameter`, `x_units`, .. */
+kz_status kz_axis_describe(const kz_axis *values, int32_t parameter, const char *axis, const char *group, kz_store *store);
+
 /* Value i of an axis of values; both ends are exact. */
 double kz_axis_value(const kz_axis *values, int64_t i);
 double kz_sweep_value(const kz_sweep_plan *plan, int64_t i);

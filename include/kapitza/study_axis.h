@@ -15,12 +15,19 @@ typedef struct {
   double high, low;
 } kz_decimal;
 
+/* A unit that a scene writes behind a value: its name ("" = that of the key, or none), and how many units of the key it is. */
+typedef struct {
+  char name[32];
+  double factor;
+} kz_written_unit;
+
 /* An axis: `count` cells between min and max (basin), or `count` values with both ends included (charts, sweeps). For a window by its centre
  * and width, which may be finer than doubles, min and max are the nearest doubles. */
 typedef struct {
   double min, max;
   int64_t count;
   kz_decimal centre, width;
+  kz_written_unit written; /* of values of a key of the pendulum: behind min, or behind max where min has none */
 } kz_axis;
 
 /* True if doubles cannot distinguish neighbouring cells of the axis, so that only method exact can label them. */

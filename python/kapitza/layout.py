@@ -68,6 +68,12 @@ WITH_PENDULUM = {"basin", "orbit", "potential", "tradeoff"}  # groups whose pict
 NUMBERS = {"quality_factor", "damping", *(f"tongue_{tongue}_lowest_{axis}" for tongue in (1, 2) for axis in "km")}  # where they are given
 
 
+def axes_of(group: str) -> dict[str, str]:
+    """The variables of a group that are values of a swept key -> which one, as its attributes begin: "parameter", "x" or "y"."""
+    return {name: row["units"][1:].removesuffix("_units") for (of, name), row in VARIABLES.items()
+            if of == group and row["units"].startswith("@")}
+
+
 def wrong_shape(dataset: xarray.Dataset, group: str) -> str | None:
     """What the group lacks, or has in another shape or type; None = nothing."""
     optional = [part for part in OPTIONAL.get(group, []) if next(iter(part.variables)) in dataset]

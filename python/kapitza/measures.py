@@ -6,6 +6,7 @@ import numpy as np
 import xarray
 
 from kapitza.table import OPTIONS
+from kapitza.units import unit_text
 
 
 def measures_of(measures: xarray.Dataset) -> list[str]:
@@ -23,12 +24,6 @@ def value_text(measures: xarray.Dataset, name: str, row: int) -> str:
         text += f" ({_number(measures[f'{name}_low'].values[row])} to {_number(measures[f'{name}_high'].values[row])})"
     units = unit_text(measures[name])
     return text + (f" {units}" if units and np.isfinite(values).any() else "")
-
-
-def unit_text(values: xarray.DataArray) -> str:
-    """The unit of a measure, which stands in its long name where it is of the drive; "" of a pure number."""
-    units, long_name = str(values.attrs.get("units", "1")), str(values.attrs.get("long_name", ""))
-    return units if units != "1" else long_name.rpartition(", in ")[2] if ", in " in long_name else ""
 
 
 def _number(value: Any) -> str:

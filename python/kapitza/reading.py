@@ -134,15 +134,17 @@ class File:
         value = self.pendulum.get("pivot_frequency")
         return value if isinstance(value, float) and value > 0 else None
 
-    def group(self, name: str, *, si: bool = False, degrees: bool = False) -> xarray.Dataset:
+    def group(self, name: str, *, si: bool = False, degrees: bool = False, written: bool = False) -> xarray.Dataset:
         """Reads a group of the file completely.
 
         :param si: velocities in rad/s, times in s and frequencies in Hz, of a scene in SI units; the attribute `units` of each says so
         :param degrees: angles in degrees
+        :param written: values of a key that was swept in the unit that the scene writes, such as mm; the file has them in m
         :raises BadFile: if the file has no such group, if the group is damaged or too large for the memory, or if `si` is asked of a scene
             that is not in SI units
         """
         if si and self.pivot_frequency is None:
             raise BadFile(f"{self.path}: has no pivot_frequency, because its scene is not in SI units; leave out si")
         dataset = group_of(self.path, name, self.groups, self.pendulum)
-        return units.in_units(dataset, self.pivot_frequency if si else None, degrees) if si or degrees else dataset
+        dataset = units.in_units(dataset, self.pivot_frequency if si else None, degrees) if si or degrees else dataset
+        return units.in_written_units(dataset, name, layout.axes_of(name)) if written else dataset

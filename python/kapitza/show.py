@@ -22,7 +22,7 @@ MOST = 12  # attractors that are listed
 COLUMNS: dict[str, Callable[[Any], str]] = {"name": str, "period": str, "winding": str, "fraction": "{:.2%}".format}
 
 
-def _head(result: "Result") -> str:
+def pendulum_text(result: "Result") -> str:
     """The pendulum: of a scene in SI units as people build it, else in the papers' symbols."""
     pendulum = result.pendulum
     papers = [f"{symbol} = {pendulum[key]:.6g}" for symbol, key in
@@ -67,7 +67,7 @@ def as_text(result: "Result") -> str:
     rows = _rows(result)
     widths = [max(map(len, column)) for column in zip(*rows, strict=True)]
     table = ["  " + "  ".join(cell.ljust(width) for cell, width in zip(row, widths, strict=True)).rstrip() for row in rows]
-    lines = [result.title, _head(result), *_studies(result), *table, _more(result)]
+    lines = [result.title, pendulum_text(result), *_studies(result), *table, _more(result)]
     return "\n".join(filter(None, lines))
 
 
@@ -83,8 +83,8 @@ def as_html(result: "Result") -> str:
     rows = _rows(result)
     head = "".join(f"<th>{html.escape(name)}</th>" for name in (rows[0] if rows else []))
     body = "".join("<tr>" + "".join(f"<td>{html.escape(cell)}</td>" for cell in row) + "</tr>" for row in rows[1:])
-    words = "".join(f"<div>{html.escape(line)}</div>" for line in (_head(result), *_studies(result), _more(result), str(result.path))
-                    if line)
+    lines = pendulum_text(result), *_studies(result), _more(result), str(result.path)
+    words = "".join(f"<div>{html.escape(line)}</div>" for line in lines if line)
     return (f"<div style='display:flex;gap:1.5em;flex-wrap:wrap'><div><b>{html.escape(result.title)}</b>{words}"
             f"<table><tr>{head}</tr>{body}</table></div>{_picture(result)}</div>")
 

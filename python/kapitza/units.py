@@ -7,7 +7,6 @@ from typing import Any
 
 import numpy as np
 import xarray
-import yaml
 
 TURN = 2 * math.pi
 # What a long_name says behind its last ", in " -> the unit in SI, and what one of it is there for a drive of 1 rad/s and of omega rad/s:
@@ -19,57 +18,86 @@ SI: dict[str, tuple[str, float, int]] = {
 COUNTED = re.compile(r"(.*_)?period")  # variables that name a motion by its period, which stays a whole number
 HERTZ = {"Hz": 1.0, "kHz": 1e3, "rpm": 1 / 60, "1/min": 1 / 60, "1/s": 1.0, "rad/s": 1 / TURN}
 LENGTHS = {"m": 1.0, "cm": 1e-2, "mm": 1e-3, "um": 1e-6}
-WRITTEN = {"m": LENGTHS | {"in": 0.0254}, "Hz": HERTZ, "s": {"ms": 1e-3, "min": 60.0}, "kg": {"g": 1e-3, "mg": 1e-6},
-           "rad": {"deg": math.pi / 180, "°": math.pi / 180}}
-OF_KEY = ("value", "branch_start", "branch_end")  # variables of a sweep that are values of its key
+# Attributes of a group that are values of its swept key (1), or counted per value of it (-1).
+OF_KEY = {"sweep": {"critical_value": 1, "fit_slope": -1, "fit_slope_stderr": -1}, "tangency": {"value": 1, "error": 1}}
+FREQUENCIES = {"frequency": TURN, "pivot_frequency": 1.0}  # keys of the drive's frequency -> rad/s of a value
 
 
 def in_units(dataset: xarray.Dataset, omega: float | None = None, degrees: bool = False) -> xarray.Dataset:
     """The dataset with numbers in other units, coordinates too. Their attribute `units` says which, and `drive_unit` what one unit of the
-    drive (of an angle: one rad) is in them.
+    drive (of an angle: one rad) is in them, where it is the same for all values.
 
-    :param omega: angular frequency of the drive, rad/s: velocities come in rad/s, times in s, frequencies in Hz; None = they stay
+    :param omega: angular frequency of the drive, rad/s: velocities come in rad/s, times in s, frequencies in Hz; None = they stay. Where
+        the group is along or over frequencies of the drive, each value is of its own
     :param degrees: angles in degrees
     """
-    changed = {}
+    changed, own = {}, None if omega is None else _own_frequency(dataset)
     for name, variable in dataset.variables.items():
         meaning, _, unit = str(variable.attrs.get("long_name", "")).rpartition(", in ")
         if unit in SI:
             if omega is None or COUNTED.fullmatch(str(name)):
                 continue
+            if own is not None and own.dims[0] not in variable.dims:
+                continue
             units, factor, power = SI[unit]
-            factor *= omega**power
+            scale = factor * (omega if own is None else own) ** power
         elif degrees and variable.attrs.get("units") == "rad":
-            units, factor, meaning = "degree", 180 / math.pi, str(variable.attrs.get("long_name", ""))
+            units, scale, meaning = "degree", 180 / math.pi, str(variable.attrs.get("long_name", ""))
         else:
             continue
-        attributes = variable.attrs | {"units": units, "long_name": meaning, "drive_unit": factor}
-        changed[name] = (variable.dims, variable.values * factor, attributes)
+        values = (variable.to_base_variable() * scale).transpose(*variable.dims).values
+        one = {"drive_unit": scale} if isinstance(scale, float) else {}
+        changed[name] = (variable.dims, values, variable.attrs | {"units": units, "long_name": meaning} | one)
     coordinates = {name: value for name, value in changed.items() if name in dataset.coords}
     return dataset.assign({name: value for name, value in changed.items() if name not in coordinates}).assign_coords(coordinates)
 
 
-def written_units(sweep: xarray.Dataset, scene: str) -> xarray.Dataset:
-    """A sweep with the values of its key in the unit in which the scene has them: mm rather than m."""
-    try:
-        plan = yaml.load(scene, yaml.BaseLoader)["sweep"]
-        unit = re.sub(r"^[-+.\d]+([eE][-+]?\d+)?\s*", "", str(plan["min"]).strip())
-    except (KeyError, TypeError, yaml.YAMLError):
-        return sweep
-    factor = WRITTEN.get(str(sweep["value"].attrs.get("units")), {}).get(unit)
-    if factor is None:
-        return sweep
-    known = [sweep[name] for name in OF_KEY if name in sweep]
-    changed = {variable.name: (variable.dims, variable.values / factor, variable.attrs | {"units": unit}) for variable in known}
-    powers = {"critical_value": -1, "fit_slope": 1, "fit_slope_stderr": 1}
-    attributes = {name: value * factor ** powers[str(name)] if name in powers else value for name, value in sweep.attrs.items()}
-    value = changed.pop("value")
-    return sweep.assign(changed).assign_coords(value=value).assign_attrs(attributes)
+def _own_frequency(dataset: xarray.Dataset) -> xarray.Variable | None:
+    """The angular frequency of the drive, rad/s, at each value of a swept frequency; None if the drive has one frequency."""
+    for key, axis in (("parameter", "value"), ("x_parameter", "x"), ("y_parameter", "y")):
+        if dataset.attrs.get(key) in FREQUENCIES and axis in dataset.variables:
+            return dataset.variables[axis].to_base_variable() * FREQUENCIES[dataset.attrs[key]]
+    return None
+
+
+def in_written_units(dataset: xarray.Dataset, group: str, axes: Mapping[Any, str]) -> xarray.Dataset:
+    """A group with the values of swept keys in the unit that its scene writes: mm rather than m.
+
+    :param axes: its variables that are values of a key -> which key, as its attributes begin: "parameter", "x" or "y"
+    """
+    attributes, changed = dict(dataset.attrs), {}
+    for key in {"parameter", "x", "y"}:
+        if f"{key}_written_units" not in attributes:
+            continue
+        unit, scale = str(attributes[f"{key}_written_units"]), float(attributes[f"{key}_written_scale"])
+        attributes[f"{key}_units"] = unit
+        for name, variable in dataset.variables.items():
+            if axes.get(name) == key:
+                changed[name] = (variable.dims, variable.values / scale, variable.attrs | {"units": unit})
+        if key == "parameter":
+            attributes |= {name: attributes[name] / scale**power for name, power in OF_KEY.get(group, {}).items() if name in attributes}
+    coordinates = {name: value for name, value in changed.items() if name in dataset.coords}
+    rest = {name: value for name, value in changed.items() if name not in coordinates}
+    return dataset.assign(rest).assign_coords(coordinates).assign_attrs(attributes)
 
 
 def drive_unit(variable: xarray.DataArray) -> float:
     """What one unit of the drive is in the unit of a variable: 1 unless in_units has changed it."""
     return float(variable.attrs.get("drive_unit", 1.0))
+
+
+def unit_text(variable: xarray.DataArray) -> str:
+    """The unit of a variable as people write it: that of its attribute, or of the drive, which stands in its long name; "" of a number."""
+    units, long_name = str(variable.attrs.get("units", "1")), str(variable.attrs.get("long_name", ""))
+    if units == "1":
+        return long_name.rpartition(", in ")[2] if ", in " in long_name else ""
+    return {"rad s-1": "rad/s", "s-1": "1/s", "degree": "deg"}.get(units, units)
+
+
+def with_unit(words: str, variable: xarray.DataArray) -> str:
+    """Words with the unit of a variable behind them, for an axis or a bar: "settling time (s)"."""
+    unit = unit_text(variable).removeprefix("1 ")
+    return f"{words} ({unit})" if unit else words
 
 
 def in_degrees(variable: xarray.DataArray) -> np.ndarray:

@@ -9,8 +9,9 @@
 static int join_units(int argc, char **argv, kz_options *options) {
   int n = 0;
   for (int i = 0; i < argc; i++) {
-    double factor, number;
-    if (n == 0 || kz_text_real(argv[n - 1], &number) || kz_unit_factor(argv[i], "", &factor)) {
+    kz_written_unit unit;
+    double number;
+    if (n == 0 || kz_text_real(argv[n - 1], &number) || kz_unit_find(argv[i], "", &unit)) {
       argv[n++] = argv[i];
       continue;
     }

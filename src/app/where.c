@@ -36,8 +36,9 @@ static void print_start(const kz_coordinate start[2], double omega) {
 
 /* A number of drive periods, and what they are in seconds. */
 static void print_time(const char *words, int64_t periods, double omega) {
-  printf("%-15s after %lld drive periods", words, (long long)periods);
-  isnan(omega) ? puts("") : printf(" (%.4g s)\n", (double)periods * 2 * M_PI / omega);
+  printf("%-15s after ", words);
+  kz_periods_print(periods, omega, stdout);
+  puts("");
 }
 
 /* `omega`: of the pivot, rad/s; NaN where the scene is not in SI units, which are printed then too. */

@@ -1,4 +1,6 @@
 #include <math.h>
+#include <stdio.h>
+#include <string.h>
 
 #include "kapitza/study.h"
 
@@ -57,6 +59,26 @@ static void fill_defined(kz_parameters *parameters) {
   if (!given && p->k > 0.0) parameters->drive_frequency = 1.0 / sqrt(p->k);
   if (!given && isnan(written->quality_factor) && p->k != 0.0 && p->beta > 0.0)
     parameters->quality_factor = sqrt(fabs(p->k)) / p->beta;
+}
+
+double kz_si_factor(double omega, const char **unit) {
+  const struct {
+    const char *of, *si;
+    double factor;
+  } units[] = {{"drive periods", "s", 2 * M_PI / omega}, {"rad per drive radian", "rad/s", omega}};
+  for (int i = 0; i < 2 && !isnan(omega); i++) {
+    if (strcmp(*unit, units[i].of) != 0) continue;
+    *unit = units[i].si;
+    return units[i].factor;
+  }
+  return 1;
+}
+
+void kz_periods_print(int64_t periods, double omega, FILE *out) {
+  const char *unit = "drive periods";
+  const double factor = kz_si_factor(omega, &unit);
+  fprintf(out, "%lld drive periods", (long long)periods);
+  if (!isnan(omega)) fprintf(out, " (%.4g %s)", (double)periods * factor, unit);
 }
 
 kz_status kz_parameters_resolve(kz_parameters *parameters) {

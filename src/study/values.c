@@ -1,5 +1,6 @@
 /* The values of sweeps and charts: which keys they are of, and the pendulum at each. */
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 
 #include "kapitza/study.h"
@@ -89,4 +90,33 @@ double kz_axis_value(const kz_axis *values, int64_t i) {
 
 double kz_sweep_value(const kz_sweep_plan *plan, int64_t i) {
   return kz_axis_value(&plan->values, i);
+}
+
+double kz_axis_written(const kz_axis *values, double value) {
+  return values->written.name[0] ? value / values->written.factor : value;
+}
+
+const char *kz_axis_unit(const kz_axis *values, int32_t parameter) {
+  const char *unit = kz_sweep_parameters[parameter].unit;
+  return values->written.name[0] ? values->written.name : strcmp(unit, "1") == 0 ? "" : unit;
+}
+
+void kz_axis_say(const kz_axis *values, int32_t parameter, int digits, double value, char *text, size_t bytes) {
+  const char *unit = kz_axis_unit(values, parameter);
+  snprintf(text, bytes, "%s = %.*g%s%s", kz_sweep_parameters[parameter].name, digits, kz_axis_written(values, value),
+           unit[0] ? " " : "", unit);
+}
+
+kz_status kz_axis_describe(const kz_axis *values, int32_t parameter, const char *axis, const char *group, kz_store *store) {
+  const char *of = axis[0] ? axis : "parameter";
+  char name[32];
+  snprintf(name, sizeof name, "%s%sparameter", axis, axis[0] ? "_" : "");
+  KZ_TRY(kz_store_text(store, group, name, kz_sweep_parameters[parameter].name));
+  snprintf(name, sizeof name, "%s_units", of);
+  KZ_TRY(kz_store_text(store, group, name, kz_sweep_parameters[parameter].unit));
+  if (!values->written.name[0]) return KZ_OK;
+  snprintf(name, sizeof name, "%s_written_units", of);
+  KZ_TRY(kz_store_text(store, group, name, values->written.name));
+  snprintf(name, sizeof name, "%s_written_scale", of);
+  return kz_store_real(store, group, name, values->written.factor);
 }

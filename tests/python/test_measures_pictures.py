@@ -36,7 +36,7 @@ def test_a_plane_has_a_panel_for_each_name_and_one_for_a_measure_of_the_pendulum
     assert plot("plane", plane, "-o", tmp_path / "share.svg").returncode == 0
     text = (tmp_path / "share.svg").read_text()
     assert all(f">{words}<" in text for words in ("inverted", "share of the starts of the window that end on the attractor",
-                                                  "frequency (Hz)", "amplitude (m)")), text
+                                                  "frequency (Hz)", "amplitude (mm)")), text
     assert np.isnan(group["share"]).any() and "hatched: no value, or the attractor is not seen" in text
     assert plot("plane", plane, "-o", tmp_path / "entropy.svg", "--measure", "entropy").returncode == 0
     text = (tmp_path / "entropy.svg").read_text()
@@ -74,7 +74,7 @@ def test_the_curves_of_an_atlas_of_the_same_pendulum_lie_on_top(monkeypatch):
     def held(damping):
         scene = f"pendulum: {{k: 1, m: 2, damping: {damping}}}"
         return SimpleNamespace(path="file.h5", groups=["atlas"], group=lambda name: atlas, scene=scene)
-    assert atlas_of(held(0.1), atlas, None) is atlas
+    assert atlas_of(held(0.1), atlas, None).identical(atlas)
     with pytest.raises(BadFile, match=r"its atlas is over k and m, the plane over m and k"):
         atlas_of(held(0.1), atlas.assign_attrs(x_parameter="m", y_parameter="k"), None)
     monkeypatch.setattr(plane_measures, "Result", lambda path: held(0.2))

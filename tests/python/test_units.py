@@ -1,13 +1,17 @@
 """Pictures in the units of a laboratory: what a tick says is the value of its place in degrees, seconds, rad/s or Hz."""
 
 import re
+from types import SimpleNamespace
 
+import kapitza
 import numpy as np
 import pytest
 import xarray
 from conftest import plot
 from kapitza import Result, units
-from kapitza.plots import basin, orbit, potential, sweep
+from kapitza.plots import basin, chart, orbit, potential, sweep
+from kapitza.plots.units import group_beside
+from kapitza.report.page import report
 
 SI = {"mass": 0.1, "radius": 0.2, "inertia": 0.004, "friction": 0.002, "gravity": 9.81, "pivot_amplitude": 0.06, "frequency": 12.25}
 OMEGA = 2 * np.pi * 12.25
@@ -121,11 +125,63 @@ def test_the_footer_says_an_amplitude_in_mm():
     assert list(found.values()) == ["length 20 cm", "50 Hz", "amplitude 12 mm", "Q = 10"]
 
 
-@pytest.mark.parametrize("text", ["2 deg", "2deg", "2e0°"])
-def test_a_sweep_keeps_the_unit_that_was_written(text):
-    found = xarray.Dataset(coords={"value": ("value", np.radians([2, 5]), {"units": "rad"})})
-    value = units.written_units(found, f"sweep: {{min: {text}, max: 5 deg}}")["value"]
-    assert value.values == pytest.approx([2, 5]) and value.attrs["units"] == text.lstrip("2e0 ")
+ROD = {"length": "20 cm", "frequency": "50 Hz", "amplitude": "8 mm", "quality_factor": 20, "tilt": 0}
+STROBE = {"count": 2, "measure": ["strobe"], "transient": 1, "samples": 1}
+
+
+@pytest.mark.parametrize(("key", "ends", "unit", "written", "stored"), [
+    ("amplitude", ("6 mm", "0.9 cm"), "mm", [6, 9], [0.006, 0.009]),
+    ("amplitude", (0.006, "9mm"), "mm", [6, 9], [0.006, 0.009]),
+    ("amplitude", (0.006, 0.009), "m", [0.006, 0.009], [0.006, 0.009]),
+    ("frequency", ("3000 rpm", "55 Hz"), "rpm", [3000, 3300], [50, 55]),
+    ("tilt", ("2e0°", "5 deg"), "°", [2, 5], np.radians([2, 5])),
+])
+def test_a_sweep_keeps_the_unit_that_is_written(key, ends, unit, written, stored):
+    """In the text of the run, and on the axis of its picture; the file has units of the key."""
+    found = kapitza.run({"pendulum": ROD, "sweep": STROBE | {"parameter": key, "min": ends[0], "max": ends[1]}}, progress=False)
+    assert f"sweep of {key} in {unit}, 2 values from {written[0]:g} to {written[1]:g}" in found.summary
+    assert found.group("sweep")["value"].values == pytest.approx(stored, rel=1e-15)
+    value = found.group("sweep", written=True)["value"]
+    assert value.values == pytest.approx(written, rel=1e-15) and value.attrs["units"] == unit
+    figure = page(sweep, found)
+    assert figure.axes[-1].get_xlabel() == f"{key} ({unit})" and figure.axes[-1].get_xlim() == pytest.approx(tuple(written))
+
+
+def test_a_plane_keeps_the_units_that_are_written():
+    """Its curves of an atlas too, whose scene may have other ones."""
+    plan = {"x": {"parameter": "frequency", "min": "45 Hz", "max": "3000 rpm", "count": 2},
+            "y": {"parameter": "amplitude", "min": "2 mm", "max": "8 mm", "count": 2},
+            "measure": ["ends"], "ends": {"theta": ["170°"], "max_periods": 3}}
+    found = kapitza.run({"pendulum": ROD, "sweep": plan}, progress=False)
+    axes = page(chart, found).axes[0]
+    assert (axes.get_xlabel(), axes.get_ylabel()) == ("frequency (Hz)", "amplitude (mm)") and axes.get_ylim() == pytest.approx((2, 8))
+    drawn, scale = found.group("plane", written=True), {"x": 60.0, "y": 0.01}
+    atlas = xarray.Dataset({which: ("point", [0.3]) for which in "xy"}, attrs={f"{which}_written_scale": 9.0 for which in "xy"})
+    drawn.attrs |= {f"{which}_written_{name}": value for which in "xy" for name, value in (("scale", scale[which]), ("units", "u"))}
+    beside = group_beside(SimpleNamespace(group=lambda _: atlas), "atlas", drawn)
+    assert float(beside["x"][0]) == pytest.approx(0.005) and float(beside["y"][0]) == pytest.approx(30)
+
+
+def test_along_a_frequency_every_value_has_its_own_second():
+    """One period lasts 1/50 s at 50 Hz and 1/100 s at 100 Hz."""
+    periods = {"long_name": "return time, in drive periods", "units": "1"}
+    line = xarray.Dataset({"time": (("attractor", "value"), [[100.0, 100.0]], periods), "alone": ("attractor", [3.0], periods)},
+                          {"value": [50.0, 100.0]}, {"parameter": "frequency"})
+    in_si = units.in_units(line, 2 * np.pi * 50)
+    assert in_si["time"].values[0] == pytest.approx([2.0, 1.0]) and in_si["time"].attrs["units"] == "s"
+    assert in_si["alone"].equals(line["alone"]) and units.with_unit("alone", in_si["alone"]) == "alone (drive periods)"
+
+
+def test_the_texts_of_a_run_are_in_si(tmp_path):
+    window = {"theta": {"count": 2}, "velocity": {"min": -0.01, "max": 0.01, "count": 2}}
+    plan = {"names": ["return_time", "reactivity"], "starts": 8, "velocity": {"min": -0.01, "max": 0.01}}
+    found = kapitza.run({"pendulum": ROD, "basin": window | {"attractors": {"starts": 8}}, "measures": plan}, progress=False)
+    time = found.group("measures", si=True)["return_time"]
+    assert re.search(rf"  return_time +{time.values[0]:.6g} .* s\n  reactivity +[\d. ]+\n", found.summary) and time.attrs["units"] == "s"
+    most = int(re.search(r"settled? within (\d+) drive periods", found.summary)[1])
+    assert f"{most} drive periods ({most / 50:.4g} s)." in found.summary
+    text = report(found)
+    assert f"{time.values[0]:.4g} s" in text and "Lyapunov exponent (1/s)" in text and "length 20 cm, 50 Hz, amplitude 8 mm" in text
 
 
 @pytest.mark.extensive

@@ -25,7 +25,8 @@ from kapitza.plots.atlas_labels import POINTS, label_regions, mark_points, motio
 from kapitza.plots.atlas_labels import region_text as region_text
 from kapitza.plots.atlas_line import draw_line
 from kapitza.plots.common import argument_parser, entitle, new_figure, parsed, write_picture
-from kapitza.plots.plane_axes import NAMES
+from kapitza.plots.plane_axes import key_text
+from kapitza.plots.units import groups_of
 from kapitza.result import Result
 
 FOLD, DOUBLING, BREAKING, SWINGS, LEANS = range(5)  # codes of curve_kind
@@ -45,7 +46,8 @@ def parse_arguments(words: list[str]) -> argparse.Namespace:
     parser = argument_parser("atlas", __doc__, "an atlas")
     parser.add_argument("--view", choices=VIEWS, default="map")
     parser.add_argument("--longest", type=int, default=LONGEST, help="longest period of the cycles that are drawn")
-    parser.add_argument("--x", type=float, help="the line of the view `line`: value of the key along the horizontal axis")
+    parser.add_argument("--x", type=float, help="the line of the view `line`: value of the key along the horizontal axis, "
+                        "in the unit of that axis")
     parser.add_argument("--y", type=float, help="or of that along the vertical axis (default: the middle of the horizontal one)")
     parser.add_argument("--points", metavar="CSV", help="points on the map, with the columns x, y and label; points with one label have "
                         "one mark")
@@ -109,7 +111,7 @@ def set_axes(axes: Axes, atlas: xarray.Dataset, *, labels: bool = True) -> None:
             axes.xaxis.set_minor_locator(NullLocator())
         (axes.set_xlim if which == "x" else axes.set_ylim)(low, high)
         if labels:
-            (axes.set_xlabel if which == "x" else axes.set_ylabel)(NAMES.get(key, key.replace("_", " ")))
+            (axes.set_xlabel if which == "x" else axes.set_ylabel)(key_text(atlas, which))
 
 
 def write_legend(axes: Axes, atlas: xarray.Dataset, shades: ListedColormap, most: int, colours: Mapping[int, str], longest: int,
@@ -201,7 +203,7 @@ def motions_page(result: Result, atlas: xarray.Dataset) -> Figure:
         axes.set_visible(False)
     for axes in panels[max(0, len(chosen) - columns):len(chosen)]:
         axes.tick_params(labelbottom=True)
-        axes.set_xlabel(NAMES.get(atlas.attrs["x_parameter"], atlas.attrs["x_parameter"].replace("_", " ")), fontsize="small")
+        axes.set_xlabel(key_text(atlas, "x"), fontsize="small")
     entitle(figure, result, "where each motion attracts; deeper shades: two or more of them")
     return figure
 
@@ -230,23 +232,25 @@ def gives_birth(atlas: xarray.Dataset, curve: int, number: int) -> bool:
 
 def line_page(result: Result, atlas: xarray.Dataset, x: float | None, y: float | None, longest: int) -> Figure:
     """One line through the map as a bifurcation diagram."""
-    if x is None and y is None:
-        x = float(atlas["column"].values[[0, -1]].mean())
-    fixed, varies = ("y", "x") if x is None else ("x", "y")
-    value = y if x is None else x
+    middle = float(atlas["column"].values[[0, -1]].mean())
+    fixed, varies, value = ("y", "x", y) if y is not None else ("x", "y", middle if x is None else x)
+    unit = str(atlas.attrs.get(f"{fixed}_units", "1"))
     figure = new_figure(8.6, 5.4)
-    table = result.line(**{fixed: value})
+    scale = {which: float(atlas.attrs.get(f"{which}_written_scale", 1)) for which in "xy"}  # what the program has, of one on an axis
+    table = result.line(**{fixed: value * scale[fixed]})
+    table["value"] /= scale[varies]
     axes = draw_line(figure.subplots(), table[table["period"] <= longest])
-    axes.set_xlabel(NAMES.get(atlas.attrs[f"{varies}_parameter"], atlas.attrs[f"{varies}_parameter"].replace("_", " ")))
+    axes.set_xlabel(key_text(atlas, varies))
     half = (atlas["row" if varies == "y" else "column"].values[[0, -1]])
     axes.set_xlim(half[0] - (half[1] - half[0]) / 2000, half[1] + (half[1] - half[0]) / 2000)
     entitle(figure, result, f"all cycles of up to {min(longest, int(atlas.attrs['max_period']))} periods where "
-            f"{atlas.attrs[f'{fixed}_parameter'].replace('_', ' ')} is {value:g}", "solid: attracts; dashed: repels")
+            f"{atlas.attrs[f'{fixed}_parameter'].replace('_', ' ')} is {value:g}{'' if unit == '1' else f' {unit}'}",
+            "solid: attracts; dashed: repels")
     return figure
 
 
 def draw(result: Result, arguments: argparse.Namespace) -> Figure:
-    atlas = result.group("atlas")
+    atlas = groups_of(result, arguments)("atlas")
     if arguments.view == "line":
         return line_page(result, atlas, arguments.x, arguments.y, arguments.longest)
     return map_page(result, atlas, arguments.longest, arguments.points) if arguments.view == "map" else motions_page(result, atlas)

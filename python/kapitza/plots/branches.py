@@ -10,6 +10,7 @@ from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 
 from kapitza import style
+from kapitza.plots.plane_axes import key_text
 
 NAMED = 0.02  # branches whose share is smaller everywhere are drawn as one band
 SHORTEST = 1 / 400  # of the range: shorter branches cannot be seen
@@ -21,9 +22,7 @@ SYMBOLS = {"quality_factor": "Q", "drive_frequency": r"$\Omega$", "drive_amplitu
 def parameter_text(sweep: xarray.Dataset) -> str:
     """The axis label of the swept key."""
     name = sweep.attrs["parameter"]
-    unit = str(sweep["value"].attrs.get("units", "1"))
-    words = name.replace("_", " ")
-    return f"{words} {SYMBOLS[name]}" if name in SYMBOLS else words if unit == "1" else f"{words} / {unit}"
+    return f"{name.replace('_', ' ')} {SYMBOLS[name]}" if name in SYMBOLS else key_text(sweep)
 
 
 def motions(sweep: xarray.Dataset) -> list[tuple[int, int, int, bool]]:

@@ -25,7 +25,9 @@ from kapitza.plots.common import argument_parser, entitle, new_figure, parsed, w
 from kapitza.plots.curves import curve_names, exact_of, is_branch, whole_curve
 from kapitza.plots.plane_axes import label_keys
 from kapitza.plots.plane_measures import MOST, measure_page
+from kapitza.plots.units import add_si, fixed_si, groups_of
 from kapitza.result import BadFile, Result
+from kapitza.units import unit_text, with_unit
 
 CYCLE, CHAOTIC = 0, 1  # codes of the variable `end`
 LINEAR = "limits of rest (linear)"
@@ -39,6 +41,7 @@ def parse_arguments(words: list[str]) -> argparse.Namespace:
     parser.add_argument("--attractor", metavar="NAME", nargs="+", help=f"names, or numbers; left out: the {MOST} most frequent names")
     parser.add_argument("--atlas", metavar="FILE", type=Path, help="result with the study atlas, whose curves are drawn on top (default: "
                         "those of the same file)")
+    add_si(parser, "times in s and velocities in rad/s")
     arguments = parsed(parser, words)
     if arguments.view and (arguments.measure or arguments.attractor or arguments.atlas):
         parser.error("--view cannot be combined with --measure, --attractor or --atlas")
@@ -74,12 +77,13 @@ def draw_ends(axes: Axes, chart: xarray.Dataset, *, colours: Mapping[str, str] |
 def draw_number(axes: Axes, chart: xarray.Dataset, view: str, *, colours: str | None = None, legend: bool = True) -> Axes:
     """Exponents or settling times of one start; `colours`: name of a colour map; `legend`: the bar beside it."""
     if view == "exponent":
-        values, text = chart["exponent"].values, "largest Lyapunov exponent (per drive period)"
+        values, text = chart["exponent"].values, with_unit("largest Lyapunov exponent", chart["exponent"])
         low, high = exponent_range(values)
         image = axes.pcolormesh(chart["x"], chart["y"], values, cmap=colours or "RdBu_r", norm=TwoSlopeNorm(0, low, high),
                                 shading="nearest", rasterized=True)
     else:
-        values, text = np.maximum(chart["settling_time"].values, 1), "settling time (drive periods)"
+        values, text = chart["settling_time"].values, with_unit("settling time", chart["settling_time"])
+        values = np.maximum(values, np.min(values[values > 0], initial=np.inf))  # no time at all has no logarithm
         image = axes.pcolormesh(chart["x"], chart["y"], values, cmap=colours or "viridis", norm=LogNorm(), shading="nearest",
                                 rasterized=True)
     if legend:
@@ -130,13 +134,14 @@ def panel(axes: Axes, result: Result, chart: xarray.Dataset, view: str, *, legen
         draw_number(axes, chart, view, legend=legend)
     axes.set(xlim=chart["x"].values[[0, -1]], ylim=chart["y"].values[[0, -1]])
     label_keys(axes, chart)
-    axes.set_title(f"start: θ = {float(chart['start_theta']):g}, velocity {float(chart['start_velocity']):g}", fontsize="medium")
+    speed = " rad/s" if unit_text(chart["start_velocity"]) == "rad/s" else ""
+    axes.set_title(f"start: θ = {float(chart['start_theta']):g}, velocity {float(chart['start_velocity']):g}{speed}", fontsize="medium")
     return axes
 
 
 def draw(result: Result, arguments: argparse.Namespace) -> Figure:
     """The page: of a measure, or one panel for each start."""
-    chart = result.group("plane")
+    chart = groups_of(result, arguments)("plane")
     if chart.sizes["x"] < 2 or chart.sizes["y"] < 2:
         raise BadFile(f"{result.path}: the chart has one value only along an axis, so there is no area to draw")
     if not arguments.view and (arguments.measure or arguments.attractor or arguments.atlas or "end" not in chart):
@@ -150,7 +155,8 @@ def draw(result: Result, arguments: argparse.Namespace) -> Figure:
     names = {"beta": "β"} if swept & {"k", "m", "damping"} else {"quality_factor": "Q"}
     kept = [f"{symbol} = {result.pendulum[name]:.6g}" for name, symbol in names.items()
             if name in result.pendulum and not swept & {name, "damping"}]
-    entitle(figure, result, f"{chart.sizes['x']} × {chart.sizes['y']} points", ",  ".join(kept))
+    words = fixed_si(result, chart) if result.pivot_frequency else ",  ".join(kept)
+    entitle(figure, result, f"{chart.sizes['x']} × {chart.sizes['y']} points", words)
     return figure
 
 

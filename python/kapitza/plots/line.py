@@ -15,7 +15,9 @@ from matplotlib.figure import Figure
 from kapitza import style
 from kapitza.plots.branches import parameter_text
 from kapitza.plots.common import argument_parser, entitle, new_figure, parsed, write_picture
+from kapitza.plots.units import add_si, fixed_si, group_beside, groups_of
 from kapitza.result import Result
+from kapitza.units import with_unit
 
 
 def measures_of(line: xarray.Dataset) -> list[str]:
@@ -36,8 +38,7 @@ def draw_measure(axes: Axes, line: xarray.Dataset, name: str, *, colours: Mappin
         axes.plot(value, line[name].values[i], color=colour, lw=1.4, ls=dashes, marker=".", markersize=3.5, label=title)
         if f"{name}_low" in line:
             axes.fill_between(value, line[f"{name}_low"].values[i], line[f"{name}_high"].values[i], color=style.shade(colour, 0.6), lw=0)
-    units = str(line[name].attrs.get("units", "1"))
-    axes.set_ylabel(name.replace("_", " ") + ("" if units == "1" else f" / {units}"))
+    axes.set_ylabel(with_unit(name.replace("_", " "), line[name]))
     axes.set_ylim(0, None)
     if legend:
         axes.legend(loc="upper left", bbox_to_anchor=(1.01, 1), fontsize="small")
@@ -57,23 +58,24 @@ def mark_tangency(axes: Axes, tangency: xarray.Dataset, *, named: bool) -> Axes:
 
 def draw(result: Result, arguments: argparse.Namespace) -> Figure:
     """The page: the panels over each other, with one legend."""
-    line = result.group("line")
+    line = groups_of(result, arguments)("line")
     names = arguments.measure or measures_of(line)
     figure = new_figure(7.2, 1.2 + 2.2 * len(names))
     panels = np.atleast_1d(figure.subplots(len(names), 1, sharex=True))
-    tangency = result.group("tangency") if "tangency" in result.groups else None
+    tangency = group_beside(result, "tangency", line) if "tangency" in result.groups else None
     for axes, name in zip(panels, names, strict=True):
         draw_measure(axes, line, name, legend=axes is panels[0])
         if tangency is not None and tangency.attrs["parameter"] == line.attrs["parameter"]:
             mark_tangency(axes, tangency, named=axes is panels[0])
     panels[-1].set_xlabel(parameter_text(line))
-    entitle(figure, result, f"{line.sizes['value']} values")
+    entitle(figure, result, f"{line.sizes['value']} values", fixed_si(result, line) if result.pivot_frequency else "")
     return figure
 
 
 def parse_arguments(words: list[str]) -> argparse.Namespace:
     parser = argument_parser("line", __doc__, "measures along a line")
     parser.add_argument("--measure", nargs="+", metavar="NAME", help="the measures to draw; left out: all")
+    add_si(parser, "measures with times in s and velocities in rad/s")
     return parsed(parser, words)
 
 

@@ -21,6 +21,7 @@ from kapitza.plots.common import argument_parser, entitle, new_figure, parsed, w
 from kapitza.plots.orbit_panels import STROBE, draw_phase, draw_spectrum
 from kapitza.plots.orbit_record import Orbit
 from kapitza.plots.orbit_time import draw_time
+from kapitza.plots.units import add_si
 from kapitza.result import BadFile, Result
 from kapitza.session import orbit
 
@@ -31,6 +32,7 @@ SAME = 1e-6  # rad: strobe points of one attractor in two groups differ less
 def parse_arguments(words: list[str]) -> argparse.Namespace:
     parser = argument_parser("passport", __doc__, "attractors or measures")
     parser.add_argument("--attractor", metavar="ID|NAME", default="0", help="default: the first one")
+    add_si(parser, "times in s, velocities in rad/s, frequencies in Hz")
     return parsed(parser, words)
 
 
@@ -54,12 +56,12 @@ def start_of(result: Result, group: str, number: int) -> tuple[float, float]:
     return theta, velocity
 
 
-def orbit_of(result: Result, group: str, number: int) -> Orbit:
+def orbit_of(result: Result, group: str, number: int, si: bool) -> Orbit:
     """The closed orbit from the first strobe point, as the program computes it; a record of a chaotic motion."""
     theta, velocity = start_of(result, group, number)
     if int(result.group(group)["period"].values[number]) > 0:
-        return Orbit(orbit(result.scene, theta, velocity, closed=True, progress=False))
-    return Orbit(orbit(result.scene, theta, velocity, periods=CHAOTIC_PERIODS, transient=CHAOTIC_TRANSIENT, progress=False))
+        return Orbit(orbit(result.scene, theta, velocity, closed=True, progress=False), si=si)
+    return Orbit(orbit(result.scene, theta, velocity, periods=CHAOTIC_PERIODS, transient=CHAOTIC_TRANSIENT, progress=False), si=si)
 
 
 def measures_row(result: Result, group: str, number: int) -> int | None:
@@ -112,16 +114,16 @@ def draw_table(axes: Axes, rows: list[tuple[str, str]], *, colours: str = style.
     return axes
 
 
-def panels_of(result: Result, group: str, number: int) -> tuple[list[str], dict[str, Any]]:
+def panels_of(result: Result, group: str, number: int, si: bool) -> tuple[list[str], dict[str, Any]]:
     """Names of the panels besides phase, time and spectrum, and what they show."""
     shown: dict[str, Any] = {}
     multipliers, row = multipliers_of(result, group, number), measures_row(result, group, number)
     if multipliers.size:
         shown["multipliers"] = multipliers
     if "basin" in result.groups and group == "attractors":
-        shown["basin"] = result.group("basin")
+        shown["basin"] = result.group("basin", si=si)
     if row is not None:
-        shown["table"] = rows_of(result.group("measures"), row)
+        shown["table"] = rows_of(result.group("measures", si=si), row)
     return list(shown), shown
 
 
@@ -155,10 +157,10 @@ def fill(axes: dict[str, Axes], motion: Orbit, shown: dict[str, Any], attractors
 def draw(result: Result, arguments: argparse.Namespace) -> Figure:
     """The page of one attractor."""
     group, number = chosen_row(result, arguments.attractor)
-    motion = orbit_of(result, group, number)
-    more, shown = panels_of(result, group, number)
+    motion = orbit_of(result, group, number, arguments.si)
+    more, shown = panels_of(result, group, number, arguments.si)
     figure, axes = new_page(more)
-    table = result.group(group)
+    table = result.group(group, si=arguments.si)
     fill(axes, motion, shown, table, number)
     period = int(table["period"].values[number])
     name = style.name_text(style.names_with_ids(table["name"].values)[number])

@@ -19,7 +19,9 @@ from kapitza import style
 from kapitza.plots.atlas import PERIODS, curve_points, mark_curves
 from kapitza.plots.common import entitle, new_figure
 from kapitza.plots.plane_axes import label_keys
+from kapitza.plots.units import fixed_si, group_beside
 from kapitza.result import BadFile, Result
+from kapitza.units import unit_text, with_unit
 
 OVER = {("attractor", "y", "x"), ("y", "x")}  # dimensions of measures: of each attractor, of the pendulum
 ADD = {"share", "weighted_share", "share_within", "integrity_global"}  # those of one name are added
@@ -84,7 +86,7 @@ def atlas_of(result: Result, plane: xarray.Dataset, path: Path | None) -> xarray
     if path is None and "atlas" not in result.groups:
         return None
     other = result if path is None else Result(path)
-    atlas = other.group("atlas")
+    atlas = group_beside(other, "atlas", plane)
     keys, wanted = ([data.attrs[f"{which}_parameter"] for which in "xy"] for data in (atlas, plane))
     if keys != wanted:
         raise BadFile(f"{other.path}: its atlas is over {' and '.join(keys)}, the plane over {' and '.join(wanted)}")
@@ -114,8 +116,7 @@ def draw_curves(axes: Axes, atlas: xarray.Dataset, name: str | None = None, *, c
 
 def bar_text(values: xarray.DataArray) -> str:
     """The long name of a measure, with its unit."""
-    units = str(values.attrs.get("units", "1"))
-    return str(values.attrs.get("long_name", values.name)) + ("" if units == "1" else f" ({units})")
+    return with_unit(str(values.attrs.get("long_name", values.name)).removesuffix(f", in {unit_text(values)}"), values)
 
 
 def grid_of(count: int) -> tuple[Figure, list[Axes]]:
@@ -151,14 +152,15 @@ def measure_page(result: Result, plane: xarray.Dataset, arguments: argparse.Name
         place = panels.index(axes)
         label_keys(axes, plane, x=place >= len(panels) - COLUMNS, y=place % COLUMNS == 0)
     figure.colorbar(panels[0].collections[0], ax=panels, label=bar_text(plane[measure]), fraction=0.05, pad=0.01)
-    entitle(figure, result, *footer(plane, measure, chosen, images, single), "lines: curves of the atlas" if atlas is not None else "")
+    curves = "lines: curves of the atlas" if atlas is not None else ""
+    entitle(figure, result, *footer(result, plane, measure, chosen, images, single), curves)
     return figure
 
 
-def footer(plane: xarray.Dataset, measure: str, chosen: dict[str, list[int]], images: list[tuple[np.ndarray, bool]],
+def footer(result: Result, plane: xarray.Dataset, measure: str, chosen: dict[str, list[int]], images: list[tuple[np.ndarray, bool]],
            single: bool) -> list[str]:
     """What is drawn: how many points, what hatching means, which names are left out, what attractors of one name make."""
-    words = [f"{plane.sizes['x']} × {plane.sizes['y']} points"]
+    words = [f"{plane.sizes['x']} × {plane.sizes['y']} points", fixed_si(result, plane) if result.pivot_frequency else ""]
     if any(np.isnan(values).any() for values, _ in images):
         words.append("hatched: no value" if single else "hatched: no value, or the attractor is not seen")
     if not single:

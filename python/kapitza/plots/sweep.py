@@ -24,9 +24,9 @@ from kapitza.plots.branches import attracting_branches, branch_colours, draw_liv
 from kapitza.plots.common import argument_parser, entitle, new_figure, parsed, write_picture
 from kapitza.plots.flutter import draw_amplitude, draw_square, draw_zone
 from kapitza.plots.page import current
-from kapitza.plots.units import groups_of
+from kapitza.plots.units import fixed_si, groups_of
 from kapitza.result import BadFile, Result
-from kapitza.units import drive_unit, in_degrees, si_parameters, written_units
+from kapitza.units import drive_unit, in_degrees
 
 UP, DOWN = "#2f6db3", "#c2452f"
 STAYS = "#f2d08a"
@@ -200,7 +200,7 @@ def fixed_text(result: Result, sweep: xarray.Dataset) -> str:
     """The parameters that were not swept: in SI if the scene is, else where the papers' symbols are defined."""
     swept = sweep.attrs["parameter"]
     if result.pivot_frequency:
-        return ",  ".join(text for name, text in si_parameters(result.pendulum).items() if name != swept.removeprefix("pivot_"))
+        return fixed_si(result, sweep)
     names = {"quality_factor": "Q", "drive_frequency": r"$\Omega$", "drive_amplitude": r"$\epsilon$"}
     if not result.pendulum.get("drive_amplitude", np.nan):  # a pivot at rest, under a torque
         names = {"beta": r"$\beta$"}
@@ -213,7 +213,7 @@ def fixed_text(result: Result, sweep: xarray.Dataset) -> str:
 
 def draw(result: Result, arguments: argparse.Namespace) -> Figure:
     """The page of the view that was asked for, or of the first that the file has."""
-    sweep = written_units(groups_of(result, arguments)("sweep"), str(result.attributes.get("scene", "")))
+    sweep = groups_of(result, arguments)("sweep")
     figure = chosen_view(result, sweep, arguments.view)(sweep)
     entitle(figure, result, f"{sweep.sizes['value']} values", fixed_text(result, sweep))
     return figure

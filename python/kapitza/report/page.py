@@ -13,6 +13,8 @@ from kapitza import style
 from kapitza.measures import measures_of, value_text
 from kapitza.report.pictures import pictures
 from kapitza.result import Result
+from kapitza.show import pendulum_text
+from kapitza.units import with_unit
 
 STYLE = """
 body { max-width: 1080px; margin: 24px auto; padding: 0 20px; font: 15px/1.5 "DejaVu Sans", Arial, sans-serif; color: #1c2127; }
@@ -24,13 +26,13 @@ td.number { text-align: right; font-variant-numeric: tabular-nums; white-space: 
 .patch { display: inline-block; width: 13px; height: 13px; border: 1px solid #1c2127; margin-right: 8px; vertical-align: -2px; }
 pre { background: #f4f6f8; padding: 10px; overflow-x: auto; font-size: 13px; } td { overflow-wrap: anywhere; }
 """
-# Columns of the table of attractors: heading, variable or None, how a value is written.
+# Columns of the table of attractors: heading without its unit, variable or None, how a value is written.
 COLUMNS: list[tuple[str, str | None, Callable[[Any], str]]] = [
     ("period", "period", lambda value: str(int(value)) if value > 0 else "-"),
     ("winding", "winding", lambda value: f"{int(value):+d}" if value else "0"),
-    ("amplitude / deg", "amplitude", lambda value: f"{np.degrees(value):.3f}"),
+    ("amplitude", "amplitude", lambda value: f"{value:.3f}"),
     ("|multiplier|", None, lambda value: f"{value:.6f}"),
-    ("Lyapunov exponent per period", "lyapunov", lambda value: f"{value:.5f}"),
+    ("Lyapunov exponent", "lyapunov", lambda value: f"{value:.5f}"),
     ("± standard error", "lyapunov_error", lambda value: f"{value:.1g}" if value > 0 else "-"),
     ("share of the starts", "fraction", style.share_text),
 ]
@@ -40,7 +42,8 @@ PROVENANCE = ["program", "version", "git_revision", "created", "command", "ranks
 def report(result: Result) -> str:
     """The whole page; the same result gives the same bytes."""
     title = result.title
-    parts = [_pictures(result), _attractors(result), _measures(result), _numbers(result), _scene(result), _provenance(result)]
+    parts = [f"<p>{_text(pendulum_text(result))}</p>", _pictures(result), _attractors(result), _measures(result),
+             _numbers(result), _scene(result), _provenance(result)]
     return (f'<!DOCTYPE html>\n<html lang="en">\n<head><meta charset="utf-8"><title>{_text(title)}</title>'
             f"<style>{STYLE}</style></head>\n<body>\n<h1>{_text(title)}</h1>\n" + "\n".join(filter(None, parts)) + "\n</body>\n</html>\n")
 
@@ -65,11 +68,13 @@ def _pictures(result: Result) -> str:
 def _attractors(result: Result) -> str:
     if "attractors" not in result.groups:
         return ""
-    table = result.group("attractors")
+    table = result.group("attractors", si=result.pivot_frequency is not None, degrees=True)
     known = [column for column in COLUMNS if column[1] in table or (column[1] is None and "multiplier_re" in table)]
+    heads = [with_unit(head, table[variable]) if variable else head for head, variable, _ in known]
     if result.pivot_frequency:
         second = 2 * np.pi / result.pivot_frequency
-        known.insert(1, ("period / s", "period", lambda value: f"{value * second:.4g}" if value > 0 else "-"))
+        known.insert(1, ("", "period", lambda value: f"{value * second:.4g}" if value > 0 else "-"))
+        heads.insert(1, "period (s)")
     rows = []
     for index, (name, colour) in enumerate(zip(table["name"].values, style.colours(table), strict=True)):
         cells = [f'<span class="patch" style="background:{colour}"></span>{index} {_text(style.name_text(name))}']
@@ -78,14 +83,14 @@ def _attractors(result: Result) -> str:
                                                                             table["multiplier_im"].values[index, 0])
             cells.append(_text(words(value)) if np.isfinite(value) else "-")
         rows.append(cells)
-    return "<h2>Attractors</h2>\n" + (_table(["id, name", *(head for head, _, _ in known)], rows) if rows else "<p>None.</p>")
+    return "<h2>Attractors</h2>\n" + (_table(["id, name", *heads], rows) if rows else "<p>None.</p>")
 
 
 def _measures(result: Result) -> str:
     """A row for each measure, a column for each attractor; those of the pendulum are among the numbers."""
     if "measures" not in result.groups:
         return ""
-    table = result.group("measures")
+    table = result.group("measures", si=result.pivot_frequency is not None)
     heads = ["", *(f"{index} {style.name_text(name)}" for index, name in enumerate(table["name"].values))]
     rows = [[_text(name.replace("_", " ")), *(_text(value_text(table, name, row)) for row in range(table.sizes["attractor"]))]
             for name in measures_of(table)]

@@ -10,7 +10,8 @@ from kapitza.plots import basin, chart, line, orbit, potential, stability, sweep
 from kapitza.result import Result
 
 # Group of a result -> the pictures of it: caption, what draws it, options. Those with UNITS are in them if the scene is in SI.
-UNITS = {"basin": ["--si", "--degrees"], "orbit": ["--si", "--degrees"], "sweep": ["--degrees"], "potential": ["--degrees"]}
+UNITS = {"basin": ["--si", "--degrees"], "orbit": ["--si", "--degrees"], "sweep": ["--degrees"], "potential": ["--degrees"],
+         "line": ["--si"], "plane": ["--si"]}
 PICTURES: dict[str, list[tuple[str, Callable[[list[str]], None], list[str]]]] = {
     "basin": [("Every start in the colour of the motion in which it ends; dots are strobe points.", basin.main, []),
               ("After how long it is certain where every start ends.", basin.main, ["--quantity", "settling_time"])],

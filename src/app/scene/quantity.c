@@ -92,20 +92,39 @@ const char *kz_scalar_decimal(const kz_node *node, bool is_angle, kz_decimal *va
   return NULL;
 }
 
-const char *kz_scalar_quantity(const kz_node *node, const char *unit, double *value) {
-  double factor;
-  if (node->kind != KZ_SCALAR) return kz_scalar_real(node, value);
-  size_t length = strspn(node->text, "+-.0123456789");
-  const char *rest = node->text + length; /* an exponent belongs to the number */
+/* What stands behind a number. */
+static const char *behind_number(const char *text) {
+  const char *rest = text + strspn(text, "+-.0123456789"); /* an exponent belongs to the number */
   if ((*rest == 'e' || *rest == 'E') &&
       (isdigit((unsigned char)rest[1]) || ((rest[1] == '-' || rest[1] == '+') && isdigit((unsigned char)rest[2]))))
     rest += 1 + strspn(rest + 1, "+-0123456789");
-  length = (size_t)(rest - node->text);
+  return rest;
+}
+
+const char *kz_scalar_quantity(const kz_node *node, const char *of, double *value) {
+  kz_written_unit unit;
+  if (node->kind != KZ_SCALAR) return kz_scalar_real(node, value);
+  const char *rest = behind_number(node->text);
+  const size_t length = (size_t)(rest - node->text);
   if (*rest == '\0' || length == 0) return kz_scalar_real(node, value);
-  const char *wrong = kz_unit_factor(rest, unit, &factor);
+  const char *wrong = kz_unit_find(rest, of, &unit);
   if (!wrong) wrong = read_number(node, length, value);
-  if (!wrong && factor != 1) *value *= factor;
+  if (!wrong && unit.factor != 1) *value *= unit.factor;
   return wrong;
+}
+
+kz_written_unit kz_scalar_unit(const kz_node *node, const char *of) {
+  kz_written_unit unit = {.name = ""};
+  if (node->kind != KZ_SCALAR) return unit;
+  const char *rest = behind_number(node->text);
+  rest += strspn(rest, " ");
+  if (strcmp(of, "rad") != 0) {
+    if (*rest) kz_unit_find(rest, of, &unit);
+  } else if (strcmp(rest, "deg") == 0 || strcmp(rest, "\xc2\xb0") == 0) {
+    unit.factor = M_PI / 180;
+    snprintf(unit.name, sizeof unit.name, "%s", rest);
+  }
+  return unit;
 }
 
 bool kz_scalar_per_second(const kz_node *node, double pivot_frequency, double *value, const char **wrong) {

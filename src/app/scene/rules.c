@@ -186,8 +186,8 @@ static void stiffness_rules(kz_reading *reading, kz_scene *scene) {
   if (follows && !reading->message[0]) check_stiffness(reading, &scene->parameters.pendulum, "pendulum");
 }
 
-/* Converts a value that was written with a unit to the unit of the parameter. */
-static void read_in_unit(kz_reading *reading, int32_t parameter, const char *path, double *value) {
+/* Converts a value that was written with a unit to the unit of the parameter; *written = that unit, unless it has one. */
+static void read_in_unit(kz_reading *reading, int32_t parameter, const char *path, double *value, kz_written_unit *written) {
   const char *unit = kz_sweep_parameters[parameter].unit;
   const kz_node *node = kz_tree_find(reading->root, path);
   const char *wrong = !node || isnan(*value)     ? NULL
@@ -196,6 +196,8 @@ static void read_in_unit(kz_reading *reading, int32_t parameter, const char *pat
   if (wrong)
     kz_complain(reading, path, "\"%.60s\" %s; it must be a number%s%s, as pendulum.%s is", node->text, wrong,
                 unit[0] == '1' ? "" : " in ", unit[0] == '1' ? "" : unit, kz_sweep_parameters[parameter].name);
+  else if (node && !written->name[0])
+    *written = kz_scalar_unit(node, unit);
 }
 
 /* One value of a key of the pendulum mapping: in the range of the key itself, and a pendulum. */
@@ -222,8 +224,8 @@ static void parameter_values(kz_reading *reading, const kz_scene *scene, int32_t
   if (parameter == KZ_UNSET_WORD) return;
   const char *name = kz_sweep_parameters[parameter].name;
   const kz_short_text min = kz_key_in(path, "min"), max = kz_key_in(path, "max");
-  read_in_unit(reading, parameter, min.text, &values->min);
-  read_in_unit(reading, parameter, max.text, &values->max);
+  read_in_unit(reading, parameter, min.text, &values->min, &values->written);
+  read_in_unit(reading, parameter, max.text, &values->max, &values->written);
   kz_axis_rules(reading, values, path);
   if (!kz_tree_find(reading->root, kz_key_in("pendulum", name).text))
     kz_complain(reading, kz_key_in(path, "parameter").text,

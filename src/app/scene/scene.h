@@ -99,10 +99,12 @@ const char *kz_scalar_boolean(const kz_node *node, bool *value);
 const char *kz_scalar_text_within(const kz_node *node, size_t most, const char *too_long);
 const char *kz_scalar_text(const kz_node *node);
 
-/* The table of units (units.c). kz_unit_is_known: true if other units can be converted to `of`. kz_unit_factor: *factor = size of the unit
- * `text` in units of `of` ("" = any); returns what is wrong, or NULL. kz_unit_names: writes the other units of `of` to `text` [bytes]. */
+/* The unit behind a number, or one without a name: of a key in `of`, of an angle ("rad") too. The value has been read before. */
+kz_written_unit kz_scalar_unit(const kz_node *node, const char *of);
+/* The table of units (units.c). kz_unit_is_known: true if other units can be converted to `of`. kz_unit_find: *found = the unit `text`, in units
+ * of `of` ("" = any); returns what is wrong, or NULL. kz_unit_names: writes the other units of `of` to `text` [bytes]. */
 bool kz_unit_is_known(const char *of);
-const char *kz_unit_factor(const char *text, const char *of, double *factor);
+const char *kz_unit_find(const char *text, const char *of, kz_written_unit *found);
 void kz_unit_names(const char *of, char *text, size_t bytes);
 
 /* Number of bytes of the control character at `c` (UTF-8: C0, DEL or C1, which terminals interpret); 0 if it is not one. */

@@ -64,15 +64,17 @@ bool kz_unit_is_known(const char *of) {
   return false;
 }
 
-const char *kz_unit_factor(const char *text, const char *of, double *factor) {
+const char *kz_unit_find(const char *text, const char *of, kz_written_unit *found) {
   char name[32];
   normalize(text, name, sizeof name);
   const char *other = NULL;
   for (int i = 0; i < UNITS; i++) {
     if (strcmp(units[i].name, name) != 0) continue;
-    *factor = units[i].factor;
-    if (!of[0] || strcmp(units[i].of, of) == 0) return NULL;
     other = units[i].of;
+    if (of[0] && strcmp(other, of) != 0) continue;
+    *found = (kz_written_unit){.factor = units[i].factor};
+    snprintf(found->name, sizeof found->name, "%s", name);
+    return NULL;
   }
   return other ? "is in a unit of another quantity" : "is not a finite decimal number";
 }

@@ -67,12 +67,14 @@ static kz_status survey(kz_atlas *atlas) {
     double value[2];
     kz_numerics fine;
     if (!kz_atlas_pendulum(scene, place, &pendulum)) {
+      char text[2][96];
       kz_atlas_values(scene->atlas, place, value);
-      return kz_fail(KZ_REFUSED,
-                     "atlas.x.min|atlas.y.min: there is no damped pendulum at %s = %.10g, %s = %.10g; an atlas needs damping "
-                     "above 0 in the whole rectangle",
-                     kz_sweep_parameters[axis[0]->parameter].name, value[0], kz_sweep_parameters[axis[1]->parameter].name,
-                     value[1]);
+      for (int j = 0; j < 2; j++) kz_axis_say(&axis[j]->values, axis[j]->parameter, 10, value[j], text[j], sizeof text[j]);
+      return kz_fail(
+          KZ_REFUSED,
+          "atlas.x.min|atlas.y.min: there is no damped pendulum at %s, %s; an atlas needs damping above 0 in the whole "
+          "rectangle",
+          text[0], text[1]);
     }
     if (!kz_is_mirrored(&pendulum)) atlas->plane.mirrored = 0;
     if (place[1] == 0) {

@@ -41,8 +41,9 @@ static kz_status publish(const kz_scene *scene, const kz_dynamics *dynamics, con
   const kz_status status = kz_catalogue_write(&catalogue, &scene->parameters.pendulum, false, store);
   if (status == KZ_OK) {
     kz_catalogue_print(&catalogue, false, summary);
-    fprintf(summary, "%lld of %lld starts did not settle within %lld drive periods.\n", (long long)reached[0],
-            (long long)starts, (long long)search_of(scene).max_periods);
+    fprintf(summary, "%lld of %lld starts did not settle within ", (long long)reached[0], (long long)starts);
+    kz_periods_print(search_of(scene).max_periods, scene->parameters.pivot_frequency, summary);
+    fputs(".\n", summary);
   }
   kz_catalogue_free(&catalogue);
   return status;

@@ -129,11 +129,13 @@ kz_status kz_basin_declare(const kz_scene *scene, const kz_tiles *tiles, kz_stor
 }
 
 static void print_settled(const kz_scene *scene, const kz_window_summary *labels, bool attracts, FILE *summary) {
-  const long long unsettled = labels->counts.unsettled, cells = labels->cells, periods = scene->basin->max_periods;
+  const long long unsettled = labels->counts.unsettled, cells = labels->cells;
   if (unsettled == 0)
-    fprintf(summary, "All %lld cells settled within %lld drive periods.\n", cells, periods);
+    fprintf(summary, "All %lld cells settled within ", cells);
   else
-    fprintf(summary, "%lld of %lld cells did not settle within %lld drive periods.\n", unsettled, cells, periods);
+    fprintf(summary, "%lld of %lld cells did not settle within ", unsettled, cells);
+  kz_periods_print(scene->basin->max_periods, scene->parameters.pivot_frequency, summary);
+  fputs(".\n", summary);
   if (labels->counts.nowhere > 0)
     fprintf(summary, "%lld of them settle nowhere (evidence 12): their motions are quasi-periodic.\n",
             (long long)labels->counts.nowhere);

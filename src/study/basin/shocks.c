@@ -57,6 +57,8 @@ static void print_attractor(const kz_catalogue *catalogue, int64_t number, int64
 /* `omega`: of the pivot, rad/s, in which the summary is then; NaN where the scene is not in SI units. */
 static kz_status write_shocks(const kz_resilience_plan *plan, const kz_catalogue *catalogue, int64_t n,
                               const kz_resilience *point, double omega, kz_store *store, FILE *summary) {
+  const char *unit = "rad per drive radian";
+  const double speed = kz_si_factor(omega, &unit);
   KZ_TRY(kz_store_dimension(store, "shocks", "point", n, NULL));
   KZ_TRY(kz_store_dimension(store, "shocks", "size", plan->sizes.count, plan->sizes.values));
   KZ_TRY(kz_store_real(store, "shocks", "scale", plan->scale));
@@ -65,10 +67,9 @@ static kz_status write_shocks(const kz_resilience_plan *plan, const kz_catalogue
   fprintf(summary,
           "smallest shocks that leave the basin, and the id where they lead:\n"
           "  id      angle, rad       velocity, %-14s  both (scale %g%s)\n",
-          isnan(omega) ? "rad/drive rad" : "rad/s", isnan(omega) ? plan->scale : plan->scale * omega,
-          isnan(omega) ? "" : " rad/s");
+          isnan(omega) ? "rad/drive rad" : unit, plan->scale * speed, isnan(omega) ? "" : " rad/s");
   for (int64_t i = 0; i < n; i++)
-    if (point[i].phase == 0) print_attractor(catalogue, point[i].number, n, point, isnan(omega) ? 1 : omega, summary);
+    if (point[i].phase == 0) print_attractor(catalogue, point[i].number, n, point, speed, summary);
   return KZ_OK;
 }
 

@@ -3,6 +3,7 @@
 
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "labelling/labeller.h"
 #include "numerics/cells.h"
@@ -46,15 +47,24 @@ static kz_status write_attractors(const kz_measured *m, kz_store *store) {
   return KZ_OK;
 }
 
+/* The line of a measure in the summary, in SI if the scene is; `omega`: of the pivot, rad/s, else NaN. */
+static void print_measure(const kz_measure *measure, int64_t n, const double *value, double omega, FILE *summary) {
+  const char *unit = measure->unit + (strncmp(measure->unit, "1|", 2) == 0 ? 2 : 0), *own = unit;
+  const double factor = kz_si_factor(omega, &unit);
+  fprintf(summary, "  %-22s", measure->word);
+  for (int64_t i = 0; i < n; i++) fprintf(summary, " %12.6g", value[i] * factor);
+  fprintf(summary, "%s%s\n", unit == own ? "" : "  ", unit == own ? "" : unit);
+}
+
 /* The variables of one measure, and its line of the summary. */
-static kz_status write_measure(const kz_measure *measure, const kz_measured *m, kz_store *store, FILE *summary) {
+static kz_status write_measure(const kz_measure *measure, const kz_measured *m, double omega, kz_store *store, FILE *summary) {
   const int64_t n = m->catalogue.count, length = kz_measure_length(measure, m);
   KZ_FREED double *value = kz_malloc((size_t)length * sizeof *value + 1);
   measure->fill(m, value);
-  fprintf(summary, "  %-22s", measure->word);
-  for (int64_t i = 0; i < length && measure->shape != KZ_PER_PAIR && (measure->shape != KZ_PER_INTERVAL || i < n); i++)
-    fprintf(summary, " %12.6g", value[i]);
-  fprintf(summary, measure->shape == KZ_PER_PAIR ? " for each pair, in the file\n" : "\n");
+  if (measure->shape == KZ_PER_PAIR)
+    fprintf(summary, "  %-22s for each pair, in the file\n", measure->word);
+  else
+    print_measure(measure, measure->shape == KZ_PER_INTERVAL ? n : length, value, omega, summary);
   if (measure->shape == KZ_PER_PENDULUM) return kz_store_real(store, GROUP, measure->word, value[0]);
   KZ_TRY(kz_store_variable(store, GROUP, measure->word, value));
   for (int end = 1; end <= 2 && measure->shape == KZ_PER_INTERVAL; end++) {
@@ -65,7 +75,7 @@ static kz_status write_measure(const kz_measure *measure, const kz_measured *m, 
   return KZ_OK;
 }
 
-static kz_status publish(const kz_measured *m, kz_store *store, FILE *summary) {
+static kz_status publish(const kz_measured *m, double omega, kz_store *store, FILE *summary) {
   const kz_integers *names = &m->plan->names;
   KZ_TRY(write_attractors(m, store));
   KZ_TRY(kz_store_integer(store, GROUP, "starts", m->plan->starts));
@@ -74,7 +84,7 @@ static kz_status publish(const kz_measured *m, kz_store *store, FILE *summary) {
   fprintf(summary, "measures of %lld attractors:\n", (long long)m->catalogue.count);
   for (int64_t id = 0; id < m->catalogue.count; id++)
     fprintf(summary, "  %lld: %s\n", (long long)id, m->catalogue.entries[id].name);
-  for (int64_t i = 0; i < names->count; i++) KZ_TRY(write_measure(kz_measures + names->values[i], m, store, summary));
+  for (int64_t i = 0; i < names->count; i++) KZ_TRY(write_measure(kz_measures + names->values[i], m, omega, store, summary));
   return KZ_OK;
 }
 
@@ -83,5 +93,5 @@ kz_status kz_measures_run(const kz_scene *scene, const kz_run *run, kz_store *st
   KZ_FREED_BY(kz_measured_free) kz_measured measured = {0};
   KZ_TRY(kz_measured_make(&scene->parameters.pendulum, &scene->numerics, plan, KZ_BY_LEVELS, kz_measures_need(&plan->names),
                           run, &measured));
-  return kz_ranks_agree(run->ranks, store ? publish(&measured, store, summary) : KZ_OK);
+  return kz_ranks_agree(run->ranks, store ? publish(&measured, scene->parameters.pivot_frequency, store, summary) : KZ_OK);
 }

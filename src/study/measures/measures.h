@@ -41,6 +41,7 @@ typedef struct {
 typedef void (*kz_measure_fn)(const kz_measured *measured, double *value);
 typedef struct {
   const char *word;
+  const char *unit; /* as the variables of the file have it; behind "1|" one of the drive */
   kz_measure_shape shape;
   int32_t needs;
   kz_measure_fn fill;

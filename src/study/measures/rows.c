@@ -4,12 +4,12 @@
 #include "measures.h"
 #include "kapitza/study_keys.h"
 
-#define ROW(word, shape, needs) {#word, shape, needs, kz_measure_##word},
-#define NUMBER(word, needs, unit, name) ROW(word, KZ_PER_ATTRACTOR, needs)
-#define INTERVAL(word, needs, unit, name) ROW(word, KZ_PER_INTERVAL, needs)
-#define SIZES(word, needs, unit, name) ROW(word, KZ_PER_SIZE, needs)
-#define PAIR(word, needs, unit, name) ROW(word, KZ_PER_PAIR, needs)
-#define PENDULUM(word, needs, unit, name) ROW(word, KZ_PER_PENDULUM, needs)
+#define ROW(word, unit, shape, needs) {#word, unit, shape, needs, kz_measure_##word},
+#define NUMBER(word, needs, unit, name) ROW(word, unit, KZ_PER_ATTRACTOR, needs)
+#define INTERVAL(word, needs, unit, name) ROW(word, unit, KZ_PER_INTERVAL, needs)
+#define SIZES(word, needs, unit, name) ROW(word, unit, KZ_PER_SIZE, needs)
+#define PAIR(word, needs, unit, name) ROW(word, unit, KZ_PER_PAIR, needs)
+#define PENDULUM(word, needs, unit, name) ROW(word, unit, KZ_PER_PENDULUM, needs)
 const kz_measure kz_measures[] = {KZ_MEASURES(NUMBER, INTERVAL, SIZES, PAIR, PENDULUM)};
 const int kz_measure_count = sizeof kz_measures / sizeof kz_measures[0];
 

@@ -14,7 +14,7 @@ typedef struct {
   double warn_above, refuse_above; /* rad, of one drive period: warned of above, refused above */
   double cell;                     /* rad; INFINITY where nothing has cells */
   const char *keys;                /* "KEY|KEY" */
-  char where[96];                  /* "at m = 0.3, ", or "" */
+  char where[208];                 /* "at m = 0.3, ", or "" */
 } kz_motions;
 
 /* Motions with the scene's pendulum and numerics from starts up to speed `fastest` (rad per drive radian). */

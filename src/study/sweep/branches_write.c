@@ -158,6 +158,7 @@ static void print_share(const writing *w, int64_t branch, FILE *summary) {
 
 static void print_table(const writing *w, FILE *summary) {
   const kz_sweep_branches *b = w->branches;
+  const kz_axis *values = &w->scene->sweep->values;
   const bool shares = kz_sweep_measures(w->scene->sweep, KZ_SWEEP_BASIN_FRACTIONS);
   if (b->n_branches == 0) {
     fprintf(summary, "no attractor at any value (without damping there are none)\n");
@@ -174,8 +175,9 @@ static void print_table(const writing *w, FILE *summary) {
       continue;
     }
     name_of(b, branch, name);
-    fprintf(summary, "%6lld  %-21s  %-13.9g  %-17s  %-13.9g  %-*s", (long long)branch, name, first->first,
-            END_NAMES[first->first_kind], last->last, shares ? 17 : 0, END_NAMES[last->last_kind]);
+    fprintf(summary, "%6lld  %-21s  %-13.9g  %-17s  %-13.9g  %-*s", (long long)branch, name,
+            kz_axis_written(values, first->first), END_NAMES[first->first_kind], kz_axis_written(values, last->last),
+            shares ? 17 : 0, END_NAMES[last->last_kind]);
     if (shares && !first->between) print_share(w, branch, summary);
     fputc('\n', summary);
   }

@@ -216,15 +216,18 @@ static power_law fit(int64_t n, const double *x, const double *y, double *worksp
 }
 
 static kz_status write_flutter(const flutter_job *f, kz_store *store, FILE *summary) {
-  const size_t n = (size_t)f->scene->sweep->values.count;
+  const kz_axis *values = &f->scene->sweep->values;
+  const size_t n = (size_t)values->count;
   KZ_FREED double *x = kz_malloc(4 * n * sizeof *x);
   const power_law law = fit(gather(f, x, x + n), x, x + n, x + 2 * n);
   if (isnan(f->critical))
     fprintf(summary, "no flutter begins in the range or near it\n");
   else
-    fprintf(summary, "flutter begins at %.12g (multiplier -1)\n", f->critical);
+    fprintf(summary, "flutter begins at %.12g (multiplier -1)\n", kz_axis_written(values, f->critical));
   if (!isnan(law.line.slope)) {
-    fprintf(summary, "amplitude^2 = (%.6g +- %.2g) rad^2 times the distance", law.line.slope, law.line.slope_stderr);
+    const double distance = kz_axis_written(values, 1);
+    fprintf(summary, "amplitude^2 = (%.6g +- %.2g) rad^2 times the distance", law.line.slope / distance,
+            law.line.slope_stderr / distance);
     if (!isnan(law.exponent)) fprintf(summary, "; exponent %.5f +- %.5f", law.exponent, law.exponent_error);
     fputc('\n', summary);
   }

@@ -136,7 +136,7 @@ static kz_status write_ranges(const kz_scene *scene, const void *records, kz_sto
   COLUMN("flutter_release_end", ranges[i].release_end);
   fprintf(summary, "flutter zone over m    value        begins  1 deg release fails  asymmetric from  period doubles at\n");
   for (int64_t i = 0; i < n; i++) {
-    fprintf(summary, "%28.9g", kz_sweep_value(scene->sweep, i));
+    fprintf(summary, "%28.9g", kz_axis_written(&scene->sweep->values, kz_sweep_value(scene->sweep, i)));
     print_cell(summary, 12, 9, ranges[i].cycle.onset);
     print_cell(summary, 19, 6, ranges[i].release_end);
     print_cell(summary, 15, 9, ranges[i].cycle.asymmetry);

@@ -14,12 +14,7 @@ typedef struct {
 
 /* One axis with its scale, its key and that key's unit. */
 static kz_status write_axis(const char *name, const kz_chart_axis *axis, kz_store *store) {
-  const kz_sweep_parameter *parameter = kz_sweep_parameters + axis->parameter;
-  char attribute[32];
-  snprintf(attribute, sizeof attribute, "%s_parameter", name);
-  KZ_TRY(kz_store_text(store, "plane", attribute, parameter->name));
-  snprintf(attribute, sizeof attribute, "%s_units", name);
-  KZ_TRY(kz_store_text(store, "plane", attribute, parameter->unit));
+  KZ_TRY(kz_axis_describe(&axis->values, axis->parameter, name, "plane", store));
   KZ_SCALE(store, "plane", name, axis->values.count, kz_axis_value(&axis->values, i));
   return KZ_OK;
 }
@@ -31,8 +26,7 @@ kz_status kz_points_write_axes(const kz_sweep_plan *plan, kz_store *store) {
 
 static kz_status write_line(const writing *w) {
   const kz_sweep_plan *plan = w->points->scene->sweep;
-  KZ_TRY(kz_store_text(w->store, "line", "parameter", kz_sweep_parameters[plan->parameter].name));
-  KZ_TRY(kz_store_text(w->store, "line", "parameter_units", kz_sweep_parameters[plan->parameter].unit));
+  KZ_TRY(kz_axis_describe(&plan->values, plan->parameter, "", "line", w->store));
   KZ_SCALE(w->store, "line", "value", plan->values.count, kz_sweep_value(plan, i));
   return KZ_OK;
 }

@@ -144,8 +144,8 @@ static kz_status write_release(const kz_scene *scene, const void *all, kz_store 
   KZ_COLUMN(store, "sweep", "release_stays", n * HALF_DEGREES, uint8_t, records[i / HALF_DEGREES].stays[i % HALF_DEGREES]);
   fprintf(summary, "releases from rest, degrees from inverted:\n         value  first gap  of whole degrees  last stays\n");
   for (int64_t i = 0; i < n; i++)
-    fprintf(summary, "%14.9g  %9.4f  %16.4f  %10.4f\n", kz_sweep_value(scene->sweep, i), records[i].first * 180 / M_PI,
-            records[i].scan * 180 / M_PI, records[i].largest * 180 / M_PI);
+    fprintf(summary, "%14.9g  %9.4f  %16.4f  %10.4f\n", kz_axis_written(&scene->sweep->values, kz_sweep_value(scene->sweep, i)),
+            records[i].first * 180 / M_PI, records[i].scan * 180 / M_PI, records[i].largest * 180 / M_PI);
   return KZ_OK;
 }
 

@@ -1,6 +1,4 @@
 /* Study `sweep`: quantities along one key of the pendulum mapping. */
-#include <string.h>
-
 #include "measures/table.h"
 #include "sweep.h"
 #include "basin/plan.h"
@@ -67,13 +65,12 @@ static kz_status write_values(const kz_scene *scene, kz_store *store, FILE *summ
     if (kz_sweep_has_table(plan)) kz_sweep_warn_steps(scene, summary);
     return kz_points_write_axes(plan, store);
   }
-  const kz_sweep_parameter *parameter = kz_sweep_parameters + plan->parameter;
-  KZ_TRY(kz_store_text(store, "sweep", "parameter", parameter->name));
-  KZ_TRY(kz_store_text(store, "sweep", "parameter_units", parameter->unit));
+  KZ_TRY(kz_axis_describe(&plan->values, plan->parameter, "", "sweep", store));
   KZ_SCALE(store, "sweep", "value", plan->values.count, kz_sweep_value(plan, i));
-  const bool bare = strcmp(parameter->unit, "1") == 0;
-  fprintf(summary, "sweep of %s%s%s, %lld values from %.10g to %.10g\n", parameter->name, bare ? "" : " in ",
-          bare ? "" : parameter->unit, (long long)plan->values.count, plan->values.min, plan->values.max);
+  const char *unit = kz_axis_unit(&plan->values, plan->parameter);
+  fprintf(summary, "sweep of %s%s%s, %lld values from %.10g to %.10g\n", kz_sweep_parameters[plan->parameter].name,
+          unit[0] ? " in " : "", unit, (long long)plan->values.count, kz_axis_written(&plan->values, plan->values.min),
+          kz_axis_written(&plan->values, plan->values.max));
   kz_sweep_warn_steps(scene, summary);
   return KZ_OK;
 }

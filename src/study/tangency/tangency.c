@@ -72,9 +72,10 @@ static kz_status write_orbit(const kz_arm arm[2], const kz_touch *touch, kz_stor
 }
 
 static kz_status write(work *w, const record *r, kz_store *store, FILE *summary) {
-  const char *const name = kz_sweep_parameters[w->search.scene->tangency->parameter].name;
+  const kz_tangency_plan *plan = w->search.scene->tangency;
+  const char *unit = kz_axis_unit(&plan->values, plan->parameter);
   kz_arm arm[2];
-  KZ_TRY(kz_store_text(store, "tangency", "parameter", name));
+  KZ_TRY(kz_axis_describe(&plan->values, plan->parameter, "", "tangency", store));
   KZ_TRY(kz_store_real(store, "tangency", "value", r->found.value));
   KZ_TRY(kz_store_real(store, "tangency", "error", r->found.error));
   KZ_TRY(kz_store_text(store, "tangency", "crossing", r->found.above ? "above" : "below"));
@@ -84,12 +85,13 @@ static kz_status write(work *w, const record *r, kz_store *store, FILE *summary)
   const kz_status status = write_orbit(arm, &r->touch, store);
   kz_arm_free(arm);
   kz_arm_free(arm + 1);
-  fprintf(
-      summary,
-      "tangency: the unstable manifold of cycle %lld touches the stable one of cycle %lld at %s = %.14g (+- %.1g); they cross "
-      "%s it.\n",
-      (long long)w->saddle[0], (long long)w->saddle[1], name, r->found.value, r->found.error,
-      r->found.above ? "above" : "below");
+  fprintf(summary,
+          "tangency: the unstable manifold of cycle %lld touches the stable one of cycle %lld at %s = %.14g (+- %.1g)%s%s; "
+          "they cross "
+          "%s it.\n",
+          (long long)w->saddle[0], (long long)w->saddle[1], kz_sweep_parameters[plan->parameter].name,
+          kz_axis_written(&plan->values, r->found.value), kz_axis_written(&plan->values, r->found.error), unit[0] ? " " : "",
+          unit, r->found.above ? "above" : "below");
   return status;
 }
 
