@@ -11,16 +11,18 @@
 #include "attractors/plan.h"
 
 enum {
-  FIRST_LENGTH = 128,  /* periods of the first round; a round that finds nothing doubles it */
-  TILE = 256,          /* starts per tile */
-  CHUNK = 64,          /* states per search, at most what kz_dynamics_find_cycle takes */
-  PILOT_STARTS = 512,  /* starts that are followed before regions grow */
-  WORTH_CELLS = 40000, /* that are to be labelled: for fewer, regions do not grow */
-  FEWEST_CELLS = 200,  /* of the regions' grid along an axis: in coarser ones hardly anything grows */
-  MOST_CELLS = 500,    /* finer ones trap hardly more */
-  STRETCH = 1024,      /* periods of a tile at least */
-  STRETCHES = 64,      /* of a round, about */
-  TABLE_ROWS = 4,      /* of a map table, per tile */
+  FIRST_LENGTH = 128, /* periods of the first round; a round that finds nothing doubles it */
+  TILE = 256,         /* starts per tile */
+  CHUNK = 64,         /* states per search, at most what kz_dynamics_find_cycle takes */
+  PILOT_STARTS = 512, /* starts that are followed before regions grow */
+  WORTH_CELLS = 4096, /* that are to be labelled, or starts: for fewer, regions do not grow */
+  MANY_CELLS = 40000,
+  FEW_CELLS = 96, /* of the regions' grid along an axis, where few are to be labelled: in coarser ones hardly anything grows */
+  FEWEST_CELLS = 200, /* the same where many are */
+  MOST_CELLS = 500,   /* finer ones trap hardly more */
+  STRETCH = 1024,     /* periods of a tile at least */
+  STRETCHES = 64,     /* of a round, about */
+  TABLE_ROWS = 4,     /* of a map table, per tile */
   COVER_TRIES = 4,
   MOST_SOUGHT = 1024,        /* starts that a round looks for cycles from */
   QUASIPERIODIC_STARTS = 16, /* among which a quasi-periodic motion is looked for */
@@ -199,6 +201,7 @@ kz_status kz_discover(const kz_run *run, kz_dynamics *dynamics, int64_t max_peri
 
 int64_t kz_regions_cells(int64_t cells) {
   if (cells < WORTH_CELLS) return 0;
+  if (cells < MANY_CELLS) return FEW_CELLS;
   return (int64_t)fmin(fmax(FEWEST_CELLS, 0.256 * sqrt((double)cells)), MOST_CELLS);
 }
 
@@ -208,7 +211,8 @@ void kz_regions_grow(kz_dynamics *dynamics, int64_t cells, double max_velocity) 
   const int64_t coarse = kz_regions_cells(cells), fine = (int64_t)fmin(0.7 * sqrt((double)cells), MOST_CELLS);
   if (coarse == 0) return;
   kz_dynamics_fine_regions(dynamics, coarse, max_velocity);
-  if (fine > coarse && kz_dynamics_trapped_share(dynamics) < few) kz_dynamics_fine_regions(dynamics, fine, max_velocity);
+  if (cells >= MANY_CELLS && fine > coarse && kz_dynamics_trapped_share(dynamics) < few)
+    kz_dynamics_fine_regions(dynamics, fine, max_velocity);
 }
 
 static kz_status table_rows(void *context, int64_t first, int64_t n, void *record) {
@@ -236,12 +240,13 @@ double kz_search_speed(kz_dynamics *dynamics, const kz_search *search) {
 
 static kz_status search_from(const kz_run *run, kz_dynamics *dynamics, const kz_search *search, double *state, int32_t *label) {
   const double speed = kz_search_speed(dynamics, search);
-  const bool grows = kz_regions_cells(search->cells) > 0 && search->starts > PILOT_STARTS;
+  const int64_t labelled = search->cells > search->starts ? search->cells : search->starts;
+  const bool grows = kz_regions_cells(labelled) > 0 && search->starts > PILOT_STARTS;
   const int64_t pilots = grows ? PILOT_STARTS : search->starts, rest = search->starts - pilots;
   kz_dynamics_starts(&search->window, search->seed, search->starts, state);
   kz_dynamics_coarse_regions(dynamics, speed);
   KZ_TRY(discover_from(run, dynamics, search->sought, search->max_periods, pilots, state, label));
-  kz_regions_grow(dynamics, search->cells, speed);
+  kz_regions_grow(dynamics, labelled, speed);
   if (search->table_theta > 0) KZ_TRY(kz_map_table_make(run, dynamics, search->table_theta, search->table_velocity, speed));
   if (rest == 0) return KZ_OK;
   return discover_from(run, dynamics, search->sought, search->max_periods, rest, state + 2 * pilots, label + pilots);

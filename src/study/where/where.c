@@ -23,6 +23,7 @@ static kz_status find_attractors(kz_question *q, kz_search *search, int32_t *lab
                                    scene->has_basin ? scene->basin->max_period : scene->attractors->max_period);
   if (scene->has_basin) kz_dynamics_set_release(q->dynamics, &scene->parameters.release);
   search->max_velocity = kz_dynamics_max_velocity(q->dynamics, &motions);
+  search->cells = q->n; /* the window's cells are not labelled */
   return kz_search_window(NULL, q->dynamics, search, label);
 }
 
