@@ -11,7 +11,7 @@ module kz_model_pendulum
 
   integer, parameter :: qp = real128, ld = c_long_double
   !> KZ_HARMONICS of model.h.
-  integer, parameter :: MOST_HARMONICS = 16
+  integer, parameter :: MOST_HARMONICS = 24
   real(qp), parameter :: PI = 3.14159265358979323846264338327950288_qp
 
   type, bind(C) :: pendulum_t

@@ -4,8 +4,8 @@
 
 #include "kapitza/study.h"
 
-/* Highest harmonic of the Fourier series that stands for a wave form with corners. */
-enum { CORNERED = 7 };
+/* Highest harmonics of the Fourier series that stand for a wave form with corners, for samples, and for the swing of a torque if they hold it. */
+enum { CORNERED = 7, SAMPLED = 16, SWUNG = 16 };
 
 static bool has(double value) {
   return !isnan(value) && value != 0;
@@ -53,8 +53,8 @@ static void harmonic_of(const kz_reals *samples, int j, double form[2]) {
 
 /* The highest harmonic of samples that counts. */
 static int highest_of_samples(const kz_reals *samples) {
-  const int most = (int)(samples->count / 2 < KZ_HARMONICS ? samples->count / 2 : KZ_HARMONICS);
-  double size[KZ_HARMONICS + 1] = {0}, largest = 0, form[2];
+  const int most = (int)(samples->count / 2 < SAMPLED ? samples->count / 2 : SAMPLED);
+  double size[SAMPLED + 1] = {0}, largest = 0, form[2];
   int highest = 1;
   for (int j = 1; j <= most; j++) {
     harmonic_of(samples, j, form);
@@ -111,12 +111,17 @@ static double bessel_of(double amplitude, int j) {
   return (j / 2 % 2 == 0 ? 2 : -2) * jn(j, amplitude);
 }
 
+/* How many harmonics stand for gravity under a swing: SWUNG, or all if these leave more than BESSEL_LEFT. */
+static int harmonics_of_swing(double amplitude) {
+  return fabs(bessel_of(amplitude, SWUNG + 1)) > BESSEL_LEFT ? KZ_HARMONICS : SWUNG;
+}
+
 /* theta = phi + g: phi'' + beta phi' + k cos g sin phi + k sin g cos phi = torque, a drive of the pivot in the plane. */
 static void resolve_swing(const kz_pendulum_keys *written, kz_pendulum *p) {
   double amplitude, phase;
   swing_of(written->torque_amplitude, p->beta, &amplitude, &phase);
   p->harmonics = 1;
-  for (int j = 1; j <= KZ_HARMONICS; j++) {
+  for (int j = 1; j <= harmonics_of_swing(amplitude); j++) {
     const double size = -p->k * bessel_of(amplitude, j);
     double *harmonic = j % 2 == 0 ? p->vertical[j - 1] : p->horizontal[j - 1];
     harmonic[0] = size * cos(j * phase), harmonic[1] = -size * sin(j * phase);
@@ -137,7 +142,7 @@ const char *kz_drive_contradiction(const kz_pendulum_keys *written, const kz_pen
     return "torque_amplitude is for a pivot at rest; set the drive's amplitude to 0 and leave out the other keys of its form";
   swing_of(written->torque_amplitude, p->beta, &amplitude, &phase);
   if (fabs(bessel_of(amplitude, KZ_HARMONICS + 1)) > BESSEL_LEFT)
-    return "torque_amplitude swings the pendulum so far that 16 harmonics do not hold its gravity; at most about 4";
+    return "torque_amplitude swings the pendulum so far that 24 harmonics do not hold its gravity; at most about 8.9";
   return NULL;
 }
 
@@ -149,7 +154,8 @@ void kz_drive_print(const kz_parameters *parameters, FILE *out) {
     fprintf(out,
             "Drive: angles are counted from the swing %.10g cos(t + %.10g); harmonics up to order %d stand for it, and leave "
             "%.2g of k.\n",
-            amplitude, phase, (int)parameters->pendulum.harmonics, fabs(bessel_of(amplitude, KZ_HARMONICS + 1)));
+            amplitude, phase, (int)parameters->pendulum.harmonics,
+            fabs(bessel_of(amplitude, harmonics_of_swing(amplitude) + 1)));
   }
   if (written->waveform != KZ_SAMPLES) return;
   fprintf(out, "Drive: harmonics up to order %d stand for %lld samples; they are off by %.2g of drive_amplitude at most.\n",

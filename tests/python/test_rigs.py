@@ -131,10 +131,10 @@ def test_shapiro_steps_are_as_wide_as_bessel_functions(kapitza, tmp_path, n):
     assert abs((file["sweep/branch_end"][step] - beta * n) / half - 1) < 2e-3
 
 
-@pytest.mark.parametrize("torque", with_extensive([0], [0.13]))
-def test_an_oscillating_torque_is_that_of_the_equation(kapitza, tmp_path, torque):
-    """Cycles in the frame of the swing g obey theta'' + beta theta' + k sin theta = torque + T cos t with theta + g."""
-    k, beta, amplitude = 0.3, 0.5, 1.2
+@pytest.mark.parametrize(("torque", "amplitude"), with_extensive([(0, 1.2), (0, 7.5)], [(0.13, 1.2)]))
+def test_an_oscillating_torque_is_that_of_the_equation(kapitza, tmp_path, torque, amplitude):
+    """Cycles in the frame of the swing g obey theta'' + beta theta' + k sin theta = torque + T cos t with theta + g; wide swings too."""
+    k, beta = 0.3, 0.5
     scene = {"pendulum": {"k": k, "damping": beta, "m": 0, "torque": torque, "torque_amplitude": amplitude},
              "attractors": {"velocity": {"min": -1, "max": 1}, "starts": 64}}
     found = run(kapitza, tmp_path, scene)["attractors"]
@@ -211,13 +211,13 @@ OVER_TILT = {"parameter": "tilt", "min": 0, "max": 0.2, "count": 2}
     ({"ramp": LINEAR}, {"basin": WINDOW, "orbit": {"start": {"theta": 1, "velocity": 0}}}, "pendulum.ramp: study orbit"),
     ({"ramp": {**LINEAR, "from": -1}}, {"basin": WINDOW}, "pendulum.ramp.from"),
     ({"drive_amplitude": 0.3, "torque_amplitude": 1}, {"basin": WINDOW}, "torque_amplitude is for a pivot at rest"),
-    ({"drive_amplitude": 0, "torque_amplitude": 9}, {"basin": WINDOW}, "at most about 4"),
+    ({"drive_amplitude": 0, "torque_amplitude": 9}, {"basin": WINDOW}, "at most about 8.9"),
     ({"waveform": "samples"}, {"basin": WINDOW}, "pendulum.samples"),
     ({"samples": [1, 0, -1, 0]}, {"basin": WINDOW}, "pendulum.waveform: samples"),
     ({"ramp": {**LINEAR, "key": "k"}}, {"basin": WINDOW}, "pendulum.ramp.key"),
     ({}, {"basin": {**WINDOW, "method": "direct", "phases": 4}}, "basin.phases: needs basin.method exact"),
     ({}, {"basin": {**WINDOW, "start_phase": 1, "boundary": {}}}, "basin.start_phase: basin.boundary"),
-    ({"harmonics": [{"order": 17, "amplitude": 1}]}, {"basin": WINDOW}, "pendulum.harmonics"),
+    ({"harmonics": [{"order": 25, "amplitude": 1}]}, {"basin": WINDOW}, "pendulum.harmonics"),
     ({"vertical": [0.1]}, {"basin": WINDOW}, "pendulum.vertical: has 1 values; give a cosine and a sine"),
     ({"horizontal": [0.1, 0], "tilt": 0.1}, {"basin": WINDOW}, "leave out waveform"),
     ({"horizontal": [0.1, 0]}, {"basin": {**WINDOW, "method": "icm"}}, "pendulum.horizontal: basin.method icm"),

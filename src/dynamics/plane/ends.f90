@@ -70,10 +70,10 @@ contains
     integer(c_int64_t), intent(in) :: max_periods(n)
     type(ending_t), intent(out), target :: endings(n)
     type(motion_t), allocatable :: motions(:)
-    type(motions_t) :: lanes
+    type(motions_t), allocatable :: lanes ! too large for the stack
     integer :: i
 
-    allocate (motions(n))
+    allocate (motions(n), lanes)
     do i = 1, int(n)
       motions(i) = motion_t(id=i, longest=max_periods(i), pendulum=pendulum(i), u=start(1), v=start(2))
     end do

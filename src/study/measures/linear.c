@@ -27,19 +27,18 @@ void kz_measure_return_time(const kz_measured *measured, double *value) {
   }
 }
 
-void kz_measure_reactivity(const kz_measured *measured, double *value) {
-  const kz_tangent *tangent = measured->tangent;
-  for (int64_t id = 0; id < measured->catalogue.count; id++) {
-    const int32_t period = measured->catalogue.entries[id].row.period;
-    value[id] = NAN;
-    for (int32_t phase = 0; phase < period; phase++)
-      value[id] = fmax(value[id], growth((tangent++)->matrix, measured->plan->options.shock_scale));
-  }
+/* Growth from the strobe point `phase` of a cycle with these derivatives. */
+typedef double (*growth_fn)(const kz_tangent *tangent, int32_t period, int32_t phase, double scale);
+
+/* In one drive period. */
+static double next_growth(const kz_tangent *tangent, int32_t period, int32_t phase, double scale) {
+  (void)period;
+  return growth(tangent[phase].matrix, scale);
 }
 
-/* The largest growth of a disturbance of the strobe point `phase` at any later strobe. After whole turns of the orbit that leave no
+/* The largest at any later strobe, at least 1. After whole turns of the orbit that leave no
  * disturbance larger than it was, none becomes larger than before. */
-static double amplification(const kz_tangent *tangent, int32_t period, int32_t phase, double scale) {
+static double later_growth(const kz_tangent *tangent, int32_t period, int32_t phase, double scale) {
   enum { MOST = 1000000 };
   double product[4] = {1, 0, 0, 1}, largest = 1;
   for (int step = 0; step < MOST; step++) {
@@ -51,13 +50,22 @@ static double amplification(const kz_tangent *tangent, int32_t period, int32_t p
   return NAN; /* so slowly that it is not known */
 }
 
-void kz_measure_amplification(const kz_measured *measured, double *value) {
+/* The largest over the strobe points; NaN for chaotic attractors. */
+static void largest_growth(const kz_measured *measured, growth_fn of, double *value) {
   const kz_tangent *tangent = measured->tangent;
   for (int64_t id = 0; id < measured->catalogue.count; id++) {
     const int32_t period = measured->catalogue.entries[id].row.period;
     value[id] = NAN;
     for (int32_t phase = 0; phase < period; phase++)
-      value[id] = fmax(value[id], amplification(tangent, period, phase, measured->plan->options.shock_scale));
-    tangent += period > 0 ? period : 0;
+      value[id] = fmax(value[id], of(tangent, period, phase, measured->plan->options.shock_scale));
+    tangent += period;
   }
+}
+
+void kz_measure_reactivity(const kz_measured *measured, double *value) {
+  largest_growth(measured, next_growth, value);
+}
+
+void kz_measure_amplification(const kz_measured *measured, double *value) {
+  largest_growth(measured, later_growth, value);
 }

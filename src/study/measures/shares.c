@@ -30,20 +30,6 @@ void kz_measure_share_within(const kz_measured *measured, double *value) {
   shares(measured, &measured->starts, (uint32_t)measured->plan->options.within, value);
 }
 
-void kz_measure_settling_mean(const kz_measured *measured, double *value) {
-  const kz_ended *ended = &measured->starts;
-  for (int64_t id = 0; id < measured->catalogue.count; id++) {
-    double sum = 0;
-    int64_t hits = 0;
-    for (int64_t i = 0; i < ended->n; i++) {
-      if (ended->id[i] != id) continue;
-      sum += ended->time[i];
-      hits++;
-    }
-    value[id] = hits > 0 ? sum / (double)hits : NAN;
-  }
-}
-
 static int before(const void *a, const void *b) {
   const double x = *(const double *)a, y = *(const double *)b;
   return (x > y) - (x < y);
@@ -81,16 +67,26 @@ static double distance_of(const kz_measured *measured, const double start[2], co
   return least;
 }
 
-void kz_measure_settling_pace(const kz_measured *measured, double *value) {
+/* The mean of the settling times of the starts that end on each attractor, of each divided by its distance where `per_distance`. */
+static void mean_times(const kz_measured *measured, bool per_distance, double *value) {
   const kz_ended *ended = &measured->starts;
   for (int64_t id = 0; id < measured->catalogue.count; id++) {
+    const kz_entry *entry = measured->catalogue.entries + id;
     double sum = 0;
     int64_t hits = 0;
     for (int64_t i = 0; i < ended->n; i++) {
       if (ended->id[i] != id) continue;
-      sum += ended->time[i] / distance_of(measured, ended->start + 2 * i, measured->catalogue.entries + id);
+      sum += ended->time[i] / (per_distance ? distance_of(measured, ended->start + 2 * i, entry) : 1);
       hits++;
     }
     value[id] = hits > 0 ? sum / (double)hits : NAN;
   }
+}
+
+void kz_measure_settling_mean(const kz_measured *measured, double *value) {
+  mean_times(measured, false, value);
+}
+
+void kz_measure_settling_pace(const kz_measured *measured, double *value) {
+  mean_times(measured, true, value);
 }
