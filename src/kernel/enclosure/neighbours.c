@@ -63,7 +63,7 @@ OPERATION vector largest_inverse(kz_sets *x) {
 #define KZ_SUM(sum) vector sum
 #define KZ_DAMP(sum) sum = same(speed->damping.high) * y[n]
 #define KZ_PUSH(sum)
-#define KZ_TERMS for (int64_t i = 0; i <= n; i++)
+#define KZ_TERMS for (int i = 0; i <= (int)n; i++)
 #define KZ_GAIN(sum) sum = fused(gain[i], x[n - i], sum)
 #define KZ_MOVE x[n + 1] = y[n] * speed->step[n].high
 #define KZ_SET(sum) y[n + 1] = sum * -speed->inverse[n].high
@@ -83,6 +83,7 @@ OPERATION void move_matrix(const kz_speed_class *speed, int32_t first, int P, co
     a[0] = x->matrix[0][column];
     b[0] = x->matrix[1][column];
     vector farther = b[0] * speed->step[0].high, faster = same(0);
+#pragma GCC unroll 8 /* all of KZ_ORDER_TANGENT: the coefficients then stay in registers */
     for (int n = 0; n + 1 < P; n++) {
       next_order(speed, stiffness, a, b, n);
       faster += b[n + 1];
