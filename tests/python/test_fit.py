@@ -39,7 +39,7 @@ def test_a_decay_gives_frequency_and_damping(seconds, samples, chance):
     assert all(abs(found.best.values[name] - value) < 2 * found.best.errors[name] for name, value in DECAY.items())
     assert found.quality_factor() == pytest.approx(7 / 0.15, rel=0.02) and found.length == pytest.approx(9.80665 / 49, rel=1e-3)
     scene = found.scene("50 Hz", "8 mm")
-    assert kapitza.check(scene).studies == ["basin"]
+    assert kapitza.check(scene, set={"basin.theta.count": 20, "basin.velocity.count": 20}).studies == ["basin"]
     with pytest.raises(ValueError, match="knows no shaker"):
         found.scene()
 
