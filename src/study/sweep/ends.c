@@ -50,7 +50,7 @@ static int32_t steps_for(int64_t n, const kz_pendulum *pendulum, double start_sp
 
 void kz_ends_points(const kz_scene *scene, int64_t place, int64_t n, const int64_t *point, kz_chart_ending *ending) {
   const kz_sweep_plan *plan = scene->sweep;
-  kz_pendulum pendulum[KZ_ENDS_POINTS];
+  KZ_FREED kz_pendulum *pendulum = kz_malloc((size_t)n * sizeof *pendulum);
   int64_t periods[KZ_ENDS_POINTS];
   double start[2];
   for (int64_t i = 0; i < n; i++) {
