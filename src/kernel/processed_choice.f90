@@ -11,7 +11,7 @@ module kz_kernel_processed_choice
   use kz_model_pendulum, only: pendulum_t, stiffness
   use kz_vector_step_table, only: numerics_t
   use kz_taylor_probes, only: probes_t, make_probes
-  use kz_taylor_taylor, only: drive_t, make_drive, TAYLOR_STEPS
+  use kz_taylor_taylor, only: drive_t, make_drive, ROUGH_STEPS
   implicit none
   private
 
@@ -62,7 +62,7 @@ contains
     trial%pendulum = pendulum
     allocate (trial%series)
     call make_processed_series(pendulum, numerics%series, trial%series)
-    call make_drive(drive, pendulum, TAYLOR_STEPS)
+    call make_drive(drive, pendulum, ROUGH_STEPS, rough=.true.)
     call make_probes(drive, [(fastest*(i - 1)/(N_PROBES - 1), i=1, N_PROBES)], trial%probes)
     numerics%scheme = PROCESSED_ROW
     numerics%fastest = fastest

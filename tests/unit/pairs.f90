@@ -4,6 +4,8 @@ module kz_test_pairs
   use kz_vector_map, only: WIDTH
   use kz_taylor_pairs, only: pairs_t, pair_series_t, pair_lanes_t, make_pairs, advance_pairs
   use kz_model_pendulum, only: pendulum_t
+  use kz_taylor_probes, only: probes_t, make_probes
+  use kz_taylor_taylor, only: drive_t, make_drive, TAYLOR_STEPS, ROUGH_STEPS
   implicit none
   private
 
@@ -63,5 +65,20 @@ contains
       turns(first:last) = turns(first:last) + gained(:lane_count)
     end do
   end subroutine pairs_advance
+
+  !> How far images by rough series lie from those by exact ones at most, half-turns and rad per drive radian, of 64 speeds.
+  real(c_double) function rough_error(pendulum, fastest) bind(C, name='kz_test_rough_error') result(error)
+    type(pendulum_t), intent(in) :: pendulum
+    real(c_double), value :: fastest
+    type(drive_t) :: rough, exact
+    type(probes_t) :: near, true
+    integer :: i
+
+    call make_drive(rough, pendulum, ROUGH_STEPS, rough=.true.)
+    call make_drive(exact, pendulum, TAYLOR_STEPS)
+    call make_probes(rough, [(fastest*i/64, i=1, 64)], near)
+    call make_probes(exact, [(fastest*i/64, i=1, 64)], true)
+    error = real(maxval(abs(near%image - true%image)), c_double)
+  end function rough_error
 
 end module kz_test_pairs

@@ -3,7 +3,7 @@
 module kz_labels_period_error
   use, intrinsic :: iso_c_binding, only: dp => c_double
   use kz_taylor_probes, only: probes_t, make_probes
-  use kz_taylor_taylor, only: drive_t, make_drive, qp, TAYLOR_STEPS
+  use kz_taylor_taylor, only: drive_t, make_drive, qp, ROUGH_STEPS
   use kz_vector_map, only: flow_t, WIDTH, PI
   use kz_model_pendulum, only: pendulum_t, stiffness
   use kz_model_release, only: stretch_t, whole_period
@@ -49,7 +49,7 @@ contains
     probes%fastest = fastest
     if (max(fastest, sqrt(stiffness(pendulum))) > COSTLY) probes%each = EACH_COSTLY
     n = CLASSES*probes%each
-    call make_drive(drive, pendulum, TAYLOR_STEPS, followed)
+    call make_drive(drive, pendulum, ROUGH_STEPS, followed, rough=.true.)
     call make_probes(drive, [(fastest*(i - 0.5_dp)/n, i=1, n)], probes%probes_t)
   end subroutine make_speed_probes
 

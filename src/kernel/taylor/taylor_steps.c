@@ -6,7 +6,7 @@
  *   (n+1) s_(n+1) = sum_i c_i w_(n-i),  (n+1) c_(n+1) = -sum_i s_i w_(n-i),
  * where d, f and g are damping, along and across. The orders up to KZ_TAYLOR_DEEP are sums of three doubles, those up to KZ_TAYLOR_FINE of
  * two (32 digits); those beyond, smaller than 1e-16 of the motion, need 16 digits and are plain doubles. States are sums of three doubles:
- * steps add up without loss. */
+ * steps add up without loss. Images beside which those of doubles are measured need 20 digits, and so fewer orders and shorter steps (ROUGH). */
 #include "triples.h"
 
 /* Number of orbits at once; highest order in sums of three doubles; in pairs of doubles; highest order; powers of time in a damping that changes. */
@@ -32,8 +32,13 @@ typedef struct {
 
 enum { DEEP = KZ_TAYLOR_DEEP, FINE = KZ_TAYLOR_FINE, LAST = KZ_TAYLOR_LAST, GENTLE = 5 };
 
-/* Largest coefficients at FINE and at LAST, relative to the motion's own size, which the orders below GENTLE tell. */
-static const double COARSE = 1e-16, TOLERANCE = 1e-33;
+/* Orders as above, and the largest coefficients at `fine` and at `last`, relative to the motion's own size, which the orders below GENTLE tell. */
+typedef struct {
+  int64_t deep, fine, last;
+  double coarse, tolerance;
+} orders;
+
+static const orders EXACT = {DEEP, FINE, LAST, 1e-16, 1e-33}, ROUGH = {1, 12, 32, 1e-6, 1e-20};
 
 /* The orders of w, s or c: triples up to DEEP, pairs up to FINE, the high parts alone beyond. */
 typedef struct {
@@ -105,14 +110,14 @@ OPERATION void set_deep(coefficients *x, int64_t n, double sign, triple total) {
 #include "motion.inc"
 
 /* The sum of the orders from 1 on, each divided by its number plus 1 where they are `integrated`; smallest terms first. */
-OPERATION triple sum_of(const coefficients *x, bool integrated) {
+OPERATION triple sum_of(const coefficients *x, orders of, bool integrated) {
   pair total = {same(0), same(0)};
-  for (int64_t n = LAST; n > FINE; n--) total.high += x->coarse[n] * (integrated ? inverse(1, n + 1).high : same(1));
-  for (int64_t n = FINE; n > DEEP; n--)
+  for (int64_t n = of.last; n > of.fine; n--) total.high += x->coarse[n] * (integrated ? inverse(1, n + 1).high : same(1));
+  for (int64_t n = of.fine; n > of.deep; n--)
     total = loose_sum(total, integrated ? multiply(x->fine[n], inverse(1, n + 1)) : x->fine[n]);
   total = quick_sum(total.high, total.low);
   triple whole = {{total.high, total.low, same(0)}};
-  for (int64_t n = DEEP; n >= 1; n--)
+  for (int64_t n = of.deep; n >= 1; n--)
     whole = add_triples(whole, integrated ? multiply_triples(x->deep[n], inverse_triple(1, n + 1)) : x->deep[n]);
   return whole;
 }
@@ -134,11 +139,11 @@ OPERATION mask is_small(const series *x, int64_t n, vector bound) {
   return small;
 }
 
-/* Whether the series are complete at LAST, and small enough at FINE for what follows. */
-OPERATION mask is_complete(const series *x) {
+/* Whether the series are complete at the last order, and small enough at `fine` for what follows. */
+OPERATION mask is_complete(const series *x, orders of) {
   vector motion = same(0);
   for (int64_t i = 0; i < GENTLE; i++) motion = larger(motion, larger(modulus(x->w.coarse[i]), modulus(x->s.coarse[i])));
-  return is_small(x, FINE, COARSE * motion) & is_small(x, LAST, TOLERANCE * motion);
+  return is_small(x, of.fine, of.coarse * motion) & is_small(x, of.last, of.tolerance * motion);
 }
 
 OPERATION bool is_any(mask where) {
@@ -168,7 +173,7 @@ OPERATION void begin(coefficients *x, triple start) {
 }
 
 /* The steps of one vector of orbits; where their series were complete. */
-static mask advance(int64_t n, const kz_taylor_force *force, kz_taylor_state *state, int64_t first) {
+OPERATION mask advance(int64_t n, orders of, const kz_taylor_force *force, kz_taylor_state *state, int64_t first) {
   triple theta = load(state->theta, first), w = load(state->w, first), s = load(state->s, first), c = load(state->c, first);
   mask well = same(0) == same(0);
   _Alignas(64) series x; /* a vector that crosses lines of the cache takes twice as long */
@@ -176,14 +181,14 @@ static mask advance(int64_t n, const kz_taylor_force *force, kz_taylor_state *st
     begin(&x.w, w);
     begin(&x.s, s);
     begin(&x.c, c);
-    for (int64_t i = 0; i < DEEP; i++) next_deep(force + step, &x, i);
-    for (int64_t i = DEEP; i < FINE; i++) next_fine(force + step, &x, i);
-    for (int64_t i = FINE; i < LAST; i++) next_coarse(force + step, &x, i);
-    well &= is_complete(&x);
-    theta = add_triples(add_triples(theta, w), sum_of(&x.w, true));
-    w = keep(well, add_triples(w, sum_of(&x.w, false)));
-    s = keep(well, add_triples(s, sum_of(&x.s, false)));
-    c = keep(well, add_triples(c, sum_of(&x.c, false)));
+    for (int64_t i = 0; i < of.deep; i++) next_deep(force + step, &x, i);
+    for (int64_t i = of.deep; i < of.fine; i++) next_fine(force + step, &x, i);
+    for (int64_t i = of.fine; i < of.last; i++) next_coarse(force + step, &x, i);
+    well &= is_complete(&x, of);
+    theta = add_triples(add_triples(theta, w), sum_of(&x.w, of, true));
+    w = keep(well, add_triples(w, sum_of(&x.w, of, false)));
+    s = keep(well, add_triples(s, sum_of(&x.s, of, false)));
+    c = keep(well, add_triples(c, sum_of(&x.c, of, false)));
   }
   save(theta, state->theta, first);
   save(w, state->w, first);
@@ -192,11 +197,12 @@ static mask advance(int64_t n, const kz_taylor_force *force, kz_taylor_state *st
   return well;
 }
 
-/* Does the steps force [n], one after the other. well [KZ_TAYLOR_LANES] becomes 0 for an orbit whose series has not converged at the last
- * order, or is too large at the last order in pairs: it needs shorter steps, and its state is meaningless. Orbits are independent. */
-void kz_taylor_steps(int64_t n, const kz_taylor_force *force, kz_taylor_state *state, int32_t *well) {
+/* Does the steps force [n], one after the other, to 33 digits, or if `rough` to 20. well [KZ_TAYLOR_LANES] becomes 0 for an orbit whose series has
+ * not converged at the last order, or is too large at the last order in pairs: it needs shorter steps, and its state is meaningless. Orbits are
+ * independent. */
+void kz_taylor_steps(int64_t n, int32_t rough, const kz_taylor_force *force, kz_taylor_state *state, int32_t *well) {
   for (int64_t first = 0; first < KZ_TAYLOR_LANES; first += LANES) {
-    const mask complete = advance(n, force, state, first);
+    const mask complete = rough ? advance(n, ROUGH, force, state, first) : advance(n, EXACT, force, state, first);
     for (int64_t i = 0; i < LANES; i++) well[first + i] = well[first + i] && complete[i];
   }
 }
