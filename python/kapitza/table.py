@@ -11,7 +11,7 @@ from kapitza import units
 from kapitza.units import TURN
 
 CENTRES = ("down", "inverted", "rotating", "neither")  # codes of the variable centre
-OPTIONS = {"starts", "cells", "shock_scale"}  # attributes of the group measures that are no measures
+OPTIONS = {"starts", "cells", "shock_scale", "shock_tolerance"}  # attributes of the group measures that are no measures
 PLAIN = ("amplitude", "lyapunov", "lyapunov_error", "fraction")  # columns that a file may lack
 
 

@@ -81,6 +81,13 @@ def test_shocks_are_those_of_the_basin(kapitza, tmp_path):
         assert row["shock_angle"] == pytest.approx(float(abs(points["angle"]).min()), rel=1e-9, nan_ok=True)
         assert row["harmless"] == pytest.approx([float(points["harmless"].mean())], abs=1e-12)
         assert row["integrity_local"] == pytest.approx(row["shock"], abs=2 * math.pi / 256)
+    for name, ranks in (("one", 1), ("three", 3)):
+        (tmp_path / f"{name}.yaml").write_text(json.dumps(
+            {"pendulum": pendulum, "measures": WINDOW | {"names": ["shock"], "shock_tolerance": 0.004}}))
+        kapitza("run", f"{name}.yaml", ranks=ranks, folder=tmp_path)
+    assert datasets(tmp_path / "one.h5") == datasets(tmp_path / "three.h5")
+    alone = Result(tmp_path / "one.h5").measures
+    assert list(alone["name"]) == list(table["name"]) and np.allclose(alone["shock"], table["shock"], rtol=0.004)
 
 
 def test_any_number_of_ranks_and_a_stop(kapitza, tmp_path):

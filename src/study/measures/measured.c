@@ -128,8 +128,11 @@ static void find_tangents(const kz_pendulum *pendulum, const kz_numerics *numeri
 
 static kz_status find_shocks(int32_t needs, int64_t max_periods, const kz_run *run, kz_measured *m) {
   const kz_measure_options *options = &m->plan->options;
-  kz_resilience_plan plan = {
-      .scale = options->shock_scale, .farthest = 2 * kz_axis_fastest(&m->plan->velocity), .max_periods = max_periods};
+  kz_resilience_plan plan = {.scale = options->shock_scale,
+                             .farthest = 2 * kz_axis_fastest(&m->plan->velocity),
+                             .tolerance = options->shock_tolerance,
+                             .smallest = !(needs & (KZ_NEEDS_SHOCKS | KZ_NEEDS_SPREAD)),
+                             .max_periods = max_periods};
   if (needs & KZ_NEEDS_SPREAD) plan.sizes = options->sizes;
   m->point = kz_resilience_list(m->dynamics, &m->catalogue, &m->n_points);
   return kz_resilience_run(run, m->dynamics, &plan, m->n_points, m->point);
@@ -141,7 +144,8 @@ kz_status kz_measured_make(const kz_pendulum *pendulum, const kz_numerics *numer
   *measured = (kz_measured){.plan = plan, .dynamics = kz_dynamics_create(pendulum, numerics, plan->max_period)};
   KZ_TRY(label_all(way, needs, max_periods, run, measured));
   if (needs & KZ_NEEDS_TANGENTS) find_tangents(pendulum, numerics, measured);
-  return needs & (KZ_NEEDS_SHOCKS | KZ_NEEDS_SPREAD) ? find_shocks(needs, max_periods, run, measured) : KZ_OK;
+  return needs & (KZ_NEEDS_SHOCKS | KZ_NEEDS_SPREAD | KZ_NEEDS_SMALLEST) ? find_shocks(needs, max_periods, run, measured)
+                                                                         : KZ_OK;
 }
 
 void kz_measured_free(kz_measured *measured) {

@@ -81,6 +81,7 @@ static kz_status publish(const kz_measured *m, double omega, kz_store *store, FI
   KZ_TRY(kz_store_integer(store, GROUP, "starts", m->plan->starts));
   KZ_TRY(kz_store_integer(store, GROUP, "cells", m->plan->options.cells));
   KZ_TRY(kz_store_real(store, GROUP, "shock_scale", m->plan->options.shock_scale));
+  KZ_TRY(kz_store_real(store, GROUP, "shock_tolerance", m->plan->options.shock_tolerance));
   fprintf(summary, "measures of %lld attractors:\n", (long long)m->catalogue.count);
   for (int64_t id = 0; id < m->catalogue.count; id++)
     fprintf(summary, "  %lld: %s\n", (long long)id, m->catalogue.entries[id].name);

@@ -10,10 +10,11 @@ typedef struct {
   struct {
     double theta, velocity, theta_spread, velocity_spread; /* mean and standard deviation: rad, rad per drive radian */
   } weight;
-  int64_t within;     /* drive periods, for share_within; KZ_UNSET_INTEGER = not given */
-  kz_reals sizes;     /* of shocks, rad, for harmless */
-  int64_t cells;      /* of the picture along each axis */
-  double shock_scale; /* velocity, rad per drive radian, that counts as much as 1 rad */
+  int64_t within;         /* drive periods, for share_within; KZ_UNSET_INTEGER = not given */
+  kz_reals sizes;         /* of shocks, rad, for harmless */
+  int64_t cells;          /* of the picture along each axis */
+  double shock_scale;     /* velocity, rad per drive radian, that counts as much as 1 rad */
+  double shock_tolerance; /* of smallest shocks, relative; 0 = as closely as can be */
 } kz_measure_options;
 
 struct kz_measures_plan {

@@ -11,8 +11,9 @@ enum {
   KZ_NEEDS_WEIGHTED = 2, /* starts from the Gaussian distribution */
   KZ_NEEDS_PICTURE = 4,  /* labels of a grid of cells over the window */
   KZ_NEEDS_TANGENTS = 8, /* the derivatives of the map at the strobe points */
-  KZ_NEEDS_SHOCKS = 16,  /* the smallest shocks at the strobe points */
-  KZ_NEEDS_SPREAD = 32   /* and shocks of the sizes, spread evenly */
+  KZ_NEEDS_SHOCKS = 16,  /* the smallest shocks of each kind at the strobe points */
+  KZ_NEEDS_SPREAD = 32,  /* shocks of the sizes, spread evenly */
+  KZ_NEEDS_SMALLEST = 64 /* the smallest shock of both over all strobe points alone */
 };
 
 /* Shapes: a number for each attractor; with the ends of an interval; for each size of shocks; for each other attractor; one for the
@@ -31,7 +32,7 @@ enum {
   NUMBER(amplification, KZ_NEEDS_TANGENTS, "1", "largest growth of a small disturbance by any later strobe")                 \
   NUMBER(shock_angle, KZ_NEEDS_SHOCKS, "rad", "smallest change of the angle that leaves the basin")                          \
   NUMBER(shock_velocity, KZ_NEEDS_SHOCKS, "1|rad per drive radian", "smallest change of the velocity that leaves the basin") \
-  NUMBER(shock, KZ_NEEDS_SHOCKS, "rad", "size of the smallest change of the state that leaves the basin")                    \
+  NUMBER(shock, KZ_NEEDS_SMALLEST, "rad", "size of the smallest change of the state that leaves the basin")                  \
   SIZES(harmless, KZ_NEEDS_SPREAD, "1", "share of the shocks of at most this size that stay in the basin")                   \
   NUMBER(integrity_local, KZ_NEEDS_PICTURE, "rad", "radius of the largest circle in the basin about a strobe point")         \
   NUMBER(integrity_global, KZ_NEEDS_PICTURE, "1|rad times rad per drive radian", "area of the basin in the window")          \

@@ -9,9 +9,12 @@
 typedef struct {
   kz_dynamics *dynamics;
   const kz_resilience_plan *plan;
-  const kz_resilience *point;
-  const int64_t *own; /* places of the points that are searched */
+  int64_t n;
+  const kz_resilience *point; /* [n] */
+  const int64_t *own;         /* places of the points that are searched */
 } searching;
+
+static const kz_shock NO_SHOCK = {NAN, NAN, NAN, -1};
 
 kz_resilience *kz_resilience_list(const kz_dynamics *dynamics, const kz_catalogue *catalogue, int64_t *n) {
   const int64_t known = kz_dynamics_count(dynamics);
@@ -37,16 +40,21 @@ static void follow(void *context, int64_t n, const double *start, kz_label *end)
   (void)kz_label_first(&labeller, n, NULL, end);
 }
 
+static kz_shock_problem problem_at(searching *s, const kz_resilience *point) {
+  return (kz_shock_problem){.ends = follow,
+                            .context = s,
+                            .from = {point->theta, point->velocity},
+                            .own = (int32_t)point->number,
+                            .scale = s->plan->scale,
+                            .farthest = s->plan->farthest,
+                            .tolerance = s->plan->tolerance};
+}
+
 static kz_status resilience_tile(void *context, int64_t tile, void *record) {
   searching *s = context;
   const kz_resilience *point = s->point + s->own[tile];
   kz_resilience *out = record;
-  const kz_shock_problem problem = {.ends = follow,
-                                    .context = s,
-                                    .from = {point->theta, point->velocity},
-                                    .own = (int32_t)point->number,
-                                    .scale = s->plan->scale,
-                                    .farthest = s->plan->farthest};
+  const kz_shock_problem problem = problem_at(s, point);
   *out = *point;
   kz_shocks_find(&problem, out->shock);
   for (int64_t i = 0; i < s->plan->sizes.count; i++) kz_shocks_harmless(&problem, s->plan->sizes.values[i], out->harmless + i);
@@ -73,11 +81,29 @@ static void mirror(const kz_dynamics *dynamics, const kz_resilience *found, kz_r
   }
 }
 
-/* Places of the points that are not mirror images of others, own [n]: how many. */
-static int64_t list_own(int64_t n, const kz_resilience *point, int64_t *own) {
+/* The smallest shock of both over the strobe points of an attractor, the first of which the tile has: each bounds the search of the next. */
+static kz_status smallest_tile(void *context, int64_t tile, void *record) {
+  searching *s = context;
+  const kz_resilience *first = s->point + s->own[tile];
+  kz_resilience *out = record;
+  *out = *first;
+  for (int64_t i = s->own[tile]; i < s->n && s->point[i].number == first->number; i++) {
+    const kz_shock_problem problem = problem_at(s, s->point + i);
+    if (image_of(s->point, i) != i) continue; /* one of a motion that is its own mirror image */
+    if (i == s->own[tile] || isnan(out->shock[2].size))
+      kz_shocks_find(&problem, out->shock);
+    else
+      kz_shocks_nearer(&problem, out->shock + 2);
+  }
+  out->shock[0] = out->shock[1] = NO_SHOCK;
+  return KZ_OK;
+}
+
+/* Places of the points that are not mirror images of others, own [n]: how many. Where only the smallest is wanted, the first points of attractors. */
+static int64_t list_own(const searching *s, int64_t *own) {
   int64_t count = 0;
-  for (int64_t i = 0; i < n; i++)
-    if (image_of(point, i) == i) own[count++] = i;
+  for (int64_t i = 0; i < s->n; i++)
+    if (image_of(s->point, i) == i && !(s->plan->smallest && s->point[i].phase > 0)) own[count++] = i;
   return count;
 }
 
@@ -85,11 +111,17 @@ kz_status kz_resilience_run(const kz_run *run, kz_dynamics *dynamics, const kz_r
                             kz_resilience *point) {
   KZ_FREED int64_t *own = kz_malloc((size_t)n * sizeof *own + 1);
   KZ_FREED kz_resilience *found = kz_malloc((size_t)n * sizeof *found + 1);
-  searching s = {dynamics, plan, point, own};
-  const kz_stage stage = kz_stage_for_all("shocks", list_own(n, point, own), sizeof *point, resilience_tile, &s);
+  searching s = {dynamics, plan, n, point, own};
+  const kz_stage stage =
+      kz_stage_for_all("shocks", list_own(&s, own), sizeof *point, plan->smallest ? smallest_tile : resilience_tile, &s);
   KZ_TRY(n > 0 ? kz_stage_run(run, &stage, found) : KZ_OK);
   for (int64_t i = 0; i < stage.n_tiles; i++) point[own[i]] = found[i];
-  for (int64_t i = 0; i < n; i++)
-    if (image_of(point, i) != i) mirror(dynamics, point + image_of(point, i), point + i);
+  for (int64_t i = 0; i < n; i++) {
+    const int64_t image = image_of(point, i), from = plan->smallest ? image - point[image].phase : image;
+    if (plan->smallest && point[i].phase > 0)
+      for (int kind = 0; kind < 3; kind++) point[i].shock[kind] = NO_SHOCK;
+    else if (image != i)
+      mirror(dynamics, point + from, point + i);
+  }
   return KZ_OK;
 }

@@ -16,10 +16,11 @@ typedef void (*kz_ends_fn)(void *context, int64_t n, const double *start, kz_lab
 typedef struct {
   kz_ends_fn ends;
   void *context;
-  double from[2];  /* the state: rad, rad per drive radian */
-  int32_t own;     /* its end without a shock */
-  double scale;    /* velocity that counts as much as 1 rad, rad per drive radian */
-  double farthest; /* largest change of the velocity, rad per drive radian */
+  double from[2];   /* the state: rad, rad per drive radian */
+  int32_t own;      /* its end without a shock */
+  double scale;     /* velocity that counts as much as 1 rad, rad per drive radian */
+  double farthest;  /* largest change of the velocity, rad per drive radian */
+  double tolerance; /* of a size, relative; 0 = as closely as can be */
 } kz_shock_problem;
 
 /* A shock; end = the end after it; size NaN = none was found. */
@@ -39,12 +40,17 @@ typedef struct {
  * nearest points is bisected to rounding, and its distance minimised along it. */
 void kz_shocks_find(const kz_shock_problem *problem, kz_shock shock[3]);
 
+/* A shock of both that is smaller than *shock; unchanged where there is none. */
+void kz_shocks_nearer(const kz_shock_problem *problem, kz_shock *shock);
+
 void kz_shocks_harmless(const kz_shock_problem *problem, double size, kz_harmless *harmless);
 
 /* The settings of a search, the same for all points. */
 typedef struct {
-  double scale, farthest; /* as in kz_shock_problem */
-  kz_reals sizes;         /* of harmless shocks; KZ_MOST_SHOCK_SIZES at most */
+  double scale, farthest, tolerance; /* as in kz_shock_problem */
+  bool
+      smallest; /* only the smallest shock of both over all strobe points of an attractor is wanted: it is that of phase 0, all others are NaN */
+  kz_reals sizes; /* of harmless shocks; KZ_MOST_SHOCK_SIZES at most */
   int64_t max_periods;
 } kz_resilience_plan;
 

@@ -4,30 +4,48 @@
 #include <stdbool.h>
 
 enum {
-  LINE = 2048,   /* points on each side of a line */
-  RINGS = 96,    /* of a disc */
-  RAYS = 256,    /* of a disc */
-  FAN = 24,      /* rays on each side of the best one */
-  PIECES = 32,   /* of a bracket, each round */
-  BRACKETS = 4,  /* nearest parts of a boundary that are followed */
-  PASSES = 12,   /* most grids of a search */
-  FINDS = 48,    /* most boundaries along a line, each nearer than the one before */
-  RIMS = 4,      /* of them */
-  FINER = LINE,  /* points on each side of those after the first */
-  SPREAD = 4096, /* shocks of a size */
-  MOST = RINGS * RAYS
+  FAN = 24,     /* most rays on each side of the best one */
+  PASSES = 12,  /* most grids of a search */
+  FINDS = 48,   /* most boundaries along a line, each nearer than the one before */
+  RIMS = 4,     /* of them */
+  SPREAD = 4096 /* shocks of a size */
 };
-/* A bracket is narrow enough, and a fan, where it is so small a part of the distance. */
-static const double NARROW = 1e-13, CLOSED = 1e-6;
 /* Tongues of other basins lie the closer to a boundary the thinner they are: the last RIM of the way is looked at more closely, the last
  * RIM of that again, RIMS times. */
 static const double RIM = 1.0 / 16;
 
+/* How closely a search looks. */
+typedef struct {
+  int line, rims;        /* points on each side of a line; rims of it that are looked at more closely, RIMS or none */
+  int rings, rays;       /* of a disc */
+  int fan;               /* rays on each side of the best one */
+  int pieces;            /* of a bracket, each round */
+  double narrow, closed; /* a bracket is narrow enough, and a fan, where it is so small a part of the distance */
+} kz_look;
+
+static int between(double low, double value, double high) {
+  return (int)fmin(fmax(low, value), high);
+}
+
+/* A disc is a grid of rings, then its outermost ring is: the tolerance is the width of a ring of that. */
+static kz_look look_for(double tolerance) {
+  const double rings = tolerance > 0 ? 1 / sqrt(tolerance) : 1e9;
+  return (kz_look){.line = between(64, rings * rings, 2048),
+                   .rims = tolerance < 1e-6 ? RIMS : 0,
+                   .rings = between(8, ceil(rings), 96),
+                   .rays = between(32, ceil(4 * rings), 256),
+                   .fan = between(8, rings / 2, FAN),
+                   .pieces = between(4, rings / 3, 32),
+                   .narrow = fmax(tolerance, 1e-13),
+                   .closed = fmin(fmax(sqrt(tolerance), 1e-6), 0.1)};
+}
+
 /* Workspace of one batch of starts. */
 typedef struct {
   const kz_shock_problem *problem;
-  double start[2 * MOST];
-  kz_label end[MOST];
+  kz_look look;
+  double *start; /* [most][2] */
+  kz_label *end; /* [most] */
 } workspace;
 
 /* Rays from the motion: unit vectors of the norm, and where along each another end lies between near and far. */
@@ -70,9 +88,9 @@ static void bisect(workspace *r, int n, ray *rays) {
   bool crossed[2 * FAN + 1];
   bool open = true;
   for (int round = 0; open && round < PASSES; round++) {
-    narrow(r, n, rays, PIECES - 1, true, crossed);
+    narrow(r, n, rays, r->look.pieces - 1, true, crossed);
     open = false;
-    for (int i = 0; i < n; i++) open = open || rays[i].far - rays[i].near > NARROW * rays[i].far;
+    for (int i = 0; i < n; i++) open = open || rays[i].far - rays[i].near > r->look.narrow * rays[i].far;
   }
 }
 
@@ -86,28 +104,28 @@ static bool nearest_of_line(workspace *r, const double direction[2], double near
   if (!crossed[best]) return false;
   bisect(r, 1, rays + best);
   const ray *found = rays + best;
-  if (found->far > *far * (1 - CLOSED) && shock->end >= 0) return false; /* the one that is known */
+  if (found->far > *far * (1 - r->look.closed) && shock->end >= 0) return false; /* the one that is known */
   *far = found->far;
   *shock = (kz_shock){found->direction[0] * *far, found->direction[1] * *far, *far, found->end};
   return true;
 }
 
-/* A change nearer than the one at *far, on MOST / 2 points of each side of the last RIM of the way, then of ever shorter ends of it. */
+/* A change nearer than the one at *far: on six times as many points of each side of the last RIM of the way, then of ever shorter ends of it. */
 static bool nearest_of_rims(workspace *r, const double direction[2], double *far, kz_shock *shock) {
   double rim = RIM;
-  for (int i = 0; i < RIMS; i++, rim *= RIM)
-    if (nearest_of_line(r, direction, *far * (1 - rim), i == 0 ? MOST / 2 : FINER, far, shock)) return true;
+  for (int i = 0; i < r->look.rims; i++, rim *= RIM)
+    if (nearest_of_line(r, direction, *far * (1 - rim), (i == 0 ? 6 : 1) * r->look.line, far, shock)) return true;
   return false;
 }
 
-/* The smallest shock along a direction and its opposite, up to `farthest`. Each one that is found bounds the next search, of LINE points on
+/* The smallest shock along a direction and its opposite, up to `farthest`. Each one that is found bounds the next search, of look.line points on
  * each side; where it finds none, of the rims. */
 static kz_shock along_line(workspace *r, double theta, double velocity, double farthest) {
   const double direction[2] = {theta, velocity};
   kz_shock shock = {NAN, NAN, NAN, -1};
   double far = farthest;
   for (int find = 0; find < FINDS; find++)
-    if (!nearest_of_line(r, direction, 0, LINE, &far, &shock) &&
+    if (!nearest_of_line(r, direction, 0, r->look.line, &far, &shock) &&
         (isnan(shock.size) || !nearest_of_rims(r, direction, &far, &shock)))
       break;
   return shock;
@@ -119,39 +137,43 @@ static ray ray_at(const kz_shock_problem *problem, double angle, double near, do
 
 /* The nearest point of the rings between two radii with another end: its distance, and its angle. None: infinite. */
 static double nearest_of_rings(workspace *r, double inner, double outer, double *angle) {
-  const double width = (outer - inner) / RINGS;
-  for (int i = 0; i < RAYS; i++)
-    for (int ring = 0; ring < RINGS; ring++) {
-      const ray one = ray_at(r->problem, 2 * M_PI * i / RAYS, 0, 0);
-      put(r, (int64_t)i * RINGS + ring, one.direction, outer - width * (RINGS - 1 - ring));
-    }
-  follow(r, MOST);
+  const int rings = r->look.rings, rays = r->look.rays;
+  const double width = (outer - inner) / rings;
   double nearest = INFINITY;
-  for (int i = 0; i < RAYS; i++)
-    for (int ring = 0; ring < RINGS; ring++) {
-      const double distance = outer - width * (RINGS - 1 - ring);
-      if (r->end[(int64_t)i * RINGS + ring].label == r->problem->own) continue;
-      if (distance < nearest) *angle = 2 * M_PI * i / RAYS;
-      nearest = fmin(nearest, distance);
-      break;
-    }
+  for (int i = 0; i < rays; i++) {
+    const ray one = ray_at(r->problem, 2 * M_PI * i / rays, 0, 0);
+    for (int ring = 0; ring < rings; ring++)
+      put(r, (int64_t)i * rings + ring, one.direction, outer - width * (rings - 1 - ring));
+  }
+  follow(r, (int64_t)rings * rays);
+  for (int i = 0; i < rays; i++) {
+    const kz_label *end = r->end + (int64_t)i * rings;
+    int ring = 0;
+    while (ring < rings && end[ring].label == r->problem->own) ring++;
+    if (ring == rings) continue;
+    const double distance = outer - width * (rings - 1 - ring);
+    if (distance < nearest) *angle = 2 * M_PI * i / rays;
+    nearest = fmin(nearest, distance);
+  }
   return nearest;
 }
 
 /* The distance of the boundary near a ray that crosses it, minimised by ever narrower fans of rays. */
-static kz_shock slide(workspace *r, double angle, double width, double far) {
+static kz_shock slide(workspace *r, double angle, double far) {
+  const int fan = r->look.fan;
+  double width = 2 * M_PI / r->look.rays;
   kz_shock best = {.size = INFINITY, .end = -1};
-  for (double reach = 0.1; width > CLOSED; width /= FAN / 4.0, reach = fmax(reach / 8, 1e-9)) {
+  for (double reach = 0.1; width > r->look.closed; width /= fan / 4.0, reach = fmax(reach / 8, 1e-9)) {
     ray rays[2 * FAN + 1];
     bool crossed[2 * FAN + 1];
     double at[2 * FAN + 1];
     int n = 0;
-    for (int i = 0; i <= 2 * FAN; i++) {
-      at[i] = angle + width * (i - FAN) / FAN;
+    for (int i = 0; i <= 2 * fan; i++) {
+      at[i] = angle + width * (i - fan) / fan;
       rays[i] = ray_at(r->problem, at[i], far * (1 - reach), far * (1 + reach / 16));
     }
-    narrow(r, 2 * FAN + 1, rays, 4 * PIECES, false, crossed);
-    for (int i = 0; i <= 2 * FAN; i++) {
+    narrow(r, 2 * fan + 1, rays, 4 * r->look.pieces, false, crossed);
+    for (int i = 0; i <= 2 * fan; i++) {
       if (!crossed[i]) continue;
       at[n] = at[i];
       rays[n++] = rays[i];
@@ -176,9 +198,9 @@ static kz_shock in_disc(workspace *r, const kz_shock *first) {
     double angle = 0;
     const double radius = best.size * (1 - 1e-9);
     double distance = nearest_of_rings(r, 0, radius, &angle);
-    if (!isfinite(distance)) distance = nearest_of_rings(r, radius * (1 - 1.0 / RINGS), radius, &angle);
+    if (!isfinite(distance)) distance = nearest_of_rings(r, radius * (1 - 1.0 / r->look.rings), radius, &angle);
     if (!isfinite(distance)) break;
-    const kz_shock found = slide(r, angle, 2 * M_PI / RAYS, distance);
+    const kz_shock found = slide(r, angle, distance);
     if (found.size < best.size) best = found;
   }
   return best;
@@ -191,34 +213,57 @@ static kz_shock in_norm(const kz_shock *shock, double scale) {
   return same;
 }
 
-void kz_shocks_find(const kz_shock_problem *problem, kz_shock shock[3]) {
-  KZ_FREED workspace *r = kz_malloc(sizeof *r);
+/* Room for the grids of a search: the largest of a disc, the rims of a line, a fan, the spread shocks. */
+static void make(const kz_shock_problem *problem, workspace *r) {
   r->problem = problem;
-  shock[0] = along_line(r, 1, 0, M_PI);
-  shock[1] = along_line(r, 0, 1, problem->farthest);
+  r->look = look_for(problem->tolerance);
+  int most = r->look.rings * r->look.rays;
+  if (most < 12 * r->look.line) most = 12 * r->look.line;
+  if (most < (2 * r->look.fan + 1) * 4 * r->look.pieces) most = (2 * r->look.fan + 1) * 4 * r->look.pieces;
+  if (most < SPREAD) most = SPREAD;
+  r->start = kz_malloc(2 * (size_t)most * sizeof *r->start);
+  r->end = kz_malloc((size_t)most * sizeof *r->end);
+}
+
+static void release(workspace *r) {
+  kz_free_local(&r->start);
+  kz_free_local(&r->end);
+}
+
+void kz_shocks_find(const kz_shock_problem *problem, kz_shock shock[3]) {
+  KZ_FREED_BY(release) workspace r;
+  make(problem, &r);
+  shock[0] = along_line(&r, 1, 0, M_PI);
+  shock[1] = along_line(&r, 0, 1, problem->farthest);
   const kz_shock angle = in_norm(shock, problem->scale), velocity = in_norm(shock + 1, problem->scale);
   shock[2] = isless(velocity.size, angle.size) || isnan(angle.size) ? velocity : angle;
   if (!isnan(shock[2].size)) {
     const double at = atan2(shock[2].velocity / problem->scale, shock[2].theta);
-    const kz_shock near = slide(r, at, 2 * M_PI / RAYS, shock[2].size);
+    const kz_shock near = slide(&r, at, shock[2].size);
     if (near.size < shock[2].size) shock[2] = near;
-    shock[2] = in_disc(r, shock + 2);
+    shock[2] = in_disc(&r, shock + 2);
   }
+}
+
+void kz_shocks_nearer(const kz_shock_problem *problem, kz_shock *shock) {
+  KZ_FREED_BY(release) workspace r;
+  make(problem, &r);
+  *shock = in_disc(&r, shock);
 }
 
 void kz_shocks_harmless(const kz_shock_problem *problem, double size, kz_harmless *harmless) {
   static const double GOLDEN = 0.61803398874989484820;
-  KZ_FREED workspace *r = kz_malloc(sizeof *r);
+  KZ_FREED_BY(release) workspace r;
   double time = 0;
-  r->problem = problem;
+  make(problem, &r);
   *harmless = (kz_harmless){.shocks = SPREAD};
   for (int i = 0; i < SPREAD; i++)
-    put(r, i, ray_at(problem, 2 * M_PI * GOLDEN * i, 0, 0).direction, size * sqrt((i + 0.5) / SPREAD));
-  follow(r, SPREAD);
+    put(&r, i, ray_at(problem, 2 * M_PI * GOLDEN * i, 0, 0).direction, size * sqrt((i + 0.5) / SPREAD));
+  follow(&r, SPREAD);
   for (int i = 0; i < SPREAD; i++) {
-    if (r->end[i].label != problem->own) continue;
+    if (r.end[i].label != problem->own) continue;
     harmless->harmless++;
-    time += (double)r->end[i].periods;
+    time += (double)r.end[i].periods;
   }
   harmless->return_time = harmless->harmless > 0 ? time / (double)harmless->harmless : NAN;
 }

@@ -109,6 +109,7 @@ kz_status kz_points_write(const kz_points *points, const void *records, const kz
   const writing w = {points, records, classes, store, plane ? "plane" : "line"};
   KZ_FREED int32_t *count = kz_calloc((size_t)classes->count + 1, sizeof *count);
   if (!plane) KZ_TRY(write_line(&w));
+  KZ_TRY(kz_store_real(store, w.group, "shock_tolerance", points->plan.options.shock_tolerance));
   count_points(&w, count);
   KZ_TRY(write_classes(&w, count, summary));
   return write_measures(&w);

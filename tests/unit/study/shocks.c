@@ -7,6 +7,8 @@
 
 #include "resilience/resilience.h"
 
+static int64_t labels; /* that were asked for */
+
 /* Another end inside of an ellipse about (2, 1), below v = -1.7, in a small disc, and in a thin strip at theta = -2.5. */
 static int16_t end_at(double theta, double velocity, bool small) {
   if (hypot((theta - 2) / 2, velocity - 1) < 0.5) return 2;
@@ -17,6 +19,7 @@ static int16_t end_at(double theta, double velocity, bool small) {
 
 static void ends(void *context, int64_t n, const double *start, kz_label *end) {
   const bool *small = context;
+  labels += n;
   for (int64_t i = 0; i < n; i++) end[i] = (kz_label){.label = end_at(start[2 * i], start[2 * i + 1], *small), .periods = 3};
 }
 
@@ -46,6 +49,29 @@ TEST(test_lines_and_discs) {
   problem.scale = 1;
   kz_shocks_find(&problem, shock);
   assert_true(fabs(shock[2].size - (hypot(0.6, 0.5) - 0.03)) < 1e-10 && shock[2].end == 4);
+}
+
+/* Smooth boundaries to the tolerance by far fewer labels; a smaller one is found within the known one, and none where there is none. */
+TEST(test_a_tolerance) {
+  bool small = false;
+  kz_shock_problem problem = {.ends = ends, .context = &small, .own = 1, .scale = 1, .farthest = 3};
+  kz_shock shock[3], known = {1.95, 0, 1.95, 2}, none = {0.5, 0, 0.5, 2};
+  const double distance = ellipse_distance(1);
+  labels = 0;
+  kz_shocks_find(&problem, shock);
+  const int64_t closely = labels;
+  for (int i = 0; i < 3; i++) {
+    problem.tolerance = (double[]){0.02, 0.004, 1e-4}[i];
+    labels = 0;
+    kz_shocks_find(&problem, shock);
+    assert_true(fabs(shock[2].size / distance - 1) < problem.tolerance && shock[2].end == 2);
+    assert_true(fabs(shock[1].size / 1.7 - 1) < problem.tolerance);
+    assert_true(problem.tolerance < 1e-3 || labels < closely / 20);
+  }
+  kz_shocks_nearer(&problem, &known);
+  assert_true(fabs(known.size / distance - 1) < problem.tolerance && known.end == 2);
+  kz_shocks_nearer(&problem, &none);
+  assert_true(none.size == 0.5 && none.theta == 0.5);
 }
 
 TEST(test_nothing_to_find) {
