@@ -39,6 +39,16 @@ def test_a_plain_deep_picture_says_where_it_is_and_goes_to_a_boundary(page):
     assert page.window()["theta"]["min"] == pytest.approx(-np.pi) and wait_for(lambda: page.run("document.querySelector('.inset').hidden"))
 
 
+def test_the_pointer_reads_the_measures_of_the_basin_under_it(page):
+    """Share, return time and, of exact labels, the mean settling time at once; the smallest push once the pointer rests."""
+    page.choose("quality", "exact")
+    page.wait()
+    page.run("explorer.basins.point(explorer.basins.panes[0], [0.25, 0.75])")
+    measures = r": [\d.]+ % of this window, settles in [\d.]+ drive periods \(mean\), return time [\d.]+ drive periods"
+    assert wait_for(lambda: re.search(measures, page.run("$('pointer').textContent")))
+    assert wait_for(lambda: "smallest push" in page.run("$('pointer').textContent"))
+
+
 @pytest.mark.extensive
 def test_the_list_lights_a_basin_and_keeps_the_one_that_is_clicked(page):
     page.wait()

@@ -7,7 +7,7 @@ import { asScene, sharesOf, unlabelled } from "./frames.js";
 import { listen } from "./gestures.js";
 import { listenLegend, rowsOf, writeLegend } from "./legend.js";
 import { Pane } from "./pane.js";
-import { Passport } from "./passport.js";
+import { measureWords, Passport } from "./passport.js";
 import { Stage } from "./stage.js";
 import { placementOf } from "./placement.js";
 import { isOnBoundary, Skeleton } from "./skeleton.js";
@@ -17,6 +17,7 @@ import { TURN } from "./window.js";
 
 const SECOND = 1.2; // drive periods that a second shows
 const SAMPLES = 48; // of a motion, a drive period
+const RESTS = 400; // ms after which the pointer rests, and the smallest push out of the basin under it is looked for
 const FIRST = { theta: "2.9", velocity: "0", pane: "a" }; // the start that is played until one is chosen: near upright, at rest
 const [LEAST, MOST] = [24, 400]; // drive periods of a motion
 const [REACH, DRAWN] = [0.15, 0.4]; // how far boundaries draw the wheel (of the window), and which part of the way each step goes
@@ -246,6 +247,10 @@ export class Basins {
       if (this.panes.length > 1 || half) other.drawAbove();
     }
     this.pointed = at;
+    clearTimeout(this.resting);
+    const row = at && rowAt(pane, ...at);
+    const measured = () => document.body.dataset.state === "done" && this.passport.measure(pane, row);
+    if (row) this.resting = setTimeout(measured, RESTS);
     this.writePointed();
   }
 
@@ -260,7 +265,7 @@ export class Basins {
   /** What lies under the pointer, also when other frames come there. */
   writePointed() {
     const at = this.pointed;
-    const wordsOf = (pane) => (this.spread ? likelyWords(pane, at, this.spread) : wordsAt(pane, ...at));
+    const wordsOf = (pane) => (this.spread ? likelyWords(pane, at, this.spread) : wordsAt(pane, this.passport, ...at));
     const words = at ? this.panes.map(wordsOf).join("  |  ") : "";
     const start = at && this.startAt(...at);
     const place = at && `θ ${brief(this.units.angle(start.theta))}  velocity ${brief(this.units.velocity(start.velocity))}`;
@@ -319,12 +324,21 @@ export class Basins {
   }
 }
 
-function wordsAt(pane, across, up) {
+/** The attractor under a place, of the list of its frame; undefined where none is known. */
+function rowAt(pane, across, up) {
   const found = pane.cellAt(across, up);
+  return found && sharesOf(found.frame).find(({ id }) => id === found.frame.labels[found.cell]);
+}
+
+/** The end of a place, and the measures of its basin as far as they are known. */
+function wordsAt(pane, passport, across, up) {
+  const found = pane.cellAt(across, up);
+  const row = rowAt(pane, across, up);
   if (!found) return "not labelled yet";
   const { frame, cell } = found;
   const name = frame.labels[cell] === 255 ? unlabelled(frame) : frame.catalogue.attractors[frame.labels[cell]].words;
-  return name + (frame.cells[4 * cell + 2] === 255 ? " (undecided)" : "");
+  const measures = row ? `: ${measureWords(row, passport.pushOf(pane, row))}` : "";
+  return name + (frame.cells[4 * cell + 2] === 255 ? " (undecided)" : "") + measures;
 }
 
 /** How likely each end is for starts about a place. */

@@ -86,15 +86,23 @@ export function unlabelled({ quality }) {
   return quality === "moving" ? "not labelled yet" : "not settled";
 }
 
-/** {name: share} of the labels of a frame, the rows of its catalogue first; mirror images may share a name. */
+/** The rows of a frame's catalogue with the shares of their labels and, where the frame has times, the mean settling time; mirror images may share a name. */
 export function sharesOf(frame) {
   return (frame.shares ??= countedShares(frame));
 }
 
 export function countedShares(frame) {
   const counts = new Uint32Array(256);
-  for (const label of frame.labels) counts[label]++;
-  const rows = keyed(frame.catalogue).map((row) => ({ ...row, share: counts[row.id] / frame.labels.length }));
+  const sums = new Float64Array(256);
+  for (let i = 0; i < frame.labels.length; i++) {
+    counts[frame.labels[i]]++;
+    if (frame.times) sums[frame.labels[i]] += frame.times[i];
+  }
+  const rows = keyed(frame.catalogue).map((row) => ({
+    ...row,
+    share: counts[row.id] / frame.labels.length,
+    settling: frame.times && counts[row.id] ? sums[row.id] / counts[row.id] : null,
+  }));
   const name = unlabelled(frame);
   if (counts[255] > 0)
     rows.push({

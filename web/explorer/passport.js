@@ -6,15 +6,26 @@ import { signed } from "./ticks.js";
 
 const HIGHEST = 3; // drive frequencies of the spectrum,
 const STRONGEST = 3; // and lines of it that are named
+const KEPT = 64; // smallest pushes
 const FAINT = 1e-6; // amplitude below which a line is rounding
 const element = (id) => document.getElementById(id);
 
+const returnTime = ({ period, multiplier }) =>
+  period > 0 && multiplier > 0 && multiplier < 1 ? `return time ${(-period / Math.log(multiplier)).toPrecision(3)} drive periods` : "";
+
+/** The measures of a basin in one line, for the pointer: a row of `sharesOf`, and the words of its smallest push as far as they are known. */
+export function measureWords(row, push) {
+  const settling = row.settling > 0 ? `settles in ${row.settling.toPrecision(3)} drive periods (mean)` : "";
+  return [`${shareWords(row.share)} of this window`, settling, returnTime(row), push].filter(Boolean).join(", ");
+}
+
 /** What is known of an attractor itself, in words; `share`: of its basin. Measures of other kinds join here as further lines. */
-export function passportWords({ name, words, period, winding, symmetric, multiplier, strobe }, share) {
+export function passportWords(row, share) {
+  const { name, words, period, winding, symmetric, multiplier, strobe } = row;
   const closes = period === 0 ? "chaotic" : `closes after ${period} drive period${period === 1 ? "" : "s"}`;
   const turns = winding === 0 ? "" : `, ${Math.abs(winding)} turn${Math.abs(winding) === 1 ? "" : "s"} in them`;
   const image = symmetric ? "its own mirror image" : "has a mirror image";
-  const back = period > 0 && multiplier > 0 && multiplier < 1 ? `, return time ${(-period / Math.log(multiplier)).toPrecision(3)} drive periods` : "";
+  const back = returnTime(row) && `, ${returnTime(row)}`;
   const [theta, velocity] = strobe[0].map((value) => value.toPrecision(5));
   return (
     `${words}: ${shareWords(share)} of this window; in files ${name}\n${closes}${turns}; ${image}\n` +
@@ -32,7 +43,7 @@ export function spectrumWords(motion) {
 
 export class Passport {
   constructor(state, basins) {
-    Object.assign(this, { state, basins, push: null });
+    Object.assign(this, { state, basins, pushes: new Map() }); // words of smallest pushes, by motion and pendulum
   }
 
   /** Shows the row that is pinned, of the rows of the list. */
@@ -40,26 +51,33 @@ export class Passport {
     const row = rows.find(({ key }) => key === this.state.pinned);
     element("passport").hidden = !row;
     if (!row) return;
-    this.measure(row);
-    const { motion } = this.basins;
+    const { motion, active } = this.basins;
+    this.measure(active, row);
     const own = motion && Number(motion.ending.theta) === row.strobe[0][0] && Number(motion.ending.velocity) === row.strobe[0][1];
-    const lines = [passportWords(row, row.shares.find((share) => share !== null) ?? null), own ? spectrumWords(motion) : "", this.push.words];
+    const lines = [passportWords(row, row.shares.find((share) => share !== null) ?? null), own ? spectrumWords(motion) : "", this.pushOf(active, row)];
     element("passport").textContent = signed(lines.filter(Boolean).join("\n"));
   }
 
+  /** The words of the smallest push out of a basin; empty where nobody has looked for it. */
+  pushOf(pane, row) {
+    return this.pushes.get(nameOf(pane, row)) ?? "";
+  }
+
   /** Looks for the smallest push, once for a motion of a pendulum. */
-  async measure(row) {
-    const pane = this.basins.active;
-    const of = `${row.key} ${JSON.stringify(pane.pendulum)}`;
-    if (this.push?.of === of) return;
-    const mine = (this.push = { of, words: "smallest push …" });
+  async measure(pane, row) {
+    const of = nameOf(pane, row);
+    if (this.pushes.has(of)) return;
+    if (this.pushes.size >= KEPT) this.pushes.clear();
+    this.pushes.set(of, "smallest push …");
     try {
       const push = await smallestPush(pane, row);
       const speed = push && this.basins.units.velocity(Math.abs(push).toPrecision(3));
-      mine.words = push ? `smallest push seen, at the strobe: ${push > 0 ? "+" : "-"}${speed}` : "smallest push: beyond this window";
+      this.pushes.set(of, push ? `smallest push seen, at the strobe: ${push > 0 ? "+" : "-"}${speed}` : "smallest push: beyond this window");
     } catch (error) {
-      mine.words = `smallest push: ${error.message}`;
+      this.pushes.set(of, `smallest push: ${error.message}`);
     }
     this.basins.write();
   }
 }
+
+const nameOf = (pane, { key }) => `${key} ${JSON.stringify(pane.pendulum)}`;
