@@ -75,9 +75,10 @@ OPERATION void move_matrix(const kz_speed_class *speed, int32_t first, int P, co
   for (int n = 0; n + 1 < P; n++) {
     vector s = same(0);
     for (int j = 0; j <= n; j++) s = fused(same(speed->along[first + j].high), circle->cosine[n - j], s);
-    for (int j = 0; j <= n && speed->has_across; j++) s = fused(same(-speed->across[first + j].high), circle->sine[n - j], s);
     stiffness[n] = s;
   }
+  for (int n = 0; n + 1 < P && speed->has_across; n++)
+    for (int j = 0; j <= n; j++) stiffness[n] = fused(same(-speed->across[first + j].high), circle->sine[n - j], stiffness[n]);
   for (int column = 0; column < 2; column++) {
     vector a[KZ_ORDER_JACOBIAN], b[KZ_ORDER_JACOBIAN];
     a[0] = x->matrix[0][column];
