@@ -29,6 +29,9 @@ module kz_processed_tables
     integer :: n_nodes = 0, oldest = 1 !< the next node that is made takes the place `oldest`
   end type kept_series_t
 
+  !> Kicks sum their grades for each step anew.
+  logical, parameter :: SUMS_GRADES = .false.
+
   include 'tables.inc'
 
   !> The series of a pendulum, right to 1e-15 of the force itself.

@@ -13,6 +13,9 @@ module kz_processed_tables_r128
   !> Powers of the velocity in a drift (1, 3, 5, ..) and coefficients of a kick that are of use in pairs of doubles.
   integer, parameter, public :: MOST_PAIR_DRIFTS = ORDER/2 - 1, MOST_PAIR_KICKS = 22
 
+  !> Kicks sum their grades once for all steps: a product of quads takes long, and another order of the sums changes rounding alone.
+  logical, parameter :: SUMS_GRADES = .true.
+
   include 'tables.inc'
 
   !> The series of a pendulum: its first grades in quad precision, those beyond in double, right to 1e-15 of the force itself. Grade q of a
