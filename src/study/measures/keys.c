@@ -13,6 +13,10 @@ static const kz_key keys[] = {
     INTEGER("measures.max_period", 1, 512, "48", max_period, "Longest period of the search for attractors."),
     INTEGER("measures.seed", 0, 9007199254740992.0, "1", seed,
             "Number that chooses the starts; another seed gives other starts."),
+    WORD("measures.method", "exact|direct", "exact", method,
+         "exact: every label of a start is decided, in as many digits as it needs; direct: by double precision alone, for "
+         "motions "
+         "that stay chaotic for so long that the digits grow without end."),
     MEASURE_OPTIONS(measures, "256"),
     {.path = NULL},
 };

@@ -17,10 +17,14 @@ typedef struct {
   double shock_tolerance; /* of smallest shocks, relative; 0 = as closely as can be */
 } kz_measure_options;
 
+/* How the study labels its starts: each label decided, or by doubles alone. */
+enum { KZ_MEASURES_EXACT, KZ_MEASURES_DIRECT };
+
 struct kz_measures_plan {
   kz_integers names;       /* rows of kz_measures */
   kz_axis theta, velocity; /* window of starts and picture; the counts of the axes are not used */
   int64_t starts, max_period, seed;
+  int32_t method; /* KZ_MEASURES_EXACT or KZ_MEASURES_DIRECT */
   kz_measure_options options;
 };
 

@@ -1,4 +1,5 @@
 /* Every measure of the table on starts and pictures whose answer is known: half planes, a disc, random labels, a shear. */
+#include <complex.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -126,6 +127,45 @@ TEST(test_circles_go_around) {
   kz_measure_integrity_factor(&s->measured, value);
   assert_true(fabs(value[0] - (M_PI - 0.3)) <= 0.1 && fabs(value[1] - 0.3) <= 0.05);
   free(s);
+}
+
+/* Newton's method for the roots of z^3 = 1: on which it ends. */
+static int16_t newton(double theta, double velocity, int64_t cell) {
+  double complex z = CMPLX(theta, velocity);
+  (void)cell;
+  for (int i = 0; i < 100; i++) z -= (z * z * z - 1) / (3 * z * z);
+  return creal(z) > 0 ? 0 : cimag(z) > 0 ? 1 : 2;
+}
+
+/* The map of C. Grebogi, S. W. McDonald, E. Ott, J. A. Yorke (Phys. Lett. A 99 (1983) 415), theta in [0, 2 pi), x in [-0.5, 0.5]: it ends at theta = 0
+ * or pi. */
+static int16_t grebogi(double theta, double velocity, int64_t cell) {
+  double angle = theta + M_PI, x = velocity / 2;
+  (void)cell;
+  for (int i = 0; i < 300; i++) {
+    const double next = angle + 1.32 * sin(2 * angle) - 0.9 * sin(4 * angle) - x * sin(angle);
+    x = -0.3 * cos(angle);
+    angle = next;
+  }
+  return cos(angle) > 0;
+}
+
+/* Maps that the tests of Attractors.jl use (test/basins/uncertainty_tests.jl): exponents 0.55 to 0.65 (dimension 1.42) and 0.2 to 0.3 (0.2 in the paper),
+ * entropies 0.40 to 0.42 and 0.60 to 0.61 in boxes of 6 x 6 of 300 x 300 cells. */
+TEST(test_published_maps) {
+  scene *roots = make(3, 1, newton), *map = make(2, M_PI, grebogi);
+  double value[3 * MOST];
+  kz_measure_uncertainty_exponent(&roots->measured, value);
+  const double exponent = (value[0] + value[1] + value[2]) / 3;
+  assert_true(0.55 <= exponent && exponent <= 0.65 && fabs(2 - exponent - 1.42) < 0.03);
+  kz_measure_uncertainty_exponent(&map->measured, value);
+  assert_true(fabs(value[0] - 0.2) < 0.02 && fabs(value[1] - value[0]) < 1e-12);
+  kz_measure_entropy(&map->measured, value);
+  kz_measure_boundary_entropy(&map->measured, value + 1);
+  assert_true(0.4 <= value[0] && value[0] <= 0.42);
+  assert_true(0.59 <= value[1] && value[1] <= 0.61);
+  free(roots);
+  free(map);
 }
 
 TEST(test_riddled) {
