@@ -184,6 +184,21 @@ def runs_until_saved(process, checkpoint, before):
     return False
 
 
+def run_scene(kapitza, folder, scene, ranks=None, name="s"):
+    """The result of a scene, which becomes NAME.yaml of the folder, and the summary."""
+    (folder / f"{name}.yaml").write_text(json.dumps(scene))
+    done = kapitza("run", f"{name}.yaml", ranks=ranks, folder=folder)
+    return Result(folder / f"{name}.h5"), done.stdout
+
+
+def stopped_and_resumed(kapitza, folder, scene, ranks):
+    """The same by a run on one rank that is stopped once something is saved, and that `ranks` go on with."""
+    (folder / "stopped.yaml").write_text(json.dumps(scene))
+    run_until_saved("stopped.yaml", file="stopped.h5", folder=folder, ranks=1)
+    kapitza("run", "stopped.yaml", "--resume", ranks=ranks, folder=folder)
+    return Result(folder / "stopped.h5")
+
+
 def run_until_saved(*words, file, folder, ranks=2):
     """kapitza run WORDS, asked to stop by SIGUSR1 as soon as more of FILE's work is saved; what it says to that."""
     checkpoint = folder / f"{file}.checkpoint"

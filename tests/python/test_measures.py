@@ -5,9 +5,10 @@ import math
 
 import numpy as np
 import pytest
-from conftest import datasets, run_until_saved
+from conftest import datasets, run_scene, stopped_and_resumed
 from kapitza import Result
 from kapitza.style import parameters_text
+from scipy.integrate import solve_ivp
 
 FIG12 = {"quality_factor": 5, "drive_frequency": 11, "drive_amplitude": 0.3}
 WINDOW = {"velocity": {"min": -2, "max": 2}}
@@ -92,12 +93,10 @@ def test_shocks_are_those_of_the_basin(kapitza, tmp_path):
 
 def test_any_number_of_ranks_and_a_stop(kapitza, tmp_path):
     names = ["share", "settling_mean", "entropy", "reactivity"]
-    scene = {"pendulum": FIG12 | {"quality_factor": 100}, "measures": WINDOW | {"names": names, "starts": 2000, "cells": 160}}
-    (tmp_path / "s.yaml").write_text(json.dumps(scene))
-    run_until_saved("s.yaml", file="s.h5", folder=tmp_path, ranks=2)
-    kapitza("run", "s.yaml", "--resume", ranks=3, folder=tmp_path)
-    kapitza("run", "s.yaml", "-o", "one.h5", folder=tmp_path)
-    assert datasets(tmp_path / "s.h5") == datasets(tmp_path / "one.h5")
+    scene = {"pendulum": FIG12 | {"quality_factor": 20}, "measures": WINDOW | {"names": names, "starts": 1000, "cells": 80}}
+    stopped = stopped_and_resumed(kapitza, tmp_path, scene, ranks=3)
+    whole, _ = run_scene(kapitza, tmp_path, scene, ranks=2)
+    assert datasets(stopped.path) == datasets(whole.path) == datasets(run_scene(kapitza, tmp_path, scene, name="one")[0].path)
 
 
 @pytest.mark.parametrize(("changes", "words"), [
@@ -118,16 +117,39 @@ def test_check_says_what_it_costs(kapitza, tmp_path):
     assert "measures" in kapitza("check", "s.yaml", folder=tmp_path).stdout
 
 
+FORCED = {"velocity": {"min": -3, "max": 3}, "starts": 256, "cells": 128, "method": "direct"}
+
+
+def forced(torque, k=1, damping=0.2):
+    return {"k": k, "damping": damping, "m": 0, "torque_amplitude": torque}
+
+
 def test_wada_basins_of_the_forced_pendulum(kapitza, tmp_path):
     """Nusse and Yorke's case, theta'' + .2 theta' + sin theta = 1.66 cos t: three fractal basins in nearly every box of the boundary."""
-    (tmp_path / "s.yaml").write_text(json.dumps(
-        {"pendulum": {"k": 1, "damping": 0.2, "m": 0, "torque_amplitude": 1.66},
-         "measures": {"velocity": {"min": -3, "max": 3}, "starts": 256, "cells": 128,
-                      "names": ["share", "boundary_entropy", "shared_boundary", "uncertainty_exponent"]}}))
-    kapitza("run", "s.yaml", ranks=2, folder=tmp_path)
-    result = Result(tmp_path / "s.h5")
+    names = ["share", "boundary_entropy", "shared_boundary", "uncertainty_exponent"]
+    result, _ = run_scene(kapitza, tmp_path, {"pendulum": forced(1.66), "measures": FORCED | {"names": names}}, ranks=2)
     assert parameters_text(result.pendulum) == "Q = 5,  $\\Omega$ = 1,  torque amplitude = 1.66"
     table = result.measures
     assert len(table) == 3 and table["share"].min() > 0.15
     assert table["boundary_entropy"].iloc[0] > math.log(2)
     assert table["shared_boundary"].min() > 0.95 and table["uncertainty_exponent"].max() < 0.5
+
+
+def test_long_transients_end_on_two_cycles(kapitza, tmp_path):
+    """theta'' + .2 theta' + sin theta = 15/11 cos t/2: two basins, and cycles of three periods that scipy closes in the original equation."""
+    names = ["share", "return_time"]
+    table = run_scene(kapitza, tmp_path, {"pendulum": forced(60 / 11, k=4, damping=0.4), "measures": FORCED | {"names": names}})[0].measures
+    assert list(table["period"]) == [3, 3] and table["share"].min() > 0.3 and table["share"].sum() > 0.85
+    a, b = np.linalg.solve([[-1, 0.4], [-0.4, -1]], [60 / 11, 0])  # the swing a cos t + b sin t, from which angles count
+    start = np.array([table["theta"] + a, table["velocity"] + b])
+    end = solve_ivp(lambda t, y: np.concatenate([y[2:], -0.4 * y[2:] - 4 * np.sin(y[:2]) + 60 / 11 * np.cos(t)]), (0, 6 * np.pi),
+                    start.ravel(), method="DOP853", rtol=1e-11, atol=1e-11).y[:, -1].reshape(2, 2)
+    assert np.abs(np.exp(1j * end[0]) - np.exp(1j * start[0])).max() < 1e-7 and np.abs(end[1] - start[1]).max() < 1e-7
+
+
+@pytest.mark.extensive
+def test_rounded_the_drive_has_a_chaotic_attractor(kapitza, tmp_path):
+    """F = 1.3636 is no 15/11: nothing settles."""
+    scene = {"pendulum": forced(5.4544, k=4, damping=0.4), "measures": FORCED | {"names": ["share"]}}
+    table = run_scene(kapitza, tmp_path, scene)[0].measures
+    assert list(table["period"]) == [0] and table["share"].iloc[0] > 0.99

@@ -9,8 +9,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from conftest import datasets
-from kapitza import Result
+from conftest import datasets, run_scene
 from kapitza.plots import line
 
 TOOL = Path(__file__).parents[1] / "tools" / "tangency_scipy.py"
@@ -22,16 +21,9 @@ def scene(damping=0.02, **words):
             "tangency": {"parameter": "m", "min": 2 * damping, "max": 4 * damping, **words}}
 
 
-def run(kapitza, folder, content, ranks=None, name="s"):
-    (folder / f"{name}.yaml").write_text(json.dumps(content))
-    done = kapitza("run", f"{name}.yaml", ranks=ranks, folder=folder)
-    assert done.returncode == 0, done.stderr
-    return Result(folder / f"{name}.h5"), done.stdout
-
-
 @pytest.fixture(scope="module")
 def weak(kapitza, tmp_path_factory):
-    return run(kapitza, tmp_path_factory.mktemp("tangency"), scene())
+    return run_scene(kapitza, tmp_path_factory.mktemp("tangency"), scene())
 
 
 def test_the_value_is_that_of_scipy(weak):
@@ -43,7 +35,7 @@ def test_the_value_is_that_of_scipy(weak):
 
 def test_melnikov_is_the_limit(weak, kapitza, tmp_path):
     """The value divided by Melnikov's nears 1 as the square of the damping, because the first order is Melnikov's."""
-    strong = run(kapitza, tmp_path, scene(0.04))[0].group("tangency").attrs["value"]
+    strong = run_scene(kapitza, tmp_path, scene(0.04))[0].group("tangency").attrs["value"]
     melnikov = 4 * math.sinh(math.pi / 2) / math.pi
     off = [value / (melnikov * beta) - 1 for value, beta in ((weak[0].group("tangency").attrs["value"], 0.02), (strong, 0.04))]
     assert abs(off[0]) < 3e-4 and off[1] / off[0] == pytest.approx(4, rel=0.05)
@@ -57,7 +49,7 @@ def test_the_orbit_leads_from_the_saddle_to_the_saddle(weak):
 
 
 def test_values_are_the_same_on_three_ranks(weak, kapitza, tmp_path):
-    assert datasets(run(kapitza, tmp_path, scene(), ranks=3)[0].path) == datasets(weak[0].path)
+    assert datasets(run_scene(kapitza, tmp_path, scene(), ranks=3)[0].path) == datasets(weak[0].path)
 
 
 @pytest.mark.parametrize(("words", "named"), [
@@ -75,7 +67,7 @@ def test_a_picture_of_measures_marks_the_value(kapitza, tmp_path):
     """Shares of a sweep of the same key, with their band, and the dashed line at the value."""
     content = scene() | {"sweep": {"parameter": "m", "min": 0.04, "max": 0.08, "count": 3, "measure": ["share"], "starts": 64,
                                    "velocity": {"min": -1, "max": 1}}}
-    result, _ = run(kapitza, tmp_path, content)
+    result, _ = run_scene(kapitza, tmp_path, content)
     figure = line.draw(result, line.parse_arguments([str(result.path)]))
     axes, = figure.axes
     lines = [list(drawn.get_xdata()) for drawn in axes.lines]

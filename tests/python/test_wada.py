@@ -1,11 +1,8 @@
 """The study wada: the forced pendulum of Nusse and Yorke, boundaries of two basins, witnesses by scipy, symmetry, ranks."""
 
-import json
-
 import numpy as np
 import pytest
-from conftest import datasets
-from kapitza import Result
+from conftest import datasets, run_scene, stopped_and_resumed
 from scipy.integrate import solve_ivp
 
 FORCED = {"pendulum": {"k": 1, "damping": 0.2, "m": 0, "torque_amplitude": 1.66},
@@ -17,21 +14,14 @@ FIG11 = {"pendulum": {"quality_factor": 5, "drive_frequency": 11, "drive_amplitu
 OPEN, NO, PARTLY, YES = range(4)
 
 
-def run(kapitza, folder, scene, ranks=None, name="s"):
-    (folder / f"{name}.yaml").write_text(json.dumps(scene))
-    done = kapitza("run", f"{name}.yaml", ranks=ranks, folder=folder)
-    assert done.returncode == 0, done.stderr
-    return Result(folder / f"{name}.h5"), done.stdout
-
-
 @pytest.fixture(scope="module")
 def forced(kapitza, tmp_path_factory):
-    return run(kapitza, tmp_path_factory.mktemp("wada"), FORCED, ranks=2)
+    return run_scene(kapitza, tmp_path_factory.mktemp("wada"), FORCED, ranks=2)
 
 
 @pytest.fixture(scope="module")
 def fig11(kapitza, tmp_path_factory):
-    return run(kapitza, tmp_path_factory.mktemp("wada"), FIG11)
+    return run_scene(kapitza, tmp_path_factory.mktemp("wada"), FIG11)
 
 
 def test_the_forced_pendulum_has_one_boundary(forced):
@@ -81,11 +71,10 @@ def test_two_basins_can_share_a_boundary_without_the_third(fig11):
     assert wada["pair_cycles"].values[one, other] == 0 and "partly" in summary
 
 
-def test_witnesses_are_mirrored_and_the_same_on_three_ranks(fig11, kapitza, tmp_path):
+def test_witnesses_are_mirrored_and_the_same_on_three_ranks_after_a_stop(fig11, kapitza, tmp_path):
     result, _ = fig11
     wada, mirror, image = result.group("wada"), result.group("saddles")["mirror"].values, result.group("attractors")["mirror"].values
     for name in ("theta", "velocity"):
         values = wada[name].values
         assert np.array_equal(values[mirror][:, :, image], -values, equal_nan=True)
-    again, _ = run(kapitza, tmp_path, FIG11, ranks=3)
-    assert datasets(again.path) == datasets(result.path)
+    assert datasets(stopped_and_resumed(kapitza, tmp_path, FIG11, ranks=3).path) == datasets(result.path)
