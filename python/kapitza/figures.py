@@ -88,6 +88,7 @@ _SCENES = {
     "measures-fig12": [("", "passport", ["--attractor", "rotation +1/1"])],
     "measures-forced": [("", "passport", ["--attractor", "rotation +2/2"])],
     "measures-plane": [("", "plane", ["--measure", "shock"])],
+    "measures-riddled": [("", "passport", ["--attractor", "wide 3-nodding"])],
     "measures-share": [("", "plane", ["--measure", "share"])],
     "paul-trap": [_TRAP],
     "phases-walk": [_SWEEP],

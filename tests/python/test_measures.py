@@ -136,9 +136,10 @@ def test_wada_basins_of_the_forced_pendulum(kapitza, tmp_path):
 
 
 def test_long_transients_end_on_two_cycles(kapitza, tmp_path):
-    """theta'' + .2 theta' + sin theta = 15/11 cos t/2: two basins, and cycles of three periods that scipy closes in the original equation."""
+    """theta'' + .2 theta' + sin theta = 15/11 cos t/2: two basins; scipy closes their cycles in the original equation."""
     names = ["share", "return_time"]
-    table = run_scene(kapitza, tmp_path, {"pendulum": forced(60 / 11, k=4, damping=0.4), "measures": FORCED | {"names": names}})[0].measures
+    scene = {"pendulum": forced(60 / 11, k=4, damping=0.4), "measures": FORCED | {"names": names}}
+    table = run_scene(kapitza, tmp_path, scene)[0].measures
     assert list(table["period"]) == [3, 3] and table["share"].min() > 0.3 and table["share"].sum() > 0.85
     a, b = np.linalg.solve([[-1, 0.4], [-0.4, -1]], [60 / 11, 0])  # the swing a cos t + b sin t, from which angles count
     start = np.array([table["theta"] + a, table["velocity"] + b])

@@ -26,6 +26,7 @@ from kapitza.result import BadFile, Result
 from kapitza.session import orbit
 
 CHAOTIC_PERIODS, CHAOTIC_TRANSIENT = 200, 200  # drive periods of the record of a chaotic motion, and before it
+MOST_LINES = 13  # of a table in one column
 SAME = 1e-6  # rad: strobe points of one attractor in two groups differ less
 
 
@@ -102,15 +103,18 @@ def multipliers_of(result: Result, group: str, number: int) -> np.ndarray:
 
 
 def draw_table(axes: Axes, rows: list[tuple[str, str]], *, colours: str = style.FAINT, legend: bool = False) -> Axes:
-    """Words and values below each other; `colours`: of the words; `legend`: a line above them."""
+    """Words and values below each other, of many in two columns; `colours`: of the words; `legend`: a line above them."""
     axes.axis("off")
     if legend:
         axes.set_title("measures", fontsize="medium", loc="left")
-    step = min(0.075, 1 / max(1, len(rows)))
+    length = len(rows) if len(rows) <= MOST_LINES else -(-len(rows) // 2)
+    step = min(0.075, 1 / max(1, length))
     for place, (word, value) in enumerate(rows):
-        axes.plot([0, 1], [1 - (place + 1) * step] * 2, transform=axes.transAxes, color=colours, linewidth=0.25)
-        axes.text(0, 1 - (place + 0.5) * step, word, transform=axes.transAxes, fontsize="small", va="center", color=colours)
-        axes.text(1, 1 - (place + 0.5) * step, value, transform=axes.transAxes, fontsize="small", va="center", ha="right")
+        left, right = ((0, 1) if length == len(rows) else (0, 0.48), (0.52, 1))[place // length]
+        top = 1 - place % length * step
+        axes.plot([left, right], [top - step] * 2, transform=axes.transAxes, color=colours, linewidth=0.25)
+        axes.text(left, top - step / 2, word, transform=axes.transAxes, fontsize="small", va="center", color=colours)
+        axes.text(right, top - step / 2, value, transform=axes.transAxes, fontsize="small", va="center", ha="right")
     return axes
 
 

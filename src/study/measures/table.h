@@ -35,7 +35,7 @@ enum {
   NUMBER(shock, KZ_NEEDS_SMALLEST, "rad", "size of the smallest change of the state that leaves the basin")                  \
   SIZES(harmless, KZ_NEEDS_SPREAD, "1", "share of the shocks of at most this size that stay in the basin")                   \
   NUMBER(integrity_local, KZ_NEEDS_PICTURE, "rad", "radius of the largest circle in the basin about a strobe point")         \
-  NUMBER(integrity_global, KZ_NEEDS_PICTURE, "1|rad times rad per drive radian", "area of the basin in the window")          \
+  NUMBER(integrity_global, KZ_NEEDS_PICTURE, "1|rad^2 per drive radian", "area of the basin in the window")                  \
   NUMBER(integrity_factor, KZ_NEEDS_PICTURE, "rad", "radius of the largest circle in the basin")                             \
   PENDULUM(entropy, KZ_NEEDS_PICTURE, "1", "basin entropy over boxes of 5 x 5 cells")                                        \
   PENDULUM(boundary_entropy, KZ_NEEDS_PICTURE, "1", "the same over the boxes on a boundary")                                 \
