@@ -75,6 +75,20 @@ def test_any_number_of_ranks_and_a_stop(plane, kapitza, tmp_path):
     assert datasets(tmp_path / "stopped.h5") == datasets(tmp_path / "whole.h5")
 
 
+def test_smallest_shocks_over_a_plane(kapitza, tmp_path):
+    """The same on three ranks as on one; a point is the table of its pendulum, whose labels are decided."""
+    x, y = X | {"count": 2}, Y | {"count": 2}
+    keys = {"velocity": KEYS["velocity"], "starts": 64, "shock_tolerance": 0.02}
+    scene = {"pendulum": PENDULUM, "sweep": keys | {"x": x, "y": y, "measure": ["shock"]}}
+    result = ran(kapitza, tmp_path, "one", scene)
+    assert datasets(ran(kapitza, tmp_path, "three", scene, ranks=3).path) == datasets(result.path)
+    point = result.group("plane").isel(x=1, y=1)
+    pendulum = PENDULUM | {"m": float(point["x"]), "damping": float(point["y"])}
+    single = ran(kapitza, tmp_path, "single", {"pendulum": pendulum, "measures": keys | {"names": ["shock"]}}).measures["shock"]
+    there = point["shock"].values[np.isfinite(point["shock"].values)]
+    assert np.sort(there) == pytest.approx(np.sort(single[np.isfinite(single)]), rel=1e-6) and point.attrs["shock_tolerance"] == 0.02
+
+
 @pytest.mark.parametrize(("changes", "words"), [
     ({"measure": ["intermingled_with"]}, "sweep.measure: intermingled_with is for one pendulum"),
     ({"measure": ["harmless"], "sizes": [0.1, 0.2]}, "sweep.sizes: a sweep takes one size"),

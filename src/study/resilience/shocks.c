@@ -21,29 +21,29 @@ typedef struct {
   int fan;               /* rays on each side of the best one */
   int pieces;            /* of a bracket, each round */
   double narrow, closed; /* a bracket is narrow enough, and a fan, where it is so small a part of the distance */
-} kz_look;
+} closeness;
 
 static int between(double low, double value, double high) {
   return (int)fmin(fmax(low, value), high);
 }
 
 /* A disc is a grid of rings, then its outermost ring is: the tolerance is the width of a ring of that. */
-static kz_look look_for(double tolerance) {
+static closeness look_for(double tolerance) {
   const double rings = tolerance > 0 ? 1 / sqrt(tolerance) : 1e9;
-  return (kz_look){.line = between(64, rings * rings, 2048),
-                   .rims = tolerance < 1e-6 ? RIMS : 0,
-                   .rings = between(8, ceil(rings), 96),
-                   .rays = between(32, ceil(4 * rings), 256),
-                   .fan = between(8, rings / 2, FAN),
-                   .pieces = between(4, rings / 3, 32),
-                   .narrow = fmax(tolerance, 1e-13),
-                   .closed = fmin(fmax(sqrt(tolerance), 1e-6), 0.1)};
+  return (closeness){.line = between(64, rings * rings, 2048),
+                     .rims = tolerance < 1e-6 ? RIMS : 0,
+                     .rings = between(8, ceil(rings), 96),
+                     .rays = between(32, ceil(4 * rings), 256),
+                     .fan = between(8, rings / 2, FAN),
+                     .pieces = between(4, rings / 3, 32),
+                     .narrow = fmax(tolerance, 1e-13),
+                     .closed = fmin(fmax(sqrt(tolerance), 1e-6), 0.1)};
 }
 
 /* Workspace of one batch of starts. */
 typedef struct {
   const kz_shock_problem *problem;
-  kz_look look;
+  closeness look;
   double *start; /* [most][2] */
   kz_label *end; /* [most] */
 } workspace;
