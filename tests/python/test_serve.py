@@ -154,6 +154,15 @@ def test_an_attractor_that_is_born_under_a_slider_is_found_at_the_next_frame(ser
     assert first > 0.04 and second < 0.002
 
 
+def test_few_open_cells_are_no_reason_for_a_search_between_frames(server):
+    """Along the map of Fig. 12 a cascade of rotations ends in cycles of 24 periods, of some cells, which are lost at the next value."""
+    for share in (0, 1, 2, 2):
+        pendulum = {**OTHER, "drive_frequency": 11 + 0.02 * share, "drive_amplitude": 0.3 + 0.0004 * share}
+        catalogue, frames = server.frame(250, 400, pendulum=pendulum, quality="moving")
+        longest = max(attractor["period"] for attractor in catalogue["attractors"]) if catalogue else longest
+    assert 0 < np.mean(frames[-1][1]["labels"] == 255) < 0.01 and longest < 12
+
+
 def test_a_chaotic_attractor_is_carried_along_a_slider(server):
     """A tilted drive, half of whose starts end in chaos: none of them stays open at the next values."""
     for tilt in (0.1, 0.101, 0.102):

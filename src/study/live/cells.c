@@ -37,6 +37,8 @@ static void follow(kz_prepared *r, int64_t most, kz_travellers *from, kz_travell
       continue;
     }
     cells[number].end = (kz_label){.label = (int16_t)label[i], .periods = (uint32_t)spent, .evidence = KZ_LEFT};
+    r->ended++;
+    r->left += label[i] == 0;
     if (label[i] == 0 && r->n_unsettled < KZ_MOST_UNSETTLED)
       memcpy(r->unsettled + 2 * r->n_unsettled++, state + 2 * i, 2 * sizeof *state);
   }

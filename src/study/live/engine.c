@@ -118,7 +118,7 @@ kz_status kz_engine_prepared(kz_engine *engine, const kz_scene *scene, const kz_
 void kz_engine_rest(kz_engine *engine) {
   for (int i = 0; i < KZ_MOST_PREPARED; i++) {
     kz_prepared *r = engine->prepared + i;
-    if (r->n_unsettled > 0 && kz_prepared_discover(r)) kz_engine_list(engine, r);
+    if (kz_prepared_misses(r) && kz_prepared_discover(r)) kz_engine_list(engine, r);
   }
 }
 

@@ -45,6 +45,7 @@ typedef struct {
   kz_pendulum chosen; /* the pendulum for which the numerics were chosen, */
   kz_pendulum grown;  /* and that for which the trapping regions were made */
   int age;            /* number of pendulums since the trapping regions were grown */
+  int64_t ended, left;              /* cells of moving frames since the last search: all, and those that have not settled */
   int n_unsettled;
   double unsettled[2 * KZ_MOST_UNSETTLED]; /* [n_unsettled][2] half-turns and velocity */
   kz_live_catalogue catalogue;
@@ -71,6 +72,9 @@ double kz_prepared_distance(const kz_prepared *prepared, const kz_scene *scene);
 kz_status kz_prepared_move(kz_prepared *prepared, const kz_scene *scene, const kz_frame *frame);
 /* Adds the attractors that the frame's atlas lists and that are not known. KZ_REFUSED: the atlas has another pendulum at this point. */
 kz_status kz_prepared_take_listed(kz_prepared *prepared, const kz_frame *frame);
+
+/* Whether so many cells of moving frames have not settled that a search for their attractors saves time. */
+bool kz_prepared_misses(const kz_prepared *prepared);
 
 /* Looks for attractors near its unsettled states, and drops these. Returns true if it has found some. */
 bool kz_prepared_discover(kz_prepared *prepared);

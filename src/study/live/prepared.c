@@ -22,6 +22,9 @@ static const double NEAR = 0.5;
  * regions are grown anew. (Of regions carried from epsilon = 0.300 to 0.301, 0.302 and 0.33 at once, Fig. 12, 0.4, 1.6 and 8 % of the labels
  * were wrong.) */
 static const double FARTHEST = 0.3, RECHOSEN = 0.1, REGROWN = 0.004, RESETTLED = 0.1;
+/* Share of the cells that must not settle before attractors are looked for between moving frames: following fewer costs less than a search,
+ * whose cycles of many periods are often lost at the next pendulum. */
+static const double MISSED = 0.01;
 /* rad: how near unsettled states must come back to themselves for a search. */
 static const double CLOSENESS = 0.02;
 enum { OLDEST = 5, MOVING_CELLS = 192 };
@@ -132,6 +135,10 @@ static bool same_release(const kz_release *a, const kz_release *b) {
          a->smooth == b->smooth;
 }
 
+bool kz_prepared_misses(const kz_prepared *r) {
+  return r->n_unsettled > 0 && (double)r->left >= MISSED * (double)r->ended;
+}
+
 bool kz_prepared_discover(kz_prepared *r) {
   const int64_t known = kz_dynamics_count(r->dynamics);
   KZ_FREED double *found = kz_calloc((size_t)kz_dynamics_cycle_size(r->dynamics), sizeof *found);
@@ -144,7 +151,7 @@ bool kz_prepared_discover(kz_prepared *r) {
     kz_dynamics_find_chaos(r->dynamics, r->unsettled, chaos);
     kz_dynamics_adopt(r->dynamics, chaos);
   }
-  r->n_unsettled = 0;
+  r->ended = r->left = r->n_unsettled = 0;
   if (kz_dynamics_count(r->dynamics) == known) return false;
   kz_dynamics_update(r->dynamics);
   return true;
@@ -186,7 +193,7 @@ kz_status kz_prepared_move(kz_prepared *r, const kz_scene *scene, const kz_frame
   kz_dynamics *moved = kz_dynamics_continue(r->dynamics, pendulum, &r->scene.numerics, &lost);
   kz_dynamics_free(r->dynamics);
   r->dynamics = moved;
-  r->n_unsettled = 0;
+  r->ended = r->left = r->n_unsettled = 0;
   kz_dynamics_set_release(moved, &scene->parameters.release);
   if (frame->atlas) KZ_TRY(kz_prepared_take_listed(r, frame));
   const bool far = kz_pendulums_parted(&r->grown, pendulum) > REGROWN || damped_apart(&r->grown, pendulum) > RESETTLED;

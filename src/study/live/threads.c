@@ -97,6 +97,8 @@ static kz_status wait_for_helpers(sharing *all, kz_status status) {
 /* Ends a helper, and takes over what it has listed. */
 static void join(helper *h, kz_prepared *prepared) {
   pthread_join(h->thread, NULL);
+  prepared->ended += h->prepared.ended;
+  prepared->left += h->prepared.left;
   for (int i = 0; i < h->prepared.n_unsettled && prepared->n_unsettled < KZ_MOST_UNSETTLED; i++)
     memcpy(prepared->unsettled + 2 * prepared->n_unsettled++, h->prepared.unsettled + 2 * i, 2 * sizeof *prepared->unsettled);
 }
@@ -110,7 +112,7 @@ kz_status kz_frame_follow(const kz_frame_task *task) {
   for (; started < spare && 2 * (started + 2) <= tiles; started++) { /* a thread pays from two tiles on */
     helper *h = helpers + started;
     *h = (helper){.all = &all, .prepared = *task->prepared};
-    h->prepared.n_unsettled = 0;
+    h->prepared.ended = h->prepared.left = h->prepared.n_unsettled = 0;
     pthread_mutex_lock(&all.mutex);
     all.at_work++;
     pthread_mutex_unlock(&all.mutex);
