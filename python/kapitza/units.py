@@ -143,10 +143,16 @@ def quantity(value: Any, known: Mapping[str, float]) -> float:
     """
     if not isinstance(value, str):
         return float(value)
-    number, _, unit = value.strip().partition(" ")
-    if unit.strip() and unit.strip() not in known:
+    number, unit = parts_of(value) or (value, "")
+    if unit and unit not in known:
         raise ValueError(f"{value!r} is in no known unit; the units are {', '.join(known)}")
-    return _number(number, value, "a number, maybe with its unit") * known.get(unit.strip(), 1.0)
+    return _number(number, value, "a number, maybe with its unit") * known.get(unit, 1.0)
+
+
+def parts_of(text: str) -> tuple[str, str] | None:
+    """A number and the unit behind it, "" without one, of a text such as "20 cm" or "50Hz"; None if the text is no number."""
+    found = re.fullmatch(r"\s*([-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)\s*(.*?)\s*", text)
+    return (found[1], found[2]) if found else None
 
 
 def _number(text: str, value: str, wanted: str) -> float:
@@ -161,7 +167,7 @@ def written_frequency(pendulum: Mapping[str, Any]) -> float | None:
     for name, factor in (("pivot_frequency", 1 / TURN), ("frequency", 1.0)):
         text = str(pendulum.get(name, "")).strip()
         try:
-            return quantity(text, HERTZ) * TURN * (factor if " " not in text else 1.0)
+            return quantity(text, HERTZ) * TURN * (1.0 if (parts_of(text) or ("", ""))[1] else factor)
         except ValueError:
             continue
     return None

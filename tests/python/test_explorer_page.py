@@ -44,6 +44,17 @@ def test_windows_have_bounds_and_wrap(page):
     assert width == pytest.approx(TURN) and fast == pytest.approx(200) and centre == pytest.approx(0.25 * TURN) and 1e-100 <= deep < 1e-97
 
 
+def test_the_relief_rises_inside_a_basin(page):
+    """By times that vary smoothly, of fewer cells, and as far as those of the picture itself do."""
+    page.wait()
+    columns, raised, shades = page.run("""(({columns, rows, cells, raised}) => [columns, raised,
+        new Set(Array.from({length: columns / 8}, (_, i) => cells[4 * i + 1])).size])(explorer.basins.panes[0].top)""")
+    assert raised and shades > columns / 80
+    low, high = page.module("heights.js", """its.heightsOf({cells: Array.from({length: 400}, (_, i) =>
+        [i % 4 ? 0 : i === 0 ? 255 : 0, 50 + (i >> 2), 0, 0][i % 4])}, {own: true})""")
+    assert (low, high) == (pytest.approx(52 / 255, abs=2 / 255), pytest.approx(140 / 255, abs=2 / 255))
+
+
 @pytest.mark.parametrize("width", ["3", "0.02", "1e-5", "3e-13", "7e-40", "2e-99"])
 def test_ticks_differ_and_lie_where_they_say(page, width):
     """1e-5, 1e-5 stood twice on an axis."""

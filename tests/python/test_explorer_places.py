@@ -91,6 +91,7 @@ def test_the_point_of_the_map_is_the_pendulum(page):
     assert wait_for(lambda: "No curves: wrong: no such key" in page.run("document.querySelector('#map .note').textContent"))
     listed = page.run("[...document.querySelectorAll('.kinds > span')].map((entry) => entry.textContent)")
     assert listed == ["inverted", "down nodding", "chaotic"]  # every colour of the chart
+    assert "Motions not computed yet" in page.run("document.querySelector('.kinds').textContent")
     page.run("explorer.map.go([0.75, 0.5])")
     page.wait()
     assert page.run("[explorer.state.pendulum.k, explorer.state.pendulum.m]") == ["1", "0.375"]

@@ -9,6 +9,7 @@ import pytest
 import xarray
 from conftest import plot
 from kapitza import Result, units
+from kapitza.explorer.scene import Start
 from kapitza.plots import basin, chart, orbit, potential, sweep
 from kapitza.plots.units import group_beside
 from kapitza.report.page import report
@@ -117,6 +118,13 @@ def test_what_people_write_behind_a_number():
             units.angle(wrong)
     with pytest.raises(ValueError, match="not in SI units"):
         units.velocity("3 rad/s", None)
+
+
+def test_the_explorer_keeps_units_that_are_written():
+    """With or without a blank before the unit; what has none is as the program says."""
+    start = Start("pendulum: {length: 20cm, frequency: 50 Hz, amplitude: 8 mm, quality_factor: 20, tilt: pi/90, gravity: 9.81}", is_text=True)
+    assert start.with_units() == {"length": "20cm", "frequency": "50 Hz", "amplitude": "8 mm"}
+    assert units.quantity("50Hz", units.HERTZ) == 50 and units.written_frequency({"frequency": "3000rpm"}) == pytest.approx(100 * np.pi)
 
 
 def test_the_footer_says_an_amplitude_in_mm():

@@ -11,7 +11,22 @@ import { Sliders } from "./sliders.js";
 import { VIEWS } from "./stage.js";
 import { Stories } from "./stories.js";
 
-const CHOICES = ["quality", "samples", "shade", "units", "theme", "middle", "spread"];
+/** Lists of the menu View: name in the state -> words, values with their words, and what more the title says. */
+const CHOICES = {
+  quality: ["Labels", { exact: "exact", moving: "quick" }],
+  samples: ["Samples", { 1: "1", 2: "2", 3: "3" }],
+  shade: ["Shade", { relief: "relief", none: "none", settling: "certain late" }],
+  units: ["Axes", { pi: "rad", degrees: "degrees", si: "SI" }],
+  theme: ["Theme", { auto: "auto", light: "light", dark: "dark" }],
+  middle: ["Middle", { upright: "upright", hanging: "hanging" }],
+  spread: [
+    "Release",
+    { 0: "exact", 1: "± 1°", 3: "± 3°", 10: "± 10°" },
+    "how exactly a hand releases: the line under the picture says how likely each end is",
+  ],
+};
+const PARTS = { map: "the map", basins: "the basins", motion: "the motion" }; // that may fill the page
+const KEYS = { basins: " (f)", motion: " (p)" };
 const SWITCHES = ["points", "drawn"];
 const element = (id) => document.getElementById(id);
 
@@ -41,6 +56,7 @@ function listenStage(state, basins) {
   const close = (target) => document.querySelectorAll(".menu[open]").forEach((menu) => menu.contains(target) || (menu.open = false));
   addEventListener("pointerdown", (event) => close(event.target));
   addEventListener("keydown", (event) => event.key === "Escape" && (close(null), (document.body.dataset.filled = "")));
+  for (const name in PARTS) document.querySelector(`[data-head=${name}]`).append(fillButton(name));
   for (const button of document.querySelectorAll("[data-fills]"))
     button.onclick = () => {
       const { body } = document;
@@ -48,6 +64,14 @@ function listenStage(state, basins) {
       basins.drawStage();
     };
   new ResizeObserver(() => basins.drawStage()).observe(element("pendulum"));
+}
+
+function fillButton(name) {
+  const words = `let ${PARTS[name]} fill the page`;
+  const button = Object.assign(document.createElement("button"), { id: `fill-${name}`, title: words + (KEYS[name] ?? ""), textContent: "⤢" });
+  button.dataset.fills = name;
+  button.setAttribute("aria-label", words);
+  return button;
 }
 
 function complain(words) {
@@ -104,13 +128,23 @@ function listenPendulums(state, basins) {
   return { film, map };
 }
 
+function choiceLabel(name) {
+  const [words, values, title = ""] = CHOICES[name];
+  const list = Object.assign(document.createElement("select"), { id: name });
+  for (const value in values) list.append(new Option(values[value], value));
+  const label = Object.assign(document.createElement("label"), { title });
+  label.append(`${words} `, list);
+  return label;
+}
+
 function listenChoices(state, basins) {
+  element("choices").replaceWith(...Object.keys(CHOICES).map(choiceLabel));
   if (!state.pivotFrequency) element("units").querySelector("[value=si]").disabled = true;
   const show = () => {
-    for (const name of CHOICES) element(name).value = state[name];
+    for (const name in CHOICES) element(name).value = state[name];
     for (const name of SWITCHES) element(name).checked = state[name] === "on";
   };
-  for (const name of CHOICES) element(name).onchange = () => state.change({ [name]: element(name).value });
+  for (const name in CHOICES) element(name).onchange = () => state.change({ [name]: element(name).value });
   for (const name of SWITCHES) element(name).onchange = () => state.change({ [name]: element(name).checked ? "on" : "off" });
   for (const name of Object.keys(state.overlays)) element("overlays").append(overlayBox(name, basins));
   state.listen(show);

@@ -1,5 +1,6 @@
 // The place of a deep window in the whole: a small picture of the first window with a mark, from a depth of 10 on.
 
+import { shadingOf } from "./heights.js";
 import { Painter2d } from "./painter2d.js";
 import { CanvasSurface } from "./surface.js";
 
@@ -32,7 +33,7 @@ export class Inset {
     this.root.hidden = !(this.frame && this.isDeep(window));
     if (this.root.hidden) return;
     const { width, height } = this.canvas;
-    this.painter.draw([this.frame], this.frame.window, 0);
+    this.painter.draw([this.frame], this.frame.window, shadingOf("none"));
     const place = this.frame.window.placeOf(window);
     const [x, y] = [(place.left + place.width / 2) * width, (1 - place.bottom - place.height / 2) * height];
     const [across, up] = [(place.width * width) / 2, (place.height * height) / 2].map((half) => Math.max(LEAST, half));

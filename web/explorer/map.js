@@ -16,7 +16,17 @@ const REST = 900; // ms without a change of other keys, after which the map is m
 const REACH = 7; // px within which a curve is named
 const STEP = 0.01; // of the map that an arrow moves the point
 const DASHES = { fold: [], period_doubling: [6, 3], symmetry_breaking: [2, 2], rest_swings: [6, 3], rest_leans: [2, 2] };
+const PENDING = "Motions not computed yet. One start near upright ends as:";
+const HATCHES = 9; // px between lines over what is not computed yet
 const element = (id) => document.getElementById(id);
+
+/** Lines over a place of which the motions are not known yet. */
+function hatch(surface, [left, top, width, height]) {
+  for (let x = left - height; x < left + width; x += HATCHES) {
+    const line = [[x, top + height], [x + height, top]];
+    surface.line(line, surface.theme.paper, 2.4);
+  }
+}
 
 /** Takes all answers, until nobody wants them; what went wrong, or null. */
 async function taken(answers, take, signal) {
@@ -108,7 +118,7 @@ export class MotionMap {
     const { signal } = (this.controller = new AbortController());
     this.asked = this.others;
     Object.assign(this, { atlas: null, from: null });
-    this.note("drawing the map …");
+    this.note("computing the motions …");
     this.say("");
     this.state.change({ ground: null });
     const chart = (answer) => {
@@ -229,6 +239,7 @@ export class MotionMap {
     const theme = document.documentElement.dataset.theme;
     this.picture = this.atlas ? countPicture(this.atlas, theme) : kindPicture(...this.chart, this.state.kinds);
     this.root.querySelector(".kinds").replaceChildren(
+      this.atlas ? "" : PENDING,
       ...this.picture.kinds.map(([words, colour]) => {
         const entry = document.createElement("span");
         const patch = Object.assign(document.createElement("span"), { className: "patch" });
@@ -256,6 +267,7 @@ export class MotionMap {
     const { plane } = this;
     surface.clipped(plane.box, () => {
       if (this.picture) surface.image(this.picture.canvas, plane.box);
+      if (!this.atlas) hatch(surface, plane.box);
       for (const curve of this.atlas?.curves ?? []) this.drawCurve(surface, plane, curve);
     });
     const words = ({ name, unit }) => ({ words: keyWords(name) + (unit ? ` (${unit})` : "") });

@@ -1,6 +1,7 @@
 // Labels as a texture, colours as a palette: the basins are drawn, moved and scaled by the graphics card.
 
 import { HATCHING } from "./frames.js";
+import { heightsOf } from "./heights.js";
 import { Painter2d } from "./painter2d.js";
 import { placementOf } from "./placement.js";
 
@@ -19,6 +20,7 @@ uniform vec2 canvas;
 uniform vec4 place;
 uniform float period;
 uniform float shading;
+uniform vec2 heights;
 uniform float hatching;
 out vec4 colour;
 
@@ -28,7 +30,7 @@ vec3 lightOf(ivec2 cell, bool second) {
   vec3 colour = texelFetch(palette, ivec2(int(label * 255.0 + 0.5), 0), 0).rgb;
   bool dark = mod(floor((gl_FragCoord.x - gl_FragCoord.y) / 4.0), 2.0) == 1.0;
   if (label == 1.0 && dark) colour *= 1.0 - hatching;
-  return colour * colour * (1.0 - shading * found.g);
+  return colour * colour * (1.0 - shading * clamp((found.g - heights.x) / (heights.y - heights.x), 0.0, 1.0));
 }
 
 void main() {
@@ -46,8 +48,6 @@ void main() {
   colour = vec4(sqrt(sum / float(count.x * count.y)), 1.0);
 }`;
 
-/** How much darker late ends are drawn, 0 to 1, by the word of the state. */
-export const shadingOf = (shade) => ({ relief: 0.35, settling: 0.8 })[shade] ?? 0;
 const DOUBLINGS = 10; // of the time after which the end is certain, until it is as dark as it gets
 
 /**
@@ -120,14 +120,14 @@ class PainterGl {
     gl.texImage2D(gl.TEXTURE_2D, 0, gl.RGBA8, 256, 1, 0, gl.RGBA, gl.UNSIGNED_BYTE, bytes);
   }
 
-  /** The frames, the last on top, in a window; `shading`: how much darker late ends are drawn, 0 to 1. */
+  /** The frames, the last on top, in a window; `shading`: of shadingOf. */
   draw(frames, window, shading) {
     const { gl, canvas } = this;
     gl.viewport(0, 0, canvas.width, canvas.height);
     gl.clearColor(0, 0, 0, 0);
     gl.clear(gl.COLOR_BUFFER_BIT);
     gl.uniform2f(this.uniform("canvas"), canvas.width, canvas.height);
-    gl.uniform1f(this.uniform("shading"), shading);
+    gl.uniform1f(this.uniform("shading"), shading.depth);
     for (const frame of frames) {
       const { place, period } = placementOf(frame, window);
       this.setPalette(frame.palette);
@@ -135,6 +135,7 @@ class PainterGl {
       gl.bindTexture(gl.TEXTURE_2D, (frame.texture ??= this.upload(frame)));
       gl.uniform4f(this.uniform("place"), ...place);
       gl.uniform1f(this.uniform("period"), period);
+      gl.uniform2f(this.uniform("heights"), ...heightsOf(frame, shading));
       gl.uniform1f(this.uniform("hatching"), frame.hatched ? HATCHING : 0);
       gl.drawArrays(gl.TRIANGLE_STRIP, 0, 4);
     }

@@ -1,6 +1,7 @@
 // The painter of browsers without WebGL: each frame becomes a picture of its own, which is drawn where it lies.
 
 import { HATCHING } from "./frames.js";
+import { heightsOf } from "./heights.js";
 import { placementOf } from "./placement.js";
 
 const UNDRAWN = -1;
@@ -48,6 +49,7 @@ export class Painter2d {
     Object.assign(canvas, { width: columns, height: rows });
     const context = canvas.getContext("2d");
     const image = context.createImageData(columns, rows);
+    const [low, high] = heightsOf(frame, shading);
     for (let row = 0; row < rows; row++)
       for (let column = 0; column < columns; column++) {
         const cell = 4 * (row * columns + column);
@@ -55,7 +57,8 @@ export class Painter2d {
         const second = cells[cell + 2] === 255 && (row + column) % 2 === 1;
         const label = 4 * (second ? cells[cell + 3] : cells[cell]);
         const dark = frame.hatched && label === 4 * 255 && Math.floor((row + column) / 4) % 2 === 1;
-        const light = (1 - (shading * cells[cell + 1]) / 255) ** 0.5 * (dark ? 1 - HATCHING : 1);
+        const late = Math.max(0, Math.min(1, (cells[cell + 1] / 255 - low) / (high - low)));
+        const light = (1 - shading.depth * late) ** 0.5 * (dark ? 1 - HATCHING : 1);
         for (let part = 0; part < 3; part++) image.data[pixel + part] = palette[label + part] * light;
         image.data[pixel + 3] = 255;
       }

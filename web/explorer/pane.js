@@ -5,7 +5,8 @@ import { drawReleases } from "./experiment.js";
 import { decoded, MOST_MOVING, paletteOf, requestOf, sharesOf } from "./frames.js";
 import { listedAt } from "./ground.js";
 import { Inset } from "./inset.js";
-import { frameOf, painterOn, shadingOf } from "./painter.js";
+import { raise, shadingOf } from "./heights.js";
+import { frameOf, painterOn } from "./painter.js";
 import { placementOf, seen } from "./placement.js";
 import { axesOf, drawAxes, drawLine, drawPoints, Plane } from "./plane.js";
 import { CanvasSurface, lettersOf } from "./surface.js";
@@ -20,6 +21,7 @@ const SMOOTH = 30; // ms that a frame may take while things move, which decides 
 const FEWEST = 24_000; // at least
 const EASE = 0.4; // of the way to the window wanted, a picture of the screen
 const LEAP = 30;
+const COARSE = 40_000; // cells of the times that give a picture its relief
 
 export class Pane {
   /** In the element `root`; `name`: of its program; `report(pane)` hears of every frame, `say` of what it does. */
@@ -139,6 +141,7 @@ export class Pane {
     const samples = Number(this.state.samples);
     this.say(this, "computing", quality === "exact" ? "deciding every label ..." : "computing more samples ...", 0);
     if (quality === "exact" || samples > 1 || this.most < MOST_MOVING) await this.frame({ quality, levels: [8, 4, 2, 1], samples });
+    if (version === this.version) await this.shade();
     if (version !== this.version) return;
     this.say(this, "done", this.words());
     this.offer.hidden = !(this.top && sharesOf(this.top).filter(({ share }) => share > 0).length === 1);
@@ -146,6 +149,20 @@ export class Pane {
     if (!this.inset.wants(this.state.window, key)) return;
     this.inset.frame = Object.assign(await this.glance(this.state.home, this.inset.size), { key });
     this.draw();
+  }
+
+  /** Gives the picture its relief: times that vary smoothly, of fewer cells, because they take longer than labels. */
+  async shade() {
+    const { top } = this;
+    if (this.state.shade !== "relief" || !top || top.raised) return;
+    await this.raise(top, top.window, this.basins);
+    this.painter.forget(top);
+    this.draw();
+  }
+
+  async raise(frame, window, size) {
+    raise(frame, await this.glance(window, size, { shade: "settling", most: COARSE }));
+    frame.raised = true;
   }
 
   /** A frame of any window, of that many cells; quick unless `quality` and `shade` say otherwise. */

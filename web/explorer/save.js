@@ -3,7 +3,7 @@
 import { ask } from "./engine.js";
 import { asScene } from "./frames.js";
 import { rowsOf, shareWords } from "./legend.js";
-import { shadingOf } from "./painter.js";
+import { shadingOf } from "./heights.js";
 import { Painter2d } from "./painter2d.js";
 import { Plane } from "./plane.js";
 import { CanvasSurface, LIGHT, SvgSurface } from "./surface.js";
@@ -97,6 +97,7 @@ async function computed(state, pane, scale) {
   const [, , wide, high] = pane.plane.box;
   const canvas = Object.assign(document.createElement("canvas"), { width: Math.round(wide * scale), height: Math.round(high * scale) });
   const frame = await pane.glance(state.window, canvas, { quality: state.quality, shade: state.shade, most: MOST });
+  if (state.shade === "relief") await pane.raise(frame, state.window, canvas);
   new Painter2d(canvas).draw([frame], state.window, shadingOf(state.shade));
   return canvas;
 }

@@ -6,13 +6,24 @@ import { keyWords, numberOf, withUnit } from "./values.js";
 
 const REACH = 4; // a slider goes from the scene's value / 4 to its 4-fold, in equal ratios; from 0 to -1 and 1, finer near 0
 const STEP = 0.01; // of half a slider, that an arrow or a notch of the wheel goes; with shift ten of them
-const SYMBOLS = {
+const SYMBOLS = { // of values without a unit of their own
   quality_factor: "Q",
   drive_frequency: "ω/ω₀",
   drive_amplitude: "ε",
   damping: "β",
   torque: "γ",
   tilt: "rad",
+  length: "m",
+  amplitude: "m",
+  frequency: "Hz",
+  gravity: "m/s²",
+  decay_time: "s",
+  mass: "kg",
+  radius: "m",
+  inertia: "kg m²",
+  friction: "kg m²/s",
+  pivot_amplitude: "m",
+  pivot_frequency: "rad/s",
 };
 const LIMITS = { rest_leans: "stands", rest_swings: "flutters" }; // of upright, as marks are called
 
@@ -166,7 +177,7 @@ function newRow(name, home) {
   element.className = "slider";
   label.textContent = keyWords(name);
   label.htmlFor = number.id = `value-${name}`;
-  const symbol = Object.assign(document.createElement("span"), { className: "symbol", textContent: SYMBOLS[name] ?? numberOf(home).unit });
+  const symbol = Object.assign(document.createElement("span"), { className: "symbol", textContent: numberOf(home).unit || (SYMBOLS[name] ?? "") });
   label.append(" ", symbol);
   Object.assign(range, { type: "range", min: -1, max: 1, step: 0.002, value: 0, id: `slider-${name}` });
   range.setAttribute("aria-label", keyWords(name));

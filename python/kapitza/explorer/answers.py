@@ -18,7 +18,7 @@ def page_folder():
 
 def state(explorer, request):
     """What the page needs before its first frame."""
-    pendulum = explorer.ready["pendulum"]
+    pendulum = explorer.ready["pendulum"] | explorer.start.with_units()
     return {"title": explorer.title, "pendulum": pendulum, "window": explorer.start.window(explorer.ready), "kinds": style.KINDS,
             "pivot_frequency": written_frequency(pendulum), "overlays": overlays(explorer.start.result)}
 

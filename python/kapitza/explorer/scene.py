@@ -9,6 +9,7 @@ import yaml
 
 from kapitza.result import BadFile, Result
 from kapitza.scene import flow, put, texts, tree_of
+from kapitza.units import parts_of
 
 HDF5_SIGNATURE = b"\x89HDF\r\n\x1a\n"
 # The window of a scene that has none: the whole circle, and velocities of two turns a shake.
@@ -54,6 +55,12 @@ class Start:
         if self._file is not None:
             os.close(self._file)
             self._file = None
+
+    def with_units(self):
+        """The values of the pendulum behind which the scene writes a unit: {"length": "20 cm"}."""
+        written = self.tree.get("pendulum")
+        written = written if isinstance(written, dict) else {}
+        return {name: value for name, value in written.items() if isinstance(value, str) and (parts_of(value) or ("", ""))[1]}
 
     def window(self, ready):
         """The window of the scene's basin, with the digits that the scene gives; else as the program says, or the whole circle."""
