@@ -156,6 +156,7 @@ def test_an_attractor_that_is_born_under_a_slider_is_found_at_the_next_frame(ser
 
 def test_few_open_cells_are_no_reason_for_a_search_between_frames(server):
     """Along the map of Fig. 12 a cascade of rotations ends in cycles of 24 periods, of some cells, which are lost at the next value."""
+    longest = 0
     for share in (0, 1, 2, 2):
         pendulum = {**OTHER, "drive_frequency": 11 + 0.02 * share, "drive_amplitude": 0.3 + 0.0004 * share}
         catalogue, frames = server.frame(250, 400, pendulum=pendulum, quality="moving")

@@ -41,11 +41,11 @@ typedef struct {
   int64_t periods;  /* largest number of drive periods for which cells are followed */
   kz_dynamics *dynamics;
   kz_search search;
-  kz_images *images;  /* of the last window that needed them; NULL = none yet */
-  kz_pendulum chosen; /* the pendulum for which the numerics were chosen, */
-  kz_pendulum grown;  /* and that for which the trapping regions were made */
-  int age;            /* number of pendulums since the trapping regions were grown */
-  int64_t ended, left;              /* cells of moving frames since the last search: all, and those that have not settled */
+  kz_images *images;   /* of the last window that needed them; NULL = none yet */
+  kz_pendulum chosen;  /* the pendulum for which the numerics were chosen, */
+  kz_pendulum grown;   /* and that for which the trapping regions were made */
+  int age;             /* number of pendulums since the trapping regions were grown */
+  int64_t ended, left; /* cells of moving frames since the last search: all, and those that have not settled */
   int n_unsettled;
   double unsettled[2 * KZ_MOST_UNSETTLED]; /* [n_unsettled][2] half-turns and velocity */
   kz_live_catalogue catalogue;
