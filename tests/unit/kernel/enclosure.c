@@ -1,6 +1,7 @@
 /* Enclosures of drive periods hold the motion in quad precision: random and adversarial starts, every kind of set; and bounds that are made
  * smaller do not. */
 #include "../../tools/enclosed.h"
+#include "../../tools/enclosed_orbit.h"
 #include "../../tools/part.h"
 #include "../../tools/test.h"
 
@@ -9,7 +10,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "digits/number.h"
 #include "enclosure/operations.h"
 
 enum { SETS = 16, PERIODS = 3, DRAWS = PART > 1 ? 5 : 10 };
@@ -36,30 +36,6 @@ static kz_pendulum some_pendulum(int draw) {
   if (draw % 2 == 0) return chosen[draw / 2 % 5];
   if (draw % 4 == 1) return some_drive(draw);
   return (kz_pendulum){uniform(-0.05, 0.3), uniform(0, 0.1), uniform(-0.6, 0.6)};
-}
-
-/* z of an orbit in many digits, in the coordinates of a set. */
-static void place_of_orbit(const kz_arbitrary *orbit, const kz_enclosure *set, double z[2]) {
-  enum { BITS = 300 };
-  const size_t size = kz_arbitrary_size(orbit);
-  char *text = malloc(size);
-  quad distance[2];
-  KZ_NUMBER(x);
-  KZ_NUMBER(part);
-  kz_arbitrary_write(orbit, text);
-  for (int axis = 0; axis < 2; axis++) {
-    assert_true(kz_number_read(text + axis * (int)(size / 2), &x));
-    for (int i = 0; i < 3; i++) {
-      kz_number_of_double((axis ? set->velocity : set->theta)[i], &part);
-      kz_number_subtract(&x, &x, &part, BITS);
-    }
-    kz_number_two_pi(&part, BITS);
-    if (axis == 0 && kz_number_double(&x) > 3) kz_number_subtract(&x, &x, &part, BITS);
-    if (axis == 0 && kz_number_double(&x) < -3) kz_number_add(&x, &x, &part, BITS);
-    distance[axis] = kz_number_quad(&x);
-  }
-  free(text);
-  place_at(distance[0], distance[1], set, z);
 }
 
 /* Where n starts, at most 2 SETS, are after some periods, in quad precision: many at once, since each call makes tables and fills lanes. */
