@@ -87,7 +87,7 @@ _SCENES = {
     "measures-erosion": [("", "line", ["--measure", "share", "integrity_factor"])],
     "measures-fig12": [("", "passport", ["--attractor", "rotation +1/1"])],
     "measures-forced": [("", "passport", ["--attractor", "rotation +2/2"])],
-    "measures-plane": [("", "plane", ["--measure", "shock"])],
+    "measures-plane": [("", "plane", ["--measure", "shock", "--attractor", "inverted"])],
     "measures-riddled": [("", "passport", ["--attractor", "wide 3-nodding"])],
     "measures-share": [("", "plane", ["--measure", "share"])],
     "paul-trap": [_TRAP],

@@ -234,6 +234,8 @@ void kz_shocks_find(const kz_shock_problem *problem, kz_shock shock[3]) {
   KZ_FREED_BY(release) workspace r;
   make(problem, &r);
   shock[0] = along_line(&r, 1, 0, M_PI);
+  if (shock[0].end == 0 && !(shock[0].size < M_PI))
+    shock[0] = (kz_shock){NAN, NAN, NAN, -1}; /* the other rest, which only this very start stays on */
   shock[1] = along_line(&r, 0, 1, problem->farthest);
   const kz_shock angle = in_norm(shock, problem->scale), velocity = in_norm(shock + 1, problem->scale);
   shock[2] = isless(velocity.size, angle.size) || isnan(angle.size) ? velocity : angle;

@@ -51,6 +51,19 @@ TEST(test_lines_and_discs) {
   assert_true(fabs(shock[2].size - (hypot(0.6, 0.5) - 0.03)) < 1e-10 && shock[2].end == 4);
 }
 
+/* The other rest, half a turn from a rest, on which only the very start stays. */
+static void ends_but_the_rest(void *context, int64_t n, const double *start, kz_label *end) {
+  (void)context;
+  for (int64_t i = 0; i < n; i++) end[i] = (kz_label){.label = fabs(start[2 * i]) == M_PI && start[2 * i + 1] == 0 ? 0 : 1};
+}
+
+TEST(test_the_other_rest_is_no_basin) {
+  const kz_shock_problem problem = {.ends = ends_but_the_rest, .own = 1, .scale = 1, .farthest = 2};
+  kz_shock shock[3];
+  kz_shocks_find(&problem, shock);
+  for (int i = 0; i < 3; i++) assert_true(isnan(shock[i].size) && shock[i].end == -1);
+}
+
 /* Smooth boundaries to the tolerance by far fewer labels; a smaller one is found within the known one, and none where there is none. */
 TEST(test_a_tolerance) {
   bool small = false;
