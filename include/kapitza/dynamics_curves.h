@@ -48,7 +48,7 @@ enum { KZ_EVENT_FOLD = 1, KZ_EVENT_FLIP = 2, KZ_EVENT_HALVES = 3, KZ_EVENT_MIRRO
 /* Follows the cycle near `start` along a line, first in the direction `along` (a unit vector), attracting or not, through folds; side 1 or -1:
  * one of the two branches of the fold at `start`. rows
  * [most][4 + 2 points]: place, trace and determinant of the map's derivative, points. events [most_events][3 + 2 points]: what, place,
- * points. Returns the number of rows. */
+ * points; with most_events > 0 it ends there. Returns the number of rows. */
 int64_t kz_curve_branch(const kz_plane *plane, const kz_curve_kind *kind, const double *start, const double along[2],
                         int32_t side, double longest, int64_t most, double *rows, int64_t most_events, double *events,
                         int64_t *n_events, int32_t *ending);

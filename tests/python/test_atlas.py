@@ -1,5 +1,6 @@
 """The study atlas: curves against the linear equation and the flutter table, lists against `attractors`, ranks, resumed runs, bad input."""
 
+import itertools
 import json
 import shutil
 
@@ -262,6 +263,34 @@ def test_no_curve_is_missing(kapitza, tmp_path):
                 assert min(abs(m - y) for *same, y in other if same == kind) < 2e-3, (k, kind, m)
                 pairs += 1
     assert pairs > 1500
+
+
+def test_curves_of_cycles_that_few_starts_reach(kapitza, tmp_path):
+    """Two pairs of rotations 1/2 are born in this plane. Attractors at 144 points show one of them."""
+    scene = {"pendulum": PENDULUM, "atlas": {"x": {"parameter": "drive_frequency", "min": 9, "max": 13},
+                                             "y": {"parameter": "drive_amplitude", "min": 0, "max": 0.6}, "max_period": 2, "checks": 0,
+                                             "points": 16}}
+    (tmp_path / "s.yaml").write_text(json.dumps(scene))
+    kapitza("run", "s.yaml", folder=tmp_path)
+    named = [(kind, period, winding) for kind, period, winding, *_ in curves_of(Result(tmp_path / "s.h5").group("atlas"))]
+    assert named.count((FOLD, 2, 1)) == 2 and named.count((DOUBLING, 2, 1)) == 2
+
+
+def test_every_motion_of_the_lists_exists(kapitza, tmp_path):
+    """A rotation 1/2 doubles in this plane, and the doubled one loses its stability so soon that the two curves are nearly one.
+    Without the second curve the list of every point above had a motion that does not exist."""
+    scene = {"pendulum": {"k": 0.1, "damping": 0.1, "m": 0.5},
+             "atlas": {"x": {"parameter": "k", "min": 0.1, "max": 1.6}, "y": {"parameter": "m", "min": 0, "max": 1}, "max_period": 4,
+                       "seeds": 4, "checks": 0, "points": 24}}
+    (tmp_path / "s.yaml").write_text(json.dumps(scene))
+    kapitza("run", "s.yaml", folder=tmp_path)
+    result, told = Result(tmp_path / "s.h5"), 0
+    group = result.group("atlas")
+    for x, y in itertools.product(group["column"].values[1::4], group["row"].values[1::4]):
+        motions = result.motions(float(x), float(y))
+        assert all(len(values) for values in motions["multipliers"]), (x, y, list(motions["name"]))
+        told += len(motions)
+    assert told >= 30
 
 
 @pytest.mark.parametrize("x", with_extensive([{"parameter": "k", "min": -0.3, "max": 0.3}],

@@ -59,6 +59,8 @@ contains
       numbers = 1 + walker%system%determinant + [-1, 1]*walker%system%trace
       if (last(1)*numbers(1) < 0) call cross(FOLD, 1)
       if (last(2)*numbers(2) < 0) call cross(FLIP, -1)
+      ending = LONG
+      if (most_events > 0 .and. n_events == most_events) return
       was = is
       call put()
       ending = LEFT

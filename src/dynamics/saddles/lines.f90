@@ -18,8 +18,7 @@ module kz_saddles_lines
   real(dp), parameter :: REACH = 0.25_dp, SHORT = 0.25_dp
   !> So far beyond its ends, in units of the piece, an image is taken as straight.
   real(dp), parameter :: BEYOND = 0.25_dp
-  !> rad: no shorter piece is halved; how often that is done at most.
-  real(dp), parameter :: SHORTEST = 1e-13_dp
+  !> How often a piece is halved at most.
   integer, parameter :: HALVINGS = 45
   !> rad: when an orbit is closed, when two points of it are one, and how far outside a window its edge still is.
   real(dp), parameter :: CLOSE = 1e-7_dp, ONE = 1e-5_dp, EDGE = 1e-9_dp
@@ -27,11 +26,12 @@ module kz_saddles_lines
 contains
 
   !> kz_dynamics_search_line of dynamics.h.
-  function search_line(pendulum, max_period, n_nodes, node, window, most_starts, most, found, work) &
+  function search_line(pendulum, max_period, n_nodes, node, window, shortest, most_starts, most, found, work) &
     bind(C, name='kz_dynamics_search_line') result(n_found)
     type(pendulum_t), intent(in) :: pendulum
     integer(c_int64_t), value :: max_period, n_nodes
     real(dp), intent(in) :: node(2, n_nodes), window(4)
+    real(dp), value :: shortest
     integer(c_int64_t), value :: most_starts, most
     real(dp), intent(out) :: found(2 + 2*max_period, most)
     integer(c_int64_t), intent(out) :: work(2)
@@ -76,7 +76,7 @@ contains
       logical :: near
       integer :: n
 
-      if (is_long(a, b)) then
+      if (is_long(a, b, shortest)) then
         n_waiting = n_waiting + 1
         waiting(:, :, 1, n_waiting) = a
         waiting(:, :, 2, n_waiting) = b
@@ -112,15 +112,16 @@ contains
   end subroutine follow
 
   !> Whether an image of the piece is too long to decide whether it passes near the piece.
-  pure function is_long(a, b) result(long)
+  pure function is_long(a, b, shortest) result(long)
     real(dp), intent(in) :: a(:, 0:) !< orbits of the ends
     real(dp), intent(in) :: b(:, 0:)
+    real(dp), intent(in) :: shortest !< rad: no shorter piece is halved
     logical :: long
     real(dp) :: length
     integer :: n
 
     long = .false.
-    if (norm2(b(:, 0) - a(:, 0)) < SHORTEST) return
+    if (norm2(b(:, 0) - a(:, 0)) < shortest) return
     length = 0
     do n = 1, ubound(a, 2)
       length = max(length, norm2(b(:, n) - a(:, n)))

@@ -157,6 +157,8 @@ static inline int64_t kz_atlas_width(const kz_atlas_kind *kind) {
 /* From a cycle along both axes; from a curve's degenerate points, its images and, if `middle`, its middle along both axes; along the
  * line where the other coordinate than `axis` is `value`, from all crossings of curves `first` and later. Not NULL: the branches join `drawn`. */
 void kz_atlas_explore_cycle(const kz_atlas *atlas, const kz_atlas_seed *cycle, kz_atlas_seeds *seeds);
+/* From the first curve alone that a cycle meets along the vertical axis, else along the other one. */
+void kz_atlas_explore_first(const kz_atlas *atlas, const kz_atlas_seed *cycle, kz_atlas_seeds *seeds);
 void kz_atlas_explore_curve(const kz_atlas *atlas, const kz_atlas_curve *curve, bool middle, kz_atlas_seeds *seeds);
 void kz_atlas_explore_line(kz_atlas *atlas, int axis, double value, int64_t first, kz_atlas_seeds *seeds,
                            kz_atlas_branches *drawn);
@@ -172,8 +174,9 @@ kz_status kz_atlas_probe_at(const kz_atlas *atlas, const double place[2], int64_
 
 /* Whether a state is one of the points of a cycle or of its mirror image, within `near` rad. */
 bool kz_atlas_same(const kz_atlas *atlas, const kz_atlas_seed *cycle, const double *state, double near);
-/* The attracting cycle of n periods near a state. */
-bool kz_atlas_identify(const kz_atlas *atlas, const double place[2], const double *state, int n, kz_atlas_seed *cycle);
+/* The cycle of n periods near a state, if the trace of its map is below `steepest` times that of a multiplier of 1: 1 = it attracts. */
+bool kz_atlas_identify(const kz_atlas *atlas, const double place[2], const double *state, int n, double steepest,
+                       kz_atlas_seed *cycle);
 
 /* ---- arrangement ---- */
 
@@ -219,6 +222,8 @@ void kz_atlas_bag_free(kz_atlas_bag *b);
  * other tiles have no seeds. Collective. */
 kz_status kz_atlas_gather(const kz_run *run, const char *name, int64_t n, size_t bytes, bool whole, kz_tile_fn work,
                           void *context, kz_atlas_bag *b);
+/* Seeds from cycles at n places, attracting or not, that are found on lines of starts: the curves that they meet first. Collective. */
+kz_status kz_atlas_births(const kz_atlas *atlas, const kz_run *run, int64_t n, const double (*place)[2], kz_atlas_bag *found);
 /* Seeds and curves as records; the seeds of a record stay where they are, a curve is copied. */
 void kz_atlas_put_seeds(const kz_atlas_seeds *seeds, void *record);
 kz_atlas_seeds kz_atlas_seeds_in(const char *record);

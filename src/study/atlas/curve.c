@@ -7,7 +7,10 @@
 
 enum { MOST_ROWS = 1500, MOST_SPECIAL = 32, SAMPLES = 12 };
 /* A point lies on a curve if it is this near to one of its steps, in lengths of the step. */
-static const double NEAR = 0.05, WEIGHT = 0.2, ROUNDING = 1e-9, BLURRED = 1e-3;
+static const double NEAR = 0.05, WEIGHT = 0.2, ROUNDING = 1e-9;
+/* Points of a cycle that are this near to each other are those of a shorter one. 1e-3 took curves of doubled rotations for those of their
+ * parents; 1e-5 leaves a nodding in lists in which it does not exist. */
+static const double BLURRED = 1e-4;
 
 void kz_atlas_curve_free(kz_atlas_curve *curve) {
   free(curve->row);

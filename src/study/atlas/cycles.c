@@ -62,19 +62,44 @@ static bool repeats(const kz_atlas_kind *kind, const double *y, int shift, doubl
   return true;
 }
 
+/* The shorter cycle, of a map or half map, that the points of a map are; false if there is none. */
+static bool reduce_whole(const kz_atlas *atlas, double near, const kz_atlas_kind *kind, const double *y, kz_curve_kind *of) {
+  const int n = of->points;
+  for (int shift = 1; shift < n && of->points == n; shift++)
+    if (n % shift == 0 && repeats(kind, y, shift, 1, near)) of->points = shift, of->turns = of->turns * shift / n;
+  if (of->points == n && atlas->plane.mirrored && of->turns == 0 && n % 2 == 0 && repeats(kind, y, n / 2, -1, near)) {
+    of->points = n / 2, of->side = -1;
+    of->turns = (int32_t)rint((y[n] + y[0]) / (2 * M_PI));
+  }
+  return of->points < n;
+}
+
+/* The same for a half map: it is an odd power of another half map, or all its points are rest. */
+static bool reduce_half(double near, const double *y, kz_curve_kind *of) {
+  const int n = of->points;
+  bool rest = n > 1;
+  for (int i = 0; i < n; i++) rest = rest && apart(y, i, i, -1) < 2 * near;
+  if (rest) {
+    *of = (kz_curve_kind){.side = 1, .points = 1, .multiplier = of->multiplier};
+    return true;
+  }
+  for (int shift = 1; shift < n; shift++) {
+    bool is_power = n % shift == 0 && n / shift % 2 == 1;
+    for (int i = 0; i + shift < n && is_power; i++) is_power = apart(y, i, i + shift, -1) < near;
+    if (!is_power) continue;
+    of->points = shift;
+    of->turns = (int32_t)rint((y[2 * shift] + y[0]) / (2 * M_PI));
+    return true;
+  }
+  return false;
+}
+
 bool kz_atlas_reduce(const kz_atlas *atlas, double near, kz_atlas_kind *kind, double *y) {
   const int n = kind->of.points;
   const double place[2] = {y[2 * n], y[2 * n + 1]};
   double numbers[2], point[KZ_ATLAS_UNKNOWNS];
   kz_curve_kind of = kind->of;
-  if (of.side < 0 || kind->rest >= 0) return false;
-  for (int shift = 1; shift < n && of.points == n; shift++)
-    if (n % shift == 0 && repeats(kind, y, shift, 1, near)) of.points = shift, of.turns = of.turns * shift / n;
-  if (of.points == n && atlas->plane.mirrored && of.turns == 0 && n % 2 == 0 && repeats(kind, y, n / 2, -1, near)) {
-    of.points = n / 2, of.side = -1;
-    of.turns = (int32_t)rint((y[n] + y[0]) / (2 * M_PI));
-  }
-  if (of.points == n) return false;
+  if (kind->rest >= 0 || !(of.side > 0 ? reduce_whole(atlas, near, kind, y, &of) : reduce_half(near, y, &of))) return false;
   memcpy(point, y, 2 * (size_t)of.points * sizeof *point);
   memcpy(point + 2 * of.points, place, sizeof place);
   if (of.multiplier != 0 && kz_curve_solve(&atlas->plane, &of, point, numbers)) of.multiplier = numbers[0] > 0 ? 1 : -1;

@@ -55,17 +55,17 @@ static void add_parent(const kz_atlas *atlas, const line *l, int event, const kz
   if (kind.of.points > 0 && kz_curve_locate(&atlas->plane, &kind.of, y, along)) take(atlas, l, kind, y, true, seeds);
 }
 
-/* Follows a cycle along a line and adds what it meets; side 1 or -1: one of the branches of a fold. */
-static void follow(const kz_atlas *atlas, const line *l, const kz_atlas_kind *kind, const double *start, const double along[2],
-                   int32_t side, kz_atlas_seeds *seeds) {
+/* Follows a cycle along a line and adds what it meets, `most` curves; side 1 or -1: one of the branches of a fold. */
+static void follow_to(const kz_atlas *atlas, const line *l, const kz_atlas_kind *kind, const double *start,
+                      const double along[2], int32_t side, int64_t most, kz_atlas_seeds *seeds) {
   const int n = 2 * kind->of.points;
   KZ_FREED double *row = kz_malloc(MOST_ROWS * (size_t)(4 + n) * sizeof *row);
   KZ_FREED double *event = kz_malloc(MOST_EVENTS * (size_t)(3 + n) * sizeof *event);
   int64_t events = 0;
   int32_t ending;
   if (kz_atlas_period(kind) > atlas->max_period) return;
-  const int64_t rows = kz_curve_branch(&atlas->plane, &kind->of, start, along, side, LONGEST, MOST_ROWS, row, MOST_EVENTS,
-                                       event, &events, &ending);
+  const int64_t rows =
+      kz_curve_branch(&atlas->plane, &kind->of, start, along, side, LONGEST, MOST_ROWS, row, most, event, &events, &ending);
   if (l && l->drawn) kz_atlas_draw(atlas, l->axis, kind, rows, row, l->drawn);
   for (int64_t i = 0; i < events; i++) {
     const double *e = event + i * (3 + n);
@@ -81,10 +81,31 @@ static void follow(const kz_atlas *atlas, const line *l, const kz_atlas_kind *ki
   }
 }
 
+static void follow(const kz_atlas *atlas, const line *l, const kz_atlas_kind *kind, const double *start, const double along[2],
+                   int32_t side, kz_atlas_seeds *seeds) {
+  follow_to(atlas, l, kind, start, along, side, MOST_EVENTS, seeds);
+}
+
+/* To the right, to the left, up, down. */
+static void direction(int i, double along[2]) {
+  const double x[] = {1, -1, 0, 0}, y[] = {0, 0, 1, -1};
+  along[0] = x[i], along[1] = y[i];
+}
+
 void kz_atlas_explore_cycle(const kz_atlas *atlas, const kz_atlas_seed *cycle, kz_atlas_seeds *seeds) {
   for (int i = 0; i < 4; i++) {
-    const double along[2] = {i == 0 ? 1 : i == 1 ? -1 : 0, i == 2 ? 1 : i == 3 ? -1 : 0};
+    double along[2];
+    direction(i, along);
     follow(atlas, NULL, &cycle->kind, cycle->y, along, 0, seeds);
+  }
+}
+
+void kz_atlas_explore_first(const kz_atlas *atlas, const kz_atlas_seed *cycle, kz_atlas_seeds *seeds) {
+  const int64_t before = seeds->count;
+  for (int i = 3; i >= 0 && seeds->count == before; i--) {
+    double along[2];
+    direction(i, along);
+    follow_to(atlas, NULL, &cycle->kind, cycle->y, along, 0, 1, seeds);
   }
 }
 

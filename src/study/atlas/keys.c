@@ -10,12 +10,12 @@ static const kz_key keys[] = {
     PLANE_AXIS(atlas, x, "The key along the horizontal axis."),
     PLANE_AXIS(atlas, y, "The key along the vertical axis."),
     INTEGER("atlas.max_period", 1, KZ_ATLAS_MOST_PERIOD, "6", max_period, "Longest period of the cycles, drive periods."),
-    INTEGER(
-        "atlas.checks", 0, 1e5, "300", checks,
-        "Random points of a round whose attractors are searched; rounds go on until one finds nothing that the curves do not "
-        "tell, at most 16."),
-    INTEGER("atlas.seeds", 2, 100, "12", seeds,
-            "Places along each axis whose attractors are searched first: curves are followed from what is found there."),
+    INTEGER("atlas.checks", 0, 1e5, "300", checks,
+            "Random points of a round whose attractors are searched; rounds go on until two in a row find nothing that the "
+            "curves do "
+            "not tell, at most 16."),
+    INTEGER("atlas.seeds", 2, 100, "8", seeds,
+            "Places whose cycles, attracting or not, are searched first: curves are followed from what is found there."),
     INTEGER("atlas.points", 16, 4000, "400", points, "Cells along each axis for the number and the lists of attractors."),
     INTEGER("atlas.shares", 0, 1e6, "0", shares,
             "Starts at one point of each of the largest regions, whose ends give the shares of the basins there; 0 = none."),

@@ -45,15 +45,16 @@ static kz_atlas_kind kind_of(const kz_atlas *atlas, int n, const double *y, cons
   return kind;
 }
 
-bool kz_atlas_identify(const kz_atlas *atlas, const double place[2], const double *state, int n, kz_atlas_seed *cycle) {
+bool kz_atlas_identify(const kz_atlas *atlas, const double place[2], const double *state, int n, double steepest,
+                       kz_atlas_seed *cycle) {
   double y[2 * KZ_CURVE_POINTS + 4] = {state[0], state[1]}, numbers[2], image[2];
   if (n > KZ_CURVE_POINTS || !kz_curve_orbit(&atlas->plane, place, n, y)) return false;
   const kz_curve_kind closed = {1, n, 0, (int32_t)rint((y[2 * n] - y[0]) / (2 * M_PI)), 0};
   y[2 * n] = place[0], y[2 * n + 1] = place[1];
   if (!kz_curve_solve(&atlas->plane, &closed, y, numbers) || distance(y, state, 1) > GUESSED) return false;
   for (int d = 1; d < n; d++)
-    if (n % d == 0 && distance(y + 2 * d, y, 1) < ONE) return kz_atlas_identify(atlas, place, y, d, cycle);
-  if (!(fabs(numbers[0]) < 1 + numbers[1])) return false;
+    if (n % d == 0 && distance(y + 2 * d, y, 1) < ONE) return kz_atlas_identify(atlas, place, y, d, steepest, cycle);
+  if (!(fabs(numbers[0]) < steepest * (1 + numbers[1]))) return false;
   image[0] = y[0] + 2 * M_PI * closed.turns, image[1] = y[1];
   const kz_atlas_kind kind = kind_of(atlas, n, y, image);
   kz_atlas_seeds one = {0};
@@ -101,7 +102,7 @@ static bool settle(const kz_atlas *atlas, const double state[2], int n, kz_atlas
   kz_atlas_seeds *found = &probe->found;
   for (int64_t i = 0; i < found->count; i++)
     if (n % kz_atlas_period(&found->list[i].kind) == 0 && kz_atlas_same(atlas, found->list + i, state, ENDS)) return true;
-  if (!kz_atlas_identify(atlas, probe->place, state, n, &cycle)) return false;
+  if (!kz_atlas_identify(atlas, probe->place, state, n, 1, &cycle)) return false;
   for (int64_t i = 0; i < found->count; i++)
     if (kz_atlas_same(atlas, found->list + i, cycle.y, ONE)) return true;
   found->list = kz_realloc(found->list, (size_t)(found->count + 1) * sizeof *found->list);

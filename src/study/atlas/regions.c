@@ -11,6 +11,10 @@ static int compare_classes(const void *first, const void *second) {
   return a->period != b->period ? a->period - b->period : a->turns - b->turns;
 }
 
+static double middle(int64_t i, int64_t points) {
+  return ((double)i + 0.5) / (double)points;
+}
+
 void kz_atlas_order(kz_atlas *atlas) {
   kz_atlas_class *reference = kz_malloc(KZ_ATLAS_MOST_CLASSES * sizeof *reference);
   int32_t *counts = kz_malloc(KZ_ATLAS_MOST_CLASSES * sizeof *counts);
@@ -21,16 +25,14 @@ void kz_atlas_order(kz_atlas *atlas) {
     if (atlas->curve[i].kind.of.multiplier < 0 && kz_atlas_period(&child) <= atlas->scene->atlas->max_period)
       kz_atlas_class_number(atlas, &grown);
   }
+  const int64_t columns = atlas->undriven ? atlas->scene->atlas->points : 0;
+  for (int64_t i = 0; i < columns; i++) kz_atlas_base(atlas, middle(i, columns), counts); /* rest, which no curve need bound */
   memcpy(reference, atlas->class, sizeof atlas->class);
   memcpy(counts, atlas->at_reference, sizeof atlas->at_reference);
   qsort(atlas->class, (size_t)atlas->n_classes, sizeof *atlas->class, compare_classes);
   for (int32_t i = 0; i < atlas->n_classes; i++) atlas->at_reference[kz_atlas_class_number(atlas, reference + i)] = counts[i];
   free(reference);
   free(counts);
-}
-
-static double middle(int64_t i, int64_t points) {
-  return ((double)i + 0.5) / (double)points;
 }
 
 static void fill_column(kz_atlas *atlas, int64_t column, kz_atlas_raster *raster) {

@@ -1,4 +1,5 @@
-/* The search for all curves: seeds from attractors that the curves do not explain, and from every new curve, until random places agree. */
+/* The search for all curves: seeds from the cycles of places, from attractors that the curves do not explain, and from every new curve, until
+ * random places agree. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -6,11 +7,13 @@
 #include "atlas.h"
 
 enum {
-  FEW = 128,   /* starts at each place whose attractors are the first seeds */
-  MANY = 256,  /* and at places that check the curves */
-  ROUNDS = 16, /* of checks at most; of cycles of more periods than the next number most atlases take all */
+  PER_PLACE = 75, /* checks of a round for each further place */
+  MANY = 256,     /* starts at places that check the curves */
+  ROUNDS = 16,    /* of checks at most; of cycles of more periods than the next number most atlases take all */
   USUAL_PERIOD = 2,
-  LINES = 8 /* along each axis on which all branches are followed */
+  QUIET = 2,        /* rounds in a row that find nothing end the search: small basins escape a single one */
+  LINES = 5,        /* along each axis on which all branches are followed */
+  LINES_CHECKED = 8 /* with checks: thin bands lie between the lines of a quick atlas */
 };
 /* Where the first line lies between an edge and the next line. */
 static const double OFFSET = 0.4142;
@@ -72,16 +75,20 @@ static kz_status trace_pending(kz_atlas *atlas, const kz_run *run) {
 /* Lines through the plane, new curves, cycles: a tile each. */
 typedef struct {
   kz_atlas *atlas;
-  int64_t first, lines, n_cycles; /* the first new curve; lines along each axis */
+  int64_t first, lines, n_cycles; /* the first new curve; lines along each axis that are followed now */
   const kz_atlas_seed *cycle;
 } exploring;
 
-static double line_at(int64_t line) {
-  return ((double)line + OFFSET) / LINES;
+static int64_t lines_of(const kz_atlas *atlas) {
+  return atlas->scene->atlas->checks > 0 ? LINES_CHECKED : LINES;
+}
+
+static double line_at(const kz_atlas *atlas, int64_t line) {
+  return ((double)line + OFFSET) / (double)lines_of(atlas);
 }
 
 /* Whether a curve crosses two lines. */
-static bool crosses_lines(const kz_atlas_curve *curve) {
+static bool crosses_lines(const kz_atlas *atlas, const kz_atlas_curve *curve) {
   const int64_t width = kz_atlas_width(&curve->kind);
   int crossed = 0;
   for (int axis = 0; axis < 2; axis++) {
@@ -90,7 +97,7 @@ static bool crosses_lines(const kz_atlas_curve *curve) {
       low = fmin(low, curve->row[row * width + axis]);
       high = fmax(high, curve->row[row * width + axis]);
     }
-    for (int64_t line = 0; line < LINES; line++) crossed += low < line_at(line) && line_at(line) < high;
+    for (int64_t line = 0; line < lines_of(atlas); line++) crossed += low < line_at(atlas, line) && line_at(atlas, line) < high;
   }
   return crossed >= 2;
 }
@@ -99,39 +106,48 @@ static kz_status explore_tile(void *context, int64_t tile, void *record) {
   const exploring *e = context;
   KZ_FREED_BY(kz_atlas_seeds_free) kz_atlas_seeds seeds = {0};
   const int64_t curves = 2 * e->lines, cycles = curves + e->atlas->n_curves - e->first;
+  const kz_atlas_curve *curve = e->atlas->curve + e->first + tile - curves;
   if (tile < curves)
-    kz_atlas_explore_line(e->atlas, (int)(tile % 2), line_at(tile / 2), e->first, &seeds, NULL);
+    kz_atlas_explore_line(e->atlas, (int)(tile % 2), line_at(e->atlas, tile / 2), e->first, &seeds, NULL);
   else if (tile < cycles)
-    kz_atlas_explore_curve(e->atlas, e->atlas->curve + e->first + tile - curves,
-                           !crosses_lines(e->atlas->curve + e->first + tile - curves), &seeds);
+    kz_atlas_explore_curve(e->atlas, curve, !crosses_lines(e->atlas, curve), &seeds);
   else
     kz_atlas_explore_cycle(e->atlas, e->cycle + (tile - cycles), &seeds);
   kz_atlas_put_seeds(&seeds, record);
   return KZ_OK;
 }
 
-static kz_status explore(kz_atlas *atlas, const kz_run *run, int64_t n_cycles, const kz_atlas_seed *cycle) {
-  KZ_FREED_BY(kz_atlas_bag_free) kz_atlas_bag found = {0};
-  const int64_t curves = atlas->n_curves - atlas->n_explored;
-  exploring e = {atlas, atlas->n_explored, curves > 0 ? LINES : 0, n_cycles, cycle};
-  const int64_t n = 2 * e.lines + curves + n_cycles;
-  if (n == 0) return KZ_OK;
-  KZ_TRY(kz_atlas_gather(run, "atlas branches", n, KZ_ATLAS_SEEDS_BYTES, true, explore_tile, &e, &found));
-  atlas->n_explored = atlas->n_curves;
-  for (int64_t i = 0; i < n; i++) {
-    const kz_atlas_seeds seeds = kz_atlas_seeds_in(found.record[i]);
+/* Seeds of records that lie on no known curve wait to be traced. */
+static void add_pending(kz_atlas *atlas, const kz_atlas_bag *found) {
+  for (int64_t i = 0; i < found->n; i++) {
+    const kz_atlas_seeds seeds = kz_atlas_seeds_in(found->record[i]);
     for (int64_t j = 0; j < seeds.count; j++) {
       if (kz_atlas_period(&seeds.list[j].kind) > atlas->max_period || kz_atlas_known(atlas, seeds.list + j) >= 0) continue;
       kz_atlas_add(atlas, seeds.list[j].kind, seeds.list[j].y, &atlas->pending);
     }
   }
+}
+
+static kz_status explore(kz_atlas *atlas, const kz_run *run, int64_t n_cycles, const kz_atlas_seed *cycle) {
+  KZ_FREED_BY(kz_atlas_bag_free) kz_atlas_bag found = {0};
+  const int64_t curves = atlas->n_curves - atlas->n_explored;
+  exploring e = {atlas, atlas->n_explored, curves > 0 ? lines_of(atlas) : 0, n_cycles, cycle};
+  const int64_t n = 2 * e.lines + curves + n_cycles;
+  if (n == 0) return KZ_OK;
+  KZ_TRY(kz_atlas_gather(run, "atlas branches", n, KZ_ATLAS_SEEDS_BYTES, true, explore_tile, &e, &found));
+  atlas->n_explored = atlas->n_curves;
+  add_pending(atlas, &found);
   return KZ_OK;
 }
 
-/* Follows cycles, and then every curve that comes of it, until nothing is left. A sampled run does so for cycles of one period: as measured, the
- * time for all grows like the longest period. */
+/* A sampled run searches cycles of one period alone. As measured, the time for all grows like the longest period. */
+static double growth_of(const kz_atlas *atlas) {
+  return (double)atlas->scene->atlas->max_period / (double)atlas->max_period;
+}
+
+/* Follows cycles, and then every curve that comes of it, until nothing is left. */
 static kz_status drain(kz_atlas *atlas, const kz_run *run, int64_t n_cycles, const kz_atlas_seed *cycle) {
-  const double growth = (double)atlas->scene->atlas->max_period / (double)atlas->max_period;
+  const double growth = growth_of(atlas);
   kz_sampling_weigh(run, growth);
   kz_status status = explore(atlas, run, n_cycles, cycle);
   while (status == KZ_OK && (atlas->pending.count > 0 || atlas->n_explored < atlas->n_curves)) {
@@ -214,13 +230,11 @@ static void add_class(const kz_atlas_probe *probe, int64_t j, kz_atlas_seeds *cy
   }
 }
 
-/* Curves from the attractors of places that the curves do not explain, one class of attractors at a time. *wrong = number of places at which
- * something was not explained at first. */
-static kz_status explain(kz_atlas *atlas, const kz_run *run, int64_t n, kz_atlas_probe *probe, int64_t *wrong) {
+/* Curves from the attractors of places that the curves do not explain, one class of attractors at a time. */
+static kz_status explain(kz_atlas *atlas, const kz_run *run, int64_t n, kz_atlas_probe *probe) {
   KZ_FREED bool *done = kz_calloc((size_t)n + 1, sizeof *done);
   KZ_FREED bool *was_wrong = kz_calloc((size_t)n + 1, sizeof *was_wrong);
-  *wrong = 0;
-  for (bool first = true, more = true; more; first = false) {
+  for (bool more = true; more;) {
     kz_atlas_class taken[KZ_ATLAS_MOST_CLASSES];
     int n_taken = 0;
     kz_atlas_seeds cycles = {0};
@@ -231,7 +245,6 @@ static kz_status explain(kz_atlas *atlas, const kz_run *run, int64_t n, kz_atlas
         done[i] = true;
         continue;
       }
-      *wrong += first;
       bool waits = n_taken == KZ_ATLAS_MOST_CLASSES;
       const kz_atlas_class class = kz_atlas_class_of(&probe[i].found.list[j].kind);
       for (int k = 0; k < n_taken && !waits; k++) waits = !memcmp(taken + k, &class, sizeof class);
@@ -269,44 +282,60 @@ static kz_status search_reference(kz_atlas *atlas, const kz_run *run) {
   return status;
 }
 
-static kz_status search_grid(kz_atlas *atlas, const kz_run *run) {
-  const int64_t seeds = atlas->scene->atlas->seeds, n = seeds * seeds;
-  kz_atlas_probe *probe = kz_calloc((size_t)n, sizeof *probe);
-  probing p = {atlas, n, FEW, 1, probe};
-  int64_t wrong;
-  for (int64_t i = 0; i < n; i++) {
-    double within[2];
-    random_place(i, within);
-    probe[i].place[0] = ((double)(i % seeds) + within[0]) / (double)seeds;
-    probe[i].place[1] = ((double)(i / seeds) + within[1]) / (double)seeds;
-  }
-  kz_status status = probe_all(run, "atlas seeds", &p);
-  if (status == KZ_OK) status = explain(atlas, run, p.n, probe, &wrong);
-  probes_free(p.n, probe);
-  return status;
+/* Curves from the cycles of places. */
+static kz_status search_places(kz_atlas *atlas, const kz_run *run, int64_t n, const double (*place)[2]) {
+  KZ_FREED_BY(kz_atlas_bag_free) kz_atlas_bag found = {0};
+  const double growth = growth_of(atlas);
+  if (n == 0) return KZ_OK;
+  kz_sampling_weigh(run, growth);
+  const kz_status status = kz_atlas_births(atlas, run, n, place, &found);
+  kz_sampling_weigh(run, 1 / growth);
+  KZ_TRY(status);
+  add_pending(atlas, &found);
+  return drain(atlas, run, 0, NULL);
 }
 
-/* A round of random places; *wrong = how many had an attractor without an explanation. The probes of the former round go. */
+/* The next places of the sequence. */
+static kz_status search_next(kz_atlas *atlas, const kz_run *run, int64_t first, int64_t n) {
+  KZ_FREED double (*place)[2] = kz_malloc((size_t)(n + 1) * sizeof *place);
+  for (int64_t i = 0; i < n; i++) random_place(first + i, place[i]);
+  return search_places(atlas, run, n, place);
+}
+
+/* Curves from what is wrong at places whose attractors were searched; *wrong = at how many of them something had no explanation. */
+static kz_status mend(kz_atlas *atlas, const kz_run *run, int64_t n, kz_atlas_probe *probe, int64_t *wrong) {
+  KZ_FREED double (*place)[2] = kz_malloc((size_t)(n + 1) * sizeof *place);
+  *wrong = 0;
+  for (int64_t i = 0; i < n; i++)
+    if (first_unexplained(atlas, probe + i) >= 0) memcpy(place[(*wrong)++], probe[i].place, sizeof *place);
+  KZ_TRY(search_places(atlas, run, *wrong, place));
+  return explain(atlas, run, n, probe);
+}
+
+/* A round: the cycles of further places, then the attractors of random ones; *wrong = how many had an attractor without an explanation. The
+ * probes of the former round go. */
 static kz_status check(kz_atlas *atlas, const kz_run *run, int round, int64_t *wrong, probing *p) {
   const int64_t n = atlas->scene->atlas->checks;
   probes_free(p->n, p->probe);
   *p = (probing){atlas, n, MANY, 2 + round, kz_calloc((size_t)n, sizeof *p->probe)};
   for (int64_t i = 0; i < n; i++) random_place(1000 + round * n + i, p->probe[i].place);
+  KZ_TRY(search_next(atlas, run, atlas->scene->atlas->seeds + round * (n / PER_PLACE), n / PER_PLACE));
   KZ_TRY(probe_all(run, "atlas checks", p));
-  return explain(atlas, run, n, p->probe, wrong);
+  return mend(atlas, run, n, p->probe, wrong);
 }
 
-/* Rounds of random places, until one finds nothing that the curves do not tell. */
+/* Rounds of random places, until some in a row find nothing that the curves do not tell. */
 static kz_status check_all(kz_atlas *atlas, const kz_run *run, probing *last) {
-  for (int round = 0; round < ROUNDS && atlas->scene->atlas->checks > 0; round++) {
-    const double stands_for = run->sample && atlas->scene->atlas->max_period > USUAL_PERIOD ? ROUNDS : 1;
+  const double usual = atlas->scene->atlas->max_period > USUAL_PERIOD ? ROUNDS : QUIET, stands_for = run->sample ? usual : 1;
+  for (int round = 0, quiet = 0; round < ROUNDS && quiet < QUIET && atlas->scene->atlas->checks > 0; round++) {
     kz_sampling_weigh(run, stands_for);
     const kz_status status = check(atlas, run, round, &atlas->disagreed, last);
     kz_sampling_weigh(run, 1 / stands_for);
     KZ_TRY(status);
     atlas->checked = atlas->scene->atlas->checks;
     atlas->rounds = round + 1;
-    if (atlas->disagreed == 0 || run->sample) break;
+    quiet = atlas->disagreed == 0 ? quiet + 1 : 0;
+    if (run->sample) break;
   }
   return KZ_OK;
 }
@@ -337,7 +366,7 @@ static kz_status confirm(kz_atlas *atlas, const kz_run *run, probing *p) {
 kz_status kz_atlas_search(kz_atlas *atlas, const kz_run *run) {
   if (!atlas->undriven) KZ_TRY(search_reference(atlas, run));
   if (run->sample) atlas->max_period = 1;
-  KZ_TRY(search_grid(atlas, run));
+  KZ_TRY(search_next(atlas, run, 0, atlas->scene->atlas->seeds));
   probing last = {0};
   kz_status status = check_all(atlas, run, &last);
   kz_atlas_join(atlas);
