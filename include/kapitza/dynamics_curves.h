@@ -30,8 +30,8 @@ typedef struct {
 } kz_curve_kind;
 
 /* How a trace ends: outside of the plane, at its own start, at its longest, where a cycle meets its parent (at a degenerate flip or symmetry
- * breaking), where no step is short enough, without a start. */
-enum { KZ_TRACE_LEFT, KZ_TRACE_CLOSED, KZ_TRACE_LONG, KZ_TRACE_MERGED, KZ_TRACE_STUCK, KZ_TRACE_NO_SEED };
+ * breaking), where no step is short enough, without a start, where the band of attractors beside it is narrower than 1e-10 sides of the plane. */
+enum { KZ_TRACE_LEFT, KZ_TRACE_CLOSED, KZ_TRACE_LONG, KZ_TRACE_MERGED, KZ_TRACE_STUCK, KZ_TRACE_NO_SEED, KZ_TRACE_THIN };
 
 /* Follows the curve through `seed` to both ends of a direction (1 or -1), in steps of at most `longest`. rows [most][8 + 2 points]: place,
  * tangent's part of the place, normal form, its side (a gradient by the place), distance from the nearest parent (rad), points of the cycle;

@@ -1,15 +1,16 @@
 !> Curves of bifurcations followed by pseudo-arclength, and cycles at a place or on a line: include/kapitza/dynamics_curves.h.
 module kz_cycles_tracing
   use, intrinsic :: iso_c_binding, only: dp => c_double, c_int32_t, c_int64_t
+  use kz_vector_map, only: PI
   use kz_cycles_curves, only: plane_t, curve_kind_t, system_t, make_system, newton, linearise, UNKNOWNS, FINE
   use kz_cycles_normal_forms, only: normal_form
-  use kz_cycles_walker, only: walker_t, parents_t, advance, begin, distance, passes, set_parents, meets, find_zero, OF_FORM
+  use kz_cycles_walker, only: walker_t, parents_t, advance, begin, distance, passes, set_parents, meets, find_zero, OF_FORM, HALVES, MIRROR, REST
   implicit none
   private
   public :: at_place, on_line, outside, LEFT, CLOSED, LONG, MERGED, STUCK, NO_SEED
 
   !> KZ_TRACE_... of dynamics_curves.h.
-  integer, parameter :: LEFT = 0, CLOSED = 1, LONG = 2, MERGED = 3, STUCK = 4, NO_SEED = 5
+  integer, parameter :: LEFT = 0, CLOSED = 1, LONG = 2, MERGED = 3, STUCK = 4, NO_SEED = 5, THIN = 6
   !> KZ_SPECIAL_...
   integer, parameter :: CUSP = 1, DEGENERATE = 2
 
@@ -30,7 +31,6 @@ contains
     type(walker_t) :: walker
     real(dp) :: before(UNKNOWNS), heading(UNKNOWNS)
     type(parents_t) :: was, is
-    real(dp), parameter :: BESIDE = 1e-3_dp ! rad
     real(dp) :: form, side(2), former, start(UNKNOWNS), length, eigenvector(2)
     logical :: found
     integer :: n
@@ -46,6 +46,7 @@ contains
     start = walker%y
     call set_parents(walker%system, walker%y, was)
     call normal_form(walker%system, form, side, eigenvector)
+    if (is_thin(walker%system, form, side)) return
     call put()
     length = 0
     ending = LONG
@@ -57,9 +58,14 @@ contains
       if (.not. advance(walker)) return
       call set_parents(walker%system, walker%y, is)
       call normal_form(walker%system, form, side, eigenvector)
+      ending = THIN
+      if (is_thin(walker%system, form, side)) return
       ending = MERGED
       ! beside its parent the equations of a fold have that parent's own curve as a solution too
-      if (kind%multiplier > 0 .and. (meets(was, is, int(kind%points)) > 0 .or. any(is%distance < min(BESIDE, was%distance)))) return
+      if (kind%multiplier > 0) then
+        if (meets(was, is, int(kind%points)) > 0) return
+        if (on_parents_curve(walker%system, walker%y, was, is)) return
+      end if
       if ((former > 0) .neqv. (form > 0)) &
         call locate_special(walker, before, heading, former, form, special, n_special)
       was = is
@@ -84,6 +90,49 @@ contains
       rows(9:, n_rows) = walker%sharp(:n)
     end subroutine put
   end function trace
+
+  !> Whether the band of attractors beside a curve is too narrow to be told from nothing: kz_atlas_band of study/atlas.
+  pure logical function is_thin(system, form, side)
+    type(system_t), intent(in) :: system !< at a point of the curve
+    real(dp), intent(in) :: form !< normal form
+    real(dp), intent(in) :: side(2) !< a gradient by the place
+    real(dp), parameter :: THINNEST = 1e-10_dp ! sides of the plane
+
+    associate (d => system%determinant)
+      is_thin = norm2(side)*THINNEST > 1 + d
+      if (system%kind%multiplier > 0) is_thin = norm2(side)*abs(form)*THINNEST > ((1 + d)/(1 - d))**2
+    end associate
+  end function is_thin
+
+  !> Whether a fold comes so near to a parent that this one's own multiplier is -1: their distance alone tells nothing, since it is small all along
+  !> folds of strongly unstable cycles.
+  function on_parents_curve(system, y, was, is) result(on)
+    type(system_t), intent(in) :: system
+    real(dp), intent(in) :: y(:)
+    type(parents_t), intent(in) :: was, is
+    real(dp), parameter :: BESIDE = 1e-3_dp, CROSSED = 1e-4_dp ! rad; of the trace
+    type(curve_kind_t) :: kind
+    real(dp) :: parent(UNKNOWNS), numbers(2), next
+    logical :: on, at_rest
+    integer :: which, n
+
+    on = .false.
+    do which = HALVES, REST
+      if (.not. is%distance(which) < min(BESIDE, was%distance(which))) cycle
+      at_rest = which == REST .or. (which == MIRROR .and. system%n == 1)
+      kind = system%kind
+      kind%points = merge(1, system%n/2, at_rest)
+      kind%side = merge(-1, 1, which == MIRROR)
+      n = 2*kind%points
+      parent(:n) = y(:n)
+      if (at_rest) parent(:n) = [PI*anint(y(1)/PI), 0.0_dp]
+      parent(n + 1:n + 2) = y(2*system%n + 1:2*system%n + 2)
+      next = merge(parent(1), y(n + 1), at_rest)
+      kind%turns = nint((next - kind%side*parent(1))/(2*PI))
+      if (at_place(system%plane, kind, parent, numbers) /= 0) &
+        on = on .or. abs(numbers(1) + 1 + numbers(2)) < CROSSED*(1 + numbers(2))
+    end do
+  end function on_parents_curve
 
   !> Whether a place lies outside of the plane.
   pure logical function outside(plane, at)

@@ -5,7 +5,7 @@ module kz_cycles_walker
   use kz_cycles_curves, only: system_t, newton, tangent_at, inner, wrapped, POINTS, UNKNOWNS
   implicit none
   private
-  public :: walker_t, parents_t, advance, begin, distance, passes, set_parents, meets, find_zero, OF_FORM, FOLD, FLIP
+  public :: walker_t, parents_t, advance, begin, distance, passes, set_parents, meets, find_zero, OF_FORM, FOLD, FLIP, HALVES, MIRROR, REST
 
   !> Steps of Newton's method end below it, which square them; steps longer than that are shortened: rad.
   real(dp), parameter :: CLOSE = 1e-5_dp, FAR = 1e3_dp

@@ -7,6 +7,8 @@
 
 /* Tangents shorter than this end at a cusp: steps beside it are straight. */
 static const double AT_CUSP = 0.02;
+/* The band of what branches off, in those of what it branches off from: of x^2 + c, where bands are narrow. */
+static const double GROWN = 0.5;
 /* No rest attracts without drive where abs(k) is smaller; how far beside such a place a column is counted. */
 static const double NO_GRAVITY = 1e-9, BESIDE = 1e-8;
 
@@ -101,7 +103,17 @@ static void cross(kz_atlas *atlas, int64_t number, int64_t row, int axis, double
     const double normal[2] = {-slope(c.p[1], s), slope(c.p[0], s)};
     const int change = (normal[other] > 0) == (known > 0) ? 1 : -1;
     const kz_atlas_class own = kz_atlas_class_of(&curve->kind);
-    kz_atlas_crossing crossing = {value(c.p[other], s), kz_atlas_class_number(atlas, &own), change, number, row, s};
+    kz_pendulum pendulum;
+    const bool there = kz_atlas_pendulum(atlas->scene, a, &pendulum); /* a little outside of the plane there may be none */
+    const double d = there ? exp(-2 * M_PI * pendulum.beta * curve->kind.of.points) : 0;
+    const double wide[2] = {kz_atlas_band(&curve->kind, d, a, other), kz_atlas_band(&curve->kind, d, b, other)};
+    kz_atlas_crossing crossing = {.at = value(c.p[other], s),
+                                  .width = exp((1 - s) * log(wide[0]) + s * log(wide[1])),
+                                  .class = kz_atlas_class_number(atlas, &own),
+                                  .change = change,
+                                  .curve = number,
+                                  .row = row,
+                                  .share = s};
     add(crossings, crossing);
     if (curve->kind.of.multiplier > 0 || form <= 0) continue;
     const kz_atlas_kind child = kz_atlas_child(&curve->kind);
@@ -109,15 +121,9 @@ static void cross(kz_atlas *atlas, int64_t number, int64_t row, int axis, double
     const kz_atlas_class grown = kz_atlas_class_of(&child);
     crossing.class = kz_atlas_class_number(atlas, &grown);
     crossing.change = -change;
+    crossing.width *= GROWN;
     add(crossings, crossing);
   }
-}
-
-static int compare(const void *first, const void *second) {
-  const kz_atlas_crossing *a = first, *b = second;
-  if (a->at != b->at) return a->at < b->at ? -1 : 1;
-  if (a->curve != b->curve) return a->curve < b->curve ? -1 : 1;
-  return a->row != b->row ? (a->row < b->row ? -1 : 1) : a->class - b->class;
 }
 
 void kz_atlas_crossings_of(kz_atlas *atlas, int axis, double target, bool classes, kz_atlas_crossings *crossings) {
@@ -132,7 +138,9 @@ void kz_atlas_crossings_of(kz_atlas *atlas, int axis, double target, bool classe
         cross(atlas, i, row, axis, target, classes, crossings);
     }
   }
-  if (crossings->count > 0) qsort(crossings->list, (size_t)crossings->count, sizeof *crossings->list, compare);
+  if (crossings->count > 0)
+    qsort(crossings->list, (size_t)crossings->count, sizeof *crossings->list, kz_atlas_compare_crossings);
+  if (classes) kz_atlas_pair(crossings);
 }
 
 double kz_atlas_floor(const kz_atlas *atlas) {

@@ -37,7 +37,7 @@ typedef struct {
 } kz_atlas_class;
 
 /* How a curve ends that was joined to a degenerate point. */
-enum { KZ_ATLAS_JOINED = KZ_TRACE_NO_SEED + 1 };
+enum { KZ_ATLAS_JOINED = KZ_TRACE_THIN + 1 };
 /* A row of a curve: KZ_ROW_... of kz_curve_trace. */
 enum { KZ_ROW_PLACE = 0, KZ_ROW_TANGENT = 2, KZ_ROW_FORM = 4, KZ_ROW_SIDE = 5, KZ_ROW_POINTS = 8, KZ_SPECIAL_POINTS = 3 };
 enum { KZ_SIGNATURE = 5 };
@@ -51,7 +51,7 @@ typedef struct {
 
 /* A crossing of a line with a curve: the class of attractors that change, by how many on the way up. */
 typedef struct {
-  double at;
+  double at, width; /* width: about, of the band of these attractors that begins or ends here */
   int32_t class, change;
   int64_t curve, row;
   double share; /* of the step from that row */
@@ -184,6 +184,13 @@ bool kz_atlas_identify(const kz_atlas *atlas, const double place[2], const doubl
  * each curve alone. */
 void kz_atlas_crossings_of(kz_atlas *atlas, int axis, double value, bool classes, kz_atlas_crossings *crossings);
 /* counts [KZ_ATLAS_MOST_CLASSES] of the attractors where a column begins to be counted, at the y kz_atlas_floor; at any place. */
+/* The width of the band of attractors at a row of a curve along an axis, in sides of the plane, if it is narrow; d: determinant of
+ * the cycle's map. */
+double kz_atlas_band(const kz_atlas_kind *kind, double d, const double *row, int axis);
+/* Takes edges of narrow bands that lack the other edge out of the crossings of a line. */
+void kz_atlas_pair(kz_atlas_crossings *crossings);
+/* The order of crossings along a line, for qsort. */
+int kz_atlas_compare_crossings(const void *first, const void *second);
 double kz_atlas_floor(const kz_atlas *atlas);
 /* Where the column of x is counted: a little beside x where k = 0 and an undriven edge meet, as curves of rest turn there. */
 double kz_atlas_column(const kz_atlas *atlas, double x);
@@ -232,6 +239,10 @@ kz_atlas_curve kz_atlas_curve_in(const char *record);
 
 /* ---- the run ---- */
 
+/* Follows cycles, and then traces and explores every curve that comes of them, until nothing is left. Collective. */
+kz_status kz_atlas_drain(kz_atlas *atlas, const kz_run *run, int64_t n_cycles, const kz_atlas_seed *cycle);
+/* Curves from the cycles of n places. Collective. */
+kz_status kz_atlas_search_places(kz_atlas *atlas, const kz_run *run, int64_t n, const double (*place)[2]);
 /* Runs all stages. Collective. */
 kz_status kz_atlas_search(kz_atlas *atlas, const kz_run *run);
 

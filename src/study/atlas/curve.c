@@ -6,11 +6,9 @@
 #include "atlas.h"
 
 enum { MOST_ROWS = 1500, MOST_SPECIAL = 32, SAMPLES = 12 };
-/* A point lies on a curve if it is this near to one of its steps, in lengths of the step. */
-static const double NEAR = 0.05, WEIGHT = 0.2, ROUNDING = 1e-9;
-/* Points of a cycle that are this near to each other are those of a shorter one. 1e-3 took curves of doubled rotations for those of their
- * parents; 1e-5 leaves a nodding in lists in which it does not exist. */
-static const double BLURRED = 1e-4;
+/* A point may lie on a curve if it is this near to one of its steps, in lengths of the step; it does if Newton's method finds it from there,
+ * within so many sides of the plane, rad. Points of a cycle that are this near to each other may be those of a shorter one, rad. */
+static const double NEAR = 0.1, WEIGHT = 0.2, ROUNDING = 1e-9, SAME_PLACE = 1e-8, SAME = 1e-5, BLURRED = 1e-3;
 
 void kz_atlas_curve_free(kz_atlas_curve *curve) {
   free(curve->row);
@@ -98,8 +96,26 @@ void kz_atlas_sign(kz_atlas_curve *curve) {
     signature_of(&curve->kind, curve->row + i * width, curve->row + i * width + KZ_ROW_POINTS, curve->signature[i]);
 }
 
-/* Whether a signature lies on a curve. */
-static bool is_on(const kz_atlas_curve *curve, const double *signature) {
+/* Whether a point lies on a step of a curve: Newton's method, begun at the step's own cycle at that place, ends at the point. */
+static bool is_of_step(const kz_atlas *atlas, const kz_atlas_curve *curve, int64_t row, double share,
+                       const kz_atlas_seed *seed) {
+  const int n = 2 * curve->kind.of.points;
+  const double *a = curve->row + row * kz_atlas_width(&curve->kind), *b = a + kz_atlas_width(&curve->kind);
+  const double step[2] = {b[0] - a[0], b[1] - a[1]};
+  const double along[2] = {fabs(step[0]) < fabs(step[1]), fabs(step[0]) >= fabs(step[1])};
+  double y[KZ_ATLAS_UNKNOWNS];
+  a += KZ_ROW_POINTS, b += KZ_ROW_POINTS;
+  const double lift = 2 * M_PI * rint((b[0] - a[0]) / (2 * M_PI)); /* where two parts of a curve were put together */
+  for (int i = 0; i < n; i++) y[i] = a[i] + share * (b[i] - (i % 2 ? 0 : lift) - a[i]);
+  memcpy(y + n, seed->y + n, 2 * sizeof *y);
+  kz_atlas_seed found = {.kind = curve->kind};
+  if (!kz_curve_locate(&atlas->plane, &curve->kind.of, y, along)) return false;
+  memcpy(found.y, y, ((size_t)n + 2) * sizeof *y);
+  return hypot(y[n] - seed->y[n], y[n + 1] - seed->y[n + 1]) < SAME_PLACE && kz_atlas_same(atlas, &found, seed->y, SAME);
+}
+
+/* Whether a point lies on a curve. */
+static bool is_on(const kz_atlas *atlas, const kz_atlas_curve *curve, const kz_atlas_seed *seed, const double *signature) {
   for (int64_t i = 0; i + 1 < curve->n; i++) {
     const double *a = curve->signature[i], *b = curve->signature[i + 1];
     double length = 1e-30, along = 0, off = 0;
@@ -113,7 +129,7 @@ static bool is_on(const kz_atlas_curve *curve, const double *signature) {
       const double d = signature[c] - a[c] - share * (b[c] - a[c]);
       off += d * d;
     }
-    if (sqrt(off) < NEAR * sqrt(length) + ROUNDING) return true;
+    if (sqrt(off) < NEAR * sqrt(length) + ROUNDING && is_of_step(atlas, curve, i, share, seed)) return true;
   }
   return false;
 }
@@ -126,18 +142,29 @@ int64_t kz_atlas_known(const kz_atlas *atlas, const kz_atlas_seed *seed) {
   double signature[KZ_SIGNATURE];
   signature_of(&seed->kind, seed->y + 2 * seed->kind.of.points, seed->y, signature);
   for (int64_t i = 0; i < atlas->n_curves; i++)
-    if (is_alike(&atlas->curve[i].kind, &seed->kind) && is_on(atlas->curve + i, signature)) return i;
+    if (is_alike(&atlas->curve[i].kind, &seed->kind) && is_on(atlas, atlas->curve + i, seed, signature)) return i;
   return -1;
 }
 
-bool kz_atlas_keep(kz_atlas *atlas, kz_atlas_curve *curve) {
+/* Of some points of a curve, how many lie on another one. */
+static int64_t common(const kz_atlas *atlas, const kz_atlas_curve *curve, const kz_atlas_curve *other, int64_t *tried) {
   const int64_t step = curve->n > SAMPLES ? curve->n / SAMPLES : 1;
+  kz_atlas_seed at = {.kind = curve->kind};
+  int64_t on = 0;
+  *tried = 0;
+  for (int64_t row = 0; row < curve->n; row += step, ++*tried) {
+    kz_atlas_point_of(curve, row, at.y);
+    on += is_on(atlas, other, &at, curve->signature[row]);
+  }
+  return on;
+}
+
+bool kz_atlas_keep(kz_atlas *atlas, kz_atlas_curve *curve) {
   kz_atlas_sign(curve);
   for (int64_t i = 0; i < atlas->n_curves; i++) {
-    int64_t on = 0, tried = 0;
+    int64_t tried;
     if (!is_alike(&atlas->curve[i].kind, &curve->kind)) continue;
-    for (int64_t j = 0; j < curve->n; j += step, tried++) on += is_on(atlas->curve + i, curve->signature[j]);
-    if (10 * on <= 6 * tried) continue;
+    if (10 * common(atlas, curve, atlas->curve + i, &tried) <= 6 * tried) continue;
     kz_atlas_curve_free(curve);
     return false;
   }
@@ -196,7 +223,8 @@ int kz_atlas_open_ends(const kz_atlas_curve *curve) {
   for (int end = 0; end < 2; end++) {
     const double *place = curve->row + (end ? curve->n - 1 : 0) * kz_atlas_width(&curve->kind);
     const bool within = place[0] > 0 && place[0] < 1 && place[1] > 0 && place[1] < 1;
-    open += within && curve->ending[end] != KZ_TRACE_CLOSED && curve->ending[end] != KZ_ATLAS_JOINED;
+    open += within && curve->ending[end] != KZ_TRACE_CLOSED && curve->ending[end] != KZ_TRACE_THIN &&
+            curve->ending[end] != KZ_ATLAS_JOINED;
   }
   return open;
 }

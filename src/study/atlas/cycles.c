@@ -6,8 +6,9 @@
 #include "atlas.h"
 #include "numerics/parent.h"
 
-/* rad: two states nearer than this are one; a cycle this near to rest is rest. */
-static const double ONE = 1e-5, AT_REST = 1e-9;
+/* rad: two states nearer than this are one; a cycle this near to rest is rest. A multiplier is 1 or -1 where the trace is that near to its value
+ * there. */
+static const double ONE = 1e-5, AT_REST = 1e-9, CROSSED = 1e-4;
 
 int32_t kz_atlas_period(const kz_atlas_kind *kind) {
   if (kind->rest >= 0) return 1;
@@ -50,62 +51,54 @@ void kz_atlas_class_name(const kz_atlas *atlas, const kz_atlas_class *class, cha
              (int)class->period);
 }
 
-static double apart(const double *y, int i, int j, double side) {
-  return hypot(remainder(y[2 * i] - side * y[2 * j], 2 * M_PI), y[2 * i + 1] - side * y[2 * j + 1]);
+static double apart(const double *a, const double *b, double side) {
+  return hypot(remainder(a[0] - side * b[0], 2 * M_PI), a[1] - side * b[1]);
+}
+
+/* The second half of a symmetric cycle is the mirror image of the first. */
+bool kz_atlas_same(const kz_atlas *atlas, const kz_atlas_seed *cycle, const double *state, double near) {
+  for (int i = 0; i < cycle->kind.of.points; i++)
+    if (apart(cycle->y + 2 * i, state, 1) < near || (atlas->plane.mirrored && apart(cycle->y + 2 * i, state, -1) < near))
+      return true;
+  return false;
 }
 
 /* Whether the points of a cycle repeat themselves after a shift, as they are or mirrored. */
 static bool repeats(const kz_atlas_kind *kind, const double *y, int shift, double side, double near) {
   const int n = kind->of.points;
   for (int i = 0; i < n; i++)
-    if (apart(y, i, (i + shift) % n, side) >= near) return false;
+    if (apart(y + 2 * i, y + 2 * ((i + shift) % n), side) >= near) return false;
   return true;
 }
 
-/* The shorter cycle, of a map or half map, that the points of a map are; false if there is none. */
-static bool reduce_whole(const kz_atlas *atlas, double near, const kz_atlas_kind *kind, const double *y, kz_curve_kind *of) {
-  const int n = of->points;
-  for (int shift = 1; shift < n && of->points == n; shift++)
-    if (n % shift == 0 && repeats(kind, y, shift, 1, near)) of->points = shift, of->turns = of->turns * shift / n;
-  if (of->points == n && atlas->plane.mirrored && of->turns == 0 && n % 2 == 0 && repeats(kind, y, n / 2, -1, near)) {
-    of->points = n / 2, of->side = -1;
-    of->turns = (int32_t)rint((y[n] + y[0]) / (2 * M_PI));
-  }
-  return of->points < n;
-}
-
-/* The same for a half map: it is an odd power of another half map, or all its points are rest. */
-static bool reduce_half(double near, const double *y, kz_curve_kind *of) {
-  const int n = of->points;
-  bool rest = n > 1;
-  for (int i = 0; i < n; i++) rest = rest && apart(y, i, i, -1) < 2 * near;
-  if (rest) {
-    *of = (kz_curve_kind){.side = 1, .points = 1, .multiplier = of->multiplier};
-    return true;
-  }
-  for (int shift = 1; shift < n; shift++) {
-    bool is_power = n % shift == 0 && n / shift % 2 == 1;
-    for (int i = 0; i + shift < n && is_power; i++) is_power = apart(y, i, i + shift, -1) < near;
-    if (!is_power) continue;
-    of->points = shift;
-    of->turns = (int32_t)rint((y[2 * shift] + y[0]) / (2 * M_PI));
-    return true;
-  }
-  return false;
+/* Whether a point of a curve is one of a curve of the shorter cycle `of`, whose points are the first of y. An even power of a map has no
+ * multiplier -1 but where that one's square is; beside the place where a doubled cycle is born both lie as near as one likes, and the
+ * multiplier of the shorter one alone tells them apart. */
+static bool is_on_its_curve(const kz_atlas *atlas, int power, kz_curve_kind *of, double *y) {
+  double numbers[2];
+  if (of->multiplier == 0) return true;
+  if ((of->multiplier < 0 && power % 2 == 0) || !kz_curve_solve(&atlas->plane, of, y, numbers)) return false;
+  of->multiplier = numbers[0] > 0 ? 1 : -1;
+  return fabs(fabs(numbers[0]) - (1 + numbers[1])) < CROSSED * (1 + numbers[1]);
 }
 
 bool kz_atlas_reduce(const kz_atlas *atlas, double near, kz_atlas_kind *kind, double *y) {
   const int n = kind->of.points;
-  const double place[2] = {y[2 * n], y[2 * n + 1]};
-  double numbers[2], point[KZ_ATLAS_UNKNOWNS];
-  kz_curve_kind of = kind->of;
-  if (kind->rest >= 0 || !(of.side > 0 ? reduce_whole(atlas, near, kind, y, &of) : reduce_half(near, y, &of))) return false;
-  memcpy(point, y, 2 * (size_t)of.points * sizeof *point);
-  memcpy(point + 2 * of.points, place, sizeof place);
-  if (of.multiplier != 0 && kz_curve_solve(&atlas->plane, &of, point, numbers)) of.multiplier = numbers[0] > 0 ? 1 : -1;
-  memcpy(y, point, (2 * (size_t)of.points + 2) * sizeof *y);
-  kind->of = of;
-  return true;
+  for (int shift = 1; shift < n && kind->of.side > 0 && kind->rest < 0; shift++)
+    for (int side = 1; side >= -1 && n % shift == 0; side -= 2) {
+      kz_curve_kind of = {side, shift, kind->of.multiplier, kind->of.turns * shift / n, 0};
+      double point[KZ_ATLAS_UNKNOWNS];
+      if (side < 0 && (!atlas->plane.mirrored || kind->of.turns != 0 || 2 * shift != n)) continue;
+      if (!repeats(kind, y, shift, side, near)) continue;
+      if (side < 0) of.turns = (int32_t)rint((y[n] + y[0]) / (2 * M_PI));
+      memcpy(point, y, 2 * (size_t)shift * sizeof *point);
+      memcpy(point + 2 * shift, y + 2 * n, 2 * sizeof *point);
+      if (!is_on_its_curve(atlas, n / shift, &of, point)) continue;
+      memcpy(y, point, (2 * (size_t)shift + 2) * sizeof *y);
+      kind->of = of;
+      return true;
+    }
+  return false;
 }
 
 /* Rest has its own kinds: on the map, multiplier -1; on the half map, multiplier -1, which is 1 of the map. */

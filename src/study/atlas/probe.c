@@ -17,24 +17,6 @@ static double distance(const double *a, const double *b, double side) {
   return hypot(remainder(a[0] - side * b[0], 2 * M_PI), a[1] - side * b[1]);
 }
 
-/* The points of a cycle over its whole period. */
-static int points_of(const kz_atlas_seed *cycle, double *point) {
-  const int n = cycle->kind.of.points;
-  memcpy(point, cycle->y, 2 * (size_t)n * sizeof *point);
-  if (cycle->kind.of.side > 0 || cycle->kind.rest >= 0) return n;
-  for (int i = 0; i < 2 * n; i++) point[2 * n + i] = -cycle->y[i];
-  return 2 * n;
-}
-
-bool kz_atlas_same(const kz_atlas *atlas, const kz_atlas_seed *cycle, const double *state, double near) {
-  double point[4 * KZ_CURVE_POINTS];
-  const int n = points_of(cycle, point);
-  for (int i = 0; i < n; i++)
-    if (distance(point + 2 * i, state, 1) < near || (atlas->plane.mirrored && distance(point + 2 * i, state, -1) < near))
-      return true;
-  return false;
-}
-
 /* The kind of a cycle of period n whose points are y: rest, symmetric, or neither. */
 static kz_atlas_kind kind_of(const kz_atlas *atlas, int n, const double *y, const double *image) {
   kz_atlas_kind kind = {{1, n, 0, (int32_t)rint((image[0] - y[0]) / (2 * M_PI)), 0}, -1};

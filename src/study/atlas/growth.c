@@ -1,0 +1,164 @@
+/* Curves from seeds: they are traced and explored until nothing new is met. */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "atlas.h"
+
+enum {
+  LINES = 5,        /* along each axis on which all branches are followed */
+  LINES_CHECKED = 8 /* with checks: thin bands lie between the lines of a quick atlas */
+};
+/* Where the first line lies between an edge and the next line. */
+static const double OFFSET = 0.4142;
+
+/* ---- curves: one of each kind at a time is traced, so that no curve is traced twice ---- */
+
+typedef struct {
+  kz_atlas *atlas;
+  int64_t n;
+  kz_atlas_seed *seed;
+} tracing;
+
+static kz_status trace_tile(void *context, int64_t tile, void *record) {
+  const tracing *t = context;
+  kz_atlas_curve curve;
+  kz_atlas_trace(t->atlas, t->seed + tile, &curve);
+  kz_atlas_put_curve(&curve, record);
+  kz_atlas_curve_free(&curve);
+  return KZ_OK;
+}
+
+/* The first pending seed of each kind, without those that are known by now. */
+static void next_seeds(kz_atlas *atlas, tracing *t) {
+  kz_atlas_seeds *pending = &atlas->pending;
+  int64_t left = 0;
+  t->n = 0;
+  for (int64_t i = 0; i < pending->count; i++) {
+    const kz_atlas_seed seed = pending->list[i];
+    bool waits = false;
+    if (kz_atlas_known(atlas, &seed) >= 0) continue;
+    for (int64_t j = 0; j < t->n && !waits; j++) waits = !memcmp(&t->seed[j].kind, &seed.kind, sizeof seed.kind);
+    if (waits)
+      pending->list[left++] = seed;
+    else
+      t->seed[t->n++] = seed;
+  }
+  pending->count = left;
+}
+
+static kz_status trace_pending(kz_atlas *atlas, const kz_run *run) {
+  KZ_FREED kz_atlas_seed *seed = kz_malloc((size_t)(atlas->pending.count + 1) * sizeof *seed);
+  tracing t = {.atlas = atlas, .seed = seed};
+  for (next_seeds(atlas, &t); t.n > 0; next_seeds(atlas, &t)) {
+    KZ_FREED_BY(kz_atlas_bag_free) kz_atlas_bag traced = {0};
+    KZ_TRY(kz_atlas_gather(run, "atlas curves", t.n, KZ_ATLAS_CURVE_BYTES, true, trace_tile, &t, &traced));
+    for (int64_t i = 0; i < t.n; i++) {
+      kz_atlas_curve curve = kz_atlas_curve_in(traced.record[i]);
+      if (curve.n > 0)
+        kz_atlas_keep(atlas, &curve);
+      else
+        kz_atlas_curve_free(&curve), atlas->refused++;
+    }
+  }
+  return KZ_OK;
+}
+
+/* ---- exploration ---- */
+
+/* Lines through the plane, new curves, cycles: a tile each. */
+typedef struct {
+  kz_atlas *atlas;
+  int64_t first, lines, n_cycles; /* the first new curve; lines along each axis that are followed now */
+  const kz_atlas_seed *cycle;
+} exploring;
+
+static int64_t lines_of(const kz_atlas *atlas) {
+  return atlas->scene->atlas->checks > 0 ? LINES_CHECKED : LINES;
+}
+
+static double line_at(const kz_atlas *atlas, int64_t line) {
+  return ((double)line + OFFSET) / (double)lines_of(atlas);
+}
+
+/* Whether a curve crosses two lines. */
+static bool crosses_lines(const kz_atlas *atlas, const kz_atlas_curve *curve) {
+  const int64_t width = kz_atlas_width(&curve->kind);
+  int crossed = 0;
+  for (int axis = 0; axis < 2; axis++) {
+    double low = 1, high = 0;
+    for (int64_t row = 0; row < curve->n; row++) {
+      low = fmin(low, curve->row[row * width + axis]);
+      high = fmax(high, curve->row[row * width + axis]);
+    }
+    for (int64_t line = 0; line < lines_of(atlas); line++) crossed += low < line_at(atlas, line) && line_at(atlas, line) < high;
+  }
+  return crossed >= 2;
+}
+
+static kz_status explore_tile(void *context, int64_t tile, void *record) {
+  const exploring *e = context;
+  KZ_FREED_BY(kz_atlas_seeds_free) kz_atlas_seeds seeds = {0};
+  const int64_t curves = 2 * e->lines, cycles = curves + e->atlas->n_curves - e->first;
+  const kz_atlas_curve *curve = e->atlas->curve + e->first + tile - curves;
+  if (tile < curves)
+    kz_atlas_explore_line(e->atlas, (int)(tile % 2), line_at(e->atlas, tile / 2), e->first, &seeds, NULL);
+  else if (tile < cycles)
+    kz_atlas_explore_curve(e->atlas, curve, !crosses_lines(e->atlas, curve), &seeds);
+  else
+    kz_atlas_explore_cycle(e->atlas, e->cycle + (tile - cycles), &seeds);
+  kz_atlas_put_seeds(&seeds, record);
+  return KZ_OK;
+}
+
+/* Seeds of records that lie on no known curve wait to be traced. */
+static void add_pending(kz_atlas *atlas, const kz_atlas_bag *found) {
+  for (int64_t i = 0; i < found->n; i++) {
+    const kz_atlas_seeds seeds = kz_atlas_seeds_in(found->record[i]);
+    for (int64_t j = 0; j < seeds.count; j++) {
+      if (kz_atlas_period(&seeds.list[j].kind) > atlas->max_period || kz_atlas_known(atlas, seeds.list + j) >= 0) continue;
+      kz_atlas_add(atlas, seeds.list[j].kind, seeds.list[j].y, &atlas->pending);
+    }
+  }
+}
+
+static kz_status explore(kz_atlas *atlas, const kz_run *run, int64_t n_cycles, const kz_atlas_seed *cycle) {
+  KZ_FREED_BY(kz_atlas_bag_free) kz_atlas_bag found = {0};
+  const int64_t curves = atlas->n_curves - atlas->n_explored;
+  exploring e = {atlas, atlas->n_explored, curves > 0 ? lines_of(atlas) : 0, n_cycles, cycle};
+  const int64_t n = 2 * e.lines + curves + n_cycles;
+  if (n == 0) return KZ_OK;
+  KZ_TRY(kz_atlas_gather(run, "atlas branches", n, KZ_ATLAS_SEEDS_BYTES, true, explore_tile, &e, &found));
+  atlas->n_explored = atlas->n_curves;
+  add_pending(atlas, &found);
+  return KZ_OK;
+}
+
+/* A sampled run searches cycles of one period alone. As measured, the time for all grows like the longest period. */
+static double growth_of(const kz_atlas *atlas) {
+  return (double)atlas->scene->atlas->max_period / (double)atlas->max_period;
+}
+
+kz_status kz_atlas_drain(kz_atlas *atlas, const kz_run *run, int64_t n_cycles, const kz_atlas_seed *cycle) {
+  const double growth = growth_of(atlas);
+  kz_sampling_weigh(run, growth);
+  kz_status status = explore(atlas, run, n_cycles, cycle);
+  while (status == KZ_OK && (atlas->pending.count > 0 || atlas->n_explored < atlas->n_curves)) {
+    status = trace_pending(atlas, run);
+    if (status == KZ_OK) status = explore(atlas, run, 0, NULL);
+  }
+  kz_sampling_weigh(run, 1 / growth);
+  return status;
+}
+
+kz_status kz_atlas_search_places(kz_atlas *atlas, const kz_run *run, int64_t n, const double (*place)[2]) {
+  KZ_FREED_BY(kz_atlas_bag_free) kz_atlas_bag found = {0};
+  const double growth = growth_of(atlas);
+  if (n == 0) return KZ_OK;
+  kz_sampling_weigh(run, growth);
+  const kz_status status = kz_atlas_births(atlas, run, n, place, &found);
+  kz_sampling_weigh(run, 1 / growth);
+  KZ_TRY(status);
+  add_pending(atlas, &found);
+  return kz_atlas_drain(atlas, run, 0, NULL);
+}

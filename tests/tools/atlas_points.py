@@ -1,0 +1,114 @@
+#!/usr/bin/env python3
+"""Compares an atlas with the attractors that many starts end on, at random points of its plane.
+
+    tests/tools/atlas_points.py atlas-blackburn.h5                    100 points, 32,768 starts each
+    tests/tools/atlas_points.py atlas-blackburn.h5 --points 20 --first 80 --processes 2
+
+A point disagrees where an attractor of up to `max_period` periods was found that the list lacks (missing), or where a motion of the list
+cannot be solved for (unsolved). Motions that exist and that no start reached are counted apart: their basins are small. A point whose list
+the file itself says is not known is told too.
+"""
+
+import argparse
+import json
+import subprocess
+import sys
+import tempfile
+from collections import Counter
+from multiprocessing import Pool
+from pathlib import Path
+
+import numpy as np
+import yaml
+
+ROOT = Path(__file__).resolve().parents[2]
+sys.path.insert(0, str(ROOT / "python"))
+from kapitza import Result, SceneError  # noqa: E402
+
+REST, SYMMETRIC, OTHER = "rest", "symmetric", "other"
+
+
+def point_of(group, number):
+    """The values of both keys at a point of the sequence that seeds 1, 2, .. give."""
+    shares = np.random.default_rng(1000 + number).random(2)
+    edges = []
+    for cells in ("column", "row"):
+        values = group[cells].values
+        half = (values[1] - values[0]) / 2
+        edges.append((values[0] - half, values[-1] + half))
+    return [float(low + share * (high - low)) for share, (low, high) in zip(shares, edges, strict=True)]
+
+
+def class_of(row, mirrored):
+    """What the classes of both sides have in common: a symmetric cycle without its centre, which both define in their own way."""
+    period, winding = int(row["period"]), int(row["winding"])
+    if row["symmetric"] and mirrored:
+        return (REST, 1, str(row["centre"])) if period == 1 else (SYMMETRIC, period, "")
+    return (OTHER, period, str(abs(winding) if mirrored else winding))
+
+
+def told(result, x, y, mirrored):
+    """The classes of the list and how many each has; how many motions could not be solved for."""
+    table = result.motions(x, y)
+    unsolved = sum(not len(values) for values in table["multipliers"])
+    return Counter(class_of(row, mirrored) for _, row in table.iterrows()), unsolved
+
+
+def found(scene, starts, longest, mirrored, program):
+    """The classes of the attractors that starts end on; two mirror images are one."""
+    with tempfile.TemporaryDirectory() as folder:
+        (Path(folder) / "a.yaml").write_text(json.dumps(scene | {"attractors": {
+            "velocity": {"min": -2.5, "max": 2.5}, "starts": starts, "max_period": longest}}))
+        subprocess.run([program, "run", "a.yaml"], cwd=folder, check=True, capture_output=True)
+        group = Result(Path(folder) / "a.h5").group("attractors")
+    centres = {0: "down", 1: "inverted"}
+    rows = [{"period": period, "winding": winding, "symmetric": symmetric, "centre": centres.get(centre, "")}
+            for period, winding, symmetric, centre in zip(*(group[name].values.tolist() for name in (
+                "period", "winding", "symmetric", "centre")), strict=True) if 0 < period <= longest]
+    counts = Counter(class_of(row, mirrored) for row in rows)
+    return Counter({kind: (n + 1) // 2 if mirrored and kind[0] == OTHER else n for kind, n in counts.items()})
+
+
+def compare(path, number, starts, program):
+    """A line about a point, and what is wrong there: (text, missing, unsolved, not reached, known)."""
+    result = Result(path)
+    group = result.group("atlas")
+    mirrored, longest = bool(group.attrs["mirrored"]), int(group.attrs["max_period"])
+    x, y = point_of(group, number)
+    scene = {"pendulum": dict(yaml.safe_load(result.scene)["pendulum"])}
+    for axis, value in (("x", x), ("y", y)):
+        scene["pendulum"][group.attrs[f"{axis}_parameter"]] = value
+    try:
+        listed, unsolved = told(result, x, y, mirrored)
+    except SceneError as error:
+        return f"{number}: {x:.9g} {y:.9g} {error}", 0, 0, 0, False
+    seen = found(scene, starts, longest, mirrored, program)
+    missing, more = seen - listed, listed - seen
+    text = f"{number}: {x:.9g} {y:.9g} missing {dict(missing)}, unsolved {unsolved}, told and not reached {dict(more)}"
+    return text, sum(missing.values()), unsolved, sum(more.values()), True
+
+
+def main():
+    options = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    options.add_argument("file")
+    options.add_argument("--points", type=int, default=100)
+    options.add_argument("--first", type=int, default=0)
+    options.add_argument("--starts", type=int, default=32768)
+    options.add_argument("--processes", type=int, default=1)
+    options.add_argument("--program", default=str(ROOT / "build" / "kapitza"))
+    chosen = options.parse_args()
+    words = [(chosen.file, chosen.first + i, chosen.starts, chosen.program) for i in range(chosen.points)]
+    totals = Counter()
+    with Pool(chosen.processes) as pool:
+        for task in [pool.apply_async(compare, one) for one in words]:
+            text, missing, unsolved, more, known = task.get()
+            totals.update(points=1, missing=missing > 0, unsolved=unsolved > 0, not_reached=more > 0, not_known=not known,
+                          disagree=missing > 0 or unsolved > 0 or not known)
+            if missing or unsolved or not known:
+                print(text, flush=True)
+    print(", ".join(f"{name.replace('_', ' ')} {totals[name]}" for name in (
+        "points", "disagree", "missing", "unsolved", "not_known", "not_reached")))
+
+
+if __name__ == "__main__":
+    main()
