@@ -103,11 +103,13 @@ def multipliers_of(result: Result, group: str, number: int) -> np.ndarray:
 
 
 def draw_table(axes: Axes, rows: list[tuple[str, str]], *, colours: str = style.FAINT, legend: bool = False) -> Axes:
-    """Words and values below each other, of many in two columns; `colours`: of the words; `legend`: a line above them."""
+    """Words and values below each other, many in two columns if there is room; `colours`: of the words; `legend`: a line above them."""
     axes.axis("off")
     if legend:
         axes.set_title("measures", fontsize="medium", loc="left")
-    length = len(rows) if len(rows) <= MOST_LINES else -(-len(rows) // 2)
+    place_of = axes.get_subplotspec()
+    wide = place_of is not None and len(place_of.colspan) > 1
+    length = -(-len(rows) // 2) if wide and len(rows) > MOST_LINES else len(rows)
     step = min(0.075, 1 / max(1, length))
     for place, (word, value) in enumerate(rows):
         left, right = ((0, 1) if length == len(rows) else (0, 0.48), (0.52, 1))[place // length]
