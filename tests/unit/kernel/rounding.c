@@ -1,6 +1,6 @@
-/* The rounding of a proof's step, (B1) .. (B3), against a machine on which the error of every operation is as large as its lemma allows, all in one direction. It walks
- * the operations of the step (motion.inc, the sums of centre_doubles.c and centre_pairs.c) with sizes and errors in place of numbers. The bound holds
- * for all sizes, and for each factor there are sizes for which it fails once the factor is cut. */
+/* The rounding of a proof's step, (B1) .. (B3), against a machine on which the error of every operation is as large as its lemma allows, all in one
+ * direction. It walks the operations of the step (motion.inc, the sums of centre_doubles.c and centre_pairs.c) with sizes and errors in place of
+ * numbers. The bound holds for all sizes, and for each factor there are sizes for which it fails once the factor is cut. */
 #include "../../tools/test.h"
 
 #include <math.h>
