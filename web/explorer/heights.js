@@ -2,7 +2,7 @@
 
 /** By the word of the state: how much darker late ends are drawn (`depth`, 0 to 1), and whether early and late are those of the frame itself: the
  * times of a picture differ by few periods, which would be one shade of the whole scale. */
-const SHADINGS = { relief: { depth: 0.45, own: true }, settling: { depth: 0.8, own: false } };
+const SHADINGS = { relief: { depth: 0.36, own: true }, settling: { depth: 0.8, own: false } };
 const FLAT = { depth: 0, own: false };
 export const shadingOf = (shade) => SHADINGS[shade] ?? FLAT;
 const [EARLY, LATE] = [0.02, 0.9]; // shares of a frame's cells that are as light, or darker than all but these

@@ -9,7 +9,7 @@ const MOST_LINES = 3; // drive frequencies of the spectrum
 const DECADES = 6;
 const SMALL = 500; // px, below which nothing is enlarged
 const LECTURE = 1.3; // how much larger everything is in one, beside letters
-const MARGIN = { left: 40, right: 10, top: 12, bottom: 30 };
+const MARGIN = { left: 48, right: 10, top: 12, bottom: 30 };
 
 export class Stage {
   constructor(canvas) {
@@ -94,7 +94,8 @@ function spread(values) {
 class Plot {
   constructor(surface, width, height, [left, right], [low, high]) {
     Object.assign(this, { surface, left, right, low, high });
-    this.box = [MARGIN.left, MARGIN.top, width - MARGIN.left - MARGIN.right, height - MARGIN.top - MARGIN.bottom];
+    const margin = MARGIN.left * (surface.letters ?? 1); // room for numbers such as −0.037
+    this.box = [margin, MARGIN.top, width - margin - MARGIN.right, height - MARGIN.top - MARGIN.bottom];
   }
 
   place([x, y]) {
