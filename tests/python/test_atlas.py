@@ -188,7 +188,7 @@ def test_lists_that_are_not_known_are_told_by_nobody(atlas, tmp_path):
 
 def test_small_maps_show_where_a_motion_branches_off(atlas):
     """The panel of flutter has the curve on which swings of upright rest begin; no other rest gives birth to it."""
-    from kapitza.plots.atlas import gives_birth
+    from kapitza.plots.atlas_classes import gives_birth
 
     group = atlas[0].group("atlas")
     flutter = [name_text(name) for name in group["class_name"].values].index("flutter")

@@ -3,7 +3,7 @@
 import numpy as np
 
 from kapitza import style
-from kapitza.plots.atlas import centre_of
+from kapitza.plots.atlas_classes import centre_of
 from kapitza.plots.atlas_labels import motion_text
 
 from .scene import BadRequest

@@ -21,6 +21,7 @@ from matplotlib.lines import Line2D
 from matplotlib.ticker import FixedLocator, FuncFormatter, NullLocator
 
 from kapitza import style
+from kapitza.plots.atlas_classes import BREAKING, DOUBLING, FOLD, LEANS, SWINGS, belongs, centre_of, gives_birth
 from kapitza.plots.atlas_labels import POINTS, label_regions, mark_points, motion_text
 from kapitza.plots.atlas_labels import region_text as region_text
 from kapitza.plots.atlas_line import draw_line
@@ -29,7 +30,6 @@ from kapitza.plots.plane_axes import key_text
 from kapitza.plots.units import groups_of
 from kapitza.result import Result
 
-FOLD, DOUBLING, BREAKING, SWINGS, LEANS = range(5)  # codes of curve_kind
 CUSP = 0  # of special_kind
 # A colour a period, told apart by colour-blind readers (Okabe and Ito); a dash a kind.
 PERIODS = {1: style.INK, 2: "#0072b2", 3: "#009e73", 4: "#d55e00", 5: "#cc79a7", 6: "#b8860b"}
@@ -206,28 +206,6 @@ def motions_page(result: Result, atlas: xarray.Dataset) -> Figure:
         axes.set_xlabel(key_text(atlas, "x"), fontsize="small")
     entitle(figure, result, "where each motion attracts; deeper shades: two or more of them")
     return figure
-
-
-def centre_of(atlas: xarray.Dataset, number: int) -> int:
-    """The centre of a class, by its name."""
-    name = style.name_text(atlas["class_name"].values[number])
-    if "rotation" in name:
-        return 2
-    return 1 if name.startswith(("inverted", "flutter")) else 0 if name.startswith("down") else 3
-
-
-def belongs(atlas: xarray.Dataset, curve: int, number: int) -> bool:
-    """Whether a curve is about the motion of a class."""
-    return style.name_text(atlas["curve_name"].values[curve]).rpartition(": ")[0] == style.name_text(atlas["class_name"].values[number])
-
-
-def gives_birth(atlas: xarray.Dataset, curve: int, number: int) -> bool:
-    """Whether what branches off on a curve is the motion of a class."""
-    kind, centre = int(atlas["curve_kind"][curve]), int(atlas["curve_centre"][curve])
-    period, winding = int(atlas["curve_period"][curve]), int(atlas["curve_winding"][curve])
-    child = {DOUBLING: (2 * period, 2 * winding, False), BREAKING: (period, 0, False), SWINGS: (2, 0, True), LEANS: (1, 0, False)}.get(kind)
-    own = int(atlas["class_period"][number]), int(atlas["class_winding"][number]), bool(atlas["class_symmetric"][number])
-    return own == child and (kind != SWINGS or centre == int(atlas["class_centre"][number]))
 
 
 def line_page(result: Result, atlas: xarray.Dataset, x: float | None, y: float | None, longest: int) -> Figure:
