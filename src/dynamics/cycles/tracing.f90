@@ -28,7 +28,7 @@ contains
     integer(c_int64_t), intent(out) :: n_special
     integer(c_int32_t), intent(out) :: ending
     integer(c_int64_t) :: n_rows
-    type(walker_t) :: walker
+    type(walker_t) :: walker, turning
     real(dp) :: before(UNKNOWNS), heading(UNKNOWNS)
     type(parents_t) :: was, is
     real(dp) :: form, side(2), former, start(UNKNOWNS), length, eigenvector(2)
@@ -47,7 +47,7 @@ contains
     call set_parents(walker%system, walker%y, was)
     call normal_form(walker%system, form, side, eigenvector)
     if (is_thin(walker%system, form, side)) return
-    call put()
+    call put(walker, form, side)
     length = 0
     ending = LONG
     do while (n_rows < most)
@@ -66,11 +66,15 @@ contains
         if (meets(was, is, int(kind%points)) > 0) return
         if (on_parents_curve(walker%system, walker%y, was, is)) return
       end if
-      if ((former > 0) .neqv. (form > 0)) &
-        call locate_special(walker, before, heading, former, form, special, n_special)
+      if ((former > 0) .neqv. (form > 0)) then
+        turning = walker
+        call locate_special(turning, before, heading, former, form, special, n_special, found)
+        ! a row of its own: what branches off attracts on one side of it alone
+        if (found .and. kind%multiplier < 0 .and. n_rows + 1 < most) call put_turning()
+      end if
       was = is
       length = length + distance(walker%system, walker%y, before)
-      call put()
+      call put(walker, form, side)
       ending = LEFT
       if (outside(plane, walker%y(n + 1:n + 2))) return
       ending = CLOSED
@@ -80,15 +84,25 @@ contains
       ending = LONG
     end do
   contains
-    subroutine put()
+    subroutine put(at, form, side)
+      type(walker_t), intent(in) :: at
+      real(dp), intent(in) :: form, side(2)
+
       n_rows = n_rows + 1
-      rows(:2, n_rows) = walker%sharp(n + 1:n + 2)
-      rows(3:4, n_rows) = walker%tangent(n + 1:n + 2)
+      rows(:2, n_rows) = at%sharp(n + 1:n + 2)
+      rows(3:4, n_rows) = at%tangent(n + 1:n + 2)
       rows(5, n_rows) = form
       rows(6:7, n_rows) = side
       rows(8, n_rows) = minval(was%distance)
-      rows(9:, n_rows) = walker%sharp(:n)
+      rows(9:, n_rows) = at%sharp(:n)
     end subroutine put
+
+    subroutine put_turning()
+      real(dp) :: zero, beside(2), unused(2)
+
+      call normal_form(turning%system, zero, beside, unused)
+      call put(turning, 0.0_dp, beside)
+    end subroutine put_turning
   end function trace
 
   !> Whether the band of attractors beside a curve is too narrow to be told from nothing: kz_atlas_band of study/atlas.
@@ -143,23 +157,23 @@ contains
   end function outside
 
   !> Where the normal form changes its sign between two points of a curve.
-  subroutine locate_special(there, from, heading, at_low, at_high, special, n_special)
-    type(walker_t), intent(in) :: there !< at the second point
+  subroutine locate_special(walker, from, heading, at_low, at_high, special, n_special, found)
+    type(walker_t), intent(inout) :: walker !< at the second point, then at the special one
     real(dp), intent(in) :: from(:), heading(:) !< the first point and the tangent there
     real(dp), intent(in) :: at_low, at_high !< normal forms of both
     real(dp), intent(inout) :: special(:, :)
     integer(c_int64_t), intent(inout) :: n_special
+    logical, intent(out) :: found !< a place of the list was left, and the normal form is 0 there
     real(dp), parameter :: POLE = 1e3_dp
-    type(walker_t) :: walker
     real(dp) :: form
     integer :: n
-    logical :: found
 
+    found = .false.
     if (n_special == size(special, 2)) return
-    walker = there
     n = 2*walker%system%n
     call find_zero(walker, from, heading, at_low, at_high, OF_FORM, form, found)
-    if (.not. found .or. abs(form) > POLE) return
+    found = found .and. abs(form) <= POLE
+    if (.not. found) return
     n_special = n_special + 1
     special(1, n_special) = merge(CUSP, DEGENERATE, walker%system%kind%multiplier > 0)
     special(2:3, n_special) = walker%sharp(n + 1:n + 2)

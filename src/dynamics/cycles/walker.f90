@@ -87,7 +87,7 @@ contains
     real(dp), intent(out) :: number !< where it was found
     logical, intent(out) :: found !< whether Newton's method converged on the way
     integer, parameter :: MOST = 40
-    real(dp) :: low, high, middle, number_low, number_high, unused(UNKNOWNS), side(2), eigenvector(2)
+    real(dp) :: low, high, middle, number_low, number_high, side(2), eigenvector(2)
     integer :: n, i, iterations
 
     n = 2*walker%system%n
@@ -105,7 +105,7 @@ contains
                                                          middle*heading(n + 1:n + walker%system%columns))
       call newton(walker%system, 12, FAR, CLOSE, walker%y, iterations, heading)
       found = iterations > 0
-      if (found .and. which == OF_FORM) call tangent_at(walker%system, walker%y, heading, unused, found, walker%sharp)
+      if (found .and. which == OF_FORM) call tangent_at(walker%system, walker%y, heading, walker%tangent, found, walker%sharp)
       if (.not. found) return
       if (which == OF_FORM) call normal_form(walker%system, number, side, eigenvector)
       if (which == FOLD) number = 1 + walker%system%determinant - walker%system%trace

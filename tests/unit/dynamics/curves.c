@@ -105,6 +105,25 @@ TEST(test_trace) {
   }
 }
 
+/* The doubling of rotation 1/1 turns from supercritical to subcritical at Omega = 4.646: the place is a row with the normal form 0, so that its sign
+ * between two rows is that of both. */
+TEST(test_a_degenerate_point_is_a_row) {
+  enum { MOST = 300 };
+  const kz_curve_kind rotation = {1, 1, -1, 1, 0};
+  double seed[4] = {2.9663819, 1.0799895, (4.5976746 - 3) / 27, 0.5122515 / 0.8}, row[MOST][10], special[4][5];
+  int64_t specials, found = 0;
+  int32_t ending;
+  assert_int_equal(kz_curve_locate(&PLANE, &rotation, seed, UP), 1);
+  for (int direction = -1; direction <= 1; direction += 2) {
+    const int64_t n = kz_curve_trace(&PLANE, &rotation, seed, direction, 0.02, MOST, row[0], 4, special[0], &specials, &ending);
+    for (int64_t i = 1; i < n; i++) assert_true(row[i - 1][4] * row[i][4] >= 0);
+    for (int64_t i = 0; i < n && specials == 1; i++)
+      found += row[i][4] == 0 && row[i][0] == special[0][1] && row[i][1] == special[0][2];
+    if (specials == 1) assert_true(fabs(3 + 27 * special[0][1] - 4.6460513) < 1e-6);
+  }
+  assert_int_equal(found, 1);
+}
+
 /* Refused: a seed far from any curve, and a place without damping. */
 TEST(test_refused) {
   const kz_curve_kind rest = {1, 1, -1, 0, 0};
