@@ -47,10 +47,14 @@ def test_the_pointer_reads_the_measures_of_the_basin_under_it(page):
     measures = r": [\d.]+ % of this window, settles in [\d.]+ drive periods \(mean\), return time [\d.]+ drive periods"
     assert wait_for(lambda: re.search(measures, page.run("$('pointer').textContent")))
     assert wait_for(lambda: "smallest push" in page.run("$('pointer').textContent"))
+    words = page.module("passport.js", """its.measureWords({share: 0.5, settling: 20, period: 1, multiplier: 0.5}, "",
+        {time: (periods) => `${periods / 50} s`})""")
+    assert words.endswith("settles in 0.4 s (mean), return time 0.0288 s")
 
 
 @pytest.mark.extensive
 def test_the_list_lights_a_basin_and_keeps_the_one_that_is_clicked(page):
+    page.choose("shade", "none")  # one colour a basin
     page.wait()
     plain = np.unique(np.array(page.pixels()), axis=0).tolist()
     page.run("document.querySelector('#legend tr:nth-child(2) button').click()")

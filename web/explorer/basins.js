@@ -265,7 +265,7 @@ export class Basins {
   /** What lies under the pointer, also when other frames come there. */
   writePointed() {
     const at = this.pointed;
-    const wordsOf = (pane) => (this.spread ? likelyWords(pane, at, this.spread) : wordsAt(pane, this.passport, ...at));
+    const wordsOf = (pane) => (this.spread ? likelyWords(pane, at, this.spread) : wordsAt(pane, this, ...at));
     const words = at ? this.panes.map(wordsOf).join("  |  ") : "";
     const start = at && this.startAt(...at);
     const place = at && `θ ${brief(this.units.angle(start.theta))}  velocity ${brief(this.units.velocity(start.velocity))}`;
@@ -331,13 +331,13 @@ function rowAt(pane, across, up) {
 }
 
 /** The end of a place, and the measures of its basin as far as they are known. */
-function wordsAt(pane, passport, across, up) {
+function wordsAt(pane, { passport, units }, across, up) {
   const found = pane.cellAt(across, up);
   const row = rowAt(pane, across, up);
   if (!found) return "not labelled yet";
   const { frame, cell } = found;
   const name = frame.labels[cell] === 255 ? unlabelled(frame) : frame.catalogue.attractors[frame.labels[cell]].words;
-  const measures = row ? `: ${measureWords(row, passport.pushOf(pane, row))}` : "";
+  const measures = row ? `: ${measureWords(row, passport.pushOf(pane, row), units)}` : "";
   return name + (frame.cells[4 * cell + 2] === 255 ? " (undecided)" : "") + measures;
 }
 

@@ -10,35 +10,37 @@ const KEPT = 64; // smallest pushes
 const FAINT = 1e-6; // amplitude below which a line is rounding
 const element = (id) => document.getElementById(id);
 
-const returnTime = ({ period, multiplier }) =>
-  period > 0 && multiplier > 0 && multiplier < 1 ? `return time ${(-period / Math.log(multiplier)).toPrecision(3)} drive periods` : "";
+const timeOf = (periods, units) => units.time(Number(periods.toPrecision(3)));
+const returnTime = ({ period, multiplier }, units) =>
+  period > 0 && multiplier > 0 && multiplier < 1 ? `return time ${timeOf(-period / Math.log(multiplier), units)}` : "";
 
-/** The measures of a basin in one line, for the pointer: a row of `sharesOf`, and the words of its smallest push as far as they are known. */
-export function measureWords(row, push) {
-  const settling = row.settling > 0 ? `settles in ${row.settling.toPrecision(3)} drive periods (mean)` : "";
-  return [`${shareWords(row.share)} of this window`, settling, returnTime(row), push].filter(Boolean).join(", ");
+/** The measures of a basin in one line, for the pointer: a row of `sharesOf`, and the words of its smallest push as far as they are known;
+ * `units`: of the page. */
+export function measureWords(row, push, units) {
+  const settling = row.settling > 0 ? `settles in ${timeOf(row.settling, units)} (mean)` : "";
+  return [`${shareWords(row.share)} of this window`, settling, returnTime(row, units), push].filter(Boolean).join(", ");
 }
 
 /** What is known of an attractor itself, in words; `share`: of its basin. Measures of other kinds join here as further lines. */
-export function passportWords(row, share) {
+export function passportWords(row, share, units) {
   const { name, words, period, winding, symmetric, multiplier, strobe } = row;
-  const closes = period === 0 ? "chaotic" : `closes after ${period} drive period${period === 1 ? "" : "s"}`;
+  const closes = period === 0 ? "chaotic" : `closes after ${units.time(period)}`;
   const turns = winding === 0 ? "" : `, ${Math.abs(winding)} turn${Math.abs(winding) === 1 ? "" : "s"} in them`;
   const image = symmetric ? "its own mirror image" : "has a mirror image";
-  const back = returnTime(row) && `, ${returnTime(row)}`;
+  const back = returnTime(row, units) && `, ${returnTime(row, units)}`;
   const [theta, velocity] = strobe[0].map((value) => value.toPrecision(5));
   return (
     `${words}: ${shareWords(share)} of this window; in files ${name}\n${closes}${turns}; ${image}\n` +
-    `largest multiplier ${multiplier.toPrecision(4)}${back}; strobe point θ ${theta}, velocity ${velocity}`
+    `largest multiplier ${multiplier.toPrecision(4)}${back}; strobe point θ ${units.angle(theta)}, velocity ${units.velocity(velocity)}`
   );
 }
 
 /** The strongest lines of a motion's spectrum, in words. */
-export function spectrumWords(motion) {
+export function spectrumWords(motion, units) {
   const lines = motion.spectrum(HIGHEST).filter(([frequency, amplitude]) => frequency > 0 && amplitude > FAINT);
   const strongest = lines.sort(([, one], [, other]) => other - one).slice(0, STRONGEST);
   if (!strongest.length) return "spectrum: no line, it rests";
-  return `spectrum: ${strongest.map(([frequency, amplitude]) => `${Number(frequency.toPrecision(3))} (${amplitude.toPrecision(2)})`).join(", ")} drive frequencies`;
+  return `spectrum: ${units.frequencies(strongest.map(([frequency, amplitude]) => [frequency, amplitude.toPrecision(2)]))}`;
 }
 
 export class Passport {
@@ -54,7 +56,9 @@ export class Passport {
     const { motion, active } = this.basins;
     this.measure(active, row);
     const own = motion && Number(motion.ending.theta) === row.strobe[0][0] && Number(motion.ending.velocity) === row.strobe[0][1];
-    const lines = [passportWords(row, row.shares.find((share) => share !== null) ?? null), own ? spectrumWords(motion) : "", this.pushOf(active, row)];
+    const { units } = this.basins;
+    const share = row.shares.find((known) => known !== null) ?? null;
+    const lines = [passportWords(row, share, units), own ? spectrumWords(motion, units) : "", this.pushOf(active, row)];
     element("passport").textContent = signed(lines.filter(Boolean).join("\n"));
   }
 

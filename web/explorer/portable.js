@@ -31,7 +31,7 @@ export async function saveHtml(state, basins) {
 }
 
 /** A row of the list with a motion of it, where its attractor is known. */
-async function recorded(row, { panes }) {
+async function recorded(row, { panes, units }) {
   const known = { name: signed(row.words ?? row.name), colour: row.colour, share: row.shares.map(shareWords).join(" / "), motion: null, words: "" };
   const pane = panes.find(({ top }) => top && sharesOf(top).some(({ key, strobe }) => key === row.key && strobe));
   if (!pane) return known;
@@ -41,7 +41,7 @@ async function recorded(row, { panes }) {
   const [{ samples, samples_per_period, pivot }, bytes] = await pane.engine.answer(request);
   const numbers = [...new Float64Array(bytes.buffer)].map((number) => Number(number.toFixed(DIGITS)));
   const ending = { period: row.period, settling_time: 0, near_time: 0 };
-  const words = signed(passportWords(row, row.shares.find((share) => share !== null)));
+  const words = signed(passportWords(row, row.shares.find((share) => share !== null), units));
   return { ...known, words, motion: { header: { samples, samples_per_period, pivot }, numbers, ending } };
 }
 

@@ -31,4 +31,10 @@ export class Units {
     if (this.omega) return `${Number(((periods * TURN) / this.omega).toPrecision(4))} s`;
     return `${periods} drive period${periods === 1 ? "" : "s"}`;
   }
+
+  /** Frequencies (of the drive's) with the words `about` behind each, in words. */
+  frequencies(pairs) {
+    const words = pairs.map(([frequency, about]) => `${Number((frequency * (this.omega ? this.omega / TURN : 1)).toPrecision(3))} (${about})`);
+    return `${words.join(", ")} ${this.omega ? "Hz" : "drive frequencies"}`;
+  }
 }
