@@ -184,7 +184,8 @@ def test_the_texts_of_a_run_are_in_si(tmp_path):
     window = {"theta": {"count": 2}, "velocity": {"min": -0.01, "max": 0.01, "count": 2}}
     plan = {"names": ["return_time", "reactivity"], "starts": 8, "velocity": {"min": -0.01, "max": 0.01}}
     orbit = {"start": {"theta": 1, "velocity": 1.05}, "periods": 20}
-    found = kapitza.run({"pendulum": ROD, "basin": window | {"attractors": {"starts": 8}}, "measures": plan, "orbit": orbit}, progress=False)
+    scene = {"pendulum": ROD, "basin": window | {"attractors": {"starts": 8}}, "measures": plan, "orbit": orbit}
+    found = kapitza.run(scene, progress=False)
     line = re.search(r"at (\d+)/(\d+) of the drive frequency \(([\d.]+) Hz\)", found.summary)
     assert float(line[3]) == pytest.approx(50 * int(line[1]) / int(line[2]), rel=1e-3)
     time = found.group("measures", si=True)["return_time"]

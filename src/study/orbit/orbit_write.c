@@ -87,8 +87,12 @@ static void print_open(const kz_orbit *orbit, FILE *summary) {
 static void print_line(const kz_orbit_features *p, double omega, FILE *summary) {
   const bool in_si = !isnan(omega);
   const double scale = p->chaotic && in_si ? omega : 1, share = (double)p->dominant / (double)p->record_periods;
-  fprintf(summary, "; largest line%s %.6g rad%s at %" PRId64 "/%" PRId64 " of the drive frequency", p->chaotic ? " of the velocity" : "",
-          p->amplitude[p->dominant] * scale, !p->chaotic ? "" : in_si ? "/s" : " per drive radian", p->dominant, p->record_periods);
+  fprintf(summary, "; largest line%s %.6g rad%s at %" PRId64 "/%" PRId64 " of the drive frequency",
+          p->chaotic ? " of the velocity" : "", p->amplitude[p->dominant] * scale,
+          !p->chaotic ? ""
+          : in_si     ? "/s"
+                      : " per drive radian",
+          p->dominant, p->record_periods);
   if (in_si) fprintf(summary, " (%.4g Hz)", share * omega / (2 * M_PI));
 }
 
