@@ -158,6 +158,8 @@ def test_a_line_has_every_crossing_and_what_repels(atlas):
                     attracting.add((branch["name"].iloc[0], round(float(branch["height"].iloc[at]), 1)))
         assert {name for name, _ in attracting} == set(result.motions(float(group["column"][column]), value, states=False)["name"])
     assert (table["multiplier"] > 1).any() and abs(table["height"]).max() <= 1
+    upright = result.line(x=11).query("name == 'inverted' and multiplier == 1")["value"].values  # points where stability changes
+    assert len(upright) == 2 and abs(upright[1] - 0.468190302390) < 1e-9
     with pytest.raises(SceneError, match="lies outside of the atlas"):
         result.line(x=99)
     with pytest.raises(SceneError, match="lies outside of the atlas; drive_amplitude is from 0 to 0.8"):

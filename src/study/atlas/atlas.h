@@ -212,9 +212,9 @@ void kz_atlas_confirm(kz_atlas *atlas, const double place[2], const kz_atlas_see
 kz_status kz_atlas_place(const kz_atlas *atlas, int axis, double value, double *place);
 /* Multipliers of the whole period of a cycle from trace and determinant of its own map. */
 void kz_atlas_multipliers(const kz_atlas_kind *kind, const double number[2], double re[2], double im[2]);
-/* Adds a branch of kz_curve_branch to a line along an axis. */
-void kz_atlas_draw(const kz_atlas *atlas, int axis, const kz_atlas_kind *kind, int64_t n, const double *row,
-                   kz_atlas_branches *line);
+/* Adds a branch of kz_curve_branch to a line along an axis, with a point where it gains or loses its stability, an event. */
+void kz_atlas_draw(const kz_atlas *atlas, int axis, const kz_atlas_kind *kind, int64_t n, const double *row, int64_t n_events,
+                   const double *event, kz_atlas_branches *line);
 
 /* ---- records of tiles ---- */
 

@@ -26,33 +26,54 @@ void kz_atlas_multipliers(const kz_atlas_kind *kind, const double number[2], dou
   }
 }
 
-void kz_atlas_draw(const kz_atlas *atlas, int axis, const kz_atlas_kind *kind, int64_t n, const double *row,
-                   kz_atlas_branches *line) {
+/* The columns of a point of a branch: place, and points of the cycle. */
+static void put_point(const kz_atlas *atlas, int axis, int points, const double *place, const double *state, double multiplier,
+                      kz_atlas_branches *line) {
+  double *to = line->point[line->n_points++], value[2], cosine = 0;
+  kz_atlas_values(atlas->scene->atlas, place, value);
+  for (int p = 0; p < points; p++) cosine += cos(state[2 * p]);
+  to[KZ_LINE_VALUE] = value[axis];
+  to[KZ_LINE_HEIGHT] = -cosine / points;
+  to[KZ_LINE_THETA] = remainder(state[0], 2 * M_PI);
+  to[KZ_LINE_VELOCITY] = state[1];
+  to[KZ_LINE_MULTIPLIER] = multiplier;
+}
+
+static double largest_multiplier(const kz_atlas_kind *kind, const double number[2]) {
+  double re[2], im[2];
+  kz_atlas_multipliers(kind, number, re, im);
+  return fmax(hypot(re[0], im[0]), hypot(re[1], im[1]));
+}
+
+/* Whether an event, one with a multiplier of 1 or -1, lies between two rows: trace and determinant of both tell. */
+static bool lies_between(double event, const double *a, const double *b) {
+  const double sign = event == KZ_EVENT_FOLD ? -1 : 1;
+  return event <= KZ_EVENT_FLIP && (1 + a[3] + sign * a[2] > 0) != (1 + b[3] + sign * b[2] > 0);
+}
+
+void kz_atlas_draw(const kz_atlas *atlas, int axis, const kz_atlas_kind *kind, int64_t n, const double *row, int64_t n_events,
+                   const double *event, kz_atlas_branches *line) {
   const kz_atlas_class class = kz_atlas_class_of(kind);
   const int points = kind->of.points, width = 4 + 2 * points;
+  const double *last = event + n_events * (3 + 2 * points);
   kz_atlas_branch branch = {.period = class.period,
                             .winding = class.type == KZ_CLASS_OTHER ? class.turns : 0,
                             .centre = kz_atlas_class_centre(&class),
                             .symmetric = class.type != KZ_CLASS_OTHER,
                             .images = kz_atlas_images(atlas, &class),
-                            .first = line->n_points,
-                            .points = n};
+                            .first = line->n_points};
   if (n < 2) return;
   kz_atlas_class_name(atlas, &class, branch.name);
+  line->point = kz_realloc(line->point, (size_t)(line->n_points + n + n_events) * sizeof *line->point);
+  for (int64_t i = 0; i < n; i++, row += width) {
+    for (; i > 0 && event < last && (event[0] > KZ_EVENT_FLIP || lies_between(event[0], row - width, row));
+         event += 3 + 2 * points)
+      if (event[0] <= KZ_EVENT_FLIP) put_point(atlas, axis, points, event + 1, event + 3, 1, line);
+    put_point(atlas, axis, points, row, row + 4, largest_multiplier(kind, row + 2), line);
+  }
+  branch.points = line->n_points - branch.first;
   line->branch = kz_realloc(line->branch, (size_t)(line->count + 1) * sizeof *line->branch);
   line->branch[line->count++] = branch;
-  line->point = kz_realloc(line->point, (size_t)(line->n_points + n) * sizeof *line->point);
-  for (int64_t i = 0; i < n; i++, row += width) {
-    double *to = line->point[line->n_points++], value[2], cosine = 0, re[2], im[2];
-    kz_atlas_values(atlas->scene->atlas, row, value);
-    kz_atlas_multipliers(kind, row + 2, re, im);
-    for (int p = 0; p < points; p++) cosine += cos(row[4 + 2 * p]);
-    to[KZ_LINE_VALUE] = value[axis];
-    to[KZ_LINE_HEIGHT] = -cosine / points;
-    to[KZ_LINE_THETA] = remainder(row[4], 2 * M_PI);
-    to[KZ_LINE_VELOCITY] = row[5];
-    to[KZ_LINE_MULTIPLIER] = fmax(hypot(re[0], im[0]), hypot(re[1], im[1]));
-  }
 }
 
 void kz_atlas_branches_free(kz_atlas_branches *line) {

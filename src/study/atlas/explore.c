@@ -66,7 +66,7 @@ static void follow_to(const kz_atlas *atlas, const line *l, const kz_atlas_kind 
   if (kz_atlas_period(kind) > atlas->max_period) return;
   const int64_t rows =
       kz_curve_branch(&atlas->plane, &kind->of, start, along, side, LONGEST, MOST_ROWS, row, most, event, &events, &ending);
-  if (l && l->drawn) kz_atlas_draw(atlas, l->axis, kind, rows, row, l->drawn);
+  if (l && l->drawn) kz_atlas_draw(atlas, l->axis, kind, rows, row, events, event, l->drawn);
   for (int64_t i = 0; i < events; i++) {
     const double *e = event + i * (3 + n);
     kz_atlas_seed at = {.kind = *kind};
@@ -154,7 +154,7 @@ static void explore_degenerate(const kz_atlas *atlas, const kz_atlas_curve *curv
     const double a = curve->row[row * width + KZ_ROW_FORM], b = curve->row[(row + 1) * width + KZ_ROW_FORM];
     if ((a > 0) == (b > 0)) continue;
     for (int i = 0; i <= AWAY; i += AWAY) {
-      const int64_t beside_it = a < 0 ? row - i : row + 1 + i;
+      const int64_t beside_it = a <= 0 ? row - (a == 0) - i : row + 1 + (b == 0) + i; /* the point itself may be a row */
       if (beside_it < 0 || beside_it >= curve->n) continue;
       kz_atlas_point_of(curve, beside_it, at.y);
       for (int axis = 0; axis < 2; axis++) explore_at(atlas, NULL, &at, axis, false, true, seeds);
