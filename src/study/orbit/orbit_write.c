@@ -85,25 +85,23 @@ static void print_open(const kz_orbit *orbit, FILE *summary) {
 
 /* The largest line of the spectrum; omega: of the pivot, rad/s, NaN = not known. */
 static void print_line(const kz_orbit_features *p, double omega, FILE *summary) {
-  const bool in_si = !isnan(omega);
-  const double scale = p->chaotic && in_si ? omega : 1, share = (double)p->dominant / (double)p->record_periods;
-  fprintf(summary, "; largest line%s %.6g rad%s at %" PRId64 "/%" PRId64 " of the drive frequency",
-          p->chaotic ? " of the velocity" : "", p->amplitude[p->dominant] * scale,
-          !p->chaotic ? ""
-          : in_si     ? "/s"
-                      : " per drive radian",
-          p->dominant, p->record_periods);
-  if (in_si) fprintf(summary, " (%.4g Hz)", share * omega / (2 * M_PI));
+  const char *unit = p->chaotic ? "rad per drive radian" : "rad";
+  const double scale = kz_si_factor(omega, &unit), share = (double)p->dominant / (double)p->record_periods;
+  fprintf(summary, "; largest line%s %.6g %s at %" PRId64 "/%" PRId64 " of the drive frequency",
+          p->chaotic ? " of the velocity" : "", p->amplitude[p->dominant] * scale, unit, p->dominant, p->record_periods);
+  if (!isnan(omega)) fprintf(summary, " (%.4g Hz)", share * omega / (2 * M_PI));
 }
 
 void kz_orbit_print(const kz_orbit *orbit, FILE *summary) {
   const kz_orbit_features *p = &orbit->features;
   const double omega = orbit->scene->parameters.pivot_frequency;
+  const char *unit = "drive periods";
+  const double time = (double)p->period * kz_si_factor(omega, &unit);
   if (p->closed)
     fprintf(summary, "orbit: %s, closes after %" PRId64 " period%s", p->name, p->period, p->period > 1 ? "s" : "");
   else
     print_open(orbit, summary);
-  if (p->closed && !isnan(omega)) fprintf(summary, " (%.4g s)", (double)p->period * 2 * M_PI / omega);
+  if (p->closed && !isnan(omega)) fprintf(summary, " (%.4g %s)", time, unit);
   if (p->dominant > 0) print_line(p, omega, summary);
   if (!p->closed && isfinite(orbit->lyapunov))
     fprintf(summary, "; largest Lyapunov exponent %.4f +- %.4f per period", orbit->lyapunov, orbit->lyapunov_error);

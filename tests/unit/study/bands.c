@@ -23,41 +23,32 @@ static kz_atlas_crossings line_of(kz_atlas_crossing *list, int64_t n, const doub
   return (kz_atlas_crossings){.count = n, .capacity = n, .list = list};
 }
 
+/* Of n edges `kept` are left, with so many attractors below `at` and above all. */
+static void check(int64_t n, const double (*edge)[3], int64_t kept, double at, int32_t below, int32_t above) {
+  kz_atlas_crossing list[MOST];
+  kz_atlas_crossings line = line_of(list, n, edge);
+  int32_t found[2];
+  kz_atlas_pair(&line);
+  count(&line, at, found + 1, found);
+  assert_int_equal(line.count, kept);
+  assert_int_equal(found[0], below);
+  assert_int_equal(found[1], above);
+}
+
 TEST(test_an_edge_alone_counts_for_nothing) {
   const double edges[][3] = {{0.1, 1e-7, 1}, {0.3, 1e-7, -1}, {0.5, 0.2, 1}};
-  kz_atlas_crossing list[MOST];
-  kz_atlas_crossings line = line_of(list, 3, edges);
-  int32_t above, below;
-  kz_atlas_pair(&line);
-  count(&line, 0.4, &above, &below);
-  assert_int_equal(line.count, 1);
-  assert_int_equal(below, 0);
-  assert_int_equal(above, 1);
+  check(3, edges, 1, 0.4, 0, 1);
 }
 
 TEST(test_both_edges_stay) {
   const double edges[][3] = {{0.1, 1e-6, 1}, {0.100001, 1e-6, -1}, {0.2, 3e-6, 1}, {0.200005, 2e-5, -1}};
-  kz_atlas_crossing list[MOST];
-  kz_atlas_crossings line = line_of(list, 4, edges);
-  int32_t above, below;
-  kz_atlas_pair(&line);
-  assert_int_equal(line.count, 4);
-  count(&line, 0.1000005, &above, &below);
-  assert_int_equal(below, 1);
-  assert_int_equal(above, 0);
+  check(4, edges, 4, 0.1000005, 1, 0);
 }
 
 /* Interpolation errs by more than the width: the edges change places, and no count is negative. */
 TEST(test_edges_in_the_wrong_order_change_places) {
   const double edges[][3] = {{0.1, 1e-9, -1}, {0.1000002, 1e-9, 1}};
-  kz_atlas_crossing list[MOST];
-  kz_atlas_crossings line = line_of(list, 2, edges);
-  int32_t above, below;
-  kz_atlas_pair(&line);
-  assert_int_equal(line.count, 2);
-  count(&line, 0.1000001, &above, &below);
-  assert_int_equal(below, 1);
-  assert_int_equal(above, 0);
+  check(2, edges, 2, 0.1000001, 1, 0);
 }
 
 /* One more edge than the other ones need; those of another class are no partners. */
