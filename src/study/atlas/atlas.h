@@ -183,7 +183,6 @@ bool kz_atlas_identify(const kz_atlas *atlas, const double place[2], const doubl
 /* The crossings of the line where coordinate `axis` is `value`, in order of the other coordinate; with the classes that change, or one for
  * each curve alone. */
 void kz_atlas_crossings_of(kz_atlas *atlas, int axis, double value, bool classes, kz_atlas_crossings *crossings);
-/* counts [KZ_ATLAS_MOST_CLASSES] of the attractors where a column begins to be counted, at the y kz_atlas_floor; at any place. */
 /* The width of the band of attractors at a row of a curve along an axis, in sides of the plane, if it is narrow; d: determinant of
  * the cycle's map. */
 double kz_atlas_band(const kz_atlas_kind *kind, double d, const double *row, int axis);
@@ -191,6 +190,7 @@ double kz_atlas_band(const kz_atlas_kind *kind, double d, const double *row, int
 void kz_atlas_pair(kz_atlas_crossings *crossings);
 /* The order of crossings along a line, for qsort. */
 int kz_atlas_compare_crossings(const void *first, const void *second);
+/* counts [KZ_ATLAS_MOST_CLASSES] of the attractors where a column begins to be counted, at the y kz_atlas_floor; at any place. */
 double kz_atlas_floor(const kz_atlas *atlas);
 /* Where the column of x is counted: a little beside x where k = 0 and an undriven edge meet, as curves of rest turn there. */
 double kz_atlas_column(const kz_atlas *atlas, double x);

@@ -15,8 +15,7 @@ static const kz_key keys[] = {
             "Number that chooses the starts; another seed gives other starts."),
     WORD("measures.method", "exact|direct", "exact", method,
          "exact: every label of a start is decided, in as many digits as it needs; direct: by double precision alone, for "
-         "motions "
-         "that stay chaotic for so long that the digits grow without end."),
+         "motions that stay chaotic for so long that the digits grow without end."),
     MEASURE_OPTIONS(measures, "256"),
     {.path = NULL},
 };
