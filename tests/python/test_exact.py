@@ -78,15 +78,6 @@ def test_ranks_and_stops_change_nothing(kapitza, exact):
     assert datasets(folder / "parts.h5") == datasets(folder / "s.h5")
 
 
-def test_mirrored_cells_have_mirrored_labels(exact):
-    folder, _ = exact
-    basin = cells(folder / "s.h5")
-    with h5py.File(folder / "s.h5") as file:
-        mirror = np.append(file["attractors/mirror"][:], -1)  # the last one: of -1
-    for name in "attractor", "other_attractor":
-        assert np.array_equal(mirror[basin[name]], basin[name][::-1, ::-1])
-
-
 def test_nothing_is_exact_without_damping(kapitza, tmp_path):
     kapitza("run", SMALL, "-o", "x.h5", "--set", "pendulum={k: 0.01, damping: 0, m: 0.3}", "--set", "basin.method=exact", folder=tmp_path)
     basin = cells(tmp_path / "x.h5")

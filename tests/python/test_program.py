@@ -29,12 +29,6 @@ def test_the_same_bytes_on_any_number_of_ranks(kapitza, tmp_path, method):
     assert all(other == contents[0] for other in contents[1:])
 
 
-def test_a_symmetric_window_has_mirrored_labels(small_result):
-    result = Result(small_result)
-    labels, mirror = result.group("basin")["attractor"].values, result.group("attractors")["mirror"].values
-    assert np.array_equal(labels[::-1, ::-1], np.append(mirror, -1)[labels])
-
-
 @pytest.mark.parametrize("method", with_extensive(["icm"], ["direct"]))
 def test_a_mirrored_scene_has_mirrored_labels(kapitza, tmp_path, method):
     found = []

@@ -170,13 +170,6 @@ def contradicted(kapitza, folder, name, count, most):
 
 
 @pytest.mark.extensive
-def test_quad_precision_contradicts_no_proof_of_another_drive(kapitza, tmp_path):
-    """Of the other drives below."""
-    proved, wrong = contradicted(kapitza, tmp_path, "tilted", 12, 30)
-    assert wrong == 0 and proved > 22
-
-
-@pytest.mark.extensive
 @pytest.mark.parametrize("name", PENDULUMS)
 def test_quad_precision_contradicts_no_proof(kapitza, tmp_path, name):
     """4000 proved labels in doubles and pairs; what only quads prove is beyond it."""

@@ -3,19 +3,16 @@
 import signal
 import subprocess
 import sys
-from collections import Counter
 
 import h5py
 import matplotlib.image
 import numpy as np
 import pytest
 from conftest import PROGRAM, ROOT, datasets, plot, runs_until_saved, saved_bytes
-from kapitza import Result
 from kapitza.layout import VARIABLES
 from kapitza.plots.tradeoff import WAYS, way
 
 sys.path.insert(0, str(ROOT / "benchmarks"))
-from reference_check import Catalogue, reference_labels  # noqa: E402
 
 SMALL = ROOT / "scenes" / "small.yaml"
 SETTINGS = "tradeoff={samples: 60, settings: [direct-24, icm-500, processed-1e-8]}"
@@ -161,21 +158,6 @@ def test_without_damping_there_is_nothing_to_trade(kapitza, tmp_path):
     (tmp_path / "scene.yaml").write_text("pendulum: {k: 0, damping: 0, m: 0.5}\ntradeoff: {samples: 50}\n"
                                          "basin: {theta: {count: 8}, velocity: {min: -1, max: 1, count: 8}}\n")
     assert "without damping" in kapitza("run", "scene.yaml", folder=tmp_path).stdout
-
-
-@pytest.mark.extensive
-@pytest.mark.parametrize("amplitude", [0.46])
-def test_true_labels_agree_with_the_independent_judge(kapitza, tmp_path, amplitude):
-    """Every cell of a small grid: quad precision stopped by trapping regions against quad precision followed into small circles."""
-    trade(kapitza, tmp_path, "all.h5", "--set", "basin={theta: {count: 16}, velocity: {min: -2, max: 2, count: 16}}",
-          "--set", "tradeoff={samples: 256, settings: [direct-24]}", amplitude=amplitude)
-    lines = (tmp_path / "all.h5.truth").read_text().splitlines()[1:-1]
-    result = Result(tmp_path / "all.h5")
-    basin = result.group("basin")
-    theta, velocity = np.meshgrid(basin["theta"].values, basin["velocity"].values)
-    true_labels = reference_labels(Catalogue(result), theta.ravel(), velocity.ravel())
-    assert len(lines) == 256
-    assert sorted(Counter(line.split()[0] for line in lines).values()) == sorted(Counter(true_labels.tolist()).values())
 
 
 @pytest.mark.extensive

@@ -2,13 +2,12 @@
 
 import json
 import re
-from decimal import Decimal, getcontext
 
 import h5py
 import numpy as np
 import pytest
 import reference_check
-from conftest import EXTENSIVE, datasets
+from conftest import datasets
 from kapitza import Result
 from kapitza.plots.plane import Plane
 
@@ -96,7 +95,6 @@ def test_the_exponent_has_its_distances(small_result):
 
 # Points of boundaries that windows shrink upon: of the zooms above, and of Fig. 12 of the paper at v = 1.42.
 BOUNDARY = "-2.36717282205514094284618936441679792892500699963420629501343"
-UNDECIDED = 3
 
 
 def deep(folder, theta, velocity, width, count, pendulum=PENDULUM):
@@ -104,36 +102,6 @@ def deep(folder, theta, velocity, width, count, pendulum=PENDULUM):
     basin = {name: {"centre": centre, "width": width, "count": count} for name, centre in (("theta", theta), ("velocity", velocity))}
     (folder / "deep.yaml").write_text(json.dumps({"pendulum": pendulum, "basin": basin | {"method": "exact"}}))
     return "deep.yaml"
-
-
-def wrong_labels(path):
-    """How many decided labels quad precision does not confirm, and how many are undecided."""
-    with h5py.File(path) as file:
-        evidence = file["basin/evidence"][:]
-    _, (_, _, labels, true_labels) = reference_check.check_file(path, evidence.size, 1, 2, 4000)
-    evidence = evidence[reference_check.sample_cells(evidence.shape, evidence.size, 1)]
-    wrong = (labels != true_labels) & (evidence != UNDECIDED)
-    return np.count_nonzero(wrong), np.count_nonzero(evidence == UNDECIDED)
-
-
-def labels_of_typed_starts(kapitza, folder, width, count):
-    """Those that the command where gives for the cells' centres, written out in decimals."""
-    getcontext().prec = 50
-    offsets = [(2 * i + 1 - count) * Decimal(width) / (2 * count) for i in range(count)]
-    starts = "".join(f"{Decimal(BOUNDARY) + theta},{17 + velocity}\n" for velocity in offsets for theta in offsets)
-    done = kapitza("where", "deep.yaml", "-", "--json", folder=folder, text=starts)
-    return np.array([json.loads(line)["attractor"] for line in done.stdout.splitlines()]).reshape(count, count)
-
-
-@pytest.mark.parametrize("width", ["2e-7", pytest.param("1e-20", marks=pytest.mark.extensive)])
-def test_a_zoom_is_as_right_as_the_plane(kapitza, tmp_path, width):
-    kapitza("run", deep(tmp_path, BOUNDARY, "17", width, 30 if EXTENSIVE else 8), folder=tmp_path)
-    assert wrong_labels(tmp_path / "deep.h5") == (0, 0)
-    with h5py.File(tmp_path / "deep.h5") as file:
-        labels = file["basin/attractor"][:]
-        assert len(np.unique(labels)) > 1
-    if width == "1e-20":
-        assert np.array_equal(labels_of_typed_starts(kapitza, tmp_path, width, len(labels)), labels)
 
 
 @pytest.mark.extensive
@@ -154,20 +122,6 @@ def test_a_deep_window_in_its_file(kapitza, tmp_path):
     assert plane.theta_range == pytest.approx((-0.5, 0.5)) and plane.centres == {"theta": BOUNDARY, "velocity": "17"}
     assert plane.place == "θ ≈ −2.36717282205…, dθ/d(ωt) ≈ 17"
     assert plane.inside(np.array([0.0]), np.array([0.0]))[0].size == 0
-
-
-def test_a_window_about_the_origin_mirrors(kapitza, tmp_path):
-    """Given by its middle in degrees, it has the labels of the same window given by its edges."""
-    axes = "basin={theta: {%s, count: 10}, velocity: {%s, count: 10}, attractors: {starts: 512}}"
-    windows = {"middle": ("centre: 0, width: 360 deg", "centre: 0, width: 4"), "edges": ("min: -180 deg, max: 180 deg", "min: -2, max: 2")}
-    for name, window in windows.items():
-        (tmp_path / f"{name}.yaml").write_text(json.dumps({"pendulum": SMALL}))
-        kapitza("run", f"{name}.yaml", "--set", axes % window, folder=tmp_path)
-    with h5py.File(tmp_path / "middle.h5") as file, h5py.File(tmp_path / "edges.h5") as edges:
-        labels, mirror = file["basin/attractor"][:], np.append(file["attractors/mirror"][:], -1)
-        assert np.array_equal(mirror[labels], labels[::-1, ::-1])
-        assert np.array_equal(labels, edges["basin/attractor"][:])
-        assert np.array_equal(file["basin/theta"][:], -file["basin/theta"][:][::-1])
 
 
 @pytest.mark.parametrize("theta, velocity, several", [

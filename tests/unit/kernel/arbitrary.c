@@ -44,25 +44,6 @@ static double distance(const kz_arbitrary *a, const kz_arbitrary *b) {
                velocity[0][0] - velocity[1][0] + (velocity[0][1] - velocity[1][1]));
 }
 
-/* Both Taylor series, written apart, agree in all digits of a quad: at rest, and at 17 rad per drive radian. */
-TEST(agrees_with_the_quad_reference) {
-  const double start[][2] = {{0.7, 1.42}, {-2.3, 17}, {3.1, -0.2}};
-  for (int i = 0; i < 3; i++) {
-    kz_arbitrary *orbit = orbit_at(start[i][0], start[i][1], 113);
-    kz_reference_state quad;
-    int64_t turns;
-    double theta, velocity, pair[2][2];
-    kz_reference_start(1, &start[i][0], &start[i][1], NULL, &quad);
-    kz_reference_advance(&strong, KZ_REFERENCE_STEPS, 1, 3, &quad);
-    kz_reference_read(1, &quad, &theta, &velocity, &turns);
-    advance(orbit, 3, KZ_FEWEST_BITS, NULL);
-    kz_arbitrary_read(orbit, pair[0], pair[1]);
-    assert_true(fabs(pair[0][0] - theta) <= 4e-16);
-    assert_true(fabs(pair[1][0] - velocity) <= 4e-15);
-    kz_arbitrary_free(orbit);
-  }
-}
-
 /* rad: how far a period in quad precision is from the motion. */
 static double missed(const kz_pendulum *pendulum, double theta, double velocity) {
   const kz_coordinate start[2] = {at(theta), at(velocity)};
