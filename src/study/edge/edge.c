@@ -5,6 +5,7 @@
 #include <inttypes.h>
 #include <math.h>
 
+#include "labelling/catalogue.h"
 #include "labelling/search.h"
 #include "basin/plan.h"
 #include "attractors/plan.h"
@@ -44,11 +45,9 @@ static kz_status saddle_of(const kz_edge *edge, kz_store *store, int64_t *saddle
   KZ_TRY(kz_store_length(store, "saddles", "phase", &phases));
   for (int64_t i = 0; i < n; i++)
     for (int64_t phase = 0; phase < phases; phase++) {
-      double theta, velocity;
-      KZ_TRY(kz_store_number(store, "saddles", "strobe_theta", (int64_t[]){i, phase}, &theta));
-      KZ_TRY(kz_store_number(store, "saddles", "strobe_velocity", (int64_t[]){i, phase}, &velocity));
-      const double gap = theta - edge->theta[0];
-      if (hypot(gap - 2 * M_PI * rint(gap / (2 * M_PI)), velocity - edge->velocity[0]) < 1e-8) *saddle = i;
+      kz_strobe_point point;
+      KZ_TRY(kz_strobe_read(store, "saddles", i, phase, &point));
+      if (hypot(remainder(point.theta - edge->theta[0], 2 * M_PI), point.velocity - edge->velocity[0]) < 1e-8) *saddle = i;
     }
   return KZ_OK;
 }

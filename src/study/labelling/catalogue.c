@@ -35,7 +35,7 @@ void kz_catalogue_make(const kz_dynamics *dynamics, const int64_t *reached, kz_c
   for (int64_t i = 0; i < known; i++) {
     kz_entry entry = {.fraction = NAN};
     fill(&entry, dynamics, order[i]);
-    if (entry.row.period < 0 || (reached[order[i]] == 0 && reached[entry.row.mirror] == 0)) {
+    if (entry.row.period < 0 || (reached && reached[order[i]] == 0 && reached[entry.row.mirror] == 0)) {
       free(entry.theta);
       free(entry.velocity);
       continue;
@@ -54,36 +54,52 @@ int64_t kz_catalogue_longest(const kz_catalogue *catalogue) {
   return most;
 }
 
-#define COLUMN(type, name, expression) KZ_COLUMN(store, "attractors", name, catalogue->count, type, expression)
+#define COLUMN(type, name, expression) KZ_COLUMN(store, group, name, catalogue->count, type, expression)
 
-static kz_status write_columns(const kz_catalogue *catalogue, bool with_fraction, kz_store *store) {
+/* Columns of several values for each attractor; what has no meaning is NaN: places beyond its period, multipliers of chaos. */
+static kz_status write_matrices(const kz_catalogue *catalogue, int64_t phases, const char *group, kz_store *store) {
   const kz_entry *e = catalogue->entries;
+  const int64_t n = catalogue->count;
+#define POINTS(name, field)                        \
+  KZ_COLUMN(store, group, name, n *phases, double, \
+            i % phases < e[i / phases].row.period ? e[i / phases].field[i % phases] : NAN)
+#define MULTIPLIERS(name, field) \
+  KZ_COLUMN(store, group, name, 2 * n, double, e[i / 2].row.period > 0 ? e[i / 2].row.field[i % 2] : NAN)
+  POINTS("strobe_theta", theta);
+  POINTS("strobe_velocity", velocity);
+  MULTIPLIERS("multiplier_re", multiplier_re);
+  MULTIPLIERS("multiplier_im", multiplier_im);
+  return KZ_OK;
+}
+
+kz_status kz_catalogue_write_motions(const kz_catalogue *catalogue, const char *group, const char *dimension, kz_store *store) {
+  const kz_entry *e = catalogue->entries;
+  const int64_t phases = kz_catalogue_longest(catalogue);
+  KZ_TRY(kz_store_dimension(store, group, dimension, catalogue->count, NULL));
+  KZ_TRY(kz_store_dimension(store, group, "phase", phases, NULL));
+  KZ_TRY(kz_store_dimension(store, group, "pair", 2, NULL));
   COLUMN(int32_t, "period", e[i].row.period);
   COLUMN(int32_t, "winding", e[i].row.winding);
   COLUMN(int8_t, "centre", e[i].row.centre);
   COLUMN(const char *, "name", e[i].name);
   COLUMN(int8_t, "symmetric", e[i].row.symmetric);
+  return write_matrices(catalogue, phases, group, store);
+}
+
+kz_status kz_strobe_read(kz_store *store, const char *group, int64_t id, int64_t phase, kz_strobe_point *point) {
+  KZ_TRY(kz_store_number(store, group, "period", &id, &point->period));
+  KZ_TRY(kz_store_number(store, group, "strobe_theta", (int64_t[]){id, phase}, &point->theta));
+  return kz_store_number(store, group, "strobe_velocity", (int64_t[]){id, phase}, &point->velocity);
+}
+
+static kz_status write_columns(const kz_catalogue *catalogue, bool with_fraction, kz_store *store) {
+  const char *group = "attractors";
+  const kz_entry *e = catalogue->entries;
   COLUMN(int32_t, "mirror", e[i].mirror == (int32_t)i && !e[i].row.symmetric ? -1 : e[i].mirror);
   COLUMN(double, "amplitude", e[i].row.amplitude);
   COLUMN(double, "lyapunov", e[i].row.lyapunov);
   COLUMN(double, "lyapunov_error", e[i].row.lyapunov_error);
   if (with_fraction) COLUMN(double, "fraction", e[i].fraction);
-  return KZ_OK;
-}
-
-/* Columns of several values for each attractor; what has no meaning is NaN: places beyond its period, multipliers of chaos. */
-static kz_status write_matrices(const kz_catalogue *catalogue, int64_t phases, kz_store *store) {
-  const kz_entry *e = catalogue->entries;
-  const int64_t n = catalogue->count;
-#define POINTS(name, field)                               \
-  KZ_COLUMN(store, "attractors", name, n *phases, double, \
-            i % phases < e[i / phases].row.period ? e[i / phases].field[i % phases] : NAN)
-#define MULTIPLIERS(name, field) \
-  KZ_COLUMN(store, "attractors", name, 2 * n, double, e[i / 2].row.period > 0 ? e[i / 2].row.field[i % 2] : NAN)
-  POINTS("strobe_theta", theta);
-  POINTS("strobe_velocity", velocity);
-  MULTIPLIERS("multiplier_re", multiplier_re);
-  MULTIPLIERS("multiplier_im", multiplier_im);
   return KZ_OK;
 }
 
@@ -130,13 +146,10 @@ static kz_status write_spectra(const kz_catalogue *catalogue, const kz_pendulum 
 }
 
 kz_status kz_catalogue_write(const kz_catalogue *catalogue, const kz_pendulum *pendulum, bool with_fraction, kz_store *store) {
-  const int64_t phases = kz_catalogue_longest(catalogue), lines = LINES_PER_PERIOD * phases + 1;
-  KZ_TRY(kz_store_dimension(store, "attractors", "attractor", catalogue->count, NULL));
-  KZ_TRY(kz_store_dimension(store, "attractors", "phase", phases, NULL));
-  KZ_TRY(kz_store_dimension(store, "attractors", "pair", 2, NULL));
+  const int64_t lines = LINES_PER_PERIOD * kz_catalogue_longest(catalogue) + 1;
+  KZ_TRY(kz_catalogue_write_motions(catalogue, "attractors", "attractor", store));
   KZ_TRY(kz_store_dimension(store, "attractors", "line", lines, NULL));
   KZ_TRY(write_columns(catalogue, with_fraction, store));
-  KZ_TRY(write_matrices(catalogue, phases, store));
   return write_spectra(catalogue, pendulum, lines, store);
 }
 

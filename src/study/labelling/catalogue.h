@@ -11,7 +11,7 @@
 #include "kapitza/study.h"
 #include "kapitza/study_live.h"
 
-/* Makes the catalogue of the attractors whose reached [number] is not 0, and of their mirror images. The caller frees it. */
+/* Makes the catalogue of the attractors whose reached [number] is not 0, and of their mirror images; NULL: of all. The caller frees it. */
 void kz_catalogue_make(const kz_dynamics *dynamics, const int64_t *reached, kz_catalogue *catalogue);
 void kz_catalogue_free(kz_catalogue *catalogue);
 
@@ -20,6 +20,14 @@ int64_t kz_catalogue_longest(const kz_catalogue *catalogue);
 
 /* Writes group /attractors, with the lines of every closed orbit; `fraction` only `with_fraction`. */
 kz_status kz_catalogue_write(const kz_catalogue *catalogue, const kz_pendulum *pendulum, bool with_fraction, kz_store *store);
+
+/* Writes what the groups of attractors and of saddles have alike: dimensions, kind, name, strobe points and multipliers of each motion. */
+kz_status kz_catalogue_write_motions(const kz_catalogue *catalogue, const char *group, const char *dimension, kz_store *store);
+/* Reads the period of a motion in such a group, 0 = chaotic, and a strobe point (rad, rad per drive radian). */
+typedef struct {
+  double period, theta, velocity;
+} kz_strobe_point;
+kz_status kz_strobe_read(kz_store *store, const char *group, int64_t id, int64_t phase, kz_strobe_point *point);
 
 /* n NaNs; the caller frees them. */
 double *kz_nan_filled(int64_t n);

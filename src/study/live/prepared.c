@@ -245,17 +245,10 @@ static int64_t track_of(const kz_live_catalogue *catalogue, int64_t i, const kz_
   return number >= 0 ? number : (*tracks)++;
 }
 
-static void list(const kz_dynamics *dynamics, kz_catalogue *catalogue) {
-  const int64_t known = kz_dynamics_count(dynamics);
-  KZ_FREED int64_t *reached = kz_malloc(((size_t)known + 1) * sizeof *reached);
-  for (int64_t i = 0; i <= known; i++) reached[i] = 1;
-  kz_catalogue_make(dynamics, reached, catalogue);
-}
-
 void kz_prepared_list(kz_prepared *r, int64_t version, const kz_live_catalogue *before, int64_t *tracks) {
   kz_live_catalogue own = r->catalogue;
   r->catalogue = (kz_live_catalogue){.version = version, .parameters = r->scene.parameters};
-  if (r->dynamics) list(r->dynamics, &r->catalogue.list);
+  if (r->dynamics) kz_catalogue_make(r->dynamics, NULL, &r->catalogue.list);
   r->catalogue.track = kz_calloc((size_t)r->catalogue.list.count + 1, sizeof *r->catalogue.track);
   for (int64_t i = 0; i < r->catalogue.list.count; i++)
     r->catalogue.track[i] = track_of(&r->catalogue, i, own.list.count > 0 ? &own : before, tracks);

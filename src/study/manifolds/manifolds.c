@@ -5,7 +5,6 @@
 
 #include "kapitza/dynamics.h"
 #include "kapitza/study.h"
-#include "manifolds.h"
 #include "saddles/saddles.h"
 #include "saddles/plan.h"
 #include "plan.h"
@@ -54,16 +53,14 @@ static void free_tasks(work_list *list) {
 
 /* The branches of one cycle join the list. */
 static kz_status add_saddle(const kz_manifolds_plan *plan, int64_t saddle, kz_store *store, work_list *list) {
-  double period;
-  KZ_TRY(kz_store_number(store, "saddles", "period", &saddle, &period));
-  const size_t most = (size_t)(list->count + 4 * (int64_t)period);
-  list->tasks = kz_realloc(list->tasks, most * sizeof *list->tasks);
-  for (int64_t phase = 0; phase < (int64_t)period; phase++) {
-    kz_branch branch = {.spacing = plan->spacing, .length = plan->length, .fastest = plan->max_speed};
-    KZ_TRY(kz_branch_read(store, saddle, phase, &branch));
+  kz_strobe_point point = {.period = 1};
+  for (int64_t phase = 0; phase < (int64_t)point.period; phase++) {
+    KZ_TRY(kz_strobe_read(store, "saddles", saddle, phase, &point));
+    list->tasks = kz_realloc(list->tasks, (size_t)(list->count + 4) * sizeof *list->tasks);
     for (int i = 0; i < 4; i++) {
-      branch.stable = i / 2;
-      branch.side = i % 2 ? -1 : 1;
+      const kz_branch branch = {
+          point.theta,   point.velocity, (int32_t)point.period, i / 2, i % 2 ? -1 : 1,
+          plan->spacing, plan->length,   plan->max_speed};
       if (plan->kind == (branch.stable ? KZ_MANIFOLDS_UNSTABLE : KZ_MANIFOLDS_STABLE)) continue;
       list->tasks[list->count++] = (task){.saddle = saddle, .number = 2 * phase + i % 2, .branch = branch};
     }
@@ -78,9 +75,7 @@ static kz_status make_tasks(const kz_manifolds_plan *plan, kz_store *store, work
   const int64_t n = plan->saddles.count > 0 ? plan->saddles.count : known;
   for (int64_t i = 0; i < n; i++) {
     const int64_t saddle = plan->saddles.count > 0 ? plan->saddles.values[i] : i;
-    if (saddle >= known)
-      return kz_fail(KZ_REFUSED, "manifolds.saddles: %lld is not among the %lld unstable cycles; choose an id below that",
-                     (long long)saddle, (long long)known);
+    KZ_TRY(kz_saddle_check(store, "manifolds.saddles", saddle));
     KZ_TRY(add_saddle(plan, saddle, store, list));
   }
   return KZ_OK;

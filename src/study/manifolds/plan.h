@@ -4,6 +4,7 @@
 
 #include "kapitza/study.h"
 
+enum { KZ_BRANCH_POINTS = 32768 /* of a branch, at most */ };
 enum { KZ_MANIFOLDS_BOTH, KZ_MANIFOLDS_STABLE, KZ_MANIFOLDS_UNSTABLE };
 struct kz_manifolds_plan {
   kz_integers saddles; /* ids; none = all */

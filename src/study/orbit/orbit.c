@@ -5,6 +5,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "labelling/catalogue.h"
 #include "numerics/step_check.h"
 
 /* Periods of an open record that the scene does not bound. */
@@ -34,8 +35,7 @@ kz_cost kz_orbit_cost(const kz_scene *scene) {
 /* The state and the period of an attractor, as the study before has written it. */
 static kz_status recall(kz_store *store, int64_t id, kz_state *start, int64_t *period) {
   int64_t count;
-  double n, *const values[] = {&n, &start->theta, &start->velocity};
-  const char *const names[] = {"period", "strobe_theta", "strobe_velocity"};
+  kz_strobe_point first;
   KZ_TRY(kz_store_length(store, "attractors", "attractor", &count));
   if (count == 0)
     return kz_fail(KZ_REFUSED,
@@ -44,9 +44,10 @@ static kz_status recall(kz_store *store, int64_t id, kz_state *start, int64_t *p
     return kz_fail(KZ_REFUSED,
                    "orbit.attractor: %lld is not the id of an attractor; the search found %lld, so choose an id below that",
                    (long long)id, (long long)count);
-  for (int i = 0; i < 3; i++) KZ_TRY(kz_store_number(store, "attractors", names[i], (int64_t[]){id, 0}, values[i]));
-  *period = (int64_t)n;
-  if (n > 0) return KZ_OK;
+  KZ_TRY(kz_strobe_read(store, "attractors", id, 0, &first));
+  *start = (kz_state){first.theta, first.velocity};
+  *period = (int64_t)first.period;
+  if (first.period > 0) return KZ_OK;
   return kz_fail(KZ_REFUSED, "orbit.attractor: %lld is chaotic and never closes; choose another id, or give a start",
                  (long long)id);
 }

@@ -5,31 +5,26 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-static void fill(const kz_dynamics *dynamics, int64_t number, kz_listed_cycle *entry) {
-  char name[KZ_NAME_LENGTH];
-  kz_dynamics_attractor(dynamics, number, &entry->row);
-  kz_dynamics_strobe(dynamics, number, entry->theta, entry->velocity);
-  entry->unstable = hypot(entry->row.multiplier_re[0], entry->row.multiplier_im[0]) > 1;
-  kz_orbit_name(entry->row.period, entry->row.winding, entry->row.centre, name);
-  snprintf(entry->name, sizeof entry->name, "%s%.*s", entry->unstable ? "unstable " : "", KZ_NAME_LENGTH - 10, name);
-}
-
 void kz_cycle_list_make(const kz_dynamics *dynamics, kz_cycle_list *list) {
-  const int64_t n = kz_dynamics_count(dynamics);
-  KZ_FREED int64_t *number = kz_malloc((size_t)(n + 1) * sizeof *number), *place = kz_malloc((size_t)(n + 1) * sizeof *place);
-  *list = (kz_cycle_list){.count = n, .entries = kz_calloc((size_t)n + 1, sizeof *list->entries)};
-  kz_dynamics_order(dynamics, number);
+  kz_catalogue_make(dynamics, NULL, &list->all);
+  const int64_t n = list->all.count;
+  kz_catalogue *unstable = &list->unstable;
+  *unstable = (kz_catalogue){.entries = kz_calloc((size_t)n + 1, sizeof *unstable->entries)};
+  KZ_FREED int32_t *id = kz_malloc((size_t)(n + 1) * sizeof *id);
   for (int64_t i = 0; i < n; i++) {
-    kz_listed_cycle *entry = list->entries + i;
-    fill(dynamics, number[i], entry);
-    entry->saddle = entry->unstable ? (int32_t)list->n_unstable++ : -1;
-    place[number[i]] = i;
+    const kz_entry *entry = list->all.entries + i;
+    const bool is_unstable = hypot(entry->row.multiplier_re[0], entry->row.multiplier_im[0]) > 1;
+    id[i] = is_unstable ? (int32_t)unstable->count : -1;
+    if (!is_unstable) continue;
+    unstable->entries[unstable->count] = *entry;
+    snprintf(unstable->entries[unstable->count++].name, KZ_NAME_LENGTH, "unstable %.*s", KZ_NAME_LENGTH - 10, entry->name);
   }
-  for (int64_t i = 0; i < n; i++) list->entries[i].mirror = list->entries[place[list->entries[i].row.mirror]].saddle;
+  for (int64_t i = 0; i < unstable->count; i++) unstable->entries[i].mirror = id[unstable->entries[i].mirror];
 }
 
 void kz_cycle_list_free(kz_cycle_list *list) {
-  free(list->entries);
+  kz_catalogue_free(&list->all);
+  free(list->unstable.entries);
   *list = (kz_cycle_list){0};
 }
 
@@ -54,9 +49,9 @@ static int compare(const void *a, const void *b) {
 }
 
 void kz_index_sums_make(const kz_cycle_list *list, int64_t max_period, kz_index_sums *sums) {
-  *sums = (kz_index_sums){.entries = kz_calloc((size_t)(list->count * max_period) + 1, sizeof *sums->entries)};
-  for (int64_t i = 0; i < list->count; i++) {
-    const kz_attractor *row = &list->entries[i].row;
+  *sums = (kz_index_sums){.entries = kz_calloc((size_t)(list->all.count * max_period) + 1, sizeof *sums->entries)};
+  for (int64_t i = 0; i < list->all.count; i++) {
+    const kz_attractor *row = &list->all.entries[i].row;
     for (int64_t n = 1; n * row->period <= max_period; n++) {
       kz_index_sum *sum = sum_of(sums, n * row->period, n * row->winding);
       sum->points += row->period;

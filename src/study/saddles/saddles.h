@@ -5,6 +5,7 @@
 
 #include "kapitza/dynamics.h"
 #include "kapitza/study.h"
+#include "labelling/catalogue.h"
 #include "plan.h"
 
 /* Lines of constant angle, or rows of constant velocity; each is cut into `pieces` pieces, and a piece is a tile. */
@@ -34,23 +35,12 @@ int64_t kz_lines_search(const kz_lines *lines, int64_t tile, int64_t most_starts
 /* Searches all pieces in a kept stage and adds their cycles to *found on rank 0. Collective. */
 kz_status kz_lines_run(const kz_run *run, const kz_lines *lines, const char *name, kz_found *found);
 
-/* A cycle of the catalogue. */
+/* All cycles, and those that do not attract, whose places are their ids; the latter share the strobe points of the former. */
 typedef struct {
-  kz_attractor row;
-  bool unstable;
-  int32_t saddle; /* id among the unstable cycles; -1 = it attracts */
-  int32_t mirror; /* saddle of its mirror image */
-  char name[KZ_NAME_LENGTH];
-  double theta[KZ_SADDLES_MAX_PERIOD], velocity[KZ_SADDLES_MAX_PERIOD]; /* strobe points */
-} kz_listed_cycle;
-
-/* In the order of attractors of the file. */
-typedef struct {
-  int64_t count, n_unstable;
-  kz_listed_cycle *entries;
+  kz_catalogue all, unstable;
 } kz_cycle_list;
 
-/* Makes the list of the cycles of a catalogue; the caller frees it. */
+/* Lists the cycles that are known; the caller frees the list. */
 void kz_cycle_list_make(const kz_dynamics *dynamics, kz_cycle_list *list);
 void kz_cycle_list_free(kz_cycle_list *list);
 
@@ -72,6 +62,9 @@ void kz_index_sums_make(const kz_cycle_list *list, int64_t max_period, kz_index_
 
 /* A rough estimate of the number of cycles that a search would find. */
 double kz_saddles_expected(const kz_scene *scene);
+
+/* KZ_REFUSED, at the keys "KEY|KEY", if a file has no unstable cycle with this id. */
+kz_status kz_saddle_check(kz_store *store, const char *keys, int64_t saddle);
 
 /* Writes the unstable cycles and the index sums to group /saddles. */
 kz_status kz_saddles_write(const kz_cycle_list *cycles, const kz_index_sums *sums, kz_store *store);

@@ -3,6 +3,7 @@
 #include <stdlib.h>
 
 #include "kapitza/study_keys.h"
+#include "saddles/saddles.h"
 #include "search.h"
 #include "sweep/sweep.h"
 
@@ -30,18 +31,14 @@ kz_status kz_tangency_check(const kz_scene *scene) {
 
 /* A cycle of the group saddles; NULL store: nothing. */
 static kz_status read_hinge(kz_store *store, int64_t saddle, kz_hinge *hinge) {
-  int64_t known;
-  double period;
-  KZ_TRY(kz_store_length(store, "saddles", "saddle", &known));
-  if (saddle >= known)
-    return kz_fail(KZ_REFUSED, "tangency.saddle|saddles: %lld is not among the %lld unstable cycles; choose an id below that",
-                   (long long)saddle, (long long)known);
-  KZ_TRY(kz_store_number(store, "saddles", "period", &saddle, &period));
-  hinge->period = (int32_t)period;
-  for (int64_t i = 0; i < hinge->period; i++) {
-    KZ_TRY(kz_store_number(store, "saddles", "strobe_theta", (int64_t[]){saddle, i}, hinge->theta + i));
-    KZ_TRY(kz_store_number(store, "saddles", "strobe_velocity", (int64_t[]){saddle, i}, hinge->velocity + i));
+  KZ_TRY(kz_saddle_check(store, "tangency.saddle|saddles", saddle));
+  kz_strobe_point point = {.period = 1};
+  for (int64_t i = 0; i < (int64_t)point.period; i++) {
+    KZ_TRY(kz_strobe_read(store, "saddles", saddle, i, &point));
+    hinge->theta[i] = point.theta;
+    hinge->velocity[i] = point.velocity;
   }
+  hinge->period = (int32_t)point.period;
   return KZ_OK;
 }
 

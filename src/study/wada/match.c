@@ -2,6 +2,7 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "labelling/catalogue.h"
 #include "wada.h"
 
 /* rad: strobe points of one attractor agree so well; and exponents of one chaotic attractor. */
@@ -9,18 +10,15 @@ static const double SAME = 1e-6;
 
 /* A row of the file. */
 typedef struct {
-  double period, lyapunov, mirror;
-  double theta, velocity; /* the first strobe point; NaN of a chaotic one */
+  kz_strobe_point first; /* its point is NaN of a chaotic one */
+  double lyapunov, mirror;
 } listed;
 
 static kz_status read_list(kz_store *store, int64_t n, listed *list) {
   for (int64_t i = 0; i < n; i++) {
-    const int64_t first[] = {i, 0};
-    KZ_TRY(kz_store_number(store, "attractors", "period", first, &list[i].period));
-    KZ_TRY(kz_store_number(store, "attractors", "lyapunov", first, &list[i].lyapunov));
-    KZ_TRY(kz_store_number(store, "attractors", "mirror", first, &list[i].mirror));
-    KZ_TRY(kz_store_number(store, "attractors", "strobe_theta", first, &list[i].theta));
-    KZ_TRY(kz_store_number(store, "attractors", "strobe_velocity", first, &list[i].velocity));
+    KZ_TRY(kz_strobe_read(store, "attractors", i, 0, &list[i].first));
+    KZ_TRY(kz_store_number(store, "attractors", "lyapunov", &i, &list[i].lyapunov));
+    KZ_TRY(kz_store_number(store, "attractors", "mirror", &i, &list[i].mirror));
   }
   return KZ_OK;
 }
@@ -29,13 +27,13 @@ static kz_status read_list(kz_store *store, int64_t n, listed *list) {
 static bool is_listed(const kz_dynamics *dynamics, int64_t number, const listed *row) {
   kz_attractor attractor;
   kz_dynamics_attractor(dynamics, number, &attractor);
-  if (attractor.period != (int32_t)row->period) return false;
+  if (attractor.period != (int32_t)row->first.period) return false;
   if (attractor.period == 0) return fabs(attractor.lyapunov - row->lyapunov) < SAME;
   const size_t period = (size_t)attractor.period;
   KZ_FREED double *theta = kz_malloc(period * sizeof *theta), *velocity = kz_malloc(period * sizeof *velocity);
   kz_dynamics_strobe(dynamics, number, theta, velocity);
   for (size_t i = 0; i < period; i++)
-    if (hypot(remainder(theta[i] - row->theta, 2 * M_PI), velocity[i] - row->velocity) < SAME) return true;
+    if (hypot(remainder(theta[i] - row->first.theta, 2 * M_PI), velocity[i] - row->first.velocity) < SAME) return true;
   return false;
 }
 
@@ -62,7 +60,8 @@ kz_status kz_file_attractors_match(const kz_run *run, kz_store *store, kz_dynami
   KZ_TRY(kz_ranks_broadcast(run->ranks, list, ((size_t)n + 1) * sizeof *list));
   const int64_t known = kz_dynamics_count(dynamics);
   for (int64_t i = 0; i < n; i++)
-    if (list[i].period > 0) kz_dynamics_add_cycle(dynamics, (int64_t)list[i].period, list[i].theta, list[i].velocity);
+    if (list[i].first.period > 0)
+      kz_dynamics_add_cycle(dynamics, (int64_t)list[i].first.period, list[i].first.theta, list[i].first.velocity);
   if (kz_dynamics_count(dynamics) > known) kz_dynamics_update(dynamics);
   attractors->count = n;
   set_ids(dynamics, list, attractors);

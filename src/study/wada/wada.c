@@ -39,8 +39,14 @@ static kz_status read_saddles(const kz_wada_plan *plan, const kz_run *run, kz_st
   kz_status status = KZ_OK;
   for (int64_t i = 0; store && status == KZ_OK && i < w->n_saddles; i++) {
     double mirror = 0;
-    w->branch[i] = (kz_branch){.spacing = plan->spacing, .length = plan->length, .fastest = plan->max_speed};
-    status = kz_branch_read(store, i, 0, w->branch + i);
+    kz_strobe_point at;
+    status = kz_strobe_read(store, "saddles", i, 0, &at);
+    w->branch[i] = (kz_branch){.theta = at.theta,
+                               .velocity = at.velocity,
+                               .period = (int32_t)at.period,
+                               .spacing = plan->spacing,
+                               .length = plan->length,
+                               .fastest = plan->max_speed};
     if (status == KZ_OK) status = kz_store_number(store, "saddles", "mirror", &i, &mirror);
     w->twin[i] = mirror >= 0 && mirror < (double)i ? (int64_t)mirror : i;
   }

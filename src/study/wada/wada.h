@@ -4,7 +4,7 @@
 
 #include "kapitza/dynamics.h"
 #include "kapitza/study.h"
-#include "manifolds/manifolds.h"
+#include "manifolds/plan.h"
 #include "plan.h"
 
 /* The attractors of the file beside those of kz_dynamics. */
