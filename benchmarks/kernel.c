@@ -14,6 +14,7 @@
 #include <string.h>
 #include <time.h>
 
+#include "../tests/tools/reference.h"
 #include "kapitza/kernel.h"
 
 enum { PROBES = 64, REPEATS = 3, SLOW_STATES = 16 };

@@ -9,6 +9,7 @@
 #include <string.h>
 #include <time.h>
 
+#include "../tests/tools/reference.h"
 #include "enclosure/operations.h"
 #include "taylor/triples.h"
 

@@ -10,6 +10,7 @@
 #include <stdlib.h>
 
 #include "catalogue.h"
+#include "../tests/tools/reference.h"
 #include "kapitza/kernel.h"
 
 enum { BATCH = 256 };

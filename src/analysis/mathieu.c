@@ -57,7 +57,8 @@ double kz_mathieu_k_tridiagonal(int curve, double m) {
   }
 }
 
-double kz_mathieu_k(int curve, double m) {
+/* From GSL up to q = 5000, beyond from the tridiagonal eigenproblem. */
+static double mathieu_k(int curve, double m) {
   double k = 2 * m <= GSL_REACH ? kz_mathieu_k_gsl(curve, m) : NAN;
   return isfinite(k) ? k : kz_mathieu_k_tridiagonal(curve, m);
 }
@@ -69,7 +70,7 @@ typedef struct {
 
 static double below_axis(double m, void *context) {
   const place *at = context;
-  return at->k - kz_mathieu_k(at->curve, m);
+  return at->k - mathieu_k(at->curve, m);
 }
 
 double kz_mathieu_turn(int curve) {
@@ -110,10 +111,10 @@ double kz_mathieu_m(int curve, double k, double turn, int upper) {
   if (!upper && k == axis) return 0;
   if (!upper && (turn > 0 ? k < axis : k > axis)) return NAN;
   double low = upper ? turn : 0, high = turn;
-  if (turn > 0 && k > kz_mathieu_k(curve, turn)) return NAN;
+  if (turn > 0 && k > mathieu_k(curve, turn)) return NAN;
   if (upper || turn == 0) {
     high = 2 * turn + fabs(k) + 1;
-    while (kz_mathieu_k(curve, high) > k) high *= 2;
+    while (mathieu_k(curve, high) > k) high *= 2;
   }
   double m = kz_root(below_axis, &at, low, high);
   return isfinite(m) ? polish(&at, m) : turn;

@@ -1,4 +1,5 @@
 /* One drive period at extreme numbers against the quad-precision reference and theory; a state that is lost becomes NaN. */
+#include "../tools/reference.h"
 #include "../tools/test.h"
 
 #include <float.h>

@@ -1,6 +1,7 @@
 /* Labels that are called decided, against quad precision by other steps, judged by circles around the strobe points and not by trapping regions.
  * The starts are chosen against the method: 1e-16 to 1e-8 rad from boundaries, found by bisection, of pendulums beside folds and doublings, where
  * a saddle is near, and where orbits linger; and those that version 0.2.0 labelled wrongly. KAPITZA_EXTENSIVE=1: more of them. */
+#include "../tools/reference.h"
 #include "../tools/test.h"
 
 #include "../tools/explored.h"

@@ -1,6 +1,7 @@
 /* Other drives - tilted, a square wave, two frequencies, a torque - and releases on a ramp. The reference against Taylor series in quad precision
  * that are written here; labels that are called decided against the reference (releases in quads: unit/dynamics/released.c).
  * KAPITZA_EXTENSIVE=1: 4000 cells and 2000 after a ramp, in place of some. */
+#include "../tools/reference.h"
 #include "../tools/test.h"
 
 #include "../tools/explored.h"

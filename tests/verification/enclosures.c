@@ -4,6 +4,7 @@
 #define OWN_MAIN
 #include "../tools/enclosed.h"
 #include "../tools/enclosed_orbit.h"
+#include "../tools/reference.h"
 #include "../tools/test.h"
 
 #include <math.h>

@@ -1,5 +1,6 @@
 /* Every scheme converges with its order to the quad-precision reference. */
 #include <stdlib.h>
+#include "../tools/reference.h"
 #include "../tools/test.h"
 #include <math.h>
 

@@ -2,6 +2,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "../tools/reference.h"
 #include "../tools/test.h"
 
 #include "kapitza/kernel.h"

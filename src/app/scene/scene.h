@@ -117,9 +117,8 @@ kz_short_text kz_shortest(double value);
 /* The text in double quotes; what may stand in one needs no other escapes than those of these and of backslashes. */
 void kz_text_print(const char *text, FILE *out);
 
-/* The field of a key in `scene`. clear: marks it as not given. read: reads it from a node; returns what is wrong, or NULL; *culprit = the node,
- * or the item of its list, that is wrong. is_set: true if it is given. print: prints it as YAML flow text. A mapping supports clear and is_set only. */
-void kz_value_clear(const kz_key *key, void *scene);
+/* The field of a key in `scene`. read: reads it from a node; returns what is wrong, or NULL; *culprit = the node,
+ * or the item of its list, that is wrong. is_set: true if it is given. print: prints it as YAML flow text. A mapping supports is_set only. */
 const char *kz_value_read(const kz_key *key, const kz_node *node, void *scene, const kz_node **culprit);
 /* Sets the field to the default of the key, which is read as a user's value is. */
 kz_status kz_value_default(const kz_key *key, void *scene);

@@ -234,12 +234,8 @@ kz_status kz_map_table_make(const kz_run *run, kz_dynamics *dynamics, int64_t n_
   return status;
 }
 
-double kz_search_speed(kz_dynamics *dynamics, const kz_search *search) {
-  return search->max_velocity > 0 ? search->max_velocity : kz_dynamics_max_velocity(dynamics, &search->window);
-}
-
 static kz_status search_from(const kz_run *run, kz_dynamics *dynamics, const kz_search *search, double *state, int32_t *label) {
-  const double speed = kz_search_speed(dynamics, search);
+  const double speed = search->max_velocity > 0 ? search->max_velocity : kz_dynamics_max_velocity(dynamics, &search->window);
   const int64_t labelled = search->cells > search->starts ? search->cells : search->starts;
   const bool grows = kz_regions_cells(labelled) > 0 && search->starts > PILOT_STARTS;
   const int64_t pilots = grows ? PILOT_STARTS : search->starts, rest = search->starts - pilots;

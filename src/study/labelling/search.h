@@ -21,8 +21,6 @@ typedef struct {
 /* Finds the attractors that the starts end on. If regions are grown, a few starts come first: regions grow around the attractors of most of
  * the window, and the other starts then settle soon. label [starts] as in kz_discover; NULL = not needed. */
 kz_status kz_search_window(const kz_run *run, kz_dynamics *dynamics, const kz_search *search, int32_t *label);
-/* search->max_velocity, or what it stands for. */
-double kz_search_speed(kz_dynamics *dynamics, const kz_search *search);
 
 /* Cells an axis of the grid of trapping regions that saves more time than it costs if `cells` cells are labelled; 0 = none does. */
 int64_t kz_regions_cells(int64_t cells);

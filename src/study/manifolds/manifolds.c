@@ -58,9 +58,8 @@ static kz_status add_saddle(const kz_manifolds_plan *plan, int64_t saddle, kz_st
     KZ_TRY(kz_strobe_read(store, "saddles", saddle, phase, &point));
     list->tasks = kz_realloc(list->tasks, (size_t)(list->count + 4) * sizeof *list->tasks);
     for (int i = 0; i < 4; i++) {
-      const kz_branch branch = {
-          point.theta,   point.velocity, (int32_t)point.period, i / 2, i % 2 ? -1 : 1,
-          plan->spacing, plan->length,   plan->max_speed};
+      const kz_branch branch = {point.theta,    point.velocity, (int32_t)point.period, i / 2,
+                                i % 2 ? -1 : 1, plan->spacing,  plan->length,          plan->max_speed};
       if (plan->kind == (branch.stable ? KZ_MANIFOLDS_UNSTABLE : KZ_MANIFOLDS_STABLE)) continue;
       list->tasks[list->count++] = (task){.saddle = saddle, .number = 2 * phase + i % 2, .branch = branch};
     }

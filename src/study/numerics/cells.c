@@ -142,12 +142,6 @@ void kz_cell_start(const kz_basin_plan *plan, int64_t f, double start[2]) {
   start[1] = kz_axis_centre(&plan->velocity, f / plan->theta.count);
 }
 
-void kz_cell_state(const kz_basin_plan *plan, int64_t f, double state[2]) {
-  double start[2];
-  kz_cell_start(plan, f, start);
-  kz_start_state(start[0], start[1], state);
-}
-
 int32_t kz_stencil(int32_t interpolation) {
   return interpolation == KZ_LINEAR ? KZ_FOLLOW_LINEAR : KZ_FOLLOW_QUINTIC;
 }

@@ -46,9 +46,8 @@ int64_t kz_unique_cells(const kz_basin_plan *plan);
 
 /* The state of a start in rad and rad per drive radian: half-turns in [-1, 1] and velocity. */
 void kz_start_state(double theta, double velocity, double state[2]);
-/* Centre of cell f, velocity-major, in rad and rad per drive radian; its state. */
+/* Centre of cell f, velocity-major, in rad and rad per drive radian. */
 void kz_cell_start(const kz_basin_plan *plan, int64_t f, double start[2]);
-void kz_cell_state(const kz_basin_plan *plan, int64_t f, double state[2]);
 
 /* Number of nodes an axis that an interpolation (KZ_LINEAR, ...) uses. */
 int32_t kz_stencil(int32_t interpolation);

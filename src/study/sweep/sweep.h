@@ -57,8 +57,6 @@ void kz_sweep_follow(const kz_path *path, double from, double to, int64_t max_pe
  * In and out: *point, the cycle at that value. */
 double kz_walk(const kz_path *path, double from, double to, kz_branch_point *point, int32_t *end_kind);
 
-bool kz_branch_attracts(const kz_branch_point *point);
-
 /* The attracting cycle of the period and the symmetry of *point within `farthest` rad of a state; false if there is none. */
 bool kz_cycle_near(const kz_pendulum *pendulum, const double state[2], double farthest, kz_branch_point *point);
 

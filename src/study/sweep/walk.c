@@ -42,7 +42,7 @@ kz_path kz_sweep_path(const kz_scene *scene, kz_fine_maps *maps) {
   return (kz_path){pendulum_of_scene, scene, maps};
 }
 
-bool kz_branch_attracts(const kz_branch_point *point) {
+static bool attracts(const kz_branch_point *point) {
   return hypot(point->multiplier_re[0], point->multiplier_im[0]) < 1;
 }
 
@@ -323,7 +323,7 @@ bool kz_cycle_near(const kz_pendulum *pendulum, const double state[2], double fa
   if (!plane_of(&here, &w.plane) || !cycle_of(&w.plane, point, 0, &c) || !kz_curve_solve(&w.plane, &c.of, c.y, numbers))
     return false;
   if (!(hypot(c.y[0] - state[0], c.y[1] - state[1]) <= farthest) || !(numbers[1] < 1)) return false;
-  return describe(&w, &c, point) && kz_branch_attracts(point);
+  return describe(&w, &c, point) && attracts(point);
 }
 
 bool kz_flutter_find(const kz_pendulum *pendulum, kz_branch_point *flutter) {

@@ -12,7 +12,8 @@ static const double FARTHER = 5;
 /* The change of the value is one sample of its error, which may be larger. */
 static const double MARGIN = 4;
 
-bool kz_tangency_pendulum(const kz_tangency_search *s, double value, kz_pendulum *pendulum) {
+/* The pendulum at a value of the key; false if there is none. */
+static bool pendulum_at(const kz_tangency_search *s, double value, kz_pendulum *pendulum) {
   return kz_pendulum_at(s->scene, 1, &s->scene->tangency->parameter, &value, pendulum) && pendulum->beta >= 0;
 }
 
@@ -21,7 +22,7 @@ static bool move(const kz_tangency_search *s, double value, kz_hinge *hinge) {
   kz_pendulum pendulum;
   kz_numerics fine;
   kz_attractor cycle;
-  if (!kz_tangency_pendulum(s, value, &pendulum)) return false;
+  if (!pendulum_at(s, value, &pendulum)) return false;
   kz_numerics_fine(&pendulum, &fine);
   kz_dynamics_close_cycle(&pendulum, &fine, hinge->period, NEXT, hinge->theta, hinge->velocity, &cycle);
   return cycle.period == hinge->period;
@@ -42,7 +43,7 @@ static bool move_both(kz_tangency_search *s, double value) {
 static bool make_arm(kz_tangency_search *s, double value, int32_t phase, int32_t side, bool stable, kz_arm *arm) {
   kz_pendulum pendulum;
   *arm = (kz_arm){0};
-  return move_both(s, value) && kz_tangency_pendulum(s, value, &pendulum) &&
+  return move_both(s, value) && pendulum_at(s, value, &pendulum) &&
          kz_arm_make(&pendulum, stable ? &s->into : &s->from, phase, side, stable, s->nearness, arm);
 }
 

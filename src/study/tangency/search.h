@@ -20,8 +20,6 @@ typedef struct {
   int32_t above; /* 1: they cross above the value; 0: below */
 } kz_tangency;
 
-/* The pendulum at a value of the key; false if there is none. */
-bool kz_tangency_pendulum(const kz_tangency_search *search, double value, kz_pendulum *pendulum);
 /* Makes both branches at a value; free them with kz_arm_free. False if that fails. */
 bool kz_tangency_arms(kz_tangency_search *search, double value, const kz_touch *touch, kz_arm arm[2]);
 /* Finds the value in the range of the scene. KZ_REFUSED: the manifolds cross at both ends, at neither, or a cycle is lost on the way. */

@@ -1,5 +1,6 @@
 /* Orbits of any precision against the quad reference, against themselves in more digits, and their neighbourhoods against neighbours. */
 #define OWN_MAIN
+#include "../../tools/reference.h"
 #include "../../tools/test.h"
 
 #include <math.h>

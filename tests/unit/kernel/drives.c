@@ -1,5 +1,6 @@
 /* Drives beyond k - m cos t: both splittings against the reference, which verification/drives.c holds against the equation; symmetry; tangents. */
 #include "../../tools/part.h"
+#include "../../tools/reference.h"
 #include "../../tools/test.h"
 
 #include <math.h>

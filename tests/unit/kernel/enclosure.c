@@ -3,6 +3,7 @@
 #include "../../tools/enclosed.h"
 #include "../../tools/enclosed_orbit.h"
 #include "../../tools/part.h"
+#include "../../tools/reference.h"
 #include "../../tools/test.h"
 
 #include <math.h>

@@ -1,4 +1,5 @@
 /* The kernel: sine, mirror symmetry, lanes, tangent map, sampling; every scheme. */
+#include "../../tools/reference.h"
 #include "../../tools/test.h"
 
 #include "../../tools/part.h"

@@ -1,4 +1,5 @@
 /* Pairs of doubles: the operations against quad precision, a period against the reference, mirror images, lanes. */
+#include "../../tools/reference.h"
 #include "../../tools/test.h"
 
 #include "../../tools/part.h"
