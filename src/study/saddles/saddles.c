@@ -60,58 +60,19 @@ kz_status kz_saddles_run(const kz_scene *scene, const kz_run *run, kz_store *sto
   return status;
 }
 
-/* ---- how many cycles there are: a part of the lines is tried with short periods, which shows how their number grows with the period ---- */
+/* Messages and records of pieces that a rank holds; pieces in which a cycle is found; the least that a piece takes in the checkpoint. */
+enum { PIECES_AT_ONCE = 5, PIECES_OF_A_CYCLE = 8, PAGE_BYTES = 4096 };
+/* Bytes of a cycle of the catalogue. */
+static const double CYCLE_BYTES = 2000;
 
-/* Pieces that are tried, with so many starts at most; how often a cycle is found, and in how many pieces; messages and records of
- * pieces that a rank holds. */
-enum { SAMPLE_PIECES = 24, SAMPLE_STARTS = 20000, REPEATS = 32, PIECES_OF_A_CYCLE = 8, PIECES_AT_ONCE = 5 };
-/* The least that a piece takes in the checkpoint. */
-enum { PAGE_BYTES = 4096 };
-/* s: what the sample of the longest period that is tried takes at least. Bytes of a cycle of the catalogue. */
-static const double SAMPLE_SECONDS = 0.05, CYCLE_BYTES = 2000;
-
-typedef struct {
-  double seconds; /* of all lines of constant angle */
-  double sampled; /* of those tried */
-  double cycles;
-} effort;
-
-static effort sample(const kz_scene *scene, int64_t max_period, double *found) {
-  kz_saddles_plan plan = *scene->saddles;
-  plan.max_period = max_period;
-  const kz_lines lines = kz_lines_of(&scene->parameters.pendulum, &plan, 1);
-  const int64_t all = lines.count * lines.pieces, n = all < SAMPLE_PIECES ? all : SAMPLE_PIECES;
-  const double share = (double)n / (double)all;
-  effort sum = {0};
-  const double start = kz_processor_clock();
-  for (int64_t i = 0; i < n; i++) {
-    int64_t work[2];
-    sum.cycles += (double)kz_lines_search(&lines, (2 * i + 1) * all / (2 * n), SAMPLE_STARTS, found, work) / (REPEATS * share);
-  }
-  sum.sampled = kz_processor_clock() - start;
-  sum.seconds = sum.sampled / share;
-  return sum;
-}
-
-/* Of all lines of constant angle. Periods are added until the effort shows how it grows. */
-static effort estimate(const kz_scene *scene) {
-  const int64_t longest = scene->saddles->max_period;
-  KZ_FREED double *found = kz_malloc(kz_piece_bytes(scene->saddles));
-  effort now = {0}, before = {0};
-  int64_t period = 0;
-  while (period < longest && now.sampled < SAMPLE_SECONDS) {
-    before = now;
-    now = sample(scene, ++period, found);
-  }
-  if (period == longest || before.seconds <= 0) return now;
-  const double growth = pow(fmax(1, now.seconds / before.seconds), (double)(longest - period));
-  return (effort){.seconds = growth * now.seconds, .cycles = growth * now.cycles};
+double kz_saddles_expected(const kz_scene *scene) {
+  const double growth = 1 + 3 * kz_stiffness(&scene->parameters.pendulum);
+  return fmin(2 * pow(growth, (double)scene->saddles->max_period), KZ_SADDLES_MOST);
 }
 
 kz_cost kz_saddles_cost(const kz_scene *scene) {
   const kz_saddles_plan *plan = scene->saddles;
-  const effort all = estimate(scene);
-  const double cycles = fmin(all.cycles, KZ_SADDLES_MOST), bytes = PIECES_OF_A_CYCLE * (double)kz_cycle_bytes(plan);
+  const double cycles = kz_saddles_expected(scene), bytes = PIECES_OF_A_CYCLE * (double)kz_cycle_bytes(plan);
   double pieces = 0;
   for (int round = 0; round < USUAL_ROUNDS; round++) {
     const kz_lines lines = kz_lines_of(&scene->parameters.pendulum, plan, round);
@@ -120,8 +81,4 @@ kz_cost kz_saddles_cost(const kz_scene *scene) {
   return (kz_cost){.disk_bytes = 1e5 + PAGE_BYTES * pieces + cycles * bytes,
                    .memory_bytes = PIECES_AT_ONCE * (double)kz_piece_bytes(plan),
                    .rank0_bytes = cycles * (CYCLE_BYTES + bytes)};
-}
-
-double kz_saddles_expected(const kz_scene *scene) {
-  return fmin(estimate(scene).cycles, KZ_SADDLES_MOST);
 }
