@@ -184,11 +184,20 @@ def runs_until_saved(process, checkpoint, before):
     return False
 
 
-def run_scene(kapitza, folder, scene, ranks=None, name="s"):
-    """The result of a scene, which becomes NAME.yaml of the folder, and the summary."""
-    (folder / f"{name}.yaml").write_text(json.dumps(scene))
-    done = kapitza("run", f"{name}.yaml", ranks=ranks, folder=folder)
+def run_scene(kapitza, folder, scene, *options, ranks=None, name="s"):
+    """The result of a scene, a mapping or YAML, which becomes NAME.yaml of the folder, and the summary."""
+    (folder / f"{name}.yaml").write_text(scene if isinstance(scene, str) else json.dumps(scene))
+    done = kapitza("run", f"{name}.yaml", "--force", *options, ranks=ranks, folder=folder)
     return Result(folder / f"{name}.h5"), done.stdout
+
+
+def refused_scene(kapitza, folder, scene, *options, command="run", status=2):
+    """The one line of the refusal (status 2) or failure (1) of a scene, which is written; nothing else is."""
+    before = {path.name for path in folder.iterdir()}
+    (folder / "s.yaml").write_text(scene if isinstance(scene, str) else json.dumps(scene))
+    done = kapitza(command, "s.yaml", *options, folder=folder, status=status)
+    assert done.stderr.count("\n") == 1 and {path.name for path in folder.iterdir()} == before | {"s.yaml"}, done.stderr
+    return done.stderr
 
 
 def stopped_and_resumed(kapitza, folder, scene, ranks):

@@ -1,21 +1,12 @@
-"""Numbers of basin boundaries and lifetimes: a smooth scene and a fractal one, ranks, a chaotic transient of known lifetime."""
-
-import json
+"""Numbers of basin boundaries and lifetimes: a smooth scene, a deep one, ranks, a chaotic transient of known lifetime."""
 
 import numpy as np
 import pytest
-from conftest import datasets
-from kapitza import Result
+from conftest import datasets, refused_scene, run_scene
 
 # A point at rest on the edge of the basin of Fig. 11's inverted state, found by bisection with the command where.
 EDGE = "2.332871765266180303048402854174"
 FIGURE = {"quality_factor": 5, "drive_frequency": 11}
-
-
-def run(kapitza, folder, scene, ranks=2):
-    (folder / "s.yaml").write_text(json.dumps(scene))
-    done = kapitza("run", "s.yaml", "--force", ranks=ranks, folder=folder)
-    return Result(folder / "s.h5"), done.stdout
 
 
 def scene(amplitude, count=256, pairs=4000):
@@ -24,33 +15,13 @@ def scene(amplitude, count=256, pairs=4000):
             "basin": {"theta": {"min": -3.1, "max": 3.1, "count": count}, "velocity": axis, "boundary": {"pairs": pairs}}}
 
 
-@pytest.fixture(scope="module")
-def fractal(kapitza, tmp_path_factory):
-    """Fig. 14: the result, the summary and the scene's file."""
-    folder = tmp_path_factory.mktemp("boundary")
-    return *run(kapitza, folder, scene(0.47)), folder / "s.yaml"
-
-
-@pytest.mark.extensive
-def test_a_fractal_boundary(fractal):
-    """The exponent is small over all decades, and is 2 less the dimension; every share is inside its interval and falls."""
-    result, summary, _ = fractal
-    group = result.group("boundary")
-    share = group["uncertain_share"].values
-    assert np.all(np.diff(share) <= 0) and np.all(group["uncertain_low"] <= share) and np.all(share <= group["uncertain_high"])
-    low, high = (group.attrs[f"uncertainty_exponent_{end}"] for end in ("low", "high"))
-    assert low < group.attrs["uncertainty_exponent"] < high < 0.5
-    assert 1.3 < group["dimension"].values[2:6].mean() < 2
-    shared = group["shared"].values
-    assert np.all((shared >= 0) & (shared <= 1)) and np.all(np.diff(shared[:6], axis=0) > -0.1)
-    assert "boundary: uncertainty exponent" in summary and "box-counting dimension" in summary
-
-
 def test_a_smooth_boundary(kapitza, tmp_path):
     """About the inverted state at Fig. 11 a few curves are the whole boundary: exponent and dimension 1."""
     window = scene(0.15, pairs=20000)
     window["basin"] |= {"theta": {"min": 2.2, "max": 4.08, "count": 256}, "velocity": {"min": -0.1, "max": 0.1, "count": 256}}
-    group = run(kapitza, tmp_path, window)[0].group("boundary")
+    result, summary = run_scene(kapitza, tmp_path, window)
+    group = result.group("boundary")
+    assert "boundary: uncertainty exponent" in summary and "box-counting dimension" in summary
     assert group.attrs["uncertainty_exponent_low"] < 1 < group.attrs["uncertainty_exponent_high"]
     assert group["dimension"].values[:4] == pytest.approx(1, abs=0.05)
 
@@ -62,57 +33,39 @@ def test_distances_below_the_last_place_of_a_double(kapitza, tmp_path):
     deep = scene(0.15)
     axes = {name: {"centre": centre, "width": str(width), "count": 2} for name, centre in (("theta", EDGE), ("velocity", 0))}
     deep["basin"] = {**axes, "method": "exact", "attractors": {"starts": 512}, "boundary": {"pairs": 100, "decades": 18}}
-    group = run(kapitza, tmp_path, deep, ranks=None)[0].group("boundary")
+    group = run_scene(kapitza, tmp_path, deep)[0].group("boundary")
     distance, low, high = (group[name].values for name in ("distance", "uncertain_low", "uncertain_high"))
     known = np.where(distance > width, 0.5, 2 / np.pi * distance / width)
     apart = (distance > 10.5 * width) | (distance < 0.9 * width)
     assert len(distance) == 19 and distance[-1] == pytest.approx(1e-20)
     assert np.all((low < known)[apart] & (known < high)[apart])
     assert group["slope_low"].values[-2] < 1 < group["slope_high"].values[-2]
-    (tmp_path / "s.yaml").write_text(json.dumps(scene(0.15)))
-
-
-@pytest.mark.extensive
-def test_pairs_within_a_deep_window(kapitza, tmp_path):
-    """Pairs nearer than the window is wide are handed over as its cells are. Across 1e-28 about the edge of the inverted state's basin, a
-    straight line nearly along a side, 2/pi times their distance over the width end differently."""
-    width = 1e-28
-    deep = scene(0.15)
-    axes = {name: {"centre": centre, "width": str(width), "count": 2} for name, centre in (("theta", EDGE), ("velocity", 0))}
-    deep["basin"] = {**axes, "attractors": {"starts": 512}, "boundary": {"pairs": 400, "farthest": width, "decades": 2}}
-    group = run(kapitza, tmp_path, deep, ranks=None)[0].group("boundary")
-    known = 2 / np.pi * group["distance"].values[1:] / width
-    assert group["distance"].values == pytest.approx(width * np.array([1, 0.1, 0.01]))
-    assert np.all((group["uncertain_low"].values[1:] < known) & (known < group["uncertain_high"].values[1:]))
 
 
 @pytest.mark.parametrize("keys, message", [
     (["method=direct", "boundary.decades=11"], "basin.boundary.decades: 11 go down to 1e-13 rad"),
     (["boundary.farthest=1e-24"], "it must be 1e-23 at least, or farthest at most the width of a window whose cells")])
 def test_pairs_too_near_for_their_numbers(kapitza, tmp_path, keys, message):
-    (tmp_path / "s.yaml").write_text(json.dumps(scene(0.15)))
     settings = [word for key in keys for word in ("--set", f"basin.{key}")]
-    assert message in kapitza("check", "s.yaml", *settings, folder=tmp_path, status=2).stderr
+    assert message in refused_scene(kapitza, tmp_path, scene(0.15), *settings, command="check")
 
 
 def test_any_number_of_ranks(kapitza, tmp_path):
-    run(kapitza, tmp_path, scene(0.47, 48, 200), ranks=1)
-    kapitza("run", "s.yaml", "-o", "again.h5", ranks=3, folder=tmp_path)
-    assert datasets(tmp_path / "again.h5") == datasets(tmp_path / "s.h5")
+    one, three = (run_scene(kapitza, tmp_path, scene(0.47, 48, 200), ranks=ranks, name=f"{ranks}")[0] for ranks in (1, 3))
+    assert datasets(one.path) == datasets(three.path)
 
 
 @pytest.mark.extensive
-def test_lifetimes_of_a_basin_and_of_a_sweep(fractal, kapitza, tmp_path):
+def test_lifetimes_of_a_basin_and_of_a_sweep(kapitza, tmp_path):
     """The tail of the settling times; the same from the starts of a sweep, within the intervals."""
-    result, _, _ = fractal
-    basin = result.group("basin")
+    basin = run_scene(kapitza, tmp_path, scene(0.47), ranks=2)[0].group("basin")
     times = basin["settling_time"].values.astype(float)
     after = basin.attrs["lifetime_after"]
     tail = times[times > after] - after
     assert basin.attrs["lifetime"] == pytest.approx(tail.mean(), rel=0.02)
     assert basin.attrs["lifetime_low"] < basin.attrs["lifetime"] < basin.attrs["lifetime_high"]
     sweep = {"parameter": "drive_amplitude", "min": 0.47, "max": 0.471, "count": 2, "measure": ["lifetime"], "starts": 1024}
-    table = run(kapitza, tmp_path, {"pendulum": {**FIGURE, "drive_amplitude": 0.3}, "sweep": sweep})[0].group("sweep").isel(value=0)
+    table = run_scene(kapitza, tmp_path, {"pendulum": {**FIGURE, "drive_amplitude": 0.3}, "sweep": sweep})[0].group("sweep").isel(value=0)
     assert float(table["lifetime_low"]) < basin.attrs["lifetime_high"] * 1.5
     assert float(table["lifetime_low"]) < float(table["lifetime"]) < float(table["lifetime_high"])
 
@@ -122,7 +75,7 @@ def test_cells_that_stay_open_are_put_in_words(kapitza, tmp_path):
     chaos = {"pendulum": {"k": 0.25, "damping": 0.05, "m": 0.465},
              "basin": {"theta": {"count": 24}, "velocity": {"min": -1, "max": 1, "count": 12}, "max_periods": 2000,
                        "attractors": {"starts": 64, "max_period": 4}}}
-    result, summary = run(kapitza, tmp_path, chaos)
+    result, summary = run_scene(kapitza, tmp_path, chaos)
     open_cells = int((result.group("basin")["attractor"].values < 0).sum())
     assert (open_cells > 0) == ("transients: " in summary)
     if open_cells > 20:

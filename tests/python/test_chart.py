@@ -4,8 +4,7 @@ import json
 
 import numpy as np
 import pytest
-from conftest import EXTENSIVE, datasets, plot, run_until_saved
-from kapitza import Result
+from conftest import EXTENSIVE, datasets, plot, run_scene, stopped_and_resumed
 
 STARTS = [0.3, 2.9, np.pi]
 CYCLE, CHAOTIC, NOT_SETTLED, NO_PENDULUM = range(4)
@@ -18,10 +17,8 @@ SCENE = {"pendulum": {"k": 0.05, "damping": 0.1, "m": 0},
 @pytest.fixture(scope="module")
 def chart(kapitza, tmp_path_factory):
     """The group of the scene above, the summary and the file."""
-    folder = tmp_path_factory.mktemp("chart")
-    (folder / "s.yaml").write_text(json.dumps(SCENE))
-    done = kapitza("run", "s.yaml", ranks=2, folder=folder)
-    return Result(folder / "s.h5").group("plane"), done.stdout, folder / "s.h5"
+    result, summary = run_scene(kapitza, tmp_path_factory.mktemp("chart"), SCENE, ranks=2)
+    return result.group("plane"), summary, result.path
 
 
 def test_ends_are_those_of_single_runs(chart, kapitza, tmp_path):
@@ -68,8 +65,5 @@ def test_an_interrupted_chart_resumes_on_other_ranks(kapitza, tmp_path):
             for axis, parameter, least, most in (("x", "m", 0.1, 0.3), ("y", "damping", 0.003, 0.005))}
     scene = {"pendulum": {"k": 0.05, "damping": 0.1, "m": 0},
              "sweep": {**axes, "measure": ["ends"], "ends": {"theta": np.linspace(0.2, 3, 5).tolist(), "max_period": 8}}}
-    (tmp_path / "s.yaml").write_text(json.dumps(scene))
-    run_until_saved("s.yaml", file="s.h5", folder=tmp_path, ranks=1)
-    kapitza("run", "s.yaml", "--resume", ranks=3, folder=tmp_path)
-    kapitza("run", "s.yaml", "-o", "undisturbed.h5", ranks=2, folder=tmp_path)
-    assert datasets(tmp_path / "s.h5") == datasets(tmp_path / "undisturbed.h5")
+    whole, _ = run_scene(kapitza, tmp_path, scene, ranks=2)
+    assert datasets(stopped_and_resumed(kapitza, tmp_path, scene, ranks=3).path) == datasets(whole.path)

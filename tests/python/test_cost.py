@@ -103,6 +103,7 @@ TIMED = {
              "count: 24}, measure: [ends], ends: {theta: [1], velocity: [0]}}\n",
     "stability": "stability: {k: {min: -1, max: 2, count: 600}, m: {min: 0, max: 3, count: 600}, curves: [exact_1, exact_2]}\n",
     "orbit": "orbit: {start: {theta: 0.5, velocity: 0}, transient: 4000}\n",
+    "measures": "measures: {names: [share, shock], velocity: {min: -2, max: 2}, shock_tolerance: 0.02}\n",
     "atlas": "atlas: {x: {parameter: drive_amplitude, min: 0, max: 0.5}, y: {parameter: quality_factor, min: 3, max: 9}, max_period: 1, "
              "checks: 20}\n",
 }

@@ -8,8 +8,6 @@ import numpy as np
 import pytest
 from conftest import ROOT
 
-sys.path.insert(0, str(ROOT / "tests" / "tools"))
-
 SMALL = ROOT / "scenes" / "small.yaml"
 NAMES = [f"{name}_share{end}" for name in ("doubtful", "differing") for end in ("", "_low", "_high")]
 SIDES = ("--set", "pendulum.drive_amplitude=0.46", "--set", "basin.theta.count=160")

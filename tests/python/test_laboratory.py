@@ -112,15 +112,6 @@ def test_reports_and_comparisons_are_in_si(tmp_path):
     assert panels[0].get_ylabel() == "velocity dθ/dt (rad/s)"
 
 
-@pytest.mark.extensive
-def test_sweeps_take_units():
-    swept = kapitza.sweep(SCENE, "amplitude", ("7 mm", "0.9 cm"), 2, "basin_fractions", starts=32, progress=False)
-    assert swept.group("sweep")["value"].values == pytest.approx([0.007, 0.009]) and swept.group("sweep")["value"].attrs["units"] == "m"
-    with pytest.raises(kapitza.SceneError, match="another quantity"):
-        kapitza.check({"pendulum": {"length": "20 cm", "frequency": 50, "amplitude": "8 mm", "quality_factor": 9},
-                       "sweep": {"parameter": "amplitude", "min": "1 mm", "max": "2 Hz", "count": 2, "measure": ["strobe"]}})
-
-
 IN_SI = """\
 pendulum: {length: 20 cm, frequency: 50 Hz, amplitude: 2.5 cm, quality_factor: 10}
 basin: {theta: {count: 2}, velocity: {min: -16 rad/s, max: 900 deg/s, count: 2}, attractors: {starts: 8}}

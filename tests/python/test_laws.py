@@ -1,25 +1,11 @@
 """Simple laws of the two papers' text (docs/explanation/theory.md, "Simple laws"): the program's numbers obey them."""
 
-import json
 from math import acos, degrees, sqrt
 
 import numpy as np
 import pytest
-from kapitza import Result
 
 BLACKBURN = {"quality_factor": 5, "drive_frequency": 11, "drive_amplitude": 0.3}
-
-
-@pytest.fixture
-def model(kapitza, tmp_path):
-    """Models a scene of one pendulum and some studies."""
-
-    def run(pendulum, **studies):
-        (tmp_path / "s.yaml").write_text(json.dumps({"pendulum": pendulum, **studies}))
-        kapitza("run", "s.yaml", "--force", folder=tmp_path)
-        return Result(tmp_path / "s.h5")
-
-    return run
 
 
 @pytest.mark.parametrize("beta", [0, 0.02, 0.5])

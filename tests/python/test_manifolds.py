@@ -1,11 +1,8 @@
 """The study manifolds: invariance and separation by an independent integration, spacing, symmetry, ranks, refusals."""
 
-import json
-
 import numpy as np
 import pytest
-from conftest import datasets, plot
-from kapitza import Result
+from conftest import datasets, plot, refused_scene, run_scene
 from runge_kutta import runge_kutta
 
 FIG12 = {"quality_factor": 5, "drive_frequency": 11, "drive_amplitude": 0.3}
@@ -13,17 +10,14 @@ SADDLES = {"velocity": {"min": -2, "max": 2}}
 SPACING = 0.02
 
 
-def scene_text(**manifolds):
-    return json.dumps({"pendulum": FIG12, "saddles": SADDLES, "manifolds": manifolds})
+def scene(**manifolds):
+    return {"pendulum": FIG12, "saddles": SADDLES, "manifolds": manifolds}
 
 
 @pytest.fixture(scope="module")
 def fig12(kapitza, tmp_path_factory):
     """All manifolds of the saddles of period 1 at Fig. 12: the result and the summary."""
-    folder = tmp_path_factory.mktemp("manifolds")
-    (folder / "s.yaml").write_text(scene_text(length=6, spacing=SPACING))
-    done = kapitza("run", "s.yaml", ranks=2, folder=folder)
-    return Result(folder / "s.h5"), done.stdout
+    return run_scene(kapitza, tmp_path_factory.mktemp("manifolds"), scene(length=6, spacing=SPACING), ranks=2)
 
 
 def strobe_map(pendulum, theta, velocity, periods=1):
@@ -97,10 +91,8 @@ def test_points_are_as_near_as_asked(fig12):
 def test_tails_that_are_stretched_far(kapitza, tmp_path):
     """A saddle of Fig. 13 with the multiplier -31.7: straight lines of up to 1 rad joined its manifold's ends 16 rad from it."""
     manifolds = {"saddles": [6], "kind": "stable", "length": 20, "spacing": SPACING}
-    (tmp_path / "s.yaml").write_text(json.dumps({"pendulum": {**FIG12, "drive_amplitude": 0.46}, "manifolds": manifolds,
-                                                 "saddles": {**SADDLES, "max_period": 2}}))
-    kapitza("run", "s.yaml", folder=tmp_path)
-    group = Result(tmp_path / "s.h5").group("manifolds")
+    strong = {"pendulum": {**FIG12, "drive_amplitude": 0.46}, "manifolds": manifolds, "saddles": {**SADDLES, "max_period": 2}}
+    group = run_scene(kapitza, tmp_path, strong)[0].group("manifolds")
     step = np.hypot(wrapped(np.diff(group["theta"].values)), np.diff(group["velocity"].values))
     assert step[np.diff(group["polyline"].values) == 0].max() <= SPACING * (1 + 1e-9)
     assert all(branch_of(group, 6, branch, 1)[1].max() >= 20 for branch in range(4))
@@ -114,31 +106,23 @@ def test_mirror_images_are_exact(fig12):
 
 
 def test_one_rank_gives_the_same_bytes(kapitza, fig12, tmp_path):
-    (tmp_path / "s.yaml").write_text(scene_text(length=6, spacing=SPACING))
-    kapitza("run", "s.yaml", folder=tmp_path)
-    assert datasets(tmp_path / "s.h5") == datasets(fig12[0].path)
+    assert datasets(run_scene(kapitza, tmp_path, scene(length=6, spacing=SPACING))[0].path) == datasets(fig12[0].path)
 
 
 def test_branches_that_end_early_are_told(kapitza, tmp_path):
     """The stable manifold of rotation +1/1 runs off to large speeds on one side; an unstable one ends in an attractor."""
-    (tmp_path / "s.yaml").write_text(scene_text(saddles=[0], length=1000, spacing=0.1, max_speed=1, kind="unstable"))
-    done = kapitza("run", "s.yaml", folder=tmp_path)
-    assert "manifolds: 2 branches" in done.stdout and "end before length = 1000" in done.stdout
+    _, said = run_scene(kapitza, tmp_path, scene(saddles=[0], length=1000, spacing=0.1, max_speed=1, kind="unstable"))
+    assert "manifolds: 2 branches" in said and "end before length = 1000" in said
 
 
 def test_an_unknown_saddle_is_refused(kapitza, tmp_path):
-    (tmp_path / "s.yaml").write_text(scene_text(saddles=[99]))
-    done = kapitza("run", "s.yaml", folder=tmp_path, status=2)
-    assert "manifolds.saddles: 99 is not among the 4 unstable cycles" in done.stderr
-    assert not (tmp_path / "s.h5").exists()
+    assert "manifolds.saddles: 99 is not among the 4 unstable cycles" in refused_scene(kapitza, tmp_path, scene(saddles=[99]))
 
 
 @pytest.mark.extensive
 def test_manifolds_are_drawn(kapitza, tmp_path):
-    scene = json.loads(scene_text(length=3, kind="stable"))
-    scene["basin"] = {"theta": {"count": 40}, "velocity": {"min": -2, "max": 2, "count": 40}, "method": "direct"}
-    (tmp_path / "s.yaml").write_text(json.dumps(scene))
-    kapitza("run", "s.yaml", folder=tmp_path)
+    basin = {"theta": {"count": 40}, "velocity": {"min": -2, "max": 2, "count": 40}, "method": "direct"}
+    run_scene(kapitza, tmp_path, scene(length=3, kind="stable") | {"basin": basin})
     assert plot("basin", tmp_path / "s.h5", "-o", tmp_path / "with.png", "--manifolds").returncode == 0
     assert plot("basin", tmp_path / "s.h5", "-o", tmp_path / "without.png").returncode == 0
     assert (tmp_path / "with.png").read_bytes() != (tmp_path / "without.png").read_bytes()

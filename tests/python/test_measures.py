@@ -1,12 +1,10 @@
 """The study measures: one table of numbers about attractors and basins, against other studies and known answers; ranks; refusals."""
 
-import json
 import math
 
 import numpy as np
 import pytest
-from conftest import datasets, run_scene, stopped_and_resumed
-from kapitza import Result
+from conftest import datasets, refused_scene, run_scene, stopped_and_resumed
 from kapitza.style import parameters_text
 from scipy.integrate import solve_ivp
 
@@ -20,13 +18,10 @@ CHEAP = ["share", "weighted_share", "share_within", "settling_mean", "settling_m
 @pytest.fixture(scope="module")
 def fig12(kapitza, tmp_path_factory):
     """All measures of Fig. 12 but shocks, and its basin beside them."""
-    folder = tmp_path_factory.mktemp("measures")
     scene = {"pendulum": FIG12, "basin": {"theta": {"count": 128}, "velocity": WINDOW["velocity"] | {"count": 128}},
              "measures": WINDOW | {"names": CHEAP, "starts": 2048, "cells": 128, "within": 40,
                                    "weight": {"theta": "170 deg", "theta_spread": "3 deg", "velocity_spread": 0.001}}}
-    (folder / "s.yaml").write_text(json.dumps(scene))
-    kapitza("run", "s.yaml", ranks=2, folder=folder)
-    return Result(folder / "s.h5")
+    return run_scene(kapitza, tmp_path_factory.mktemp("measures"), scene, ranks=2)[0]
 
 
 def test_the_table_agrees_with_the_basin(fig12):
@@ -71,9 +66,7 @@ def test_shocks_are_those_of_the_basin(kapitza, tmp_path):
     scene = {"pendulum": pendulum,
              "basin": {"theta": {"count": 64}, "velocity": WINDOW["velocity"] | {"count": 64}, "shocks": {"sizes": [0.3]}},
              "measures": WINDOW | {"names": ["shock_angle", "shock_velocity", "shock", "harmless", "integrity_local"], "cells": 256}}
-    (tmp_path / "s.yaml").write_text(json.dumps(scene))
-    kapitza("run", "s.yaml", folder=tmp_path)
-    result = Result(tmp_path / "s.h5")
+    result, _ = run_scene(kapitza, tmp_path, scene)
     table, shocks = result.measures, result.group("shocks")
     for name in table["name"]:
         points = shocks.isel(point=[int(one) in result.ids(name) for one in shocks["attractor"]])
@@ -82,12 +75,10 @@ def test_shocks_are_those_of_the_basin(kapitza, tmp_path):
         assert row["shock_angle"] == pytest.approx(float(abs(points["angle"]).min()), rel=1e-9, nan_ok=True)
         assert row["harmless"] == pytest.approx([float(points["harmless"].mean())], abs=1e-12)
         assert row["integrity_local"] == pytest.approx(row["shock"], abs=2 * math.pi / 256)
-    for name, ranks in (("one", 1), ("three", 3)):
-        (tmp_path / f"{name}.yaml").write_text(json.dumps(
-            {"pendulum": pendulum, "measures": WINDOW | {"names": ["shock"], "shock_tolerance": 0.004}}))
-        kapitza("run", f"{name}.yaml", ranks=ranks, folder=tmp_path)
-    assert datasets(tmp_path / "one.h5") == datasets(tmp_path / "three.h5")
-    alone = Result(tmp_path / "one.h5").measures
+    alone = {"pendulum": pendulum, "measures": WINDOW | {"names": ["shock"], "shock_tolerance": 0.004}}
+    one, three = (run_scene(kapitza, tmp_path, alone, ranks=ranks, name=str(ranks))[0] for ranks in (1, 3))
+    assert datasets(one.path) == datasets(three.path)
+    alone = one.measures
     assert list(alone["name"]) == list(table["name"]) and np.allclose(alone["shock"], table["shock"], rtol=0.004)
 
 
@@ -108,13 +99,7 @@ def test_any_number_of_ranks_and_a_stop(kapitza, tmp_path):
 ])
 def test_refused(kapitza, tmp_path, changes, words):
     pendulum = {"k": 0.05, "damping": changes.pop("damping", 0.1), "m": 0.3}
-    (tmp_path / "s.yaml").write_text(json.dumps({"pendulum": pendulum, "measures": WINDOW | changes}))
-    assert words in kapitza("run", "s.yaml", folder=tmp_path, status=2).stderr
-
-
-def test_check_says_what_it_costs(kapitza, tmp_path):
-    (tmp_path / "s.yaml").write_text(json.dumps({"pendulum": FIG12, "measures": WINDOW | {"names": ["share", "shock"]}}))
-    assert "measures" in kapitza("check", "s.yaml", folder=tmp_path).stdout
+    assert words in refused_scene(kapitza, tmp_path, {"pendulum": pendulum, "measures": WINDOW | changes})
 
 
 FORCED = {"velocity": {"min": -3, "max": 3}, "starts": 256, "cells": 128, "method": "direct"}

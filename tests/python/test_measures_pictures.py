@@ -1,6 +1,5 @@
 """Pictures of measures: over a plane, of one attractor, in a report."""
 
-import json
 import re
 import shutil
 from types import SimpleNamespace
@@ -9,7 +8,7 @@ import h5py
 import numpy as np
 import pytest
 import xarray
-from conftest import plot
+from conftest import plot, run_scene
 from kapitza import Result
 from kapitza.plots import plane_measures
 from kapitza.plots.plane_measures import atlas_of, draw_curves, of_name
@@ -25,10 +24,7 @@ SCENE = {"pendulum": SI, "sweep": {"x": {"parameter": "frequency", "min": "45 Hz
 @pytest.fixture(scope="module")
 def plane(kapitza, tmp_path_factory):
     """A file with shares over a plane of a scene in SI units."""
-    folder = tmp_path_factory.mktemp("plane")
-    (folder / "s.yaml").write_text(json.dumps(SCENE))
-    kapitza("run", "s.yaml", folder=folder)
-    return folder / "s.h5"
+    return run_scene(kapitza, tmp_path_factory.mktemp("plane"), SCENE)[0].path
 
 
 def test_a_plane_has_a_panel_for_each_name_and_one_for_a_measure_of_the_pendulum(plane, tmp_path):
@@ -88,14 +84,11 @@ WORDS = ["share", "return_time", "intermingled_with", "entropy"]
 @pytest.fixture(scope="module")
 def table(kapitza, tmp_path_factory):
     """A file with a basin and measures, without a title."""
-    folder = tmp_path_factory.mktemp("table")
     window = {"velocity": {"min": -2, "max": 2}}
     scene = {"pendulum": {"quality_factor": 5, "drive_frequency": 11, "drive_amplitude": 0.3},
              "basin": {"theta": {"count": 24}, "velocity": {**window["velocity"], "count": 24}},
              "measures": {"names": WORDS, "starts": 128, "cells": 16, **window}}
-    (folder / "s.yaml").write_text(json.dumps(scene))
-    kapitza("run", "s.yaml", folder=folder)
-    return folder / "s.h5"
+    return run_scene(kapitza, tmp_path_factory.mktemp("table"), scene)[0].path
 
 
 def test_a_passport_is_one_page_about_an_attractor(table, tmp_path):

@@ -1,11 +1,8 @@
 """Measures along a line and over a plane: points against single runs, attractors from point to point, ranks and stops."""
 
-import json
-
 import numpy as np
 import pytest
-from conftest import datasets, run_until_saved
-from kapitza import Result
+from conftest import datasets, refused_scene, run_scene, run_until_saved
 
 PENDULUM = {"k": 0.05, "damping": 0.2, "m": 0.3}
 X, Y = {"parameter": "m", "min": 0.2, "max": 0.6, "count": 6}, {"parameter": "damping", "min": 0.1, "max": 0.3, "count": 3}
@@ -13,16 +10,10 @@ WORDS = ["share", "entropy", "return_time", "reactivity", "integrity_factor"]
 KEYS = {"velocity": {"min": -2, "max": 2}, "starts": 512, "cells": 32}
 
 
-def ran(kapitza, folder, name, scene, **options):
-    (folder / f"{name}.yaml").write_text(json.dumps(scene))
-    kapitza("run", f"{name}.yaml", folder=folder, **options)
-    return Result(folder / f"{name}.h5")
-
-
 @pytest.fixture(scope="module")
 def plane(kapitza, tmp_path_factory):
     scene = {"pendulum": PENDULUM, "sweep": KEYS | {"x": X, "y": Y, "measure": [*WORDS, "ends"], "ends": {"theta": [3.0]}}}
-    return ran(kapitza, tmp_path_factory.mktemp("plane"), "s", scene, ranks=2)
+    return run_scene(kapitza, tmp_path_factory.mktemp("plane"), scene, ranks=2)[0]
 
 
 def test_a_point_is_a_pendulum_of_its_own(plane, kapitza, tmp_path):
@@ -31,7 +22,7 @@ def test_a_point_is_a_pendulum_of_its_own(plane, kapitza, tmp_path):
     for column, row in ((0, 2), (4, 1)):
         point = group.isel(x=column, y=row)
         pendulum = PENDULUM | {"m": float(point["x"]), "damping": float(point["y"])}
-        single = ran(kapitza, tmp_path, f"p{column}", {"pendulum": pendulum, "measures": KEYS | {"names": WORDS}}).measures
+        single = run_scene(kapitza, tmp_path, {"pendulum": pendulum, "measures": KEYS | {"names": WORDS}})[0].measures
         there = point.isel(attractor=np.isfinite(point["return_time"].values))
         assert sorted(map(str, there["name"].values)) == sorted(single["name"])
         for name in single["name"]:
@@ -56,7 +47,7 @@ def test_attractors_are_the_same_from_point_to_point(plane):
 
 def test_a_line_is_a_row_of_the_plane(plane, kapitza, tmp_path):
     scene = {"pendulum": PENDULUM | {"damping": 0.2}, "sweep": KEYS | X | {"measure": WORDS}}
-    line, row = ran(kapitza, tmp_path, "s", scene, ranks=3).group("line"), plane.group("plane").isel(y=1)
+    line, row = run_scene(kapitza, tmp_path, scene, ranks=3)[0].group("line"), plane.group("plane").isel(y=1)
     assert line.attrs["parameter"] == "m" and np.array_equal(line["value"], row["x"])
     for name in ("inverted", "down"):
         mine, other = (data.isel(attractor=[str(one) for one in data["name"].values].index(name)) for data in (line, row))
@@ -80,11 +71,12 @@ def test_smallest_shocks_over_a_plane(kapitza, tmp_path):
     x, y = X | {"count": 2}, Y | {"count": 2}
     keys = {"velocity": KEYS["velocity"], "starts": 64, "shock_tolerance": 0.02}
     scene = {"pendulum": PENDULUM, "sweep": keys | {"x": x, "y": y, "measure": ["shock"]}}
-    result = ran(kapitza, tmp_path, "one", scene)
-    assert datasets(ran(kapitza, tmp_path, "three", scene, ranks=3).path) == datasets(result.path)
+    result, _ = run_scene(kapitza, tmp_path, scene)
+    assert datasets(run_scene(kapitza, tmp_path, scene, ranks=3, name="three")[0].path) == datasets(result.path)
     point = result.group("plane").isel(x=1, y=1)
     pendulum = PENDULUM | {"m": float(point["x"]), "damping": float(point["y"])}
-    single = ran(kapitza, tmp_path, "single", {"pendulum": pendulum, "measures": keys | {"names": ["shock"]}}).measures["shock"]
+    alone = {"pendulum": pendulum, "measures": keys | {"names": ["shock"]}}
+    single = run_scene(kapitza, tmp_path, alone, name="single")[0].measures["shock"]
     there = point["shock"].values[np.isfinite(point["shock"].values)]
     assert np.sort(there) == pytest.approx(np.sort(single[np.isfinite(single)]), rel=1e-6) and point.attrs["shock_tolerance"] == 0.02
 
@@ -95,5 +87,4 @@ def test_smallest_shocks_over_a_plane(kapitza, tmp_path):
     ({"measure": ["share"], "parameter": "m"}, "contradicts"),
 ])
 def test_refused(kapitza, tmp_path, changes, words):
-    (tmp_path / "s.yaml").write_text(json.dumps({"pendulum": PENDULUM, "sweep": KEYS | {"x": X, "y": Y} | changes}))
-    assert words in kapitza("run", "s.yaml", folder=tmp_path, status=2).stderr
+    assert words in refused_scene(kapitza, tmp_path, {"pendulum": PENDULUM, "sweep": KEYS | {"x": X, "y": Y} | changes})

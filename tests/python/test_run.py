@@ -64,14 +64,6 @@ def test_a_stop_saves_and_resume_ends_with_the_same_bytes(kapitza, tmp_path):
     assert 0 < shares[0] == shares[1] < 0.01
 
 
-def test_check_predicts_what_run_would_do(kapitza, tmp_path):
-    done = kapitza("check", SMALL, folder=tmp_path)
-    assert not list(tmp_path.iterdir())
-    rows = dict(re.findall(r"^(.+?)\s{2,}(.+)$", done.stdout, re.MULTILINE))
-    assert len(done.stdout.splitlines()) == 5 and rows["studies"] == "basin (icm), 10000 cells"
-    assert re.fullmatch(r"[\d.]+ s on one core \(.+\), [\d.]+ MB of memory, 1.1 MB on disk", rows["cost"])
-
-
 def test_si_values_stand_in_the_file(kapitza, tmp_path):
     """With the frequency in Hz: seconds and rad/s follow from pivot_frequency."""
     si = {"mass": 0.1, "radius": 0.2, "inertia": 0.008, "friction": 0.0145, "gravity": 33.06, "pivot_amplitude": 0.12}

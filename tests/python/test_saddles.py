@@ -1,31 +1,26 @@
 """The study saddles: cycles against an independent integration, the index sums, symmetry, ranks, what the summary says."""
 
-import json
 import re
 from collections import Counter
 
-import h5py
 import numpy as np
 import pytest
-from conftest import datasets, with_extensive
-from kapitza import Result
+from conftest import datasets, refused_scene, run_scene, with_extensive
 from runge_kutta import runge_kutta
 
 FIG12 = {"quality_factor": 5, "drive_frequency": 11, "drive_amplitude": 0.3}
 WINDOW = {"velocity": {"min": -2, "max": 2}}
 
 
-def scene_text(pendulum=FIG12, **saddles):
-    return json.dumps({"pendulum": pendulum, "saddles": {**WINDOW, **saddles}})
+def scene(pendulum=FIG12, **saddles):
+    return {"pendulum": pendulum, "saddles": {**WINDOW, **saddles}}
 
 
 @pytest.fixture(scope="module")
 def fig12(kapitza, tmp_path_factory):
     """Cycles of up to 4 periods at Fig. 12: the group and the summary."""
-    folder = tmp_path_factory.mktemp("saddles")
-    (folder / "s.yaml").write_text(scene_text(max_period=4))
-    done = kapitza("run", "s.yaml", ranks=2, folder=folder)
-    return Result(folder / "s.h5").group("saddles"), done.stdout, folder / "s.h5"
+    result, summary = run_scene(kapitza, tmp_path_factory.mktemp("saddles"), scene(max_period=4), ranks=2)
+    return result.group("saddles"), summary, result
 
 
 def strobe_map(pendulum, state, periods):
@@ -37,8 +32,8 @@ def strobe_map(pendulum, state, periods):
 @pytest.mark.extensive
 def test_cycles_close_by_an_independent_integration(fig12):
     """Every listed point comes back after its period, as often around as said, and the multipliers are those of the map."""
-    group, _, path = fig12
-    pendulum = Result(path).pendulum
+    group, _, result = fig12
+    pendulum = result.pendulum
     for period in np.unique(group["period"].values):
         rows = group["period"].values == period
         start = np.array([group["strobe_theta"].values[rows, 0], group["strobe_velocity"].values[rows, 0]])
@@ -87,27 +82,20 @@ def test_mirror_images_are_exact(fig12):
 
 def test_a_missing_cycle_shows(kapitza, tmp_path):
     """Of a window that holds the inverted state alone the sum is +1, and the summary says so."""
-    text = scene_text(theta={"min": 3.04, "max": 3.24}, velocity={"min": -0.05, "max": 0.05})
-    (tmp_path / "s.yaml").write_text(text)
-    done = kapitza("run", "s.yaml", folder=tmp_path)
-    assert "0 unstable cycles of up to 1 periods, and 1 that attract" in done.stdout
-    assert "period 1, winding 0: sum +1" in done.stdout
-    with h5py.File(tmp_path / "s.h5") as file:
-        assert file["saddles/index_sum"][:].tolist() == [1] and len(file["saddles/period"]) == 0
+    result, said = run_scene(kapitza, tmp_path, scene(theta={"min": 3.04, "max": 3.24}, velocity={"min": -0.05, "max": 0.05}))
+    assert "0 unstable cycles of up to 1 periods, and 1 that attract" in said and "period 1, winding 0: sum +1" in said
+    group = result.group("saddles")
+    assert group["index_sum"].values.tolist() == [1] and group.sizes["saddle"] == 0
 
 
 def test_without_damping_nothing_is_claimed(kapitza, tmp_path):
-    (tmp_path / "s.yaml").write_text(scene_text({"k": 0.1, "damping": 0, "m": 0.05}, velocity={"min": -0.7, "max": 0.7}))
-    done = kapitza("run", "s.yaml", folder=tmp_path)
-    assert "Without damping the index sums cannot show missing cycles" in done.stdout
-    assert "unstable inverted" in done.stdout
+    _, said = run_scene(kapitza, tmp_path, scene({"k": 0.1, "damping": 0, "m": 0.05}, velocity={"min": -0.7, "max": 0.7}))
+    assert "Without damping the index sums cannot show missing cycles" in said and "unstable inverted" in said
 
 
 @pytest.mark.parametrize("ranks", with_extensive([3], [1]))
 def test_ranks_do_not_matter(kapitza, fig12, tmp_path, ranks):
-    (tmp_path / "s.yaml").write_text(scene_text(max_period=4))
-    kapitza("run", "s.yaml", ranks=ranks, folder=tmp_path)
-    assert datasets(tmp_path / "s.h5") == datasets(fig12[2])
+    assert datasets(run_scene(kapitza, tmp_path, scene(max_period=4), ranks=ranks)[0].path) == datasets(fig12[2].path)
 
 
 LONG = [(0.15, 8, 8), (0.3, 12, 98), (0.46, 8, 5515), (0.47, 8, 6584), (0.52, 8, 13516)]
@@ -116,22 +104,19 @@ LONG = [(0.15, 8, 8), (0.3, 12, 98), (0.46, 8, 5515), (0.47, 8, 6584), (0.52, 8,
 @pytest.mark.parametrize("epsilon, period, cycles", [(0.52, 4, 150), *(pytest.param(*case, marks=pytest.mark.extensive) for case in LONG)])
 def test_no_cycle_of_the_figures_is_missing(kapitza, tmp_path, epsilon, period, cycles):
     """The sums are 0, and all points are right, not the first of each cycle alone, though one in 1e4 to 1e10 is left of an error."""
-    (tmp_path / "s.yaml").write_text(scene_text({**FIG12, "drive_amplitude": epsilon}, max_period=period))
-    done = kapitza("run", "s.yaml", ranks=2, folder=tmp_path)
-    assert "The indices add up to 0 for all" in done.stdout
-    count, attracting = re.search(r"saddles: (\d+) unstable cycles .*, and (\d+) that attract", done.stdout).groups()
+    result, said = run_scene(kapitza, tmp_path, scene({**FIG12, "drive_amplitude": epsilon}, max_period=period), ranks=2)
+    assert "The indices add up to 0 for all" in said
+    count, attracting = re.search(r"saddles: (\d+) unstable cycles .*, and (\d+) that attract", said).groups()
     assert int(count) + int(attracting) == cycles
-    group = Result(tmp_path / "s.h5").group("saddles")
+    group = result.group("saddles")
     rows = np.flatnonzero(group["period"].values == period)[-200:]
     points = np.array([group[name].values[rows, :period].ravel() for name in ("strobe_theta", "strobe_velocity")])
     following = np.array([np.roll(group[name].values[rows, :period], -1, axis=1).ravel() for name in ("strobe_theta", "strobe_velocity")])
-    gap = strobe_map(Result(tmp_path / "s.h5").pendulum, points, 1) - following
+    gap = strobe_map(result.pendulum, points, 1) - following
     assert np.all(np.abs(np.remainder(gap[0] + np.pi, 2 * np.pi) - np.pi) < 1e-11) and np.all(np.abs(gap[1]) < 1e-11)
 
 
 @pytest.mark.extensive
 def test_too_many_cycles_are_refused(kapitza, tmp_path):
-    scene = {**FIG12, "drive_amplitude": 0.52}
-    (tmp_path / "s.yaml").write_text(scene_text(scene, max_period=14))
-    refused = kapitza("run", "s.yaml", folder=tmp_path, status=2)
-    assert "saddles.max_period: 14 needs more than" in refused.stderr and not (tmp_path / "s.h5").exists()
+    strong = scene({**FIG12, "drive_amplitude": 0.52}, max_period=14)
+    assert "saddles.max_period: 14 needs more than" in refused_scene(kapitza, tmp_path, strong)

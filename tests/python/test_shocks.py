@@ -1,23 +1,14 @@
 """Smallest shocks and edges: against brute force on grids, the saddles between basins, ranks, sweeps."""
 
-import json
 import re
 
 import numpy as np
 import pytest
-from conftest import EXTENSIVE, datasets
-from kapitza import Result
+from conftest import EXTENSIVE, datasets, refused_scene, run_scene
 
 FIG11 = {"quality_factor": 5, "drive_frequency": 11, "drive_amplitude": 0.15}
-EXTENSIVE = EXTENSIVE
 SCALE = 0.5
 EDGE = {"first": {"theta": 3.1, "velocity": 0}, "second": {"theta": 0.1, "velocity": 0}}
-
-
-def run(kapitza, folder, scene, ranks=2):
-    (folder / "s.yaml").write_text(json.dumps(scene))
-    done = kapitza("run", "s.yaml", "--force", ranks=ranks, folder=folder)
-    return Result(folder / "s.h5"), done.stdout
 
 
 @pytest.fixture(scope="module")
@@ -27,14 +18,14 @@ def fig11(kapitza, tmp_path_factory):
     scene = {"pendulum": FIG11, "basin": {"theta": {"count": 60}, "velocity": {"min": -2, "max": 2, "count": 60},
                                           "shocks": {"scale": SCALE, "sizes": [0.05, 0.5]}},
              "saddles": {"velocity": {"min": -2, "max": 2}}, "edge": EDGE}
-    return *run(kapitza, folder, scene), folder / "s.h5"
+    return *run_scene(kapitza, folder, scene, ranks=2), folder / "s.h5"
 
 
 def grid(kapitza, folder, pendulum, middle, reach, count):
     """(other labels than at the grid's middle?, theta, velocity) around a point."""
     window = {"theta": {"min": middle[0] - reach[0], "max": middle[0] + reach[0], "count": count},
               "velocity": {"min": middle[1] - reach[1], "max": middle[1] + reach[1], "count": count}}
-    result, _ = run(kapitza, folder, {"pendulum": pendulum, "basin": window})
+    result, _ = run_scene(kapitza, folder, {"pendulum": pendulum, "basin": window}, ranks=2)
     cells, attractors = result.group("basin"), result.group("attractors")
     return cells["attractor"].values, *np.meshgrid(cells["theta"].values, cells["velocity"].values), attractors
 
@@ -93,7 +84,7 @@ def test_shocks_are_mirrored_and_agree_with_each_other(fig11):
 def test_a_laboratory_reads_kicks_in_rad_per_second(kapitza, tmp_path):
     scene = {"pendulum": {"length": "20 cm", "frequency": "12.26 Hz", "amplitude": "3 cm", "quality_factor": 5},
              "basin": {"theta": {"count": 20}, "velocity": {"min": -2, "max": 2, "count": 20}, "shocks": {"sizes": [0.1]}}}
-    result, summary = run(kapitza, tmp_path, scene, ranks=1)
+    result, summary = run_scene(kapitza, tmp_path, scene)
     kicks = np.abs(result.group("shocks", si=True)["kick"].values)
     said = re.findall(r"^ +\d+ +\S+ -> \d+ +([\d.]+) -> ", summary.split("velocity, rad/s")[1], re.MULTILINE)
     assert said and [float(one) for one in said] == pytest.approx([kicks[result.group("shocks")["attractor"] == row].min() for row in
@@ -105,7 +96,7 @@ def test_a_thin_tongue_before_the_boundary(kapitza, tmp_path):
     scene = {"pendulum": {"k": 0.15, "damping": 0.07, "m": 0.25},
              "basin": {"theta": {"count": 40}, "velocity": {"min": -2, "max": 2, "count": 40}, "method": "direct",
                        "shocks": {"scale": SCALE}}}
-    result, _ = run(kapitza, tmp_path, scene, ranks=1)
+    result, _ = run_scene(kapitza, tmp_path, scene)
     shocks, attractors = result.group("shocks"), result.group("attractors")
     names = attractors["name"].values
     row = int(np.argmin(np.hypot(shocks["strobe_theta"].values - 0.11200798, shocks["strobe_velocity"].values - 0.33217060)))
@@ -132,16 +123,15 @@ def test_an_edge_where_basins_are_fractal(kapitza, tmp_path):
     """At epsilon = 0.46 starts 1e-10 rad from a boundary are among those that direct integration gets wrong: by its labels the edge came to
     no cycle in 2000 periods."""
     attractors = {"velocity": {"min": -2, "max": 2}, "starts": 256}
-    edge = run(kapitza, tmp_path, {"pendulum": {**FIG11, "drive_amplitude": 0.46}, "attractors": attractors,
-                                   "edge": {**EDGE, "periods": 400}}, ranks=None)[0].group("edge")
+    edge = run_scene(kapitza, tmp_path, {"pendulum": {**FIG11, "drive_amplitude": 0.46}, "attractors": attractors,
+                                         "edge": {**EDGE, "periods": 400}})[0].group("edge")
     assert edge.attrs["period"] == 4 and edge.attrs["multiplier_1_re"] > 1 > abs(edge.attrs["multiplier_2_re"])
 
 
 def test_starts_that_end_alike_have_no_edge(kapitza, tmp_path):
-    (tmp_path / "s.yaml").write_text(json.dumps({"pendulum": FIG11, "attractors": {"velocity": {"min": -1, "max": 1}, "starts": 256},
-                                                 "edge": {**EDGE, "second": {"theta": 3.11, "velocity": 0}}}))
-    done = kapitza("run", "s.yaml", folder=tmp_path, status=2)
-    assert "edge.second: ends on the same attractor as the other start" in done.stderr and not (tmp_path / "s.h5").exists()
+    scene = {"pendulum": FIG11, "attractors": {"velocity": {"min": -1, "max": 1}, "starts": 256},
+             "edge": {**EDGE, "second": {"theta": 3.11, "velocity": 0}}}
+    assert "edge.second: ends on the same attractor as the other start" in refused_scene(kapitza, tmp_path, scene)
 
 
 @pytest.mark.extensive
@@ -157,7 +147,7 @@ def test_a_sweep_has_the_same_shocks(fig11, kapitza, tmp_path):
     shocks, attractors = fig11[0].group("shocks"), fig11[0].group("attractors")
     sweep = {"parameter": "drive_amplitude", "min": 0.15, "max": 0.151, "count": 2, "measure": ["resilience"], "starts": 512,
              "shock_scale": SCALE}
-    table = run(kapitza, tmp_path, {"pendulum": FIG11, "sweep": sweep})[0].group("sweep").isel(value=0)
+    table = run_scene(kapitza, tmp_path, {"pendulum": FIG11, "sweep": sweep})[0].group("sweep").isel(value=0)
     for branch in range(table.sizes["branch"]):
         rows = np.flatnonzero(attractors["name"].values == table["branch_name"].values[branch])
         mine = float(table["shock_size"].values[branch])

@@ -1,6 +1,5 @@
 """The study tangency: against scipy, Melnikov's formula, quadratic opening of the crossing, ranks, refusals."""
 
-import json
 import math
 import re
 import subprocess
@@ -9,7 +8,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from conftest import datasets, run_scene
+from conftest import datasets, refused_scene, run_scene
 from kapitza.plots import line
 
 TOOL = Path(__file__).parents[1] / "tools" / "tangency_scipy.py"
@@ -58,9 +57,7 @@ def test_values_are_the_same_on_three_ranks(weak, kapitza, tmp_path):
     ({"parameter": "damping", "min": 0.001, "max": 0.002}, "tangency.max: the manifolds cross at both ends")],
     ids=["neither", "id", "both"])
 def test_a_range_without_a_tangency_is_refused(kapitza, tmp_path, words, named):
-    (tmp_path / "s.yaml").write_text(json.dumps(scene(**words)))
-    done = kapitza("run", "s.yaml", folder=tmp_path, status=2)
-    assert named in done.stderr and not (tmp_path / "s.h5").exists()
+    assert named in refused_scene(kapitza, tmp_path, scene(**words))
 
 
 def test_a_picture_of_measures_marks_the_value(kapitza, tmp_path):
