@@ -2,8 +2,7 @@
  *
  * k beta m torque, number of harmonics / per harmonic: cosine and sine up, cosine and sine aside / max_periods / number of attractors / per attractor: period, then period times theta velocity; the states to
  * label follow, theta velocity each. Angles in rad, velocities in rad per drive radian. */
-#ifndef KAPITZA_CATALOGUE_H
-#define KAPITZA_CATALOGUE_H
+#pragma once
 
 #include <stdbool.h>
 #include <stdint.h>
@@ -29,5 +28,3 @@ void kz_catalogue_free(kz_catalogue *catalogue);
 
 /* Distance of a state from a strobe point on the cylinder. */
 double kz_point_distance(double theta, double velocity, const kz_strobe_point *point);
-
-#endif

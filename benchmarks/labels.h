@@ -1,7 +1,6 @@
 /* What textbook.c and twin.c have in common: RK4 with 100 steps a period, told the attractors, captured once the orbit has
  * been within 0.01 of one attractor's strobe points, in phase, four times running. */
-#ifndef KAPITZA_LABELS_H
-#define KAPITZA_LABELS_H
+#pragma once
 
 #include "catalogue.h"
 
@@ -10,5 +9,3 @@ static const double capture_circle = 0.01;
 
 /* Labels n states: -1 where not captured within max_periods. Gives the drive periods integrated in all. */
 long label_states(const kz_catalogue *catalogue, long n, const double *theta, const double *velocity, int *labels);
-
-#endif

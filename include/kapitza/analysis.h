@@ -1,8 +1,7 @@
 /* analysis: spectra of orbits (FFTW), their turning points and names; roots and characteristic values (GSL). C; layer 1.
  *
  * Angles in rad from the DOWN position, times in drive radians; a drive period is 2 pi. Nothing here is collective. */
-#ifndef KAPITZA_ANALYSIS_H
-#define KAPITZA_ANALYSIS_H
+#pragma once
 
 #include <stdbool.h>
 #include <stddef.h>
@@ -213,5 +212,3 @@ typedef struct {
   bool stable_inverted; /* the exact potential has that well */
 } kz_rim;
 void kz_potential_rim(double k, double beta, double m, kz_rim *rim);
-
-#endif

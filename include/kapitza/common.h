@@ -2,8 +2,7 @@
  *
  * A failing function sets the message once, where it knows most (kz_fail), and returns the code; callers carry the code up
  * with KZ_TRY. Only app/main.c prints the message and ends the program. */
-#ifndef KAPITZA_COMMON_H
-#define KAPITZA_COMMON_H
+#pragma once
 
 #include <stdbool.h>
 #include <stddef.h>
@@ -87,5 +86,3 @@ bool kz_memory_is_there(size_t bytes);
 
 /* Sets the function that is called when memory runs out; `leave` must end the process. Default: abort. */
 void kz_memory_on_failure(void (*leave)(void));
-
-#endif

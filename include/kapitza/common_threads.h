@@ -1,6 +1,5 @@
 /* common: threads and locks. */
-#ifndef KAPITZA_COMMON_THREADS_H
-#define KAPITZA_COMMON_THREADS_H
+#pragma once
 
 #include <pthread.h>
 
@@ -19,5 +18,3 @@ kz_lock *kz_lock_create(void);
 void kz_lock_free(kz_lock *lock);
 void kz_lock_take(kz_lock *lock);
 void kz_lock_leave(kz_lock *lock);
-
-#endif

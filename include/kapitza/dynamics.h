@@ -2,8 +2,7 @@
  *
  * Attractors are numbered from 1 in the order of their discovery; kz_dynamics_order gives the order of the file. States are
  * pairs (half-turns, velocity): theta/pi in [-1, 1], and rad per drive radian. */
-#ifndef KAPITZA_DYNAMICS_H
-#define KAPITZA_DYNAMICS_H
+#pragma once
 
 #include <stdbool.h>
 #include <stdint.h>
@@ -325,5 +324,3 @@ typedef struct {
  * most_periods. */
 void kz_proof_follow(const kz_proof *proof, int32_t precision, int64_t n, const kz_proof_start *start, int64_t most_periods,
                      uint8_t *number);
-
-#endif

@@ -3,8 +3,7 @@
  *
  * A place is a pair of numbers, each in units of a side of the rectangle. A cycle is its points in the order of time and then its place: an
  * array y [2 points + 2], angles in rad, not wrapped, velocities in rad per drive radian. Nothing here is collective. */
-#ifndef KAPITZA_DYNAMICS_CURVES_H
-#define KAPITZA_DYNAMICS_CURVES_H
+#pragma once
 
 #include <stdbool.h>
 #include <stdint.h>
@@ -64,5 +63,3 @@ int32_t kz_curve_form(const kz_plane *plane, const kz_curve_kind *kind, const do
 int32_t kz_curve_orbit(const kz_plane *plane, const double place[2], int64_t n, double *state);
 /* Moves a state from t = 0 to t = pi. 0 if there is no pendulum. */
 int32_t kz_curve_half_period(const kz_plane *plane, const double place[2], double state[2]);
-
-#endif

@@ -3,8 +3,7 @@
  *
  * theta in rad from the DOWN position, t in drive radians, velocity in rad per drive radian. A period is 2 pi; every period
  * starts at t = 0 (pivot at its top). Inside, angles are half-turns (theta/pi): wrapping is exact. */
-#ifndef KAPITZA_KERNEL_H
-#define KAPITZA_KERNEL_H
+#pragma once
 
 #include <stdint.h>
 
@@ -220,5 +219,3 @@ void kz_enclosure_tables_free(kz_enclosure_tables *tables);
 /* Advances set [n] through one drive period and removes whole turns. The result of a set does not depend on the other sets. Some hundred
  * sets at once are fastest. */
 void kz_enclosures_advance(const kz_enclosure_tables *tables, kz_enclosure_frame frame, int64_t n, kz_enclosure *set);
-
-#endif

@@ -5,8 +5,7 @@
  * b = sum_j (horizontal[j-1][0] cos j t + horizontal[j-1][1] sin j t)
  * theta in rad from the DOWN position, t in drive radians; a period is 2 pi. If vertical, horizontal and torque are 0, the pendulum is
  * {k, beta, m} and the equation is BSG Eq. 2, or BUT Eq. 9 in drive time. */
-#ifndef KAPITZA_MODEL_H
-#define KAPITZA_MODEL_H
+#pragma once
 
 #include <stdint.h>
 
@@ -73,5 +72,3 @@ typedef struct {
 
 /* Number of the first strobe (t = 2 pi is number 1) from which on the drive has its final form; 0 if it has this form from the release. */
 int64_t kz_release_strobes(const kz_release *release);
-
-#endif

@@ -2,8 +2,7 @@
  *
  * There is one mechanism: a stage consists of n_tiles independent pieces of work, and each gives one record of fixed size. Rank 0 hands
  * out tiles in batches. The records do not depend on which rank made them. */
-#ifndef KAPITZA_PARALLEL_H
-#define KAPITZA_PARALLEL_H
+#pragma once
 
 #include <stdbool.h>
 #include <stddef.h>
@@ -254,5 +253,3 @@ typedef kz_status (*kz_take_fn)(void *context, int64_t tile, const void *record,
 /* Runs a stage whose records begin with a uint64_t, the number of bytes in use (a multiple of 8), and gives these bytes of each to rank 0, in
  * any order. `name`: of the delivery, for the progress line. Collective. */
 kz_status kz_stage_gather(const kz_run *run, const kz_stage *stage, const char *name, kz_take_fn take, void *context);
-
-#endif

@@ -2,8 +2,7 @@
  * long name of every dataset. One rank writes the file, with the serial library.
  *
  * The file is written as PATH.part and renamed to PATH when it is complete. */
-#ifndef KAPITZA_STORE_H
-#define KAPITZA_STORE_H
+#pragma once
 
 #include <stdbool.h>
 #include <stddef.h>
@@ -116,5 +115,3 @@ size_t kz_pack_into(const void *numbers, size_t n, size_t item, bool in_runs, vo
 size_t kz_squeeze(const void *items, size_t n, size_t item, void *packed);
 /* The reverse, to items [n]; false if `packed` [bytes] does not contain n such items. */
 bool kz_unsqueeze(const void *packed, size_t bytes, size_t n, size_t item, void *items);
-
-#endif

@@ -1,6 +1,5 @@
 /* Words that tables of variables share (kz_variable of store.h). Such a table lies beside the study that writes its group. */
-#ifndef KAPITZA_STORE_VARIABLES_H
-#define KAPITZA_STORE_VARIABLES_H
+#pragma once
 
 #include "kapitza/store.h"
 
@@ -12,5 +11,3 @@
 #define NONE "1"
 /* Meanings that several have. */
 #define CENTRES "down", "inverted", "rotating", "none"
-
-#endif

@@ -1,7 +1,6 @@
 /* study: the studies that a scene can contain, one folder each (C; layer 3). The scene comes as plain structs; results go to the store and,
  * for people, to a summary. */
-#ifndef KAPITZA_STUDY_H
-#define KAPITZA_STUDY_H
+#pragma once
 
 #include <stdbool.h>
 #include <stddef.h>
@@ -199,5 +198,3 @@ void kz_settling_warn(const kz_scene *scene, FILE *out);
  * the cells; split6 if no number is enough. For other schemes: the default, or more for cells of a damped basin below 0.01 rad. If no
  * number is enough for these (the basin's check then refuses the scene), or if basin.accuracy chooses, the default stays. */
 void kz_numerics_resolve(kz_scene *scene);
-
-#endif

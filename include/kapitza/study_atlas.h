@@ -1,6 +1,5 @@
 /* study: the motions of the points of an atlas that a result file has (C; layer 3). No MPI. */
-#ifndef KAPITZA_STUDY_ATLAS_POINTS_H
-#define KAPITZA_STUDY_ATLAS_POINTS_H
+#pragma once
 
 #include "kapitza/store.h"
 #include "kapitza/study.h"
@@ -56,5 +55,3 @@ typedef struct {
  * with the curves. KZ_REFUSED outside of the plane. The caller frees *line. */
 kz_status kz_atlas_line(kz_atlas *atlas, int axis, double value, kz_atlas_branches *line);
 void kz_atlas_branches_free(kz_atlas_branches *line);
-
-#endif

@@ -1,6 +1,5 @@
 /* The axes of plans: cells, values, windows. */
-#ifndef KAPITZA_STUDY_AXIS_H
-#define KAPITZA_STUDY_AXIS_H
+#pragma once
 
 #include <stdbool.h>
 #include <stdint.h>
@@ -47,5 +46,3 @@ typedef struct {
   int32_t parameter; /* row of kz_sweep_parameters */
   kz_axis values;    /* both ends included */
 } kz_chart_axis;
-
-#endif

@@ -1,6 +1,5 @@
 /* study: how a study, and the scene for the keys of the pendulum, writes the rows of its table of keys (C; layer 3). */
-#ifndef KAPITZA_STUDY_KEY_ROWS_H
-#define KAPITZA_STUDY_KEY_ROWS_H
+#pragma once
 
 #include "kapitza/study_keys.h"
 
@@ -74,6 +73,4 @@
                                       kz_##name##_cost,               \
                                       kz_##name##_run,                \
                                       check}
-#endif
-
 #endif

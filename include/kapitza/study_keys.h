@@ -1,6 +1,5 @@
 /* study: a row of the table of keys (C; layer 3). */
-#ifndef KAPITZA_STUDY_KEYS_H
-#define KAPITZA_STUDY_KEYS_H
+#pragma once
 
 #include <float.h>
 #include <stdbool.h>
@@ -50,5 +49,3 @@ struct kz_key {
 #define KZ_OWN_UNIT "the unit of the parameter"
 /* The unit of velocities, which a scene in SI units may also give per second. */
 #define KZ_VELOCITY_UNIT "rad per drive radian"
-
-#endif

@@ -1,6 +1,5 @@
 /* study: frames of basins on request. The engine keeps everything that the next frame can use (C; layer 3). No MPI, no files. */
-#ifndef KAPITZA_STUDY_LIVE_H
-#define KAPITZA_STUDY_LIVE_H
+#pragma once
 
 #include <stdbool.h>
 #include <stdint.h>
@@ -94,5 +93,3 @@ kz_status kz_chart_draw(const kz_scene *scene, const kz_integers *levels, kz_sta
  * [periods * samples_per_period + 1]. `pause` as in kz_frame, every 0.1 s. KZ_FAILED: it becomes too large for double precision. */
 kz_status kz_orbit_record(const kz_scene *scene, kz_status (*pause)(void *context), void *context, double *theta,
                           double *velocity);
-
-#endif

@@ -1,6 +1,5 @@
 /* study: the mapping `pendulum` of a scene as written, and the pendulum, its drive and its release that follow from it. */
-#ifndef KAPITZA_STUDY_PENDULUM_H
-#define KAPITZA_STUDY_PENDULUM_H
+#pragma once
 
 #include <stdbool.h>
 #include <stdint.h>
@@ -88,5 +87,3 @@ kz_status kz_pendulum_write(const kz_parameters *parameters, kz_store *store);
 /* Place of the pivot at a phase of the drive (rad): {aside, height} in units of I/(M r). At rest with torque_amplitude. */
 void kz_pivot_at(const kz_parameters *parameters, double phase, double place[2]);
 void kz_release_resolve(const kz_parameters *parameters, kz_release *release);
-
-#endif

@@ -1,6 +1,5 @@
 /* study: where starts end, and where basins meet between them (C; layer 3). No MPI, no files. */
-#ifndef KAPITZA_STUDY_WHERE_H
-#define KAPITZA_STUDY_WHERE_H
+#pragma once
 
 #include <stdint.h>
 
@@ -37,5 +36,3 @@ typedef struct {
   char name[2][KZ_NAME_LENGTH];
 } kz_boundary_point;
 kz_status kz_where_boundary(const kz_scene *scene, const kz_coordinate (*start)[2], int64_t digits, kz_boundary_point *point);
-
-#endif

@@ -1,6 +1,5 @@
 /* Inside of the transition curves: Hill's determinant, Mathieu's characteristic values, the tongues with damping, and roots by GSL. */
-#ifndef KAPITZA_ANALYSIS_CURVES_H
-#define KAPITZA_ANALYSIS_CURVES_H
+#pragma once
 
 #include <complex.h>
 #include <stdbool.h>
@@ -53,5 +52,3 @@ double kz_tongue_lower(double k, double beta);
 /* The lowest m, or with upper_edge the highest, of tongue 1 (from k = 1/4, multiplier -1) or 2 (from k = 1, multiplier +1) at k;
  * NaN where there is none. turn: where curve 3 or 5 turns back. */
 double kz_tongue_edge(int tongue, double k, double beta, double turn, bool upper_edge);
-
-#endif

@@ -1,6 +1,5 @@
 /* app: the command line, what its commands do, and messages for people (C; layer 4). */
-#ifndef KAPITZA_APP_APP_H
-#define KAPITZA_APP_APP_H
+#pragma once
 
 #include <stdbool.h>
 #include <stdio.h>
@@ -156,5 +155,3 @@ kz_status kz_log_close(FILE *log, const char *path);
 
 /* Prints the table of timings. */
 void kz_timings_print(const kz_ranks *ranks, FILE *out);
-
-#endif

@@ -1,6 +1,5 @@
 /* The commands and options of the command line: parsing, help, the manual page and completions come from the same rows. */
-#ifndef KAPITZA_APP_COMMANDS_H
-#define KAPITZA_APP_COMMANDS_H
+#pragma once
 
 #include "app.h"
 
@@ -47,5 +46,3 @@ void kz_help_print(const kz_command *command);
 void kz_manual_print(void);
 /* Prints the completion script of a shell: bash, zsh or fish. */
 void kz_completion_print(const char *shell);
-
-#endif

@@ -1,7 +1,6 @@
 /* JSON by json-c: requests of other programs, and what other programs read. The only file of the app that knows json-c besides those that build
  * objects by it. */
-#ifndef KAPITZA_APP_JSON_H
-#define KAPITZA_APP_JSON_H
+#pragma once
 
 #include <json-c/json.h>
 #include <stdio.h>
@@ -31,5 +30,3 @@ void kz_json_print(kz_json *value, FILE *out);
 /* Reads a line of JSON [length] into a tree as of a scene; numbers keep their digits. `source` begins its messages. The caller frees *root.
  * KZ_REFUSED: the line is not JSON. */
 kz_status kz_json_read(const char *line, size_t length, const char *source, kz_node **root);
-
-#endif

@@ -1,6 +1,5 @@
 /* Bytes of a file at an offset, whole or not at all; and their checksum. */
-#ifndef KAPITZA_PARALLEL_BYTES_H
-#define KAPITZA_PARALLEL_BYTES_H
+#pragma once
 
 #include <stddef.h>
 #include <stdint.h>
@@ -11,5 +10,3 @@ int kz_bytes_write(int file, const void *bytes, size_t n, int64_t offset);
 int64_t kz_bytes_read(int file, void *bytes, size_t n, int64_t offset);
 /* CRC-64/XZ of the bytes, continued from `sum` (0 to begin). */
 uint64_t kz_bytes_checksum(uint64_t sum, const void *bytes, size_t n);
-
-#endif

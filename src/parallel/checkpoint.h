@@ -6,8 +6,7 @@
  *     slot per tile   tile number, checksum, record; whole pages, so that two writers never share one
  *
  * Every checksum is continued from that of the part above it: a slot counts only in its own section of its own run. */
-#ifndef KAPITZA_PARALLEL_CHECKPOINT_H
-#define KAPITZA_PARALLEL_CHECKPOINT_H
+#pragma once
 
 #include <stdbool.h>
 #include <stdint.h>
@@ -76,5 +75,3 @@ size_t kz_section_used(const kz_section *section, const void *record);
 void kz_section_adopt(kz_checkpoint *checkpoint, const kz_section *section);
 /* Writes one finished record. Any rank, any time. */
 kz_status kz_section_save(kz_checkpoint *checkpoint, const kz_section *section, int64_t tile, const void *record);
-
-#endif

@@ -5,8 +5,7 @@
  *   0 -> rank   tiles first .. first + n - 1; whether asking again makes sense
  *
  * A rank begins with the tile of its own number, unasked, and asks for the next tiles before the last tile of the present one. */
-#ifndef KAPITZA_PARALLEL_DISPATCH_H
-#define KAPITZA_PARALLEL_DISPATCH_H
+#pragma once
 
 #include <pthread.h>
 
@@ -43,5 +42,3 @@ kz_status kz_dispatch_next(kz_dispatch *dispatch, int64_t *tile);
 kz_status kz_dispatch_halt(kz_dispatch *dispatch);
 /* Rank 0 waits until all others know that nothing is left. */
 kz_status kz_dispatch_end(kz_dispatch *dispatch);
-
-#endif

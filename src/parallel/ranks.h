@@ -1,6 +1,5 @@
 /* The fields of kz_ranks, and functions that the files of this layer share. */
-#ifndef KAPITZA_PARALLEL_RANKS_H
-#define KAPITZA_PARALLEL_RANKS_H
+#pragma once
 
 #include <mpi.h>
 #include <pthread.h>
@@ -44,5 +43,3 @@ static inline bool kz_ranks_several(const kz_ranks *ranks) {
 void kz_signals_catch(void);
 /* Which signal asked for a stop, "stopped by SIGTERM"; NULL if none did. Safe in a signal handler. */
 const char *kz_signals_caught(void);
-
-#endif

@@ -1,6 +1,5 @@
 /* Records that a rank keeps until they are delivered to rank 0, some at a time. */
-#ifndef KAPITZA_PARALLEL_RECORD_BUFFER_H
-#define KAPITZA_PARALLEL_RECORD_BUFFER_H
+#pragma once
 
 #include "ranks.h"
 
@@ -24,5 +23,3 @@ size_t kz_record_buffer_message_bytes(const kz_record_buffer *buffered);
  * [kz_record_buffer_message_bytes] there. Collective. */
 kz_status kz_record_buffer_deliver(const kz_record_buffer *buffered, kz_ranks *ranks, void *buffer, char *records);
 void kz_record_buffer_end(kz_record_buffer *buffered);
-
-#endif

@@ -1,6 +1,5 @@
 /* A stage of a sampled run, and what it shares with other stages. */
-#ifndef KAPITZA_PARALLEL_SAMPLED_STAGE_H
-#define KAPITZA_PARALLEL_SAMPLED_STAGE_H
+#pragma once
 
 #include "kapitza/parallel.h"
 
@@ -14,5 +13,3 @@ static inline kz_status kz_stage_work(const kz_stage *stage, int64_t tile, void 
 
 /* A stage of a sampled run. KZ_STOPPED: the time for samples is over. */
 kz_status kz_stage_sample(kz_sampling *sample, const kz_stage *stage, void *records);
-
-#endif

@@ -1,6 +1,5 @@
 /* How many tiles a rank gets at a time: weighted guided self-scheduling. Knows no MPI. */
-#ifndef KAPITZA_PARALLEL_SCHEDULE_H
-#define KAPITZA_PARALLEL_SCHEDULE_H
+#pragma once
 
 #include <stdbool.h>
 #include <stdint.h>
@@ -25,5 +24,3 @@ void kz_schedule_note(kz_schedule *schedule, int rank, double seconds);
 int64_t kz_schedule_grant(kz_schedule *schedule, int rank, bool early, int64_t *first);
 /* Grants one tile, to the rank that needs no message: returns its number, or -1. */
 int64_t kz_schedule_take(kz_schedule *schedule, int rank);
-
-#endif

@@ -1,6 +1,5 @@
 /* What rank 0 tells of a stage: its progress, shown to people, and its times. */
-#ifndef KAPITZA_PARALLEL_WATCH_H
-#define KAPITZA_PARALLEL_WATCH_H
+#pragma once
 
 #include "ranks.h"
 
@@ -49,5 +48,3 @@ void kz_work_end(kz_work *work);
 /* Adds a stage that began at `watch` to the timings and the log; `work` has ended. idle: on rank 0, the share of their time that ranks
  * had no work. Collective. */
 kz_status kz_timing_note(kz_ranks *ranks, int64_t tiles, const kz_stopwatch *watch, const kz_work *work, double *idle);
-
-#endif

@@ -1,6 +1,5 @@
 /* The inside of a store. */
-#ifndef KAPITZA_STORE_STORE_H
-#define KAPITZA_STORE_STORE_H
+#pragma once
 
 #include <hdf5.h>
 
@@ -38,5 +37,3 @@ char *kz_attribute_read_text(hid_t object, const char *name);
 kz_status kz_chunks_set(hid_t creation, int rank, const hsize_t *lengths, const hsize_t *chunk, size_t item);
 /* Writes `data`, items of `item` bytes of the dataset's own type, into a dataset whose chunks kz_chunks_set chose. */
 kz_status kz_chunks_write(hid_t dataset, hid_t type, int rank, const hsize_t *lengths, size_t item, const void *data);
-
-#endif

@@ -1,6 +1,5 @@
 /* Reads tests/literature/reference.json as far as tests need it: a section, its objects, their numbers (plain or quoted). */
-#ifndef KZ_TESTS_REFERENCE_H
-#define KZ_TESTS_REFERENCE_H
+#pragma once
 
 #include <math.h>
 #include <stdio.h>
@@ -68,5 +67,3 @@ static double reference_number(reference_span in, const char *name) {
   const char *at = in.first ? reference_key(in, name) : NULL;
   return at ? reference_number_at(at) : NAN;
 }
-
-#endif

@@ -1,6 +1,5 @@
 /* What the tests on several ranks share. An assertion that fails on one rank fails on all, so that none waits for it. */
-#ifndef KAPITZA_TESTS_RANKS_H
-#define KAPITZA_TESTS_RANKS_H
+#pragma once
 
 #define OWN_MAIN
 #include "../tools/test.h"
@@ -69,5 +68,3 @@ static inline int run_ranks_with_path(char *path, size_t bytes) {
   kz_ranks_end(ranks);
   return failed;
 }
-
-#endif

@@ -1,6 +1,5 @@
 /* Sets of states, and where a motion lies in them. */
-#ifndef KAPITZA_TESTS_ENCLOSED_H
-#define KAPITZA_TESTS_ENCLOSED_H
+#pragma once
 
 #include "kapitza/kernel.h"
 
@@ -26,5 +25,3 @@ static inline void place_of(const quad end[2], const kz_enclosure *set, double z
   if (x < -3) x += turn;
   place_at(x, end[1] - set->velocity[0] - set->velocity[1] - set->velocity[2], set, z);
 }
-
-#endif

@@ -1,6 +1,5 @@
 /* Where an orbit in many digits lies in a set: for sets that are narrower than the last digit of quad precision. */
-#ifndef KAPITZA_TESTS_ENCLOSED_ORBIT_H
-#define KAPITZA_TESTS_ENCLOSED_ORBIT_H
+#pragma once
 
 #include <stdlib.h>
 
@@ -31,5 +30,3 @@ static inline void place_of_orbit(const kz_arbitrary *orbit, const kz_enclosure 
   free(text);
   place_at(distance[0], distance[1], set, z);
 }
-
-#endif

@@ -1,6 +1,5 @@
 /* Pendulums, most of quality factor 5 and drive frequency 11, whose attractors in a window are known. */
-#ifndef KAPITZA_TESTS_EXPLORED_H
-#define KAPITZA_TESTS_EXPLORED_H
+#pragma once
 
 #include <math.h>
 #include <stdlib.h>
@@ -99,5 +98,3 @@ static inline int32_t circle_at(const kz_dynamics *d, double theta, double veloc
   }
   return 0;
 }
-
-#endif

@@ -1,6 +1,5 @@
 /* Searches whose finds join the catalogue at once. */
-#ifndef KAPITZA_TESTS_FIND_H
-#define KAPITZA_TESTS_FIND_H
+#pragma once
 
 #include <stdlib.h>
 
@@ -15,5 +14,3 @@ static inline void find_cycles(kz_dynamics *d, int64_t n, const double *state, d
   }
   free(found);
 }
-
-#endif

@@ -1,7 +1,6 @@
 /* Whole drive periods in quad precision (real128), by Taylor series of order 56 whose steps adapt to the motion. The method shares nothing with
  * the schemes of the kernel. Its error is some 1e-33 a period, and up to 1e-30 for a strong drive; that of double precision is 1e-16. */
-#ifndef KAPITZA_TESTS_REFERENCE_H
-#define KAPITZA_TESTS_REFERENCE_H
+#pragma once
 
 #include "kapitza/kernel.h"
 
@@ -27,5 +26,3 @@ void kz_reference_read(int64_t n, const kz_reference_state *states, double *thet
 /* An upper estimate of the error of a period with KZ_REFERENCE_STEPS, relative to hypot(pi, velocity), for speeds up to `fastest` (rad per
  * drive radian): the measured difference of two numbers of steps, with a margin. */
 double kz_reference_error(const kz_pendulum *pendulum, double fastest);
-
-#endif

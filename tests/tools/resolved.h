@@ -1,6 +1,5 @@
 /* The resolved text of a scene. */
-#ifndef KAPITZA_TESTS_RESOLVED_H
-#define KAPITZA_TESTS_RESOLVED_H
+#pragma once
 
 #include <stdio.h>
 
@@ -15,5 +14,3 @@ static inline char *resolved(const kz_scene *scene) {
   fclose(out);
   return text;
 }
-
-#endif

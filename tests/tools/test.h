@@ -1,7 +1,6 @@
 /* What every test in C includes: TEST(name) { ... } is a test, and the tests of a file run in their order. A file that has something to do
  * before or after them defines OWN_MAIN, and a main that calls run_tests. */
-#ifndef KAPITZA_TESTS_TEST_H
-#define KAPITZA_TESTS_TEST_H
+#pragma once
 
 #include <setjmp.h>
 #include <stdarg.h>
@@ -37,6 +36,4 @@ static inline int run_all_tests(CMFixtureFunction begin, CMFixtureFunction end) 
 int main(void) {
   return run_all_tests(NULL, NULL);
 }
-#endif
-
 #endif

@@ -1,6 +1,5 @@
 /* Rules between keys: what the files of rules share. Each rule complains at the node that a user would change. */
-#ifndef KAPITZA_APP_RULES_H
-#define KAPITZA_APP_RULES_H
+#pragma once
 
 #include "scene.h"
 
@@ -20,5 +19,3 @@ void kz_ends_rules(kz_reading *reading, const kz_axis *axis, const char *path);
 /* Computes k, beta, m from the form that the scene uses; they are complete only if the reading has no complaint. One complaint names all keys
  * that a laboratory's pendulum lacks. */
 void kz_pendulum_rules(kz_reading *reading, kz_scene *scene);
-
-#endif

@@ -2,8 +2,7 @@
  *
  * ONE table, kz_scene_keys, holds every key of a scene. Checks, defaults, suggestions, `check`, the resolved text and docs/reference/scene.md
  * all come from its rows: a new key is a new row. */
-#ifndef KAPITZA_APP_SCENE_H
-#define KAPITZA_APP_SCENE_H
+#pragma once
 
 #include <float.h>
 #include <stdbool.h>
@@ -178,5 +177,3 @@ void kz_scene_schema(const kz_key *keys, FILE *out);
 kz_status kz_scene_check_file(const char *path);
 /* Reads a regular scene file, or standard input ("-"), of at most 1 MB. The caller frees *text. */
 kz_status kz_scene_load(const char *path, char **text, size_t *length);
-
-#endif

@@ -1,6 +1,5 @@
 /* Answers of the command serve: a header of JSON on one line, then its payload (docs/reference/serve.md). */
-#ifndef KAPITZA_APP_ANSWER_H
-#define KAPITZA_APP_ANSWER_H
+#pragma once
 
 #include "kapitza/study_atlas.h"
 #include "request.h"
@@ -22,5 +21,3 @@ kz_status kz_answer_error(int64_t sequence, kz_status status);
 /* Watches whether somebody still reads the answers: ends the process with status 0 a second after the reader of standard output has closed it,
  * also in the middle of a frame. Call it once. */
 kz_status kz_answer_watch(void);
-
-#endif

@@ -1,6 +1,5 @@
 /* Reads lines of standard input as they arrive. */
-#ifndef KAPITZA_APP_INBOX_H
-#define KAPITZA_APP_INBOX_H
+#pragma once
 
 #include <stdbool.h>
 #include <stddef.h>
@@ -21,5 +20,3 @@ void kz_inbox_close(kz_inbox *inbox);
 /* The next line without its newline, valid until the next call; NULL if there is none, which with waits = true happens at the end of the
  * input only. The last line needs no newline. *status is KZ_REFUSED for a line that is too long. */
 const char *kz_inbox_line(kz_inbox *inbox, bool waits, size_t *length, kz_status *status);
-
-#endif

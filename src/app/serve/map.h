@@ -1,6 +1,5 @@
 /* The atlas of a result file that requests of serve ask about; it stays in memory until a request names another file. */
-#ifndef KAPITZA_APP_MAP_H
-#define KAPITZA_APP_MAP_H
+#pragma once
 
 #include <time.h>
 
@@ -17,5 +16,3 @@ typedef struct {
 /* Opens the atlas of a file unless it is open already and the file has not changed since. KZ_REFUSED if it has none. */
 kz_status kz_map_open(kz_map *map, const char *path);
 void kz_map_close(kz_map *map);
-
-#endif

@@ -1,6 +1,5 @@
 /* The request orbit of the command serve. */
-#ifndef KAPITZA_APP_SERVE_ORBIT_H
-#define KAPITZA_APP_SERVE_ORBIT_H
+#pragma once
 
 #include "request.h"
 
@@ -8,5 +7,3 @@
  * these; it reads what has arrived. When it sets request->ended, the answer is `ended`, at once, and the thread stops within a stretch of the
  * orbit. KZ_REFUSED, KZ_FAILED: nothing has been answered. */
 kz_status kz_orbit_answer(const kz_request *request, kz_status (*meanwhile)(void *context), void *context);
-
-#endif

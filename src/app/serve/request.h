@@ -1,6 +1,5 @@
 /* Requests of the command serve, read from a line of JSON (docs/reference/serve.md). */
-#ifndef KAPITZA_APP_REQUEST_H
-#define KAPITZA_APP_REQUEST_H
+#pragma once
 
 #include "../scene/scene.h"
 #include "kapitza/study_live.h"
@@ -40,5 +39,3 @@ typedef struct kz_request {
 /* Reads a line [length]; `tree` is the tree of the scene. The caller frees *request in every case. KZ_REFUSED: the message says why. */
 kz_status kz_request_read(const kz_node *tree, const char *line, size_t length, kz_request **request);
 void kz_request_free(kz_request *request);
-
-#endif

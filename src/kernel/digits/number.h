@@ -1,6 +1,5 @@
 /* Numbers of any precision: those of FLINT (Arb), whose radii are not used. */
-#ifndef KAPITZA_KERNEL_NUMBER_H
-#define KAPITZA_KERNEL_NUMBER_H
+#pragma once
 
 #include <stdbool.h>
 #include <stddef.h>
@@ -92,5 +91,3 @@ static inline void kz_number_dot(kz_number *x, const kz_number *first, bool minu
 #define KZ_NUMBER(x)                                     \
   kz_number x __attribute__((cleanup(kz_number_clear))); \
   kz_number_init(&x)
-
-#endif

@@ -1,6 +1,5 @@
 /* One step of an orbit and of its neighbourhood by Taylor series (scaled: coefficients of (t / h)^n). */
-#ifndef KAPITZA_KERNEL_STEP_H
-#define KAPITZA_KERNEL_STEP_H
+#pragma once
 
 #include "number.h"
 
@@ -81,5 +80,3 @@ void kz_series_sum(const kz_series *series, const kz_steps *steps, int64_t order
 bool kz_tangent_advance(const kz_series *series, const kz_steps *steps, int64_t orders, kz_jet *jet);
 /* Moves the higher degrees of a neighbourhood through the step. */
 void kz_bent_advance(const kz_series *series, const kz_steps *steps, int64_t tangent_orders, int columns, kz_jet *jet);
-
-#endif

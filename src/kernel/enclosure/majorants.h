@@ -1,6 +1,5 @@
 /* (B0) of docs/explanation/bounds.md: bounds of a motion and of its neighbours at complex times. */
-#ifndef KAPITZA_KERNEL_ENCLOSURE_MAJORANTS_H
-#define KAPITZA_KERNEL_ENCLOSURE_MAJORANTS_H
+#pragma once
 
 #include "kapitza/kernel.h"
 
@@ -17,5 +16,3 @@ enum { MAJORANTS = 2400 };
 /* Writes the majorants of a motion that is at most `fastest` (rad per drive radian) at a real time to list [MAJORANTS], by ascending r;
  * returns their number. */
 int kz_majorants_find(const kz_pendulum *pendulum, double fastest, majorant *list);
-
-#endif

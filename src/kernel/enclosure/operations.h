@@ -1,6 +1,5 @@
 /* Pairs of doubles with proved errors, u = 2^-53. Sums: Joldes, Muller, Popescu, ACM TOMS 44 (2017) 15res, algorithm 6. */
-#ifndef KAPITZA_KERNEL_ENCLOSURE_OPERATIONS_H
-#define KAPITZA_KERNEL_ENCLOSURE_OPERATIONS_H
+#pragma once
 
 #include "sets.h"
 
@@ -30,5 +29,3 @@ OPERATION pair less_multiple(pair x, vector count, const double number[3]) {
 OPERATION vector sign_of_parity(vector integer) {
   return 1 - 2 * size_of(integer - 2 * nearest_integer(0.5 * integer));
 }
-
-#endif

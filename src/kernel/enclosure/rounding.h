@@ -1,6 +1,5 @@
 /* What rounding adds to a step of a centre, from the sizes of the numbers in it: (B1) .. (B3) of docs/explanation/bounds.md. */
-#ifndef KAPITZA_KERNEL_ENCLOSURE_ROUNDING_H
-#define KAPITZA_KERNEL_ENCLOSURE_ROUNDING_H
+#pragma once
 
 #include <stdbool.h>
 
@@ -49,5 +48,3 @@ int kz_products_of(const kz_step_bounds *b, int n);
 void kz_set_errors(kz_step_bounds *b, double fastest);
 /* (B2), (B3) What rounding adds to the angle (rad) and the velocity: missed[2]. */
 void kz_add_rounding(const kz_step_bounds *b, double fastest, real missed[2]);
-
-#endif

@@ -1,7 +1,6 @@
 /* Inside of the enclosures of kernel.h: sets of states in the lanes of vectors, and the constants of a class of speeds. What each bound
  * covers, and why it does, is derived in docs/explanation/bounds.md; the numbers (B1) .. (B7) are those of that page. */
-#ifndef KAPITZA_KERNEL_ENCLOSURE_SETS_H
-#define KAPITZA_KERNEL_ENCLOSURE_SETS_H
+#pragma once
 
 #include <stdbool.h>
 #include <stddef.h>
@@ -118,5 +117,3 @@ OPERATION vector nearest_integer(vector x) {
   const double to_integer = 0x1.8p52; /* adding it rounds to an integer */
   return (x + to_integer) - to_integer;
 }
-
-#endif

@@ -1,8 +1,7 @@
 /* Numbers as sums of two doubles, high + low with |low| at most half a unit in the last place of high: some 32 digits, in the lanes
  * of a vector. Sums by Knuth (two_sum) and Dekker (quick_two_sum), products by the fused operation, whose rounding error is exact. Files
  * that include this are compiled without contraction. Every operation takes mirror images to mirror images. */
-#ifndef KAPITZA_PAIRS_ARITHMETIC_H
-#define KAPITZA_PAIRS_ARITHMETIC_H
+#pragma once
 
 #if !defined KAPITZA_FUSED || KAPITZA_FUSED != 0
 #error "pairs of doubles need products that are rounded by themselves: -ffp-contract=off (cmake/Compilers.cmake)"
@@ -136,5 +135,3 @@ OPERATION pair reduce(pair u, vector *even) {
   *even = (u.high + ROUND_TO_EVEN) - ROUND_TO_EVEN;
   return quick_sum(u.high - *even, u.low);
 }
-
-#endif

@@ -1,8 +1,7 @@
 /* Numbers as sums of three doubles, the largest first: some 48 digits, in the lanes of a vector. Every operation takes mirror images to mirror
  * images. With u = 2^-53, and |x_1| <= 1.01 u S, |x_2| <= 1.03 u^2 S for the parts of a number of size S, what each operation gives obeys this
  * with its own size, and its error is a multiple of u^3 times that size: (B2) of docs/explanation/bounds.md. */
-#ifndef KAPITZA_KERNEL_TAYLOR_TRIPLES_H
-#define KAPITZA_KERNEL_TAYLOR_TRIPLES_H
+#pragma once
 
 #include "pairs_arithmetic.h"
 
@@ -69,5 +68,3 @@ OPERATION void gain_coarse(vector *total, vector a, vector b) {
 #define made_deep(a, b, c) ((triple){{same(a), same(b), same(c)}})
 #define made_fine(a, b, c) ((pair){same(a), same(b)})
 #define made_coarse(a, b, c) same(a)
-
-#endif

@@ -1,6 +1,5 @@
 /* What the C loops of the kernel share: lanes of a batch, and vectors of them. */
-#ifndef KAPITZA_KERNEL_VECTOR_H
-#define KAPITZA_KERNEL_VECTOR_H
+#pragma once
 
 #include <stdbool.h>
 #include <stdint.h>
@@ -17,5 +16,3 @@ enum { VECTOR_BYTES = 16 };
 typedef double vector __attribute__((vector_size(VECTOR_BYTES), aligned(sizeof(double)), may_alias));
 
 #define OPERATION static inline __attribute__((always_inline))
-
-#endif

@@ -1,7 +1,6 @@
 /* Settings: ways to label the cells of a window, from fast to accurate; what each costs by count, and how wrong its labels are. The choice of
  * basin.accuracy among them; the study `tradeoff`. */
-#ifndef KAPITZA_STUDY_ACCURACY_H
-#define KAPITZA_STUDY_ACCURACY_H
+#pragma once
 
 #include "reference.h"
 #include "plan.h"
@@ -83,5 +82,3 @@ kz_status kz_tradeoff_write(const kz_reference_labels *reference, const kz_trade
 
 /* The name FILE.truth of the cache of reference labels beside the result; the caller frees it; NULL without a store. */
 char *kz_reference_path(const kz_store *store);
-
-#endif

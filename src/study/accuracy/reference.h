@@ -1,8 +1,7 @@
 /* Reference labels: the labels of random cells of a scene's window, followed in quad precision into the trapping regions of one
  * fixed, fine dynamics (split6 in double precision), whatever the scene's numerics. Other labels are
  * compared with these. */
-#ifndef KAPITZA_STUDY_REFERENCE_H
-#define KAPITZA_STUDY_REFERENCE_H
+#pragma once
 
 #include "kapitza/dynamics.h"
 #include "kapitza/study.h"
@@ -58,5 +57,3 @@ typedef struct {
   double mean_periods;
 } kz_reference_labels_summary;
 kz_reference_labels_summary kz_reference_labels_sum(const kz_reference_labels *reference);
-
-#endif

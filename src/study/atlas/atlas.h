@@ -1,8 +1,7 @@
 /* Inside of the study `atlas`: curves of bifurcations over a plane of two keys, and the attractors of every point of it.
  *
  * A place is (x, y) in units of the rectangle: 0 at the first value of a key, 1 at the last. */
-#ifndef KAPITZA_STUDY_ATLAS_H
-#define KAPITZA_STUDY_ATLAS_H
+#pragma once
 
 #include "kapitza/dynamics.h"
 #include "kapitza/dynamics_curves.h"
@@ -277,5 +276,3 @@ void kz_atlas_order(kz_atlas *atlas);
 
 /* Writes the group /atlas and the summary. Rank 0. */
 kz_status kz_atlas_write(kz_atlas *atlas, const kz_atlas_raster *raster, kz_store *store, FILE *summary);
-
-#endif

@@ -1,6 +1,5 @@
 /* What a scene says of the study `atlas`: all bifurcation curves over a plane of two keys of the pendulum mapping. */
-#ifndef KAPITZA_STUDY_ATLAS_PLAN_H
-#define KAPITZA_STUDY_ATLAS_PLAN_H
+#pragma once
 
 #include "kapitza/study_atlas.h"
 
@@ -11,5 +10,3 @@ struct kz_atlas_plan {
   int64_t points;             /* cells of the raster along each axis */
   int64_t shares;             /* starts at one point of each region; 0 = none */
 };
-
-#endif

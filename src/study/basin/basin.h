@@ -1,6 +1,5 @@
 /* The study `basin` and its parts: cells in the file, measures of them, transients, boundaries, phases of release, shocks, proofs. */
-#ifndef KAPITZA_STUDY_BASIN_H
-#define KAPITZA_STUDY_BASIN_H
+#pragma once
 
 #include "labelling/catalogue.h"
 #include "kapitza/analysis.h"
@@ -133,5 +132,3 @@ double kz_proof_bytes(const kz_scene *scene);
 /* The results: attributes of /basin, columns of /attractors, and lines of the summary. Rank 0. */
 kz_status kz_proof_write(const kz_proof *proof, const kz_catalogue *catalogue, int64_t cells, const kz_counts *counts,
                          const kz_proof_sample *sample, kz_store *store, FILE *summary);
-
-#endif

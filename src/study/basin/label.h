@@ -1,6 +1,5 @@
 /* Labels of the cells of a window, tile by tile; the rank that labels a tile keeps it, packed. */
-#ifndef KAPITZA_STUDY_LABEL_H
-#define KAPITZA_STUDY_LABEL_H
+#pragma once
 
 #include "measures/counts.h"
 #include "labelling/search.h"
@@ -83,5 +82,3 @@ kz_status kz_pending_pick(kz_window_labels *labelling, int64_t from, int64_t of,
 /* Labels the pending cells of all tiles, a bounded number at a time: the doubtful ones by the further levels, the unsettled ones from the
  * first one on, in stages of round `round`. Collective. */
 kz_status kz_pending_label(kz_window_labels *labelling, int round);
-
-#endif

@@ -1,6 +1,5 @@
 /* What a scene says of the study `basin`. */
-#ifndef KAPITZA_STUDY_BASIN_PLAN_H
-#define KAPITZA_STUDY_BASIN_PLAN_H
+#pragma once
 
 #include "kapitza/study.h"
 
@@ -40,5 +39,3 @@ struct kz_basin_plan {
   kz_shocks_plan shocks;
   int64_t phases; /* number of phases of the drive at which the cells are also released; 0 or less = none */
 };
-
-#endif

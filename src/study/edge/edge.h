@@ -1,6 +1,5 @@
 /* Study `edge`: the map advances a pair of states on the two sides of a basin's edge. */
-#ifndef KAPITZA_STUDY_EDGE_H
-#define KAPITZA_STUDY_EDGE_H
+#pragma once
 
 #include "kapitza/dynamics.h"
 #include "kapitza/study.h"
@@ -18,5 +17,3 @@ typedef struct {
 /* Bisects between the plan's two starts and follows the edge of the first one's basin; it bisects again whenever the sides have separated.
  * orbit [plan->periods + 1][2] = states on the edge, rad and rad per drive radian. KZ_REFUSED if both starts end on the same attractor. */
 kz_status kz_edge_track(const kz_scene *scene, kz_dynamics *dynamics, int64_t max_periods, kz_edge *edge, double *orbit);
-
-#endif

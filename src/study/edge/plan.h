@@ -1,6 +1,5 @@
 /* What a scene says of the study `edge`: the edge between the basins of two starts. */
-#ifndef KAPITZA_STUDY_EDGE_PLAN_H
-#define KAPITZA_STUDY_EDGE_PLAN_H
+#pragma once
 
 #include "kapitza/study.h"
 
@@ -10,5 +9,3 @@ struct kz_edge_plan {
   int64_t max_period;         /* longest period of a cycle that is recognised */
 };
 enum { KZ_EDGE_MOST_PERIOD = 64 };
-
-#endif

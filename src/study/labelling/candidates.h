@@ -1,6 +1,5 @@
 /* What starts get that no level decides. */
-#ifndef KAPITZA_STUDY_CANDIDATES_H
-#define KAPITZA_STUDY_CANDIDATES_H
+#pragma once
 
 #include <stdint.h>
 
@@ -18,5 +17,3 @@ void kz_candidates_find(kz_dynamics *dynamics, int64_t max_periods, int32_t open
                         kz_decision *decision);
 /* The level for which these starts are made. */
 int32_t kz_candidates_level(int32_t open);
-
-#endif

@@ -1,6 +1,5 @@
 /* The catalogue of attractors as users see it: their order, their names, their group in the file. */
-#ifndef KAPITZA_STUDY_CATALOGUE_H
-#define KAPITZA_STUDY_CATALOGUE_H
+#pragma once
 
 #include <stdint.h>
 #include <stdio.h>
@@ -34,5 +33,3 @@ double *kz_nan_filled(int64_t n);
 
 /* Prints the table of attractors. */
 void kz_catalogue_print(const kz_catalogue *catalogue, bool with_fraction, FILE *summary);
-
-#endif

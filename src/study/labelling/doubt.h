@@ -1,7 +1,6 @@
 /* The number of doubtful labels of a basin. If cells are integrated, it is counted over all of them. For labels by a map table it is
  * estimated from a random sample of cells, each integrated with the error of its orbit. */
-#ifndef KAPITZA_STUDY_DOUBT_H
-#define KAPITZA_STUDY_DOUBT_H
+#pragma once
 
 #include "kapitza/dynamics.h"
 #include "kapitza/study.h"
@@ -27,5 +26,3 @@ kz_doubt kz_doubt_of(const kz_basin_plan *plan, const kz_doubt_sample *sample, i
 
 /* Writes the attributes of /basin and the lines of the summary. Rank 0. */
 kz_status kz_doubt_write(const kz_doubt *doubt, int32_t method, kz_store *store, FILE *summary);
-
-#endif

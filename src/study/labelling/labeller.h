@@ -1,8 +1,7 @@
 /* The labeller turns starts into labels: it follows them, tries one level of precision after the other until one decides the label, looks for
  * attractors that the starts lead to, and shares its work among ranks in stages that a checkpoint keeps. Grids of cells, single starts, pairs
  * at a boundary, frames and shocks are ways to make starts. */
-#ifndef KAPITZA_STUDY_LABELLER_H
-#define KAPITZA_STUDY_LABELLER_H
+#pragma once
 
 #include <stdbool.h>
 #include <stdint.h>
@@ -105,5 +104,3 @@ kz_status kz_search_from_items(const kz_labeller *labeller, int64_t n, const int
 /* The states of n items where labels begin to follow them, after their release: state [n][2], half-turns and velocity; periods [n]: drive
  * periods before; NULL = not needed. */
 kz_status kz_item_states(const kz_labeller *labeller, int64_t n, const int64_t *item, double *state, int64_t *periods);
-
-#endif

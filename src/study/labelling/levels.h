@@ -1,6 +1,5 @@
 /* The levels of precision, and how labels are known. No other folder of studies knows a level by its name. */
-#ifndef KAPITZA_STUDY_LEVELS_H
-#define KAPITZA_STUDY_LEVELS_H
+#pragma once
 
 #include <stdbool.h>
 #include <stdint.h>
@@ -47,5 +46,3 @@ void kz_decide_in_doubles(kz_dynamics *dynamics, const kz_start *start, int64_t 
 void kz_decide_in_quads(kz_dynamics *dynamics, const kz_start *start, int64_t max_periods, kz_decision *decision);
 /* Whether a trapping region holds a start, with its error, after one period. */
 bool kz_start_is_trapped(kz_dynamics *dynamics, const kz_start *start);
-
-#endif

@@ -1,6 +1,5 @@
 /* Items released at phases of the drive that are spread evenly over a period. Attractors and trapping regions are the same at all of them. */
-#ifndef KAPITZA_STUDY_PHASES_H
-#define KAPITZA_STUDY_PHASES_H
+#pragma once
 
 #include "labeller.h"
 
@@ -25,5 +24,3 @@ int16_t kz_phases_at(const kz_phases *phases, int64_t phase, int64_t item);
 int64_t kz_phases_ends(const kz_phases *phases, int64_t item);
 /* The attractor in which an item ends at all phases; 0 = there is none. */
 int16_t kz_phases_common(const kz_phases *phases, int64_t item);
-
-#endif

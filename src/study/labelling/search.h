@@ -1,6 +1,5 @@
 /* Discovery of the attractors that a set of starts ends on; shared by the studies that need a catalogue. */
-#ifndef KAPITZA_STUDY_SEARCH_H
-#define KAPITZA_STUDY_SEARCH_H
+#pragma once
 
 #include <stdint.h>
 
@@ -40,5 +39,3 @@ kz_status kz_map_table_make(const kz_run *run, kz_dynamics *dynamics, int64_t n_
 kz_search kz_search_of_basin(const kz_basin_plan *plan);
 kz_search kz_search_of_attractors(const kz_attractors_plan *plan, int64_t max_periods);
 kz_search kz_search_of(const kz_scene *scene);
-
-#endif

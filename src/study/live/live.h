@@ -1,6 +1,5 @@
 /* Frames on request: levels, prepared pendulums, the engine, cells, threads. */
-#ifndef KAPITZA_STUDY_LIVE_FOLDER_H
-#define KAPITZA_STUDY_LIVE_FOLDER_H
+#pragma once
 
 #include <pthread.h>
 
@@ -160,5 +159,3 @@ typedef struct {
 } kz_frame_task;
 /* Follows the cells in tiles; each thread takes the next tile when it is free. The labels do not depend on which thread follows a cell. */
 kz_status kz_frame_follow(const kz_frame_task *task);
-
-#endif

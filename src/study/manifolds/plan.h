@@ -1,6 +1,5 @@
 /* What a scene says of the study `manifolds`: those of the cycles that the study `saddles` of the same scene finds. */
-#ifndef KAPITZA_STUDY_MANIFOLDS_PLAN_H
-#define KAPITZA_STUDY_MANIFOLDS_PLAN_H
+#pragma once
 
 #include "kapitza/study.h"
 
@@ -11,5 +10,3 @@ struct kz_manifolds_plan {
   int32_t kind;
   double length, spacing, max_speed;
 };
-
-#endif

@@ -1,7 +1,6 @@
 /* A labelled grid as counts, which are added up over its tiles: basin entropy (A. Daza et al., Sci. Rep. 6 (2016) 31416)
  * and uncertain shares at distances (C. Grebogi et al., Phys. Lett. A 99 (1983) 415). */
-#ifndef KAPITZA_STUDY_MEASURES_COUNTS_H
-#define KAPITZA_STUDY_MEASURES_COUNTS_H
+#pragma once
 
 #include <stdbool.h>
 #include <stdint.h>
@@ -29,5 +28,3 @@ void kz_count_pairs(int64_t columns, int64_t rows, const int16_t *label, bool ci
 void kz_entropy_of(const kz_counts *counts, double *entropy, double *boundary_entropy);
 /* Share of the compared cells that are uncertain at distance 2^d columns; 0 if none was compared. */
 double kz_uncertain_share(const kz_counts *counts, int d);
-
-#endif

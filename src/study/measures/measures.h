@@ -1,6 +1,5 @@
 /* Study `measures`: numbers about the attractors of a pendulum and their basins. */
-#ifndef KAPITZA_STUDY_MEASURES_H
-#define KAPITZA_STUDY_MEASURES_H
+#pragma once
 
 #include "kapitza/dynamics.h"
 #include "kapitza/parallel.h"
@@ -63,5 +62,3 @@ void kz_measured_free(kz_measured *measured);
 
 #define KZ_MEASURE_DECLARED(word, ...) void kz_measure_##word(const kz_measured *measured, double *value);
 KZ_MEASURES(KZ_MEASURE_DECLARED, KZ_MEASURE_DECLARED, KZ_MEASURE_DECLARED, KZ_MEASURE_DECLARED, KZ_MEASURE_DECLARED)
-
-#endif

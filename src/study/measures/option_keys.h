@@ -1,6 +1,5 @@
 /* Rows of the keys of kz_measure_options, for a study whose plan has them in the field `options`. */
-#ifndef KAPITZA_STUDY_MEASURES_OPTION_KEYS_H
-#define KAPITZA_STUDY_MEASURES_OPTION_KEYS_H
+#pragma once
 
 #include "kapitza/study_key_rows.h"
 
@@ -23,5 +22,3 @@
       REAL(#study ".shock_tolerance", "", 0, 0.02, "0", options.shock_tolerance,                                              \
            "Part of its size by which a smallest shock of the table of measures may be too large; 0: as closely as "          \
            "basin.shocks. It decides how many starts are tried.")
-
-#endif

@@ -1,6 +1,5 @@
 /* The picture of labels as a grid: distances to other basins. */
-#ifndef KAPITZA_STUDY_MEASURES_PICTURE_H
-#define KAPITZA_STUDY_MEASURES_PICTURE_H
+#pragma once
 
 #include <stdbool.h>
 #include <stdint.h>
@@ -18,5 +17,3 @@ typedef struct {
  * half a cell: the distance to the nearest such centre, less half of the smaller side of a cell; 0 outside of the basin; INFINITY where
  * there is none (P. F. Felzenszwalb, D. P. Huttenlocher, Theory Comput. 8 (2012) 415). */
 void kz_picture_distances(const kz_picture *picture, int16_t id, double *distance);
-
-#endif

@@ -1,6 +1,5 @@
 /* What a scene says of the study `measures`, and of the measures of a sweep. */
-#ifndef KAPITZA_STUDY_MEASURES_PLAN_H
-#define KAPITZA_STUDY_MEASURES_PLAN_H
+#pragma once
 
 #include "kapitza/study.h"
 
@@ -32,5 +31,3 @@ struct kz_measures_plan {
 bool kz_words_repeat(const kz_integers *words);
 /* NULL, or what the options lack for these measures, as "KEY: what is wrong" where KEY is a key of kz_measure_options. */
 const char *kz_measures_lack(const kz_integers *names, const kz_measure_options *options);
-
-#endif

@@ -1,7 +1,6 @@
 /* The table of measures: every number about an attractor and its basin, once. A new measure is its row here and its function
  * kz_measure_WORD in a file of this folder; keys, variables of the file, sweeps and planes follow from the row. */
-#ifndef KAPITZA_STUDY_MEASURES_TABLE_H
-#define KAPITZA_STUDY_MEASURES_TABLE_H
+#pragma once
 
 #include <stdint.h>
 
@@ -47,5 +46,3 @@ enum {
   PENDULUM(wada_on_grid, KZ_NEEDS_PICTURE, "1", "1 where all basins, three or more, are in 99 % of these boxes; else 0")
 
 typedef enum { KZ_PER_ATTRACTOR, KZ_PER_INTERVAL, KZ_PER_SIZE, KZ_PER_PAIR, KZ_PER_PENDULUM } kz_measure_shape;
-
-#endif

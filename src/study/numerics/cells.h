@@ -1,6 +1,5 @@
 /* Cells of a window of starts: their places, which of them are labelled, how starts are followed. */
-#ifndef KAPITZA_STUDY_CELLS_H
-#define KAPITZA_STUDY_CELLS_H
+#pragma once
 
 #include "kapitza/dynamics.h"
 #include "kapitza/study.h"
@@ -57,5 +56,3 @@ extern const char *const kz_method_names[], *const kz_interpolation_names[];
 
 /* The `stepping` of kz_dynamics_follow for a method (KZ_METHOD_ICM, ...). */
 int32_t kz_stepping(int32_t method, int32_t interpolation);
-
-#endif

@@ -1,6 +1,5 @@
 /* The cycle that another one merges with where it ends. */
-#ifndef KAPITZA_STUDY_PARENT_H
-#define KAPITZA_STUDY_PARENT_H
+#pragma once
 
 #include "kapitza/dynamics_curves.h"
 
@@ -22,5 +21,3 @@ kz_curve_kind kz_child_kind(const kz_curve_kind *kind, int rest);
  * if nothing does. */
 bool kz_child_of(const kz_plane *plane, const kz_curve_kind *kind, int rest, const double *flip, int axis, double *child,
                  double along[2]);
-
-#endif

@@ -1,7 +1,6 @@
 /* Resolves the numerics of a scene for each of its studies (kz_numerics_resolve, kz_orbit_steps and kz_orbit_numerics of study.h); steps and
  * terms of the processed splitting, from the speeds and the tolerance. Not collective. */
-#ifndef KAPITZA_STUDY_RESOLVE_H
-#define KAPITZA_STUDY_RESOLVE_H
+#pragma once
 
 #include "kapitza/dynamics.h"
 #include "step_check.h"
@@ -25,5 +24,3 @@ double kz_fastest_motion(const kz_pendulum *pendulum, const kz_window *window, i
  * kz_numerics. */
 kz_numerics kz_processed_or_split(const kz_pendulum *pendulum, kz_kept_series *series, int32_t method, double tolerance,
                                   double fastest);
-
-#endif

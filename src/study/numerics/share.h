@@ -1,6 +1,5 @@
 /* Shares counted in a sample and their intervals; the order of a sample. */
-#ifndef KAPITZA_STUDY_SHARE_H
-#define KAPITZA_STUDY_SHARE_H
+#pragma once
 
 #include <stdint.h>
 
@@ -17,5 +16,3 @@ int64_t kz_share_sample(double share);
 
 /* Cell i of an order of the cells 0 .. total - 1 that looks random: a permutation, chosen by the seed. */
 int64_t kz_shuffled(int64_t i, int64_t total, int64_t seed);
-
-#endif

@@ -1,7 +1,6 @@
 /* Whether the steps are fine enough for the motions of a study, tested before anything is labelled: step doubling on a sample of
  * every class of speeds. And whether a map table is fine enough for its cells. Not collective. */
-#ifndef KAPITZA_STUDY_STEP_CHECK_H
-#define KAPITZA_STUDY_STEP_CHECK_H
+#pragma once
 
 #include "kapitza/study.h"
 #include "steps.h"
@@ -43,5 +42,3 @@ void kz_motions_warn(const kz_motions *motions, const kz_speed_errors *classes, 
 kz_status kz_steps_check_table(const kz_basin_plan *plan, double table_error);
 /* Prints a warning if it exceeds kz_steps_tolerance. */
 void kz_steps_warn_table(const kz_basin_plan *plan, double table_error, FILE *summary);
-
-#endif

@@ -1,6 +1,5 @@
 /* The error of a drive period by classes of speeds, and the number of steps that keeps it small enough. Not collective. */
-#ifndef KAPITZA_STUDY_STEPS_H
-#define KAPITZA_STUDY_STEPS_H
+#pragma once
 
 #include "kapitza/kernel.h"
 
@@ -38,5 +37,3 @@ int32_t kz_steps_scaled(const kz_pendulum *pendulum, const kz_numerics *numerics
 
 /* split6 with its default number of steps. */
 kz_numerics kz_steps_plain(void);
-
-#endif

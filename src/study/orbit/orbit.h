@@ -1,6 +1,5 @@
 /* Study `orbit`: its parts. One motion of one pendulum, by one of three models. */
-#ifndef KAPITZA_STUDY_ORBIT_H
-#define KAPITZA_STUDY_ORBIT_H
+#pragma once
 
 #include "kapitza/analysis.h"
 #include "kapitza/dynamics.h"
@@ -97,5 +96,3 @@ kz_status kz_orbit_features_make(kz_orbit *orbit);
 /* Group /orbit of the file, and a line for people. */
 kz_status kz_orbit_write(const kz_orbit *orbit, kz_store *store);
 void kz_orbit_print(const kz_orbit *orbit, FILE *summary);
-
-#endif

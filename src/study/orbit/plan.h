@@ -1,6 +1,5 @@
 /* What a scene says of the study `orbit`. Values that are not given: NaN (start), INT64_MIN (attractor, periods, period). */
-#ifndef KAPITZA_STUDY_ORBIT_PLAN_H
-#define KAPITZA_STUDY_ORBIT_PLAN_H
+#pragma once
 
 #include "kapitza/study.h"
 
@@ -15,5 +14,3 @@ struct kz_orbit_plan {
   bool closed;
   int64_t period; /* of a closed orbit; not given = the program finds it */
 };
-
-#endif

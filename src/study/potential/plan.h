@@ -1,6 +1,5 @@
 /* What a scene says of the study `potential`. */
-#ifndef KAPITZA_STUDY_POTENTIAL_PLAN_H
-#define KAPITZA_STUDY_POTENTIAL_PLAN_H
+#pragma once
 
 #include "kapitza/study.h"
 
@@ -8,5 +7,3 @@ struct kz_potential_plan {
   kz_reals drive_amplitudes;
   int64_t theta_count;
 };
-
-#endif

@@ -1,7 +1,6 @@
 /* The smallest shocks that push a motion out of its basin: a sudden change of angle, of velocity, or of both; and how far each attractor's
  * motion is from the edge of its basin, at every strobe point. */
-#ifndef KAPITZA_STUDY_RESILIENCE_H
-#define KAPITZA_STUDY_RESILIENCE_H
+#pragma once
 
 #include "basin/plan.h"
 #include "labelling/catalogue.h"
@@ -68,5 +67,3 @@ kz_resilience *kz_resilience_list(const kz_dynamics *dynamics, const kz_catalogu
 /* Fills point [n] on every rank, in a kept stage. Collective. */
 kz_status kz_resilience_run(const kz_run *run, kz_dynamics *dynamics, const kz_resilience_plan *plan, int64_t n,
                             kz_resilience *point);
-
-#endif

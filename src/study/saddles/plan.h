@@ -1,6 +1,5 @@
 /* What a scene says of the study `saddles`: all cycles of up to max_period with a point in the window. The counts of the axes are not used. */
-#ifndef KAPITZA_STUDY_SADDLES_PLAN_H
-#define KAPITZA_STUDY_SADDLES_PLAN_H
+#pragma once
 
 #include "kapitza/study.h"
 
@@ -9,5 +8,3 @@ struct kz_saddles_plan {
   kz_axis theta, velocity;
   int64_t max_period;
 };
-
-#endif

@@ -1,7 +1,6 @@
 /* Study `saddles`: lines of starts that cross a window, and the search for cycles along them; all known cycles of the strobe map up to a
  * period, attracting or not, and their index sums. */
-#ifndef KAPITZA_STUDY_SADDLES_H
-#define KAPITZA_STUDY_SADDLES_H
+#pragma once
 
 #include "kapitza/dynamics.h"
 #include "kapitza/study.h"
@@ -71,5 +70,3 @@ kz_status kz_saddle_check(kz_store *store, const char *keys, int64_t saddle);
 kz_status kz_saddles_write(const kz_cycle_list *cycles, const kz_index_sums *sums, kz_store *store);
 /* Prints the cycles that were found, and the index sums. */
 void kz_saddles_print(const kz_scene *scene, const kz_cycle_list *cycles, const kz_index_sums *sums, FILE *summary);
-
-#endif

@@ -1,6 +1,5 @@
 /* What a scene says of the study `stability`. damping, quality_factor: NaN = not given. curves: indices in the list of kz_curve_names(). */
-#ifndef KAPITZA_STUDY_STABILITY_PLAN_H
-#define KAPITZA_STUDY_STABILITY_PLAN_H
+#pragma once
 
 #include "kapitza/study.h"
 
@@ -10,5 +9,3 @@ struct kz_stability_plan {
   double damping, quality_factor;
   kz_integers curves, subharmonics;
 };
-
-#endif

@@ -1,6 +1,5 @@
 /* Study `stability`: the chart of the (damped) equation of Hill or Mathieu over (k, m), and transition curves over k or m. */
-#ifndef KAPITZA_STUDY_STABILITY_H
-#define KAPITZA_STUDY_STABILITY_H
+#pragma once
 
 #include "kapitza/analysis.h"
 #include "kapitza/study.h"
@@ -49,5 +48,3 @@ static inline int64_t kz_chart_values(const kz_chart *chart, const kz_curve_task
 /* Writes the variables and attributes of the groups, and prints the summary. Rank 0. */
 kz_status kz_chart_write(const kz_chart *chart, kz_store *store);
 void kz_chart_summarise(const kz_chart *chart, FILE *summary);
-
-#endif

@@ -1,6 +1,5 @@
 /* The measure `ends` of a sweep over a plane: where the same starts end. */
-#ifndef KAPITZA_STUDY_SWEEP_ENDS_H
-#define KAPITZA_STUDY_SWEEP_ENDS_H
+#pragma once
 
 #include "kapitza/dynamics.h"
 #include "kapitza/study.h"
@@ -19,5 +18,3 @@ kz_status kz_ends_publish(const kz_sweep_plan *plan, const kz_chart_ending *endi
 static inline double kz_ends_velocity(const kz_sweep_plan *plan, int64_t place) {
   return plan->ends.velocity.values[plan->ends.velocity.count == 1 ? 0 : place];
 }
-
-#endif

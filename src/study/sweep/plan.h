@@ -1,6 +1,5 @@
 /* What a scene says of the study `sweep`. */
-#ifndef KAPITZA_STUDY_SWEEP_PLAN_H
-#define KAPITZA_STUDY_SWEEP_PLAN_H
+#pragma once
 
 #include "kapitza/study.h"
 #include "../measures/plan.h"
@@ -55,5 +54,3 @@ const char *kz_sweep_lack(const kz_sweep_plan *plan);
 static inline bool kz_sweep_is_plane(const kz_sweep_plan *plan) {
   return plan->x.parameter >= 0 && plan->parameter < 0;
 }
-
-#endif

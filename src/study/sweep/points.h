@@ -1,6 +1,5 @@
 /* Measures of the table (src/study/measures) at every point of a line or plane of pendulums, and the same attractor from point to point. */
-#ifndef KAPITZA_STUDY_SWEEP_POINTS_H
-#define KAPITZA_STUDY_SWEEP_POINTS_H
+#pragma once
 
 #include "measures/measures.h"
 #include "sweep.h"
@@ -47,5 +46,3 @@ kz_status kz_classes_make(const kz_points *points, const kz_run *run, const void
 /* Writes the group /plane, or /line, and the summary. Rank 0. */
 kz_status kz_points_write(const kz_points *points, const void *records, const kz_classes *classes, kz_store *store,
                           FILE *summary);
-
-#endif

@@ -1,6 +1,5 @@
 /* Inside of the study `sweep`: its parts. Values are those of the swept key of the pendulum mapping. */
-#ifndef KAPITZA_STUDY_SWEEP_H
-#define KAPITZA_STUDY_SWEEP_H
+#pragma once
 
 #include "kapitza/dynamics.h"
 #include "kapitza/study.h"
@@ -155,5 +154,3 @@ void kz_release_from_rest(const kz_pendulum *pendulum, const kz_numerics *numeri
 
 /* Prints a warning for each class of speeds whose error is too large, at the value with the largest error. */
 void kz_sweep_warn_steps(const kz_scene *scene, FILE *summary);
-
-#endif

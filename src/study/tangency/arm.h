@@ -1,6 +1,5 @@
 /* Study `tangency`: branches of manifolds as smooth curves, and where two of them touch. */
-#ifndef KAPITZA_STUDY_TANGENCY_ARM_H
-#define KAPITZA_STUDY_TANGENCY_ARM_H
+#pragma once
 
 #include "kapitza/dynamics.h"
 #include "kapitza/study.h"
@@ -55,5 +54,3 @@ double kz_arm_traces_cross(const kz_arm_trace *from, const kz_arm_trace *into, k
 /* Moves both places to where the branches run along each other, the nearest points opposite; returns the distance between them, with a sign; NaN if
  * Newton's method fails. */
 double kz_arms_gap(const kz_arm *from, const kz_arm *into, kz_touch *touch);
-
-#endif

@@ -1,7 +1,6 @@
 /* What a scene says of the study `tangency`: where, along a key of the pendulum, manifolds of the cycles that the study `saddles` of the same scene
  * finds begin to cross. */
-#ifndef KAPITZA_STUDY_TANGENCY_PLAN_H
-#define KAPITZA_STUDY_TANGENCY_PLAN_H
+#pragma once
 
 #include "kapitza/study.h"
 
@@ -11,5 +10,3 @@ struct kz_tangency_plan {
   int64_t saddle, into; /* ids: the cycle of the unstable manifold, that of the stable one; KZ_UNSET_INTEGER = the same */
   double length;        /* of each branch */
 };
-
-#endif

@@ -1,6 +1,5 @@
 /* Study `tangency`: the search along the key. */
-#ifndef KAPITZA_STUDY_TANGENCY_SEARCH_H
-#define KAPITZA_STUDY_TANGENCY_SEARCH_H
+#pragma once
 
 #include "arm.h"
 
@@ -24,5 +23,3 @@ typedef struct {
 bool kz_tangency_arms(kz_tangency_search *search, double value, const kz_touch *touch, kz_arm arm[2]);
 /* Finds the value in the range of the scene. KZ_REFUSED: the manifolds cross at both ends, at neither, or a cycle is lost on the way. */
 kz_status kz_tangency_find(kz_tangency_search *search, kz_tangency *found);
-
-#endif

@@ -1,6 +1,5 @@
 /* Study `wada`: the list of attractors of the file, and the basins that a branch of an unstable manifold meets. */
-#ifndef KAPITZA_STUDY_WADA_H
-#define KAPITZA_STUDY_WADA_H
+#pragma once
 
 #include "kapitza/dynamics.h"
 #include "kapitza/study.h"
@@ -41,5 +40,3 @@ kz_status kz_branch_basins_find(const kz_wada_job *job, const kz_branch *branch,
 /* Writes the group wada from the basins of both branches of each cycle, in order, `stride` bytes apart, and prints what they prove. */
 kz_status kz_wada_write(int64_t n_saddles, int64_t n_attractors, const void *basins, size_t stride, kz_store *store,
                         FILE *summary);
-
-#endif

@@ -1,7 +1,6 @@
 /* Starts to be labelled by the command where, after the attractors are known, and points between two of them at which their basins meet. Not
  * collective. */
-#ifndef KAPITZA_STUDY_WHERE_FOLDER_H
-#define KAPITZA_STUDY_WHERE_FOLDER_H
+#pragma once
 
 #include "labelling/catalogue.h"
 #include "labelling/labeller.h"
@@ -38,5 +37,3 @@ typedef struct {
   int32_t label[2]; /* towards the first start, towards the second */
 } kz_bisection;
 kz_status kz_bisect(const kz_question *question, int64_t digits, kz_bisection *bisection);
-
-#endif

@@ -1,6 +1,5 @@
 /* Windows of any depth: their images under the map, their cells as starts. Only kz_images_run is collective. */
-#ifndef KAPITZA_STUDY_WINDOW_H
-#define KAPITZA_STUDY_WINDOW_H
+#pragma once
 
 #include "kapitza/study.h"
 #include "labelling/labeller.h"
@@ -140,5 +139,3 @@ void kz_window_curve_free(kz_window_curve *curve);
 int64_t kz_window_curve_sample(const kz_window_curve *curve, int64_t cell);
 /* The state of a sample when it is handed over: state [2], half-turns and rad per drive radian, after *periods drive periods. */
 void kz_window_curve_state(const kz_window_curve *curve, int64_t sample, double state[2], int64_t *periods);
-
-#endif

@@ -1,6 +1,5 @@
 /* Inside of the proofs (dynamics.h): a region of starts that are proved to end on an attractor, and sets that are followed into it. */
-#ifndef KAPITZA_DYNAMICS_PROOF_H
-#define KAPITZA_DYNAMICS_PROOF_H
+#pragma once
 
 #include <stdbool.h>
 
@@ -67,5 +66,3 @@ static inline void kz_invert(const double M[2][2], double inverse[2][2]) {
 
 /* Relative margin of decisive tests, above their own rounding. */
 #define KZ_PROOF_ROUNDING 1e-9
-
-#endif
