@@ -4,7 +4,8 @@ module kz_cycles_tracing
   use kz_vector_map, only: PI
   use kz_cycles_curves, only: plane_t, curve_kind_t, system_t, make_system, newton, linearise, UNKNOWNS, FINE
   use kz_cycles_normal_forms, only: normal_form
-  use kz_cycles_walker, only: walker_t, parents_t, advance, begin, distance, passes, set_parents, meets, find_zero, OF_FORM, HALVES, MIRROR, REST
+  use kz_cycles_walker, only: walker_t, parents_t, advance, begin, distance, passes, set_parents, meets, find_zero, thinness, &
+                             OF_FORM, OF_WIDTH, HALVES, MIRROR, REST
   implicit none
   private
   public :: at_place, on_line, outside, LEFT, CLOSED, LONG, MERGED, STUCK, NO_SEED
@@ -31,7 +32,7 @@ contains
     type(walker_t) :: walker, turning
     real(dp) :: before(UNKNOWNS), heading(UNKNOWNS)
     type(parents_t) :: was, is
-    real(dp) :: form, side(2), former, start(UNKNOWNS), length, eigenvector(2)
+    real(dp) :: form, side(2), former, excess, former_excess, start(UNKNOWNS), length, eigenvector(2)
     logical :: found
     integer :: n
 
@@ -46,7 +47,8 @@ contains
     start = walker%y
     call set_parents(walker%system, walker%y, was)
     call normal_form(walker%system, form, side, eigenvector)
-    if (is_thin(walker%system, form, side)) return
+    excess = thinness(walker%system, form, side)
+    if (excess > 0) return
     call put(walker, form, side)
     length = 0
     ending = LONG
@@ -54,12 +56,16 @@ contains
       before = walker%y
       heading = walker%tangent
       former = form
+      former_excess = excess
       ending = STUCK
       if (.not. advance(walker)) return
       call set_parents(walker%system, walker%y, is)
       call normal_form(walker%system, form, side, eigenvector)
-      ending = THIN
-      if (is_thin(walker%system, form, side)) return
+      excess = thinness(walker%system, form, side)
+      if (excess > 0) then
+        call put_last()
+        return
+      end if
       ending = MERGED
       ! beside its parent the equations of a fold have that parent's own curve as a solution too
       if (kind%multiplier > 0) then
@@ -97,6 +103,17 @@ contains
       rows(9:, n_rows) = at%sharp(:n)
     end subroutine put
 
+    !> The point where the band is as narrow as the narrowest.
+    subroutine put_last()
+      real(dp) :: zero, unused(2)
+
+      ending = THIN
+      call find_zero(walker, before, heading, former_excess, excess, OF_WIDTH, zero, found)
+      if (.not. found) return
+      call normal_form(walker%system, form, side, unused)
+      call put(walker, form, side)
+    end subroutine put_last
+
     subroutine put_turning()
       real(dp) :: zero, beside(2), unused(2)
 
@@ -104,19 +121,6 @@ contains
       call put(turning, 0.0_dp, beside)
     end subroutine put_turning
   end function trace
-
-  !> Whether the band of attractors beside a curve is too narrow to be told from nothing: kz_atlas_band of study/atlas.
-  pure logical function is_thin(system, form, side)
-    type(system_t), intent(in) :: system !< at a point of the curve
-    real(dp), intent(in) :: form !< normal form
-    real(dp), intent(in) :: side(2) !< a gradient by the place
-    real(dp), parameter :: THINNEST = 1e-10_dp ! sides of the plane
-
-    associate (d => system%determinant)
-      is_thin = norm2(side)*THINNEST > 1 + d
-      if (system%kind%multiplier > 0) is_thin = norm2(side)*abs(form)*THINNEST > ((1 + d)/(1 - d))**2
-    end associate
-  end function is_thin
 
   !> Whether a fold comes so near to a parent that this one's own multiplier is -1: their distance alone tells nothing, since it is small all along
   !> folds of strongly unstable cycles.

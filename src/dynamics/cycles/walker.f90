@@ -5,14 +5,15 @@ module kz_cycles_walker
   use kz_cycles_curves, only: system_t, newton, tangent_at, inner, wrapped, POINTS, UNKNOWNS
   implicit none
   private
-  public :: walker_t, parents_t, advance, begin, distance, passes, set_parents, meets, find_zero, OF_FORM, FOLD, FLIP, HALVES, MIRROR, REST
+  public :: walker_t, parents_t, advance, begin, distance, passes, set_parents, meets, find_zero, thinness, &
+            OF_FORM, OF_WIDTH, FOLD, FLIP, HALVES, MIRROR, REST
 
   !> Steps of Newton's method end below it, which square them; steps longer than that are shortened: rad.
   real(dp), parameter :: CLOSE = 1e-5_dp, FAR = 1e3_dp
   !> KZ_EVENT_... of dynamics_curves.h: a multiplier 1, -1; a meeting with the cycle of half the period, with the mirror image, with rest.
   integer, parameter :: FOLD = 1, FLIP = 2, HALVES = 3, MIRROR = 4, REST = 5
-  !> What may change its sign on a curve: its normal form.
-  integer, parameter :: OF_FORM = 0
+  !> What may change its sign on a curve: its normal form, thinness.
+  integer, parameter :: OF_FORM = 0, OF_WIDTH = -1
 
   !> A point on its way along a branch or a curve.
   type :: walker_t
@@ -83,10 +84,11 @@ contains
     type(walker_t), intent(inout) :: walker !< at the second point, then where the sign changes
     real(dp), intent(in) :: from(:), heading(:) !< the first point and the tangent there
     real(dp), intent(in) :: at_low, at_high !< the number at both
-    integer, intent(in) :: which !< OF_FORM, FOLD, FLIP
+    integer, intent(in) :: which !< OF_FORM, OF_WIDTH, FOLD, FLIP
     real(dp), intent(out) :: number !< where it was found
     logical, intent(out) :: found !< whether Newton's method converged on the way
     integer, parameter :: MOST = 40
+    real(dp), parameter :: ZERO(OF_WIDTH:FLIP) = [1e-6_dp, 1e-9_dp, 1e-9_dp, 1e-9_dp]
     real(dp) :: low, high, middle, number_low, number_high, side(2), eigenvector(2)
     integer :: n, i, iterations
 
@@ -105,9 +107,10 @@ contains
                                                          middle*heading(n + 1:n + walker%system%columns))
       call newton(walker%system, 12, FAR, CLOSE, walker%y, iterations, heading)
       found = iterations > 0
-      if (found .and. which == OF_FORM) call tangent_at(walker%system, walker%y, heading, walker%tangent, found, walker%sharp)
+      if (found .and. which <= OF_FORM) call tangent_at(walker%system, walker%y, heading, walker%tangent, found, walker%sharp)
       if (.not. found) return
-      if (which == OF_FORM) call normal_form(walker%system, number, side, eigenvector)
+      if (which <= OF_FORM) call normal_form(walker%system, number, side, eigenvector)
+      if (which == OF_WIDTH) number = thinness(walker%system, number, side)
       if (which == FOLD) number = 1 + walker%system%determinant - walker%system%trace
       if (which == FLIP) number = 1 + walker%system%determinant + walker%system%trace
       if ((number > 0) .eqv. (number_low > 0)) then
@@ -117,10 +120,26 @@ contains
         high = middle
         number_high = number
       end if
-      if (abs(number) < 1e-9_dp .or. high - low < 1e-13_dp) return
-      if (which /= OF_FORM .and. high - low < 1e-7_dp) return ! the equations of the curve find the rest
+      if (abs(number) < ZERO(which) .or. high - low < 1e-13_dp) return
+      if (which > OF_FORM .and. high - low < 1e-7_dp) return ! the equations of the curve find the rest
     end do
   end subroutine find_zero
+
+  !> The logarithm of how many times narrower than THINNEST the band of attractors beside a curve is, where it cannot be told from nothing:
+  !> kz_atlas_band of study/atlas.
+  pure real(dp) function thinness(system, form, side)
+    type(system_t), intent(in) :: system !< at a point of the curve
+    real(dp), intent(in) :: form !< normal form
+    real(dp), intent(in) :: side(2) !< a gradient by the place
+    real(dp), parameter :: THINNEST = 1e-10_dp ! sides of the plane
+    real(dp) :: gradient
+
+    gradient = max(norm2(side), tiny(1.0_dp))
+    associate (d => system%determinant)
+      thinness = log(THINNEST*gradient/(1 + d))
+      if (system%kind%multiplier > 0) thinness = log(THINNEST*max(gradient*abs(form), tiny(1.0_dp))*((1 - d)/(1 + d))**2)
+    end associate
+  end function thinness
 
   !> How far two values of the unknowns lie apart.
   function distance(system, a, b) result(length)
