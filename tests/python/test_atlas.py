@@ -256,7 +256,7 @@ def test_no_curve_is_missing(kapitza, tmp_path):
     (tmp_path / "s.yaml").write_text(json.dumps(scene))
     kapitza("run", "s.yaml", ranks=2, folder=tmp_path)
     group = Result(tmp_path / "s.h5").group("atlas")
-    assert int(group.attrs["negative"]) == 0
+    assert int(group.attrs["negative"]) == 0 and int(group.attrs["compared"]) > 750 and int(group.attrs["alone"]) == 0
     curves, pairs = curves_of(group), 0
     for k in np.linspace(0.011, 0.58, 40):
         here, there = crossings(curves, k), crossings(curves, -k)

@@ -3,6 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "numerics/parent.h"
 #include "atlas.h"
 
 /* Tangents shorter than this end at a cusp: steps beside it are straight. */
@@ -141,6 +142,22 @@ void kz_atlas_crossings_of(kz_atlas *atlas, int axis, double target, bool classe
   if (crossings->count > 0)
     qsort(crossings->list, (size_t)crossings->count, sizeof *crossings->list, kz_atlas_compare_crossings);
   if (classes) kz_atlas_pair(crossings);
+}
+
+bool kz_atlas_crossing_point(const kz_atlas *atlas, int axis, double value, const kz_atlas_crossing *crossing,
+                             kz_atlas_seed *at) {
+  kz_atlas_curve *curve = atlas->curve + crossing->curve;
+  const int n = 2 * curve->kind.of.points;
+  const double along[2] = {axis == 0, axis == 1};
+  *at = (kz_atlas_seed){.kind = curve->kind};
+  for (int i = 0; i < 2 && !curve->signature; i++) kz_atlas_complete(atlas, curve, crossing->row + i);
+  kz_atlas_between(curve, crossing->row, crossing->share, at->y);
+  at->y[n + axis] = crossing->at;
+  at->y[n + 1 - axis] = value;
+  if (curve->kind.rest < 0)
+    at->kind.of.turns =
+        kz_kind_of(&atlas->plane, curve->kind.of.side, curve->kind.of.points, 1, curve->kind.of.multiplier, at->y).turns;
+  return kz_curve_locate(&atlas->plane, &at->kind.of, at->y, along) && fabs(at->y[n + axis] - crossing->at) < 1e-3;
 }
 
 double kz_atlas_floor(const kz_atlas *atlas) {

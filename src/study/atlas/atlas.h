@@ -83,6 +83,7 @@ struct kz_atlas {
   int32_t at_reference[KZ_ATLAS_MOST_CLASSES]; /* and what attracts there */
   int64_t refused;                             /* seeds that lead to no curve */
   int64_t rounds, checked, disagreed;          /* of random places, the last two of the last round */
+  int64_t compared, alone;                     /* crossings of lines at k and -k; those without a partner */
   int64_t told, unsolved;                      /* motions in the lists of these places; those that could not be solved for */
 };
 
@@ -136,6 +137,10 @@ int32_t kz_atlas_class_number(kz_atlas *atlas, const kz_atlas_class *class);
 void kz_atlas_trace(const kz_atlas *atlas, const kz_atlas_seed *seed, kz_atlas_curve *curve);
 /* The cycle and the place of a row. */
 void kz_atlas_point_of(const kz_atlas_curve *curve, int64_t row, double *y);
+/* Sets all points of a row from the first one, which a file has alone. */
+void kz_atlas_complete(const kz_atlas *atlas, kz_atlas_curve *curve, int64_t row);
+/* The cycle at a share of the step from a row, between those of both rows, with the place of the row. */
+void kz_atlas_between(const kz_atlas_curve *curve, int64_t row, double share, double *y);
 /* The curve of its kind on which a point lies; -1 = none. */
 int64_t kz_atlas_known(const kz_atlas *atlas, const kz_atlas_seed *seed);
 /* Adds a curve unless most of it lies on a known one; takes its arrays. */
@@ -166,8 +171,11 @@ bool kz_atlas_crossing_point(const kz_atlas *atlas, int axis, double value, cons
                              kz_atlas_seed *at);
 /* What branches off a point of a curve with multiplier -1: its cycle a little beside, and the direction along the axis in which it exists. */
 bool kz_atlas_grown(const kz_atlas *atlas, const kz_atlas_seed *flip, int axis, kz_atlas_seed *child, double along[2]);
-/* The image of a curve's point `at` where the plane has k and -k. */
-void kz_atlas_explore_image(const kz_atlas *atlas, const kz_atlas_curve *curve, const double *at, kz_atlas_seeds *seeds);
+/* What a motion is half a period later, seen from upside down, where the plane has k and -k; the image of a curve's point `at` becomes a seed. */
+kz_atlas_kind kz_atlas_image_of(const kz_atlas_kind *kind);
+void kz_atlas_explore_image(const kz_atlas *atlas, const kz_atlas_kind *kind, const double *at, kz_atlas_seeds *seeds);
+/* Compares lines at values of k with those at -k; what has no partner there becomes a seed. */
+void kz_atlas_compare_images(kz_atlas *atlas);
 /* The attractors of a place by following starts. */
 kz_status kz_atlas_probe_at(const kz_atlas *atlas, const double place[2], int64_t starts, int64_t seed, kz_atlas_probe *probe);
 

@@ -24,6 +24,25 @@ void kz_atlas_point_of(const kz_atlas_curve *curve, int64_t row, double *y) {
   y[n] = from[0], y[n + 1] = from[1];
 }
 
+void kz_atlas_complete(const kz_atlas *atlas, kz_atlas_curve *curve, int64_t row) {
+  const int n = curve->kind.of.points;
+  double state[2 * KZ_CURVE_POINTS + 2], *at = curve->row + row * kz_atlas_width(&curve->kind);
+  memcpy(state, at + KZ_ROW_POINTS, 2 * sizeof *state);
+  if (kz_curve_orbit(&atlas->plane, at, n - 1, state)) memcpy(at + KZ_ROW_POINTS, state, 2 * (size_t)n * sizeof *state);
+}
+
+void kz_atlas_between(const kz_atlas_curve *curve, int64_t row, double share, double *y) {
+  enum { TURNED = 1 }; /* rad: no point moves so far in a step; the last row of a closed curve may begin with another point */
+  const int n = 2 * curve->kind.of.points;
+  double to[KZ_ATLAS_UNKNOWNS];
+  kz_atlas_point_of(curve, row, y);
+  kz_atlas_point_of(curve, row + 1, to);
+  const double lift = 2 * M_PI * rint((to[0] - y[0]) / (2 * M_PI)); /* where two parts of a curve were put together */
+  bool other = false;
+  for (int i = 0; i < n; i++) other = other || fabs(to[i] - (i % 2 ? 0 : lift) - y[i]) > TURNED;
+  for (int i = 0; i < n && !other; i++) y[i] += share * (to[i] - (i % 2 ? 0 : lift) - y[i]);
+}
+
 /* One direction of a curve: its rows, and its special points, of which *n_special are there already. */
 static int64_t trace_side(const kz_atlas *atlas, const kz_atlas_seed *seed, int32_t direction, double *row, double *special,
                           int64_t *n_special, int32_t *ending) {
@@ -104,9 +123,7 @@ static bool is_of_step(const kz_atlas *atlas, const kz_atlas_curve *curve, int64
   const double step[2] = {b[0] - a[0], b[1] - a[1]};
   const double along[2] = {fabs(step[0]) < fabs(step[1]), fabs(step[0]) >= fabs(step[1])};
   double y[KZ_ATLAS_UNKNOWNS];
-  a += KZ_ROW_POINTS, b += KZ_ROW_POINTS;
-  const double lift = 2 * M_PI * rint((b[0] - a[0]) / (2 * M_PI)); /* where two parts of a curve were put together */
-  for (int i = 0; i < n; i++) y[i] = a[i] + share * (b[i] - (i % 2 ? 0 : lift) - a[i]);
+  kz_atlas_between(curve, row, share, y);
   memcpy(y + n, seed->y + n, 2 * sizeof *y);
   kz_atlas_seed found = {.kind = curve->kind};
   if (!kz_curve_locate(&atlas->plane, &curve->kind.of, y, along)) return false;

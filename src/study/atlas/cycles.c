@@ -67,7 +67,7 @@ bool kz_atlas_same(const kz_atlas *atlas, const kz_atlas_seed *cycle, const doub
 static bool repeats(const kz_atlas_kind *kind, const double *y, int shift, double side, double near) {
   const int n = kind->of.points;
   for (int i = 0; i < n; i++)
-    if (apart(y + 2 * i, y + 2 * ((i + shift) % n), side) >= near) return false;
+    if (apart(y + 2 * i, y + 2 * ((i + shift) % n), i + shift < n ? side : side * kind->of.side) >= near) return false;
   return true;
 }
 
@@ -82,15 +82,41 @@ static bool is_on_its_curve(const kz_atlas *atlas, int power, kz_curve_kind *of,
   return fabs(fabs(numbers[0]) - (1 + numbers[1])) < CROSSED * (1 + numbers[1]);
 }
 
+/* Rest has its own kinds: on the map, multiplier -1; on the half map, multiplier -1, which is 1 of the map. */
+static kz_atlas_kind rest_of(const kz_atlas_kind *kind, const double *y) {
+  kz_atlas_kind rest = {kind->of, cos(y[0]) > 0 ? 0 : 1};
+  if (kind->of.multiplier > 0) rest.of.side = -kind->of.side, rest.of.multiplier = -1;
+  rest.of.turns = rest.of.side > 0 ? 0 : rest.rest;
+  return rest;
+}
+
+/* A point of a curve beside rest is one of rest's own curve where rest has that multiplier: Newton's method ends there beside it. */
+static bool is_rest(const kz_atlas *atlas, double near, const kz_atlas_kind *kind, const double *y) {
+  if (!atlas->plane.mirrored || kind->of.points != 1) return false;
+  if (kind->rest >= 0) return kind->of.multiplier > 0; /* on the other map */
+  if (hypot(sin(y[0]), y[1]) < AT_REST) return true;
+  kz_atlas_kind rest = rest_of(kind, y);
+  double point[4] = {M_PI * rest.rest, 0, y[2], y[3]};
+  return kind->of.multiplier != 0 && hypot(sin(y[0]), y[1]) < near && is_on_its_curve(atlas, 1, &rest.of, point) &&
+         rest.of.multiplier < 0;
+}
+
 bool kz_atlas_reduce(const kz_atlas *atlas, double near, kz_atlas_kind *kind, double *y) {
   const int n = kind->of.points;
-  for (int shift = 1; shift < n && kind->of.side > 0 && kind->rest < 0; shift++)
+  if (is_rest(atlas, near, kind, y)) {
+    *kind = rest_of(kind, y);
+    y[0] = M_PI * kind->rest, y[1] = 0;
+    return true;
+  }
+  for (int shift = 1; shift < n && kind->rest < 0; shift++)
     for (int side = 1; side >= -1 && n % shift == 0; side -= 2) {
       kz_curve_kind of = {side, shift, kind->of.multiplier, kind->of.turns * shift / n, 0};
       double point[KZ_ATLAS_UNKNOWNS];
-      if (side < 0 && (!atlas->plane.mirrored || kind->of.turns != 0 || 2 * shift != n)) continue;
+      /* half of a cycle is mirrored, or each odd part of one that is symmetric */
+      const bool mirrored = kind->of.side < 0 ? n / shift % 2 == 1 : kind->of.turns == 0 && 2 * shift == n;
+      if (side < 0 ? !atlas->plane.mirrored || !mirrored : kind->of.side < 0) continue;
       if (!repeats(kind, y, shift, side, near)) continue;
-      if (side < 0) of.turns = (int32_t)rint((y[n] + y[0]) / (2 * M_PI));
+      if (side < 0) of.turns = (int32_t)rint((y[2 * shift] + y[0]) / (2 * M_PI));
       memcpy(point, y, 2 * (size_t)shift * sizeof *point);
       memcpy(point + 2 * shift, y + 2 * n, 2 * sizeof *point);
       if (!is_on_its_curve(atlas, n / shift, &of, point)) continue;
@@ -99,17 +125,6 @@ bool kz_atlas_reduce(const kz_atlas *atlas, double near, kz_atlas_kind *kind, do
       return true;
     }
   return false;
-}
-
-/* Rest has its own kinds: on the map, multiplier -1; on the half map, multiplier -1, which is 1 of the map. */
-static void set_rest(const kz_atlas *atlas, kz_atlas_kind *kind, double *y) {
-  kind->rest = -1;
-  if (!atlas->plane.mirrored || kind->of.points != 1 || fabs(y[1]) > AT_REST || fabs(sin(y[0])) > AT_REST) return;
-  kind->rest = cos(y[0]) > 0 ? 0 : 1;
-  if (kind->of.multiplier > 0) kind->of.side = -kind->of.side, kind->of.multiplier = -1;
-  kind->of.turns = kind->of.side > 0 ? 0 : kind->rest;
-  y[0] = M_PI * kind->rest;
-  y[1] = 0;
 }
 
 /* Angles from a point in [-pi, pi), of mirror images that with positive turns, symmetric cycles about down or inverted. */
@@ -138,7 +153,6 @@ bool kz_atlas_add(const kz_atlas *atlas, kz_atlas_kind kind, const double *y, kz
   for (int i = 0; i < 2; i++)
     if (y[n + i] < atlas->plane.low[i] || y[n + i] > atlas->plane.high[i]) return false;
   while (kz_atlas_reduce(atlas, ONE, &seed.kind, seed.y)) continue;
-  set_rest(atlas, &seed.kind, seed.y);
   if (kz_atlas_period(&seed.kind) > atlas->scene->atlas->max_period) return false;
   canonical(atlas, &seed.kind, seed.y);
   if (seeds->count == seeds->capacity) {

@@ -166,44 +166,41 @@ static bool is_inside(const double *place) {
   return place[0] > 0 && place[0] < 1 && place[1] > 0 && place[1] < 1;
 }
 
-void kz_atlas_explore_curve(const kz_atlas *atlas, const kz_atlas_curve *curve, bool middle, kz_atlas_seeds *seeds) {
-  enum { IMAGES = 5 };
+/* The row in the middle of those inside of the rectangle, or of all if none is. */
+static int64_t middle_of(const kz_atlas_curve *curve) {
   const int64_t width = kz_atlas_width(&curve->kind);
-  kz_atlas_seed at = {.kind = curve->kind};
-  int64_t inside = 0, n = 0;
-  for (int64_t row = 0; row < curve->n; row++) inside += is_inside(curve->row + row * width);
-  for (int64_t row = 0; row < curve->n; row++) {
-    if (inside > 0 && !is_inside(curve->row + row * width)) continue;
-    const int64_t all = inside > 0 ? inside : curve->n;
-    kz_atlas_point_of(curve, row, at.y);
-    for (int axis = 0; axis < 2 && middle && n == all / 2; axis++) explore_at(atlas, NULL, &at, axis, true, true, seeds);
-    if (n * IMAGES / all != (n + 1) * IMAGES / all) kz_atlas_explore_image(atlas, curve, at.y, seeds);
-    n++;
-  }
-  explore_degenerate(atlas, curve, seeds);
+  int64_t inside = 0, n = 0, row = 0;
+  for (int64_t i = 0; i < curve->n; i++) inside += is_inside(curve->row + i * width);
+  if (inside == 0) return curve->n / 2;
+  for (; row < curve->n; row++)
+    if (is_inside(curve->row + row * width) && n++ == inside / 2) break;
+  return row;
 }
 
-bool kz_atlas_crossing_point(const kz_atlas *atlas, int axis, double value, const kz_atlas_crossing *crossing,
-                             kz_atlas_seed *at) {
-  const kz_atlas_curve *curve = atlas->curve + crossing->curve;
-  const int n = 2 * curve->kind.of.points;
-  const double *row = curve->row + crossing->row * kz_atlas_width(&curve->kind), *next = row + kz_atlas_width(&curve->kind);
-  const double along[2] = {axis == 0, axis == 1};
-  double y[KZ_ATLAS_UNKNOWNS + 2], place[2], step[2];
-  for (int i = 0; i < 2; i++) step[i] = next[KZ_ROW_POINTS + i] - row[KZ_ROW_POINTS + i];
-  /* the points may be written in another way there */
-  const double share = fabs(step[0]) > 1 || fabs(step[1]) > 1 ? 0 : crossing->share;
-  for (int i = 0; i < 2; i++) y[i] = row[KZ_ROW_POINTS + i] + share * step[i];
-  place[axis] = crossing->at;
-  place[1 - axis] = value;
-  at->kind = curve->kind;
-  if (curve->kind.rest < 0) {
-    if (!kz_curve_orbit(&atlas->plane, place, curve->kind.of.points, y)) return false;
-    at->kind.of.turns = (int32_t)rint((y[n] - at->kind.of.side * y[0]) / (2 * M_PI));
+static bool has_image(const kz_atlas *atlas, const kz_atlas_curve *curve, int64_t row) {
+  double place[2];
+  return kz_atlas_image(atlas, curve->row + row * kz_atlas_width(&curve->kind), place) && is_inside(place);
+}
+
+/* The images of each piece of a curve that has one in the rectangle. */
+static void explore_images(const kz_atlas *atlas, const kz_atlas_curve *curve, kz_atlas_seeds *seeds) {
+  enum { IMAGES = 5 };
+  kz_atlas_seed at = {.kind = curve->kind};
+  for (int64_t first = 0, end; first < curve->n && atlas->turned && curve->kind.rest < 0; first = end + 1) {
+    for (end = first; end < curve->n && has_image(atlas, curve, end);) end++;
+    for (int64_t i = 0; i < IMAGES && end > first; i++) {
+      kz_atlas_point_of(curve, first + (2 * i + 1) * (end - first) / (2 * IMAGES), at.y);
+      kz_atlas_explore_image(atlas, &at.kind, at.y, seeds);
+    }
   }
-  memcpy(at->y, y, (size_t)n * sizeof *y);
-  memcpy(at->y + n, place, sizeof place);
-  return kz_curve_locate(&atlas->plane, &at->kind.of, at->y, along) && fabs(at->y[n + axis] - crossing->at) < 1e-3;
+}
+
+void kz_atlas_explore_curve(const kz_atlas *atlas, const kz_atlas_curve *curve, bool middle, kz_atlas_seeds *seeds) {
+  kz_atlas_seed at = {.kind = curve->kind};
+  kz_atlas_point_of(curve, middle_of(curve), at.y);
+  for (int axis = 0; axis < 2 && middle; axis++) explore_at(atlas, NULL, &at, axis, true, true, seeds);
+  explore_images(atlas, curve, seeds);
+  explore_degenerate(atlas, curve, seeds);
 }
 
 /* Rest along a whole line, which no curve need cross. */
@@ -235,24 +232,4 @@ void kz_atlas_explore_line(kz_atlas *atlas, int axis, double value, int64_t firs
     itself[i] = child[i] = true;
   }
   kz_atlas_crossings_free(&l.crossings);
-}
-
-/* The image of a curve's point where the plane has k and -k: half a period later, seen from upside down. */
-void kz_atlas_explore_image(const kz_atlas *atlas, const kz_atlas_curve *curve, const double *at, kz_atlas_seeds *seeds) {
-  const int n = curve->kind.of.points;
-  kz_atlas_kind kind = curve->kind;
-  double y[KZ_ATLAS_UNKNOWNS + 2], state[2], place[2];
-  if (!atlas->turned || curve->kind.rest >= 0 || !kz_atlas_image(atlas, at + 2 * n, place)) return;
-  state[0] = at[0], state[1] = at[1];
-  if (!kz_curve_half_period(&atlas->plane, at + 2 * n, state)) return;
-  y[0] = M_PI - state[0], y[1] = -state[1];
-  if (!kz_curve_orbit(&atlas->plane, place, n, y)) return;
-  kind.of.turns = (int32_t)rint((y[2 * n] - kind.of.side * y[0]) / (2 * M_PI));
-  for (int axis = 0; axis < 2; axis++) {
-    const double along[2] = {axis == 0, axis == 1};
-    double moved[KZ_ATLAS_UNKNOWNS];
-    memcpy(moved, y, (size_t)(2 * n) * sizeof *moved);
-    moved[2 * n] = place[0], moved[2 * n + 1] = place[1];
-    if (kz_curve_locate(&atlas->plane, &kind.of, moved, along) && kz_atlas_add(atlas, kind, moved, seeds)) return;
-  }
 }

@@ -169,6 +169,8 @@ static kz_status check(kz_atlas *atlas, const kz_run *run, int round, int64_t *w
   *p = (probing){atlas, n, MANY, 2 + round, kz_calloc((size_t)n, sizeof *p->probe)};
   for (int64_t i = 0; i < n; i++) random_place(1000 + round * n + i, p->probe[i].place);
   KZ_TRY(search_next(atlas, run, atlas->scene->atlas->seeds + round * (n / PER_PLACE), n / PER_PLACE));
+  kz_atlas_compare_images(atlas);
+  KZ_TRY(kz_atlas_drain(atlas, run, 0, NULL));
   KZ_TRY(probe_all(run, "atlas checks", p));
   return mend(atlas, run, n, p->probe, wrong);
 }
@@ -186,6 +188,7 @@ static kz_status check_all(kz_atlas *atlas, const kz_run *run, probing *last) {
     quiet = atlas->disagreed == 0 ? quiet + 1 : 0;
     if (run->sample) break;
   }
+  kz_atlas_compare_images(atlas);
   return KZ_OK;
 }
 

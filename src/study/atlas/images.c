@@ -1,0 +1,79 @@
+/* A plane with k and -k: each curve has an image there, which tells whether one is missing. */
+#include <math.h>
+#include <string.h>
+
+#include "atlas.h"
+
+enum { LINES = 80 };
+/* Sides of the plane: partners lie so near to each other; crossings nearer than this to an edge are left out. */
+static const double NEAR = 1e-3, EDGE = 1e-6;
+
+kz_atlas_kind kz_atlas_image_of(const kz_atlas_kind *kind) {
+  kz_atlas_kind image = *kind;
+  if (kind->rest >= 0) image.rest = 1 - kind->rest;
+  image.of.turns = kind->of.side > 0 ? -kind->of.turns : 1 - kind->of.turns;
+  return image;
+}
+
+/* Each point of the cycle has its own image: an orbit from one of them would lose the digits by which the cycle repels. */
+void kz_atlas_explore_image(const kz_atlas *atlas, const kz_atlas_kind *kind, const double *at, kz_atlas_seeds *seeds) {
+  const int n = kind->of.points;
+  const kz_atlas_kind image = kz_atlas_image_of(kind);
+  double y[KZ_ATLAS_UNKNOWNS], place[2];
+  if (!atlas->turned || kind->rest >= 0 || !kz_atlas_image(atlas, at + 2 * n, place)) return;
+  for (int i = 0; i < n; i++) {
+    double state[2] = {at[2 * i], at[2 * i + 1]};
+    if (!kz_curve_half_period(&atlas->plane, at + 2 * n, state)) return;
+    y[2 * i] = M_PI - state[0], y[2 * i + 1] = -state[1];
+  }
+  for (int axis = 0; axis < 2; axis++) {
+    const double along[2] = {axis == 0, axis == 1};
+    double moved[KZ_ATLAS_UNKNOWNS];
+    memcpy(moved, y, (size_t)(2 * n) * sizeof *moved);
+    moved[2 * n] = place[0], moved[2 * n + 1] = place[1];
+    if (kz_curve_locate(&atlas->plane, &image.of, moved, along) && kz_atlas_add(atlas, image, moved, seeds)) return;
+  }
+}
+
+/* Whether a line has a crossing with a curve of a kind at a value; cycles without a centre turn either way. */
+static bool has(const kz_atlas *atlas, const kz_atlas_crossings *crossings, const kz_atlas_kind *kind, double at) {
+  for (int64_t i = 0; i < crossings->count; i++) {
+    const kz_atlas_kind *other = &atlas->curve[crossings->list[i].curve].kind;
+    const bool alike = other->of.side == kind->of.side && other->of.points == kind->of.points &&
+                       other->of.multiplier == kind->of.multiplier && other->rest == kind->rest &&
+                       abs(other->of.turns) == abs(kind->of.turns);
+    if (alike && fabs(crossings->list[i].at - at) < NEAR) return true;
+  }
+  return false;
+}
+
+/* The crossings of a line at a value of k that the line at -k lacks become seeds. */
+static void compare(kz_atlas *atlas, int axis, double value, const kz_atlas_crossings *here, const kz_atlas_crossings *there) {
+  for (int64_t i = 0; i < here->count; i++) {
+    const kz_atlas_crossing *crossing = here->list + i;
+    const kz_atlas_kind *kind = &atlas->curve[crossing->curve].kind, image = kz_atlas_image_of(kind);
+    kz_atlas_seed at;
+    if (crossing->at < EDGE || crossing->at > 1 - EDGE) continue;
+    atlas->compared++;
+    if (has(atlas, there, &image, crossing->at)) continue;
+    atlas->alone++;
+    if (kz_atlas_crossing_point(atlas, 1 - axis, value, crossing, &at))
+      kz_atlas_explore_image(atlas, &at.kind, at.y, &atlas->pending);
+  }
+}
+
+void kz_atlas_compare_images(kz_atlas *atlas) {
+  atlas->compared = atlas->alone = 0;
+  if (!atlas->turned) return;
+  for (int i = 0; i < LINES; i++) {
+    KZ_FREED_BY(kz_atlas_crossings_free) kz_atlas_crossings here = {0};
+    KZ_FREED_BY(kz_atlas_crossings_free) kz_atlas_crossings there = {0};
+    const double share = (i + 0.5) / LINES, place[2] = {share, share};
+    double image[2];
+    if (!kz_atlas_image(atlas, place, image) || !memcmp(place, image, sizeof place)) continue;
+    const int axis = image[0] != place[0] ? 0 : 1;
+    kz_atlas_crossings_of(atlas, axis, place[axis], false, &here);
+    kz_atlas_crossings_of(atlas, axis, image[axis], false, &there);
+    compare(atlas, axis, place[axis], &here, &there);
+  }
+}

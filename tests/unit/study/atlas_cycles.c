@@ -1,0 +1,51 @@
+/* Points of curves in their canonical form: what is a shorter cycle, or rest, is told to be so. */
+#include "../../tools/test.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "atlas/atlas.h"
+
+/* k = x, beta = 0.1, m = y. */
+static bool pendulum_at(const void *context, const double place[2], kz_pendulum *pendulum) {
+  (void)context;
+  *pendulum = (kz_pendulum){place[0], 0.1, place[1]};
+  return true;
+}
+static const kz_plane PLANE = {.pendulum = pendulum_at, .low = {-1, -1}, .high = {3, 3}, .steps = 96, .mirrored = 1};
+static const double UP[2] = {0, 1};
+
+/* Beside the place where upright rest leans over Newton's method for a fold ends on rest itself, with few digits. */
+TEST(test_a_fold_beside_rest_is_the_curve_of_rest) {
+  const kz_atlas atlas = {.plane = PLANE};
+  kz_atlas_kind kind = {{1, 1, 1, 0, 0}, -1};
+  double y[4] = {M_PI - 4e-5, 3.6e-7, 0.0047902, 0.09}, elsewhere[4];
+  const kz_curve_kind leans = {-1, 1, -1, 1, 0};
+  double rest[4] = {M_PI, 0, y[2], y[3]};
+  assert_int_equal(kz_curve_locate(&PLANE, &leans, rest, UP), 1);
+  y[3] = rest[3];
+  memcpy(elsewhere, y, sizeof elsewhere);
+  elsewhere[3] += 0.01;
+  assert_false(kz_atlas_reduce(&atlas, 1e-4, &kind, elsewhere));
+  assert_true(kz_atlas_reduce(&atlas, 1e-4, &kind, y));
+  assert_true(kind.rest == 1 && kind.of.side == -1 && kind.of.multiplier == -1 && kind.of.turns == 1 && y[0] == M_PI);
+  assert_false(kz_atlas_reduce(&atlas, 1e-4, &kind, y));
+}
+
+/* A third of a symmetric cycle of six periods is one of two: here where the swings of upright rest lose their symmetry. */
+TEST(test_a_third_of_a_symmetric_cycle) {
+  const kz_atlas atlas = {.plane = PLANE};
+  const kz_curve_kind swings = {1, 1, -1, 0, 0}, symmetric = {-1, 1, -1, 1, 0};
+  double y[8] = {M_PI, 0, -0.05, 0.5}, vector[2], form, side[2];
+  assert_int_equal(kz_curve_locate(&PLANE, &swings, y, UP), 1);
+  assert_int_equal(kz_curve_form(&PLANE, &swings, y, &form, side, vector), 1);
+  for (int i = 0; i < 2; i++) y[i] += 0.6 * vector[i];
+  y[3] += 0.09;
+  assert_int_equal(kz_curve_locate(&PLANE, &symmetric, y, UP), 1);
+  assert_true(fabs(y[0] - M_PI) > 0.1);
+  y[6] = y[2], y[7] = y[3];
+  for (int i = 2; i < 6; i++) y[i] = (i % 2 ? 0 : 2 * M_PI) - y[i - 2];
+  kz_atlas_kind kind = {{-1, 3, -1, 1, 0}, -1};
+  assert_true(kz_atlas_reduce(&atlas, 1e-5, &kind, y));
+  assert_true(kind.of.points == 1 && kind.of.side == -1 && kind.of.multiplier == -1 && kind.of.turns == 1);
+}
