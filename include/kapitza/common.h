@@ -57,6 +57,10 @@ void sincosf128(__float128 x, __float128 *sine, __float128 *cosine);
 #define KZ_UNDECIDED_WORDS "flag", "decide"
 #define KZ_INTERPOLATION_WORDS "linear", "quintic"
 
+/* What a macro stands for, as text. */
+#define KZ_WRITTEN(name) KZ_WRITTEN_AS(name)
+#define KZ_WRITTEN_AS(number) #number
+
 /* Such a list of two or three words as one text, "icm|direct|exact". */
 #define KZ_JOINED(words) KZ_JOINED_OF(words)
 #define KZ_JOINED_OF(first, second, ...) first "|" second __VA_OPT__("|" __VA_ARGS__)

@@ -11,7 +11,7 @@
 
 #include "kapitza/common.h"
 
-enum { KZ_HARMONICS = 24 };
+#define KZ_HARMONICS 24
 
 typedef struct {
   double k;                           /* 1/Omega^2; 0 = no gravity, < 0 = gravity upward */

@@ -9,7 +9,7 @@
 #include "kapitza/store.h"
 
 /* A list in a scene. */
-enum { KZ_LIST_MAX = 256 };
+#define KZ_LIST_MAX 256
 typedef struct {
   int64_t count;
   double values[KZ_LIST_MAX];

@@ -4,9 +4,7 @@
 #include "app.h"
 
 /* The compiler defines __AVX2__ as 1 where it may use that set: such a name is written out as "1", any other as itself. */
-#define WRITTEN(macro) #macro
-#define WRITTEN_OUT(macro) WRITTEN(macro)
-#define USED(name, text) WRITTEN_OUT(__##name##__),
+#define USED(name, text) KZ_WRITTEN(__##name##__),
 const char *const kz_instructions[] = {KZ_INSTRUCTION_LIST(USED) NULL};
 
 const char *kz_instruction_names(void) {

@@ -142,7 +142,8 @@ const char *kz_drive_contradiction(const kz_pendulum_keys *written, const kz_pen
     return "torque_amplitude is for a pivot at rest; set the drive's amplitude to 0 and leave out the other keys of its form";
   swing_of(written->torque_amplitude, p->beta, &amplitude, &phase);
   if (fabs(bessel_of(amplitude, KZ_HARMONICS + 1)) > BESSEL_LEFT)
-    return "torque_amplitude swings the pendulum so far that 24 harmonics do not hold its gravity; at most about 8.9";
+    return "torque_amplitude swings the pendulum so far that " KZ_WRITTEN(
+        KZ_HARMONICS) " harmonics do not hold its gravity; at most about 8.9";
   return NULL;
 }
 

@@ -1,7 +1,9 @@
-"""The sources keep their order: no include upwards, no circles, C headers that say what the Fortran entries are."""
+"""The sources keep their order: no include upwards, no circles, nothing kept, safe signal handlers."""
 
 import re
 import subprocess
+import tempfile
+from functools import cache
 from graphlib import CycleError, TopologicalSorter
 from pathlib import Path
 
@@ -23,13 +25,9 @@ def layers():
     return below
 
 
-def modules():
-    """The file of each Fortran module."""
-    return {name: path for path in FORTRAN for name in re.findall(r"^module (\w+)", path.read_text(), re.MULTILINE)}
-
-
 def test_a_module_is_named_after_its_folder_and_file():
-    named = {path.relative_to(SOURCES): name for name, path in modules().items()}
+    named = {path.relative_to(SOURCES): name for name, path in modules_and_uses()[0].items()}
+    assert len(named) == len(FORTRAN)
     assert not {path: name for path, name in named.items() if name != f"kz_{path.parent.name}_{path.stem}"}
 
 
@@ -40,26 +38,58 @@ def test_no_file_is_long():
     assert not {str(path): n for path, n in lines.items() if n > (LONGEST_OF_PACKAGE if path.is_relative_to(ROOT / "python") else LONGEST)}
 
 
-def place_of(include, path):
-    """The file that `path` includes by that name."""
-    layer = SOURCES / path.relative_to(SOURCES).parts[0] if path.is_relative_to(SOURCES) else SOURCES
-    for folder in (path.parent, layer, ROOT / "include"):
-        if (folder / include).is_file():
-            return (folder / include).resolve()
-    assert include == "kapitza/version.h", f"{path} includes {include}, which is nowhere"  # made by the build
-    return None
+def rules(command):
+    """[(targets, files)] of the make rules that a compiler prints."""
+    done = subprocess.run([*map(str, command)], capture_output=True, text=True, check=True, cwd=ROOT)
+    return [[part.split() for part in rule.split(": ", 1)] for rule in done.stdout.replace("\\\n", " ").splitlines() if ": " in rule]
 
 
+def of_objects():
+    """(C source, file that it includes, or that such a file includes), as ninja has kept it from the compiler."""
+    done = subprocess.run(["ninja", "-C", PROGRAM.parent, "-t", "deps"], capture_output=True, text=True, check=True)
+    for block in done.stdout.strip().split("\n\n"):
+        first, *files = block.splitlines()
+        if re.match(r"CMakeFiles/kapitza\w*\.dir/src/.*\.c\.o: .*VALID", first):  # else its source is gone
+            path, *others = ((PROGRAM.parent / file.strip()).resolve() for file in files if not file.strip().startswith("/usr"))
+            yield from ((path, other) for other in others)
+
+
+def of_headers():
+    """The same of headers, in the folders that the sources of their layer see; libraries need not be found (-MG)."""
+    compiler = ["cc", "-MM", "-MG", "-DKAPITZA_FUSED=0", f"-I{ROOT / 'include'}", f"-I{PROGRAM.parent / 'include'}"]
+    for folder in (HEADERS, *SOURCES.iterdir()):
+        headers = sorted(folder.rglob("*.h"))
+        for _targets, files in rules([*compiler, f"-I{folder}", *headers]) if headers else ():
+            path, *others = (ROOT / file for file in files)
+            yield from ((path, other.resolve()) for other in others if other.exists())
+
+
+@cache
+def modules_and_uses():
+    """{module: its file}, [(Fortran file, module or part of a file that it uses)]."""
+    module, uses = {}, []
+    with tempfile.TemporaryDirectory() as folder:
+        compiler = ["gfortran", "-cpp", "-ffree-line-length-none", "-M", f"-I{PROGRAM.parent / 'modules'}", f"-J{folder}",
+                    *(f"-I{path}" for path in SOURCES.iterdir())]
+        for targets, files in rules([*compiler, *FORTRAN]):
+            path, *others = (Path(file) for file in files)
+            module |= {Path(target).stem: path for target in targets if target.endswith(".mod")}
+            uses += [(path, other) for other in others if other.suffix in {".mod", ".inc"}]
+    return module, uses
+
+
+@cache
 def edges():
-    """(file, file that it includes or whose module it uses), within the project."""
-    module = modules()
-    for path in sorted([*SOURCES.rglob("*.[ch]"), *SOURCES.rglob("*.inc"), *FORTRAN, *HEADERS.glob("*.h")]):
-        text = path.read_text()
-        for include in re.findall(r"""^ *#? *include ["']([^"']+)["']""", text, re.MULTILINE):
-            if place := place_of(include, path):
-                yield path, place
-        for name in re.findall(r"^ *use (kz_\w+)", text, re.MULTILINE):
-            yield path, module[name]
+    """(file, file whose text or module it uses, or that such a file uses), within the project, as the compilers tell."""
+    module, uses = modules_and_uses()
+    of_fortran = [(path, module.get(other.stem, other) if other.suffix == ".mod" else other.resolve()) for path, other in uses]
+    found = {pair for pair in [*of_objects(), *of_headers(), *of_fortran] if all(map(within, pair))}
+    assert len(found) > 1000
+    return found
+
+
+def within(path):
+    return path.is_relative_to(SOURCES) or path.is_relative_to(HEADERS)
 
 
 def layer_of(path):
@@ -120,103 +150,6 @@ def test_no_circle(node_of, pairs):
         TopologicalSorter(graph).prepare()
     except CycleError as circle:
         pytest.fail(" <- ".join(map(str, circle.args[1])))
-
-
-# ---- Fortran entries and their C headers ----
-
-# The same number, by its name in C and by the one that gfortran takes.
-KINDS = {"int32_t": "int", "int64_t": "long", "uint64_t": "long", "uint8_t": "signed char", "int16_t": "short", "__float128": "float128",
-         "kz_status": "int"}
-
-
-def without_comments(text):
-    return re.sub(r"/\*.*?\*/", " ", text, flags=re.DOTALL).replace("long double", "long_double")  # as gfortran writes it
-
-
-def declared(text):
-    """{function: (result, [parameter types])} of the prototypes and definitions in C text; a type is (const, name, pointer)."""
-    found = {}
-    for result, name, parameters in re.findall(r"^((?:const )?\w+[ *]+)(kz_\w+) ?\(([^()]*)\)[^;{]*[;{]", text, re.MULTILINE):
-        types = [] if parameters.strip() in ("", "void") else [type_of(part) for part in parameters.split(",")]
-        found[name] = (type_of(result + " it"), types)
-    return found
-
-
-def type_of(declaration):
-    words = re.sub(r"\*", " ", declaration).split()
-    const, pointer = "const" in words, "*" in declaration or "[" in declaration
-    name = " ".join(word for word in words if word not in ("const", "struct"))
-    name = name.rsplit(" ", 1)[0]
-    return const, KINDS.get(name, name), pointer
-
-
-def generated(path, folder):
-    """What gfortran says of a file's bind(C) entries."""
-    done = subprocess.run(["gfortran", "-cpp", "-ffree-line-length-none", "-fsyntax-only", "-fc-prototypes",
-                           f"-I{PROGRAM.parent / 'modules'}", f"-J{folder}", f"-I{path.parent}", f"-I{ROOT / 'src' / 'kernel'}", str(path)],
-                          capture_output=True, text=True, check=False)
-    assert done.returncode == 0, done.stderr
-    return without_comments(done.stdout)
-
-
-def agrees(fortran, c, structures):
-    """Whether a type of a Fortran entry is the C one; `structures` collects the derived types that meet."""
-    if fortran[1] == "void" and fortran[2]:
-        return c[2]
-    if fortran[1].endswith("_t") and c[1].startswith("kz_"):
-        structures.add((fortran[1], c[1]))
-        return fortran[2] == c[2] and fortran[0] == c[0]
-    return fortran == c
-
-
-@pytest.fixture(scope="module")
-def entries(tmp_path_factory):
-    """{Fortran file: gfortran's C text} of the files with bind(C) entries."""
-    folder = tmp_path_factory.mktemp("modules")
-    return {path: generated(path, folder) for path in FORTRAN if "bind(C" in path.read_text()}
-
-
-def test_c_headers_declare_the_fortran_entries(entries):
-    headers = {}
-    for path in [*HEADERS.glob("*.h"), *SOURCES.rglob("*.[ch]"), *SOURCES.rglob("*.inc")]:
-        headers |= declared(without_comments(path.read_text()))
-    differing, known = [], 0
-    for path, text in entries.items():
-        for name, (result, parameters) in declared(text).items():
-            there = headers.get(name)
-            known += there is not None
-            if there is None or len(there[1]) != len(parameters) or not agrees(result, there[0], set()) or not all(
-                    agrees(one, other, set()) for one, other in zip(parameters, there[1], strict=True)):
-                differing.append(f"{path.relative_to(ROOT)}: {name}: {result, parameters} in Fortran, {there} in C")
-    assert not differing, "\n".join(differing)
-    assert known > 40
-
-
-def test_c_structures_are_the_fortran_types(entries):
-    sources = {path: without_comments(path.read_text()) for path in [*HEADERS.glob("*.h"), *SOURCES.rglob("*.[ch]")]}
-    functions_in_c = declared("\n".join(sources.values()))
-    met, types = set(), {}
-    for text in entries.values():
-        types |= {name: body for body, name in re.findall(r"^typedef struct \w+ \{(.*?)\} (\w+);", text, re.DOTALL | re.MULTILINE)}
-        for name, (_, parameters) in declared(text).items():
-            for one, other in zip(parameters, functions_in_c.get(name, (None, []))[1], strict=False):
-                agrees(one, other, met)
-    members = {name for fortran, _ in met for name in types if re.search(rf"\b{name} ", types[fortran])}
-    assert types.keys() == {fortran for fortran, _ in met} | members
-    program = ["#include <stddef.h>", '#include "kapitza/dynamics.h"', '#include "kapitza/dynamics_curves.h"', '#include "vector/vector.h"',
-               "typedef _Float128 float128;", *(f"typedef struct {{{types[name]}}} {name};" for name in sorted(members))]
-    for path, text in sources.items():  # structures that only one C file needs
-        if path.suffix == ".c" and any(f"}} {c};" in text for _, c in met):
-            program += re.findall(r"^enum \{[^}]*\};|^typedef struct \{[^}]*\} kz_\w+;", text, re.MULTILINE)
-    for fortran, c in sorted(met):
-        program.append(f"typedef struct {{{types[fortran]}}} {fortran};")
-        program.append(f'_Static_assert(sizeof({fortran}) == sizeof({c}), "size of {c}");')
-        for field in re.findall(r"^ *(?!float128)\w+ (\w+)", types[fortran], re.MULTILINE):  # C keeps quads as bytes
-            program.append(f'_Static_assert(offsetof({fortran}, {field}) == offsetof({c}, {field}), "{c}.{field}");')
-            program.append(f'_Static_assert(sizeof((({fortran} *)0)->{field}) == sizeof((({c} *)0)->{field}), "size of {c}.{field}");')
-    compiler = ["cc", "-x", "c", "-fsyntax-only", f"-I{ROOT / 'include'}", f"-I{SOURCES / 'kernel'}", "-"]
-    done = subprocess.run(compiler, input="\n".join(program) + "\n", capture_output=True, text=True, check=False)
-    assert done.returncode == 0, done.stderr
 
 
 # ---- no saved state ----
@@ -315,21 +248,3 @@ def test_the_guide_names_files_that_exist():
     assert {path.name for path in (SOURCES / "dynamics").iterdir()} <= {folder.split("/")[2] for folder in folders if folder.count("/") > 1}
     assert {path.name for layer in ("study", "dynamics") for path in (SOURCES / layer).iterdir() if path.is_dir()} <= set(
         re.findall(r"\w+", drawn))
-
-
-# ---- constants that C and Fortran both need ----
-
-# (Fortran file, its name, C file, its name)
-SHARED = [("kernel/vector/map.f90", "WIDTH", "src/kernel/vector/vector.h", "KZ_LANES"),
-          *(("dynamics/labels/levels.f90", f"LEVEL_{n}", "include/kapitza/dynamics.h", f"KZ_LEVEL_{n}") for n in ("FINE", "PAIRS_28")),
-          ("dynamics/labels/orbits.f90", "NO_LEVEL", "include/kapitza/dynamics.h", "KZ_LEVELS"),
-          ("kernel/taylor/taylor.f90", "TAYLOR_STEPS", "include/kapitza/kernel.h", "KZ_REFERENCE_STEPS"),
-          ("kernel/splitting/processed/stages.f90", "TERMS", "src/kernel/splitting/processed/tangents.c", "TERMS"),
-          ("model/pendulum.f90", "MOST_HARMONICS", "include/kapitza/model.h", "KZ_HARMONICS")]
-
-
-@pytest.mark.parametrize("fortran, name, c, name_in_c", SHARED)
-def test_constants_are_the_same_in_c_and_fortran(fortran, name, c, name_in_c):
-    there = re.search(rf"parameter.*:: .*\b{name} = (\d+)", (SOURCES / fortran).read_text())
-    here = re.search(rf"enum \{{[^}}]*\b{name_in_c} = (\d+)", (ROOT / c).read_text())
-    assert there and here and there[1] == here[1]

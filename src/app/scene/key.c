@@ -106,7 +106,7 @@ void kz_key_accepts(const kz_key *keys, const kz_key *key, char *text, size_t by
       [KZ_KEY_WORDS] = "a list out of ",
       [KZ_KEY_INTEGERS] = "a list of integers",
       [KZ_KEY_REALS] = "a list of numbers",
-      [KZ_KEY_HARMONICS] = "a list of {order: 1 to 24, amplitude, phase}",
+      [KZ_KEY_HARMONICS] = "a list of {order: 1 to " KZ_WRITTEN(KZ_HARMONICS) ", amplitude, phase}",
   };
   char unit[256];
   kz_key_unit_words(key, unit, sizeof unit);

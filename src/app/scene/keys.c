@@ -75,8 +75,10 @@ static const kz_key own[] = {
     ROW("pendulum.harmonics", KZ_KEY_HARMONICS, "", AT(parameters.written.harmonics),
         "Further harmonics of the drive: m amplitude cos(order t + phase), the phase in rad or degrees.", .unit = ""),
     ROW("pendulum.vertical", KZ_KEY_REALS, "", AT(parameters.written.vertical),
-        "Coefficients of the equation, beside k - m cos t: cosine and sine of the first harmonic, of the second, .., 24 at "
-        "most, as the group pendulum of a result holds them. Instead of waveform, harmonics, tilt and ellipse.",
+        "Coefficients of the equation, beside k - m cos t: cosine and sine of the first harmonic, of the second, "
+        ".., " KZ_WRITTEN(KZ_HARMONICS) " at "
+                                        "most, as the group pendulum of a result holds them. Instead of waveform, harmonics, "
+                                        "tilt and ellipse.",
         .unit = "", .low = -1e7, .high = 1e7),
     ROW("pendulum.horizontal", KZ_KEY_REALS, "", AT(parameters.written.horizontal),
         "The same of a pivot that moves aside: b(t) of the equation.", .unit = "", .low = -1e7, .high = 1e7),

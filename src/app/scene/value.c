@@ -110,7 +110,8 @@ static const char *read_harmonic(const kz_key *key, const kz_node *node, void *f
   if (!wrong) wrong = read_part(node, "amplitude", false, NAN, &harmonic->amplitude);
   if (!wrong) wrong = read_part(node, "phase", true, 0, &harmonic->phase);
   if (wrong) return wrong;
-  if (order != rint(order) || order < 1 || order > KZ_HARMONICS) return "has an order that is no integer from 1 to 24";
+  if (order != rint(order) || order < 1 || order > KZ_HARMONICS)
+    return "has an order that is no integer from 1 to " KZ_WRITTEN(KZ_HARMONICS);
   harmonic->order = (int64_t)order;
   return NULL;
 }
@@ -235,8 +236,9 @@ static const char *read_list(const kz_key *key, const kz_node *node, void *list,
   int64_t *count = list;
   *count = 0;
   for (*culprit = node->first; *culprit; *culprit = (*culprit)->next) {
-    if (key->type == KZ_KEY_HARMONICS && *count == KZ_HARMONICS) return "is one harmonic too many (at most 24)";
-    if (*count == KZ_LIST_MAX) return "is one value too many (at most 256)";
+    if (key->type == KZ_KEY_HARMONICS && *count == KZ_HARMONICS)
+      return "is one harmonic too many (at most " KZ_WRITTEN(KZ_HARMONICS) ")";
+    if (*count == KZ_LIST_MAX) return "is one value too many (at most " KZ_WRITTEN(KZ_LIST_MAX) ")";
     void *value = (char *)list + types[key->type].first + (size_t)(*count)++ * types[key->type].bytes;
     const char *wrong = types[key->type].read(key, *culprit, value);
     if (wrong) return wrong;

@@ -13,7 +13,7 @@ module kz_labels_orbits
   use kz_maps_states, only: angle_difference
   implicit none
   private
-  public :: decision_t, follow_orbits, DOUBTFUL, PENDING
+  public :: decision_t, follow_orbits, DOUBTFUL, PENDING, NO_LEVEL
 
   !> Labels besides the numbers of attractors: of an orbit whose error has become too large; of one that is to be followed on elsewhere.
   integer, parameter :: DOUBTFUL = -1, PENDING = -2

@@ -7,7 +7,7 @@ module kz_processed_stages
   use kz_processed_tables, only: processed_t
   implicit none
   private
-  public :: stages_t, make_stages, advance_stages, linear_stages, displaced_stages, tangent_stages, GROUP, POINTS
+  public :: stages_t, make_stages, advance_stages, linear_stages, displaced_stages, tangent_stages, GROUP, POINTS, TERMS
 
   !> Coefficients of the slope of a kick (tangents.c): as a polynomial of the square, right to 1e-4 or better.
   integer, parameter :: TERMS = 5
