@@ -5,6 +5,7 @@ yardstick tells by how much it varied. Ratios of whole commands against another 
 
 import argparse
 import json
+import math
 import os
 import re
 import statistics
@@ -27,10 +28,13 @@ SLIDERS = {
     "slider-k01": ({"k": 0.1, "damping": 0.1}, "m", 0.40, 0.41),
     "slider-eps046": (BLACKBURN, "drive_amplitude", 0.46, 0.47),
 }
-# The plane of the explorer's map for Fig. 12; its point goes along a line that crosses curves.
+# The plane of the explorer's map for Fig. 12; its point goes along a line that crosses curves, or around a circle.
 PLANE = {"x": {"parameter": "drive_frequency", "min": 3.1, "max": 30}, "y": {"parameter": "drive_amplitude", "min": 0, "max": 0.75},
          "max_period": 4, "checks": 0}
-WAY = ((11, 0.30), (12, 0.32))
+WAYS = {
+    "map-fig12": lambda share: (11 + share, 0.30 + 0.02 * share),
+    "map-fig12-circle": lambda share: (11.5 - 0.5 * math.cos(2 * math.pi * share), 0.31 - 0.01 * math.sin(2 * math.pi * share)),
+}
 # Q of weakly damped pendulums, whose first picture is made by a new program
 WEAK = [20, 200]
 EXACT = ["basin.method=exact", "basin.theta.count=500", "basin.velocity.count=320"]
@@ -111,21 +115,23 @@ def slide(engine, pendulum, key, first, last):
     return 1e3 * (engine.seconds() - begin) / 50
 
 
-def map_drag(engine, folder):
-    """Mean over 50 points of the explorer's map, whose atlas gives the attractors."""
+def map_drags(engine, folder):
+    """Means over 50 points of the explorer's map, whose atlas gives the attractors, by the way that its point goes."""
     scene, atlas = (Path(folder) / name for name in ("map.yaml", "map.h5"))
     scene.write_text(json.dumps({"pendulum": {"quality_factor": 5, "drive_frequency": 11, "drive_amplitude": 0.3}, "atlas": PLANE}))
     subprocess.run([str(PROGRAM), "run", str(scene), "-o", str(atlas)], check=True, stdout=subprocess.DEVNULL)
 
-    def go(share):
-        x, y = (first + share * (last - first) for first, last in zip(*WAY, strict=True))
+    def go(x, y):
         pendulum = {"quality_factor": 5, "drive_frequency": x, "drive_amplitude": y}
         engine.frame(250, 400, levels=[8, 4, 2, 1], pendulum=pendulum, atlas=str(atlas), x=x, y=y)
-    go(0)
-    begin = engine.seconds()
-    for i in range(1, 51):
-        go(i / 50)
-    return 1e3 * (engine.seconds() - begin) / 50
+    means = {}
+    for name, way in WAYS.items():
+        go(*way(0))
+        begin = engine.seconds()
+        for i in range(1, 51):
+            go(*way(i / 50))
+        means[name] = 1e3 * (engine.seconds() - begin) / 50
+    return means
 
 
 def first_picture(core, **keys):
@@ -145,7 +151,7 @@ def measure(core, rounds):
         frames[name] = slide(engine, *slider)
         yardstick.append(spin())
     with tempfile.TemporaryDirectory() as folder:
-        frames["map-fig12"] = map_drag(engine, folder)
+        frames |= map_drags(engine, folder)
     yardstick.append(spin())
     engine.close()
     kinds = {"first-1000x551": {}}

@@ -11,7 +11,7 @@ module kz_api_dynamics
   use kz_vector_locks, only: create_lock, free_lock
   use kz_labels_levels, only: levels_t
   use kz_labels_released, only: released_t
-  use kz_vector_map, only: flow_t, PI
+  use kz_vector_map, only: flow_t, PI, WIDTH
   use kz_vector_step_table, only: numerics_t
   use kz_maps_map_table, only: table_t
   use kz_model_pendulum, only: pendulum_t, is_mirrored
@@ -22,6 +22,7 @@ module kz_api_dynamics
 
   !> Of the fine steps, what places the cycles of a pendulum that a slider moves: to 1e-9 rad.
   integer, parameter :: MOVING_PART = 4
+  integer, parameter :: MOVING_RING = WIDTH/4 !< points of a ring that its trapping ellipses are tried on
   !> rad: an attractor that moved farther counts as lost.
   real(dp), parameter :: FARTHEST = 0.2_dp
 
@@ -75,6 +76,7 @@ contains
     d%search%pendulum = pendulum
     d%search%max_period = max_period
     allocate (d%search%flow, source=d%flow)
+    if (moving) d%search%ring_points = MOVING_RING
     fine = fine_numerics(pendulum)
     call make_flow(pendulum, fine, .false., d%search%sampling_flow)
     if (moving) fine%steps_per_period = fine%steps_per_period/MOVING_PART

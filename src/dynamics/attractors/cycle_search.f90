@@ -18,6 +18,7 @@ module kz_attractors_cycle_search
   type :: search_t
     type(pendulum_t) :: pendulum
     integer :: max_period = 48
+    integer :: ring_points = WIDTH !< of a ring that a trapping ellipse is tried on
     class(flow_t), allocatable :: flow !< the scene's map
     class(flow_t), allocatable :: fine !< the map of published values
     class(flow_t), allocatable :: sampling_flow !< the same with separate steps, for samples within a period
@@ -197,7 +198,7 @@ contains
 
     if (attractor%period > 0) then
       call enter_points(search%flow, attractor)
-      call find_ellipses(search%flow, search%fine, attractor, attractors)
+      call find_ellipses(search%flow, search%fine, attractor, attractors, search%ring_points)
       call find_features(search%sampling_flow, search%pendulum, attractor, attractor%u(1), attractor%v(1), attractor%period)
     end if
     call append_with_mirror(attractor, attractors)

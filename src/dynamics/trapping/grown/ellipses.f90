@@ -24,17 +24,18 @@ module kz_grown_ellipses
 contains
 
   !> Sets attractor%form. For a symmetric cycle half of the points follow from the other half.
-  subroutine find_ellipses(flow, fine, attractor, others)
+  subroutine find_ellipses(flow, fine, attractor, others, points)
     class(flow_t), intent(inout) :: flow !< the map whose orbits are to be trapped
     class(flow_t), intent(inout) :: fine !< the map of the published strobe points
     type(attractor_t), intent(inout) :: attractor !< its points and multipliers, in; the ellipses, out
     type(attractor_t), intent(in) :: others(:) !< attractors whose strobe points no ellipse may contain
+    integer, intent(in) :: points !< of a ring, at most WIDTH
     integer :: j, n_own
 
     n_own = attractor%period
     if (attractor%symmetric .and. n_own > 1) n_own = n_own/2
     do j = 1, n_own
-      attractor%form(:, j) = ellipse(flow, fine, attractor, j, others)
+      attractor%form(:, j) = ellipse(flow, fine, attractor, j, others, points)
     end do
     if (n_own < attractor%period) attractor%form(:, n_own + 1:) = attractor%form(:, :n_own)
   end subroutine find_ellipses
@@ -65,11 +66,12 @@ contains
 
   !> The form of the largest trapping ellipse of strobe point j; 0 where none was found. Its rings begin where their shrinking
   !> shows above rounding and above the distance by which the map's own cycle misses the fine one.
-  function ellipse(flow, fine, attractor, j, others) result(form)
+  function ellipse(flow, fine, attractor, j, others, points) result(form)
     class(flow_t), intent(inout) :: flow, fine
     type(attractor_t), intent(in) :: attractor
     integer, intent(in) :: j
     type(attractor_t), intent(in) :: others(:)
+    integer, intent(in) :: points
     real(dp) :: form(3)
     real(dp) :: residual(2), matrix(2, 2), basis(2, 2), inverse(2, 2), tried, first, last
 
@@ -116,23 +118,23 @@ contains
       end do
     end function refined
 
-    !> Whether WIDTH points of the ring are all carried inside it, by half of what the multiplier says or by 5 %.
+    !> Whether the points of a ring are all carried inside it, by half of what the multiplier says or by 5 %.
     function carried_inside(radius) result(inside)
       real(dp), intent(in) :: radius
       logical :: inside
       real(dp) :: x(2), bound
       integer :: i
 
-      do i = 1, WIDTH
-        x = radius*matmul(basis, [cos(2*PI*i/WIDTH), sin(2*PI*i/WIDTH)])
+      do i = 1, points
+        x = radius*matmul(basis, [cos(2*PI*i/points), sin(2*PI*i/points)])
         call flow%put(i, attractor%kernel_u(j) + x(1)/PI, attractor%kernel_v(j) + x(2))
       end do
       do i = 1, attractor%period
-        call flow%advance(WIDTH)
+        call flow%advance(points)
       end do
       bound = radius*(1 - min(0.05_dp, 0.5_dp*(1 - abs(attractor%multiplier(1)))))
       inside = .true.
-      do i = 1, WIDTH
+      do i = 1, points
         x = [PI*angle_difference(flow%u(i), attractor%kernel_u(j)), flow%v(i) - attractor%kernel_v(j)]
         inside = inside .and. norm2(matmul(inverse, x)) < bound
       end do

@@ -1,25 +1,25 @@
-!> The series of pendulums along a slider, interpolated from series that were made before (the nodes). A coefficient of a series is a polynomial
-!> of degree ORDER/2 in all terms of the force, and a rational function of the damping, whose poles lie at distances l/n from the real axis, l >= 1
-!> and n < ORDER. A slider changes one key, so its pendulums lie on a curve in the space of these terms. Where the curve is a line at one
-!> damping, degree + 1 nodes determine the series up to rounding. With fewer nodes, on other curves, or along the damping, the series is accepted
-!> if two bounds hold: the pendulum itself is interpolated closely enough (BESIDE), and so is its series (REMAINDER).
+!> The series of pendulums that a hand moves, along one key or over the plane of two, interpolated from series that were made before (the
+!> nodes). A coefficient of a series is a polynomial of degree ORDER/2 in all terms of the force, and a rational function of the damping, whose
+!> poles lie at distances l/n from the real axis, l >= 1 and n < ORDER. In units of RADIUS it is therefore analytic about the pendulum that is
+!> wanted, where nodes may lie anywhere: the weights are those that are best for all functions analytic in the unit ball.
 module kz_processed_slider
   use, intrinsic :: iso_c_binding, only: c_ptr, c_associated, c_f_pointer
-  use, intrinsic :: iso_fortran_env, only: rk => real64
+  use, intrinsic :: iso_fortran_env, only: rk => real64, qp => real128
   use kz_vector_locks, only: take_lock, leave_lock
-  use kz_model_pendulum, only: pendulum_t, is_same, stiffness, MOST_HARMONICS
+  use kz_model_pendulum, only: pendulum_t, is_same, MOST_HARMONICS
   use kz_processed_tables, only: series_t, kept_series_t, make_processed_series, ORDER, NODES
   implicit none
   private
   public :: make_slid_series
 
-  !> Rounding of the nodes grows by the sum of the weights: 1e-15 becomes 1e-11 at most, which no moving frame sees.
-  real(rk), parameter :: HEAVIEST = 1e4_rk
-  !> The largest distance of a pendulum from the curve through the nodes, in units of its force.
-  real(rk), parameter :: BESIDE = 1e-10_rk
-  !> The largest error of the interpolation: the product of the distances to the nodes, because a step multiplies forces by less than 1 and no
-  !> pole is nearer than NEAREST_POLE.
-  real(rk), parameter :: REMAINDER = 1e-9_rk, NEAREST_POLE = 1.0_rk/ORDER
+  !> The largest error of the interpolation, and the error of a node, which keeps the weights small: a period is then wrong by less than 1e-10, the
+  !> error of the finest moving frames.
+  real(rk), parameter :: REMAINDER = 5e-11_rk, ROUNDING = 1e-13_rk
+  !> Of the force and of the damping: a step multiplies forces by less than 1/2, and no pole is nearer than 1/ORDER. (On drags over the plane of
+  !> Fig. 12, of lines, circles and leaps, periods were wrong by at most 1.8 times REMAINDER.)
+  real(rk), parameter :: RADIUS(2) = [2.0_rk, 1.0_rk/ORDER]
+  !> Nodes that are farther, in units of RADIUS, do not count.
+  real(rk), parameter :: FARTHEST = 0.5_rk
   integer, parameter :: N_NUMBERS = 4 + 4*MOST_HARMONICS
 
 contains
@@ -56,39 +56,68 @@ contains
       series = kept%node(i)
       return
     end do
-    reach = .false.
-    if (kept%n_nodes > 1) call weigh(pendulum, kept%place(:kept%n_nodes), weight(:kept%n_nodes), reach)
+    call weigh(pendulum, kept%place(:kept%n_nodes), weight(:kept%n_nodes), reach)
     if (reach) then
-      call add_nodes(kept%node, weight(:kept%n_nodes), series)
+      call add_nodes(kept%node(:kept%n_nodes), weight(:kept%n_nodes), series)
     else
       call make_processed_series(pendulum, handle, series)
       call remember(pendulum, series, kept)
     end if
   end subroutine slide
 
-  !> Lagrange's weights of the nodes along the number of the pendulum in which they differ most. `reach`: these weights give its series.
+  !> The weights of the nodes with the least error for the pendulum. Functions that are analytic in the unit ball have the kernel 1/(1 - x y) (Drury
+  !> and Arveson): of those with norm 1, weights w are wrong by w K w - 2 sum w + 1 at most, squared, which is least where K w = 1. `reach`: that
+  !> least error, with the rounding of the nodes, is accepted.
   subroutine weigh(pendulum, place, weight, reach)
     type(pendulum_t), intent(in) :: pendulum
     type(pendulum_t), intent(in) :: place(:)
     real(rk), intent(out) :: weight(size(place))
     logical, intent(out) :: reach
-    real(rk) :: at(N_NUMBERS, size(place)), wanted(N_NUMBERS), apart(size(place))
-    integer :: i, along
+    real(qp) :: at(N_NUMBERS, size(place)), best(size(place))
+    logical :: varies(N_NUMBERS)
+    integer :: near(size(place)), i, n
 
-    wanted = numbers_of(pendulum)
+    n = 0
     do i = 1, size(place)
-      at(:, i) = numbers_of(place(i))
-      apart(i) = sum(abs(at(:, i) - wanted)) + abs(at(2, i) - wanted(2))/NEAREST_POLE
+      at(:, n + 1) = parted(place(i), pendulum)
+      if (norm2(real(at(:, n + 1), rk)) > FARTHEST) cycle
+      n = n + 1
+      near(n) = i
     end do
-    along = maxloc(maxval(at, 2) - minval(at, 2), 1)
+    varies = any(abs(at(:, :n)) > 0, 2)
+    best(:n) = solution(reshape(pack(at(:, :n), spread(varies, 2, n)), [count(varies), n]))
     weight = 0
-    reach = are_apart(at(along, :))
-    if (.not. reach) return
-    weight = lagrange(at(along, :), wanted(along))
-    reach = sum(abs(weight)) <= HEAVIEST
-    if (reach) reach = all(abs(matmul(at, weight) - wanted) <= BESIDE*(stiffness(pendulum) + pendulum%beta))
-    if (reach) reach = product(apart) <= REMAINDER .or. (size(place) == NODES .and. all(abs(at(2, :) - wanted(2)) <= 0))
+    weight(near(:n)) = real(best(:n), rk)
+    reach = 1 - sum(best(:n)) <= REMAINDER**2
   end subroutine weigh
+
+  !> The solution of (K + ROUNDING**2) w = 1 by Cholesky's method, in quad precision because errors are squared in it.
+  pure function solution(at) result(weight)
+    real(qp), intent(in) :: at(:, :) !< nodes, in units of RADIUS from the pendulum that is wanted
+    real(qp) :: weight(size(at, 2)), factor(size(at, 2), size(at, 2))
+    integer :: i, j
+
+    do j = 1, size(weight)
+      do i = j, size(weight)
+        factor(i, j) = 1/(1 - dot_product(at(:, i), at(:, j))) - dot_product(factor(i, :j - 1), factor(j, :j - 1))
+        if (i == j) factor(j, j) = sqrt(factor(j, j) + real(ROUNDING, qp)**2)
+        if (i > j) factor(i, j) = factor(i, j)/factor(j, j)
+      end do
+      weight(j) = (1 - dot_product(factor(j, :j - 1), weight(:j - 1)))/factor(j, j)
+    end do
+    do j = size(weight), 1, -1
+      weight(j) = (weight(j) - dot_product(factor(j + 1:, j), weight(j + 1:)))/factor(j, j)
+    end do
+  end function solution
+
+  !> How far one pendulum lies from another, in units of RADIUS.
+  pure function parted(one, other) result(distance)
+    type(pendulum_t), intent(in) :: one, other
+    real(qp) :: distance(N_NUMBERS)
+
+    distance = (real(numbers_of(one), qp) - numbers_of(other))/RADIUS(1)
+    distance(2) = distance(2)*(RADIUS(1)/RADIUS(2))
+  end function parted
 
   !> k, the damping, m, and the other numbers of the equation.
   pure function numbers_of(pendulum) result(numbers)
@@ -100,30 +129,6 @@ contains
     numbers(5 + 2*MOST_HARMONICS:) = reshape(pendulum%horizontal, [2*MOST_HARMONICS])
   end function numbers_of
 
-  !> Whether no two numbers are the same.
-  pure logical function are_apart(x)
-    real(rk), intent(in) :: x(:)
-    integer :: i
-
-    are_apart = .true.
-    do i = 2, size(x)
-      are_apart = are_apart .and. all(abs(x(:i - 1) - x(i)) > 0)
-    end do
-  end function are_apart
-
-  pure function lagrange(nodes_at, x) result(weight)
-    real(rk), intent(in) :: nodes_at(:), x
-    real(rk) :: weight(size(nodes_at))
-    integer :: i, j
-
-    weight = 1
-    do i = 1, size(nodes_at)
-      do j = 1, size(nodes_at)
-        if (j /= i) weight(i) = weight(i)*(x - nodes_at(j))/(nodes_at(i) - nodes_at(j))
-      end do
-    end do
-  end function lagrange
-
   subroutine add_nodes(node, weight, series)
     type(series_t), intent(in) :: node(:)
     real(rk), intent(in) :: weight(:)
@@ -131,29 +136,36 @@ contains
     integer :: i
 
     series = node(1)
-    series%kick = weight(1)*series%kick
-    series%slope = weight(1)*series%slope
-    series%drift = weight(1)*series%drift
-    series%processor = weight(1)*series%processor
-    do i = 2, size(weight)
-      series%kick = series%kick + weight(i)*node(i)%kick
+    series%slope = 0
+    series%drift = 0
+    series%kick = 0
+    series%processor = 0
+    do i = 1, size(weight)
+      if (.not. abs(weight(i)) > 0) cycle
       series%slope = series%slope + weight(i)*node(i)%slope
       series%drift = series%drift + weight(i)*node(i)%drift
-      series%processor = series%processor + weight(i)*node(i)%processor
+      series%kick(:, :, ::2, :, :) = series%kick(:, :, ::2, :, :) + weight(i)*node(i)%kick(:, :, ::2, :, :)
+      series%processor(:, :, ::2, :, :, :) = series%processor(:, :, ::2, :, :, :) + weight(i)*node(i)%processor(:, :, ::2, :, :, :)
     end do
   end subroutine add_nodes
 
+  !> Keeps a series as a node, in place of the farthest one where there is no room.
   subroutine remember(pendulum, series, kept)
     type(pendulum_t), intent(in) :: pendulum
     type(series_t), intent(in) :: series
     type(kept_series_t), intent(inout) :: kept
+    real(rk) :: distance(NODES)
+    integer :: i
 
     if (.not. allocated(kept%node)) allocate (kept%node(NODES))
-    if (kept%n_nodes == 0) kept%oldest = 1
-    kept%place(kept%oldest) = pendulum
-    kept%node(kept%oldest) = series
-    kept%n_nodes = min(kept%n_nodes + 1, NODES)
-    kept%oldest = mod(kept%oldest, NODES) + 1
+    i = kept%n_nodes + 1
+    if (i > NODES) then
+      distance = [(norm2(real(parted(kept%place(i), pendulum), rk)), i=1, NODES)]
+      i = maxloc(distance, 1)
+    end if
+    kept%place(i) = pendulum
+    kept%node(i) = series
+    kept%n_nodes = max(kept%n_nodes, i)
   end subroutine remember
 
 end module kz_processed_slider

@@ -15,18 +15,18 @@ module kz_processed_tables
   !> The velocity is carried as v exp(beta t) through a period: more damping than this would overflow.
   real(c_double), parameter, public :: MOST_DAMPING = 16/(2*3.14159265358979323846_c_double)
 
-  !> Pendulums along a slider whose series are kept: one more than the degree of a series in the terms of the force.
-  integer, parameter :: NODES = ORDER/2 + 1
+  !> Pendulums that a hand moved whose series are kept. Over a plane, functions of degree 5 have 21 coefficients.
+  integer, parameter :: NODES = 24
 
   !> What kz_kept_series of kernel.h points at: the series that was made last, which a scene asks for several times, and series of pendulums that a
-  !> slider moves. The caller owns it; the thread that holds the lock uses it.
+  !> hand moves. The caller owns it; the thread that holds the lock uses it.
   type :: kept_series_t
     type(pendulum_t) :: pendulum
     type(series_t), allocatable :: made
     type(pendulum_t) :: place(NODES)
     type(series_t), allocatable :: node(:)
     type(c_ptr) :: lock = c_null_ptr
-    integer :: n_nodes = 0, oldest = 1 !< the next node that is made takes the place `oldest`
+    integer :: n_nodes = 0
   end type kept_series_t
 
   !> Kicks sum their grades for each step anew.
