@@ -39,6 +39,15 @@ function otherCells({ rows, columns, labels }) {
 
 /** A window as wide as `window`, whose middle is the boundary that is nearest to that of `window`. */
 export async function nearestBoundary(pane, window) {
+  pane.lent++;
+  try {
+    return await soughtBoundary(pane, window);
+  } finally {
+    pane.lent--;
+  }
+}
+
+async function soughtBoundary(pane, window) {
   const middle = [window.theta.at(0.5), window.velocity.at(0.5)];
   const end = await endOf(pane, middle);
   for (let wide = window; ; wide = wide.zoomed(WIDER, 0.5, 0.5)) {

@@ -2,7 +2,7 @@
 
 const LINE_FEED = 10;
 const KEY = `kapitza ${new URL(".", location.href).pathname}`; // of the token in the browser's storage
-const storage = new Map(); // where the browser keeps nothing (a frame of another site)
+const storage = new Map(); // of this page; alone where the browser keeps nothing (a frame of another site)
 
 /** The token of this page, traded once for the one in the address, which is then taken out of it. */
 export async function signIn() {
@@ -27,14 +27,16 @@ function keep(name, value) {
 
 function kept(name) {
   try {
-    return localStorage.getItem(name) ?? storage.get(name);
+    return storage.get(name) ?? localStorage.getItem(name); // the browser's may be that of a page of an earlier server
   } catch {
     return storage.get(name);
   }
 }
 
 async function post(path, body, signal) {
-  const answer = await fetch(path, { method: "POST", headers: { "X-Kapitza-Token": kept(KEY) }, body: JSON.stringify(body), signal });
+  const send = () => fetch(path, { method: "POST", headers: { "X-Kapitza-Token": kept(KEY) }, body: JSON.stringify(body), signal });
+  let answer = await send();
+  if (answer.status === 403 && storage.delete(KEY)) answer = await send(); // of a server begun anew, the browser may know a newer one
   if (!answer.ok) throw new Error((await answer.json()).error);
   return answer;
 }

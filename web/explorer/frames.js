@@ -77,6 +77,13 @@ function keyed(catalogue) {
   return catalogue.attractors.map((row) => ({ ...row, key: `${row.name} ${(seen[row.name] = (seen[row.name] ?? 0) + 1)}` }));
 }
 
+/** A catalogue in the colours that another one, of another program, gives to the same attractors. */
+export function inColoursOf(catalogue, other) {
+  if (!other || other === catalogue) return catalogue;
+  const colours = new Map(keyed(other).map(({ key, colour }) => [key, colour]));
+  return { ...catalogue, attractors: keyed(catalogue).map((row) => ({ ...row, colour: colours.get(row.key) ?? row.colour })) };
+}
+
 export function bytesOf(colour) {
   return [1, 3, 5].map((at) => parseInt(colour.slice(at, at + 2), 16));
 }

@@ -2,7 +2,7 @@
 
 import { Engine } from "./engine.js";
 import { drawReleases } from "./experiment.js";
-import { decoded, MOST_MOVING, paletteOf, requestOf, sharesOf } from "./frames.js";
+import { decoded, inColoursOf, MOST_MOVING, paletteOf, requestOf, sharesOf } from "./frames.js";
 import { listedAt } from "./ground.js";
 import { Inset } from "./inset.js";
 import { raise, shadingOf } from "./heights.js";
@@ -37,6 +37,7 @@ export class Pane {
     this.window = state.window;
     this.version = 0;
     this.most = MOST_MOVING;
+    this.lent = 0; // others ask its program for frames, which end its own
     this.plain = { motion: null, marks: [], cursor: null, overlays: [], skeleton: null, releases: [], spread: null };
     this.controller = new AbortController();
     new ResizeObserver(() => this.resized()).observe(root);
@@ -119,14 +120,26 @@ export class Pane {
         this.measure(performance.now() - this.begun);
         if (version === this.version) await pause(REST);
         this.resting = true;
-        if (version === this.version) await this.rest(version);
+        if (version === this.version && this.cancelled !== version) await this.rest(version);
       } catch (error) {
-        if (error.name !== "AbortError" && version === this.version && !this.closed) this.refused(error);
+        this.resting = false;
+        if (await this.again(error, version)) continue;
       }
       this.resting = false;
       done = version;
     }
     this.pursuing = false;
+  }
+
+  /** After a failure: whether the same frames are asked for once more, because others have ended them, and nobody has cancelled them. */
+  async again(error, version) {
+    const wanted = () => version === this.version && !this.closed;
+    if (!wanted()) return false;
+    if (error.name !== "AbortError") this.refused(error);
+    if (error.name !== "AbortError" || this.cancelled === version) return false;
+    do await pause(REST);
+    while (this.lent > 0 && wanted());
+    return wanted();
   }
 
   /** The next moving frames have so many cells that they take no longer than they may. */
@@ -160,18 +173,21 @@ export class Pane {
     this.draw();
   }
 
-  async raise(frame, window, size) {
-    raise(frame, await this.glance(window, size, { shade: "settling", most: COARSE }));
+  async raise(frame, window, size, engine) {
+    raise(frame, await this.glance(window, size, { shade: "settling", most: COARSE, engine }));
     frame.raised = true;
   }
 
-  /** A frame of any window, of that many cells; quick unless `quality` and `shade` say otherwise. */
-  async glance(window, size, { quality = "moving", shade = "none", most } = {}) {
+  /** A frame of any window, of that many cells; quick unless `quality` and `shade` say otherwise; of another program where `engine` is given. */
+  async glance(window, size, { quality = "moving", shade = "none", most, engine = this.engine } = {}) {
     const settings = { quality, shade, most, levels: [1], samples: 1, largest: LARGEST };
     const request = requestOf(window, this.pendulum, size, settings);
-    const [header, bytes] = await this.engine.answer(request, (this.controller = new AbortController()).signal);
-    if (header.answer !== "frame") throw new DOMException("another frame was asked for", "AbortError");
-    return frameOf({ ...header, full: [request.rows, request.columns] }, decoded(header, bytes), window, paletteOf(this.engine.catalogue));
+    const controller = new AbortController();
+    if (engine === this.engine) this.controller = controller;
+    const [header, bytes] = await engine.answer(request, controller.signal);
+    if (header.answer !== "frame") throw overtaken();
+    const palette = paletteOf(inColoursOf(engine.catalogue, this.engine.catalogue));
+    return frameOf({ ...header, full: [request.rows, request.columns] }, decoded(header, bytes), window, palette);
   }
 
   async frame({ quality, levels, samples, most }) {
@@ -194,7 +210,7 @@ export class Pane {
     if (!this.resting) this.say(this, "moving", "");
     let last = null;
     for await (const [header, bytes] of this.engine.answers(request, this.controller.signal)) {
-      if (header.answer !== "frame") continue;
+      if (header.answer !== "frame") throw overtaken();
       const same = this.frames.at(-1)?.key === key;
       if (!same && !header.final && performance.now() - this.begun < QUIET) continue;
       const { catalogue } = this.engine;
@@ -234,6 +250,7 @@ export class Pane {
   }
 
   cancel() {
+    this.cancelled = this.version;
     this.controller.abort();
     this.engine.cancel().catch(() => {});
     this.say(this, "done", "Cancelled. The picture shows what was computed before.");
@@ -311,6 +328,9 @@ export class Pane {
     this.engine.close();
   }
 }
+
+/** What a frame ends with that a newer one of the same program has ended. */
+const overtaken = () => new DOMException("another frame was asked for", "AbortError");
 
 const pause = (milliseconds) => new Promise((resolve) => setTimeout(resolve, milliseconds));
 

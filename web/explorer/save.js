@@ -1,6 +1,6 @@
 // Files of what is seen: a scene, pictures, tables.
 
-import { ask } from "./engine.js";
+import { ask, Engine } from "./engine.js";
 import { asScene } from "./frames.js";
 import { rowsOf, shareWords } from "./legend.js";
 import { shadingOf } from "./heights.js";
@@ -92,13 +92,22 @@ export async function savePng(state, basins, width) {
   saveBlob("view.png", await pngOf(pictureCanvas(state, basins, scale, pictures)));
 }
 
-/** The basins of a pane, a cell a pixel of a picture that is `scale` times as large as that on the page. */
+/**
+ * The basins of a pane, a cell a pixel of a picture that is `scale` times as large as that on the page. They have a program of their own, so
+ * that the page goes on with what it computes.
+ */
 async function computed(state, pane, scale) {
+  const engine = new Engine(`${pane.name}-picture`);
   const [, , wide, high] = pane.plane.box;
   const canvas = Object.assign(document.createElement("canvas"), { width: Math.round(wide * scale), height: Math.round(high * scale) });
-  const frame = await pane.glance(state.window, canvas, { quality: state.quality, shade: state.shade, most: MOST });
-  if (state.shade === "relief") await pane.raise(frame, state.window, canvas);
-  new Painter2d(canvas).draw([frame], state.window, shadingOf(state.shade));
+  const { window, quality, shade } = state;
+  try {
+    const frame = await pane.glance(window, canvas, { quality, shade, most: MOST, engine });
+    if (shade === "relief") await pane.raise(frame, window, canvas, engine);
+    new Painter2d(canvas).draw([frame], window, shadingOf(shade));
+  } finally {
+    engine.close();
+  }
   return canvas;
 }
 

@@ -5,7 +5,7 @@ import threading
 from urllib.parse import urlsplit
 
 LOOPBACK = ("127.0.0.1", "localhost", "[::1]")
-UNUSED, PAGES = 16, 32  # addresses and pages that are remembered; the oldest go first
+UNUSED, PAGES = 16, 32  # addresses and pages that are remembered; the oldest addresses go first, and pages that have asked least lately
 
 
 class WrongArgument(ValueError):
@@ -63,7 +63,11 @@ class Access:
     def admits(self, token):
         """Whether that is a page's token."""
         with self._lock:
-            return any(_same(known, token) for known in self._pages)
+            known = [page for page in self._pages if _same(page, token)]
+            if known:
+                self._pages.remove(known[0])
+                self._pages.append(known[0])
+            return bool(known)
 
 
 def _same(token, other):
