@@ -165,15 +165,6 @@ def test_an_address_serves_once(striped):
     striped.process.stdout.readline()
 
 
-def test_pages_that_still_ask_stay_admitted():
-    """However many come after them: a lecturer's page is not locked out by those of the audience."""
-    access = Access()
-    first, silent = (access.trade(access.new_address()) for _ in range(2))
-    for _ in range(40):
-        assert access.admits(first) and access.admits(access.trade(access.new_address()))
-    assert access.admits(first) and not access.admits(silent) and not access.admits(None)
-
-
 def test_it_listens_on_loopback_alone(striped):
     with pytest.raises(ConnectionRefusedError):
         socket.create_connection(("127.0.0.2", striped.port), timeout=5).close()
