@@ -7,7 +7,7 @@
 
 #include "kapitza/dynamics.h"
 
-enum { ANGLES = 128, SPEEDS = 64, N = ANGLES * SPEEDS, CLASSES = 4, PENDULUMS = 12, MORE = 150, FINE = 192 };
+enum { ANGLES = 128, SPEEDS = 64, N = ANGLES * SPEEDS, CLASSES = 4, PENDULUMS = 5, MORE = 150, FINE = 192 };
 
 static const double PI = 3.14159265358979323846;
 /* rad: where rounding takes over, the finer steps are no reference any more. */

@@ -1,5 +1,5 @@
 /* Mutated scenes: each is read or refused in one line that names the file; what is read has a resolved text that is a fixed
- * point. KZ_FUZZ_INPUTS sets the number of inputs (default 20000, with sanitizers 4000), KZ_FUZZ_SEED the random numbers. */
+ * point. KZ_FUZZ_INPUTS sets the number of inputs (default 6000, with sanitizers 1500), KZ_FUZZ_SEED the random numbers. */
 #include "../../tools/test.h"
 
 #include <stdlib.h>
@@ -95,7 +95,7 @@ static size_t number(const char *name, size_t otherwise) {
 TEST(mutated_scenes_are_read_or_refused) {
   state = number("KZ_FUZZ_SEED", 1) * 2654435769u + 1;
   size_t read = 0;
-  for (size_t i = number("KZ_FUZZ_INPUTS", PART > 1 ? 1500 : 20000); i > 0; i--) {
+  for (size_t i = number("KZ_FUZZ_INPUTS", PART > 1 ? 1500 : 6000); i > 0; i--) {
     char text[LONGEST];
     size_t length = sizeof seed - 1;
     memcpy(text, seed, length);

@@ -116,7 +116,7 @@ TEST(test_processed) {
 /* Starts inside grown regions end where the regions say: flown on with nothing but tiny ellipses of a fresh search. Under a strong
  * drive threads of other basins, narrower than a cell, pass between its corners. */
 TEST(test_regions_are_right) {
-  enum { N = 16000 / PART };
+  enum { N = 8000 / PART };
   static const kz_pendulum pendulums[] = {{1.0 / 121, 1.0 / 55, 0.15}, {1.0 / 121, 1.0 / 55, 0.46}, {0.04631, 0.1617, 1.353}};
   static double x[2 * N], y[2 * N];
   static int32_t label[N], expected[N];

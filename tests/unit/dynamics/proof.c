@@ -82,7 +82,7 @@ static int end_of(const kz_flow *flow, double theta, double velocity) {
 
 /* Starts of the window: those that end elsewhere are not proved, nearly all others are, and so are their mirror images. */
 TEST(starts_end_where_they_are_said_to) {
-  enum { N = PART > 1 ? 60 : 2000 };
+  enum { N = PART > 1 ? 60 : 1000 };
   kz_proof *proof = region_of_rotations();
   static kz_proof_start start[N], image[N];
   static uint8_t number[N], image_number[N];
@@ -114,11 +114,11 @@ TEST(starts_end_where_they_are_said_to) {
 
 /* A start's result is its own, whoever goes with it; pairs prove what doubles do, and triples what pairs do. */
 TEST(results_do_not_depend_on_neighbours) {
-  enum { N = PART > 1 ? 6 : 64 };
+  enum { N = PART > 1 ? 6 : 32 };
   kz_proof *proof = region_of_rotations();
   kz_proof_start start[N];
   uint8_t number[N], in_pairs[N], in_triples[N];
-  for (int i = 0; i < N; i++) start[i] = (kz_proof_start){.theta = {-3 + 0.09 * i}, .velocity = {1.9 - 0.05 * i}};
+  for (int i = 0; i < N; i++) start[i] = (kz_proof_start){.theta = {-3 + 0.18 * i}, .velocity = {1.9 - 0.1 * i}};
   kz_proof_follow(proof, KZ_ENCLOSE_DOUBLES, N, start, PERIODS, number);
   kz_proof_follow(proof, KZ_ENCLOSE_PAIRS, N, start, PERIODS, in_pairs);
   kz_proof_follow(proof, KZ_ENCLOSE_TRIPLES, N, start, PERIODS, in_triples);
