@@ -79,22 +79,13 @@ def test_many_unsettled_cells_are_labelled_again_in_parts(kapitza, tmp_path):
     assert datasets(tmp_path / "1.h5") == datasets(tmp_path / "3.h5")
 
 
-@pytest.mark.extensive
-@pytest.mark.parametrize("keys", [["boundary.pairs=200000"], ["method=exact", "boundary.pairs=10000"], ["shocks.scale=0.5"]], ids=str)
-def test_the_time_of_boundaries_and_shocks_is_tried(kapitza, tmp_path, keys):
-    """One rank's processor time, most of which is that stage's."""
-    scene = [*words(200, "direct"), *(word for key in keys for word in ("--set", f"basin.{key}"))]
-    estimate = float(re.search(r"cost +([\d.]+) s", kapitza("check", *scene).stdout)[1])
-    taken = kapitza("run", *scene, "-o", tmp_path / "x.h5", "--timings").stdout
-    seconds = float(re.search(r"^all +[\d.]+ +([\d.]+)", taken, re.MULTILINE)[1])
-    assert 1 / 1.5 < estimate / seconds < 1.5, (estimate, seconds)
-
-
 # Scenes of all studies that take a second or less: what is foretold comes from samples, so that a tenth or ten times would be a mistake
 # in what they stand for, whatever machine this is.
 PENDULUM = "pendulum: {quality_factor: 5, drive_frequency: 11, drive_amplitude: 0.3}\n"
 TIMED = {
     "basin": "basin: {theta: {count: 200}, velocity: {min: -2, max: 2, count: 200}, method: direct}\n",
+    "boundary": "basin: {theta: {count: 60}, velocity: {min: -2, max: 2, count: 60}, boundary: {pairs: 4000}}\n",
+    "shocks": "basin: {theta: {count: 60}, velocity: {min: -2, max: 2, count: 60}, shocks: {scale: 0.5}}\n",
     "exact": "basin: {theta: {count: 60}, velocity: {min: -2, max: 2, count: 60}, method: exact}\n",
     "attractors": "attractors: {velocity: {min: -2, max: 2}, starts: 2048}\n",
     "strobe": "sweep: {parameter: drive_amplitude, min: 0.46, max: 0.58, count: 8, measure: [strobe], start: {theta: 3.1, velocity: 0}, "
@@ -124,7 +115,7 @@ def processor_seconds(kapitza, scene, folder):
     return foretold, after.children_user + after.children_system - before.children_user - before.children_system
 
 
-@pytest.mark.parametrize("study", marked(TIMED, "atlas", "strobe"))
+@pytest.mark.parametrize("study", marked(TIMED, "atlas", "boundary", "shocks", "strobe"))
 def test_the_time_is_foretold_from_samples(kapitza, tmp_path, study):
     ratio = 0.0
     for _ in range(3):  # a machine that is busy with other things may disturb one of them

@@ -105,7 +105,7 @@ def test_deep_windows_are_released_as_single_starts_are(kapitza, tmp_path, name)
         labels, evidence, names = file["basin/attractor"][:], file["basin/evidence"][:], file["attractors/name"].asstr()[:]
     getcontext().prec = 60
     seen = set()
-    for row, column in [(0, 0), (1, 5), (3, 3), (5, 1), (6, 6)]:
+    for row, column in [(0, 0), (3, 3), (6, 6)]:
         start = [Decimal(text) + Decimal(f"{2 * i - 6}e-20") / 14 for text, i in zip(centre, (column, row), strict=True)]
         end = json.loads(kapitza("where", "s.yaml", *map(str, start), "--json", folder=tmp_path).stdout)
         seen.add(end["name"])

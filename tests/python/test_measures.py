@@ -64,7 +64,7 @@ def test_shocks_are_those_of_the_basin(kapitza, tmp_path):
     """And the circle about the strobe point in the picture has the radius of the smallest shock, to a cell."""
     pendulum = {"k": 0.05, "damping": 0.3, "m": 0.4}
     scene = {"pendulum": pendulum,
-             "basin": {"theta": {"count": 64}, "velocity": WINDOW["velocity"] | {"count": 64}, "shocks": {"sizes": [0.3]}},
+             "basin": {"theta": {"count": 24}, "velocity": WINDOW["velocity"] | {"count": 24}, "shocks": {"sizes": [0.3]}},
              "measures": WINDOW | {"names": ["shock_angle", "shock_velocity", "shock", "harmless", "integrity_local"], "cells": 256}}
     result, _ = run_scene(kapitza, tmp_path, scene)
     table, shocks = result.measures, result.group("shocks")
@@ -84,7 +84,7 @@ def test_shocks_are_those_of_the_basin(kapitza, tmp_path):
 
 def test_any_number_of_ranks_and_a_stop(kapitza, tmp_path):
     names = ["share", "settling_mean", "entropy", "reactivity"]
-    scene = {"pendulum": FIG12 | {"quality_factor": 20}, "measures": WINDOW | {"names": names, "starts": 1000, "cells": 80}}
+    scene = {"pendulum": FIG12 | {"quality_factor": 20}, "measures": WINDOW | {"names": names, "starts": 600, "cells": 48}}
     stopped = stopped_and_resumed(kapitza, tmp_path, scene, ranks=3)
     whole, _ = run_scene(kapitza, tmp_path, scene, ranks=2)
     assert datasets(stopped.path) == datasets(whole.path) == datasets(run_scene(kapitza, tmp_path, scene, name="one")[0].path)
@@ -102,7 +102,7 @@ def test_refused(kapitza, tmp_path, changes, words):
     assert words in refused_scene(kapitza, tmp_path, {"pendulum": pendulum, "measures": WINDOW | changes})
 
 
-FORCED = {"velocity": {"min": -3, "max": 3}, "starts": 256, "cells": 128, "method": "direct"}
+FORCED = {"velocity": {"min": -3, "max": 3}, "starts": 128, "cells": 96, "method": "direct"}
 
 
 def forced(torque, k=1, damping=0.2):

@@ -2,7 +2,7 @@
 """How often the stated 95 % intervals hold: random pendulums of no scene, small samples against large ones.
 
     tests/tools/reference_coverage.py                              20 pendulums
-    tests/tools/reference_coverage.py --pendulums 40 --seed 2 --ranks 2 --rows rows      goes on where the folder rows ends
+    tests/tools/reference_coverage.py --pendulums 40 --seed 2 --ranks 2
 
 For each pendulum the program runs three times: `tradeoff` on a sample; `basin.accuracy` with a random accuracy, on a sample of
 its own; `tradeoff` on a large sample, which stands for the real shares. Each run has its own seed, for its cells and for its
@@ -115,19 +115,6 @@ def measure(kapitza, arguments, number):
     return {"scene": scene, "stated": stated, "chosen": chosen, "real": real}
 
 
-def remembered(kapitza, arguments, number):
-    """The row of a pendulum, from the folder of rows where it was measured in the same way."""
-    way = {name: getattr(arguments, name) for name in ("samples", "truth", "cells", "settings")}
-    path = arguments.rows and arguments.rows / f"{arguments.seed}-{number}.json"
-    row = json.loads(path.read_text()) if path and path.exists() else {}
-    if row.get("way") != way:
-        row = {"way": way} | measure(kapitza, arguments, number)
-        if path:
-            path.parent.mkdir(parents=True, exist_ok=True)
-            path.write_text(json.dumps(row))
-    return row
-
-
 def holds(stated, real):
     """Does the interval of (share, low, high) hold the real share?"""
     return stated[1] <= real <= stated[2]
@@ -168,7 +155,6 @@ def main():
     parser.add_argument("--cells", type=int, default=1000, help="of the window, an axis")
     parser.add_argument("--settings", nargs="+", default=SETTINGS)
     parser.add_argument("--ranks", type=int, default=1)
-    parser.add_argument("--rows", type=Path, help="folder that keeps what was measured")
     arguments = parser.parse_args()
     print(f"pendulum, window; real % wrong of {', '.join(arguments.settings)}; | % asked, chosen, sample, interval, real\n"
           "(! = outside its interval)")
@@ -176,7 +162,7 @@ def main():
     with tempfile.TemporaryDirectory() as folder:
         kapitza = Kapitza(folder, arguments.ranks)
         for number in range(arguments.pendulums):
-            rows.append(remembered(kapitza, arguments, number))
+            rows.append(measure(kapitza, arguments, number))
             print(row_text(number, rows[-1]), flush=True)
     counts = tallies(rows)
     for name, hits in counts.items():

@@ -46,29 +46,6 @@ TEST(defaults_are_those_of_the_table) {
   kz_scene_free(&scene);
 }
 
-/* Forms a, b and c (with either frequency) of one pendulum agree (BSG Eq. 1 and 2). */
-TEST(forms_agree) {
-  static const char *const forms[] = {
-      "pendulum={quality_factor: 5, drive_frequency: 11, drive_amplitude: 0.3}",
-      "pendulum={k: 0.008264462809917356, damping: 0.01818181818181818, m: 0.3}",
-      /* M r/I = 2.5 /m, omega = 100 rad/s: g = k omega^2/2.5, b = beta I omega, A = m/2.5 */
-      ("pendulum={mass: 0.1, radius: 0.2, inertia: 0.008, friction: 0.014545454545454545, gravity: 33.057851239669425, "
-       "pivot_amplitude: 0.12, pivot_frequency: 100}"), /* in brackets: clang takes two strings in a list for a forgotten comma */
-      ("pendulum={mass: 0.1, radius: 0.2, inertia: 0.008, friction: 0.014545454545454545, gravity: 33.057851239669425, "
-       "pivot_amplitude: 0.12, frequency: 15.915494309189533}")};
-  for (int i = 0; i < 4; i++) {
-    kz_scene scene;
-    assert_int_equal(read_scene(GOOD, forms[i], &scene), KZ_OK);
-    assert_true(fabs(scene.parameters.pendulum.k - 1.0 / 121) < 1e-15);
-    assert_true(fabs(scene.parameters.pendulum.beta - 1.0 / 55) < 1e-15);
-    assert_true(fabs(scene.parameters.pendulum.m - 0.3) < 1e-15);
-    assert_true(fabs(scene.parameters.quality_factor - 5.0) < 1e-12);
-    assert_true(fabs(scene.parameters.drive_frequency - 11.0) < 1e-12);
-    assert_true(i < 2 ? isnan(scene.parameters.pivot_frequency) : fabs(scene.parameters.pivot_frequency - 100) < 1e-12);
-    kz_scene_free(&scene);
-  }
-}
-
 TEST(angles_are_in_degrees_where_they_say_so) {
   kz_scene scene;
   assert_int_equal(read_scene(GOOD, "basin.theta={min: -90 deg, max: 180 deg}", &scene), KZ_OK);
