@@ -13,29 +13,58 @@ module kz_labels_nonlinear
   integer, parameter :: POINTS = 6
   real(dp), parameter :: HALF = sqrt(0.5_dp)
   real(dp), parameter :: DIAMETERS(2, 3) = reshape([1.0_dp, 0.0_dp, 0.0_dp, 1.0_dp, HALF, HALF], [2, 3])
+  !> Of an ellipse so many times as long as wide the first diameter is enough: the terms of the others are smaller by this factor.
+  real(dp), parameter :: NARROW = 1000
+  !> What is of higher order is at most half of what is of second.
+  real(dp), parameter :: HIGHER = 1.5_dp
 
 contains
 
   !> What the image of the ellipse SAFETY**2 P has beyond that of the tangent map, in parts of SAFETY, rad. Along z of the unit disc it is
-  !> q11 z1**2 + 2 q12 z1 z2 + q22 z2**2, at most |q11| + |q12| + |q22|, and half as much again stands for what is of higher order.
+  !> q11 z1**2 + 2 q12 z1 z2 + q22 z2**2, at most |q11| + |q12| + |q22|, and half as much again stands for what is of higher order. Errors
+  !> that have grown lie along a line: then q11 is all of it.
   subroutine measure_nonlinear(carrier, lane, u, v, p, nonlinear)
     type(carrier_t), intent(inout) :: carrier !< has just moved them by a period
     integer, intent(in) :: lane(:) !< [n] lanes of it, and of what follows
     real(dp), intent(in) :: u(:), v(:) !< states before the period, half-turns, rad per drive radian
     real(dp), intent(in) :: p(:, :) !< (:, 3): ellipses before it
     real(dp), intent(inout) :: nonlinear(:) !< rad
-    real(dp) :: by(2, POINTS, size(lane)), start(2, POINTS, size(lane))
-    integer :: i
+    real(dp) :: rim(2, POINTS, size(lane)), by(2, 2, size(lane)), along(2, size(lane))
+    integer :: wide(size(lane)), i, n
 
+    n = 0
     do i = 1, size(lane)
-      start(:, :, i) = rim_of(p(lane(i), :))
+      rim(:, :, i) = rim_of(p(lane(i), :))
+      if (norm2(rim(:, 1, i)) > NARROW*norm2(rim(:, 3, i))) cycle
+      n = n + 1
+      wide(n) = i
     end do
-    by = start
+    by = rim(:, :2, :)
     call carrier%flow%displace(lane, u, v, by)
     do i = 1, size(lane)
-      nonlinear(lane(i)) = nonlinear_of(carrier%tangent(lane(i), :), start(:, :, i), by(:, :, i))/SAFETY
+      along(:, i) = quadratic_of(carrier%tangent(lane(i), :), rim(:, :2, i), by(:, :, i))
+      nonlinear(lane(i)) = HIGHER/SAFETY*length(along(:, i))
     end do
+    if (n > 0) call add_across(carrier, lane(wide(:n)), u, v, rim(:, 3:, wide(:n)), along(:, wide(:n)), nonlinear)
   end subroutine measure_nonlinear
+
+  !> What the other diameters of some lanes add.
+  subroutine add_across(carrier, lane, u, v, rim, along, nonlinear)
+    type(carrier_t), intent(inout) :: carrier
+    integer, intent(in) :: lane(:)
+    real(dp), intent(in) :: u(:), v(:), rim(:, :, :), along(:, :)
+    real(dp), intent(inout) :: nonlinear(:)
+    real(dp) :: by(2, POINTS - 2, size(lane)), across(2), oblique(2)
+    integer :: i
+
+    by = rim
+    call carrier%flow%displace(lane, u, v, by)
+    do i = 1, size(lane)
+      across = quadratic_of(carrier%tangent(lane(i), :), rim(:, :2, i), by(:, :2, i))
+      oblique = quadratic_of(carrier%tangent(lane(i), :), rim(:, 3:, i), by(:, 3:, i)) - 0.5_dp*(along(:, i) + across)
+      nonlinear(lane(i)) = nonlinear(lane(i)) + HIGHER/SAFETY*(length(across) + length(oblique))
+    end do
+  end subroutine add_across
 
   !> The ends of the diameters of the ellipse SAFETY**2 P, rad.
   pure function rim_of(p) result(rim)
@@ -49,21 +78,16 @@ contains
     rim(:, 2:6:2) = -rim(:, 1:5:2)
   end function rim_of
 
-  !> From the ends of the diameters before and after the period.
-  pure function nonlinear_of(tangent, start, by) result(nonlinear)
-    real(dp), intent(in) :: tangent(4), start(2, POINTS), by(2, POINTS)
-    real(dp) :: nonlinear
-    real(dp) :: rest(2, POINTS), size(POINTS), q(2, 3)
-    integer :: j
+  !> What the ends of a diameter differ by from their images by the tangent; the larger of both.
+  pure function quadratic_of(tangent, start, by) result(q)
+    real(dp), intent(in) :: tangent(4), start(2, 2), by(2, 2)
+    real(dp) :: q(2)
+    real(dp) :: rest(2, 2)
 
     rest(1, :) = by(1, :) - (tangent(1)*start(1, :) + tangent(2)*start(2, :))
     rest(2, :) = by(2, :) - (tangent(3)*start(1, :) + tangent(4)*start(2, :))
-    size = rest(1, :)**2 + rest(2, :)**2
-    do j = 1, 3
-      q(:, j) = rest(:, merge(2*j - 1, 2*j, size(2*j - 1) > size(2*j)))
-    end do
-    nonlinear = 1.5_dp*(length(q(:, 1)) + length(q(:, 2)) + length(q(:, 3) - 0.5_dp*(q(:, 1) + q(:, 2))))
-  end function nonlinear_of
+    q = rest(:, merge(1, 2, sum(rest(:, 1)**2) > sum(rest(:, 2)**2)))
+  end function quadratic_of
 
   pure real(dp) function length(x)
     real(dp), intent(in) :: x(2)

@@ -7,12 +7,12 @@ module kz_processed_stages
   use kz_processed_tables, only: processed_t
   implicit none
   private
-  public :: stages_t, make_stages, advance_stages, linear_stages, displaced_stages, tangent_stages, GROUP, POINTS, TERMS
+  public :: stages_t, make_stages, advance_stages, linear_stages, displaced_stages, tangent_stages, GROUP, TERMS
 
   !> Coefficients of the slope of a kick (tangents.c): as a polynomial of the square, right to 1e-4 or better.
   integer, parameter :: TERMS = 5
   !> Orbits whose neighbours are moved together, and neighbours of each: tangents.c.
-  integer, parameter :: GROUP = 16, POINTS = 6
+  integer, parameter :: GROUP = 16, POINTS = 2
 
   !> The tables of a period, and what its tangents take.
   type :: stages_t
@@ -47,12 +47,13 @@ module kz_processed_stages
     end subroutine run_tangents
 
     !> Neighbours of orbits (tangents.c).
-    subroutine run_displaced(mirrored, n_stages, row, last, decay, angle, by) bind(C, name='kz_processed_displaced')
+    subroutine run_displaced(mirrored, n_stages, row, last, decay, n, angle, by) bind(C, name='kz_processed_displaced')
       import :: c_float, c_int32_t, c_int64_t, GROUP, POINTS
       integer(c_int32_t), value :: mirrored
       integer(c_int64_t), value :: n_stages
       real(c_float), intent(in) :: row(*)
       real(c_float), value :: last, decay
+      integer(c_int64_t), value :: n
       real(c_float), intent(in) :: angle(GROUP, *)
       real(c_float), intent(inout) :: by(GROUP, 2, POINTS)
     end subroutine run_displaced
@@ -130,25 +131,28 @@ contains
   subroutine displaced_stages(self, lane, by)
     type(stages_t), intent(inout) :: self !< tables of a period
     integer, intent(in) :: lane(:) !< [n] lanes
-    real(rk), intent(inout) :: by(:, :, :) !< (2, POINTS, n): before it, and after it: rad, velocity times exp(beta t)
+    real(rk), intent(inout) :: by(:, :, :) !< (2, :, n), in pairs: before it, and after it: rad, velocity times exp(beta t)
     real(c_float) :: c(GROUP, 2, POINTS)
-    integer :: i, s
+    integer :: i, j, s, n
 
+    n = size(lane)
     do s = 1, self%table%n_steps
-      do i = 1, size(lane)
+      do i = 1, n
         self%some(i, s) = self%kept(lane(i), s)
       end do
     end do
-    c = 0
-    do i = 1, size(lane)
-      c(i, 1, :) = real((1/PI)*by(1, :, i), c_float)
-      c(i, 2, :) = real(by(2, :, i), c_float)
-    end do
-    call run_displaced(merge(1_c_int32_t, 0_c_int32_t, self%table%mirrored), int(self%table%n_steps, c_int64_t), self%slope, &
-                       real(self%table%last(1), c_float), real(self%table%decay, c_float), self%some, c)
-    do i = 1, size(lane)
-      by(1, :, i) = PI*c(i, 1, :)
-      by(2, :, i) = c(i, 2, :)
+    do j = 1, size(by, 2), POINTS
+      c = 0
+      do i = 1, n
+        c(i, 1, :) = real((1/PI)*by(1, j:j + POINTS - 1, i), c_float)
+        c(i, 2, :) = real(by(2, j:j + POINTS - 1, i), c_float)
+      end do
+      call run_displaced(merge(1_c_int32_t, 0_c_int32_t, self%table%mirrored), int(self%table%n_steps, c_int64_t), self%slope, &
+                         real(self%table%last(1), c_float), real(self%table%decay, c_float), int(n, c_int64_t), self%some, c)
+      do i = 1, n
+        by(1, j:j + POINTS - 1, i) = PI*c(i, 1, :)
+        by(2, j:j + POINTS - 1, i) = c(i, 2, :)
+      end do
     end do
   end subroutine displaced_stages
 

@@ -9,12 +9,11 @@
 /* Coefficients of a slope (stages.f90). Vectors at once, and lanes of one. */
 enum { TERMS = 5, CHAINS = VECTOR_BYTES / 16, LANES = VECTOR_BYTES / 4 };
 /* Orbits whose neighbours are moved together, and neighbours of each: GROUP and POINTS of stages.f90. */
-enum { KZ_GROUP = 16, KZ_POINTS = 6 };
+enum { KZ_GROUP = 16, KZ_POINTS = 2 };
 #define EACH _Pragma("GCC unroll 4") for (int i = 0; i < CHAINS; i++)
-#define EACH_POINT _Pragma("GCC unroll 6") for (int i = 0; i < KZ_POINTS; i++)
+#define EACH_POINT _Pragma("GCC unroll 2") for (int i = 0; i < KZ_POINTS; i++)
 
 typedef float floats __attribute__((vector_size(VECTOR_BYTES), aligned(sizeof(float)), may_alias));
-typedef float group __attribute__((vector_size(4 * KZ_GROUP), aligned(sizeof(float)), may_alias));
 
 static void store(float *to, const floats *x) {
   EACH *(floats *)(to + i * LANES) = x[i];
@@ -66,11 +65,11 @@ void kz_processed_tangents(int32_t mirrored, int64_t n_stages, const float *row,
 /* Neighbours of orbits, relative to the orbits: the force between them and their orbit is taken to third order in the angle, with the slopes
  * of tangents and their derivatives. A polynomial, its derivative, and half its second one: */
 typedef struct {
-  group value, slope, half_second;
+  floats value, slope, half_second;
 } expansion;
 
-OPERATION expansion expand(const float *c, group q) {
-  expansion p = {c[TERMS - 1] + (group){0}, {0}, {0}};
+OPERATION expansion expand(const float *c, floats q) {
+  expansion p = {c[TERMS - 1] + (floats){0}, {0}, {0}};
   for (int j = TERMS - 2; j >= 0; j--) {
     p.half_second = p.half_second * q + p.slope;
     p.slope = p.slope * q + p.value;
@@ -81,13 +80,13 @@ OPERATION expansion expand(const float *c, group q) {
 
 OPERATION void move_neighbours(bool mirrored, int64_t n_stages, const float *row, float last, float decay, const float *angle,
                                float *by) {
-  group u[KZ_POINTS], v[KZ_POINTS], *const at = (group *)by;
-  EACH_POINT u[i] = at[2 * i];
-  EACH_POINT v[i] = at[2 * i + 1];
-  for (int64_t s = 0; s < n_stages; s++, row += 1 + 2 * TERMS) {
-    const group r = ((const group *)angle)[s], q = r * r;
+  floats u[KZ_POINTS], v[KZ_POINTS];
+  EACH_POINT u[i] = *(floats *)(by + 2 * i * KZ_GROUP);
+  EACH_POINT v[i] = *(floats *)(by + (2 * i + 1) * KZ_GROUP);
+  for (int64_t s = 0; s < n_stages; s++, row += 1 + 2 * TERMS, angle += KZ_GROUP) {
+    const floats r = *(const floats *)angle, q = r * r;
     const expansion odd = expand(row + 1, q);
-    group first = odd.value, second = r * odd.slope, third = (1 / 3.0f) * (odd.slope + 4 * q * odd.half_second);
+    floats first = odd.value, second = r * odd.slope, third = (1 / 3.0f) * (odd.slope + 4 * q * odd.half_second);
     if (!mirrored) {
       const expansion even = expand(row + 1 + TERMS, q);
       first += r * even.value;
@@ -97,16 +96,18 @@ OPERATION void move_neighbours(bool mirrored, int64_t n_stages, const float *row
     EACH_POINT u[i] += row[0] * v[i];
     EACH_POINT v[i] -= u[i] * (first + u[i] * (second + u[i] * third));
   }
-  EACH_POINT at[2 * i] = u[i] + last * v[i];
-  EACH_POINT at[2 * i + 1] = decay * v[i];
+  EACH_POINT *(floats *)(by + 2 * i * KZ_GROUP) = u[i] + last * v[i];
+  EACH_POINT *(floats *)(by + (2 * i + 1) * KZ_GROUP) = decay * v[i];
 }
 
-/* How neighbours of orbits move in a period, relative to the orbits, in single precision. angle [n_stages][KZ_GROUP]: those of the orbits at the
- * kicks; row, last, decay: as above. by [KZ_POINTS][2][KZ_GROUP], in and out: what the angles (half-turns) and velocities differ by. */
-void kz_processed_displaced(int32_t mirrored, int64_t n_stages, const float *row, float last, float decay, const float *angle,
-                            float *by) {
-  if (mirrored)
-    move_neighbours(true, n_stages, row, last, decay, angle, by);
-  else
-    move_neighbours(false, n_stages, row, last, decay, angle, by);
+/* How neighbours of n <= KZ_GROUP orbits move in a period, relative to the orbits, in single precision. angle [n_stages][KZ_GROUP]: those of the
+ * orbits at the kicks; row, last, decay: as above. by [KZ_POINTS][2][KZ_GROUP], in and out: what the angles (half-turns) and velocities differ
+ * by. Further lanes move up to a whole vector. */
+void kz_processed_displaced(int32_t mirrored, int64_t n_stages, const float *row, float last, float decay, int64_t n,
+                            const float *angle, float *by) {
+  for (int64_t first = 0; first < n; first += LANES)
+    if (mirrored)
+      move_neighbours(true, n_stages, row, last, decay, angle + first, by + first);
+    else
+      move_neighbours(false, n_stages, row, last, decay, angle + first, by + first);
 }
