@@ -98,6 +98,7 @@ typedef struct {
   int32_t label;   /* number of an attractor, 0 = not settled, KZ_DOUBTFUL */
   int32_t other;   /* second candidate, if no level decides the label; 0 = none */
   int32_t level;   /* the level that decided; KZ_LEVELS = none */
+  int32_t next;    /* of a doubtful orbit: the lowest level that may decide it, by the growth of its error */
   int64_t periods; /* first period inside a trapping region; the number of periods followed if there is none */
   double error;    /* rad: bound of the orbit's error when it was trapped; meaningless for chaotic or undecided orbits */
   int64_t age;     /* drive periods after which the orbit was left */

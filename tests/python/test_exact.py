@@ -46,7 +46,7 @@ def test_labels_hang_on_no_numerics(kapitza, exact):
     assert np.array_equal(fine["name"][decided], coarse["name"][decided])
     assert np.mean(direct["name"] != fine["name"]) > 0.1
     assert coarse["doubtful_share"] > fine["doubtful_share"] > 0.05
-    assert {"cells 1", "fine 1", "quad 1"} <= {line[:8].strip() for line in done.stdout.splitlines()}
+    assert {"cells 1", "pairs 16", "quad 1"} <= {line[:8].strip() for line in done.stdout.splitlines()}
     assert np.count_nonzero(fine["evidence"] == IN_QUAD) > 0
     assert np.count_nonzero(coarse["evidence"] == IN_FINE) > 0  # double precision with more steps gains nothing on fine ones
     assert np.count_nonzero(fine["evidence"] == IN_FINE) == 0

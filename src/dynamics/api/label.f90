@@ -7,8 +7,8 @@ module kz_api_label
   use kz_taylor_taylor, only: doubles_of, qp, PI_QUAD
   use kz_vector_locks, only: take_lock, leave_lock
   use kz_labels_carrier, only: carrier_t, orbit_t
-  use kz_labels_levels, only: prepare_level, carrier_of, is_useful, LEVEL_DOUBLE, LEVEL_FINE
-  use kz_labels_orbits, only: decision_t, follow_orbits, DOUBTFUL, PENDING
+  use kz_labels_levels, only: prepare_level, carrier_of, is_useful, outlook_from, LEVEL_DOUBLE, LEVEL_FINE
+  use kz_labels_orbits, only: decision_t, outlook_t, follow_orbits, DOUBTFUL, PENDING
   use kz_labels_released, only: make_released, carry_released
   use kz_labels_spread, only: add_ellipse
   use kz_vector_map, only: PI
@@ -84,6 +84,7 @@ contains
     type(orbit_t), allocatable :: some(:)
     type(decision_t), allocatable :: found(:)
     integer, allocatable :: place(:)
+    type(outlook_t) :: outlook
     real(dp) :: handover
     integer(c_int32_t) :: decided
     integer :: now, next, i
@@ -93,8 +94,11 @@ contains
     decided = now
     if (.not. is_useful(d%levels, now)) then
       decision%label = DOUBTFUL
+      decision%next = int(now, c_int32_t) + 1
       return
     end if
+    call prepare(d, now)
+    outlook = outlook_from(d%levels, now)
     do
       next = merge(before, now - 1, now == level)
       if (.not. is_useful(d%levels, next)) next = next - 1
@@ -106,11 +110,11 @@ contains
       end if
       call carrier_of(d%levels, now, d%flow, carrier)
       if (.not. allocated(place)) then ! most orbits need no more: they are not copied
-        call follow_orbits(carrier, d%regions, d%attractors, most, handover, level == LEVEL_GUESS, decided, orbit, decision)
+        call follow_orbits(carrier, d%regions, d%attractors, most, handover, level == LEVEL_GUESS, decided, outlook, orbit, decision)
       else
         some = orbit(place)
         found = decision(place)
-        call follow_orbits(carrier, d%regions, d%attractors, most, handover, .false., decided, some, found)
+        call follow_orbits(carrier, d%regions, d%attractors, most, handover, .false., decided, outlook, some, found)
         orbit(place) = some
         decision(place) = found
       end if

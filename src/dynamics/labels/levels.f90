@@ -8,6 +8,7 @@ module kz_labels_levels
   use kz_kernel_flows, only: make_flow
   use kz_labels_carrier, only: carrier_t, make_carrier, BY_FINE_MAP, BY_PAIRS, BY_SERIES
   use kz_labels_period_error, only: period_error_t, speed_probes_t, make_speed_probes, measure_period
+  use kz_labels_orbits, only: outlook_t, TOLERABLE
   use kz_vector_map, only: flow_t
   use kz_vector_schemes, only: PROCESSED_ROW, SPLIT6_ROW
   use kz_model_pendulum, only: pendulum_t
@@ -15,7 +16,7 @@ module kz_labels_levels
   use kz_processed_tables, only: MOST_DAMPING
   implicit none
   private
-  public :: levels_t, carrier_of, prepare_level, is_useful
+  public :: levels_t, carrier_of, prepare_level, is_useful, outlook_from
 
   !> Levels of dynamics.h.
   integer, parameter, public :: LEVEL_DOUBLE = 0
@@ -132,6 +133,21 @@ contains
 
     is_useful = level /= LEVEL_FINE .or. levels%error%worst > GAIN*FINE_ERROR
   end function is_useful
+
+  !> What comes after a level. Pairs of doubles alone are skipped, and for other pairs: whatever their digits, labels are the same and so is
+  !> the evidence for them.
+  pure function outlook_from(levels, level) result(outlook)
+    type(levels_t), intent(in) :: levels !< of a pendulum; the level has been prepared
+    integer, intent(in) :: level !< LEVEL_DOUBLE or a finer one
+    type(outlook_t) :: outlook
+
+    outlook%next = level + 1
+    if (.not. is_useful(levels, int(outlook%next))) outlook%next = outlook%next + 1
+    outlook%after = outlook%next
+    if (outlook%next < LEVEL_PAIRS_16 .or. outlook%next >= LEVEL_PAIRS_28) return
+    outlook%after = outlook%next + 1
+    outlook%reach = max(TOLERABLE, TOLERABLE*levels%worst(level)/PAIRS_ERRORS(outlook%next))
+  end function outlook_from
 
   !> What carries orbits at a level that has been prepared.
   subroutine carrier_of(levels, level, flow, carrier)

@@ -7,13 +7,13 @@ module kz_labels_orbits
   use kz_labels_nonlinear, only: measure_nonlinear, SAFETY
   use kz_maps_lanes, only: queued_lanes_t, list_flagged
   use kz_labels_carrier, only: carrier_t, orbit_t
-  use kz_labels_spread, only: spread_errors, flag_large, flag_done
+  use kz_labels_spread, only: spread_errors, flag_between, flag_done
   use kz_vector_map, only: WIDTH, CAPACITY, PI
   use kz_maps_matrices, only: axes_of
   use kz_maps_states, only: angle_difference
   implicit none
   private
-  public :: decision_t, follow_orbits, DOUBTFUL, PENDING, NO_LEVEL
+  public :: decision_t, outlook_t, follow_orbits, DOUBTFUL, PENDING, NO_LEVEL, TOLERABLE
 
   !> Labels besides the numbers of attractors: of an orbit whose error has become too large; of one that is to be followed on elsewhere.
   integer, parameter :: DOUBTFUL = -1, PENDING = -2
@@ -32,11 +32,19 @@ module kz_labels_orbits
     integer(c_int32_t) :: label = PENDING !< attractor from 1, 0 = not settled, DOUBTFUL, PENDING
     integer(c_int32_t) :: other = 0
     integer(c_int32_t) :: level = NO_LEVEL !< no error changes the label, at this level
+    integer(c_int32_t) :: next = 0        !< the level that may decide a doubtful orbit
     integer(c_int64_t) :: periods = 0     !< first period inside a trapping region, or those followed
     real(dp) :: error = 0                 !< how far the orbit may be off then, rad
     integer(c_int64_t) :: age = 0         !< periods after which it was left
     real(dp) :: state(2) = 0              !< where it was then, in the map's coordinates
   end type decision_t
+
+  !> What comes after a level. The states of a doubtful orbit are followed on, with the growth of its error by the tangents alone, until they
+  !> end or the error is larger than `reach`: then the next level would not decide it either.
+  type :: outlook_t
+    integer(c_int32_t) :: next = 0, after = 0 !< the level that follows, and the one behind it
+    real(dp) :: reach = TOLERABLE             !< rad
+  end type outlook_t
 
   !> Orbits in the lanes of a carrier, and what becomes of them.
   type, extends(queued_lanes_t) :: orbits_t
@@ -49,6 +57,7 @@ module kz_labels_orbits
     real(dp) :: handover = 0            !< rad: an orbit with a larger error goes on elsewhere
     logical :: guess = .false.          !< doubtful orbits are followed on without their errors
     integer(c_int32_t) :: level = 0     !< that decides
+    type(outlook_t) :: outlook          !< from it
     real(dp) :: ellipse(CAPACITY, 3) = 0 !< of the errors
     real(dp) :: trace(WIDTH) = 0        !< of those of active orbits
     integer :: first(CAPACITY) = 0      !< the first region that held the state alone, 0 = none yet
@@ -65,7 +74,7 @@ contains
 
   !> Follows orbits up to age `most`. decision(i)%label = PENDING and the orbit as it is then where its error has reached `handover`, if
   !> that is below TOLERABLE.
-  subroutine follow_orbits(carrier, regions, attractors, most, handover, guess, level, orbit, decision)
+  subroutine follow_orbits(carrier, regions, attractors, most, handover, guess, level, outlook, orbit, decision)
     type(carrier_t), intent(inout), target :: carrier !< what moves the orbits by one period
     type(regions_t), intent(in), target :: regions !< the trapping regions
     type(attractor_t), intent(in), target :: attractors(:) !< the catalogue, numbered from 1
@@ -73,12 +82,13 @@ contains
     real(dp), intent(in) :: handover !< rad
     logical, intent(in) :: guess !< follow doubtful orbits on, to where the states alone end
     integer(c_int32_t), intent(in) :: level !< that decides
+    type(outlook_t), intent(in) :: outlook !< from it
     type(orbit_t), intent(inout), target :: orbit(:) !< [n] in and out
     type(decision_t), intent(inout), target :: decision(:) !< [n] as they are made, in; out
     type(orbits_t) :: orbits
 
     orbits = orbits_t(carrier=carrier, regions=regions, attractors=attractors, orbit=orbit, decision=decision, most=most, &
-                      handover=handover, guess=guess, level=level, items=size(orbit))
+                      handover=handover, guess=guess, level=level, outlook=outlook, items=size(orbit))
     call orbits%run()
   end subroutine follow_orbits
 
@@ -147,7 +157,7 @@ contains
     integer :: large(WIDTH), lane(WIDTH), n_large
 
     nonlinear = 0
-    call flag_large(self%active, self%ellipse, LINEAR**2, large)
+    call flag_between(self%active, self%ellipse, LINEAR**2, TOLERABLE**2, large)
     if (sum(large(:self%active)) == 0) return
     call list_flagged(self%active, large, lane, n_large)
     call measure_nonlinear(self%carrier, lane(:n_large), u, v, self%ellipse, nonlinear)
@@ -165,7 +175,7 @@ contains
       call pass_on(self, lane)
     else
       if (.not. self%trace(lane) < TOLERABLE**2) self%doubted(lane) = .true.
-      if (self%doubted(lane)) self%ellipse(lane, :) = 0
+      if (self%doubted(lane) .and. self%guess) self%ellipse(lane, :) = 0
       if (.not. is_trapped(self, lane)) yes = is_left(self, lane)
     end if
   end function is_done
@@ -199,7 +209,7 @@ contains
     logical :: left
 
     left = .true.
-    if (self%doubted(lane) .and. self%in_cover(lane) == 0 .and. (.not. self%guess .or. self%first(lane) > 0)) then
+    if (self%doubted(lane) .and. self%in_cover(lane) == 0 .and. is_known(self, lane)) then
       call settle(self, lane, merge(self%first(lane), DOUBTFUL, self%guess), .false.)
     else if (self%age(lane) >= self%most) then
       call settle(self, lane, left_label(self, lane), .not. self%doubted(lane) .and. self%region(lane) == 0)
@@ -207,6 +217,22 @@ contains
       left = .false.
     end if
   end function is_left
+
+  !> Whether it is known what becomes of a doubtful orbit: where its states end, or which level may decide it.
+  pure logical function is_known(self, lane)
+    class(orbits_t), intent(in) :: self
+    integer, intent(in) :: lane
+
+    is_known = merge(self%first(lane) > 0, self%region(lane) > 0 .or. is_beyond(self, lane), self%guess)
+  end function is_known
+
+  !> Whether the error of a doubtful orbit has grown so large that the next level would not decide it.
+  pure logical function is_beyond(self, lane)
+    class(orbits_t), intent(in) :: self
+    integer, intent(in) :: lane
+
+    is_beyond = .not. self%ellipse(lane, 1) + self%ellipse(lane, 3) < self%outlook%reach**2
+  end function is_beyond
 
   !> The label of an orbit that is left at its last age, with its state in a region or not.
   pure function left_label(self, lane) result(label)
@@ -236,12 +262,17 @@ contains
     integer, intent(in) :: lane, label
     logical, intent(in) :: decided
     integer(c_int64_t) :: periods
+    integer(c_int32_t) :: next
+    real(dp) :: error
 
     periods = self%age(lane)
     if (label > 0 .and. label == self%first(lane)) periods = self%since(lane)
-    self%decision(self%number(lane)) = decision_t(label, 0, merge(self%level, NO_LEVEL, decided), periods, &
-                                                  SAFETY*sqrt(self%ellipse(lane, 1) + self%ellipse(lane, 3)), self%age(lane), &
-                                                  [self%carrier%u(lane), self%carrier%v(lane)])
+    error = 0
+    if (.not. self%doubted(lane)) error = SAFETY*sqrt(self%ellipse(lane, 1) + self%ellipse(lane, 3))
+    next = 0
+    if (label == DOUBTFUL) next = merge(self%outlook%after, self%outlook%next, is_beyond(self, lane))
+    self%decision(self%number(lane)) = decision_t(label, 0, merge(self%level, NO_LEVEL, decided), next, periods, error, &
+                                                  self%age(lane), [self%carrier%u(lane), self%carrier%v(lane)])
   end subroutine settle
 
   !> The first region that holds the state; a later one of another attractor counts in its place, but not for a guess.

@@ -4,7 +4,7 @@ module kz_labels_spread
   use kz_vector_map, only: WIDTH, CAPACITY
   implicit none
   private
-  public :: spread_errors, add_ellipse, flag_large, flag_done
+  public :: spread_errors, add_ellipse, flag_between, flag_done
 
 contains
 
@@ -41,18 +41,18 @@ contains
     end do
   end subroutine spread_errors
 
-  !> 1 for the lanes whose P has at least a trace, or is lost; else 0.
-  pure subroutine flag_large(n, p, trace, large)
+  !> 1 for the lanes whose P has at least a trace but not another one; else 0.
+  pure subroutine flag_between(n, p, least, most, between)
     integer, intent(in) :: n !< lanes
     real(dp), intent(in) :: p(CAPACITY, 3) !< as above
-    real(dp), intent(in) :: trace !< the bound
-    integer, intent(inout) :: large(WIDTH) !< flags
+    real(dp), intent(in) :: least, most !< the bounds
+    integer, intent(inout) :: between(WIDTH) !< flags
     integer :: i
 
     do i = 1, n
-      large(i) = int(merge(0.0_dp, 1.0_dp, p(i, 1) + p(i, 3) < trace))
+      between(i) = int(merge(1.0_dp, 0.0_dp, p(i, 1) + p(i, 3) >= least .and. p(i, 1) + p(i, 3) < most))
     end do
-  end subroutine flag_large
+  end subroutine flag_between
 
   !> 1 for the lanes that are in a region, or whose P has at least a trace, or is lost; else 0.
   pure subroutine flag_done(n, region, trace, largest, done)

@@ -17,24 +17,30 @@ kz_status kz_pending_count(kz_window_labels *l, int16_t wanted) {
 
 /* Those of the wanted cells that lie in one tile. */
 static kz_status pick_from(kz_window_labels *l, const kz_local_record *packed, int64_t from, int64_t of, int64_t n,
-                           int64_t *cell) {
+                           int64_t *cell, int64_t *level) {
   int64_t number = l->before[packed->tile], i = number > from ? ((number - from) * n + of - 1) / of : 0;
   const int64_t end = l->before[packed->tile + 1], first = kz_tile_first(&l->tiles, packed->tile);
   if (i >= n || from + i * of / n >= end || end == number) return KZ_OK;
   KZ_TRY(kz_tile_labels_unpack(l, packed));
   for (int64_t k = 0; i < n && number < end; k++) {
     if (l->cell[k].label != l->wanted) continue;
-    if (from + i * of / n == number) cell[i++] = first + k;
+    if (from + i * of / n == number) {
+      if (level) level[i] = l->cell[k].next;
+      cell[i++] = first + k;
+    }
     number++;
   }
   return KZ_OK;
 }
 
-kz_status kz_pending_pick(kz_window_labels *l, int64_t from, int64_t of, int64_t n, int64_t *cell) {
+kz_status kz_pending_pick(kz_window_labels *l, int64_t from, int64_t of, int64_t n, int64_t *cell, int64_t *level) {
   kz_status status = KZ_OK;
   memset(cell, 0, (size_t)n * sizeof *cell);
-  for (int64_t i = 0; i < l->records.n && status == KZ_OK; i++) status = pick_from(l, &l->records.list[i], from, of, n, cell);
+  if (level) memset(level, 0, (size_t)n * sizeof *level);
+  for (int64_t i = 0; i < l->records.n && status == KZ_OK; i++)
+    status = pick_from(l, &l->records.list[i], from, of, n, cell, level);
   KZ_TRY(kz_ranks_agree(l->run->ranks, status));
+  if (level) KZ_TRY(kz_ranks_sum(l->run->ranks, level, n));
   return kz_ranks_sum(l->run->ranks, cell, n);
 }
 
@@ -51,8 +57,10 @@ static kz_status merge(kz_window_labels *l, kz_local_record *packed, int64_t fro
 
 /* The n pending cells from `from` on, which are those of whole tiles. */
 static kz_status label_tiles(kz_window_labels *l, int round, int64_t from, int64_t n, int64_t *cell) {
-  KZ_TRY(kz_pending_pick(l, from, n, n, cell));
+  KZ_FREED int64_t *level = kz_malloc((size_t)n * sizeof *level);
   KZ_FREED kz_label *found = kz_malloc((size_t)n * sizeof *found);
+  KZ_TRY(kz_pending_pick(l, from, n, n, cell, level));
+  for (int64_t i = 0; i < n; i++) found[i] = (kz_label){.label = l->wanted, .next = (uint8_t)level[i]};
   kz_sampling_weigh(l->run, kz_tiles_stand_for(l));
   kz_status status = (l->wanted == 0 ? kz_label_items : kz_label_doubtful)(&l->labeller, round, n, cell, found);
   kz_sampling_weigh(l->run, 1 / kz_tiles_stand_for(l));

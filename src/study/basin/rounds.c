@@ -59,7 +59,7 @@ static kz_status count_unsettled(void *labels, int64_t *n) {
 }
 
 static kz_status pick(void *labels, int64_t all, int64_t n, int64_t *cell) {
-  return kz_pending_pick(labels, 0, all, n, cell);
+  return kz_pending_pick(labels, 0, all, n, cell, NULL);
 }
 
 static kz_status label_again(void *labels, int round) {

@@ -118,6 +118,7 @@ static kz_status label_batch(const kz_labeller *l, int32_t level, int32_t before
     label[i] = (kz_label){.periods = (uint32_t)d->periods,
                           .label = (int16_t)d->label,
                           .other = (int16_t)d->other,
+                          .next = (uint8_t)d->next,
                           .evidence = evidence_of(l, level, d)};
     if (l->note) l->note(l->context, item_at(b->item, b->first + i), d);
   }
@@ -155,14 +156,15 @@ static int32_t level_after(const kz_labeller *l, int32_t level, int64_t pending)
 /* Items that a level labels, in a stage. */
 typedef struct {
   const kz_labeller *labeller;
-  int32_t level, before; /* the level; that at which they were doubtful */
-  int64_t tile;          /* items of a tile */
-  int64_t n, *item, *place;
+  int32_t level, before;    /* the level; that at which they were doubtful */
+  int64_t tile;             /* items of a tile */
+  int64_t n, *item, *place; /* that are left */
+  int64_t n_now, *now;      /* those that this level may decide */
 } level_job;
 
 static kz_status label_some(void *context, int64_t first, int64_t n, void *record) {
   const level_job *a = context;
-  return label_at(a->labeller, a->level, a->before, n, a->item + first, record);
+  return label_at(a->labeller, a->level, a->before, n, a->now + first, record);
 }
 
 static const kz_level *row_of(const level_job *a) {
@@ -177,38 +179,45 @@ static int64_t tile_of(const level_job *a) {
   return l->tile > 0 ? smaller(l->tile, most) : most;
 }
 
-/* Labels the items at one level: label [place] of each. The items that the level leaves doubtful, and their places, move to the front. */
+/* Labels at one level the items that it may decide: label [place] of each. The items that are still doubtful, and their places, move to the
+ * front. */
 static kz_status label_level(level_job *a, int round, kz_label *label) {
   const kz_labeller *l = a->labeller;
   char name[32];
   snprintf(name, sizeof name, "%s %d", row_of(a)->stage, round);
+  a->n_now = 0;
+  for (int64_t i = 0; i < a->n; i++)
+    if (label[a->place[i]].next <= a->level) a->now[a->n_now++] = a->item[i];
+  if (a->n_now == 0) return KZ_OK;
   a->tile = tile_of(a);
-  const kz_stage stage = kz_stage_of_items(l->stage && a->level <= KZ_LEVEL_DOUBLE ? l->stage : name, a->n, a->tile,
+  const kz_stage stage = kz_stage_of_items(l->stage && a->level <= KZ_LEVEL_DOUBLE ? l->stage : name, a->n_now, a->tile,
                                            (size_t)a->tile * sizeof(kz_label), label_some, a);
   KZ_FREED kz_label *found = kz_malloc((size_t)stage.n_tiles * stage.record_bytes + 1);
   KZ_TRY(kz_stage_run(l->run, &stage, found));
-  int64_t left = 0;
+  int64_t left = 0, now = 0;
   for (int64_t i = 0; i < a->n; i++) {
-    label[a->place[i]] = found[i];
-    if (found[i].label != KZ_DOUBTFUL) continue;
+    kz_label *own = label + a->place[i];
+    if (own->next <= a->level) *own = found[now++];
+    if (own->label != KZ_DOUBTFUL) continue;
     a->item[left] = a->item[i];
     a->place[left++] = a->place[i];
   }
   a->n = left;
+  a->before = a->level;
   return KZ_OK;
 }
 
-/* Labels n items from `level` on, until each is decided or no level is left. */
+/* Labels n items from `level` on, until each is decided or no level is left; label [n].next: the first level that may decide each. */
 static kz_status climb(const kz_labeller *l, int32_t level, int round, int64_t n, const int64_t *item, kz_label *label) {
-  KZ_FREED int64_t *list = kz_malloc(2 * (size_t)n * sizeof *list + 1);
-  level_job a = {.labeller = l, .level = level, .before = KZ_LEVEL_DOUBLE, .n = n, .item = list, .place = list + n};
+  KZ_FREED int64_t *list = kz_malloc(3 * (size_t)n * sizeof *list + 1);
+  level_job a = {
+      .labeller = l, .level = level, .before = KZ_LEVEL_DOUBLE, .n = n, .item = list, .place = list + n, .now = list + 2 * n};
   for (int64_t i = 0; i < n; i++) {
     a.item[i] = item_at(item, i);
     a.place[i] = i;
   }
   while (a.n > 0 && a.level <= KZ_LEVELS) {
     KZ_TRY(label_level(&a, round, label));
-    a.before = a.level;
     a.level = level_after(l, a.level, a.n);
   }
   return KZ_OK;
@@ -227,5 +236,6 @@ kz_status kz_label_doubtful(const kz_labeller *l, int round, int64_t n, const in
 }
 
 kz_status kz_label_items(const kz_labeller *l, int round, int64_t n, const int64_t *item, kz_label *label) {
+  for (int64_t i = 0; i < n; i++) label[i].next = 0;
   return climb(l, first_level(l), round, n, item, label);
 }

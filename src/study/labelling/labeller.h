@@ -20,7 +20,7 @@ typedef struct {
   uint8_t evidence; /* from KZ_FOLLOWED on; 0 = not labelled yet */
   uint8_t proof;    /* KZ_PROVED, ..._IN_PAIRS, ..._IN_QUADS, 0 = not proved */
   uint8_t proved;   /* number of the attractor, in kz_dynamics, on which it is proved to end */
-  uint8_t unused;   /* 0 */
+  uint8_t next;     /* of a doubtful item: the lowest level that may decide it */
 } kz_label;
 
 /* Makes the start of an item for a level. Finer levels may begin their own arithmetic earlier, after fewer periods. */
@@ -70,7 +70,8 @@ static inline kz_start kz_start_at(double theta, double velocity) {
 
 /* Labels n items, item [n] (NULL: 0, 1, ...): label [n]. `round` numbers the stages. Collective if the labeller has a run. */
 kz_status kz_label_items(const kz_labeller *labeller, int round, int64_t n, const int64_t *item, kz_label *label);
-/* The first level of it, by this process alone; KZ_STOPPED if the run is to stop. And the further levels, for items that it left doubtful. */
+/* The first level of it, by this process alone; KZ_STOPPED if the run is to stop. And the further levels, for items that it left doubtful: in,
+ * label [n] is what it has found. */
 kz_status kz_label_first(const kz_labeller *labeller, int64_t n, const int64_t *item, kz_label *label);
 kz_status kz_label_doubtful(const kz_labeller *labeller, int round, int64_t n, const int64_t *item, kz_label *label);
 

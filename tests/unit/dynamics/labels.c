@@ -38,12 +38,12 @@ TEST(test_mirrored_labels) {
   kz_dynamics_free(d);
 }
 
-/* The processed splitting as kz_numerics_choose finds it for a window. */
-static kz_numerics processed(double m) {
+/* The processed splitting as kz_numerics_choose finds it for a window and an error of a period. */
+static kz_numerics processed(double m, double tolerance) {
   const kz_pendulum pendulum = {1.0 / 121, 1.0 / 55, m};
   kz_numerics numerics = {0};
   double error;
-  assert_int_equal(kz_numerics_choose(&pendulum, 1e-12, 3, &numerics, &error), KZ_OK);
+  assert_int_equal(kz_numerics_choose(&pendulum, tolerance, 3, &numerics, &error), KZ_OK);
   return numerics;
 }
 
@@ -62,7 +62,7 @@ TEST(test_processed) {
   static int64_t periods[N], late[N];
   if (PART > 1) return; /* the other tests of this file show the sanitizers the same code */
   for (int c = 0; c < 2; c++) {
-    const kz_numerics numerics = processed(cases[c].m);
+    const kz_numerics numerics = processed(cases[c].m, 1e-12);
     kz_dynamics *reference = explored_with(&fine, cases[c].m, 1, 0, 3), *d = explored_with(&numerics, cases[c].m, 1, 0, 3);
     int unlike = 0, unlike_cells = 0;
     assert_int_equal(kz_dynamics_count(d), kz_dynamics_count(reference));
@@ -182,5 +182,36 @@ TEST(test_wrong_labels_are_doubtful) {
   for (int i = 0; i < open; i++) assert_true(direct[i] == followed[i] || direct[i] == KZ_DOUBTFUL);
   for (int i = 0; i < open; i++) doubtful -= direct[i] == KZ_DOUBTFUL;
   assert_in_range(-doubtful, 0, 4);
+  kz_dynamics_free(d);
+}
+
+/* The growth of its error foretells which level may decide a doubtful orbit: a level that is skipped would decide hardly one of them. */
+TEST(test_growth_foretells_the_level) {
+  enum { N = 1500 };
+  static double x[2 * N];
+  static kz_start start[N], left[2][N];
+  static kz_decision decision[N];
+  const kz_numerics numerics = processed(0.46, 1e-13);
+  int64_t n[2] = {0};
+  if (PART > 1) return; /* other tests show the sanitizers the same code */
+  kz_dynamics *d = explored_with(&numerics, 0.46, 1, 0, 3);
+  with_table(d, 400, 3);
+  kz_dynamics_starts(&WINDOW, 3, N, x);
+  for (int i = 0; i < N; i++) start[i] = (kz_start){.theta = {x[2 * i] * M_PI, 0}, .velocity = {x[2 * i + 1], 0}};
+  kz_dynamics_label(d, KZ_LEVEL_DOUBLE, KZ_LEVEL_DOUBLE, N, start, 2000, decision);
+  for (int i = 0; i < N; i++) {
+    const int skips = decision[i].next == KZ_LEVEL_PAIRS_20;
+    if (decision[i].label != KZ_DOUBTFUL) continue;
+    assert_true(skips || decision[i].next == KZ_LEVEL_PAIRS_16);
+    left[skips][n[skips]++] = start[i];
+  }
+  assert_true(n[0] > 20 && n[1] > 20);
+  for (int skips = 0; skips < 2; skips++) {
+    int64_t decided = 0;
+    kz_dynamics_label(d, KZ_LEVEL_PAIRS_16, KZ_LEVEL_DOUBLE, n[skips], left[skips], 2000, decision);
+    for (int64_t i = 0; i < n[skips]; i++) decided += decision[i].label != KZ_DOUBTFUL;
+    print_message("%d of %d decided\n", (int)decided, (int)n[skips]);
+    assert_true(skips ? 10 * decided <= n[skips] : 2 * decided > n[skips]);
+  }
   kz_dynamics_free(d);
 }
