@@ -15,6 +15,7 @@ import subprocess
 import sys
 import tempfile
 from collections import Counter
+from functools import cache
 from multiprocessing import Pool
 from pathlib import Path
 
@@ -69,9 +70,15 @@ def found(scene, starts, longest, mirrored, program):
     return Counter({kind: (n + 1) // 2 if mirrored and kind[0] == OTHER else n for kind, n in counts.items()})
 
 
+@cache
+def opened(path):
+    """The atlas, once in each process: its engine reads all curves when it starts."""
+    return Result(path)
+
+
 def compare(path, number, starts, program):
     """A line about a point, and what is wrong there: (text, missing, unsolved, not reached, known)."""
-    result = Result(path)
+    result = opened(path)
     group = result.group("atlas")
     mirrored, longest = bool(group.attrs["mirrored"]), int(group.attrs["max_period"])
     x, y = point_of(group, number)
@@ -95,9 +102,9 @@ def main():
     options.add_argument("--first", type=int, default=0)
     options.add_argument("--starts", type=int, default=32768)
     options.add_argument("--processes", type=int, default=1)
-    options.add_argument("--program", default=str(ROOT / "build" / "kapitza"))
+    options.add_argument("--program", type=Path, default=ROOT / "build" / "kapitza")
     chosen = options.parse_args()
-    words = [(chosen.file, chosen.first + i, chosen.starts, chosen.program) for i in range(chosen.points)]
+    words = [(chosen.file, chosen.first + i, chosen.starts, str(chosen.program.resolve())) for i in range(chosen.points)]
     totals = Counter()
     with Pool(chosen.processes) as pool:
         for task in [pool.apply_async(compare, one) for one in words]:
