@@ -19,6 +19,7 @@ from functools import cache
 from multiprocessing import Pool
 from pathlib import Path
 
+import h5py
 import numpy as np
 import yaml
 
@@ -29,14 +30,9 @@ from kapitza import Result, SceneError  # noqa: E402
 REST, SYMMETRIC, OTHER = "rest", "symmetric", "other"
 
 
-def point_of(group, number):
+def point_of(edges, number):
     """The values of both keys at a point of the sequence that seeds 1, 2, .. give."""
     shares = np.random.default_rng(1000 + number).random(2)
-    edges = []
-    for cells in ("column", "row"):
-        values = group[cells].values
-        half = (values[1] - values[0]) / 2
-        edges.append((values[0] - half, values[-1] + half))
     return [float(low + share * (high - low)) for share, (low, high) in zip(shares, edges, strict=True)]
 
 
@@ -61,30 +57,34 @@ def found(scene, starts, longest, mirrored, program):
         (Path(folder) / "a.yaml").write_text(json.dumps(scene | {"attractors": {
             "velocity": {"min": -2.5, "max": 2.5}, "starts": starts, "max_period": longest}}))
         subprocess.run([program, "run", "a.yaml"], cwd=folder, check=True, capture_output=True)
-        group = Result(Path(folder) / "a.h5").group("attractors")
+        with h5py.File(Path(folder) / "a.h5") as file:
+            columns = [file["attractors"][name][:].tolist() for name in ("period", "winding", "symmetric", "centre")]
     centres = {0: "down", 1: "inverted"}
     rows = [{"period": period, "winding": winding, "symmetric": symmetric, "centre": centres.get(centre, "")}
-            for period, winding, symmetric, centre in zip(*(group[name].values.tolist() for name in (
-                "period", "winding", "symmetric", "centre")), strict=True) if 0 < period <= longest]
+            for period, winding, symmetric, centre in zip(*columns, strict=True) if 0 < period <= longest]
     counts = Counter(class_of(row, mirrored) for row in rows)
     return Counter({kind: (n + 1) // 2 if mirrored and kind[0] == OTHER else n for kind, n in counts.items()})
 
 
 @cache
 def opened(path):
-    """The atlas, once in each process: its engine reads all curves when it starts."""
-    return Result(path)
+    """The atlas, the attributes of its group, its edges and its pendulum: once in each process."""
+    result = Result(path)
+    group = result.group("atlas")
+    edges = []
+    for cells in ("column", "row"):
+        values = group[cells].values
+        half = (values[1] - values[0]) / 2
+        edges.append((values[0] - half, values[-1] + half))
+    return result, dict(group.attrs), edges, dict(yaml.safe_load(result.scene)["pendulum"])
 
 
 def compare(path, number, starts, program):
     """A line about a point, and what is wrong there: (text, missing, unsolved, not reached, known)."""
-    result = opened(path)
-    group = result.group("atlas")
-    mirrored, longest = bool(group.attrs["mirrored"]), int(group.attrs["max_period"])
-    x, y = point_of(group, number)
-    scene = {"pendulum": dict(yaml.safe_load(result.scene)["pendulum"])}
-    for axis, value in (("x", x), ("y", y)):
-        scene["pendulum"][group.attrs[f"{axis}_parameter"]] = value
+    result, attributes, edges, pendulum = opened(path)
+    mirrored, longest = bool(attributes["mirrored"]), int(attributes["max_period"])
+    x, y = point_of(edges, number)
+    scene = {"pendulum": pendulum | {attributes["x_parameter"]: x, attributes["y_parameter"]: y}}
     try:
         listed, unsolved = told(result, x, y, mirrored)
     except SceneError as error:
