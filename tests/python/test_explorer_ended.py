@@ -2,6 +2,7 @@
 
 import matplotlib.image
 import numpy as np
+import pytest
 from explorer_page import wait_for
 from kapitza.explorer.access import Access
 
@@ -42,6 +43,38 @@ def test_a_page_keeps_its_own_token(page):
     assert page.module("engine.js", "its.ask('state')") != "Error: the token is wrong; open the address that kapitza view has printed"
     page.run("explorer.state.change({pendulum: {...explorer.state.pendulum, m: '0.31'}})")
     assert "quick labels" in page.wait()
+
+
+def test_a_story_of_other_keys_leaves_the_map_as_it_was(page):
+    """At its end the map was opened with the names of the story's pendulum, and nothing moved any more."""
+    page.run("explorer.state.change({map: 'on'})")
+    axes = page.run("explorer.map.axes.map(({name}) => name)")
+    page.press("tell")
+    assert wait_for(lambda: page.run("$('stories').querySelectorAll('div button').length") == 6)
+    page.run("$('stories').querySelectorAll('div button')[5].click()")
+    assert page.run("explorer.state.pendulum.length") == "20 cm"
+    page.key("Escape")
+    assert page.run("explorer.map.axes.map(({name}) => name)") == axes
+    page.run("explorer.state.change({map: 'off'})")
+
+
+@pytest.mark.parametrize("letters", [1, 1.35])  # on a desk, in a lecture
+@pytest.mark.parametrize("width", [0.2, 2e-2, 3e-3, 2e-4, 1e-9])
+def test_an_axis_has_room_for_its_numbers(page, letters, width):
+    """The title of the velocity lay over them."""
+    number, title = page.module("plane.js", """((width, letters) => Promise.all(["window.js", "decimal.js"].map((name) => import("/" + name)))
+        .then(([{Range, Window}, {Decimal}]) => {
+        const range = (at) => new Range(Decimal.from(at - width / 2), Decimal.from(at + width / 2));
+        const plane = new its.Plane(new Window(range(3), range(-0.1241)), 800, 600, letters);
+        const context = document.createElement("canvas").getContext("2d");
+        const size = (words) => { context.font = `${12 * letters}px "DejaVu Sans", "Helvetica Neue", Arial, sans-serif`;
+            return context.measureText(words); };
+        const found = {numbers: [], title: 0};
+        its.drawAxes({theme: {}, line() {}, text(words, x, y, align, {turned} = {}) {
+            if (turned) found.title = x + size(words).actualBoundingBoxDescent;
+            else if (align === "right") found.numbers.push(x - size(words).width); }}, plane, its.axesOf("pi", null));
+        return [Math.min(...found.numbers), found.title]; }))(%s, %s)""" % (width, letters))
+    assert number > title
 
 
 def test_pages_that_still_ask_stay_admitted():

@@ -86,7 +86,9 @@ export class MotionMap {
 
   show() {
     this.root.hidden = !this.isOpen;
-    if (this.isOpen && !this.axes) this.choose(...usualKeys(this.names));
+    const keys = usualKeys(this.names);
+    const known = keys.every((name) => name in this.pendulum); // not between two scenes, whose names come at once
+    if (this.isOpen && !this.axes && known) this.choose(...keys);
     else if (!this.isOpen) this.forget();
   }
 
@@ -230,7 +232,7 @@ export class MotionMap {
 
   get plane() {
     const [theta, velocity] = this.axes.map(({ low, high }) => new Range(Decimal.from(low), Decimal.from(high)));
-    return new Plane({ theta, velocity }, this.over.clientWidth, this.over.clientHeight);
+    return new Plane({ theta, velocity }, this.over.clientWidth, this.over.clientHeight, lettersOf(document.body));
   }
 
   /** What changes seldom: shades, curves, axes. */

@@ -48,7 +48,7 @@ export class Pane {
   }
 
   get plane() {
-    return new Plane(this.window, this.over.clientWidth, this.over.clientHeight);
+    return new Plane(this.window, this.over.clientWidth, this.over.clientHeight, lettersOf(document.body));
   }
 
   /** The last frame that came, which may be coarse, or of the pendulum before; null after a refusal. */
@@ -153,6 +153,7 @@ export class Pane {
     const { quality } = this.state;
     const samples = Number(this.state.samples);
     this.say(this, "computing", quality === "exact" ? "deciding every label ..." : "computing more samples ...", 0);
+    if (quality === "exact" && this.most < MOST_MOVING) await this.frame({ quality: "moving", levels: [1], samples: 1 }); // what is seen meanwhile
     if (quality === "exact" || samples > 1 || this.most < MOST_MOVING) await this.frame({ quality, levels: [8, 4, 2, 1], samples });
     if (version === this.version) await this.shade();
     if (version !== this.version) return;

@@ -4,12 +4,14 @@ import { Decimal } from "./decimal.js";
 import { degrees, ticksOf } from "./ticks.js";
 import { TURN } from "./window.js";
 
-export const MARGIN = { left: 66, right: 14, top: 10, bottom: 48 };
+export const MARGIN = { left: 78, right: 14, top: 10, bottom: 48 };
 
 export class Plane {
-  constructor(window, width, height) {
+  /** `letters`: how much larger they are than usual, and with them the room for numbers such as −0.025. */
+  constructor(window, width, height, letters = 1) {
     this.window = window;
-    this.box = [MARGIN.left, MARGIN.top, Math.max(8, width - MARGIN.left - MARGIN.right), Math.max(8, height - MARGIN.top - MARGIN.bottom)];
+    const left = Math.round(MARGIN.left * letters);
+    this.box = [left, MARGIN.top, Math.max(8, width - left - MARGIN.right), Math.max(8, height - MARGIN.top - MARGIN.bottom)];
   }
 
   /** Shares (0 to 1 inside of the window) of a place on the canvas. */

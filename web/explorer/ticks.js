@@ -4,7 +4,7 @@ import { Decimal, digitsFor, turn } from "./decimal.js";
 
 const PARTS_OF_PI = [1, 1 / 2, 1 / 4, 1 / 6, 1 / 12, 1 / 24];
 const WIDE = 0.5; // rad: from here on fractions of pi are read more easily than decimals
-const MOST_DIGITS = 5; // after the point; beyond, ticks count from an origin
+const MOST_DIGITS = 4; // after the point, which the margin of an axis has room for; beyond, ticks count from an origin
 const SHOWN_DIGITS = 30; // of such an origin
 
 /**
