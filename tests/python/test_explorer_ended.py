@@ -73,7 +73,7 @@ def test_an_axis_has_room_for_its_numbers(page, letters, width):
         its.drawAxes({theme: {}, line() {}, text(words, x, y, align, {turned} = {}) {
             if (turned) found.title = x + size(words).actualBoundingBoxDescent;
             else if (align === "right") found.numbers.push(x - size(words).width); }}, plane, its.axesOf("pi", null));
-        return [Math.min(...found.numbers), found.title]; }))(%s, %s)""" % (width, letters))
+        return [Math.min(...found.numbers), found.title]; }))(WIDTH, LETTERS)""".replace("WIDTH", str(width)).replace("LETTERS", str(letters)))
     assert number > title
 
 
