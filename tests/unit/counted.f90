@@ -1,12 +1,14 @@
 !> A map that counts the periods it integrates with their derivative: what a search for cycles costs, for tests.
 module kz_test_counted
   use, intrinsic :: iso_c_binding, only: dp => c_double, c_int64_t
-  use kz_vector_map, only: flow_t, WIDTH
+  use kz_vector_map, only: flow_t, WIDTH, PI
   use kz_kernel_flows, only: make_flow, fine_numerics
   use kz_vector_schemes, only: SPLIT6_ROW
   use kz_model_pendulum, only: pendulum_t
   use kz_vector_step_table, only: numerics_t
   use kz_cycles_cycles, only: attractor_t
+  use kz_grown_ellipses, only: ellipse_square
+  use kz_maps_states, only: angle_difference
   use kz_attractors_cycle_search, only: search_t, find_cycle
   implicit none
   private
@@ -32,10 +34,68 @@ contains
     real(dp), value :: closeness
     integer(c_int64_t), intent(out) :: known
     integer(c_int64_t) :: periods
-    type(numerics_t), parameter :: NUMERICS = numerics_t(SPLIT6_ROW, 24)
     type(search_t) :: search
-    type(counted_t), allocatable :: fine
     type(attractor_t), allocatable :: attractors(:)
+
+    call find_attractors(pendulum, settle, closeness, search, attractors)
+    known = size(attractors)
+    periods = count_of(search%fine)
+  end function newton_periods
+
+  !> How far the rims of the ellipses of those attractors have come from the strobe points after 12 lifetimes, at most, in their norm. `radius`: the
+  !> smallest extent of their ellipses in the angle, rad.
+  function rims(pendulum, settle, closeness, radius) bind(C, name='kz_test_rims') result(farthest)
+    type(pendulum_t), intent(in) :: pendulum
+    integer(c_int64_t), value :: settle
+    real(dp), value :: closeness
+    real(dp), intent(out) :: radius
+    real(dp) :: farthest
+    type(search_t) :: search
+    type(attractor_t), allocatable :: attractors(:)
+    integer :: a
+
+    call find_attractors(pendulum, settle, closeness, search, attractors)
+    farthest = 0
+    radius = huge(radius)
+    do a = 1, size(attractors)
+      associate (form => attractors(a)%form(:, 1))
+        if (form(1) > 0) radius = min(radius, PI*sqrt(form(3)/(form(1)*form(3) - form(2)**2)))
+        if (form(1) > 0) farthest = max(farthest, rim_after(search%flow, attractors(a), ceiling(12/(PI*pendulum%beta))))
+      end associate
+    end do
+  end function rims
+
+  !> The farthest of WIDTH points of the rim of an attractor's first ellipse after so many periods, or a few more.
+  function rim_after(flow, attractor, periods) result(farthest)
+    class(flow_t), intent(inout) :: flow
+    type(attractor_t), intent(in) :: attractor
+    integer, intent(in) :: periods
+    real(dp) :: farthest
+    real(dp) :: du, dv
+    integer :: i
+
+    associate (form => attractor%form(:, 1))
+      do i = 1, WIDTH ! form = L L^T, and the rim is that of the unit circle under the inverse of L^T
+        dv = 0.99_dp*sin(2*PI*i/WIDTH)/sqrt(form(3) - form(2)**2/form(1))
+        du = 0.99_dp*cos(2*PI*i/WIDTH)/sqrt(form(1)) - form(2)/form(1)*dv
+        call flow%put(i, attractor%kernel_u(1) + du, attractor%kernel_v(1) + dv)
+      end do
+    end associate
+    do i = 1, attractor%period*ceiling(real(periods)/real(attractor%period))
+      call flow%advance(WIDTH)
+    end do
+    farthest = maxval([(sqrt(ellipse_square(attractor, 1, angle_difference(flow%u(i), 0.0_dp), flow%v(i))), i=1, WIDTH)])
+  end function rim_after
+
+  !> The attractors that are found from WIDTH orbits.
+  subroutine find_attractors(pendulum, settle, closeness, search, attractors)
+    type(pendulum_t), intent(in) :: pendulum
+    integer(c_int64_t), intent(in) :: settle
+    real(dp), intent(in) :: closeness
+    type(search_t), intent(out) :: search
+    type(attractor_t), allocatable, intent(out) :: attractors(:)
+    type(numerics_t), parameter :: NUMERICS = numerics_t(SPLIT6_ROW, 24)
+    type(counted_t), allocatable :: fine
     integer, allocatable :: n_blurred(:)
     integer :: i, next
 
@@ -60,9 +120,7 @@ contains
         call find_cycle(search, u, v, closeness, next, n_blurred, attractors)
       end do
     end associate
-    known = size(attractors)
-    periods = count_of(search%fine)
-  end function newton_periods
+  end subroutine find_attractors
 
   function count_of(flow) result(periods)
     class(flow_t), intent(in) :: flow

@@ -2,8 +2,9 @@
 module kz_attractors_cycle_search
   use, intrinsic :: iso_c_binding, only: dp => c_double
   use kz_vector_map, only: flow_t, WIDTH, PI
+  use kz_attractors_centres, only: find_centre, CENTRED
   use kz_model_pendulum, only: pendulum_t, is_mirrored
-  use kz_cycles_cycles, only: attractor_t, close_cycle, complete_attractor, enter_points, mirror_image, listed_from_lowest
+  use kz_cycles_cycles, only: attractor_t, close_cycle, complete_attractor, enter_points, mirror_image, listed_from_lowest, SLOW
   use kz_grown_ellipses, only: find_ellipses
   use kz_cycles_newton, only: newton, n_periods
   use kz_cycles_features, only: find_features
@@ -48,16 +49,19 @@ contains
     !> in and out: for every period up to max_period, how often its cycle has been found blurred among these states; 0 at first
     integer, intent(inout) :: n_blurred(:)
     type(attractor_t), allocatable, intent(inout) :: attractors(:) !< the catalogue, which gains what is found
-    real(dp) :: orbit_u(size(u), 0:search%max_period), orbit_v(size(u), 0:search%max_period)
-    integer :: lane, n, n_known
+    real(dp), allocatable :: orbit_u(:, :), orbit_v(:, :)
+    integer :: lane, n, n_known, last
 
+    last = search%max_period
+    if (is_weak(search)) last = max(last, CENTRED)
+    allocate (orbit_u(size(u), 0:last), orbit_v(size(u), 0:last))
     do lane = 1, size(u)
       call search%flow%put(lane, u(lane), v(lane))
     end do
     call search%flow%to_map(size(u))
     orbit_u(:, 0) = search%flow%u(:size(u))
     orbit_v(:, 0) = search%flow%v(:size(u))
-    do n = 1, search%max_period
+    do n = 1, last
       call search%flow%advance(size(u))
       orbit_u(:, n) = search%flow%u(:size(u))
       orbit_v(:, n) = search%flow%v(:size(u))
@@ -69,7 +73,7 @@ contains
     end do
   end subroutine find_cycle
 
-  !> Polishes the closest recurrences of one orbit until one gives an attracting cycle.
+  !> Polishes the closest recurrences of one orbit until one gives an attracting cycle; before, what a slow orbit spirals around.
   subroutine try_recurrences(search, start, u, v, closeness, n_blurred, attractors)
     type(search_t), intent(inout) :: search
     real(dp), intent(in) :: start(2) !< its first state in physical coordinates
@@ -77,34 +81,39 @@ contains
     real(dp), intent(in) :: v(0:), closeness
     integer, intent(inout) :: n_blurred(:) !< for every period: how often its cycle has been found blurred
     type(attractor_t), allocatable, intent(inout) :: attractors(:)
-    real(dp) :: distance(ubound(u, 1))
+    real(dp) :: distance(search%max_period), centre(2), spread
     type(attractor_t) :: candidate
     logical :: found, blurred
-    real(dp) :: farthest
     integer :: tries, n, promise
 
-    n = ubound(u, 1)
+    n = search%max_period
     if (ellipse_at(attractors, u(n), v(n)) > 0) return
-    distance = separation(u(1:), v(1:), u(0), v(0))
+    if (is_weak(search)) then
+      call find_centre(search%max_period, u, v, n, centre, spread)
+      found = .false.
+      if (n > 0) call try(n, centre, max(0.1_dp, 2*spread))
+      if (found) return
+    end if
+    distance = separation(u(1:search%max_period), v(1:search%max_period), u(0), v(0))
     do tries = 1, MOST_TRIES
       n = first_of_the_closest(distance)
       if (.not. distance(n) < closeness) return
-      call try(n)
+      found = .false.
+      if (n_blurred(n) < BLURRED_TRIES) then
+        if (.not. repels(search, n, u(0), v(0))) call try(n, start, max(0.1_dp, 20*distance(n)))
+      end if
       if (found) return
       distance(n::n) = huge(1.0_dp) ! its multiples lead to the same cycle
     end do
   contains
-    subroutine try(period)
+    subroutine try(period, x, farthest)
       integer, intent(in) :: period
+      real(dp), intent(in) :: x(2), farthest
 
-      found = .false.
-      if (n_blurred(period) >= BLURRED_TRIES) return
-      if (repels(search, period, u(0), v(0))) return
-      farthest = max(0.1_dp, 20*distance(period))
-      promise = promise_of(search, period, start, farthest, attractors)
+      promise = promise_of(search, period, x, farthest, attractors)
       found = promise == KNOWN_ONE
       if (promise /= UNSURE) return
-      call close_cycle(search%fine, search%pendulum%beta, period, start(1), start(2), farthest, candidate, found, blurred)
+      call close_cycle(search%fine, search%pendulum%beta, period, x(1), x(2), farthest, candidate, found, blurred)
       candidate%mirrored = is_mirrored(search%pendulum) /= 0
       if (found) call complete_attractor(candidate, found)
       if (blurred) n_blurred(period) = n_blurred(period) + 1
@@ -112,6 +121,14 @@ contains
       if (.not. known(attractors, candidate%period, candidate%u, candidate%v)) call add_with_mirror(search, candidate, attractors)
     end subroutine try
   end subroutine try_recurrences
+
+  !> Whether damping is so weak that motions spiral around a cycle long before they come near it.
+  pure function is_weak(search)
+    type(search_t), intent(in) :: search
+    logical :: is_weak
+
+    is_weak = PI*search%pendulum%beta < SLOW
+  end function is_weak
 
   !> Whether a cycle of n periods near (u, v), in the coordinates of the scene's map, would repel. Recurrences on a chaotic set lead to such
   !> cycles without end: their map costs dozens of times less than Newton's method.

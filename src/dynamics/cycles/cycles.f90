@@ -3,14 +3,20 @@ module kz_cycles_cycles
   use, intrinsic :: iso_c_binding, only: dp => c_double
   use kz_vector_map, only: flow_t, WIDTH, PI
   use kz_cycles_newton, only: newton, minimal_period
-  use kz_maps_matrices, only: eigenvalues, IDENTITY
+  use kz_maps_matrices, only: eigenvalues, solved, IDENTITY
   use kz_maps_states, only: angle_difference, states_to_map, same_state, rounded
   implicit none
   private
-  public :: attractor_t, close_cycle, complete_attractor, orbit_of, enter_points, symmetrise, mirror_image, listed_from_lowest
+  public :: attractor_t, close_cycle, complete_attractor, orbit_of, enter_points, is_slow, symmetrise, mirror_image, listed_from_lowest
 
   !> In the place of a period: the attractor is a closed curve that a motion fills.
   integer, parameter, public :: QUASIPERIODIC = -1
+
+  !> 1/drive period: motions that spiral into a cycle at a lower rate do so long before they come near it.
+  real(dp), parameter, public :: SLOW = 1.0_dp/64
+
+  !> So far from it may the cycle of another flow lie, rad.
+  real(dp), parameter :: BESIDE = 1e-3_dp
 
   !> An attractor. Angles are half-turns in [-1, 1]; strobe points are in the order of time.
   type :: attractor_t
@@ -99,15 +105,66 @@ contains
     matrix = tangent(:, :, 1)
   end subroutine orbit_of
 
-  !> Sets kernel_u and kernel_v from the strobe points.
+  !> Sets kernel_u and kernel_v from the strobe points. Where motions approach them slowly, small errors of the flow move its own cycle so far
+  !> from them that rings around them do not shrink: the points are those of its own cycle.
   subroutine enter_points(flow, attractor)
     class(flow_t), intent(inout) :: flow !< the flow whose coordinates are entered
-    type(attractor_t), intent(inout) :: attractor !< u and v, in; kernel_u and kernel_v, out
+    type(attractor_t), intent(inout) :: attractor !< u, v and multipliers, in; kernel_u and kernel_v, out
+    integer :: first, last
 
     attractor%kernel_u = attractor%u
     attractor%kernel_v = attractor%v
+    if (is_slow(attractor)) then
+      do first = 1, attractor%period, WIDTH
+        last = min(attractor%period, first + WIDTH - 1)
+        call own_points(flow, attractor%period, attractor%kernel_u(first:last), attractor%kernel_v(first:last))
+      end do
+    end if
     call states_to_map(flow, attractor%kernel_u, attractor%kernel_v)
   end subroutine enter_points
+
+  !> Moves strobe points to those of the flow's own cycle beside them, by Newton's method on each; they stay where it does not end BESIDE them.
+  subroutine own_points(flow, period, u, v)
+    class(flow_t), intent(inout) :: flow
+    integer, intent(in) :: period
+    real(dp), intent(inout) :: u(:), v(:)
+    integer, parameter :: ITERATIONS = 4
+    real(dp), parameter :: ENDED = 1e-10_dp
+    real(dp) :: x(2, size(u)), step(2, size(u)), tangent(2, 2, WIDTH)
+    integer :: n, i, iteration
+
+    n = size(u)
+    x = reshape([(u(i), v(i), i=1, n)], [2, n])
+    do iteration = 1, ITERATIONS
+      tangent(:, :, :n) = spread(IDENTITY, 3, n)
+      do i = 1, n
+        call flow%put(i, x(1, i), x(2, i))
+      end do
+      call flow%to_map(n, tangent)
+      do i = 1, period
+        call flow%advance_tangent(n, tangent)
+      end do
+      call flow%to_physical(n, tangent)
+      do i = 1, n
+        step(:, i) = solved(tangent(:, :, i), [PI*angle_difference(flow%u(i), x(1, i)), flow%v(i) - x(2, i)])
+      end do
+      x = x - step/spread([PI, 1.0_dp], 2, n)
+    end do
+    do i = 1, n
+      if (.not. (norm2(step(:, i)) < ENDED .and. abs(angle_difference(x(1, i), u(i))) + abs(x(2, i) - v(i)) < BESIDE)) cycle
+      u(i) = angle_difference(x(1, i), 0.0_dp)
+      v(i) = x(2, i)
+    end do
+  end subroutine own_points
+
+  !> Whether motions spiral into a cycle slowly.
+  pure function is_slow(attractor)
+    type(attractor_t), intent(in) :: attractor !< its period and multipliers
+    logical :: is_slow
+
+    is_slow = attractor%period > 0 .and. abs(aimag(attractor%multiplier(1))) > 0
+    if (is_slow) is_slow = -log(abs(attractor%multiplier(1))) < SLOW*attractor%period
+  end function is_slow
 
   !> Makes a cycle that is its own mirror image, x(1 + n/2) = -x(1), exact: x(j + n/2) = -x(j) to the bit, or exactly down or inverted.
   subroutine symmetrise(cycle)

@@ -6,6 +6,7 @@
 enum { STATES = 64 };
 
 int64_t kz_test_newton_periods(const kz_pendulum *pendulum, int64_t settle, double closeness, int64_t *known);
+double kz_test_rims(const kz_pendulum *pendulum, int64_t settle, double closeness, double *radius);
 
 /* Orbits on a chaotic set come near themselves again and again, always beside a cycle that repels: Newton's method leaves most of
  * those alone. (It took 31, 79 and 126 periods a state here when it tried them all.) */
@@ -32,4 +33,21 @@ TEST(test_slow_spirals) {
   int64_t known;
   assert_true(kz_test_newton_periods(&(kz_pendulum){1.0 / 121, 1.0 / 660, 0.3}, 270, 0.32, &known) < 20 * STATES);
   assert_in_range(known, 9, 14);
+}
+
+/* Motions that spiral in slowly are trapped far from their cycle: in ellipses whose rims come to it in the end. (Ellipses that one return carries
+ * inside themselves are some .001 rad wide here.) */
+TEST(test_wide_ellipses) {
+  double radius;
+  assert_true(kz_test_rims(&(kz_pendulum){1.0 / 121, 1.0 / 660, 0.3}, 270, 0.32, &radius) < 0.001);
+  assert_true(radius > 0.05);
+  assert_true(kz_test_rims(&(kz_pendulum){1.0 / 121, 1.0 / 2200, 0.3}, 400, 0.02, &radius) < 0.001);
+  assert_true(radius > 0.05);
+}
+
+/* Orbits of a lifetime have come nowhere near a cycle yet: the means of their states are near it. (Two were found.) */
+TEST(test_centres) {
+  int64_t known;
+  kz_test_newton_periods(&(kz_pendulum){1.0 / 121, 1.0 / 6600, 0.3}, 2000, 0.02, &known);
+  assert_true(known >= 8);
 }

@@ -6,7 +6,7 @@
 module kz_grown_ellipses
   use, intrinsic :: iso_c_binding, only: dp => c_double
   use kz_vector_map, only: flow_t, WIDTH, PI
-  use kz_cycles_cycles, only: attractor_t
+  use kz_cycles_cycles, only: attractor_t, is_slow
   use kz_cycles_newton, only: n_periods
   use kz_maps_matrices, only: inverse_of, eigenvector, IDENTITY
   use kz_maps_states, only: angle_difference
@@ -20,10 +20,16 @@ module kz_grown_ellipses
   real(dp), parameter :: ROUNDING = 18
   !> Rings tried between the centre and the final boundary.
   integer, parameter :: N_RINGS = 16
+  !> Of slow spirals: the factor by which an ellipse is widened at once; the time that a ring may take, in units of what the multiplier says;
+  !> in radii, how far outside images of its points may lie meanwhile, and how far apart those of neighbours in the end; points of the ring, and
+  !> returns between two looks at them.
+  real(dp), parameter :: STEP = 1.5_dp, PATIENCE = 4, FAR = 2, APART = 0.5_dp
+  integer, parameter :: FEW = 32, LOOKED_AT = 4
 
 contains
 
-  !> Sets attractor%form. For a symmetric cycle half of the points follow from the other half.
+  !> Sets attractor%form. For a symmetric cycle half of the points follow from the other half. A cycle that motions spiral into slowly has
+  !> the ellipse of its first point alone, which is wide: motions come by there every period of the cycle.
   subroutine find_ellipses(flow, fine, attractor, others, points)
     class(flow_t), intent(inout) :: flow !< the map whose orbits are to be trapped
     class(flow_t), intent(inout) :: fine !< the map of the published strobe points
@@ -34,7 +40,8 @@ contains
 
     n_own = attractor%period
     if (attractor%symmetric .and. n_own > 1) n_own = n_own/2
-    do j = 1, n_own
+    attractor%form = 0
+    do j = 1, merge(1, n_own, is_slow(attractor))
       attractor%form(:, j) = ellipse(flow, fine, attractor, j, others, points)
     end do
     if (n_own < attractor%period) attractor%form(:, n_own + 1:) = attractor%form(:, :n_own)
@@ -94,6 +101,7 @@ contains
     end do
     if (first <= 0) return
     last = refined()
+    if (j == 1 .and. is_slow(attractor)) call widen()
     if (clearance(attractor, j, inverse, others) < max(last, 4*first)) return
     form = [PI**2*(inverse(1, 1)**2 + inverse(2, 1)**2), &
             PI*(inverse(1, 1)*inverse(1, 2) + inverse(2, 1)*inverse(2, 2)), &
@@ -122,24 +130,79 @@ contains
     function carried_inside(radius) result(inside)
       real(dp), intent(in) :: radius
       logical :: inside
-      real(dp) :: x(2), bound
+      real(dp) :: bound
       integer :: i
 
-      do i = 1, points
-        x = radius*matmul(basis, [cos(2*PI*i/points), sin(2*PI*i/points)])
-        call flow%put(i, attractor%kernel_u(j) + x(1)/PI, attractor%kernel_v(j) + x(2))
-      end do
+      call put_ring(radius, points)
       do i = 1, attractor%period
         call flow%advance(points)
       end do
       bound = radius*(1 - min(0.05_dp, 0.5_dp*(1 - abs(attractor%multiplier(1)))))
-      inside = .true.
-      do i = 1, points
-        x = [PI*angle_difference(flow%u(i), attractor%kernel_u(j)), flow%v(i) - attractor%kernel_v(j)]
-        inside = inside .and. norm2(matmul(inverse, x)) < bound
-      end do
+      inside = all(norm2(normed(points), 1) < bound)
     end function carried_inside
+
+    !> Widens the ellipse as long as the ring outside of it is carried inside it in the end: then the ring's inside is, too.
+    subroutine widen()
+      do while (last < LARGEST)
+        if (.not. comes_inside(STEP*last, last)) exit
+        last = STEP*last
+      end do
+    end subroutine widen
+
+    !> Whether all points of a ring are inside the ellipse of another radius at once, soon enough, with neighbours beside each other: then what
+    !> lies between them is inside, too.
+    function comes_inside(radius, goal) result(inside)
+      real(dp), intent(in) :: radius, goal
+      logical :: inside
+      real(dp) :: x(2, FEW)
+      integer :: returns, i
+
+      call put_ring(radius, FEW)
+      inside = .false.
+      do returns = 1, ceiling(PATIENCE*log(radius/goal)/(attractor%period*rate(attractor)))
+        do i = 1, attractor%period
+          call flow%advance(FEW)
+        end do
+        if (mod(returns, LOOKED_AT) /= 0) cycle
+        x = normed(FEW)
+        if (maxval(norm2(x, 1)) > FAR*radius) return
+        if (maxval(norm2(x, 1)) >= goal) cycle
+        inside = maxval(norm2(x - cshift(x, 1, 2), 1)) < APART*goal
+        return
+      end do
+    end function comes_inside
+
+    subroutine put_ring(radius, n)
+      real(dp), intent(in) :: radius
+      integer, intent(in) :: n
+      real(dp) :: x(2)
+      integer :: i
+
+      do i = 1, n
+        x = radius*matmul(basis, [cos(2*PI*i/n), sin(2*PI*i/n)])
+        call flow%put(i, attractor%kernel_u(j) + x(1)/PI, attractor%kernel_v(j) + x(2))
+      end do
+    end subroutine put_ring
+
+    !> The states of the lanes, from the strobe point on, in the eigenbasis.
+    function normed(n) result(x)
+      integer, intent(in) :: n
+      real(dp) :: x(2, n)
+      integer :: i
+
+      do i = 1, n
+        x(:, i) = matmul(inverse, [PI*angle_difference(flow%u(i), attractor%kernel_u(j)), flow%v(i) - attractor%kernel_v(j)])
+      end do
+    end function normed
   end function ellipse
+
+  !> The rate at which motions approach a cycle, 1/drive period.
+  pure function rate(attractor)
+    type(attractor_t), intent(in) :: attractor
+    real(dp) :: rate
+
+    rate = -log(abs(attractor%multiplier(1)))/attractor%period
+  end function rate
 
   !> Distance, in the norm of the ellipse, from strobe point j to the nearest one of another attractor, its mirror image included.
   !> A larger ellipse is rejected: the scene's map then differs too much from the fine one. So is one whose first ring is not
