@@ -7,7 +7,7 @@ import shutil
 import h5py
 import numpy as np
 import pytest
-from conftest import EXTENSIVE, ROOT, datasets, plot, run_until_saved, with_extensive
+from conftest import EXTENSIVE, ROOT, datasets, plot, run_scene, run_until_saved, with_extensive
 from kapitza import Result, SceneError
 from kapitza.style import name_text
 from scipy.integrate import solve_ivp
@@ -24,9 +24,7 @@ FOLD, DOUBLING, BREAKING, SWINGS, LEANS = range(5)
 def atlas(kapitza, tmp_path_factory):
     """The file of the scene above, by two ranks, and the summary."""
     folder = tmp_path_factory.mktemp("atlas")
-    (folder / "s.yaml").write_text(json.dumps(SCENE))
-    done = kapitza("run", "s.yaml", ranks=2, folder=folder)
-    return Result(folder / "s.h5"), done.stdout, folder / "s.h5"
+    return *run_scene(kapitza, folder, SCENE, ranks=2), folder / "s.h5"
 
 
 def curve(group, kind, **named):
@@ -65,9 +63,8 @@ def test_rest_is_that_of_the_study_stability(atlas, kapitza, tmp_path):
         at = np.flatnonzero((xs > 5) & (xs < 30) & (ys > 0) & (ys < 0.8))[7]
         k = (1 if centre == 0 else -1) / xs[at] ** 2
         axes = {"k": {"min": min(k, 2 * k), "max": max(k, 2 * k), "count": 2}, "m": {"min": 0, "max": 0.8, "count": 2}}
-        (tmp_path / "s.yaml").write_text(json.dumps({"stability": axes | {"quality_factor": 5, "curves": [name]}}))
-        kapitza("run", "s.yaml", "--force", folder=tmp_path)
-        found = Result(tmp_path / "s.h5").group("stability")[name].values[0 if k > 0 else 1]
+        result, _ = run_scene(kapitza, tmp_path, {"stability": axes | {"quality_factor": 5, "curves": [name]}})
+        found = result.group("stability")[name].values[0 if k > 0 else 1]
         assert abs(found - ys[at]) < 1e-12
 
 
@@ -89,10 +86,8 @@ def test_lists_are_those_of_the_search(atlas, kapitza, tmp_path):
     assert int(group.attrs["open_ends"]) == 0 and not group["curve_open"].values.any()
     for column, row in ((8, 12), (20, 30), (40, 40), (50, 52), (30, 46)):
         here = dict(PENDULUM, drive_frequency=float(group["column"][column]), drive_amplitude=float(group["row"][row]))
-        (tmp_path / "a.yaml").write_text(json.dumps({"pendulum": here, "attractors": {"velocity": {"min": -2.5, "max": 2.5},
-                                                                                     "starts": 4096}}))
-        kapitza("run", "a.yaml", "--force", folder=tmp_path)
-        found = Result(tmp_path / "a.h5").group("attractors")
+        search = {"velocity": {"min": -2.5, "max": 2.5}, "starts": 4096}
+        found = run_scene(kapitza, tmp_path, {"pendulum": here, "attractors": search})[0].group("attractors")
         short = (found["period"].values > 0) & (found["period"].values <= 2)
         assert int(short.sum()) == int(group["count"][row, column]), here
 
@@ -212,9 +207,7 @@ def test_shares_are_of_attractors_that_the_list_has(kapitza, tmp_path):
     scene = {"pendulum": PENDULUM, "atlas": {"x": {"parameter": "drive_frequency", "min": 8, "max": 12},
                                              "y": {"parameter": "drive_amplitude", "min": 0, "max": 0.4}, "max_period": 1, "checks": 0,
                                              "points": 16, "shares": 100}}
-    (tmp_path / "s.yaml").write_text(json.dumps(scene))
-    kapitza("run", "s.yaml", ranks=2, folder=tmp_path)
-    group = Result(tmp_path / "s.h5").group("atlas")
+    group = run_scene(kapitza, tmp_path, scene, ranks=2)[0].group("atlas")
     shares, other = group["region_fraction"].values, group["region_other"].values
     assert len(shares) > 2 and np.allclose(shares.sum(axis=1) + other, 1) and (other < 0.5).any() and (shares > 0).sum() > 4
     for region in range(len(shares)):
@@ -242,9 +235,8 @@ def test_pictures(atlas, tmp_path):
 
 
 def test_ranks_and_resumed_runs_write_the_same(atlas, kapitza, tmp_path):
-    (tmp_path / "s.yaml").write_text(json.dumps(SCENE))
     for ranks in (1, 3, 7) if EXTENSIVE else (3,):
-        kapitza("run", "s.yaml", "--force", ranks=ranks, folder=tmp_path)
+        run_scene(kapitza, tmp_path, SCENE, ranks=ranks)
         assert datasets(tmp_path / "s.h5") == datasets(atlas[2])
 
 
@@ -253,9 +245,7 @@ def test_no_curve_is_missing(kapitza, tmp_path):
     scene = {"pendulum": {"k": 0.1, "damping": 0.1, "m": 0.5},
              "atlas": {"x": {"parameter": "k", "min": -0.6, "max": 1.6}, "y": {"parameter": "m", "min": 0, "max": 2},
                        "max_period": 4 if EXTENSIVE else 2, "checks": 0, "points": 200 if EXTENSIVE else 64}}
-    (tmp_path / "s.yaml").write_text(json.dumps(scene))
-    kapitza("run", "s.yaml", ranks=2, folder=tmp_path)
-    group = Result(tmp_path / "s.h5").group("atlas")
+    group = run_scene(kapitza, tmp_path, scene, ranks=2)[0].group("atlas")
     assert int(group.attrs["negative"]) == 0 and int(group.attrs["compared"]) > 750 and int(group.attrs["alone"]) == 0
     curves, pairs = curves_of(group), 0
     for k in np.linspace(0.011, 0.58, 40):
@@ -272,9 +262,8 @@ def test_curves_of_cycles_that_few_starts_reach(kapitza, tmp_path):
     scene = {"pendulum": PENDULUM, "atlas": {"x": {"parameter": "drive_frequency", "min": 9, "max": 13},
                                              "y": {"parameter": "drive_amplitude", "min": 0, "max": 0.6}, "max_period": 2, "checks": 0,
                                              "points": 16}}
-    (tmp_path / "s.yaml").write_text(json.dumps(scene))
-    kapitza("run", "s.yaml", folder=tmp_path)
-    named = [(kind, period, winding) for kind, period, winding, *_ in curves_of(Result(tmp_path / "s.h5").group("atlas"))]
+    group = run_scene(kapitza, tmp_path, scene)[0].group("atlas")
+    named = [(kind, period, winding) for kind, period, winding, *_ in curves_of(group)]
     assert named.count((FOLD, 2, 1)) == 2 and named.count((DOUBLING, 2, 1)) == 2
 
 
@@ -284,9 +273,7 @@ def test_every_motion_of_the_lists_exists(kapitza, tmp_path):
     scene = {"pendulum": {"k": 0.1, "damping": 0.1, "m": 0.5},
              "atlas": {"x": {"parameter": "k", "min": 0.1, "max": 1.6}, "y": {"parameter": "m", "min": 0, "max": 1}, "max_period": 4,
                        "seeds": 4, "checks": 0, "points": 24}}
-    (tmp_path / "s.yaml").write_text(json.dumps(scene))
-    kapitza("run", "s.yaml", folder=tmp_path)
-    result, told = Result(tmp_path / "s.h5"), 0
+    result, told = run_scene(kapitza, tmp_path, scene)[0], 0
     group = result.group("atlas")
     for x, y in itertools.product(group["column"].values[1::4], group["row"].values[1::4]):
         motions = result.motions(float(x), float(y))
@@ -301,9 +288,7 @@ def test_without_gravity_both_rests_attract(kapitza, tmp_path, x):
     """Where k = 0 any drive holds both: in the middle of the first plane, and all over the second one."""
     scene = {"pendulum": {"k": 0, "damping": 0.1, "m": 0.3},
              "atlas": {"x": x, "y": {"parameter": "m", "min": 0, "max": 0.4}, "max_period": 1, "checks": 0, "points": 17}}
-    (tmp_path / "s.yaml").write_text(json.dumps(scene))
-    kapitza("run", "s.yaml", ranks=2, folder=tmp_path)
-    result = Result(tmp_path / "s.h5")
+    result, _ = run_scene(kapitza, tmp_path, scene, ranks=2)
     group = result.group("atlas")
     assert int(group.attrs["negative"]) == 0 and (group["count"].values[:, 8] >= 2).all()
     place = 0 if x["parameter"] == "k" else 0.2
@@ -316,9 +301,7 @@ def test_a_fold_ends_where_it_meets_a_degenerate_period_doubling(kapitza, tmp_pa
     scene = {"pendulum": dict(PENDULUM, tilt="5 deg"),
              "atlas": {"x": {"parameter": "drive_frequency", "min": 9, "max": 13},
                        "y": {"parameter": "drive_amplitude", "min": 0.45, "max": 0.6}, "max_period": 4, "checks": 0, "points": 64}}
-    (tmp_path / "s.yaml").write_text(json.dumps(scene))
-    kapitza("run", "s.yaml", ranks=2, folder=tmp_path)
-    assert int(Result(tmp_path / "s.h5").group("atlas").attrs["negative"]) == 0
+    assert int(run_scene(kapitza, tmp_path, scene, ranks=2)[0].group("atlas").attrs["negative"]) == 0
 
 
 def curves_of(group):
@@ -345,3 +328,14 @@ def test_a_stopped_run_goes_on(atlas, kapitza, tmp_path):
     run_until_saved("s.yaml", file="s.h5", folder=tmp_path)
     kapitza("run", "s.yaml", "--resume", ranks=1, folder=tmp_path)
     assert datasets(tmp_path / "s.h5") == datasets(atlas[2])
+
+
+def test_a_fold_begins_at_each_degenerate_doubling(atlas):
+    """That of the doubled cycle, which exists on one side of the point alone."""
+    group = atlas[0].group("atlas")
+    first, points, kind = (group[f"curve_{name}"].values for name in ("first", "points", "kind"))
+    places = list(zip(group["x"].values, group["y"].values, strict=True))
+    ends = {places[at] for i in range(len(kind)) if kind[i] == FOLD for at in (first[i], first[i] + points[i] - 1)}
+    doubled = {(x, y) for x, y, on in zip(*(group[f"special_{name}"].values for name in ("x", "y", "curve")), strict=True)
+               if kind[on] == DOUBLING}
+    assert doubled and doubled <= ends

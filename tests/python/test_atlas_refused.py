@@ -3,6 +3,7 @@
 import json
 
 import pytest
+from conftest import refused_scene
 from test_atlas import PENDULUM, SCENE
 
 BAD = {"one key": ({"y": {"parameter": "drive_frequency", "min": 3, "max": 30}}, "atlas.y.parameter: is also the parameter of atlas.x"),
@@ -23,9 +24,7 @@ BAD = {"one key": ({"y": {"parameter": "drive_frequency", "min": 3, "max": 30}},
 def test_bad_planes_are_refused(kapitza, tmp_path, name):
     change, message = BAD[name]
     text = json.dumps(dict(SCENE, atlas=dict(SCENE["atlas"], **change)))
-    (tmp_path / "s.yaml").write_text(text.replace('".nan"', ".nan").replace('".inf"', ".inf"))
-    done = kapitza("run", "s.yaml", status=2, folder=tmp_path)
-    assert message in done.stderr and not (tmp_path / "s.h5").exists()
+    assert message in refused_scene(kapitza, tmp_path, text.replace('".nan"', ".nan").replace('".inf"', ".inf"))
 
 
 def test_planes_without_damping_or_without_effect_are_refused(kapitza, tmp_path):
@@ -35,5 +34,4 @@ def test_planes_without_damping_or_without_effect_are_refused(kapitza, tmp_path)
             "basin": {"theta": {"count": 8}, "velocity": {"min": -1, "max": 1, "count": 8}},
             "atlas": {"x": {"parameter": "ramp.periods", "min": 1, "max": 4}, "y": {"parameter": "drive_amplitude", "min": 0, "max": 1}}}
     for scene, message in ((undamped, "no damped pendulum at damping = 0"), (idle, "ramp.periods changes no motion")):
-        (tmp_path / "s.yaml").write_text(json.dumps(scene))
-        assert message in kapitza("run", "s.yaml", status=2, folder=tmp_path).stderr
+        assert message in refused_scene(kapitza, tmp_path, scene)

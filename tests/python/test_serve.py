@@ -130,13 +130,6 @@ def test_answers_within_a_frame_leave_it_as_it_is():
     assert not children
 
 
-def test_a_symmetric_window_has_mirrored_labels(server):
-    catalogue = server.ask("catalogue")[0][0]["attractors"]
-    labels = server.frame(40, 60)[1][-1][1]["labels"]
-    mirror = np.array([attractor["mirror"] for attractor in catalogue], dtype=np.uint8)
-    assert np.array_equal(mirror[labels], labels[::-1, ::-1])
-
-
 def test_attractors_keep_their_tracks_when_a_slider_moves(server):
     before = server.ask("catalogue")[0][0]["attractors"]
     catalogue, _ = server.frame(20, 30, pendulum=OTHER, quality="moving")
