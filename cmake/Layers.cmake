@@ -41,6 +41,7 @@ function(kapitza_program)
     set(first armv8-a)
   endif()
   target_compile_options(kapitza PRIVATE -march=${first} ${KAPITZA_FLAGS_C} ${KAPITZA_SANITIZERS})
+  target_link_options(kapitza PRIVATE LINKER:--as-needed) # HDF5 names libraries for parts that are not used
   target_link_libraries(kapitza PRIVATE kapitza_app)
   set_target_properties(kapitza PROPERTIES LINKER_LANGUAGE C)
 endfunction()
