@@ -81,6 +81,14 @@ sweep: {parameter: m, min: 0.6, max: 0.65, count: 2, measure: [attractors], star
     assert ends(branches, "flutter") == (pytest.approx(0.625495916, abs=1e-9), "period_doubling", 0.65, "left_the_range")
 
 
+def test_a_doubled_cycle_ends_where_it_is_born(sweep):
+    """One value lies so little below the birth of flutter that a step of its branch ended on rest: flutter was told where there is none."""
+    branches, _ = sweep("attractors", 0.46205128205128204, 0.47974358974358977, 4, more=", starts: 128", ranks=1)
+    assert ends(branches, "flutter")[:2] == (pytest.approx(0.46819030239028, abs=1e-11), "period_doubling")
+    flutter = list(branches["branch_name"]).index("flutter")
+    assert np.isnan(branches["branch_theta"][:2, flutter]).all() and np.isfinite(branches["branch_theta"][2:, flutter]).all()
+
+
 def test_short_lived_pair(sweep):
     branches, _ = sweep("attractors", 0.5195, 0.5235, 5, more=", starts: 2048")
     low, high = (RANGES["period4_top"][key]["eps"] for key in ("low", "high"))

@@ -14,8 +14,14 @@ LINES = {"m": (BUTIKOV, "m", 0.42, 0.9, 9, "k"),
          "damping": ({"k": 0.00826, "damping": 0.02, "m": 0.3}, "damping", 0.005, 0.1, 13, "m"),
          "frequency": (BLACKBURN, "drive_frequency", 5, 12, 13, "drive_amplitude"),
          "amplitude": (BLACKBURN, "drive_amplitude", 0.4, 0.58, 13, "drive_frequency"),
-         "tilt": (BLACKBURN | {"tilt": 0.05}, "tilt", 0.01, 0.3, 9, "drive_amplitude")}
+         "tilt": (BLACKBURN | {"tilt": 0.05}, "tilt", 0.01, 0.3, 9, "drive_amplitude"),
+         "torque": (BUTIKOV | {"torque": 0.05}, "torque", 0.0, 0.2, 11, "m"),
+         "quality": (BLACKBURN, "quality_factor", 2, 11, 10, "drive_amplitude"),
+         "square wave": (BLACKBURN | {"waveform": "square"}, "drive_amplitude", 0.2, 0.48, 11, "drive_frequency"),
+         "laboratory": ({"length": "20 cm", "frequency": "16 Hz", "amplitude": "6 cm", "quality_factor": 5}, "amplitude", 0.05, 0.12, 11,
+                        "frequency")}
 LEFT, NOT_LOCATED = 0, 5
+UNITS = {"laboratory": 16}  # the key that is the same, in the unit of the file
 
 
 def crossings(group, value):
@@ -34,7 +40,7 @@ def crossings(group, value):
 @pytest.mark.parametrize("name", LINES)
 def test_ends_of_branches_lie_on_curves_of_the_atlas(kapitza, tmp_path, name):
     pendulum, key, low, high, count, other = LINES[name]
-    value = pendulum[other]
+    value = UNITS.get(name, pendulum[other])
     studies = {"sweep": {"parameter": key, "min": low, "max": high, "count": count, "measure": ["attractors"], "starts": 1024,
                          "max_period": 4},
                "atlas": {"x": {"parameter": other, "min": 0.9999 * value, "max": 1.0001 * value},

@@ -21,3 +21,9 @@ add_library(no_locks MODULE tools/no_locks.c)
 target_compile_options(no_locks PRIVATE ${KAPITZA_FLAGS_C} -Wno-pedantic)
 target_link_libraries(no_locks PRIVATE ${CMAKE_DL_LIBS})
 set_target_properties(no_locks PROPERTIES LINKER_LANGUAGE C PREFIX "" LIBRARY_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/tests)
+
+# A stop within each stage, for tests/python/test_atlas_stops.py.
+add_library(stop_at MODULE tools/stop_at.c)
+target_compile_options(stop_at PRIVATE ${KAPITZA_FLAGS_C} -Wno-pedantic)
+target_link_libraries(stop_at PRIVATE ${CMAKE_DL_LIBS})
+set_target_properties(stop_at PROPERTIES LINKER_LANGUAGE C PREFIX "" LIBRARY_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/tests)

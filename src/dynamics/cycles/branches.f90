@@ -1,23 +1,24 @@
 !> Branches of cycles followed along a line by pseudo-arclength, and what happens on the way: include/kapitza/dynamics_curves.h.
 module kz_cycles_branches
   use, intrinsic :: iso_c_binding, only: dp => c_double, c_int32_t, c_int64_t
-  use kz_cycles_curves, only: plane_t, curve_kind_t, system_t, make_system, linearise, tangent_at, wrapped, UNKNOWNS, COARSE
+  use kz_cycles_curves, only: plane_t, curve_kind_t, system_t, make_system, newton, linearise, tangent_at, wrapped, UNKNOWNS, COARSE
   use kz_cycles_normal_forms, only: normal_form
-  use kz_cycles_tracing, only: at_place, on_line, outside, LEFT, CLOSED, LONG, MERGED, STUCK, NO_SEED
-  use kz_cycles_walker, only: walker_t, parents_t, advance, distance, set_parents, meets, find_zero, FOLD, FLIP
+  use kz_cycles_tracing, only: on_line, outside, LEFT, CLOSED, LONG, MERGED, STUCK, NO_SEED
+  use kz_cycles_walker, only: walker_t, parents_t, advance, distance, set_parents, meets, becomes, find_zero, FOLD, FLIP
   use kz_splitting_jets, only: DX, DY
   implicit none
   private
 
 contains
 
-  function branch(plane, kind, start, along, side, longest, most, rows, most_events, events, n_events, ending) &
+  function branch(plane, kind, start, along, side, longest, step, most, rows, most_events, events, n_events, ending) &
     bind(C, name='kz_curve_branch') result(n_rows)
     type(plane_t), intent(in) :: plane
     type(curve_kind_t), intent(in) :: kind
     real(dp), intent(in) :: start(2*kind%points + 2), along(2)
     integer(c_int32_t), value :: side
     real(dp), value :: longest
+    real(dp), intent(inout), optional :: step
     integer(c_int64_t), value :: most, most_events
     real(dp), intent(out) :: rows(4 + 2*kind%points, most), events(3 + 2*kind%points, most_events)
     integer(c_int64_t), intent(out) :: n_events
@@ -38,6 +39,7 @@ contains
     walker%is_sharp = .false.
     call begin_branch(walker, start, int(side), longest, found)
     if (.not. found) return
+    if (present(step)) walker%step = merge(min(step, longest), walker%step, step > 0)
     first = walker%y
     call set_parents(walker%system, walker%y, was)
     call put()
@@ -48,8 +50,10 @@ contains
       heading = walker%tangent
       ending = STUCK
       if (.not. advance(walker)) return
+      if (present(step)) step = walker%step
       call set_parents(walker%system, walker%y, is)
       met = meets(was, is, int(kind%points))
+      if (met == 0) met = becomes(was, is)
       ending = MERGED
       if (met > 0) then
         share = was%distance(met)/(was%distance(met) + is%distance(met))
@@ -126,15 +130,19 @@ contains
     real(dp), intent(in) :: start(:), longest
     integer, intent(in) :: side !< 0: the start is no fold
     logical, intent(out) :: found
+    real(dp), parameter :: LONGEST_CORRECTION = 0.5_dp ! rad
     real(dp) :: guess(UNKNOWNS)
-    integer :: n
+    integer :: n, iterations
 
     n = 2*walker%system%n
     walker%y(:n + 2) = start(:n + 2)
     guess = 0
     found = side /= 0
     if (side == 0) then
-      found = at_place(walker%system%plane, walker%system%kind, walker%y) /= 0
+      walker%system%columns = 0
+      call newton(walker%system, 25, LONGEST_CORRECTION, 1e-12_dp, walker%y, iterations)
+      walker%system%columns = 1
+      found = iterations > 0
       guess(n + 1) = 1
     else
       guess(:n) = side*tangent_of_fold(walker, start)

@@ -5,7 +5,7 @@ module kz_cycles_walker
   use kz_cycles_curves, only: system_t, newton, tangent_at, inner, wrapped, POINTS, UNKNOWNS
   implicit none
   private
-  public :: walker_t, parents_t, advance, begin, distance, passes, set_parents, meets, find_zero, thinness, &
+  public :: walker_t, parents_t, advance, begin, distance, passes, set_parents, meets, becomes, find_zero, thinness, &
             OF_FORM, OF_WIDTH, FOLD, FLIP, HALVES, MIRROR, REST
 
   !> Steps of Newton's method end below it, which square them; steps longer than that are shortened: rad.
@@ -269,5 +269,19 @@ contains
       if (dot_product(from%difference(:2*n, i), to%difference(:2*n, i)) < -0.5_dp*n*from%distance(i)*to%distance(i)) which = i
     end do
   end function meets
+
+  !> Which parent a cycle has become between two points of a branch: the equations have the parent as a solution too, and a long step beside the meeting
+  !> may end on it. 0 = none.
+  integer function becomes(from, to) result(which)
+    type(parents_t), intent(in) :: from !< at the first point
+    type(parents_t), intent(in) :: to !< at the second one
+    real(dp), parameter :: SAME = 1e-6_dp ! of the distance before
+    integer :: i
+
+    which = 0
+    do i = HALVES, REST
+      if (from%there(i) .and. to%distance(i) < SAME*from%distance(i)) which = i
+    end do
+  end function becomes
 
 end module kz_cycles_walker

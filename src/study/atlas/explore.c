@@ -64,8 +64,8 @@ static void follow_to(const kz_atlas *atlas, const line *l, const kz_atlas_kind 
   int64_t events = 0;
   int32_t ending;
   if (kz_atlas_period(kind) > atlas->max_period) return;
-  const int64_t rows =
-      kz_curve_branch(&atlas->plane, &kind->of, start, along, side, LONGEST, MOST_ROWS, row, most, event, &events, &ending);
+  const int64_t rows = kz_curve_branch(&atlas->plane, &kind->of, start, along, side, LONGEST, NULL, MOST_ROWS, row, most, event,
+                                       &events, &ending);
   if (l && l->drawn) kz_atlas_draw(atlas, l->axis, kind, rows, row, events, event, l->drawn);
   for (int64_t i = 0; i < events; i++) {
     const double *e = event + i * (3 + n);

@@ -42,8 +42,8 @@ static bool carry(const hunt *h, int axis, const kz_atlas_seed *from, int32_t si
   int64_t events;
   int32_t ending;
   *(sign > 0 ? plane.high + axis : plane.low + axis) = target;
-  const int64_t rows = kz_curve_branch(&plane, &from->kind.of, from->y, along, side, KZ_ATLAS_BRANCH_STEP, MOST_ROWS, row, 0,
-                                       NULL, &events, &ending);
+  const int64_t rows = kz_curve_branch(&plane, &from->kind.of, from->y, along, side, KZ_ATLAS_BRANCH_STEP, NULL, MOST_ROWS, row,
+                                       0, NULL, &events, &ending);
   if (rows < 2 || ending != KZ_TRACE_LEFT) return false;
   for (int64_t i = 1; i + 1 < rows; i++)
     if (!attracts(row + i * width + 2)) return false;

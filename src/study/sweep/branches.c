@@ -57,7 +57,7 @@ static kz_status walk_tile(void *context, int64_t tile, void *record) {
   const kz_sweep_plan *plan = w->scene->sweep;
   const kz_path path = kz_sweep_path(w->scene, w->branches->maps);
   kz_sweep_follow(&path, kz_sweep_value(plan, node->value), kz_sweep_value(plan, aim(w, t)), plan->max_period,
-                  &node->entry.point, record);
+                  &node->entry.point, node->step, record);
   return KZ_OK;
 }
 
@@ -120,6 +120,7 @@ static void add_between(kz_sweep_branches *b, int64_t value, const kz_sweep_piec
 static void join(const walking *w, const task *t, const kz_sweep_piece *piece, const kz_branch_point *point) {
   kz_sweep_branches *b = w->branches;
   const int64_t from = piece->from_start ? t->node : -1, there = arrival(w, t, piece, point);
+  if (there >= 0 && b->nodes[there].step == 0) b->nodes[there].step = piece->step;
   const bool side = piece->reached == 1 ? !t->forward : t->forward; /* on which the piece arrives */
   if (from >= 0 && there >= 0 && piece->reached == 1) {
     kz_sweep_node *a = b->nodes + from, *c = b->nodes + there;

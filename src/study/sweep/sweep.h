@@ -40,6 +40,7 @@ typedef struct {
   int32_t from_start;      /* 1: begins at the cycle that is followed */
   int32_t reached;         /* 0: ends at the first value, 1: at the second, -1: at an event */
   int32_t attracts, twice; /* twice: its mirror image branches off with it */
+  double step;             /* that would follow from its end, in distances of the two values */
   kz_branch_point point;   /* where it ends */
 } kz_sweep_piece;
 enum { KZ_SWEEP_PIECES = 32 };
@@ -49,8 +50,9 @@ typedef struct {
 } kz_sweep_walk;
 
 /* Follows a cycle from one value towards another one by pseudo-arclength, attracting or not, through folds, and all cycles of up to max_period
- * periods that branch off on the way. The first piece is that from the cycle itself. Ends are right to rounding. */
-void kz_sweep_follow(const kz_path *path, double from, double to, int64_t max_period, const kz_branch_point *point,
+ * periods that branch off on the way. The first piece is that from the cycle itself. Ends are right to rounding. step: the first one, in distances
+ * of the values; 0 = not known. */
+void kz_sweep_follow(const kz_path *path, double from, double to, int64_t max_period, const kz_branch_point *point, double step,
                      kz_sweep_walk *found);
 /* Carries a cycle from the value `from` towards `to`. Returns `to`, or where the cycle ends or its stability changes, and how (end_kind).
  * In and out: *point, the cycle at that value. */
@@ -106,6 +108,7 @@ typedef struct {
   int64_t previous, next;    /* nodes; -1 = none */
   double first, last;        /* value at which the branch begins before, or ends after, this node */
   int32_t first_kind, last_kind;
+  double step; /* with which a walk has arrived here; 0 = not known */
 } kz_sweep_node;
 
 typedef struct {

@@ -6,8 +6,8 @@
 #include "sweep.h"
 
 enum { MOST_ROWS = 400, MOST_EVENTS = 64, DEEPEST = 8 };
-/* Longest step of a branch, in distances of the two values. */
-static const double LONGEST = 1;
+/* Steps of a branch, in distances of the two values: the longest, which leads beyond the second value, and the first where none is known. */
+static const double LONGEST = 1.2, FIRST = 0.125;
 /* An event that is not a merger lies so near to where the walk has found it. */
 static const double NEAR = 0.3;
 /* A cycle is followed so near to the value where damping ends. */
@@ -29,7 +29,7 @@ typedef struct {
 /* What follows a cycle: where, up to which period, and what it finds. */
 typedef struct {
   const way *way;
-  kz_plane plane;
+  kz_plane plane, rough; /* rough: with half of the steps, for the way; what is kept is solved on the other one */
   int64_t max_period;
   kz_sweep_walk *found;
 } walking;
@@ -175,8 +175,11 @@ static void follow_child(const walking *w, const cycle *flip, int kind, int dept
   child.symmetric = child.of.side < 0;
   if (period_of(&child) > w->max_period) return;
   const double at = value_at(w->way, flip->y[2 * flip->of.points]);
-  const kz_sweep_piece piece = {
-      .begin = at, .begin_kind = kind, .reached = -1, .twice = flip->symmetric && w->plane.mirrored && child.of.side > 0};
+  const kz_sweep_piece piece = {.begin = at,
+                                .begin_kind = kind,
+                                .reached = -1,
+                                .step = FIRST,
+                                .twice = flip->symmetric && w->plane.mirrored && child.of.side > 0};
   follow(w, &child, along, piece, depth + 1);
 }
 
@@ -192,8 +195,8 @@ static void follow(const walking *w, const cycle *c, const double along[2], kz_s
   int64_t events = 0;
   int32_t ending = KZ_TRACE_NO_SEED;
   cycle at = *c;
-  const int64_t rows =
-      kz_curve_branch(&w->plane, &c->of, c->y, along, 0, LONGEST, MOST_ROWS, row, MOST_EVENTS, event, &events, &ending);
+  const int64_t rows = kz_curve_branch(&w->rough, &c->of, c->y, along, 0, LONGEST, &piece.step, MOST_ROWS, row, MOST_EVENTS,
+                                       event, &events, &ending);
   if (rows == 0) { /* nothing is known beyond its beginning */
     piece.end = value_at(w->way, c->y[n]), piece.end_kind = KZ_END_NOT_LOCATED;
     if (piece.from_start) add_piece(w, &piece);
@@ -220,7 +223,7 @@ static void follow(const walking *w, const cycle *c, const double along[2], kz_s
     add_piece(w, &piece);
     ended = merges;
     if (!ended) sign[e[0] == KZ_EVENT_FOLD ? 0 : 1] ^= true;
-    piece = (kz_sweep_piece){.begin = piece.end, .begin_kind = kind, .reached = -1};
+    piece = (kz_sweep_piece){.begin = piece.end, .begin_kind = kind, .reached = -1, .step = piece.step};
     if (!ended && at.of.multiplier < 0 && w->max_period > 0) follow_child(w, &at, kind, depth);
   }
   if (ended) return;
@@ -240,15 +243,18 @@ static void follow(const walking *w, const cycle *c, const double along[2], kz_s
   add_piece(w, &piece);
 }
 
-void kz_sweep_follow(const kz_path *path, double from, double to, int64_t max_period, const kz_branch_point *point,
+void kz_sweep_follow(const kz_path *path, double from, double to, int64_t max_period, const kz_branch_point *point, double step,
                      kz_sweep_walk *found) {
   const way w = {path, from, to};
   const double along[2] = {1, 0};
   walking walk = {.way = &w, .max_period = max_period, .found = found};
   cycle c;
   found->count = 0;
-  if (plane_of(&w, &walk.plane) && cycle_of(&walk.plane, point, 0, &c))
-    follow(&walk, &c, along, (kz_sweep_piece){.from_start = 1, .reached = -1}, 0);
+  if (plane_of(&w, &walk.plane) && cycle_of(&walk.plane, point, 0, &c)) {
+    walk.rough = walk.plane;
+    walk.rough.steps /= 2;
+    follow(&walk, &c, along, (kz_sweep_piece){.from_start = 1, .reached = -1, .step = step > 0 ? step : FIRST}, 0);
+  }
   if (found->count == 0)
     found->piece[found->count++] =
         (kz_sweep_piece){.from_start = 1, .reached = -1, .end = from, .end_kind = KZ_END_NOT_LOCATED, .point = *point};
@@ -258,7 +264,7 @@ double kz_walk(const kz_path *path, double from, double to, kz_branch_point *poi
   kz_sweep_walk found;
   *end_kind = KZ_END_OF_RANGE;
   if (from == to) return to;
-  kz_sweep_follow(path, from, to, 0, point, &found);
+  kz_sweep_follow(path, from, to, 0, point, 0, &found);
   const kz_sweep_piece *first = found.piece;
   *point = first->point;
   *end_kind = first->end_kind;

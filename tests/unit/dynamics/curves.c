@@ -31,7 +31,7 @@ static double next_flip(const kz_curve_kind *kind, double *y) {
   double row[MOST * 8], event[EVENTS * 7];
   int64_t events;
   int32_t ending;
-  assert_true(kz_curve_branch(&PLANE, kind, y, UP, 0, 0.02, MOST, row, EVENTS, event, &events, &ending) > 3);
+  assert_true(kz_curve_branch(&PLANE, kind, y, UP, 0, 0.02, NULL, MOST, row, EVENTS, event, &events, &ending) > 3);
   for (int64_t i = 0; i < events; i++) {
     const double *e = event + i * (3 + n);
     if (e[0] != KZ_EVENT_FLIP) continue;
@@ -75,7 +75,7 @@ TEST(test_branches_of_a_fold) {
   assert_int_equal(kz_curve_locate(&PLANE, &fold, y, UP), 1);
   assert_true(fabs(0.8 * y[N + 1] - 0.350545384650) < 1e-9);
   for (int side = -1; side <= 1; side += 2) {
-    kz_curve_branch(&PLANE, &fold, y, UP, side, 0.02, MOST, row[0], EVENTS, event[0], &events, &ending);
+    kz_curve_branch(&PLANE, &fold, y, UP, side, 0.02, NULL, MOST, row[0], EVENTS, event[0], &events, &ending);
     for (int64_t i = 0; i < events; i++)
       if (event[i][0] == KZ_EVENT_FLIP && event[i][2] > y[N + 1]) nearest = fmin(nearest, 0.8 * (event[i][2] - y[N + 1]));
   }
