@@ -9,7 +9,7 @@ from test_atlas import PENDULUM, SCENE
 BAD = {"one key": ({"y": {"parameter": "drive_frequency", "min": 3, "max": 30}}, "atlas.y.parameter: is also the parameter of atlas.x"),
        "a key of another form": ({"x": {"parameter": "k", "min": 0, "max": 1}}, "atlas.x.parameter: k is not given"),
        "no damping": ({"x": {"parameter": "drive_frequency", "min": 0, "max": 30}}, "atlas.x.min: 0 is below what pendulum"),
-       "an edge that is no number": ({"x": {"parameter": "drive_frequency", "min": ".nan", "max": 30}}, "atlas.x.min"),
+       "an edge that is no number": ({"x": {"parameter": "drive_frequency", "min": ".nan", "max": 30}}, "atlas.x.min: \".nan\" is not a finite"),
        "reversed": ({"x": {"parameter": "drive_frequency", "min": 30, "max": 3}}, "atlas.x.max: 3 is too small"),
        "an edge without end": ({"y": {"parameter": "drive_amplitude", "min": 0, "max": ".inf"}}, "atlas.y.max: \".inf\" is not a finite"),
        "no width": ({"x": {"parameter": "drive_frequency", "min": 30, "max": 30}}, "atlas.x.max: 30 is too small"),
@@ -17,6 +17,8 @@ BAD = {"one key": ({"y": {"parameter": "drive_frequency", "min": 3, "max": 30}},
        "too strong": ({"y": {"parameter": "drive_amplitude", "min": 0, "max": 1e9}}, "atlas.y.max: gives abs(k) + abs(m) = 1e+09"),
        "fewer checks than none": ({"checks": -1}, "atlas.checks: \"-1\" is out of range"),
        "one place": ({"seeds": 1}, "atlas.seeds: \"1\" is out of range"),
+       "no period": ({"max_period": 0}, "atlas.max_period: \"0\" is out of range; it must be an integer from 1 to 16"),
+       "a frequency below 0": ({"x": {"parameter": "drive_frequency", "min": -6, "max": 14}}, "atlas.x.min: -6 is below what pendulum"),
        "too long": ({"max_period": 17}, "atlas.max_period: \"17\" is out of range")}
 
 

@@ -17,7 +17,7 @@ LINES = {"m": (BUTIKOV, "m", 0.42, 0.9, 9, "k"),
          "tilt": (BLACKBURN | {"tilt": 0.05}, "tilt", 0.01, 0.3, 9, "drive_amplitude"),
          "torque": (BUTIKOV | {"torque": 0.05}, "torque", 0.0, 0.2, 11, "m"),
          "quality": (BLACKBURN, "quality_factor", 2, 11, 10, "drive_amplitude"),
-         "square wave": (BLACKBURN | {"waveform": "square"}, "drive_amplitude", 0.2, 0.48, 11, "drive_frequency"),
+         "square wave": (BLACKBURN | {"waveform": "square"}, "drive_amplitude", 0.2, 0.45, 11, "drive_frequency"),
          "laboratory": ({"length": "20 cm", "frequency": "16 Hz", "amplitude": "6 cm", "quality_factor": 5}, "amplitude", 0.05, 0.12, 11,
                         "frequency")}
 LEFT, NOT_LOCATED = 0, 5

@@ -10,7 +10,6 @@
 import argparse
 import math
 from collections.abc import Mapping
-from typing import Any
 
 import numpy as np
 import xarray
@@ -22,6 +21,7 @@ from matplotlib.ticker import FixedLocator, FuncFormatter, NullLocator
 
 from kapitza import style
 from kapitza.plots.atlas_classes import BREAKING, DOUBLING, FOLD, LEANS, SWINGS, belongs, centre_of, gives_birth
+from kapitza.plots.atlas_curves import BOLD_UP_TO, DASHES, FAINT, LONGER, PERIODS, curve_points, mark_curves
 from kapitza.plots.atlas_labels import POINTS, label_regions, mark_points, motion_text
 from kapitza.plots.atlas_labels import region_text as region_text
 from kapitza.plots.atlas_line import draw_line
@@ -31,11 +31,6 @@ from kapitza.plots.units import groups_of
 from kapitza.result import Result
 
 CUSP = 0  # of special_kind
-# A colour a period, told apart by colour-blind readers (Okabe and Ito); a dash a kind.
-PERIODS = {1: style.INK, 2: "#0072b2", 3: "#009e73", 4: "#d55e00", 5: "#cc79a7", 6: "#b8860b"}
-LONGER = "#8a929b"
-DASHES: dict[int, Any] = {FOLD: "-", DOUBLING: (0, (5, 2)), BREAKING: (0, (1.2, 1.4)), SWINGS: (0, (5, 2)), LEANS: (0, (1.2, 1.4))}
-BOLD_UP_TO = 4  # longer cycles live in thin bands: their curves are thin
 MOST_SHADES = 14
 NOT_KNOWN, UNKNOWN = 255, "#e7b9c4"  # of `attracting` where a curve is missing, and its colour
 LONGEST = 16  # periods of the cycles whose curves are drawn
@@ -58,33 +53,18 @@ def parse_arguments(words: list[str]) -> argparse.Namespace:
 
 
 def shade_counts(axes: Axes, atlas: xarray.Dataset) -> tuple[ListedColormap, int]:
-    """How many attractors there are, in shades that stay light enough for the curves; the shades, and the largest number."""
+    """How many attractors there are, in shades that stay light enough for the curves, and that tell small numbers apart; the shades, and the
+    largest number."""
     count = atlas["count"].values
     most = max(1, min(MOST_SHADES, int(count.max())))
-    light, deep = np.array(to_rgb("#fbfbef")), np.array(to_rgb("#6ea6c9"))
-    shades = ListedColormap(["#8d8787", *(tuple(light + (deep - light) * i / max(1, most - 1)) for i in range(most))])
+    light, middle, deep = (np.array(to_rgb(colour)) for colour in ("#fdfbe4", "#c6e2d2", "#6aa3c8"))
+    share = (np.arange(most) / max(1, most - 1)) ** 0.6
+    shades = ListedColormap(["#8d8787", *(tuple(light + 2 * s * (middle - light) if s < 0.5 else middle + (2 * s - 1) * (deep - middle))
+                                          for s in share)])
     axes.set_facecolor(UNKNOWN if (count < 0).any() else "white")
     axes.pcolormesh(atlas["column"], atlas["row"], np.ma.masked_where(count < 0, np.clip(count, 0, most)), cmap=shades,
                     norm=BoundaryNorm(np.arange(-0.5, most + 1), most + 1), shading="nearest", rasterized=True)
     return shades, most
-
-
-def curve_points(atlas: xarray.Dataset, number: int) -> tuple[np.ndarray, np.ndarray]:
-    """x and y of a curve."""
-    first, n = int(atlas["curve_first"][number]), int(atlas["curve_points"][number])
-    return atlas["x"].values[first:first + n], atlas["y"].values[first:first + n]
-
-
-def mark_curves(axes: Axes, atlas: xarray.Dataset, colours: Mapping[int, str], longest: int) -> None:
-    """All curves of cycles of up to `longest` periods; longer cycles are thinner, and lie below."""
-    for number in np.argsort(-atlas["curve_period"].values, kind="stable"):
-        period, kind = int(atlas["curve_period"][number]), int(atlas["curve_kind"][number])
-        if period > longest:
-            continue
-        rest = kind in (SWINGS, LEANS)
-        width = 1.9 if rest else 1.1 if period <= BOLD_UP_TO else 0.45
-        axes.plot(*curve_points(atlas, number), linestyle=DASHES[kind], color=colours.get(period, LONGER), linewidth=width,
-                  zorder=4 if rest else 3 if period <= BOLD_UP_TO else 2, solid_capstyle="round")
 
 
 def mark_special(axes: Axes, atlas: xarray.Dataset, longest: int) -> None:
@@ -128,6 +108,7 @@ def write_legend(axes: Axes, atlas: xarray.Dataset, shades: ListedColormap, most
                                   label=f"period {period}"))
     if atlas["curve_period"].max() > 6 and longest > 6:
         handles.append(Line2D([], [], color=LONGER, linewidth=1, label="longer periods"))
+    handles.append(Line2D([], [], color=style.INK, linewidth=FAINT, alpha=0.6, label="faint: too thin to see"))
     for mark, word in (("^", "cusp"), ("o", "degenerate point")):
         handles.append(Line2D([], [], linestyle="", marker=mark, markersize=4, markerfacecolor="white", markeredgecolor=style.INK,
                               label=word))
@@ -152,9 +133,9 @@ def draw_map(axes: Axes, atlas: xarray.Dataset, *, colours: Mapping[int, str] = 
     `points`: a CSV file of points on top.
     """
     shades, most = shade_counts(axes, atlas)
+    set_axes(axes, atlas)
     mark_curves(axes, atlas, colours, longest)
     mark_special(axes, atlas, longest)
-    set_axes(axes, atlas)
     marks = mark_points(axes, points) if points else []
     if legend:
         write_legend(axes, atlas, shades, most, colours, longest, marks)

@@ -16,7 +16,7 @@ from matplotlib.figure import Figure
 from matplotlib.patheffects import withStroke
 
 from kapitza import style
-from kapitza.plots.atlas import PERIODS, curve_points, mark_curves
+from kapitza.plots.atlas_curves import PERIODS, curve_points, mark_curves
 from kapitza.plots.common import entitle, new_figure
 from kapitza.plots.plane_axes import label_keys
 from kapitza.plots.units import fixed_si, group_beside

@@ -8,8 +8,9 @@ module kz_cycles_walker
   public :: walker_t, parents_t, advance, begin, distance, passes, set_parents, meets, becomes, find_zero, thinness, &
             OF_FORM, OF_WIDTH, FOLD, FLIP, HALVES, MIRROR, REST
 
-  !> Steps of Newton's method end below it, which square them; steps longer than that are shortened: rad.
-  real(dp), parameter :: CLOSE = 1e-5_dp, FAR = 1e3_dp
+  !> Steps of Newton's method end below it, which square them, and below this part of a short step along a branch; steps longer than that are shortened:
+  !> rad.
+  real(dp), parameter :: CLOSE = 1e-5_dp, OF_STEP = 0.1_dp, FAR = 1e3_dp
   !> KZ_EVENT_... of dynamics_curves.h: a multiplier 1, -1; a meeting with the cycle of half the period, with the mirror image, with rest.
   integer, parameter :: FOLD = 1, FLIP = 2, HALVES = 3, MIRROR = 4, REST = 5
   !> What may change its sign on a curve: its normal form, thinness.
@@ -52,7 +53,7 @@ contains
       guess(n + 1:n + 2) = guess(n + 1:n + 2) &
                            + matmul(walker%system%basis(:, :walker%system%columns), walker%step*walker%tangent(n + 1:unknown))
       y = guess
-      call newton(walker%system, MOST, FAR, CLOSE, y, iterations, walker%tangent, tangent)
+      call newton(walker%system, MOST, FAR, min(CLOSE, OF_STEP*walker%step), y, iterations, walker%tangent, tangent)
       found = iterations > 0
       if (found) then
         correction = distance(walker%system, y, guess)/walker%step

@@ -82,6 +82,15 @@ static int roots_of(const double *p, double target, double *root) {
   return n;
 }
 
+/* Which end of a step tells the side, at a point with this normal form. At a cusp a fold turns back with its side. It goes straight on where its side
+ * changes at a place without a drive: from there two folds begin on either side, between which a rotation is held. */
+static const double *side_of(const kz_atlas_kind *kind, const double *a, const double *b, double form) {
+  const double *ta = a + KZ_ROW_TANGENT, *tb = b + KZ_ROW_TANGENT;
+  const bool changes = kind->of.multiplier > 0 && a[KZ_ROW_FORM] * b[KZ_ROW_FORM] < 0 && ta[0] * tb[0] + ta[1] * tb[1] > 0;
+  if (changes) return (form > 0) == (a[KZ_ROW_FORM] > 0) ? a : b;
+  return fabs(a[KZ_ROW_FORM]) >= fabs(b[KZ_ROW_FORM]) ? a : b;
+}
+
 /* What changes where a step of a curve crosses the line. */
 static void cross(kz_atlas *atlas, int64_t number, int64_t row, int axis, double target, bool classes,
                   kz_atlas_crossings *crossings) {
@@ -97,7 +106,7 @@ static void cross(kz_atlas *atlas, int64_t number, int64_t row, int axis, double
       continue;
     }
     const double s = root[i], form = a[KZ_ROW_FORM] + s * (b[KZ_ROW_FORM] - a[KZ_ROW_FORM]);
-    const double *by = fabs(a[KZ_ROW_FORM]) >= fabs(b[KZ_ROW_FORM]) ? a : b;
+    const double *by = side_of(&curve->kind, a, b, form);
     const double end = by == a ? 0 : 1;
     /* the normal turned from the tangent, with the sign that it has where the side is known */
     const double known = -slope(c.p[1], end) * by[KZ_ROW_SIDE] + slope(c.p[0], end) * by[KZ_ROW_SIDE + 1];

@@ -1,0 +1,48 @@
+"""Atlases of every drive and of unusual planes: their lists against the study `attractors`."""
+
+import json
+
+import numpy as np
+import pytest
+from conftest import run_scene, with_extensive
+from test_atlas import PENDULUM
+
+BUTIKOV = {"k": 0.1, "damping": 0.1, "m": 0.5}
+LABORATORY = {"length": "20 cm", "frequency": "16 Hz", "amplitude": "6 cm", "quality_factor": 5}
+FREQUENCY, AMPLITUDE = ("drive_frequency", 6, 14), ("drive_amplitude", 0, 0.4)
+PLANES = {"through k = m = 0": (BUTIKOV, ("k", -0.5, 0.5), ("m", -0.5, 0.5)),
+          "from k = m = 0": (BUTIKOV, ("k", 0, 0.5), ("m", 0, 0.5)),
+          "a driven edge": (BUTIKOV, ("k", 0.05, 0.5), ("m", -1, 0)),
+          "nearly no damping": (BUTIKOV, ("damping", 0.001, 0.1), ("m", 0, 0.3)),
+          "nearly no width": (BUTIKOV, ("k", 0.1, 0.1 + 1e-9), ("m", 0, 0.5)),
+          "laboratory": (LABORATORY, ("frequency", "10 Hz", "30 Hz"), ("amplitude", "0 cm", "12 cm")),
+          "length and decay": (LABORATORY, ("length", "10 cm", "40 cm"), ("amplitude", 0, 0.1)),
+          "square": (PENDULUM | {"waveform": "square"}, FREQUENCY, AMPLITUDE),
+          "triangle": (PENDULUM | {"waveform": "triangle"}, FREQUENCY, AMPLITUDE),
+          "samples": (PENDULUM | {"waveform": "samples", "samples": [1, 0.5, 0, -0.5, -1, -0.5, 0, 0.5]}, FREQUENCY, AMPLITUDE),
+          "tilt": (PENDULUM | {"tilt": 0.05}, ("tilt", 0, 0.3), AMPLITUDE),
+          "ellipse": (PENDULUM | {"ellipse": 0.1}, ("ellipse", 0, 0.3), AMPLITUDE),
+          "torque": (BUTIKOV | {"torque": 0.02}, ("torque", -0.1, 0.1), ("m", 0, 0.4)),
+          "vertical": (BUTIKOV | {"vertical": [0, 0, 0.05, 0.02]}, ("k", 0.05, 0.3), ("m", 0, 0.4)),
+          "horizontal": (BUTIKOV | {"horizontal": [0.01, 0.02]}, ("k", 0.05, 0.3), ("m", 0, 0.4)),
+          "junction": ({"k": 0.02, "damping": 0.1, "m": 0, "torque": 0.05, "torque_amplitude": 1.5}, ("torque", 0, 0.2),
+                       ("torque_amplitude", 0, 2))}
+COMMON = ["junction"]
+SEARCHED = ((2, 3), (8, 8), (8, 12), (13, 5))  # cells of the raster: column, row
+
+
+@pytest.mark.parametrize("name", with_extensive(COMMON, [name for name in PLANES if name not in COMMON]))
+def test_lists_are_those_of_the_search(kapitza, tmp_path, name):
+    """At the junction two folds begin where nothing oscillates. Beyond them rotations were told that do not exist."""
+    pendulum, x, y = PLANES[name]
+    axes = {key: dict(zip(("parameter", "min", "max"), axis, strict=True)) for key, axis in (("x", x), ("y", y))}
+    result, _ = run_scene(kapitza, tmp_path, {"pendulum": pendulum, "atlas": axes | {"max_period": 1, "checks": 2 if name in COMMON else 40,
+                                                                               "points": 16}})
+    group = result.group("atlas")
+    assert int(group.attrs["negative"]) == 0 and int(group.attrs["unsolved"]) == 0
+    for column, row in SEARCHED:
+        values = {x[0]: float(group["column"][column]), y[0]: float(group["row"][row])}
+        scene = {"pendulum": pendulum | values, "attractors": {"velocity": {"min": -3, "max": 3}, "starts": 512, "max_period": 8}}
+        found, _ = run_scene(kapitza, tmp_path, scene, name=f"a{column}-{row}")
+        periods = found.group("attractors")["period"].values if "attractors" in found.groups else np.array([])
+        assert int((periods == 1).sum()) == int(group["count"][row, column]), values
