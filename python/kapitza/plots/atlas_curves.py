@@ -58,8 +58,8 @@ def pieces(seen: np.ndarray) -> Iterator[tuple[slice, bool]]:
 
 
 def mark_curves(axes: Axes, atlas: xarray.Dataset, colours: Mapping[int, str], longest: int) -> None:
-    """All curves of cycles of up to `longest` periods. Those of longer cycles are thin; what bounds bands that nobody sees is faint, and lies
-    below. Limits and scales of the axes must be set."""
+    """All curves of cycles of up to `longest` periods. Those of longer cycles are thin; what bounds bands that nobody sees is faint, and
+    lies below. Limits and scales of the axes must be set."""
     for number in np.argsort(-atlas["curve_period"].values, kind="stable"):
         period, kind = int(atlas["curve_period"][number]), int(atlas["curve_kind"][number])
         if period > longest:
