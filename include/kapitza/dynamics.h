@@ -21,6 +21,10 @@ typedef struct {
  * kz_dynamics_free. */
 kz_dynamics *kz_dynamics_create(const kz_pendulum *pendulum, const kz_numerics *numerics, int64_t max_period);
 void kz_dynamics_free(kz_dynamics *dynamics);
+/* Of a local variable (KZ_FREED_BY). */
+static inline void kz_dynamics_freed(kz_dynamics **dynamics) {
+  kz_dynamics_free(*dynamics);
+}
 
 /* The dynamics of a nearby pendulum, made from `dynamics`; free it too. Newton's method continues the cycles; a chaotic attractor stays where no orbit on it is trapped. The trapping regions are
  * the old ones without their outermost cells, so it is only likely that they trap: they are for moving pictures, until

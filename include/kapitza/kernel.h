@@ -68,6 +68,10 @@ double kz_expected_steps(int32_t n, double error, double tolerance, int32_t orde
 typedef struct kz_flow kz_flow;
 kz_flow *kz_flow_create(const kz_pendulum *pendulum, const kz_numerics *numerics);
 void kz_flow_free(kz_flow *flow);
+/* Of a local variable (KZ_FREED_BY). */
+static inline void kz_flow_freed(kz_flow **flow) {
+  kz_flow_free(*flow);
+}
 
 /* Advances n states through `periods` whole periods; any n. In and out: theta [n] (rad; out: wrapped to [-pi, pi]), velocity [n] (rad per
  * drive radian). The net number of turns, counterclockwise +, is added to turns [n]. */

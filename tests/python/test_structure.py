@@ -89,7 +89,7 @@ def edges():
 
 
 def within(path):
-    return path.is_relative_to(SOURCES) or path.is_relative_to(HEADERS)
+    return (path.is_relative_to(SOURCES) or path.is_relative_to(HEADERS)) and path.exists()  # objects of removed sources stay
 
 
 def layer_of(path):

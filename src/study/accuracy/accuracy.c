@@ -88,14 +88,13 @@ static void print(const kz_choice *choice, double accuracy, FILE *summary) {
 
 kz_status kz_accuracy_choose(const kz_scene *scene, const kz_run *run, kz_store *store, FILE *summary, kz_choice *choice) {
   const double accuracy = scene->basin->accuracy;
-  kz_reference_labels reference = {0};
+  KZ_FREED_BY(kz_reference_labels_free) kz_reference_labels reference = {0};
   KZ_FREED char *path = kz_reference_path(store);
-  kz_status status = kz_reference_labels_make(scene, run, samples_for(accuracy), path, &reference);
-  if (status == KZ_OK) status = choose(&reference, run, accuracy, choice);
-  if (status == KZ_OK && path) status = kz_reference_labels_save(&reference, path);
-  if (status == KZ_OK && summary) print(choice, accuracy, summary);
-  kz_reference_labels_free(&reference);
-  return kz_ranks_agree(run->ranks, status);
+  KZ_TRY(kz_reference_labels_make(scene, run, samples_for(accuracy), path, &reference));
+  KZ_TRY(choose(&reference, run, accuracy, choice));
+  KZ_TRY(kz_ranks_agree(run->ranks, path ? kz_reference_labels_save(&reference, path) : KZ_OK));
+  if (summary) print(choice, accuracy, summary);
+  return KZ_OK;
 }
 
 kz_status kz_accuracy_write(const kz_choice *choice, double accuracy, kz_store *store) {

@@ -151,9 +151,9 @@ static kz_status follow_samples(kz_reference_labels *reference, const kz_run *ru
   const kz_stage stage =
       kz_stage_of_items("reference labels", reference->samples, TILE, TILE * sizeof(kz_reference_label), label_samples, &h);
   KZ_FREED kz_reference_label *records = kz_malloc((size_t)stage.n_tiles * stage.record_bytes);
-  kz_status status = kz_stage_run(run, &stage, records);
-  if (status == KZ_OK) memcpy(reference->labels, records, (size_t)reference->samples * sizeof *records);
-  return status;
+  KZ_TRY(kz_stage_run(run, &stage, records));
+  memcpy(reference->labels, records, (size_t)reference->samples * sizeof *records);
+  return KZ_OK;
 }
 
 kz_status kz_reference_labels_make(const kz_scene *scene, const kz_run *run, int64_t samples, const char *path,
@@ -166,11 +166,10 @@ kz_status kz_reference_labels_make(const kz_scene *scene, const kz_run *run, int
   reference->samples = samples < reference->total ? samples : reference->total;
   kz_numerics numerics;
   KZ_TRY(kz_ranks_agree(run->ranks, kz_reference_labels_numerics(plan, &reference->pendulum, &numerics)));
+  KZ_FREED_BY(kz_dynamics_freed)
   kz_dynamics *dynamics = kz_dynamics_create(&reference->pendulum, &numerics, plan->max_period);
-  kz_status status = prepare(reference, run, dynamics);
-  if (status == KZ_OK) status = follow_samples(reference, run, path, dynamics);
-  kz_dynamics_free(dynamics);
-  return status;
+  KZ_TRY(prepare(reference, run, dynamics));
+  return follow_samples(reference, run, path, dynamics);
 }
 
 void kz_reference_labels_free(kz_reference_labels *reference) {

@@ -160,16 +160,15 @@ static kz_status measure(measurement *g, int64_t n, int32_t *label, int64_t *sur
 /* Measures the time with dynamics of its own on at least n cells. */
 static kz_status measure_cells(const kz_setting *setting, const kz_reference_labels *reference, int64_t n,
                                kz_measured *measured) {
-  measurement g = {.setting = setting, .reference = reference};
   const kz_numerics numerics = kz_setting_numerics(setting, &reference->pendulum, reference->series, reference->plan);
   if (n < reference->samples) n = reference->samples;
   if (n > reference->total) n = reference->total;
-  g.dynamics = kz_dynamics_create(&reference->pendulum, &numerics, reference->plan->max_period);
+  KZ_FREED_BY(kz_dynamics_freed)
+  kz_dynamics *dynamics = kz_dynamics_create(&reference->pendulum, &numerics, reference->plan->max_period);
+  measurement g = {setting, reference, dynamics};
   KZ_FREED int32_t *label = kz_malloc((size_t)n * sizeof *label + 1);
   KZ_FREED int64_t *surplus = kz_calloc(INT16_MAX + 1, sizeof *surplus);
-  const kz_status status = measure(&g, n, label, surplus, measured);
-  kz_dynamics_free(g.dynamics);
-  return status;
+  return measure(&g, n, label, surplus, measured);
 }
 
 kz_status kz_setting_measure(const kz_setting *setting, const kz_reference_labels *reference, int64_t timed,

@@ -62,6 +62,10 @@ static kz_trade trade_of(const kz_tradeoff_plan *plan) {
   return trade;
 }
 
+static void free_trade(kz_trade *trade) {
+  free(trade->row);
+}
+
 void kz_pareto(kz_trade *trade) {
   for (kz_trade_row *a = trade->row; a < trade->row + trade->count; a++) {
     a->pareto = true;
@@ -90,22 +94,19 @@ static kz_status run_settings(const kz_reference_labels *reference, kz_trade *tr
   measuring m = {reference, trade};
   const kz_stage stage = kz_stage_for_all("settings", trade->count, sizeof(kz_measured), measure_tile, &m);
   KZ_FREED kz_measured *measured = kz_malloc((size_t)trade->count * sizeof *measured);
-  const kz_status status = kz_stage_run(run, &stage, measured);
-  if (status == KZ_OK) rate(reference, measured, trade);
-  return status;
+  KZ_TRY(kz_stage_run(run, &stage, measured));
+  rate(reference, measured, trade);
+  return KZ_OK;
 }
 
 static kz_status run_damped(const kz_scene *scene, const kz_run *run, kz_store *store, FILE *summary) {
-  kz_reference_labels reference = {0};
-  kz_trade trade = trade_of(scene->tradeoff);
+  KZ_FREED_BY(kz_reference_labels_free) kz_reference_labels reference = {0};
+  KZ_FREED_BY(free_trade) kz_trade trade = trade_of(scene->tradeoff);
   KZ_FREED char *path = kz_reference_path(store);
-  kz_status status = kz_reference_labels_make(scene, run, scene->tradeoff->samples, path, &reference);
-  if (status == KZ_OK) status = kz_ranks_agree(run->ranks, path ? kz_reference_labels_save(&reference, path) : KZ_OK);
-  if (status == KZ_OK) status = run_settings(&reference, &trade, run);
-  if (status == KZ_OK && store) status = kz_tradeoff_write(&reference, &trade, store, summary);
-  kz_reference_labels_free(&reference);
-  free(trade.row);
-  return kz_ranks_agree(run->ranks, status);
+  KZ_TRY(kz_reference_labels_make(scene, run, scene->tradeoff->samples, path, &reference));
+  KZ_TRY(kz_ranks_agree(run->ranks, path ? kz_reference_labels_save(&reference, path) : KZ_OK));
+  KZ_TRY(run_settings(&reference, &trade, run));
+  return kz_ranks_agree(run->ranks, store ? kz_tradeoff_write(&reference, &trade, store, summary) : KZ_OK);
 }
 
 kz_status kz_tradeoff_run(const kz_scene *scene, const kz_run *run, kz_store *store, FILE *summary) {

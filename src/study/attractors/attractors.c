@@ -19,10 +19,6 @@ kz_status kz_attractors_check(const kz_scene *scene) {
   return motions.pendulum.beta > 0 ? kz_motions_check(&motions) : KZ_OK;
 }
 
-static kz_dynamics *dynamics_of(const kz_scene *scene) {
-  return kz_dynamics_create(&scene->parameters.pendulum, &scene->numerics, scene->attractors->max_period);
-}
-
 static kz_search search_of(const kz_scene *scene) {
   return kz_search_of_attractors(scene->attractors, kz_settling_periods(scene->parameters.pendulum.beta));
 }
@@ -32,31 +28,27 @@ static kz_status publish(const kz_scene *scene, const kz_dynamics *dynamics, con
                          FILE *summary) {
   const int64_t starts = scene->attractors->starts;
   KZ_FREED int64_t *reached = kz_calloc((size_t)kz_dynamics_count(dynamics) + 1, sizeof *reached);
-  kz_catalogue catalogue = {0};
+  KZ_FREED_BY(kz_catalogue_free) kz_catalogue catalogue = {0};
   const kz_motions motions = motions_of_starts(scene);
   const kz_speed_errors classes = kz_motions_errors(&motions);
   for (int64_t i = 0; i < starts; i++) reached[label[i]]++;
   kz_motions_warn(&motions, &classes, summary);
   kz_catalogue_make(dynamics, reached, &catalogue);
-  const kz_status status = kz_catalogue_write(&catalogue, &scene->parameters.pendulum, false, store);
-  if (status == KZ_OK) {
-    kz_catalogue_print(&catalogue, false, summary);
-    fprintf(summary, "%lld of %lld starts did not settle within ", (long long)reached[0], (long long)starts);
-    kz_periods_print(search_of(scene).max_periods, scene->parameters.pivot_frequency, summary);
-    fputs(".\n", summary);
-  }
-  kz_catalogue_free(&catalogue);
-  return status;
+  KZ_TRY(kz_catalogue_write(&catalogue, &scene->parameters.pendulum, false, store));
+  kz_catalogue_print(&catalogue, false, summary);
+  fprintf(summary, "%lld of %lld starts did not settle within ", (long long)reached[0], (long long)starts);
+  kz_periods_print(search_of(scene).max_periods, scene->parameters.pivot_frequency, summary);
+  fputs(".\n", summary);
+  return KZ_OK;
 }
 
 static kz_status run_damped(const kz_scene *scene, const kz_run *run, kz_store *store, FILE *summary) {
   const kz_search search = search_of(scene);
-  kz_dynamics *dynamics = dynamics_of(scene);
+  KZ_FREED_BY(kz_dynamics_freed)
+  kz_dynamics *dynamics = kz_dynamics_create(&scene->parameters.pendulum, &scene->numerics, scene->attractors->max_period);
   KZ_FREED int32_t *label = kz_malloc((size_t)search.starts * sizeof *label);
-  kz_status status = kz_ranks_agree(run->ranks, kz_search_window(run, dynamics, &search, label));
-  if (status == KZ_OK && store) status = publish(scene, dynamics, label, store, summary);
-  kz_dynamics_free(dynamics);
-  return status;
+  KZ_TRY(kz_ranks_agree(run->ranks, kz_search_window(run, dynamics, &search, label)));
+  return store ? publish(scene, dynamics, label, store, summary) : KZ_OK;
 }
 
 kz_status kz_attractors_run(const kz_scene *scene, const kz_run *run, kz_store *store, FILE *summary) {

@@ -207,16 +207,9 @@ static kz_status deliver(kz_chunks *c) {
 
 kz_status kz_cells_write(kz_chunks *c) {
   const size_t n = (size_t)kz_tile_capacity(&c->labelling->tiles);
-  c->ids = kz_calloc(n + 1, sizeof *c->ids);
-  c->periods = kz_calloc(n + 1, sizeof *c->periods);
-  c->evidence = kz_calloc(n + 1, sizeof *c->evidence);
-  c->others = kz_calloc(n + 1, sizeof *c->others);
-  c->cells_of = kz_calloc((size_t)c->catalogue->count + 1, sizeof *c->cells_of);
-  const kz_status status = deliver(c);
-  free(c->ids);
-  free(c->periods);
-  free(c->evidence);
-  free(c->others);
-  free(c->cells_of);
-  return status;
+  KZ_FREED int16_t *ids = c->ids = kz_calloc(n + 1, sizeof *ids), *others = c->others = kz_calloc(n + 1, sizeof *others);
+  KZ_FREED uint32_t *periods = c->periods = kz_calloc(n + 1, sizeof *periods);
+  KZ_FREED uint8_t *evidence = c->evidence = kz_calloc(n + 1, sizeof *evidence);
+  KZ_FREED int64_t *cells_of = c->cells_of = kz_calloc((size_t)c->catalogue->count + 1, sizeof *cells_of);
+  return deliver(c);
 }

@@ -134,24 +134,18 @@ static kz_status prove_cells(kz_window_labels *l, const kz_proof *proof, const k
   const kz_tiles *tiles = &l->tiles;
   const int64_t capacity = kz_tile_capacity(tiles), at_once = capacity < MOST_CELLS ? MOST_CELLS / capacity : 1;
   const int64_t most = capacity * (at_once < tiles->own ? at_once : tiles->own);
-  part p = {.labelling = l, .proof = proof, .proved = proved};
   if (!proved->any) return KZ_OK;
-  p.wanted = kz_malloc((size_t)(most / 64 + 1) * sizeof *p.wanted);
-  p.number = kz_malloc((size_t)most);
-  p.evidence = kz_malloc((size_t)most);
-  p.left = kz_malloc((size_t)most * sizeof *p.left);
-  kz_status status = KZ_OK;
-  for (p.from = 0; p.from < tiles->own && status == KZ_OK; p.from = p.to) {
+  KZ_FREED uint64_t *wanted = kz_malloc((size_t)(most / 64 + 1) * sizeof *wanted);
+  KZ_FREED uint8_t *number = kz_malloc((size_t)most), *evidence = kz_malloc((size_t)most);
+  KZ_FREED int64_t *left = kz_malloc((size_t)most * sizeof *left);
+  part p = {l, proof, proved, .wanted = wanted, .number = number, .evidence = evidence, .left = left};
+  for (p.from = 0; p.from < tiles->own; p.from = p.to) {
     p.to = p.from + at_once < tiles->own ? p.from + at_once : tiles->own;
     p.first = kz_tile_first(tiles, p.from);
     p.n = kz_tile_first(tiles, p.to - 1) + kz_tile_own(tiles, p.to - 1) - p.first;
-    status = prove_part(l, &p);
+    KZ_TRY(prove_part(l, &p));
   }
-  free(p.wanted);
-  free(p.number);
-  free(p.evidence);
-  free(p.left);
-  return status;
+  return KZ_OK;
 }
 
 /* ---- random real starts ---- */
@@ -162,19 +156,11 @@ typedef struct {
   int64_t starts;
 } job;
 
-/* A number that looks random (G. L. Steele, D. Lea, C. H. Flood, OOPSLA 2014, 453), its first 53 bits. */
-static uint64_t random_bits(uint64_t index) {
-  uint64_t x = index * 0x9e3779b97f4a7c15;
-  x = (x ^ x >> 30) * 0xbf58476d1ce4e5b9;
-  x = (x ^ x >> 27) * 0x94d049bb133111eb;
-  return (x ^ x >> 31) >> 11;
-}
-
 /* Start i: drawn to 106 binary digits; a square around it holds the rest of them. */
 static kz_proof_start random_start(const kz_basin_plan *plan, int64_t i) {
   kz_proof_start start = {.radius = 0};
   uint64_t bits[4];
-  for (int b = 0; b < 4; b++) bits[b] = random_bits(((uint64_t)plan->seed << 32) + 4 * (uint64_t)i + (uint64_t)b + 1);
+  for (int b = 0; b < 4; b++) bits[b] = kz_random_bits(((uint64_t)plan->seed << 32) + 4 * (uint64_t)i + (uint64_t)b + 1) >> 11;
   const double theta = kz_axis_random(&plan->theta, bits, start.theta);
   const double velocity = kz_axis_random(&plan->velocity, bits + 2, start.velocity);
   start.radius = theta > velocity ? theta : velocity;

@@ -5,14 +5,11 @@
 #include "basin.h"
 
 /* Columns of the attractors. */
-typedef struct {
-  int64_t phases;
-  int8_t *proved;
-  double *theta, *velocity, *multiplier;
-} columns;
-
-static void fill(const kz_catalogue *catalogue, const kz_proof *proof, columns *c) {
-  for (int64_t i = 0; i < catalogue->count; i++) {
+static kz_status write_attractors(const kz_catalogue *catalogue, const kz_proof *proof, kz_store *store) {
+  const int64_t n = catalogue->count, phases = kz_catalogue_longest(catalogue);
+  KZ_FREED int8_t *proved = kz_calloc((size_t)n + 1, sizeof *proved);
+  KZ_FREED double *theta = kz_nan_filled(n * phases), *velocity = kz_nan_filled(n * phases), *multiplier = kz_nan_filled(2 * n);
+  for (int64_t i = 0; i < n; i++) {
     const kz_entry *e = &catalogue->entries[i];
     if (e->row.period == 0) continue;
     const kz_proof_cycle cycle = {.period = e->row.period,
@@ -20,27 +17,12 @@ static void fill(const kz_catalogue *catalogue, const kz_proof *proof, columns *
                                   .velocity = e->velocity,
                                   .multiplier_re = e->row.multiplier_re,
                                   .multiplier_im = e->row.multiplier_im};
-    c->proved[i] =
-        kz_proof_confine(proof, &cycle, c->theta + i * c->phases, c->velocity + i * c->phases, c->multiplier + 2 * i);
+    proved[i] = kz_proof_confine(proof, &cycle, theta + i * phases, velocity + i * phases, multiplier + 2 * i);
   }
-}
-
-static kz_status write_attractors(const kz_catalogue *catalogue, const kz_proof *proof, kz_store *store) {
-  columns c = {.phases = kz_catalogue_longest(catalogue)};
-  c.proved = kz_calloc((size_t)catalogue->count + 1, sizeof *c.proved);
-  c.theta = kz_nan_filled(catalogue->count * c.phases);
-  c.velocity = kz_nan_filled(catalogue->count * c.phases);
-  c.multiplier = kz_nan_filled(catalogue->count * 2);
-  fill(catalogue, proof, &c);
-  kz_status status = kz_store_variable(store, "attractors", "proved", c.proved);
-  if (status == KZ_OK) status = kz_store_variable(store, "attractors", "strobe_theta_half_width", c.theta);
-  if (status == KZ_OK) status = kz_store_variable(store, "attractors", "strobe_velocity_half_width", c.velocity);
-  if (status == KZ_OK) status = kz_store_variable(store, "attractors", "multiplier_half_width", c.multiplier);
-  free(c.proved);
-  free(c.theta);
-  free(c.velocity);
-  free(c.multiplier);
-  return status;
+  KZ_TRY(kz_store_variable(store, "attractors", "proved", proved));
+  KZ_TRY(kz_store_variable(store, "attractors", "strobe_theta_half_width", theta));
+  KZ_TRY(kz_store_variable(store, "attractors", "strobe_velocity_half_width", velocity));
+  return kz_store_variable(store, "attractors", "multiplier_half_width", multiplier);
 }
 
 static void print_labels(const kz_counts *counts, int64_t cells, FILE *summary) {

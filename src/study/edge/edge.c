@@ -7,8 +7,6 @@
 
 #include "labelling/catalogue.h"
 #include "labelling/search.h"
-#include "basin/plan.h"
-#include "attractors/plan.h"
 
 typedef struct {
   const kz_scene *scene;
@@ -103,21 +101,15 @@ static kz_status publish(const edge_job *e, const kz_edge *edge, const double *o
   return KZ_OK;
 }
 
-static edge_job job_of(const kz_scene *scene) {
-  const int64_t max_period = scene->has_basin ? scene->basin->max_period : scene->attractors->max_period;
-  return (edge_job){scene, kz_dynamics_create(&scene->parameters.pendulum, &scene->numerics, max_period),
-                    kz_search_of(scene).max_periods};
-}
-
 kz_status kz_edge_run(const kz_scene *scene, const kz_run *run, kz_store *store, FILE *summary) {
   const size_t bytes = sizeof(kz_edge) + 2 * ((size_t)scene->edge->periods + 1) * sizeof(double);
   const kz_search search = kz_search_of(scene);
-  edge_job e = job_of(scene);
+  KZ_FREED_BY(kz_dynamics_freed)
+  kz_dynamics *dynamics = kz_search_dynamics(scene);
+  edge_job e = {scene, dynamics, search.max_periods};
   const kz_stage stage = kz_stage_for_rank0("edge", 1, bytes, edge_tile, &e);
   KZ_FREED kz_edge *record = kz_malloc(bytes);
-  kz_status status = kz_search_window(run, e.dynamics, &search, NULL);
-  if (status == KZ_OK) status = kz_stage_run(run, &stage, record);
-  if (status == KZ_OK && store) status = publish(&e, record, (const double *)(record + 1), store, summary);
-  kz_dynamics_free(e.dynamics);
-  return status;
+  KZ_TRY(kz_search_window(run, dynamics, &search, NULL));
+  KZ_TRY(kz_stage_run(run, &stage, record));
+  return store ? publish(&e, record, (const double *)(record + 1), store, summary) : KZ_OK;
 }

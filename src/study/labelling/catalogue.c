@@ -133,16 +133,13 @@ static kz_status write_spectra(const kz_catalogue *catalogue, const kz_pendulum 
   KZ_FREED int32_t *dominant = kz_calloc((size_t)n + 1, sizeof *dominant);
   kz_numerics fine;
   kz_numerics_fine(pendulum, &fine);
-  kz_flow *flow = kz_flow_create(pendulum, &fine);
-  kz_status status = KZ_OK;
-  for (int64_t i = 0; i < n && status == KZ_OK; i++)
+  KZ_FREED_BY(kz_flow_freed) kz_flow *flow = kz_flow_create(pendulum, &fine);
+  for (int64_t i = 0; i < n; i++)
     if (catalogue->entries[i].row.period > 0)
-      status = lines_of(catalogue->entries + i, flow, lines, amplitude + i * lines, phase + i * lines, dominant + i);
-  if (status == KZ_OK) status = kz_store_variable(store, "attractors", "line_amplitude", amplitude);
-  if (status == KZ_OK) status = kz_store_variable(store, "attractors", "line_phase", phase);
-  if (status == KZ_OK) status = kz_store_variable(store, "attractors", "dominant_line", dominant);
-  kz_flow_free(flow);
-  return status;
+      KZ_TRY(lines_of(catalogue->entries + i, flow, lines, amplitude + i * lines, phase + i * lines, dominant + i));
+  KZ_TRY(kz_store_variable(store, "attractors", "line_amplitude", amplitude));
+  KZ_TRY(kz_store_variable(store, "attractors", "line_phase", phase));
+  return kz_store_variable(store, "attractors", "dominant_line", dominant);
 }
 
 kz_status kz_catalogue_write(const kz_catalogue *catalogue, const kz_pendulum *pendulum, bool with_fraction, kz_store *store) {

@@ -280,3 +280,8 @@ kz_search kz_search_of(const kz_scene *scene) {
   search.table_theta = 0;
   return search;
 }
+
+kz_dynamics *kz_search_dynamics(const kz_scene *scene) {
+  return kz_dynamics_create(&scene->parameters.pendulum, &scene->numerics,
+                            scene->has_basin ? scene->basin->max_period : scene->attractors->max_period);
+}

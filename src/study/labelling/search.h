@@ -39,3 +39,5 @@ kz_status kz_map_table_make(const kz_run *run, kz_dynamics *dynamics, int64_t n_
 kz_search kz_search_of_basin(const kz_basin_plan *plan);
 kz_search kz_search_of_attractors(const kz_attractors_plan *plan, int64_t max_periods);
 kz_search kz_search_of(const kz_scene *scene);
+/* The dynamics of the scene's pendulum, for that search. */
+kz_dynamics *kz_search_dynamics(const kz_scene *scene);

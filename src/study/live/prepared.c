@@ -123,16 +123,11 @@ static void free_catalogue(kz_live_catalogue *catalogue) {
 }
 
 void kz_prepared_free(kz_prepared *prepared) {
-  if (prepared->dynamics) kz_dynamics_free(prepared->dynamics);
+  kz_dynamics_free(prepared->dynamics);
   kz_images_free(prepared->images);
   kz_plans_free(&prepared->scene);
   free_catalogue(&prepared->catalogue);
   *prepared = (kz_prepared){0};
-}
-
-static bool same_release(const kz_release *a, const kz_release *b) {
-  return a->phase == b->phase && a->periods == b->periods && a->damping == b->damping && a->drive == b->drive &&
-         a->smooth == b->smooth;
 }
 
 bool kz_prepared_misses(const kz_prepared *r) {
@@ -211,7 +206,7 @@ kz_status kz_prepared_move(kz_prepared *r, const kz_scene *scene, const kz_frame
 bool kz_prepared_serves(const kz_prepared *prepared, const kz_scene *scene, double tolerance) {
   return prepared->used > 0 && prepared->tolerance == tolerance &&
          memcmp(&prepared->scene.parameters.pendulum, &scene->parameters.pendulum, sizeof(kz_pendulum)) == 0 &&
-         same_release(&prepared->scene.parameters.release, &scene->parameters.release) &&
+         kz_release_is_same(&prepared->scene.parameters.release, &scene->parameters.release) &&
          prepared->scene.basin->max_periods == scene->basin->max_periods && same_search(prepared, scene);
 }
 

@@ -112,7 +112,7 @@ static kz_status label_all(int32_t way, int32_t needs, int64_t max_periods, cons
 static void find_tangents(const kz_pendulum *pendulum, const kz_numerics *numerics, kz_measured *m) {
   int64_t n = 0;
   for (int64_t id = 0; id < m->catalogue.count; id++) n += m->catalogue.entries[id].row.period;
-  kz_flow *flow = kz_flow_create(pendulum, numerics);
+  KZ_FREED_BY(kz_flow_freed) kz_flow *flow = kz_flow_create(pendulum, numerics);
   m->tangent = kz_malloc((size_t)n * sizeof *m->tangent + 1);
   n = 0;
   for (int64_t id = 0; id < m->catalogue.count; id++) {
@@ -123,7 +123,6 @@ static void find_tangents(const kz_pendulum *pendulum, const kz_numerics *numeri
       kz_advance_tangent(flow, 1, 1, &theta, &velocity, &turns, m->tangent[n++].matrix);
     }
   }
-  kz_flow_free(flow);
 }
 
 static kz_status find_shocks(int32_t needs, int64_t max_periods, const kz_run *run, kz_measured *m) {
@@ -149,7 +148,7 @@ kz_status kz_measured_make(const kz_pendulum *pendulum, const kz_numerics *numer
 }
 
 void kz_measured_free(kz_measured *measured) {
-  if (measured->dynamics) kz_dynamics_free(measured->dynamics);
+  kz_dynamics_free(measured->dynamics);
   kz_catalogue_free(&measured->catalogue);
   free(measured->tangent);
   free(measured->point);

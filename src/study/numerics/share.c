@@ -28,12 +28,17 @@ int64_t kz_share_sample(double share) {
   return n;
 }
 
-/* A mixer of 64 bits (SplitMix64; Steele, Lea & Flood, OOPSLA 2014). */
+static const uint64_t GAMMA = 0x9e3779b97f4a7c15u;
+
 static uint64_t mix(uint64_t x) {
-  x += 0x9e3779b97f4a7c15u;
+  x += GAMMA;
   x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9u;
   x = (x ^ (x >> 27)) * 0x94d049bb133111ebu;
   return x ^ (x >> 31);
+}
+
+uint64_t kz_random_bits(uint64_t index) {
+  return mix((index - 1) * GAMMA);
 }
 
 /* One pass of a Feistel network over 2 * bits bits: a permutation. */

@@ -14,5 +14,8 @@ kz_share kz_share_of_part(int64_t hits, int64_t n, int64_t total);
 /* The smallest sample size for which the upper bound is at most `share` if there is no hit. */
 int64_t kz_share_sample(double share);
 
+/* Number `index`, from 1 on, of a sequence of 64 bits that looks random (SplitMix64: G. L. Steele, D. Lea, C. H. Flood, OOPSLA 2014, 453). */
+uint64_t kz_random_bits(uint64_t index);
+
 /* Cell i of an order of the cells 0 .. total - 1 that looks random: a permutation, chosen by the seed. */
 int64_t kz_shuffled(int64_t i, int64_t total, int64_t seed);

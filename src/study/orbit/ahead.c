@@ -67,15 +67,13 @@ static kz_status find_attractor(const kz_model *model, kz_state state, double fa
   double start[2] = {remainder(state.theta, 2 * M_PI) / M_PI, state.velocity};
   int32_t label;
   kz_attractor row;
-  kz_dynamics *dynamics = kz_dynamics_create(&model->pendulum, &model->numerics, LONGEST_CYCLE);
+  KZ_FREED_BY(kz_dynamics_freed) kz_dynamics *dynamics = kz_dynamics_create(&model->pendulum, &model->numerics, LONGEST_CYCLE);
   kz_dynamics_coarse_regions(dynamics, kz_dynamics_max_velocity(dynamics, &window));
-  const kz_status status = kz_discover(NULL, dynamics, (int64_t)periods, 1, start, &label);
-  if (status == KZ_OK && label > 0) {
-    kz_dynamics_attractor(dynamics, label, &row);
-    kz_orbit_name(row.period, row.winding, row.centre, name);
-  }
-  kz_dynamics_free(dynamics);
-  return status;
+  KZ_TRY(kz_discover(NULL, dynamics, (int64_t)periods, 1, start, &label));
+  if (label <= 0) return KZ_OK;
+  kz_dynamics_attractor(dynamics, label, &row);
+  kz_orbit_name(row.period, row.winding, row.centre, name);
+  return KZ_OK;
 }
 
 kz_status kz_orbit_look_ahead(kz_orbit *orbit) {

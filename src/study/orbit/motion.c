@@ -23,7 +23,7 @@ void kz_model_make(const kz_scene *scene, kz_model *model) {
 }
 
 void kz_model_free(kz_model *model) {
-  if (model->flow) kz_flow_free(model->flow);
+  kz_flow_free(model->flow);
   model->flow = NULL;
 }
 

@@ -35,6 +35,11 @@ int kz_cycle_index(const kz_attractor *cycle, int64_t n) {
   return (determinant > 0) - (determinant < 0);
 }
 
+void kz_index_sums_free(kz_index_sums *sums) {
+  free(sums->entries);
+  *sums = (kz_index_sums){0};
+}
+
 /* The sum of period n and winding w; a new one where there is none yet. */
 static kz_index_sum *sum_of(kz_index_sums *sums, int64_t n, int64_t winding) {
   for (int64_t i = 0; i < sums->count; i++)

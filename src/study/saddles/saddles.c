@@ -13,14 +13,17 @@ enum {
 /* Everything about the cycles that were found. Rank 0. */
 static void list_cycles(const kz_scene *scene, const kz_found *found, kz_cycle_list *cycles, kz_index_sums *sums) {
   const int64_t max_period = scene->saddles->max_period;
+  KZ_FREED_BY(kz_dynamics_freed)
   kz_dynamics *dynamics = kz_dynamics_create(&scene->parameters.pendulum, &scene->numerics, max_period);
   kz_cycle_list_free(cycles);
-  free(sums->entries);
-  *sums = (kz_index_sums){0};
+  kz_index_sums_free(sums);
   kz_dynamics_add_cycles(dynamics, max_period, found->count, found->cycle);
   kz_cycle_list_make(dynamics, cycles);
   kz_index_sums_make(cycles, max_period, sums);
-  kz_dynamics_free(dynamics);
+}
+
+static void free_found(kz_found *found) {
+  free(found->cycle);
 }
 
 /* Rounds until enough is known; without damping the sums say nothing. Collective. */
@@ -46,18 +49,13 @@ static kz_status run_rounds(const kz_scene *scene, const kz_run *run, kz_found *
 }
 
 kz_status kz_saddles_run(const kz_scene *scene, const kz_run *run, kz_store *store, FILE *summary) {
-  kz_found found = {0};
-  kz_cycle_list cycles = {0};
-  kz_index_sums sums = {0};
-  kz_status status = run_rounds(scene, run, &found, &cycles, &sums);
-  if (status == KZ_OK && kz_rank(run->ranks) == 0) {
-    status = kz_saddles_write(&cycles, &sums, store);
-    kz_saddles_print(scene, &cycles, &sums, summary);
-  }
-  free(found.cycle);
-  kz_cycle_list_free(&cycles);
-  free(sums.entries);
-  return status;
+  KZ_FREED_BY(free_found) kz_found found = {0};
+  KZ_FREED_BY(kz_cycle_list_free) kz_cycle_list cycles = {0};
+  KZ_FREED_BY(kz_index_sums_free) kz_index_sums sums = {0};
+  KZ_TRY(run_rounds(scene, run, &found, &cycles, &sums));
+  if (kz_rank(run->ranks) != 0) return KZ_OK;
+  kz_saddles_print(scene, &cycles, &sums, summary);
+  return kz_saddles_write(&cycles, &sums, store);
 }
 
 /* Messages and records of pieces that a rank holds; pieces in which a cycle is found; the least that a piece takes in the checkpoint. */

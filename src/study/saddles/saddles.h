@@ -55,9 +55,10 @@ typedef struct {
   kz_index_sum *entries;
 } kz_index_sums;
 
-/* Makes the sums for every period up to max_period and every winding of a known cycle; the caller frees sums->entries. The theorem is in
+/* Makes the sums for every period up to max_period and every winding of a known cycle; the caller frees them. The theorem is in
  * docs/explanation/theory.md. */
 void kz_index_sums_make(const kz_cycle_list *list, int64_t max_period, kz_index_sums *sums);
+void kz_index_sums_free(kz_index_sums *sums);
 
 /* A rough estimate of the number of cycles, which grows exponentially with the period. Fig. 12 has 16, 16 and 24 of up to 3, 4 and 6 periods,
  * epsilon = 1 and 3 have 146 and 888 of up to 3: right to a factor of 4. */

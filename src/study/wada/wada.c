@@ -4,8 +4,6 @@
 
 #include <stdlib.h>
 
-#include "basin/plan.h"
-#include "attractors/plan.h"
 #include "labelling/search.h"
 #include "saddles/saddles.h"
 
@@ -93,22 +91,18 @@ static kz_status follow_branches(const kz_run *run, work *w, kz_store *store, FI
   return kz_wada_write(w->n_saddles, w->job.attractors->count, basins, stride, store, summary);
 }
 
-static kz_status run_in(const kz_scene *scene, const kz_run *run, kz_store *store, FILE *summary, work *w) {
-  const kz_search search = kz_search_of(scene);
-  KZ_TRY(kz_search_window(run, w->job.dynamics, &search, NULL));
-  KZ_TRY(kz_file_attractors_match(run, store, w->job.dynamics, (kz_file_attractors *)w->job.attractors));
-  KZ_TRY(read_saddles(scene->wada, run, store, w));
-  return follow_branches(run, w, store, summary);
+static void release(work *w) {
+  kz_dynamics_free(w->job.dynamics);
+  free(w->branch);
+  free(w->twin);
 }
 
 kz_status kz_wada_run(const kz_scene *scene, const kz_run *run, kz_store *store, FILE *summary) {
-  const int64_t max_period = scene->has_basin ? scene->basin->max_period : scene->attractors->max_period;
+  const kz_search search = kz_search_of(scene);
   KZ_FREED kz_file_attractors *attractors = kz_calloc(1, sizeof *attractors);
-  work w = {.job = {scene, kz_dynamics_create(&scene->parameters.pendulum, &scene->numerics, max_period), attractors,
-                    kz_search_of(scene).max_periods}};
-  const kz_status status = run_in(scene, run, store, summary, &w);
-  kz_dynamics_free(w.job.dynamics);
-  free(w.branch);
-  free(w.twin);
-  return status;
+  KZ_FREED_BY(release) work w = {.job = {scene, kz_search_dynamics(scene), attractors, search.max_periods}};
+  KZ_TRY(kz_search_window(run, w.job.dynamics, &search, NULL));
+  KZ_TRY(kz_file_attractors_match(run, store, w.job.dynamics, attractors));
+  KZ_TRY(read_saddles(scene->wada, run, store, &w));
+  return follow_branches(run, &w, store, summary);
 }

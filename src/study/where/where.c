@@ -6,7 +6,6 @@
 #include "labelling/search.h"
 #include "where.h"
 #include "basin/plan.h"
-#include "attractors/plan.h"
 
 typedef struct {
   kz_question question;
@@ -19,8 +18,7 @@ static kz_status find_attractors(kz_question *q, kz_search *search, int32_t *lab
   const kz_window motions =
       scene->has_basin ? kz_motions_window(&scene->basin->theta, &scene->basin->velocity) : search->window;
   q->max_periods = search->max_periods;
-  q->dynamics = kz_dynamics_create(&scene->parameters.pendulum, &scene->numerics,
-                                   scene->has_basin ? scene->basin->max_period : scene->attractors->max_period);
+  q->dynamics = kz_search_dynamics(scene);
   if (scene->has_basin) kz_dynamics_set_release(q->dynamics, &scene->parameters.release);
   search->max_velocity = kz_dynamics_max_velocity(q->dynamics, &motions);
   search->cells = q->n; /* the window's cells are not labelled */
@@ -56,7 +54,7 @@ static kz_status where_label(const kz_scene *scene, int64_t n, const kz_coordina
 }
 
 static void where_close(where_job *a) {
-  if (a->question.dynamics) kz_dynamics_free(a->question.dynamics);
+  kz_dynamics_free(a->question.dynamics);
   kz_question_free(&a->question);
   free(a->reached);
 }

@@ -176,8 +176,7 @@ double kz_images_left(const kz_images *images) {
   return (double)log2l(widest / now) / growth * (1 + share + share * share) / 3;
 }
 
-/* Whether motions begin alike. */
-static bool is_same_release(const kz_release *a, const kz_release *b) {
+bool kz_release_is_same(const kz_release *a, const kz_release *b) {
   const int64_t strobes = kz_release_strobes(a);
   if (strobes == 0 || kz_release_strobes(b) != strobes) return kz_release_strobes(b) == strobes;
   return a->phase == b->phase && a->periods == b->periods && a->damping == b->damping && a->drive == b->drive &&
@@ -189,7 +188,7 @@ bool kz_images_serve(const kz_images *images, const kz_parameters *parameters, c
   static const double narrowest = 0.1, farthest = 16; /* shares of the images' width, and of the window's */
   const kz_axis *axes[2] = {theta, velocity};
   bool is_wide = false, is_near = memcmp(&parameters->pendulum, &images->pendulum, sizeof images->pendulum) == 0 &&
-                                  is_same_release(&parameters->release, &images->release);
+                                  kz_release_is_same(&parameters->release, &images->release);
   *view = (kz_view){.reach = 0};
   for (int i = 0; i < 2; i++) {
     const kz_coordinate centre = centre_of(axes[i]);

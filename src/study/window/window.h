@@ -62,6 +62,9 @@ typedef struct {
   double reach;
 } kz_view;
 
+/* Whether motions begin alike. */
+bool kz_release_is_same(const kz_release *a, const kz_release *b);
+
 /* True if the images can be used for the cells of a window, which must have nearly the same centre and may be at most a little narrower
  * than theirs. Fills *view. */
 bool kz_images_serve(const kz_images *images, const kz_parameters *parameters, const kz_axis *theta, const kz_axis *velocity,
