@@ -58,6 +58,21 @@ def test_a_story_of_other_keys_leaves_the_map_as_it_was(page):
     page.run("explorer.state.change({map: 'off'})")
 
 
+def test_the_bob_has_the_colour_of_its_end_where_nothing_moves(page):
+    """Its motion may come before the list of attractors, which has the colour."""
+    page.wait()
+    assert wait_for(lambda: page.run("Boolean(explorer.basins.motion)"))
+    colour = page.run("explorer.basins.panes[0].engine.catalogue.attractors.find(({name}) => "
+                      "name === explorer.basins.motion.ending.name).colour")
+    page.run("((its) => its.stage.draw(its.motion, 'pendulum', explorer.state.colours, its.units, null))(explorer.basins)")
+    page.run("explorer.basins.panes[0].report()")
+    drawn = """(([r, g, b]) => { const {data} = $('pendulum').getContext('2d').getImageData(0, 0, $('pendulum').width,
+        $('pendulum').height);
+        for (let i = 0; i < data.length; i += 4) if (data[i] === r && data[i + 1] === g && data[i + 2] === b) return true;
+        return false; })(arguments[0])"""
+    assert wait_for(lambda: page.run(drawn, [int(colour[at:at + 2], 16) for at in (1, 3, 5)]), 5)
+
+
 @pytest.mark.parametrize("letters", [1, 1.35])  # on a desk, in a lecture
 @pytest.mark.parametrize("width", [0.2, 2e-2, 3e-3, 2e-4, 1e-9])
 def test_an_axis_has_room_for_its_numbers(page, letters, width):

@@ -301,6 +301,7 @@ export class Basins {
 
   writeNow() {
     this.writePointed();
+    if (!this.state.playing) this.drawStage(); // the catalogue has the bob's colour
     const rows = rowsOf(this.panes.map((pane) => pane.top));
     writeLegend(element("legend"), rows);
     this.passport.write(rows);
