@@ -50,7 +50,7 @@ contains
     integer :: i
 
     do i = 1, n
-      between(i) = int(merge(1.0_dp, 0.0_dp, p(i, 1) + p(i, 3) >= least .and. p(i, 1) + p(i, 3) < most))
+      between(i) = int(merge(1.0_dp, 0.0_dp, p(i, 1) + p(i, 3) < most) - merge(1.0_dp, 0.0_dp, p(i, 1) + p(i, 3) < least))
     end do
   end subroutine flag_between
 
