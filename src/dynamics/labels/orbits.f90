@@ -302,10 +302,13 @@ contains
     class(orbits_t), intent(in) :: self
     integer, intent(in) :: lane
     logical :: held
-    real(dp) :: u(RIM), v(RIM), axes(3), angle
+    real(dp) :: u(RIM), v(RIM), axes(3), angle, reach
     integer :: label(RIM), i
 
     associate (u0 => self%carrier%u(lane), v0 => self%carrier%v(lane), error => self%carrier%region_error(lane))
+      reach = SAFETY*sqrt(self%ellipse(lane, 1) + self%ellipse(lane, 3)) + error
+      held = cell_holds(self%regions, u0, v0, reach/PI, reach)
+      if (held) return ! most errors are small
       axes = axes_of(self%ellipse(lane, :))
       held = cell_holds(self%regions, u0, v0, (SAFETY*axes(1) + error)/PI, SAFETY*sqrt(self%ellipse(lane, 3)) + error)
       if (held) return
