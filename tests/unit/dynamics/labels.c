@@ -185,6 +185,44 @@ TEST(test_wrong_labels_are_doubtful) {
   kz_dynamics_free(d);
 }
 
+/* Of a decided orbit the whole ellipse of its error lies in the region, not its state alone: both ends of the longest diameter, along which the tangents
+ * have stretched the error, do. A label shows no difference here, since regions lie within their basins. */
+TEST(test_regions_hold_whole_ellipses) {
+  enum { N = 4096 };
+  static double x[2 * N], ends[4 * N];
+  static kz_start starts[N];
+  static kz_decision decision[N];
+  static int32_t label[2 * N], expected[2 * N];
+  static int64_t periods[2 * N];
+  int64_t n = 0, turns = 0;
+  if (PART > 1) return; /* other tests show the sanitizers the same code */
+  kz_dynamics *d = explored(0.46, 1, 3);
+  with_table(d, 400, 3);
+  kz_flow *flow = kz_flow_create(&(kz_pendulum){1.0 / 121, 1.0 / 55, 0.46}, numerics());
+  kz_dynamics_starts(&WINDOW, 3, N, x);
+  for (int i = 0; i < N; i++) starts[i] = (kz_start){.theta = {x[2 * i] * M_PI}, .velocity = {x[2 * i + 1]}};
+  kz_dynamics_label(d, KZ_LEVEL_DOUBLE, KZ_LEVEL_DOUBLE, N, starts, 2000, decision);
+  for (int i = 0; i < N; i++) {
+    if (decision[i].label <= 0 || decision[i].error < 1e-4) continue;
+    double theta = starts[i].theta[0], velocity = starts[i].velocity[0], j[4];
+    kz_advance_tangent(flow, 1, decision[i].age, &theta, &velocity, &turns, j);
+    const int column = hypot(j[1], j[3]) > hypot(j[0], j[2]);
+    const double stretched = hypot(j[column], j[2 + column]);
+    for (int side = -1; side <= 1; side += 2, n++) {
+      ends[2 * n] = decision[i].state[0] + side * 0.9 * decision[i].error * j[column] / stretched / M_PI;
+      ends[2 * n + 1] = decision[i].state[1] + side * 0.9 * decision[i].error * j[2 + column] / stretched;
+      expected[n] = decision[i].label;
+    }
+  }
+  kz_dynamics_follow(d, KZ_FOLLOW_DIRECT, n, 1, ends, label, periods);
+  int held = 0;
+  for (int64_t i = 0; i < n; i++) held += label[i] == expected[i] && periods[i] == 0;
+  print_message("%d of %d ends of ellipses held\n", held, (int)n);
+  assert_true(n > 300 && held + n / 100 >= n); /* the rim of an ellipse is tried on eight points */
+  kz_flow_free(flow);
+  kz_dynamics_free(d);
+}
+
 /* The growth of its error foretells which level may decide a doubtful orbit: a level that is skipped would decide hardly one of them. */
 TEST(test_growth_foretells_the_level) {
   enum { N = 1500 };
