@@ -110,7 +110,7 @@ def test_c_structures_are_the_fortran_types(entries):
 # (Fortran module, its name, name in C)
 SHARED = [("kz_vector_map", "WIDTH", "KZ_LANES"),
           *(("kz_labels_levels", f"LEVEL_{name}", f"KZ_LEVEL_{name}") for name in ("FINE", "PAIRS_16", "PAIRS_28", "QUAD")),
-          ("kz_labels_orbits", "NO_LEVEL", "KZ_LEVELS"),
+          ("kz_labels_levels", "NO_LEVEL", "KZ_LEVELS"),
           ("kz_taylor_taylor", "TAYLOR_STEPS", "KZ_REFERENCE_STEPS"),
           ("kz_processed_stages", "TERMS", "TERMS"),
           ("kz_model_pendulum", "MOST_HARMONICS", "KZ_HARMONICS")]

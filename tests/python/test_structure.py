@@ -238,7 +238,7 @@ def test_the_guide_names_files_that_exist():
         "command", "curve", "colour", "test"}
     for name, files in rows:
         ways = [re.findall(r"`((?:src|include|python|scripts|docs|tests|scenes)/[^`]*)`", way) for way in files.split("; in Python")]
-        most = {"a study": 5, "a drive": 5, "a level of precision": 4}.get(name, 3)
+        most = {"a study": 5, "a drive": 5}.get(name, 3)
         assert all(1 <= len(way) <= most for way in ways), name
         paths = sum(ways, [])
         missing = [path for path in paths if not re.search("[A-Z]", path) and not (ROOT / path).exists()]

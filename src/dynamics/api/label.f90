@@ -7,7 +7,7 @@ module kz_api_label
   use kz_taylor_taylor, only: doubles_of, qp, PI_QUAD
   use kz_vector_locks, only: take_lock, leave_lock
   use kz_labels_carrier, only: carrier_t, orbit_t
-  use kz_labels_levels, only: prepare_level, carrier_of, is_useful, outlook_from, LEVEL_DOUBLE, LEVEL_FINE
+  use kz_labels_levels, only: prepare_level, carrier_of, is_useful, outlook_from, LEVEL_DOUBLE, LEVEL_FINE, NO_LEVEL
   use kz_labels_orbits, only: decision_t, outlook_t, follow_orbits, DOUBTFUL, PENDING
   use kz_labels_released, only: make_released, carry_released
   use kz_labels_spread, only: add_ellipse
@@ -94,6 +94,7 @@ contains
     decided = now
     if (.not. is_useful(d%levels, now)) then
       decision%label = DOUBTFUL
+      decision%level = NO_LEVEL
       decision%next = int(now, c_int32_t) + 1
       return
     end if

@@ -21,6 +21,8 @@ module kz_labels_levels
   !> Levels of dynamics.h.
   integer, parameter, public :: LEVEL_DOUBLE = 0
   integer, parameter, public :: LEVEL_FINE = 1, LEVEL_PAIRS_16 = 2, LEVEL_PAIRS_28 = 5, LEVEL_QUAD = 6
+  !> KZ_LEVELS of dynamics.h.
+  integer, parameter, public :: NO_LEVEL = 8
   !> rad: of a period in double precision with more steps; with most steps of all.
   real(dp), parameter :: FINE_ERROR = 1e-14_dp
   integer, parameter :: FEWEST_FINE_STEPS = 48, MOST_FINE_STEPS = 320
@@ -141,6 +143,7 @@ contains
     integer, intent(in) :: level !< LEVEL_DOUBLE or a finer one
     type(outlook_t) :: outlook
 
+    outlook%none = NO_LEVEL
     outlook%next = level + 1
     if (.not. is_useful(levels, int(outlook%next))) outlook%next = outlook%next + 1
     outlook%after = outlook%next

@@ -13,12 +13,10 @@ module kz_labels_orbits
   use kz_maps_states, only: angle_difference
   implicit none
   private
-  public :: decision_t, outlook_t, follow_orbits, DOUBTFUL, PENDING, NO_LEVEL, TOLERABLE
+  public :: decision_t, outlook_t, follow_orbits, DOUBTFUL, PENDING, TOLERABLE
 
   !> Labels besides the numbers of attractors: of an orbit whose error has become too large; of one that is to be followed on elsewhere.
   integer, parameter :: DOUBTFUL = -1, PENDING = -2
-  !> KZ_LEVELS of dynamics.h.
-  integer(c_int32_t), parameter :: NO_LEVEL = 8
   !> rad: the size of an error that a label bears.
   real(dp), parameter :: TOLERABLE = 0.03_dp
   !> rad: of larger errors what is not linear is carried too. The largest second derivatives of a period are some 100, so
@@ -31,7 +29,7 @@ module kz_labels_orbits
   type, bind(C) :: decision_t
     integer(c_int32_t) :: label = PENDING !< attractor from 1, 0 = not settled, DOUBTFUL, PENDING
     integer(c_int32_t) :: other = 0
-    integer(c_int32_t) :: level = NO_LEVEL !< no error changes the label, at this level
+    integer(c_int32_t) :: level = 0       !< no error changes the label, at this level
     integer(c_int32_t) :: next = 0        !< the level that may decide a doubtful orbit
     integer(c_int64_t) :: periods = 0     !< first period inside a trapping region, or those followed
     real(dp) :: error = 0                 !< how far the orbit may be off then, rad
@@ -43,6 +41,7 @@ module kz_labels_orbits
   !> end or the error is larger than `reach`: then the next level would not decide it either.
   type :: outlook_t
     integer(c_int32_t) :: next = 0, after = 0 !< the level that follows, and the one behind it
+    integer(c_int32_t) :: none = 0            !< stands for the level of an orbit that is not decided
     real(dp) :: reach = TOLERABLE             !< rad
   end type outlook_t
 
@@ -271,7 +270,7 @@ contains
     if (.not. self%doubted(lane)) error = SAFETY*sqrt(self%ellipse(lane, 1) + self%ellipse(lane, 3))
     next = 0
     if (label == DOUBTFUL) next = merge(self%outlook%after, self%outlook%next, is_beyond(self, lane))
-    self%decision(self%number(lane)) = decision_t(label, 0, merge(self%level, NO_LEVEL, decided), next, periods, error, &
+    self%decision(self%number(lane)) = decision_t(label, 0, merge(self%level, self%outlook%none, decided), next, periods, error, &
                                                   self%age(lane), [self%carrier%u(lane), self%carrier%v(lane)])
   end subroutine settle
 
