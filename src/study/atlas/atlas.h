@@ -174,9 +174,11 @@ bool kz_atlas_grown(const kz_atlas *atlas, const kz_atlas_seed *flip, int axis, 
 /* What a motion is half a period later, seen from upside down, where the plane has k and -k; the image of a curve's point `at` becomes a seed. */
 kz_atlas_kind kz_atlas_image_of(const kz_atlas_kind *kind);
 void kz_atlas_explore_image(const kz_atlas *atlas, const kz_atlas_kind *kind, const double *at, kz_atlas_seeds *seeds);
+/* The curve that Newton's method finds from the mirror image of a curve's point becomes a seed: another one where the symmetry is broken. */
+void kz_atlas_explore_mirrored(const kz_atlas *atlas, const kz_atlas_kind *kind, const double *at, kz_atlas_seeds *seeds);
 /* Compares lines at values of k with those at -k; what has no partner there becomes a seed. */
 void kz_atlas_compare_images(kz_atlas *atlas);
-/* The attractors of a place by following starts. */
+/* The attractors of a place by following starts, and where the mirror symmetry is broken also the images of what these end on. */
 kz_status kz_atlas_probe_at(const kz_atlas *atlas, const double place[2], int64_t starts, int64_t seed, kz_atlas_probe *probe);
 
 /* Whether a state is one of the points of a cycle or of its mirror image, within `near` rad. */

@@ -6,7 +6,8 @@
 #include "numerics/parent.h"
 #include "atlas.h"
 
-enum { MOST_ROWS = 500, MOST_EVENTS = 100 };
+/* IMAGES: of a curve, or of a piece of it. */
+enum { MOST_ROWS = 500, MOST_EVENTS = 100, IMAGES = 5 };
 /* Longest step of a branch, in sides of the plane. */
 static const double LONGEST = KZ_ATLAS_BRANCH_STEP;
 /* Along an axis on which a curve's number changes less than this nothing branches off. */
@@ -182,9 +183,8 @@ static bool has_image(const kz_atlas *atlas, const kz_atlas_curve *curve, int64_
   return kz_atlas_image(atlas, curve->row + row * kz_atlas_width(&curve->kind), place) && is_inside(place);
 }
 
-/* The images of each piece of a curve that has one in the rectangle. */
+/* The images half a period later of each piece of a curve that has one in the rectangle. */
 static void explore_images(const kz_atlas *atlas, const kz_atlas_curve *curve, kz_atlas_seeds *seeds) {
-  enum { IMAGES = 5 };
   kz_atlas_seed at = {.kind = curve->kind};
   for (int64_t first = 0, end; first < curve->n && atlas->turned && curve->kind.rest < 0; first = end + 1) {
     for (end = first; end < curve->n && has_image(atlas, curve, end);) end++;
@@ -195,11 +195,21 @@ static void explore_images(const kz_atlas *atlas, const kz_atlas_curve *curve, k
   }
 }
 
+/* The mirror images of a curve where the mirror symmetry is broken: elsewhere they are the curve itself. */
+static void explore_mirrored(const kz_atlas *atlas, const kz_atlas_curve *curve, kz_atlas_seeds *seeds) {
+  kz_atlas_seed at = {.kind = curve->kind};
+  for (int64_t i = 0; i < IMAGES && curve->n > 0 && !atlas->plane.mirrored; i++) {
+    kz_atlas_point_of(curve, (2 * i + 1) * curve->n / (2 * IMAGES), at.y);
+    kz_atlas_explore_mirrored(atlas, &at.kind, at.y, seeds);
+  }
+}
+
 void kz_atlas_explore_curve(const kz_atlas *atlas, const kz_atlas_curve *curve, bool middle, kz_atlas_seeds *seeds) {
   kz_atlas_seed at = {.kind = curve->kind};
   kz_atlas_point_of(curve, middle_of(curve), at.y);
   for (int axis = 0; axis < 2 && middle; axis++) explore_at(atlas, NULL, &at, axis, true, true, seeds);
   explore_images(atlas, curve, seeds);
+  explore_mirrored(atlas, curve, seeds);
   explore_degenerate(atlas, curve, seeds);
 }
 

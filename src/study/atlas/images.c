@@ -15,6 +15,19 @@ kz_atlas_kind kz_atlas_image_of(const kz_atlas_kind *kind) {
   return image;
 }
 
+/* The point of a curve that Newton's method finds along an axis from the cycle `from` at a place becomes a seed. */
+static void add_beside(const kz_atlas *atlas, const kz_atlas_kind *kind, const double *from, const double place[2],
+                       kz_atlas_seeds *seeds) {
+  const int n = 2 * kind->of.points;
+  for (int axis = 0; axis < 2; axis++) {
+    const double along[2] = {axis == 0, axis == 1};
+    double y[KZ_ATLAS_UNKNOWNS];
+    memcpy(y, from, (size_t)n * sizeof *y);
+    memcpy(y + n, place, 2 * sizeof *y);
+    if (kz_curve_locate(&atlas->plane, &kind->of, y, along) && kz_atlas_add(atlas, *kind, y, seeds)) return;
+  }
+}
+
 /* Each point of the cycle has its own image: an orbit from one of them would lose the digits by which the cycle repels. */
 void kz_atlas_explore_image(const kz_atlas *atlas, const kz_atlas_kind *kind, const double *at, kz_atlas_seeds *seeds) {
   const int n = kind->of.points;
@@ -26,13 +39,16 @@ void kz_atlas_explore_image(const kz_atlas *atlas, const kz_atlas_kind *kind, co
     if (!kz_curve_half_period(&atlas->plane, at + 2 * n, state)) return;
     y[2 * i] = M_PI - state[0], y[2 * i + 1] = -state[1];
   }
-  for (int axis = 0; axis < 2; axis++) {
-    const double along[2] = {axis == 0, axis == 1};
-    double moved[KZ_ATLAS_UNKNOWNS];
-    memcpy(moved, y, (size_t)(2 * n) * sizeof *moved);
-    moved[2 * n] = place[0], moved[2 * n + 1] = place[1];
-    if (kz_curve_locate(&atlas->plane, &image.of, moved, along) && kz_atlas_add(atlas, image, moved, seeds)) return;
-  }
+  add_beside(atlas, &image, y, place, seeds);
+}
+
+void kz_atlas_explore_mirrored(const kz_atlas *atlas, const kz_atlas_kind *kind, const double *at, kz_atlas_seeds *seeds) {
+  const int n = 2 * kind->of.points;
+  kz_atlas_kind image = *kind;
+  double y[KZ_ATLAS_UNKNOWNS];
+  image.of.turns = -kind->of.turns;
+  for (int i = 0; i < n; i++) y[i] = -at[i];
+  add_beside(atlas, &image, y, at + n, seeds);
 }
 
 /* Whether a line has a crossing with a curve of a kind at a value; cycles without a centre turn either way. */

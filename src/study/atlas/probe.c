@@ -116,20 +116,43 @@ static void look(const kz_atlas *atlas, const kz_flow *flow, motions *m, kz_atla
   m->n = left;
 }
 
+/* Follows motions until all have settled, for `most` periods at the longest. */
+static void follow(const kz_atlas *atlas, const kz_flow *flow, double most, motions *m, kz_atlas_probe *probe) {
+  for (double done = 0; done < most && m->n > 0; done += STRETCH) {
+    kz_advance(flow, m->n, STRETCH, m->theta, m->velocity, m->turns);
+    look(atlas, flow, m, probe);
+  }
+}
+
+/* The mirror images of the attractors as starts: where a tilt or a torque breaks the mirror symmetry they often lie in the basin of an
+ * attractor that few other starts reach. */
+static void begin_images(const kz_atlas_probe *probe, motions *m) {
+  size_t n = 1;
+  for (int64_t i = 0; i < probe->found.count; i++) n += (size_t)probe->found.list[i].kind.of.points;
+  *m = (motions){0, kz_calloc(n, sizeof *m->turns), kz_malloc(n * sizeof *m->theta), kz_malloc(n * sizeof *m->velocity), NULL};
+  for (int64_t i = 0; i < probe->found.count; i++) {
+    const kz_atlas_seed *cycle = probe->found.list + i;
+    for (int j = 0; j < cycle->kind.of.points; j++, m->n++) {
+      m->theta[m->n] = remainder(-cycle->y[2 * j], 2 * M_PI);
+      m->velocity[m->n] = -cycle->y[2 * j + 1];
+    }
+  }
+}
+
 kz_status kz_atlas_probe_at(const kz_atlas *atlas, const double place[2], int64_t starts, int64_t seed, kz_atlas_probe *probe) {
   kz_pendulum pendulum;
   kz_numerics numerics = kz_steps_plain();
   KZ_FREED_BY(end) motions m = {0};
+  KZ_FREED_BY(end) motions images = {0};
   *probe = (kz_atlas_probe){.place = {place[0], place[1]}, .starts = starts};
   if (!kz_atlas_pendulum(atlas->scene, place, &pendulum)) return KZ_OK;
   numerics.steps_per_period = (int32_t)fmax(STEPS, kz_steps_by_stiffness(&pendulum, STEPS));
   kz_flow *flow = kz_flow_create(&pendulum, &numerics);
   const double most = fmin(MOST_PERIODS, fmax(FEWEST_PERIODS, 60 / (M_PI * pendulum.beta)));
   begin(&pendulum, starts, seed, &m);
-  for (double done = 0; done < most && m.n > 0; done += STRETCH) {
-    kz_advance(flow, m.n, STRETCH, m.theta, m.velocity, m.turns);
-    look(atlas, flow, &m, probe);
-  }
+  follow(atlas, flow, most, &m, probe);
+  if (!atlas->plane.mirrored) begin_images(probe, &images);
+  follow(atlas, flow, most, &images, probe);
   kz_flow_free(flow);
   probe->unsettled = m.n;
   return KZ_OK;
