@@ -85,12 +85,26 @@ static kz_status read_curves(kz_atlas *atlas, kz_store *store) {
   return KZ_OK;
 }
 
-/* The classes in the order of the file, and the counts of the first cell. */
+/* The first cell whose list is known, row and column; the first one if there is none. */
+static kz_status find_known(const kz_atlas *atlas, kz_store *store, int64_t cell[2]) {
+  const int64_t points = atlas->scene->atlas->points;
+  for (int64_t i = 0; i < points * points; i++) {
+    double list;
+    KZ_TRY(kz_store_number(store, GROUP, "list", (int64_t[]){i / points, i % points}, &list));
+    if (list < 0) continue;
+    cell[0] = i / points, cell[1] = i % points;
+    break;
+  }
+  return KZ_OK;
+}
+
+/* The classes in the order of the file, and their counts in a cell; where no cell is known they are negative, so that no list is. */
 static kz_status read_classes(kz_atlas *atlas, kz_store *store) {
   enum { OF_PERIOD, OF_WINDING, OF_CENTRE, OF_SYMMETRY, CLASS_COLUMNS };
   static const char *const name[] = {"class_period", "class_winding", "class_centre", "class_symmetric"};
   KZ_FREED_BY(columns_free) columns c = {0};
-  int64_t n;
+  int64_t n, cell[2] = {0};
+  KZ_TRY(find_known(atlas, store, cell));
   KZ_TRY(kz_store_length(store, GROUP, "class", &n));
   KZ_TRY(read_columns(store, CLASS_COLUMNS, name, n, &c));
   for (int64_t i = 0; i < n && i < KZ_ATLAS_MOST_CLASSES; i++) {
@@ -98,10 +112,10 @@ static kz_status read_classes(kz_atlas *atlas, kz_store *store) {
     double count;
     kz_atlas_class class = {KZ_CLASS_OTHER, period, (int32_t)c.of[OF_WINDING][i]};
     if (c.of[OF_SYMMETRY][i] != 0) class = (kz_atlas_class){period == 1 ? KZ_CLASS_REST : KZ_CLASS_SYMMETRIC, period, inverted};
-    KZ_TRY(kz_store_number(store, GROUP, "attracting", (int64_t[]){i, 0, 0}, &count));
-    atlas->at_reference[kz_atlas_class_number(atlas, &class)] = (int32_t)count;
+    KZ_TRY(kz_store_number(store, GROUP, "attracting", (int64_t[]){i, cell[0], cell[1]}, &count));
+    atlas->at_reference[kz_atlas_class_number(atlas, &class)] = (int32_t)(count == KZ_ATLAS_NOT_KNOWN ? -count : count);
   }
-  for (int i = 0; i < 2; i++) atlas->reference[i] = 0.5 / (double)atlas->scene->atlas->points;
+  for (int i = 0; i < 2; i++) atlas->reference[i] = ((double)cell[1 - i] + 0.5) / (double)atlas->scene->atlas->points;
   return KZ_OK;
 }
 
