@@ -190,6 +190,7 @@ static kz_status write_attributes(const kz_atlas *atlas, const kz_atlas_raster *
   KZ_TRY(kz_store_integer(store, GROUP, "told", atlas->told));
   KZ_TRY(kz_store_integer(store, GROUP, "unsolved", atlas->unsolved));
   KZ_TRY(kz_store_integer(store, GROUP, "open_ends", open_ends(atlas)));
+  KZ_TRY(kz_store_integer(store, GROUP, "refused", atlas->refused));
   if (atlas->compared > 0) KZ_TRY(kz_store_integer(store, GROUP, "compared", atlas->compared));
   if (atlas->compared > 0) KZ_TRY(kz_store_integer(store, GROUP, "alone", atlas->alone));
   if (atlas->checked == 0) return KZ_OK;
@@ -219,8 +220,8 @@ static void print(const kz_atlas *atlas, const kz_atlas_raster *r, const listing
             "  warning: %" PRId64 " ends of curves lie within the plane without a reason; lists beside them may be wrong\n",
             open_ends(atlas));
   if (atlas->compared > 0)
-    fprintf(summary, "  of %" PRId64 " crossings of lines at k, %" PRId64 " have no image at -k: a curve is missing there\n",
-            atlas->compared, atlas->alone);
+    fprintf(summary, "  of %" PRId64 " crossings of lines at k, %" PRId64 " have no image at -k%s\n", atlas->compared,
+            atlas->alone, atlas->alone > 0 ? ": a curve is missing there" : "");
   if (atlas->checked > 0)
     fprintf(summary,
             "  checked: %" PRId64 " random points in the last of %" PRId64 " rounds, %" PRId64
