@@ -260,7 +260,7 @@ contains
       if (.not. regular) return
       size_now = maxval(abs(side(:unknown, 1)))
       if (.not. size_now < 1e3_dp) return
-      side(:unknown, 1) = side(:unknown, 1)*min(1.0_dp, longest/size_now)
+      side(:unknown, 1) = side(:unknown, 1)*(longest/max(longest, size_now)) ! the step is 0 exactly at rest
       y(:n) = y(:n) - side(:n, 1)
       y(n + 1:n + 2) = y(n + 1:n + 2) - matmul(system%basis(:, :system%columns), side(n + 1:unknown, 1))
       if (size_now < close .or. (size_now < SMALL .and. size_now > 0.3_dp*last)) iterations = i

@@ -13,7 +13,7 @@
 
 #include "enclosure/operations.h"
 
-enum { SETS = PART > 1 ? 8 : 16, PERIODS = 3, DRAWS = PART > 1 ? 5 : 10 };
+enum { SETS = 16, PERIODS = 3, DRAWS = PART > 1 ? 5 : 10 };
 
 static double uniform(double from, double to) {
   return from + (to - from) * rand() / RAND_MAX;
