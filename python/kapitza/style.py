@@ -107,17 +107,25 @@ def _variants(colour: str) -> list[tuple[str, np.ndarray]]:
     for turn in np.radians((0, 30, -30, 60, -60, 90, -90, 120, -120, 150, -150, 180)):
         for lighter in (0, -0.12, 0.12, -0.24):
             place = (np.clip(lightness + lighter, 0.3, 0.88), chroma * np.cos(hue + turn), chroma * np.sin(hue + turn))
-            linear = np.clip((_OKLAB_INVERSE[0] @ (_OKLAB_INVERSE[1] @ place) ** 3), 0, 1)
-            hexadecimal = to_hex(np.where(linear <= 0.0031308, 12.92 * linear, 1.055 * linear ** (1 / 2.4) - 0.055))
+            hexadecimal = to_hex(of_oklab(np.array(place)))
             found.append((hexadecimal, _oklab(hexadecimal)))
     return found
 
 
-def _oklab(colour: str) -> np.ndarray:
-    """(L, a, b) of B. Ottosson's OKLab (2020), in which equal distances look about equally different."""
-    rgb = np.array(to_rgb(colour))
+def oklab(rgb: np.ndarray) -> np.ndarray:
+    """(L, a, b) of B. Ottosson's OKLab (2020), in which equal distances look about equally different; rgb [.., 3] in 0 .. 1."""
     linear = np.where(rgb <= 0.04045, rgb / 12.92, ((rgb + 0.055) / 1.055) ** 2.4)
-    return _OKLAB[1] @ np.cbrt(_OKLAB[0] @ linear)
+    return np.asarray(np.cbrt(linear @ _OKLAB[0].T) @ _OKLAB[1].T)
+
+
+def of_oklab(place: np.ndarray) -> np.ndarray:
+    """The nearest rgb [.., 3] of OKLab's (L, a, b)."""
+    linear = np.clip((place @ _OKLAB_INVERSE[1].T) ** 3 @ _OKLAB_INVERSE[0].T, 0, 1)
+    return np.where(linear <= 0.0031308, 12.92 * linear, 1.055 * linear ** (1 / 2.4) - 0.055)
+
+
+def _oklab(colour: str) -> np.ndarray:
+    return oklab(np.array(to_rgb(colour)))
 
 
 def motion_colour(period: int, winding: int, centre: int) -> str:
@@ -211,7 +219,7 @@ def settings(font_size: float = FONT_SIZE) -> dict[str, Any]:
         "text.color": INK, "axes.labelcolor": INK, "axes.edgecolor": INK, "xtick.color": INK, "ytick.color": INK,
         "axes.linewidth": 0.7 * scale, "axes.labelpad": 4.0 * scale, **ticks,
         "axes.titlelocation": "left", "axes.titlesize": "large", "axes.titleweight": "bold",
-        "legend.frameon": False, "figure.dpi": 100, "savefig.facecolor": "white",
+        "legend.frameon": False, "figure.dpi": 100, "savefig.facecolor": "auto",
         "svg.fonttype": "none", "pdf.fonttype": 42, "svg.hashsalt": "kapitza",
     }
 

@@ -5,6 +5,7 @@
     kapitza plot atlas atlas-blackburn.h5 --view line --x 11   all branches along the line where x is 11; those that repel are dashed
     kapitza plot atlas atlas-blackburn.h5 --longest 2          cycles of up to two periods alone
     kapitza plot atlas atlas-blackburn.h5 --points fig4.csv    with published points on top
+    kapitza plot atlas atlas-blackburn.h5 --theme dark         on dark paper, for slides
 """
 
 import argparse
@@ -46,6 +47,7 @@ def parse_arguments(words: list[str]) -> argparse.Namespace:
     parser.add_argument("--y", type=float, help="or of that along the vertical axis (default: the middle of the horizontal one)")
     parser.add_argument("--points", metavar="CSV", help="points on the map, with the columns x, y and label; points with one label have "
                         "one mark")
+    parser.add_argument("--theme", choices=("light", "dark"), default="light", help="the paper")
     arguments = parsed(parser, words)
     if arguments.x is not None and arguments.y is not None:
         parser.error("a line has --x or --y, not both")

@@ -8,6 +8,7 @@ from pathlib import Path
 from matplotlib.figure import Figure
 
 from kapitza import style
+from kapitza.plots.dark import darken
 from kapitza.plots.page import SEPARATOR, Picture, current, drawing, lay_out, new_figure
 from kapitza.plots.page_options import add_page_options, page_of
 from kapitza.plots.strokes import scale_strokes
@@ -65,6 +66,8 @@ def figure_of(result: Result, arguments: argparse.Namespace, draw: Callable[[Res
             warnings.simplefilter("ignore")  # values that are not there (NaN), axes of one value
             figure = lay_out(draw(result, arguments))
             scale_strokes(figure, page_of(arguments).scale)
+            if getattr(arguments, "theme", "light") == "dark":
+                darken(figure)
             return figure
     except (ArithmeticError, LookupError, TypeError, ValueError, Warning) as error:
         reason = " ".join(str(error).split())
