@@ -18,6 +18,7 @@ static const char *scheme_words(void) {
   return words;
 }
 
+#define MOST_HARMONICS KZ_WRITTEN(KZ_HARMONICS)
 #define PENDULUM(form_, name, unit_, low_, fallback, help)                                                     \
   ROW("pendulum." #name, KZ_KEY_REAL, fallback, AT(parameters.written.name), help, .unit = unit_, .low = low_, \
       .high = DBL_MAX, .form = form_)
@@ -76,9 +77,8 @@ static const kz_key own[] = {
         "Further harmonics of the drive: m amplitude cos(order t + phase), the phase in rad or degrees.", .unit = ""),
     ROW("pendulum.vertical", KZ_KEY_REALS, "", AT(parameters.written.vertical),
         "Coefficients of the equation, beside k - m cos t: cosine and sine of the first harmonic, of the second, "
-        ".., " KZ_WRITTEN(KZ_HARMONICS) " at "
-                                        "most, as the group pendulum of a result holds them. Instead of waveform, harmonics, "
-                                        "tilt and ellipse.",
+        ".., " MOST_HARMONICS
+        " at most, as the group pendulum of a result holds them. Instead of waveform, harmonics, tilt and ellipse.",
         .unit = "", .low = -1e7, .high = 1e7),
     ROW("pendulum.horizontal", KZ_KEY_REALS, "", AT(parameters.written.horizontal),
         "The same of a pivot that moves aside: b(t) of the equation.", .unit = "", .low = -1e7, .high = 1e7),
