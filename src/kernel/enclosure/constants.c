@@ -1,5 +1,5 @@
-/* Constants of the steps of a class of speeds, rounded from balls of Arb that hold them. */
-#include "digits/number.h"
+/* Constants of the steps of a class of speeds, rounded from numbers of 192 bits. */
+#include "digits/step.h"
 #include "sets.h"
 
 enum { BITS = 192 };
@@ -18,39 +18,6 @@ static kz_constant rounded(const kz_number *x) {
   return (kz_constant){part[0], part[1], part[2]};
 }
 
-/* series [order] += the coefficients of h (cosine cos j t + sine sin j t) about t = 2 pi i / n_steps: the n-th derivative turns the angle by n
- * quarters. */
-static void add_harmonic(const arb_t h, int64_t i, int64_t n_steps, int64_t j, const double amplitude[2], int64_t order,
-                         arb_ptr series) {
-  KZ_NUMBER(c);
-  KZ_NUMBER(s);
-  KZ_NUMBER(part);
-  KZ_NUMBER(scale);
-  kz_number derivative[2];
-  if (!(fabs(amplitude[0]) + fabs(amplitude[1]) > 0)) return;
-  for (int k = 0; k < 2; k++) arb_init(derivative + k);
-  kz_number_sin_cos_of_turns(i * j, n_steps, &s, &c, BITS);
-  for (int k = 0; k < 2; k++) { /* of cosine and sine: (c, s), (-s, c) */
-    arb_set_d(&part, amplitude[k]);
-    arb_addmul(derivative, &part, k == 0 ? &c : &s, BITS);
-    if (k == 0)
-      arb_submul(derivative + 1, &part, &s, BITS);
-    else
-      arb_addmul(derivative + 1, &part, &c, BITS);
-  }
-  arb_set(&scale, h);
-  for (int64_t n = 0; n < order; n++) { /* the two derivatives come in turns, and change their sign each second time */
-    if (n % 4 < 2)
-      arb_addmul(series + n, &scale, derivative + n % 2, BITS);
-    else
-      arb_submul(series + n, &scale, derivative + n % 2, BITS);
-    arb_mul(&scale, &scale, h, BITS);
-    arb_mul_si(&scale, &scale, j, BITS);
-    arb_div_si(&scale, &scale, n + 1, BITS);
-  }
-  for (int k = 0; k < 2; k++) arb_clear(derivative + k);
-}
-
 static kz_constant times(const arb_t step, double factor) {
   KZ_NUMBER(x);
   arb_set_d(&x, factor);
@@ -58,24 +25,30 @@ static kz_constant times(const arb_t step, double factor) {
   return rounded(&x);
 }
 
-/* The powers of s = 0 .. 1 in h a(t + h s) and -h b(t + h s) of step i. */
-static void expand_force(const kz_pendulum *p, const arb_t h, int64_t i, kz_speed_class *speed) {
-  const int64_t order = speed->order, n_steps = speed->n_steps;
-  const arb_ptr along = _arb_vec_init(2 * order), across = along + order;
+/* The powers of s = 0 .. 1 in h a(t + h s) and -h b(t + h s) of all steps: the drive's series of any digits, which scale its powers. */
+static void set_force(const kz_pendulum *pendulum, const arb_t h, kz_speed_class *speed) {
+  const int64_t order = speed->order;
+  const kz_stretch whole = {.is_whole = true};
+  kz_number *const numbers = kz_numbers_make(3 * order);
+  kz_series series = {.along = numbers + order, .across = numbers + 2 * order};
+  kz_steps steps = {.pendulum = pendulum, .stretch = &whole, .n = speed->n_steps, .scale = numbers, .force_orders = order - 1};
   KZ_NUMBER(gravity);
-  arb_set_d(&gravity, p->k);
-  arb_mul(along, &gravity, h, BITS);
-  add_harmonic(h, i, n_steps, 1, (double[]){-p->m, 0}, order, along);
-  for (int64_t j = 1; j <= p->harmonics; j++) {
-    const double *up = p->vertical[j - 1], *right = p->horizontal[j - 1];
-    add_harmonic(h, i, n_steps, j, (double[]){-up[0], -up[1]}, order, along);
-    add_harmonic(h, i, n_steps, j, (double[]){-right[0], -right[1]}, order, across);
+  kz_number_of_double(pendulum->k, &gravity);
+  kz_number_multiply(&steps.gravity, &gravity, h, BITS);
+  kz_number_set(numbers, h);
+  for (int64_t n = 1; n < order; n++) {
+    kz_number_multiply(numbers + n, numbers + n - 1, h, BITS);
+    kz_number_divide_by(numbers + n, numbers + n, n, BITS);
   }
-  for (int64_t n = 0; n < order; n++) {
-    speed->along[i * order + n] = rounded(along + n);
-    speed->across[i * order + n] = rounded(across + n);
+  for (int64_t i = 0; i < speed->n_steps; i++) {
+    kz_drive_expand(&series, &steps, i, BITS);
+    for (int64_t n = 0; n < order; n++) {
+      speed->along[i * order + n] = rounded(series.along + n);
+      speed->across[i * order + n] = rounded(series.across + n);
+    }
   }
-  _arb_vec_clear(along, 2 * order);
+  kz_number_clear(&steps.gravity);
+  kz_numbers_free(numbers, 3 * order);
 }
 
 void kz_speed_class_set_constants(const kz_pendulum *pendulum, kz_speed_class *speed) {
@@ -93,5 +66,5 @@ void kz_speed_class_set_constants(const kz_pendulum *pendulum, kz_speed_class *s
     arb_div_si(&x, &x, n + 1, BITS);
     speed->inverse[n] = rounded(&x);
   }
-  for (int64_t i = 0; i < speed->n_steps; i++) expand_force(pendulum, &h, i, speed);
+  set_force(pendulum, &h, speed);
 }
