@@ -6,6 +6,7 @@
 
 #include <stdbool.h>
 #include <stddef.h>
+#include <stdint.h>
 
 /* The value is the exit status of the program. */
 typedef enum {
@@ -78,6 +79,8 @@ void *kz_calloc(size_t n, size_t bytes);
 void *kz_realloc(void *old, size_t bytes);
 char *kz_strdup(const char *text);
 char *kz_strndup(const char *text, size_t length);
+/* The list with room for one more item behind its first n: its room doubles as it grows. item: bytes of one. */
+void *kz_room(void *list, int64_t n, size_t item);
 
 /* Before the declaration of a local variable: what it points to, or, by a function of its own, what it holds is freed when the function
  * returns, from whatever place. */

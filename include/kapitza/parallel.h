@@ -139,7 +139,7 @@ typedef struct {
   void *data;
 } kz_local_record;
 typedef struct {
-  int64_t n, capacity;
+  int64_t n;
   kz_local_record *list; /* [n], in no order */
   double stands_for;     /* of a sampled run: how many records each one stands for; 0 = 1 */
 } kz_local_records;
@@ -227,6 +227,15 @@ double kz_sampling_seconds(const kz_sampling *sample);
  * present weight; how many tiles each done tile of the last stage stands for. */
 void kz_sampling_weigh(const kz_run *run, double factor);
 double kz_sampling_weight(const kz_run *run);
+/* KZ_TRY of a call that counts `factor` times as often. */
+#define KZ_TRY_WEIGHED(run, factor, call)    \
+  do {                                       \
+    const double try_factor = (factor);      \
+    kz_sampling_weigh(run, try_factor);      \
+    const kz_status weighed_status = (call); \
+    kz_sampling_weigh(run, 1 / try_factor);  \
+    KZ_TRY(weighed_status);                  \
+  } while (0)
 double kz_sampling_stands_for(const kz_run *run);
 /* For a loop of steps that need each other. The mark is made before it. kz_sampling_enough is true if the run is sampled and has seen enough of
  * the loop, of which the share `done` is over; the rest is then counted, and the caller leaves the loop. */

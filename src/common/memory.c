@@ -46,6 +46,10 @@ void *kz_realloc(void *old, size_t bytes) {
   return __wrap_realloc(old, bytes);
 }
 
+void *kz_room(void *list, int64_t n, size_t item) {
+  return (n & (n - 1)) == 0 ? kz_realloc(list, (size_t)(n > 0 ? 2 * n : 1) * item) : list;
+}
+
 char *kz_strndup(const char *text, size_t length) {
   const size_t n = strnlen(text, length);
   char *copy = kz_malloc(n + 1);

@@ -7,8 +7,8 @@ typedef struct {
   size_t record_bytes;
   size_t stride;         /* bytes of a slot: tile number and record */
   int64_t message_slots; /* slots of a message */
-  int64_t n, capacity;
-  char *slots; /* [capacity][stride], of which n are filled */
+  int64_t n;
+  char *slots; /* [n][stride] */
 } kz_record_buffer;
 
 /* Records larger than this do not fit into a message. */

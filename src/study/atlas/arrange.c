@@ -3,7 +3,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "numerics/parent.h"
 #include "atlas.h"
 
 /* Tangents shorter than this end at a cusp: steps beside it are straight. */
@@ -14,10 +13,7 @@ static const double GROWN = 0.5;
 static const double NO_GRAVITY = 1e-9, BESIDE = 1e-8;
 
 static void add(kz_atlas_crossings *crossings, kz_atlas_crossing crossing) {
-  if (crossings->count == crossings->capacity) {
-    crossings->capacity = 2 * crossings->capacity + 64;
-    crossings->list = kz_realloc(crossings->list, (size_t)crossings->capacity * sizeof *crossings->list);
-  }
+  crossings->list = kz_room(crossings->list, crossings->count, sizeof *crossings->list);
   crossings->list[crossings->count++] = crossing;
 }
 
@@ -126,8 +122,8 @@ static void cross(kz_atlas *atlas, int64_t number, int64_t row, int axis, double
                                   .share = s};
     add(crossings, crossing);
     if (curve->kind.of.multiplier > 0 || form <= 0) continue;
-    const kz_atlas_kind child = kz_atlas_child(&curve->kind);
-    if (kz_atlas_period(&child) > atlas->scene->atlas->max_period) continue;
+    const kz_atlas_kind child = kz_child_kind(&curve->kind);
+    if (kz_kind_period(&child) > atlas->scene->atlas->max_period) continue;
     const kz_atlas_class grown = kz_atlas_class_of(&child);
     crossing.class = kz_atlas_class_number(atlas, &grown);
     crossing.change = -change;

@@ -16,10 +16,7 @@ kz_status kz_atlas_run(const kz_scene *scene, const kz_run *run, kz_store *store
   if (store || scene->atlas->shares > 0) kz_atlas_raster_make(&atlas, &raster);
   if (scene->atlas->shares > 0) {
     const double more = (double)KZ_ATLAS_REGIONS / (double)raster.n_regions; /* a sampled run knows few regions */
-    kz_sampling_weigh(run, more);
-    const kz_status status = kz_atlas_shares(&atlas, run, &raster);
-    kz_sampling_weigh(run, 1 / more);
-    KZ_TRY(status);
+    KZ_TRY_WEIGHED(run, more, kz_atlas_shares(&atlas, run, &raster));
   }
   return kz_ranks_agree(run->ranks, store ? kz_atlas_write(&atlas, &raster, store, summary) : KZ_OK);
 }

@@ -3,29 +3,24 @@
  * A place is (x, y) in units of the rectangle: 0 at the first value of a key, 1 at the last. */
 #pragma once
 
+#include <math.h>
+
 #include "kapitza/dynamics.h"
 #include "kapitza/dynamics_curves.h"
 #include "kapitza/study.h"
 #include "kapitza/study_atlas.h"
+#include "numerics/parent.h"
 #include "plan.h"
 
 /* Longest step of branches along a line, in sides of the plane. */
 #define KZ_ATLAS_BRANCH_STEP 0.03
 enum { KZ_ATLAS_UNKNOWNS = 2 * KZ_CURVE_POINTS + 2, KZ_ATLAS_MOST_CLASSES = 512 };
 
-/* Which cycles a curve is about; rest: -1, or 0 for rest down and 1 for rest inverted. */
+/* Which cycles a curve is about; a cycle or a point of a curve from which one is traced. */
+typedef kz_cycle_kind kz_atlas_kind;
+typedef kz_plane_cycle kz_atlas_seed;
 typedef struct {
-  kz_curve_kind of;
-  int32_t rest;
-} kz_atlas_kind;
-
-/* A cycle, or a point of a curve, and its place. */
-typedef struct {
-  kz_atlas_kind kind;
-  double y[KZ_ATLAS_UNKNOWNS];
-} kz_atlas_seed;
-typedef struct {
-  int64_t count, capacity;
+  int64_t count;
   kz_atlas_seed *list;
 } kz_atlas_seeds;
 
@@ -56,7 +51,7 @@ typedef struct {
   double share; /* of the step from that row */
 } kz_atlas_crossing;
 typedef struct {
-  int64_t count, capacity;
+  int64_t count;
   kz_atlas_crossing *list;
 } kz_atlas_crossings;
 
@@ -74,7 +69,7 @@ struct kz_atlas {
   double longest; /* step along curves */
   bool undriven;  /* no drive at the lowest y: rest alone attracts */
   bool turned;    /* every place has an image with -k in place of k */
-  int64_t n_curves, n_explored, curves_capacity;
+  int64_t n_curves, n_explored;
   kz_atlas_curve *curve;
   kz_atlas_seeds pending;
   int32_t n_classes;
@@ -117,17 +112,15 @@ bool kz_atlas_reduce(const kz_atlas *atlas, double near, kz_atlas_kind *kind, do
 /* Adds a seed of a curve (multiplier 1 or -1) or a cycle (0) in its canonical form; false if it is of no interest: a longer period than
  * wanted, outside of the plane. */
 bool kz_atlas_add(const kz_atlas *atlas, kz_atlas_kind kind, const double *y, kz_atlas_seeds *seeds);
+void kz_atlas_put(kz_atlas_seeds *seeds, const kz_atlas_seed *seed); /* as it is */
 void kz_atlas_seeds_free(kz_atlas_seeds *seeds);
-/* Drive periods of a cycle of this kind. */
-int32_t kz_atlas_period(const kz_atlas_kind *kind);
-/* The class of its attractors, and what it is called. */
+/* The class of its attractors, whether that is a given one, and what it is called. */
 kz_atlas_class kz_atlas_class_of(const kz_atlas_kind *kind);
+bool kz_atlas_is_of(const kz_atlas_kind *kind, const kz_atlas_class *class);
 int32_t kz_atlas_class_centre(const kz_atlas_class *class);
 void kz_atlas_class_name(const kz_atlas *atlas, const kz_atlas_class *class, char *text);
 /* How many motions a class has for each of its members: a mirror image too, unless the motion is its own. */
 int32_t kz_atlas_images(const kz_atlas *atlas, const kz_atlas_class *class);
-/* What the cycle of a curve with multiplier -1 turns into. */
-kz_atlas_kind kz_atlas_child(const kz_atlas_kind *kind);
 /* The number of a class, new if need be. */
 int32_t kz_atlas_class_number(kz_atlas *atlas, const kz_atlas_class *class);
 
@@ -181,6 +174,10 @@ void kz_atlas_compare_images(kz_atlas *atlas);
 /* The attractors of a place by following starts, and where the mirror symmetry is broken also the images of what these end on. */
 kz_status kz_atlas_probe_at(const kz_atlas *atlas, const double place[2], int64_t starts, int64_t seed, kz_atlas_probe *probe);
 
+/* The distance of a state from another one, or with side -1 from its mirror image. */
+static inline double kz_atlas_apart(const double *a, const double *b, double side) {
+  return hypot(remainder(a[0] - side * b[0], 2 * M_PI), a[1] - side * b[1]);
+}
 /* Whether a state is one of the points of a cycle or of its mirror image, within `near` rad. */
 bool kz_atlas_same(const kz_atlas *atlas, const kz_atlas_seed *cycle, const double *state, double near);
 /* The cycle of n periods near a state, if the trace of its map is below `steepest` times that of a multiplier of 1: 1 = it attracts. */

@@ -84,12 +84,9 @@ static double at(const kz_atlas *atlas, const double *place, int axis) {
 typedef void (*text_fn)(const kz_atlas *atlas, int64_t i, char *text);
 static kz_status write_texts(const kz_atlas *atlas, const char *name, int64_t n, text_fn make, kz_store *store) {
   KZ_FREED char (*text)[2 * KZ_NAME_LENGTH] = kz_calloc((size_t)n + 1, sizeof *text);
-  KZ_FREED const char **pointer = kz_calloc((size_t)n + 1, sizeof *pointer);
-  for (int64_t i = 0; i < n; i++) {
-    make(atlas, i, text[i]);
-    pointer[i] = text[i];
-  }
-  return kz_store_variable(store, GROUP, name, pointer);
+  for (int64_t i = 0; i < n; i++) make(atlas, i, text[i]);
+  COLUMN(const char *, name, n, text[i]);
+  return KZ_OK;
 }
 
 static void name_curve(const kz_atlas *atlas, int64_t i, char *text) {
@@ -107,7 +104,7 @@ static kz_status write_curves(const kz_atlas *atlas, const listing *l, kz_store 
   const kz_atlas_curve *c = atlas->curve;
   KZ_TRY(kz_store_dimension(store, GROUP, "curve", atlas->n_curves, NULL));
   COLUMN(int8_t, "curve_kind", atlas->n_curves, kind_of(c + i));
-  COLUMN(int16_t, "curve_period", atlas->n_curves, kz_atlas_period(&c[i].kind));
+  COLUMN(int16_t, "curve_period", atlas->n_curves, kz_kind_period(&c[i].kind));
   COLUMN(int32_t, "curve_winding", atlas->n_curves, winding_of(c + i));
   COLUMN(int8_t, "curve_centre", atlas->n_curves, centre_of(atlas, c + i));
   COLUMN(int8_t, "curve_symmetric", atlas->n_curves, c[i].kind.rest >= 0 || c[i].kind.of.side < 0);

@@ -28,7 +28,7 @@ static void join(const kz_atlas *atlas, const double place[2], const double *fou
   const double state[2] = {M_PI * found[2], found[3]};
   kz_atlas_seed cycle;
   for (int64_t i = 0; i < cycles->count; i++)
-    if (kz_atlas_period(&cycles->list[i].kind) == (int32_t)found[0] && kz_atlas_same(atlas, cycles->list + i, state, ONE))
+    if (kz_kind_period(&cycles->list[i].kind) == (int32_t)found[0] && kz_atlas_same(atlas, cycles->list + i, state, ONE))
       return;
   if (kz_atlas_identify(atlas, place, state, (int)found[0], STEEPEST, &cycle)) kz_atlas_add(atlas, cycle.kind, cycle.y, cycles);
 }

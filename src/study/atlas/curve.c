@@ -185,10 +185,7 @@ bool kz_atlas_keep(kz_atlas *atlas, kz_atlas_curve *curve) {
     kz_atlas_curve_free(curve);
     return false;
   }
-  if (atlas->n_curves == atlas->curves_capacity) {
-    atlas->curves_capacity = 2 * atlas->curves_capacity + 32;
-    atlas->curve = kz_realloc(atlas->curve, (size_t)atlas->curves_capacity * sizeof *atlas->curve);
-  }
+  atlas->curve = kz_room(atlas->curve, atlas->n_curves, sizeof *atlas->curve);
   atlas->curve[atlas->n_curves++] = *curve;
   return true;
 }

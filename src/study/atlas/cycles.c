@@ -4,24 +4,19 @@
 #include <string.h>
 
 #include "atlas.h"
-#include "numerics/parent.h"
 
 /* rad: two states nearer than this are one; a cycle this near to rest is rest. A multiplier is 1 or -1 where the trace is that near to its value
  * there. */
 static const double ONE = 1e-5, AT_REST = 1e-9, CROSSED = 1e-4;
 
-int32_t kz_atlas_period(const kz_atlas_kind *kind) {
-  if (kind->rest >= 0) return 1;
-  return kind->of.side > 0 ? kind->of.points : 2 * kind->of.points;
-}
-
 kz_atlas_class kz_atlas_class_of(const kz_atlas_kind *kind) {
   if (kind->rest >= 0) return (kz_atlas_class){KZ_CLASS_REST, 1, kind->rest};
-  return (kz_atlas_class){kind->of.side > 0 ? KZ_CLASS_OTHER : KZ_CLASS_SYMMETRIC, kz_atlas_period(kind), kind->of.turns};
+  return (kz_atlas_class){kind->of.side > 0 ? KZ_CLASS_OTHER : KZ_CLASS_SYMMETRIC, kz_kind_period(kind), kind->of.turns};
 }
 
-kz_atlas_kind kz_atlas_child(const kz_atlas_kind *kind) {
-  return (kz_atlas_kind){kz_child_kind(&kind->of, kind->rest), -1};
+bool kz_atlas_is_of(const kz_atlas_kind *kind, const kz_atlas_class *class) {
+  const kz_atlas_class own = kz_atlas_class_of(kind);
+  return !memcmp(&own, class, sizeof own);
 }
 
 int32_t kz_atlas_images(const kz_atlas *atlas, const kz_atlas_class *class) {
@@ -51,14 +46,11 @@ void kz_atlas_class_name(const kz_atlas *atlas, const kz_atlas_class *class, cha
              (int)class->period);
 }
 
-static double apart(const double *a, const double *b, double side) {
-  return hypot(remainder(a[0] - side * b[0], 2 * M_PI), a[1] - side * b[1]);
-}
-
 /* The second half of a symmetric cycle is the mirror image of the first. */
 bool kz_atlas_same(const kz_atlas *atlas, const kz_atlas_seed *cycle, const double *state, double near) {
   for (int i = 0; i < cycle->kind.of.points; i++)
-    if (apart(cycle->y + 2 * i, state, 1) < near || (atlas->plane.mirrored && apart(cycle->y + 2 * i, state, -1) < near))
+    if (kz_atlas_apart(cycle->y + 2 * i, state, 1) < near ||
+        (atlas->plane.mirrored && kz_atlas_apart(cycle->y + 2 * i, state, -1) < near))
       return true;
   return false;
 }
@@ -67,7 +59,7 @@ bool kz_atlas_same(const kz_atlas *atlas, const kz_atlas_seed *cycle, const doub
 static bool repeats(const kz_atlas_kind *kind, const double *y, int shift, double side, double near) {
   const int n = kind->of.points;
   for (int i = 0; i < n; i++)
-    if (apart(y + 2 * i, y + 2 * ((i + shift) % n), i + shift < n ? side : side * kind->of.side) >= near) return false;
+    if (kz_atlas_apart(y + 2 * i, y + 2 * ((i + shift) % n), i + shift < n ? side : side * kind->of.side) >= near) return false;
   return true;
 }
 
@@ -153,14 +145,15 @@ bool kz_atlas_add(const kz_atlas *atlas, kz_atlas_kind kind, const double *y, kz
   for (int i = 0; i < 2; i++)
     if (y[n + i] < atlas->plane.low[i] || y[n + i] > atlas->plane.high[i]) return false;
   while (kz_atlas_reduce(atlas, ONE, &seed.kind, seed.y)) continue;
-  if (kz_atlas_period(&seed.kind) > atlas->scene->atlas->max_period) return false;
+  if (kz_kind_period(&seed.kind) > atlas->scene->atlas->max_period) return false;
   canonical(atlas, &seed.kind, seed.y);
-  if (seeds->count == seeds->capacity) {
-    seeds->capacity = 2 * seeds->capacity + 16;
-    seeds->list = kz_realloc(seeds->list, (size_t)seeds->capacity * sizeof *seeds->list);
-  }
-  seeds->list[seeds->count++] = seed;
+  kz_atlas_put(seeds, &seed);
   return true;
+}
+
+void kz_atlas_put(kz_atlas_seeds *seeds, const kz_atlas_seed *seed) {
+  seeds->list = kz_room(seeds->list, seeds->count, sizeof *seeds->list);
+  seeds->list[seeds->count++] = *seed;
 }
 
 void kz_atlas_seeds_free(kz_atlas_seeds *seeds) {

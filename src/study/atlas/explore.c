@@ -3,7 +3,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "numerics/parent.h"
 #include "atlas.h"
 
 /* IMAGES: of a curve, or of a piece of it. */
@@ -48,12 +47,9 @@ static void take(const kz_atlas *atlas, const line *l, kz_atlas_kind kind, const
 /* The cycle that a branch grows out of: which one, and the branch's own cycle near it. */
 static void add_parent(const kz_atlas *atlas, const line *l, int event, const kz_atlas_seed *cycle, const double along[2],
                        kz_atlas_seeds *seeds) {
-  const int n = cycle->kind.of.points;
-  kz_atlas_kind kind = {.rest = -1};
-  double y[KZ_ATLAS_UNKNOWNS];
-  kind.of = kz_parent_of(&atlas->plane, event, &cycle->kind.of, cycle->y, INFINITY, y);
-  if (event == KZ_EVENT_REST || (event == KZ_EVENT_MIRROR && n == 1)) kind.rest = cos(y[0]) < 0;
-  if (kind.of.points > 0 && kz_curve_locate(&atlas->plane, &kind.of, y, along)) take(atlas, l, kind, y, true, seeds);
+  kz_atlas_seed parent;
+  if (kz_parent_of(&atlas->plane, event, cycle, &parent) && kz_curve_locate(&atlas->plane, &parent.kind.of, parent.y, along))
+    take(atlas, l, parent.kind, parent.y, true, seeds);
 }
 
 /* Follows a cycle along a line and adds what it meets, `most` curves; side 1 or -1: one of the branches of a fold. */
@@ -64,7 +60,7 @@ static void follow_to(const kz_atlas *atlas, const line *l, const kz_atlas_kind 
   KZ_FREED double *event = kz_malloc(MOST_EVENTS * (size_t)(3 + n) * sizeof *event);
   int64_t events = 0;
   int32_t ending;
-  if (kz_atlas_period(kind) > atlas->max_period) return;
+  if (kz_kind_period(kind) > atlas->max_period) return;
   const int64_t rows = kz_curve_branch(&atlas->plane, &kind->of, start, along, side, LONGEST, NULL, MOST_ROWS, row, most, event,
                                        &events, &ending);
   if (l && l->drawn) kz_atlas_draw(atlas, l->axis, kind, rows, row, events, event, l->drawn);
@@ -118,9 +114,8 @@ static void explore_fold(const kz_atlas *atlas, const line *l, const kz_atlas_ki
 }
 
 bool kz_atlas_grown(const kz_atlas *atlas, const kz_atlas_seed *flip, int axis, kz_atlas_seed *child, double along[2]) {
-  child->kind = kz_atlas_child(&flip->kind);
-  return kz_atlas_period(&child->kind) <= atlas->max_period &&
-         kz_child_of(&atlas->plane, &flip->kind.of, flip->kind.rest, flip->y, axis, child->y, along);
+  const kz_atlas_kind kind = kz_child_kind(&flip->kind);
+  return kz_kind_period(&kind) <= atlas->max_period && kz_child_of(&atlas->plane, flip, axis, child, along);
 }
 
 /* The cycle to both sides along an axis, if `itself`, and what branches off, if `grown`. */

@@ -116,7 +116,7 @@ static void add_pending(kz_atlas *atlas, const kz_atlas_bag *found) {
   for (int64_t i = 0; i < found->n; i++) {
     const kz_atlas_seeds seeds = kz_atlas_seeds_in(found->record[i]);
     for (int64_t j = 0; j < seeds.count; j++) {
-      if (kz_atlas_period(&seeds.list[j].kind) > atlas->max_period || kz_atlas_known(atlas, seeds.list + j) >= 0) continue;
+      if (kz_kind_period(&seeds.list[j].kind) > atlas->max_period || kz_atlas_known(atlas, seeds.list + j) >= 0) continue;
       kz_atlas_add(atlas, seeds.list[j].kind, seeds.list[j].y, &atlas->pending);
     }
   }
@@ -139,26 +139,24 @@ static double growth_of(const kz_atlas *atlas) {
   return (double)atlas->scene->atlas->max_period / (double)atlas->max_period;
 }
 
-kz_status kz_atlas_drain(kz_atlas *atlas, const kz_run *run, int64_t n_cycles, const kz_atlas_seed *cycle) {
-  const double growth = growth_of(atlas);
-  kz_sampling_weigh(run, growth);
-  kz_status status = explore(atlas, run, n_cycles, cycle);
-  while (status == KZ_OK && (atlas->pending.count > 0 || atlas->n_explored < atlas->n_curves)) {
-    status = trace_pending(atlas, run);
-    if (status == KZ_OK) status = explore(atlas, run, 0, NULL);
+static kz_status drain(kz_atlas *atlas, const kz_run *run, int64_t n_cycles, const kz_atlas_seed *cycle) {
+  KZ_TRY(explore(atlas, run, n_cycles, cycle));
+  while (atlas->pending.count > 0 || atlas->n_explored < atlas->n_curves) {
+    KZ_TRY(trace_pending(atlas, run));
+    KZ_TRY(explore(atlas, run, 0, NULL));
   }
-  kz_sampling_weigh(run, 1 / growth);
-  return status;
+  return KZ_OK;
+}
+
+kz_status kz_atlas_drain(kz_atlas *atlas, const kz_run *run, int64_t n_cycles, const kz_atlas_seed *cycle) {
+  KZ_TRY_WEIGHED(run, growth_of(atlas), drain(atlas, run, n_cycles, cycle));
+  return KZ_OK;
 }
 
 kz_status kz_atlas_search_places(kz_atlas *atlas, const kz_run *run, int64_t n, const double (*place)[2]) {
   KZ_FREED_BY(kz_atlas_bag_free) kz_atlas_bag found = {0};
-  const double growth = growth_of(atlas);
   if (n == 0) return KZ_OK;
-  kz_sampling_weigh(run, growth);
-  const kz_status status = kz_atlas_births(atlas, run, n, place, &found);
-  kz_sampling_weigh(run, 1 / growth);
-  KZ_TRY(status);
+  KZ_TRY_WEIGHED(run, growth_of(atlas), kz_atlas_births(atlas, run, n, place, &found));
   add_pending(atlas, &found);
   return kz_atlas_drain(atlas, run, 0, NULL);
 }

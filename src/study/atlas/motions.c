@@ -59,8 +59,7 @@ static bool carry(const hunt *h, int axis, const kz_atlas_seed *from, int32_t si
 /* What a crossing begins on the side of the place: the stable branch of a fold, the curve's own cycle, or what branches off. */
 static void carry_from(hunt *h, int axis, const kz_atlas_crossing *crossing) {
   const kz_atlas_curve *curve = h->atlas->curve + crossing->curve;
-  const kz_atlas_class own = kz_atlas_class_of(&curve->kind);
-  const bool is_own = !memcmp(&own, &h->class, sizeof own);
+  const bool is_own = kz_atlas_is_of(&curve->kind, &h->class);
   kz_atlas_seed from, child, to;
   double number[2], along[2];
   if (!kz_atlas_crossing_point(h->atlas, axis, h->place[1 - axis], crossing, &from)) return;
@@ -90,9 +89,8 @@ static void hunt_along(hunt *h, int axis) {
 static void hunt_among(hunt *h, const kz_atlas_seeds *known) {
   for (int64_t i = 0; i < known->count && h->found < h->wanted; i++) {
     kz_atlas_seed cycle = known->list[i];
-    const kz_atlas_class class = kz_atlas_class_of(&cycle.kind);
     double number[2];
-    if (!memcmp(&class, &h->class, sizeof class) && kz_curve_solve(&h->atlas->plane, &cycle.kind.of, cycle.y, number))
+    if (kz_atlas_is_of(&cycle.kind, &h->class) && kz_curve_solve(&h->atlas->plane, &cycle.kind.of, cycle.y, number))
       take(h, &cycle, number, -1);
   }
 }

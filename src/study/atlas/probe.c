@@ -13,16 +13,12 @@ enum { STRETCH = 60, NEAR_REST = 4, STEPS = 16 };
 static const double SETTLED = 1e-4, ENDS = 3e-3, GUESSED = 0.1, ONE = 1e-6;
 static const double FASTEST = 2.5, FEWEST_PERIODS = 600, MOST_PERIODS = 6000;
 
-static double distance(const double *a, const double *b, double side) {
-  return hypot(remainder(a[0] - side * b[0], 2 * M_PI), a[1] - side * b[1]);
-}
-
 /* The kind of a cycle of period n whose points are y: rest, symmetric, or neither. */
 static kz_atlas_kind kind_of(const kz_atlas *atlas, int n, const double *y, const double *image) {
   kz_atlas_kind kind = {{1, n, 0, (int32_t)rint((image[0] - y[0]) / (2 * M_PI)), 0}, -1};
   if (!atlas->plane.mirrored || kind.of.turns != 0) return kind;
-  if (n == 1 && distance(y, y, -1) < ONE) kind.rest = cos(y[0]) > 0 ? 0 : 1;
-  if (n % 2 == 0 && distance(y, y + n, -1) < ONE)
+  if (n == 1 && kz_atlas_apart(y, y, -1) < ONE) kind.rest = cos(y[0]) > 0 ? 0 : 1;
+  if (n % 2 == 0 && kz_atlas_apart(y, y + n, -1) < ONE)
     kind.of = (kz_curve_kind){-1, n / 2, 0, (int32_t)rint((y[n] + y[0]) / (2 * M_PI)), 0};
   return kind;
 }
@@ -33,9 +29,9 @@ bool kz_atlas_identify(const kz_atlas *atlas, const double place[2], const doubl
   if (n > KZ_CURVE_POINTS || !kz_curve_orbit(&atlas->plane, place, n, y)) return false;
   const kz_curve_kind closed = {1, n, 0, (int32_t)rint((y[2 * n] - y[0]) / (2 * M_PI)), 0};
   y[2 * n] = place[0], y[2 * n + 1] = place[1];
-  if (!kz_curve_solve(&atlas->plane, &closed, y, numbers) || distance(y, state, 1) > GUESSED) return false;
+  if (!kz_curve_solve(&atlas->plane, &closed, y, numbers) || kz_atlas_apart(y, state, 1) > GUESSED) return false;
   for (int d = 1; d < n; d++)
-    if (n % d == 0 && distance(y + 2 * d, y, 1) < ONE) return kz_atlas_identify(atlas, place, y, d, steepest, cycle);
+    if (n % d == 0 && kz_atlas_apart(y + 2 * d, y, 1) < ONE) return kz_atlas_identify(atlas, place, y, d, steepest, cycle);
   if (!(fabs(numbers[0]) < steepest * (1 + numbers[1]))) return false;
   image[0] = y[0] + 2 * M_PI * closed.turns, image[1] = y[1];
   const kz_atlas_kind kind = kind_of(atlas, n, y, image);
@@ -83,12 +79,11 @@ static bool settle(const kz_atlas *atlas, const double state[2], int n, kz_atlas
   kz_atlas_seed cycle;
   kz_atlas_seeds *found = &probe->found;
   for (int64_t i = 0; i < found->count; i++)
-    if (n % kz_atlas_period(&found->list[i].kind) == 0 && kz_atlas_same(atlas, found->list + i, state, ENDS)) return true;
+    if (n % kz_kind_period(&found->list[i].kind) == 0 && kz_atlas_same(atlas, found->list + i, state, ENDS)) return true;
   if (!kz_atlas_identify(atlas, probe->place, state, n, 1, &cycle)) return false;
   for (int64_t i = 0; i < found->count; i++)
     if (kz_atlas_same(atlas, found->list + i, cycle.y, ONE)) return true;
-  found->list = kz_realloc(found->list, (size_t)(found->count + 1) * sizeof *found->list);
-  found->list[found->count++] = cycle;
+  kz_atlas_put(found, &cycle);
   return true;
 }
 

@@ -36,7 +36,7 @@ static kz_status probe_all(const kz_run *run, const char *name, probing *p) {
   for (int64_t i = 0; i < p->n; i++) {
     const kz_atlas_seeds seeds = kz_atlas_seeds_in(found.record[i]);
     kz_atlas_seeds *mine = &p->probe[i].found;
-    *mine = (kz_atlas_seeds){seeds.count, seeds.count, kz_malloc((size_t)(seeds.count + 1) * sizeof *mine->list)};
+    *mine = (kz_atlas_seeds){seeds.count, kz_malloc((size_t)(seeds.count + 1) * sizeof *mine->list)};
     memcpy(mine->list, seeds.list, (size_t)seeds.count * sizeof *mine->list);
     p->probe[i].starts = p->starts;
   }
@@ -58,10 +58,7 @@ static void random_place(int64_t i, double place[2]) {
 static int32_t unexplained(kz_atlas *atlas, const kz_atlas_probe *probe, int64_t j, const int32_t *counts) {
   const kz_atlas_class class = kz_atlas_class_of(&probe->found.list[j].kind);
   int32_t found = 0;
-  for (int64_t i = 0; i < probe->found.count; i++) {
-    const kz_atlas_class other = kz_atlas_class_of(&probe->found.list[i].kind);
-    found += !memcmp(&class, &other, sizeof class);
-  }
+  for (int64_t i = 0; i < probe->found.count; i++) found += kz_atlas_is_of(&probe->found.list[i].kind, &class);
   return found - counts[kz_atlas_class_number(atlas, &class)];
 }
 
@@ -70,19 +67,15 @@ static int64_t first_unexplained(kz_atlas *atlas, const kz_atlas_probe *probe) {
   KZ_FREED int32_t *counts = kz_malloc(KZ_ATLAS_MOST_CLASSES * sizeof *counts);
   kz_atlas_count(atlas, probe->place, counts);
   for (int64_t j = 0; j < probe->found.count; j++)
-    if (kz_atlas_period(&probe->found.list[j].kind) <= atlas->max_period && unexplained(atlas, probe, j, counts) > 0) return j;
+    if (kz_kind_period(&probe->found.list[j].kind) <= atlas->max_period && unexplained(atlas, probe, j, counts) > 0) return j;
   return -1;
 }
 
 /* All cycles of the class of cycle j of a probe. */
 static void add_class(const kz_atlas_probe *probe, int64_t j, kz_atlas_seeds *cycles) {
   const kz_atlas_class class = kz_atlas_class_of(&probe->found.list[j].kind);
-  for (int64_t i = 0; i < probe->found.count; i++) {
-    const kz_atlas_class other = kz_atlas_class_of(&probe->found.list[i].kind);
-    if (memcmp(&class, &other, sizeof class)) continue;
-    cycles->list = kz_realloc(cycles->list, (size_t)(cycles->count + 1) * sizeof *cycles->list);
-    cycles->list[cycles->count++] = probe->found.list[i];
-  }
+  for (int64_t i = 0; i < probe->found.count; i++)
+    if (kz_atlas_is_of(&probe->found.list[i].kind, &class)) kz_atlas_put(cycles, probe->found.list + i);
 }
 
 /* Curves from the attractors of places that the curves do not explain, one class of attractors at a time. */
@@ -179,10 +172,7 @@ static kz_status check(kz_atlas *atlas, const kz_run *run, int round, int64_t *w
 static kz_status check_all(kz_atlas *atlas, const kz_run *run, probing *last) {
   const double usual = atlas->scene->atlas->max_period > USUAL_PERIOD ? ROUNDS : QUIET, stands_for = run->sample ? usual : 1;
   for (int round = 0, quiet = 0; round < ROUNDS && quiet < QUIET && atlas->scene->atlas->checks > 0; round++) {
-    kz_sampling_weigh(run, stands_for);
-    const kz_status status = check(atlas, run, round, &atlas->disagreed, last);
-    kz_sampling_weigh(run, 1 / stands_for);
-    KZ_TRY(status);
+    KZ_TRY_WEIGHED(run, stands_for, check(atlas, run, round, &atlas->disagreed, last));
     atlas->checked = atlas->scene->atlas->checks;
     atlas->rounds = round + 1;
     quiet = atlas->disagreed == 0 ? quiet + 1 : 0;

@@ -28,11 +28,7 @@ void kz_sweep_branches_free(kz_sweep_branches *branches) {
 }
 
 static int64_t add_node(kz_sweep_branches *branches, const kz_sweep_entry *entry, int64_t value, bool attracts) {
-  if (branches->n_nodes == branches->capacity) {
-    const int64_t capacity = 2 * branches->capacity + 64;
-    branches->nodes = kz_realloc(branches->nodes, (size_t)capacity * sizeof *branches->nodes);
-    branches->capacity = capacity;
-  }
+  branches->nodes = kz_room(branches->nodes, branches->n_nodes, sizeof *branches->nodes);
   branches->nodes[branches->n_nodes++] = (kz_sweep_node){.entry = *entry,
                                                          .value = value,
                                                          .attracts = attracts,
@@ -144,13 +140,9 @@ static void join(const walking *w, const task *t, const kz_sweep_piece *piece, c
 static void join_walk(const walking *w, const task *t, const kz_sweep_walk *walk) {
   for (int64_t i = 0; i < walk->count; i++) {
     const kz_sweep_piece *piece = walk->piece + i;
-    kz_branch_point image = piece->point;
+    const kz_branch_point image = kz_branch_point_mirrored(piece->point);
     join(w, t, piece, &piece->point);
-    if (!piece->twice || piece->reached < 0) continue;
-    image.theta = -image.theta;
-    image.velocity = -image.velocity;
-    image.winding = -image.winding;
-    join(w, t, piece, &image);
+    if (piece->twice && piece->reached >= 0) join(w, t, piece, &image);
   }
 }
 
@@ -197,11 +189,6 @@ static kz_status walk_all(walking *w, const kz_run *run) {
   return KZ_OK;
 }
 
-/* The distance between two chaotic attractors, by their mean angles and velocities (point.theta, point.velocity). */
-static double unlike(const kz_branch_point *a, const kz_branch_point *b) {
-  return fabs(remainder(a->theta - b->theta, 2 * M_PI)) + fabs(a->velocity - b->velocity);
-}
-
 /* Chaotic attractors have no cycle that continuation could carry: each joins the nearest one of the next value. */
 static void join_chaotic(kz_sweep_branches *b) {
   for (int64_t i = 0; i < b->n_nodes; i++) {
@@ -209,8 +196,9 @@ static void join_chaotic(kz_sweep_branches *b) {
     for (int64_t j = 0; b->nodes[i].entry.point.period == 0 && j < b->n_nodes; j++) {
       const kz_sweep_node *other = b->nodes + j;
       if (other->entry.point.period != 0 || other->value != b->nodes[i].value + 1 || other->previous >= 0) continue;
+      const kz_branch_point *own = &b->nodes[i].entry.point;
       if (best < 0 ||
-          unlike(&b->nodes[i].entry.point, &other->entry.point) < unlike(&b->nodes[i].entry.point, &b->nodes[best].entry.point))
+          kz_branch_points_apart(own, &other->entry.point) < kz_branch_points_apart(own, &b->nodes[best].entry.point))
         best = j;
     }
     if (best < 0) continue;
@@ -219,18 +207,11 @@ static void join_chaotic(kz_sweep_branches *b) {
   }
 }
 
-/* Those that attract first; by centre, period (chaotic last), |winding|/period, + first, the value where it begins, first strobe velocity and angle. */
+/* Those that attract first; in the order of points; by the value where it begins, first strobe velocity and angle. */
 static bool before(const kz_sweep_node *a, const kz_sweep_node *b) {
   const kz_branch_point *p = &a->entry.point, *q = &b->entry.point;
-  const double keys[][2] = {{!a->attracts, !b->attracts},
-                            {a->between, b->between},
-                            {p->centre, q->centre},
-                            {p->period > 0 ? p->period : INFINITY, q->period > 0 ? q->period : INFINITY},
-                            {abs(p->winding) / fmax(p->period, 1), abs(q->winding) / fmax(q->period, 1)},
-                            {-p->winding, -q->winding},
-                            {(double)a->value, (double)b->value},
-                            {p->velocity, q->velocity},
-                            {p->theta, q->theta}};
+  const double keys[][2] = {{!a->attracts, !b->attracts},         {a->between, b->between},   {kz_branch_points_order(p, q), 0},
+                            {(double)a->value, (double)b->value}, {p->velocity, q->velocity}, {p->theta, q->theta}};
   for (size_t i = 0; i < sizeof keys / sizeof keys[0]; i++)
     if (keys[i][0] != keys[i][1]) return keys[i][0] < keys[i][1];
   return false;

@@ -43,12 +43,9 @@ static bool mirrors(const writing *w, const kz_sweep_node *node, const kz_branch
 /* The branch that holds the mirror image of this one's first cycle; -1 where none does. */
 static int32_t mirror_of(const writing *w, int64_t branch) {
   const kz_sweep_node *first = first_of(w->branches, branch);
-  kz_branch_point image = first->entry.point;
+  const kz_branch_point image = kz_branch_point_mirrored(first->entry.point);
   if (image.symmetric) return (int32_t)branch;
   if (first->between) return -1;
-  image.theta = -image.theta;
-  image.velocity = -image.velocity;
-  image.winding = -image.winding;
   for (int64_t other = 0; other < w->branches->n_branches; other++) {
     const kz_sweep_node *node = first_of(w->branches, other);
     while (node->value < first->value && node->next >= 0) node = w->branches->nodes + node->next;
@@ -77,12 +74,9 @@ static kz_status write_columns(const writing *w) {
 static kz_status write_names(const writing *w) {
   const int64_t n = w->branches->n_branches;
   KZ_FREED char (*names)[KZ_NAME_LENGTH] = kz_calloc((size_t)n + 1, sizeof *names);
-  KZ_FREED const char **pointers = kz_calloc((size_t)n + 1, sizeof *pointers);
-  for (int64_t i = 0; i < n; i++) {
-    name_of(w->branches, i, names[i]);
-    pointers[i] = names[i];
-  }
-  return kz_store_variable(w->store, "sweep", "branch_name", pointers);
+  for (int64_t i = 0; i < n; i++) name_of(w->branches, i, names[i]);
+  KZ_COLUMN(w->store, "sweep", "branch_name", n, const char *, names[i]);
+  return KZ_OK;
 }
 
 /* The entry of each branch at each value, [values][branches]; NULL = not there. */

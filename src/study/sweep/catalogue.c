@@ -85,18 +85,8 @@ static kz_sweep_entry entry_of(const searching *s, int64_t number, int32_t *mirr
   kz_dynamics_attractor(s->dynamics, number, &row);
   kz_dynamics_strobe(s->dynamics, number, theta, velocity);
   *mirror = row.mirror;
-  kz_sweep_entry entry = {.hits = s->hits[number],
-                          .shock = {NAN, NAN, NAN},
-                          .point = {.amplitude = row.amplitude,
-                                    .period = row.period,
-                                    .winding = row.winding,
-                                    .centre = row.centre,
-                                    .symmetric = row.symmetric}};
-  entry.point.theta = row.period > 0 ? theta[0] : row.mean;
-  entry.point.velocity = row.period > 0 ? velocity[0] : row.mean_velocity;
-  memcpy(entry.point.multiplier_re, row.multiplier_re, sizeof row.multiplier_re);
-  memcpy(entry.point.multiplier_im, row.multiplier_im, sizeof row.multiplier_im);
-  return entry;
+  return (kz_sweep_entry){
+      .hits = s->hits[number], .shock = {NAN, NAN, NAN}, .point = kz_branch_point_of(&row, theta[0], velocity[0])};
 }
 
 /* The attractors that something ended on, and their mirror images, in the order of the file; not quasi-periodic ones. */

@@ -43,16 +43,12 @@ static int8_t carry(const step *s, const kz_branch_point *cycle, const kz_measur
   return -1;
 }
 
-static double unlike(const kz_branch_point *a, const kz_branch_point *b) {
-  return fabs(remainder(a->theta - b->theta, 2 * M_PI)) + fabs(a->velocity - b->velocity);
-}
-
 /* The chaotic attractor of `there` nearest to one; -1 = none. */
 static int8_t nearest(const kz_branch_point *chaotic, const kz_measured_point *there) {
   int8_t best = -1;
   for (int64_t i = 0; i < there->count; i++)
-    if (there->attractor[i].period == 0 &&
-        (best < 0 || unlike(chaotic, there->attractor + i) < unlike(chaotic, there->attractor + best)))
+    if (there->attractor[i].period == 0 && (best < 0 || kz_branch_points_apart(chaotic, there->attractor + i) <
+                                                            kz_branch_points_apart(chaotic, there->attractor + best)))
       best = (int8_t)i;
   return best;
 }
@@ -122,16 +118,6 @@ static void join(forest *f, int64_t a, int64_t b) {
   if (f->last[tail] > f->last[head]) f->last[head] = f->last[tail];
 }
 
-static bool before(const kz_branch_point *p, const kz_branch_point *q) {
-  const double keys[][2] = {{p->centre, q->centre},
-                            {p->period > 0 ? p->period : INFINITY, q->period > 0 ? q->period : INFINITY},
-                            {abs(p->winding) / fmax(p->period, 1), abs(q->winding) / fmax(q->period, 1)},
-                            {-p->winding, -q->winding}};
-  for (size_t i = 0; i < sizeof keys / sizeof keys[0]; i++)
-    if (keys[i][0] != keys[i][1]) return keys[i][0] < keys[i][1];
-  return false; /* in the order of the points */
-}
-
 /* Numbers the trees in the order of the catalogue of the points where they begin. */
 static void number(const joining *j, int64_t places, forest *f, kz_classes *classes) {
   classes->of = kz_malloc((size_t)places * sizeof *classes->of);
@@ -144,7 +130,7 @@ static void number(const joining *j, int64_t places, forest *f, kz_classes *clas
     int64_t k = classes->count++;
     for (; k > 0; k--) {
       const kz_measured_point *other = kz_point_at(j->points, j->records, classes->first_point[k - 1]);
-      if (!before(at->attractor + place, other->attractor + classes->first_place[k - 1])) break;
+      if (kz_branch_points_order(at->attractor + place, other->attractor + classes->first_place[k - 1]) >= 0) break;
       classes->first_point[k] = classes->first_point[k - 1];
       classes->first_place[k] = classes->first_place[k - 1];
     }

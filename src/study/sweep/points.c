@@ -15,21 +15,6 @@ kz_cost kz_points_cost(const kz_scene *scene) {
                    .rank0_bytes = bytes + n * KZ_POINT_MOST * 40};
 }
 
-/* A cycle as branches have it; of a chaotic attractor its means. */
-static kz_branch_point point_of(const kz_entry *entry) {
-  const kz_attractor *row = &entry->row;
-  kz_branch_point point = {.theta = row->period > 0 ? entry->theta[0] : row->mean,
-                           .velocity = row->period > 0 ? entry->velocity[0] : row->mean_velocity,
-                           .amplitude = row->amplitude,
-                           .period = row->period,
-                           .winding = row->winding,
-                           .centre = row->centre,
-                           .symmetric = row->symmetric};
-  memcpy(point.multiplier_re, row->multiplier_re, sizeof row->multiplier_re);
-  memcpy(point.multiplier_im, row->multiplier_im, sizeof row->multiplier_im);
-  return point;
-}
-
 /* The values of all measures, side by side for each attractor. */
 static void fill(const kz_points *points, const kz_measured *measured, kz_measured_point *out) {
   const int64_t n = measured->catalogue.count;
@@ -60,7 +45,10 @@ static kz_status measure_point(void *context, int64_t tile, void *record) {
     return kz_fail(KZ_FAILED, "sweep: more than %d attractors at one point; use more damping or a smaller window",
                    KZ_POINT_MOST);
   out->count = measured.catalogue.count;
-  for (int64_t id = 0; id < out->count; id++) out->attractor[id] = point_of(measured.catalogue.entries + id);
+  for (int64_t id = 0; id < out->count; id++) {
+    const kz_entry *entry = measured.catalogue.entries + id;
+    out->attractor[id] = kz_branch_point_of(&entry->row, entry->theta[0], entry->velocity[0]);
+  }
   fill(points, &measured, out);
   return KZ_OK;
 }

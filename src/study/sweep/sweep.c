@@ -51,11 +51,7 @@ static kz_status run_branches(const kz_scene *scene, const kz_run *run, kz_store
   KZ_FREED_BY(kz_sweep_branches_free) kz_sweep_branches branches = {0};
   KZ_FREED kz_sweep_catalogue *catalogue = kz_malloc((size_t)plan->values.count * sizeof *catalogue);
   KZ_TRY(kz_sweep_catalogues(scene, run, catalogue));
-  const double stands_for = kz_sampling_stands_for(run);
-  kz_sampling_weigh(run, stands_for);
-  const kz_status status = kz_sweep_branches_make(scene, run, catalogue, &branches);
-  kz_sampling_weigh(run, 1 / stands_for);
-  KZ_TRY(status);
+  KZ_TRY_WEIGHED(run, kz_sampling_stands_for(run), kz_sweep_branches_make(scene, run, catalogue, &branches));
   return kz_ranks_agree(run->ranks, store ? kz_sweep_branches_write(scene, catalogue, &branches, store, summary) : KZ_OK);
 }
 

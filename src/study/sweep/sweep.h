@@ -69,6 +69,14 @@ bool kz_flutter_find(const kz_pendulum *pendulum, kz_branch_point *flutter);
  * changes sign there. NaN if it does not change sign. */
 double kz_flutter_critical(const kz_path *path, double low, double high);
 
+/* A cycle with a strobe point, or of a chaotic attractor its means; its mirror image. */
+kz_branch_point kz_branch_point_of(const kz_attractor *row, double theta, double velocity);
+kz_branch_point kz_branch_point_mirrored(kz_branch_point point);
+/* The distance between two chaotic attractors, by their means. */
+double kz_branch_points_apart(const kz_branch_point *a, const kz_branch_point *b);
+/* By centre, period (chaotic last), |winding|/period, + first: below 0 where p comes first, 0 where these are equal. */
+int kz_branch_points_order(const kz_branch_point *p, const kz_branch_point *q);
+
 /* ---- catalogues: what attracts at each value ---- */
 
 enum { KZ_SWEEP_MOST = 128 }; /* attractors at one value */
@@ -112,7 +120,7 @@ typedef struct {
 } kz_sweep_node;
 
 typedef struct {
-  int64_t n_nodes, capacity;
+  int64_t n_nodes;
   kz_sweep_node *nodes;
   int64_t n_branches, *first_node; /* [n_branches] in the order of the file */
   kz_fine_maps *maps;              /* of the values */

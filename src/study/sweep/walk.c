@@ -19,12 +19,7 @@ typedef struct {
   double from, to;
 } way;
 
-/* A cycle on its way. rest: 0 down, 1 inverted, -1 none of them. */
-typedef struct {
-  kz_curve_kind of;
-  int32_t rest, symmetric;
-  double y[2 * KZ_CURVE_POINTS + 2];
-} cycle;
+typedef kz_plane_cycle cycle;
 
 /* What follows a cycle: where, up to which period, and what it finds. */
 typedef struct {
@@ -70,9 +65,8 @@ static bool plane_of(const way *w, kz_plane *plane) {
   return true;
 }
 
-static int32_t period_of(const cycle *c) {
-  const int stride = c->of.stride > 1 ? c->of.stride : 1;
-  return c->of.points * stride * (c->of.side < 0 ? 2 : 1);
+static bool is_symmetric(const cycle *c) {
+  return c->kind.of.side < 0 || c->kind.rest >= 0;
 }
 
 /* The cycle through a strobe point at a place. Long ones have points several periods apart: so few that a pair of them lies half a cycle apart. */
@@ -85,23 +79,23 @@ static bool cycle_of(const kz_plane *plane, const kz_branch_point *point, double
   KZ_FREED double *state = kz_malloc(2 * ((size_t)n + 1) * sizeof *state);
   const double at[2] = {place, 0};
   state[0] = point->theta, state[1] = point->velocity;
-  c->rest = point->symmetric && point->period == 1 ? cos(point->theta) < 0 : -1;
-  c->symmetric = point->symmetric;
+  c->kind.rest = point->symmetric && point->period == 1 ? cos(point->theta) < 0 : -1;
   if (!kz_curve_orbit(plane, at, n, state)) return false;
   for (int i = 0; i < n / stride; i++) memcpy(c->y + 2 * i, state + 2 * i * stride, 2 * sizeof *c->y);
   memcpy(c->y + 2 * (n / stride), at, sizeof at);
   const int32_t turns = (int32_t)rint((state[2 * n] - side * state[0]) / (2 * M_PI));
-  c->of = (kz_curve_kind){side, n / stride, 0, turns, stride > 1 ? stride : 0};
+  c->kind.of = (kz_curve_kind){side, n / stride, 0, turns, stride > 1 ? stride : 0};
   return true;
 }
 
 /* The point of a branch that a cycle is. */
 static bool describe(const walking *w, const cycle *c, kz_branch_point *point) {
   kz_pendulum pendulum;
-  const double *place = c->y + 2 * c->of.points;
+  const double *place = c->y + 2 * c->kind.of.points;
   const bool at_end = *place == 0 || *place == 1;
   if (!pendulum_at(w->way, place, &pendulum)) return false;
-  *point = (kz_branch_point){.theta = c->y[0], .velocity = c->y[1], .period = period_of(c), .symmetric = c->symmetric};
+  *point = (kz_branch_point){
+      .theta = c->y[0], .velocity = c->y[1], .period = kz_kind_period(&c->kind), .symmetric = is_symmetric(c)};
   kz_branch_describe(at_end ? w->way->path->maps : NULL, &pendulum, point);
   return true;
 }
@@ -114,7 +108,7 @@ static bool is_damped(const walking *w, double place) {
 
 /* The cycle at place 0 or 1, between two rows of a branch. */
 static bool solve_at(const walking *w, const cycle *c, const double *before, const double *after, double place, cycle *there) {
-  const int n = 2 * c->of.points;
+  const int n = 2 * c->kind.of.points;
   const double share = (place - before[0]) / (after[0] - before[0]);
   double farthest = 1e-6;
   *there = *c;
@@ -124,7 +118,7 @@ static bool solve_at(const walking *w, const cycle *c, const double *before, con
   }
   cycle guess = *there;
   there->y[n] = place, there->y[n + 1] = 0;
-  if (!kz_curve_solve(&w->plane, &c->of, there->y, NULL)) return false;
+  if (!kz_curve_solve(&w->plane, &c->kind.of, there->y, NULL)) return false;
   for (int i = 0; i < n; i++)
     if (!(fabs(there->y[i] - guess.y[i]) <= farthest)) return false;
   return true;
@@ -132,34 +126,30 @@ static bool solve_at(const walking *w, const cycle *c, const double *before, con
 
 /* What happens at an event of a branch, and the cycle that has the multiplier there, refined: multiplier 1, or -1 of its own map. */
 static int kind_of_event(const walking *w, const cycle *c, const double *event, cycle *at) {
-  const int n = 2 * c->of.points, what = (int)event[0];
+  const int n = 2 * c->kind.of.points, what = (int)event[0];
   const double along[2] = {1, 0};
   int kind = KZ_END_FOLD;
   *at = *c;
   memcpy(at->y, event + 3, (size_t)n * sizeof *at->y);
   at->y[n] = event[1], at->y[n + 1] = 0;
   if (what > KZ_EVENT_FLIP) {
-    double y[2 * KZ_CURVE_POINTS + 2];
-    at->of = kz_parent_of(&w->plane, what, &c->of, at->y, INFINITY, y);
-    if (at->of.points == 0) return KZ_END_NOT_LOCATED;
-    memcpy(at->y, y, (2 * (size_t)at->of.points + 2) * sizeof *y);
-    at->rest = what == KZ_EVENT_REST || (what == KZ_EVENT_MIRROR && c->of.points == 1) ? cos(y[0]) < 0 : -1;
-    at->symmetric = at->of.side < 0 || at->rest >= 0;
+    const cycle merging = *at;
+    if (!kz_parent_of(&w->plane, what, &merging, at)) return KZ_END_NOT_LOCATED;
     kind = what == KZ_EVENT_MIRROR ? KZ_END_SYMMETRY_BREAKING : KZ_END_PERIOD_DOUBLING;
   } else if (what == KZ_EVENT_FLIP) {
-    at->of.multiplier = -1;
-    kind = c->of.side < 0 ? KZ_END_SYMMETRY_BREAKING : KZ_END_PERIOD_DOUBLING;
-  } else if (c->rest >= 0) { /* on the half map this is a multiplier -1 */
-    at->of = (kz_curve_kind){-1, 1, -1, c->rest, 0};
-    at->y[0] = M_PI * c->rest, at->y[1] = 0; /* not -pi */
+    at->kind.of.multiplier = -1;
+    kind = c->kind.of.side < 0 ? KZ_END_SYMMETRY_BREAKING : KZ_END_PERIOD_DOUBLING;
+  } else if (c->kind.rest >= 0) { /* on the half map this is a multiplier -1 */
+    at->kind.of = (kz_curve_kind){-1, 1, -1, c->kind.rest, 0};
+    at->y[0] = M_PI * c->kind.rest, at->y[1] = 0; /* not -pi */
     kind = KZ_END_SYMMETRY_BREAKING;
   } else {
-    at->of.multiplier = 1;
+    at->kind.of.multiplier = 1;
   }
   cycle refined = *at;
-  const bool found = kz_curve_locate(&w->plane, &at->of, refined.y, along);
+  const bool found = kz_curve_locate(&w->plane, &at->kind.of, refined.y, along);
   if (!found) return what > KZ_EVENT_FLIP ? KZ_END_NOT_LOCATED : kind;
-  const double moved = refined.y[2 * at->of.points] - at->y[2 * at->of.points];
+  const double moved = refined.y[2 * at->kind.of.points] - at->y[2 * at->kind.of.points];
   if (what > KZ_EVENT_FLIP || fabs(moved) < NEAR) *at = refined;
   return kind;
 }
@@ -168,18 +158,16 @@ static void follow(const walking *w, const cycle *c, const double along[2], kz_s
 
 /* What branches off at an event, within the way. */
 static void follow_child(const walking *w, const cycle *flip, int kind, int depth) {
-  cycle child = {.rest = -1};
+  cycle child;
   double along[2];
-  if (depth == DEEPEST || !kz_child_of(&w->plane, &flip->of, flip->rest, flip->y, 0, child.y, along)) return;
-  child.of = kz_child_kind(&flip->of, flip->rest);
-  child.symmetric = child.of.side < 0;
-  if (period_of(&child) > w->max_period) return;
-  const double at = value_at(w->way, flip->y[2 * flip->of.points]);
+  if (depth == DEEPEST || !kz_child_of(&w->plane, flip, 0, &child, along) || kz_kind_period(&child.kind) > w->max_period)
+    return;
+  const double at = value_at(w->way, flip->y[2 * flip->kind.of.points]);
   const kz_sweep_piece piece = {.begin = at,
                                 .begin_kind = kind,
                                 .reached = -1,
                                 .step = FIRST,
-                                .twice = flip->symmetric && w->plane.mirrored && child.of.side > 0};
+                                .twice = is_symmetric(flip) && w->plane.mirrored && child.kind.of.side > 0};
   follow(w, &child, along, piece, depth + 1);
 }
 
@@ -189,14 +177,14 @@ static void add_piece(const walking *w, const kz_sweep_piece *piece) {
 
 /* Follows a cycle along the way, with what branches off, until it leaves the way or ends. `piece`: how it begins. */
 static void follow(const walking *w, const cycle *c, const double along[2], kz_sweep_piece piece, int depth) {
-  const int n = 2 * c->of.points;
+  const int n = 2 * c->kind.of.points;
   KZ_FREED double *row = kz_malloc(MOST_ROWS * (size_t)(4 + n) * sizeof *row);
   KZ_FREED double *event = kz_malloc(MOST_EVENTS * (size_t)(3 + n) * sizeof *event);
   int64_t events = 0;
   int32_t ending = KZ_TRACE_NO_SEED;
   cycle at = *c;
-  const int64_t rows = kz_curve_branch(&w->rough, &c->of, c->y, along, 0, LONGEST, &piece.step, MOST_ROWS, row, MOST_EVENTS,
-                                       event, &events, &ending);
+  const int64_t rows = kz_curve_branch(&w->rough, &c->kind.of, c->y, along, 0, LONGEST, &piece.step, MOST_ROWS, row,
+                                       MOST_EVENTS, event, &events, &ending);
   if (rows == 0) { /* nothing is known beyond its beginning */
     piece.end = value_at(w->way, c->y[n]), piece.end_kind = KZ_END_NOT_LOCATED;
     if (piece.from_start) add_piece(w, &piece);
@@ -209,22 +197,22 @@ static void follow(const walking *w, const cycle *c, const double along[2], kz_s
     const bool merges = e[0] > KZ_EVENT_FLIP;
     if (!merges && !(e[1] >= 0 && e[1] <= 1)) continue;
     const int kind = kind_of_event(w, c, e, &at);
-    const double where = at.y[2 * at.of.points];
+    const double where = at.y[2 * at.kind.of.points];
     if (merges && !(where >= 0 && where <= 1)) { /* beyond the value, which the cycle still reaches */
       beyond[0] = where;
       memcpy(beyond + 4, e + 3, (size_t)n * sizeof *beyond);
       continue;
     }
-    piece.end = value_at(w->way, at.y[2 * at.of.points]), piece.end_kind = kind, piece.attracts = sign[0] && sign[1];
+    piece.end = value_at(w->way, at.y[2 * at.kind.of.points]), piece.end_kind = kind, piece.attracts = sign[0] && sign[1];
     cycle here = *c;
     memcpy(here.y, e + 3, (size_t)n * sizeof *here.y);
     here.y[n] = e[1], here.y[n + 1] = 0;
-    if (!describe(w, &here, &piece.point)) piece.point.period = period_of(c);
+    if (!describe(w, &here, &piece.point)) piece.point.period = kz_kind_period(&c->kind);
     add_piece(w, &piece);
     ended = merges;
     if (!ended) sign[e[0] == KZ_EVENT_FOLD ? 0 : 1] ^= true;
     piece = (kz_sweep_piece){.begin = piece.end, .begin_kind = kind, .reached = -1, .step = piece.step};
-    if (!ended && at.of.multiplier < 0 && w->max_period > 0) follow_child(w, &at, kind, depth);
+    if (!ended && at.kind.of.multiplier < 0 && w->max_period > 0) follow_child(w, &at, kind, depth);
   }
   if (ended) return;
   const bool before = !isnan(beyond[0]); /* it ends beyond the value */
@@ -326,7 +314,7 @@ bool kz_cycle_near(const kz_pendulum *pendulum, const double state[2], double fa
   double numbers[2];
   cycle c;
   point->theta = state[0], point->velocity = state[1];
-  if (!plane_of(&here, &w.plane) || !cycle_of(&w.plane, point, 0, &c) || !kz_curve_solve(&w.plane, &c.of, c.y, numbers))
+  if (!plane_of(&here, &w.plane) || !cycle_of(&w.plane, point, 0, &c) || !kz_curve_solve(&w.plane, &c.kind.of, c.y, numbers))
     return false;
   if (!(hypot(c.y[0] - state[0], c.y[1] - state[1]) <= farthest) || !(numbers[1] < 1)) return false;
   return describe(&w, &c, point) && attracts(point);

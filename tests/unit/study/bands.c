@@ -20,7 +20,7 @@ static void count(const kz_atlas_crossings *crossings, double at, int32_t *above
 static kz_atlas_crossings line_of(kz_atlas_crossing *list, int64_t n, const double (*edge)[3]) {
   for (int64_t i = 0; i < n; i++)
     list[i] = (kz_atlas_crossing){.at = edge[i][0], .width = edge[i][1], .change = edge[i][2] > 0 ? 1 : -1, .curve = i};
-  return (kz_atlas_crossings){.count = n, .capacity = n, .list = list};
+  return (kz_atlas_crossings){.count = n, .list = list};
 }
 
 /* Of n edges `kept` are left, with so many attractors below `at` and above all. */
