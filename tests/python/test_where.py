@@ -79,6 +79,14 @@ def test_the_time_until_a_motion_looks_like_its_end(kapitza, tmp_path, start):
     assert f"within 1 deg    after {answer['near_time']} drive periods" in where(SMALL, *start, *QUICK).stdout
 
 
+def test_no_motion_is_followed_for_ever():
+    """At the threshold of parametric resonance the multiplier of hanging is 1 to ten digits: its motions come near to nothing."""
+    scene = ROOT / "scenes" / "butikov-fig12.yaml"
+    words = [PROGRAM, "where", scene, "2.9", "0", "--json", "--set", "basin={velocity: {min: -2, max: 2}, max_periods: 2000}", *QUICK]
+    answer = json.loads(subprocess.run(words, capture_output=True, text=True, timeout=60).stdout)
+    assert (answer["name"], answer["decided"], answer["near_time"]) == ("down", True, None)
+
+
 def test_degrees_have_a_sign_too():
     assert where(SMALL, "150°", "0", *QUICK).stdout == where(SMALL, "150 deg", "0", *QUICK).stdout != ""
 

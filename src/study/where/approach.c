@@ -1,4 +1,5 @@
 /* When a motion looks like its end: from which drive period on its angle stays within one degree of its attractor, at the strobe. */
+#include <float.h>
 #include <math.h>
 #include <stdlib.h>
 
@@ -19,11 +20,14 @@ typedef struct {
   bool done;
 } approach;
 
-static approach begin(int64_t certain, const kz_entry *entry, int64_t first) {
+/* `longest`: periods for which it is followed at most. Where a multiplier is almost 1 nobody can wait for it. */
+static approach begin(int64_t certain, const kz_entry *entry, int64_t first, int64_t longest) {
   const kz_attractor *row = &entry->row;
-  const double fold = row->period / -log(fmax(hypot(row->multiplier_re[0], row->multiplier_im[0]), 1e-3));
+  const double size = fmin(fmax(hypot(row->multiplier_re[0], row->multiplier_im[0]), 1e-3), 1 - DBL_EPSILON);
+  const double fold = fmin(row->period / -log(size), (double)longest);
   approach a = {.entry = entry, .certain = certain, .hold = (int64_t)ceil(2 * fold) + row->period, .answer = -1};
   a.most = certain + a.hold + (int64_t)ceil(FOLDS * fold);
+  if (a.most - first > longest) a.most = first + longest;
   a.last = kz_malloc((size_t)row->period * sizeof *a.last);
   for (int32_t phase = 0; phase < row->period; phase++) a.last[phase] = first - 1;
   return a;
@@ -70,7 +74,7 @@ void kz_endings_approach(const kz_question *q, const double *state, const int64_
       theta[n] = M_PI * state[2 * i];
       velocity[n] = state[2 * i + 1];
       first[n] = periods[i];
-      a[n] = begin(endings[i].settling_time, catalogue->entries + endings[i].attractor, first[n]);
+      a[n] = begin(endings[i].settling_time, catalogue->entries + endings[i].attractor, first[n], q->max_periods);
       of[n++] = i;
     }
     follow(flow, n, a, first, theta, velocity);
