@@ -18,7 +18,6 @@ def kept(tmp_path):
     return Kept(PROGRAM, folder=tmp_path)
 
 
-@pytest.mark.extensive
 def test_a_map_is_computed_once_and_has_the_limits_of_rest(kept, monkeypatch):
     monkeypatch.setattr(atlas, "STAGES", ({"max_period": 1, "checks": 0, "points": 24},))
     first = list(atlas.maps(kept, {"pendulum": PENDULUM, **PLANE}))

@@ -11,7 +11,7 @@ import { CanvasSurface, lettersOf } from "./surface.js";
 import { keyWords } from "./values.js";
 import { Range } from "./window.js";
 
-const FIRST = 300; // ms in which basins begin
+const CHART = 1200; // ms that the curves may take; where they take more, a chart stands in for them
 const REST = 900; // ms without a change of other keys, after which the map is made anew
 const REACH = 7; // px within which a curve is named
 const STEP = 0.01; // of the map that an arrow moves the point
@@ -104,7 +104,7 @@ export class MotionMap {
     [this.lists[0].value, this.lists[1].value] = [along, up];
     this.axes = [along, up].map((name) => axisAround(name, this.pendulum));
     Object.assign(this, { atlas: null, picture: null });
-    this.askSoon(FIRST);
+    this.askSoon(0);
   }
 
   note(words) {
@@ -125,19 +125,21 @@ export class MotionMap {
     this.state.change({ ground: null });
     const chart = (answer) => {
       this.chart = answer;
-      if (!this.atlas) this.paint();
+      this.paint();
     };
+    const instead = new AbortController();
+    signal.addEventListener("abort", () => instead.abort());
     const atlas = (found) => {
+      instead.abort();
       this.atlas = found;
       this.paint();
       this.note(`up to ${found.longest} drive period${found.longest === 1 ? "" : "s"}`);
       this.state.change({ ground: { atlas: found, axes: this.axes, others: this.asked } });
     };
-    const ways = [
-      [atlases(this.axes, this.pendulum, signal), atlas],
-      [charts(this.engine, this.axes, this.pendulum, signal), chart],
-    ];
-    const [failure] = await Promise.all(ways.map(([answers, take]) => taken(answers, take, signal)));
+    const curves = taken(atlases(this.axes, this.pendulum, signal), atlas, signal);
+    await Promise.race([curves, new Promise((resolve) => setTimeout(resolve, CHART))]);
+    const others = this.atlas ? null : taken(charts(this.engine, this.axes, this.pendulum, instead.signal), chart, instead.signal);
+    const [failure] = await Promise.all([curves, others]);
     if (failure && !signal.aborted) this.note(`No curves: ${failure.message}`);
   }
 

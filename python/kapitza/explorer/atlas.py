@@ -5,10 +5,13 @@ import numpy as np
 from kapitza import style
 from kapitza.plots.atlas_classes import centre_of
 from kapitza.plots.atlas_labels import motion_text
+from kapitza.reading import arrays_of
 
+from .kept import CALM
 from .scene import BadRequest
 
-# A map comes soon, and then with more: cycles of more periods, gaps between the curves looked for, finer cells.
+# A map comes soon, as its first stage is computed beside the page's pictures, and then with more: cycles of more periods, gaps between the
+# curves looked for, finer cells.
 STAGES = ({"max_period": 1, "seeds": 4, "checks": 0, "points": 160}, {"max_period": 2, "checks": 0, "points": 160},
           {"max_period": 4, "checks": 60, "points": 400})
 
@@ -20,27 +23,28 @@ def maps(kept, request):
         raise BadRequest("a map needs the mappings pendulum, x and y")
     scenes = [{"pendulum": request["pendulum"], "atlas": {**axes, **stage}} for stage in STAGES]
     known = max((number for number, scene in enumerate(scenes) if kept.has(scene)), default=0)
-    for scene in scenes[known:]:
-        yield from kept.answers(scene, lambda result: packed(result.group("atlas")), answer="atlas", final=scene is scenes[-1],
-                                file=kept.name(scene))
+    for number, scene in enumerate(scenes[known:], known):
+        yield from kept.answers(scene, lambda result: packed(*arrays_of(result.path, "atlas")), calm=CALM if number else 0, answer="atlas",
+                                final=scene is scenes[-1], file=kept.name(scene))
 
 
-def packed(atlas):
+def packed(atlas, attributes):
     """An atlas as the page takes it: a header, and bytes: x, y, side_x, side_y of all points (float32; places are shares of the plane), the
-    number of the list of every cell (uint16; a list that is not known is null), whether the cycle that branches off attracts (uint8)."""
-    low, width = zip(*(_edges(atlas[name].values) for name in ("column", "row")), strict=True)
-    numbers, cells = np.unique(atlas["list"].values, return_inverse=True)
-    attracting = atlas["attracting"].values.reshape(atlas.sizes["class"], -1)
-    first = {int(number): int(np.argmax(atlas["list"].values.ravel() == number)) for number in numbers}
+    number of the list of every cell (uint16; a list that is not known is null), whether the cycle that branches off attracts (uint8).
+    `atlas`: the arrays of the group, by name."""
+    low, width = zip(*(_edges(atlas[name]) for name in ("column", "row")), strict=True)
+    numbers, cells = np.unique(atlas["list"], return_inverse=True)
+    attracting = atlas["attracting"].reshape(len(atlas["class"]), -1)
+    first = {int(number): int(np.argmax(atlas["list"].ravel() == number)) for number in numbers}
     lists = [None if number < 0 else [[int(row), int(attracting[row, first[int(number)]])]
                                       for row in np.flatnonzero(attracting[:, first[int(number)]])] for number in numbers]
     header = {
-        "max_period": int(atlas.attrs["max_period"]), "mirrored": bool(atlas.attrs["mirrored"]), "cells": atlas.sizes["row"],
-        "points": atlas.sizes["point"], "low": low, "width": width, "curves": [_curve(atlas, i) for i in range(atlas.sizes["curve"])],
-        "classes": [_motion(atlas, i) for i in range(atlas.sizes["class"])], "lists": lists}
-    places = [(atlas[name].values - low[i]) / width[i] for i, name in enumerate("xy")]
-    floats = np.array([*places, atlas["side_x"].values, atlas["side_y"].values], dtype="<f4")
-    return header, floats.tobytes() + cells.astype("<u2").tobytes() + atlas["supercritical"].values.astype("u1").tobytes()
+        "max_period": int(attributes["max_period"]), "mirrored": bool(attributes["mirrored"]), "cells": len(atlas["row"]),
+        "points": len(atlas["x"]), "low": low, "width": width, "curves": [_curve(atlas, i) for i in range(len(atlas["curve"]))],
+        "classes": [_motion(atlas, i) for i in range(len(atlas["class"]))], "lists": lists}
+    places = [(atlas[name] - low[i]) / width[i] for i, name in enumerate("xy")]
+    floats = np.array([*places, atlas["side_x"], atlas["side_y"]], dtype="<f4")
+    return header, floats.tobytes() + cells.astype("<u2").tobytes() + atlas["supercritical"].astype("u1").tobytes()
 
 
 def _edges(middles):
@@ -50,13 +54,13 @@ def _edges(middles):
 
 
 def _curve(atlas, i):
-    name = style.name_text(atlas["curve_name"].values[i]).rpartition(": ")[0]
+    name = style.name_text(atlas["curve_name"][i]).rpartition(": ")[0]
     kinds = ("fold", "period_doubling", "symmetry_breaking", "rest_swings", "rest_leans")
     return {"kind": kinds[int(atlas["curve_kind"][i])], "period": int(atlas["curve_period"][i]), "words": motion_text(name),
             "first": int(atlas["curve_first"][i]), "points": int(atlas["curve_points"][i]), "name": name}
 
 
 def _motion(atlas, i):
-    name, period = style.name_text(atlas["class_name"].values[i]), int(atlas["class_period"][i])
-    colour = style.motion_colour(period, int(atlas["class_winding"][i]), centre_of(atlas, i))
+    name, period = style.name_text(atlas["class_name"][i]), int(atlas["class_period"][i])
+    colour = style.motion_colour(period, int(atlas["class_winding"][i]), centre_of(atlas["class_name"][i]))
     return {"name": name, "words": motion_text(name), "period": period, "symmetric": bool(atlas["class_symmetric"][i]), "colour": colour}

@@ -40,12 +40,12 @@ class Kept:
         path = self._results() / f"{name}.h5"
         return str(path) if re.fullmatch("[0-9a-f]{32}", str(name)) and path.exists() else None
 
-    def answers(self, scene, make, **more):
-        """(header, payload) of each answer: `progress` while the program computes, then what `make` makes of the result, with the keys
-        `more`. Refused, with the program's words, where it cannot compute it."""
+    def answers(self, scene, make, calm=CALM, **more):
+        """(header, payload) of each answer: `progress` while the program computes, `calm` nicer than the page's pictures, then what `make`
+        makes of the result, with the keys `more`. Refused, with the program's words, where it cannot compute it."""
         path = self._place(scene)
         if not path.exists():
-            for _ in self._run(scene, path):
+            for _ in self._run(scene, path, calm):
                 yield {"answer": "progress", "final": False, "bytes": 0}, b""
         header, payload = make(Result(path))
         yield header | {"bytes": len(payload)} | more, payload
@@ -76,7 +76,7 @@ class Kept:
                 self._folder = Path(self._temporary.name)
         return self._folder
 
-    def _run(self, scene, path):
+    def _run(self, scene, path, calm):
         """Computes a result; yields now and then."""
         with tempfile.TemporaryDirectory(dir=path.parent) as folder:
             made, words, errors = (Path(folder) / name for name in ("result.h5", "scene", "errors"))
@@ -86,7 +86,7 @@ class Kept:
                                            stdout=subprocess.DEVNULL, stderr=said, env=environment(), start_new_session=True)
             self._running.add(process)
             try:
-                os.setpriority(os.PRIO_PROCESS, process.pid, CALM)
+                os.setpriority(os.PRIO_PROCESS, process.pid, calm)
                 while process.poll() is None:
                     yield
                     with suppress(subprocess.TimeoutExpired):

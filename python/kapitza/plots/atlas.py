@@ -173,7 +173,8 @@ def motions_page(result: Result, atlas: xarray.Dataset) -> Figure:
         attracting = atlas["attracting"].values[number]
         known = attracting != NOT_KNOWN
         axes.set_facecolor("white" if known.all() else UNKNOWN)
-        colour = style.motion_colour(int(atlas["class_period"][number]), int(atlas["class_winding"][number]), centre_of(atlas, number))
+        centre = centre_of(atlas["class_name"].values[number])
+        colour = style.motion_colour(int(atlas["class_period"][number]), int(atlas["class_winding"][number]), centre)
         shades = ListedColormap(["white", style.shade(colour, 0.35), colour, style.shade(colour, -0.25)])
         axes.pcolormesh(atlas["column"], atlas["row"], np.ma.masked_where(~known, np.clip(attracting, 0, 3)), cmap=shades, vmin=0, vmax=3,
                         shading="nearest", rasterized=True)

@@ -7,9 +7,9 @@ from kapitza import style
 FOLD, DOUBLING, BREAKING, SWINGS, LEANS = range(5)  # codes of curve_kind
 
 
-def centre_of(atlas: xarray.Dataset, number: int) -> int:
+def centre_of(class_name: object) -> int:
     """The centre of a class, by its name."""
-    name = style.name_text(atlas["class_name"].values[number])
+    name = style.name_text(class_name)
     if "rotation" in name:
         return 2
     return 1 if name.startswith(("inverted", "flutter")) else 0 if name.startswith("down") else 3
