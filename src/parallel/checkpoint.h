@@ -43,16 +43,8 @@ kz_status kz_file_lock_share(const char *path, int file);
 kz_status kz_file_lock_join(const char *path, int *file);
 /* True if `path` still names the open file. */
 bool kz_file_lock_names(const char *path, int file);
-
-/* Writes the header of a run with this fingerprint. */
-kz_status kz_header_write(kz_checkpoint *checkpoint, const char *fingerprint);
-/* Reads and checks the header. *unfinished = true if the run that created the file ended before it had written the header. KZ_REFUSED if the
- * header is damaged or has another fingerprint. */
-kz_status kz_header_read(kz_checkpoint *checkpoint, const char *fingerprint, bool *unfinished);
 /* Marks in the header that the file has a finished record. Any rank. Returns 0, or -1 with errno. */
 int kz_header_mark(kz_checkpoint *checkpoint);
-/* True if the header has this mark. */
-bool kz_header_is_marked(const kz_checkpoint *checkpoint);
 
 /* A section: the records of one kept stage. */
 typedef struct {

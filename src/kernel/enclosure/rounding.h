@@ -3,8 +3,18 @@
 
 #include <stdbool.h>
 
-#include "majorants.h"
+#include "kapitza/kernel.h"
 #include "sets.h"
+
+typedef long double real;
+
+/* Bounds for |z| <= r around any time of a motion that is as fast as its class allows there: |Im theta| <= y, |theta'| <= w. slope [2]:
+ * bounds of the velocities of the tangent map's columns that begin with (1, 0) and (0, 1). */
+typedef struct {
+  real r, y, w, a[2], slope[2];
+} majorant;
+
+enum { MAJORANTS = 2400 };
 
 /* Numbers are doubles, pairs or triples: KZ_ENCLOSE_DOUBLES .. KZ_ENCLOSE_TRIPLES, as the precisions of steps are. An error of a number of level l
  * is counted in units of u^(l + 1), u = 2^-53. */

@@ -77,8 +77,6 @@ typedef struct {
 
 /* Sets `pareto` of the rows. */
 void kz_pareto(kz_trade *trade);
-/* Group /tradeoff and its table in the summary. Rank 0. */
-kz_status kz_tradeoff_write(const kz_reference_labels *reference, const kz_trade *trade, kz_store *store, FILE *summary);
 
 /* The name FILE.truth of the cache of reference labels beside the result; the caller frees it; NULL without a store. */
 char *kz_reference_path(const kz_store *store);

@@ -235,8 +235,6 @@ void kz_atlas_bag_free(kz_atlas_bag *b);
  * other tiles have no seeds. Collective. */
 kz_status kz_atlas_gather(const kz_run *run, const char *name, int64_t n, size_t bytes, bool whole, kz_tile_fn work,
                           void *context, kz_atlas_bag *b);
-/* Seeds from cycles at n places, attracting or not, that are found on lines of starts: the curves that they meet first. Collective. */
-kz_status kz_atlas_births(const kz_atlas *atlas, const kz_run *run, int64_t n, const double (*place)[2], kz_atlas_bag *found);
 /* Seeds and curves as records; the seeds of a record stay where they are, a curve is copied. */
 void kz_atlas_put_seeds(const kz_atlas_seeds *seeds, void *record);
 kz_atlas_seeds kz_atlas_seeds_in(const char *record);

@@ -78,16 +78,9 @@ kz_status kz_basin_write(const kz_scene *scene, const kz_catalogue *catalogue, c
  * The cells must be in the store. This and the next two do nothing without their key. Collective. */
 kz_status kz_boundary_find(const kz_scene *scene, const kz_window_labels *labelling, const kz_catalogue *catalogue,
                            kz_store *store, FILE *summary);
-/* Releases the cells at the number of phases that the key basin.phases gives, and writes group /phases: the share of the window whose starts
- * end on the same attractor at all of them. */
-kz_status kz_phases_find(const kz_scene *scene, const kz_window_labels *labelling, const kz_catalogue *catalogue,
-                         kz_store *store, FILE *summary);
 /* Finds how far the motions of the catalogue are from the edges of their basins (basin.shocks), and writes group /shocks. */
 kz_status kz_shocks_find_all(const kz_scene *scene, const kz_window_labels *labelling, const kz_catalogue *catalogue,
                              kz_store *store, FILE *summary);
-
-/* Bytes of memory of the phases. */
-double kz_phases_bytes(const kz_basin_plan *plan);
 
 /* ---- pairs of starts beside each other: how many of them end differently, by their distance ---- */
 

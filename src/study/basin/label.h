@@ -74,12 +74,3 @@ static inline double kz_tiles_stand_for(const kz_window_labels *labelling) {
 }
 
 /* ---- pending cells: unsettled, or doubtful ---- */
-
-/* Counts the cells of all tiles with the label `wanted` into labelling->before; these cells are now pending. Collective. */
-kz_status kz_pending_count(kz_window_labels *labelling, int16_t wanted);
-/* cell [n] = the numbers of n evenly chosen cells among the pending cells from .. from + of - 1, in order, on every rank; level [n] = the levels
- * that may decide them, NULL = not needed. Collective. */
-kz_status kz_pending_pick(kz_window_labels *labelling, int64_t from, int64_t of, int64_t n, int64_t *cell, int64_t *level);
-/* Labels the pending cells of all tiles, a bounded number at a time: the doubtful ones by the further levels, the unsettled ones from the
- * first one on, in stages of round `round`. Collective. */
-kz_status kz_pending_label(kz_window_labels *labelling, int round);

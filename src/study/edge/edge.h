@@ -13,7 +13,3 @@ typedef struct {
   double exponent;                                                  /* at which the two sides separate, per drive period */
   int64_t n_periods;                                                /* for which the edge was followed */
 } kz_edge;
-
-/* Bisects between the plan's two starts and follows the edge of the first one's basin; it bisects again whenever the sides have separated.
- * orbit [plan->periods + 1][2] = states on the edge, rad and rad per drive radian. KZ_REFUSED if both starts end on the same attractor. */
-kz_status kz_edge_track(const kz_scene *scene, kz_dynamics *dynamics, int64_t max_periods, kz_edge *edge, double *orbit);

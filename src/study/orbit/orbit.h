@@ -46,11 +46,6 @@ typedef struct {
   kz_attractor row; /* Floquet multipliers NaN where the model has none */
 } kz_cycle;
 
-/* The cycle at or near `start`: of the given period, or (period = 0) of the shortest that the orbit comes back to. Newton's
- * method on the strobe map for the pendulum; for the linear model the orbit itself must close. KZ_FAILED says what was
- * found instead. */
-kz_status kz_cycle_close(const kz_model *model, int64_t period, kz_state start, kz_cycle *cycle);
-
 /* ---- its features ---- */
 
 typedef struct {

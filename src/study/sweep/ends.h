@@ -11,9 +11,6 @@ enum { KZ_NO_PENDULUM = -2 }; /* in place of a period: no pendulum, or one witho
 enum { KZ_ENDS_POINTS = 256 };
 void kz_ends_points(const kz_scene *scene, int64_t place, int64_t n, const int64_t *point, kz_chart_ending *ending);
 
-/* Writes ends to the group /plane and the summary from endings [starts][y][x]. Rank 0. */
-kz_status kz_ends_publish(const kz_sweep_plan *plan, const kz_chart_ending *endings, kz_store *store, FILE *summary);
-
 /* The velocity of start number `place`, rad per drive radian. */
 static inline double kz_ends_velocity(const kz_sweep_plan *plan, int64_t place) {
   return plan->ends.velocity.values[plan->ends.velocity.count == 1 ? 0 : place];

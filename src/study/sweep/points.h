@@ -42,7 +42,3 @@ void kz_classes_free(kz_classes *classes);
 /* Carries every cycle to the points to the right and above; what arrives is the same attractor. Chaotic ones join the nearest. Two attractors
  * of one point never become one. Collective; rank 0 alone gets the classes. */
 kz_status kz_classes_make(const kz_points *points, const kz_run *run, const void *records, kz_classes *classes);
-
-/* Writes the group /plane, or /line, and the summary. Rank 0. */
-kz_status kz_points_write(const kz_points *points, const void *records, const kz_classes *classes, kz_store *store,
-                          FILE *summary);

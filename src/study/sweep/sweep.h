@@ -94,10 +94,6 @@ typedef struct {
   kz_sweep_entry entries[KZ_SWEEP_MOST];
 } kz_sweep_catalogue;
 
-/* The lifetime of the motions of the sweep's starts at one value. Collective. */
-kz_status kz_sweep_lifetime(const kz_sweep_plan *plan, const kz_run *run, kz_dynamics *dynamics, int64_t max_periods,
-                            kz_lifetime *life);
-
 /* How many of the first n_cells of the grid (0: of the starts), with their mirror images, end alike at all phases, by attractors and regions
  * that are known; `release`: that of the value. Collective. */
 kz_status kz_sweep_phases(const kz_scene *scene, const kz_run *run, kz_dynamics *dynamics, const kz_release *release,

@@ -48,9 +48,3 @@ typedef struct {
   int32_t phase, from_side, into_side;
   double from_place, into_place;
 } kz_touch;
-
-/* Sets the places where two branches cross most nearly along each other; returns the sine of their angle there, infinite if they do not cross. */
-double kz_arm_traces_cross(const kz_arm_trace *from, const kz_arm_trace *into, kz_touch *touch);
-/* Moves both places to where the branches run along each other, the nearest points opposite; returns the distance between them, with a sign; NaN if
- * Newton's method fails. */
-double kz_arms_gap(const kz_arm *from, const kz_arm *into, kz_touch *touch);

@@ -2,10 +2,131 @@
  * 51 (1991) 213.) */
 #include "wada.h"
 
+#include <math.h>
 #include <stdlib.h>
 
 #include "labelling/search.h"
 #include "saddles/saddles.h"
+#include "labelling/catalogue.h"
+#include "labelling/labeller.h"
+
+/* ---- where the points of a branch of an unstable manifold end ---- */
+
+/* rad: bound of the distance of a computed point from the manifold, which shrinks along it; docs/explanation/wada.md. */
+static const double OFF = 1e-11;
+/* rad: nearer to the cycle, points are not labelled, because OFF counts there; the others contain their images. */
+static const double BESIDE = 1e-6;
+
+/* A kz_start_fn: the items are points of a branch, with their error. */
+static kz_status start_of_point(void *context, int64_t item, int32_t level, kz_start *start) {
+  const double *point = (const double *)context + 4 * item;
+  (void)level;
+  *start = kz_start_at(point[0], point[1]);
+  start->error[0] = start->error[2] = OFF * OFF;
+  return KZ_OK;
+}
+
+/* Whether all points end on one attractor, and the last one is in its trapping region. */
+static bool is_followed(int64_t n, const kz_label *label) {
+  if (n < 1 || label[n - 1].label <= 0 || label[n - 1].periods > 0) return false;
+  for (int64_t i = 0; i < n; i++)
+    if (label[i].label != label[n - 1].label) return false;
+  return true;
+}
+
+/* Of each basin the point that settles first. */
+static void find_witnesses(const kz_file_attractors *attractors, int64_t n, const double *point, const kz_label *label,
+                           kz_witness *witness) {
+  for (int64_t i = 0; i < attractors->count; i++) witness[i] = (kz_witness){NAN, NAN, NAN, NAN};
+  for (int64_t i = 0; i < n; i++) {
+    const int32_t id = label[i].label > 0 ? attractors->id[label[i].label] : -1;
+    if (id < 0 || label[i].periods >= witness[id].periods) continue;
+    const double *at = point + 4 * i;
+    witness[id] = (kz_witness){at[0], at[1], at[2], label[i].periods};
+  }
+}
+
+/* Grows the branch, labels its points at the first level of precision, and notes where they end. */
+static kz_status find_basins(const kz_wada_job *job, const kz_branch *branch, kz_branch_basins *basins) {
+  KZ_FREED double *all = kz_malloc(4 * KZ_BRANCH_POINTS * sizeof *all);
+  double *point = all;
+  KZ_FREED kz_label *label = kz_calloc(KZ_BRANCH_POINTS, sizeof *label);
+  int64_t n = kz_manifold_grow(&job->scene->parameters.pendulum, branch, KZ_BRANCH_POINTS, point);
+  for (; n > 0 && point[2] < BESIDE; n--) point += 4;
+  const kz_labeller labeller = {job->dynamics, job->max_periods, KZ_BY_LEVELS,    KZ_OPEN_DOUBTFUL,
+                                true,          start_of_point,   .context = point};
+  KZ_TRY(kz_label_first(&labeller, n, NULL, label));
+  basins->followed = is_followed(n, label);
+  find_witnesses(job->attractors, n, point, label, basins->witness);
+  return KZ_OK;
+}
+
+/* ---- attractors of kz_dynamics and their ids in the file ---- */
+
+/* rad: strobe points of one attractor agree so well; and exponents of one chaotic attractor. */
+static const double SAME = 1e-6;
+
+/* A row of the file. */
+typedef struct {
+  kz_strobe_point first; /* its point is NaN of a chaotic one */
+  double lyapunov, mirror;
+} listed;
+
+static kz_status read_list(kz_store *store, int64_t n, listed *list) {
+  for (int64_t i = 0; i < n; i++) {
+    KZ_TRY(kz_strobe_read(store, "attractors", i, 0, &list[i].first));
+    KZ_TRY(kz_store_number(store, "attractors", "lyapunov", &i, &list[i].lyapunov));
+    KZ_TRY(kz_store_number(store, "attractors", "mirror", &i, &list[i].mirror));
+  }
+  return KZ_OK;
+}
+
+/* Whether attractor `number` is the one of this row. */
+static bool is_listed(const kz_dynamics *dynamics, int64_t number, const listed *row) {
+  kz_attractor attractor;
+  kz_dynamics_attractor(dynamics, number, &attractor);
+  if (attractor.period != (int32_t)row->first.period) return false;
+  if (attractor.period == 0) return fabs(attractor.lyapunov - row->lyapunov) < SAME;
+  const size_t period = (size_t)attractor.period;
+  KZ_FREED double *theta = kz_malloc(period * sizeof *theta), *velocity = kz_malloc(period * sizeof *velocity);
+  kz_dynamics_strobe(dynamics, number, theta, velocity);
+  for (size_t i = 0; i < period; i++)
+    if (hypot(remainder(theta[i] - row->first.theta, 2 * M_PI), velocity[i] - row->first.velocity) < SAME) return true;
+  return false;
+}
+
+/* Both lists have one order, which tells chaotic mirror images apart. */
+static void set_ids(const kz_dynamics *dynamics, const listed *list, kz_file_attractors *attractors) {
+  const int64_t n = kz_dynamics_count(dynamics);
+  KZ_FREED int64_t *order = kz_malloc((size_t)(n + 1) * sizeof *order);
+  kz_dynamics_order(dynamics, order);
+  for (int64_t i = 0; i <= n; i++) attractors->id[i] = -1;
+  for (int64_t row = 0; row < attractors->count; row++) {
+    int64_t i = 0;
+    attractors->mirror[row] = (int32_t)list[row].mirror;
+    while (i < n && (attractors->id[order[i]] >= 0 || !is_listed(dynamics, order[i], list + row))) i++;
+    if (i < n) attractors->id[order[i]] = (int32_t)row;
+  }
+}
+
+/* Gives every attractor of `dynamics` its id in the group attractors of the file; cycles of the file that it lacks join it. Collective; store NULL on
+ * all ranks but rank 0. */
+static kz_status match_attractors(const kz_run *run, kz_store *store, kz_dynamics *dynamics, kz_file_attractors *attractors) {
+  int64_t n = 0;
+  KZ_TRY(kz_ranks_agree(run->ranks, store ? kz_store_length(store, "attractors", "attractor", &n) : KZ_OK));
+  KZ_TRY(kz_ranks_broadcast(run->ranks, &n, sizeof n));
+  KZ_FREED listed *list = kz_calloc((size_t)n + 1, sizeof *list);
+  KZ_TRY(kz_ranks_agree(run->ranks, store ? read_list(store, n, list) : KZ_OK));
+  KZ_TRY(kz_ranks_broadcast(run->ranks, list, ((size_t)n + 1) * sizeof *list));
+  const int64_t known = kz_dynamics_count(dynamics);
+  for (int64_t i = 0; i < n; i++)
+    if (list[i].first.period > 0)
+      kz_dynamics_add_cycle(dynamics, (int64_t)list[i].first.period, list[i].first.theta, list[i].first.velocity);
+  if (kz_dynamics_count(dynamics) > known) kz_dynamics_update(dynamics);
+  attractors->count = n;
+  set_ids(dynamics, list, attractors);
+  return KZ_OK;
+}
 
 enum { SIDES = 2, PAGE_BYTES = 4096, MOST_ATTRACTORS = 64 /* of the estimate */ };
 
@@ -59,7 +180,7 @@ static kz_status side_tile(void *context, int64_t tile, void *record) {
   if (w->twin[tile / SIDES] != tile / SIDES) return KZ_OK;
   kz_branch branch = w->branch[tile / SIDES];
   branch.side = tile % SIDES ? -1 : 1;
-  return kz_branch_basins_find(&w->job, &branch, record);
+  return find_basins(&w->job, &branch, record);
 }
 
 static void reflect(const kz_file_attractors *attractors, const kz_branch_basins *from, kz_branch_basins *to) {
@@ -102,7 +223,7 @@ kz_status kz_wada_run(const kz_scene *scene, const kz_run *run, kz_store *store,
   KZ_FREED kz_file_attractors *attractors = kz_calloc(1, sizeof *attractors);
   KZ_FREED_BY(release) work w = {.job = {scene, kz_search_dynamics(scene), attractors, search.max_periods}};
   KZ_TRY(kz_search_window(run, w.job.dynamics, &search, NULL));
-  KZ_TRY(kz_file_attractors_match(run, store, w.job.dynamics, attractors));
+  KZ_TRY(match_attractors(run, store, w.job.dynamics, attractors));
   KZ_TRY(read_saddles(scene->wada, run, store, &w));
   return follow_branches(run, &w, store, summary);
 }

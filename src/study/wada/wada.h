@@ -13,10 +13,6 @@ typedef struct {
   int32_t mirror[INT16_MAX + 1]; /* id of the mirror image of attractor `id` */
 } kz_file_attractors;
 
-/* Gives every attractor of `dynamics` its id in the group attractors of the file; cycles of the file that it lacks join it. Collective; store NULL on
- * all ranks but rank 0. */
-kz_status kz_file_attractors_match(const kz_run *run, kz_store *store, kz_dynamics *dynamics, kz_file_attractors *list);
-
 /* The basins that one branch meets. */
 typedef struct {
   double theta, velocity, arc_length; /* a point of the branch in the basin; NaN = none is known */
@@ -33,9 +29,6 @@ typedef struct {
   const kz_file_attractors *attractors;
   int64_t max_periods;
 } kz_wada_job;
-
-/* Grows the branch, labels its points at the first level of precision, and notes where they end. */
-kz_status kz_branch_basins_find(const kz_wada_job *job, const kz_branch *branch, kz_branch_basins *basins);
 
 /* Writes the group wada from the basins of both branches of each cycle, in order, `stride` bytes apart, and prints what they prove. */
 kz_status kz_wada_write(int64_t n_saddles, int64_t n_attractors, const void *basins, size_t stride, kz_store *store,
