@@ -38,6 +38,8 @@ void kz_dynamics_starts(const kz_window *window, int64_t seed, int64_t n, double
 /* The largest velocity (rad per drive radian) within one period of starts in the window, and of starts as fast as a torque drives motions: a map
  * table must reach it. */
 double kz_dynamics_max_velocity(kz_dynamics *dynamics, const kz_window *window);
+/* The same of a pendulum by numerics. */
+double kz_max_velocity(const kz_pendulum *pendulum, const kz_numerics *numerics, const kz_window *window);
 
 /* Makes a coarse empty grid for trapping regions, up to the velocity `max_velocity` (rad per drive radian): enough for a search. */
 void kz_dynamics_coarse_regions(kz_dynamics *dynamics, double max_velocity);
@@ -58,6 +60,8 @@ enum { KZ_FOLLOW_DIRECT = 0, KZ_FOLLOW_LINEAR = 2, KZ_FOLLOW_QUINTIC = 6 };
  * state, that of another one where it was left, in the map's own coordinates. */
 void kz_dynamics_follow(kz_dynamics *dynamics, int32_t stepping, int64_t n, int64_t max_periods, double *state, int32_t *label,
                         int64_t *periods);
+/* Moves n physical states, state [n][2] = half-turns in [-1, 1] and velocity, by one period of the scene's map. Not for several threads. */
+void kz_dynamics_advance(kz_dynamics *dynamics, int64_t n, double *state);
 
 /* kz_dynamics_follow in quad precision, by Taylor series (kernel.h) with n_steps steps a period. A start is start [i] + low [i], in rad and
  * rad per drive radian; low [n][2] holds digits below the last places of start [n][2]; NULL = zeros. The sums count as exact. */

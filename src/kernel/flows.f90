@@ -45,7 +45,7 @@ contains
 
   !> The map of one drive period. Fused steps (the last entry of a step merged with the first of the next) are faster; sampling
   !> within the period needs separate ones. (A subroutine: gfortran 12 does not free what a polymorphic function returns.)
-  recursive subroutine make_flow(pendulum, numerics, fused, flow, slid, refined)
+  recursive subroutine make_flow(pendulum, numerics, fused, flow, slid, refined, fallback)
     type(pendulum_t), intent(in) :: pendulum !< k, beta, m
     type(numerics_t), intent(in) :: numerics !< scheme, steps a period
     !> whether neighbouring entries of neighbouring steps are merged: faster, but no sampling within the period
@@ -54,6 +54,7 @@ contains
     !> whether a slider moves the pendulum: its series may be interpolated from those of the pendulums before; .false., if left out
     logical, intent(in), optional :: slid
     integer, intent(in), optional :: refined !< steps of the flow for fast lanes, in those of fine_numerics; 1, if left out
+    class(flow_t), intent(in), optional :: fallback !< that flow, if it is known: fine_numerics, not fused
     type(period_t) :: period
     type(series_t), allocatable :: series
     logical :: moved
@@ -71,7 +72,7 @@ contains
     else
       call make_processed_series(pendulum, numerics%series, series)
     end if
-    call make_processed_flow(pendulum, series, numerics, flow, refined=refined)
+    call make_processed_flow(pendulum, series, numerics, flow, refined=refined, known=fallback)
   end subroutine make_flow
 
   !> The map of a stretch, by fine steps of split6.
@@ -90,13 +91,14 @@ contains
   end subroutine make_stretch_flow
 
   !> The processed splitting from its series. numerics%fastest = huge: no other flow for fast lanes.
-  recursive subroutine make_processed_flow(pendulum, series, numerics, flow, fitted, refined)
+  recursive subroutine make_processed_flow(pendulum, series, numerics, flow, fitted, refined, known)
     type(pendulum_t), intent(in) :: pendulum !< k, beta, m
     type(series_t), intent(in) :: series !< the series of the pendulum
     type(numerics_t), intent(in) :: numerics !< scheme, steps a period
     class(flow_t), allocatable, intent(out) :: flow !< the map of one drive period
     real(c_double), intent(in), optional :: fitted !< the drift is fitted up to this speed; the fastest, if left out
     integer, intent(in), optional :: refined !< steps of the flow for fast lanes, in those of fine_numerics; 1, if left out
+    class(flow_t), intent(in), optional :: known !< that flow, if it is made already
     type(numerics_t) :: fine
     type(processed_t) :: table
     class(flow_t), allocatable :: fallback
@@ -110,7 +112,9 @@ contains
     fastest = merge(numerics%fastest, 3.0_c_double, numerics%fastest > 0)
     fit = fastest
     if (present(fitted)) fit = fitted
-    if (fastest < huge(fastest)) then
+    if (present(known)) then
+      allocate (fallback, source=known)
+    else if (fastest < huge(fastest)) then
       fine = fine_numerics(pendulum)
       if (present(refined)) fine%steps_per_period = refined*fine%steps_per_period
       call make_flow(pendulum, fine, .false., fallback)

@@ -72,13 +72,13 @@ contains
     d%lock = create_lock()
     d%levels%pendulum = pendulum
     d%levels%numerics = numerics
-    call make_flow(pendulum, numerics, .true., d%flow, slid=moving)
+    fine = fine_numerics(pendulum)
+    call make_flow(pendulum, fine, .false., d%search%sampling_flow)
+    call make_flow(pendulum, numerics, .true., d%flow, slid=moving, fallback=d%search%sampling_flow)
     d%search%pendulum = pendulum
     d%search%max_period = max_period
     allocate (d%search%flow, source=d%flow)
     if (moving) d%search%ring_points = MOVING_RING
-    fine = fine_numerics(pendulum)
-    call make_flow(pendulum, fine, .false., d%search%sampling_flow)
     if (moving) fine%steps_per_period = fine%steps_per_period/MOVING_PART
     call make_flow(pendulum, fine, .true., d%search%fine)
     allocate (d%attractors(0))

@@ -2,7 +2,7 @@
 module kz_api_follow
   use, intrinsic :: iso_c_binding, only: dp => c_double, c_int32_t, c_int64_t, c_ptr
   use kz_maps_states, only: states_to_physical
-  use kz_vector_map, only: map_t, flow_t
+  use kz_vector_map, only: map_t, flow_t, WIDTH
   use kz_api_dynamics, only: dynamics_t, of_handle
   use kz_labels_label, only: follow
   use kz_labels_smooth, only: smooth_times
@@ -54,6 +54,29 @@ contains
     state(1, :) = unpack(u, label == 0, state(1, :))
     state(2, :) = unpack(v, label == 0, state(2, :))
   end subroutine leave_open
+
+  subroutine advance_states(handle, n, state) bind(C, name='kz_dynamics_advance')
+    type(c_ptr), value :: handle
+    integer(c_int64_t), value :: n
+    real(dp), intent(inout) :: state(2, n)
+    type(dynamics_t), pointer :: d
+    integer :: first, lanes, i
+
+    d => of_handle(handle)
+    associate (flow => d%search%flow)
+      do first = 0, int(n) - 1, WIDTH
+        lanes = min(WIDTH, int(n) - first)
+        do i = 1, lanes
+          call flow%put(i, state(1, first + i), state(2, first + i))
+        end do
+        call flow%to_map(lanes)
+        call flow%advance(lanes)
+        call flow%to_physical(lanes)
+        state(1, first + 1:first + lanes) = flow%u(:lanes)
+        state(2, first + 1:first + lanes) = flow%v(:lanes)
+      end do
+    end associate
+  end subroutine advance_states
 
   subroutine smooth_settling(handle, n, label, state, time) bind(C, name='kz_dynamics_smooth_times')
     type(c_ptr), value :: handle

@@ -1,11 +1,14 @@
 !> The C interface of dynamics: starts of a window, how fast they become, and the map table (include/kapitza/dynamics.h).
 module kz_api_map_table
   use, intrinsic :: iso_c_binding, only: dp => c_double, c_int32_t, c_int64_t, c_ptr
-  use kz_vector_map, only: WIDTH, PI
+  use kz_kernel_flows, only: make_flow
+  use kz_vector_map, only: flow_t, WIDTH, PI
   use kz_api_dynamics, only: dynamics_t, of_handle
   use kz_maps_map_table, only: make_table, table_row, set_table_rows, inner_top, table_map_t, make_table_map
   use kz_maps_states, only: wrapped
   use kz_maps_step_error, only: error_of_table
+  use kz_model_pendulum, only: pendulum_t
+  use kz_vector_step_table, only: numerics_t
   implicit none
   private
 
@@ -37,28 +40,46 @@ contains
     type(c_ptr), value :: handle
     type(window_t), intent(in) :: window
     real(dp) :: top
-    integer, parameter :: ROWS = 16
     type(dynamics_t), pointer :: d
+
+    d => of_handle(handle)
+    top = fastest_of(d%search%flow, d%search%pendulum, window)
+  end function max_velocity
+
+  function fastest_motion(pendulum, numerics, window) bind(C, name='kz_max_velocity') result(top)
+    type(pendulum_t), intent(in) :: pendulum
+    type(numerics_t), intent(in) :: numerics
+    type(window_t), intent(in) :: window
+    real(dp) :: top
+    class(flow_t), allocatable :: flow
+
+    call make_flow(pendulum, numerics, .true., flow)
+    top = fastest_of(flow, pendulum, window)
+  end function fastest_motion
+
+  function fastest_of(flow, pendulum, window) result(top)
+    class(flow_t), intent(inout) :: flow
+    type(pendulum_t), intent(in) :: pendulum
+    type(window_t), intent(in) :: window
+    real(dp) :: top
+    integer, parameter :: ROWS = 16
     real(dp) :: largest, v
     integer :: row, i
 
-    d => of_handle(handle)
     largest = max(abs(window%velocity_min), abs(window%velocity_max))
-    associate (pendulum => d%search%pendulum) ! a torque drives motions to this speed
-      if (pendulum%beta > 0) largest = max(largest, abs(pendulum%torque)/pendulum%beta)
-    end associate
+    if (pendulum%beta > 0) largest = max(largest, abs(pendulum%torque)/pendulum%beta) ! a torque drives motions to this speed
     top = largest
     do row = -ROWS, ROWS
       v = largest*row/ROWS
       do i = 1, WIDTH
-        call d%search%flow%put(i, 2*real(i, dp)/WIDTH - 1, v)
+        call flow%put(i, 2*real(i, dp)/WIDTH - 1, v)
       end do
-      call d%search%flow%to_map(WIDTH)
-      call d%search%flow%advance(WIDTH)
-      call d%search%flow%to_physical(WIDTH)
-      top = max(top, maxval(abs(d%search%flow%v(:WIDTH))))
+      call flow%to_map(WIDTH)
+      call flow%advance(WIDTH)
+      call flow%to_physical(WIDTH)
+      top = max(top, maxval(abs(flow%v(:WIDTH))))
     end do
-  end function max_velocity
+  end function fastest_of
 
   subroutine table_create(handle, n_theta, n_velocity, top) bind(C, name='kz_dynamics_table_create')
     type(c_ptr), value :: handle

@@ -94,10 +94,11 @@ contains
     !> exp(2 pi i t) at the beginning of the part and of the step, of a step, and of each stage counted from the beginning of its step: sums of
     !> angles are products, which cost less than cosines in quad precision
     complex(qp) :: begin, begin_of_step, of_step, of_stage(size(stages))
-    real(qp) :: time(period%n_steps*size(stages) + 1), at(size(stages)), shift
+    real(qp) :: time(period%n_steps*size(stages) + 1), at(size(stages)), weight(size(stages)), shift
     integer :: n, i, s
 
     at = elapsed(stages)
+    weight = stages%share*step
     begin = phasor(part%begin)
     of_step = phasor(part%span/period%n_steps)
     do s = 1, size(stages)
@@ -111,12 +112,12 @@ contains
     do i = 0, period%n_steps - 1
       do s = 1, size(stages)
         if (stages(s)%is_kick) then
-          call append(stages(s)%share*step, part%begin + part%span*((i + at(s))/period%n_steps), begin_of_step*of_stage(s))
+          call append(weight(s), at(s), begin_of_step*of_stage(s))
         else
           shift = shift + stages(s)%share
         end if
       end do
-      if (.not. fused .and. shift > 0) call append(0.0_qp, part%begin, begin)
+      if (.not. fused .and. shift > 0) call append(0.0_qp, 0.0_qp, begin)
       period%step_end(i + 1) = n
       begin_of_step = begin_of_step*of_step
     end do
@@ -129,15 +130,19 @@ contains
     if (part%changes) then
       call damp_along(period, pendulum, part, time(:n + 1)*step)
     else
-      call damp(period, time(:n + 1)*step)
+      call damp(period, time(:n + 1), step)
     end if
   contains
-    subroutine append(weight, turn, clock_of_turn)
-      real(qp), intent(in) :: weight, turn
+    !> A kick after a share of step i; its own time counts on a ramp alone.
+    subroutine append(weight, share, clock_of_turn)
+      real(qp), intent(in) :: weight, share
       complex(qp), intent(in) :: clock_of_turn
+      real(qp) :: turn
 
       n = n + 1
       time(n) = shift
+      turn = part%begin
+      if (part%changes) turn = turn + part%span*((i + share)/period%n_steps)
       call set_kick(period, pendulum, part, n, weight, turn, clock_of_turn)
       shift = 0
     end subroutine append
@@ -164,24 +169,26 @@ contains
   end function phasor
 
   !> Turns the times of the drifts into shares of the velocity: (1 - exp(-beta t))/beta and exp(-beta t).
-  subroutine damp(period, time)
+  subroutine damp(period, share, step)
     type(period_t), intent(inout) :: period
-    real(qp), intent(in) :: time(:)
+    real(qp), intent(in) :: share(:) !< of a step, that each drift takes
+    real(qp), intent(in) :: step !< rad
     !> drifts repeat from step to step
     integer, parameter :: BACK = 20
-    real(qp) :: beta
+    real(qp) :: beta, time
     integer :: i, like
 
     beta = period%beta
-    call allocate_drifts(period, size(time))
-    do i = 1, size(time)
-      like = findloc(time(max(1, i - BACK):i), time(i), dim=1) + max(0, i - BACK - 1)
+    call allocate_drifts(period, size(share))
+    do i = 1, size(share)
+      like = findloc(share(max(1, i - BACK):i), share(i), dim=1) + max(0, i - BACK - 1)
       if (like < i) then
         period%decay(i) = period%decay(like)
         period%drift(i) = period%drift(like)
         period%drift_u(i) = period%drift_u(like)
       else
-        call set_drift(period, i, exp(-beta*time(i)), time(i)*mean_decay(beta*time(i)))
+        time = share(i)*step
+        call set_drift(period, i, exp(-beta*time), time*mean_decay(beta*time))
       end if
     end do
   end subroutine damp

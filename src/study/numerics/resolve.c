@@ -33,15 +33,12 @@ bool kz_is_processed(int32_t scheme) {
 
 double kz_fastest_motion(const kz_pendulum *pendulum, const kz_window *window, int64_t rows) {
   const kz_numerics numerics = kz_steps_plain();
-  kz_dynamics *dynamics = kz_dynamics_create(pendulum, &numerics, 1);
-  if (!dynamics) return INFINITY;
-  double fastest = MARGIN * kz_dynamics_max_velocity(dynamics, window);
+  double fastest = MARGIN * kz_max_velocity(pendulum, &numerics, window);
   if (rows > 5) { /* two rows of nodes beyond the states on either side */
     const double top = fastest * (double)(rows - 1) / (double)(rows - 5);
     const kz_window nodes = {window->theta_min, window->theta_max, -top, top};
-    fastest = MARGIN * kz_dynamics_max_velocity(dynamics, &nodes);
+    fastest = MARGIN * kz_max_velocity(pendulum, &numerics, &nodes);
   }
-  kz_dynamics_free(dynamics);
   return fastest;
 }
 

@@ -2,8 +2,9 @@
 #include <float.h>
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
-#include "kapitza/kernel.h"
+#include "kapitza/dynamics.h"
 #include "where.h"
 
 enum { TOGETHER = 64, FOLDS = 40 /* e-folding times after which a motion is no longer followed */ };
@@ -46,42 +47,36 @@ static void look(approach *a, int64_t time, double theta) {
   if (time >= a->most) a->done = true;
 }
 
-/* Follows n <= TOGETHER motions from their states theta, velocity [n] at strobes first [n] until all are done. */
-static void follow(const kz_flow *flow, int64_t n, approach *a, const int64_t *first, double *theta, double *velocity) {
-  int64_t turns[TOGETHER] = {0}, open = n;
+/* Follows n <= TOGETHER motions from their states [n][2] at strobes first [n] until all are done. */
+static void follow(kz_dynamics *dynamics, int64_t n, approach *a, const int64_t *first, double *state) {
+  int64_t open = n;
   for (int64_t step = 0; open > 0; step++) {
     open = 0;
     for (int64_t i = 0; i < n; i++) {
-      if (!a[i].done) look(a + i, first[i] + step, theta[i]);
+      if (!a[i].done) look(a + i, first[i] + step, M_PI * state[2 * i]);
       open += !a[i].done;
     }
-    kz_advance(flow, n, 1, theta, velocity, turns);
+    kz_dynamics_advance(dynamics, n, state);
   }
 }
 
 void kz_endings_approach(const kz_question *q, const double *state, const int64_t *periods, const kz_catalogue *catalogue,
                          kz_ending *endings) {
-  const kz_pendulum *pendulum = &q->scene->parameters.pendulum;
-  kz_numerics fine;
-  kz_numerics_fine(pendulum, &fine);
-  kz_flow *flow = kz_flow_create(pendulum, &fine);
   for (int64_t i = 0; i < q->n;) {
     approach a[TOGETHER];
     int64_t first[TOGETHER], of[TOGETHER], n = 0;
-    double theta[TOGETHER], velocity[TOGETHER];
+    double now[2 * TOGETHER];
     for (; i < q->n && n < TOGETHER; i++) {
       if (!endings[i].precision || endings[i].period < 1) continue;
-      theta[n] = M_PI * state[2 * i];
-      velocity[n] = state[2 * i + 1];
+      memcpy(now + 2 * n, state + 2 * i, 2 * sizeof *now);
       first[n] = periods[i];
       a[n] = begin(endings[i].settling_time, catalogue->entries + endings[i].attractor, first[n], q->max_periods);
       of[n++] = i;
     }
-    follow(flow, n, a, first, theta, velocity);
+    follow(q->dynamics, n, a, first, now);
     for (int64_t j = 0; j < n; j++) {
       endings[of[j]].near_time = a[j].answer;
       free(a[j].last);
     }
   }
-  kz_flow_free(flow);
 }
