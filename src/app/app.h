@@ -84,9 +84,6 @@ kz_status kz_app_needs(const kz_options *options);
 kz_status kz_app_keys(const kz_options *options);
 void kz_app_version(FILE *out);
 
-/* Prints the variables of the result file, a line of JSON each (docs/reference/commands.md). */
-void kz_layout_print(FILE *out);
-
 /* The starts of the command where, from the operands or from lines "theta,velocity" of standard input. start [n] = theta and velocity, as
  * doubles, or both in all digits if one of them has more. KZ_REFUSED names the operand or the line. The caller frees *starts in every case. */
 typedef struct {

@@ -1,12 +1,81 @@
 /* All ranks together: start, end, agreement, broadcast. */
 #include "ranks.h"
 
+#include <mpi.h>
 #include <signal.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
 
 #include "bytes.h"
+
+/* ---- what the launcher tells before MPI is started ---- */
+
+/* The first of `names` that the environment holds, as a number; -1 where it holds none. */
+static int first_number(const char *const names[], size_t n) {
+  for (size_t i = 0; i < n; ++i) {
+    const char *value = getenv(names[i]);
+    if (value) return atoi(value);
+  }
+  return -1;
+}
+
+/* MPI_Init writes some of these names by itself where no launcher did: they are looked for once, before it. SLURM_PROCID is no
+ * such sign: a batch script and a shell within a job have it too. */
+static struct {
+  bool known;
+  int rank, count;
+} launch;
+
+static void look(void) {
+  const char *const ranks[] = {"OMPI_COMM_WORLD_RANK", "PMIX_RANK", "PMI_RANK"};
+  const char *const counts[] = {"OMPI_COMM_WORLD_SIZE", "PMI_SIZE"};
+  if (launch.known) return;
+  launch.rank = first_number(ranks, sizeof ranks / sizeof *ranks);
+  launch.count = first_number(counts, sizeof counts / sizeof *counts);
+  launch.known = true;
+}
+
+int kz_launch_rank(void) {
+  look();
+  return launch.rank;
+}
+
+int kz_launch_count(void) {
+  look();
+  return launch.count;
+}
+
+/* Beginnings of what launchers tell the processes that they start: one too many costs MPI's start, one too few makes each process run
+ * alone. */
+static const char *const launchers[] = {"PMI",      "PMIX_",    "OMPI_COMM_WORLD", "ORTE_",       "SLURM_STEP", "ALPS_APP",
+                                        "PALS_",    "FLUX_",    "MPI_LOCAL",       "MPIRUN_RANK", "MV2_COMM",   "HYDRA",
+                                        "LSB_MCPU", "MP_CHILD", "PBS_TASKNUM",     "JSM_",        "MPIRANK",    "MPT_LRANK"};
+
+extern char **environ;
+
+/* Whether a launcher has started this process. A process of its own does not start MPI, which takes longer than a small run. Processes of
+ * a launcher that cannot be recognised run alone; the lock of the checkpoint then lets one of them write. */
+static bool is_launched(void) {
+  for (char **variable = environ; *variable; variable++)
+    for (size_t i = 0; i < sizeof launchers / sizeof *launchers; i++)
+      if (strncmp(*variable, launchers[i], strlen(launchers[i])) == 0) return true;
+  return false;
+}
+
+const char *kz_parallel_library(void) {
+  static char text[MPI_MAX_LIBRARY_VERSION_STRING];
+  int length = 0;
+  if (MPI_Get_library_version(text, &length) != MPI_SUCCESS) return "unknown MPI";
+  char *end = text;
+  for (const char *c = text; *c && *c != ',' && *c != '\n'; c++) /* MPICH writes columns: one blank is enough */
+    if (*c != ' ' && *c != '\t')
+      *end++ = *c;
+    else if (end > text && end[-1] != ' ')
+      *end++ = ' ';
+  *end = '\0';
+  return text;
+}
 
 enum { ABANDON_SECONDS = 5 };
 static const size_t CHUNK_BYTES = (size_t)1 << 30; /* MPI counts are int */
@@ -43,7 +112,7 @@ kz_status kz_ranks_start(int *argc, char ***argv, kz_ranks **ranks) {
   started->start = kz_clock();
   started->mutex = (pthread_mutex_t)PTHREAD_MUTEX_INITIALIZER;
   *ranks = started;
-  if (!kz_is_launched()) return KZ_OK;
+  if (!is_launched()) return KZ_OK;
   KZ_MPI(MPI_Init_thread(argc, argv, MPI_THREAD_SERIALIZED, &started->thread_level));
   kz_signals_catch();
   started->start = kz_clock();

@@ -30,10 +30,6 @@ struct kz_ranks {
   } while (0)
 kz_status kz_mpi_fail(int code, const char *file, int line);
 
-/* Whether a launcher has started this process. A process of its own does not start MPI, which takes longer than a small run. Processes of
- * a launcher that cannot be recognised run alone; the lock of the checkpoint then lets one of them write. */
-bool kz_is_launched(void);
-
 /* Whether there is another rank to talk to. If not, no function of MPI may be called: it may not have been started. */
 static inline bool kz_ranks_several(const kz_ranks *ranks) {
   return ranks && ranks->size > 1;

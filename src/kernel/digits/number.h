@@ -74,9 +74,6 @@ static inline void kz_number_floor(kz_number *x, const kz_number *a) {
 static inline bool kz_number_is_less(const kz_number *a, double b) {
   return arf_cmp_d(arb_midref(a), b) < 0;
 }
-static inline void kz_number_negate(kz_number *x) {
-  arf_neg(arb_midref(x), arb_midref(x));
-}
 /* The least e with |x| < 2^e; very small for 0. */
 static inline int64_t kz_number_exponent(const kz_number *x) {
   return arf_is_zero(arb_midref(x)) ? INT32_MIN : fmpz_get_si(ARF_EXPREF(arb_midref(x)));

@@ -2,6 +2,103 @@
 #include "atlas.h"
 
 #include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "labelling/search.h"
+#include "numerics/steps.h"
+
+/* ---- the share of the starts that each class of attractors takes, at one point of each region ---- */
+
+/* Velocities of the starts, rad per drive radian; steps a period of them. */
+static const double FASTEST = 2;
+enum { STEPS = 24, MOST = 128 /* attractors at one point */ };
+
+/* Starts that end on attractors of a class; the place in the list is that of an attractor. */
+typedef struct {
+  int64_t n, other; /* attractors; starts that end on none of up to max_period periods */
+  struct {
+    kz_atlas_class class;
+    int64_t hits;
+  } list[MOST];
+} ends;
+
+typedef struct {
+  const kz_atlas *atlas;
+  const kz_atlas_raster *raster;
+} counting;
+
+/* False for attractors that no class of the atlas has. */
+static bool class_of(const kz_atlas *atlas, const kz_attractor *row, kz_atlas_class *class) {
+  if (row->period < 1 || row->period > atlas->scene->atlas->max_period) return false;
+  const int32_t turns = atlas->plane.mirrored ? abs(row->winding) : row->winding;
+  *class = (kz_atlas_class){KZ_CLASS_OTHER, row->period, turns};
+  if (row->symmetric && atlas->plane.mirrored)
+    *class =
+        (kz_atlas_class){row->period == 1 ? KZ_CLASS_REST : KZ_CLASS_SYMMETRIC, row->period, row->centre == KZ_ABOUT_INVERTED};
+  return true;
+}
+
+static void count(const kz_atlas *atlas, kz_dynamics *dynamics, int64_t starts, const int32_t *label, ends *found) {
+  const int64_t known = kz_dynamics_count(dynamics);
+  KZ_FREED int64_t *hits = kz_calloc((size_t)known + 1, sizeof *hits);
+  for (int64_t i = 0; i < starts; i++) hits[label[i]]++;
+  found->other = hits[0];
+  for (int64_t number = 1; number <= known; number++) {
+    kz_attractor row;
+    kz_atlas_class class;
+    kz_dynamics_attractor(dynamics, number, &row);
+    if (found->n == MOST || !class_of(atlas, &row, &class)) {
+      found->other += hits[number];
+      continue;
+    }
+    found->list[found->n].class = class;
+    found->list[found->n++].hits = hits[number];
+  }
+}
+
+static kz_status share_tile(void *context, int64_t tile, void *record) {
+  const counting *c = context;
+  const kz_scene *scene = c->atlas->scene;
+  const int64_t starts = scene->atlas->shares;
+  kz_numerics numerics = kz_steps_plain();
+  kz_pendulum pendulum;
+  double place[2];
+  kz_atlas_region_place(c->raster, tile, place);
+  if (!kz_atlas_pendulum(scene, place, &pendulum)) return KZ_OK;
+  numerics.steps_per_period = (int32_t)fmax(STEPS, kz_steps_by_stiffness(&pendulum, STEPS));
+  const kz_search search = {.window = {-M_PI, M_PI, -FASTEST, FASTEST},
+                            .starts = starts,
+                            .seed = 1,
+                            .max_periods = kz_settling_periods(pendulum.beta)};
+  const kz_run alone = {0};
+  KZ_FREED int32_t *label = kz_calloc((size_t)starts, sizeof *label);
+  kz_dynamics *dynamics = kz_dynamics_create(&pendulum, &numerics, scene->atlas->max_period);
+  const kz_status status = kz_search_window(&alone, dynamics, &search, label);
+  if (status == KZ_OK) count(c->atlas, dynamics, starts, label, record);
+  kz_dynamics_free(dynamics);
+  return status;
+}
+
+/* Counts where the starts end at the place of each region. Collective. */
+static kz_status count_shares(const kz_atlas *atlas, const kz_run *run, kz_atlas_raster *raster) {
+  counting c = {atlas, raster};
+  const int64_t n = raster->n_regions, classes = raster->n_classes;
+  KZ_FREED ends *found = kz_calloc((size_t)n + 1, sizeof *found);
+  const kz_stage stage = kz_stage_for_all("atlas shares", n, sizeof *found, share_tile, &c);
+  KZ_TRY(kz_stage_run(run, &stage, found));
+  raster->hits = kz_calloc((size_t)(n * classes) + 1, sizeof *raster->hits);
+  raster->other = kz_calloc((size_t)n + 1, sizeof *raster->other);
+  for (int64_t region = 0; region < n; region++) {
+    raster->other[region] = found[region].other;
+    for (int64_t i = 0; i < found[region].n; i++) {
+      int64_t class = 0;
+      while (class < classes && memcmp(atlas->class + class, &found[region].list[i].class, sizeof *atlas->class)) class++;
+      *(class < classes ? raster->hits + region * classes + class : raster->other + region) += found[region].list[i].hits;
+    }
+  }
+  return KZ_OK;
+}
 
 kz_status kz_atlas_check(const kz_scene *scene) {
   KZ_FREED_BY(kz_atlas_end) kz_atlas atlas = {0};
@@ -16,7 +113,7 @@ kz_status kz_atlas_run(const kz_scene *scene, const kz_run *run, kz_store *store
   if (store || scene->atlas->shares > 0) kz_atlas_raster_make(&atlas, &raster);
   if (scene->atlas->shares > 0) {
     const double more = (double)KZ_ATLAS_REGIONS / (double)raster.n_regions; /* a sampled run knows few regions */
-    KZ_TRY_WEIGHED(run, more, kz_atlas_shares(&atlas, run, &raster));
+    KZ_TRY_WEIGHED(run, more, count_shares(&atlas, run, &raster));
   }
   return kz_ranks_agree(run->ranks, store ? kz_atlas_write(&atlas, &raster, store, summary) : KZ_OK);
 }

@@ -274,8 +274,6 @@ void kz_atlas_raster_make(kz_atlas *atlas, kz_atlas_raster *raster);
 void kz_atlas_raster_free(kz_atlas_raster *raster);
 /* The place of a region: the middle of the cell that is farthest from its edge. */
 void kz_atlas_region_place(const kz_atlas_raster *raster, int64_t region, double place[2]);
-/* Counts where the starts end at the place of each region. Collective. */
-kz_status kz_atlas_shares(const kz_atlas *atlas, const kz_run *run, kz_atlas_raster *raster);
 /* Lists all classes, in the order of the file. */
 void kz_atlas_order(kz_atlas *atlas);
 

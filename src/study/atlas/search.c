@@ -3,6 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "numerics/share.h"
 #include "atlas.h"
 
 enum {
@@ -46,12 +47,6 @@ static kz_status probe_all(const kz_run *run, const char *name, probing *p) {
 static void probes_free(int64_t n, kz_atlas_probe *probe) {
   for (int64_t i = 0; i < n; i++) kz_atlas_seeds_free(&probe[i].found);
   free(probe);
-}
-
-/* A number from 0 to 1 that a place of a sequence has: the fractional parts of multiples of two irrational numbers fill the plane evenly. */
-static void random_place(int64_t i, double place[2]) {
-  place[0] = fmod(0.5 + 0.7548776662466927 * (double)(i + 1), 1);
-  place[1] = fmod(0.5 + 0.5698402909980532 * (double)(i + 1), 1);
 }
 
 /* How many more attractors of the class of cycle j were found than the curves tell. */
@@ -133,7 +128,7 @@ static kz_status search_reference(kz_atlas *atlas, const kz_run *run) {
 /* The next places of the sequence. */
 static kz_status search_next(kz_atlas *atlas, const kz_run *run, int64_t first, int64_t n) {
   KZ_FREED double (*place)[2] = kz_malloc((size_t)(n + 1) * sizeof *place);
-  for (int64_t i = 0; i < n; i++) random_place(first + i, place[i]);
+  for (int64_t i = 0; i < n; i++) kz_even_share(first + i + 1, place[i]);
   return kz_atlas_search_places(atlas, run, n, place);
 }
 
@@ -160,7 +155,7 @@ static kz_status check(kz_atlas *atlas, const kz_run *run, int round, int64_t *w
   const int64_t n = atlas->scene->atlas->checks;
   probes_free(p->n, p->probe);
   *p = (probing){atlas, n, MANY, 2 + round, kz_calloc((size_t)n, sizeof *p->probe)};
-  for (int64_t i = 0; i < n; i++) random_place(1000 + round * n + i, p->probe[i].place);
+  for (int64_t i = 0; i < n; i++) kz_even_share(1001 + round * n + i, p->probe[i].place);
   KZ_TRY(search_next(atlas, run, atlas->scene->atlas->seeds + round * (n / PER_PLACE), n / PER_PLACE));
   kz_atlas_compare_images(atlas);
   KZ_TRY(kz_atlas_drain(atlas, run, 0, NULL));

@@ -2,6 +2,7 @@
 #include <float.h>
 #include <math.h>
 
+#include "numerics/share.h"
 #include "basin.h"
 
 enum {
@@ -84,10 +85,11 @@ kz_status kz_pairs_check(const kz_basin_plan *plan) {
                  (long long)plan->boundary.decades, nearest, what, most, or);
 }
 
-/* Start i of an evenly spread sequence (M. Roberts' R2) and its partners, in directions that spread evenly too. */
+/* Start i of an evenly spread sequence and its partners, in directions that spread evenly too. */
 static void spread(const kz_basin_plan *plan, int64_t i, point *p) {
   const double angle = 2 * M_PI * fmod((double)i * 0.61803398874989484820, 1);
-  *p = (point){.share = {fmod(0.5 + (double)i * 0.75487766624669276, 1), fmod(0.5 + (double)i * 0.56984029099805327, 1)}};
+  *p = (point){.share = {0}};
+  kz_even_share(i, p->share);
   for (int d = 0; d < kz_distances_of(plan); d++) {
     const double distance = distance_of(plan, d);
     p[1 + d] = (point){{p->share[0], p->share[1]}, {distance * cos(angle), distance * sin(angle)}};

@@ -37,6 +37,11 @@ static uint64_t mix(uint64_t x) {
   return x ^ (x >> 31);
 }
 
+void kz_even_share(int64_t i, double share[2]) {
+  share[0] = fmod(0.5 + 0.7548776662466927 * (double)i, 1);
+  share[1] = fmod(0.5 + 0.5698402909980532 * (double)i, 1);
+}
+
 uint64_t kz_random_bits(uint64_t index) {
   return mix((index - 1) * GAMMA);
 }

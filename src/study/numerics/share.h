@@ -14,6 +14,9 @@ kz_share kz_share_of_part(int64_t hits, int64_t n, int64_t total);
 /* The smallest sample size for which the upper bound is at most `share` if there is no hit. */
 int64_t kz_share_sample(double share);
 
+/* Number i, from 0 on, of a sequence that fills the unit square evenly (M. Roberts' R2). */
+void kz_even_share(int64_t i, double share[2]);
+
 /* Number `index`, from 1 on, of a sequence of 64 bits that looks random (SplitMix64: G. L. Steele, D. Lea, C. H. Flood, OOPSLA 2014, 453). */
 uint64_t kz_random_bits(uint64_t index);
 
