@@ -9,11 +9,16 @@ typedef struct kz_atlas kz_atlas;
 /* The longest period of cycles that an atlas can have, in drive periods. */
 enum { KZ_ATLAS_MOST_PERIOD = 16 };
 
-/* A motion that attracts at a point of the plane. */
+/* Which motions: what they are called, their period, turns and centre. */
 typedef struct {
   char name[KZ_NAME_LENGTH];
   int32_t period, winding, centre, symmetric;
-  int32_t images;                                                     /* 2: its mirror image attracts too */
+  int32_t images; /* 2: their mirror images are there too */
+} kz_motion_kind;
+
+/* A motion that attracts at a point of the plane. */
+typedef struct {
+  kz_motion_kind of;
   int64_t curve;                                                      /* from which its state was carried; -1 = from none */
   int32_t strobes;                                                    /* period, or 0: its state is not known */
   double theta[KZ_ATLAS_MOST_PERIOD], velocity[KZ_ATLAS_MOST_PERIOD]; /* [strobes] */
@@ -40,8 +45,7 @@ void kz_motions_free(kz_motions *motions);
 /* Branches of cycles along a line through the plane, attracting or not. */
 enum { KZ_LINE_VALUE, KZ_LINE_HEIGHT, KZ_LINE_THETA, KZ_LINE_VELOCITY, KZ_LINE_MULTIPLIER, KZ_LINE_COLUMNS };
 typedef struct {
-  char name[KZ_NAME_LENGTH];
-  int32_t period, winding, centre, symmetric, images;
+  kz_motion_kind of;
   int64_t first, points; /* in the list of points */
 } kz_atlas_branch;
 typedef struct {

@@ -222,19 +222,18 @@ kz_status kz_answer_chart(int64_t sequence, bool final, const kz_chart_level *le
 }
 
 /* What motions and branches have in common. */
-#define ADD_CLASS(object, of)                                  \
-  do {                                                         \
-    kz_json_add_text(object, "name", (of)->name);              \
-    kz_json_add_integer(object, "period", (of)->period);       \
-    kz_json_add_integer(object, "winding", (of)->winding);     \
-    kz_json_add_text(object, "centre", CENTRES[(of)->centre]); \
-    kz_json_add_boolean(object, "symmetric", (of)->symmetric); \
-    kz_json_add_integer(object, "images", (of)->images);       \
-  } while (0)
+static void add_kind(kz_json *object, const kz_motion_kind *of) {
+  kz_json_add_text(object, "name", of->name);
+  kz_json_add_integer(object, "period", of->period);
+  kz_json_add_integer(object, "winding", of->winding);
+  kz_json_add_text(object, "centre", CENTRES[of->centre]);
+  kz_json_add_boolean(object, "symmetric", of->symmetric);
+  kz_json_add_integer(object, "images", of->images);
+}
 
 static kz_json *motion_of(const kz_motion *motion) {
   kz_json *object = json_object_new_object(), *multipliers = json_object_new_array();
-  ADD_CLASS(object, motion);
+  add_kind(object, &motion->of);
   kz_json_add(object, "curve", motion->curve < 0 ? NULL : json_object_new_int64(motion->curve));
   for (int i = 0; i < 2 && motion->strobes > 0; i++)
     json_object_array_add(multipliers, kz_json_pair(motion->multiplier_re[i], motion->multiplier_im[i]));
@@ -260,7 +259,7 @@ kz_status kz_answer_line(int64_t sequence, const kz_atlas_branches *line) {
   const size_t values = (size_t)line->n_points * KZ_LINE_COLUMNS;
   for (int64_t i = 0; i < line->count; i++) {
     kz_json *object = json_object_new_object();
-    ADD_CLASS(object, line->branch + i);
+    add_kind(object, &line->branch[i].of);
     kz_json_add_integer(object, "first", line->branch[i].first);
     kz_json_add_integer(object, "points", line->branch[i].points);
     json_object_array_add(list, object);

@@ -50,7 +50,7 @@ static kz_status try_config(void *context, int64_t tile, void *record) {
 static kz_status choose(const kz_reference_labels *reference, const kz_run *run, double accuracy, kz_choice *choice) {
   walk w;
   const int64_t step = 2; /* the same for any number of ranks: kept stages come in one order */
-  kz_measured measured[2];
+  kz_setting_measured measured[2];
   order(reference, &w);
   *choice = (kz_choice){.samples = reference->samples, .flipped = kz_reference_labels_sum(reference).flipped};
   for (w.first = 0; w.first < w.count && !choice->setting; w.first += step) {

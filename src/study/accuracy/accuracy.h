@@ -41,11 +41,11 @@ typedef struct {
   int64_t count_error; /* the largest surplus or lack of cells of one attractor */
   double set_up;       /* processor seconds for map table and trapping regions */
   double cell;         /* processor seconds a cell */
-} kz_measured;
+} kz_setting_measured;
 
 /* Labels the sample on this rank, and further cells up to `timed` to measure the time. */
 kz_status kz_setting_measure(const kz_setting *setting, const kz_reference_labels *reference, int64_t timed,
-                             kz_measured *measured);
+                             kz_setting_measured *measured);
 
 /* What was chosen and why. */
 typedef struct {
@@ -64,7 +64,7 @@ kz_status kz_accuracy_write(const kz_choice *choice, double accuracy, kz_store *
 typedef struct {
   const kz_setting *setting;
   kz_numerics numerics; /* resolved */
-  kz_measured measured;
+  kz_setting_measured measured;
   double seconds; /* for the whole grid of the basin, without the search for attractors */
   double wrong;   /* share of the sample */
   bool pareto;    /* no other setting is at least as fast and as accurate, and better in one of them */

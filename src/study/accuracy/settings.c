@@ -122,7 +122,7 @@ static int64_t largest_count_error(const kz_reference_labels *reference, const i
   return largest;
 }
 
-static void compare(const kz_reference_labels *reference, const int32_t *label, kz_measured *m) {
+static void compare(const kz_reference_labels *reference, const int32_t *label, kz_setting_measured *m) {
   int64_t at[KZ_REFERENCE_FAR + 1] = {0}, seen = 0;
   for (int64_t i = 0; i < reference->samples; i++) {
     if (label[i] == KZ_DOUBTFUL)
@@ -146,12 +146,12 @@ static kz_status set_up(measurement *g) {
   return KZ_OK;
 }
 
-static kz_status measure(measurement *g, int64_t n, int32_t *label, int64_t *surplus, kz_measured *m) {
+static kz_status measure(measurement *g, int64_t n, int32_t *label, int64_t *surplus, kz_setting_measured *m) {
   const double start = kz_processor_clock();
   KZ_TRY(set_up(g));
   const double ready = kz_processor_clock();
   KZ_TRY(label_cells(g, n, label));
-  *m = (kz_measured){.set_up = ready - start, .cell = (kz_processor_clock() - ready) / (double)n};
+  *m = (kz_setting_measured){.set_up = ready - start, .cell = (kz_processor_clock() - ready) / (double)n};
   compare(g->reference, label, m);
   m->count_error = largest_count_error(g->reference, label, surplus, kz_dynamics_count(g->dynamics));
   return KZ_OK;
@@ -159,7 +159,7 @@ static kz_status measure(measurement *g, int64_t n, int32_t *label, int64_t *sur
 
 /* Measures the time with dynamics of its own on at least n cells. */
 static kz_status measure_cells(const kz_setting *setting, const kz_reference_labels *reference, int64_t n,
-                               kz_measured *measured) {
+                               kz_setting_measured *measured) {
   const kz_numerics numerics = kz_setting_numerics(setting, &reference->pendulum, reference->series, reference->plan);
   if (n < reference->samples) n = reference->samples;
   if (n > reference->total) n = reference->total;
@@ -172,7 +172,7 @@ static kz_status measure_cells(const kz_setting *setting, const kz_reference_lab
 }
 
 kz_status kz_setting_measure(const kz_setting *setting, const kz_reference_labels *reference, int64_t timed,
-                             kz_measured *measured) {
+                             kz_setting_measured *measured) {
   KZ_TRY(measure_cells(setting, reference, timed, measured));
   /* The tables of more digits are made once for all cells. */
   if (setting->method != KZ_METHOD_EXACT || timed == 0 || measured->cell * MANY > LONG) return KZ_OK;

@@ -66,7 +66,7 @@ static kz_status write_attributes(const kz_reference_labels *reference, const kz
 static void print_row(const kz_reference_labels *reference, const kz_trade *trade, int64_t i, FILE *summary) {
   const kz_trade_row *r = trade->row + i;
   const kz_setting *s = r->setting;
-  const kz_measured *m = &r->measured;
+  const kz_setting_measured *m = &r->measured;
   const kz_share wrong = kz_share_of(m->wrong, reference->samples);
   fprintf(summary, "%c %-20s %-7s %9s x %-3d %-8s %5lld  %7.3f  %6.3f .. %6.3f  %7.3f  %9.3f  %9.3f\n", r->pareto ? '*' : ' ',
           s->label, kz_method_names[s->method], scheme_name(&r->numerics), (int)r->numerics.steps_per_period,
@@ -190,7 +190,7 @@ void kz_pareto(kz_trade *trade) {
 }
 
 /* Shares, times and the Pareto front from the counts and the measured times. */
-static void rate(const kz_reference_labels *reference, const kz_measured *measured, kz_trade *trade) {
+static void rate(const kz_reference_labels *reference, const kz_setting_measured *measured, kz_trade *trade) {
   const double cells = (double)kz_unique_cells(reference->plan);
   trade->best_wrong = NAN;
   for (int64_t i = 0; i < trade->count; i++) {
@@ -206,8 +206,8 @@ static void rate(const kz_reference_labels *reference, const kz_measured *measur
 
 static kz_status run_settings(const kz_reference_labels *reference, kz_trade *trade, const kz_run *run) {
   measuring m = {reference, trade};
-  const kz_stage stage = kz_stage_for_all("settings", trade->count, sizeof(kz_measured), measure_tile, &m);
-  KZ_FREED kz_measured *measured = kz_malloc((size_t)trade->count * sizeof *measured);
+  const kz_stage stage = kz_stage_for_all("settings", trade->count, sizeof(kz_setting_measured), measure_tile, &m);
+  KZ_FREED kz_setting_measured *measured = kz_malloc((size_t)trade->count * sizeof *measured);
   KZ_TRY(kz_stage_run(run, &stage, measured));
   rate(reference, measured, trade);
   return KZ_OK;

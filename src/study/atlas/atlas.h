@@ -119,6 +119,7 @@ kz_atlas_class kz_atlas_class_of(const kz_atlas_kind *kind);
 bool kz_atlas_is_of(const kz_atlas_kind *kind, const kz_atlas_class *class);
 int32_t kz_atlas_class_centre(const kz_atlas_class *class);
 void kz_atlas_class_name(const kz_atlas *atlas, const kz_atlas_class *class, char *text);
+kz_motion_kind kz_atlas_described(const kz_atlas *atlas, const kz_atlas_class *class);
 /* How many motions a class has for each of its members: a mirror image too, unless the motion is its own. */
 int32_t kz_atlas_images(const kz_atlas *atlas, const kz_atlas_class *class);
 /* The number of a class, new if need be. */

@@ -148,7 +148,7 @@ static kz_status write_raster(const kz_atlas *atlas, const kz_atlas_raster *r, k
   KZ_TRY(kz_store_dimension(store, GROUP, "class", r->n_classes, NULL));
   KZ_TRY(write_texts(atlas, "class_name", r->n_classes, name_class, store));
   COLUMN(int16_t, "class_period", r->n_classes, atlas->class[i].period);
-  COLUMN(int32_t, "class_winding", r->n_classes, atlas->class[i].type == KZ_CLASS_OTHER ? atlas->class[i].turns : 0);
+  COLUMN(int32_t, "class_winding", r->n_classes, kz_atlas_described(atlas, atlas->class + i).winding);
   COLUMN(int8_t, "class_centre", r->n_classes, kz_atlas_class_centre(atlas->class + i));
   COLUMN(int8_t, "class_symmetric", r->n_classes, atlas->class[i].type != KZ_CLASS_OTHER);
   KZ_SCALE(store, GROUP, "row", n, middle_of(atlas, i, 1));

@@ -56,14 +56,8 @@ void kz_atlas_draw(const kz_atlas *atlas, int axis, const kz_atlas_kind *kind, i
   const kz_atlas_class class = kz_atlas_class_of(kind);
   const int points = kind->of.points, width = 4 + 2 * points;
   const double *last = event + n_events * (3 + 2 * points);
-  kz_atlas_branch branch = {.period = class.period,
-                            .winding = class.type == KZ_CLASS_OTHER ? class.turns : 0,
-                            .centre = kz_atlas_class_centre(&class),
-                            .symmetric = class.type != KZ_CLASS_OTHER,
-                            .images = kz_atlas_images(atlas, &class),
-                            .first = line->n_points};
+  kz_atlas_branch branch = {.of = kz_atlas_described(atlas, &class), .first = line->n_points};
   if (n < 2) return;
-  kz_atlas_class_name(atlas, &class, branch.name);
   line->point = kz_realloc(line->point, (size_t)(line->n_points + n + n_events) * sizeof *line->point);
   for (int64_t i = 0; i < n; i++, row += width) {
     for (; i > 0 && event < last && (event[0] > KZ_EVENT_FLIP || lies_between(event[0], row - width, row));

@@ -46,6 +46,16 @@ void kz_atlas_class_name(const kz_atlas *atlas, const kz_atlas_class *class, cha
              (int)class->period);
 }
 
+kz_motion_kind kz_atlas_described(const kz_atlas *atlas, const kz_atlas_class *class) {
+  kz_motion_kind kind = {.period = class->period,
+                         .winding = class->type == KZ_CLASS_OTHER ? class->turns : 0,
+                         .centre = kz_atlas_class_centre(class),
+                         .symmetric = class->type != KZ_CLASS_OTHER,
+                         .images = kz_atlas_images(atlas, class)};
+  kz_atlas_class_name(atlas, class, kind.name);
+  return kind;
+}
+
 /* The second half of a symmetric cycle is the mirror image of the first. */
 bool kz_atlas_same(const kz_atlas *atlas, const kz_atlas_seed *cycle, const double *state, double near) {
   for (int i = 0; i < cycle->kind.of.points; i++)

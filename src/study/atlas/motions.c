@@ -112,8 +112,8 @@ static void hunt_rest(hunt *h) {
 static void set_state(const hunt *h, int32_t i, kz_motion *motion) {
   const kz_atlas_seed *cycle = h->cycle + i;
   motion->curve = h->curve[i];
-  motion->strobes = motion->period;
-  for (int32_t s = 0; s < motion->period; s++) {
+  motion->strobes = motion->of.period;
+  for (int32_t s = 0; s < motion->of.period; s++) {
     const int32_t at = s % cycle->kind.of.points;
     const double sign = s < cycle->kind.of.points ? 1 : -1; /* the second half of a symmetric cycle */
     motion->theta[s] = remainder(sign * cycle->y[2 * at], 2 * M_PI);
@@ -166,15 +166,7 @@ kz_status kz_atlas_motions(kz_atlas *atlas, double x, double y, bool states, kz_
     if (counts[c] <= 0) continue;
     motions->motion = kz_realloc(motions->motion, (size_t)(motions->count + counts[c]) * sizeof *motions->motion);
     kz_motion *first = motions->motion + motions->count;
-    for (int32_t i = 0; i < counts[c]; i++) {
-      first[i] = (kz_motion){.period = class->period,
-                             .winding = class->type == KZ_CLASS_OTHER ? class->turns : 0,
-                             .centre = kz_atlas_class_centre(class),
-                             .symmetric = class->type != KZ_CLASS_OTHER,
-                             .images = kz_atlas_images(atlas, class),
-                             .curve = -1};
-      kz_atlas_class_name(atlas, class, first[i].name);
-    }
+    for (int32_t i = 0; i < counts[c]; i++) first[i] = (kz_motion){.of = kz_atlas_described(atlas, class), .curve = -1};
     motions->count += counts[c];
     if (states) set_states(atlas, place, class, counts[c], NULL, first);
   }

@@ -10,12 +10,12 @@ kz_cost kz_attractors_cost(const kz_scene *scene) {
   return (kz_cost){.disk_bytes = 1e5, .memory_bytes = 100 * (double)scene->attractors->starts};
 }
 
-static kz_motions motions_of_starts(const kz_scene *scene) {
+static kz_step_motions motions_of_starts(const kz_scene *scene) {
   return kz_motions_of(scene, kz_axis_fastest(&scene->attractors->velocity), "numerics.steps_per_period|attractors.velocity");
 }
 
 kz_status kz_attractors_check(const kz_scene *scene) {
-  const kz_motions motions = motions_of_starts(scene);
+  const kz_step_motions motions = motions_of_starts(scene);
   return motions.pendulum.beta > 0 ? kz_motions_check(&motions) : KZ_OK;
 }
 
@@ -29,7 +29,7 @@ static kz_status publish(const kz_scene *scene, const kz_dynamics *dynamics, con
   const int64_t starts = scene->attractors->starts;
   KZ_FREED int64_t *reached = kz_calloc((size_t)kz_dynamics_count(dynamics) + 1, sizeof *reached);
   KZ_FREED_BY(kz_catalogue_free) kz_catalogue catalogue = {0};
-  const kz_motions motions = motions_of_starts(scene);
+  const kz_step_motions motions = motions_of_starts(scene);
   const kz_speed_errors classes = kz_motions_errors(&motions);
   for (int64_t i = 0; i < starts; i++) reached[label[i]]++;
   kz_motions_warn(&motions, &classes, summary);

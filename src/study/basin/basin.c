@@ -94,7 +94,7 @@ static void print_numerics(const kz_scene *scene, FILE *summary) {
 /* Prints the steps of a basin and their error, and a warning for each class of speeds whose error exceeds kz_steps_tolerance. Returns an
  * upper estimate of the largest error of a drive period, rad. */
 static double warn_steps(const kz_scene *scene, FILE *summary) {
-  const kz_motions motions = kz_motions_of_basin(scene);
+  const kz_step_motions motions = kz_motions_of_basin(scene);
   const kz_speed_errors classes = kz_motions_errors(&motions);
   const double worst = kz_worst_error(&classes);
   print_numerics(scene, summary);
@@ -227,7 +227,7 @@ kz_status kz_basin_run(const kz_scene *scene, const kz_run *run, kz_store *store
 
 /* Without damping nothing is labelled. What basin.accuracy chooses is compared with reference labels. */
 kz_status kz_basin_check(const kz_scene *scene) {
-  const kz_motions motions = kz_motions_of_basin(scene);
+  const kz_step_motions motions = kz_motions_of_basin(scene);
   kz_numerics reference;
   if (!(motions.pendulum.beta > 0)) return KZ_OK;
   KZ_TRY(kz_pairs_check(scene->basin));

@@ -19,7 +19,7 @@ static kz_status check(const kz_prepared *r, const kz_motions *motions) {
 /* Whether more cycles of some period are listed than are known. */
 static bool lacks_some(const kz_prepared *r, const kz_motions *motions) {
   int64_t missing[KZ_ATLAS_MOST_PERIOD + 1] = {0};
-  for (int64_t i = 0; i < motions->count; i++) missing[motions->motion[i].period] += motions->motion[i].images;
+  for (int64_t i = 0; i < motions->count; i++) missing[motions->motion[i].of.period] += motions->motion[i].of.images;
   for (int64_t a = 1; a <= kz_dynamics_count(r->dynamics); a++) {
     kz_attractor row;
     kz_dynamics_attractor(r->dynamics, a, &row);
@@ -38,8 +38,8 @@ kz_status kz_prepared_take_listed(kz_prepared *r, const kz_frame *frame) {
   KZ_TRY(kz_atlas_motions(frame->atlas, frame->x, frame->y, true, &motions));
   for (int64_t i = 0; i < motions.count; i++) {
     const kz_motion *motion = motions.motion + i;
-    if (motion->strobes > 0 && motion->period <= r->scene.basin->max_period)
-      kz_dynamics_add_cycle(r->dynamics, motion->period, motion->theta[0], motion->velocity[0]);
+    if (motion->strobes > 0 && motion->of.period <= r->scene.basin->max_period)
+      kz_dynamics_add_cycle(r->dynamics, motion->of.period, motion->theta[0], motion->velocity[0]);
   }
   kz_dynamics_update(r->dynamics);
   return KZ_OK;

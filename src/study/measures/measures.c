@@ -19,12 +19,12 @@ kz_cost kz_measures_cost(const kz_scene *scene) {
   return (kz_cost){.cells = (int64_t)starts, .disk_bytes = 1e5 + 40 * starts, .memory_bytes = 100 * starts};
 }
 
-static kz_motions motions_of_starts(const kz_scene *scene) {
+static kz_step_motions motions_of_starts(const kz_scene *scene) {
   return kz_motions_of(scene, kz_axis_fastest(&scene->measures->velocity), "numerics.steps_per_period|measures.velocity");
 }
 
 kz_status kz_measures_check(const kz_scene *scene) {
-  const kz_motions motions = motions_of_starts(scene);
+  const kz_step_motions motions = motions_of_starts(scene);
   if (!(motions.pendulum.beta > 0))
     return kz_fail(KZ_REFUSED, "measures: needs damping, because without it there are no attractors; give damping");
   return kz_motions_check(&motions);

@@ -138,8 +138,8 @@ kz_numerics kz_processed_or_split(const kz_pendulum *pendulum, kz_kept_series *s
   return serve_method(&d, method, &numerics) ? numerics : kz_steps_plain();
 }
 
-kz_motions kz_motions_of_basin(const kz_scene *scene) {
-  kz_motions motions =
+kz_step_motions kz_motions_of_basin(const kz_scene *scene) {
+  kz_step_motions motions =
       kz_motions_of(scene, kz_axis_fastest(&scene->basin->velocity), "numerics.steps_per_period|basin.velocity");
   if (scene->basin->method == KZ_METHOD_EXACT) /* errors are followed: they need not be small beside a cell */
     motions.cell = kz_cell_size(scene->basin);
@@ -153,7 +153,7 @@ static void choose_steps(kz_scene *scene, bool enough) {
   kz_numerics chosen;
   scene->numerics.steps_per_period = kz_scheme_at(scene->numerics.scheme).default_steps;
   if (!scene->has_basin || !isnan(scene->basin->accuracy) || !(scene->parameters.pendulum.beta > 0)) return;
-  const kz_motions motions = kz_motions_of_basin(scene);
+  const kz_step_motions motions = kz_motions_of_basin(scene);
   if ((enough || motions.refuse_above < KZ_STEPS_REFUSED) && kz_motions_find_steps(&motions, &chosen)) scene->numerics = chosen;
 }
 

@@ -22,17 +22,18 @@ double kz_steps_tolerance(const kz_basin_plan *plan) {
   return fmin(WARN_ABOVE, WARN_ABOVE_CELLS * kz_cell_size(plan));
 }
 
-kz_motions kz_motions_of(const kz_scene *scene, double fastest, const char *keys) {
-  return (kz_motions){scene->parameters.pendulum, scene->numerics, fastest, WARN_ABOVE, KZ_STEPS_REFUSED, INFINITY, keys, ""};
+kz_step_motions kz_motions_of(const kz_scene *scene, double fastest, const char *keys) {
+  return (kz_step_motions){scene->parameters.pendulum, scene->numerics, fastest, WARN_ABOVE,
+                           KZ_STEPS_REFUSED,           INFINITY,        keys,    ""};
 }
 
-void kz_motions_label_cells(const kz_basin_plan *plan, kz_motions *motions) {
+void kz_motions_label_cells(const kz_basin_plan *plan, kz_step_motions *motions) {
   motions->cell = kz_cell_size(plan);
   motions->warn_above = kz_steps_tolerance(plan);
   if (motions->warn_above < WARN_ABOVE) motions->refuse_above = REFUSE_ABOVE_CELLS * motions->cell;
 }
 
-bool kz_motions_find_steps(const kz_motions *m, kz_numerics *numerics) {
+bool kz_motions_find_steps(const kz_step_motions *m, kz_numerics *numerics) {
   const int32_t most = (int32_t)fmin(MOST_STEPS, ldexp(m->numerics.steps_per_period, DOUBLINGS));
   *numerics = m->numerics;
   if (kz_steps_enough(&m->pendulum, m->fastest, m->warn_above, most, numerics)) return true;
@@ -42,7 +43,7 @@ bool kz_motions_find_steps(const kz_motions *m, kz_numerics *numerics) {
 }
 
 /* The advice at the end of a message. */
-static void advice(const kz_motions *m, size_t bytes, char *text) {
+static void advice(const kz_step_motions *m, size_t bytes, char *text) {
   kz_numerics numerics;
   if (kz_motions_find_steps(m, &numerics))
     snprintf(text, bytes, "%d steps or more", (int)numerics.steps_per_period);
@@ -52,7 +53,7 @@ static void advice(const kz_motions *m, size_t bytes, char *text) {
                                                  : "wider cells, or basin.method exact");
 }
 
-static void describe_error(const kz_motions *m, double error, size_t bytes, char *text) {
+static void describe_error(const kz_step_motions *m, double error, size_t bytes, char *text) {
   if (error == DBL_MAX)
     snprintf(text, bytes, "diverge");
   else if (m->refuse_above >= KZ_STEPS_REFUSED)
@@ -61,11 +62,11 @@ static void describe_error(const kz_motions *m, double error, size_t bytes, char
     snprintf(text, bytes, "are off by up to %.2g rad after one drive period, where a cell is %.2g wide", error, m->cell);
 }
 
-kz_speed_errors kz_motions_errors(const kz_motions *m) {
+kz_speed_errors kz_motions_errors(const kz_step_motions *m) {
   return kz_step_error_classes(&m->pendulum, &m->numerics, m->fastest);
 }
 
-kz_status kz_motions_check(const kz_motions *m) {
+kz_status kz_motions_check(const kz_step_motions *m) {
   const kz_speed_errors classes = kz_motions_errors(m);
   const int worst = kz_worst_class(&classes);
   if (classes.error[worst] <= m->refuse_above) return KZ_OK;
@@ -77,7 +78,7 @@ kz_status kz_motions_check(const kz_motions *m) {
                  classes.speed[worst], classes.speed[worst + 1], what, help);
 }
 
-void kz_motions_warn(const kz_motions *m, const kz_speed_errors *classes, FILE *summary) {
+void kz_motions_warn(const kz_step_motions *m, const kz_speed_errors *classes, FILE *summary) {
   char help[160];
   for (int c = 0; c < KZ_SPEED_CLASSES; c++)
     if (classes->error[c] > m->warn_above)

@@ -14,12 +14,12 @@ typedef struct {
   double cell;                     /* rad; INFINITY where nothing has cells */
   const char *keys;                /* "KEY|KEY" */
   char where[208];                 /* "at m = 0.3, ", or "" */
-} kz_motions;
+} kz_step_motions;
 
 /* Motions with the scene's pendulum and numerics from starts up to speed `fastest` (rad per drive radian). */
-kz_motions kz_motions_of(const kz_scene *scene, double fastest, const char *keys);
+kz_step_motions kz_motions_of(const kz_scene *scene, double fastest, const char *keys);
 /* The same motions, where they label the cells of a basin: the allowed errors are shares of a cell where that is less. */
-void kz_motions_label_cells(const kz_basin_plan *plan, kz_motions *motions);
+void kz_motions_label_cells(const kz_basin_plan *plan, kz_step_motions *motions);
 
 /* rad: what one drive period of a basin's window may be off by without a warning: a hundredth of a cell (kz_cell_size), 1e-4 at
  * most. */
@@ -27,15 +27,15 @@ double kz_steps_tolerance(const kz_basin_plan *plan);
 
 /* Steps that leave nothing to warn of; where rounding forbids that in small cells, steps that are not refused. False where no
  * number of steps does: then *numerics has the largest number tried. */
-bool kz_motions_find_steps(const kz_motions *motions, kz_numerics *numerics);
+bool kz_motions_find_steps(const kz_step_motions *motions, kz_numerics *numerics);
 
 /* KZ_REFUSED where one drive period is off by more than `refuse_above`: the message begins with `keys`, and says at which speeds, and
  * how many steps would do. */
-kz_status kz_motions_check(const kz_motions *motions);
+kz_status kz_motions_check(const kz_step_motions *motions);
 /* The errors of all classes of speeds. */
-kz_speed_errors kz_motions_errors(const kz_motions *motions);
+kz_speed_errors kz_motions_errors(const kz_step_motions *motions);
 /* A line for each class of speeds whose error exceeds `warn_above`, and what would help. */
-void kz_motions_warn(const kz_motions *motions, const kz_speed_errors *classes, FILE *summary);
+void kz_motions_warn(const kz_step_motions *motions, const kz_speed_errors *classes, FILE *summary);
 
 /* KZ_REFUSED if `table_error`, the error of one period by the map table (rad), exceeds a cell; the message gives a number of nodes that is
  * enough. */

@@ -78,7 +78,7 @@ static kz_status find_attractor(const kz_model *model, kz_state state, double fa
 
 kz_status kz_orbit_look_ahead(kz_orbit *orbit) {
   const kz_model *model = &orbit->model;
-  const kz_motion *motion = &orbit->motion;
+  const kz_orbit_motion *motion = &orbit->motion;
   const int64_t last = motion->periods * motion->samples;
   const kz_state end = {remainder(motion->theta[last], 2 * M_PI), motion->velocity[last]};
   double fastest = 0;

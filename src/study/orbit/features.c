@@ -8,7 +8,7 @@
 enum { TOP_FREQUENCY = 8 };
 
 /* Net turns a period: whole turns of a cycle, the fitted rate of an open record that turns at least once. */
-static double rotation_of(const kz_motion *motion, const kz_record *record) {
+static double rotation_of(const kz_orbit_motion *motion, const kz_record *record) {
   if (record->closed) {
     double advance = motion->theta[record->periods * record->samples_per_period] - motion->theta[0];
     return (double)llrint(advance / (2 * M_PI)) / (double)record->periods;
@@ -17,7 +17,7 @@ static double rotation_of(const kz_motion *motion, const kz_record *record) {
   return fabs(rotation) * (double)record->periods < 1 ? 0 : rotation;
 }
 
-static kz_status make_lines(const kz_motion *motion, const kz_record *record, kz_orbit_features *features) {
+static kz_status make_lines(const kz_orbit_motion *motion, const kz_record *record, kz_orbit_features *features) {
   const size_t n = (size_t)(TOP_FREQUENCY * record->periods) + 1;
   features->n_lines = (int64_t)n;
   features->record_periods = record->periods;
@@ -31,14 +31,14 @@ static kz_status make_lines(const kz_motion *motion, const kz_record *record, kz
 }
 
 /* The lines of the velocity instead of those of the angle. */
-static kz_status take_velocity(const kz_motion *motion, kz_orbit_features *features) {
+static kz_status take_velocity(const kz_orbit_motion *motion, kz_orbit_features *features) {
   const kz_record record = {.periods = motion->periods, .samples_per_period = motion->samples, .velocity = true};
   KZ_TRY(kz_spectrum_lines(&record, motion->velocity, features->n_lines, features->amplitude, features->phase));
   features->dominant = kz_spectrum_dominant(features->n_lines, features->amplitude);
   return KZ_OK;
 }
 
-static void make_turning(const kz_motion *motion, kz_orbit_features *features) {
+static void make_turning(const kz_orbit_motion *motion, kz_orbit_features *features) {
   int64_t n = motion->periods * motion->samples + 1;
   features->turning = kz_malloc((size_t)n * sizeof *features->turning);
   double step = 2 * M_PI / (double)motion->samples;
@@ -47,7 +47,7 @@ static void make_turning(const kz_motion *motion, kz_orbit_features *features) {
 }
 
 kz_status kz_orbit_features_make(kz_orbit *orbit) {
-  const kz_motion *motion = &orbit->motion;
+  const kz_orbit_motion *motion = &orbit->motion;
   const int64_t period = orbit->cycle.period;
   kz_orbit_features *features = &orbit->features;
   *features = (kz_orbit_features){.closed = period > 0};

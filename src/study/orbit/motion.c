@@ -41,7 +41,7 @@ void kz_model_skip(const kz_model *model, int64_t periods, kz_state *state) {
     skip_chunk(model, periods - done < CHUNK ? periods - done : CHUNK, state);
 }
 
-static kz_status check_range(const kz_motion *motion) {
+static kz_status check_range(const kz_orbit_motion *motion) {
   for (int64_t i = 0; i <= motion->periods * motion->samples; i++) {
     if (isfinite(motion->theta[i]) && isfinite(motion->velocity[i])) continue;
     return kz_fail(
@@ -52,9 +52,9 @@ static kz_status check_range(const kz_motion *motion) {
   return KZ_OK;
 }
 
-kz_status kz_model_record(const kz_model *model, int64_t periods, kz_state start, kz_motion *motion) {
+kz_status kz_model_record(const kz_model *model, int64_t periods, kz_state start, kz_orbit_motion *motion) {
   size_t n = (size_t)(periods * model->samples) + 1;
-  *motion = (kz_motion){periods, model->samples, kz_malloc(n * sizeof(double)), kz_malloc(n * sizeof(double))};
+  *motion = (kz_orbit_motion){periods, model->samples, kz_malloc(n * sizeof(double)), kz_malloc(n * sizeof(double))};
   if (model->flow) {
     kz_sample(model->flow, periods, model->samples, start.theta, start.velocity, motion->theta, motion->velocity);
   } else {
@@ -65,7 +65,7 @@ kz_status kz_model_record(const kz_model *model, int64_t periods, kz_state start
   return check_range(motion);
 }
 
-static void free_motion(kz_motion *motion) {
+static void free_motion(kz_orbit_motion *motion) {
   free(motion->theta);
   free(motion->velocity);
 }
@@ -73,7 +73,7 @@ static void free_motion(kz_motion *motion) {
 /* A stretch of the record, periods first .. first + n - 1, from `state`, whose angle is within a turn; `turns` are those before. Both move on. */
 static kz_status record_stretch(const kz_model *model, int64_t first, int64_t n, int64_t stride, kz_state *state, double *turns,
                                 double *theta, double *velocity) {
-  KZ_FREED_BY(free_motion) kz_motion motion = {0};
+  KZ_FREED_BY(free_motion) kz_orbit_motion motion = {0};
   const int64_t samples = model->samples / stride, last = n * model->samples;
   KZ_TRY(kz_model_record(model, n, *state, &motion));
   for (int64_t i = 0; i <= n * samples; i++) {

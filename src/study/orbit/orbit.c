@@ -83,7 +83,8 @@ enum { STRETCH = 100000 };
 
 kz_status kz_orbit_check(const kz_scene *scene) {
   const double start = scene->orbit->velocity;
-  kz_motions motions = kz_motions_of(scene, isfinite(start) ? fabs(start) : 0, "numerics.steps_per_period|orbit.start|orbit");
+  kz_step_motions motions =
+      kz_motions_of(scene, isfinite(start) ? fabs(start) : 0, "numerics.steps_per_period|orbit.start|orbit");
   if (scene->orbit->model != KZ_PENDULUM) return KZ_OK;
   motions.numerics = kz_orbit_numerics(scene);
   return kz_motions_check(&motions);

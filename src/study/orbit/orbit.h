@@ -27,7 +27,7 @@ typedef struct {
 typedef struct {
   int64_t periods, samples;
   double *theta, *velocity;
-} kz_motion;
+} kz_orbit_motion;
 
 /* Freed by kz_model_free. */
 void kz_model_make(const kz_scene *scene, kz_model *model);
@@ -37,7 +37,7 @@ void kz_model_free(kz_model *model);
 void kz_model_skip(const kz_model *model, int64_t periods, kz_state *state);
 
 /* Records `periods` from a state. KZ_FAILED where the motion left the range of numbers. The caller frees both arrays in every case. */
-kz_status kz_model_record(const kz_model *model, int64_t periods, kz_state start, kz_motion *motion);
+kz_status kz_model_record(const kz_model *model, int64_t periods, kz_state start, kz_orbit_motion *motion);
 
 /* A closed orbit. */
 typedef struct {
@@ -69,7 +69,7 @@ typedef struct {
   const kz_scene *scene;
   kz_model model;
   kz_cycle cycle; /* of a closed orbit; period 0 = open */
-  kz_motion motion;
+  kz_orbit_motion motion;
   kz_orbit_features features;
   double lyapunov,
       lyapunov_error; /* largest exponent along the record, per drive period; NaN without the pendulum's own model */

@@ -24,7 +24,7 @@ static bool moves_aside(const kz_pendulum *p) {
 #define COLUMN(name, n, expression) KZ_COLUMN(store, GROUP, name, n, double, expression)
 
 static kz_status write_series(const kz_orbit *orbit, kz_store *store) {
-  const kz_motion *motion = &orbit->motion;
+  const kz_orbit_motion *motion = &orbit->motion;
   const kz_parameters *parameters = &orbit->scene->parameters;
   const int64_t samples = orbit->scene->orbit->samples_per_period, stride = motion->samples / samples;
   const int64_t n = motion->periods * samples + 1, strobes = motion->periods + 1;

@@ -25,7 +25,7 @@ static int64_t tried_values(const kz_scene *scene) {
 }
 
 /* The same at corner i of a plane, whose error is the largest. */
-static bool motions_at_corner(const kz_scene *scene, int64_t i, kz_motions *motions) {
+static bool motions_at_corner(const kz_scene *scene, int64_t i, kz_step_motions *motions) {
   const kz_sweep_plan *plan = scene->sweep;
   const int32_t parameter[] = {plan->x.parameter, plan->y.parameter};
   const double value[] = {i % 2 ? plan->x.values.max : plan->x.values.min, i / 2 ? plan->y.values.max : plan->y.values.min};
@@ -39,7 +39,7 @@ static bool motions_at_corner(const kz_scene *scene, int64_t i, kz_motions *moti
 }
 
 /* Motions at tried value i of n; false where that is no pendulum, or nothing is followed without damping. */
-static bool motions_at(const kz_scene *scene, int64_t i, int64_t n, kz_motions *motions) {
+static bool motions_at(const kz_scene *scene, int64_t i, int64_t n, kz_step_motions *motions) {
   const kz_sweep_plan *plan = scene->sweep;
   if (kz_sweep_is_plane(plan)) return motions_at_corner(scene, i, motions);
   const double value = kz_sweep_value(plan, i * (plan->values.count - 1) / (n - 1));
@@ -53,7 +53,7 @@ static bool motions_at(const kz_scene *scene, int64_t i, int64_t n, kz_motions *
 }
 
 kz_status kz_sweep_check(const kz_scene *scene) {
-  kz_motions motions;
+  kz_step_motions motions;
   const int64_t n = tried_values(scene);
   for (int64_t i = 0; i < n; i++) /* the ends first: the largest error is usually at one of them */
     if (motions_at(scene, (n - i) % n, n, &motions)) KZ_TRY(kz_motions_check(&motions));
@@ -63,7 +63,7 @@ kz_status kz_sweep_check(const kz_scene *scene) {
 void kz_sweep_warn_steps(const kz_scene *scene, FILE *summary) {
   const int64_t n = tried_values(scene);
   kz_speed_errors largest = {{0}, {0}};
-  kz_motions motions, worst;
+  kz_step_motions motions, worst;
   for (int64_t i = 0; i < n; i++) {
     if (!motions_at(scene, i, n, &motions)) continue;
     const kz_speed_errors classes = kz_motions_errors(&motions);
