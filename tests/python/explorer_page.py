@@ -86,7 +86,7 @@ def wait_for(condition, seconds=30):
     while time.monotonic() < end:
         if condition():
             return True
-        time.sleep(0.02)
+        time.sleep(0.05)
     return False
 
 
@@ -202,6 +202,7 @@ class Page:
 
     def saved(self, button, path, seconds=30):
         """The file that a button saves, whole: the browser first makes an empty one."""
+        path.unlink(missing_ok=True)
         self.press(button)
         part = path.with_name(f"{path.name}.crdownload")
         assert wait_for(lambda: path.is_file() and path.stat().st_size > 0 and not part.exists(), seconds)
@@ -224,13 +225,14 @@ class Page:
 # ---- fixtures of the modules that name this one in pytest_plugins ----
 
 
-@pytest.fixture(scope="module")
+@pytest.fixture(scope="session")
 def folder(tmp_path_factory):
     return tmp_path_factory.mktemp("browser")
 
 
-@pytest.fixture(scope="module")
+@pytest.fixture(scope="session")
 def driver(folder):
+    """One browser for all modules: to begin takes it longer than most tests."""
     with browser(folder, "1280,829") as found:  # 690 px are left inside of the window
         yield found
         assert [entry for entry in found.get_log("browser") if entry["level"] == "SEVERE"] == []
@@ -241,6 +243,12 @@ def striped():
     running = Server(ROOT / "scenes" / "small.yaml", fake=True)
     yield running
     assert running.end() == (0, "")
+
+
+@pytest.fixture
+def modules(driver, striped):
+    """The modules of the page, without the page: numbers are asked for alone."""
+    return Page(driver, f"{striped.base}/window.js")
 
 
 @pytest.fixture

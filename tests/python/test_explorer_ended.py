@@ -18,7 +18,6 @@ def deciding(page):
 def test_a_picture_that_is_saved_ends_no_frame(page, folder):
     deciding(page)
     page.choose("save-width", "400")
-    (folder / "view.png").unlink(missing_ok=True)
     picture = matplotlib.image.imread(page.saved("save-png", folder / "view.png"))
     assert "undecided" in page.wait()
     colours = {tuple(pixel) for pixel in np.round(255 * picture[::7, ::7, :3]).reshape(-1, 3)}

@@ -21,26 +21,26 @@ mpmath.mp.dps = 120
 # ---- modules ----
 
 
-def test_windows_are_counted_in_all_their_digits(page):
-    assert page.module("decimal.js", "its.turn(110).toString()") == mpmath.nstr(2 * mpmath.pi, 111)
-    text = page.module("decimal.js", "its.Decimal.from('-1.25e-3').plus(its.Decimal.from('1e-40')).toString()")
+def test_windows_are_counted_in_all_their_digits(modules):
+    assert modules.module("decimal.js", "its.turn(110).toString()") == mpmath.nstr(2 * mpmath.pi, 111)
+    text = modules.module("decimal.js", "its.Decimal.from('-1.25e-3').plus(its.Decimal.from('1e-40')).toString()")
     assert text == "-0.001249" + "9" * 34
     deep = """(() => { let w = its.Window.from({theta: {min: -3, max: 3}, velocity: {min: -2, max: 2}});
         for (let i = 0; i < 90; i++) w = w.zoomed(0.1, 0.31, 0.77);
         return [w.theta.width, w.theta.centre.toString(), w.moved(0.25, 0).moved(-0.25, 0).theta.low.minus(w.theta.low).toString(),
                 w.placeOf(w.moved(0.5, 0)).left, JSON.stringify(w.toRequest())]; })()"""
-    width, centre, back, left, request = page.module("window.js", deep)
+    width, centre, back, left, request = modules.module("window.js", deep)
     assert width == pytest.approx(6e-90) and back == "0" and left == pytest.approx(0.5)
     point = -3 + mpmath.mpf(repr(6 * 0.31))  # stays where it is
     assert abs(mpmath.mpf(centre) - point) < mpmath.mpf("6e-90") and json.loads(request)["theta"]["centre"] == centre
 
 
-def test_windows_have_bounds_and_wrap(page):
+def test_windows_have_bounds_and_wrap(modules):
     script = """(() => { const w = its.Window.from({theta: {min: -3.14159, max: 3.14159}, velocity: {min: -2, max: 2}});
         const out = w.zoomed(50, 0.5, 0.5), far = out.moved(3.25, 0).wrapped(); let deep = w;
         for (let i = 0; i < 60; i++) deep = deep.zoomed(0.01, 0.5, 0.5);
         return [out.theta.width, out.velocity.width, far.theta.centre.toNumber(), deep.theta.width]; })()"""
-    width, fast, centre, deep = page.module("window.js", script)
+    width, fast, centre, deep = modules.module("window.js", script)
     assert width == pytest.approx(TURN) and fast == pytest.approx(200) and centre == pytest.approx(0.25 * TURN) and 1e-100 <= deep < 1e-97
 
 
@@ -56,10 +56,10 @@ def test_the_relief_rises_inside_a_basin(page):
 
 
 @pytest.mark.parametrize("width", ["3", "0.02", "1e-5", "3e-13", "7e-40", "2e-99"])
-def test_ticks_differ_and_lie_where_they_say(page, width):
+def test_ticks_differ_and_lie_where_they_say(modules, width):
     """1e-5, 1e-5 stood twice on an axis."""
     axis = json.dumps({"centre": "-1.2345678901234567890123", "width": width})
-    found = page.driver.execute_async_script(f"""const done = arguments[0]; Promise.all([import('/ticks.js'), import('/window.js')])
+    found = modules.driver.execute_async_script(f"""const done = arguments[0]; Promise.all([import('/ticks.js'), import('/window.js')])
         .then(([ticks, window]) => done(ticks.ticksOf(window.Range.from({axis}), 8)))""")
     words = [tick["words"] for tick in found["ticks"]]
     assert 3 <= len(words) == len(set(words)) and not any(re.search("e", word) for word in words)
@@ -126,12 +126,12 @@ def test_starts_are_told_in_the_units_of_the_axes(page):
     assert wait_for(lambda: page.run("$('pointer').textContent").startswith("θ −90")) and "°" in page.run("$('ending').textContent")
 
 
-def test_cells_without_a_label_are_hatched_until_they_are_settled(page):
+def test_cells_without_a_label_are_hatched_until_they_are_settled(modules):
     """Quick labels leave cells open; only exact ones say that a cell settles nowhere."""
     script = """(() => { const cells = new Uint8Array(64).fill(255); const planes = { labels: cells };
         const of = (quality) => its.countedShares({ labels: cells, quality, catalogue: { attractors: [] } })[0];
         return [of("moving").name, of("moving").hatched, of("exact").name, of("exact").hatched]; })()"""
-    assert page.module("frames.js", script) == ["not labelled yet", True, "not settled", False]
+    assert modules.module("frames.js", script) == ["not labelled yet", True, "not settled", False]
 
 
 def test_dragging_wraps_the_angle_and_moves_the_picture_at_once(page):
@@ -330,7 +330,6 @@ def test_pictures_and_tables_are_saved(page, folder):
     picture = matplotlib.image.imread(page.saved("save-png", folder / "view.png"))
     assert picture.shape[1] > 1500 and picture[..., :3].std() > 0.05
     page.choose("save-width", "900")
-    (folder / "view.png").unlink()
     assert matplotlib.image.imread(page.saved("save-png", folder / "view.png")).shape[1] == 900
     alone = page.saved("save-html", folder / "view.html").read_text()
     assert alone.count("<button") == 0 and "data:image/png" in alone and "import " not in alone.split("<script>")[1].split("modules[")[0]

@@ -60,9 +60,9 @@ def test_any_number_of_ranks_and_a_stop(plane, kapitza, tmp_path):
     scene = plane.path.with_suffix(".yaml")
     kapitza("run", scene, "-o", "again.h5", ranks=3, folder=tmp_path)
     assert datasets(tmp_path / "again.h5") == datasets(plane.path)
-    run_until_saved(scene, "-o", "stopped.h5", "--set", "sweep.starts=2048", file="stopped.h5", folder=tmp_path, ranks=1)
-    kapitza("run", scene, "-o", "stopped.h5", "--set", "sweep.starts=2048", "--resume", ranks=2, folder=tmp_path)
-    kapitza("run", scene, "-o", "whole.h5", "--set", "sweep.starts=2048", folder=tmp_path)
+    run_until_saved(scene, "-o", "stopped.h5", "--set", "sweep.starts=1024", file="stopped.h5", folder=tmp_path, ranks=1)
+    kapitza("run", scene, "-o", "stopped.h5", "--set", "sweep.starts=1024", "--resume", ranks=2, folder=tmp_path)
+    kapitza("run", scene, "-o", "whole.h5", "--set", "sweep.starts=1024", folder=tmp_path)
     assert datasets(tmp_path / "stopped.h5") == datasets(tmp_path / "whole.h5")
 
 

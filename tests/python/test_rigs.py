@@ -79,7 +79,7 @@ def coefficients(file):
     ({"waveform": "samples", "samples": [1, 0.3, -0.8, -0.4, 0.1], "tilt": 0.01, "ramp": LINEAR}, {"start_phase": "-40 deg"}),
     pytest.param({"torque_amplitude": 0.7, "drive_amplitude": 0, "torque": 0.01}, {}, marks=pytest.mark.extensive)])
 def test_a_file_holds_every_coefficient_that_was_integrated(kapitza, tmp_path, keys, basin):
-    basin = {**WINDOW, **basin, "attractors": {"starts": 256}}
+    basin = {**WINDOW, **basin, "method": "direct", "attractors": {"starts": 64}}
     file = run(kapitza, tmp_path, {"pendulum": {**PENDULUM, **keys}, "basin": basin})
     pendulum, phase = coefficients(file)
     (tmp_path / "again").mkdir()

@@ -20,9 +20,14 @@ def scene(damping=0.02, **words):
             "tangency": {"parameter": "m", "min": 2 * damping, "max": 4 * damping, **words}}
 
 
+# And shares along a sweep of the same key.
+WEAK = scene() | {"sweep": {"parameter": "m", "min": 0.04, "max": 0.08, "count": 3, "measure": ["share"], "starts": 64,
+                            "velocity": {"min": -1, "max": 1}}}
+
+
 @pytest.fixture(scope="module")
 def weak(kapitza, tmp_path_factory):
-    return run_scene(kapitza, tmp_path_factory.mktemp("tangency"), scene())
+    return run_scene(kapitza, tmp_path_factory.mktemp("tangency"), WEAK)
 
 
 def test_the_value_is_that_of_scipy(weak):
@@ -48,7 +53,7 @@ def test_the_orbit_leads_from_the_saddle_to_the_saddle(weak):
 
 
 def test_values_are_the_same_on_three_ranks(weak, kapitza, tmp_path):
-    assert datasets(run_scene(kapitza, tmp_path, scene(), ranks=3)[0].path) == datasets(weak[0].path)
+    assert datasets(run_scene(kapitza, tmp_path, WEAK, ranks=3)[0].path) == datasets(weak[0].path)
 
 
 @pytest.mark.parametrize(("words", "named"), [
@@ -60,11 +65,9 @@ def test_a_range_without_a_tangency_is_refused(kapitza, tmp_path, words, named):
     assert named in refused_scene(kapitza, tmp_path, scene(**words))
 
 
-def test_a_picture_of_measures_marks_the_value(kapitza, tmp_path):
+def test_a_picture_of_measures_marks_the_value(weak):
     """Shares of a sweep of the same key, with their band, and the dashed line at the value."""
-    content = scene() | {"sweep": {"parameter": "m", "min": 0.04, "max": 0.08, "count": 3, "measure": ["share"], "starts": 64,
-                                   "velocity": {"min": -1, "max": 1}}}
-    result, _ = run_scene(kapitza, tmp_path, content)
+    result, _ = weak
     figure = line.draw(result, line.parse_arguments([str(result.path)]))
     axes, = figure.axes
     lines = [list(drawn.get_xdata()) for drawn in axes.lines]
