@@ -99,3 +99,17 @@ def test_pages_that_still_ask_stay_admitted():
     for _ in range(40):
         assert access.admits(first) and access.admits(access.trade(access.new_address()))
     assert access.admits(first) and not access.admits(silent) and not access.admits(None)
+
+
+def test_back_undoes_values_and_windows_one_hand_at_a_time(page):
+    shown = "[explorer.state.pendulum.m, explorer.state.window.theta.width, explorer.state.past.length]"
+    before = page.run(shown)
+    for place in (0.1, 0.2, 0.3):
+        page.slide("m", place)
+    moved = page.run(shown)
+    page.key("+")
+    assert moved[0] != before[0] and moved[2] == 1 and page.run("explorer.state.past.length") == 2
+    page.run("$('slider-m').dispatchEvent(new KeyboardEvent('keydown', {key: 'z', ctrlKey: true, bubbles: true, cancelable: true}))")
+    assert page.run(shown) == moved
+    page.press("back")
+    assert page.run(shown) == before

@@ -98,7 +98,7 @@ export class Basins {
       hover: (at) => this.point(pane, at && shares(...at)),
       grip: () => (this.before = this.state.window),
       release: () => {
-        if (!this.before.equals(this.state.window)) this.state.past.push(this.before);
+        if (!this.before.equals(this.state.window)) this.state.keep(null, this.before);
         this.state.change({ window: this.state.window.wrapped(), jump: true });
       },
     };
@@ -106,8 +106,7 @@ export class Basins {
 
   zoom(factor, x = 0.5, y = 0.5) {
     const window = this.drawn(this.state.window.zoomed(factor, x, y), factor, x, y);
-    if (performance.now() - (this.zoomed ?? 0) > 1000) this.state.past.push(this.state.window);
-    this.zoomed = performance.now();
+    this.state.keep("zoom");
     this.state.change({ window, jump: false });
   }
 

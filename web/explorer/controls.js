@@ -104,7 +104,11 @@ function listenWindow(state, basins, film) {
 
 function listenPendulums(state, basins) {
   const key = () => (state.pane === "b" && state.other ? "other" : "pendulum");
-  const setAll = (values) => state.change({ [key()]: { ...state[key()], ...values }, jump: false });
+  const change = (values) => state.change({ [key()]: { ...state[key()], ...values }, jump: false });
+  const setAll = (values) => {
+    state.keep(Object.keys(values).join());
+    change(values);
+  };
   const set = (name, value) => setAll({ [name]: value });
   let sliders = new Sliders(element("sliders"), state.scene, set);
   const show = (keys) => {
@@ -119,9 +123,12 @@ function listenPendulums(state, basins) {
     for (const button of element("which").children) button.setAttribute("aria-pressed", String(button.dataset.pane === state.pane));
   };
   for (const button of element("which").children) button.onclick = () => state.change({ pane: button.dataset.pane });
-  element("compare").onclick = () => state.change(state.other ? { other: null, pane: "a" } : { other: { ...state.pendulum }, pane: "b" });
+  element("compare").onclick = () => {
+    state.keep();
+    state.change(state.other ? { other: null, pane: "a" } : { other: { ...state.pendulum }, pane: "b" });
+  };
   element("map-shown").onclick = () => state.change({ map: state.map === "on" ? "off" : "on" });
-  const film = new Film(state, basins, sliders.names, set, complain);
+  const film = new Film(state, basins, sliders.names, (name, value) => change({ [name]: value }), complain);
   const map = new MotionMap(state, sliders.names, { set: setAll, say: (words) => (element("happening").textContent = words) });
   state.listen(show);
   show();

@@ -95,7 +95,7 @@ export class Dive {
   /** Down to the point, whose place comes nearer to the middle, at the same speed however often pictures come. */
   async go(order, [theta, velocity]) {
     const deepest = this.state.window.theta.width * DEEPEST * 100;
-    this.state.past.push(this.state.window);
+    this.state.keep();
     for (let last = performance.now(); order === this.order && this.state.window.theta.width > deepest;) {
       const { window } = this.state;
       const seconds = Math.min(0.5, (performance.now() - last) / 1000);

@@ -8,7 +8,7 @@ const press = (id) => element(id).click();
 /** [keys, what they do in words, what they do]; the first of the keys is listed. */
 function actionsOn(state, basins) {
   const move = (x, y) => () => {
-    state.past.push(state.window);
+    state.keep("move");
     state.change({ window: state.window.moved(x, y).wrapped(), jump: false });
   };
   const stop = () => {
@@ -23,7 +23,7 @@ function actionsOn(state, basins) {
     [["+", "="], "zoom in", () => basins.zoom(1 / ZOOM)],
     [["-"], "zoom out", () => basins.zoom(ZOOM)],
     [["h"], "the first window", () => press("home")],
-    [["Backspace"], "the window before", () => press("back")],
+    [["Backspace", "Ctrl+z"], "the window or the values before", () => press("back")],
     [["n"], "go to the nearest boundary", () => press("nearest")],
     [["w"], "the wheel finds boundaries, or not", () => press("drawn")],
     [["d"], "dive between two starts", () => press("dive")],
@@ -52,9 +52,10 @@ export function listenKeys(state, basins) {
   );
   element("help-shown").onclick = () => element("help").showModal();
   addEventListener("keydown", (event) => {
-    const typing = event.target.matches("input, select, textarea, button, summary");
-    const action = known.get(event.key);
-    const taken = event.ctrlKey || event.metaKey || event.altKey || element("help").open;
+    const control = event.ctrlKey || event.metaKey;
+    const typing = event.target.matches(control ? "input:not([type=range])" : "input, select, textarea, button, summary");
+    const action = known.get((control ? "Ctrl+" : "") + event.key);
+    const taken = event.altKey || element("help").open;
     if (!action || taken || (typing && event.key !== "Escape")) return;
     event.preventDefault();
     action();

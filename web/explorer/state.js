@@ -17,6 +17,8 @@ export const DEFAULTS = {
   map: innerWidth >= 1100 ? "on" : "off",
 };
 
+const PAUSE = 1000; // ms
+
 /** The state: change() tells everyone who listens which keys have changed. */
 export class State {
   constructor(start) {
@@ -38,12 +40,22 @@ export class State {
   /** Goes to another window; the present one is kept for back(). */
   visit(window) {
     if (window.equals(this.window)) return;
-    this.past.push(this.window);
+    this.keep();
     this.change({ window });
   }
 
+  /** Keeps the window and the pendulums for back(). Changes of one `kind`, as a hand makes them without a pause, are one step. */
+  keep(kind = null, window = this.window) {
+    const now = performance.now();
+    const goesOn = kind !== null && kind === this.kept?.kind && now - this.kept.at < PAUSE;
+    this.kept = { kind, at: now };
+    const { pendulum, other, pane } = this;
+    if (!goesOn) this.past.push({ window, pendulum, other, pane });
+  }
+
   back() {
-    if (this.past.length) this.change({ window: this.past.pop() });
+    this.kept = null;
+    if (this.past.length) this.change({ ...this.past.pop(), jump: false });
   }
 }
 
