@@ -8,7 +8,7 @@ module kz_api_dynamics
   use kz_grown_cell_images, only: images_t
   use kz_grown_grid, only: regions_t, draw_attractors
   use kz_kernel_flows, only: make_flow, fine_numerics
-  use kz_vector_locks, only: create_lock, free_lock
+  use kz_vector_locks, only: create_lock, free_lock, take_lock, leave_lock
   use kz_labels_levels, only: levels_t
   use kz_labels_released, only: released_t
   use kz_vector_map, only: flow_t, PI, WIDTH
@@ -18,7 +18,7 @@ module kz_api_dynamics
   use kz_model_release, only: release_t
   implicit none
   private
-  public :: dynamics_t, of_handle
+  public :: dynamics_t, of_handle, borrow_flow, return_flow
 
   !> Of the fine steps, what places the cycles of a pendulum that a slider moves: to 1e-9 rad.
   integer, parameter :: MOVING_PART = 4
@@ -26,11 +26,20 @@ module kz_api_dynamics
   !> rad: an attractor that moved farther counts as lost.
   real(dp), parameter :: FARTHEST = 0.2_dp
 
+  !> Copies of the scene's map that nobody uses, at most.
+  integer, parameter :: MOST_IDLE = 16
+
+  type :: idle_t
+    class(flow_t), allocatable :: flow
+  end type idle_t
+
   !> What a handle points at.
   type :: dynamics_t
-    type(c_ptr) :: lock = c_null_ptr !< held by the thread that makes what is made at its first use: levels, released
+    type(c_ptr) :: lock = c_null_ptr !< held by the thread that makes what is made at its first use: levels, released, and that takes an idle map
     type(search_t) :: search
     class(flow_t), allocatable :: flow !< the scene's map
+    type(idle_t) :: idle(MOST_IDLE)    !< copies of it, whose lanes hold what threads have left there
+    integer :: n_idle = 0
     type(attractor_t), allocatable :: attractors(:)
     type(regions_t) :: regions
     type(table_t) :: table
@@ -49,6 +58,32 @@ contains
 
     call c_f_pointer(handle, d)
   end function of_handle
+
+  !> A map with lanes of its own, as other threads may follow states too: one that is idle, or a copy, which takes as long as ten thousand steps.
+  subroutine borrow_flow(d, flow)
+    type(dynamics_t), intent(inout) :: d !< whose map it is
+    class(flow_t), allocatable, intent(out) :: flow !< to be returned by return_flow
+
+    call take_lock(d%lock)
+    if (d%n_idle > 0) then
+      call move_alloc(d%idle(d%n_idle)%flow, flow)
+      d%n_idle = d%n_idle - 1
+    end if
+    call leave_lock(d%lock)
+    if (.not. allocated(flow)) allocate (flow, source=d%flow)
+  end subroutine borrow_flow
+
+  subroutine return_flow(d, flow)
+    type(dynamics_t), intent(inout) :: d
+    class(flow_t), allocatable, intent(inout) :: flow !< of borrow_flow
+
+    call take_lock(d%lock)
+    if (d%n_idle < MOST_IDLE) then
+      d%n_idle = d%n_idle + 1
+      call move_alloc(flow, d%idle(d%n_idle)%flow)
+    end if
+    call leave_lock(d%lock)
+  end subroutine return_flow
 
   function create(pendulum, numerics, max_period) bind(C, name='kz_dynamics_create') result(handle)
     type(pendulum_t), intent(in) :: pendulum

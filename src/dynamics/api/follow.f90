@@ -3,7 +3,7 @@ module kz_api_follow
   use, intrinsic :: iso_c_binding, only: dp => c_double, c_int32_t, c_int64_t, c_ptr
   use kz_maps_states, only: states_to_physical
   use kz_vector_map, only: map_t, flow_t, WIDTH
-  use kz_api_dynamics, only: dynamics_t, of_handle
+  use kz_api_dynamics, only: dynamics_t, of_handle, borrow_flow, return_flow
   use kz_labels_label, only: follow
   use kz_labels_smooth, only: smooth_times
   use kz_maps_map_table, only: table_map_t, make_table_map
@@ -24,35 +24,43 @@ contains
     integer(c_int32_t), intent(out) :: label(n)
     integer(c_int64_t), intent(out) :: periods(n)
     type(dynamics_t), pointer :: d
-    class(map_t), allocatable :: map !< own lanes: other threads may follow starts too
+    class(flow_t), allocatable :: flow
+    class(map_t), allocatable :: map
 
     d => of_handle(handle)
     periods = max_periods
+    call borrow_flow(d, flow)
     select case (stepping)
     case (DIRECT)
-      allocate (map, source=d%flow)
+      call follow(flow, d%regions, d%attractors, state, label, periods)
     case default
-      allocate (map, source=make_table_map(d%table, int(stepping), d%search%flow))
+      allocate (map, source=make_table_map(d%table, int(stepping), flow))
+      call follow(map, d%regions, d%attractors, state, label, periods)
     end select
-    call follow(map, d%regions, d%attractors, state, label, periods)
-    call leave_open(d, state, label)
+    call leave_open(flow, state, label)
+    call return_flow(d, flow)
   end subroutine follow_starts
 
   !> The states of the starts that have not settled, in physical coordinates again.
-  subroutine leave_open(d, state, label)
-    type(dynamics_t), intent(in) :: d
+  subroutine leave_open(flow, state, label)
+    class(flow_t), intent(inout) :: flow
     real(dp), intent(inout) :: state(:, :)
     integer(c_int32_t), intent(in) :: label(:)
-    class(flow_t), allocatable :: flow
-    real(dp), allocatable :: u(:), v(:)
+    real(dp) :: u(size(label)), v(size(label))
+    integer :: open(size(label)), i, n
 
-    if (all(label /= 0)) return
-    u = pack(state(1, :), label == 0)
-    v = pack(state(2, :), label == 0)
-    allocate (flow, source=d%search%flow)
-    call states_to_physical(flow, u, v)
-    state(1, :) = unpack(u, label == 0, state(1, :))
-    state(2, :) = unpack(v, label == 0, state(2, :))
+    n = 0
+    do i = 1, size(label)
+      if (label(i) /= 0) cycle
+      n = n + 1
+      open(n) = i
+      u(n) = state(1, i)
+      v(n) = state(2, i)
+    end do
+    call states_to_physical(flow, u(:n), v(:n))
+    do i = 1, n
+      state(:, open(i)) = [u(i), v(i)]
+    end do
   end subroutine leave_open
 
   subroutine advance_states(handle, n, state) bind(C, name='kz_dynamics_advance')
@@ -88,8 +96,9 @@ contains
     class(flow_t), allocatable :: flow
 
     d => of_handle(handle)
-    allocate (flow, source=d%flow)
+    call borrow_flow(d, flow)
     call smooth_times(flow, d%attractors, label, state, time)
+    call return_flow(d, flow)
   end subroutine smooth_settling
 
   subroutine follow_reference(handle, n_steps, n, max_periods, start, low, label, periods) &

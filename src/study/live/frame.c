@@ -89,17 +89,35 @@ static uint8_t doubt_of(const kz_label *end) {
   return end->evidence == KZ_UNDECIDED ? KZ_DOUBT_OPEN : end->evidence == KZ_LEFT ? KZ_DOUBT_UNSEEN : KZ_DOUBT_NONE;
 }
 
-/* Cell f of the frame into place `at` of the planes. */
-static void put(const making *m, int64_t f, int64_t at, void *const plane[KZ_PLANES]) {
-  const bool mirrored = f >= m->own;
-  const kz_frame_cell *cell = m->cell + (mirrored ? m->total - 1 - f : f);
+/* What a plane shows of a cell, or of its mirror image, into place `at`. */
+static void put(const making *m, int plane, const kz_frame_cell *cell, bool mirrored, int64_t at, void *values) {
   const kz_label *end = &cell->end;
-  if (plane[KZ_PLANE_LABELS]) ((uint8_t *)plane[KZ_PLANE_LABELS])[at] = id_of(m, end->label, mirrored);
-  if (plane[KZ_PLANE_OTHER]) ((uint8_t *)plane[KZ_PLANE_OTHER])[at] = id_of(m, end->other, mirrored);
-  if (plane[KZ_PLANE_DOUBT]) ((uint8_t *)plane[KZ_PLANE_DOUBT])[at] = doubt_of(end);
-  if (plane[KZ_PLANE_SETTLING_TIME])
-    ((float *)plane[KZ_PLANE_SETTLING_TIME])[at] = end->label > 0 ? (float)end->periods : (float)NAN;
-  if (plane[KZ_PLANE_SMOOTH_TIME]) ((float *)plane[KZ_PLANE_SMOOTH_TIME])[at] = end->label > 0 ? cell->smooth : (float)NAN;
+  uint8_t *codes = values;
+  float *times = values;
+  if (plane == KZ_PLANE_LABELS)
+    codes[at] = id_of(m, end->label, mirrored);
+  else if (plane == KZ_PLANE_OTHER)
+    codes[at] = id_of(m, end->other, mirrored);
+  else if (plane == KZ_PLANE_DOUBT)
+    codes[at] = doubt_of(end);
+  else if (end->label <= 0)
+    times[at] = (float)NAN;
+  else
+    times[at] = plane == KZ_PLANE_SETTLING_TIME ? (float)end->periods : cell->smooth;
+}
+
+/* A plane of a level. */
+static void fill(const making *m, int64_t level, int plane, void *values) {
+  const int64_t columns = m->scene->basin->theta.count, rows = m->scene->basin->velocity.count;
+  const int64_t across = kz_level_size(level, columns), up = kz_level_size(level, rows);
+  for (int64_t i = 0; i < up; i++) {
+    const int64_t row = kz_level_place(level, i, rows) * columns;
+    for (int64_t j = 0; j < across; j++) {
+      const int64_t f = row + kz_level_place(level, j, columns);
+      const bool mirrored = f >= m->own;
+      put(m, plane, m->cell + (mirrored ? m->total - 1 - f : f), mirrored, i * across + j, values);
+    }
+  }
 }
 
 static kz_status show(making *m, int64_t level) {
@@ -108,19 +126,16 @@ static kz_status show(making *m, int64_t level) {
                          .rows = kz_level_size(level, rows),
                          .columns = kz_level_size(level, columns),
                          .catalogue = &m->prepared->catalogue};
-  void *plane[KZ_PLANES] = {NULL};
   size_t end = 0;
   static const int order[KZ_PLANES] = {/* floats first: aligned */ KZ_PLANE_SETTLING_TIME, KZ_PLANE_SMOOTH_TIME,
                                        KZ_PLANE_LABELS, KZ_PLANE_DOUBT, KZ_PLANE_OTHER};
   for (int p = 0; p < KZ_PLANES; p++) {
     if (!m->frame->plane[order[p]]) continue;
-    plane[order[p]] = (char *)m->buffer + end;
-    shown.plane[order[p]] = plane[order[p]];
+    void *values = (char *)m->buffer + end;
+    fill(m, level, order[p], values);
+    shown.plane[order[p]] = values;
     end += (size_t)(shown.rows * shown.columns) * kz_plane_bytes(order[p]);
   }
-  for (int64_t i = 0; i < shown.rows; i++)
-    for (int64_t j = 0; j < shown.columns; j++)
-      put(m, kz_level_place(level, i, rows) * columns + kz_level_place(level, j, columns), i * shown.columns + j, plane);
   shown.seconds = kz_process_clock() - m->begin;
   return m->frame->show(m->frame->context, &shown);
 }
