@@ -1,7 +1,8 @@
 !> Branches of cycles followed along a line by pseudo-arclength, and what happens on the way: include/kapitza/dynamics_curves.h.
 module kz_cycles_branches
   use, intrinsic :: iso_c_binding, only: dp => c_double, c_int32_t, c_int64_t
-  use kz_cycles_curves, only: plane_t, curve_kind_t, system_t, make_system, newton, linearise, tangent_at, wrapped, UNKNOWNS, COARSE
+  use kz_cycles_curves, only: plane_t, curve_kind_t, system_t, make_system, linearise, wrapped, UNKNOWNS, COARSE
+  use kz_cycles_corrector, only: newton, tangent_at
   use kz_cycles_normal_forms, only: normal_form
   use kz_cycles_tracing, only: on_line, outside, LEFT, CLOSED, LONG, MERGED, STUCK, NO_SEED
   use kz_cycles_walker, only: walker_t, parents_t, advance, distance, set_parents, meets, becomes, find_zero, FOLD, FLIP

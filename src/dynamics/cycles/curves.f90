@@ -1,5 +1,5 @@
 !> Cycles over a plane of two parameters: the equations of multiple shooting for cycles, for branches of them along a line, and for the curves
-!> on which a multiplier is 1 or -1; their solution and tangents (docs/explanation/atlas.md).
+!> on which a multiplier is 1 or -1 (docs/explanation/atlas.md).
 !>
 !> The unknowns y are the points x(i) of a cycle, rad and rad per drive radian, not wrapped, and then its place, in the rectangle's sides. F(x(i)) = x(i+1), side*(F(x(n)) - 2 pi turns) = x(1): side = 1 for cycles of n periods, side = -1 for those of 2 n periods that are
 !> their own mirror image. G is this map of x(1). The damping is constant, so that det DG = exp(-2 pi beta n), and one of the multipliers is e
@@ -7,14 +7,12 @@
 module kz_cycles_curves
   use, intrinsic :: iso_c_binding, only: dp => c_double, c_int32_t, c_bool, c_funptr, c_ptr, c_f_procpointer
   use kz_vector_map, only: PI
-  use kz_cycles_shooting, only: solve
   use kz_model_pendulum, only: pendulum_t
   use kz_splitting_jets, only: jets_t, make_jets, set_pendulum, advance_jets, LANES, TERMS, DX, DY, DP_ => DP, DQ, &
                            DXX, DXY, DYY, DXP, DYP, DXQ, DYQ
   implicit none
   private
-  public :: plane_t, curve_kind_t, system_t, make_system, newton, linearise, tangent_at, images, inner, wrapped, &
-            POINTS, UNKNOWNS, COARSE, FINE
+  public :: plane_t, curve_kind_t, system_t, make_system, linearise, images, inner, metric, moved, wrapped, POINTS, UNKNOWNS, COARSE, FINE
 
   !> Points of a cycle, and unknowns, at most; the two numbers of steps a period.
   integer, parameter :: POINTS = 16, UNKNOWNS = 2*POINTS + 2, COARSE = 1, FINE = 2
@@ -226,91 +224,10 @@ contains
     system%of_determinant = -2*PI*system%n*system%stride*decay(1:2)*system%determinant
   end subroutine set_determinant
 
-  !> y becomes the solution near it: with a normal, on the plane through y across it. Its steps shrink until rounding stops them.
-  subroutine newton(system, most, longest, close, y, iterations, normal, tangent)
-    type(system_t), intent(inout) :: system !< the equations
-    integer, intent(in) :: most !< iterations
-    real(dp), intent(in) :: longest !< longer steps are shortened to it, rad
-    real(dp), intent(in) :: close !< the last step is shorter, rad
-    real(dp), intent(inout) :: y(:) !< the unknowns: a guess, then the solution
-    integer, intent(out) :: iterations !< 0: no solution
-    real(dp), intent(in), optional :: normal(:) !< of the plane, by the unknowns
-    real(dp), intent(out), optional :: tangent(:) !< of length 1 on the side of the normal, where the last step begins
-    real(dp), parameter :: SMALL = 1e-9_dp
-    real(dp) :: matrix(UNKNOWNS, UNKNOWNS), side(UNKNOWNS, 2), start(UNKNOWNS), last, size_now
-    integer :: n, unknown, columns, i
-    logical :: regular
-
-    n = 2*system%n
-    unknown = n + system%columns
-    start(:n + 2) = y(:n + 2)
-    last = huge(last)
-    iterations = 0
-    columns = merge(2, 1, present(tangent))
-    do i = 1, most
-      call linearise(system, COARSE, merge(2, 1, system%on_curve), y, side(:unknown, 1), matrix(:unknown, :unknown), regular)
-      if (.not. regular) return
-      if (present(normal)) then
-        matrix(unknown, :unknown) = metric(system, normal(:unknown))
-        side(unknown, 1) = dot_product(matrix(unknown, :unknown), moved(system, y, start))
-        side(:unknown, 2) = 0
-        side(unknown, 2) = 1
-      end if
-      call solve(matrix(:unknown, :unknown), side(:unknown, :columns), regular)
-      if (.not. regular) return
-      size_now = maxval(abs(side(:unknown, 1)))
-      if (.not. size_now < 1e3_dp) return
-      side(:unknown, 1) = side(:unknown, 1)*(longest/max(longest, size_now)) ! the step is 0 exactly at rest
-      y(:n) = y(:n) - side(:n, 1)
-      y(n + 1:n + 2) = y(n + 1:n + 2) - matmul(system%basis(:, :system%columns), side(n + 1:unknown, 1))
-      if (size_now < close .or. (size_now < SMALL .and. size_now > 0.3_dp*last)) iterations = i
-      if (iterations > 0 .and. present(tangent)) &
-        tangent(:unknown) = side(:unknown, 2)/sqrt(inner(system, side(:unknown, 2), side(:unknown, 2)))
-      if (iterations > 0 .or. (i > 4 .and. present(normal) .and. size_now > last)) return
-      last = size_now
-    end do
-  end subroutine newton
-
-  !> The unit tangent of the branch or curve at its point y, on the side of `guess`, and the same point with FINE steps.
-  subroutine tangent_at(system, y, guess, tangent, regular, sharp)
-    type(system_t), intent(inout) :: system !< takes images of third order of a curve
-    real(dp), intent(in) :: y(:) !< a solution
-    real(dp), intent(in) :: guess(:) !< a direction near the tangent's
-    real(dp), intent(out) :: tangent(:) !< by the unknowns
-    logical, intent(out) :: regular !< whether it is defined
-    real(dp), intent(out), optional :: sharp(:) !< y with FINE steps
-    real(dp) :: matrix(UNKNOWNS, UNKNOWNS), side(UNKNOWNS, 2), unused(UNKNOWNS, UNKNOWNS), kept(2, 0:TERMS, POINTS), numbers(2), length
-    integer :: n, unknown
-
-    n = 2*system%n
-    unknown = n + system%columns
-    side = 0
-    regular = .true.
-    if (present(sharp)) call linearise(system, FINE, 1, y, side(:unknown, 2), unused(:unknown, :unknown), regular)
-    if (regular) call linearise(system, COARSE, merge(3, 1, system%on_curve), y, side(:unknown, 1), matrix(:unknown, :unknown), regular)
-    if (.not. regular) return
-    kept = system%image
-    numbers = [system%trace, system%determinant]
-    matrix(unknown, :unknown) = metric(system, guess(:unknown))
-    side(:unknown, 1) = 0
-    side(unknown, :) = [1, 0]
-    call solve(matrix(:unknown, :unknown), side(:unknown, :), regular)
-    if (.not. regular) return
-    system%image = kept
-    system%trace = numbers(1)
-    system%determinant = numbers(2)
-    length = sqrt(inner(system, side(:unknown, 1), side(:unknown, 1)))
-    regular = length < 1e12_dp
-    tangent(:unknown) = side(:unknown, 1)/length
-    if (.not. present(sharp)) return
-    sharp(:n) = y(:n) - side(:n, 2)
-    sharp(n + 1:n + 2) = y(n + 1:n + 2) - matmul(system%basis(:, :system%columns), side(n + 1:unknown, 2))
-  end subroutine tangent_at
-
   !> a with the weights of the inner product.
   pure function metric(system, a) result(weighted)
-    type(system_t), intent(in) :: system
-    real(dp), intent(in) :: a(:)
+    type(system_t), intent(in) :: system !< the equations
+    real(dp), intent(in) :: a(:) !< a step of the unknowns
     real(dp) :: weighted(size(a))
 
     weighted = a
@@ -329,8 +246,9 @@ contains
 
   !> The step of the unknowns from one y to another.
   pure function moved(system, to, from) result(step)
-    type(system_t), intent(in) :: system
-    real(dp), intent(in) :: to(:), from(:)
+    type(system_t), intent(in) :: system !< the equations
+    real(dp), intent(in) :: to(:) !< unknowns
+    real(dp), intent(in) :: from(:) !< others
     real(dp) :: step(2*system%n + system%columns)
     integer :: n
 

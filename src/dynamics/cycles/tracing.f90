@@ -2,7 +2,8 @@
 module kz_cycles_tracing
   use, intrinsic :: iso_c_binding, only: dp => c_double, c_int32_t, c_int64_t
   use kz_vector_map, only: PI
-  use kz_cycles_curves, only: plane_t, curve_kind_t, system_t, make_system, newton, linearise, UNKNOWNS, FINE
+  use kz_cycles_curves, only: plane_t, curve_kind_t, system_t, make_system, linearise, UNKNOWNS, FINE
+  use kz_cycles_corrector, only: newton
   use kz_cycles_normal_forms, only: normal_form
   use kz_cycles_walker, only: walker_t, parents_t, advance, begin, distance, passes, set_parents, meets, find_zero, thinness, &
                              OF_FORM, OF_WIDTH, HALVES, MIRROR, REST

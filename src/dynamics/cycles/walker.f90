@@ -2,7 +2,8 @@
 module kz_cycles_walker
   use, intrinsic :: iso_c_binding, only: dp => c_double
   use kz_cycles_normal_forms, only: normal_form
-  use kz_cycles_curves, only: system_t, newton, tangent_at, inner, wrapped, POINTS, UNKNOWNS
+  use kz_cycles_corrector, only: newton, tangent_at
+  use kz_cycles_curves, only: system_t, inner, wrapped, POINTS, UNKNOWNS
   implicit none
   private
   public :: walker_t, parents_t, advance, begin, distance, passes, set_parents, meets, becomes, find_zero, thinness, &

@@ -2,6 +2,7 @@
 #include "../../tools/test.h"
 
 #include <math.h>
+#include <string.h>
 
 #include "kapitza/dynamics_curves.h"
 #include "kapitza/kernel.h"
@@ -102,6 +103,39 @@ TEST(test_trace) {
     kz_advance_tangent(flow, 1, 1, &theta, &velocity, &turns, matrix);
     kz_flow_free(flow);
     assert_true(fabs(matrix[0] + matrix[3] + 1 + exp(-2 * PI * pendulum.beta)) < 1e-11);
+  }
+}
+
+/* k = 2.2 x - 0.6, beta = 0.1, m = 2 y: Butikov's plane. */
+static bool butikov(const void *context, const double place[2], kz_pendulum *pendulum) {
+  (void)context;
+  *pendulum = (kz_pendulum){2.2 * place[0] - 0.6, 0.1, 2 * place[1]};
+  return true;
+}
+
+/* The doubling of a doubled rotation 1/3 in a band 2e-8 wide, where a cycle that is 1e-6 rad off is another one: each row is the point that Newton's
+ * method finds beside it. */
+TEST(test_trace_in_a_narrow_band) {
+  enum { MOST = 300, N = 12, WIDTH = 8 + N };
+  const kz_plane plane = {.pendulum = butikov, .low = {-0.06, -0.004}, .high = {1.06, 1.06}, .steps = 96, .mirrored = 1};
+  const kz_curve_kind doubling = {1, 6, -1, 2, 0};
+  const double place[2] = {(0.6 - 0.5309297007299472) / 2.2, 1.2948761672834188 / 2};
+  double seed[N + 2] = {-0.13118270219777192, 0.10333998458147906}, row[MOST][WIDTH], special[4][3 + N];
+  int64_t specials;
+  int32_t ending;
+  assert_int_equal(kz_curve_orbit(&plane, place, N / 2 - 1, seed), 1);
+  seed[N] = place[0], seed[N + 1] = place[1];
+  for (int direction = -1; direction <= 1; direction += 2) {
+    const int64_t n = kz_curve_trace(&plane, &doubling, seed, direction, 0.02, MOST, row[0], 4, special[0], &specials, &ending);
+    assert_true(n > 10 && (ending == KZ_TRACE_THIN || ending == KZ_TRACE_LEFT) && specials == 0);
+    for (int64_t i = 0; i < n; i++) {
+      double y[N + 2];
+      memcpy(y, row[i] + 8, N * sizeof *y);
+      memcpy(y + N, row[i], 2 * sizeof *y);
+      assert_int_equal(kz_curve_locate(&plane, &doubling, y, UP), 1);
+      assert_true(row[i][4] > 0 && fabs(y[N + 1] - row[i][1]) < 1e-11);
+      for (int c = 0; c < N; c++) assert_true(fabs(y[c] - row[i][8 + c]) < 1e-8);
+    }
   }
 }
 
