@@ -56,6 +56,8 @@ int64_t kz_curve_branch(const kz_plane *plane, const kz_curve_kind *kind, const 
 int32_t kz_curve_solve(const kz_plane *plane, const kz_curve_kind *kind, double *y, double numbers[2]);
 /* Moves y along a line to where the kind's multiplier is that of the curve. 1 if Newton's method converges, else 0. */
 int32_t kz_curve_locate(const kz_plane *plane, const kz_curve_kind *kind, double *y, const double along[2]);
+/* Whether the cycle near y has the kind's multiplier at the place of y; y becomes that cycle. 1 = yes, else 0. */
+int32_t kz_curve_is_on(const kz_plane *plane, const kz_curve_kind *kind, double *y);
 /* The normal form at a point of a curve, its side, and the eigenvector at the first point. 0 if there is no pendulum. */
 int32_t kz_curve_form(const kz_plane *plane, const kz_curve_kind *kind, const double *y, double *coefficient, double side[2],
                       double eigenvector[2]);

@@ -129,9 +129,9 @@ contains
     type(system_t), intent(in) :: system
     real(dp), intent(in) :: y(:)
     type(parents_t), intent(in) :: was, is
-    real(dp), parameter :: BESIDE = 1e-3_dp, CROSSED = 1e-4_dp ! rad; of the trace
+    real(dp), parameter :: BESIDE = 1e-3_dp ! rad
     type(curve_kind_t) :: kind
-    real(dp) :: parent(UNKNOWNS), numbers(2), next
+    real(dp) :: parent(UNKNOWNS), next
     logical :: on, at_rest
     integer :: which, n
 
@@ -148,8 +148,8 @@ contains
       parent(n + 1:n + 2) = y(2*system%n + 1:2*system%n + 2)
       next = merge(parent(1), y(n + 1), at_rest)
       kind%turns = nint((next - kind%side*parent(1))/(2*PI))
-      if (at_place(system%plane, kind, parent, numbers) /= 0) &
-        on = on .or. abs(numbers(1) + 1 + numbers(2)) < CROSSED*(1 + numbers(2))
+      kind%multiplier = -1
+      if (is_on(system%plane, kind, parent) /= 0) on = .true.
     end do
   end function on_parents_curve
 
@@ -223,5 +223,29 @@ contains
     call newton(system, 20, LONGEST, 1e-12_dp, y, iterations)
     found = merge(1, 0, iterations > 0)
   end function on_line
+
+  !> By the trace, and where that changes by more than its limit within the error of a place, by where the multiplier is reached.
+  function is_on(plane, kind, y) bind(C, name='kz_curve_is_on') result(on)
+    type(plane_t), intent(in) :: plane
+    type(curve_kind_t), intent(in) :: kind
+    real(dp), intent(inout) :: y(2*kind%points + 2)
+    integer(c_int32_t) :: on
+    real(dp), parameter :: CROSSED = 1e-4_dp, SAME = 1e-9_dp, BESIDE = 1e-3_dp ! of the trace; sides of the plane; rad
+    real(dp), parameter :: ALONG(2, 2) = reshape([1, 0, 0, 1], [2, 2])
+    real(dp) :: found(2*kind%points + 2), numbers(2)
+    integer :: n, axis
+
+    n = 2*kind%points
+    found = y
+    on = at_place(plane, kind, found, numbers)
+    if (abs(numbers(1) - kind%multiplier*(1 + numbers(2))) > CROSSED*(1 + numbers(2))) on = 0
+    do axis = 1, 2
+      if (on /= 0) exit
+      found = y
+      on = on_line(plane, kind, found, ALONG(:, axis))
+      if (norm2(found(n + 1:) - y(n + 1:)) > SAME .or. maxval(abs(found(:n) - y(:n))) > BESIDE) on = 0
+    end do
+    if (on /= 0) y = found
+  end function is_on
 
 end module kz_cycles_tracing

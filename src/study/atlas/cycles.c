@@ -5,9 +5,8 @@
 
 #include "atlas.h"
 
-/* rad: two states nearer than this are one; a cycle this near to rest is rest. A multiplier is 1 or -1 where the trace is that near to its value
- * there. */
-static const double ONE = 1e-5, AT_REST = 1e-9, CROSSED = 1e-4;
+/* rad: two states nearer than this are one; a cycle this near to rest is rest. */
+static const double ONE = 1e-5, AT_REST = 1e-9;
 
 kz_atlas_class kz_atlas_class_of(const kz_atlas_kind *kind) {
   if (kind->rest >= 0) return (kz_atlas_class){KZ_CLASS_REST, 1, kind->rest};
@@ -74,14 +73,14 @@ static bool repeats(const kz_atlas_kind *kind, const double *y, int shift, doubl
 }
 
 /* Whether a point of a curve is one of a curve of the shorter cycle `of`, whose points are the first of y. An even power of a map has no
- * multiplier -1 but where that one's square is; beside the place where a doubled cycle is born both lie as near as one likes, and the
- * multiplier of the shorter one alone tells them apart. */
+ * multiplier -1 but where that one's square is, and its multiplier 1 may be that one's -1. Beside the place where a doubled cycle is born both lie
+ * as near as one likes, and the multiplier of the shorter one alone tells them apart. */
 static bool is_on_its_curve(const kz_atlas *atlas, int power, kz_curve_kind *of, double *y) {
-  double numbers[2];
   if (of->multiplier == 0) return true;
-  if ((of->multiplier < 0 && power % 2 == 0) || !kz_curve_solve(&atlas->plane, of, y, numbers)) return false;
-  of->multiplier = numbers[0] > 0 ? 1 : -1;
-  return fabs(fabs(numbers[0]) - (1 + numbers[1])) < CROSSED * (1 + numbers[1]);
+  if (of->multiplier < 0 && power % 2 == 0) return false;
+  if (kz_curve_is_on(&atlas->plane, of, y)) return true;
+  of->multiplier = -1;
+  return power % 2 == 0 && kz_curve_is_on(&atlas->plane, of, y);
 }
 
 /* Rest has its own kinds: on the map, multiplier -1; on the half map, multiplier -1, which is 1 of the map. */
