@@ -50,6 +50,17 @@ def test_lists_are_those_of_the_search(kapitza, tmp_path, name):
         assert int((periods == 1).sum()) == int(group["count"][row, column]), values
 
 
+@pytest.mark.parametrize("drive", [{"torque": 0.02}, *with_extensive([], [{"horizontal": [0.05, 0.02]},
+                                                                         {"vertical": [0, 0, 0, 0, 0.1, 0.05]}])])
+def test_odd_drives_have_images_at_the_opposite_gravity(kapitza, tmp_path, drive):
+    """Half a period later and upside down, with a torque too: its plane had no images, and five ends of curves without a reason."""
+    scene = {"pendulum": BUTIKOV | drive,
+             "atlas": {"x": {"parameter": "k", "min": -0.3, "max": 0.3}, "y": {"parameter": "m", "min": 0.1, "max": 0.6}, "max_period": 2,
+                       "checks": 0, "points": 16}}
+    attributes = run_scene(kapitza, tmp_path, scene, ranks=2)[0].group("atlas").attrs
+    assert int(attributes["compared"]) > 600 and int(attributes["alone"]) == 0 and int(attributes["open_ends"]) == 0
+
+
 @pytest.fixture(scope="module")
 def tilted(kapitza, tmp_path_factory):
     """The file of an atlas whose pendulum moves everywhere: the attractors of a cell are what its lists begin with."""

@@ -11,7 +11,7 @@ static const double NEAR = 1e-3, EDGE = 1e-6;
 kz_atlas_kind kz_atlas_image_of(const kz_atlas_kind *kind) {
   kz_atlas_kind image = *kind;
   if (kind->rest >= 0) image.rest = 1 - kind->rest;
-  image.of.turns = kind->of.side > 0 ? -kind->of.turns : 1 - kind->of.turns;
+  if (kind->of.side < 0) image.of.turns = 1 - kind->of.turns;
   return image;
 }
 
@@ -32,12 +32,13 @@ static void add_beside(const kz_atlas *atlas, const kz_atlas_kind *kind, const d
 void kz_atlas_explore_image(const kz_atlas *atlas, const kz_atlas_kind *kind, const double *at, kz_atlas_seeds *seeds) {
   const int n = kind->of.points;
   const kz_atlas_kind image = kz_atlas_image_of(kind);
+  const double half_turn = M_PI * (kind->of.side < 0 ? image.of.turns - kind->of.turns : 1);
   double y[KZ_ATLAS_UNKNOWNS], place[2];
   if (!atlas->turned || kind->rest >= 0 || !kz_atlas_image(atlas, at + 2 * n, place)) return;
   for (int i = 0; i < n; i++) {
     double state[2] = {at[2 * i], at[2 * i + 1]};
     if (!kz_curve_half_period(&atlas->plane, at + 2 * n, state)) return;
-    y[2 * i] = M_PI - state[0], y[2 * i + 1] = -state[1];
+    y[2 * i] = state[0] + half_turn, y[2 * i + 1] = state[1];
   }
   add_beside(atlas, &image, y, place, seeds);
 }
@@ -51,14 +52,11 @@ void kz_atlas_explore_mirrored(const kz_atlas *atlas, const kz_atlas_kind *kind,
   add_beside(atlas, &image, y, at + n, seeds);
 }
 
-/* Whether a line has a crossing with a curve of a kind at a value; cycles without a centre turn either way. */
+/* Whether a line has a crossing with a curve of a kind at a value. */
 static bool has(const kz_atlas *atlas, const kz_atlas_crossings *crossings, const kz_atlas_kind *kind, double at) {
   for (int64_t i = 0; i < crossings->count; i++) {
-    const kz_atlas_kind *other = &atlas->curve[crossings->list[i].curve].kind;
-    const bool alike = other->of.side == kind->of.side && other->of.points == kind->of.points &&
-                       other->of.multiplier == kind->of.multiplier && other->rest == kind->rest &&
-                       abs(other->of.turns) == abs(kind->of.turns);
-    if (alike && fabs(crossings->list[i].at - at) < NEAR) return true;
+    const kz_atlas_crossing *other = crossings->list + i;
+    if (!memcmp(&atlas->curve[other->curve].kind, kind, sizeof *kind) && fabs(other->at - at) < NEAR) return true;
   }
   return false;
 }
