@@ -22,7 +22,7 @@ from matplotlib.ticker import FixedLocator, FuncFormatter, NullLocator
 
 from kapitza import style
 from kapitza.plots.atlas_classes import BREAKING, DOUBLING, FOLD, LEANS, SWINGS, belongs, centre_of, gives_birth
-from kapitza.plots.atlas_curves import BOLD_UP_TO, DASHES, FAINT, LONGER, PERIODS, curve_points, mark_curves
+from kapitza.plots.atlas_curves import BOLD_UP_TO, DASHES, FAINT, LONGER, PERIODS, curve_points, is_bold, mark_curves
 from kapitza.plots.atlas_labels import POINTS, label_regions, mark_points, motion_text
 from kapitza.plots.atlas_labels import region_text as region_text
 from kapitza.plots.atlas_line import draw_line
@@ -33,6 +33,7 @@ from kapitza.result import Result
 
 CUSP = 0  # of special_kind
 MOST_SHADES = 14
+SPECIAL = 6  # zorder of cusps and degenerate points
 NOT_KNOWN, UNKNOWN = 255, "#e7b9c4"  # of `attracting` where a curve is missing, and its colour
 LONGEST = 16  # periods of the cycles whose curves are drawn
 VIEWS = ("map", "motions", "line")
@@ -74,7 +75,7 @@ def mark_special(axes: Axes, atlas: xarray.Dataset, longest: int) -> None:
     for cusp, mark in ((True, "^"), (False, "o")):
         chosen = ((atlas["special_kind"].values == CUSP) == cusp) & (period <= min(longest, BOLD_UP_TO))
         axes.plot(atlas["special_x"].values[chosen], atlas["special_y"].values[chosen], mark, markersize=3.6, markerfacecolor="white",
-                  markeredgecolor=style.INK, markeredgewidth=0.7, zorder=6, clip_on=True)
+                  markeredgecolor=style.INK, markeredgewidth=0.7, zorder=SPECIAL, clip_on=True)
 
 
 def set_axes(axes: Axes, atlas: xarray.Dataset, *, labels: bool = True) -> None:
@@ -150,7 +151,8 @@ def map_page(result: Result, atlas: xarray.Dataset, longest: int, points: str | 
     axes = draw_map(figure.subplots(), atlas, longest=longest, points=points)
     entitle(figure, result, f"every motion of up to {int(atlas.attrs['max_period'])} periods: {atlas.sizes['curve']} curves")
     figure.draw_without_rendering()
-    label_regions(axes, atlas, np.vstack([np.empty((0, 2)), *(mark.get_xydata() for mark in axes.lines if mark.get_zorder() == POINTS)]))
+    label_regions(axes, atlas, [line for line in axes.lines if is_bold(line)],
+                  [line for line in axes.lines if line.get_zorder() in (SPECIAL, POINTS)])
     return figure
 
 

@@ -6,6 +6,7 @@ from typing import Any
 import numpy as np
 import xarray
 from matplotlib.axes import Axes
+from matplotlib.lines import Line2D
 
 from kapitza import style
 from kapitza.plots.atlas_classes import BREAKING, DOUBLING, FOLD, LEANS, SWINGS, belongs
@@ -17,6 +18,7 @@ DASHES: dict[int, Any] = {FOLD: "-", DOUBLING: (0, (5, 2)), BREAKING: (0, (1.2, 
 BOLD_UP_TO = 4  # longer cycles live in thin bands: their curves are thin
 FAINT = 0.45  # width of curves of bands that nobody sees
 SEEN = 1 / 110  # of the height of the map: a band that is narrower is not seen
+FIRST = 2  # zorder of the thinnest
 SHORT = 8  # points of a curve: shorter pieces look like the piece before
 
 
@@ -69,5 +71,10 @@ def mark_curves(axes: Axes, atlas: xarray.Dataset, colours: Mapping[int, str], l
         for piece, seen in [(slice(None), True)] if rest else pieces(is_seen(axes, atlas, number)):
             width = 1.9 if rest else (1.2 if bold else 0.6) if seen else FAINT if bold else 0.25
             axes.plot(x[piece], y[piece], linestyle=DASHES[kind], color=colours.get(period, LONGER), linewidth=width,
-                      alpha=1 if seen else 0.5 if bold else 0.4, zorder=4 if rest else 2 + 0.5 * bold + 0.25 * seen,
+                      alpha=1 if seen else 0.5 if bold else 0.4, zorder=4 if rest else FIRST + 0.5 * bold + 0.25 * seen,
                       solid_capstyle="round")
+
+
+def is_bold(line: Line2D) -> bool:
+    """Whether a line is a curve of cycles of up to BOLD_UP_TO periods."""
+    return FIRST + 0.5 <= line.get_zorder() <= 4

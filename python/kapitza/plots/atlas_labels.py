@@ -1,6 +1,7 @@
 """Words on an atlas: what its motions are called, and what each region has more than the one below it."""
 
 import itertools
+import textwrap
 
 import matplotlib.patheffects as effects
 import numpy as np
@@ -8,12 +9,15 @@ import xarray
 from matplotlib.axes import Axes
 from matplotlib.lines import Line2D
 from matplotlib.text import Text
+from matplotlib.transforms import Bbox
 
 from kapitza import style
 from kapitza.reading import BadFile
 
 POINTS = 7  # zorder of points from a file
 LABELLED = 0.004  # share of the plane from which on a region has a label, if it has room
+NARROW, GAP = 16, (0.8, 0.4)  # letters a line of a label that finds no room as one line; letters' heights that are left free about a label
+AGAIN = 0.3  # widths of the map: a label is not repeated nearer than this
 
 
 def motion_text(name: str) -> str:
@@ -54,10 +58,15 @@ def lower_neighbour(atlas: xarray.Dataset, row: int, column: int) -> tuple[int, 
     return None
 
 
+def cell_of(atlas: xarray.Dataset, region: int) -> tuple[int, int]:
+    """Row and column of the cell of a region that is farthest from its edge."""
+    column = int(np.argmin(abs(atlas["column"].values - float(atlas["region_x"][region]))))
+    return int(np.argmin(abs(atlas["row"].values - float(atlas["region_y"][region])))), column
+
+
 def region_text(atlas: xarray.Dataset, region: int) -> str:
     """What a region has more than the one below it; all that it has, where that is little."""
-    column = int(np.argmin(abs(atlas["column"].values - float(atlas["region_x"][region]))))
-    row = int(np.argmin(abs(atlas["row"].values - float(atlas["region_y"][region]))))
+    row, column = cell_of(atlas, region)
     names = [motion_text(style.name_text(name)) for name in atlas["class_name"].values]
     here = atlas["attracting"].values[:, row, column].astype(int)
     below = lower_neighbour(atlas, row, column)
@@ -71,37 +80,82 @@ def region_text(atlas: xarray.Dataset, region: int) -> str:
     return "\n".join(parts + [f"− {name}" for name in lost[:1] if len(lost) == len(gained) == 1])
 
 
-def label_regions(axes: Axes, atlas: xarray.Dataset, points: np.ndarray) -> list[Text]:
-    """Labels at the places farthest from the edges, the roomiest first; none where it would lie on another or on one of the points
-    [n][2], or outside of the map.
+def label_regions(axes: Axes, atlas: xarray.Dataset, curves: list[Line2D], points: list[Line2D]) -> list[Text]:
+    """Labels of the roomiest regions first, each as near to the place farthest from the edges as it crosses none of the curves, points and
+    other labels; none where there is no such place.
     """
-    figure = axes.figure
-    renderer = figure.canvas.get_renderer()  # type: ignore[attr-defined]
+    renderer = axes.figure.canvas.get_renderer()  # type: ignore[attr-defined]
+    taken = Taken(axes, curves, points)
     placed: list[Text] = []
-    inside = axes.get_window_extent(renderer)
-    marks = axes.transData.transform(points) if len(points) else points
     for region in np.argsort(-atlas["region_radius"].values, kind="stable"):
-        text = region_text(atlas, int(region))
-        if float(atlas["region_share"][region]) < LABELLED or not text:
+        if float(atlas["region_share"][region]) < LABELLED:
             continue
-        label = axes.text(float(atlas["region_x"][region]), float(atlas["region_y"][region]), text, ha="center", va="center",
-                          fontsize="small", color=style.INK, zorder=8,
-                          path_effects=[effects.withStroke(linewidth=2.2, foreground="white", alpha=0.85)])
-        move_inside(axes, label)
-        box = label.get_window_extent(renderer).expanded(1.06, 1.25)
-        tall = 2.6 * float(atlas["region_radius"][region]) * inside.height
-        if tall < box.height or not inside.contains(box.x0, box.y0) or not inside.contains(box.x1, box.y1) or any(
-                box.overlaps(other.get_window_extent(renderer)) for other in placed) or box.expanded(1.04, 1.3).count_contains(marks):
+        places = places_of(axes, atlas, int(region))
+        text = region_text(atlas, int(region))
+        for words in dict.fromkeys((text, textwrap.fill(text, NARROW) if "\n" not in text else text)):
+            label = axes.text(0, 0, words, ha="center", va="center", fontsize="small", color=style.INK, zorder=8,
+                              path_effects=[effects.withStroke(linewidth=2.2, foreground="white", alpha=0.85)])
+            box, letter = label.get_window_extent(renderer), label.get_fontsize() * axes.figure.dpi / 72
+            free = taken.free(places, box.width + GAP[0] * letter, box.height + GAP[1] * letter)
+            for other in placed:
+                if other.get_text().split() == words.split():
+                    free &= np.hypot(*(places - axes.transData.transform(other.get_position())).T) > AGAIN * taken.inside.width
+            if free.any():
+                x, y = axes.transData.inverted().transform(places[np.argmax(free)])
+                label.set_position((float(x), float(y)))
+                taken.add(label.get_window_extent(renderer))
+                placed.append(label)
+                break
             label.remove()
-        else:
-            placed.append(label)
     return placed
 
 
-def move_inside(axes: Axes, label: Text) -> None:
-    """Moves a label that passes the left or right edge of the map to it."""
-    box, inside = label.get_window_extent().expanded(1.15, 1), axes.get_window_extent()
-    by = max(0.0, inside.x0 - box.x0) - max(0.0, box.x1 - inside.x1)
-    x, y = axes.transData.transform(label.get_position())
-    x, y = axes.transData.inverted().transform((x + by, y))
-    label.set_position((float(x), float(y)))
+def places_of(axes: Axes, atlas: xarray.Dataset, region: int) -> np.ndarray:
+    """The cells of a region, on the screen, that are seen from its place farthest from the edges, the nearest to it first."""
+    row, column = cell_of(atlas, region)
+    lists = atlas["list"].values
+    rows, columns = np.nonzero(lists == lists[row, column])
+    seen = np.ones(len(rows), dtype=bool)
+    for share in np.linspace(0, 1, 40):
+        between = (np.rint(start + share * (end - start)).astype(int) for start, end in ((row, rows), (column, columns)))
+        seen &= lists[tuple(between)] == lists[row, column]
+    at = axes.transData.transform(np.column_stack([atlas["column"].values[columns[seen]], atlas["row"].values[rows[seen]]]))
+    place = axes.transData.transform((float(atlas["region_x"][region]), float(atlas["region_y"][region])))
+    return np.asarray(at[np.argsort(np.hypot(*(at - place).T), kind="stable")])
+
+
+class Taken:
+    """Which pixels of a map are those of curves, points or labels."""
+
+    def __init__(self, axes: Axes, curves: list[Line2D], points: list[Line2D]) -> None:
+        self.inside = axes.get_window_extent()
+        self.pixels = np.zeros((int(self.inside.height) + 1, int(self.inside.width) + 1), dtype=bool)
+        for line in curves:
+            at = axes.transData.transform(line.get_xydata())
+            steps = np.maximum(1, np.ceil(np.abs(np.diff(at, axis=0)).max(axis=1, initial=0))).astype(int)
+            for start, end, n in zip(at[:-1], at[1:], steps, strict=True):
+                self.mark(start + np.linspace(0, 1, n + 1)[:, None] * (end - start))
+        for line in points:
+            half = np.ceil(0.5 * line.get_markersize() * axes.figure.dpi / 72)
+            around = np.arange(-half, half + 1)
+            for by in np.stack(np.meshgrid(around, around), axis=-1).reshape(-1, 2):
+                self.mark(axes.transData.transform(line.get_xydata()) + by)
+
+    def mark(self, at: np.ndarray) -> None:
+        column, row = np.rint(at - (self.inside.x0, self.inside.y0)).astype(int).T
+        within = (column >= 0) & (row >= 0) & (column < self.pixels.shape[1]) & (row < self.pixels.shape[0])
+        self.pixels[row[within], column[within]] = True
+
+    def add(self, box: Bbox) -> None:
+        x, y = box.x0 - self.inside.x0, box.y0 - self.inside.y0
+        self.pixels[max(0, int(y)):int(y + box.height) + 1, max(0, int(x)):int(x + box.width) + 1] = True
+
+    def free(self, places: np.ndarray, width: float, height: float) -> np.ndarray:
+        """At which places the middle of a box can lie that has nothing taken inside, and lies on the map."""
+        total = np.zeros((self.pixels.shape[0] + 1, self.pixels.shape[1] + 1), dtype=np.int64)
+        total[1:, 1:] = self.pixels.cumsum(axis=0).cumsum(axis=1)
+        low = np.floor(places - (self.inside.x0 + width / 2, self.inside.y0 + height / 2)).astype(int)
+        high = low + np.ceil((width, height)).astype(int) + 1
+        within = (low >= 0).all(axis=1) & (high[:, 0] <= self.pixels.shape[1]) & (high[:, 1] <= self.pixels.shape[0])
+        (left, bottom), (right, top) = (np.clip(edge, 0, np.array(self.pixels.shape[::-1])).T for edge in (low, high))
+        return np.asarray(within & (total[top, right] - total[bottom, right] - total[top, left] + total[bottom, left] == 0))
