@@ -17,7 +17,8 @@ from kapitza.reading import BadFile
 POINTS = 7  # zorder of points from a file
 LABELLED = 0.004  # share of the plane from which on a region has a label, if it has room
 NARROW, GAP = 16, (0.8, 0.4)  # letters a line of a label that finds no room as one line; letters' heights that are left free about a label
-AGAIN = 0.3  # widths of the map: a label is not repeated nearer than this
+AGAIN, FARTHEST = 0.3, 0.25  # widths of the map: a label is not repeated nearer than this, and lies no farther from its region's place
+TRIED = 40  # places where a label has room: beyond a thin band another one may be the region below
 
 
 def motion_text(name: str) -> str:
@@ -66,7 +67,11 @@ def cell_of(atlas: xarray.Dataset, region: int) -> tuple[int, int]:
 
 def region_text(atlas: xarray.Dataset, region: int) -> str:
     """What a region has more than the one below it; all that it has, where that is little."""
-    row, column = cell_of(atlas, region)
+    return cell_text(atlas, *cell_of(atlas, region))
+
+
+def cell_text(atlas: xarray.Dataset, row: int, column: int) -> str:
+    """The same of the region of a cell."""
     names = [motion_text(style.name_text(name)) for name in atlas["class_name"].values]
     here = atlas["attracting"].values[:, row, column].astype(int)
     below = lower_neighbour(atlas, row, column)
@@ -82,46 +87,47 @@ def region_text(atlas: xarray.Dataset, region: int) -> str:
 
 def label_regions(axes: Axes, atlas: xarray.Dataset, curves: list[Line2D], points: list[Line2D]) -> list[Text]:
     """Labels of the roomiest regions first, each as near to the place farthest from the edges as it crosses none of the curves, points and
-    other labels; none where there is no such place.
+    other labels, or at least none but faint curves; none where there is no such place.
     """
     renderer = axes.figure.canvas.get_renderer()  # type: ignore[attr-defined]
-    taken = Taken(axes, curves, points)
+    taken = [Taken(axes, some, points) for some in (curves, [line for line in curves if line.get_alpha() == 1])]
     placed: list[Text] = []
     for region in np.argsort(-atlas["region_radius"].values, kind="stable"):
         if float(atlas["region_share"][region]) < LABELLED:
             continue
-        places = places_of(axes, atlas, int(region))
+        cells, places = places_of(axes, atlas, int(region), FARTHEST * axes.bbox.width)
         text = region_text(atlas, int(region))
-        for words in dict.fromkeys((text, textwrap.fill(text, NARROW) if "\n" not in text else text)):
+        wrapped = textwrap.fill(text, NARROW) if "\n" not in text else text
+        for pixels, words in itertools.product(taken, dict.fromkeys((text, wrapped))):
             label = axes.text(0, 0, words, ha="center", va="center", fontsize="small", color=style.INK, zorder=8,
                               path_effects=[effects.withStroke(linewidth=2.2, foreground="white", alpha=0.85)])
             box, letter = label.get_window_extent(renderer), label.get_fontsize() * axes.figure.dpi / 72
-            free = taken.free(places, box.width + GAP[0] * letter, box.height + GAP[1] * letter)
+            free = pixels.free(places, box.width + GAP[0] * letter, box.height + GAP[1] * letter)
             for other in placed:
                 if other.get_text().split() == words.split():
-                    free &= np.hypot(*(places - axes.transData.transform(other.get_position())).T) > AGAIN * taken.inside.width
-            if free.any():
-                x, y = axes.transData.inverted().transform(places[np.argmax(free)])
+                    free &= np.hypot(*(places - axes.transData.transform(other.get_position())).T) > AGAIN * axes.bbox.width
+            chosen = next((i for i in np.flatnonzero(free)[:TRIED] if cell_text(atlas, *cells[i]) == text), None)
+            if chosen is not None:
+                x, y = axes.transData.inverted().transform(places[chosen])
                 label.set_position((float(x), float(y)))
-                taken.add(label.get_window_extent(renderer))
+                for each in taken:
+                    each.add(label.get_window_extent(renderer))
                 placed.append(label)
                 break
             label.remove()
     return placed
 
 
-def places_of(axes: Axes, atlas: xarray.Dataset, region: int) -> np.ndarray:
-    """The cells of a region, on the screen, that are seen from its place farthest from the edges, the nearest to it first."""
+def places_of(axes: Axes, atlas: xarray.Dataset, region: int, farthest: float) -> tuple[np.ndarray, np.ndarray]:
+    """The cells with the list of a region, and where they lie on the screen, the nearest to its place farthest from the edges first."""
     row, column = cell_of(atlas, region)
     lists = atlas["list"].values
-    rows, columns = np.nonzero(lists == lists[row, column])
-    seen = np.ones(len(rows), dtype=bool)
-    for share in np.linspace(0, 1, 40):
-        between = (np.rint(start + share * (end - start)).astype(int) for start, end in ((row, rows), (column, columns)))
-        seen &= lists[tuple(between)] == lists[row, column]
-    at = axes.transData.transform(np.column_stack([atlas["column"].values[columns[seen]], atlas["row"].values[rows[seen]]]))
-    place = axes.transData.transform((float(atlas["region_x"][region]), float(atlas["region_y"][region])))
-    return np.asarray(at[np.argsort(np.hypot(*(at - place).T), kind="stable")])
+    cells = np.argwhere(lists == lists[row, column])
+    at = axes.transData.transform(np.column_stack([atlas["column"].values[cells[:, 1]], atlas["row"].values[cells[:, 0]]]))
+    place = axes.transData.transform((float(atlas["column"][column]), float(atlas["row"][row])))
+    far = np.hypot(*(at - place).T)
+    order = np.argsort(far, kind="stable")[:int((far < farthest).sum())]
+    return cells[order], at[order]
 
 
 class Taken:
