@@ -26,11 +26,11 @@ static inline void kz_dynamics_freed(kz_dynamics **dynamics) {
   kz_dynamics_free(*dynamics);
 }
 
-/* The dynamics of a nearby pendulum, made from `dynamics`; free it too. Newton's method continues the cycles; a chaotic attractor stays where no orbit on it is trapped. The trapping regions are
+/* The dynamics of a nearby pendulum, made from `dynamics`; free it too. `error`: that its map may have beside that of its steps, rad, > 0. Newton's method continues the cycles; a chaotic attractor stays where no orbit on it is trapped. The trapping regions are
  * the old ones without their outermost cells, so it is only likely that they trap: they are for moving pictures, until
  * kz_dynamics_fine_regions makes new ones. *lost = number of attractors that could not be continued, mirror images not counted. */
 kz_dynamics *kz_dynamics_continue(const kz_dynamics *dynamics, const kz_pendulum *pendulum, const kz_numerics *numerics,
-                                  int64_t *lost);
+                                  double error, int64_t *lost);
 
 /* n starts spread evenly over the window: state [n][2]. Another seed gives other starts. */
 void kz_dynamics_starts(const kz_window *window, int64_t seed, int64_t n, double *state);

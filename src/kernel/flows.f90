@@ -51,24 +51,24 @@ contains
     !> whether neighbouring entries of neighbouring steps are merged: faster, but no sampling within the period
     logical, intent(in) :: fused
     class(flow_t), allocatable, intent(out) :: flow !< the map of one drive period
-    !> whether a slider moves the pendulum: its series may be interpolated from those of the pendulums before; .false., if left out
-    logical, intent(in), optional :: slid
+    !> rad, where a slider moves the pendulum: its series is interpolated from those of the pendulums before to this error; 0 = it is made
+    real(c_double), intent(in), optional :: slid
     integer, intent(in), optional :: refined !< steps of the flow for fast lanes, in those of fine_numerics; 1, if left out
     class(flow_t), intent(in), optional :: fallback !< that flow, if it is known: fine_numerics, not fused
     type(period_t) :: period
     type(series_t), allocatable :: series
-    logical :: moved
+    real(c_double) :: error
 
     if (SCHEMES(numerics%scheme + 1)%form /= PROCESSED) then
       call make_period(pendulum, numerics, fused, period)
       call make_batch(period, flow)
       return
     end if
-    moved = .false.
-    if (present(slid)) moved = slid
+    error = 0
+    if (present(slid)) error = slid
     allocate (series)
-    if (moved) then
-      call make_slid_series(pendulum, numerics%series, series)
+    if (error > 0) then
+      call make_slid_series(pendulum, error, numerics%series, series)
     else
       call make_processed_series(pendulum, numerics%series, series)
     end if

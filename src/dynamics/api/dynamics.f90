@@ -91,25 +91,27 @@ contains
     integer(c_int64_t), value :: max_period
     type(c_ptr) :: handle
 
-    handle = c_loc(make_dynamics(pendulum, numerics, int(max_period), .false.))
+    handle = c_loc(make_dynamics(pendulum, numerics, int(max_period), 0.0_dp))
   end function create
 
   !> Makes the maps of a pendulum, without attractors and regions.
-  function make_dynamics(pendulum, numerics, max_period, moving) result(d)
+  function make_dynamics(pendulum, numerics, max_period, slid) result(d)
     type(pendulum_t), intent(in) :: pendulum !< k, beta, m
     type(numerics_t), intent(in) :: numerics !< of the map that labels
     integer, intent(in) :: max_period !< of the cycles that a search looks for
-    logical, intent(in) :: moving !< whether a slider moves the pendulum
+    real(dp), intent(in) :: slid !< rad: the error that a period may have, beside that of its steps, where a slider moves the pendulum; 0 = none does
     type(dynamics_t), pointer :: d
     type(numerics_t) :: fine
+    logical :: moving
 
+    moving = slid > 0
     allocate (d)
     d%lock = create_lock()
     d%levels%pendulum = pendulum
     d%levels%numerics = numerics
     fine = fine_numerics(pendulum)
     call make_flow(pendulum, fine, .false., d%search%sampling_flow)
-    call make_flow(pendulum, numerics, .true., d%flow, slid=moving, fallback=d%search%sampling_flow)
+    call make_flow(pendulum, numerics, .true., d%flow, slid=slid/2, fallback=d%search%sampling_flow)
     d%search%pendulum = pendulum
     d%search%max_period = max_period
     allocate (d%search%flow, source=d%flow)
@@ -129,10 +131,11 @@ contains
     deallocate (d)
   end subroutine destroy
 
-  function continued(handle, pendulum, numerics, lost) bind(C, name='kz_dynamics_continue') result(moved)
+  function continued(handle, pendulum, numerics, error, lost) bind(C, name='kz_dynamics_continue') result(moved)
     type(c_ptr), value :: handle
     type(pendulum_t), intent(in) :: pendulum
     type(numerics_t), intent(in) :: numerics
+    real(dp), value :: error
     integer(c_int64_t), intent(out) :: lost !< attractors that are there no more, their mirror images not counted
     type(c_ptr) :: moved
     type(dynamics_t), pointer :: from, d
@@ -140,7 +143,7 @@ contains
     integer :: a, n_known
 
     from => of_handle(handle)
-    d => make_dynamics(pendulum, numerics, from%search%max_period, .true.)
+    d => make_dynamics(pendulum, numerics, from%search%max_period, error)
     allocate (number(size(from%attractors)), source=0)
     lost = 0
     do a = 1, size(from%attractors)

@@ -185,7 +185,7 @@ kz_status kz_prepared_move(kz_prepared *r, const kz_scene *scene, const kz_frame
     choose_numerics(r);
     r->chosen = *pendulum;
   }
-  kz_dynamics *moved = kz_dynamics_continue(r->dynamics, pendulum, &r->scene.numerics, &lost);
+  kz_dynamics *moved = kz_dynamics_continue(r->dynamics, pendulum, &r->scene.numerics, r->tolerance, &lost);
   kz_dynamics_free(r->dynamics);
   r->dynamics = moved;
   r->ended = r->left = r->n_unsettled = 0;

@@ -12,11 +12,10 @@ module kz_processed_slider
   private
   public :: make_slid_series
 
-  !> The largest error of the interpolation, and the error of a node, which keeps the weights small: a period is then wrong by less than 1e-10, the
-  !> error of the finest moving frames.
-  real(rk), parameter :: REMAINDER = 5e-11_rk, ROUNDING = 1e-13_rk
+  !> The error of a node, which keeps the weights small.
+  real(rk), parameter :: ROUNDING = 1e-13_rk
   !> Of the force and of the damping: a step multiplies forces by less than 1/2, and no pole is nearer than 1/ORDER. (On drags over the plane of
-  !> Fig. 12, of lines, circles and leaps, periods were wrong by at most 1.8 times REMAINDER.)
+  !> Fig. 12, of lines, circles and leaps, periods were wrong by at most 1.8 times the error that was accepted.)
   real(rk), parameter :: RADIUS(2) = [2.0_rk, 1.0_rk/ORDER]
   !> Nodes that are farther, in units of RADIUS, do not count.
   real(rk), parameter :: FARTHEST = 0.5_rk
@@ -25,8 +24,9 @@ module kz_processed_slider
 contains
 
   !> The series of a pendulum: interpolated from the nodes, or made and kept as a node.
-  subroutine make_slid_series(pendulum, handle, series)
+  subroutine make_slid_series(pendulum, error, handle, series)
     type(pendulum_t), intent(in) :: pendulum !< k, beta, m
+    real(rk), intent(in) :: error !< of the interpolation at most, rad; of a period it may be twice that
     type(c_ptr), intent(in) :: handle !< kz_kept_series of kernel.h, which holds the nodes; null = the series is made
     type(series_t), intent(out) :: series !< what does not depend on the number of steps
     type(kept_series_t), pointer :: kept
@@ -34,15 +34,16 @@ contains
     if (c_associated(handle)) then
       call c_f_pointer(handle, kept)
       call take_lock(kept%lock)
-      call slide(pendulum, handle, kept, series)
+      call slide(pendulum, error, handle, kept, series)
       call leave_lock(kept%lock)
     else
       call make_processed_series(pendulum, handle, series)
     end if
   end subroutine make_slid_series
 
-  subroutine slide(pendulum, handle, kept, series)
+  subroutine slide(pendulum, error, handle, kept, series)
     type(pendulum_t), intent(in) :: pendulum
+    real(rk), intent(in) :: error
     type(c_ptr), intent(in) :: handle
     type(kept_series_t), intent(inout) :: kept !< what `handle` points at
     type(series_t), intent(out) :: series
@@ -56,7 +57,7 @@ contains
       series = kept%node(i)
       return
     end do
-    call weigh(pendulum, kept%place(:kept%n_nodes), weight(:kept%n_nodes), reach)
+    call weigh(pendulum, error, kept%place(:kept%n_nodes), weight(:kept%n_nodes), reach)
     if (reach) then
       call add_nodes(kept%node(:kept%n_nodes), weight(:kept%n_nodes), series)
     else
@@ -68,8 +69,9 @@ contains
   !> The weights of the nodes with the least error for the pendulum. Functions that are analytic in the unit ball have the kernel 1/(1 - x y) (Drury
   !> and Arveson): of those with norm 1, weights w are wrong by w K w - 2 sum w + 1 at most, squared, which is least where K w = 1. `reach`: that
   !> least error, with the rounding of the nodes, is accepted.
-  subroutine weigh(pendulum, place, weight, reach)
+  subroutine weigh(pendulum, error, place, weight, reach)
     type(pendulum_t), intent(in) :: pendulum
+    real(rk), intent(in) :: error
     type(pendulum_t), intent(in) :: place(:)
     real(rk), intent(out) :: weight(size(place))
     logical, intent(out) :: reach
@@ -88,7 +90,7 @@ contains
     best(:n) = solution(reshape(pack(at(:, :n), spread(varies, 2, n)), [count(varies), n]))
     weight = 0
     weight(near(:n)) = real(best(:n), rk)
-    reach = 1 - sum(best(:n)) <= REMAINDER**2
+    reach = 1 - sum(best(:n)) <= error**2
   end subroutine weigh
 
   !> The solution of (K + ROUNDING**2) w = 1 by Cholesky's method, in quad precision because errors are squared in it.
