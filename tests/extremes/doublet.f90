@@ -2,6 +2,7 @@
 !> tests.
 module kz_test_doublet
   use, intrinsic :: iso_c_binding, only: dp => c_double, c_ptr, c_loc
+  use kz_vector_locks, only: create_lock
   use kz_vector_map, only: flow_t, WIDTH, PI
   use kz_model_pendulum, only: pendulum_t
   use kz_api_dynamics, only: dynamics_t
@@ -26,6 +27,7 @@ contains
     type(dynamics_t), pointer :: d
 
     allocate (d)
+    d%lock = create_lock()
     d%search%pendulum = pendulum_t(0, -log(2.0_dp/9)/(2*PI), 0) ! areas shrink as at the fixed points
     d%search%max_period = 4
     allocate (d%flow, source=doublet_t(half=apart/2))

@@ -225,14 +225,13 @@ class Page:
 # ---- fixtures of the modules that name this one in pytest_plugins ----
 
 
-@pytest.fixture(scope="session")
+@pytest.fixture(scope="module")
 def folder(tmp_path_factory):
     return tmp_path_factory.mktemp("browser")
 
 
-@pytest.fixture(scope="session")
+@pytest.fixture(scope="module")
 def driver(folder):
-    """One browser for all modules: to begin takes it longer than most tests."""
     with browser(folder, "1280,829") as found:  # 690 px are left inside of the window
         yield found
         assert [entry for entry in found.get_log("browser") if entry["level"] == "SEVERE"] == []
