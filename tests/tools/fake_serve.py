@@ -45,7 +45,7 @@ def label(theta, m):
 
 def frame(request):
     sequence, view = request["sequence"], request.get("view", "")
-    pendulum = request.get("pendulum", PENDULUM)
+    pendulum = {"m": PENDULUM["m"]} | request.get("pendulum", PENDULUM)  # stories have other keys
     if pendulum["m"] == 6:
         time.sleep(60)
     if pendulum["m"] == 8:
@@ -72,7 +72,7 @@ def frame(request):
 
 
 def other(request):
-    sequence, name, m = request["sequence"], request["request"], request.get("pendulum", PENDULUM)["m"]
+    sequence, name, m = request["sequence"], request["request"], (PENDULUM | request.get("pendulum", {}))["m"]
     if name == "catalogue":
         catalogue(sequence, PENDULUM, True)
     elif name == "where":
