@@ -138,8 +138,9 @@ typedef struct {
 } kz_lifetime;
 /* The lifetime if `ended` motions have ended and all motions together have lasted `total`. */
 kz_lifetime kz_lifetime_of(int64_t ended, double total);
-/* The lifetime from the tail of time [n], which is reordered; n_open further motions had not ended by the time `longest`. */
-kz_lifetime kz_lifetime_tail(int64_t n, double *time, int64_t n_open, double longest);
+/* The lifetime from the tail of time [n], drive periods, which is reordered. KZ_NOT_ENDED: the motion had not ended by the time `longest`. */
+#define KZ_NOT_ENDED UINT32_MAX
+kz_lifetime kz_lifetime_tail(int64_t n, uint32_t *time, double longest);
 
 /* ---- stability ---- */
 

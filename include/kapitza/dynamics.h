@@ -102,12 +102,21 @@ enum {
 /* The label of an orbit whose error has become too large for a label. Any other label, also 0, is decided: the errors cannot change it. */
 enum { KZ_DOUBTFUL = -1 };
 
+/* Where a start ends, and how that is known: what studies keep of it. */
 typedef struct {
-  int32_t label;   /* number of an attractor, 0 = not settled, KZ_DOUBTFUL */
-  int32_t other;   /* second candidate, if no level decides the label; 0 = none */
+  int64_t periods;  /* drive periods from the start until a trapping region holds the orbit, or for which it was followed */
+  int16_t label;    /* number of an attractor, 0 = not settled, KZ_DOUBTFUL */
+  int16_t other;    /* of a start that no level decides: the second candidate, 0 = none */
+  uint8_t evidence; /* 0 = not labelled yet; else how it is known (study/labelling/levels.h), which dynamics does not say */
+  uint8_t proof;    /* the evidence of a proof, 0 = not proved */
+  uint8_t proved;   /* number of the attractor on which it is proved to end */
+  uint8_t next;     /* of a doubtful orbit: the lowest level that may decide it, by the growth of its error */
+} kz_label;
+
+/* A label with the orbit behind it. */
+typedef struct {
+  kz_label end;
   int32_t level;   /* the level that decided; KZ_LEVELS = none */
-  int32_t next;    /* of a doubtful orbit: the lowest level that may decide it, by the growth of its error */
-  int64_t periods; /* first period inside a trapping region; the number of periods followed if there is none */
   double error;    /* rad: bound of the orbit's error when it was trapped; meaningless for chaotic or undecided orbits */
   int64_t age;     /* drive periods after which the orbit was left */
   double state[2]; /* where it was then, as kz_dynamics_follow leaves states */

@@ -4,7 +4,6 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-#include "kapitza/dynamics.h"
 #include "kapitza/study_where.h"
 
 /* The engine: maps, attractors and trapping regions of the pendulums of the last requests. */
@@ -13,15 +12,6 @@ typedef struct kz_atlas kz_atlas; /* study_atlas.h */
 
 kz_engine *kz_engine_create(void);
 void kz_engine_free(kz_engine *engine);
-
-/* An attractor as users see it. */
-typedef struct {
-  kz_attractor row;
-  char name[KZ_NAME_LENGTH];
-  int32_t mirror;           /* id of the mirror image */
-  double fraction;          /* share of the grid's cells that end on it; NaN without a grid */
-  double *theta, *velocity; /* [period] strobe points */
-} kz_entry;
 
 /* The attractors in the order of the file: the index of an entry is its id. */
 typedef struct {

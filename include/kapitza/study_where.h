@@ -3,21 +3,29 @@
 
 #include <stdint.h>
 
+#include "kapitza/dynamics.h"
 #include "kapitza/study.h"
 
-/* Where a start ends. */
+/* An attractor as users see it. */
 typedef struct {
-  int32_t attractor;         /* id in the catalogue of the scene's window; -1 = not settled */
-  char name[KZ_NAME_LENGTH]; /* "" = not settled */
-  int32_t period, winding;   /* as in /attractors */
-  int64_t settling_time;     /* drive periods after which the end is certain: the orbit is inside a trapping region */
-  int64_t near_time;     /* drive periods after which it stays within 1 degree of the attractor at strobes; -1 = not known */
-  const char *precision; /* that decides the label: double, pairs, quad, arbitrary; NULL = not decided, or not settled */
-  double error;          /* rad: bound of the orbit's error when it was trapped; NaN = not decided, or chaotic */
-  int32_t other;         /* id of the second candidate of an undecided start; -1 = none */
-  char other_name[KZ_NAME_LENGTH];        /* "" = none */
-  double *strobe_theta, *strobe_velocity; /* [period] rad, rad per drive radian; NULL = not settled */
+  kz_attractor row;
+  char name[KZ_NAME_LENGTH];
+  int32_t mirror;           /* id of the mirror image */
+  double fraction;          /* share of the grid's cells that end on it; NaN without a grid */
+  double *theta, *velocity; /* [period] strobe points: rad, rad per drive radian */
+} kz_entry;
+
+/* Where a start ends, as users see it. */
+typedef struct {
+  kz_label end;      /* label, other: ids in the catalogue of the scene's window; -1 = not settled, no second candidate */
+  kz_entry entry;    /* a copy of that attractor; without an id it has a name alone, which is "" where nothing has settled */
+  int64_t near_time; /* drive periods after which it stays within 1 degree of the attractor at strobes; -1 = not known */
+  double error;      /* rad: bound of the orbit's error when it was trapped; NaN = not decided, or chaotic */
+  char other_name[KZ_NAME_LENGTH]; /* "" = none */
 } kz_ending;
+
+/* The word of the precision that gives labels this evidence: double, pairs, quad, arbitrary; NULL = not decided, or not settled. */
+const char *kz_evidence_word(uint8_t evidence);
 
 /* Finds where n starts end: start [n], theta and velocity; high and low of a coordinate with a centre are the nearest pair of doubles.
  * The attractors are those that the search of the scene's study basin or attractors finds, and those that the starts lead to. Each start is

@@ -43,15 +43,15 @@ kz_lifetime kz_lifetime_of(int64_t ended, double total) {
 }
 
 /* The value that would stand at `place` of the n in order; moves them. C. A. R. Hoare's FIND, Commun. ACM 4 (1961) 321. */
-static double value_at(int64_t place, int64_t n, double *value) {
+static uint32_t value_at(int64_t place, int64_t n, uint32_t *value) {
   for (int64_t low = 0, high = n - 1; low < high;) {
-    const double middle = value[place];
+    const uint32_t middle = value[place];
     int64_t i = low, j = high;
     while (i <= j) {
       while (value[i] < middle) i++;
       while (value[j] > middle) j--;
       if (i > j) break;
-      const double moved = value[i];
+      const uint32_t moved = value[i];
       value[i++] = value[j];
       value[j--] = moved;
     }
@@ -61,13 +61,15 @@ static double value_at(int64_t place, int64_t n, double *value) {
   return value[place];
 }
 
-kz_lifetime kz_lifetime_tail(int64_t n, double *time, int64_t n_open, double longest) {
-  const int64_t all = n + n_open;
+kz_lifetime kz_lifetime_tail(int64_t all, uint32_t *time, double longest) {
+  int64_t n = 0;
+  for (int64_t i = 0; i < all; i++)
+    if (time[i] != KZ_NOT_ENDED) time[n++] = time[i];
   /* Most motions settle at once; the tail is what is left of them after the nine tenths that settle soonest, or after half of those
    * that settle at all where more are open. */
-  const int64_t soonest = 10 * n_open < all ? (9 * all) / 10 : n / 2;
+  const int64_t open = all - n, soonest = 10 * open < all ? (9 * all) / 10 : n / 2;
   const double from = n > 0 ? value_at(soonest < n ? soonest : n - 1, n, time) : 0;
-  double total = (double)n_open * (longest - from);
+  double total = (double)open * (longest - from);
   int64_t ended = 0;
   for (int64_t i = 0; i < n; i++) {
     if (time[i] <= from) continue;
@@ -76,6 +78,6 @@ kz_lifetime kz_lifetime_tail(int64_t n, double *time, int64_t n_open, double lon
   }
   kz_lifetime life = kz_lifetime_of(ended, total);
   life.from = from;
-  life.open = n_open;
+  life.open = open;
   return life;
 }

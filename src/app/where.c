@@ -17,10 +17,11 @@ static const char *words_of(const char *precision) {
 }
 
 static void print_decision(const kz_ending *e) {
-  if (e->precision)
-    printf("decided         yes, in %s", words_of(e->precision));
+  const char *precision = kz_evidence_word(e->end.evidence);
+  if (precision)
+    printf("decided         yes, in %s", words_of(precision));
   else
-    printf("decided         no: the start ends on %s or on %s, and quad precision cannot tell which", e->name,
+    printf("decided         no: the start ends on %s or on %s, and quad precision cannot tell which", e->entry.name,
            e->other_name[0] ? e->other_name : "another attractor");
   if (!isnan(e->error)) printf(" (error at most %.2g rad when the trapping region holds the orbit)", e->error);
   putchar('\n');
@@ -45,28 +46,28 @@ static void print_time(const char *words, int64_t periods, double omega) {
 static void print_person(const kz_coordinate start[2], const kz_ending *e, double omega) {
   const bool si = !isnan(omega);
   print_start(start, omega);
-  if (e->attractor < 0) {
-    if (e->name[0]) {
-      printf("ends on         no cycle and no chaos: it settles nowhere (%s)\n", e->name);
+  if (e->end.label < 0) {
+    if (e->entry.name[0]) {
+      printf("ends on         no cycle and no chaos: it settles nowhere (%s)\n", e->entry.name);
       print_decision(e);
     } else {
       puts("ends on         no known attractor: it has not settled");
     }
     return;
   }
-  printf("ends on         %s (attractor %d)\n", e->name, (int)e->attractor);
-  print_time("certain", e->settling_time, omega);
+  printf("ends on         %s (attractor %d)\n", e->entry.name, (int)e->end.label);
+  print_time("certain", e->end.periods, omega);
   if (e->near_time >= 0) print_time("within 1 deg", e->near_time, omega);
   print_decision(e);
-  if (e->period == 0) {
+  if (e->entry.row.period == 0) {
     puts("period          none: chaotic");
     return;
   }
-  printf("period          %d\nwinding         %d\nstrobe points   theta, velocity%s\n", (int)e->period, (int)e->winding,
-         si ? ", in deg and rad/s" : "");
-  for (int i = 0; i < e->period; i++) {
-    printf("  %18.12f  %18.12f", e->strobe_theta[i], e->strobe_velocity[i]);
-    si ? printf("  %12.6f  %12.6f\n", e->strobe_theta[i] * 180 / M_PI, e->strobe_velocity[i] * omega) : puts("");
+  printf("period          %d\nwinding         %d\nstrobe points   theta, velocity%s\n", (int)e->entry.row.period,
+         (int)e->entry.row.winding, si ? ", in deg and rad/s" : "");
+  for (int i = 0; i < e->entry.row.period; i++) {
+    printf("  %18.12f  %18.12f", e->entry.theta[i], e->entry.velocity[i]);
+    si ? printf("  %12.6f  %12.6f\n", e->entry.theta[i] * 180 / M_PI, e->entry.velocity[i] * omega) : puts("");
   }
 }
 
@@ -82,27 +83,28 @@ enum { MEMBERS = 19, MEMBERS_SI = 4 /* the last ones, which an SI scene adds */ 
 
 /* Fills list [MEMBERS] and returns their number. */
 static int list_members(const kz_coordinate start[2], const kz_ending *e, double omega, member *list) {
-  const bool settled = e->attractor >= 0;
+  const bool settled = e->end.label >= 0;
+  const char *precision = kz_evidence_word(e->end.evidence);
   const member all[MEMBERS] = {
       {"theta", NUMBER, .value = start[0].high},
       {"velocity", NUMBER, .value = start[1].high},
-      {"attractor", NUMBER, .value = e->attractor},
-      {"name", TEXT, .word = e->name},
-      {"period", NUMBER, .value = settled ? e->period : NAN},
-      {"winding", NUMBER, .value = settled ? e->winding : NAN},
-      {"settling_time", NUMBER, .value = settled ? (double)e->settling_time : NAN},
-      {"decided", FLAG, .word = e->precision ? "true" : "false"},
-      {"strobe_theta", LIST, .value = 1, .list = e->strobe_theta},
-      {"strobe_velocity", LIST, .value = 1, .list = e->strobe_velocity},
-      {"precision", TEXT, .word = e->precision ? e->precision : ""},
+      {"attractor", NUMBER, .value = e->end.label},
+      {"name", TEXT, .word = e->entry.name},
+      {"period", NUMBER, .value = settled ? e->entry.row.period : NAN},
+      {"winding", NUMBER, .value = settled ? e->entry.row.winding : NAN},
+      {"settling_time", NUMBER, .value = settled ? (double)e->end.periods : NAN},
+      {"decided", FLAG, .word = precision ? "true" : "false"},
+      {"strobe_theta", LIST, .value = 1, .list = e->entry.theta},
+      {"strobe_velocity", LIST, .value = 1, .list = e->entry.velocity},
+      {"precision", TEXT, .word = precision ? precision : ""},
       {"error", NUMBER, .value = e->error},
-      {"other_attractor", NUMBER, .value = e->other},
+      {"other_attractor", NUMBER, .value = e->end.other},
       {"other_name", TEXT, .word = e->other_name},
       {"near_time", NUMBER, .value = e->near_time >= 0 ? (double)e->near_time : NAN},
       {"velocity_rad_per_s", NUMBER, .value = start[1].high * omega},
-      {"settling_seconds", NUMBER, .value = settled ? (double)e->settling_time * 2 * M_PI / omega : NAN},
+      {"settling_seconds", NUMBER, .value = settled ? (double)e->end.periods * 2 * M_PI / omega : NAN},
       {"near_seconds", NUMBER, .value = e->near_time >= 0 ? (double)e->near_time * 2 * M_PI / omega : NAN},
-      {"strobe_velocity_rad_per_s", LIST, .value = omega, .list = e->strobe_velocity},
+      {"strobe_velocity_rad_per_s", LIST, .value = omega, .list = e->entry.velocity},
   };
   memcpy(list, all, sizeof all);
   return isnan(omega) ? MEMBERS - MEMBERS_SI : MEMBERS;
@@ -129,7 +131,7 @@ static kz_json *json_of(const member *m, int n) {
 void kz_ending_add(kz_json *object, const kz_coordinate start[2], const kz_ending *e, double omega) {
   member list[MEMBERS];
   const int n = list_members(start, e, omega, list);
-  for (const member *m = list; m < list + n; m++) kz_json_add(object, m->name, json_of(m, e->period));
+  for (const member *m = list; m < list + n; m++) kz_json_add(object, m->name, json_of(m, e->entry.row.period));
 }
 
 static void print_json(const kz_coordinate start[2], const kz_ending *e, double omega) {
@@ -143,7 +145,7 @@ static void print_csv(const kz_coordinate start[2], const kz_ending *e, double o
   const int n = list_members(start, e, omega, list);
   for (const member *m = list; m < list + n; m++) {
     if (m > list) putchar(',');
-    print_value(m, e->period > 0);
+    print_value(m, e->entry.row.period > 0);
   }
   putchar('\n');
 }

@@ -1,5 +1,6 @@
 #include "kapitza/common.h"
 
+#include <malloc.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -47,7 +48,8 @@ void *kz_realloc(void *old, size_t bytes) {
 }
 
 void *kz_room(void *list, int64_t n, size_t item) {
-  return (n & (n - 1)) == 0 ? kz_realloc(list, (size_t)(n > 0 ? 2 * n : 1) * item) : list;
+  const size_t needed = (size_t)(n + 1) * item;
+  return needed <= malloc_usable_size(list) ? list : kz_realloc(list, n > 0 ? 2 * (size_t)n * item : item);
 }
 
 char *kz_strndup(const char *text, size_t length) {

@@ -97,7 +97,7 @@ def test_c_structures_are_the_fortran_types(entries):
     for fortran, c in sorted(met):
         program.append(f"typedef struct {{{types[fortran]}}} {fortran};")
         program.append(f'_Static_assert(sizeof({fortran}) == sizeof({c}), "size of {c}");')
-        for field in re.findall(r"^ *(?!float128)\w+ (\w+)", types[fortran], re.MULTILINE):  # C keeps quads as bytes
+        for field in re.findall(r"^ *(?!float128)(?:signed )?\w+ (\w+)", types[fortran], re.MULTILINE):  # C keeps quads as bytes
             program.append(f'_Static_assert(offsetof({fortran}, {field}) == offsetof({c}, {field}), "{c}.{field}");')
             program.append(f'_Static_assert(sizeof((({fortran} *)0)->{field}) == sizeof((({c} *)0)->{field}), "size of {c}.{field}");')
     compiler = ["cc", "-x", "c", "-fsyntax-only", f"-I{ROOT / 'include'}", f"-I{SOURCES / 'kernel'}", "-"]

@@ -83,7 +83,7 @@ static inline void label_starts(kz_dynamics *d, int32_t level, int64_t n, const 
   static kz_decision decision[4096];
   for (int64_t i = 0; i < n; i++) starts[i] = (kz_start){.theta = {start[2 * i]}, .velocity = {start[2 * i + 1]}};
   kz_dynamics_label(d, level, level > 0 ? level - 1 : 0, n, starts, 2000, decision);
-  for (int64_t i = 0; i < n; i++) label[i] = decision[i].label;
+  for (int64_t i = 0; i < n; i++) label[i] = decision[i].end.label;
 }
 
 /* The attractor one of whose strobe points is within 1e-3 rad of the state; 0 = none. */

@@ -54,7 +54,7 @@ static void decide(kz_dynamics *d, int n, const kz_start *start, kz_decision *de
   for (int i = 0; i < n; i++)
     for (int32_t level = KZ_LEVEL_DOUBLE; level < KZ_LEVEL_ARBITRARY; level++) {
       kz_dynamics_label(d, level, level > 0 ? level - 1 : 0, 1, start + i, MAX_PERIODS, decision + i);
-      if (decision[i].label != KZ_DOUBTFUL) break;
+      if (decision[i].end.label != KZ_DOUBTFUL) break;
     }
 }
 
@@ -88,10 +88,10 @@ static void judge(kz_dynamics *d, const kz_pendulum *pendulum, int n, const kz_s
   decide(d, n, start, decision);
   truth(d, pendulum, n, start, label);
   for (int i = 0; i < n; i++) {
-    if (decision[i].label <= 0 || label[i] == 0) continue;
+    if (decision[i].end.label <= 0 || label[i] == 0) continue;
     c->decided++;
     c->by_level[decision[i].level]++;
-    c->wrong += decision[i].label != label[i];
+    c->wrong += decision[i].end.label != label[i];
   }
 }
 
@@ -147,7 +147,7 @@ TEST(test_decisions_have_no_history) {
     kz_dynamics_free(d);
   }
   for (int i = 0; i < N; i++) {
-    assert_int_equal(decision[0][i].label, decision[1][i].label);
-    if (decision[0][i].label != KZ_DOUBTFUL) assert_true(decision[0][i].error == decision[1][i].error);
+    assert_int_equal(decision[0][i].end.label, decision[1][i].end.label);
+    if (decision[0][i].end.label != KZ_DOUBTFUL) assert_true(decision[0][i].error == decision[1][i].error);
   }
 }

@@ -81,7 +81,7 @@ static void own_label(const view *v, int64_t cell, kz_decision *decision) {
   const kz_coordinate start[2] = {kz_axis_coordinate(&plan->theta, cell % COUNT),
                                   kz_axis_coordinate(&plan->velocity, cell / COUNT)};
   assert_int_equal(kz_own_orbit_decide(v->dynamics, &v->scene.parameters, start, plan->max_periods, decision), KZ_OK);
-  assert_int_not_equal(decision->label, KZ_DOUBTFUL);
+  assert_int_not_equal(decision->end.label, KZ_DOUBTFUL);
 }
 
 /* Every cell is decided, and as its own orbit ends. The labels differ among the cells. */
@@ -104,10 +104,10 @@ static void compare(const window *w) {
   for (int i = 0; i < MOST; i++) several = several || label[i].label != label[0].label;
   for (int i = 0; i < cells; i++) {
     own_label(&v, item[i], &own);
-    if (label[i].label != own.label || getenv("KZ_SHOW"))
+    if (label[i].label != own.end.label || getenv("KZ_SHOW"))
       print_message("width %s cell %d: %d by evidence %d after %lld, own %d after %lld\n", w->width, i, label[i].label,
-                    label[i].evidence, (long long)label[i].periods, own.label, (long long)own.periods);
-    assert_true(label[i].label == own.label);
+                    label[i].evidence, (long long)label[i].periods, own.end.label, (long long)own.end.periods);
+    assert_true(label[i].label == own.end.label);
   }
   assert_true(several);
   close_view(&v);

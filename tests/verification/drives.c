@@ -124,7 +124,7 @@ static void decide(kz_dynamics *d, int n, const double *start, kz_decision *deci
     for (int i = 0; i < left; i++) {
       decision[place[i]] = found[i];
       decision[place[i]].level = level;
-      if (found[i].label == KZ_DOUBTFUL) place[still++] = place[i];
+      if (found[i].end.label == KZ_DOUBTFUL) place[still++] = place[i];
     }
     left = still;
   }
@@ -147,10 +147,10 @@ static void check(int which, kz_dynamics *d, const kz_pendulum *p, int n) {
   truth(d, p, n, state, end);
   decide(d, n, start, decision);
   for (int i = 0; i < n; i++) {
-    if (decision[i].label <= 0) continue;
+    if (decision[i].end.label <= 0) continue;
     decided++;
     by_level[decision[i].level]++;
-    wrong += decision[i].label != end[i];
+    wrong += decision[i].end.label != end[i];
   }
   print_message("drive %d: %lld attractors, %d of %d decided wrongly, of %d; by level %d %d %d %d %d %d %d\n", which,
                 (long long)kz_dynamics_count(d), wrong, decided, n, by_level[0], by_level[1], by_level[2], by_level[3],

@@ -1,7 +1,7 @@
 !> The C interface of dynamics: labels with errors, and starts from their release to the first strobe of the final drive
 !> (include/kapitza/dynamics.h).
 module kz_api_label
-  use, intrinsic :: iso_c_binding, only: dp => c_double, c_int32_t, c_int64_t, c_ptr
+  use, intrinsic :: iso_c_binding, only: dp => c_double, c_int8_t, c_int32_t, c_int64_t, c_ptr
   use kz_api_dynamics, only: dynamics_t, of_handle
   use kz_taylor_pairs, only: pair_of, quad_of
   use kz_taylor_taylor, only: doubles_of, qp, PI_QUAD
@@ -93,9 +93,9 @@ contains
     now = max(level, LEVEL_DOUBLE)
     decided = now
     if (.not. is_useful(d%levels, now)) then
-      decision%label = DOUBTFUL
+      decision%end%label = DOUBTFUL
       decision%level = NO_LEVEL
-      decision%next = int(now, c_int32_t) + 1
+      decision%end%next = int(now + 1, c_int8_t)
       return
     end if
     call prepare(d, now)
@@ -120,7 +120,7 @@ contains
         decision(place) = found
       end if
       if (now == LEVEL_DOUBLE) return ! nothing is handed over from there
-      place = pack([(i, i=1, size(orbit))], decision%label == PENDING)
+      place = pack([(i, i=1, size(orbit))], decision%end%label == PENDING)
       if (size(place) == 0) return
       now = next
     end do

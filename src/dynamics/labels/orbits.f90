@@ -1,7 +1,7 @@
 !> Follows many orbits with the ellipses of their errors. An orbit ends when a trapping region holds its whole ellipse. If the ellipse grows
 !> too large for that, the orbit is doubtful, or goes on in the next cheaper precision.
 module kz_labels_orbits
-  use, intrinsic :: iso_c_binding, only: dp => c_double, c_int64_t, c_int32_t
+  use, intrinsic :: iso_c_binding, only: dp => c_double, c_int64_t, c_int32_t, c_int16_t, c_int8_t
   use kz_cycles_cycles, only: attractor_t, QUASIPERIODIC
   use kz_grown_grid, only: regions_t, find_regions, chaos_region, cell_holds
   use kz_labels_nonlinear, only: measure_nonlinear, SAFETY
@@ -25,13 +25,19 @@ module kz_labels_orbits
   !> Points of an ellipse's rim that a trapping region must hold.
   integer, parameter :: RIM = 8
 
-  !> kz_decision of dynamics.h: where an orbit ends.
+  !> kz_label of dynamics.h.
+  type, bind(C) :: label_t
+    integer(c_int64_t) :: periods = 0       !< first period inside a trapping region, or those followed
+    integer(c_int16_t) :: label = PENDING   !< attractor from 1, 0 = not settled, DOUBTFUL, PENDING
+    integer(c_int16_t) :: other = 0
+    integer(c_int8_t) :: evidence = 0, proof = 0, proved = 0
+    integer(c_int8_t) :: next = 0           !< the level that may decide a doubtful orbit
+  end type label_t
+
+  !> kz_decision of dynamics.h: a label with the orbit behind it.
   type, bind(C) :: decision_t
-    integer(c_int32_t) :: label = PENDING !< attractor from 1, 0 = not settled, DOUBTFUL, PENDING
-    integer(c_int32_t) :: other = 0
+    type(label_t) :: end
     integer(c_int32_t) :: level = 0       !< no error changes the label, at this level
-    integer(c_int32_t) :: next = 0        !< the level that may decide a doubtful orbit
-    integer(c_int64_t) :: periods = 0     !< first period inside a trapping region, or those followed
     real(dp) :: error = 0                 !< how far the orbit may be off then, rad
     integer(c_int64_t) :: age = 0         !< periods after which it was left
     real(dp) :: state(2) = 0              !< where it was then, in the map's coordinates
@@ -71,7 +77,7 @@ module kz_labels_orbits
 
 contains
 
-  !> Follows orbits up to age `most`. decision(i)%label = PENDING and the orbit as it is then where its error has reached `handover`, if
+  !> Follows orbits up to age `most`. decision(i)%end%label = PENDING and the orbit as it is then where its error has reached `handover`, if
   !> that is below TOLERABLE.
   subroutine follow_orbits(carrier, regions, attractors, most, handover, guess, level, outlook, orbit, decision)
     type(carrier_t), intent(inout), target :: carrier !< what moves the orbits by one period
@@ -253,7 +259,7 @@ contains
       o%lost = 0
       o%age = self%age(lane)
     end associate
-    self%decision(self%number(lane))%label = PENDING
+    self%decision(self%number(lane))%end%label = PENDING
   end subroutine pass_on
 
   subroutine settle(self, lane, label, decided)
@@ -261,7 +267,7 @@ contains
     integer, intent(in) :: lane, label
     logical, intent(in) :: decided
     integer(c_int64_t) :: periods
-    integer(c_int32_t) :: next
+    integer(c_int8_t) :: next
     real(dp) :: error
 
     periods = self%age(lane)
@@ -269,9 +275,10 @@ contains
     error = 0
     if (.not. self%doubted(lane)) error = SAFETY*sqrt(self%ellipse(lane, 1) + self%ellipse(lane, 3))
     next = 0
-    if (label == DOUBTFUL) next = merge(self%outlook%after, self%outlook%next, is_beyond(self, lane))
-    self%decision(self%number(lane)) = decision_t(label, 0, merge(self%level, self%outlook%none, decided), next, periods, error, &
-                                                  self%age(lane), [self%carrier%u(lane), self%carrier%v(lane)])
+    if (label == DOUBTFUL) next = int(merge(self%outlook%after, self%outlook%next, is_beyond(self, lane)), c_int8_t)
+    self%decision(self%number(lane)) = decision_t(label_t(periods, int(label, c_int16_t), next=next), &
+                                                  merge(self%level, self%outlook%none, decided), error, self%age(lane), &
+                                                  [self%carrier%u(lane), self%carrier%v(lane)])
   end subroutine settle
 
   !> The first region that holds the state; a later one of another attractor counts in its place, but not for a guess.

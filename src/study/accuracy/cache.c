@@ -1,5 +1,6 @@
 /* Reference labels in a text file beside the result: a line with what they depend on, one line per cell, a checksum. */
 #include <fcntl.h>
+#include <inttypes.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -62,7 +63,8 @@ int64_t kz_reference_labels_recall(const char *path, kz_reference_labels *refere
   int64_t n = 0;
   for (; line && n < reference->samples; n++) {
     kz_reference_label *v = reference->labels + n;
-    if (sscanf(line, "%hd %hd %hhu %hhu %u", &v->label, &v->flipped, &v->distance, &v->agrees, &v->periods) != 5) break;
+    if (sscanf(line, "%hd %hd %hhu %hhu %" SCNd64, &v->end.label, &v->flipped, &v->distance, &v->agrees, &v->end.periods) != 5)
+      break;
     line = strchr(line, '\n') + 1;
   }
   free(text);
@@ -114,7 +116,7 @@ kz_status kz_reference_labels_save(const kz_reference_labels *reference, const c
   fputs(key, out);
   for (int64_t i = 0; i < reference->samples; i++) {
     const kz_reference_label *v = reference->labels + i;
-    fprintf(out, "%d %d %d %d %u\n", v->label, v->flipped, v->distance, v->agrees, v->periods);
+    fprintf(out, "%d %d %d %d %" PRId64 "\n", v->end.label, v->flipped, v->distance, v->agrees, v->end.periods);
   }
   fflush(out);
   const uint64_t sum = checksum(text, bytes, 0xcbf29ce484222325u);

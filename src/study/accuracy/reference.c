@@ -93,7 +93,7 @@ static void find_distances(const reference_job *h, int64_t n, const int64_t *cel
     }
     kz_dynamics_follow(h->dynamics, KZ_FOLLOW_DIRECT, 4 * n, plan->max_periods, state, label, periods);
     for (int64_t i = 0; i < 4 * n; i++)
-      if (label[i] != labels[i / 4].label) labels[i / 4].distance = (uint8_t)distance;
+      if (label[i] != labels[i / 4].end.label) labels[i / 4].distance = (uint8_t)distance;
   }
 }
 
@@ -113,7 +113,7 @@ static void compare_steps(const reference_job *h, int64_t first, int64_t n, cons
     place[n_asked++] = i;
   }
   follow(h, OTHER_STEPS, n_asked, asked, label, periods);
-  for (int64_t i = 0; i < n_asked; i++) labels[place[i]].agrees = label[i] == labels[place[i]].label;
+  for (int64_t i = 0; i < n_asked; i++) labels[place[i]].agrees = label[i] == labels[place[i]].end.label;
 }
 
 static kz_status label_samples(void *context, int64_t first, int64_t n, void *record) {
@@ -130,10 +130,7 @@ static kz_status label_samples(void *context, int64_t first, int64_t n, void *re
     kz_cell_start(plan, cell[i], start + 2 * i);
   }
   follow(h, KZ_REFERENCE_STEPS, n, start, label, periods);
-  for (int64_t i = 0; i < n; i++) {
-    labels[i].label = (int16_t)label[i];
-    labels[i].periods = (uint32_t)periods[i];
-  }
+  for (int64_t i = 0; i < n; i++) labels[i].end = (kz_label){.periods = periods[i], .label = (int16_t)label[i]};
   compare_steps(h, first, n, start, labels);
   find_distances(h, n, cell, labels);
   for (int64_t i = 0; i < 2 * n; i++) start[i] = nextafter(start[i], copysign(INFINITY, start[i]));
@@ -182,10 +179,10 @@ kz_reference_labels_summary kz_reference_labels_sum(const kz_reference_labels *r
   kz_reference_labels_summary sum = {0};
   for (int64_t i = 0; i < reference->samples; i++) {
     const kz_reference_label *v = reference->labels + i;
-    sum.flipped += v->flipped != v->label;
+    sum.flipped += v->flipped != v->end.label;
     sum.disagree += v->agrees == 0;
     sum.asked += v->agrees != 2;
-    sum.mean_periods += (double)v->periods / (double)reference->samples;
+    sum.mean_periods += (double)v->end.periods / (double)reference->samples;
   }
   return sum;
 }

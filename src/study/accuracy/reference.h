@@ -12,11 +12,10 @@ enum {
 
 /* The reference label of one cell; labels are numbers of its attractors from 1, 0 = not settled within max_periods. */
 typedef struct {
-  int16_t label;    /* of the cell's start */
+  kz_label end;     /* of the cell's start: label and periods */
   int16_t flipped;  /* of a start that is larger by one unit in the last place, in angle and velocity */
   uint8_t distance; /* cells along an axis to a different label, a power of two; KZ_REFERENCE_FAR = none found */
   uint8_t agrees;   /* 1 = another number of steps gave the same label, 0 = it gave another one, 2 = not tried */
-  uint32_t periods; /* for which the start was followed */
 } kz_reference_label;
 
 typedef struct {

@@ -115,7 +115,7 @@ static int64_t largest_count_error(const kz_reference_labels *reference, const i
   for (int64_t i = 0; i < reference->samples; i++) {
     if (label[i] == KZ_DOUBTFUL) continue;
     surplus[label[i]]++;
-    surplus[reference->labels[i].label]--;
+    surplus[reference->labels[i].end.label]--;
   }
   for (int64_t a = 1; a <= known; a++)
     if (llabs(surplus[a]) > largest) largest = llabs(surplus[a]);
@@ -127,7 +127,7 @@ static void compare(const kz_reference_labels *reference, const int32_t *label, 
   for (int64_t i = 0; i < reference->samples; i++) {
     if (label[i] == KZ_DOUBTFUL)
       m->undecided++;
-    else if (label[i] != reference->labels[i].label)
+    else if (label[i] != reference->labels[i].end.label)
       at[reference->labels[i].distance]++;
   }
   for (int distance = 1; distance <= KZ_REFERENCE_FAR; distance++) m->wrong += at[distance];

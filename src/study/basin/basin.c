@@ -177,7 +177,7 @@ static kz_status run_damped(const kz_scene *scene, const kz_run *run, kz_store *
 static kz_status pack_unsettled(kz_window_labels *l) {
   kz_status status = KZ_OK;
   KZ_FREED void *record = kz_malloc(kz_tile_labels_bytes(l));
-  for (int64_t i = 0; i < kz_tile_capacity(&l->tiles); i++) l->cell[i].periods = (uint32_t)l->plan->max_periods;
+  for (int64_t i = 0; i < kz_tile_capacity(&l->tiles); i++) l->cell[i].periods = l->plan->max_periods;
   for (int64_t tile = 0; tile < l->tiles.own && status == KZ_OK; tile++) {
     status = kz_tile_labels_pack(l, tile, record);
     kz_local_records_add(&l->records, tile, record, *(uint64_t *)record);

@@ -17,10 +17,10 @@ extern const kz_variable kz_phases_variables[], kz_boundary_variables[], kz_shoc
 
 /* ---- transients: how long they last, from the cells of every few rows that are not mirror images ---- */
 
-/* Settling times, periods, in any order; and the number of cells that have not settled. */
+/* Settling times, periods, in any order; KZ_NOT_ENDED: the cell has not settled. */
 typedef struct {
-  int64_t n, n_open;
-  double *time;
+  int64_t n;
+  uint32_t *time;
 } kz_transients;
 
 /* Makes room for those of a window. The caller frees `time`. */

@@ -100,7 +100,7 @@ static void fill(kz_chunks *c, int64_t tile, bool image) {
     evidence[i] = evidence_of(cell, id);
     ids[i] = id;
     others[i] = id_of(c, cell->other, mirrored);
-    periods[i] = cell->periods;
+    periods[i] = (uint32_t)cell->periods;
   }
 }
 

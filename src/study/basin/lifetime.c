@@ -10,16 +10,13 @@ enum {
   ENOUGH = 30      /* fewer ends give no mean */
 };
 
-/* In the place of the periods of a cell that has not settled. */
-static const uint32_t OPEN = UINT32_MAX;
-
 /* Rows that are not mirror images. */
 static int64_t own_rows(const kz_basin_plan *plan) {
   return (kz_unique_cells(plan) + plan->theta.count - 1) / plan->theta.count;
 }
 
 kz_transients kz_transients_make(const kz_basin_plan *plan) {
-  return (kz_transients){.time = kz_malloc((size_t)(CELLS + 2 * plan->theta.count) * sizeof(double))};
+  return (kz_transients){.time = kz_malloc((size_t)(CELLS + 2 * plan->theta.count) * sizeof(uint32_t))};
 }
 
 int64_t kz_transients_pick(const kz_basin_plan *plan, int64_t first, int64_t n, const int16_t *label, const uint32_t *periods,
@@ -30,7 +27,7 @@ int64_t kz_transients_pick(const kz_basin_plan *plan, int64_t first, int64_t n, 
     const int64_t next_row = (f / columns + 1) * columns;
     end = next_row < first + n ? next_row : first + n;
     for (int64_t i = f - first; i < end - first && f / columns % step == 0; i++) {
-      const uint32_t time = label[i] < 0 ? OPEN : periods[i];
+      const uint32_t time = label[i] < 0 ? KZ_NOT_ENDED : periods[i];
       memcpy((char *)picked + KZ_TRANSIENT_BYTES * count++, &time, sizeof time);
     }
   }
@@ -38,14 +35,8 @@ int64_t kz_transients_pick(const kz_basin_plan *plan, int64_t first, int64_t n, 
 }
 
 void kz_transients_add(kz_transients *transients, int64_t n, const void *picked) {
-  for (int64_t i = 0; i < n; i++) {
-    uint32_t time;
-    memcpy(&time, (const char *)picked + KZ_TRANSIENT_BYTES * i, sizeof time);
-    if (time == OPEN)
-      transients->n_open++;
-    else
-      transients->time[transients->n++] = time;
-  }
+  memcpy(transients->time + transients->n, picked, (size_t)n * KZ_TRANSIENT_BYTES);
+  transients->n += n;
 }
 
 /* The note for cases where motions have not settled. */
@@ -70,7 +61,7 @@ static void print(const kz_lifetime *life, int64_t max_periods, FILE *summary) {
 }
 
 kz_status kz_lifetime_write(const kz_basin_plan *plan, kz_transients *t, kz_store *store, FILE *summary) {
-  const kz_lifetime life = kz_lifetime_tail(t->n, t->time, t->n_open, (double)plan->max_periods);
+  const kz_lifetime life = kz_lifetime_tail(t->n, t->time, (double)plan->max_periods);
   print(&life, plan->max_periods, summary);
   KZ_TRY(kz_store_real(store, "basin", "lifetime", life.mean));
   KZ_TRY(kz_store_real(store, "basin", "lifetime_low", life.low));

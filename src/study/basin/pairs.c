@@ -126,16 +126,16 @@ static kz_labeller labeller_of(const pairing *p, pair_tile *t) {
                        .context = t};
 }
 
-static kz_status count_tile(void *context, int64_t tile, void *record) {
+static kz_status count_some(void *context, int64_t first, int64_t n, void *record) {
   const pairing *p = context;
   pair_record *out = record;
   KZ_FREED pair_tile *t = kz_malloc(sizeof *t);
   const int distances = kz_distances_of(p->plan), stride = 1 + distances;
   t->pairing = p;
-  for (int64_t i = 0; i < STARTS; i++) spread(p->plan, tile * STARTS + i, t->point + stride * i);
+  for (int64_t i = 0; i < n; i++) spread(p->plan, first + i, t->point + stride * i);
   const kz_labeller labeller = labeller_of(p, t);
-  KZ_TRY(kz_label_items(&labeller, 1, (int64_t)STARTS * stride, NULL, t->end));
-  for (int64_t i = 0; i < STARTS; i++)
+  KZ_TRY(kz_label_items(&labeller, 1, n * stride, NULL, t->end));
+  for (int64_t i = 0; i < n; i++)
     for (int d = 0; d < distances; d++) {
       const int32_t own = t->end[stride * i].label, other = t->end[stride * i + 1 + d].label;
       out->pairs[d] += own > 0 && other > 0;
@@ -153,8 +153,8 @@ static pairing pairing_of(const kz_basin_plan *plan, const kz_window_labels *lab
 
 kz_status kz_pairs_count(const kz_basin_plan *plan, const kz_window_labels *labelling, kz_uncertain *uncertain) {
   pairing p = pairing_of(plan, labelling);
-  const kz_stage stage =
-      kz_stage_for_all("pairs", (plan->boundary.pairs + STARTS - 1) / STARTS, sizeof(pair_record), count_tile, &p);
+  const int64_t starts = (plan->boundary.pairs + STARTS - 1) / STARTS * STARTS; /* the last tile is whole */
+  const kz_stage stage = kz_stage_of_items("pairs", starts, STARTS, sizeof(pair_record), count_some, &p);
   KZ_FREED pair_record *records = kz_malloc((size_t)stage.n_tiles * sizeof *records);
   kz_status status = kz_stage_run(labelling->run, &stage, records);
   for (int d = 0; d < kz_distances_of(plan); d++) {

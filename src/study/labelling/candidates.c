@@ -36,9 +36,9 @@ static void find_others(kz_dynamics *dynamics, int64_t max_periods, int64_t n, c
     left = 0;
     for (int64_t i = 0; i < n_open; i++) {
       const int64_t own = open[i];
-      for (int side = 0; side < 4 && decision[own].other == 0; side++)
-        if (found[4 * i + side] != label[own]) decision[own].other = found[4 * i + side];
-      if (decision[own].other == 0) open[left++] = own;
+      for (int side = 0; side < 4 && decision[own].end.other == 0; side++)
+        if (found[4 * i + side] != label[own]) decision[own].end.other = (int16_t)found[4 * i + side];
+      if (decision[own].end.other == 0) open[left++] = own;
     }
   }
 }
@@ -56,16 +56,18 @@ static void find_some(kz_dynamics *dynamics, int64_t max_periods, bool others, i
   memcpy(end, state, sizeof state);
   kz_dynamics_follow(dynamics, KZ_FOLLOW_DIRECT, n, max_periods, end, label, periods);
   for (int64_t i = 0; i < n; i++)
-    decision[i] = (kz_decision){.label = label[i], .level = KZ_LEVELS, .error = NAN, .periods = start[i].periods + periods[i]};
+    decision[i] = (kz_decision){{start[i].periods + periods[i], (int16_t)label[i]}, .level = KZ_LEVELS, .error = NAN};
   if (others) find_others(dynamics, max_periods, n, state, label, decision);
 }
 
 /* In quad precision, whose error is ignored: it acts like a change of the start by so much. */
 static void follow_in_quads(kz_dynamics *dynamics, int64_t max_periods, const kz_start *s, kz_decision *decision) {
+  int32_t label;
   *decision = (kz_decision){.level = KZ_LEVELS, .error = NAN};
   kz_dynamics_follow_reference(dynamics, KZ_REFERENCE_STEPS, 1, max_periods - s->periods,
-                               (double[]){s->theta[0], s->velocity[0]}, (double[]){s->theta[1], s->velocity[1]},
-                               &decision->label, &decision->periods);
+                               (double[]){s->theta[0], s->velocity[0]}, (double[]){s->theta[1], s->velocity[1]}, &label,
+                               &decision->end.periods);
+  decision->end.label = (int16_t)label;
 }
 
 int32_t kz_candidates_level(int32_t open) {

@@ -88,7 +88,7 @@ static kz_status follow_states(const kz_labeller *l, int32_t stepping, const bat
   kz_states_of(b->n, b->start, state);
   kz_dynamics_follow(l->dynamics, stepping, b->n, l->max_periods, state, label, periods);
   for (int64_t i = 0; i < b->n; i++)
-    b->decision[i] = (kz_decision){.label = label[i], .periods = b->start[i].periods + periods[i]};
+    b->decision[i] = (kz_decision){.end = {.label = (int16_t)label[i], .periods = b->start[i].periods + periods[i]}};
   return KZ_OK;
 }
 
@@ -115,11 +115,8 @@ static kz_status label_batch(const kz_labeller *l, int32_t level, int32_t before
   KZ_TRY(decide_batch(l, level, before, b));
   for (int64_t i = 0; i < b->n; i++) {
     const kz_decision *d = b->decision + i;
-    label[i] = (kz_label){.periods = (uint32_t)d->periods,
-                          .label = (int16_t)d->label,
-                          .other = (int16_t)d->other,
-                          .next = (uint8_t)d->next,
-                          .evidence = evidence_of(l, level, d)};
+    label[i] = d->end;
+    label[i].evidence = evidence_of(l, level, d);
     if (l->note) l->note(l->context, item_at(b->item, b->first + i), d);
   }
   return KZ_OK;

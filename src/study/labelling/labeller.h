@@ -12,21 +12,10 @@
 #include "kapitza/study.h"
 #include "levels.h"
 
-/* Where an item ends, and how that is known. */
-typedef struct {
-  uint32_t periods; /* drive periods from the start until a trapping region holds the orbit, or for which it was followed */
-  int16_t label;    /* number of kz_dynamics, 0 = not settled, KZ_DOUBTFUL = not decided */
-  int16_t other;    /* of an item that no level decides: the second candidate, 0 = none */
-  uint8_t evidence; /* from KZ_FOLLOWED on; 0 = not labelled yet */
-  uint8_t proof;    /* KZ_PROVED, ..._IN_PAIRS, ..._IN_QUADS, 0 = not proved */
-  uint8_t proved;   /* number of the attractor, in kz_dynamics, on which it is proved to end */
-  uint8_t next;     /* of a doubtful item: the lowest level that may decide it */
-} kz_label;
-
 /* Makes the start of an item for a level. Finer levels may begin their own arithmetic earlier, after fewer periods. */
 typedef kz_status (*kz_start_fn)(void *context, int64_t item, int32_t level, kz_start *start);
 
-/* Follows one item in as many digits as needed. decision->label stays KZ_DOUBTFUL if this does not decide it. */
+/* Follows one item in as many digits as needed. decision->end.label stays KZ_DOUBTFUL if this does not decide it. */
 typedef kz_status (*kz_decide_fn)(void *context, int64_t item, kz_decision *decision);
 
 /* Takes what a label leaves out of the decision behind it: the orbit's error, its last state. Called at each level that is tried. */

@@ -1,5 +1,6 @@
 #include "levels.h"
 #include "basin/plan.h"
+#include "kapitza/study_where.h"
 
 #include <stddef.h>
 
@@ -24,10 +25,10 @@ const char *kz_evidence_word(uint8_t evidence) {
 void kz_decide_in_doubles(kz_dynamics *dynamics, const kz_start *start, int64_t max_periods, bool look, kz_decision *decision) {
   for (int32_t level = KZ_LEVEL_DOUBLE; level <= KZ_LEVEL_FINE; level++) {
     kz_dynamics_label(dynamics, level, KZ_LEVEL_DOUBLE, 1, start, max_periods, decision);
-    if (decision->label != KZ_DOUBTFUL) return;
+    if (decision->end.label != KZ_DOUBTFUL) return;
   }
   if (look) kz_dynamics_label(dynamics, KZ_LEVEL_GUESS, KZ_LEVEL_DOUBLE, 1, start, max_periods, decision);
-  if (decision->label != 0) decision->label = KZ_DOUBTFUL;
+  if (decision->end.label != 0) decision->end.label = KZ_DOUBTFUL;
 }
 
 void kz_decide_in_quads(kz_dynamics *dynamics, const kz_start *start, int64_t max_periods, kz_decision *decision) {
@@ -37,5 +38,5 @@ void kz_decide_in_quads(kz_dynamics *dynamics, const kz_start *start, int64_t ma
 bool kz_start_is_trapped(kz_dynamics *dynamics, const kz_start *start) {
   kz_decision decision;
   kz_dynamics_label(dynamics, KZ_LEVEL_DOUBLE, KZ_LEVEL_DOUBLE, 1, start, 1, &decision);
-  return decision.label > 0;
+  return decision.end.label > 0;
 }

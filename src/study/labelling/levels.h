@@ -36,9 +36,6 @@ typedef struct {
 } kz_level;
 extern const kz_level kz_level_rows[KZ_LEVELS + 1];
 
-/* The word of the level that gives labels this evidence; NULL = none does. */
-const char *kz_evidence_word(uint8_t evidence);
-
 /* Decides where one orbit ends by double precision: *decision has KZ_DOUBTFUL if that does not decide it. `look`: where doubles without regard
  * to errors end nowhere known, the orbit counts as not settled. */
 void kz_decide_in_doubles(kz_dynamics *dynamics, const kz_start *start, int64_t max_periods, bool look, kz_decision *decision);

@@ -36,7 +36,7 @@ static void follow(kz_prepared *r, int64_t most, kz_travellers *from, kz_travell
       add_late(late, number, spent, state + 2 * i);
       continue;
     }
-    cells[number].end = (kz_label){.label = (int16_t)label[i], .periods = (uint32_t)spent, .evidence = KZ_LEFT};
+    cells[number].end = (kz_label){.label = (int16_t)label[i], .periods = spent, .evidence = KZ_LEFT};
     r->ended++;
     r->left += label[i] == 0;
     if (label[i] == 0 && r->n_unsettled < KZ_MOST_UNSETTLED)
@@ -77,8 +77,8 @@ static kz_status start_cell(void *context, int64_t i, int32_t level, kz_start *s
 static void note(void *context, int64_t i, const kz_decision *decision) {
   deciding *d = context;
   const bool is_left = decision->level < KZ_LEVELS;
-  d->label[i] = is_left ? decision->label : 0;
-  d->time[i] = (double)(is_left ? decision->age : decision->periods);
+  d->label[i] = is_left ? decision->end.label : 0;
+  d->time[i] = (double)(is_left ? decision->age : decision->end.periods);
   memcpy(d->state + 2 * i, decision->state, sizeof decision->state);
 }
 

@@ -60,17 +60,16 @@ static void follow(kz_dynamics *dynamics, int64_t n, approach *a, const int64_t 
   }
 }
 
-void kz_endings_approach(const kz_question *q, const double *state, const int64_t *periods, const kz_catalogue *catalogue,
-                         kz_ending *endings) {
+void kz_endings_approach(const kz_question *q, const double *state, const int64_t *periods, kz_ending *endings) {
   for (int64_t i = 0; i < q->n;) {
     approach a[TOGETHER];
     int64_t first[TOGETHER], of[TOGETHER], n = 0;
     double now[2 * TOGETHER];
     for (; i < q->n && n < TOGETHER; i++) {
-      if (!endings[i].precision || endings[i].period < 1) continue;
+      if (!kz_evidence_word(endings[i].end.evidence) || endings[i].entry.row.period < 1) continue;
       memcpy(now + 2 * n, state + 2 * i, 2 * sizeof *now);
       first[n] = periods[i];
-      a[n] = begin(endings[i].settling_time, catalogue->entries + endings[i].attractor, first[n], q->max_periods);
+      a[n] = begin(endings[i].end.periods, &endings[i].entry, first[n], q->max_periods);
       of[n++] = i;
     }
     follow(q->dynamics, n, a, first, now);

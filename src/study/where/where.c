@@ -25,7 +25,7 @@ static kz_status start_of(void *context, int64_t i, int32_t level, kz_start *sta
 /* A kz_decide_fn: of starts with more digits than a pair has. Doubles are labelled as method exact labels the cells of a file. */
 static kz_status decide(void *context, int64_t i, kz_decision *decision) {
   const kz_question *q = context;
-  *decision = (kz_decision){.label = KZ_DOUBTFUL, .level = KZ_LEVELS, .error = NAN};
+  *decision = (kz_decision){.end.label = KZ_DOUBTFUL, .level = KZ_LEVELS, .error = NAN};
   if (!q->start[i][0].centre && !q->start[i][1].centre) return KZ_OK;
   return kz_own_orbit_decide(q->dynamics, &q->scene->parameters, q->start[i], q->max_periods, decision);
 }
@@ -61,24 +61,22 @@ void kz_question_free(kz_question *q) {
 
 static void describe(const kz_label *d, double error, const kz_catalogue *catalogue, kz_ending *ending) {
   if (d->label <= 0) return;
-  ending->precision = kz_evidence_word(d->evidence);
-  if (catalogue->id_of[d->label] < 0) {
-    kz_orbit_name(-1, 0, 0, ending->name);
+  ending->end = *d;
+  ending->end.label = (int16_t)catalogue->id_of[d->label];
+  ending->end.other = -1;
+  if (ending->end.label < 0) {
+    kz_orbit_name(-1, 0, 0, ending->entry.name);
     return;
   }
-  const kz_entry *entry = catalogue->entries + catalogue->id_of[d->label];
+  kz_entry *entry = &ending->entry;
+  *entry = catalogue->entries[ending->end.label];
   const size_t bytes = (size_t)entry->row.period * sizeof(double);
-  ending->attractor = catalogue->id_of[d->label];
-  ending->settling_time = d->periods;
-  ending->period = entry->row.period;
-  ending->winding = entry->row.winding;
-  ending->strobe_theta = memcpy(kz_malloc(bytes + 1), entry->theta, bytes);
-  ending->strobe_velocity = memcpy(kz_malloc(bytes + 1), entry->velocity, bytes);
-  memcpy(ending->name, entry->name, sizeof ending->name);
-  if (ending->precision && ending->period > 0) ending->error = error;
-  ending->other = d->other > 0 ? catalogue->id_of[d->other] : -1;
-  if (ending->other < 0) return;
-  memcpy(ending->other_name, catalogue->entries[ending->other].name, sizeof ending->other_name);
+  entry->theta = memcpy(kz_malloc(bytes + 1), entry->theta, bytes);
+  entry->velocity = memcpy(kz_malloc(bytes + 1), entry->velocity, bytes);
+  if (kz_evidence_word(d->evidence) && entry->row.period > 0) ending->error = error;
+  if (d->other > 0) ending->end.other = (int16_t)catalogue->id_of[d->other];
+  if (ending->end.other < 0) return;
+  memcpy(ending->other_name, catalogue->entries[ending->end.other].name, sizeof ending->other_name);
 }
 
 kz_status kz_question_answer(const kz_question *q, const kz_catalogue *catalogue, kz_ending *endings) {
@@ -87,18 +85,18 @@ kz_status kz_question_answer(const kz_question *q, const kz_catalogue *catalogue
   for (int64_t i = 0; i < q->n; i++) describe(q->label + i, q->error[i], catalogue, endings + i);
   const kz_labeller labeller = labeller_of(q);
   KZ_TRY(kz_item_states(&labeller, q->n, NULL, state, periods));
-  kz_endings_approach(q, state, periods, catalogue, endings);
+  kz_endings_approach(q, state, periods, endings);
   return KZ_OK;
 }
 
 void kz_endings_clear(int64_t n, kz_ending *endings) {
-  for (int64_t i = 0; i < n; i++) endings[i] = (kz_ending){.attractor = -1, .near_time = -1, .error = NAN, .other = -1};
+  for (int64_t i = 0; i < n; i++) endings[i] = (kz_ending){{.label = -1, .other = -1}, .near_time = -1, .error = NAN};
 }
 
 void kz_where_free(int64_t n, kz_ending *endings) {
   for (int64_t i = 0; i < n; i++) {
-    free(endings[i].strobe_theta);
-    free(endings[i].strobe_velocity);
+    free(endings[i].entry.theta);
+    free(endings[i].entry.velocity);
   }
 }
 
@@ -162,9 +160,9 @@ kz_status kz_where(const kz_scene *scene, int64_t n, const kz_coordinate (*start
 static kz_status where_bisect(const where_job *a, int64_t digits, const kz_ending *endings, kz_boundary_point *point) {
   const kz_question *q = &a->question;
   kz_bisection bisection;
-  if (endings[0].attractor == endings[1].attractor)
+  if (endings[0].end.label == endings[1].end.label)
     return kz_fail(KZ_REFUSED, "--boundary: both starts end on %s; give two that end on different attractors",
-                   endings[0].attractor < 0 ? "no known attractor" : endings[0].name);
+                   endings[0].end.label < 0 ? "no known attractor" : endings[0].entry.name);
   KZ_TRY(kz_bisect(q, digits, &bisection));
   memcpy(point->theta, bisection.theta, sizeof point->theta);
   memcpy(point->velocity, bisection.velocity, sizeof point->velocity);

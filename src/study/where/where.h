@@ -27,8 +27,7 @@ kz_status kz_question_answer(const kz_question *question, const kz_catalogue *ca
 
 /* Fills the near_time of endings [n] that are decided. The motions begin at state [n][2] (half-turns, velocity), after
  * periods [n]; they are followed in doubles, so that a motion that only more digits lead to its attractor keeps -1. */
-void kz_endings_approach(const kz_question *question, const double *state, const int64_t *periods,
-                         const kz_catalogue *catalogue, kz_ending *endings);
+void kz_endings_approach(const kz_question *question, const double *state, const int64_t *periods, kz_ending *endings);
 
 /* The point on the straight line between the two starts of a question, whose labels differ: theta and velocity as texts with `digits` right
  * digits behind the point. */

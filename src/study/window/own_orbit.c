@@ -70,15 +70,15 @@ static kz_start start_of(const path *p) {
 }
 
 /* If doubles, without regard to errors, end nowhere known, more digits would not find an attractor that the catalogue lacks.
- * Until it is decided, or quad precision has as many digits as the orbit has left and goes on: decision->label is KZ_DOUBTFUL if that does not
+ * Until it is decided, or quad precision has as many digits as the orbit has left and goes on: decision->end.label is KZ_DOUBTFUL if that does not
  * decide it. */
 static kz_status follow(path *p, kz_dynamics *dynamics, int64_t max_periods, kz_decision *decision) {
-  decision->label = KZ_DOUBTFUL;
+  decision->end.label = KZ_DOUBTFUL;
   for (; !is_lost(p); p->periods++) {
     if (p->periods >= p->released && (p->periods % TRY_EVERY == 0 || p->periods >= max_periods)) {
       const kz_start start = start_of(p);
       kz_decide_in_doubles(dynamics, &start, max_periods, p->periods % LOOK_EVERY == 0, decision);
-      if (decision->label != KZ_DOUBTFUL || p->periods >= max_periods) return KZ_OK;
+      if (decision->end.label != KZ_DOUBTFUL || p->periods >= max_periods) return KZ_OK;
     }
     KZ_TRY(advance(p));
   }
@@ -98,8 +98,8 @@ static int64_t first_bits(const kz_coordinate start[2]) {
 kz_status kz_own_orbit_decide(kz_dynamics *dynamics, const kz_parameters *parameters, const kz_coordinate start[2],
                               int64_t max_periods, kz_decision *decision) {
   kz_status status = KZ_OK;
-  *decision = (kz_decision){.label = KZ_DOUBTFUL, .level = KZ_LEVELS, .error = NAN};
-  for (int64_t bits = first_bits(start); status == KZ_OK && decision->label == KZ_DOUBTFUL; bits += bits / 3) {
+  *decision = (kz_decision){.end.label = KZ_DOUBTFUL, .level = KZ_LEVELS, .error = NAN};
+  for (int64_t bits = first_bits(start); status == KZ_OK && decision->end.label == KZ_DOUBTFUL; bits += bits / 3) {
     path p = {
         .bits = bits < MOST_BITS ? bits : MOST_BITS, .released = kz_release_strobes(&parameters->release), .error = {1, 0, 1}};
     p.orbit = kz_arbitrary_create(&parameters->pendulum, start, p.bits);

@@ -96,7 +96,7 @@ void kz_hand_over_change(const kz_hand_over *hand_over, double theta, double vel
 
 /* ---- own orbits ---- */
 
-/* Follows the start, released as the parameters say, in more and more digits until double or quad precision decides the rest of its motion. decision->label = number of an attractor;
+/* Follows the start, released as the parameters say, in more and more digits until double or quad precision decides the rest of its motion. decision->end.label = number of an attractor;
  * 0 = not settled within max_periods; KZ_DOUBTFUL = undecided even with 10,000 bits, or with the most bits of the build. */
 kz_status kz_own_orbit_decide(kz_dynamics *dynamics, const kz_parameters *parameters, const kz_coordinate start[2],
                               int64_t max_periods, kz_decision *decision);

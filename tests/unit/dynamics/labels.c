@@ -203,7 +203,7 @@ TEST(test_regions_hold_whole_ellipses) {
   for (int i = 0; i < N; i++) starts[i] = (kz_start){.theta = {x[2 * i] * M_PI}, .velocity = {x[2 * i + 1]}};
   kz_dynamics_label(d, KZ_LEVEL_DOUBLE, KZ_LEVEL_DOUBLE, N, starts, 2000, decision);
   for (int i = 0; i < N; i++) {
-    if (decision[i].label <= 0 || decision[i].error < 1e-4) continue;
+    if (decision[i].end.label <= 0 || decision[i].error < 1e-4) continue;
     double theta = starts[i].theta[0], velocity = starts[i].velocity[0], j[4];
     kz_advance_tangent(flow, 1, decision[i].age, &theta, &velocity, &turns, j);
     const int column = hypot(j[1], j[3]) > hypot(j[0], j[2]);
@@ -211,7 +211,7 @@ TEST(test_regions_hold_whole_ellipses) {
     for (int side = -1; side <= 1; side += 2, n++) {
       ends[2 * n] = decision[i].state[0] + side * 0.9 * decision[i].error * j[column] / stretched / M_PI;
       ends[2 * n + 1] = decision[i].state[1] + side * 0.9 * decision[i].error * j[2 + column] / stretched;
-      expected[n] = decision[i].label;
+      expected[n] = decision[i].end.label;
     }
   }
   kz_dynamics_follow(d, KZ_FOLLOW_DIRECT, n, 1, ends, label, periods);
@@ -238,16 +238,16 @@ TEST(test_growth_foretells_the_level) {
   for (int i = 0; i < N; i++) start[i] = (kz_start){.theta = {x[2 * i] * M_PI, 0}, .velocity = {x[2 * i + 1], 0}};
   kz_dynamics_label(d, KZ_LEVEL_DOUBLE, KZ_LEVEL_DOUBLE, N, start, 2000, decision);
   for (int i = 0; i < N; i++) {
-    const int skips = decision[i].next == KZ_LEVEL_PAIRS_20;
-    if (decision[i].label != KZ_DOUBTFUL) continue;
-    assert_true(skips || decision[i].next == KZ_LEVEL_PAIRS_16);
+    const int skips = decision[i].end.next == KZ_LEVEL_PAIRS_20;
+    if (decision[i].end.label != KZ_DOUBTFUL) continue;
+    assert_true(skips || decision[i].end.next == KZ_LEVEL_PAIRS_16);
     left[skips][n[skips]++] = start[i];
   }
   assert_true(n[0] > 20 && n[1] > 20);
   for (int skips = 0; skips < 2; skips++) {
     int64_t decided = 0;
     kz_dynamics_label(d, KZ_LEVEL_PAIRS_16, KZ_LEVEL_DOUBLE, n[skips], left[skips], 2000, decision);
-    for (int64_t i = 0; i < n[skips]; i++) decided += decision[i].label != KZ_DOUBTFUL;
+    for (int64_t i = 0; i < n[skips]; i++) decided += decision[i].end.label != KZ_DOUBTFUL;
     print_message("%d of %d decided\n", (int)decided, (int)n[skips]);
     assert_true(skips ? 10 * decided <= n[skips] : 2 * decided > n[skips]);
   }

@@ -3,6 +3,7 @@
 #include <stdlib.h>
 
 #include "../../tools/test.h"
+#include "kapitza/study_where.h"
 
 #include "labelling/labeller.h"
 #include "labelling/search.h"
