@@ -184,13 +184,15 @@ void kz_dynamics_table_set(kz_dynamics *dynamics, const double *rows);
 /* Share of the cells of the regions' grid that belong to a trapping region. */
 double kz_dynamics_trapped_share(const kz_dynamics *dynamics);
 
-/* period: 0 = chaotic; -1 = quasi-periodic: what ends there settles nowhere, and files do not list it. */
+/* A motion of one pendulum: an attractor, or a cycle on a branch, which need not attract. period: 0 = chaotic; -1 = quasi-periodic: what ends there
+ * settles nowhere, and files do not list it. Of cycles on branches mirror, mean values and exponents are not known. */
 typedef struct {
-  int32_t period, winding, centre, symmetric, mirror;
-  double mean, mean_velocity; /* over time: rad in [-pi, pi], rad per drive radian */
-  double amplitude;           /* rad from the centre */
-  double multiplier_re[2], multiplier_im[2];
-  double lyapunov, lyapunov_error; /* largest exponent per drive period, and its standard error */
+  double theta, velocity; /* the first strobe point of a cycle, else the means: rad in [-pi, pi], rad per drive radian */
+  int32_t period, winding, centre, symmetric, mirror; /* centre: 0 down, 1 inverted, 2 rotating, 3 none of these */
+  double mean, mean_velocity;                         /* over time: rad in [-pi, pi], rad per drive radian */
+  double amplitude;                                   /* rad from the centre, over continuous time; 0 for rotations */
+  double multiplier_re[2], multiplier_im[2];          /* over the period: larger modulus first, + imaginary first */
+  double lyapunov, lyapunov_error;                    /* largest exponent per drive period, and its standard error */
 } kz_attractor;
 
 /* Finds the cycle near a state by Newton's method on the strobe map of `numerics`; n = a period after which it closes. The cycle need not
@@ -214,24 +216,16 @@ void kz_dynamics_order(const kz_dynamics *dynamics, int64_t *number);
  * Angles in rad from the DOWN position, velocities in rad per drive radian. The map is the one of published values (split6, 96
  * steps or more), whatever the scene's numerics. Nothing here is collective. */
 
-/* A cycle at one value of the parameters. */
-typedef struct {
-  double theta, velocity;                     /* one strobe point; theta in [-pi, pi] */
-  double amplitude;                           /* rad from its centre over continuous time; 0 for rotations */
-  double multiplier_re[2], multiplier_im[2];  /* over the period: larger modulus first, + imaginary first */
-  int32_t period, winding, centre, symmetric; /* centre: 0 down, 1 inverted, 2 rotating, 3 none of these */
-} kz_branch_point;
-
 /* The maps of n >= 1 pendulums, of which the oldest go: their tables cost more than a short cycle. One thread uses them. */
 typedef struct kz_fine_maps kz_fine_maps;
 kz_fine_maps *kz_fine_maps_create(int64_t n);
 void kz_fine_maps_free(kz_fine_maps *maps);
 
 /* Sets everything of a cycle from a strobe point, its period and its symmetry. maps: where maps are kept; NULL = each is made anew. */
-void kz_branch_describe(kz_fine_maps *maps, const kz_pendulum *pendulum, kz_branch_point *point);
+void kz_branch_describe(kz_fine_maps *maps, const kz_pendulum *pendulum, kz_attractor *point);
 
 /* Whether a and b are the same cycle at the same parameters: one is among the strobe points of the other. maps: as above. */
-int32_t kz_branch_same(kz_fine_maps *maps, const kz_pendulum *pendulum, const kz_branch_point *a, const kz_branch_point *b);
+int32_t kz_branch_same(kz_fine_maps *maps, const kz_pendulum *pendulum, const kz_attractor *a, const kz_attractor *b);
 
 /* The centre of a motion (KZ_ABOUT_DOWN ...) from samples of its angle, theta [n] (rad, not wrapped), and whether it rotates: down or inverted where it stays within
  * pi of it and its mean within pi/4. *origin = the copy of this position, rad; 0 for other motions. */

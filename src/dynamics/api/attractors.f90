@@ -7,16 +7,11 @@ module kz_api_attractors
   use kz_attractors_cycle_search, only: append, find_cycle
   use kz_attractors_quasiperiodic, only: find_quasiperiodic
   use kz_cycles_cycles, only: attractor_t, enter_points
+  use kz_cycles_described, only: attractor_row_t
   use kz_vector_map, only: PI
   implicit none
   private
-  public :: attractor_row_t, row_of
-
-  !> kz_attractor of dynamics.h.
-  type, bind(C) :: attractor_row_t
-    integer(c_int32_t) :: period, winding, centre, symmetric, mirror
-    real(dp) :: mean, mean_velocity, amplitude, multiplier_re(2), multiplier_im(2), lyapunov, lyapunov_error
-  end type attractor_row_t
+  public :: row_of
 
 contains
 
@@ -176,8 +171,11 @@ contains
     type(attractor_t), intent(in) :: a !< its angles are half-turns
     type(attractor_row_t) :: row
 
-    row = attractor_row_t(a%period, a%winding, a%centre, merge(1, 0, a%symmetric), a%mirror, PI*a%mean, a%mean_velocity, &
-                          a%amplitude, real(a%multiplier, dp), aimag(a%multiplier), a%lyapunov, a%lyapunov_error)
+    row = attractor_row_t(PI*a%mean, a%mean_velocity, a%period, a%winding, a%centre, merge(1, 0, a%symmetric), a%mirror, PI*a%mean, &
+                          a%mean_velocity, a%amplitude, real(a%multiplier, dp), aimag(a%multiplier), a%lyapunov, a%lyapunov_error)
+    if (a%period <= 0) return
+    row%theta = half_open(a%u(1))
+    row%velocity = a%v(1) + 0.0_dp
   end function row_of
 
   subroutine attractor_points(handle, number, theta, velocity) bind(C, name='kz_dynamics_strobe')

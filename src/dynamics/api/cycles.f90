@@ -5,7 +5,8 @@ module kz_api_cycles
   use kz_kernel_flows, only: make_flow, fine_numerics
   use kz_model_pendulum, only: pendulum_t, is_mirrored
   use kz_vector_step_table, only: numerics_t
-  use kz_api_attractors, only: attractor_row_t, row_of
+  use kz_api_attractors, only: row_of
+  use kz_cycles_described, only: attractor_row_t
   use kz_api_dynamics, only: dynamics_t, of_handle
   use kz_attractors_cycle_search, only: append_with_mirror, join
   use kz_cycles_cycles, only: attractor_t, close_cycle, enter_points, symmetrise

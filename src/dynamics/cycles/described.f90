@@ -10,11 +10,14 @@ module kz_cycles_described
   use kz_maps_states, only: angle_difference, separation
   implicit none
   private
+  public :: attractor_row_t
 
-  type, bind(C) :: branch_point_t
-    real(dp) :: theta, velocity, amplitude, multiplier_re(2), multiplier_im(2)
-    integer(c_int32_t) :: period, winding, centre, symmetric
-  end type branch_point_t
+  !> kz_attractor of dynamics.h.
+  type, bind(C) :: attractor_row_t
+    real(dp) :: theta, velocity
+    integer(c_int32_t) :: period, winding, centre, symmetric, mirror
+    real(dp) :: mean, mean_velocity, amplitude, multiplier_re(2), multiplier_im(2), lyapunov, lyapunov_error
+  end type attractor_row_t
 
   !> rad: states nearer than this are one.
   real(dp), parameter :: ONE = 1e-7_dp
@@ -79,7 +82,7 @@ contains
   subroutine describe(handle, pendulum, point) bind(C, name='kz_branch_describe')
     type(c_ptr), value :: handle
     type(pendulum_t), intent(in) :: pendulum !< k, beta, m
-    type(branch_point_t), intent(inout) :: point !< strobe point and period, in; the rest, out
+    type(attractor_row_t), intent(inout) :: point !< strobe point and period, in; the rest, out
     type(fine_map_t), target :: own
     type(fine_map_t), pointer :: map
     type(attractor_t) :: cycle
@@ -104,8 +107,8 @@ contains
   function same_cycle(handle, pendulum, a, b) bind(C, name='kz_branch_same') result(same)
     type(c_ptr), value :: handle
     type(pendulum_t), intent(in) :: pendulum !< k, beta, m of both
-    type(branch_point_t), intent(in) :: a !< a cycle
-    type(branch_point_t), intent(in) :: b !< and perhaps the same
+    type(attractor_row_t), intent(in) :: a !< a cycle
+    type(attractor_row_t), intent(in) :: b !< and perhaps the same
     integer(c_int32_t) :: same
     type(fine_map_t), target :: own
     type(fine_map_t), pointer :: map

@@ -58,7 +58,7 @@ static kz_status walk_tile(void *context, int64_t tile, void *record) {
 }
 
 /* The node of a value that is this very cycle; -1 where there is none. */
-static int64_t find_node(const walking *w, int64_t value, const kz_branch_point *point) {
+static int64_t find_node(const walking *w, int64_t value, const kz_attractor *point) {
   kz_pendulum pendulum;
   if (!kz_sweep_pendulum(w->scene, kz_sweep_value(w->scene->sweep, value), &pendulum)) return -1;
   for (int64_t i = 0; i < w->branches->n_nodes; i++) {
@@ -81,7 +81,7 @@ static bool is_known(const kz_sweep_node *node, bool forward) {
 }
 
 /* The node where a piece arrives; -1 = nowhere, or there are too many. */
-static int64_t arrival(const walking *w, const task *t, const kz_sweep_piece *piece, const kz_branch_point *point) {
+static int64_t arrival(const walking *w, const task *t, const kz_sweep_piece *piece, const kz_attractor *point) {
   kz_sweep_branches *b = w->branches;
   if (piece->reached < 0) return -1;
   const int64_t value = piece->reached ? aim(w, t) : b->nodes[t->node].value;
@@ -113,7 +113,7 @@ static void add_between(kz_sweep_branches *b, int64_t value, const kz_sweep_piec
 }
 
 /* Joins both ends of a piece: `point` is its end, or that of its mirror image. */
-static void join(const walking *w, const task *t, const kz_sweep_piece *piece, const kz_branch_point *point) {
+static void join(const walking *w, const task *t, const kz_sweep_piece *piece, const kz_attractor *point) {
   kz_sweep_branches *b = w->branches;
   const int64_t from = piece->from_start ? t->node : -1, there = arrival(w, t, piece, point);
   if (there >= 0 && b->nodes[there].step == 0) b->nodes[there].step = piece->step;
@@ -140,7 +140,7 @@ static void join(const walking *w, const task *t, const kz_sweep_piece *piece, c
 static void join_walk(const walking *w, const task *t, const kz_sweep_walk *walk) {
   for (int64_t i = 0; i < walk->count; i++) {
     const kz_sweep_piece *piece = walk->piece + i;
-    const kz_branch_point image = kz_branch_point_mirrored(piece->point);
+    const kz_attractor image = kz_branch_point_mirrored(piece->point);
     join(w, t, piece, &piece->point);
     if (piece->twice && piece->reached >= 0) join(w, t, piece, &image);
   }
@@ -196,7 +196,7 @@ static void join_chaotic(kz_sweep_branches *b) {
     for (int64_t j = 0; b->nodes[i].entry.point.period == 0 && j < b->n_nodes; j++) {
       const kz_sweep_node *other = b->nodes + j;
       if (other->entry.point.period != 0 || other->value != b->nodes[i].value + 1 || other->previous >= 0) continue;
-      const kz_branch_point *own = &b->nodes[i].entry.point;
+      const kz_attractor *own = &b->nodes[i].entry.point;
       if (best < 0 ||
           kz_branch_points_apart(own, &other->entry.point) < kz_branch_points_apart(own, &b->nodes[best].entry.point))
         best = j;
@@ -209,7 +209,7 @@ static void join_chaotic(kz_sweep_branches *b) {
 
 /* Those that attract first; in the order of points; by the value where it begins, first strobe velocity and angle. */
 static bool before(const kz_sweep_node *a, const kz_sweep_node *b) {
-  const kz_branch_point *p = &a->entry.point, *q = &b->entry.point;
+  const kz_attractor *p = &a->entry.point, *q = &b->entry.point;
   const double keys[][2] = {{!a->attracts, !b->attracts},         {a->between, b->between},   {kz_branch_points_order(p, q), 0},
                             {(double)a->value, (double)b->value}, {p->velocity, q->velocity}, {p->theta, q->theta}};
   for (size_t i = 0; i < sizeof keys / sizeof keys[0]; i++)

@@ -27,13 +27,13 @@ static const kz_sweep_node *last_of(const kz_sweep_branches *b, int64_t branch) 
 }
 
 static void name_of(const kz_sweep_branches *b, int64_t branch, char *text) {
-  const kz_branch_point *point = &first_of(b, branch)->entry.point;
+  const kz_attractor *point = &first_of(b, branch)->entry.point;
   kz_orbit_name(point->period, point->winding, point->centre, text);
 }
 
-static bool mirrors(const writing *w, const kz_sweep_node *node, const kz_branch_point *image) {
+static bool mirrors(const writing *w, const kz_sweep_node *node, const kz_attractor *image) {
   kz_pendulum pendulum;
-  const kz_branch_point *point = &node->entry.point;
+  const kz_attractor *point = &node->entry.point;
   if (image->period == 0)
     return point->period == 0 && fabs(point->velocity - image->velocity) < 1e-3 && fabs(point->theta - image->theta) < 1e-3;
   return kz_sweep_pendulum(w->scene, kz_sweep_value(w->scene->sweep, node->value), &pendulum) &&
@@ -43,7 +43,7 @@ static bool mirrors(const writing *w, const kz_sweep_node *node, const kz_branch
 /* The branch that holds the mirror image of this one's first cycle; -1 where none does. */
 static int32_t mirror_of(const writing *w, int64_t branch) {
   const kz_sweep_node *first = first_of(w->branches, branch);
-  const kz_branch_point image = kz_branch_point_mirrored(first->entry.point);
+  const kz_attractor image = kz_branch_point_mirrored(first->entry.point);
   if (image.symmetric) return (int32_t)branch;
   if (first->between) return -1;
   for (int64_t other = 0; other < w->branches->n_branches; other++) {

@@ -150,25 +150,15 @@ static int64_t count_hits(const searching *s) {
   return total;
 }
 
-static kz_sweep_entry entry_of(const searching *s, int64_t number, int32_t *mirror) {
-  kz_attractor row;
-  double *theta = s->state, *velocity = s->state + CHUNK;
-  kz_dynamics_attractor(s->dynamics, number, &row);
-  kz_dynamics_strobe(s->dynamics, number, theta, velocity);
-  *mirror = row.mirror;
-  return (kz_sweep_entry){
-      .hits = s->hits[number], .shock = {NAN, NAN, NAN}, .point = kz_branch_point_of(&row, theta[0], velocity[0])};
-}
-
 /* The attractors that something ended on, and their mirror images, in the order of the file; not quasi-periodic ones. */
 static kz_status collect(const searching *s, kz_sweep_catalogue *catalogue) {
   const int64_t known = kz_dynamics_count(s->dynamics);
   KZ_FREED int64_t *order = kz_malloc((size_t)(known + 1) * sizeof *order);
   kz_dynamics_order(s->dynamics, order);
   for (int64_t i = 0; i < known; i++) {
-    int32_t mirror;
-    const kz_sweep_entry entry = entry_of(s, order[i], &mirror);
-    if (entry.point.period < 0 || s->hits[order[i]] + s->hits[mirror] == 0) continue;
+    kz_sweep_entry entry = {.hits = s->hits[order[i]], .shock = {NAN, NAN, NAN}};
+    kz_dynamics_attractor(s->dynamics, order[i], &entry.point);
+    if (entry.point.period < 0 || entry.hits + s->hits[entry.point.mirror] == 0) continue;
     if (catalogue->count == KZ_SWEEP_MOST)
       return kz_fail(KZ_FAILED, "sweep: more than %d attractors at one value; use more damping or a smaller window",
                      KZ_SWEEP_MOST);

@@ -28,9 +28,9 @@ static bool on_the_way(const void *context, double value, kz_pendulum *pendulum)
 }
 
 /* The cycle of `there` in which one of the point `from` arrives; -1 = none. */
-static int8_t carry(const step *s, const kz_branch_point *cycle, const kz_measured_point *there) {
+static int8_t carry(const step *s, const kz_attractor *cycle, const kz_measured_point *there) {
   const kz_path path = {.pendulum = on_the_way, .context = s, .maps = s->maps};
-  kz_branch_point point = *cycle;
+  kz_attractor point = *cycle;
   kz_pendulum pendulum;
   int32_t kind;
   bool possible = false;
@@ -44,7 +44,7 @@ static int8_t carry(const step *s, const kz_branch_point *cycle, const kz_measur
 }
 
 /* The chaotic attractor of `there` nearest to one; -1 = none. */
-static int8_t nearest(const kz_branch_point *chaotic, const kz_measured_point *there) {
+static int8_t nearest(const kz_attractor *chaotic, const kz_measured_point *there) {
   int8_t best = -1;
   for (int64_t i = 0; i < there->count; i++)
     if (there->attractor[i].period == 0 && (best < 0 || kz_branch_points_apart(chaotic, there->attractor + i) <
@@ -67,7 +67,7 @@ static kz_status join_tile(void *context, int64_t tile, void *record) {
       if (!has[way] || place >= here->count) continue;
       const step s = {points, tile, at[way], maps};
       const kz_measured_point *there = kz_point_at(points, j->records, at[way]);
-      const kz_branch_point *one = here->attractor + place;
+      const kz_attractor *one = here->attractor + place;
       out->to[way][place] = one->period > 0 ? carry(&s, one, there) : nearest(one, there);
     }
   kz_fine_maps_free(maps);

@@ -17,15 +17,15 @@ static const double FIRST_SHARE = 1e-4, LAST_SHARE = 0.05;
 typedef struct {
   int32_t found;
   double at, birth; /* values: where it was found; how far towards the critical one it reaches */
-  kz_branch_point flutter;
+  kz_attractor flutter;
 } beginning;
 
 /* Flutter carried along some values. */
 typedef struct {
   double at;
-  kz_branch_point flutter; /* there */
-  int32_t lost;            /* 1 = it ends before the next value */
-  double amplitude[LEG];   /* NaN = none */
+  kz_attractor flutter;  /* there */
+  int32_t lost;          /* 1 = it ends before the next value */
+  double amplitude[LEG]; /* NaN = none */
 } leg;
 
 typedef struct {
@@ -72,7 +72,7 @@ static kz_status begin(void *context, int64_t tile, void *record) {
     out->at = f->critical + f->side * share * (range->max - range->min);
     out->found = f->path.pendulum(f->path.context, out->at, &pendulum) && kz_flutter_find(&pendulum, &out->flutter);
   }
-  kz_branch_point back = out->flutter;
+  kz_attractor back = out->flutter;
   int32_t end_kind;
   if (out->found) out->birth = kz_walk(&f->path, out->at, f->critical, &back, &end_kind);
   return KZ_OK;
@@ -112,7 +112,7 @@ static kz_status follow_back(void *context, int64_t first, int64_t n, void *reco
   for (int64_t i = 0; i < n; i++) {
     const double value = kz_sweep_value(plan, first + i);
     if ((value - f->begun.birth) * (value - f->begun.at) >= 0) continue;
-    kz_branch_point back = f->begun.flutter;
+    kz_attractor back = f->begun.flutter;
     int32_t end_kind;
     if (kz_walk(&f->path, f->begun.at, value, &back, &end_kind) == value) amplitude[i] = back.amplitude;
   }

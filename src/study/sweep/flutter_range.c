@@ -29,7 +29,7 @@ static double find_onset(const kz_path *path) {
   return critical;
 }
 
-static bool find_flutter(const kz_path *path, double onset, double *m, kz_branch_point *flutter) {
+static bool find_flutter(const kz_path *path, double onset, double *m, kz_attractor *flutter) {
   kz_pendulum pendulum;
   for (double above = 1e-4; above < 2e-2; above *= 2) {
     *m = onset + above;
@@ -40,14 +40,13 @@ static bool find_flutter(const kz_path *path, double onset, double *m, kz_branch
 
 /* One of the two asymmetric cycles that replace a symmetric one just above m: searched from points displaced by growing
  * distances in eight directions. */
-static bool find_asymmetric(const kz_path *path, double m, const kz_branch_point *symmetric, double *at,
-                            kz_branch_point *found) {
+static bool find_asymmetric(const kz_path *path, double m, const kz_attractor *symmetric, double *at, kz_attractor *found) {
   kz_pendulum pendulum;
   for (double above = 1e-5; above < 5e-3; above *= 2)
     for (double size = 1e-3; size < 0.3; size *= 1.3)
       for (int i = 0; i < 8; i++) {
         const double guess[2] = {symmetric->theta + size * cos(i * M_PI / 4), symmetric->velocity + size * sin(i * M_PI / 4)};
-        *found = (kz_branch_point){.period = symmetric->period};
+        *found = (kz_attractor){.period = symmetric->period};
         *at = m + above;
         path->pendulum(path->context, *at, &pendulum);
         if (kz_cycle_near(&pendulum, guess, size, found)) return true; /* the symmetric one repels there */
@@ -56,7 +55,7 @@ static bool find_asymmetric(const kz_path *path, double m, const kz_branch_point
 }
 
 /* The drive up to which the cycle at m exists and attracts, in steps so short that it is not taken for another one far above. */
-static double walk_up(const kz_path *path, double m, kz_branch_point *cycle, int32_t *end_kind) {
+static double walk_up(const kz_path *path, double m, kz_attractor *cycle, int32_t *end_kind) {
   for (double next = m; m == next && m < TOP;) {
     next = fmin(m + STEP, TOP);
     m = kz_walk(path, m, next, cycle, end_kind);
@@ -66,7 +65,7 @@ static double walk_up(const kz_path *path, double m, kz_branch_point *cycle, int
 
 /* Along the cycle: where it loses its mirror symmetry, and where the cycles that take over end. */
 static void follow_cycle(const kz_path *path, kz_flutter_drives *range) {
-  kz_branch_point flutter, asymmetric;
+  kz_attractor flutter, asymmetric;
   int32_t end_kind;
   double m;
   if (!find_flutter(path, range->onset, &m, &flutter)) return;

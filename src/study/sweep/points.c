@@ -37,7 +37,7 @@ static kz_status write_line(const writing *w) {
 }
 
 /* A class where it begins. */
-static const kz_branch_point *first_of(const writing *w, int64_t k) {
+static const kz_attractor *first_of(const writing *w, int64_t k) {
   return kz_point_at(w->points, w->records, w->classes->first_point[k])->attractor + w->classes->first_place[k];
 }
 
@@ -52,7 +52,7 @@ static kz_status write_classes(const writing *w, const int32_t *count, FILE *sum
   const int64_t n = w->classes->count;
   KZ_FREED char (*names)[KZ_NAME_LENGTH] = kz_calloc((size_t)n + 1, sizeof *names);
   for (int64_t k = 0; k < n; k++) {
-    const kz_branch_point *point = first_of(w, k);
+    const kz_attractor *point = first_of(w, k);
     kz_orbit_name(point->period, point->winding, point->centre, names[k]);
   }
   KZ_TRY(kz_store_dimension(w->store, w->group, "attractor", n, NULL));
@@ -162,7 +162,7 @@ static kz_status measure_point(void *context, int64_t tile, void *record) {
   out->count = measured.catalogue.count;
   for (int64_t id = 0; id < out->count; id++) {
     const kz_entry *entry = measured.catalogue.entries + id;
-    out->attractor[id] = kz_branch_point_of(&entry->row, entry->theta[0], entry->velocity[0]);
+    out->attractor[id] = entry->row;
   }
   fill(points, &measured, out);
   return KZ_OK;

@@ -22,7 +22,7 @@ bool kz_points_pendulum(const kz_points *points, int64_t from, int64_t to, doubl
  * damping. */
 typedef struct {
   int64_t count;
-  kz_branch_point attractor[KZ_POINT_MOST];
+  kz_attractor attractor[KZ_POINT_MOST];
   double value[];
 } kz_measured_point;
 static inline size_t kz_point_bytes(const kz_points *points) {

@@ -41,7 +41,7 @@ typedef struct {
   int32_t reached;         /* 0: ends at the first value, 1: at the second, -1: at an event */
   int32_t attracts, twice; /* twice: its mirror image branches off with it */
   double step;             /* that would follow from its end, in distances of the two values */
-  kz_branch_point point;   /* where it ends */
+  kz_attractor point;      /* where it ends */
 } kz_sweep_piece;
 enum { KZ_SWEEP_PIECES = 32 };
 typedef struct {
@@ -52,39 +52,38 @@ typedef struct {
 /* Follows a cycle from one value towards another one by pseudo-arclength, attracting or not, through folds, and all cycles of up to max_period
  * periods that branch off on the way. The first piece is that from the cycle itself. Ends are right to rounding. step: the first one, in distances
  * of the values; 0 = not known. */
-void kz_sweep_follow(const kz_path *path, double from, double to, int64_t max_period, const kz_branch_point *point, double step,
+void kz_sweep_follow(const kz_path *path, double from, double to, int64_t max_period, const kz_attractor *point, double step,
                      kz_sweep_walk *found);
 /* Carries a cycle from the value `from` towards `to`. Returns `to`, or where the cycle ends or its stability changes, and how (end_kind).
  * In and out: *point, the cycle at that value. */
-double kz_walk(const kz_path *path, double from, double to, kz_branch_point *point, int32_t *end_kind);
+double kz_walk(const kz_path *path, double from, double to, kz_attractor *point, int32_t *end_kind);
 
 /* The attracting cycle of the period and the symmetry of *point within `farthest` rad of a state; false if there is none. */
-bool kz_cycle_near(const kz_pendulum *pendulum, const double state[2], double farthest, kz_branch_point *point);
+bool kz_cycle_near(const kz_pendulum *pendulum, const double state[2], double farthest, kz_attractor *point);
 
 /* Finds the attracting symmetric period-2 cycle about inverted (flutter) of a pendulum whose inverted state has lost its stability by the
  * multiplier -1. It searches along the eigenvector with growing amplitudes; false if it finds none. */
-bool kz_flutter_find(const kz_pendulum *pendulum, kz_branch_point *flutter);
+bool kz_flutter_find(const kz_pendulum *pendulum, kz_attractor *flutter);
 
 /* The value between low and high, to rounding, at which a multiplier of the inverted state passes -1: 1 + trace + det of its one-period map
  * changes sign there. NaN if it does not change sign. */
 double kz_flutter_critical(const kz_path *path, double low, double high);
 
 /* A cycle with a strobe point, or of a chaotic attractor its means; its mirror image. */
-kz_branch_point kz_branch_point_of(const kz_attractor *row, double theta, double velocity);
-kz_branch_point kz_branch_point_mirrored(kz_branch_point point);
+kz_attractor kz_branch_point_mirrored(kz_attractor point);
 /* The distance between two chaotic attractors, by their means. */
-double kz_branch_points_apart(const kz_branch_point *a, const kz_branch_point *b);
+double kz_branch_points_apart(const kz_attractor *a, const kz_attractor *b);
 /* By centre, period (chaotic last), |winding|/period, + first: below 0 where p comes first, 0 where these are equal. */
-int kz_branch_points_order(const kz_branch_point *p, const kz_branch_point *q);
+int kz_branch_points_order(const kz_attractor *p, const kz_attractor *q);
 
 /* ---- catalogues: what attracts at each value ---- */
 
 enum { KZ_SWEEP_MOST = 128 }; /* attractors at one value */
 
 typedef struct {
-  kz_branch_point point; /* period 0 = chaotic: theta, velocity are its mean angle and mean velocity */
-  int64_t hits;          /* number of starts or cells that ended on it */
-  double shock[3];       /* smallest shocks that leave its basin: of angle, velocity, both; NaN = none, or not measured */
+  kz_attractor point; /* period 0 = chaotic: theta, velocity are its mean angle and mean velocity */
+  int64_t hits;       /* number of starts or cells that ended on it */
+  double shock[3];    /* smallest shocks that leave its basin: of angle, velocity, both; NaN = none, or not measured */
 } kz_sweep_entry;
 
 typedef struct {

@@ -37,7 +37,7 @@ kz_path kz_sweep_path(const kz_scene *scene, kz_fine_maps *maps) {
   return (kz_path){pendulum_of_scene, scene, maps};
 }
 
-static bool attracts(const kz_branch_point *point) {
+static bool attracts(const kz_attractor *point) {
   return hypot(point->multiplier_re[0], point->multiplier_im[0]) < 1;
 }
 
@@ -70,7 +70,7 @@ static bool is_symmetric(const cycle *c) {
 }
 
 /* The cycle through a strobe point at a place. Long ones have points several periods apart: so few that a pair of them lies half a cycle apart. */
-static bool cycle_of(const kz_plane *plane, const kz_branch_point *point, double place, cycle *c) {
+static bool cycle_of(const kz_plane *plane, const kz_attractor *point, double place, cycle *c) {
   const bool halved = point->symmetric && point->period > 1;
   const int side = halved ? -1 : 1;
   const int n = halved ? point->period / 2 : point->period;
@@ -89,13 +89,13 @@ static bool cycle_of(const kz_plane *plane, const kz_branch_point *point, double
 }
 
 /* The point of a branch that a cycle is. */
-static bool describe(const walking *w, const cycle *c, kz_branch_point *point) {
+static bool describe(const walking *w, const cycle *c, kz_attractor *point) {
   kz_pendulum pendulum;
   const double *place = c->y + 2 * c->kind.of.points;
   const bool at_end = *place == 0 || *place == 1;
   if (!pendulum_at(w->way, place, &pendulum)) return false;
-  *point = (kz_branch_point){
-      .theta = c->y[0], .velocity = c->y[1], .period = kz_kind_period(&c->kind), .symmetric = is_symmetric(c)};
+  *point =
+      (kz_attractor){.theta = c->y[0], .velocity = c->y[1], .period = kz_kind_period(&c->kind), .symmetric = is_symmetric(c)};
   kz_branch_describe(at_end ? w->way->path->maps : NULL, &pendulum, point);
   return true;
 }
@@ -231,7 +231,7 @@ static void follow(const walking *w, const cycle *c, const double along[2], kz_s
   add_piece(w, &piece);
 }
 
-void kz_sweep_follow(const kz_path *path, double from, double to, int64_t max_period, const kz_branch_point *point, double step,
+void kz_sweep_follow(const kz_path *path, double from, double to, int64_t max_period, const kz_attractor *point, double step,
                      kz_sweep_walk *found) {
   const way w = {path, from, to};
   const double along[2] = {1, 0};
@@ -248,7 +248,7 @@ void kz_sweep_follow(const kz_path *path, double from, double to, int64_t max_pe
         (kz_sweep_piece){.from_start = 1, .reached = -1, .end = from, .end_kind = KZ_END_NOT_LOCATED, .point = *point};
 }
 
-double kz_walk(const kz_path *path, double from, double to, kz_branch_point *point, int32_t *end_kind) {
+double kz_walk(const kz_path *path, double from, double to, kz_attractor *point, int32_t *end_kind) {
   kz_sweep_walk found;
   *end_kind = KZ_END_OF_RANGE;
   if (from == to) return to;
@@ -307,7 +307,7 @@ static bool same_pendulum(const void *context, double value, kz_pendulum *pendul
   return true;
 }
 
-bool kz_cycle_near(const kz_pendulum *pendulum, const double state[2], double farthest, kz_branch_point *point) {
+bool kz_cycle_near(const kz_pendulum *pendulum, const double state[2], double farthest, kz_attractor *point) {
   const kz_path path = {same_pendulum, pendulum};
   const way here = {&path, 0, 1};
   walking w = {.way = &here};
@@ -320,12 +320,12 @@ bool kz_cycle_near(const kz_pendulum *pendulum, const double state[2], double fa
   return describe(&w, &c, point) && attracts(point);
 }
 
-bool kz_flutter_find(const kz_pendulum *pendulum, kz_branch_point *flutter) {
+bool kz_flutter_find(const kz_pendulum *pendulum, kz_attractor *flutter) {
   double direction[2];
   if (!leaving_direction(pendulum, direction)) return false;
   for (double size = 1e-3; size < 1.5; size *= 1.2) {
     const double guess[2] = {M_PI + size * direction[0], size * direction[1]};
-    *flutter = (kz_branch_point){.period = 2, .symmetric = 1};
+    *flutter = (kz_attractor){.period = 2, .symmetric = 1};
     if (kz_cycle_near(pendulum, guess, size / 2, flutter) && flutter->centre == 1) return true;
   }
   return false;

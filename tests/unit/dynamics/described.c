@@ -16,7 +16,7 @@ static kz_pendulum pendulum(double m) {
 /* The published amplitude of flutter; the product of its multipliers. */
 TEST(test_flutter) {
   const kz_pendulum p = pendulum(0.47);
-  kz_branch_point point = {.theta = PI + 0.161076997267223124, .velocity = -0.002241504186408954, .period = 2, .symmetric = 1};
+  kz_attractor point = {.theta = PI + 0.161076997267223124, .velocity = -0.002241504186408954, .period = 2, .symmetric = 1};
   kz_branch_describe(NULL, &p, &point);
   assert_true(point.centre == 1 && point.winding == 0 && point.theta < 0);
   assert_true(fabs(point.amplitude - 0.16111093243808042) < 1e-9);
@@ -26,11 +26,11 @@ TEST(test_flutter) {
 /* Rotations have their winding, mirror images are other cycles, and the whole orbit is the same cycle from any of its points. */
 TEST(test_rotation) {
   const kz_pendulum p = pendulum(0.3);
-  kz_branch_point point = {.theta = 3.0164225972238, .velocity = 1.06881051489920, .period = 1}, image;
+  kz_attractor point = {.theta = 3.0164225972238, .velocity = 1.06881051489920, .period = 1}, image;
   kz_branch_describe(NULL, &p, &point);
   assert_true(point.winding == 1 && point.centre == 2);
   assert_true(fabs(point.multiplier_re[0] + 0.7133) < 1e-4 && fabs(point.multiplier_im[0] - 0.6191) < 1e-4);
-  image = (kz_branch_point){.theta = -point.theta, .velocity = -point.velocity, .period = 1};
+  image = (kz_attractor){.theta = -point.theta, .velocity = -point.velocity, .period = 1};
   kz_branch_describe(NULL, &p, &image);
   assert_int_equal(image.winding, -1);
   assert_int_equal(kz_branch_same(NULL, &p, &point, &image), 0);
@@ -43,7 +43,7 @@ TEST(test_kept_maps) {
   const double m[] = {0.3, 0.3, 0.31, 0.32, 0.3, 0.32};
   for (size_t i = 0; i < sizeof m / sizeof m[0]; i++) {
     const kz_pendulum p = pendulum(m[i]);
-    kz_branch_point point = {.theta = 3.0164225972238, .velocity = 1.06881051489920, .period = 3}, again = point;
+    kz_attractor point = {.theta = 3.0164225972238, .velocity = 1.06881051489920, .period = 3}, again = point;
     kz_branch_describe(NULL, &p, &point);
     kz_branch_describe(maps, &p, &again);
     assert_memory_equal(&point, &again, sizeof point);
