@@ -4,6 +4,7 @@ module kz_api_dynamics
   use kz_attractors_chaos, only: carry_chaos
   use kz_attractors_cycle_search, only: search_t, add_with_mirror, known
   use kz_cycles_cycles, only: attractor_t, close_cycle, complete_attractor
+  use kz_grown_ellipses, only: rings_t
   use kz_grown_moving, only: aged_regions
   use kz_grown_cell_images, only: images_t
   use kz_grown_grid, only: regions_t, draw_attractors
@@ -22,7 +23,7 @@ module kz_api_dynamics
 
   !> Of the fine steps, what places the cycles of a pendulum that a slider moves: to 1e-9 rad.
   integer, parameter :: MOVING_PART = 4
-  integer, parameter :: MOVING_RING = WIDTH/4 !< points of a ring that its trapping ellipses are tried on
+  type(rings_t), parameter :: MOVING_RINGS = rings_t(points=WIDTH/4, growth=4, halvings=4, between=4) !< of its trapping ellipses
   !> rad: an attractor that moved farther counts as lost.
   real(dp), parameter :: FARTHEST = 0.2_dp
 
@@ -115,7 +116,7 @@ contains
     d%search%pendulum = pendulum
     d%search%max_period = max_period
     allocate (d%search%flow, source=d%flow)
-    if (moving) d%search%ring_points = MOVING_RING
+    if (moving) d%search%rings = MOVING_RINGS
     if (moving) fine%steps_per_period = fine%steps_per_period/MOVING_PART
     call make_flow(pendulum, fine, .true., d%search%fine)
     allocate (d%attractors(0))

@@ -5,7 +5,7 @@ module kz_attractors_cycle_search
   use kz_attractors_centres, only: find_centre, CENTRED
   use kz_model_pendulum, only: pendulum_t, is_mirrored
   use kz_cycles_cycles, only: attractor_t, close_cycle, complete_attractor, enter_points, mirror_image, listed_from_lowest, SLOW
-  use kz_grown_ellipses, only: find_ellipses
+  use kz_grown_ellipses, only: rings_t, find_ellipses
   use kz_cycles_newton, only: newton, n_periods
   use kz_cycles_features, only: find_features
   use kz_grown_grid, only: ellipse_at
@@ -19,7 +19,7 @@ module kz_attractors_cycle_search
   type :: search_t
     type(pendulum_t) :: pendulum
     integer :: max_period = 48
-    integer :: ring_points = WIDTH !< of a ring that a trapping ellipse is tried on
+    type(rings_t) :: rings !< that trapping ellipses are tried on
     class(flow_t), allocatable :: flow !< the scene's map
     class(flow_t), allocatable :: fine !< the map of published values
     class(flow_t), allocatable :: sampling_flow !< the same with separate steps, for samples within a period
@@ -215,7 +215,7 @@ contains
 
     if (attractor%period > 0) then
       call enter_points(search%flow, attractor)
-      call find_ellipses(search%flow, search%fine, attractor, attractors, search%ring_points)
+      call find_ellipses(search%flow, search%fine, attractor, attractors, search%rings)
       call find_features(search%sampling_flow, search%pendulum, attractor, attractor%u(1), attractor%v(1), attractor%period)
     end if
     call append_with_mirror(attractor, attractors)

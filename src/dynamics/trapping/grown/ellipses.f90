@@ -12,37 +12,43 @@ module kz_grown_ellipses
   use kz_maps_states, only: angle_difference
   implicit none
   private
-  public :: find_ellipses, in_ellipse, ellipse_square
+  public :: rings_t, find_ellipses, in_ellipse, ellipse_square
 
   !> Radii of rings, rad; where none up to LATEST is carried inside, none is looked for beyond.
-  real(dp), parameter :: SMALLEST = 1e-7_dp, LATEST = 1e-2_dp, LARGEST = 2.0_dp, GROWTH = 2.0_dp
+  real(dp), parameter :: SMALLEST = 1e-7_dp, LATEST = 1e-2_dp, LARGEST = 2.0_dp
   !> Effect of rounding on a ring, in units of the rounding of the map: a ring counts as shrinking only if it shrinks by more.
   real(dp), parameter :: ROUNDING = 18
-  !> Rings tried between the centre and the final boundary.
-  integer, parameter :: N_RINGS = 16
   !> Of slow spirals: the factor by which an ellipse is widened at once; the time that a ring may take, in units of what the multiplier says;
   !> in radii, how far outside images of its points may lie meanwhile, and how far apart those of neighbours in the end; points of the ring, and
   !> returns between two looks at them.
   real(dp), parameter :: STEP = 1.5_dp, PATIENCE = 4, FAR = 2, APART = 0.5_dp
   integer, parameter :: FEW = 32, LOOKED_AT = 4
 
+  !> How closely rings are tried.
+  type :: rings_t
+    integer :: points = WIDTH !< of a ring, at most WIDTH
+    real(dp) :: growth = 2    !< of the radius from one ring to the next
+    integer :: halvings = 5   !< of the interval between the last good radius and the next one
+    integer :: between = 16   !< parts of the radius in the end, at each of which a ring is tried
+  end type rings_t
+
 contains
 
   !> Sets attractor%form. For a symmetric cycle half of the points follow from the other half. A cycle that motions spiral into slowly has
   !> the ellipse of its first point alone, which is wide: motions come by there every period of the cycle.
-  subroutine find_ellipses(flow, fine, attractor, others, points)
+  subroutine find_ellipses(flow, fine, attractor, others, rings)
     class(flow_t), intent(inout) :: flow !< the map whose orbits are to be trapped
     class(flow_t), intent(inout) :: fine !< the map of the published strobe points
     type(attractor_t), intent(inout) :: attractor !< its points and multipliers, in; the ellipses, out
     type(attractor_t), intent(in) :: others(:) !< attractors whose strobe points no ellipse may contain
-    integer, intent(in) :: points !< of a ring, at most WIDTH
+    type(rings_t), intent(in) :: rings !< how closely they are tried
     integer :: j, n_own
 
     n_own = attractor%period
     if (attractor%symmetric .and. n_own > 1) n_own = n_own/2
     attractor%form = 0
     do j = 1, merge(1, n_own, is_slow(attractor))
-      attractor%form(:, j) = ellipse(flow, fine, attractor, j, others, points)
+      attractor%form(:, j) = ellipse(flow, fine, attractor, j, others, rings)
     end do
     if (n_own < attractor%period) attractor%form(:, n_own + 1:) = attractor%form(:, :n_own)
   end subroutine find_ellipses
@@ -73,12 +79,12 @@ contains
 
   !> The form of the largest trapping ellipse of strobe point j; 0 where none was found. Its rings begin where their shrinking
   !> shows above rounding and above the distance by which the map's own cycle misses the fine one.
-  function ellipse(flow, fine, attractor, j, others, points) result(form)
+  function ellipse(flow, fine, attractor, j, others, rings) result(form)
     class(flow_t), intent(inout) :: flow, fine
     type(attractor_t), intent(in) :: attractor
     integer, intent(in) :: j
     type(attractor_t), intent(in) :: others(:)
-    integer, intent(in) :: points
+    type(rings_t), intent(in) :: rings
     real(dp) :: form(3)
     real(dp) :: residual(2), matrix(2, 2), basis(2, 2), inverse(2, 2), tried, first, last
 
@@ -97,7 +103,7 @@ contains
       else if (first > 0 .or. tried > LATEST) then
         exit
       end if
-      tried = tried*GROWTH
+      tried = tried*rings%growth
     end do
     if (first <= 0) return
     last = refined()
@@ -113,15 +119,15 @@ contains
       integer :: i
 
       best = last
-      do i = 1, 5
-        tried = best + (GROWTH - 1)*last*0.5_dp**i
+      do i = 1, rings%halvings
+        tried = best + (rings%growth - 1)*last*0.5_dp**i
         if (carried_inside(tried)) best = tried
       end do
-      do i = 1, N_RINGS - 1
-        tried = best*i/N_RINGS
+      do i = 1, rings%between - 1
+        tried = best*i/rings%between
         if (tried < first) cycle
         if (carried_inside(tried)) cycle
-        best = max(first, 0.9_dp*best*(i - 1)/N_RINGS)
+        best = max(first, 0.9_dp*best*(i - 1)/rings%between)
         exit
       end do
     end function refined
@@ -133,12 +139,12 @@ contains
       real(dp) :: bound
       integer :: i
 
-      call put_ring(radius, points)
+      call put_ring(radius, rings%points)
       do i = 1, attractor%period
-        call flow%advance(points)
+        call flow%advance(rings%points)
       end do
       bound = radius*(1 - min(0.05_dp, 0.5_dp*(1 - abs(attractor%multiplier(1)))))
-      inside = all(norm2(normed(points), 1) < bound)
+      inside = all(norm2(normed(rings%points), 1) < bound)
     end function carried_inside
 
     !> Widens the ellipse as long as the ring outside of it is carried inside it in the end: then the ring's inside is, too.

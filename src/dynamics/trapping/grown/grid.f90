@@ -191,7 +191,7 @@ contains
     n_closed = 0
     do i = 1, n ! without a branch: which cells are closed cannot be foreseen
       closed(n_closed + 1) = i
-      n_closed = n_closed + min(1, abs(label(i)))
+      n_closed = n_closed + merge(1, 0, label(i) /= 0)
     end do
     do i = 1, n_closed
       associate (at => closed(i))

@@ -52,32 +52,34 @@ contains
     type(regions_t), intent(in) :: old !< regions of the other pendulum
     integer, intent(in) :: number(:) !< of each of its attractors, the number that it has now; 0 = it is there no more
     type(regions_t) :: regions
-    integer :: i, l
+    integer :: around(-1:old%n_theta, 0:old%n_velocity - 1), unlike(0:old%n_theta - 1), i, l
 
     regions = make_regions(old%n_circle, old%n_velocity, old%top, old%mirrored)
+    around(0:old%n_theta - 1, :) = max(old%label, 0)
+    around(-1, :) = [(attractor_at(old, -1, l), l=0, old%n_velocity - 1)]
+    around(old%n_theta, :) = [(attractor_at(old, old%n_theta, l), l=0, old%n_velocity - 1)]
     do l = 1, old%n_velocity - 2
+      call compare(old%n_theta, around(:, l - 1:l + 1), unlike)
       do i = 0, old%n_theta - 1
-        if (old%label(i, l) <= 0) cycle
-        if (is_surrounded(old, i, l)) regions%label(i, l) = number(old%label(i, l))
+        if (around(i, l) > 0 .and. unlike(i) == 0) regions%label(i, l) = number(around(i, l))
       end do
     end do
   end function aged_regions
 
-  !> Whether all neighbours of a cell have its attractor.
-  pure function is_surrounded(regions, i, l) result(surrounded)
-    type(regions_t), intent(in) :: regions
-    integer, intent(in) :: i, l
-    logical :: surrounded
-    integer :: x, y
+  !> unlike = 0 where all neighbours of a cell of the row in the middle have its attractor. Uses vectors.
+  pure subroutine compare(n, row, unlike)
+    integer, intent(in) :: n
+    integer, intent(in) :: row(0:n + 1, 3)
+    integer, intent(out) :: unlike(n)
+    integer :: i, y
 
-    surrounded = .false.
-    do y = l - 1, l + 1
-      do x = i - 1, i + 1
-        if (attractor_at(regions, x, y) /= regions%label(i, l)) return
+    unlike = 0
+    do y = 1, 3
+      do i = 1, n
+        unlike(i) = ior(unlike(i), ior(ior(ieor(row(i - 1, y), row(i, 2)), ieor(row(i, y), row(i, 2))), ieor(row(i + 1, y), row(i, 2))))
       end do
     end do
-    surrounded = .true.
-  end function is_surrounded
+  end subroutine compare
 
   !> The attractor of a whole cell of the circle, in any column; 0 = none has all of it.
   pure function attractor_at(regions, column, row) result(a)
