@@ -221,8 +221,9 @@ typedef struct kz_fine_maps kz_fine_maps;
 kz_fine_maps *kz_fine_maps_create(int64_t n);
 void kz_fine_maps_free(kz_fine_maps *maps);
 
-/* Sets everything of a cycle from a strobe point, its period and its symmetry. maps: where maps are kept; NULL = each is made anew. */
-void kz_branch_describe(kz_fine_maps *maps, const kz_pendulum *pendulum, kz_attractor *point);
+/* Sets everything of a cycle from its period and symmetry, and n strobe points, state [n][2], equally far apart in the order of time (a part of its period, 64 at
+ * most): the more there are, the faster it goes. maps: where maps are kept; NULL = each is made anew. */
+void kz_branch_describe(kz_fine_maps *maps, const kz_pendulum *pendulum, int64_t n, const double *state, kz_attractor *point);
 
 /* Whether a and b are the same cycle at the same parameters: one is among the strobe points of the other. maps: as above. */
 int32_t kz_branch_same(kz_fine_maps *maps, const kz_pendulum *pendulum, const kz_attractor *a, const kz_attractor *b);

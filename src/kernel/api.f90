@@ -142,6 +142,7 @@ contains
     real(c_double), intent(out) :: theta_out(0:periods*samples), velocity_out(0:periods*samples)
     type(flows_t), pointer :: flows
     class(flow_t), allocatable :: flow
+    real(c_double) :: u(samples, 1), v(samples, 1)
     integer(c_int64_t) :: period, first, last, turns
 
     call c_f_pointer(handle, flows)
@@ -153,8 +154,9 @@ contains
       first = (period - 1)*samples + 1
       last = period*samples
       turns = flow%turns(1)
-      call flow%sample(int(samples), theta_out(first:last), velocity_out(first:last))
-      theta_out(first:last) = (theta_out(first:last) + 2*turns)*PI
+      call flow%sample(int(samples), u, v)
+      theta_out(first:last) = (u(:, 1) + 2*turns)*PI
+      velocity_out(first:last) = v(:, 1)
     end do
   end subroutine sample
 

@@ -62,12 +62,11 @@ contains
   subroutine sample(self, n, u, v)
     class(doublet_t), intent(inout) :: self
     integer, intent(in) :: n
-    real(dp), intent(out) :: u(n)
-    real(dp), intent(out) :: v(n)
+    real(dp), intent(out) :: u(:, :), v(:, :)
 
-    call self%advance(1)
-    u = self%u(1)
-    v = self%v(1)
+    call self%advance(size(u, 2))
+    u = spread(self%u(:size(u, 2)), 1, n)
+    v = spread(self%v(:size(v, 2)), 1, n)
   end subroutine sample
 
 end module kz_test_doublet

@@ -164,8 +164,7 @@ contains
   subroutine sample(self, n, u, v)
     class(counted_t), intent(inout) :: self
     integer, intent(in) :: n
-    real(dp), intent(out) :: u(n)
-    real(dp), intent(out) :: v(n)
+    real(dp), intent(out) :: u(:, :), v(:, :)
 
     call self%inner%sample(n, u, v)
     call show(self)

@@ -44,7 +44,7 @@ contains
     if (found) then
       call states_to_physical(flow, cycle%u, cycle%v)
       call make_flow(pendulum, fine_numerics(pendulum), .false., sampled)
-      call find_features(sampled, pendulum, cycle, cycle%u(1), cycle%v(1), cycle%period)
+      call find_features(sampled, pendulum, cycle, cycle%u(:1), cycle%v(:1), cycle%period)
       theta(:cycle%period) = PI*cycle%u
       velocity(:cycle%period) = cycle%v
     end if
@@ -71,7 +71,7 @@ contains
       new%mirrored = is_mirrored(d%search%pendulum) /= 0
       if (new%mirrored) call symmetrise(new)
       call enter_points(d%search%flow, new)
-      call find_features(d%search%sampling_flow, d%search%pendulum, new, new%u(1), new%v(1), period)
+      call find_features(d%search%sampling_flow, d%search%pendulum, new, new%u(:1), new%v(:1), period)
       call append_with_mirror(new, batch)
       if (size(batch) >= BATCH_SIZE) call join_batch(d%attractors, batch)
     end do

@@ -55,7 +55,7 @@ contains
     attractor%mirrored = is_mirrored(search%pendulum) /= 0
     call set_cover(attractor, visited)
     call search%flow%to_physical(1)
-    call find_features(search%sampling_flow, search%pendulum, attractor, search%flow%u(1), search%flow%v(1), FEATURE_PERIODS)
+    call find_features(search%sampling_flow, search%pendulum, attractor, search%flow%u(:1), search%flow%v(:1), FEATURE_PERIODS)
     if (attractor%symmetric) then
       attractor%mean = 0
       attractor%mean_velocity = 0

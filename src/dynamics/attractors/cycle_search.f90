@@ -216,7 +216,7 @@ contains
     if (attractor%period > 0) then
       call enter_points(search%flow, attractor)
       call find_ellipses(search%flow, search%fine, attractor, attractors, search%rings)
-      call find_features(search%sampling_flow, search%pendulum, attractor, attractor%u(1), attractor%v(1), attractor%period)
+      call find_features(search%sampling_flow, search%pendulum, attractor, attractor%u(:1), attractor%v(:1), attractor%period)
     end if
     call append_with_mirror(attractor, attractors)
   end subroutine add_with_mirror

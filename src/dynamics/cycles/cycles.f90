@@ -7,7 +7,7 @@ module kz_cycles_cycles
   use kz_maps_states, only: angle_difference, states_to_map, same_state, rounded
   implicit none
   private
-  public :: attractor_t, close_cycle, complete_attractor, orbit_of, enter_points, is_slow, symmetrise, mirror_image, listed_from_lowest
+  public :: attractor_t, close_cycle, complete_attractor, enter_points, is_slow, symmetrise, mirror_image, listed_from_lowest
 
   !> In the place of a period: the attractor is a closed curve that a motion fills.
   integer, parameter, public :: QUASIPERIODIC = -1

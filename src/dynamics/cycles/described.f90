@@ -1,12 +1,12 @@
 !> A cycle of one pendulum as branches of a sweep hold it: include/kapitza/dynamics.h.
 module kz_cycles_described
   use, intrinsic :: iso_c_binding, only: dp => c_double, c_int32_t, c_int64_t, c_ptr, c_associated, c_f_pointer, c_loc
-  use kz_vector_map, only: flow_t, PI
+  use kz_vector_map, only: flow_t, WIDTH, PI
   use kz_kernel_flows, only: make_flow, fine_numerics
   use kz_model_pendulum, only: pendulum_t, is_same
-  use kz_cycles_cycles, only: attractor_t, orbit_of
+  use kz_cycles_cycles, only: attractor_t
   use kz_cycles_features, only: find_features
-  use kz_maps_matrices, only: eigenvalues
+  use kz_maps_matrices, only: eigenvalues, IDENTITY
   use kz_maps_states, only: angle_difference, separation
   implicit none
   private
@@ -79,23 +79,26 @@ contains
     call make_flow(pendulum, fine_numerics(pendulum), .false., map%flow)
   end subroutine find_map
 
-  subroutine describe(handle, pendulum, point) bind(C, name='kz_branch_describe')
+  subroutine describe(handle, pendulum, n, state, point) bind(C, name='kz_branch_describe')
     type(c_ptr), value :: handle
     type(pendulum_t), intent(in) :: pendulum !< k, beta, m
-    type(attractor_row_t), intent(inout) :: point !< strobe point and period, in; the rest, out
+    integer(c_int64_t), value :: n
+    real(dp), intent(in) :: state(2, n) !< strobe points, equally far apart: rad, rad per drive radian
+    type(attractor_row_t), intent(inout) :: point !< period, in; the rest, out
     type(fine_map_t), target :: own
     type(fine_map_t), pointer :: map
     type(attractor_t) :: cycle
     complex(dp) :: multiplier(2)
-    real(dp) :: matrix(2, 2), u
+    real(dp) :: matrix(2, 2), u(n)
+    integer :: periods
 
-    u = angle_difference(point%theta/PI, 0.0_dp)
-    point%theta = PI*u
+    u = angle_difference(state(1, :)/PI, 0.0_dp)
+    point%theta = PI*u(1)
+    point%velocity = state(2, 1)
+    periods = int(point%period/n)
     call find_map(handle, pendulum, own, map)
-    associate (flow => map%flow)
-      call orbit_of(flow, int(point%period), [u, point%velocity], cycle, matrix)
-      call find_features(flow, pendulum, cycle, u, point%velocity, int(point%period))
-    end associate
+    call close_pieces(map%flow, periods, u, state(2, :), cycle%winding, matrix)
+    call find_features(map%flow, pendulum, cycle, u, state(2, :), periods)
     multiplier = eigenvalues(matrix, exp(-2*PI*pendulum%beta*point%period))
     point%multiplier_re = real(multiplier, dp)
     point%multiplier_im = aimag(multiplier)
@@ -103,6 +106,32 @@ contains
     point%centre = cycle%centre
     point%amplitude = cycle%amplitude
   end subroutine describe
+
+  !> Winding and monodromy of a closed orbit from pieces that are followed together. So the error of one does not grow along the others, which
+  !> matters where the orbit repels.
+  subroutine close_pieces(flow, periods, u, v, winding, matrix)
+    class(flow_t), intent(inout) :: flow !< the map of one drive period, by integration
+    integer, intent(in) :: periods !< drive periods of a piece
+    real(dp), intent(in) :: u(:), v(:) !< their starts, in the order of time
+    integer, intent(out) :: winding !< net turns
+    real(dp), intent(out) :: matrix(2, 2) !< derivative of the map over all pieces
+    real(dp) :: tangent(2, 2, WIDTH)
+    integer :: i, n
+
+    n = size(u)
+    do i = 1, n
+      call flow%put(i, u(i), v(i))
+    end do
+    tangent = spread(IDENTITY, 3, WIDTH)
+    do i = 1, periods
+      call flow%advance_tangent(n, tangent)
+    end do
+    winding = nint(0.5_dp*sum(2*real(flow%turns(:n), dp) + flow%u(:n) - u))
+    matrix = tangent(:, :, 1)
+    do i = 2, n
+      matrix = matmul(tangent(:, :, i), matrix)
+    end do
+  end subroutine close_pieces
 
   function same_cycle(handle, pendulum, a, b) bind(C, name='kz_branch_same') result(same)
     type(c_ptr), value :: handle

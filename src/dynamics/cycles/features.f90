@@ -16,31 +16,57 @@ module kz_cycles_features
 
 contains
 
-  !> Sets mean, amplitude and centre from one closed orbit, or from `periods` periods of a chaotic orbit from (u, v).
+  !> Sets mean, amplitude and centre from one closed orbit, or from `periods` periods of a chaotic orbit from (u, v). Of an orbit in pieces,
+  !> each of `periods` periods, u and v are the starts, in the order of time: the pieces are followed together.
   subroutine find_features(sampling_flow, pendulum, attractor, u, v, periods)
     class(flow_t), intent(inout) :: sampling_flow !< a fine flow whose steps are not fused
     type(pendulum_t), intent(in) :: pendulum !< k, beta, m
     type(attractor_t), intent(inout) :: attractor !< its period and points, in; its features, out
-    real(dp), intent(in) :: u, v !< start, half-turns, rad per drive radian
-    integer, intent(in) :: periods !< drive periods of the orbit
+    real(dp), intent(in) :: u(:), v(:) !< starts, at most WIDTH: half-turns, rad per drive radian
+    integer, intent(in) :: periods !< drive periods of a piece
     real(dp), allocatable :: angle(:), velocity(:)
-    integer(c_int64_t) :: turns
-    integer :: i
+    integer :: n
 
-    allocate (angle(0:periods*SAMPLES), velocity(0:periods*SAMPLES))
-    call sampling_flow%put(1, u, v)
-    angle(0) = u
-    velocity(0) = v
-    do i = 0, periods - 1
-      turns = sampling_flow%turns(1)
-      call sampling_flow%sample(SAMPLES, angle(i*SAMPLES + 1:(i + 1)*SAMPLES), velocity(i*SAMPLES + 1:(i + 1)*SAMPLES))
-      angle(i*SAMPLES + 1:(i + 1)*SAMPLES) = angle(i*SAMPLES + 1:(i + 1)*SAMPLES) + 2*turns
-    end do
-    attractor%mean = sum(angle(1:))/(periods*SAMPLES)
-    attractor%mean_velocity = PI*(angle(periods*SAMPLES) - angle(0))/(2*PI*periods)
+    call sample_orbit(sampling_flow, u, v, periods, angle, velocity)
+    n = ubound(angle, 1)
+    attractor%mean = sum(angle(1:))/n
+    attractor%mean_velocity = PI*(angle(n) - angle(0))/(2*PI*(n/SAMPLES))
     call place(attractor, pendulum, angle, velocity)
     attractor%mean = angle_difference(attractor%mean, 0.0_dp)
   end subroutine find_features
+
+  !> The samples of an orbit in pieces, one behind the other; angles are not wrapped.
+  subroutine sample_orbit(flow, u, v, periods, angle, velocity)
+    class(flow_t), intent(inout) :: flow
+    real(dp), intent(in) :: u(:), v(:)
+    integer, intent(in) :: periods
+    real(dp), allocatable, intent(out) :: angle(:), velocity(:) !< (0:)
+    real(dp) :: shown_u(SAMPLES, size(u)), shown_v(SAMPLES, size(u))
+    integer(c_int64_t) :: turns(size(u))
+    integer :: period, piece, last
+
+    allocate (angle(0:size(u)*periods*SAMPLES), velocity(0:size(u)*periods*SAMPLES))
+    angle(0) = u(1)
+    velocity(0) = v(1)
+    do piece = 1, size(u)
+      call flow%put(piece, u(piece), v(piece))
+    end do
+    do period = 1, periods
+      turns = flow%turns(:size(u))
+      call flow%sample(SAMPLES, shown_u, shown_v)
+      do piece = 1, size(u)
+        last = ((piece - 1)*periods + period)*SAMPLES
+        angle(last - SAMPLES + 1:last) = shown_u(:, piece) + 2*turns(piece)
+        velocity(last - SAMPLES + 1:last) = shown_v(:, piece)
+      end do
+    end do
+    do piece = 2, size(u) ! goes on where the one before has ended
+      last = piece*periods*SAMPLES
+      associate (own => angle(last - periods*SAMPLES + 1:last))
+        own = own + 2*anint((angle(last - periods*SAMPLES) - u(piece))/2)
+      end associate
+    end do
+  end subroutine sample_orbit
 
   !> The centre of a motion: down or inverted where it stays within a half-turn of it and its mean within a quarter of one.
   pure function centre_of(rotates, mean, lowest, highest) result(centre)

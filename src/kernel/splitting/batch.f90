@@ -68,22 +68,25 @@ contains
     call restore_control(control)
   end subroutine advance_tangent
 
-  !> Lane 1 through one period, shown at every (n_steps/n)-th step end; u(n) is not yet wrapped. Needs steps that are not fused.
+  !> Lanes through one period, shown at every (n_steps/n)-th step end; u(n, :) is not yet wrapped. Needs steps that are not fused. A single
+  !> lane goes alone.
   subroutine sample(self, n, u, v)
     class(batch_t), intent(inout) :: self
     integer, intent(in) :: n
-    real(c_double), intent(out) :: u(n), v(n)
+    real(c_double), intent(out) :: u(:, :), v(:, :) !< (n, lanes)
     integer(c_int64_t) :: control
-    integer :: i, stride
+    integer :: i, stride, lanes
 
     control = flush_subnormals()
     stride = self%period%n_steps/n
+    lanes = vectors_of(size(u, 2))
+    if (size(u, 2) == 1) lanes = 1
     do i = 1, n
-      call advance_steps(self%period, (i - 1)*stride + 1, i*stride, 1, self%u, self%v)
-      u(i) = self%u(1)
-      v(i) = self%v(1)
+      call advance_steps(self%period, (i - 1)*stride + 1, i*stride, lanes, self%u, self%v)
+      u(i, :) = self%u(:size(u, 2))
+      v(i, :) = self%v(:size(u, 2))
     end do
-    call wrap(self, 1, 1)
+    call wrap(self, 1, lanes)
     call restore_control(control)
   end subroutine sample
 

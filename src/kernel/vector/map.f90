@@ -46,7 +46,7 @@ module kz_vector_map
     !> Where a period takes neighbours of states, to three digits at least. by(:, j, i), in: neighbour j less state i before the period; out:
     !> image of the neighbour less image of the state; rad, rad per drive radian. The lanes stay as advance_linear has left them.
     procedure :: displace => displace_by_states
-    !> Advances lane 1 by one period, shown at n equal times in physical coordinates; u(n) is not yet wrapped.
+    !> Advances the lanes 1 .. size(u, 2) by one period, shown at n equal times in physical coordinates; u(n, :) is not yet wrapped.
     procedure(sample_i), deferred :: sample
   end type flow_t
 
@@ -68,7 +68,7 @@ module kz_vector_map
       import :: flow_t, c_double
       class(flow_t), intent(inout) :: self
       integer, intent(in) :: n
-      real(c_double), intent(out) :: u(n), v(n)
+      real(c_double), intent(out) :: u(:, :), v(:, :)
     end subroutine sample_i
   end interface
 

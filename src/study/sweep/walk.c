@@ -94,9 +94,12 @@ static bool describe(const walking *w, const cycle *c, kz_attractor *point) {
   const double *place = c->y + 2 * c->kind.of.points;
   const bool at_end = *place == 0 || *place == 1;
   if (!pendulum_at(w->way, place, &pendulum)) return false;
-  *point =
-      (kz_attractor){.theta = c->y[0], .velocity = c->y[1], .period = kz_kind_period(&c->kind), .symmetric = is_symmetric(c)};
-  kz_branch_describe(at_end ? w->way->path->maps : NULL, &pendulum, point);
+  const bool halved = c->kind.of.side < 0 && c->kind.rest < 0;
+  const int n = 2 * c->kind.of.points;
+  double state[4 * KZ_CURVE_POINTS];
+  for (int i = 0; i < n; i++) state[i] = c->y[i], state[n + i] = -c->y[i]; /* a symmetric cycle goes on with its mirror image */
+  *point = (kz_attractor){.period = kz_kind_period(&c->kind), .symmetric = is_symmetric(c)};
+  kz_branch_describe(at_end ? w->way->path->maps : NULL, &pendulum, halved ? n : n / 2, state, point);
   return true;
 }
 

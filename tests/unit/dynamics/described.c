@@ -6,6 +6,7 @@
 
 #include "../../tools/part.h"
 #include "kapitza/dynamics.h"
+#include "kapitza/dynamics_curves.h"
 
 static const double PI = 3.14159265358979323846;
 
@@ -13,11 +14,17 @@ static kz_pendulum pendulum(double m) {
   return (kz_pendulum){1.0 / 121, 1.0 / 55, m};
 }
 
+/* By one of its strobe points. */
+static void describe(kz_fine_maps *maps, const kz_pendulum *p, kz_attractor *point) {
+  const double state[] = {point->theta, point->velocity};
+  kz_branch_describe(maps, p, 1, state, point);
+}
+
 /* The published amplitude of flutter; the product of its multipliers. */
 TEST(test_flutter) {
   const kz_pendulum p = pendulum(0.47);
   kz_attractor point = {.theta = PI + 0.161076997267223124, .velocity = -0.002241504186408954, .period = 2, .symmetric = 1};
-  kz_branch_describe(NULL, &p, &point);
+  describe(NULL, &p, &point);
   assert_true(point.centre == 1 && point.winding == 0 && point.theta < 0);
   assert_true(fabs(point.amplitude - 0.16111093243808042) < 1e-9);
   assert_true(fabs(hypot(point.multiplier_re[0], point.multiplier_im[0]) - exp(-2 * PI / 55)) < 1e-9);
@@ -27,14 +34,61 @@ TEST(test_flutter) {
 TEST(test_rotation) {
   const kz_pendulum p = pendulum(0.3);
   kz_attractor point = {.theta = 3.0164225972238, .velocity = 1.06881051489920, .period = 1}, image;
-  kz_branch_describe(NULL, &p, &point);
+  describe(NULL, &p, &point);
   assert_true(point.winding == 1 && point.centre == 2);
   assert_true(fabs(point.multiplier_re[0] + 0.7133) < 1e-4 && fabs(point.multiplier_im[0] - 0.6191) < 1e-4);
   image = (kz_attractor){.theta = -point.theta, .velocity = -point.velocity, .period = 1};
-  kz_branch_describe(NULL, &p, &image);
+  describe(NULL, &p, &image);
   assert_int_equal(image.winding, -1);
   assert_int_equal(kz_branch_same(NULL, &p, &point, &image), 0);
   assert_int_equal(kz_branch_same(NULL, &p, &point, &point), 1);
+}
+
+/* All strobe points of a cycle tell the same of it as one does: the flutter, and a rotation that is followed three times round. */
+TEST(test_points) {
+  const kz_pendulum p[] = {pendulum(0.47), pendulum(0.3)};
+  const double start[][2] = {{PI + 0.161076997267223124, -0.002241504186408954}, {3.0164225972238, 1.06881051489920}};
+  for (int i = 0; i < 2; i++) {
+    const int n = i == 0 ? 2 : 3;
+    kz_attractor one = {.theta = start[i][0], .velocity = start[i][1], .period = n}, all = {.period = n};
+    double state[6];
+    for (int j = 0; j < n; j++) {
+      const double sign = i == 0 && j == 1 ? -1 : 1;
+      state[2 * j] = sign * start[i][0];
+      state[2 * j + 1] = sign * start[i][1];
+    }
+    describe(NULL, p + i, &one);
+    kz_branch_describe(NULL, p + i, n, state, &all);
+    assert_int_equal(all.winding, i == 0 ? 0 : 3);
+    assert_true(all.winding == one.winding && all.centre == one.centre && all.period == n);
+    assert_true(all.theta == one.theta && all.velocity == one.velocity && fabs(all.amplitude - one.amplitude) < 1e-10);
+    for (int j = 0; j < 2; j++)
+      assert_true(hypot(all.multiplier_re[j] - one.multiplier_re[j], all.multiplier_im[j] - one.multiplier_im[j]) < 1e-9);
+  }
+}
+
+static bool same_pendulum(const void *context, const double place[2], kz_pendulum *p) {
+  (void)place;
+  *p = *(const kz_pendulum *)context;
+  return true;
+}
+
+/* The multiplier of a cycle that repels by 3e8 is that of the map's derivative at its points, which Newton's method has; an orbit that is
+ * followed once round leaves the cycle, and its multiplier is off by 1e-6. */
+TEST(test_repelling) {
+  enum { N = 9 };
+  const kz_pendulum p = pendulum(0.5682051282051281);
+  const kz_plane plane = {same_pendulum, &p, {0, -1}, {1, 1}, .steps = 192, .mirrored = 1};
+  const kz_curve_kind kind = {1, N, 0, 3, 0};
+  const double place[2] = {0, 0};
+  double y[2 * N + 2] = {1.457070978577512, 0.16176735831871347}, numbers[2];
+  kz_attractor point = {.period = N};
+  assert_true(kz_curve_orbit(&plane, place, N, y));
+  y[2 * N] = y[2 * N + 1] = 0;
+  assert_true(kz_curve_solve(&plane, &kind, y, numbers));
+  kz_branch_describe(NULL, &p, N, y, &point);
+  assert_true(point.winding == 3 && fabs(numbers[0]) > 2e8);
+  assert_true(fabs(point.multiplier_re[0] / numbers[0] - 1) < 1e-7);
 }
 
 /* More pendulums than maps are kept, in turns: what is said of a cycle does not depend on which maps are kept. */
@@ -44,8 +98,8 @@ TEST(test_kept_maps) {
   for (size_t i = 0; i < sizeof m / sizeof m[0]; i++) {
     const kz_pendulum p = pendulum(m[i]);
     kz_attractor point = {.theta = 3.0164225972238, .velocity = 1.06881051489920, .period = 3}, again = point;
-    kz_branch_describe(NULL, &p, &point);
-    kz_branch_describe(maps, &p, &again);
+    describe(NULL, &p, &point);
+    describe(maps, &p, &again);
     assert_memory_equal(&point, &again, sizeof point);
     again.velocity += 1e-3;
     assert_int_equal(kz_branch_same(maps, &p, &point, &again), kz_branch_same(NULL, &p, &point, &again));

@@ -272,14 +272,17 @@ contains
   subroutine processed_sample(self, n, u, v)
     class(processed_batch_t), intent(inout) :: self
     integer, intent(in) :: n
-    real(rk), intent(out) :: u(n), v(n)
+    real(rk), intent(out) :: u(:, :), v(:, :)
+    integer :: lane
 
-    call self%to_physical(1)
-    call self%fallback%put(1, self%u(1), self%v(1))
+    call self%to_physical(size(u, 2))
+    do lane = 1, size(u, 2)
+      call self%fallback%put(lane, self%u(lane), self%v(lane))
+    end do
     call self%fallback%sample(n, u, v)
-    self%u(1) = u(n)
-    self%v(1) = v(n)
-    call self%to_map(1)
+    self%u(:size(u, 2)) = u(n, :)
+    self%v(:size(u, 2)) = v(n, :)
+    call self%to_map(size(u, 2))
   end subroutine processed_sample
 
 end module kz_processed_batch
