@@ -44,12 +44,14 @@ def rules(command):
     return [[part.split() for part in rule.split(": ", 1)] for rule in done.stdout.replace("\\\n", " ").splitlines() if ": " in rule]
 
 
-def of_objects():
+def of_objects(kept=None):
     """(C source, file that it includes, or that such a file includes), as ninja has kept it from the compiler."""
-    done = subprocess.run(["ninja", "-C", PROGRAM.parent, "-t", "deps"], capture_output=True, text=True, check=True)
-    for block in done.stdout.strip().split("\n\n"):
+    if kept is None:
+        kept = subprocess.run(["ninja", "-C", PROGRAM.parent, "-t", "deps"], capture_output=True, text=True, check=True).stdout
+    for block in kept.strip().split("\n\n"):
         first, *files = block.splitlines()
         if re.match(r"CMakeFiles/kapitza\w*\.dir/src/.*\.c\.o: .*VALID", first):  # else its source is gone
+            assert files, f"{first.split(':')[0]}: a build that was interrupted left an object without its includes; delete it and build"
             path, *others = ((PROGRAM.parent / file.strip()).resolve() for file in files if not file.strip().startswith("/usr"))
             yield from ((path, other) for other in others)
 
@@ -106,6 +108,11 @@ def folder_of(path):
 def file_of(path):
     """A source and its header count as one file."""
     return path.relative_to(ROOT).with_suffix("")
+
+
+def test_what_an_interrupted_build_has_left_is_named():
+    with pytest.raises(AssertionError, match=r"src/a\.c\.o: a build that was interrupted"):
+        list(of_objects("CMakeFiles/kapitza_app.dir/src/a.c.o: #deps 0, deps mtime 1 (VALID)"))
 
 
 def test_no_include_goes_up():
