@@ -16,6 +16,7 @@ import numpy as np
 import pytest
 from kapitza import Result
 from kapitza.command import KINDS
+from kapitza.report.pictures import PICTURES
 from kapitza.script import run_script as end_script
 from mpi_settings import MPI_SETTINGS
 
@@ -268,6 +269,16 @@ def run_script(main, *arguments):
 def plot(kind, *arguments):
     """kapitza plot KIND with the arguments, as run_script."""
     return run_script(lambda: KINDS[kind](list(map(str, arguments))), *arguments)
+
+
+@pytest.fixture
+def undrawn(monkeypatch):
+    """Pictures of a report are empty; test_report.py looks at drawn ones."""
+    def draw(words):
+        Path(words[words.index("-o") + 1]).write_bytes(b"")
+
+    drawn = {group: [(caption, draw, options) for caption, _, options in rows] for group, rows in PICTURES.items()}
+    monkeypatch.setattr("kapitza.report.pictures.PICTURES", drawn)
 
 
 @pytest.fixture(scope="session")

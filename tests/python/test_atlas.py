@@ -22,9 +22,9 @@ FOLD, DOUBLING, BREAKING, SWINGS, LEANS = range(5)
 
 @pytest.fixture(scope="module")
 def atlas(kapitza, tmp_path_factory):
-    """The file of the scene above, by two ranks, and the summary."""
+    """The file of the scene above, and the summary."""
     folder = tmp_path_factory.mktemp("atlas")
-    return *run_scene(kapitza, folder, SCENE, ranks=2), folder / "s.h5"
+    return *run_scene(kapitza, folder, SCENE), folder / "s.h5"
 
 
 def curve(group, kind, **named):
@@ -209,7 +209,7 @@ def test_shares_are_of_attractors_that_the_list_has(kapitza, tmp_path):
     scene = {"pendulum": PENDULUM, "atlas": {"x": {"parameter": "drive_frequency", "min": 8, "max": 12},
                                              "y": {"parameter": "drive_amplitude", "min": 0, "max": 0.4}, "max_period": 1, "checks": 0,
                                              "points": 16, "shares": 100}}
-    group = run_scene(kapitza, tmp_path, scene, ranks=2)[0].group("atlas")
+    group = run_scene(kapitza, tmp_path, scene)[0].group("atlas")
     shares, other = group["region_fraction"].values, group["region_other"].values
     assert len(shares) > 2 and np.allclose(shares.sum(axis=1) + other, 1) and (other < 0.5).any() and (shares > 0).sum() > 4
     for region in range(len(shares)):
@@ -247,7 +247,7 @@ def test_no_curve_is_missing(kapitza, tmp_path):
     scene = {"pendulum": {"k": 0.1, "damping": 0.1, "m": 0.5},
              "atlas": {"x": {"parameter": "k", "min": -0.6, "max": 1.6}, "y": {"parameter": "m", "min": 0, "max": 2},
                        "max_period": 4 if EXTENSIVE else 2, "checks": 0, "points": 200 if EXTENSIVE else 64}}
-    group = run_scene(kapitza, tmp_path, scene, ranks=2)[0].group("atlas")
+    group = run_scene(kapitza, tmp_path, scene)[0].group("atlas")
     assert int(group.attrs["negative"]) == 0 and int(group.attrs["compared"]) > 750 and int(group.attrs["alone"]) == 0
     curves, pairs = curves_of(group), 0
     for k in np.linspace(0.011, 0.58, 40):
@@ -290,7 +290,7 @@ def test_without_gravity_both_rests_attract(kapitza, tmp_path, x):
     """Where k = 0 any drive holds both: in the middle of the first plane, and all over the second one."""
     scene = {"pendulum": {"k": 0, "damping": 0.1, "m": 0.3},
              "atlas": {"x": x, "y": {"parameter": "m", "min": 0, "max": 0.4}, "max_period": 1, "checks": 0, "points": 17}}
-    result, _ = run_scene(kapitza, tmp_path, scene, ranks=2)
+    result, _ = run_scene(kapitza, tmp_path, scene)
     group = result.group("atlas")
     assert int(group.attrs["negative"]) == 0 and (group["count"].values[:, 8] >= 2).all()
     place = 0 if x["parameter"] == "k" else 0.2
@@ -303,7 +303,7 @@ def test_a_fold_ends_where_it_meets_a_degenerate_period_doubling(kapitza, tmp_pa
     scene = {"pendulum": dict(PENDULUM, tilt="5 deg"),
              "atlas": {"x": {"parameter": "drive_frequency", "min": 9, "max": 13},
                        "y": {"parameter": "drive_amplitude", "min": 0.45, "max": 0.6}, "max_period": 4, "checks": 0, "points": 64}}
-    assert int(run_scene(kapitza, tmp_path, scene, ranks=2)[0].group("atlas").attrs["negative"]) == 0
+    assert int(run_scene(kapitza, tmp_path, scene)[0].group("atlas").attrs["negative"]) == 0
 
 
 def curves_of(group):

@@ -58,7 +58,7 @@ def test_any_number_of_ranks(kapitza, tmp_path):
 @pytest.mark.extensive
 def test_lifetimes_of_a_basin_and_of_a_sweep(kapitza, tmp_path):
     """The tail of the settling times; the same from the starts of a sweep, within the intervals."""
-    basin = run_scene(kapitza, tmp_path, scene(0.47), ranks=2)[0].group("basin")
+    basin = run_scene(kapitza, tmp_path, scene(0.47))[0].group("basin")
     times = basin["settling_time"].values.astype(float)
     after = basin.attrs["lifetime_after"]
     tail = times[times > after] - after

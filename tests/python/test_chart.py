@@ -17,7 +17,7 @@ SCENE = {"pendulum": {"k": 0.05, "damping": 0.1, "m": 0},
 @pytest.fixture(scope="module")
 def chart(kapitza, tmp_path_factory):
     """The group of the scene above, the summary and the file."""
-    result, summary = run_scene(kapitza, tmp_path_factory.mktemp("chart"), SCENE, ranks=2)
+    result, summary = run_scene(kapitza, tmp_path_factory.mktemp("chart"), SCENE)
     return result.group("plane"), summary, result.path
 
 

@@ -32,7 +32,7 @@ def cells(path):
 def exact(kapitza, tmp_path_factory):
     folder = tmp_path_factory.mktemp("exact")
     (folder / "s.yaml").write_text(LONG)
-    return folder, kapitza("run", "s.yaml", "--timings", ranks=2, folder=folder)
+    return folder, kapitza("run", "s.yaml", "--timings", folder=folder)
 
 
 def test_labels_hang_on_no_numerics(kapitza, exact):

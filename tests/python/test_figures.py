@@ -17,7 +17,7 @@ def figure(request, kapitza, tmp_path_factory):
     """(reference attractors, result) of one scene on a small grid."""
     path = tmp_path_factory.mktemp("figures") / f"{request.param}.h5"
     kapitza("run", ROOT / "scenes" / f"blackburn-fig{request.param}.yaml", "--set", "basin.theta.count=50",
-            "--set", "basin.velocity.count=50", "-o", path, ranks=2)
+            "--set", "basin.velocity.count=50", "-o", path)
     return REFERENCE[FIGURES[request.param]]["attractors"], Result(path)
 
 

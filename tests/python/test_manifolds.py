@@ -17,7 +17,7 @@ def scene(**manifolds):
 @pytest.fixture(scope="module")
 def fig12(kapitza, tmp_path_factory):
     """All manifolds of the saddles of period 1 at Fig. 12: the result and the summary."""
-    return run_scene(kapitza, tmp_path_factory.mktemp("manifolds"), scene(length=6, spacing=SPACING), ranks=2)
+    return run_scene(kapitza, tmp_path_factory.mktemp("manifolds"), scene(length=6, spacing=SPACING))
 
 
 def strobe_map(pendulum, theta, velocity, periods=1):

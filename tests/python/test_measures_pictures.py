@@ -12,6 +12,7 @@ from conftest import plot, run_scene
 from kapitza import Result
 from kapitza.plots import plane_measures
 from kapitza.plots.plane_measures import atlas_of, draw_curves, of_name
+from kapitza.report.page import report
 from kapitza.result import BadFile
 from matplotlib.figure import Figure
 
@@ -113,11 +114,9 @@ def test_a_passport_says_what_the_file_lacks(plane, table, tmp_path):
         assert done.returncode == 1 and words in done.stderr and not (tmp_path / "no.png").exists()
 
 
-def test_a_report_has_the_table_of_measures_and_the_plane(plane, table, tmp_path):
-    assert plot("report", table, "-o", tmp_path / "t.html").returncode == 0
-    text, rows = (tmp_path / "t.html").read_text(), Result(table).measures
+def test_a_report_has_the_table_of_measures_and_the_plane(plane, table, undrawn):
+    text, rows = report(Result(table)), Result(table).measures
     assert "<h2>Measures</h2>" in text
     cells = re.search(r"<tr><td>share</td>(.*?)</tr>", text)[1]
     assert [float(cell.split()[0]) for cell in re.findall(r">([^<]+)<", cells)] == pytest.approx(rows["share"].tolist(), rel=1e-3)
-    assert plot("report", plane, "-o", tmp_path / "p.html").returncode == 0
-    assert "Over the plane of two keys." in (tmp_path / "p.html").read_text()
+    assert "Over the plane of two keys." in report(Result(plane))

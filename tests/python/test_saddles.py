@@ -19,7 +19,7 @@ def scene(pendulum=FIG12, **saddles):
 @pytest.fixture(scope="module")
 def fig12(kapitza, tmp_path_factory):
     """Cycles of up to 4 periods at Fig. 12: the group and the summary."""
-    result, summary = run_scene(kapitza, tmp_path_factory.mktemp("saddles"), scene(max_period=4), ranks=2)
+    result, summary = run_scene(kapitza, tmp_path_factory.mktemp("saddles"), scene(max_period=4))
     return result.group("saddles"), summary, result
 
 
@@ -104,7 +104,7 @@ LONG = [(0.15, 8, 8), (0.3, 12, 98), (0.46, 8, 5515), (0.47, 8, 6584), (0.52, 8,
 @pytest.mark.parametrize("epsilon, period, cycles", [(0.52, 4, 150), *(pytest.param(*case, marks=pytest.mark.extensive) for case in LONG)])
 def test_no_cycle_of_the_figures_is_missing(kapitza, tmp_path, epsilon, period, cycles):
     """The sums are 0, and all points are right, not the first of each cycle alone, though one in 1e4 to 1e10 is left of an error."""
-    result, said = run_scene(kapitza, tmp_path, scene({**FIG12, "drive_amplitude": epsilon}, max_period=period), ranks=2)
+    result, said = run_scene(kapitza, tmp_path, scene({**FIG12, "drive_amplitude": epsilon}, max_period=period))
     assert "The indices add up to 0 for all" in said
     count, attracting = re.search(r"saddles: (\d+) unstable cycles .*, and (\d+) that attract", said).groups()
     assert int(count) + int(attracting) == cycles

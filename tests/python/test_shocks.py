@@ -18,14 +18,14 @@ def fig11(kapitza, tmp_path_factory):
     scene = {"pendulum": FIG11, "basin": {"theta": {"count": 60}, "velocity": {"min": -2, "max": 2, "count": 60},
                                           "shocks": {"scale": SCALE, "sizes": [0.05, 0.5]}},
              "saddles": {"velocity": {"min": -2, "max": 2}}, "edge": EDGE}
-    return *run_scene(kapitza, folder, scene, ranks=2), folder / "s.h5"
+    return *run_scene(kapitza, folder, scene), folder / "s.h5"
 
 
 def grid(kapitza, folder, pendulum, middle, reach, count):
     """(other labels than at the grid's middle?, theta, velocity) around a point."""
     window = {"theta": {"min": middle[0] - reach[0], "max": middle[0] + reach[0], "count": count},
               "velocity": {"min": middle[1] - reach[1], "max": middle[1] + reach[1], "count": count}}
-    result, _ = run_scene(kapitza, folder, {"pendulum": pendulum, "basin": window}, ranks=2)
+    result, _ = run_scene(kapitza, folder, {"pendulum": pendulum, "basin": window})
     cells, attractors = result.group("basin"), result.group("attractors")
     return cells["attractor"].values, *np.meshgrid(cells["theta"].values, cells["velocity"].values), attractors
 

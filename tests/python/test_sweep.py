@@ -19,11 +19,11 @@ sweep: {{parameter: {parameter}, min: {low}, max: {high}, count: {count}, measur
 def sweep(kapitza, tmp_path_factory):
     """Runs a sweep and gives its group as (arrays, attributes); run.file is the file of the last one."""
 
-    def run(measure, low, high, count, parameter="drive_amplitude", q=5, omega=11, more="", ranks=2):
+    def run(measure, low, high, count, parameter="drive_amplitude", q=5, omega=11, more=""):
         folder = tmp_path_factory.mktemp("sweep")
         text = SCENE.format(measure=measure, low=low, high=high, count=count, parameter=parameter, q=q, omega=omega, more=more)
         (folder / "sweep.yaml").write_text(text)
-        kapitza("run", "sweep.yaml", ranks=ranks, folder=folder)
+        kapitza("run", "sweep.yaml", folder=folder)
         run.file = folder / "sweep.h5"
         with h5py.File(run.file) as file:
             group = file["sweep"]
@@ -83,7 +83,7 @@ sweep: {parameter: m, min: 0.6, max: 0.65, count: 2, measure: [attractors], star
 
 def test_a_doubled_cycle_ends_where_it_is_born(sweep):
     """One value lies so little below the birth of flutter that a step of its branch ended on rest: flutter was told where there is none."""
-    branches, _ = sweep("attractors", 0.46205128205128204, 0.47974358974358977, 4, more=", starts: 128", ranks=1)
+    branches, _ = sweep("attractors", 0.46205128205128204, 0.47974358974358977, 4, more=", starts: 128")
     assert ends(branches, "flutter")[:2] == (pytest.approx(0.46819030239028, abs=1e-11), "period_doubling")
     flutter = list(branches["branch_name"]).index("flutter")
     assert np.isnan(branches["branch_theta"][:2, flutter]).all() and np.isfinite(branches["branch_theta"][2:, flutter]).all()
@@ -159,7 +159,7 @@ def test_gravity_upside_down(kapitza, tmp_path):
 pendulum: {k: 0.1, damping: 0.05, m: 0.4}
 sweep: {parameter: k, min: -0.1, max: 0.1, count: 5, measure: [attractors], starts: 256}
 """)
-    kapitza("run", "turned.yaml", ranks=2, folder=tmp_path)
+    kapitza("run", "turned.yaml", folder=tmp_path)
     turned = {"down": "inverted", "inverted": "down", "flutter": "down 2-nodding", "down 2-nodding": "flutter"}
     with h5py.File(tmp_path / "turned.h5") as file:
         group = file["sweep"]
@@ -178,7 +178,7 @@ def test_chaos_is_one_branch(kapitza, tmp_path):
 pendulum: {k: 0.25, damping: 0.05, m: 0.5}
 sweep: {parameter: m, min: 0.45, max: 0.5, count: 3, measure: [basin_fractions], starts: 64, velocity: {min: -1, max: 1}}
 """)
-    said = kapitza("run", "chaos.yaml", ranks=2, folder=tmp_path).stdout
+    said = kapitza("run", "chaos.yaml", folder=tmp_path).stdout
     with h5py.File(tmp_path / "chaos.h5") as file:
         group = file["sweep"]
         names = list(group["branch_name"].asstr()[group["branch_stable"][:] == 1])
@@ -194,7 +194,7 @@ sweep: {parameter: m, min: 0.45, max: 0.5, count: 3, measure: [basin_fractions],
 
 
 def test_flutter_amplitudes(sweep):
-    arrays, attributes = sweep("flutter_amplitude", 0.47, 0.56, 19, ranks=None)
+    arrays, attributes = sweep("flutter_amplitude", 0.47, 0.56, 19)
     known = {round(float(row["eps"]), 6): row["amp_rad"] for row in REFERENCE["blackburn_fig9_10_flutter_Q5_Omega11"]}
     compared = [(amplitude, known[round(value, 6)]) for value, amplitude in
                 zip(arrays["value"], arrays["flutter_amplitude"], strict=True) if round(value, 6) in known]
@@ -204,7 +204,7 @@ def test_flutter_amplitudes(sweep):
 
 
 def test_flutter_grows_with_the_square_root(sweep):
-    arrays, attributes = sweep("flutter_amplitude", 0.4683, 0.473, 48, ranks=None)
+    arrays, attributes = sweep("flutter_amplitude", 0.4683, 0.473, 48)
     assert abs(attributes["fit_exponent"] - 0.5) < attributes["fit_exponent_error"] < 1e-3
     assert attributes["fit_slope"] == pytest.approx(3.7902**2, rel=1e-2)
     distance = arrays["value"] - attributes["critical_value"]
@@ -297,7 +297,7 @@ basin:
     shares = []
     for name, text in (("starts", scene), ("grid", scene + grid)):
         (tmp_path / f"{name}.yaml").write_text(text)
-        kapitza("run", f"{name}.yaml", ranks=2, folder=tmp_path)
+        kapitza("run", f"{name}.yaml", folder=tmp_path)
         with h5py.File(tmp_path / f"{name}.h5") as file:
             group = file["sweep"]
             shares.append({(row, label): group["fraction"][row, column] for column, label in

@@ -180,7 +180,7 @@ def test_along_a_frequency_every_value_has_its_own_second():
     assert in_si["alone"].equals(line["alone"]) and units.with_unit("alone", in_si["alone"]) == "alone (drive periods)"
 
 
-def test_the_texts_of_a_run_are_in_si(tmp_path):
+def test_the_texts_of_a_run_are_in_si(undrawn):
     window = {"theta": {"count": 2}, "velocity": {"min": -0.01, "max": 0.01, "count": 2}}
     plan = {"names": ["return_time", "reactivity"], "starts": 8, "velocity": {"min": -0.01, "max": 0.01}}
     orbit = {"start": {"theta": 1, "velocity": 1.05}, "periods": 20}

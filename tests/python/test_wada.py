@@ -16,7 +16,7 @@ OPEN, NO, PARTLY, YES = range(4)
 
 @pytest.fixture(scope="module")
 def forced(kapitza, tmp_path_factory):
-    return run_scene(kapitza, tmp_path_factory.mktemp("wada"), FORCED, ranks=2)
+    return run_scene(kapitza, tmp_path_factory.mktemp("wada"), FORCED)
 
 
 @pytest.fixture(scope="module")

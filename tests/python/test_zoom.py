@@ -108,7 +108,7 @@ def deep(folder, theta, velocity, width, count, pendulum=PENDULUM):
 def test_a_deep_window_in_its_file(kapitza, tmp_path):
     """Offsets that tell the cells apart, the centre as it was written, a scene that gives the same file again, a picture with axes."""
     path = deep(tmp_path, BOUNDARY, "17", "1e-18", 6)
-    kapitza("run", path, ranks=2, folder=tmp_path)
+    kapitza("run", path, folder=tmp_path)
     basin = Result(tmp_path / "deep.h5").group("basin")
     assert np.all(np.diff(basin["theta"].values) == 0)
     assert np.array_equal(basin["theta_offset"].values, (2 * np.arange(6) - 5) / 12) and "units" in basin["theta_offset"].attrs
