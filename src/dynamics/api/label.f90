@@ -7,7 +7,7 @@ module kz_api_label
   use kz_taylor_taylor, only: doubles_of, qp, PI_QUAD
   use kz_vector_locks, only: take_lock, leave_lock
   use kz_labels_carrier, only: carrier_t, orbit_t
-  use kz_labels_levels, only: prepare_level, carrier_of, is_useful, outlook_from, LEVEL_DOUBLE, LEVEL_FINE, NO_LEVEL
+  use kz_labels_levels, only: prepare_level, carrier_of, is_useful, outlook_from, LEVEL_DOUBLE, LEVEL_FINE, LEVEL_QUAD, NO_LEVEL
   use kz_labels_orbits, only: decision_t, outlook_t, follow_orbits, DOUBTFUL, PENDING
   use kz_labels_released, only: make_released, carry_released
   use kz_labels_spread, only: add_ellipse
@@ -40,16 +40,39 @@ contains
     integer(c_int64_t), value :: max_periods
     type(decision_t), intent(out) :: decision(n)
     type(dynamics_t), pointer :: d
-    type(orbit_t), allocatable :: orbit(:)
+    type(decision_t), allocatable :: found(:)
+    integer(c_int64_t), allocatable :: place(:)
     integer(c_int64_t) :: i
 
     d => of_handle(handle)
-    allocate (orbit(n))
-    do i = 1, n
+    if (level == LEVEL_QUAD .and. before <= LEVEL_FINE) then
+      call label_some(d, int(level), int(before), .true., max_periods, start, decision)
+      place = pack([(i, i=1, n)], decision%end%label == DOUBTFUL)
+      allocate (found(size(place)))
+      if (size(place) > 0) call label_some(d, int(level), int(before), .false., max_periods, start(place), found)
+      decision(place) = found
+    else
+      call label_some(d, int(level), int(before), .false., max_periods, start, decision)
+    end if
+  end subroutine label_starts
+
+  !> Labels starts at a level. `early`: orbits leave it as soon as half of its digits are used up, which decides most of them in half of the time.
+  subroutine label_some(d, level, before, early, most, start, decision)
+    type(dynamics_t), intent(inout), target :: d
+    integer, intent(in) :: level, before
+    logical, intent(in) :: early
+    integer(c_int64_t), intent(in) :: most
+    type(start_t), intent(in) :: start(:)
+    type(decision_t), intent(out) :: decision(:)
+    type(orbit_t), allocatable :: orbit(:)
+    integer :: i
+
+    allocate (orbit(size(start)))
+    do i = 1, size(start)
       call begin_orbit(start(i), level > LEVEL_DOUBLE, orbit(i))
     end do
-    call label_orbits(d, int(level), int(before), max_periods, orbit, decision)
-  end subroutine label_starts
+    call label_orbits(d, level, before, early, most, orbit, decision)
+  end subroutine label_some
 
   !> The orbit of a start. The start is known to the last place of its double, or, with `precisely`, to the last place of the pair.
   pure subroutine begin_orbit(start, precisely, orbit)
@@ -74,9 +97,10 @@ contains
   end subroutine begin_orbit
 
   !> Orbits begin at a level and go down from level to level as their errors grow.
-  subroutine label_orbits(d, level, before, most, orbit, decision)
+  subroutine label_orbits(d, level, before, early, most, orbit, decision)
     type(dynamics_t), intent(inout), target :: d
     integer, intent(in) :: level, before
+    logical, intent(in) :: early !< of quad precision
     integer(c_int64_t), intent(in) :: most
     type(orbit_t), intent(inout) :: orbit(:)
     type(decision_t), intent(inout) :: decision(:)
@@ -108,6 +132,7 @@ contains
       if (now > LEVEL_DOUBLE) then
         call prepare(d, next)
         handover = RATIO*d%levels%worst(next)
+        if (early .and. now == level) handover = sqrt(handover*d%levels%quad_error)
       end if
       call carrier_of(d%levels, now, d%flow, carrier)
       if (.not. allocated(place)) then ! most orbits need no more: they are not copied
