@@ -11,6 +11,8 @@ from kapitza.result import BadFile, Result
 from kapitza.scene import flow, put, texts, tree_of
 from kapitza.units import parts_of
 
+from . import picture
+
 HDF5_SIGNATURE = b"\x89HDF\r\n\x1a\n"
 # The window of a scene that has none: the whole circle, and velocities of two turns a shake.
 WINDOW = {"theta": {"min": str(-math.pi), "max": str(math.pi)}, "velocity": {"min": "-2", "max": "2"}}
@@ -23,17 +25,19 @@ class BadRequest(Exception):
 
 
 class Start:
-    """A scene: of a file, of a result (whose groups bring overlays), or a text. `sets`: words KEY=VALUE that change it; `name`: as
-    messages call it."""
+    """A scene: of a file, of a result (whose groups bring overlays), of a picture that the page saved, or a text. `sets`: words KEY=VALUE
+    that change it; `name`: as messages call it."""
 
     def __init__(self, source, is_text=False, sets=()):
         self.result, self.name = None, "the scene" if is_text else str(source)
         self.path = None if is_text else Path(source)
         if is_text:
             self.text = source
-        elif _is_hdf5(self.path):
+        elif (first := _first_bytes(self.path)) == HDF5_SIGNATURE:
             self.result = Result(self.path)
             self.text, self.path = _scene_of(self.result), None
+        elif first == picture.SIGNATURE:
+            self.text, self.path = picture.scene_in(self.path), None
         else:
             self.text = self.path.read_text(encoding="utf-8", errors="replace")
         self.sets = list(sets)
@@ -120,12 +124,13 @@ def _edges(axis):
     return found if found.keys() in ({"min", "max"}, {"centre", "width"}) else None
 
 
-def _is_hdf5(path):
+def _first_bytes(path):
+    """As many as the signatures of a result and of a picture have."""
     if path.exists() and not path.is_file():
         raise BadFile(f"{path}: is not a regular file; give a scene or a result")
     try:
         with open(path, "rb") as file:
-            return file.read(len(HDF5_SIGNATURE)) == HDF5_SIGNATURE
+            return file.read(len(HDF5_SIGNATURE))
     except OSError as error:
         raise BadFile(f"{path}: cannot be read: {error.strerror}") from error
 
