@@ -113,3 +113,5 @@ def test_back_undoes_values_and_windows_one_hand_at_a_time(page):
     assert page.run(shown) == moved
     page.press("back")
     assert page.run(shown) == before
+    page.press("forward")
+    assert page.run(shown) == moved and page.run("$('back').disabled") is False

@@ -11,7 +11,9 @@ import matplotlib.image
 import mpmath
 import numpy as np
 import pytest
+import yaml
 from explorer_page import Page, wait_for
+from kapitza.explorer.picture import scene_in
 
 pytest_plugins = ("explorer_page",)
 TURN = 2 * np.pi
@@ -42,17 +44,6 @@ def test_windows_have_bounds_and_wrap(modules):
         return [out.theta.width, out.velocity.width, far.theta.centre.toNumber(), deep.theta.width]; })()"""
     width, fast, centre, deep = modules.module("window.js", script)
     assert width == pytest.approx(TURN) and fast == pytest.approx(200) and centre == pytest.approx(0.25 * TURN) and 1e-100 <= deep < 1e-97
-
-
-def test_the_relief_rises_inside_a_basin(page):
-    """By times that vary smoothly, of fewer cells, and as far as those of the picture itself do."""
-    page.wait()
-    columns, raised, shades = page.run("""(({columns, rows, cells, raised}) => [columns, raised,
-        new Set(Array.from({length: columns / 8}, (_, i) => cells[4 * i + 1])).size])(explorer.basins.panes[0].top)""")
-    assert raised and shades > columns / 80
-    low, high = page.module("heights.js", """its.heightsOf({cells: Array.from({length: 400}, (_, i) =>
-        [i % 4 ? 0 : i === 0 ? 255 : 0, 50 + (i >> 2), 0, 0][i % 4])}, {own: true})""")
-    assert (low, high) == (pytest.approx(52 / 255, abs=2 / 255), pytest.approx(140 / 255, abs=2 / 255))
 
 
 @pytest.mark.parametrize("width", ["3", "0.02", "1e-5", "3e-13", "7e-40", "2e-99"])
@@ -126,14 +117,6 @@ def test_starts_are_told_in_the_units_of_the_axes(page):
     assert wait_for(lambda: page.run("$('pointer').textContent").startswith("θ −90")) and "°" in page.run("$('ending').textContent")
 
 
-def test_cells_without_a_label_are_hatched_until_they_are_settled(modules):
-    """Quick labels leave cells open; only exact ones say that a cell settles nowhere."""
-    script = """(() => { const cells = new Uint8Array(64).fill(255); const planes = { labels: cells };
-        const of = (quality) => its.countedShares({ labels: cells, quality, catalogue: { attractors: [] } })[0];
-        return [of("moving").name, of("moving").hatched, of("exact").name, of("exact").hatched]; })()"""
-    assert modules.module("frames.js", script) == ["not labelled yet", True, "not settled", False]
-
-
 def test_dragging_wraps_the_angle_and_moves_the_picture_at_once(page):
     page.driver.execute_script("explorer.basins.panes[0].pursue = () => {}")  # no new frame: the old one is moved
     before = np.array(page.pixels())
@@ -202,6 +185,11 @@ def test_the_pendulum_moves_from_the_first_second_and_shows_its_motion_in_other_
     page.driver.refresh()
     assert wait_for(lambda: page.run("window.explorer?.basins.motion?.at > 2"))  # nothing was clicked
     page.driver.execute_cdp_cmd("Emulation.setEmulatedMedia", {"features": []})
+    ticks = page.module("plot.js", """its.apart(its.fractionTicks(3, 6).map(({at, words, rank}) =>
+        ({x: 400 * at, wide: 7 * words.length, words, rank}))).sort((a, b) => a.x - b.x)""")
+    words = [tick["words"] for tick in ticks]
+    assert {"0", "1", "2", "3", "1/2", "1/6"} <= set(words)
+    assert all(two["x"] - one["x"] >= (one["wide"] + two["wide"]) / 2 for one, two in zip(ticks, ticks[1:], strict=False))
     line = page.module("motion.js", """(() => { const n = 48, samples = 40 * n + 1, numbers = new Float64Array(2 * samples);
         for (let i = 0; i < samples; i++) numbers[samples + i] = 0.3 * Math.cos((Math.PI * i) / n);  // half of the drive's frequency
         const header = { samples, samples_per_period: n, pivot: [] };
@@ -327,8 +315,16 @@ def test_pictures_and_tables_are_saved(page, folder):
     table = np.genfromtxt(page.saved("save-csv", folder / "orbit.csv"), delimiter=",", names=True)
     assert len(table) == 42 * 48 + 1 and table["pivot_height"][0] == 0.3
     assert table["theta_rad"][0] == pytest.approx(-np.pi + 0.7 * TURN, abs=0.01)
+    page.run("explorer.state.change({window: explorer.state.window.zoomed(0.3, 0.4, 0.6), jump: true})")
+    page.wait()
+    window = page.window()
     picture = matplotlib.image.imread(page.saved("save-png", folder / "view.png"))
     assert picture.shape[1] > 1500 and picture[..., :3].std() > 0.05
+    scene = yaml.safe_load(scene_in(folder / "view.png"))  # a picture opens the view that it shows, by the program and by the page
+    assert scene["pendulum"]["m"] == 0.3 and scene["basin"]["theta"]["min"] == pytest.approx(window["theta"]["min"])
+    _ = page.press("home"), page.slide("m", 0.2)
+    page.driver.find_element("css selector", "#open").send_keys(str(folder / "view.png"))
+    assert wait_for(lambda: page.window() == window) and page.run("explorer.state.pendulum.m") == "0.3"
     page.choose("save-width", "900")
     assert matplotlib.image.imread(page.saved("save-png", folder / "view.png")).shape[1] == 900
     alone = page.saved("save-html", folder / "view.html").read_text()

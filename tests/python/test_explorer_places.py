@@ -1,6 +1,7 @@
 """Where the explorer's page says that a window lies, how it finds boundaries, its map, sliders, stories and tables, in a real browser over
 the double of the program."""
 
+import json
 import re
 
 import numpy as np
@@ -37,6 +38,31 @@ def test_a_plain_deep_picture_says_where_it_is_and_goes_to_a_boundary(page):
     assert page.run("document.querySelector('.offer').hidden") and page.run("explorer.state.window.theta.width") == pytest.approx(width)
     page.run("document.querySelector('.inset').click()")
     assert page.window()["theta"]["min"] == pytest.approx(-np.pi) and wait_for(lambda: page.run("document.querySelector('.inset').hidden"))
+
+
+def test_the_relief_rises_inside_a_basin(page):
+    """By times that vary smoothly, of fewer cells, and as far as those of the picture itself do."""
+    page.wait()
+    columns, raised, shades = page.run("""(({columns, rows, cells, raised}) => [columns, raised,
+        new Set(Array.from({length: columns / 8}, (_, i) => cells[4 * i + 1])).size])(explorer.basins.panes[0].top)""")
+    assert raised and shades > columns / 80
+    low, high = page.module("heights.js", """its.heightsOf({cells: Array.from({length: 400}, (_, i) =>
+        [i % 4 ? 0 : i === 0 ? 255 : 0, 50 + (i >> 2), 0, 0][i % 4])}, {own: true})""")
+    assert (low, high) == (pytest.approx(52 / 255, abs=2 / 255), pytest.approx(140 / 255, abs=2 / 255))
+    upper_left, lower_right = page.module("heights.js", """(() => { const n = 40, at = (row, column) => row * n + column;
+        const smooth = Float32Array.from({length: n * n}, (_, i) => Math.hypot(i % n - 20, Math.floor(i / n) - 20));  // a hill
+        const cells = new Uint8Array(4 * n * n).map((_, i) => i % 4 === 1 ? 25.5 * Math.log2(1 + smooth[i >> 2]) : 0);
+        const frame = {rows: n, columns: n, labels: new Uint8Array(n * n), cells, smooth}; its.raise(frame, frame);
+        return [at(26, 14), at(14, 26)].map((cell) => cells[4 * cell + 1]); })()""")
+    assert upper_left < lower_right - 10  # light comes from the upper left
+
+
+def test_cells_without_a_label_are_hatched_until_they_are_settled(modules):
+    """Quick labels leave cells open; only exact ones say that a cell settles nowhere."""
+    script = """(() => { const cells = new Uint8Array(64).fill(255); const planes = { labels: cells };
+        const of = (quality) => its.countedShares({ labels: cells, quality, catalogue: { attractors: [] } })[0];
+        return [of("moving").name, of("moving").hatched, of("exact").name, of("exact").hatched]; })()"""
+    assert modules.module("frames.js", script) == ["not labelled yet", True, "not settled", False]
 
 
 def test_the_pointer_reads_the_measures_of_the_basin_under_it(page):
@@ -101,6 +127,8 @@ def test_the_point_of_the_map_is_the_pendulum(page):
     assert page.run("[explorer.state.pendulum.k, explorer.state.pendulum.m]") == ["1", "0.375"]
     page.run("explorer.map.over.dispatchEvent(new KeyboardEvent('keydown', {key: 'ArrowUp', bubbles: true, cancelable: true}))")
     assert page.run("[explorer.state.pendulum.m, explorer.map.place[1]]") == ["0.3825", pytest.approx(0.51)]
+    ends = page.run("['#map .over', '.pane .over'].map((name) => document.querySelector(name).getBoundingClientRect().bottom)")
+    assert ends[0] == ends[1]  # map and basins stand on one line
     page.press("map-shown")
     assert page.run("$('map').hidden")
 
@@ -130,15 +158,15 @@ ATLAS = """(() => { const curve = { kind: "period_doubling", period: 1, words: "
 
 
 def test_crossing_a_curve_says_what_happens_and_sliders_mark_it(page):
-    script = f"""const done = arguments[0]; Promise.all(["atlas", "happenings", "ground", "sliders"].map((name) => import(`/${{name}}.js`)))
-        .then(([atlas, happenings, ground, sliders]) => {{ const map = new atlas.Atlas(...{ATLAS});
+    script = f"""const done = arguments[0]; Promise.all(["atlas", "happenings", "ground", "marks"].map((name) => import(`/${{name}}.js`)))
+        .then(([atlas, happenings, ground, marks]) => {{ const map = new atlas.Atlas(...{ATLAS});
             const axes = [{{name: "q", unit: "", low: 0, high: 10}}, {{name: "a", unit: "mm", low: 0, high: 0.936}}];
             done([happenings.happening(map, [0.3, 0.2], [0.3, 0.9]), happenings.happening(map, [0.3, 0.9], [0.3, 0.2]),
                   happenings.happening(map, [0.3, 0.2], [0.6, 0.3]), map.motionsAt([0.1, 0.7])[1].words,
                   map.nearest([0.2, 0.52], [0.1, 0.1]).name,
                   ground.listedAt({{ atlas: map, axes, others: '{{"q":null,"a":null}}' }}, {{q: "5", a: "0.234 mm"}}),
                   ground.listedAt({{ atlas: map, axes, others: '{{"q":null,"a":null}}' }}, {{q: "5", a: "1 mm"}}),
-                  sliders.marksOf({{ atlas: map, axes }}, "a", {{q: "5", a: "0.3 mm"}}, "0.3 mm")[0].words]); }})"""
+                  marks.marksOf({{ atlas: map, axes }}, "a", {{q: "5", a: "0.3 mm"}}, "0.3 mm")[0].words]); }})"""
     up, down, along, there, near, listed, outside, mark = page.driver.execute_async_script(script)
     assert up == "Flutter is born: upright rest loses its stability by period doubling"
     assert down == "Upright rest is stable again; flutter ends in it" and along == "" and (there, near) == ("flutter", "inverted")
@@ -155,6 +183,67 @@ def test_sliders_know_their_unit_and_say_what_is_no_number(page):
     assert page.run("[$('slider-m').getAttribute('aria-valuetext'), $('message-m').textContent]") == [str(round(0.3 * 4**0.01, 6)), ""]
     page.run("$('slider-m').dispatchEvent(new MouseEvent('dblclick'))")
     assert page.run("explorer.state.pendulum.m") == "0.3"
+
+
+@pytest.mark.parametrize("places, words", [
+    ([20, 200], ["a 0.1", "b 2.3"]),
+    ([20, 32], ["a 0.1, b 2.3"]),  # close together: one of two limits
+    ([20, 32, 44], ["b 2.3", "c 4.5"]),
+    ([150, 290], ["a 0.1", "b 2.3"]),
+    ([290, 296, 299], ["a 0.1, b 2.3"]),
+    ([], []),
+])
+def test_words_of_limits_never_touch(modules, places, words):
+    """They lay over each other where upright loses stability and gains it again nearby."""
+    laid = modules.module("marks.js", f"""(() => {{ const names = ["a 0.1", "b 2.3", "c 4.5"], wide = (words) => 7 * words.length;
+        const limits = {json.dumps(places)}.map((x, i) => ({{x, words: names[i], below: i % 2 === 0}}));
+        return its.laidOut(limits, wide, [-8, 308]).map(({{first, last, left, words}}) =>
+            [words, left ? limits[first].x - 4 - wide(words) : limits[last].x + 4, wide(words)]); }})()""")
+    assert [text for text, _, _ in laid] == words
+    edges = [edge for _, left, wide in laid for edge in (left, left + wide)]
+    assert edges == sorted(edges) and all(-8 <= edge <= 308 for edge in edges)
+
+
+def test_a_slider_moves_there_and_back_until_it_is_stopped(page):
+    press = "[...document.querySelectorAll('.sweep')].find((button) => button.title.includes(' m ')).click()"
+    values = set()
+    page.run(press)
+    assert wait_for(lambda: values.add(page.run("explorer.state.pendulum.m")) or len(values) > 4)
+    assert page.run("[...document.querySelectorAll('.sweep[aria-pressed=true]')].length") == 1
+    page.key("Escape")
+    assert wait_for(lambda: page.run("[...document.querySelectorAll('.sweep[aria-pressed=true]')].length") == 0)
+    assert page.run("explorer.state.pendulum.m") != "0.3"  # it stays where it is
+    page.key("Backspace")
+    assert page.run("explorer.state.pendulum.m") == "0.3"
+    page.run(press)
+    page.slide("k", 0.1)  # a hand ends it
+    assert wait_for(lambda: page.run("[...document.querySelectorAll('.sweep[aria-pressed=true]')].length") == 0)
+
+
+def test_the_pointer_is_read_on_both_axes(page):
+    """With more digits than the ticks, in deep windows too."""
+    page.run("explorer.basins.point(explorer.basins.panes[0], [0.25, 0.75])")
+    assert page.run("explorer.basins.panes[0].plain.pointed") == [0.25, 0.75]
+    words = "its.ticksOf(explorer.state.window.{}, 8, {}).wordsAt({})"
+    assert page.module("ticks.js", words.format("theta", "{inPi: true}", 0.25)) == "−0.500π"
+    assert page.module("ticks.js", words.format("velocity", "{}", 0.75)) == "1.000"
+    page.run("explorer.basins.zoom(1e-12, 0.3, 0.3)")
+    assert re.fullmatch(r"−?[\d.]+", page.module("ticks.js", words.format("theta", "{inPi: true}", 0.5)))
+
+
+@pytest.mark.parametrize("width", [390, 360])
+def test_a_phone_reaches_every_control(page, width):
+    """Film and ? lay beyond the edge of the bar."""
+    screen = {"width": width, "height": 800, "deviceScaleFactor": 1, "mobile": True}
+    page.driver.execute_cdp_cmd("Emulation.setDeviceMetricsOverride", screen)
+    page.press("map-shown")
+    page.press("values-shown")
+    script = """[...document.querySelectorAll("button, select, input:not([type=file], [type=checkbox]), summary")]
+        .filter((part) => part.offsetParent && part.checkVisibility({visibilityProperty: true}) && !part.closest(".menu > div"))
+        .map((part) => [part.id || part.textContent, part.getBoundingClientRect()])
+        .filter(([, box]) => Math.min(box.width, box.height) < 44 || box.left < 0 || box.right > innerWidth).map(([name]) => name)"""
+    assert wait_for(lambda: page.run(script) == [], 5), page.run(script)
+    page.driver.execute_cdp_cmd("Emulation.clearDeviceMetricsOverride", {})
 
 
 def test_stories_are_told_by_keys_and_leave_the_page_as_it_was(page):

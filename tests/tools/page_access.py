@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""What axe-core finds on the explorer's page in its main states: both themes on a desk, and a phone. Exit status 1 if something is serious.
+"""What axe-core finds on the explorer's page in its main states: both themes on a desk and on a phone. Exit status 1 if something is serious.
 
     page_access.py node_modules/axe-core/axe.min.js"""
 
@@ -11,7 +11,7 @@ ROOT = Path(__file__).resolve().parents[2]
 sys.path[:0] = [str(ROOT / folder) for folder in ("python", "tests/python", "tests/tools")]
 from explorer_page import Page, Server, browser, wait_for  # noqa: E402
 
-SCREENS = ((1440, 900, "light"), (1440, 900, "dark"), (390, 844, "light"))
+SCREENS = ((1440, 900, "light"), (1440, 900, "dark"), (390, 844, "light"), (390, 844, "dark"))
 MENU = "document.querySelectorAll('.menu summary')[{}].click()"
 # name: what brings the state, what ends it
 STATES = {
@@ -21,6 +21,7 @@ STATES = {
     **{f"menu {i}": (MENU.format(i), MENU.format(i)) for i in range(3)},
     "help": ("$('help-shown').click()", "$('help').close()"),
     "values": ("$('values-shown').click()", "$('values-shown').click()"),
+    "large letters": ("explorer.state.change({letters: 'large'})", "explorer.state.change({letters: 'usual'})"),
     "story": ("$('tell').click()", "$('story-end').click()"),
 }
 LOOK = "const done = arguments[0]; axe.run().then(({violations}) => done(violations.map(({id, impact, nodes}) => " \

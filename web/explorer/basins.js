@@ -2,14 +2,14 @@
 
 import { endingWords, Motion, settledAfter } from "./motion.js";
 import { edgeNear } from "./boundary.js";
-import { likelyEnds } from "./experiment.js";
-import { asScene, sharesOf, unlabelled } from "./frames.js";
+import { asScene, sharesOf } from "./frames.js";
 import { listen } from "./gestures.js";
 import { listenLegend, rowsOf, writeLegend } from "./legend.js";
 import { Pane } from "./pane.js";
-import { measureWords, Passport } from "./passport.js";
+import { Passport } from "./passport.js";
 import { Stage } from "./stage.js";
 import { placementOf } from "./placement.js";
+import { likelyWords, rowAt, wordsAt } from "./pointed.js";
 import { isOnBoundary, Skeleton } from "./skeleton.js";
 import { signed } from "./ticks.js";
 import { Units } from "./units.js";
@@ -141,6 +141,7 @@ export class Basins {
     if (keys.has("pendulum") || keys.has("other")) this.forgetMotion();
     if (keys.has("start")) this.awaitMotion();
     if (keys.has("units")) this.writeEnding();
+    if (keys.has("letters")) for (const pane of this.panes) pane.resized();
     if (keys.has("view") || keys.has("colours")) this.drawStage();
     if (keys.has("start") || keys.has("pendulum") || keys.has("other")) this.followSoon();
     if (keys.has("lit")) for (const pane of this.panes) pane.light();
@@ -241,9 +242,10 @@ export class Basins {
   point(pane, at) {
     const half = this.spread;
     for (const other of this.panes) {
-      other.plain.cursor = other === pane ? null : at;
+      other.plain[other === pane ? "pointed" : "cursor"] = at;
+      other.plain[other === pane ? "cursor" : "pointed"] = null;
       other.plain.spread = at && half && [at, half];
-      if (this.panes.length > 1 || half) other.drawAbove();
+      other.drawAbove();
     }
     this.pointed = at;
     clearTimeout(this.resting);
@@ -322,31 +324,6 @@ export class Basins {
     const differing = Object.keys(this.state.pendulum).filter((name) => this.state.pendulum[name] !== this.state.other[name]);
     return `${pane.name.toUpperCase()}  ${differing.map((name) => `${name.replace(/_/g, " ")} ${pane.pendulum[name]}`).join(", ")}`;
   }
-}
-
-/** The attractor under a place, of the list of its frame; undefined where none is known. */
-function rowAt(pane, across, up) {
-  const found = pane.cellAt(across, up);
-  return found && sharesOf(found.frame).find(({ id }) => id === found.frame.labels[found.cell]);
-}
-
-/** The end of a place, and the measures of its basin as far as they are known. */
-function wordsAt(pane, { passport, units }, across, up) {
-  const found = pane.cellAt(across, up);
-  const row = rowAt(pane, across, up);
-  if (!found) return "not labelled yet";
-  const { frame, cell } = found;
-  const name = frame.labels[cell] === 255 ? unlabelled(frame) : frame.catalogue.attractors[frame.labels[cell]].words;
-  const measures = row ? `: ${measureWords(row, passport.pushOf(pane, row), units)}` : "";
-  return name + (frame.cells[4 * cell + 2] === 255 ? " (undecided)" : "") + measures;
-}
-
-/** How likely each end is for starts about a place. */
-function likelyWords(pane, at, spread) {
-  return likelyEnds(pane, at, spread)
-    .slice(0, 4)
-    .map(([name, share]) => `${name} ${(100 * share).toFixed(0)} %`)
-    .join(", ");
 }
 
 const brief = (text) => (text.length > 26 ? `${text.slice(0, 12)}…${text.slice(-12)}` : text);

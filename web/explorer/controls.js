@@ -5,6 +5,7 @@ import { ask } from "./engine.js";
 import { Experiment } from "./experiment.js";
 import { Film } from "./film.js";
 import { MotionMap } from "./map.js";
+import { listenFiles, openPicture } from "./opened.js";
 import { saveHtml } from "./portable.js";
 import { copyText, savePng, saveScene, saveSvg, saveText } from "./save.js";
 import { Sliders } from "./sliders.js";
@@ -18,6 +19,7 @@ const CHOICES = {
   shade: ["Shade", { relief: "relief", none: "none", settling: "certain late" }],
   units: ["Axes", { pi: "rad", degrees: "degrees", si: "SI" }],
   theme: ["Theme", { auto: "auto", light: "light", dark: "dark" }],
+  letters: ["Letters", { usual: "usual", large: "large" }, "large letters, for a projector"],
   middle: ["Middle", { upright: "upright", hanging: "hanging" }],
   spread: [
     "Release",
@@ -38,7 +40,12 @@ export function listenControls(state, basins) {
   listenSaving(state, basins);
   listenStage(state, basins);
   const stories = new Stories(state, basins);
-  new Experiment(state, basins, complain, (file) => guarded(() => stories.open(file))());
+  const experiment = new Experiment(state, basins, complain);
+  listenFiles([
+    [/\.ya?ml$/i, (file) => guarded(() => stories.open(file))()],
+    [/\.png$/i, (file) => guarded(() => openPicture(state, file))()],
+    [/^/, (file) => experiment.read(file)],
+  ]);
   return map;
 }
 
@@ -88,6 +95,13 @@ const guarded = (action) => () =>
 function listenWindow(state, basins, film) {
   element("home").onclick = () => (state.change({ jump: false }), state.visit(state.home));
   element("back").onclick = () => state.back();
+  element("forward").onclick = () => state.forward();
+  const steps = () => {
+    element("back").disabled = state.past.length === 0;
+    element("forward").disabled = state.undone.length === 0;
+  };
+  state.listen(steps);
+  steps();
   element("zoom-in").onclick = () => basins.zoom(0.5);
   element("zoom-out").onclick = () => basins.zoom(2);
   element("play").onclick = () => state.change({ playing: !state.playing });
@@ -106,14 +120,16 @@ function listenPendulums(state, basins) {
   const key = () => (state.pane === "b" && state.other ? "other" : "pendulum");
   const change = (values) => state.change({ [key()]: { ...state[key()], ...values }, jump: false });
   const setAll = (values) => {
+    if (film.running?.swept) film.stop();
     state.keep(Object.keys(values).join());
     change(values);
   };
   const set = (name, value) => setAll({ [name]: value });
-  let sliders = new Sliders(element("sliders"), state.scene, set);
+  const newSliders = () => new Sliders(element("sliders"), state.scene, set, (name) => film.sweep(name));
+  let sliders = newSliders();
   const show = (keys) => {
     if (keys?.has("scene")) {
-      sliders = new Sliders(element("sliders"), state.scene, set);
+      sliders = newSliders();
       map.rename(sliders.names);
     }
     sliders.show(state[key()], state.ground);
@@ -129,6 +145,7 @@ function listenPendulums(state, basins) {
   };
   element("map-shown").onclick = () => state.change({ map: state.map === "on" ? "off" : "on" });
   const film = new Film(state, basins, sliders.names, (name, value) => change({ [name]: value }), complain);
+  film.onSweep = (name) => sliders.showSwept(name);
   const map = new MotionMap(state, sliders.names, { set: setAll, say: (words) => (element("happening").textContent = words) });
   state.listen(show);
   show();

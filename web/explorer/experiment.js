@@ -9,17 +9,8 @@ const [AGREES, DIFFERS, UNKNOWN] = ["#1b9e77", "#d1322c", "#9aa4ae"];
 const element = (id) => document.getElementById(id);
 
 export class Experiment {
-  /** `others(file)` takes dropped files that are no tables. */
-  constructor(state, basins, say, others) {
+  constructor(state, basins, say) {
     Object.assign(this, { state, basins, say, releases: [] });
-    const panes = element("panes");
-    panes.addEventListener("dragover", (event) => event.preventDefault());
-    panes.addEventListener("drop", (event) => {
-      event.preventDefault();
-      const [file] = event.dataTransfer.files;
-      if (file) /\.ya?ml$/.test(file.name) ? others(file) : this.read(file);
-    });
-    element("releases").onchange = () => element("releases").files[0] && this.read(element("releases").files[0]);
     element("releases-gone").onclick = () => this.take([]);
     state.listen((keys) => {
       if ((keys.has("pendulum") || keys.has("other") || keys.has("pane")) && this.releases.length) this.compareSoon();

@@ -1,18 +1,21 @@
 // A film: one value of the pendulum moves from a first value to a last. Played on the page, or recorded picture by picture.
 
 import { pictureCanvas, pictureSize, pngOf, saveBlob } from "./save.js";
-import { keyWords, numberOf, withUnit } from "./values.js";
+import { keyWords, numberOf, placeOf, valueAt, withUnit } from "./values.js";
 import { zipOf } from "./zip.js";
 
 const MOST = 1000; // pictures
 const RATE = 25; // pictures a second
 const KINDS = ["webm", "mp4"];
+const SWEPT = 0.65; // of half a slider: how far a sweep goes to either side of the scene's value, which the usual map holds
+const EACH = 1 / 160; // of half a slider, a picture of a sweep
+const SKIPPED = 7; // pictures at most, where they are late
 const element = (id) => document.getElementById(id);
 const pause = (milliseconds) => new Promise((resolve) => setTimeout(resolve, milliseconds));
 
 export class Film {
   constructor(state, basins, names, set, complain) {
-    Object.assign(this, { state, basins, set, complain, running: null });
+    Object.assign(this, { state, basins, set, complain, running: null, onSweep: () => {} });
     for (const name of names) element("film-key").append(new Option(keyWords(name), name));
     element("film-key").value = names.find((name) => /amplitude|^m$/.test(name)) ?? names[0];
     element("film-key").onchange = () => this.propose();
@@ -37,23 +40,27 @@ export class Film {
     this.running = null;
   }
 
-  /** Starts what a button does, or ends what runs. */
-  async toggle(action) {
+  /** Starts what a button does, or ends what runs. The pendulum is then as before; not after the sweep of a slider, the value `swept`. */
+  async toggle(action, swept = null) {
     if (this.running) return this.stop();
-    const mine = (this.running = {});
+    const mine = (this.running = { swept });
     const before = this.state[this.state.pane === "b" ? "other" : "pendulum"];
-    element("film-play").textContent = "Stop";
-    element("film-play").setAttribute("aria-pressed", "true");
+    this.showRunning();
     try {
       await action();
     } catch (error) {
       this.complain(error.message);
     }
     if (this.running === mine) this.running = null;
+    if (swept === null) this.state.change({ [this.state.pane === "b" ? "other" : "pendulum"]: before });
+    this.showRunning();
+  }
+
+  showRunning() {
     this.say("");
-    element("film-play").textContent = "Play";
-    element("film-play").setAttribute("aria-pressed", "false");
-    this.state.change({ [this.state.pane === "b" ? "other" : "pendulum"]: before });
+    element("film-play").textContent = this.running ? "Stop" : "Play";
+    element("film-play").setAttribute("aria-pressed", String(Boolean(this.running)));
+    this.onSweep(this.running?.swept ?? null);
   }
 
   say(words) {
@@ -77,10 +84,43 @@ export class Film {
   /** To the last value and back, until it is stopped. */
   async play() {
     const count = this.count();
-    for (let n = 0; this.running; n = (n + 1) % (2 * count)) {
-      this.set(element("film-key").value, this.valueAt(n < count ? n : 2 * count - 1 - n, count));
+    await this.loop(element("film-key").value, (n) => this.valueAt(n % (2 * count) < count ? n % count : count - 1 - (n % count), count));
+  }
+
+  /** Moves a slider there and back from where it is, until it is stopped or another one is swept. */
+  sweep(name) {
+    const swept = this.running?.swept;
+    const stops = this.running && (swept === null || swept === name);
+    this.stop();
+    if (stops) return;
+    const { state } = this;
+    const home = state.scene[name];
+    const [low, high] = this.endsOf(name, home);
+    const now = placeOf(state[state.pane === "b" ? "other" : "pendulum"][name], home);
+    const [count, first] = [high - low, Math.max(low, Math.min(high, now)) - low].map((way) => Math.round(way / EACH));
+    const fold = (n) => (n % (2 * count) <= count ? n % (2 * count) : 2 * count - (n % (2 * count)));
+    state.keep();
+    this.toggle(() => this.loop(name, (n) => valueAt(low + fold(first + n) * EACH, home), SKIPPED), name);
+  }
+
+  /** Places of a slider between which it is swept: no further than the map has motions. */
+  endsOf(name, home) {
+    const axis = this.state.ground?.axes.find((one) => one.name === name && one.unit === numberOf(home).unit);
+    const edges = axis ? [axis.low, axis.high].map((edge) => placeOf(withUnit(edge, axis.unit), home)) : [-1, 1];
+    return [Math.max(-SWEPT, Math.min(...edges)), Math.min(SWEPT, Math.max(...edges))];
+  }
+
+  /** Shows value number n, each when the picture of the one before is there, until it is stopped; where pictures are late it skips so many. */
+  async loop(name, valueOf, skips = 0) {
+    const { running, basins } = this;
+    const waits = () => basins.active.top?.key !== JSON.stringify(basins.active.pendulum) && document.body.dataset.state !== "error";
+    for (let n = 0, last = performance.now(); this.running === running; ) {
+      this.set(name, valueOf(n));
       await pause(1000 / RATE);
-      while (this.running && this.basins.active.frames.at(-1)?.key !== JSON.stringify(this.basins.active.pendulum)) await pause(10);
+      while (this.running === running && waits()) await pause(10);
+      const late = Math.floor(((performance.now() - last) * RATE) / 1000) - 1;
+      n += 1 + Math.max(0, Math.min(skips, late));
+      last = performance.now();
     }
   }
 

@@ -24,6 +24,7 @@ function actionsOn(state, basins) {
     [["-"], "zoom out", () => basins.zoom(ZOOM)],
     [["h"], "the first window", () => press("home")],
     [["Backspace", "Ctrl+z"], "the window or the values before", () => press("back")],
+    [["Ctrl+y", "Ctrl+Z"], "undo Back", () => press("forward")],
     [["n"], "go to the nearest boundary", () => press("nearest")],
     [["w"], "the wheel finds boundaries, or not", () => press("drawn")],
     [["d"], "dive between two starts", () => press("dive")],

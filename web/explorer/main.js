@@ -39,7 +39,10 @@ async function begin() {
   state.window ??= state.home;
   document.title = document.getElementById("title").textContent = start.title;
   setTheme(state);
+  const setLetters = () => (document.body.dataset.letters = state.letters);
+  setLetters();
   state.listen((keys) => keys.has("theme") && setTheme(state));
+  state.listen((keys) => keys.has("letters") && setLetters());
   dark.addEventListener("change", () => setTheme(state));
   keepAddress(state);
   keepMiddle(state);

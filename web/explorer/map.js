@@ -6,7 +6,7 @@ import { Engine } from "./engine.js";
 import { listen } from "./gestures.js";
 import { atlases, axisAround, charts, othersOf, shareOf, usualKeys, valueAt } from "./ground.js";
 import { happening } from "./happenings.js";
-import { drawAxes, Plane } from "./plane.js";
+import { drawAxes, drawPlace, Plane } from "./plane.js";
 import { CanvasSurface, lettersOf } from "./surface.js";
 import { keyWords } from "./values.js";
 import { Range } from "./window.js";
@@ -146,6 +146,7 @@ export class MotionMap {
   changed(keys) {
     if (keys.has("map")) this.show();
     if (!this.isOpen || !this.axes) return;
+    if (keys.has("letters")) this.draw();
     if (keys.has("colours") && (this.chart || this.atlas)) this.paint();
     if (!["pendulum", "other", "pane"].some((key) => keys.has(key))) return;
     this.drawPoint();
@@ -204,6 +205,8 @@ export class MotionMap {
 
   /** Names the motions that live under the pointer, and a curve that is near it. */
   point(at) {
+    this.pointed = at && this.plane.sharesOf(...at);
+    if (this.axes) this.drawPoint();
     this.bubble.hidden = !(at && this.atlas);
     if (this.bubble.hidden) return;
     const place = this.plane.sharesOf(...at);
@@ -274,9 +277,14 @@ export class MotionMap {
       if (!this.atlas) hatch(surface, plane.box);
       for (const curve of this.atlas?.curves ?? []) this.drawCurve(surface, plane, curve);
     });
-    const words = ({ name, unit }) => ({ words: keyWords(name) + (unit ? ` (${unit})` : "") });
-    drawAxes(surface, plane, { theta: words(this.axes[0]), velocity: words(this.axes[1]) });
+    drawAxes(surface, plane, this.words);
     this.drawPoint();
+  }
+
+  /** Words of its axes, as planes have them. */
+  get words() {
+    const [theta, velocity] = this.axes.map(({ name, unit }) => ({ words: keyWords(name) + (unit ? ` (${unit})` : "") }));
+    return { theta, velocity };
   }
 
   drawCurve(surface, plane, { kind, name, first, points }) {
@@ -294,6 +302,7 @@ export class MotionMap {
     if (!this.axes) return;
     const surface = this.surfaceOn(this.over);
     const { plane, place } = this;
+    if (this.pointed) drawPlace(surface, plane, this.words, this.pointed);
     if (!this.isInside) return;
     const [x, y] = plane.placeOf(...place);
     const [left, top, width, height] = plane.box;

@@ -1,7 +1,7 @@
 // Labels as a texture, colours as a palette: the basins are drawn, moved and scaled by the graphics card.
 
 import { HATCHING } from "./frames.js";
-import { heightsOf } from "./heights.js";
+import { DOUBLINGS, heightsOf } from "./heights.js";
 import { Painter2d } from "./painter2d.js";
 import { placementOf } from "./placement.js";
 
@@ -48,8 +48,6 @@ void main() {
   colour = vec4(sqrt(sum / float(count.x * count.y)), 1.0);
 }`;
 
-const DOUBLINGS = 10; // of the time after which the end is certain, until it is as dark as it gets
-
 /**
  * A frame of labels as the painters keep it: `cells` holds 4 bytes a cell, rows from the lowest velocity up; `planes` as the
  * program sent them; `palette`: 256 colours of 4 bytes, colour i of label i.
@@ -73,6 +71,7 @@ export function frameOf(header, planes, window, palette) {
     level: header.level,
     doubtful: doubt && doubtful,
     times: times ?? shades,
+    smooth: planes.smooth_time ?? null,
     labels,
     cells,
     window,

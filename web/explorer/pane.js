@@ -1,14 +1,14 @@
 // One picture of basins: it asks the program for frames, keeps the last ones, and draws them with axes and marks over them.
 
+import { drawOverBasins } from "./above.js";
 import { Engine } from "./engine.js";
-import { drawReleases } from "./experiment.js";
 import { decoded, inColoursOf, MOST_MOVING, paletteOf, requestOf, sharesOf } from "./frames.js";
 import { listedAt } from "./ground.js";
-import { Inset } from "./inset.js";
 import { raise, shadingOf } from "./heights.js";
+import { Inset } from "./inset.js";
 import { frameOf, painterOn } from "./painter.js";
 import { placementOf, seen } from "./placement.js";
-import { axesOf, drawAxes, drawLine, drawPoints, Plane } from "./plane.js";
+import { Plane } from "./plane.js";
 import { CanvasSurface, lettersOf } from "./surface.js";
 
 const MOST_FRAMES = 6; // kept under each other while the window moves
@@ -38,9 +38,10 @@ export class Pane {
     this.version = 0;
     this.most = MOST_MOVING;
     this.lent = 0; // others ask its program for frames, which end its own
-    this.plain = { motion: null, marks: [], cursor: null, overlays: [], skeleton: null, releases: [], spread: null };
+    this.plain = { motion: null, marks: [], cursor: null, pointed: null, overlays: [], skeleton: null, releases: [], spread: null };
     this.controller = new AbortController();
     new ResizeObserver(() => this.resized()).observe(root);
+    new IntersectionObserver(() => this.draw()).observe(root); // what changed out of sight may not have been drawn
   }
 
   get pendulum() {
@@ -259,7 +260,7 @@ export class Pane {
 
   words() {
     const top = this.top;
-    if (!top) return "";
+    if (!top || !this.over.clientWidth) return ""; // the motion fills the page
     const samples = top.samples > 1 ? `, ${top.samples} × ${top.samples} a pixel` : "";
     const right = top.quality === "exact" ? decidedWords(top.doubtful) : "quick labels";
     return `${top.columns} × ${top.rows} starts${samples}, ${right}`;
@@ -295,30 +296,13 @@ export class Pane {
     const context = this.over.getContext("2d");
     context.setTransform(ratio, 0, 0, ratio, 0, 0);
     context.clearRect(0, 0, this.over.clientWidth, this.over.clientHeight);
-    this.drawOver(new CanvasSurface(context, this.state.colours, lettersOf(document.body)), this.plane);
+    const surface = new CanvasSurface(context, this.state.colours, lettersOf(document.body));
+    drawOverBasins(surface, this.plane, this.plain, this.state, this.top);
   }
 
-  /** All that lies over the basins, on any surface. */
+  /** All that lies over the basins but the pointer, on any surface. */
   drawOver(surface, plane) {
-    const { motion, marks, cursor, overlays, skeleton, releases, spread } = this.plain;
-    surface.clipped(plane.box, () => {
-      for (const { lines = [], points = [] } of [...overlays, ...(skeleton ?? [])]) {
-        for (const line of lines) drawLine(surface, plane, line, "#000000", 1);
-        drawPoints(surface, plane, points, "#ffffff", 3.6, "#000000");
-      }
-      if (this.state.points === "on" && this.top)
-        for (const row of this.top.catalogue.attractors)
-          drawPoints(surface, plane, row.strobe, "#1c2127", row.strobe.length > 2 ? 3.2 : 4.6);
-      drawReleases(surface, plane, releases);
-      if (motion) motion.drawOver(surface, plane);
-      if (spread) surface.line(ellipse(plane, ...spread), "#ffffff", 2);
-      const { theta: angles, velocity: speeds } = plane.window;
-      const places = marks.map(([theta, velocity]) => plane.placeOf(angles.shareOf(theta), speeds.shareOf(velocity)));
-      if (places.length > 1) surface.line(places, "#b3261e", 2);
-      for (const place of places) surface.circle(...place, 5, "#ffffff", "#b3261e");
-    });
-    drawAxes(surface, plane, axesOf(this.state.units, this.state.pivotFrequency));
-    if (cursor) drawCross(surface, plane, cursor);
+    drawOverBasins(surface, plane, { ...this.plain, pointed: null, cursor: null }, this.state, this.top);
   }
 
   /** Ends its program. */
@@ -343,32 +327,4 @@ function cellOf(frame) {
 function decidedWords(doubtful) {
   if (doubtful === undefined) return "exact labels";
   return doubtful === 0 ? "every label decided" : `${doubtful} undecided (striped)`;
-}
-
-/** Places of an ellipse about a place, both in shares of the window. */
-function ellipse(plane, [across, up], [wide, high]) {
-  const angles = Array.from({ length: 49 }, (_, i) => (Math.PI * i) / 24);
-  return angles.map((angle) => plane.placeOf(across + wide * Math.cos(angle), up + high * Math.sin(angle)));
-}
-
-function drawCross(surface, plane, [across, up]) {
-  const [left, top, width, height] = plane.box;
-  const [x, y] = plane.placeOf(across, up);
-  surface.line(
-    [
-      [left, y],
-      [left + width, y],
-    ],
-    "#ffffffa0",
-    1,
-  );
-  surface.line(
-    [
-      [x, top],
-      [x, top + height],
-    ],
-    "#ffffffa0",
-    1,
-  );
-  surface.circle(x, y, 5, "transparent", "#1c2127");
 }

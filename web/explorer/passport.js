@@ -52,10 +52,12 @@ export class Passport {
   write(rows) {
     const row = rows.find(({ key }) => key === this.state.pinned);
     element("passport").hidden = !row;
+    delete document.body.dataset.passport;
     if (!row) return;
     const { motion, active } = this.basins;
     this.measure(active, row);
     const own = motion && Number(motion.ending.theta) === row.strobe[0][0] && Number(motion.ending.velocity) === row.strobe[0][1];
+    if (own) document.body.dataset.passport = "own"; // it says more than the words on the end of the motion
     const { units } = this.basins;
     const share = row.shares.find((known) => known !== null) ?? null;
     const lines = [passportWords(row, share, units), own ? spectrumWords(motion, units) : "", this.pushOf(active, row)];

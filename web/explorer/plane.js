@@ -4,6 +4,8 @@ import { Decimal } from "./decimal.js";
 import { degrees, ticksOf } from "./ticks.js";
 import { TURN } from "./window.js";
 
+const MOST_TICKS = 8; // of an axis on which a place is read
+
 export const MARGIN = { left: 78, right: 14, top: 10, bottom: 48 };
 
 export class Plane {
@@ -93,6 +95,28 @@ export function drawAxes(surface, plane, axes) {
   const label = (axis, origin) => (origin ? `${axis.words} = ${origin}` : axis.words);
   surface.text(label(axes.theta, along.origin), left + width / 2, bottom + 38, "center");
   surface.text(label(axes.velocity, up.origin), 14, top + height / 2, "center", { turned: true });
+}
+
+/** Fine lines through a place (shares of the window), and its values on both axes. */
+export function drawPlace(surface, plane, axes, [across, up]) {
+  const [left, top, width, height] = plane.box;
+  const [x, y] = plane.placeOf(across, up);
+  for (const line of [[[left, y], [left + width, y]], [[x, top], [x, top + height]]]) {
+    surface.line(line, "#00000040", 2.4);
+    surface.line(line, "#ffffffc0", 1);
+  }
+  const [angle, speed] = ["theta", "velocity"].map((name) => ticksOf(plane.window[name], MOST_TICKS, axes[name]));
+  tag(surface, angle.wordsAt(across), x, top + height + 18, "center", [left, left + width]);
+  tag(surface, speed.wordsAt(up), left - 8, y + 4, "right", [0, left]);
+}
+
+/** Words on their own ground, which keeps between two edges where it is centred. */
+function tag(surface, words, x, y, align, [low, high]) {
+  const letters = surface.letters ?? 1;
+  const wide = surface.width(words) + 8;
+  const middle = align === "center" ? Math.max(low + wide / 2 - 20, Math.min(high - wide / 2 + 12, x)) : x + 4 - wide / 2;
+  surface.rectangle(middle - wide / 2, y - 12 * letters, wide, 16 * letters, surface.theme.ink);
+  surface.text(words, middle, y, "center", { colour: surface.theme.paper });
 }
 
 /** Points of starts given as [[theta, velocity], ...]. */

@@ -6,9 +6,13 @@ import { rowsOf, shareWords } from "./legend.js";
 import { shadingOf } from "./heights.js";
 import { Painter2d } from "./painter2d.js";
 import { Plane } from "./plane.js";
+import { withTexts } from "./png.js";
+import { addressOf } from "./state.js";
 import { CanvasSurface, LIGHT, SvgSurface } from "./surface.js";
 import { signed } from "./ticks.js";
 
+const SCENE_IN_PNG = "kapitza scene"; // keywords of texts in pictures: a scene for the program,
+export const VIEW_IN_PNG = "kapitza view"; // and what the page shows
 const LEGEND = 250; // px beside a saved picture
 const HEAD = 28;
 const MOST = 1 << 24; // cells of a frame
@@ -31,6 +35,10 @@ export async function copyText(text) {
 
 /** The view of a pane as a scene that gives the same labels. */
 export async function saveScene(state, pane) {
+  saveText("view.yaml", await sceneOf(state, pane), "application/yaml");
+}
+
+async function sceneOf(state, pane) {
   const frame = pane.top;
   const body = {
     window: state.window.centred("hanging").toRequest(), // as its frames are asked for
@@ -38,7 +46,7 @@ export async function saveScene(state, pane) {
     rows: frame?.rows ?? pane.basins.height,
     columns: frame?.columns ?? pane.basins.width,
   };
-  saveText("view.yaml", (await ask("scene", body)).text, "application/yaml");
+  return (await ask("scene", body)).text;
 }
 
 /** Size of a picture of all panes with their legend. */
@@ -83,13 +91,21 @@ export function pictureCanvas(state, basins, scale = 2, pictures = new Map()) {
   return canvas;
 }
 
-/** A picture `width` px wide, whose basins are computed for that size; as large as the screen shows it without `width`. */
+/** A picture `width` px wide, whose basins are computed for that size; as large as the screen shows it without `width`. The view is in it. */
 export async function savePng(state, basins, width) {
-  if (!width) return saveBlob("view.png", await pngOf(pictureCanvas(state, basins)));
+  const canvas = await canvasOf(state, basins, width);
+  const { title, scene, whole, pivotFrequency } = state;
+  const view = JSON.stringify({ title, scene, whole: whole.toRequest(), pivotFrequency, address: addressOf(state) });
+  const texts = { Software: "kapitza", [SCENE_IN_PNG]: await sceneOf(state, basins.active), [VIEW_IN_PNG]: view };
+  saveBlob("view.png", await withTexts(await pngOf(canvas), texts));
+}
+
+async function canvasOf(state, basins, width) {
+  if (!width) return pictureCanvas(state, basins);
   const scale = width / pictureSize(basins)[0];
   const pictures = new Map();
   for (const pane of basins.panes) pictures.set(pane, await computed(state, pane, scale));
-  saveBlob("view.png", await pngOf(pictureCanvas(state, basins, scale, pictures)));
+  return pictureCanvas(state, basins, scale, pictures);
 }
 
 /**

@@ -1,10 +1,9 @@
 // A slider and a typed value for every number of the pendulum's mapping, with marks where the map has curves.
 
 import { formsOf, isNeutral, isOfDrive } from "./drive.js";
-import { shareOf } from "./ground.js";
-import { keyWords, numberOf, withUnit } from "./values.js";
+import { drawMarks, marksOf, stretchOf } from "./marks.js";
+import { keyWords, numberOf, placeOf, valueAt, withUnit } from "./values.js";
 
-const REACH = 4; // a slider goes from the scene's value / 4 to its 4-fold, in equal ratios; from 0 to -1 and 1, finer near 0
 const STEP = 0.01; // of half a slider, that an arrow or a notch of the wheel goes; with shift ten of them
 const SYMBOLS = { // of values without a unit of their own
   quality_factor: "Q",
@@ -25,23 +24,6 @@ const SYMBOLS = { // of values without a unit of their own
   pivot_amplitude: "m",
   pivot_frequency: "rad/s",
 };
-const LIMITS = { rest_leans: "stands", rest_swings: "flutters" }; // of upright, as marks are called
-
-/** The value at a slider's place, -1 to 1, of a key that the scene gives as `home`. */
-export function valueAt(place, home) {
-  if (place === 0) return home;
-  const { number, unit } = numberOf(home);
-  const value = number === 0 ? place ** 3 : number * REACH ** place;
-  return withUnit(Number(value.toPrecision(6)), unit);
-}
-
-/** The slider's place of a value; beyond its ends too where `ends` is false. */
-export function placeOf(value, home, ends = true) {
-  const { number } = numberOf(home);
-  const at = numberOf(value)?.number ?? number;
-  const place = number === 0 ? Math.cbrt(at) : at / number > 0 ? Math.log(at / number) / Math.log(REACH) : -Infinity;
-  return ends ? Math.max(-1, Math.min(1, place)) : place;
-}
 
 /** What is typed, as a value of a scene: a number alone has the unit that the scene gives; null where it is no number. */
 export function typed(text, home) {
@@ -49,35 +31,9 @@ export function typed(text, home) {
   return found && withUnit(found.number, found.unit || numberOf(home).unit);
 }
 
-/** Marks of a slider: {place, words, limit, below: upright is stable beyond it}, where the line through a pendulum's place crosses curves of the map. */
-export function marksOf(ground, name, pendulum, home) {
-  const axis = ground?.axes.findIndex((one) => one.name === name) ?? -1;
-  if (axis < 0) return [];
-  const { low, high, unit } = ground.axes[axis];
-  const ends = [0, 1].map((share) => ground.axes.map((other, i) => (i === axis ? share : shareOf(other, pendulum))));
-  if (!ground.atlas.holds(ends[0]) || !ground.atlas.holds(ends[1])) return [];
-  return ground.atlas.crossed(...ends).flatMap(({ curve, at }) => {
-    const number = Number((low + at * (high - low)).toPrecision(3));
-    const place = placeOf(withUnit(number, unit), home, false);
-    const limit = curve.words.startsWith("upright") ? (LIMITS[curve.kind] ?? null) : null;
-    const words = `${withUnit(number, unit)}: ${curve.words}, ${limit ?? curve.kind.replace("_", " ")}`;
-    return Math.abs(place) < 1 ? [{ place, words, limit: limit && `${limit} ${number}`, below: limit === LIMITS.rest_leans }] : [];
-  });
-}
-
-/** Where upright stands, as shares of a slider: the first stretch that marks bound. */
-function stretchOf(marks) {
-  const limits = marks.filter(({ limit }) => limit);
-  const from = limits.findIndex(({ below }) => below);
-  const to = limits.find(({ below }, i) => !below && i > from);
-  const share = ({ place }) => `${50 * (1 + place)}%`;
-  const [low, high] = [from < 0 ? "0%" : share(limits[from]), to ? share(to) : "100%"];
-  return [["--from", limits.length ? low : "0%"], ["--to", limits.length ? high : "0%"]];
-}
-
-/** Fills `holder`; `change(name, text)` hears of each new value. */
+/** Fills `holder`; `change(name, text)` hears of each new value, `sweep(name)` of a press of the button that moves a slider there and back. */
 export class Sliders {
-  constructor(holder, scene, change) {
+  constructor(holder, scene, change, sweep) {
     this.scene = scene;
     this.rows = new Map();
     this.drive = newDrive(scene);
@@ -85,6 +41,7 @@ export class Sliders {
     for (const name of Object.keys(scene).filter((key) => numberOf(scene[key]))) {
       const row = newRow(name, scene[name]);
       listen(row, name, scene[name], change);
+      row.play.onclick = () => sweep(name);
       this.rows.set(name, row);
       (isOfDrive(name) ? this.drive : holder).append(row.element);
     }
@@ -94,15 +51,24 @@ export class Sliders {
 
   /** The list of wave forms. */
   addForms(change) {
-    const { element, range, number, marks } = newRow("waveform", "0");
+    const { element, range, number, marks, play } = newRow("waveform", "0");
     this.forms = document.createElement("select");
     for (const form of formsOf(this.scene)) this.forms.append(new Option(form, form));
     this.forms.id = number.id;
     this.forms.onchange = () => change("waveform", this.forms.value);
     range.remove();
     marks.remove();
+    play.remove();
     number.replaceWith(this.forms);
     this.drive.append(element);
+  }
+
+  /** Shows which slider is moved there and back; null: none. */
+  showSwept(swept) {
+    for (const [name, { play }] of this.rows) {
+      play.setAttribute("aria-pressed", String(name === swept));
+      play.textContent = name === swept ? "❚❚" : "▶";
+    }
   }
 
   get names() {
@@ -119,7 +85,7 @@ export class Sliders {
       if (message.dataset.of !== pendulum[name]) message.textContent = "";
       number.title = range.title = `the scene has ${home}; a double click goes there`;
       const found = marksOf(ground, name, pendulum, home);
-      marks.replaceChildren(...found.map(newMark));
+      drawMarks(marks, found);
       for (const [property, share] of stretchOf(found)) range.style.setProperty(property, share);
     }
     if (this.forms) this.forms.value = pendulum.waveform;
@@ -162,15 +128,6 @@ function newDrive(scene) {
   return part;
 }
 
-function newMark({ place, words, limit, below }) {
-  const mark = document.createElement("span");
-  mark.title = words;
-  mark.style.setProperty("--share", (1 + place) / 2);
-  const left = below && place > -0.4; // else it has no room there
-  if (limit) Object.assign(mark, { className: left ? "limit below" : "limit", textContent: limit });
-  return mark;
-}
-
 function newRow(name, home) {
   const [element, label, marks, message] = ["div", "label", "div", "p"].map((kind) => document.createElement(kind));
   const [range, number] = [document.createElement("input"), document.createElement("input")];
@@ -185,6 +142,9 @@ function newRow(name, home) {
   marks.className = "marks";
   Object.assign(message, { className: "message", id: `message-${name}` }).setAttribute("role", "alert");
   number.setAttribute("aria-describedby", message.id);
-  element.append(label, range, number, marks, message);
-  return { element, range, number, marks, message };
+  const play = Object.assign(document.createElement("button"), { className: "sweep", textContent: "▶", title: `move ${keyWords(name)} there and back` });
+  play.setAttribute("aria-label", play.title);
+  play.setAttribute("aria-pressed", "false");
+  element.append(label, range, number, play, marks, message);
+  return { element, range, number, play, marks, message };
 }

@@ -13,6 +13,7 @@ export const DEFAULTS = {
   middle: "upright",
   drawn: "off",
   view: "pendulum",
+  letters: "usual",
   spread: "0",
   map: innerWidth >= 1100 ? "on" : "off",
 };
@@ -25,6 +26,7 @@ export class State {
     Object.assign(this, start);
     this.listeners = [];
     this.past = [];
+    this.undone = [];
   }
 
   listen(listener) {
@@ -50,12 +52,27 @@ export class State {
     const goesOn = kind !== null && kind === this.kept?.kind && now - this.kept.at < PAUSE;
     this.kept = { kind, at: now };
     const { pendulum, other, pane } = this;
-    if (!goesOn) this.past.push({ window, pendulum, other, pane });
+    if (goesOn) return;
+    this.past.push({ window, pendulum, other, pane });
+    this.undone = [];
+    this.change({ steps: this.past.length });
   }
 
   back() {
+    this.swap(this.past, this.undone);
+  }
+
+  /** Undoes back(). */
+  forward() {
+    this.swap(this.undone, this.past);
+  }
+
+  swap(from, to) {
     this.kept = null;
-    if (this.past.length) this.change({ ...this.past.pop(), jump: false });
+    if (!from.length) return;
+    const { window, pendulum, other, pane } = this;
+    to.push({ window, pendulum, other, pane });
+    this.change({ ...from.pop(), steps: this.past.length, jump: false });
   }
 }
 

@@ -9,7 +9,7 @@ import { Window } from "./window.js";
 
 const GLIDE = 1.5; // seconds in which numbers of the pendulum go to their new values
 const PRESENTER = { ArrowRight: 1, PageDown: 1, Enter: 1, " ": 1, ArrowLeft: -1, PageUp: -1, Backspace: -1 };
-const KEPT = ["scene", "pendulum", "other", "pane", "pivotFrequency", "start", "window", "home", "whole", "view", "map", "speed", "lit", "pinned", "past"];
+const KEPT = ["scene", "pendulum", "other", "pane", "pivotFrequency", "start", "window", "home", "whole", "view", "map", "speed", "lit", "pinned", "past", "undone"];
 const element = (id) => document.getElementById(id);
 const texts = (pendulum) => Object.fromEntries(Object.entries(pendulum).map(([name, value]) => [name, typeof value === "number" ? String(value) : value]));
 
@@ -67,6 +67,7 @@ export class Stories {
       lit: null,
       pinned: null,
       past: [],
+      undone: [],
     });
     this.step = -1;
     this.go(1);

@@ -7,7 +7,7 @@ export const LIGHT = { paper: "#ffffff", ink: "#1c2127", faint: "#5a646e", trace
 export const DARK = { paper: "#161b21", ink: "#e4e8ec", faint: "#98a2ad", trace: "#3f5f80", mark: "#ff8a7a", shaker: "#2a323b", cross: "#ffffff70" };
 
 /** How much larger letters on the page's canvases are in a lecture. */
-export const lettersOf = (page) => (page.dataset.story === undefined ? 1 : 1.35);
+export const lettersOf = (page) => (page.dataset.story === undefined && page.dataset.letters !== "large" ? 1 : 1.35);
 
 export class CanvasSurface {
   constructor(context, theme = LIGHT, letters = 1) {
@@ -54,6 +54,12 @@ export class CanvasSurface {
     c.textAlign = align;
     c.fillText(words, 0, 0);
     c.restore();
+  }
+
+  /** Width of words, px. */
+  width(words, size = 12) {
+    this.context.font = `${size * this.letters}px ${FONT}`;
+    return this.context.measureText(words).width;
   }
 
   /** What `draw` draws is seen inside of the box alone. */

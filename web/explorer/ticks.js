@@ -5,11 +5,12 @@ import { Decimal, digitsFor, turn } from "./decimal.js";
 const PARTS_OF_PI = [1, 1 / 2, 1 / 4, 1 / 6, 1 / 12, 1 / 24];
 const WIDE = 0.5; // rad: from here on fractions of pi are read more easily than decimals
 const MOST_DIGITS = 4; // after the point, which the margin of an axis has room for; beyond, ticks count from an origin
+const FINER = 2; // digits that a place has beyond those of ticks
 const SHOWN_DIGITS = 30; // of such an origin
 
 /**
- * {ticks: [{share, words}], origin}: where ticks lie (0 at the lower edge, 1 at the upper) and what they say; where digits run
- * out they count from `origin` ("1.2345 + n × 1e-9"), else it is null.
+ * {ticks: [{share, words}], origin, wordsAt}: where ticks lie (0 at the lower edge, 1 at the upper) and what they say; where digits run
+ * out they count from `origin` ("1.2345 + n × 1e-9"), else it is null. `wordsAt(share)`: what a tick there would say, with more digits.
  * `factor`: the unit's number per radian; `inPi`: fractions of pi are wanted.
  */
 export function ticksOf(range, most, { factor = null, inPi = false } = {}) {
@@ -31,7 +32,7 @@ function plainTicks(low, width, step, digits) {
   const ticks = [];
   for (let n = Math.ceil(low / step - 1e-6); n * step <= low + width * (1 + 1e-6); n++)
     ticks.push({ share: (n * step - low) / width, words: signed((n * step).toFixed(digits)) });
-  return { ticks, origin: null };
+  return { ticks, origin: null, wordsAt: (share) => signed((low + share * width).toFixed(digits + FINER)) };
 }
 
 /** Ticks n 10^-digits from an origin of whole tens of them. */
@@ -46,7 +47,8 @@ function countedTicks(low, high, width, step, digits) {
   const ticks = [];
   for (let n = Math.ceil(from / step - 1e-6); n * step <= from + width * (1 + 1e-6); n++)
     ticks.push({ share: (n * step - from) / width, words: signed(String(n * each)) });
-  return { ticks, origin: `${shortened(signed(origin.toString()))} + n × 1e${signed(String(-digits))}` };
+  const wordsAt = (share) => signed(((from + share * width) / unit).toFixed(FINER));
+  return { ticks, wordsAt, origin: `${shortened(signed(origin.toString()))} + n × 1e${signed(String(-digits))}` };
 }
 
 function piTicks(range, most) {
@@ -55,7 +57,7 @@ function piTicks(range, most) {
   const ticks = [];
   for (let n = Math.ceil(low / step - 1e-6); n * step <= low + range.width * (1 + 1e-6); n++)
     ticks.push({ share: (n * step - low) / range.width, words: piText((n * step) / Math.PI) });
-  return { ticks, origin: null };
+  return { ticks, origin: null, wordsAt: (share) => `${signed(((low + share * range.width) / Math.PI).toFixed(FINER + 1))}π` };
 }
 
 /** A multiple of pi as a fraction: 3π/2. */
