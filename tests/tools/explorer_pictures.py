@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""Pictures of the explorer for the documentation, in headless Chromium: explorer.png, explorer-phone.png and the film explorer.gif.
+"""Pictures of the explorer for the documentation, in headless Chromium: explorer.png, explorer-phone.png, explorer-story.png and the film
+explorer.gif.
 
     explorer_pictures.py FOLDER"""
 
@@ -16,7 +17,8 @@ from explorer_page import Page, Server, browser, wait_for  # noqa: E402
 from PIL import Image  # noqa: E402
 
 SCENE = ROOT / "scenes" / "blackburn-fig12.yaml"
-DESK, PHONE = (1440, 900), (390, 844)
+DESK, PHONE, LECTURE = (1440, 900), (390, 844), (1920, 1080)
+STORY, STEP = 2, 3  # flutter: the line at half of the frequency of the shaker
 FILM = (640, 400)
 EACH = 130  # ms of a picture of the film
 READY = "document.body.dataset.state === 'done' && ($('map').hidden || /up to 4/.test(document.querySelector('#map .note').textContent))"
@@ -58,6 +60,20 @@ def film(driver, page):
     return pictures + [pictures[-1]] * math.ceil(1000 / EACH)
 
 
+def told(driver, server):
+    """A step of a story, in a lecture room."""
+    page = opened(driver, server, LECTURE, "theme=light&map=off&samples=1&quality=moving")
+    page.press("tell")
+    wait_for(lambda: page.run(f"$('stories').querySelectorAll('div button').length > {STORY}"))
+    page.run(f"$('stories').querySelectorAll('div button')[{STORY}].click()")
+    for _ in range(STEP):
+        page.press("story-next")
+        time.sleep(3)  # values glide to their new ones
+    wait_for(lambda: page.run("explorer.basins.motion?.ending.period === 2 && !$('pendulum').classList.contains('awaits')"), 120)
+    time.sleep(1)
+    return shown(driver)
+
+
 def main():
     folder = Path(sys.argv[1])
     server = Server(SCENE)
@@ -70,6 +86,7 @@ def main():
         first.save(folder / "explorer.gif", save_all=True, append_images=others, duration=EACH, loop=0, optimize=True)
         opened(driver, server, PHONE, "theme=dark&map=off")
         shown(driver).save(folder / "explorer-phone.png", optimize=True)
+        told(driver, server).resize((1280, 720), Image.Resampling.LANCZOS).save(folder / "explorer-story.png", optimize=True)
         driver.get("about:blank")
     server.end()
 

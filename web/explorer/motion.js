@@ -4,7 +4,7 @@ import { drawLine, drawPoints } from "./plane.js";
 import { TURN } from "./window.js";
 
 const TRACE = 2.5; // drive periods of the bob's and the phase point's traces
-const LONGEST = 32; // drive periods of a spectrum
+const LONGEST = 32; // drive periods of a spectrum without a cycle
 const PAUSE = 1.5; // drive periods that the end is shown, before it begins anew
 
 export class Motion {
@@ -77,12 +77,12 @@ export class Motion {
     return this.theta[i] - TURN * Math.floor(this.theta[i] / TURN);
   }
 
-  /** [[frequency, amplitude], ...] of the velocity, in drive frequencies up to `most`, over the last whole number of its periods. */
+  /** [[frequency, amplitude], ...] of the velocity, in drive frequencies up to `most`: of the last cycle, so that what is left of the way there does
+   * not leak between its lines; of the last LONGEST drive periods where the end has no period. */
   spectrum(most) {
     if (this.lines) return this.lines;
-    const cycle = Math.max(1, this.ending.period || 1);
     const settled = Math.floor(this.last / this.perPeriod - settledAfter(this.ending));
-    const periods = cycle * Math.max(1, Math.min(Math.floor(settled / cycle), Math.ceil(LONGEST / cycle)));
+    const periods = this.ending.period > 0 ? this.ending.period : Math.max(1, Math.min(settled, LONGEST));
     const count = Math.min(this.last, periods * this.perPeriod);
     this.lines = [...Array(most * periods + 1).keys()].map((n) => {
       let [even, odd] = [0, 0];
