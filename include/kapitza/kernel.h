@@ -9,8 +9,8 @@
 
 #include "kapitza/model.h"
 
-/* Series of the processed splitting that were made, for who asks again for the same pendulum or for one beside it: dear to make, and the same
- * for all numbers of steps. The caller owns the object and frees it after everything that was made with it; threads may share it. */
+/* Series of the processed splitting, kept because they take long to make: they serve the same pendulum again, a pendulum beside it, and any number of
+ * steps. The caller owns the object and frees it after everything that was made with it; threads may share it. */
 typedef struct kz_kept_series kz_kept_series;
 kz_kept_series *kz_kept_series_create(void);
 void kz_kept_series_free(kz_kept_series *series);

@@ -16,8 +16,8 @@ static struct {
   char part[PATH_MAX + 16]; /* the half file; "" = there is none yet */
 } here;
 
-/* The half file is removed by one rank alone: that one speaks. */
-static bool speaks(void) {
+/* One rank alone removes the half file and prints the line. */
+static bool prints(void) {
   return !here.part[0] || unlink(here.part) == 0 || errno != ENOENT;
 }
 
@@ -41,7 +41,7 @@ static void append_number(line *l, unsigned number) {
 }
 
 /* "kapitza: WHAT; finished work is in ...", or OTHERWISE. */
-static void say(const char *what, const char *otherwise) {
+static void print_line(const char *what, const char *otherwise) {
   line l = {.length = 0};
   const char *saved = kz_checkpoint_saved(here.run.checkpoint);
   here.armed = false;
@@ -51,23 +51,23 @@ static void say(const char *what, const char *otherwise) {
   append(&l, saved ? "; finished work is in " : otherwise);
   append(&l, saved ? saved : "");
   append(&l, saved ? ", --resume goes on from it\n" : "\n");
-  if (!speaks())
-    sleep(1); /* whose end may end them all: the one that speaks comes first */
+  if (!prints())
+    sleep(1); /* the end of this rank may end them all, and the line must come first */
   else if (write(STDERR_FILENO, l.text, l.length) < 0)
     return; /* a failed write cannot be reported */
 }
 
-static void say_error(const char *what) {
+static void print_error(const char *what) {
   line l = {.length = 0};
   append(&l, "error: ");
   append(&l, what);
   append(&l, " on rank ");
   append_number(&l, here.rank > 0 ? (unsigned)here.rank : 0);
-  say(l.text, "");
+  print_line(l.text, "");
 }
 
 static void leave(const char *what) {
-  say_error(what);
+  print_error(what);
   kz_ranks_abandon(here.run.ranks, KZ_FAILED);
 }
 
@@ -85,14 +85,14 @@ static void at_exit(void) {
 /* MPI could wait for the allocator that has just aborted: the launcher ends the other ranks. */
 static void at_abort(int number) {
   (void)number;
-  if (here.armed) say_error(LIBRARY_ENDED);
+  if (here.armed) print_error(LIBRARY_ENDED);
   _exit(KZ_FAILED);
 }
 
 /* All ranks have had the request, or the launcher ends those that have not. */
 static void overdue(const char *reason) {
   if (!here.part[0] && here.rank > 0) sleep(1); /* no file yet: all ranks come here, rank 0 prints */
-  if (here.part[0] || here.rank <= 0) say(reason, "; nothing was saved");
+  if (here.part[0] || here.rank <= 0) print_line(reason, "; nothing was saved");
   _exit(KZ_STOPPED);
 }
 

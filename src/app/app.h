@@ -58,7 +58,7 @@ typedef struct {
   kz_progress progress;
   const char *log;   /* FILE of JSON lines; NULL = none */
   bool timings;      /* print where the time went */
-  bool speaks;       /* this process prints: the first of those that mpirun started */
+  bool prints;       /* this process prints: the first of those that mpirun started */
   char *line;        /* the command line as typed */
   const char *words; /* the same behind the name of the program */
 } kz_options;
@@ -67,7 +67,7 @@ typedef struct {
 kz_status kz_app(int argc, char **argv);
 
 /* Flushes standard output, prints the message if the status is not KZ_OK, and clears it. KZ_FAILED if standard output cannot be written. */
-kz_status kz_say(kz_status status);
+kz_status kz_message_print(kz_status status);
 
 /* The commands. */
 kz_status kz_app_run(const kz_options *options);

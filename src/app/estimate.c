@@ -1,5 +1,5 @@
-/* How long a run would take: a thread runs the studies, sampled, and writes their result into memory. Where it takes long itself, nobody waits
- * for it. */
+/* How long a run would take: a thread runs the studies, sampled, and writes their result into memory. If it takes too long,
+ * the command ends without the estimate. */
 #include <stdlib.h>
 #include <time.h>
 

@@ -63,7 +63,7 @@ int main(int argc, char **argv) {
   if (!has_stack()) return refuse_limit("the kilobytes of the stack are", "-s", (int)(STACK_BYTES >> 10));
   if (!has_files()) return refuse_limit("the files that may be open at once are", "-n", (int)FILES);
   kz_abandon_arm();
-  const kz_status status = kz_say(kz_app(argc, argv));
+  const kz_status status = kz_message_print(kz_app(argc, argv));
   kz_abandon_disarm();
   return status;
 }

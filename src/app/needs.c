@@ -98,7 +98,7 @@ static void print_json(const rig *r, const amplitudes *found) {
 kz_status kz_app_needs(const kz_options *options) {
   rig r;
   amplitudes found[2];
-  if (!options->speaks) return KZ_OK;
+  if (!options->prints) return KZ_OK;
   KZ_TRY(read_rig(options, &r));
   KZ_TRY(find_amplitudes(&r, found));
   (options->json ? print_json : print_person)(&r, found);

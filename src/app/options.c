@@ -94,14 +94,14 @@ static kz_status set_progress(kz_options *options, const kz_option *row, const c
 static kz_status set_completion(kz_options *options, const kz_option *row, const char *argument) {
   int64_t index;
   KZ_TRY(find_word(row, argument, &index));
-  if (options->speaks) kz_completion_print(argument);
+  if (options->prints) kz_completion_print(argument);
   options->answered = true;
   return KZ_OK;
 }
 
 static kz_status set_manual(kz_options *options, const kz_option *row, const char *argument) {
   (void)row, (void)argument;
-  if (options->speaks) kz_manual_print();
+  if (options->prints) kz_manual_print();
   options->answered = true;
   return KZ_OK;
 }
@@ -254,8 +254,8 @@ kz_status kz_options_read(const kz_command *command, int argc, char **argv, kz_o
       continue;
     }
     options->answered = true;
-    if (options->speaks && letter == 'h') kz_help_print(command);
-    if (options->speaks && letter == 'V') kz_app_version(stdout);
+    if (options->prints && letter == 'h') kz_help_print(command);
+    if (options->prints && letter == 'V') kz_app_version(stdout);
     return KZ_OK;
   }
 }

@@ -91,8 +91,8 @@ static void keep_memory(void) {
 
 kz_status kz_app(int argc, char **argv) {
   keep_memory();
-  const bool speaks = kz_launch_rank() <= 0;
-  kz_options options = {.speaks = speaks, .progress = KZ_PROGRESS_AUTO};
+  const bool prints = kz_launch_rank() <= 0;
+  kz_options options = {.prints = prints, .progress = KZ_PROGRESS_AUTO};
   options.line = join(argc, argv);
   options.words = options.line + strcspn(options.line, " ");
   options.sets = kz_calloc((size_t)argc + 1, sizeof *options.sets);
@@ -104,6 +104,6 @@ kz_status kz_app(int argc, char **argv) {
   free(options.line);
   free(options.sets);
   free(options.origins);
-  if (!speaks && status != KZ_FAILED) kz_message_clear();
+  if (!prints && status != KZ_FAILED) kz_message_clear();
   return status;
 }

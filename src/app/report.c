@@ -163,7 +163,7 @@ kz_status kz_scene_answer(const kz_options *options, kz_status (*answer)(const k
   char *text;
   size_t length;
   kz_scene scene;
-  if (!options->speaks) return KZ_OK;
+  if (!options->prints) return KZ_OK;
   KZ_TRY(kz_scene_load(options->scene, &text, &length));
   kz_status status = kz_scene_read(text, length, options->scene, options->n_sets, options->sets, &scene);
   if (status == KZ_OK) {
@@ -179,9 +179,9 @@ kz_status kz_app_check(const kz_options *options) {
 }
 
 kz_status kz_app_keys(const kz_options *options) {
-  if (options->speaks && options->layout)
+  if (options->prints && options->layout)
     print_layout(stdout);
-  else if (options->speaks)
+  else if (options->prints)
     (options->json_schema ? kz_scene_schema : kz_scene_reference)(kz_scene_keys(), stdout);
   return KZ_OK;
 }
@@ -205,7 +205,7 @@ static void print_message(kz_status status) {
   fputc('\n', stderr);
 }
 
-kz_status kz_say(kz_status status) {
+kz_status kz_message_print(kz_status status) {
   if (fflush(stdout) != 0 && status == KZ_OK) status = kz_fail(KZ_FAILED, "standard output cannot be written");
   if (status != KZ_OK && kz_message()[0]) print_message(status);
   kz_message_clear();

@@ -76,7 +76,7 @@ static kz_status become(places *p, const char *entry, const char *module, int n,
 
 kz_status kz_app_view(const kz_options *options) {
   places p;
-  if (!options->speaks) return KZ_OK;
+  if (!options->prints) return KZ_OK;
   KZ_TRY(kz_scene_check_file(options->scene));
   KZ_TRY(find_program(&p));
   const char *fixed[] = {options->no_browser ? "--no-browser" : "--browser", "--program", p.program, "--port",
@@ -94,7 +94,7 @@ kz_status kz_app_view(const kz_options *options) {
 /* A command of the package with n words behind it. */
 static kz_status call_package(const kz_options *options, const char *command, int n, const char *const *words) {
   places p;
-  if (!options->speaks) return KZ_OK;
+  if (!options->prints) return KZ_OK;
   KZ_TRY(find_program(&p));
   KZ_FREED const char **all = kz_calloc((size_t)n + 1, sizeof *all);
   all[0] = command;

@@ -55,7 +55,7 @@ contains
     end do
   end subroutine sample_model
 
-  !> The tables: fine steps, more for fast motions, a multiple of the samples. The slow equation knows no drive: its force is 1.
+  !> The tables: fine steps, more for fast motions, a multiple of the samples. The slow equation has no drive: its force is 1.
   subroutine make_model(code, pendulum, samples, velocity, model)
     integer(c_int32_t), intent(in) :: code
     type(pendulum_t), intent(in) :: pendulum

@@ -120,8 +120,8 @@ contains
     if (.not. error <= huge(error)) error = huge(error)
   end function measure_splitting
 
-  !> For each number of terms the fewest steps that reach the tolerance; of these the cheapest. The first, with all terms, tells
-  !> how many steps the method needs at least.
+  !> For each number of terms the fewest steps that reach the tolerance; of these the cheapest. The first, with all terms, gives
+  !> the fewest steps that the method can take.
   subroutine compare_terms(trial, tolerance, numerics, error)
     type(splitting_t), intent(inout) :: trial
     real(c_double), intent(in) :: tolerance

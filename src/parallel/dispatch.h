@@ -28,7 +28,7 @@ typedef struct {
   /* rank 0 alone; under ranks->mutex while the thread runs */
   kz_schedule schedule;
   int will_ask; /* ranks that will ask once more */
-  bool halted;  /* nobody gets any more */
+  bool halted;  /* no rank gets a further tile */
   bool threaded;
   pthread_t thread;
   int mpi_error; /* of the thread, MPI_SUCCESS */

@@ -5,7 +5,7 @@
 
 #include "kapitza/common.h"
 
-/* A batch lasts long beside a message, and short beside what a person waits for. Rank 0 answers some 10^5 requests a second: with
+/* A batch takes much longer than a message, and too little time for a person to notice. Rank 0 answers some 10^5 requests a second: with
  * very many ranks batches last longer, so that they ask no more than a tenth of that. */
 static const double BATCH_SECONDS = 0.1, SECONDS_A_RANK = 1e-4;
 

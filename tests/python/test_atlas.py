@@ -83,7 +83,7 @@ def test_lists_are_those_of_the_search(atlas, kapitza, tmp_path):
     """The classes and their numbers at single places."""
     group = atlas[0].group("atlas")
     assert int(group.attrs["negative"]) == 0 and int(group.attrs["disagreed"]) == 0 and int(group.attrs["checked"]) == 24
-    assert int(group.attrs["told"]) > 48 and int(group.attrs["unsolved"]) == 0 and 0 < float(group.attrs["unsolved_high"]) < 0.1
+    assert int(group.attrs["listed"]) > 48 and int(group.attrs["unsolved"]) == 0 and 0 < float(group.attrs["unsolved_high"]) < 0.1
     assert int(group.attrs["open_ends"]) == 0 and not group["curve_open"].values.any()
     for column, row in ((8, 12), (20, 30), (40, 40), (50, 52), (30, 46)):
         here = dict(PENDULUM, drive_frequency=float(group["column"][column]), drive_amplitude=float(group["row"][row]))

@@ -38,7 +38,7 @@ static void basin_rules(kz_reading *reading, kz_scene *scene) {
   if (!plan->velocity.centre.text[0]) kz_axis_rules(reading, &plan->velocity, "basin.velocity");
 }
 
-/* A map table without method icm: nothing is wrong with it, but nothing uses it either. Who chooses another method by an option knows. */
+/* A map table without method icm is allowed, but nothing uses it: the run says so, unless an option has set the method. */
 static void table_rules(kz_reading *reading, kz_scene *scene) {
   const kz_node *method = kz_tree_find(reading->root, "basin.method");
   const bool given = kz_tree_find(reading->root, "basin.icm") && !(method && method->line == 0);

@@ -285,7 +285,7 @@ static kz_status greet(server *s, const kz_options *options) {
 
 kz_status kz_app_serve(const kz_options *options) {
   server s = {0};
-  if (!options->speaks) return KZ_OK;
+  if (!options->prints) return KZ_OK;
   if (strcmp(options->scene, "-") == 0)
     return kz_fail(KZ_REFUSED, "serve: -: standard input is for requests; give the name of a scene file");
   signal(SIGPIPE, SIG_IGN); /* the reader of the answers may leave at any time */

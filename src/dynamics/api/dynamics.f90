@@ -27,7 +27,7 @@ module kz_api_dynamics
   !> rad: an attractor that moved farther counts as lost.
   real(dp), parameter :: FARTHEST = 0.2_dp
 
-  !> Copies of the scene's map that nobody uses, at most.
+  !> Most idle copies of the scene's map that are kept.
   integer, parameter :: MOST_IDLE = 16
 
   type :: idle_t

@@ -123,7 +123,7 @@ contains
     end subroutine put_turning
   end function trace
 
-  !> Whether a fold comes so near to a parent that this one's own multiplier is -1: their distance alone tells nothing, since it is small all along
+  !> Whether a fold comes so near to a parent that this one's own multiplier is -1: their distance alone does not show it, since it is small all along
   !> folds of strongly unstable cycles.
   function on_parents_curve(system, y, was, is) result(on)
     type(system_t), intent(in) :: system

@@ -127,7 +127,7 @@ contains
     end do
   end subroutine find_zero
 
-  !> The logarithm of how many times narrower than THINNEST the band of attractors beside a curve is, where it cannot be told from nothing:
+  !> The logarithm of how many times narrower than THINNEST the band of attractors beside a curve is, where rounding hides it:
   !> kz_atlas_band of study/atlas.
   pure real(dp) function thinness(system, form, side)
     type(system_t), intent(in) :: system !< at a point of the curve

@@ -127,10 +127,10 @@ contains
     if (self%region(lane) > 0) call note_region(self, lane)
     if (self%region(lane) > 0 .and. sum(self%ellipse(lane, [1, 3])) < TOLERABLE**2) done = is_held(self, lane)
     if (done) then
-      call settle(self, lane, self%region(lane), .true.)
+      call note_end(self, lane, self%region(lane), .true.)
     else if (self%age(lane) >= self%most) then
       done = .true.
-      call settle(self, lane, left_label(self, lane), .false.)
+      call note_end(self, lane, left_label(self, lane), .false.)
     end if
   end function ends_at_once
 
@@ -204,7 +204,7 @@ contains
                                  (self%trace(lane) < LINEAR**2 .and. .not. self%doubted(lane)))
       trapped = self%is_captured(lane, owner)
     end if
-    if (trapped) call settle(self, lane, owner, .true.)
+    if (trapped) call note_end(self, lane, owner, .true.)
   end function is_trapped
 
   !> Whether an orbit that nothing holds is not followed any further: it is doubtful, or old; then its end has been noted.
@@ -215,9 +215,9 @@ contains
 
     left = .true.
     if (self%doubted(lane) .and. self%in_cover(lane) == 0 .and. is_known(self, lane)) then
-      call settle(self, lane, merge(self%first(lane), DOUBTFUL, self%guess), .false.)
+      call note_end(self, lane, merge(self%first(lane), DOUBTFUL, self%guess), .false.)
     else if (self%age(lane) >= self%most) then
-      call settle(self, lane, left_label(self, lane), .not. self%doubted(lane) .and. self%region(lane) == 0)
+      call note_end(self, lane, left_label(self, lane), .not. self%doubted(lane) .and. self%region(lane) == 0)
     else
       left = .false.
     end if
@@ -262,7 +262,7 @@ contains
     self%decision(self%number(lane))%end%label = PENDING
   end subroutine pass_on
 
-  subroutine settle(self, lane, label, decided)
+  subroutine note_end(self, lane, label, decided)
     class(orbits_t), intent(inout) :: self
     integer, intent(in) :: lane, label
     logical, intent(in) :: decided
@@ -279,7 +279,7 @@ contains
     self%decision(self%number(lane)) = decision_t(label_t(periods, int(label, c_int16_t), next=next), &
                                                   merge(self%level, self%outlook%none, decided), error, self%age(lane), &
                                                   [self%carrier%u(lane), self%carrier%v(lane)])
-  end subroutine settle
+  end subroutine note_end
 
   !> The first region that holds the state; a later one of another attractor counts in its place, but not for a guess.
   subroutine note_region(self, lane)

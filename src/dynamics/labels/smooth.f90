@@ -1,4 +1,4 @@
-!> Settling times that vary smoothly with the start, as pictures want them: a whole number of periods changes in steps.
+!> Settling times that vary smoothly with the start, for pictures: whole numbers of periods would show as steps.
 module kz_labels_smooth
   use, intrinsic :: iso_c_binding, only: dp => c_double, c_int32_t
   use kz_cycles_cycles, only: attractor_t

@@ -94,7 +94,7 @@ contains
     integer, intent(in) :: lane
     logical :: yes
 
-    if (size(self%near) >= WIDTH .or. (self%active == 0 .and. self%n_waiting == 0 .and. size(self%near) > 0)) call settle(self)
+    if (size(self%near) >= WIDTH .or. (self%active == 0 .and. self%n_waiting == 0 .and. size(self%near) > 0)) call try_cycles(self)
     yes = self%n_waiting > 0
     if (.not. yes) return
     self%motion(lane) = self%waiting(self%n_waiting)
@@ -158,7 +158,7 @@ contains
   end subroutine move
 
   !> The cycles of up to a batch of motions that have come back; those whose cycle does not attract go on later.
-  subroutine settle(self)
+  subroutine try_cycles(self)
     class(motions_t), intent(inout) :: self
     type(mixed_batch_t) :: batch
     type(motion_t) :: lane(WIDTH)
@@ -191,7 +191,7 @@ contains
         end if
       end associate
     end do
-  end subroutine settle
+  end subroutine try_cycles
 
   !> Motions that have not settled: chaotic where neighbours part.
   subroutine classify(n_steps, unsettled, endings)

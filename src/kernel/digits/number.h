@@ -84,7 +84,7 @@ static inline void kz_number_dot(kz_number *x, const kz_number *first, bool minu
   arb_approx_dot(x, first, minus, a, 1, b, -1, n, bits);
 }
 
-/* A number, 0 at first, that lives as long as the block where it is declared. */
+/* A number, 0 at first, which is freed at the end of the block where it is declared. */
 #define KZ_NUMBER(x)                                     \
   kz_number x __attribute__((cleanup(kz_number_clear))); \
   kz_number_init(&x)

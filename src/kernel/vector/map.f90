@@ -35,7 +35,7 @@ module kz_vector_map
     procedure :: to_physical => same_coordinates
   end type map_t
 
-  !> A map that is integrated: it also knows its derivative and what happens within the period.
+  !> A map that is integrated: it also has its derivative, and the states within the period.
   type, abstract, extends(map_t) :: flow_t
   contains
     !> Advances the lanes 1 .. n by one period; matrix(:, :, lane) is multiplied by the derivative of (theta, v), both in rad.

@@ -1,5 +1,5 @@
-!> How many steps a drive period takes: the fewest found whose measured error is small enough. Every integrator whose error can be measured
-!> asks here; the enclosures (a bound instead of a measurement) and the series of any digits (which test their own convergence) do not.
+!> How many steps a drive period takes: the fewest found whose measured error is small enough. It serves every integrator whose
+!> error can be measured. Enclosures have a bound instead, and series of any digits test their own convergence.
 module kz_vector_step_search
   use, intrinsic :: iso_c_binding, only: c_double, c_int32_t, c_funptr, c_ptr, c_f_procpointer
   implicit none

@@ -79,7 +79,7 @@ struct kz_atlas {
   int64_t refused;                             /* seeds that lead to no curve */
   int64_t rounds, checked, disagreed;          /* of random places, the last two of the last round */
   int64_t compared, alone;                     /* crossings of lines at k and -k; those without a partner */
-  int64_t told, unsolved;                      /* motions in the lists of these places; those that could not be solved for */
+  int64_t listed, unsolved;                    /* motions in the lists of these places; those that could not be solved for */
 };
 
 /* What happens on a curve; the codes of the file. */
@@ -165,7 +165,8 @@ bool kz_atlas_crossing_point(const kz_atlas *atlas, int axis, double value, cons
                              kz_atlas_seed *at);
 /* What branches off a point of a curve with multiplier -1: its cycle a little beside, and the direction along the axis in which it exists. */
 bool kz_atlas_grown(const kz_atlas *atlas, const kz_atlas_seed *flip, int axis, kz_atlas_seed *child, double along[2]);
-/* What a motion is half a period later, seen from upside down, where the plane has k and -k; the image of a curve's point `at` becomes a seed. */
+/* Half a drive period later, with angles from upside down, a motion at k is a motion at -k. The kind of that image; and for a plane with k and -k the
+ * image of a curve's point `at` as a seed. */
 kz_atlas_kind kz_atlas_image_of(const kz_atlas_kind *kind);
 void kz_atlas_explore_image(const kz_atlas *atlas, const kz_atlas_kind *kind, const double *at, kz_atlas_seeds *seeds);
 /* The curve that Newton's method finds from the mirror image of a curve's point becomes a seed: another one where the symmetry is broken. */
@@ -211,9 +212,9 @@ void kz_atlas_crossings_free(kz_atlas_crossings *crossings);
 
 /* ---- what a point and a line of an atlas from a file have ---- */
 
-/* Solves for the motions of the list of a place; `known`: attractors that starts have found there. *told = length of the list, one for each
+/* Solves for the motions of the list of a place; `known`: attractors that starts have found there. *listed = length of the list, one for each
  * pair of mirror images; *unsolved = those that were not found; both 0 where the list is not known. */
-void kz_atlas_confirm(kz_atlas *atlas, const double place[2], const kz_atlas_seeds *known, int64_t *told, int64_t *unsolved);
+void kz_atlas_confirm(kz_atlas *atlas, const double place[2], const kz_atlas_seeds *known, int64_t *listed, int64_t *unsolved);
 
 /* The place of a value along an axis. KZ_REFUSED outside of the plane. */
 kz_status kz_atlas_place(const kz_atlas *atlas, int axis, double value, double *place);

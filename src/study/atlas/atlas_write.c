@@ -176,7 +176,7 @@ static int64_t open_ends(const kz_atlas *atlas) {
 
 static kz_status write_attributes(const kz_atlas *atlas, const kz_atlas_raster *raster, kz_store *store) {
   const kz_chart_axis *axis[] = {&atlas->scene->atlas->x, &atlas->scene->atlas->y};
-  const kz_share wrong = kz_share_of(atlas->disagreed, atlas->checked), missing = kz_share_of(atlas->unsolved, atlas->told);
+  const kz_share wrong = kz_share_of(atlas->disagreed, atlas->checked), missing = kz_share_of(atlas->unsolved, atlas->listed);
   for (int i = 0; i < 2; i++) KZ_TRY(kz_axis_describe(&axis[i]->values, axis[i]->parameter, i ? "y" : "x", GROUP, store));
   KZ_TRY(kz_store_integer(store, GROUP, "max_period", atlas->scene->atlas->max_period));
   KZ_TRY(kz_store_integer(store, GROUP, "mirrored", atlas->plane.mirrored));
@@ -184,7 +184,7 @@ static kz_status write_attributes(const kz_atlas *atlas, const kz_atlas_raster *
   KZ_TRY(kz_store_integer(store, GROUP, "negative", raster->negative));
   KZ_TRY(kz_store_integer(store, GROUP, "checked", atlas->checked));
   KZ_TRY(kz_store_integer(store, GROUP, "disagreed", atlas->disagreed));
-  KZ_TRY(kz_store_integer(store, GROUP, "told", atlas->told));
+  KZ_TRY(kz_store_integer(store, GROUP, "listed", atlas->listed));
   KZ_TRY(kz_store_integer(store, GROUP, "unsolved", atlas->unsolved));
   KZ_TRY(kz_store_integer(store, GROUP, "open_ends", open_ends(atlas)));
   KZ_TRY(kz_store_integer(store, GROUP, "refused", atlas->refused));
@@ -222,13 +222,12 @@ static void print(const kz_atlas *atlas, const kz_atlas_raster *r, const listing
   if (atlas->checked > 0)
     fprintf(summary,
             "  checked: %" PRId64 " random points in the last of %" PRId64 " rounds, %" PRId64
-            " with an attractor that no curve tells (share at most %.2g)\n",
+            " with an attractor that no curve predicts (share at most %.2g)\n",
             atlas->checked, atlas->rounds, atlas->disagreed, kz_share_of(atlas->disagreed, atlas->checked).high);
-  if (atlas->told > 0)
+  if (atlas->listed > 0)
     fprintf(summary,
-            "  of %" PRId64 " motions that the lists of these points tell, %" PRId64
-            " could not be solved for (share at most %.2g)\n",
-            atlas->told, atlas->unsolved, kz_share_of(atlas->unsolved, atlas->told).high);
+            "  of %" PRId64 " motions in the lists of these points, %" PRId64 " could not be solved for (share at most %.2g)\n",
+            atlas->listed, atlas->unsolved, kz_share_of(atlas->unsolved, atlas->listed).high);
 }
 
 kz_status kz_atlas_write(kz_atlas *atlas, const kz_atlas_raster *raster, kz_store *store, FILE *summary) {

@@ -19,7 +19,7 @@ typedef struct {
   kz_atlas_crossings crossings;
   bool *itself, *child; /* [crossings] */
   kz_atlas_seeds *seeds;
-  kz_atlas_branches *drawn; /* NULL: nobody wants the branches */
+  kz_atlas_branches *drawn; /* NULL: the branches are not kept */
 } line;
 
 /* Marks the crossing that a branch has met; what is no crossing becomes a seed. `child`: by the branch that begins there. */

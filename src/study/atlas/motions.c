@@ -140,14 +140,14 @@ static int32_t set_states(kz_atlas *atlas, const double place[2], const kz_atlas
   return h.found < wanted ? h.found : wanted;
 }
 
-void kz_atlas_confirm(kz_atlas *atlas, const double place[2], const kz_atlas_seeds *known, int64_t *told, int64_t *unsolved) {
+void kz_atlas_confirm(kz_atlas *atlas, const double place[2], const kz_atlas_seeds *known, int64_t *listed, int64_t *unsolved) {
   KZ_FREED int32_t *counts = kz_malloc(KZ_ATLAS_MOST_CLASSES * sizeof *counts);
-  *told = *unsolved = 0;
+  *listed = *unsolved = 0;
   kz_atlas_count(atlas, place, counts);
   if (!kz_atlas_plausible(atlas, counts)) return;
   for (int32_t c = 0; c < atlas->n_classes; c++) {
     if (counts[c] == 0) continue;
-    *told += counts[c];
+    *listed += counts[c];
     *unsolved += counts[c] - set_states(atlas, place, atlas->class + c, counts[c], known, NULL);
   }
 }

@@ -177,26 +177,26 @@ static kz_status check_all(kz_atlas *atlas, const kz_run *run, probing *last) {
   return KZ_OK;
 }
 
-/* ---- the motions that the lists tell ---- */
+/* ---- the motions of the lists ---- */
 
 typedef struct {
-  int64_t told, unsolved;
+  int64_t listed, unsolved;
 } answers;
 
 static kz_status confirm_tile(void *context, int64_t tile, void *record) {
   const probing *p = context;
   answers *a = record;
-  kz_atlas_confirm(p->atlas, p->probe[tile].place, &p->probe[tile].found, &a->told, &a->unsolved);
+  kz_atlas_confirm(p->atlas, p->probe[tile].place, &p->probe[tile].found, &a->listed, &a->unsolved);
   return KZ_OK;
 }
 
-/* Solves for every motion that the lists of the places of the last round tell. */
+/* Solves for every motion of the lists of the places of the last round. */
 static kz_status confirm(kz_atlas *atlas, const kz_run *run, probing *p) {
   KZ_FREED answers *of = kz_calloc((size_t)p->n + 1, sizeof *of);
   const kz_stage stage = kz_stage_for_all("atlas motions", p->n, sizeof *of, confirm_tile, p);
   if (p->n == 0) return KZ_OK;
   KZ_TRY(kz_stage_run(run, &stage, of));
-  for (int64_t i = 0; i < p->n; i++) atlas->told += of[i].told, atlas->unsolved += of[i].unsolved;
+  for (int64_t i = 0; i < p->n; i++) atlas->listed += of[i].listed, atlas->unsolved += of[i].unsolved;
   return KZ_OK;
 }
 

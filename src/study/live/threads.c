@@ -16,7 +16,7 @@ static const double LOOK = 0.01; /* s between two pauses while helpers finish th
 /* What the threads share. */
 typedef struct {
   const kz_frame_task *task;
-  _Atomic int64_t next;  /* tile that nobody has taken */
+  _Atomic int64_t next;  /* first tile that no thread has taken */
   pthread_mutex_t mutex; /* of what follows */
   pthread_cond_t ended;
   int at_work; /* helpers that have not ended */
@@ -57,7 +57,7 @@ static kz_status follow_tiles(sharing *all, kz_prepared *prepared, bool pauses) 
   return status;
 }
 
-/* Lets nobody take a tile any more. */
+/* No thread takes a further tile. */
 static void stop(sharing *all) {
   all->next = all->task->n;
 }

@@ -227,7 +227,7 @@ static void list_branches(kz_sweep_branches *b) {
   }
 }
 
-/* Where no walk has found its ends, a branch begins and ends at the values where it is seen; at the edges it leaves the range. */
+/* Where no walk has found its ends, a branch begins and ends at the first and the last value at which it was found; at the edges it leaves the range. */
 static void set_known_ends(const kz_scene *scene, kz_sweep_branches *b) {
   for (int64_t i = 0; i < b->n_nodes; i++) {
     kz_sweep_node *node = b->nodes + i;

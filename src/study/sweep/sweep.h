@@ -102,7 +102,7 @@ kz_status kz_sweep_catalogues(const kz_scene *scene, const kz_run *run, kz_sweep
 typedef struct {
   kz_sweep_entry entry;
   int64_t value;             /* index */
-  int32_t attracts, between; /* between: it lives between this value and the next one, and at neither */
+  int32_t attracts, between; /* between: the branch lies between this value and the next one, and exists at neither */
   int64_t previous, next;    /* nodes; -1 = none */
   double first, last;        /* value at which the branch begins before, or ends after, this node */
   int32_t first_kind, last_kind;

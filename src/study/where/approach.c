@@ -21,7 +21,7 @@ typedef struct {
   bool done;
 } approach;
 
-/* `longest`: periods for which it is followed at most. Where a multiplier is almost 1 nobody can wait for it. */
+/* `longest`: periods for which it is followed at most. With a multiplier of almost 1 it would take too long otherwise. */
 static approach begin(int64_t certain, const kz_entry *entry, int64_t first, int64_t longest) {
   const kz_attractor *row = &entry->row;
   const double size = fmin(fmax(hypot(row->multiplier_re[0], row->multiplier_im[0]), 1e-3), 1 - DBL_EPSILON);

@@ -25,7 +25,7 @@ module kz_grown_growth
     integer(int8), allocatable :: mirror(:)   !< of each attractor, from 1; 0 = not grown
   end type circle_t
 
-  !> Who waits for whom, as lists; a waiting image has the number cell + n_cells (k - 1), k as in PERIODS.
+  !> Lists of the images that wait for each cell; a waiting image has the number cell + n_cells (k - 1), k as in PERIODS.
   type :: waiting_t
     integer, allocatable :: first(:) !< of each cell, the image that waits for it
     integer, allocatable :: next(:)  !< of each image, the next of its list
