@@ -147,7 +147,7 @@ def test_a_scene_without_a_window_is_refused():
 
 K01 = """\
 pendulum: {k: 0.1, damping: 0.1, m: 0.4}
-basin: {theta: {count: 100}, velocity: {min: -20, max: 20, count: 100}, attractors: {starts: 512}}
+basin: {theta: {count: 100}, velocity: {min: -20, max: 20, count: 100}, attractors: {starts: 128}}
 """
 
 
