@@ -243,6 +243,10 @@ def test_a_phone_reaches_every_control(page, width):
         .map((part) => [part.id || part.textContent, part.getBoundingClientRect()])
         .filter(([, box]) => Math.min(box.width, box.height) < 44 || box.left < 0 || box.right > innerWidth).map(([name]) => name)"""
     assert wait_for(lambda: page.run(script) == [], 5), page.run(script)
+    page.run("document.body.dataset.story = 'told'")  # its sentence is as wide as the screen, and in sight
+    sentence = page.run("(({width, bottom}) => [width, bottom])($('story-words').getBoundingClientRect())")
+    page.run("delete document.body.dataset.story")
+    assert sentence[0] > width - 40 and sentence[1] <= 800
     page.driver.execute_cdp_cmd("Emulation.clearDeviceMetricsOverride", {})
 
 
