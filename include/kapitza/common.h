@@ -81,7 +81,7 @@ char *kz_strdup(const char *text);
 char *kz_strndup(const char *text, size_t length);
 /* A list of kz_malloc and the others, or NULL, with space for one more item behind its first n: where it has none, the list moves to twice the space.
  * item: bytes of one. */
-void *kz_room(void *list, int64_t n, size_t item);
+void *kz_grown(void *list, int64_t n, size_t item);
 
 /* Before the declaration of a local variable: what it points to, or, by a function of its own, what it holds is freed when the function
  * returns, from whatever place. */

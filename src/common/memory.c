@@ -47,7 +47,7 @@ void *kz_realloc(void *old, size_t bytes) {
   return __wrap_realloc(old, bytes);
 }
 
-void *kz_room(void *list, int64_t n, size_t item) {
+void *kz_grown(void *list, int64_t n, size_t item) {
   const size_t needed = (size_t)(n + 1) * item;
   return needed <= malloc_usable_size(list) ? list : kz_realloc(list, n > 0 ? 2 * (size_t)n * item : item);
 }

@@ -45,7 +45,7 @@ static int64_t numbers_of(const kz_arbitrary *o) {
   return (SERIES + 1) * (o->series.orders + 2);
 }
 
-static void share_room(kz_arbitrary *o) {
+static void share_memory(kz_arbitrary *o) {
   kz_series *s = &o->series;
   kz_number **const all[SERIES + 1] = {&s->w,        &s->s,        &s->c,       &s->along,   &s->across,     &s->gain,
                                        &s->angle[0], &s->angle[1], &s->rate[0], &s->rate[1], &o->steps.scale};
@@ -60,7 +60,7 @@ static kz_arbitrary *allocate_orbit(const kz_pendulum *pendulum, int64_t bits) {
   o->bits = bits < KZ_FEWEST_BITS ? KZ_FEWEST_BITS : bits;
   o->series.orders = orders_for(o->bits);
   o->workspace = kz_numbers_make(numbers_of(o));
-  share_room(o);
+  share_memory(o);
   each_number(o, kz_number_init);
   return o;
 }

@@ -13,7 +13,7 @@ const kz_rounding_factors kz_rounding = {
     .factors = {{2}, {2, 2}, {2.1L, 4, 3}},
     .plus = {1, 3.1L, 9},
     .state = 8,
-    .room = {1, 1, 0},
+    .slack = {1, 1, 0},
     .higher = 1.01L,
 };
 
@@ -42,7 +42,7 @@ static real lost_in_sum(int level, real n) {
   return level == KZ_ENCLOSE_PAIRS ? n * n + 4 * n + 9 : n;
 }
 
-static real room_for_sums(int level, real n) {
+static real slack_of_sums(int level, real n) {
   return level == KZ_ENCLOSE_PAIRS ? 4 * n - 1 : 2;
 }
 
@@ -54,7 +54,7 @@ int kz_products_of(const kz_step_bounds *b, int n) {
 static real sum_error(const kz_step_bounds *b, int n, int products) {
   const kz_rounding_factors *f = b->factor;
   const int l = level_of(b, n);
-  const real lost = f->sums[l] * lost_in_sum(l, products) + f->times[l] + f->room[l] * room_for_sums(l, products);
+  const real lost = f->sums[l] * lost_in_sum(l, products) + f->times[l] + f->slack[l] * slack_of_sums(l, products);
   return lost * unit_of(l) * f->higher;
 }
 
@@ -124,9 +124,9 @@ static void add_errors(const kz_step_bounds *b, real missed[2]) {
 static void add_coarse(const kz_step_bounds *b, const series *v, const series *angle, real missed[2]) {
   const int fine = fine_ones(b), coarse = b->order - fine;
   const real plus = b->factor->plus[KZ_ENCLOSE_DOUBLES] * KZ_UNIT * b->factor->higher,
-             room = b->factor->room[KZ_ENCLOSE_DOUBLES];
-  missed[1] += (coarse + room * (fine + 2)) * plus * v->in_doubles;
-  missed[0] += (coarse + 1 + room * (fine + 3)) * plus * angle->in_doubles;
+             slack = b->factor->slack[KZ_ENCLOSE_DOUBLES];
+  missed[1] += (coarse + slack * (fine + 2)) * plus * v->in_doubles;
+  missed[0] += (coarse + 1 + slack * (fine + 3)) * plus * angle->in_doubles;
 }
 
 /* The sums v = sum nu_n and theta = theta(0) + h sum nu_n / (n + 1), whose first term is h `fastest`: in doubles, */

@@ -30,7 +30,7 @@ typedef struct {
   real factors[KZ_LEVELS][KZ_LEVELS]; /* [precision][level] (B2) of the factors of a product that were rounded */
   real plus[KZ_LEVELS];               /* (B2) of a sum */
   real state;                         /* (B3) u^2: of h v and of the angle, in doubles */
-  real room[KZ_LEVELS];               /* beyond the lemmas: times room_for_sums() */
+  real slack[KZ_LEVELS];              /* beyond the lemmas: times slack_of_sums() */
   real higher;                        /* for what is of higher order, (1 + u)^n with n u below 1e-2 */
 } kz_rounding_factors;
 extern const kz_rounding_factors kz_rounding;

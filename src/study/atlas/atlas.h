@@ -165,9 +165,8 @@ bool kz_atlas_crossing_point(const kz_atlas *atlas, int axis, double value, cons
                              kz_atlas_seed *at);
 /* What branches off a point of a curve with multiplier -1: its cycle a little beside, and the direction along the axis in which it exists. */
 bool kz_atlas_grown(const kz_atlas *atlas, const kz_atlas_seed *flip, int axis, kz_atlas_seed *child, double along[2]);
-/* Half a drive period later, with angles from upside down, a motion at k is a motion at -k. The kind of that image; and for a plane with k and -k the
- * image of a curve's point `at` as a seed. */
-kz_atlas_kind kz_atlas_image_of(const kz_atlas_kind *kind);
+/* Half a drive period later, with angles from upside down, a motion at k is a motion at -k. On a plane with k and -k the image of a curve's point
+ * `at` becomes a seed. */
 void kz_atlas_explore_image(const kz_atlas *atlas, const kz_atlas_kind *kind, const double *at, kz_atlas_seeds *seeds);
 /* The curve that Newton's method finds from the mirror image of a curve's point becomes a seed: another one where the symmetry is broken. */
 void kz_atlas_explore_mirrored(const kz_atlas *atlas, const kz_atlas_kind *kind, const double *at, kz_atlas_seeds *seeds);

@@ -8,7 +8,8 @@ enum { LINES = 80 };
 /* Sides of the plane: partners lie so near to each other; crossings nearer than this to an edge are left out. */
 static const double NEAR = 1e-3, EDGE = 1e-6;
 
-kz_atlas_kind kz_atlas_image_of(const kz_atlas_kind *kind) {
+/* The kind of the image at -k. */
+static kz_atlas_kind image_of(const kz_atlas_kind *kind) {
   kz_atlas_kind image = *kind;
   if (kind->rest >= 0) image.rest = 1 - kind->rest;
   if (kind->of.side < 0) image.of.turns = 1 - kind->of.turns;
@@ -31,7 +32,7 @@ static void add_beside(const kz_atlas *atlas, const kz_atlas_kind *kind, const d
 /* Each point of the cycle has its own image: an orbit from one of them would lose the digits by which the cycle repels. */
 void kz_atlas_explore_image(const kz_atlas *atlas, const kz_atlas_kind *kind, const double *at, kz_atlas_seeds *seeds) {
   const int n = kind->of.points;
-  const kz_atlas_kind image = kz_atlas_image_of(kind);
+  const kz_atlas_kind image = image_of(kind);
   const double half_turn = M_PI * (kind->of.side < 0 ? image.of.turns - kind->of.turns : 1);
   double y[KZ_ATLAS_UNKNOWNS], place[2];
   if (!atlas->turned || kind->rest >= 0 || !kz_atlas_image(atlas, at + 2 * n, place)) return;
@@ -65,7 +66,7 @@ static bool has(const kz_atlas *atlas, const kz_atlas_crossings *crossings, cons
 static void compare(kz_atlas *atlas, int axis, double value, const kz_atlas_crossings *here, const kz_atlas_crossings *there) {
   for (int64_t i = 0; i < here->count; i++) {
     const kz_atlas_crossing *crossing = here->list + i;
-    const kz_atlas_kind *kind = &atlas->curve[crossing->curve].kind, image = kz_atlas_image_of(kind);
+    const kz_atlas_kind *kind = &atlas->curve[crossing->curve].kind, image = image_of(kind);
     kz_atlas_seed at;
     if (crossing->at < EDGE || crossing->at > 1 - EDGE) continue;
     atlas->compared++;

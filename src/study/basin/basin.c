@@ -58,7 +58,7 @@ static kz_status find_phases(const kz_scene *scene, const kz_window_labels *labe
 
 /* Bytes of memory of the phases. */
 static double phases_bytes(const kz_basin_plan *plan) {
-  return kz_phases_room(plan->phases, plan->theta.count * plan->velocity.count);
+  return kz_phases_bytes(plan->phases, plan->theta.count * plan->velocity.count);
 }
 
 /* Of FILE and FILE.checkpoint. Measured with Fig. 12's scene on 10^6 to 4 10^8 cells: finer grids have longer runs of equal labels. */

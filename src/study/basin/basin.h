@@ -23,7 +23,7 @@ typedef struct {
   uint32_t *time;
 } kz_transients;
 
-/* Makes room for those of a window. The caller frees `time`. */
+/* An empty list with memory for those of a window. The caller frees `time`. */
 kz_transients kz_transients_make(const kz_basin_plan *plan);
 /* Picks those of n consecutive cells, the first of which has the number `first`, that count. Returns how many; picked takes as many times
  * KZ_TRANSIENT_BYTES for kz_transients_add. label [n]: below 0 if the cell has not settled. */

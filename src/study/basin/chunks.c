@@ -21,7 +21,7 @@ typedef struct {
   uint64_t bytes[VARIABLES];
 } head;
 
-static size_t message_room(int64_t cells) {
+static size_t bytes_of_messages(int64_t cells) {
   size_t buffer = sizeof(head) + (size_t)cells * KZ_TRANSIENT_BYTES;
   for (int v = 0; v < VARIABLES; v++) buffer += kz_pack_bytes((size_t)cells, items[v]);
   return 2 * buffer;
@@ -194,8 +194,11 @@ static kz_status count_rows(kz_chunks *c) {
 
 static kz_status deliver(kz_chunks *c) {
   kz_window_labels *l = c->labelling;
-  const kz_delivery delivery = {
-      .name = "file", .message_bytes = message_room(kz_tile_capacity(&l->tiles)), .make = make, .take = take, .context = c};
+  const kz_delivery delivery = {.name = "file",
+                                .message_bytes = bytes_of_messages(kz_tile_capacity(&l->tiles)),
+                                .make = make,
+                                .take = take,
+                                .context = c};
   KZ_TRY(kz_local_records_deliver(l->run, &l->records, &delivery));
   KZ_TRY(kz_ranks_sum(l->run->ranks, (int64_t *)&c->counts, sizeof c->counts / sizeof(int64_t)));
   KZ_TRY(kz_ranks_sum(l->run->ranks, c->cells_of, c->catalogue->count));

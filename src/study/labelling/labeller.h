@@ -88,8 +88,6 @@ kz_status kz_search_rounds(const kz_labeller *labeller, const kz_search_on *sear
 /* Labels n items in an array and searches on from those that do not settle. */
 kz_status kz_label_and_search(const kz_labeller *labeller, const kz_search_on *search, int64_t n, const int64_t *item,
                               kz_label *label);
-/* Finds the attractors that n items end on, whatever their labels; *found: whether there were new ones. */
-kz_status kz_search_from_items(const kz_labeller *labeller, int64_t n, const int64_t *item, int64_t *reached, bool *found);
 
 /* The states of n items where labels begin to follow them, after their release: state [n][2], half-turns and velocity; periods [n]: drive
  * periods before; NULL = not needed. */

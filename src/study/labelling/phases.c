@@ -34,7 +34,7 @@ kz_status kz_phases_label(kz_phases *p, const kz_run *run) {
   return kz_stage_run(run, &stage, p->label);
 }
 
-double kz_phases_room(int64_t phases, int64_t n) {
+double kz_phases_bytes(int64_t phases, int64_t n) {
   return phases > 0 ? 2.0 * (double)phases * (double)(n + BLOCK) : 0;
 }
 

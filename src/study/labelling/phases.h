@@ -16,7 +16,7 @@ double kz_phase_at(const kz_phases *phases, int64_t i);
 /* Labels all items at all phases, in one kept stage. Collective. */
 kz_status kz_phases_label(kz_phases *phases, const kz_run *run);
 /* Bytes that the labels take. */
-double kz_phases_room(int64_t phases, int64_t n);
+double kz_phases_bytes(int64_t phases, int64_t n);
 
 /* The label of an item at a phase: a number of kz_dynamics, 0 = not settled or not decided. */
 int16_t kz_phases_at(const kz_phases *phases, int64_t phase, int64_t item);

@@ -4,7 +4,8 @@
 #include "labeller.h"
 #include "search.h"
 
-kz_status kz_search_from_items(const kz_labeller *l, int64_t n, const int64_t *item, int64_t *reached, bool *found) {
+/* Finds the attractors that n items end on, whatever their labels; *found: whether there were new ones. */
+static kz_status search_from(const kz_labeller *l, int64_t n, const int64_t *item, int64_t *reached, bool *found) {
   const int64_t known = kz_dynamics_count(l->dynamics);
   KZ_FREED double *state = kz_malloc(2 * (size_t)n * sizeof *state + 1);
   KZ_FREED int32_t *label = kz_malloc((size_t)n * sizeof *label + 1);
@@ -24,7 +25,7 @@ kz_status kz_search_rounds(const kz_labeller *l, const kz_search_on *search, con
     const int64_t n = all < search->starts ? all : search->starts;
     KZ_FREED int64_t *item = kz_malloc((size_t)n * sizeof *item);
     KZ_TRY(u->pick(u->labels, all, n, item));
-    KZ_TRY(kz_search_from_items(l, n, item, search->reached, &found));
+    KZ_TRY(search_from(l, n, item, search->reached, &found));
     if (!found) return KZ_OK;
     KZ_TRY(u->again(u->labels, round + 1));
   }

@@ -213,7 +213,7 @@ static kz_shock in_norm(const kz_shock *shock, double scale) {
   return same;
 }
 
-/* Room for the grids of a search: the largest of a disc, the rims of a line, a fan, the spread shocks. */
+/* Memory for the grids of a search: the largest of a disc, the rims of a line, a fan, the spread shocks. */
 static void make(const kz_shock_problem *problem, workspace *r) {
   r->problem = problem;
   r->look = look_for(problem->tolerance);

@@ -126,7 +126,7 @@ static bool is_trapped(const kz_images *images, kz_dynamics *dynamics) {
   return kz_start_is_trapped(dynamics, &start);
 }
 
-static void make_room(kz_images *images, int64_t n) {
+static void reserve(kz_images *images, int64_t n) {
   if (n < images->capacity) return;
   images->capacity = 2 * images->capacity > n + 1 ? 2 * images->capacity : n + 1;
   images->image = kz_realloc(images->image, (size_t)images->capacity * sizeof *images->image);
@@ -144,7 +144,7 @@ static void mark(kz_images *images) {
 }
 
 static kz_status add_image(kz_images *images) {
-  make_room(images, images->n + 1);
+  reserve(images, images->n + 1);
   const kz_image *last = images->image + images->n;
   kz_image *next = images->image + images->n + 1;
   const int64_t needed = bits_for(size_of(&last->jet), guard_of(images)), bits = needed < images->bits ? needed : images->bits;
@@ -168,7 +168,9 @@ kz_status kz_images_follow(kz_images *images, kz_dynamics *dynamics, int64_t mos
   return KZ_OK;
 }
 
-double kz_images_left(const kz_images *images) {
+/* Estimates the work that is left, in units of the last period. It assumes that the image goes on to grow as it did, and that the time of
+ * a period falls as the square of the bits. */
+static double work_left(const kz_images *images) {
   const long double first = size_of(&images->image->jet), now = size_of(&images->image[images->n].jet);
   const double growth = (double)log2l(now / first) / (double)images->n,
                share = (double)KZ_FEWEST_BITS / (double)bits_for(now, GUARD);
@@ -207,7 +209,7 @@ bool kz_images_serve(const kz_images *images, const kz_parameters *parameters, c
 
 /* Replaces all images after image `before` by n images that another rank has made. */
 static void extend(kz_images *images, int64_t before, int64_t n, const kz_image *image, bool finished) {
-  make_room(images, before + n);
+  reserve(images, before + n);
   memcpy(images->image + before + 1, image, (size_t)n * sizeof *image);
   images->n = before + n;
   images->finished = finished;
@@ -258,7 +260,7 @@ kz_status kz_images_run(const kz_run *run, kz_dynamics *dynamics, kz_images *ima
   while (status == KZ_OK && !images->finished) {
     const double begun = kz_clock();
     status = run_piece(run, &w, record, bytes);
-    kz_chain_show(chain, record->n > 0 ? (kz_clock() - begun) / (double)record->n * kz_images_left(images) : 0);
+    kz_chain_show(chain, record->n > 0 ? (kz_clock() - begun) / (double)record->n * work_left(images) : 0);
   }
   kz_chain_end(chain, status == KZ_OK);
   return status;

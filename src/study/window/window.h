@@ -51,10 +51,6 @@ kz_status kz_images_follow(kz_images *images, kz_dynamics *dynamics, int64_t mos
  * Collective. */
 kz_status kz_images_run(const kz_run *run, kz_dynamics *dynamics, kz_images *images, int64_t max_periods);
 
-/* Estimates the work that is left, in units of the last period. It assumes that the image goes on to grow as it did, and that the time of
- * a period falls as the square of the bits. */
-double kz_images_left(const kz_images *images);
-
 /* The place of a window in that of the images: the share x of its width is the share offset + scale x of theirs; reach = the largest of
  * these in modulus. */
 typedef struct {

@@ -11,7 +11,7 @@ TEST(test_any_list_grows) {
     int64_t *list = length > 0 ? kz_malloc((size_t)length * sizeof *list) : NULL;
     for (int64_t i = 0; i < length; i++) list[i] = i;
     for (int64_t n = length; n < 40; n++) {
-      list = kz_room(list, n, sizeof *list);
+      list = kz_grown(list, n, sizeof *list);
       list[n] = n;
     }
     for (int64_t i = 0; i < 40; i++) assert_int_equal(list[i], i);

@@ -187,7 +187,7 @@ static double share(kz_step_bounds *b, const kz_rounding_factors *factor, double
   return (double)fmaxl(missed[0] / (of_bound[0] * KZ_CAUTION + KZ_TINY), missed[1] / (of_bound[1] * KZ_CAUTION + KZ_TINY));
 }
 
-/* The factors that the lemmas need: nothing is rounded up by more than a hundredth, and no room is left. */
+/* The factors that the lemmas need: nothing is rounded up by more than a hundredth, and no slack is left. */
 static const kz_rounding_factors needed = {
     .sine = {8, 48, 500},
     .angle = {0, 0, 160},
@@ -197,7 +197,7 @@ static const kz_rounding_factors needed = {
     .factors = {{1}, {2, 1}, {2.03L, 2.07L, 1.02L}},
     .plus = {1, 3.01L, 9},
     .state = 5,
-    .room = {0, 0, 0},
+    .slack = {0, 0, 0},
     .higher = 1 + 1e-9L,
 };
 

@@ -151,7 +151,7 @@ contains
     end do
   end subroutine add_nodes
 
-  !> Keeps a series as a node, in place of the farthest one where there is no room.
+  !> Keeps a series as a node, in place of the farthest one if all places are taken.
   subroutine remember(pendulum, series, kept)
     type(pendulum_t), intent(in) :: pendulum
     type(series_t), intent(in) :: series
