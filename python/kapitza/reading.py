@@ -11,6 +11,9 @@ import xarray
 
 from kapitza import layout, units
 
+SMALL = 100_000
+"""Bytes: groups up to this size are kept."""
+
 
 class BadFile(Exception):
     """A file cannot be used. The text is one line: which file, and why."""
@@ -119,6 +122,7 @@ class File:
         self.path = Path(path)
         self.summary = ""
         self.attributes, self.groups, self.pendulum = opened(self.path)
+        self._small: dict[str, xarray.Dataset] = {}
 
     @cached_property
     def tree(self) -> xarray.DataTree:
@@ -159,6 +163,15 @@ class File:
         """
         if si and self.pivot_frequency is None:
             raise BadFile(f"{self.path}: has no pivot_frequency, because its scene is not in SI units; leave out si")
-        dataset = group_of(self.path, name, self.groups, self.pendulum)
+        dataset = self._read(name)
         dataset = units.in_units(dataset, self.pivot_frequency if si else None, degrees) if si or degrees else dataset
         return units.in_written_units(dataset, name, layout.axes_of(name)) if written else dataset
+
+    def _read(self, name: str) -> xarray.Dataset:
+        """A group as it is in the file, which the caller may change. Of small ones a copy is kept, as xarray takes long to open a group."""
+        if name in self._small:
+            return self._small[name].copy(deep=True)
+        dataset = group_of(self.path, name, self.groups, self.pendulum)
+        if dataset.nbytes <= SMALL:
+            self._small[name] = dataset.copy(deep=True)
+        return dataset

@@ -120,6 +120,17 @@ def test_colours_are_arguments(made_file):
     assert style.UNSETTLED == "#ffffff"
 
 
+def test_a_group_belongs_to_who_has_read_it(made_file):
+    """A change of it, in values, attributes or variables, does not come back with the next one."""
+    result = Result(made_file)
+    for _ in range(2):
+        basin = result.group("basin")
+        assert basin["attractor"].values.min() == -1 and "mine" not in basin.attrs
+        basin["attractor"].values[:] = 7
+        basin.attrs["mine"], basin["further"] = 1, basin["theta"]
+    assert "further" not in result.group("basin")
+
+
 def craft(file, group, name, how):
     """Spoils a variable or an attribute of the group."""
     if name in file[group].attrs:
