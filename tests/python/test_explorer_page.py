@@ -190,10 +190,11 @@ def test_the_pendulum_moves_from_the_first_second_and_shows_its_motion_in_other_
     words = [tick["words"] for tick in ticks]
     assert {"0", "1", "2", "3", "1/2", "1/6"} <= set(words)
     assert all(two["x"] - one["x"] >= (one["wide"] + two["wide"]) / 2 for one, two in zip(ticks, ticks[1:], strict=False))
-    line = page.module("motion.js", """(() => { const n = 48, samples = 40 * n + 1, numbers = new Float64Array(2 * samples);
-        for (let i = 0; i < samples; i++) numbers[samples + i] = 0.3 * Math.cos((Math.PI * i) / n);  // half of the drive's frequency
-        const header = { samples, samples_per_period: n, pivot: [] };
-        const motion = new its.Motion(header, new Uint8Array(numbers.buffer), { period: 2, settling_time: 4, near_time: 6 });
+    line = page.module("motion.js", """(() => { const n = 48, answer = (periods, rest) => {
+            const samples = periods * n + 1, numbers = new Float64Array(2 * samples); // half of the drive's frequency, and a rest
+            for (let i = 0; i < samples; i++) numbers[samples + i] = 0.3 * Math.cos((Math.PI * i) / n) + rest * Math.exp(-i / (20 * n));
+            return [{ samples, samples_per_period: n, pivot: [] }, new Uint8Array(numbers.buffer)]; };
+        const motion = new its.Motion(...answer(40, 1), { period: 2, settling_time: 4, near_time: 6 }, answer(2, 0));
         return motion.spectrum(3).filter(([, amplitude]) => amplitude > 1e-9); })()""")
     assert line == [pytest.approx([0.5, 0.3])]
     drawn = set()

@@ -78,7 +78,8 @@ def other(request):
     elif name == "where":
         end = label(Decimal(str(request["theta"])), m)
         answer("where", sequence, theta=float(request["theta"]), velocity=float(request["velocity"]), attractor=end, name=ROWS[end][0],
-               period=ROWS[end][2], settling_time=12, near_time=30, decided=True, precision="double")
+               period=ROWS[end][2], settling_time=12, near_time=30, decided=True, precision="double",
+               strobe_theta=[0.5], strobe_velocity=[0])
     elif name == "orbit":
         n, start = request["samples_per_period"], float(request["theta"])
         times = [2 * math.pi * i / n for i in range(request["periods"] * n + 1)]

@@ -189,8 +189,11 @@ export class Basins {
       found = `${signed(endingWords(ending, this.units))}\n`;
       const wanted = settledAfter(ending) + 4 * (ending.period || 1) + 8;
       const periods = Math.round(Math.max(LEAST, Math.min(MOST, wanted)));
-      const [header, bytes] = await pane.engine.answer({ request: "orbit", ...request, periods, samples_per_period: SAMPLES });
-      if (order === this.followed) this.play(pane, new Motion(header, bytes, ending));
+      const orbit = { request: "orbit", ...request, samples_per_period: SAMPLES };
+      const [header, bytes] = await pane.engine.answer({ ...orbit, periods });
+      const strobe = () => ({ theta: ending.strobe_theta[0], velocity: ending.strobe_velocity[0], periods: ending.period });
+      const cycle = ending.period > 0 ? await pane.engine.answer({ ...orbit, ...strobe() }) : null;
+      if (order === this.followed) this.play(pane, new Motion(header, bytes, ending, cycle));
     } catch (error) {
       if (order === this.followed) element("ending").textContent = found + error.message; // a motion is not shown for every release
     }

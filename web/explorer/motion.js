@@ -8,11 +8,13 @@ const LONGEST = 32; // drive periods of a spectrum without a cycle
 const PAUSE = 1.5; // drive periods that the end is shown, before it begins anew
 
 export class Motion {
-  /** Of an answer to the request orbit: samples of theta and velocity, and the pivot's path over a drive period. */
-  constructor(header, bytes, ending) {
+  /** Of an answer to the request orbit: samples of theta and velocity, and the pivot's path over a drive period. `cycle`: the answer for one period of
+   * the cycle in which it ends, from a strobe point; null where that is not known. */
+  constructor(header, bytes, ending, cycle = null) {
     const numbers = new Float64Array(bytes.buffer);
     this.theta = numbers.slice(0, header.samples);
     this.velocity = numbers.slice(header.samples);
+    this.steady = cycle ? new Float64Array(cycle[1].buffer).slice(cycle[0].samples) : this.velocity;
     this.perPeriod = header.samples_per_period;
     this.pivot = header.pivot;
     this.ending = ending;
@@ -77,19 +79,20 @@ export class Motion {
     return this.theta[i] - TURN * Math.floor(this.theta[i] / TURN);
   }
 
-  /** [[frequency, amplitude], ...] of the velocity, in drive frequencies up to `most`: of the last cycle, so that what is left of the way there does
-   * not leak between its lines; of the last LONGEST drive periods where the end has no period. */
+  /** [[frequency, amplitude], ...] of the velocity, in drive frequencies up to `most`: of the cycle, as what is left of the way there leaks between its
+   * lines; of the last LONGEST drive periods where the end has no period. */
   spectrum(most) {
     if (this.lines) return this.lines;
-    const settled = Math.floor(this.last / this.perPeriod - settledAfter(this.ending));
+    const last = this.steady.length - 1;
+    const settled = Math.floor(last / this.perPeriod - settledAfter(this.ending));
     const periods = this.ending.period > 0 ? this.ending.period : Math.max(1, Math.min(settled, LONGEST));
-    const count = Math.min(this.last, periods * this.perPeriod);
+    const count = Math.min(last, periods * this.perPeriod);
     this.lines = [...Array(most * periods + 1).keys()].map((n) => {
       let [even, odd] = [0, 0];
       for (let i = 0; i < count; i++) {
         const angle = (TURN * ((n * i) % count)) / count;
-        even += this.velocity[this.last - count + i] * Math.cos(angle);
-        odd += this.velocity[this.last - count + i] * Math.sin(angle);
+        even += this.steady[last - count + i] * Math.cos(angle);
+        odd += this.steady[last - count + i] * Math.sin(angle);
       }
       return [n / periods, ((n ? 2 : 1) * Math.hypot(even, odd)) / count];
     });
