@@ -45,7 +45,7 @@ def test_the_pages_show_figures_of_print_size():
     """One column of a journal or two, 300 dots per inch; what no table draws is named here."""
     known = {name: options for name, _, _, options in FIGURES} | {name: options for name, (_, _, _, options) in TUTORIALS.items()}
     shown = {name for name in reproduce.shown() if not name.startswith("drawing-")}
-    assert len(shown) > 40 and shown - known.keys() == {"explorer", "explorer-phone", "report", "scaling"}
+    assert len(shown) > 40 and shown - known.keys() == {"explorer", "explorer-phone", "explorer-story", "report", "scaling"}
     known["scaling"] = ["178mm"]  # benchmarks/scaling.py
     for name in shown & known.keys():
         picture = Image.open(ROOT / "docs" / "figures" / f"{name}.png")
