@@ -4,11 +4,13 @@ import numpy as np
 import pytest
 import yaml
 from conftest import PROGRAM, ROOT
-from kapitza.explorer import atlas, overlays, picture, stories
+from kapitza.explorer import atlas, overlays, stories
 from kapitza.explorer.kept import Kept
 from kapitza.explorer.program import Refused
 from kapitza.explorer.scene import BadRequest, Start
 from kapitza.result import BadFile
+from PIL import Image
+from PIL.PngImagePlugin import PngInfo
 
 PENDULUM = {"quality_factor": 5, "drive_frequency": 11, "drive_amplitude": 0.3}
 PLANE = {"x": {"parameter": "drive_frequency", "min": 8, "max": 14}, "y": {"parameter": "drive_amplitude", "min": 0, "max": 0.6}}
@@ -73,14 +75,15 @@ def test_a_story_that_is_wrong_is_refused_with_its_place(change, words):
 
 
 def test_a_picture_is_opened_by_the_scene_that_it_holds(tmp_path):
-    """Compressed texts, texts of others and what is cut off are passed over."""
-    def chunk(kind, data):
-        return len(data).to_bytes(4, "big") + kind + data + bytes(4)
+    def saved(keyword):
+        texts = PngInfo()
+        texts.add_itxt(keyword, "title: größer\npendulum: {k: 0.1}\n")
+        Image.new("RGB", (2, 2)).save(tmp_path / "view.png", pnginfo=texts)
+        return tmp_path / "view.png"
 
-    path = tmp_path / "view.png"
-    head = picture.SIGNATURE + chunk(b"IHDR", bytes(13)) + chunk(b"iTXt", b"kapitza scene\0\1\0\0\0packed")
-    path.write_bytes(head + chunk(b"iTXt", b"kapitza scene\0\0\0\0\0pendulum: {k: 0.1}\n") + chunk(b"IEND", b""))
-    assert Start(path).tree == {"pendulum": {"k": "0.1"}}
-    path.write_bytes(head)
+    assert Start(saved("kapitza scene")).tree == {"title": "größer", "pendulum": {"k": "0.1"}}
     with pytest.raises(BadFile, match="holds no scene"):
-        Start(path)
+        Start(saved("Comment"))
+    saved("kapitza scene").write_bytes(saved("kapitza scene").read_bytes()[:60])
+    with pytest.raises(BadFile, match="damaged"):
+        Start(tmp_path / "view.png")
