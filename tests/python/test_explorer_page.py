@@ -41,8 +41,11 @@ def test_windows_have_bounds_and_wrap(modules):
     script = """(() => { const w = its.Window.from({theta: {min: -3.14159, max: 3.14159}, velocity: {min: -2, max: 2}});
         const out = w.zoomed(50, 0.5, 0.5), far = out.moved(3.25, 0).wrapped(); let deep = w;
         for (let i = 0; i < 60; i++) deep = deep.zoomed(0.01, 0.5, 0.5);
-        return [out.theta.width, out.velocity.width, far.theta.centre.toNumber(), deep.theta.width]; })()"""
-    width, fast, centre, deep = modules.module("window.js", script)
+        const most = w.zoomed(3000, 0.5, 0.4).moved(0, 0.9).zoomed(0.5, 0.5, 1).moved(0, -0.2);
+        const edges = [most, most.moved(0, 0.3), most.zoomed(9, 0.5, 0)].map((one) => one.toRequest().velocity);
+        return [out.theta.width, out.velocity.width, far.theta.centre.toNumber(), deep.theta.width, edges]; })()"""
+    width, fast, centre, deep, edges = modules.module("window.js", script)
+    assert edges == [{"min": 2800, "max": 8800}, {"min": 4000, "max": 10000}, {"min": -10000, "max": 10000}]
     assert width == pytest.approx(TURN) and fast == pytest.approx(200) and centre == pytest.approx(0.25 * TURN) and 1e-100 <= deep < 1e-97
 
 

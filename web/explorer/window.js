@@ -4,7 +4,7 @@ import { Decimal, digitsFor, turn } from "./decimal.js";
 
 export const TURN = 2 * Math.PI;
 const NARROWEST = 1e-100;
-const FASTEST = 1e4; // edges in velocity stay below it
+const FASTEST = 1e4; // of edges in velocity
 const WHOLE = 1e-3; // rad by which a whole circle may differ from a turn
 const DEEP = 1e-7; // windows narrower than that are named by centre and width, wider ones by their edges
 
@@ -49,6 +49,15 @@ export class Range {
     return new Range(low, low.plus(Decimal.from(width)).rounded(digitsFor(width)));
   }
 
+  /** Shifted so that no edge lies beyond -limit or limit. */
+  within(limit) {
+    const [least, most] = [Decimal.from(-limit), Decimal.from(limit)];
+    if (this.width >= 2 * limit) return new Range(least, most);
+    const wide = this.high.minus(this.low);
+    if (this.low.toNumber() < -limit) return new Range(least, least.plus(wide));
+    return this.high.toNumber() > limit ? new Range(most.minus(wide), most) : this;
+  }
+
   /** Between this range (0) and another (1). */
   towards(other, part) {
     const width = Math.min(this.width, other.width);
@@ -81,11 +90,10 @@ export class Window {
   /** Scaled about the point at shares x, y; as far as windows can go. */
   zoomed(factor, x, y) {
     const most = TURN / this.theta.width;
-    const fastest = (2 * FASTEST) / this.velocity.width;
     const least = NARROWEST / Math.min(this.theta.width, this.velocity.width);
     const bounded = Math.max(factor, Math.min(1, least));
     const theta = bounded < most ? this.theta.scaled(bounded, x) : this.wholeCircle(x);
-    return new Window(theta, this.velocity.scaled(Math.min(bounded, Math.max(1, fastest)), y)).wrapped();
+    return new Window(theta, this.velocity.scaled(bounded, y).within(FASTEST)).wrapped();
   }
 
   /** The range of a whole turn that keeps the angle at share x where it is; [-pi, pi) itself where that is near. */
@@ -97,7 +105,7 @@ export class Window {
   }
 
   moved(x, y) {
-    return new Window(this.theta.moved(x), this.velocity.moved(y));
+    return new Window(this.theta.moved(x), this.velocity.moved(y).within(FASTEST));
   }
 
   /** A whole circle with upright or hanging in its middle; other windows stay as they are. */
