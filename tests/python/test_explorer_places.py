@@ -161,15 +161,20 @@ def test_crossing_a_curve_says_what_happens_and_sliders_mark_it(page):
     script = f"""const done = arguments[0]; Promise.all(["atlas", "happenings", "ground", "marks"].map((name) => import(`/${{name}}.js`)))
         .then(([atlas, happenings, ground, marks]) => {{ const map = new atlas.Atlas(...{ATLAS});
             const axes = [{{name: "q", unit: "", low: 0, high: 10}}, {{name: "a", unit: "mm", low: 0, high: 0.936}}];
+            const turned = {{...map.curves[0], kind: "fold", words: "rotations 2/2"}};
+            const turning = Object.assign(Object.create(map),
+                {{crossed: (...way) => map.crossed(...way).map((one) => ({{...one, curve: turned}}))}});
             done([happenings.happening(map, [0.3, 0.2], [0.3, 0.9]), happenings.happening(map, [0.3, 0.9], [0.3, 0.2]),
+                  happenings.happening(turning, [0.3, 0.2], [0.3, 0.9]),
                   happenings.happening(map, [0.3, 0.2], [0.6, 0.3]), map.motionsAt([0.1, 0.7])[1].words,
                   map.nearest([0.2, 0.52], [0.1, 0.1]).name,
                   ground.listedAt({{ atlas: map, axes, others: '{{"q":null,"a":null}}' }}, {{q: "5", a: "0.234 mm"}}),
                   ground.listedAt({{ atlas: map, axes, others: '{{"q":null,"a":null}}' }}, {{q: "5", a: "1 mm"}}),
                   marks.marksOf({{ atlas: map, axes }}, "a", {{q: "5", a: "0.3 mm"}}, "0.3 mm")[0].words]); }})"""
-    up, down, along, there, near, listed, outside, mark = page.driver.execute_async_script(script)
+    up, down, turns, along, there, near, listed, outside, mark = page.driver.execute_async_script(script)
     assert up == "Flutter is born: upright rest loses its stability by period doubling"
     assert down == "Upright rest is stable again; flutter ends in it" and along == "" and (there, near) == ("flutter", "inverted")
+    assert turns == "Rotations 2/2 end: they meet unstable motions (fold)"
     assert listed == {"atlas": "f", "x": 50, "y": pytest.approx(2.5)} and outside == {}  # by the numbers of the file
     assert mark == "0.468 mm: upright rest, period doubling"
 

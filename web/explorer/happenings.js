@@ -32,19 +32,28 @@ function isChild({ kind, period, name }, motion) {
   return motion.name !== name && fits && motion.period === (kind === "symmetry_breaking" ? 1 : 2) * period;
 }
 
+/** Forms that follow a motion's name: "rotations 1/2" are two motions, one each way; all other names are one. */
+function grammar(words) {
+  return words.startsWith("rotations")
+    ? { are: "are", lose: "lose their", become: "become", end: "end", they: "they meet unstable motions", them: "them" }
+    : { are: "is", lose: "loses its", become: "becomes", end: "ends", they: "it meets an unstable motion", them: "it" };
+}
+
 function sentence(atlas, { curve, point, into }, { born, gone }) {
   const { words, kind } = curve;
+  const { are, lose, become, end, they, them } = grammar(words);
   const child = (into ? gone : born).find((motion) => isChild(curve, motion))?.words;
+  const its = child && grammar(child);
   const attracts = atlas.supercritical[point] === 1;
-  if (kind === "fold") return into ? `${words} is born: a stable and an unstable motion part (fold)` : `${words} ends: it meets an unstable motion (fold)`;
+  if (kind === "fold") return into ? `${words} ${are} born: a stable and an unstable motion part (fold)` : `${words} ${end}: ${they} (fold)`;
   if (kind === "rest_leans") {
-    if (into) return `${words} becomes stable`;
-    return `${words} is no longer stable: the pendulum leans to a side${child ? ` (${child})` : ""}`;
+    if (into) return `${words} ${become} stable`;
+    return `${words} ${are} no longer stable: the pendulum leans to a side${child ? ` (${child})` : ""}`;
   }
-  const way = kind === "symmetry_breaking" ? "by losing its symmetry" : "by period doubling";
-  if (into) return attracts ? `${words} is stable again${child ? `; ${child} ends in it` : ""}` : `${words} becomes stable`;
-  if (!attracts) return `${words} loses its stability ${way}: nothing near it takes over`;
-  return child ? `${child} is born: ${words} loses its stability ${way}` : `${words} loses its stability ${way}`;
+  const way = kind === "symmetry_breaking" ? "by losing symmetry" : "by period doubling";
+  if (into) return attracts ? `${words} ${are} stable again${child ? `; ${child} ${its.end} in ${them}` : ""}` : `${words} ${become} stable`;
+  if (!attracts) return `${words} ${lose} stability ${way}: nothing near ${them} takes over`;
+  return child ? `${child} ${its.are} born: ${words} ${lose} stability ${way}` : `${words} ${lose} stability ${way}`;
 }
 
 const capital = (text) => text.charAt(0).toUpperCase() + text.slice(1);
