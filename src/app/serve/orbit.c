@@ -1,15 +1,14 @@
 #include "orbit.h"
 
-#include <pthread.h>
 #include <stdatomic.h>
 #include <stdlib.h>
-#include <string.h>
-#include <time.h>
 
 #include "answer.h"
+#include "kapitza/common_threads.h"
 #include "../../study/orbit/plan.h"
 
-enum { PAUSE = 10000000 /* ns between two calls of `meanwhile` */ };
+enum { STACK_BYTES = 8 << 20 };
+static const double PAUSE = 0.01; /* s between two calls of `meanwhile` */
 
 typedef struct {
   const kz_scene *scene;
@@ -43,13 +42,8 @@ static void *compute(void *context) {
 
 /* Waits until the thread has ended or a pause is over; true in the first case. */
 static bool wait_job(job *j) {
-  struct timespec end;
-  clock_gettime(CLOCK_MONOTONIC, &end);
-  end.tv_nsec += PAUSE;
-  end.tv_sec += end.tv_nsec / 1000000000;
-  end.tv_nsec %= 1000000000;
   pthread_mutex_lock(&j->mutex);
-  for (int error = 0; !j->done && error == 0;) error = pthread_cond_timedwait(&j->changed, &j->mutex, &end);
+  if (!j->done) kz_thread_wait(&j->changed, &j->mutex, PAUSE);
   const bool done = j->done;
   pthread_mutex_unlock(&j->mutex);
   return done;
@@ -69,17 +63,6 @@ static kz_status follow(job *j, const kz_request *request, kz_status (*meanwhile
   return status;
 }
 
-static kz_status start_thread(job *j, pthread_t *thread) {
-  pthread_condattr_t attributes;
-  pthread_mutex_init(&j->mutex, NULL);
-  pthread_condattr_init(&attributes);
-  pthread_condattr_setclock(&attributes, CLOCK_MONOTONIC);
-  pthread_cond_init(&j->changed, &attributes);
-  pthread_condattr_destroy(&attributes);
-  const int error = pthread_create(thread, NULL, compute, j);
-  return error ? kz_fail(KZ_FAILED, "request: orbit: no thread can be started: %s", strerror(error)) : KZ_OK;
-}
-
 kz_status kz_orbit_answer(const kz_request *request, kz_status (*meanwhile)(void *context), void *context) {
   const kz_orbit_plan *plan = request->scene.orbit;
   const int64_t samples = plan->periods * plan->samples_per_period + 1;
@@ -89,8 +72,13 @@ kz_status kz_orbit_answer(const kz_request *request, kz_status (*meanwhile)(void
   if (!kz_memory_is_there(3 * bytes))
     return kz_fail(KZ_FAILED, "request: periods: needs %zu MB of memory, more than there are", 2 * bytes >> 20);
   KZ_FREED double *theta = kz_malloc(bytes), *velocity = kz_malloc(bytes);
-  job j = {.scene = &request->scene, .theta = theta, .velocity = velocity};
-  KZ_TRY(start_thread(&j, &thread));
+  job j = {.scene = &request->scene,
+           .theta = theta,
+           .velocity = velocity,
+           .mutex = PTHREAD_MUTEX_INITIALIZER,
+           .changed = PTHREAD_COND_INITIALIZER};
+  if (!kz_thread_start(&thread, STACK_BYTES, compute, &j))
+    return kz_fail(KZ_FAILED, "request: orbit: no thread can be started");
   kz_status status = follow(&j, request, meanwhile, context, &ended);
   pthread_join(thread, NULL);
   if (status == KZ_OK && !ended && j.status != KZ_OK)
