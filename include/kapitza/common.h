@@ -66,6 +66,11 @@ void sincosf128(__float128 x, __float128 *sine, __float128 *cosine);
 #define KZ_JOINED(words) KZ_JOINED_OF(words)
 #define KZ_JOINED_OF(first, second, ...) first "|" second __VA_OPT__("|" __VA_ARGS__)
 
+/* Adds a word to such a text of `bytes` bytes, which begins as "". */
+void kz_words_add(char *words, size_t bytes, const char *word);
+/* The next word of `rest`, with its length, not ended by a zero; `rest` moves behind it. NULL: there is none. */
+const char *kz_words_next(const char **rest, int *length);
+
 /* ---- memory ---- */
 
 /* These functions never return NULL when bytes are requested, so callers do not check. If memory runs out, the rank prints one line, the

@@ -90,7 +90,6 @@ typedef struct {
   size_t offset; /* in kz_pendulum_keys */
 } kz_sweep_parameter;
 extern const kz_sweep_parameter kz_sweep_parameters[];
-extern const int kz_sweep_parameter_count;
 /* The names of these keys, and of the measures of a sweep, each list joined by '|'. */
 const char *kz_sweep_words(void);
 const char *kz_sweep_measure_words(void);

@@ -193,9 +193,11 @@ static kz_status refuse_option(const kz_command *command, const char *typed, boo
   const char *space = command->name[0] ? " " : "";
   if (lacks_argument)
     return kz_fail(KZ_REFUSED, "%s: needs a value; kapitza%s%s --help shows its form", typed, space, command->name);
-  for (const kz_option *row = NULL; (row = kz_option_next(command, row));)
-    snprintf(names + strlen(names), sizeof names - strlen(names), "%s--%s", names[0] ? "|" : "", row->name);
   char name[64];
+  for (const kz_option *row = NULL; (row = kz_option_next(command, row));) {
+    snprintf(name, sizeof name, "--%s", row->name);
+    kz_words_add(names, sizeof names, name);
+  }
   snprintf(name, sizeof name, "%.*s", (int)length, typed);
   if (kz_key_suggest(name, names, nearest, sizeof nearest) && strcmp(nearest, name) != 0)
     return kz_fail(KZ_REFUSED, "%.80s: unknown option; did you mean %s?", typed, nearest);

@@ -61,7 +61,7 @@ static kz_status dispatch(int argc, char **argv, kz_options *options) {
   }
   for (int i = 0; i < kz_command_count; i++) {
     if (strcmp(argv[1], kz_commands[i].name) == 0) return carry_out(&kz_commands[i], argc - 1, argv + 1, options);
-    snprintf(names + strlen(names), sizeof names - strlen(names), "%s%s", names[0] ? "|" : "", kz_commands[i].name);
+    kz_words_add(names, sizeof names, kz_commands[i].name);
   }
   if (kz_key_suggest(argv[1], names, nearest, sizeof nearest))
     return kz_fail(KZ_REFUSED, "%.80s: unknown command; did you mean %s?", argv[1], nearest);

@@ -33,15 +33,12 @@ const kz_sweep_parameter kz_sweep_parameters[] = {
     NAMED("ramp.periods", ramp_periods, "1"),
     NAMED("ramp.from", ramp_from, "1"),
 };
-const int kz_sweep_parameter_count = sizeof kz_sweep_parameters / sizeof kz_sweep_parameters[0];
+enum { PARAMETERS = sizeof kz_sweep_parameters / sizeof kz_sweep_parameters[0] };
 
 const char *kz_sweep_words(void) {
   static char words[512];
   words[0] = '\0';
-  for (int i = 0; i < kz_sweep_parameter_count; i++) {
-    if (i > 0) strcat(words, "|");
-    strcat(words, kz_sweep_parameters[i].name);
-  }
+  for (int i = 0; i < PARAMETERS; i++) kz_words_add(words, sizeof words, kz_sweep_parameters[i].name);
   return words;
 }
 

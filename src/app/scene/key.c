@@ -13,11 +13,10 @@ const char *kz_key_words(const kz_key *key) {
 }
 
 int64_t kz_word_find(const char *words, const char *word) {
-  for (int64_t index = 0; *words; index++) {
-    const size_t length = strcspn(words, "|");
-    if (strlen(word) == length && strncmp(words, word, length) == 0) return index;
-    words += length + (words[length] == '|');
-  }
+  const char *next;
+  int length;
+  for (int64_t index = 0; (next = kz_words_next(&words, &length)); index++)
+    if (strlen(word) == (size_t)length && strncmp(next, word, (size_t)length) == 0) return index;
   return -1;
 }
 
@@ -66,12 +65,12 @@ void kz_key_list(const char *words, char *text, size_t bytes) {
   text[at] = '\0';
 }
 
-void kz_key_children(const kz_key *keys, const char *parent, char *text, size_t bytes) {
+/* The names of the keys of mapping `parent`, joined by '|', written to `text` [bytes]. */
+static void children(const kz_key *keys, const char *parent, char *text, size_t bytes) {
   const size_t skip = parent[0] ? strlen(parent) + 1 : 0;
   text[0] = '\0';
   for (; keys->path; keys++)
-    if (is_child(keys->path, parent))
-      snprintf(text + strlen(text), bytes - strlen(text), "%s%s", text[0] ? "|" : "", keys->path + skip);
+    if (is_child(keys->path, parent)) kz_words_add(text, bytes, keys->path + skip);
 }
 
 void kz_key_unit_words(const kz_key *key, char *text, size_t bytes) {
@@ -84,7 +83,7 @@ void kz_key_unit_words(const kz_key *key, char *text, size_t bytes) {
 void kz_key_accepts_with(const kz_key *keys, const kz_key *key, const char *noun, const char *unit, char *text, size_t bytes) {
   char names[512] = "", detail[512] = "";
   if (key->type == KZ_KEY_MAPPING)
-    kz_key_children(keys, key->path, names, sizeof names);
+    children(keys, key->path, names, sizeof names);
   else
     snprintf(names, sizeof names, "%s", kz_key_words(key));
   kz_key_list(names, detail, sizeof detail);
@@ -150,17 +149,16 @@ bool kz_key_suggest(const char *word, const char *words, char *nearest, size_t b
   size_t best = strlen(word) / 3 + 1; /* a larger distance is no similarity */
   if (best > 3) best = 3;
   bool found = false;
-  for (const char *start = words; *start;) {
+  int length;
+  for (const char *next; (next = kz_words_next(&words, &length));) {
     char candidate[LONGEST_WORD + 1];
-    const size_t length = strcspn(start, "|");
-    snprintf(candidate, sizeof candidate, "%.*s", (int)length, start);
+    snprintf(candidate, sizeof candidate, "%.*s", length, next);
     const size_t d = distance(word, candidate);
     if (d < best || (d == best && !found)) {
       best = d;
       found = true;
       snprintf(nearest, bytes, "%s", candidate);
     }
-    start += length + (start[length] == '|');
   }
   return found;
 }
@@ -189,7 +187,7 @@ static bool was_a_study(const kz_key *keys, const char *name, char *now, size_t 
 void kz_key_unknown(const kz_key *keys, const char *parent, const char *name, const char *prefix, char *text, size_t bytes) {
   char names[1024], list[1024], nearest[64];
   const kz_key *mapping = kz_key_find(keys, parent), *elsewhere = find_elsewhere(keys, name);
-  kz_key_children(keys, parent, names, sizeof names);
+  children(keys, parent, names, sizeof names);
   kz_key_list(names, list, sizeof list);
   if (mapping ? kz_key_renamed(mapping, name, nearest, sizeof nearest) : was_a_study(keys, name, nearest, sizeof nearest))
     snprintf(text, bytes, "is no longer a key; use %s", nearest);

@@ -11,10 +11,7 @@
 static const char *scheme_words(void) {
   static char words[512];
   words[0] = '\0';
-  for (int32_t row = 0; row < kz_scheme_count(); row++) {
-    if (row > 0) strncat(words, "|", sizeof words - strlen(words) - 1);
-    strncat(words, kz_scheme_at(row).name, sizeof words - strlen(words) - 1);
-  }
+  for (int32_t row = 0; row < kz_scheme_count(); row++) kz_words_add(words, sizeof words, kz_scheme_at(row).name);
   return words;
 }
 

@@ -25,7 +25,8 @@ static const char *find_pi(const char *text, size_t *letters) {
   return found ? found : greek;
 }
 
-bool kz_pi_parts(const char *text, char *multiple, size_t bytes, long *divisor) {
+/* Splits "3 pi/4" into the text "3", written to multiple [bytes], and the divisor 4; false if the text is not a part of pi. */
+static bool pi_parts(const char *text, char *multiple, size_t bytes, long *divisor) {
   size_t letters;
   char *end;
   const char *pi = find_pi(text, &letters);
@@ -56,7 +57,7 @@ const char *kz_scalar_angle(const kz_node *node, double *value) {
     if (!wrong) *value = *value / 180 * M_PI;
     return wrong;
   }
-  if (length == 0 || !kz_pi_parts(node->text, multiple, sizeof multiple, &divisor)) return kz_scalar_real(node, value);
+  if (length == 0 || !pi_parts(node->text, multiple, sizeof multiple, &divisor)) return kz_scalar_real(node, value);
   const char *wrong = kz_text_real(multiple, value);
   if (!wrong) *value = *value * M_PI / (double)divisor;
   return wrong;

@@ -143,10 +143,10 @@ static void complain_first(kz_reading *reading, char *keys, const char *wrong) {
 /* Whether `keys` are keys of a scene, or the scene itself. */
 static bool are_keys(const char *keys) {
   char key[256];
+  int length;
   if (!keys[0]) return false;
-  for (size_t n; *keys; keys += n + (keys[n] == '|')) {
-    n = strcspn(keys, "|");
-    snprintf(key, sizeof key, "%.*s", (int)n, keys);
+  for (const char *next; (next = kz_words_next(&keys, &length));) {
+    snprintf(key, sizeof key, "%.*s", length, next);
     if (!kz_key_find(kz_scene_keys(), key) && strcmp(key, "scene") != 0) return false;
   }
   return true;

@@ -19,13 +19,12 @@ const kz_key *kz_scene_keys(void);
 const char *kz_key_words(const kz_key *key);
 /* The place of a word in the words "a|b|c"; -1 if it is none of them. */
 int64_t kz_word_find(const char *words, const char *word);
+/* The largest value, in m, that needs no unit; infinity for other units. */
+double kz_key_most_bare(const kz_key *key);
 /* True if the key is an angle, which may be written in degrees. */
-double kz_key_most_bare(const kz_key *key); /* the largest value, in m, that needs no unit; infinity for other units */
 bool kz_key_is_angle(const kz_key *key);
 /* The row of `path`, or NULL. */
 const kz_key *kz_key_find(const kz_key *keys, const char *path);
-/* The names of the keys of mapping `parent`, joined by '|', written to `text` [bytes]. */
-void kz_key_children(const kz_key *keys, const char *parent, char *text, size_t bytes);
 /* The words "a|b|c" as "a, b, c", written to `text` [bytes]. */
 void kz_key_list(const char *words, char *text, size_t bytes);
 /* Writes what the key accepts, such as "an integer from 1 to 512", to `text` [bytes]. */
@@ -91,8 +90,6 @@ const char *kz_scalar_quantity(const kz_node *node, const char *unit, double *va
 /* True for a velocity per second ("3 rad/s", "170 deg/s"): *value in rad per drive radian of a pivot at pivot_frequency (rad/s; NaN = the scene
  * is not in SI units), *wrong = what is wrong, or NULL. */
 bool kz_scalar_per_second(const kz_node *node, double pivot_frequency, double *value, const char **wrong);
-/* Splits "3 pi/4" into the text "3", written to multiple [bytes], and the divisor 4; false if the text is not a part of pi. */
-bool kz_pi_parts(const char *text, char *multiple, size_t bytes, long *divisor);
 const char *kz_scalar_boolean(const kz_node *node, bool *value);
 /* A text of at most `most` bytes, with or without quotes, on one line; kz_scalar_text: of at most 500. */
 const char *kz_scalar_text_within(const kz_node *node, size_t most, const char *too_long);

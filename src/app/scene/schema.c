@@ -20,11 +20,10 @@ static void indent(int depth, FILE *out) {
 
 static void write_words(const char *words, FILE *out) {
   fputs("{\"enum\": [", out);
-  for (const char *word = words; *word;) {
-    const size_t length = strcspn(word, "|");
-    fprintf(out, "%s\"%.*s\"", word > words ? ", " : "", (int)length, word);
-    word += length + (word[length] == '|');
-  }
+  int length;
+  const char *separator = "";
+  for (const char *word; (word = kz_words_next(&words, &length)); separator = ", ")
+    fprintf(out, "%s\"%.*s\"", separator, length, word);
   fputs("]", out);
 }
 

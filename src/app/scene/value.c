@@ -117,9 +117,10 @@ static const char *read_harmonic(const kz_key *key, const kz_node *node, void *f
 }
 
 static void print_named(const kz_key *key, int64_t index, FILE *out) {
-  const char *word = kz_key_words(key);
-  for (; index > 0; index--) word += strcspn(word, "|") + 1;
-  fprintf(out, "%.*s", (int)strcspn(word, "|"), word);
+  const char *words = kz_key_words(key), *word;
+  int length;
+  while ((word = kz_words_next(&words, &length)) && index > 0) index--;
+  if (word) fprintf(out, "%.*s", length, word);
 }
 
 static void print_word(const kz_key *key, const void *value, FILE *out) {

@@ -44,10 +44,7 @@ const kz_setting *const kz_setting_exact = kz_settings + sizeof kz_settings / si
 const char *kz_tradeoff_words(void) {
   static char words[1024];
   words[0] = '\0';
-  for (int i = 0; i < kz_setting_count; i++) {
-    if (i > 0) strncat(words, "|", sizeof words - strlen(words) - 1);
-    strncat(words, kz_settings[i].label, sizeof words - strlen(words) - 1);
-  }
+  for (int i = 0; i < kz_setting_count; i++) kz_words_add(words, sizeof words, kz_settings[i].label);
   return words;
 }
 

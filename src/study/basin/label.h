@@ -72,5 +72,3 @@ void kz_tile_labels_note_reached(const kz_window_labels *labelling, const kz_loc
 static inline double kz_tiles_stand_for(const kz_window_labels *labelling) {
   return labelling->records.stands_for > 0 ? labelling->records.stands_for : 1;
 }
-
-/* ---- pending cells: unsettled, or doubtful ---- */

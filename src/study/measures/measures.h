@@ -46,7 +46,6 @@ typedef struct {
   kz_measure_fn fill;
 } kz_measure;
 extern const kz_measure kz_measures[];
-extern const int kz_measure_count;
 /* The words, joined by '|'. */
 const char *kz_measure_words(void);
 /* Number of values that a measure fills. */

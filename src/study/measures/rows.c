@@ -11,7 +11,6 @@
 #define PAIR(word, needs, unit, name) ROW(word, unit, KZ_PER_PAIR, needs)
 #define PENDULUM(word, needs, unit, name) ROW(word, unit, KZ_PER_PENDULUM, needs)
 const kz_measure kz_measures[] = {KZ_MEASURES(NUMBER, INTERVAL, SIZES, PAIR, PENDULUM)};
-const int kz_measure_count = sizeof kz_measures / sizeof kz_measures[0];
 
 #define BARRED(word, ...) "|" #word
 const char *kz_measure_words(void) {

@@ -128,6 +128,11 @@ static kz_status chart_points(void *context, int64_t first, int64_t n, void *rec
   return KZ_OK;
 }
 
+/* The number of values of a curve: of k, or of m. */
+static int64_t values_of(const kz_chart *chart, const kz_curve_task *task) {
+  return task->row >= 0 && kz_curves[task->row].edge ? chart->axes.m.count : chart->axes.k.count;
+}
+
 /* Values of a curve: a row. It may be shorter than others. */
 static kz_status curve_points(void *context, int64_t item, int64_t most, void *record) {
   const kz_chart *chart = context;
@@ -135,7 +140,7 @@ static kz_status curve_points(void *context, int64_t item, int64_t most, void *r
   const int64_t first = item % kz_chart_row(&chart->axes);
   const kz_curve_task *task = &chart->tasks[item / kz_chart_row(&chart->axes)];
   const kz_curve *curve = task->row < 0 ? NULL : &kz_curves[task->row];
-  const int64_t left = kz_chart_values(chart, task) - first, n = left < most ? left : most;
+  const int64_t left = values_of(chart, task) - first, n = left < most ? left : most;
   if (!curve)
     kz_subharmonic_values(task->order, n, chart->k + first, out->m[0], out->m[1]);
   else if (!curve->edge)
@@ -160,7 +165,7 @@ static void unpack_curves(kz_chart *chart, const void *records) {
   const curve_record *record = records;
   const int64_t columns = kz_chart_row(&chart->axes), pieces = tiles_of(columns, PIECE);
   for (int64_t tile = 0; tile < pieces * chart->n_tasks; tile++) {
-    int64_t first = tile % pieces * PIECE, n = kz_chart_values(chart, &chart->tasks[tile / pieces]) - first;
+    int64_t first = tile % pieces * PIECE, n = values_of(chart, &chart->tasks[tile / pieces]) - first;
     if (n > PIECE) n = PIECE;
     if (n <= 0) continue;
     for (int64_t kind = 0; kind < 2; kind++)

@@ -40,11 +40,6 @@ static inline int64_t kz_chart_row(const kz_chart_axes *axes) {
   return axes->k.count > axes->m.count ? axes->k.count : axes->m.count;
 }
 
-/* The number of values of a curve: of k, or of m. */
-static inline int64_t kz_chart_values(const kz_chart *chart, const kz_curve_task *task) {
-  return task->row >= 0 && kz_curves[task->row].edge ? chart->axes.m.count : chart->axes.k.count;
-}
-
 /* Writes the variables and attributes of the groups, and prints the summary. Rank 0. */
 kz_status kz_chart_write(const kz_chart *chart, kz_store *store);
 void kz_chart_summarise(const kz_chart *chart, FILE *summary);

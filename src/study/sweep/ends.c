@@ -16,11 +16,16 @@ static const char *const GROUP = "plane";
 
 #define COLUMN(type, name, count, expression) KZ_COLUMN(store, "plane", name, count, type, expression)
 
+/* The velocity of start number `place`, rad per drive radian. */
+static double velocity_of(const kz_sweep_plan *plan, int64_t place) {
+  return plan->ends.velocity.values[plan->ends.velocity.count == 1 ? 0 : place];
+}
+
 static kz_status write_group(const kz_sweep_plan *plan, const kz_chart_ending *e, kz_store *store) {
   const int64_t starts = plan->ends.theta.count, n = starts * plan->x.values.count * plan->y.values.count;
   KZ_TRY(kz_store_dimension(store, GROUP, "start", starts, NULL));
   KZ_TRY(kz_store_variable(store, GROUP, "start_theta", plan->ends.theta.values));
-  COLUMN(double, "start_velocity", starts, kz_ends_velocity(plan, i));
+  COLUMN(double, "start_velocity", starts, velocity_of(plan, i));
   COLUMN(int16_t, "end_period", n, e[i].period > 0 ? e[i].period : 0);
   COLUMN(int8_t, "end", n, e[i].period > 0 ? 0 : 1 - e[i].period);
   COLUMN(int32_t, "end_winding", n, e[i].winding);
@@ -38,7 +43,7 @@ static void print_start(const kz_sweep_plan *plan, int64_t place, const kz_chart
   const int64_t n = plan->x.values.count * plan->y.values.count;
   int64_t counts[KINDS] = {0};
   for (int64_t i = 0; i < n; i++) counts[e[i].period > 0 ? e[i].centre : 4 - e[i].period]++;
-  fprintf(summary, "  start %.10g, %.10g:", plan->ends.theta.values[place], kz_ends_velocity(plan, place));
+  fprintf(summary, "  start %.10g, %.10g:", plan->ends.theta.values[place], velocity_of(plan, place));
   const char *before = " ";
   for (int kind = 0; kind < KINDS; kind++) {
     if (counts[kind] == 0) continue;
@@ -109,7 +114,7 @@ void kz_ends_points(const kz_scene *scene, int64_t place, int64_t n, const int64
     if (!damped) pendulum[i] = (kz_pendulum){0, 0, 0};
     periods[i] = damped ? periods_of(plan, pendulum[i].beta) : 0;
   }
-  kz_start_state(plan->ends.theta.values[place], kz_ends_velocity(plan, place), start);
+  kz_start_state(plan->ends.theta.values[place], velocity_of(plan, place), start);
   kz_chart_ends(steps_for(n, pendulum, fabs(start[1])), n, pendulum, start, (int32_t)plan->ends.max_period, periods, ending);
   for (int64_t i = 0; i < n; i++)
     if (periods[i] == 0) ending[i] = (kz_chart_ending){.period = KZ_NO_PENDULUM, .centre = 3, .exponent = NAN};

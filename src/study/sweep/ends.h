@@ -10,8 +10,3 @@ enum { KZ_NO_PENDULUM = -2 }; /* in place of a period: no pendulum, or one witho
 /* ending [n] of start number `place` at n <= KZ_ENDS_POINTS points; point [n] = their numbers, x fastest. */
 enum { KZ_ENDS_POINTS = 256 };
 void kz_ends_points(const kz_scene *scene, int64_t place, int64_t n, const int64_t *point, kz_chart_ending *ending);
-
-/* The velocity of start number `place`, rad per drive radian. */
-static inline double kz_ends_velocity(const kz_sweep_plan *plan, int64_t place) {
-  return plan->ends.velocity.values[plan->ends.velocity.count == 1 ? 0 : place];
-}
