@@ -22,6 +22,35 @@ static bool pendulum_of_drive(const void *context, double m, kz_pendulum *pendul
   return true;
 }
 
+/* The direction (unit vector) in which the inverted state leaves by its most negative multiplier; false where it has none. */
+static bool leaving_direction(const kz_pendulum *pendulum, double direction[2]) {
+  kz_numerics fine;
+  double theta = M_PI, velocity = 0, matrix[4];
+  int64_t turns = 0;
+  kz_numerics_fine(pendulum, &fine);
+  kz_flow *flow = kz_flow_create(pendulum, &fine);
+  if (!flow) return false;
+  kz_advance_tangent(flow, 1, 1, &theta, &velocity, &turns, matrix);
+  kz_flow_free(flow);
+  const double half = (matrix[0] + matrix[3]) / 2, root = half * half - exp(-2 * M_PI * pendulum->beta);
+  if (root < 0) return false;
+  const double leaving = half - sqrt(root), length = hypot(matrix[1], leaving - matrix[0]);
+  direction[0] = matrix[1] / length;
+  direction[1] = (leaving - matrix[0]) / length;
+  return leaving < -1 && length > 0;
+}
+
+bool kz_flutter_find(const kz_pendulum *pendulum, kz_attractor *flutter) {
+  double direction[2];
+  if (!leaving_direction(pendulum, direction)) return false;
+  for (double size = 1e-3; size < 1.5; size *= 1.2) {
+    const double guess[2] = {M_PI + size * direction[0], size * direction[1]};
+    *flutter = (kz_attractor){.period = 2, .symmetric = 1};
+    if (kz_cycle_near(pendulum, guess, size / 2, flutter) && flutter->centre == 1) return true;
+  }
+  return false;
+}
+
 /* The lowest drive at which a stable inverted state loses its stability by multiplier -1. */
 static double find_onset(const kz_path *path) {
   double critical = NAN;

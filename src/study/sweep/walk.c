@@ -174,8 +174,59 @@ static void follow_child(const walking *w, const cycle *flip, int kind, int dept
   follow(w, &child, along, piece, depth + 1);
 }
 
-static void add_piece(const walking *w, const kz_sweep_piece *piece) {
-  if (w->found->count < KZ_SWEEP_PIECES) w->found->piece[w->found->count++] = *piece;
+/* A branch that is cut into pieces where something happens. */
+typedef struct {
+  const walking *w;
+  const cycle *c;                         /* near its begin */
+  kz_sweep_piece piece;                   /* that has begun */
+  bool sign[2];                           /* whether 1 - trace + determinant and 1 + trace + determinant are positive */
+  double beyond[4 + 2 * KZ_CURVE_POINTS]; /* a row where it ends beyond the second value, which it still reaches; NAN: none */
+} branching;
+
+static void add_piece(const branching *b) {
+  kz_sweep_walk *found = b->w->found;
+  if (found->count < KZ_SWEEP_PIECES) found->piece[found->count++] = b->piece;
+}
+
+/* Ends a piece at an event and begins the next one; false where the branch ends there. */
+static bool pass(branching *b, const double *event, int depth) {
+  const bool merges = event[0] > KZ_EVENT_FLIP;
+  const int n = 2 * b->c->kind.of.points;
+  cycle at, here = *b->c;
+  if (!merges && !(event[1] >= 0 && event[1] <= 1)) return true;
+  const int kind = kind_of_event(b->w, b->c, event, &at);
+  const double where = at.y[2 * at.kind.of.points];
+  if (merges && !(where >= 0 && where <= 1)) {
+    b->beyond[0] = where;
+    memcpy(b->beyond + 4, event + 3, (size_t)n * sizeof *event);
+    return true;
+  }
+  b->piece.end = value_at(b->w->way, where), b->piece.end_kind = kind, b->piece.attracts = b->sign[0] && b->sign[1];
+  memcpy(here.y, event + 3, (size_t)n * sizeof *here.y);
+  here.y[n] = event[1], here.y[n + 1] = 0;
+  if (!describe(b->w, &here, &b->piece.point)) b->piece.point.period = kz_kind_period(&b->c->kind);
+  add_piece(b);
+  if (merges) return false;
+  b->sign[event[0] == KZ_EVENT_FOLD ? 0 : 1] ^= true;
+  b->piece = (kz_sweep_piece){.begin = b->piece.end, .begin_kind = kind, .reached = -1, .step = b->piece.step};
+  if (at.kind.of.multiplier < 0 && b->w->max_period > 0) follow_child(b->w, &at, kind, depth);
+  return true;
+}
+
+/* Ends the last piece, between the last two rows: at a value that the branch reaches, or where it is lost. */
+static void finish(branching *b, const double *former, const double *last, bool reaches) {
+  const way *w = b->w->way;
+  const double place = last[0] > 1 ? 1 : 0;
+  cycle there;
+  b->piece.attracts = b->sign[0] && b->sign[1];
+  if (reaches && solve_at(b->w, b->c, former, last, place, &there) && describe(b->w, &there, &b->piece.point))
+    b->piece.reached = place == 1;
+  else if (b->piece.attracts && fabs(1 - last[0]) < STUCK &&
+           !is_damped(b->w, 1)) /* complex multipliers come to the unit circle */
+    b->piece.end = w->to, b->piece.end_kind = KZ_END_NEIMARK_SACKER;
+  else
+    b->piece.end = value_at(w, fmin(fmax(last[0], 0), 1)), b->piece.end_kind = KZ_END_NOT_LOCATED;
+  if (b->piece.reached >= 0 || describe(b->w, b->c, &b->piece.point)) add_piece(b);
 }
 
 /* Follows a cycle along the way, with what branches off, until it leaves the way or ends. `piece`: how it begins. */
@@ -185,53 +236,22 @@ static void follow(const walking *w, const cycle *c, const double along[2], kz_s
   KZ_FREED double *event = kz_malloc(MOST_EVENTS * (size_t)(3 + n) * sizeof *event);
   int64_t events = 0;
   int32_t ending = KZ_TRACE_NO_SEED;
-  cycle at = *c;
-  const int64_t rows = kz_curve_branch(&w->rough, &c->kind.of, c->y, along, 0, LONGEST, &piece.step, MOST_ROWS, row,
+  branching b = {.w = w, .c = c, .piece = piece, .beyond = {NAN}};
+  const int64_t rows = kz_curve_branch(&w->rough, &c->kind.of, c->y, along, 0, LONGEST, &b.piece.step, MOST_ROWS, row,
                                        MOST_EVENTS, event, &events, &ending);
   if (rows == 0) { /* nothing is known beyond its beginning */
-    piece.end = value_at(w->way, c->y[n]), piece.end_kind = KZ_END_NOT_LOCATED;
-    if (piece.from_start) add_piece(w, &piece);
+    b.piece.end = value_at(w->way, c->y[n]), b.piece.end_kind = KZ_END_NOT_LOCATED;
+    if (b.piece.from_start) add_piece(&b);
     return;
   }
-  double beyond[4 + 2 * KZ_CURVE_POINTS] = {NAN};
-  bool sign[2] = {1 + row[3] - row[2] > 0, 1 + row[3] + row[2] > 0}, ended = false;
-  for (int64_t i = 0; i < events; i++) {
-    const double *e = event + i * (3 + n);
-    const bool merges = e[0] > KZ_EVENT_FLIP;
-    if (!merges && !(e[1] >= 0 && e[1] <= 1)) continue;
-    const int kind = kind_of_event(w, c, e, &at);
-    const double where = at.y[2 * at.kind.of.points];
-    if (merges && !(where >= 0 && where <= 1)) { /* beyond the value, which the cycle still reaches */
-      beyond[0] = where;
-      memcpy(beyond + 4, e + 3, (size_t)n * sizeof *beyond);
-      continue;
-    }
-    piece.end = value_at(w->way, at.y[2 * at.kind.of.points]), piece.end_kind = kind, piece.attracts = sign[0] && sign[1];
-    cycle here = *c;
-    memcpy(here.y, e + 3, (size_t)n * sizeof *here.y);
-    here.y[n] = e[1], here.y[n + 1] = 0;
-    if (!describe(w, &here, &piece.point)) piece.point.period = kz_kind_period(&c->kind);
-    add_piece(w, &piece);
-    ended = merges;
-    if (!ended) sign[e[0] == KZ_EVENT_FOLD ? 0 : 1] ^= true;
-    piece = (kz_sweep_piece){.begin = piece.end, .begin_kind = kind, .reached = -1, .step = piece.step};
-    if (!ended && at.kind.of.multiplier < 0 && w->max_period > 0) follow_child(w, &at, kind, depth);
-  }
-  if (ended) return;
-  const bool before = !isnan(beyond[0]); /* it ends beyond the value */
-  const double *last = before ? beyond : row + (rows - 1) * (4 + n), *former = row + (rows - (before ? 1 : 2)) * (4 + n);
-  const double place = last[0] > 1 ? 1 : 0;
-  piece.attracts = sign[0] && sign[1];
-  cycle there;
-  if ((before || (ending == KZ_TRACE_LEFT && rows > 1)) && solve_at(w, c, former, last, place, &there) &&
-      describe(w, &there, &piece.point))
-    piece.reached = place == 1;
-  else if (piece.attracts && fabs(1 - last[0]) < STUCK && !is_damped(w, 1)) /* complex multipliers come to the unit circle */
-    piece.end = w->way->to, piece.end_kind = KZ_END_NEIMARK_SACKER;
+  b.sign[0] = 1 + row[3] - row[2] > 0, b.sign[1] = 1 + row[3] + row[2] > 0;
+  for (int64_t i = 0; i < events; i++)
+    if (!pass(&b, event + i * (3 + n), depth)) return;
+  const double *last = row + (rows - 1) * (4 + n), *former = rows > 1 ? last - (4 + n) : last;
+  if (!isnan(b.beyond[0]))
+    finish(&b, last, b.beyond, true);
   else
-    piece.end = value_at(w->way, fmin(fmax(last[0], 0), 1)), piece.end_kind = KZ_END_NOT_LOCATED;
-  if (piece.reached < 0 && !describe(w, c, &piece.point)) return;
-  add_piece(w, &piece);
+    finish(&b, former, last, ending == KZ_TRACE_LEFT && rows > 1);
 }
 
 void kz_sweep_follow(const kz_path *path, double from, double to, int64_t max_period, const kz_attractor *point, double step,
@@ -286,24 +306,6 @@ double kz_flutter_critical(const kz_path *path, double low, double high) {
   }
 }
 
-/* The direction (unit vector) in which the inverted state leaves by its most negative multiplier; false where it has none. */
-static bool leaving_direction(const kz_pendulum *pendulum, double direction[2]) {
-  kz_numerics fine;
-  double theta = M_PI, velocity = 0, matrix[4];
-  int64_t turns = 0;
-  kz_numerics_fine(pendulum, &fine);
-  kz_flow *flow = kz_flow_create(pendulum, &fine);
-  if (!flow) return false;
-  kz_advance_tangent(flow, 1, 1, &theta, &velocity, &turns, matrix);
-  kz_flow_free(flow);
-  const double half = (matrix[0] + matrix[3]) / 2, root = half * half - exp(-2 * M_PI * pendulum->beta);
-  if (root < 0) return false;
-  const double leaving = half - sqrt(root), length = hypot(matrix[1], leaving - matrix[0]);
-  direction[0] = matrix[1] / length;
-  direction[1] = (leaving - matrix[0]) / length;
-  return leaving < -1 && length > 0;
-}
-
 static bool same_pendulum(const void *context, double value, kz_pendulum *pendulum) {
   (void)value;
   *pendulum = *(const kz_pendulum *)context;
@@ -321,15 +323,4 @@ bool kz_cycle_near(const kz_pendulum *pendulum, const double state[2], double fa
     return false;
   if (!(hypot(c.y[0] - state[0], c.y[1] - state[1]) <= farthest) || !(numbers[1] < 1)) return false;
   return describe(&w, &c, point) && attracts(point);
-}
-
-bool kz_flutter_find(const kz_pendulum *pendulum, kz_attractor *flutter) {
-  double direction[2];
-  if (!leaving_direction(pendulum, direction)) return false;
-  for (double size = 1e-3; size < 1.5; size *= 1.2) {
-    const double guess[2] = {M_PI + size * direction[0], size * direction[1]};
-    *flutter = (kz_attractor){.period = 2, .symmetric = 1};
-    if (kz_cycle_near(pendulum, guess, size / 2, flutter) && flutter->centre == 1) return true;
-  }
-  return false;
 }
