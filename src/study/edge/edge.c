@@ -6,9 +6,9 @@
 #include <math.h>
 #include <string.h>
 
-#include "labelling/catalogue.h"
-#include "labelling/search.h"
 #include "labelling/labeller.h"
+#include "labelling/listed.h"
+#include "labelling/search.h"
 
 /* ---- J. D. Skufca, J. A. Yorke, B. Eckhardt, Phys. Rev. Lett. 96 (2006) 174101: edge tracking ---- */
 
@@ -172,18 +172,12 @@ static void name_of(const edge_job *e, int32_t number, char name[KZ_NAME_LENGTH]
 }
 
 /* The id in the group saddles, -1 = not there. */
-static kz_status saddle_of(const kz_edge *edge, kz_store *store, int64_t *saddle) {
-  int64_t n = 0, phases = 0;
-  *saddle = -1;
-  KZ_TRY(kz_store_length(store, "saddles", "saddle", &n));
-  KZ_TRY(kz_store_length(store, "saddles", "phase", &phases));
-  for (int64_t i = 0; i < n; i++)
-    for (int64_t phase = 0; phase < phases; phase++) {
-      kz_strobe_point point;
-      KZ_TRY(kz_strobe_read(store, "saddles", i, phase, &point));
-      if (hypot(remainder(point.theta - edge->theta[0], 2 * M_PI), point.velocity - edge->velocity[0]) < 1e-8) *saddle = i;
-    }
-  return KZ_OK;
+static int64_t saddle_of(const kz_edge *edge, const kz_listed *saddles) {
+  int64_t saddle = -1;
+  for (int64_t i = 0; i < saddles->count * saddles->phases; i++)
+    if (hypot(remainder(saddles->theta[i] - edge->theta[0], 2 * M_PI), saddles->velocity[i] - edge->velocity[0]) < 1e-8)
+      saddle = i / saddles->phases;
+  return saddle;
 }
 
 static kz_status write_group(const kz_edge *edge, const double *orbit, kz_store *store) {
@@ -208,9 +202,9 @@ static kz_status write_group(const kz_edge *edge, const double *orbit, kz_store 
 }
 
 /* Writes the group edge, and prints the edge state and the attractors on its two sides. */
-static kz_status publish(const edge_job *e, const kz_edge *edge, const double *orbit, kz_store *store, FILE *summary) {
+static kz_status publish(const edge_job *e, const kz_edge *edge, const double *orbit, const kz_listed *saddles, kz_store *store,
+                         FILE *summary) {
   char first[KZ_NAME_LENGTH], second[KZ_NAME_LENGTH], name[KZ_NAME_LENGTH] = "no cycle", full[KZ_NAME_LENGTH + 10] = "";
-  int64_t saddle;
   name_of(e, edge->first_end, first);
   name_of(e, edge->second_end, second);
   if (edge->cycle.period > 0) kz_orbit_name(edge->cycle.period, edge->cycle.winding, edge->cycle.centre, name);
@@ -219,8 +213,7 @@ static kz_status publish(const edge_job *e, const kz_edge *edge, const double *o
   KZ_TRY(kz_store_text(store, "edge", "name", full));
   KZ_TRY(kz_store_text(store, "edge", "first_end", first));
   KZ_TRY(kz_store_text(store, "edge", "second_end", second));
-  KZ_TRY(saddle_of(edge, store, &saddle));
-  KZ_TRY(kz_store_integer(store, "edge", "saddle", saddle));
+  KZ_TRY(kz_store_integer(store, "edge", "saddle", saddle_of(edge, saddles)));
   fprintf(summary, "Edge between %s and %s: ", first, second);
   if (edge->cycle.period > 0)
     fprintf(summary,
@@ -247,5 +240,7 @@ kz_status kz_edge_run(const kz_scene *scene, const kz_run *run, kz_store *store,
   KZ_FREED kz_edge *record = kz_malloc(bytes);
   KZ_TRY(kz_search_window(run, dynamics, &search, NULL));
   KZ_TRY(kz_stage_run(run, &stage, record));
-  return store ? publish(&e, record, (const double *)(record + 1), store, summary) : KZ_OK;
+  KZ_FREED_BY(kz_listed_free) kz_listed saddles;
+  KZ_TRY(kz_listed_read(run, store, "saddles", "saddle", &saddles));
+  return store ? publish(&e, record, (const double *)(record + 1), &saddles, store, summary) : KZ_OK;
 }

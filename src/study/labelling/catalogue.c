@@ -86,12 +86,6 @@ kz_status kz_catalogue_write_motions(const kz_catalogue *catalogue, const char *
   return write_matrices(catalogue, phases, group, store);
 }
 
-kz_status kz_strobe_read(kz_store *store, const char *group, int64_t id, int64_t phase, kz_strobe_point *point) {
-  KZ_TRY(kz_store_number(store, group, "period", &id, &point->period));
-  KZ_TRY(kz_store_number(store, group, "strobe_theta", (int64_t[]){id, phase}, &point->theta));
-  return kz_store_number(store, group, "strobe_velocity", (int64_t[]){id, phase}, &point->velocity);
-}
-
 static kz_status write_columns(const kz_catalogue *catalogue, bool with_fraction, kz_store *store) {
   const char *group = "attractors";
   const kz_entry *e = catalogue->entries;

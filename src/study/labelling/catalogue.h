@@ -22,12 +22,6 @@ kz_status kz_catalogue_write(const kz_catalogue *catalogue, const kz_pendulum *p
 
 /* Writes what the groups of attractors and of saddles have alike: dimensions, kind, name, strobe points and multipliers of each motion. */
 kz_status kz_catalogue_write_motions(const kz_catalogue *catalogue, const char *group, const char *dimension, kz_store *store);
-/* Reads the period of a motion in such a group, 0 = chaotic, and a strobe point (rad, rad per drive radian). */
-typedef struct {
-  double period, theta, velocity;
-} kz_strobe_point;
-kz_status kz_strobe_read(kz_store *store, const char *group, int64_t id, int64_t phase, kz_strobe_point *point);
-
 /* n NaNs; the caller frees them. */
 double *kz_nan_filled(int64_t n);
 

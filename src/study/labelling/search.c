@@ -122,42 +122,37 @@ static kz_status seek(const kz_run *run, seeking *s, double *record) {
 /* Looks for cycles among the first pending starts. */
 static kz_status find_cycles(const kz_run *run, const following *f, double closeness) {
   seeking s = {.dynamics = f->dynamics, .closeness = closeness, .size = kz_dynamics_cycle_size(f->dynamics)};
-  kz_status status = KZ_OK;
-  s.found = kz_calloc(2 * (size_t)s.size, sizeof(double)); /* and behind it a record of the stage */
-  for (int64_t first = 0; status == KZ_OK && first < f->n && first < f->sought; first += CHUNK) {
+  KZ_FREED double *found = s.found = kz_calloc(2 * (size_t)s.size, sizeof(double)); /* and behind it a record of the stage */
+  for (int64_t first = 0; first < f->n && first < f->sought; first += CHUNK) {
     s.n = f->n - first < CHUNK ? f->n - first : CHUNK;
     for (int64_t i = 0; i < s.n; i++) memcpy(s.state + 2 * i, f->state + 2 * f->pending[first + i], 2 * sizeof(double));
-    memset(s.found, 0, (size_t)s.size * sizeof(double));
-    while (status == KZ_OK && (int64_t)s.found[0] < s.n) status = seek(run, &s, s.found + s.size);
+    memset(found, 0, (size_t)s.size * sizeof(double));
+    while ((int64_t)found[0] < s.n) KZ_TRY(seek(run, &s, found + s.size));
   }
-  free(s.found);
-  return status;
+  return KZ_OK;
 }
 
 /* Starts that end on no cycle: attractors with covers are found one by one, a chaotic one from one pending start, a quasi-periodic one among
  * some of them. */
 static kz_status find_covered(const kz_run *run, following *f, int kind) {
   seeking s = {.dynamics = f->dynamics, .kind = kind, .age = f->age, .size = kz_dynamics_chaos_size()};
-  kz_status status = KZ_OK;
-  s.found = kz_calloc(2 * (size_t)s.size, sizeof(double));
-  for (int attempt = 0; attempt < COVER_TRIES && f->n > 0 && status == KZ_OK; attempt++) {
+  KZ_FREED double *found = s.found = kz_calloc(2 * (size_t)s.size, sizeof(double));
+  for (int attempt = 0; attempt < COVER_TRIES && f->n > 0; attempt++) {
     const int64_t known = kz_dynamics_count(f->dynamics);
     s.n = kind == CHAOS ? 1 : f->n < QUASIPERIODIC_STARTS ? f->n : QUASIPERIODIC_STARTS;
     for (int64_t i = 0; i < s.n; i++)
       memcpy(s.state + 2 * i, f->state + 2 * f->pending[kind == CHAOS ? (attempt * 7) % f->n : i * f->n / s.n],
              2 * sizeof(double));
-    memset(s.found, 0, (size_t)s.size * sizeof(double));
-    status = seek(run, &s, s.found + s.size);
-    if (status != KZ_OK) break;
+    memset(found, 0, (size_t)s.size * sizeof(double));
+    KZ_TRY(seek(run, &s, found + s.size));
     if (kz_dynamics_count(f->dynamics) > known) {
       kz_dynamics_update(f->dynamics);
-      status = follow_pending(run, f, COVER_PERIODS);
+      KZ_TRY(follow_pending(run, f, COVER_PERIODS));
     } else if (kind == QUASIPERIODIC) {
       break;
     }
   }
-  free(s.found);
-  return status;
+  return KZ_OK;
 }
 
 static kz_status search_discover(const kz_run *run, following *f, int64_t max_periods) {

@@ -52,40 +52,31 @@ static void free_tasks(work_list *list) {
 }
 
 /* The branches of one cycle join the list. */
-static kz_status add_saddle(const kz_manifolds_plan *plan, int64_t saddle, kz_store *store, work_list *list) {
-  kz_strobe_point point = {.period = 1};
-  for (int64_t phase = 0; phase < (int64_t)point.period; phase++) {
-    KZ_TRY(kz_strobe_read(store, "saddles", saddle, phase, &point));
-    list->tasks = kz_realloc(list->tasks, (size_t)(list->count + 4) * sizeof *list->tasks);
+static void add_saddle(const kz_manifolds_plan *plan, int64_t saddle, const kz_listed *known, work_list *list) {
+  const int32_t period = (int32_t)known->period[saddle];
+  list->tasks = kz_realloc(list->tasks, (size_t)(list->count + 4 * period) * sizeof *list->tasks);
+  for (int64_t phase = 0; phase < period; phase++) {
+    const int64_t at = saddle * known->phases + phase;
     for (int i = 0; i < 4; i++) {
-      const kz_branch branch = {point.theta,    point.velocity, (int32_t)point.period, i / 2,
-                                i % 2 ? -1 : 1, plan->spacing,  plan->length,          plan->max_speed};
+      const kz_branch branch = {known->theta[at], known->velocity[at], period,       i / 2,
+                                i % 2 ? -1 : 1,   plan->spacing,       plan->length, plan->max_speed};
       if (plan->kind == (branch.stable ? KZ_MANIFOLDS_UNSTABLE : KZ_MANIFOLDS_STABLE)) continue;
       list->tasks[list->count++] = (task){.saddle = saddle, .number = 2 * phase + i % 2, .branch = branch};
     }
   }
-  return KZ_OK;
 }
 
-/* The branches that the scene asks for, of the cycles that the study before has written. */
-static kz_status make_tasks(const kz_manifolds_plan *plan, kz_store *store, work_list *list) {
-  int64_t known;
-  KZ_TRY(kz_store_length(store, "saddles", "saddle", &known));
-  const int64_t n = plan->saddles.count > 0 ? plan->saddles.count : known;
+/* The branches that the scene asks for, of the cycles that the study before has written. Collective. */
+static kz_status make_tasks(const kz_manifolds_plan *plan, const kz_run *run, kz_store *store, work_list *list) {
+  KZ_FREED_BY(kz_listed_free) kz_listed known;
+  KZ_TRY(kz_listed_read(run, store, "saddles", "saddle", &known));
+  const int64_t n = plan->saddles.count > 0 ? plan->saddles.count : known.count;
   for (int64_t i = 0; i < n; i++) {
     const int64_t saddle = plan->saddles.count > 0 ? plan->saddles.values[i] : i;
-    KZ_TRY(kz_saddle_check(store, "manifolds.saddles", saddle));
-    KZ_TRY(add_saddle(plan, saddle, store, list));
+    KZ_TRY(kz_ranks_agree(run->ranks, kz_saddle_check(&known, "manifolds.saddles", saddle)));
+    add_saddle(plan, saddle, &known, list);
   }
   return KZ_OK;
-}
-
-/* Sends the list of rank 0 to every rank. Collective. */
-static kz_status share_tasks(const kz_run *run, work_list *list) {
-  KZ_TRY(kz_ranks_broadcast(run->ranks, &list->count, sizeof list->count));
-  const size_t bytes = (size_t)list->count * sizeof *list->tasks;
-  if (kz_rank(run->ranks) != 0) list->tasks = kz_malloc(bytes + 1);
-  return bytes > 0 ? kz_ranks_broadcast(run->ranks, list->tasks, bytes) : KZ_OK;
 }
 
 static kz_status grow(void *context, int64_t tile, void *record) {
@@ -178,8 +169,7 @@ static kz_status write(const kz_scene *scene, const work_list *list, const line 
 
 kz_status kz_manifolds_run(const kz_scene *scene, const kz_run *run, kz_store *store, FILE *summary) {
   KZ_FREED_BY(free_tasks) work_list list = {.pendulum = &scene->parameters.pendulum};
-  KZ_TRY(kz_ranks_agree(run->ranks, store ? make_tasks(scene->manifolds, store, &list) : KZ_OK));
-  KZ_TRY(share_tasks(run, &list));
+  KZ_TRY(make_tasks(scene->manifolds, run, store, &list));
   KZ_FREED line *lines = kz_calloc((size_t)list.count + 1, sizeof *lines);
   kz_status status = list.count > 0 ? grow_all(run, &list, lines) : KZ_OK;
   if (status == KZ_OK && store) status = write(scene, &list, lines, store, summary);

@@ -5,7 +5,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "labelling/catalogue.h"
+#include "labelling/listed.h"
 #include "numerics/step_check.h"
 #include "kapitza/dynamics.h"
 
@@ -101,34 +101,30 @@ kz_cost kz_orbit_cost(const kz_scene *scene) {
   return (kz_cost){.cells = 0, .disk_bytes = 32 * rows + 300 * periods, .rank0_bytes = 80 * samples + 32 * rows};
 }
 
-/* The state and the period of an attractor, as the study before has written it. */
-static kz_status recall(kz_store *store, int64_t id, kz_state *start, int64_t *period) {
-  int64_t count;
-  kz_strobe_point first;
-  KZ_TRY(kz_store_length(store, "attractors", "attractor", &count));
-  if (count == 0)
+/* The state and the period of an attractor that the study before has written. */
+static kz_status recall(const kz_listed *known, int64_t id, kz_cycle *cycle) {
+  if (known->count == 0)
     return kz_fail(KZ_REFUSED,
                    "orbit.attractor: no attractor was found; give orbit.start, add damping, or choose another window");
-  if (id >= count)
+  if (id >= known->count)
     return kz_fail(KZ_REFUSED,
                    "orbit.attractor: %lld is not the id of an attractor; the search found %lld, so choose an id below that",
-                   (long long)id, (long long)count);
-  KZ_TRY(kz_strobe_read(store, "attractors", id, 0, &first));
-  *start = (kz_state){first.theta, first.velocity};
-  *period = (int64_t)first.period;
-  if (first.period > 0) return KZ_OK;
+                   (long long)id, (long long)known->count);
+  cycle->state = (kz_state){known->theta[id * known->phases], known->velocity[id * known->phases]};
+  cycle->period = (int64_t)known->period[id];
+  if (cycle->period > 0) return KZ_OK;
   return kz_fail(KZ_REFUSED, "orbit.attractor: %lld is chaotic and never closes; choose another id, or give a start",
                  (long long)id);
 }
 
-/* Where the motion starts, on every rank; `period` of a listed attractor. Collective. */
+/* Where the motion starts, on every rank; its period if it is a listed attractor. Collective. */
 static kz_status start(kz_orbit *orbit, const kz_run *run, kz_store *store) {
   const kz_orbit_plan *plan = orbit->scene->orbit;
   orbit->cycle = (kz_cycle){.state = {plan->theta, plan->velocity}, .period = given(plan->period, 0)};
-  const bool recalls = plan->attractor >= 0 && kz_rank(run->ranks) == 0;
-  KZ_TRY(
-      kz_ranks_agree(run->ranks, recalls ? recall(store, plan->attractor, &orbit->cycle.state, &orbit->cycle.period) : KZ_OK));
-  return kz_ranks_broadcast(run->ranks, &orbit->cycle, sizeof orbit->cycle);
+  if (plan->attractor < 0) return KZ_OK;
+  KZ_FREED_BY(kz_listed_free) kz_listed known;
+  KZ_TRY(kz_listed_read(run, store, "attractors", "attractor", &known));
+  return kz_ranks_agree(run->ranks, recall(&known, plan->attractor, &orbit->cycle));
 }
 
 typedef struct {

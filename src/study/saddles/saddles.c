@@ -112,12 +112,10 @@ static kz_status write_saddles(const kz_cycle_list *cycles, const kz_index_sums 
   return write_sums(sums, store);
 }
 
-kz_status kz_saddle_check(kz_store *store, const char *keys, int64_t saddle) {
-  int64_t known;
-  KZ_TRY(kz_store_length(store, "saddles", "saddle", &known));
-  if (saddle < known) return KZ_OK;
+kz_status kz_saddle_check(const kz_listed *saddles, const char *keys, int64_t saddle) {
+  if (saddle < saddles->count) return KZ_OK;
   return kz_fail(KZ_REFUSED, "%s: %lld is not among the %lld unstable cycles; choose an id below that", keys, (long long)saddle,
-                 (long long)known);
+                 (long long)saddles->count);
 }
 
 static void print_cycles(const kz_catalogue *unstable, FILE *summary) {

@@ -5,6 +5,7 @@
 #include "kapitza/dynamics.h"
 #include "kapitza/study.h"
 #include "labelling/catalogue.h"
+#include "labelling/listed.h"
 #include "plan.h"
 
 /* Lines of constant angle, or rows of constant velocity; each is cut into `pieces` pieces, and a piece is a tile. */
@@ -39,4 +40,4 @@ kz_status kz_lines_run(const kz_run *run, const kz_lines *lines, const char *nam
 double kz_saddles_expected(const kz_scene *scene);
 
 /* KZ_REFUSED, at the keys "KEY|KEY", if a file has no unstable cycle with this id. */
-kz_status kz_saddle_check(kz_store *store, const char *keys, int64_t saddle);
+kz_status kz_saddle_check(const kz_listed *saddles, const char *keys, int64_t saddle);

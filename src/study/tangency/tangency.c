@@ -29,19 +29,6 @@ kz_status kz_tangency_check(const kz_scene *scene) {
   return kz_fail(KZ_REFUSED, "tangency.parameter: changes how cells are released, not the manifolds; name another key");
 }
 
-/* A cycle of the group saddles; NULL store: nothing. */
-static kz_status read_hinge(kz_store *store, int64_t saddle, kz_hinge *hinge) {
-  KZ_TRY(kz_saddle_check(store, "tangency.saddle|saddles", saddle));
-  kz_strobe_point point = {.period = 1};
-  for (int64_t i = 0; i < (int64_t)point.period; i++) {
-    KZ_TRY(kz_strobe_read(store, "saddles", saddle, i, &point));
-    hinge->theta[i] = point.theta;
-    hinge->velocity[i] = point.velocity;
-  }
-  hinge->period = (int32_t)point.period;
-  return KZ_OK;
-}
-
 static kz_status find(void *context, int64_t tile, void *out) {
   work *w = context;
   record *r = out;
@@ -92,14 +79,23 @@ static kz_status write(work *w, const record *r, kz_store *store, FILE *summary)
   return status;
 }
 
+/* A cycle of the group saddles. */
+static kz_status hinge_of(const kz_listed *saddles, int64_t saddle, kz_hinge *hinge) {
+  KZ_TRY(kz_saddle_check(saddles, "tangency.saddle|saddles", saddle));
+  hinge->period = (int32_t)saddles->period[saddle];
+  for (int32_t i = 0; i < hinge->period; i++) {
+    hinge->theta[i] = saddles->theta[saddle * saddles->phases + i];
+    hinge->velocity[i] = saddles->velocity[saddle * saddles->phases + i];
+  }
+  return KZ_OK;
+}
+
 /* Both cycles, on every rank. Collective. */
 static kz_status read_hinges(const kz_run *run, kz_store *store, work *w) {
-  kz_hinge *const hinge[] = {&w->search.from, &w->search.into};
-  kz_status status = KZ_OK;
-  for (int i = 0; store && status == KZ_OK && i < 2; i++) status = read_hinge(store, w->saddle[i], hinge[i]);
-  KZ_TRY(kz_ranks_agree(run->ranks, status));
-  for (int i = 0; i < 2; i++) KZ_TRY(kz_ranks_broadcast(run->ranks, hinge[i], sizeof *hinge[i]));
-  return KZ_OK;
+  KZ_FREED_BY(kz_listed_free) kz_listed saddles;
+  KZ_TRY(kz_listed_read(run, store, "saddles", "saddle", &saddles));
+  KZ_TRY(kz_ranks_agree(run->ranks, hinge_of(&saddles, w->saddle[0], &w->search.from)));
+  return kz_ranks_agree(run->ranks, hinge_of(&saddles, w->saddle[1], &w->search.into));
 }
 
 kz_status kz_tangency_run(const kz_scene *scene, const kz_run *run, kz_store *store, FILE *summary) {

@@ -7,8 +7,8 @@
 
 #include "labelling/search.h"
 #include "saddles/saddles.h"
-#include "labelling/catalogue.h"
 #include "labelling/labeller.h"
+#include "labelling/listed.h"
 
 /* ---- where the points of a branch of an unstable manifold end ---- */
 
@@ -66,45 +66,31 @@ static kz_status find_basins(const kz_wada_job *job, const kz_branch *branch, kz
 /* rad: strobe points of one attractor agree so well; and exponents of one chaotic attractor. */
 static const double SAME = 1e-6;
 
-/* A row of the file. */
-typedef struct {
-  kz_strobe_point first; /* its point is NaN of a chaotic one */
-  double lyapunov, mirror;
-} listed;
-
-static kz_status read_list(kz_store *store, int64_t n, listed *list) {
-  for (int64_t i = 0; i < n; i++) {
-    KZ_TRY(kz_strobe_read(store, "attractors", i, 0, &list[i].first));
-    KZ_TRY(kz_store_number(store, "attractors", "lyapunov", &i, &list[i].lyapunov));
-    KZ_TRY(kz_store_number(store, "attractors", "mirror", &i, &list[i].mirror));
-  }
-  return KZ_OK;
-}
-
-/* Whether attractor `number` is the one of this row. */
-static bool is_listed(const kz_dynamics *dynamics, int64_t number, const listed *row) {
+/* Whether attractor `number` is this row of the file. */
+static bool is_listed(const kz_dynamics *dynamics, int64_t number, const kz_listed *list, int64_t row) {
   kz_attractor attractor;
   kz_dynamics_attractor(dynamics, number, &attractor);
-  if (attractor.period != (int32_t)row->first.period) return false;
-  if (attractor.period == 0) return fabs(attractor.lyapunov - row->lyapunov) < SAME;
+  if (attractor.period != (int32_t)list->period[row]) return false;
+  if (attractor.period == 0) return fabs(attractor.lyapunov - list->lyapunov[row]) < SAME;
   const size_t period = (size_t)attractor.period;
+  const double first[] = {list->theta[row * list->phases], list->velocity[row * list->phases]};
   KZ_FREED double *theta = kz_malloc(period * sizeof *theta), *velocity = kz_malloc(period * sizeof *velocity);
   kz_dynamics_strobe(dynamics, number, theta, velocity);
   for (size_t i = 0; i < period; i++)
-    if (hypot(remainder(theta[i] - row->first.theta, 2 * M_PI), velocity[i] - row->first.velocity) < SAME) return true;
+    if (hypot(remainder(theta[i] - first[0], 2 * M_PI), velocity[i] - first[1]) < SAME) return true;
   return false;
 }
 
 /* Both lists have one order, which tells chaotic mirror images apart. */
-static void set_ids(const kz_dynamics *dynamics, const listed *list, kz_file_attractors *attractors) {
+static void set_ids(const kz_dynamics *dynamics, const kz_listed *list, kz_file_attractors *attractors) {
   const int64_t n = kz_dynamics_count(dynamics);
   KZ_FREED int64_t *order = kz_malloc((size_t)(n + 1) * sizeof *order);
   kz_dynamics_order(dynamics, order);
   for (int64_t i = 0; i <= n; i++) attractors->id[i] = -1;
   for (int64_t row = 0; row < attractors->count; row++) {
     int64_t i = 0;
-    attractors->mirror[row] = (int32_t)list[row].mirror;
-    while (i < n && (attractors->id[order[i]] >= 0 || !is_listed(dynamics, order[i], list + row))) i++;
+    attractors->mirror[row] = (int32_t)list->mirror[row];
+    while (i < n && (attractors->id[order[i]] >= 0 || !is_listed(dynamics, order[i], list, row))) i++;
     if (i < n) attractors->id[order[i]] = (int32_t)row;
   }
 }
@@ -112,19 +98,14 @@ static void set_ids(const kz_dynamics *dynamics, const listed *list, kz_file_att
 /* Gives every attractor of `dynamics` its id in the group attractors of the file; cycles of the file that it lacks join it. Collective; store NULL on
  * all ranks but rank 0. */
 static kz_status match_attractors(const kz_run *run, kz_store *store, kz_dynamics *dynamics, kz_file_attractors *attractors) {
-  int64_t n = 0;
-  KZ_TRY(kz_ranks_agree(run->ranks, store ? kz_store_length(store, "attractors", "attractor", &n) : KZ_OK));
-  KZ_TRY(kz_ranks_broadcast(run->ranks, &n, sizeof n));
-  KZ_FREED listed *list = kz_calloc((size_t)n + 1, sizeof *list);
-  KZ_TRY(kz_ranks_agree(run->ranks, store ? read_list(store, n, list) : KZ_OK));
-  KZ_TRY(kz_ranks_broadcast(run->ranks, list, ((size_t)n + 1) * sizeof *list));
+  KZ_FREED_BY(kz_listed_free) kz_listed list;
+  KZ_TRY(kz_listed_read(run, store, "attractors", "attractor", &list));
   const int64_t known = kz_dynamics_count(dynamics);
-  for (int64_t i = 0; i < n; i++)
-    if (list[i].first.period > 0)
-      kz_dynamics_add_cycle(dynamics, (int64_t)list[i].first.period, list[i].first.theta, list[i].first.velocity);
+  for (int64_t i = 0, at = 0; i < list.count; i++, at += list.phases)
+    if (list.period[i] > 0) kz_dynamics_add_cycle(dynamics, (int64_t)list.period[i], list.theta[at], list.velocity[at]);
   if (kz_dynamics_count(dynamics) > known) kz_dynamics_update(dynamics);
-  attractors->count = n;
-  set_ids(dynamics, list, attractors);
+  attractors->count = list.count;
+  set_ids(dynamics, &list, attractors);
   return KZ_OK;
 }
 
@@ -149,29 +130,23 @@ kz_cost kz_wada_cost(const kz_scene *scene) {
                    .rank0_bytes = SIDES * saddles * record};
 }
 
-/* The cycles that the study before has written, on every rank. Collective. */
+/* The cycles that the study before has written. Collective. */
 static kz_status read_saddles(const kz_wada_plan *plan, const kz_run *run, kz_store *store, work *w) {
-  KZ_TRY(kz_ranks_agree(run->ranks, store ? kz_store_length(store, "saddles", "saddle", &w->n_saddles) : KZ_OK));
-  KZ_TRY(kz_ranks_broadcast(run->ranks, &w->n_saddles, sizeof w->n_saddles));
-  w->branch = kz_calloc((size_t)w->n_saddles + 1, sizeof *w->branch);
-  w->twin = kz_calloc((size_t)w->n_saddles + 1, sizeof *w->twin);
-  kz_status status = KZ_OK;
-  for (int64_t i = 0; store && status == KZ_OK && i < w->n_saddles; i++) {
-    double mirror = 0;
-    kz_strobe_point at;
-    status = kz_strobe_read(store, "saddles", i, 0, &at);
-    w->branch[i] = (kz_branch){.theta = at.theta,
-                               .velocity = at.velocity,
-                               .period = (int32_t)at.period,
+  KZ_FREED_BY(kz_listed_free) kz_listed list;
+  KZ_TRY(kz_listed_read(run, store, "saddles", "saddle", &list));
+  w->n_saddles = list.count;
+  w->branch = kz_calloc((size_t)list.count + 1, sizeof *w->branch);
+  w->twin = kz_calloc((size_t)list.count + 1, sizeof *w->twin);
+  for (int64_t i = 0; i < list.count; i++) {
+    w->branch[i] = (kz_branch){.theta = list.theta[i * list.phases],
+                               .velocity = list.velocity[i * list.phases],
+                               .period = (int32_t)list.period[i],
                                .spacing = plan->spacing,
                                .length = plan->length,
                                .fastest = plan->max_speed};
-    if (status == KZ_OK) status = kz_store_number(store, "saddles", "mirror", &i, &mirror);
-    w->twin[i] = mirror >= 0 && mirror < (double)i ? (int64_t)mirror : i;
+    w->twin[i] = list.mirror[i] >= 0 && list.mirror[i] < (double)i ? (int64_t)list.mirror[i] : i;
   }
-  KZ_TRY(kz_ranks_agree(run->ranks, status));
-  KZ_TRY(kz_ranks_broadcast(run->ranks, w->twin, (size_t)(w->n_saddles + 1) * sizeof *w->twin));
-  return kz_ranks_broadcast(run->ranks, w->branch, (size_t)(w->n_saddles + 1) * sizeof *w->branch);
+  return KZ_OK;
 }
 
 /* Mirror images of others are left to reflect_branches. */

@@ -1,0 +1,17 @@
+/* The motions that an earlier study has written to the group attractors or saddles of the file, read back on every rank. */
+#pragma once
+
+#include "kapitza/parallel.h"
+#include "kapitza/store.h"
+
+typedef struct {
+  int64_t count, phases;
+  double *period;           /* [count] 0 = chaotic; this array is the block that holds all of them */
+  double *mirror;           /* [count] id of the mirror image, -1 = there is none */
+  double *theta, *velocity; /* [count][phases] strobe points, rad and rad per drive radian; NaN beyond the period */
+  double *lyapunov;         /* [count], of attractors only */
+} kz_listed;
+
+/* Reads them; `dimension` of the group: attractor or saddle. store NULL on all ranks but rank 0. Collective. kz_listed_free in every case. */
+kz_status kz_listed_read(const kz_run *run, kz_store *store, const char *group, const char *dimension, kz_listed *motions);
+void kz_listed_free(kz_listed *motions);
