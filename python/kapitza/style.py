@@ -11,15 +11,17 @@ from contextlib import contextmanager
 from contextvars import ContextVar
 from fractions import Fraction
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import matplotlib as mpl
 import numpy as np
 import xarray
 from matplotlib.colors import to_hex, to_rgb
-from matplotlib.figure import Figure
 
 from kapitza import units
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
 
 FONT_SIZE = 9.0  # points
 UNSETTLED = "#ffffff"
@@ -135,13 +137,11 @@ def motion_colour(period: int, winding: int, centre: int) -> str:
 
 def _colour(index: int, period: int, winding: int, centre: int, mirror: int) -> str:
     name = kind(period, winding, centre)
-    lighter = 0.0
     if name.startswith("rotation"):
-        lighter = _rotation_shade(period, winding)
-    elif name in ("down nodding", "inverted nodding"):
-        lighter = 0.55 * (1 - 2 / period) if period > 1 else 0.6
-    if not name.startswith("rotation") and _is_second(index, mirror):
-        return shade(kind_colour(name), lighter - 0.3)
+        return shade(kind_colour(name), _rotation_shade(period, winding))
+    lighter = -0.3 if _is_second(index, mirror) else 0.0
+    if name in ("down nodding", "inverted nodding"):
+        lighter += 0.55 * (1 - 2 / period) if period > 1 else 0.6
     return shade(kind_colour(name), lighter)
 
 
@@ -240,7 +240,7 @@ def using(font_size: float = FONT_SIZE, colours: Mapping[str, str] | None = None
         _chosen.reset(token)
 
 
-def save(figure: Figure, output: Path, dpi: float) -> None:
+def save(figure: "Figure", output: Path, dpi: float) -> None:
     """Writes the picture and prints its name. The same figure gives the same bytes: no clock goes into it."""
     clock = {".svg": {"Date": None}, ".pdf": {"CreationDate": None}}.get(Path(output).suffix.lower(), {})
     with warnings.catch_warnings():

@@ -3,8 +3,7 @@
 import numpy as np
 
 from kapitza import style
-from kapitza.plots.atlas_classes import centre_of
-from kapitza.plots.atlas_labels import motion_text
+from kapitza.plots.atlas_classes import centre_of, motion_text
 from kapitza.reading import arrays_of
 
 from .kept import CALM

@@ -3,7 +3,7 @@
 import pandas
 
 from kapitza import style
-from kapitza.plots.atlas_labels import motion_text
+from kapitza.plots.atlas_classes import motion_text
 
 CENTRES = {"down": 0, "inverted": 1, "rotating": 2, "neither": 3}
 

@@ -21,9 +21,9 @@ from matplotlib.lines import Line2D
 from matplotlib.ticker import FixedLocator, FuncFormatter, NullLocator
 
 from kapitza import style
-from kapitza.plots.atlas_classes import BREAKING, DOUBLING, FOLD, LEANS, SWINGS, belongs, centre_of, gives_birth
+from kapitza.plots.atlas_classes import BREAKING, DOUBLING, FOLD, LEANS, SWINGS, belongs, centre_of, gives_birth, motion_text
 from kapitza.plots.atlas_curves import BOLD_UP_TO, DASHES, FAINT, LONGER, PERIODS, curve_points, is_bold, mark_curves
-from kapitza.plots.atlas_labels import POINTS, label_regions, mark_points, motion_text
+from kapitza.plots.atlas_labels import POINTS, label_regions, mark_points
 from kapitza.plots.atlas_labels import region_text as region_text
 from kapitza.plots.atlas_line import draw_line
 from kapitza.plots.common import argument_parser, entitle, new_figure, parsed, write_picture

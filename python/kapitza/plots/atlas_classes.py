@@ -7,6 +7,19 @@ from kapitza import style
 FOLD, DOUBLING, BREAKING, SWINGS, LEANS = range(5)  # codes of curve_kind
 
 
+def motion_text(name: str) -> str:
+    """What a class of attractors is called in a picture."""
+    words = {"down": "hanging rest", "inverted": "upright rest", "down 2-nodding": "nodding in 2"}
+    if name in words:
+        return words[name]
+    if name.startswith("rotation"):
+        return name.replace("rotation", "rotations")
+    for kind, text in (("asymmetric ", "lopsided nodding"), ("down ", "nodding"), ("inverted ", "flutter"), ("", "motion")):
+        if name.startswith(kind) and name.endswith("-nodding"):
+            return f"{text} in {name.removeprefix(kind).removesuffix('-nodding')}"
+    return name
+
+
 def centre_of(class_name: object) -> int:
     """The centre of a class, by its name."""
     name = style.name_text(class_name)

@@ -12,6 +12,7 @@ from matplotlib.text import Text
 from matplotlib.transforms import Bbox
 
 from kapitza import style
+from kapitza.plots.atlas_classes import motion_text
 from kapitza.reading import BadFile
 
 POINTS = 7  # zorder of points from a file
@@ -19,19 +20,6 @@ LABELLED = 0.004  # share of the plane from which on a region has a label, if it
 NARROW, GAP = 16, (0.8, 0.4)  # letters a line of a label that finds no room as one line; letters' heights that are left free about a label
 AGAIN, FARTHEST = 0.3, 0.25  # widths of the map: a label is not repeated nearer than this, and lies no farther from its region's place
 TRIED = 40  # places where a label has room: beyond a thin band another one may be the region below
-
-
-def motion_text(name: str) -> str:
-    """What a class of attractors is called in a picture."""
-    words = {"down": "hanging rest", "inverted": "upright rest", "down 2-nodding": "nodding in 2"}
-    if name in words:
-        return words[name]
-    if name.startswith("rotation"):
-        return name.replace("rotation", "rotations")
-    for kind, text in (("asymmetric ", "lopsided nodding"), ("down ", "nodding"), ("inverted ", "flutter"), ("", "motion")):
-        if name.startswith(kind) and name.endswith("-nodding"):
-            return f"{text} in {name.removeprefix(kind).removesuffix('-nodding')}"
-    return name
 
 
 def mark_points(axes: Axes, path: str) -> list[Line2D]:

@@ -8,7 +8,7 @@ from matplotlib.axes import Axes
 from matplotlib.lines import Line2D
 
 from kapitza import style
-from kapitza.plots.atlas_labels import motion_text
+from kapitza.plots.atlas_classes import motion_text
 
 CENTRES = {"down": 0, "inverted": 1, "rotating": 2, "neither": 3}
 
