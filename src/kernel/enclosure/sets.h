@@ -6,7 +6,7 @@
 #include <stddef.h>
 
 #include "kapitza/kernel.h"
-#include "taylor/pairs_arithmetic.h"
+#include "vector/pairs_arithmetic.h"
 
 /* Orders of the Taylor polynomials: of the centre in doubles; in pairs or triples; of the tangent map with new frames, where its remainder is
  * small compared with the set; of the tangent map with a kept frame. KZ_PARTS vectors are advanced together, so that the processor has

@@ -1,6 +1,6 @@
 /* One drive period of the processed splitting in pairs of doubles: its stages, and its processor, a displacement that is small, so once a period
  * is enough. pairs_level.f90 makes the tables. */
-#include "pairs_arithmetic.h"
+#include "vector/pairs_arithmetic.h"
 
 /* Angles (half-turns) and velocities (rad per drive radian), each high + low. */
 typedef struct {

@@ -4,6 +4,7 @@ module kz_taylor_pairs_level
   use, intrinsic :: iso_fortran_env, only: real128
   use kz_vector_map, only: WIDTH
   use kz_processed_tables_r128, only: series_t, processed_t, processor_t, make_processed, MOST_PAIR_DRIFTS, ORDER
+  use kz_processed_pair_products, only: pair_of
   use kz_model_pendulum, only: pendulum_t
   implicit none
   private
@@ -82,15 +83,6 @@ module kz_taylor_pairs_level
   end interface
 
 contains
-
-  !> The sum of two doubles, high and low, that is nearest to a number.
-  pure function pair_of(x) result(pair)
-    real(qp), intent(in) :: x !< a number
-    real(c_double) :: pair(2)
-
-    pair(1) = real(x, c_double)
-    pair(2) = real(x - pair(1), c_double)
-  end function pair_of
 
   !> The number of a pair.
   pure real(qp) function quad_of(pair) result(x)

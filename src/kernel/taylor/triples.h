@@ -3,7 +3,7 @@
  * with its own size, and its error is a multiple of u^3 times that size: (B2) of docs/explanation/bounds.md. */
 #pragma once
 
-#include "pairs_arithmetic.h"
+#include "vector/pairs_arithmetic.h"
 
 typedef struct {
   vector part[3];

@@ -4,7 +4,7 @@
 
 #include "../../tools/part.h"
 #include "kapitza/kernel.h"
-#include "taylor/pairs_arithmetic.h"
+#include "vector/pairs_arithmetic.h"
 
 #include <float.h>
 #include <stdbool.h>

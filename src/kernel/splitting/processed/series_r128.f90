@@ -1,6 +1,7 @@
 !> The series of the processed splitting in quad precision: the grades that need more than double precision.
 module kz_processed_series_r128
   use, intrinsic :: iso_fortran_env, only: rk => real128
+  use kz_processed_pair_products, only: matrix_t => right_factor_t, set_matrix => set_right_factor, pair_product
   use kz_model_pendulum, only: pendulum_t, sine_force, highest_harmonic
   implicit none
   private
@@ -8,6 +9,36 @@ module kz_processed_series_r128
 
   integer, parameter :: ORDER = 8, HIGHEST = 14
 
+  !> Of quads by pairs of doubles.
+  interface matmul
+    procedure product_of
+  end interface matmul
+
   include 'series.inc'
+
+  pure function product_of(left, right) result(product)
+    real(rk), intent(in) :: left(:, :), right(:, :)
+    real(rk) :: product(size(left, 1), size(right, 2))
+    type(matrix_t) :: factor
+
+    call set_matrix(right, factor)
+    product = pair_product(left, factor)
+  end function product_of
+
+  pure subroutine multiply(n, n_columns, matrix, columns, product)
+    integer, intent(in) :: n, n_columns
+    real(rk), intent(in) :: matrix(n, n), columns(n, n_columns)
+    real(rk), intent(out) :: product(n, n_columns)
+
+    product = matmul(matrix, columns)
+  end subroutine multiply
+
+  subroutine add_time_derivative(grid, value, factor, total)
+    type(grid_t), intent(in) :: grid
+    real(rk), intent(in) :: value(grid%n_theta, grid%n_time), factor
+    real(rk), intent(inout) :: total(grid%n_theta, grid%n_time)
+
+    total = total + factor*pair_product(value, grid%time_derivative)
+  end subroutine add_time_derivative
 
 end module kz_processed_series_r128

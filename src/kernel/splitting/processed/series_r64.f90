@@ -8,6 +8,65 @@ module kz_processed_series_r64
 
   integer, parameter :: ORDER = 14, HIGHEST = ORDER
 
+  !> A matrix of the grid.
+  type :: matrix_t
+    real(rk), allocatable :: entry(:, :)
+  end type matrix_t
+
   include 'series.inc'
+
+  pure subroutine set_matrix(entry, matrix)
+    real(rk), intent(in) :: entry(:, :)
+    type(matrix_t), intent(out) :: matrix
+
+    matrix%entry = entry
+  end subroutine set_matrix
+
+  !> product = matrix*columns: the library's matmul is slow for matrices of this size.
+  pure subroutine multiply(n, n_columns, matrix, columns, product)
+    integer, intent(in) :: n, n_columns
+    real(rk), intent(in) :: matrix(n, n), columns(n, n_columns)
+    real(rk), intent(out) :: product(n, n_columns)
+    integer :: i
+
+    product = 0
+    do i = 1, n_columns
+      call add_columns(n, n, matrix, columns(:, i), product(:, i))
+    end do
+  end subroutine multiply
+
+  !> total += columns*factors. The sizes of both kinds of grid are known to the compiler: then the sum stays in registers.
+  pure subroutine add_columns(n, n_columns, columns, factors, total)
+    integer, intent(in) :: n, n_columns
+    real(rk), intent(in) :: columns(n, n_columns), factors(n_columns)
+    real(rk), intent(inout) :: total(n)
+    real(rk) :: half(HARMONICS + 1), whole(2*HARMONICS + 1)
+    integer :: j
+
+    if (n == size(half)) then
+      half = total
+      do j = 1, n_columns
+        half = half + columns(:size(half), j)*factors(j)
+      end do
+      total = half
+    else
+      whole = total
+      do j = 1, n_columns
+        whole = whole + columns(:size(whole), j)*factors(j)
+      end do
+      total = whole
+    end if
+  end subroutine add_columns
+
+  subroutine add_time_derivative(grid, value, factor, total)
+    type(grid_t), intent(in) :: grid
+    real(rk), intent(in) :: value(grid%n_theta, grid%n_time), factor
+    real(rk), intent(inout) :: total(grid%n_theta, grid%n_time)
+    integer :: i
+
+    do i = 1, grid%n_time
+      call add_columns(grid%n_theta, grid%n_time, value, factor*grid%time_derivative%entry(:, i), total(:, i))
+    end do
+  end subroutine add_time_derivative
 
 end module kz_processed_series_r64

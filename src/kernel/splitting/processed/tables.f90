@@ -29,10 +29,60 @@ module kz_processed_tables
     integer :: n_nodes = 0
   end type kept_series_t
 
-  !> Kicks sum their grades for each step anew.
-  logical, parameter :: SUMS_GRADES = .false.
-
   include 'tables.inc'
+
+  subroutine set_kicks(pendulum, series, table)
+    type(pendulum_t), intent(in) :: pendulum
+    type(series_t), intent(in) :: series
+    type(processed_t), intent(inout) :: table
+    real(rk) :: h, scale, sines(HARMONICS, table%n_kick), cosines(0:HARMONICS, table%n_kick), of_sines(0:HARMONICS), &
+                of_cosines(0:HARMONICS)
+    integer :: s, n
+
+    h = 2*PI/table%n_steps
+    n = table%n_drift + table%n_kick
+    sines = real(sine_polynomials(table%n_kick), rk)
+    if (.not. table%mirrored) cosines = real(cosine_polynomials(table%n_kick), rk)
+    do s = 1, table%n_steps
+      scale = exp(real(pendulum%beta, rk)*((s - 0.5_rk)*h))
+      call kick_harmonics(series, h, (s - 0.5_rk)*h, of_sines, of_cosines)
+      table%row(table%n_drift + 1:n, s) = scale*matmul(of_sines(1:), sines)
+      if (.not. table%mirrored) table%row(n + table%n_drift + 1:, s) = scale*matmul(of_cosines, cosines)
+    end do
+  end subroutine set_kicks
+
+  !> What a kick at a time takes from the velocity: sum over j of `of_sines` sin(j theta) + `of_cosines` cos(j theta).
+  pure subroutine kick_harmonics(series, h, time, of_sines, of_cosines)
+    type(series_t), intent(in) :: series
+    real(rk), intent(in) :: h, time
+    real(rk), intent(out) :: of_sines(0:HARMONICS), of_cosines(0:HARMONICS)
+    real(rk) :: cosine(0:series%times), sine(0:series%times), amplitude(2)
+    integer :: q, j, l, top, trig
+
+    cosine(0) = 1
+    sine(0) = 0
+    cosine(1) = cos(time)
+    sine(1) = sin(time)
+    do l = 2, series%times
+      cosine(l) = cosine(l - 1)*cosine(1) - sine(l - 1)*sine(1)
+      sine(l) = sine(l - 1)*cosine(1) + cosine(l - 1)*sine(1)
+    end do
+    of_sines = 0
+    of_cosines = 0
+    do q = 2, ORDER, 2
+      top = q/2*(series%times/HARMONICS)
+      do j = 1, q/2
+        amplitude = 0
+        do trig = 1, merge(1, 2, series%mirrored)
+          amplitude(trig) = dot_product(cosine(:top), series%kick(:top, j, q, trig, 1)) + &
+                            dot_product(sine(:top), series%kick(:top, j, q, trig, 2))
+        end do
+        of_sines(j) = of_sines(j) - h**(q - 1)*j*amplitude(1)
+        of_cosines(j) = of_cosines(j) + h**(q - 1)*j*amplitude(2)
+      end do
+      of_cosines(0) = of_cosines(0) + h**(q - 1)*series%slope(q)
+    end do
+  end subroutine kick_harmonics
 
   !> The series of a pendulum, right to 1e-15 of the force itself.
   subroutine make_processed_series(pendulum, kept, series)

@@ -3,6 +3,7 @@ module kz_processed_tables_r128
   use, intrinsic :: iso_c_binding, only: c_double, c_ptr
   use, intrinsic :: iso_fortran_env, only: rk => real128
   use kz_model_pendulum, only: pendulum_t, exact_stiffness
+  use kz_processed_pair_products, only: right_factor_t, right_factor, set_right_factor, pair_product, pair_of
   use kz_processed_harmonics, only: sine_polynomials, cosine_polynomials
   use kz_processed_tables, only: series_r64_t => series_t, make_processed_series, ORDER, HARMONICS
   use kz_processed_series_r128, only: series_t, make_series, EXACT => ORDER
@@ -13,10 +14,78 @@ module kz_processed_tables_r128
   !> Powers of the velocity in a drift (1, 3, 5, ..) and coefficients of a kick that are of use in pairs of doubles.
   integer, parameter, public :: MOST_PAIR_DRIFTS = ORDER/2 - 1, MOST_PAIR_KICKS = 22
 
-  !> Kicks sum their grades once for all steps: a product of quads takes long, and another order of the sums changes rounding alone.
-  logical, parameter :: SUMS_GRADES = .true.
-
   include 'tables.inc'
+
+  !> Kicks of all steps at once, as products of matrices: what multiplies cosines and sines of time, these, and the polynomials.
+  subroutine set_kicks(pendulum, series, table)
+    type(pendulum_t), intent(in) :: pendulum
+    type(series_t), intent(in) :: series
+    type(processed_t), intent(inout) :: table
+    real(rk) :: h, scale(table%n_steps), polynomial(0:HARMONICS, table%n_kick)
+    type(right_factor_t) :: clock
+    integer :: s, n
+
+    h = 2*PI/table%n_steps
+    n = table%n_drift + table%n_kick
+    scale = [(exp(real(pendulum%beta, rk)*((s - 0.5_rk)*h)), s=1, table%n_steps)]
+    call make_clock(series%times, table%n_steps, clock)
+    polynomial(0, :) = 0
+    polynomial(1:, :) = real(sine_polynomials(table%n_kick), rk)
+    table%row(table%n_drift + 1:n, :) = kicks(-1, 1)
+    if (table%mirrored) return
+    polynomial = real(cosine_polynomials(table%n_kick), rk)
+    table%row(n + table%n_drift + 1:, :) = kicks(1, 2)
+  contains
+    function kicks(sign, trig) result(row)
+      integer, intent(in) :: sign, trig
+      real(rk) :: row(table%n_kick, table%n_steps), amplitude(0:HARMONICS, table%n_steps)
+      type(right_factor_t) :: factor
+
+      amplitude = pair_product(kick_amplitudes(series, h, sign, trig), clock)
+      call set_right_factor(amplitude*spread(scale, 1, HARMONICS + 1), factor)
+      row = pair_product(transpose(polynomial), factor)
+    end function kicks
+  end subroutine set_kicks
+
+  !> What cosines and then sines of 0, t, 2 t, .. give to the harmonics of a kick of a step h, all grades together.
+  pure function kick_amplitudes(series, h, sign, trig) result(amplitude)
+    type(series_t), intent(in) :: series
+    real(rk), intent(in) :: h
+    integer, intent(in) :: sign, trig !< of the derivative by theta of the trigonometric function, and which it is
+    real(rk) :: amplitude(0:HARMONICS, 2*(series%times + 1))
+    integer :: q, j
+
+    amplitude = 0
+    do q = 2, ORDER, 2
+      if (trig == 2) amplitude(0, 1) = amplitude(0, 1) + h**(q - 1)*series%slope(q)
+      do j = 1, q/2
+        amplitude(j, :) = amplitude(j, :) + (sign*j*h**(q - 1))*reshape(series%kick(:, j, q, trig, :), [2*(series%times + 1)])
+      end do
+    end do
+  end function kick_amplitudes
+
+  !> Cosines, and then sines, of 0, t, 2 t, .. in the middles of all steps: of multiples of pi/n_steps.
+  pure subroutine make_clock(times, n_steps, clock)
+    integer, intent(in) :: times, n_steps
+    type(right_factor_t), intent(out) :: clock
+    real(c_double) :: cosine(2, 0:2*n_steps - 1), sine(2, 0:2*n_steps - 1)
+    integer :: i, l, s
+
+    do i = 0, n_steps - 1
+      cosine(:, i) = pair_of(cos(i*PI/n_steps))
+      sine(:, i) = pair_of(sin(i*PI/n_steps))
+    end do
+    cosine(:, n_steps:) = -cosine(:, :n_steps - 1)
+    sine(:, n_steps:) = -sine(:, :n_steps - 1)
+    call right_factor(2*(times + 1), n_steps, clock)
+    do l = 0, times
+      do s = 1, n_steps
+        i = modulo(l*(2*s - 1), 2*n_steps)
+        clock%row(s, :, l + 1) = cosine(:, i)
+        clock%row(s, :, times + l + 2) = sine(:, i)
+      end do
+    end do
+  end subroutine make_clock
 
   !> The series of a pendulum: its first grades in quad precision, those beyond in double, right to 1e-15 of the force itself. Grade q of a
   !> step h counts h**q, so little precision is enough for high ones.
