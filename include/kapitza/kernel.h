@@ -10,7 +10,8 @@
 #include "kapitza/model.h"
 
 /* Series of the processed splitting, kept because they take long to make: they serve the same pendulum again, a pendulum beside it, and any number of
- * steps. The caller owns the object and frees it after everything that was made with it; threads may share it. */
+ * steps. Beside them the errors of a period that were measured last are kept (kz_step_errors). The caller owns the object and frees it after
+ * everything that was made with it; threads may share it. */
 typedef struct kz_kept_series kz_kept_series;
 kz_kept_series *kz_kept_series_create(void);
 void kz_kept_series_free(kz_kept_series *series);

@@ -7,6 +7,7 @@ module kz_maps_step_error
   use kz_kernel_flows, only: make_flow
   use kz_model_pendulum, only: pendulum_t, stiffness, is_mirrored
   use kz_vector_step_table, only: numerics_t
+  use kz_processed_tables, only: recall_errors, keep_errors
   use kz_maps_states, only: separation
   implicit none
   private
@@ -35,6 +36,7 @@ contains
     integer(c_int64_t) :: c
     integer :: first
 
+    if (recall_errors(numerics%series, key_of(pendulum, numerics, speed), error)) return
     halved = numerics_t(numerics%scheme, 2*numerics%steps_per_period, fastest=numerics%fastest, series=numerics%series) ! all terms
     call make_flow(pendulum, numerics, .true., flow)
     call make_flow(pendulum, halved, .true., finer, refined=2)
@@ -48,7 +50,19 @@ contains
       end do
       error(c) = merge(SAFETY*largest, largest, largest < huge(largest)/SAFETY)
     end do
+    call keep_errors(numerics%series, key_of(pendulum, numerics, speed), error)
   end subroutine step_errors
+
+  !> The bits of all numbers that the errors depend on.
+  pure function key_of(pendulum, numerics, speed) result(key)
+    type(pendulum_t), intent(in) :: pendulum
+    type(numerics_t), intent(in) :: numerics
+    real(dp), intent(in) :: speed(:)
+    integer(c_int64_t), allocatable :: key(:)
+
+    key = [transfer(pendulum, [0_c_int64_t]), int([numerics%scheme, numerics%steps_per_period, numerics%drift_terms, numerics%kick_terms], c_int64_t), &
+           transfer(numerics%fastest, 0_c_int64_t), transfer(speed, [0_c_int64_t])]
+  end function key_of
 
   !> A period of states first .. first + WIDTH - 1 of STATES over the whole circle, both ends of the speeds included; the others are their
   !> mirror images, or every second one goes the other way.
