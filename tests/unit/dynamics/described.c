@@ -187,3 +187,22 @@ TEST(test_moved_pendulums) {
     assert_true(PART > 1 || coarse > fine);
   }
 }
+
+/* Errors of a period that are kept are those of this pendulum, these steps and these speeds, even after as many others that all are forgotten. */
+TEST(errors_of_a_period_are_kept) {
+  kz_kept_series *series = kz_kept_series_create();
+  const double speed[] = {0, 1, 2}, faster[] = {0, 1, 3};
+  for (int round = 0; round < 2; round++)
+    for (int i = 0; i < 60; i++) {
+      const kz_pendulum p = pendulum(0.3 + 0.01 * (i % 30));
+      kz_numerics numerics = {.scheme = kz_scheme_find("split6"), .steps_per_period = 8 + i / 30};
+      double anew[2], kept[2], again[2];
+      kz_step_errors(&p, &numerics, 2, round ? faster : speed, anew);
+      numerics.series = series;
+      kz_step_errors(&p, &numerics, 2, round ? faster : speed, kept);
+      kz_step_errors(&p, &numerics, 2, round ? faster : speed, again);
+      assert_memory_equal(kept, anew, sizeof anew);
+      assert_memory_equal(again, anew, sizeof anew);
+    }
+  kz_kept_series_free(series);
+}

@@ -19,6 +19,9 @@ void kz_test_pairs_advance(const void *pairs, int64_t n, int64_t periods, double
 /* The largest error of rough Taylor series, beside which doubles are measured. */
 double kz_test_rough_error(const kz_pendulum *pendulum, double fastest);
 
+/* pair_products.c */
+void kz_pair_product(int64_t rows, int64_t inner, int64_t columns, const double *left, const double *right, double *product);
+
 typedef __float128 quad;
 
 static const kz_pendulum PENDULUM = {1.0 / 121, 1.0 / 55, 0.3};
@@ -189,4 +192,40 @@ TEST(rough_series) {
     const double error = kz_test_rough_error(cases + i, fastest[i]);
     assert_true(error > 1e-30 && error < 1e-19 * (1 + fastest[i]));
   }
+}
+
+/* Products of matrices err by some 2^-104 of the sum of the moduli of their terms, wherever a number stands; half of the terms cancel. */
+TEST(products_of_matrices_are_right_to_31_digits) {
+  enum { ROWS = 3, INNER = 60, COLUMNS = 16 };
+  static double left[ROWS][INNER][2], right[INNER][2][COLUMNS], product[ROWS][2][COLUMNS];
+  for (int k = 0; k < INNER; k++) {
+    for (int i = 0; i < ROWS; i++) {
+      const pair x = any();
+      left[i][k][0] = x.high[0], left[i][k][1] = x.low[0];
+    }
+    for (int j = 0; j < COLUMNS; j++) {
+      const pair x = any();
+      right[k][0][j] = x.high[0], right[k][1][j] = x.low[0];
+    }
+  }
+  for (int i = 0; i < ROWS; i++) /* the second half is the first with the other sign, but for a tiny part */
+    for (int k = INNER / 2; k < INNER; k++)
+      for (int part = 0; part < 2; part++) left[i][k][part] = -left[i][k - INNER / 2][part];
+  for (int k = INNER / 2; k < INNER; k++)
+    for (int j = 0; j < COLUMNS; j++) {
+      right[k][0][j] = right[k - INNER / 2][0][j];
+      right[k][1][j] = right[k - INNER / 2][1][j] * (1 + 0x1p-10 * number());
+    }
+  kz_pair_product(ROWS, INNER, COLUMNS, left[0][0], right[0][0], product[0][0]);
+  for (int i = 0; i < ROWS; i++)
+    for (int j = 0; j < COLUMNS; j++) {
+      quad exact = 0;
+      double moduli = 0;
+      for (int k = 0; k < INNER; k++) {
+        const quad term = ((quad)left[i][k][0] + left[i][k][1]) * ((quad)right[k][0][j] + right[k][1][j]);
+        exact += term;
+        moduli += size(term);
+      }
+      assert_true(size((quad)product[i][0][j] + product[i][1][j] - exact) <= 4 * UNIT * moduli);
+    }
 }
