@@ -232,7 +232,7 @@ int32_t kz_branch_same(kz_fine_maps *maps, const kz_pendulum *pendulum, const kz
  * pi of it and its mean within pi/4. *origin = the copy of this position, rad; 0 for other motions. */
 int32_t kz_centre_of(int32_t rotates, int64_t n, const double *theta, double *origin);
 
-/* ---- charts ---- */
+/* ---- ends over a plane ---- */
 
 /* Where a motion of one of many pendulums ends. */
 typedef struct {
@@ -241,13 +241,13 @@ typedef struct {
   int32_t centre;        /* 0 down, 1 inverted, 2 rotating, 3 none of these */
   int32_t settling_time; /* drive periods until the motion is within 1e-5 rad of its state one period of the cycle before */
   double exponent;       /* largest Lyapunov exponent per drive period: of the cycle, else of 1000 periods of the motion */
-} kz_chart_ending;
+} kz_plane_ending;
 
 /* Ends of the motions of n pendulums from one start (half-turns, velocity), with `steps` steps of split6 a period. A motion is followed
  * until it returns within 1e-5 rad after up to max_period periods; then Newton's method finds the cycle. Near a cycle that does not
  * attract, the motion is followed on; a start exactly on such a cycle does not settle. max_periods [n]: 0 = do not follow this one. */
-void kz_chart_ends(int32_t steps, int64_t n, const kz_pendulum *pendulum, const double start[2], int32_t max_period,
-                   const int64_t *max_periods, kz_chart_ending *endings);
+void kz_ends_follow(int32_t steps, int64_t n, const kz_pendulum *pendulum, const double start[2], int32_t max_period,
+                    const int64_t *max_periods, kz_plane_ending *endings);
 
 /* ---- manifolds ---- */
 

@@ -56,7 +56,7 @@ enum { KZ_MOST_PROCESSED_STEPS = 160 };
 kz_status kz_numerics_choose(const kz_pendulum *pendulum, double tolerance, double fastest, kz_numerics *numerics,
                              double *error);
 
-/* The search itself, for any integrator whose error can be measured: `error` tells the error of a period of so many steps (rad; DBL_MAX where it
+/* The search itself, for any integrator whose error can be measured: `error` gives the error of a period of so many steps (rad; DBL_MAX where it
  * diverges). Tries `fewest` steps, then what the order expects from the last error, until an error is at most `tolerance` (rad) or falls more
  * slowly than as 1/steps. Returns the last error; *steps: its number, 0 where fewest exceeds most. */
 typedef double kz_step_error(int32_t steps, void *context);

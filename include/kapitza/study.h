@@ -103,7 +103,7 @@ void kz_periods_print(int64_t periods, double omega, FILE *out);
 double kz_axis_written(const kz_axis *values, double value);
 const char *kz_axis_unit(const kz_axis *values, int32_t parameter);
 /* Writes "amplitude = 8 mm", with that many digits, to text [bytes]. */
-void kz_axis_say(const kz_axis *values, int32_t parameter, int digits, double value, char *text, size_t bytes);
+void kz_axis_print(const kz_axis *values, int32_t parameter, int digits, double value, char *text, size_t bytes);
 /* Writes which key an axis is of, its unit, and the unit that the scene writes, as attributes of a group: `parameter`, `parameter_units`, ..,
  * or with the name of the axis in front: `x_parameter`, `x_units`, .. */
 kz_status kz_axis_describe(const kz_axis *values, int32_t parameter, const char *axis, const char *group, kz_store *store);
@@ -177,7 +177,7 @@ extern const kz_group kz_groups[];
 /* KZ_REFUSED if the scene asks for what does not take its drive or its release (src/study/drive_limits.c). */
 kz_status kz_drive_check(const kz_scene *scene);
 /* The same for ends over a plane only. */
-kz_status kz_drive_check_chart(const kz_scene *scene);
+kz_status kz_drive_check_ends(const kz_scene *scene);
 /* KZ_REFUSED, with the message of the first study of the scene that does not pass its check. */
 kz_status kz_studies_check(const kz_scene *scene);
 

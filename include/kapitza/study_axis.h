@@ -20,7 +20,7 @@ typedef struct {
   double factor;
 } kz_written_unit;
 
-/* An axis: `count` cells between min and max (basin), or `count` values with both ends included (charts, sweeps). For a window by its centre
+/* An axis: `count` cells between min and max (basin), or `count` values with both ends included (sweeps, planes). For a window by its centre
  * and width, which may be finer than doubles, min and max are the nearest doubles. */
 typedef struct {
   double min, max;
@@ -45,4 +45,4 @@ typedef struct {
 typedef struct {
   int32_t parameter; /* row of kz_sweep_parameters */
   kz_axis values;    /* both ends included */
-} kz_chart_axis;
+} kz_plane_axis;

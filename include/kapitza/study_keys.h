@@ -45,7 +45,7 @@ struct kz_key {
   const char *help;      /* one sentence of the scene reference */
 };
 
-/* Stands for the unit of the key that a sweep or chart changes. */
+/* Stands for the unit of the key that a sweep changes. */
 #define KZ_OWN_UNIT "the unit of the parameter"
 /* The unit of velocities, which a scene in SI units may also give per second. */
 #define KZ_VELOCITY_UNIT "rad per drive radian"

@@ -69,15 +69,15 @@ kz_status kz_engine_catalogue(kz_engine *engine, const kz_scene *scene, const kz
 kz_status kz_engine_where(kz_engine *engine, const kz_scene *scene, int64_t n, const kz_coordinate (*start)[2],
                           kz_ending *endings);
 
-/* A level of a chart: periods and centres of its points, with the values of the group /chart, x fastest; period KZ_NO_LABEL = not settled,
- * or no pendulum. */
+/* A level of a plane of two keys: periods and centres of the ends, with the values of the group /plane, x fastest; period KZ_NO_LABEL = not
+ * settled, or no pendulum. */
 typedef struct {
   int64_t level, rows, columns;
   const uint8_t *period, *centre; /* [rows][columns] */
-} kz_chart_level;
-/* Draws the scene's study chart for its first start; `pause` as in kz_frame. */
-kz_status kz_chart_draw(const kz_scene *scene, const kz_integers *levels, kz_status (*pause)(void *context),
-                        kz_status (*show)(void *context, const kz_chart_level *level), void *context);
+} kz_plane_level;
+/* Draws where the first start of the scene's sweep.ends ends over its plane; `pause` as in kz_frame. */
+kz_status kz_plane_draw(const kz_scene *scene, const kz_integers *levels, kz_status (*pause)(void *context),
+                        kz_status (*show)(void *context, const kz_plane_level *level), void *context);
 
 /* The motion of the scene's study orbit, by the pendulum itself, after its transient: theta (rad, not wrapped) and velocity (rad per drive radian), each
  * [periods * samples_per_period + 1]. `pause` as in kz_frame, every 0.1 s. KZ_FAILED: it becomes too large for double precision. */

@@ -45,7 +45,7 @@ KINDS = {
 
 _chosen: ContextVar[Mapping[str, str]] = ContextVar("chosen", default={})  # noqa: B039  # never changed
 
-# Colours nearer than this in OKLab are not told apart in a fine mixture.
+# Colours nearer than this in OKLab cannot be distinguished in a fine mixture.
 APART = 0.06
 _OKLAB = (np.array([[0.4122214708, 0.5363325363, 0.0514459929], [0.2119034982, 0.6806995451, 0.1073969566],
                     [0.0883024619, 0.2817188376, 0.6299787005]]),
@@ -74,7 +74,7 @@ def kind(period: int, winding: int, centre: int) -> str:
 
 def colours(attractors: xarray.Dataset, apart: Iterable[int] | None = None) -> list[str]:
     """One colour (hex) per attractor of the dataset `attractors`: that of its motion, moved in hue where another one is too near;
-    `apart`: the ids that must be told apart (default: all)."""
+    `apart`: the ids that must be distinguished (default: all)."""
     rows = list(zip(attractors["period"].values, attractors["winding"].values, attractors["centre"].values,
                     attractors["mirror"].values, strict=True))
     order = sorted(range(len(rows)) if apart is None else apart,

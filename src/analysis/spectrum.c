@@ -1,4 +1,4 @@
-/* Lines of an orbit, and what they tell: the dominant line, the period, the symmetry. A closed orbit, sampled over exactly its period, needs no window: its lines are exact. */
+/* Lines of an orbit, and what follows from them: the dominant line, the period, the symmetry. A closed orbit, sampled over exactly its period, needs no window: its lines are exact. */
 #include <fftw3.h>
 #include <math.h>
 
@@ -77,7 +77,7 @@ kz_status kz_spectrum_lines(const kz_record *record, const double *theta, int64_
   return done ? KZ_OK : kz_fail(KZ_FAILED, "no memory for a spectrum of %lld samples", (long long)n);
 }
 
-/* ---- what lines tell ---- */
+/* ---- what follows from the lines ---- */
 
 /* Lines below this share of the largest one are ignored: of closed orbits, of open records. */
 static const double MATTERS_CLOSED = 1e-9, MATTERS_OPEN = 1e-3;

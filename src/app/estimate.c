@@ -36,7 +36,7 @@ static kz_status run_studies(const kz_scene *scene, const kz_run *run, kz_store 
   return KZ_OK;
 }
 
-static void *measure(void *context) {
+static void *time_studies(void *context) {
   samples *s = context;
   kz_sampling sample;
   const kz_run run = {.sample = &sample};
@@ -92,7 +92,7 @@ kz_status kz_estimate_time(const kz_scene *scene, kz_estimate *estimate) {
   kz_scene_copy(scene, &s->scene);
   pthread_mutex_init(&s->mutex, NULL);
   pthread_cond_init(&s->changed, NULL);
-  if (kz_thread_start(&thread, STACK_BYTES, measure, s)) {
+  if (kz_thread_start(&thread, STACK_BYTES, time_studies, s)) {
     wait_for(thread, s, estimate);
     return KZ_OK;
   }

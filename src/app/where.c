@@ -21,7 +21,7 @@ static void print_decision(const kz_ending *e) {
   if (precision)
     printf("decided         yes, in %s", words_of(precision));
   else
-    printf("decided         no: the start ends on %s or on %s, and quad precision cannot tell which", e->entry.name,
+    printf("decided         no: the start ends on %s or on %s, and quad precision cannot decide which", e->entry.name,
            e->other_name[0] ? e->other_name : "another attractor");
   if (!isnan(e->error)) printf(" (error at most %.2g rad when the trapping region holds the orbit)", e->error);
   putchar('\n');

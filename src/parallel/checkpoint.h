@@ -29,7 +29,7 @@ static inline int64_t kz_whole_pages(int64_t bytes) {
 }
 
 /* Opens or creates the file at `path` for rank 0, locks it against every other run, and waits for
- * ranks of an earlier run that are still writing. `existed` tells whether it was there. */
+ * ranks of an earlier run that are still writing. `existed`: it was there. */
 typedef struct kz_file_lock {
   int file;
   bool existed;

@@ -38,7 +38,7 @@ typedef struct {
 void kz_dispatch_begin(kz_dispatch *dispatch, kz_ranks *ranks, int64_t n_tiles);
 /* *tile = the next tile of this rank; -1 if none is left, or if a rank has halted. */
 kz_status kz_dispatch_next(kz_dispatch *dispatch, int64_t *tile);
-/* Tells that this rank cannot go on. The other ranks get no further tiles. */
+/* Announces that this rank cannot go on. The other ranks get no further tiles. */
 kz_status kz_dispatch_halt(kz_dispatch *dispatch);
 /* Rank 0 waits until all others know that nothing is left. */
 kz_status kz_dispatch_end(kz_dispatch *dispatch);

@@ -7,7 +7,7 @@
 static const double BAR_DELAY = 0.5, BAR_PERIOD = 0.2, LINE_PERIOD = 10.0, LINE_PERIOD_ALWAYS = 1.0; /* s */
 enum { BAR_CELLS = 24, CLOCK_BYTES = 24 };
 
-/* Under a launcher neither stderr nor stdout tells whether a person looks on: ask for the terminal itself. */
+/* Under a launcher neither stderr nor stdout shows whether a person is watching: ask for the terminal itself. */
 static FILE *find_terminal(kz_ranks *ranks) {
   if (isatty(STDERR_FILENO)) return stderr;
   if (!ranks->terminal && kz_launch_rank() >= 0) ranks->terminal = fopen("/dev/tty", "we");

@@ -9,7 +9,7 @@
 
 #include "bytes.h"
 
-/* ---- what the launcher tells before MPI is started ---- */
+/* ---- what is known of the launcher before MPI is started ---- */
 
 /* The first of `names` that the environment holds, as a number; -1 where it holds none. */
 static int first_number(const char *const names[], size_t n) {
@@ -46,7 +46,7 @@ int kz_launch_count(void) {
   return launch.count;
 }
 
-/* Beginnings of what launchers tell the processes that they start: one too many costs MPI's start, one too few makes each process run
+/* Beginnings of the variables that launchers set for the processes that they start: one too many costs MPI's start, one too few makes each process run
  * alone. */
 static const char *const launchers[] = {"PMI",      "PMIX_",    "OMPI_COMM_WORLD", "ORTE_",       "SLURM_STEP", "ALPS_APP",
                                         "PALS_",    "FLUX_",    "MPI_LOCAL",       "MPIRUN_RANK", "MV2_COMM",   "HYDRA",

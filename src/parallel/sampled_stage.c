@@ -26,7 +26,7 @@ static int64_t tile_at(const spread *s, int64_t i) {
   return (int64_t)((s->n / 2 + (__int128)i * s->step) % s->n);
 }
 
-/* Does a tile, and tells what it takes. */
+/* Does a tile, and measures what it takes. */
 static kz_status work_on(kz_sampling *s, const kz_stage *stage, int64_t tile, void *record, double *seconds) {
   const double before = kz_sampling_seconds(s);
   memset(record, 0, stage->record_bytes);

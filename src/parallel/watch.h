@@ -1,4 +1,4 @@
-/* What rank 0 tells of a stage: its progress, shown to people, and its times. */
+/* What rank 0 reports of a stage: its progress, shown to people, and its times. */
 #pragma once
 
 #include "ranks.h"

@@ -53,7 +53,7 @@ static bool asks_more_than_cells(const kz_scene *s) {
  * cells; no ramp along its axes. */
 enum { SINE, MIRRORED, AT_STROBE, ONE_PHASE, NO_RAMP_OVER };
 
-/* What a scene may ask for that does not take every drive or release, and what to say then. */
+/* What a scene may ask for that does not take every drive or release, and the complaint. */
 static const struct {
   bool (*is_asked)(const kz_scene *);
   int needs;
@@ -158,7 +158,7 @@ kz_status kz_drive_check(const kz_scene *scene) {
   return check_release(scene);
 }
 
-kz_status kz_drive_check_chart(const kz_scene *scene) {
+kz_status kz_drive_check_ends(const kz_scene *scene) {
   if (kz_is_sine(&scene->parameters.pendulum) && !is_swept(scene, kz_sweep_is_of_drive)) return KZ_OK;
   return kz_fail(KZ_REFUSED, "%s: %s", kz_drive_made_by(&scene->parameters.written), limits[0].complaint); /* of ends */
 }

@@ -87,7 +87,7 @@ static rest look(const kz_pendulum *form, double k, double beta, double m, doubl
   return found;
 }
 
-/* Standing and falling are told apart up to this drive, or a few times the one that stands by the slow equation. */
+/* Standing and falling are distinguished up to this drive, or a few times the one that stands by the slow equation. */
 static double most_of(double k, double m) {
   return 4 * fmax(fmax(fabs(m), sqrt(2 * fabs(k))), 0.25);
 }

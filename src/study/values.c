@@ -1,4 +1,4 @@
-/* The values of sweeps and charts: which keys they are of, and the pendulum at each. */
+/* The values of sweeps, along a line or over a plane: which keys they are of, and the pendulum at each. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -98,7 +98,7 @@ const char *kz_axis_unit(const kz_axis *values, int32_t parameter) {
   return values->written.name[0] ? values->written.name : strcmp(unit, "1") == 0 ? "" : unit;
 }
 
-void kz_axis_say(const kz_axis *values, int32_t parameter, int digits, double value, char *text, size_t bytes) {
+void kz_axis_print(const kz_axis *values, int32_t parameter, int digits, double value, char *text, size_t bytes) {
   const char *unit = kz_axis_unit(values, parameter);
   snprintf(text, bytes, "%s = %.*g%s%s", kz_sweep_parameters[parameter].name, digits, kz_axis_written(values, value),
            unit[0] ? " " : "", unit);

@@ -1,4 +1,4 @@
-/* Requests to stop: one rank hears of it, all ranks stop, nothing finished is lost. */
+/* Requests to stop: one rank gets it, all ranks stop, nothing finished is lost. */
 #include <signal.h>
 
 #include "ranks.h"
@@ -54,7 +54,7 @@ TEST(a_signal_to_one_rank_stops_all) {
   const kz_status status = run(&done, true);
   assert_all(status == KZ_STOPPED && strstr(kz_message(), "SIGUSR1") && strstr(kz_message(), path));
   assert_all(kz_clock() - begun < 10);
-  assert_all(done < N_TILES / 4); /* the others hear of it with their next batch */
+  assert_all(done < N_TILES / 4); /* the others learn of it with their next batch */
   assert_all(run(&done, true) == KZ_STOPPED);
   assert_all(close_checkpoint(false) == KZ_OK);
   assert_all(kz_rank(ranks) != 0 || unlink(path) == 0);

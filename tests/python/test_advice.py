@@ -1,4 +1,4 @@
-"""What a user is told where something is odd: keys that do nothing, words in the wrong place, ranks that were told different things,
+"""Messages where something is odd: keys that do nothing, words in the wrong place, ranks that were given different things,
 file systems without locks, logs that a kill has cut. Nothing is left behind that stops the next run."""
 
 import json

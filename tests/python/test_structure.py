@@ -193,7 +193,7 @@ def test_writable_data_is_found():
 def test_memory_is_asked_for_where_it_is_checked():
     asks = {"malloc", "calloc", "realloc", "strdup", "strndup", "aligned_alloc"}
     unchecked = {str(path.relative_to(ROOT)) for path, name, _ in symbols() if name in asks and path.parent.name != "common"}
-    assert not unchecked, "kz_malloc and its like end the run where there is no memory (include/kapitza/common.h)"
+    assert not unchecked, "kz_malloc and the other functions of memory end the run where there is no memory (include/kapitza/common.h)"
 
 
 # ---- signal handlers ----

@@ -4,7 +4,7 @@
 import { bytesOf } from "./frames.js";
 import { ORDER } from "./legend.js";
 
-const MOST = 14; // motions that are told apart
+const MOST = 14; // motions that are distinguished
 const SHADES = {
   light: [[251, 251, 239], [110, 166, 201]],
   dark: [[16, 24, 32], [46, 118, 124]],

@@ -42,7 +42,7 @@ async function taken(answers, take, signal) {
 }
 
 export class MotionMap {
-  /** `set(values)` gives the pendulum other values; `say(words)` hears what happens on the way. */
+  /** `set(values)` gives the pendulum other values; `say(words)` is called with what happens on the way. */
   constructor(state, names, { set, say }) {
     Object.assign(this, { state, set, say, root: element("map"), atlas: null, picture: null });
     this.engine = new Engine("chart");

@@ -24,7 +24,7 @@ const LEAP = 30;
 const COARSE = 40_000; // cells of the times that give a picture its relief
 
 export class Pane {
-  /** In the element `root`; `name`: of its program; `report(pane)` hears of every frame, `say` of what it does. */
+  /** In the element `root`; `name`: of its program; `report(pane)` is called for every frame, `say` for what it does. */
   constructor(root, name, state, { report, say }) {
     Object.assign(this, { root, name, state, report, say });
     this.basins = root.querySelector(".basins");

@@ -31,7 +31,7 @@ export function typed(text, home) {
   return found && withUnit(found.number, found.unit || numberOf(home).unit);
 }
 
-/** Fills `holder`; `change(name, text)` hears of each new value, `sweep(name)` of a press of the button that moves a slider there and back. */
+/** Fills `holder`; `change(name, text)` is called for each new value, `sweep(name)` for a press of the button that moves a slider there and back. */
 export class Sliders {
   constructor(holder, scene, change, sweep) {
     this.scene = scene;

@@ -11,7 +11,7 @@ from matplotlib.lines import Line2D
 from kapitza import style
 from kapitza.plots.atlas_classes import BREAKING, DOUBLING, FOLD, LEANS, SWINGS, belongs
 
-# A colour a period, told apart by colour-blind readers (Okabe and Ito); a dash a kind.
+# A colour a period, which colour-blind readers can distinguish (Okabe and Ito); a dash a kind.
 PERIODS = {1: style.INK, 2: "#0072b2", 3: "#009e73", 4: "#d55e00", 5: "#cc79a7", 6: "#b8860b"}
 LONGER = "#8a929b"
 DASHES: dict[int, Any] = {FOLD: "-", DOUBLING: (0, (5, 2)), BREAKING: (0, (1.2, 1.4)), SWINGS: (0, (5, 2)), LEANS: (0, (1.2, 1.4))}

@@ -33,7 +33,7 @@ def motions(sweep: xarray.Dataset) -> list[tuple[int, int, int, bool]]:
 
 
 def branch_colours(sweep: xarray.Dataset, named: Iterable[int] | None = None) -> list[str]:
-    """One colour per branch: branches of one motion share it, however far apart they live; those of `named` can be told apart."""
+    """One colour per branch: branches of one motion share it, however far apart they live; those of `named` can be distinguished."""
     kinds, attracting = motions(sweep), attracting_branches(sweep)
     firsts = sorted({kinds[branch]: branch for branch in reversed(attracting)}.values())
     dimension = sweep["branch_period"].dims
@@ -116,7 +116,7 @@ def stack_order(sweep: xarray.Dataset) -> list[int]:
 
 
 def _entries(sweep: xarray.Dataset, colours: Sequence[str], branches: Iterable[int]) -> list[Patch]:
-    """Legend entries, one per name and colour; two colours of one name are told apart by their branches."""
+    """Legend entries, one per name and colour; two colours of one name are distinguished by their branches."""
     groups: dict[tuple[str, str], list[int]] = {}
     for branch in branches:
         groups.setdefault((str(sweep["branch_name"].values[branch]), colours[branch]), []).append(branch)

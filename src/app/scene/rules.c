@@ -150,7 +150,7 @@ static void orbit_rules(kz_reading *reading, kz_scene *scene) {
   if (linear && orbit->about == KZ_UNSET_WORD) orbit->about = 0;
 }
 
-/* An axis of the chart, or NaN where the scene gives it in other words. */
+/* An axis of the stability chart, or NaN where the scene gives it in other words. */
 static void stability_axis_rules(kz_reading *reading, kz_axis *axis, const char *path) {
   if (!kz_tree_find(reading->root, path)) {
     axis->min = axis->max = NAN;
@@ -239,7 +239,7 @@ static void tangency_rules(kz_reading *reading, kz_scene *scene) {
 }
 
 /* The two keys of a plane. */
-static void plane_rules(kz_reading *reading, const kz_scene *scene, kz_chart_axis *x, kz_chart_axis *y, const char *study) {
+static void plane_rules(kz_reading *reading, const kz_scene *scene, kz_plane_axis *x, kz_plane_axis *y, const char *study) {
   const kz_short_text of_x = kz_key_in(study, "x"), of_y = kz_key_in(study, "y");
   parameter_values(reading, scene, x->parameter, &x->values, of_x.text);
   parameter_values(reading, scene, y->parameter, &y->values, of_y.text);

@@ -15,7 +15,7 @@ typedef struct {
   bool option;
 } source_text;
 
-/* Token that a scene may not hold, and what to say about it. */
+/* A token that a scene may not have, and the complaint about it. */
 static const struct {
   yaml_token_type_t type;
   bool in_options_only;

@@ -210,7 +210,7 @@ kz_status kz_answer_orbit(const kz_request *request, int64_t samples, const doub
   return send();
 }
 
-kz_status kz_answer_chart(int64_t sequence, bool final, const kz_chart_level *level) {
+kz_status kz_answer_plane(int64_t sequence, bool final, const kz_plane_level *level) {
   const size_t cells = (size_t)(level->rows * level->columns);
   kz_json *header = begin("chart", sequence, final);
   add_level(header, level->level, level->rows, level->columns);

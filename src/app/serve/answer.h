@@ -11,7 +11,7 @@ kz_status kz_answer_level(const kz_request *request, bool final, const kz_live_l
 kz_status kz_answer_where(int64_t sequence, const kz_coordinate start[2], const kz_ending *ending, double omega);
 /* theta, velocity [samples] */
 kz_status kz_answer_orbit(const kz_request *request, int64_t samples, const double *theta, const double *velocity);
-kz_status kz_answer_chart(int64_t sequence, bool final, const kz_chart_level *level);
+kz_status kz_answer_plane(int64_t sequence, bool final, const kz_plane_level *level);
 kz_status kz_answer_motions(int64_t sequence, const kz_motions *motions);
 kz_status kz_answer_line(int64_t sequence, const kz_atlas_branches *line);
 kz_status kz_answer_ended(int64_t sequence);

@@ -201,10 +201,10 @@ static kz_status show(void *context, const kz_live_level *level) {
   return kz_answer_level(s->drawn, level->level == levels->values[levels->count - 1], level);
 }
 
-static kz_status show_chart(void *context, const kz_chart_level *level) {
+static kz_status show_plane(void *context, const kz_plane_level *level) {
   server *s = context;
   const kz_integers *levels = &s->drawn->levels;
-  return kz_answer_chart(s->drawn->sequence, level->level == levels->values[levels->count - 1], level);
+  return kz_answer_plane(s->drawn->sequence, level->level == levels->values[levels->count - 1], level);
 }
 
 static kz_status check_size(const kz_scene *scene) {
@@ -216,9 +216,9 @@ static kz_status check_size(const kz_scene *scene) {
 
 static kz_status draw(server *s, kz_request *request) {
   if (request->kind == KZ_REQUEST_CHART) {
-    KZ_TRY(kz_drive_check_chart(&request->scene));
+    KZ_TRY(kz_drive_check_ends(&request->scene));
     KZ_TRY(check_size(&request->scene));
-    return kz_chart_draw(&request->scene, &request->levels, pause_drawing, show_chart, s);
+    return kz_plane_draw(&request->scene, &request->levels, pause_drawing, show_plane, s);
   }
   kz_frame frame = {.moving = request->quality == KZ_QUALITY_MOVING,
                     .levels = &request->levels,

@@ -13,12 +13,12 @@ module kz_attractors_chaos
   public :: find_chaos, carry_chaos, set_cover, append_cover, is_damped
 
   !> Periods before the cover is taken, while it is taken, and of each lane's exponent.
-  integer, parameter :: SETTLE = 20000, VISITS = 40000, EXPONENT_PERIODS = 400, FEATURE_PERIODS = 500
+  integer, parameter :: TRANSIENT = 20000, VISITS = 40000, EXPONENT_PERIODS = 400, FEATURE_PERIODS = 500
   !> Before all that: neighbours of a chaotic orbit part so much within so many periods. Where they do not, an orbit is only slow.
   integer, parameter :: PARTING_PERIODS = 2000
   real(dp), parameter :: PARTED = 100
   !> Periods for which a cover carried to another pendulum is visited anew, and those before.
-  integer, parameter :: CARRIED_VISITS = 1500, CARRIED_SETTLE = 100
+  integer, parameter :: CARRIED_VISITS = 1500, CARRIED_TRANSIENT = 100
   !> An exponent counts as positive if it exceeds so many standard errors.
   real(dp), parameter :: CONFIDENCE = 5
   !> A small one is measured again over so many periods: tangents of quasi-periodic motions grow too, by a factor that has a limit.
@@ -48,7 +48,7 @@ contains
       call search%flow%put(lane, u, v + 1e-9_dp*lane)
     end do
     call search%flow%to_map(WIDTH)
-    call visit(search%flow, regions, attractors, SETTLE, VISITS, visited, trapped)
+    call visit(search%flow, regions, attractors, TRANSIENT, VISITS, visited, trapped)
     if (trapped .or. .not. any(visited)) return
     call measure_exponent(search%flow, attractor%lyapunov, attractor%lyapunov_error)
     if (attractor%lyapunov <= CONFIDENCE*attractor%lyapunov_error) return
@@ -67,7 +67,7 @@ contains
   pure logical function is_damped(pendulum)
     type(pendulum_t), intent(in) :: pendulum !< its damping counts
 
-    is_damped = 2*PI*pendulum%beta*(SETTLE + VISITS) >= SHRUNK
+    is_damped = 2*PI*pendulum%beta*(TRANSIENT + VISITS) >= SHRUNK
   end function is_damped
 
   !> Carries a chaotic or quasi-periodic attractor to a pendulum nearby. Its cover is what a bundle of orbits from the old one visits, and the cells beside, which
@@ -88,7 +88,7 @@ contains
       cell = inner(1 + (lane - 1)*size(inner)/WIDTH) - 1
       call search%flow%put(lane, 2*(mod(cell, COVER) + 0.5_dp)/COVER - 1, regions%top*(2*(cell/COVER + 0.5_dp)/COVER - 1))
     end do
-    call visit(search%flow, regions, attractors, CARRIED_SETTLE, CARRIED_VISITS, visited, trapped)
+    call visit(search%flow, regions, attractors, CARRIED_TRANSIENT, CARRIED_VISITS, visited, trapped)
     if (trapped .or. .not. any(visited)) return
     attractor = old
     attractor%mirrored = is_mirrored(search%pendulum) /= 0
@@ -130,24 +130,24 @@ contains
     if (attractor%mirrored .and. .not. attractor%symmetric) attractors(size(attractors))%cover = COVER**2 + 1 - attractor%cover
   end subroutine append_cover
 
-  !> Follows the lanes of a flow, and marks the cells of the cover that they visit after the first periods; trapped = a trapping region
+  !> Follows the lanes of a flow, and marks the cells of the cover that they visit after the transient; trapped = a trapping region
   !> holds one of them.
-  subroutine visit(flow, regions, attractors, settle, periods, visited, trapped)
+  subroutine visit(flow, regions, attractors, transient, periods, visited, trapped)
     class(flow_t), intent(inout) :: flow
     type(regions_t), intent(in) :: regions
     type(attractor_t), intent(in) :: attractors(:)
-    integer, intent(in) :: settle, periods
+    integer, intent(in) :: transient, periods
     logical, allocatable, intent(out) :: visited(:)
     logical, intent(out) :: trapped
     integer :: region(WIDTH), period, lane, cell
 
     allocate (visited(COVER**2), source=.false.)
-    do period = 1, settle + periods
+    do period = 1, transient + periods
       call flow%advance(WIDTH)
       call find_regions(regions, attractors, WIDTH, flow%u(:WIDTH), flow%v(:WIDTH), region)
       trapped = any(region > 0)
       if (trapped) return
-      if (period <= settle) cycle
+      if (period <= transient) cycle
       do lane = 1, WIDTH
         cell = cover_cell(regions, flow%u(lane), flow%v(lane))
         if (cell > 0) visited(cell) = .true.

@@ -60,8 +60,8 @@ module kz_plane_ends
 
 contains
 
-  !> kz_chart_ends of dynamics.h.
-  subroutine chart_ends(n_steps, n, pendulum, start, max_period, max_periods, endings) bind(C, name='kz_chart_ends')
+  !> kz_ends_follow of dynamics.h.
+  subroutine ends_follow(n_steps, n, pendulum, start, max_period, max_periods, endings) bind(C, name='kz_ends_follow')
     integer(c_int32_t), value :: n_steps
     integer(c_int64_t), value :: n
     type(pendulum_t), intent(in) :: pendulum(n)
@@ -86,7 +86,7 @@ contains
     allocate (lanes%near(0), lanes%unsettled(0))
     call lanes%run()
     call classify(lanes%n_steps, lanes%unsettled, endings)
-  end subroutine chart_ends
+  end subroutine ends_follow
 
   !> The last motion that waits. Those that have come back are tried when they are many, or nothing else is left.
   function fill(self, lane) result(yes)

@@ -53,7 +53,7 @@ contains
     orbit(:, 0, :lanes) = node
     call follow(flow, orbit(:, :, :lanes))
     do i = 1, lanes - 1
-      call settle(orbit(:, :, i), orbit(:, :, i + 1))
+      call look_between(orbit(:, :, i), orbit(:, :, i + 1))
     end do
     do while (n_waiting > 0 .and. n_found <= most .and. work(1) <= most_starts)
       lanes = min(n_waiting, WIDTH)
@@ -63,14 +63,14 @@ contains
       call follow(flow, orbit(:, :, :lanes))
       work(1) = work(1) + lanes
       do i = 1, lanes
-        call settle(piece(:, :, 1, i), orbit(:, :, i))
-        call settle(orbit(:, :, i), piece(:, :, 2, i))
+        call look_between(piece(:, :, 1, i), orbit(:, :, i))
+        call look_between(orbit(:, :, i), piece(:, :, 2, i))
       end do
     end do
   contains
     !> The piece between two starts, given by their orbits, waits to be halved, or shows its cycles. (The newest wait on top: at most
     !> 2 WIDTH of each length.)
-    subroutine settle(a, b)
+    subroutine look_between(a, b)
       real(dp), intent(in) :: a(2, 0:max_period), b(2, 0:max_period)
       real(dp) :: share
       logical :: near
@@ -89,7 +89,7 @@ contains
         work(2) = work(2) + 1
         call close_orbit(flow, window, a(:, :n - 1) + share*(b(:, :n - 1) - a(:, :n - 1)), n_found, found)
       end do
-    end subroutine settle
+    end subroutine look_between
   end function search_line
 
   !> orbit(:, 1:) becomes the images of the starts orbit(:, 0): rad, turns counted.

@@ -131,13 +131,13 @@ contains
       call flow%advance_tangent(1, tangent)
       beside = matmul(tangent(:, :, 1), beside)
       here = [flow%u(1) + 2*real(flow%turns(1), dp), flow%v(1)]
-      call settle_point(flow, period, x, mod(j + 1, period) == 0, here, saddle%turned(j + 1))
+      call take_point(flow, period, x, mod(j + 1, period) == 0, here, saddle%turned(j + 1))
       saddle%turned(j + 1) = saddle%turned(j + 1) + saddle%turned(j)
     end do
   end subroutine make_cycle
 
   !> A state beside a point of a cycle becomes that point; `turned`: half-turns that are taken off.
-  subroutine settle_point(flow, period, x, is_first, here, turned)
+  subroutine take_point(flow, period, x, is_first, here, turned)
     class(flow_t), intent(inout) :: flow
     integer, intent(in) :: period
     real(dp), intent(in) :: x(2) !< the first point, which is known
@@ -154,7 +154,7 @@ contains
     if (is_first) point = x
     turned = 2*anint((here(1) - point(1))/2)
     here = point
-  end subroutine settle_point
+  end subroutine take_point
 
   !> The unit eigenvector (rad, rad per drive radian) of the multiplier that is larger than 1 over q periods: the period of the
   !> saddle, or twice that for a multiplier below -1.

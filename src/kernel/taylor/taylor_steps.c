@@ -32,7 +32,7 @@ typedef struct {
 
 enum { DEEP = KZ_TAYLOR_DEEP, FINE = KZ_TAYLOR_FINE, LAST = KZ_TAYLOR_LAST, GENTLE = 5 };
 
-/* Orders as above, and the largest coefficients at `fine` and at `last`, relative to the motion's own size, which the orders below GENTLE tell. */
+/* Orders as above, and the largest coefficients at `fine` and at `last`, relative to the motion's own size, which the orders below GENTLE determine. */
 typedef struct {
   int64_t deep, fine, last;
   double coarse, tolerance;

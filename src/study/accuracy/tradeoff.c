@@ -76,7 +76,7 @@ static void print_row(const kz_reference_labels *reference, const kz_trade *trad
 }
 
 /* Prints how many cells the settings of method exact leave undecided. */
-static void tell_undecided(const kz_reference_labels *reference, const kz_trade *trade, FILE *summary) {
+static void print_undecided(const kz_reference_labels *reference, const kz_trade *trade, FILE *summary) {
   for (int64_t i = 0; i < trade->count; i++)
     if (trade->row[i].setting->method == KZ_METHOD_EXACT)
       fprintf(summary, "%s leaves %lld of %lld cells undecided; these count neither as right nor as wrong.\n",
@@ -120,7 +120,7 @@ static kz_status write_tradeoff(const kz_reference_labels *reference, const kz_t
   KZ_TRY(write_measures(reference, trade, store));
   KZ_TRY(write_attributes(reference, trade, store));
   print(reference, trade, summary);
-  tell_undecided(reference, trade, summary);
+  print_undecided(reference, trade, summary);
   warn(reference, trade, summary);
   return KZ_OK;
 }

@@ -78,7 +78,7 @@ static int roots_of(const double *p, double target, double *root) {
   return n;
 }
 
-/* Which end of a step tells the side, at a point with this normal form. At a cusp a fold turns back with its side. It goes straight on where its side
+/* Which end of a step determines the side, at a point with this normal form. At a cusp a fold turns back with its side. It goes straight on where its side
  * changes at a place without a drive: from there two folds begin on either side, between which a rotation is held. */
 static const double *side_of(const kz_atlas_kind *kind, const double *a, const double *b, double form) {
   const double *ta = a + KZ_ROW_TANGENT, *tb = b + KZ_ROW_TANGENT;

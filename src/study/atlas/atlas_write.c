@@ -175,7 +175,7 @@ static int64_t open_ends(const kz_atlas *atlas) {
 }
 
 static kz_status write_attributes(const kz_atlas *atlas, const kz_atlas_raster *raster, kz_store *store) {
-  const kz_chart_axis *axis[] = {&atlas->scene->atlas->x, &atlas->scene->atlas->y};
+  const kz_plane_axis *axis[] = {&atlas->scene->atlas->x, &atlas->scene->atlas->y};
   const kz_share wrong = kz_share_of(atlas->disagreed, atlas->checked), missing = kz_share_of(atlas->unsolved, atlas->listed);
   for (int i = 0; i < 2; i++) KZ_TRY(kz_axis_describe(&axis[i]->values, axis[i]->parameter, i ? "y" : "x", GROUP, store));
   KZ_TRY(kz_store_integer(store, GROUP, "max_period", atlas->scene->atlas->max_period));

@@ -6,7 +6,7 @@
 
 kz_status kz_atlas_place(const kz_atlas *atlas, int axis, double value, double *place) {
   const kz_atlas_plan *plan = atlas->scene->atlas;
-  const kz_chart_axis *of = axis ? &plan->y : &plan->x;
+  const kz_plane_axis *of = axis ? &plan->y : &plan->x;
   if (!(value >= of->values.min && value <= of->values.max))
     return kz_fail(KZ_REFUSED, "%c: %.10g lies outside of the atlas; %s is from %.10g to %.10g there", axis ? 'y' : 'x', value,
                    kz_sweep_parameters[of->parameter].name, of->values.min, of->values.max);
@@ -45,7 +45,7 @@ static double largest_multiplier(const kz_atlas_kind *kind, const double number[
   return fmax(hypot(re[0], im[0]), hypot(re[1], im[1]));
 }
 
-/* Whether an event, one with a multiplier of 1 or -1, lies between two rows: trace and determinant of both tell. */
+/* Whether an event, one with a multiplier of 1 or -1, lies between two rows: by trace and determinant of both. */
 static bool lies_between(double event, const double *a, const double *b) {
   const double sign = event == KZ_EVENT_FOLD ? -1 : 1;
   return event <= KZ_EVENT_FLIP && (1 + a[3] + sign * a[2] > 0) != (1 + b[3] + sign * b[2] > 0);

@@ -74,7 +74,7 @@ static bool repeats(const kz_atlas_kind *kind, const double *y, int shift, doubl
 
 /* Whether a point of a curve is one of a curve of the shorter cycle `of`, whose points are the first of y. An even power of a map has no
  * multiplier -1 but where that one's square is, and its multiplier 1 may be that one's -1. Beside the place where a doubled cycle is born both lie
- * as near as one likes, and the multiplier of the shorter one alone tells them apart. */
+ * as near as one likes, and only the multiplier of the shorter one distinguishes them. */
 static bool is_on_its_curve(const kz_atlas *atlas, int power, kz_curve_kind *of, double *y) {
   if (of->multiplier == 0) return true;
   if (of->multiplier < 0 && power % 2 == 0) return false;

@@ -1,4 +1,4 @@
-/* A plane with k and -k: each curve has an image there, which tells whether one is missing. */
+/* A plane with k and -k: each curve has an image there, which shows whether one is missing. */
 #include <math.h>
 #include <string.h>
 

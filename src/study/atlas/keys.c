@@ -12,7 +12,7 @@ static const kz_key keys[] = {
     INTEGER("atlas.max_period", 1, KZ_ATLAS_MOST_PERIOD, "6", max_period, "Longest period of the cycles, drive periods."),
     INTEGER("atlas.checks", 0, 1e5, "300", checks,
             "Random points of a round whose attractors are searched; rounds go on until two in a row find nothing that the "
-            "curves do not tell, at most 16."),
+            "curves do not explain, at most 16."),
     INTEGER("atlas.seeds", 2, 100, "8", seeds,
             "Places whose cycles, attracting or not, are searched first: curves are followed from what is found there."),
     INTEGER("atlas.points", 16, 4000, "400", points, "Cells along each axis for the number and the lists of attractors."),

@@ -4,7 +4,7 @@
 #include "kapitza/study_atlas.h"
 
 struct kz_atlas_plan {
-  kz_chart_axis x, y;         /* the counts are not used */
+  kz_plane_axis x, y;         /* the counts are not used */
   int64_t max_period, checks; /* drive periods; random points of a round */
   int64_t seeds;              /* places whose cycles are searched first */
   int64_t points;             /* cells of the raster along each axis */

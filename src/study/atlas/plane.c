@@ -56,7 +56,7 @@ static kz_status check_keys(const kz_scene *scene) {
 /* Steps of the stiffest pendulum; what all places have in common. */
 static kz_status survey(kz_atlas *atlas) {
   const kz_scene *scene = atlas->scene;
-  const kz_chart_axis *axis[] = {&scene->atlas->x, &scene->atlas->y};
+  const kz_plane_axis *axis[] = {&scene->atlas->x, &scene->atlas->y};
   double stiffest = -1;
   bool rests = false; /* at some place of the lowest y: without gravity no rest attracts there */
   atlas->undriven = true;
@@ -69,7 +69,7 @@ static kz_status survey(kz_atlas *atlas) {
     if (!kz_atlas_pendulum(scene, place, &pendulum)) {
       char text[2][96];
       kz_atlas_values(scene->atlas, place, value);
-      for (int j = 0; j < 2; j++) kz_axis_say(&axis[j]->values, axis[j]->parameter, 10, value[j], text[j], sizeof text[j]);
+      for (int j = 0; j < 2; j++) kz_axis_print(&axis[j]->values, axis[j]->parameter, 10, value[j], text[j], sizeof text[j]);
       return kz_fail(
           KZ_REFUSED,
           "atlas.x.min|atlas.y.min: there is no damped pendulum at %s, %s; an atlas needs damping above 0 in the whole "
@@ -117,7 +117,7 @@ static bool is_turned(const kz_atlas *atlas) {
 }
 
 bool kz_atlas_image(const kz_atlas *atlas, const double place[2], double image[2]) {
-  const kz_chart_axis *axis[] = {&atlas->scene->atlas->x, &atlas->scene->atlas->y};
+  const kz_plane_axis *axis[] = {&atlas->scene->atlas->x, &atlas->scene->atlas->y};
   for (int i = 0; i < 2; i++) {
     const char *name = kz_sweep_parameters[axis[i]->parameter].name;
     if (strcmp(name, "k") && strcmp(name, "gravity")) continue;

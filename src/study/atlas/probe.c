@@ -75,7 +75,7 @@ static void end(motions *m) {
 }
 
 /* What a motion that returns after n periods ends on joins the cycles of the probe; true if it is one of them. */
-static bool settle(const kz_atlas *atlas, const double state[2], int n, kz_atlas_probe *probe) {
+static bool add_end(const kz_atlas *atlas, const double state[2], int n, kz_atlas_probe *probe) {
   kz_atlas_seed cycle;
   kz_atlas_seeds *found = &probe->found;
   for (int64_t i = 0; i < found->count; i++)
@@ -104,7 +104,7 @@ static void look(const kz_atlas *atlas, const kz_flow *flow, motions *m, kz_atla
   }
   for (int64_t i = 0; i < m->n; i++) {
     const double state[2] = {m->theta[i], m->velocity[i]};
-    if (period[i] > 0 && settle(atlas, state, period[i], probe)) continue;
+    if (period[i] > 0 && add_end(atlas, state, period[i], probe)) continue;
     m->theta[left] = m->theta[i];
     m->velocity[left++] = m->velocity[i];
   }

@@ -49,7 +49,7 @@ static void probes_free(int64_t n, kz_atlas_probe *probe) {
   free(probe);
 }
 
-/* How many more attractors of the class of cycle j were found than the curves tell. */
+/* How many more attractors of the class of cycle j were found than the curves explain. */
 static int32_t unexplained(kz_atlas *atlas, const kz_atlas_probe *probe, int64_t j, const int32_t *counts) {
   const kz_atlas_class class = kz_atlas_class_of(&probe->found.list[j].kind);
   int32_t found = 0;
@@ -163,7 +163,7 @@ static kz_status check(kz_atlas *atlas, const kz_run *run, int round, int64_t *w
   return mend(atlas, run, n, p->probe, wrong);
 }
 
-/* Rounds of random places, until some in a row find nothing that the curves do not tell. */
+/* Rounds of random places, until some in a row find nothing that the curves do not explain. */
 static kz_status check_all(kz_atlas *atlas, const kz_run *run, probing *last) {
   const double usual = atlas->scene->atlas->max_period > USUAL_PERIOD ? ROUNDS : QUIET, stands_for = run->sample ? usual : 1;
   for (int round = 0, quiet = 0; round < ROUNDS && quiet < QUIET && atlas->scene->atlas->checks > 0; round++) {

@@ -149,7 +149,7 @@ static void print_settled(const kz_scene *scene, const kz_window_summary *labels
 /* Prints what a user can do about undecided cells. */
 static const char *advice(const kz_basin_plan *plan) {
   if (plan->undecided == KZ_UNDECIDED_DECIDE)
-    return "the largest number of digits that was tried does not tell where they end.";
+    return "the largest number of digits that was tried does not decide where they end.";
   return "their orbits need more than quad precision; basin.undecided: decide follows them further.";
 }
 

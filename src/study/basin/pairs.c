@@ -72,16 +72,16 @@ kz_status kz_pairs_check(const kz_basin_plan *plan) {
                      : exact ? "a pair of doubles does"
                              : "double precision does",
              *or = within  ? ""
-                   : exact ? ", or farthest at most the width of a window whose cells doubles do not tell apart"
+                   : exact ? ", or farthest at most the width of a window whose cells doubles do not distinguish"
                            : ", or basin.method exact";
   if (most < KZ_BOUNDARY_FEWEST_DECADES)
     return kz_fail(
         KZ_REFUSED,
-        "basin.boundary.farthest: %g rad is too near: %s not tell starts apart that are nearer than %.0e rad; it must be "
+        "basin.boundary.farthest: %g rad is too near: %s not distinguish starts that are nearer than %.0e rad; it must be "
         "%.0e at least%s",
         plan->boundary.farthest, what, least, least * pow(10, KZ_BOUNDARY_FEWEST_DECADES), or);
   return kz_fail(KZ_REFUSED,
-                 "basin.boundary.decades: %lld go down to %.0e rad, which %s not tell apart; it must be %d at most%s",
+                 "basin.boundary.decades: %lld go down to %.0e rad, which %s not distinguish; it must be %d at most%s",
                  (long long)plan->boundary.decades, nearest, what, most, or);
 }
 

@@ -18,10 +18,10 @@ enum { CELLS = 130000 };
 static const double NEAR = 0.5;
 
 /* Relative changes of a pendulum: of the sum of its parameters, and of its damping. Beyond FARTHEST it is not moved, because too many attractors
- * would be lost; beyond RECHOSEN its numerics are chosen anew; beyond REGROWN, or RESETTLED of the damping, or after OLDEST moves its trapping
+ * would be lost; beyond RECHOSEN its numerics are chosen anew; beyond REGROWN, or REDAMPED of the damping, or after OLDEST moves its trapping
  * regions are grown anew. (Regions that are carried lose their rim. On drags along a line, a circle and a wavy curve over the plane of Fig. 12, and in
  * steps of 1 % from epsilon = 0.30 to 0.55, at most 12 of 100,000 labels of a frame differ from those by regions that are grown anew for each.) */
-static const double FARTHEST = 0.3, RECHOSEN = 0.1, REGROWN = 0.012, RESETTLED = 0.1;
+static const double FARTHEST = 0.3, RECHOSEN = 0.1, REGROWN = 0.012, REDAMPED = 0.1;
 /* Share of the cells that must not settle before attractors are looked for between moving frames: following fewer costs less than a search,
  * whose cycles of many periods are often lost at the next pendulum. */
 static const double MISSED = 0.01;
@@ -191,7 +191,7 @@ kz_status kz_prepared_move(kz_prepared *r, const kz_scene *scene, const kz_frame
   r->ended = r->left = r->n_unsettled = 0;
   kz_dynamics_set_release(moved, &scene->parameters.release);
   if (frame->atlas) KZ_TRY(kz_prepared_take_listed(r, frame));
-  const bool far = kz_pendulums_parted(&r->grown, pendulum) > REGROWN || damped_apart(&r->grown, pendulum) > RESETTLED;
+  const bool far = kz_pendulums_parted(&r->grown, pendulum) > REGROWN || damped_apart(&r->grown, pendulum) > REDAMPED;
   if (lost > 0 || far || ++r->age >= OLDEST) {
     kz_dynamics_fine_regions(moved, MOVING_CELLS, r->search.max_velocity);
     learn(r);

@@ -50,7 +50,7 @@ typedef struct {
 
 typedef struct {
   bool closed;
-  int64_t period;  /* n; of an open record what its lines tell, 0 = nothing */
+  int64_t period;  /* n; of an open record that of its lines, 0 = they have none */
   int64_t winding; /* net turns in n periods; of an open record without n in the whole record */
   int centre;      /* KZ_ABOUT_DOWN ... */
   double origin;   /* rad: the angle that deflections are counted from, a multiple of pi; 0 where there is no centre */

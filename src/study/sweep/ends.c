@@ -21,7 +21,7 @@ static double velocity_of(const kz_sweep_plan *plan, int64_t place) {
   return plan->ends.velocity.values[plan->ends.velocity.count == 1 ? 0 : place];
 }
 
-static kz_status write_group(const kz_sweep_plan *plan, const kz_chart_ending *e, kz_store *store) {
+static kz_status write_group(const kz_sweep_plan *plan, const kz_plane_ending *e, kz_store *store) {
   const int64_t starts = plan->ends.theta.count, n = starts * plan->x.values.count * plan->y.values.count;
   KZ_TRY(kz_store_dimension(store, GROUP, "start", starts, NULL));
   KZ_TRY(kz_store_variable(store, GROUP, "start_theta", plan->ends.theta.values));
@@ -36,7 +36,7 @@ static kz_status write_group(const kz_sweep_plan *plan, const kz_chart_ending *e
 }
 
 /* Shares of the ends of one start. */
-static void print_start(const kz_sweep_plan *plan, int64_t place, const kz_chart_ending *e, FILE *summary) {
+static void print_start(const kz_sweep_plan *plan, int64_t place, const kz_plane_ending *e, FILE *summary) {
   static const char *const names[] = {"about down", "about inverted", "rotating",          "other cycles",
                                       "chaotic",    "not settled",    "no damped pendulum"};
   enum { KINDS = 7 };
@@ -54,7 +54,7 @@ static void print_start(const kz_sweep_plan *plan, int64_t place, const kz_chart
 }
 
 /* Writes ends to the group /plane and the summary from endings [starts][y][x]. Rank 0. */
-static kz_status publish_ends(const kz_sweep_plan *plan, const kz_chart_ending *endings, kz_store *store, FILE *summary) {
+static kz_status publish_ends(const kz_sweep_plan *plan, const kz_plane_ending *endings, kz_store *store, FILE *summary) {
   KZ_TRY(write_group(plan, endings, store));
   fprintf(summary, "ends: %" PRId64 " values of %s x %" PRId64 " of %s, %" PRId64 " start%s\n", plan->x.values.count,
           kz_sweep_parameters[plan->x.parameter].name, plan->y.values.count, kz_sweep_parameters[plan->y.parameter].name,
@@ -89,8 +89,8 @@ kz_cost kz_ends_cost(const kz_scene *scene) {
   const kz_sweep_plan *plan = scene->sweep;
   const double motions = (double)points_of(plan) * (double)plan->ends.theta.count;
   return (kz_cost){.cells = (int64_t)motions,
-                   .disk_bytes = 2 * motions * sizeof(kz_chart_ending),
-                   .rank0_bytes = 3 * motions * sizeof(kz_chart_ending)};
+                   .disk_bytes = 2 * motions * sizeof(kz_plane_ending),
+                   .rank0_bytes = 3 * motions * sizeof(kz_plane_ending)};
 }
 
 /* Steps of split6 that keep the error of a period of the strongest of n pendulums. */
@@ -104,7 +104,7 @@ static int32_t steps_for(int64_t n, const kz_pendulum *pendulum, double start_sp
                          MOST_STEPS);
 }
 
-void kz_ends_points(const kz_scene *scene, int64_t place, int64_t n, const int64_t *point, kz_chart_ending *ending) {
+void kz_ends_points(const kz_scene *scene, int64_t place, int64_t n, const int64_t *point, kz_plane_ending *ending) {
   const kz_sweep_plan *plan = scene->sweep;
   KZ_FREED kz_pendulum *pendulum = kz_malloc((size_t)n * sizeof *pendulum);
   int64_t periods[KZ_ENDS_POINTS];
@@ -115,9 +115,9 @@ void kz_ends_points(const kz_scene *scene, int64_t place, int64_t n, const int64
     periods[i] = damped ? periods_of(plan, pendulum[i].beta) : 0;
   }
   kz_start_state(plan->ends.theta.values[place], velocity_of(plan, place), start);
-  kz_chart_ends(steps_for(n, pendulum, fabs(start[1])), n, pendulum, start, (int32_t)plan->ends.max_period, periods, ending);
+  kz_ends_follow(steps_for(n, pendulum, fabs(start[1])), n, pendulum, start, (int32_t)plan->ends.max_period, periods, ending);
   for (int64_t i = 0; i < n; i++)
-    if (periods[i] == 0) ending[i] = (kz_chart_ending){.period = KZ_NO_PENDULUM, .centre = 3, .exponent = NAN};
+    if (periods[i] == 0) ending[i] = (kz_plane_ending){.period = KZ_NO_PENDULUM, .centre = 3, .exponent = NAN};
 }
 
 static kz_status find_ends(void *context, int64_t first, int64_t n, void *record) {
@@ -133,8 +133,8 @@ kz_status kz_ends_run(const kz_scene *scene, const kz_run *run, kz_store *store,
   const kz_sweep_plan *plan = scene->sweep;
   const int64_t points = points_of(plan);
   const kz_stage stage = kz_stage_of_rows("ends", plan->ends.theta.count, points, KZ_ENDS_POINTS,
-                                          KZ_ENDS_POINTS * sizeof(kz_chart_ending), find_ends, (void *)scene);
-  KZ_FREED kz_chart_ending *endings = store ? kz_malloc((size_t)stage.n_tiles * stage.record_bytes) : NULL;
+                                          KZ_ENDS_POINTS * sizeof(kz_plane_ending), find_ends, (void *)scene);
+  KZ_FREED kz_plane_ending *endings = store ? kz_malloc((size_t)stage.n_tiles * stage.record_bytes) : NULL;
   KZ_TRY(kz_stage_run(run, &stage, endings));
   if (!store) return KZ_OK;
   for (int64_t place = 1; place < plan->ends.theta.count; place++) /* without the ends of the last tile of each start */

@@ -9,4 +9,4 @@ enum { KZ_NO_PENDULUM = -2 }; /* in place of a period: no pendulum, or one witho
 
 /* ending [n] of start number `place` at n <= KZ_ENDS_POINTS points; point [n] = their numbers, x fastest. */
 enum { KZ_ENDS_POINTS = 256 };
-void kz_ends_points(const kz_scene *scene, int64_t place, int64_t n, const int64_t *point, kz_chart_ending *ending);
+void kz_ends_points(const kz_scene *scene, int64_t place, int64_t n, const int64_t *point, kz_plane_ending *ending);

@@ -30,7 +30,7 @@ typedef struct {
 struct kz_sweep_plan {
   int32_t parameter;       /* row of kz_sweep_parameters; KZ_UNSET_WORD = over a plane */
   kz_axis values;          /* both ends included */
-  kz_chart_axis x, y;      /* of a plane */
+  kz_plane_axis x, y;      /* of a plane */
   kz_integers measure;     /* indices in the list of kz_sweep_measure_words() */
   kz_axis theta, velocity; /* window of starts; the counts of the axes are not used */
   int64_t starts, max_period, seed;

@@ -18,7 +18,7 @@ typedef struct {
 } writing;
 
 /* One axis with its scale, its key and that key's unit. */
-static kz_status write_axis(const char *name, const kz_chart_axis *axis, kz_store *store) {
+static kz_status write_axis(const char *name, const kz_plane_axis *axis, kz_store *store) {
   KZ_TRY(kz_axis_describe(&axis->values, axis->parameter, name, "plane", store));
   KZ_SCALE(store, "plane", name, axis->values.count, kz_axis_value(&axis->values, i));
   return KZ_OK;

@@ -31,8 +31,8 @@ static bool motions_at_corner(const kz_scene *scene, int64_t i, kz_step_motions 
   const double value[] = {i % 2 ? plan->x.values.max : plan->x.values.min, i / 2 ? plan->y.values.max : plan->y.values.min};
   *motions = kz_motions_of(scene, fastest_of_sweep(scene), "numerics.steps_per_period|sweep");
   char text[2][96];
-  kz_axis_say(&plan->x.values, plan->x.parameter, 6, value[0], text[0], sizeof text[0]);
-  kz_axis_say(&plan->y.values, plan->y.parameter, 6, value[1], text[1], sizeof text[1]);
+  kz_axis_print(&plan->x.values, plan->x.parameter, 6, value[0], text[0], sizeof text[0]);
+  kz_axis_print(&plan->y.values, plan->y.parameter, 6, value[1], text[1], sizeof text[1]);
   snprintf(motions->where, sizeof motions->where, "at %s, %s, ", text[0], text[1]);
   return kz_sweep_has_table(plan) && kz_pendulum_at(scene, 2, parameter, value, &motions->pendulum) &&
          motions->pendulum.beta > 0;
@@ -46,7 +46,7 @@ static bool motions_at(const kz_scene *scene, int64_t i, int64_t n, kz_step_moti
   *motions = kz_motions_of(scene, fastest_of_sweep(scene), "numerics.steps_per_period|sweep");
   if (kz_sweep_has_grid(scene)) kz_motions_label_cells(scene->basin, motions);
   char text[96];
-  kz_axis_say(&plan->values, plan->parameter, 6, value, text, sizeof text);
+  kz_axis_print(&plan->values, plan->parameter, 6, value, text, sizeof text);
   snprintf(motions->where, sizeof motions->where, "at %s, ", text);
   const bool damped_alone = !kz_sweep_measures(plan, KZ_SWEEP_RELEASE_ANGLE) && !kz_sweep_measures(plan, KZ_SWEEP_STROBE);
   return kz_sweep_pendulum(scene, value, &motions->pendulum) && (motions->pendulum.beta > 0 || !damped_alone);

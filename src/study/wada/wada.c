@@ -81,7 +81,7 @@ static bool is_listed(const kz_dynamics *dynamics, int64_t number, const kz_list
   return false;
 }
 
-/* Both lists have one order, which tells chaotic mirror images apart. */
+/* Both lists have one order, which distinguishes chaotic mirror images. */
 static void set_ids(const kz_dynamics *dynamics, const kz_listed *list, kz_file_attractors *attractors) {
   const int64_t n = kz_dynamics_count(dynamics);
   KZ_FREED int64_t *order = kz_malloc((size_t)(n + 1) * sizeof *order);

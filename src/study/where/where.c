@@ -135,7 +135,7 @@ static kz_status answer(where_job *a, kz_ending *endings) {
   return kz_question_answer(q, &catalogue, endings);
 }
 
-/* The starts as kz_where takes them, with their endings; job->question.label is what they say. To be closed in every case. */
+/* The starts as kz_where takes them, with their endings; job->question.label are their labels. To be closed in every case. */
 static kz_status where_label(const kz_scene *scene, int64_t n, const kz_coordinate (*start)[2], where_job *job,
                              kz_ending *endings) {
   *job = (where_job){.question = {.scene = scene, .n = n, .start = start}};

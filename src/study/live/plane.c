@@ -1,4 +1,4 @@
-/* A chart level by level, as frames are. */
+/* Ends of one start over a plane of two keys, level by level, as frames are: the request chart of `kapitza serve`. */
 #include "sweep/ends.h"
 #include "live.h"
 #include "sweep/plan.h"
@@ -14,7 +14,7 @@ typedef struct {
 } drawing;
 
 static kz_status follow(drawing *d, int64_t n) {
-  kz_chart_ending ending[KZ_ENDS_POINTS];
+  kz_plane_ending ending[KZ_ENDS_POINTS];
   for (int64_t done = 0; done < n; done += KZ_ENDS_POINTS) {
     const int64_t part = n - done < KZ_ENDS_POINTS ? n - done : KZ_ENDS_POINTS;
     KZ_TRY(d->pause(d->context));
@@ -28,7 +28,7 @@ static kz_status follow(drawing *d, int64_t n) {
 }
 
 /* Follows what is pending of a level, and gathers it. */
-static kz_status draw(drawing *d, const kz_chart_level *level) {
+static kz_status draw(drawing *d, const kz_plane_level *level) {
   KZ_TRY(follow(d, kz_level_pending(level->level, d->rows, d->columns, d->rows * d->columns, d->listed, d->pending)));
   for (int64_t i = 0; i < level->rows; i++)
     for (int64_t j = 0; j < level->columns; j++) {
@@ -40,8 +40,8 @@ static kz_status draw(drawing *d, const kz_chart_level *level) {
   return KZ_OK;
 }
 
-kz_status kz_chart_draw(const kz_scene *scene, const kz_integers *levels, kz_status (*pause)(void *context),
-                        kz_status (*show)(void *context, const kz_chart_level *level), void *context) {
+kz_status kz_plane_draw(const kz_scene *scene, const kz_integers *levels, kz_status (*pause)(void *context),
+                        kz_status (*show)(void *context, const kz_plane_level *level), void *context) {
   const int64_t rows = scene->sweep->y.values.count, columns = scene->sweep->x.values.count, n = rows * columns;
   KZ_FREED uint8_t *planes = kz_malloc(4 * (size_t)n);
   KZ_FREED int64_t *pending = kz_malloc((size_t)n * sizeof *pending);
@@ -49,7 +49,7 @@ kz_status kz_chart_draw(const kz_scene *scene, const kz_integers *levels, kz_sta
   drawing d = {scene, pause, context, rows, columns, pending, listed, planes, planes + n, planes + 2 * n, planes + 3 * n};
   for (int64_t i = 0; i < levels->count; i++) {
     const int64_t step = levels->values[i];
-    const kz_chart_level level = {step, kz_level_size(step, rows), kz_level_size(step, columns), d.shown_period,
+    const kz_plane_level level = {step, kz_level_size(step, rows), kz_level_size(step, columns), d.shown_period,
                                   d.shown_centre};
     KZ_TRY(draw(&d, &level));
     KZ_TRY(show(context, &level));
