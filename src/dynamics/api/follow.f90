@@ -4,6 +4,7 @@ module kz_api_follow
   use kz_maps_states, only: states_to_physical
   use kz_vector_map, only: map_t, flow_t, WIDTH
   use kz_api_dynamics, only: dynamics_t, of_handle, borrow_flow, return_flow
+  use kz_cycles_cycles, only: attractor_t
   use kz_labels_label, only: follow
   use kz_labels_smooth, only: smooth_times
   use kz_maps_map_table, only: table_map_t, make_table_map
@@ -12,7 +13,9 @@ module kz_api_follow
   private
 
   !> Ways of dynamics.h; those that remain are the nodes of the table's stencil.
-  integer(c_int32_t), parameter :: DIRECT = 0
+  integer(c_int32_t), parameter :: DIRECT = 0, SPARSE = 1
+  !> Periods between two looks at the regions of starts that take hundreds of them.
+  integer, parameter :: PRIMES(6) = [5, 7, 11, 13, 17, 19]
 
 contains
 
@@ -32,14 +35,32 @@ contains
     call borrow_flow(d, flow)
     select case (stepping)
     case (DIRECT)
-      call follow(flow, d%regions, d%attractors, state, label, periods)
+      call follow(flow, d%regions, d%attractors, state, label, periods, 1)
+    case (SPARSE)
+      call follow(flow, d%regions, d%attractors, state, label, periods, apart(d%attractors))
     case default
       allocate (map, source=make_table_map(d%table, int(stepping), flow))
-      call follow(map, d%regions, d%attractors, state, label, periods)
+      call follow(map, d%regions, d%attractors, state, label, periods, 1)
     end select
     call leave_open(flow, state, label)
     call return_flow(d, flow)
   end subroutine follow_starts
+
+  !> Periods from one look at the regions to the next: a prime that divides the period of no attractor, because a cycle may have a region at one
+  !> of its strobe points alone. Covers are looked at in every period.
+  pure function apart(attractors) result(periods)
+    type(attractor_t), intent(in) :: attractors(:)
+    integer :: periods
+    integer :: i
+
+    periods = 1
+    if (any(attractors%period <= 0)) return
+    do i = 1, size(PRIMES)
+      if (any(mod(attractors%period, PRIMES(i)) == 0)) cycle
+      periods = PRIMES(i)
+      return
+    end do
+  end function apart
 
   !> The states of the starts that have not settled, in physical coordinates again.
   subroutine leave_open(flow, state, label)
@@ -123,7 +144,7 @@ contains
     end if
     state(2, :) = start(2, :)
     periods = max_periods
-    call follow(map, d%regions, d%attractors, state, label, periods)
+    call follow(map, d%regions, d%attractors, state, label, periods, 1)
   end subroutine follow_reference
 
 end module kz_api_follow

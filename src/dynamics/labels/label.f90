@@ -18,6 +18,7 @@ module kz_labels_label
     integer(c_int32_t), pointer :: label(:) => null()
     integer(c_int64_t), pointer :: periods(:) => null()
     integer(c_int64_t) :: most(CAPACITY) = 0 !< periods that the start of a lane is followed at most
+    integer :: apart = 1 !< periods from one look at the regions to the next
   contains
     procedure :: admit
     procedure :: advance
@@ -30,16 +31,18 @@ contains
   !> Follows start i for periods(i) at most. label(i) = attractor (from 1) that it ends on, 0 where it has not settled;
   !> periods(i) becomes its first period inside a trapping region, or the periods followed. state: physical starts (half-turns,
   !> rad per drive radian); it becomes the states where the orbits were left, in the map's coordinates.
-  subroutine follow(map, regions, attractors, state, label, periods)
+  subroutine follow(map, regions, attractors, state, label, periods, apart)
     class(map_t), intent(inout), target :: map !< what moves the states by one period
     type(regions_t), intent(in), target :: regions !< the trapping regions
     type(attractor_t), intent(in), target :: attractors(:) !< the catalogue, numbered from 1
     real(dp), intent(inout), target :: state(:, :) !< [2, n] in and out
     integer(c_int32_t), intent(out), target :: label(:) !< attractor from 1, 0 = not settled
     integer(c_int64_t), intent(inout), target :: periods(:) !< most periods, in; first period inside a trapping region, out
+    integer, intent(in) :: apart !< periods from one look at the regions to the next: the first period inside may be later by less than that
     type(starts_t) :: starts
 
-    starts = starts_t(map=map, regions=regions, attractors=attractors, state=state, label=label, periods=periods, items=size(label))
+    starts = starts_t(map=map, regions=regions, attractors=attractors, state=state, label=label, periods=periods, apart=apart, &
+                      items=size(label))
     call starts%run()
   end subroutine follow
 
@@ -63,11 +66,14 @@ contains
   subroutine advance(self, list, n)
     class(starts_t), intent(inout) :: self
     integer, intent(out) :: list(WIDTH), n
-    integer :: done(WIDTH)
+    integer :: done(WIDTH), i
 
     associate (m => self%active)
-      call self%map%advance(m)
-      self%age(:m) = self%age(:m) + 1
+      n = int(max(1_c_int64_t, min(int(self%apart, c_int64_t), minval(self%most(:m) - self%age(:m)))))
+      do i = 1, n
+        call self%map%advance(m)
+      end do
+      self%age(:m) = self%age(:m) + n
       call find_regions(self%regions, self%attractors, m, self%map%u(:m), self%map%v(:m), self%region)
       if (size(self%regions%covered) > 0) call visit_covers(self)
       done(:m) = min(1, self%region(:m))

@@ -11,6 +11,8 @@
 /* rad: the error of a period that moving frames bear where their cells are wider than SMALL, and where they are not, which at any depth are
  * some 1e-7 wide when they are handed over; and the starts of the search. */
 static const double COARSE = 1e-6, FINE = 1e-10, SMALL = 3e-5;
+/* Where motions take more than SLOW periods on average, basins are a lace that no such error resolves: these frames bear COARSEST. */
+static const double COARSEST = 1e-4, SLOW = 2000;
 enum { MOVING_STARTS = 1024, MOVING_SOUGHT = 64 };
 /* Trapping regions are grown as for this many cells, whatever the size of a frame: more saves no time. */
 enum { CELLS = 130000 };
@@ -40,7 +42,12 @@ double kz_moving_tolerance(const kz_scene *scene) {
   const kz_axis *theta = &scene->basin->theta, *velocity = &scene->basin->velocity;
   const double cells[2] = {(double)kz_axis_width(theta) / (double)theta->count,
                            (double)kz_axis_width(velocity) / (double)velocity->count};
-  return fmin(cells[0], cells[1]) < SMALL ? FINE : COARSE;
+  if (fmin(cells[0], cells[1]) < SMALL) return FINE;
+  return kz_settling_mean(scene->parameters.pendulum.beta) < SLOW ? COARSE : COARSEST;
+}
+
+bool kz_prepared_is_weak(const kz_prepared *prepared) {
+  return kz_settling_mean(prepared->scene.parameters.pendulum.beta) >= WEAK;
 }
 
 static kz_window window_of(const kz_scene *scene) {
@@ -71,7 +78,7 @@ static bool has_cover(const kz_prepared *r) {
 /* Extends the trapping regions of moving frames by orbits, where damping is so weak that this saves time. */
 static void learn(kz_prepared *r) {
   const double mean = kz_settling_mean(r->scene.parameters.pendulum.beta);
-  if (!kz_prepared_moves(r) || (mean < WEAK && !has_cover(r))) return;
+  if (!kz_prepared_moves(r) || (!kz_prepared_is_weak(r) && !has_cover(r))) return;
   const int64_t n = (int64_t)fmin(ORBITS, VISITS / fmax(mean, has_cover(r) ? (double)r->periods : 0));
   KZ_FREED double *state = kz_malloc(2 * (size_t)(n + 1) * sizeof *state);
   kz_dynamics_starts(&r->search.window, r->search.seed, n, state);

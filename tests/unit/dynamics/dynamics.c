@@ -167,6 +167,36 @@ TEST(test_chaos) {
   kz_dynamics_free(d);
 }
 
+/* Starts of a weakly damped pendulum end alike if regions are looked at in some periods only, later by less than these times the periods of a
+ * cycle: one that motions spiral into slowly has a region at its first strobe point alone. */
+TEST(test_sparse_looks) {
+  enum { N = 512 / PART, MOST = 3000, LATER = 7 * 12 };
+  const kz_pendulum pendulum = {1.0 / 121, 1.0 / 550, 0.3};
+  kz_dynamics *d = kz_dynamics_create(&pendulum, numerics(), 12);
+  double x[2][2 * N];
+  int32_t label[2][N];
+  int64_t periods[2][N], later = 0, settled = 0;
+  kz_dynamics_coarse_regions(d, 3);
+  kz_dynamics_starts(&WINDOW, 1, N, x[0]);
+  kz_dynamics_follow(d, KZ_FOLLOW_DIRECT, N, 1000, x[0], label[0], periods[0]);
+  for (int first = 0; first < N; first += 64) find_cycles(d, 64, x[0] + 2 * first, 0.02);
+  assert_true(kz_dynamics_count(d) >= 6);
+  kz_dynamics_update(d);
+  for (int way = 0; way < 2; way++) {
+    kz_dynamics_starts(&WINDOW, 2, N, x[way]);
+    kz_dynamics_follow(d, way == 0 ? KZ_FOLLOW_DIRECT : KZ_FOLLOW_SPARSE, N, MOST, x[way], label[way], periods[way]);
+  }
+  for (int i = 0; i < N; i++) {
+    if (label[0][i] == 0 || periods[0][i] > MOST - LATER) continue;
+    assert_int_equal(label[1][i], label[0][i]);
+    assert_true(periods[1][i] >= periods[0][i] && periods[1][i] < periods[0][i] + LATER);
+    later += periods[1][i] - periods[0][i];
+    settled++;
+  }
+  assert_true(settled > N * 9 / 10 && later > 2 * settled);
+  kz_dynamics_free(d);
+}
+
 /* A torque turns this pendulum faster and faster, until it runs in step with nothing. Its neighbours part by a factor of 90, and no further:
  * it is no chaos, within the regions or beyond. (It was, and beyond the regions the program crashed.) */
 TEST(test_quasi_periodic_motions_are_no_chaos) {
