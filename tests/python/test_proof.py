@@ -43,6 +43,8 @@ def test_every_label_is_proved_by_any_number_of_ranks(kapitza, tmp_path):
     assert "100 % of the labels are proved" in done.stdout and "refuted" not in done.stdout
     cells, attributes, attractors = read(tmp_path / "s.h5")
     assert np.isin(cells["evidence"], [PROVED, IN_PAIRS]).all() and not cells["attractor"].any()
+    with h5py.File(tmp_path / "s.h5") as file:
+        assert file["basin/evidence"].attrs["flag_meanings"].split()[PROVED:12:5] == ["proved_in_doubles", "proved_in_triples_of_doubles"]
     assert attributes["proved_share"] == 1 and attributes["refuted"] == 0
     assert attributes["other_share_starts"] == 1240 and attributes["other_share_confidence"] == 0.95
     assert np.isclose(attributes["other_share_high"], 1 - 0.05 ** (1 / 1240))
