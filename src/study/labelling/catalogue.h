@@ -22,6 +22,19 @@ kz_status kz_catalogue_write(const kz_catalogue *catalogue, const kz_pendulum *p
 
 /* Writes what the groups of attractors and of saddles have alike: dimensions, kind, name, strobe points and multipliers of each motion. */
 kz_status kz_catalogue_write_motions(const kz_catalogue *catalogue, const char *group, const char *dimension, kz_store *store);
+/* Rows of the tables of variables that both groups share. */
+#define KZ_MOTION_VARIABLES(dimension)                                                                                     \
+  {"phase", KZ_INT32, {"phase"}, NONE, "place of the strobe point along the orbit"},                                       \
+      {"pair", KZ_INT32, {"pair"}, NONE, "place of the Floquet multiplier, larger modulus first"},                         \
+      {"winding", KZ_INT32, {dimension}, NONE, "net turns in one period of the orbit, + counterclockwise"},                \
+      {"centre", KZ_INT8, {dimension}, NONE, "what the orbit moves about", {CENTRES}},                                     \
+      {"symmetric", KZ_INT8, {dimension}, NONE, "whether the orbit is its own mirror image", {"no", "yes"}},               \
+      {"mirror", KZ_INT32, {dimension}, NONE, "id of the mirror image under (theta, velocity) -> -(theta, velocity)"},     \
+      {"strobe_theta", KZ_REAL, {dimension, "phase"}, ANGLE, "angle of the strobe point from down"},                       \
+      {"strobe_velocity", KZ_REAL, {dimension, "phase"}, VELOCITY, "angular velocity of the strobe point"},                \
+      {"multiplier_re", KZ_REAL, {dimension, "pair"}, NONE, "Floquet multiplier over one period of the orbit, real part"}, \
+      {"multiplier_im", KZ_REAL, {dimension, "pair"}, NONE, "Floquet multiplier over one period of the orbit, imaginary part"}
+
 /* n NaNs; the caller frees them. */
 double *kz_nan_filled(int64_t n);
 
