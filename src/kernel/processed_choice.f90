@@ -104,12 +104,9 @@ contains
     call make_processed_flow(trial%pendulum, trial%series, unbounded, flow, trial%numerics%fastest)
     error = 0
     do first = 0, N_PROBES - WIDTH, WIDTH
-      do lane = 1, WIDTH
-        call flow%put(lane, real(trial%probes%start(1, first + lane), c_double), real(trial%probes%start(2, first + lane), c_double))
-      end do
-      call flow%to_map(WIDTH)
-      call flow%advance(WIDTH)
-      call flow%to_physical(WIDTH)
+      call flow%put_all(real(trial%probes%start(1, first + 1:first + WIDTH), c_double), &
+                        real(trial%probes%start(2, first + 1:first + WIDTH), c_double))
+      call flow%advance_physical(WIDTH)
       do lane = 1, WIDTH
         distance = hypot(PI*(modulo(flow%u(lane) - real(trial%probes%image(1, first + lane), c_double) + 1, 2.0_c_double) - 1), &
                          flow%v(lane) - real(trial%probes%image(2, first + lane), c_double))

@@ -89,18 +89,14 @@ contains
     integer(c_int64_t), value :: n
     real(dp), intent(inout) :: state(2, n)
     type(dynamics_t), pointer :: d
-    integer :: first, lanes, i
+    integer :: first, lanes
 
     d => of_handle(handle)
     associate (flow => d%search%flow)
       do first = 0, int(n) - 1, WIDTH
         lanes = min(WIDTH, int(n) - first)
-        do i = 1, lanes
-          call flow%put(i, state(1, first + i), state(2, first + i))
-        end do
-        call flow%to_map(lanes)
-        call flow%advance(lanes)
-        call flow%to_physical(lanes)
+        call flow%put_all(state(1, first + 1:first + lanes), state(2, first + 1:first + lanes))
+        call flow%advance_physical(lanes)
         state(1, first + 1:first + lanes) = flow%u(:lanes)
         state(2, first + 1:first + lanes) = flow%v(:lanes)
       end do

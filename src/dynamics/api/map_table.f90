@@ -74,9 +74,7 @@ contains
       do i = 1, WIDTH
         call flow%put(i, 2*real(i, dp)/WIDTH - 1, v)
       end do
-      call flow%to_map(WIDTH)
-      call flow%advance(WIDTH)
-      call flow%to_physical(WIDTH)
+      call flow%advance_physical(WIDTH)
       top = max(top, maxval(abs(flow%v(:WIDTH))))
     end do
   end function fastest_of

@@ -50,14 +50,12 @@ contains
     integer, intent(inout) :: n_blurred(:)
     type(attractor_t), allocatable, intent(inout) :: attractors(:) !< the catalogue, which gains what is found
     real(dp), allocatable :: orbit_u(:, :), orbit_v(:, :)
-    integer :: lane, n, n_known, last
+    integer :: n, n_known, last
 
     last = search%max_period
     if (is_weak(search)) last = max(last, CENTRED)
     allocate (orbit_u(size(u), 0:last), orbit_v(size(u), 0:last))
-    do lane = 1, size(u)
-      call search%flow%put(lane, u(lane), v(lane))
-    end do
+    call search%flow%put_all(u, v)
     call search%flow%to_map(size(u))
     orbit_u(:, 0) = search%flow%u(:size(u))
     orbit_v(:, 0) = search%flow%v(:size(u))

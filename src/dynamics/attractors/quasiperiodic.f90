@@ -57,9 +57,7 @@ contains
 
     n = size(state, 2)
     if (.not. is_damped(search%pendulum) .or. 2*PI*search%pendulum%beta*(age + WINDOW) < EARLIEST) return
-    do i = 1, n
-      call search%flow%put(i, state(1, i), state(2, i))
-    end do
+    call search%flow%put_all(state(1, :), state(2, :))
     call search%flow%to_map(n)
     record%tangent(1, 1, :) = 1
     call follow_window(search%flow, regions, attractors, n, record)

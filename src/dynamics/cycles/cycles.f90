@@ -137,9 +137,7 @@ contains
     x = reshape([(u(i), v(i), i=1, n)], [2, n])
     do iteration = 1, ITERATIONS
       tangent(:, :, :n) = spread(IDENTITY, 3, n)
-      do i = 1, n
-        call flow%put(i, x(1, i), x(2, i))
-      end do
+      call flow%put_all(x(1, :), x(2, :))
       call flow%to_map(n, tangent)
       do i = 1, period
         call flow%advance_tangent(n, tangent)

@@ -119,9 +119,7 @@ contains
     integer :: i, n
 
     n = size(u)
-    do i = 1, n
-      call flow%put(i, u(i), v(i))
-    end do
+    call flow%put_all(u, v)
     tangent = spread(IDENTITY, 3, WIDTH)
     do i = 1, periods
       call flow%advance_tangent(n, tangent)

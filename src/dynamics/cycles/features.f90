@@ -48,9 +48,7 @@ contains
     allocate (angle(0:size(u)*periods*SAMPLES), velocity(0:size(u)*periods*SAMPLES))
     angle(0) = u(1)
     velocity(0) = v(1)
-    do piece = 1, size(u)
-      call flow%put(piece, u(piece), v(piece))
-    end do
+    call flow%put_all(u, v)
     do period = 1, periods
       turns = flow%turns(:size(u))
       call flow%sample(SAMPLES, shown_u, shown_v)

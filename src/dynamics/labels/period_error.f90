@@ -108,12 +108,8 @@ contains
     real(dp) :: distance
     integer :: lane, class
 
-    do lane = 1, WIDTH
-      call flow%put(lane, real(probes%start(1, first + lane - 1), dp), real(probes%start(2, first + lane - 1), dp))
-    end do
-    call flow%to_map(WIDTH)
-    call flow%advance(WIDTH)
-    call flow%to_physical(WIDTH)
+    call flow%put_all(real(probes%start(1, first:first + WIDTH - 1), dp), real(probes%start(2, first:first + WIDTH - 1), dp))
+    call flow%advance_physical(WIDTH)
     do lane = 1, WIDTH
       class = (first + lane - 2)/probes%each
       du = flow%u(lane) - probes%image(1, first + lane - 1)

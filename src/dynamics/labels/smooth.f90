@@ -24,15 +24,13 @@ contains
     integer(c_int32_t), intent(in) :: label(:) !< [n] attractor from 1; others are left as they are
     real(dp), intent(in) :: state(:, :) !< [2, n] in the map's coordinates
     real(dp), intent(inout) :: time(:) !< [n] periods
-    integer :: first, last, lane, n
+    integer :: first, last, n
     real(dp) :: gained(WIDTH)
 
     do first = 1, size(label), WIDTH
       last = min(size(label), first + WIDTH - 1)
       n = last - first + 1
-      do lane = 1, n
-        call flow%put(lane, state(1, first + lane - 1), state(2, first + lane - 1))
-      end do
+      call flow%put_all(state(1, first:last), state(2, first:last))
       call approach(flow, attractors, label(first:last), gained(:n))
       time(first:last) = max(0.0_dp, time(first:last) + gained(:n))
     end do

@@ -85,14 +85,12 @@ contains
     class(flow_t), intent(inout) :: flow
     logical, intent(in) :: entering
     real(dp), intent(inout) :: u(:), v(:)
-    integer :: first, last, n, lane
+    integer :: first, last, n
 
     do first = 1, size(u), WIDTH
       last = min(first + WIDTH - 1, size(u))
       n = last - first + 1
-      do lane = 1, n
-        call flow%put(lane, u(first + lane - 1), v(first + lane - 1))
-      end do
+      call flow%put_all(u(first:last), v(first:last))
       if (entering) then
         call flow%to_map(n)
       else

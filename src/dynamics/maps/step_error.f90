@@ -79,9 +79,7 @@ contains
       sign = merge(1, 1 - 2*mod(i, 2), mirrored)
       call map%put(lane, 2*modulo(i*GOLDEN, 1.0_dp) - 1, sign*(slowest + (fastest - slowest)*(i/real(STATES - 1, dp))))
     end do
-    call map%to_map(WIDTH)
-    call map%advance(WIDTH)
-    call map%to_physical(WIDTH)
+    call map%advance_physical(WIDTH)
   end subroutine advance_class
 
   !> The largest distance of two maps' states, rad. `limit` bounds the speed of a true motion: |v'| <= |k| + |m| besides friction.
@@ -116,14 +114,12 @@ contains
     class(map_t), intent(inout) :: table_map !< the map whose error is measured
     real(dp), intent(in) :: state(:, :) !< (2, n): half-turns, rad per drive radian
     real(dp) :: table_error
-    integer :: first, lane
+    integer :: first
 
     table_error = 0
     do first = 1, size(state, 2), WIDTH
-      do lane = 1, WIDTH
-        call flow%put(lane, state(1, first + lane - 1), state(2, first + lane - 1))
-        call table_map%put(lane, state(1, first + lane - 1), state(2, first + lane - 1))
-      end do
+      call flow%put_all(state(1, first:first + WIDTH - 1), state(2, first:first + WIDTH - 1))
+      call table_map%put_all(state(1, first:first + WIDTH - 1), state(2, first:first + WIDTH - 1))
       call flow%advance(WIDTH)
       call table_map%advance(WIDTH)
       table_error = max(table_error, difference(flow, table_map, huge(1.0_dp)/2))

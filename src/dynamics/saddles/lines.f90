@@ -97,13 +97,11 @@ contains
     class(flow_t), intent(inout) :: flow
     real(dp), intent(inout) :: orbit(:, 0:, :)
     real(dp) :: start(size(orbit, 3))
-    integer :: lanes, i, n
+    integer :: lanes, n
 
     lanes = size(orbit, 3)
     start = wrapped(orbit(1, 0, :)/PI)
-    do i = 1, lanes
-      call flow%put(i, start(i), orbit(2, 0, i))
-    end do
+    call flow%put_all(start, orbit(2, 0, :))
     do n = 1, ubound(orbit, 2)
       call flow%advance(lanes)
       orbit(1, n, :) = orbit(1, 0, :) + PI*(2*real(flow%turns(:lanes), dp) + (flow%u(:lanes) - start))

@@ -22,6 +22,8 @@ module kz_vector_map
   contains
     !> Puts a state into a lane and sets its turns to 0.
     procedure :: put => put_state
+    !> Puts states into the lanes 1 .. size(u).
+    procedure :: put_all
     !> Puts start number `number`, which is (u, v) in double precision.
     procedure :: put_start
     !> Copies lane `from` over lane `to`.
@@ -33,6 +35,8 @@ module kz_vector_map
     !> matrix(:, :, lane), if present, is multiplied by the derivative of the change; flows alone know it.
     procedure :: to_map => same_coordinates
     procedure :: to_physical => same_coordinates
+    !> Advances the lanes 1 .. n by one period, from physical states to physical states.
+    procedure :: advance_physical
   end type map_t
 
   !> A map that is integrated: it also has its derivative, and the states within the period.
@@ -149,6 +153,25 @@ contains
     self%v(lane) = v
     self%turns(lane) = 0
   end subroutine put_state
+
+  subroutine put_all(self, u, v)
+    class(map_t), intent(inout) :: self
+    real(c_double), intent(in) :: u(:), v(:)
+    integer :: lane
+
+    do lane = 1, size(u)
+      call self%put(lane, u(lane), v(lane))
+    end do
+  end subroutine put_all
+
+  subroutine advance_physical(self, n)
+    class(map_t), intent(inout) :: self
+    integer, intent(in) :: n
+
+    call self%to_map(n)
+    call self%advance(n)
+    call self%to_physical(n)
+  end subroutine advance_physical
 
   !> The states of a map are doubles: which start it is does not matter.
   subroutine put_start(self, lane, number, u, v)

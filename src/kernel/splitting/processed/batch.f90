@@ -273,12 +273,9 @@ contains
     class(processed_batch_t), intent(inout) :: self
     integer, intent(in) :: n
     real(rk), intent(out) :: u(:, :), v(:, :)
-    integer :: lane
 
     call self%to_physical(size(u, 2))
-    do lane = 1, size(u, 2)
-      call self%fallback%put(lane, self%u(lane), self%v(lane))
-    end do
+    call self%fallback%put_all(self%u(:size(u, 2)), self%v(:size(u, 2)))
     call self%fallback%sample(n, u, v)
     self%u(:size(u, 2)) = u(n, :)
     self%v(:size(u, 2)) = v(n, :)
