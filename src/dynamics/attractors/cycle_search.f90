@@ -165,7 +165,7 @@ contains
     call newton(search%flow, n, farthest, x, found, blurred)
     promise = merge(UNSURE, NOTHING, found .or. blurred)
     if (.not. found) return
-    call n_periods(search%flow, n, x, residual, matrix)
+    call n_periods(search%flow, n, 1, x, residual, matrix)
     multiplier = eigenvalues(matrix, exp(-2*PI*search%pendulum%beta*n))
     if (abs(multiplier(1)) > SURELY) promise = NOTHING
     if (abs(multiplier(1)) >= 1) return

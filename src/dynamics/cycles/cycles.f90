@@ -2,7 +2,7 @@
 module kz_cycles_cycles
   use, intrinsic :: iso_c_binding, only: dp => c_double
   use kz_vector_map, only: flow_t, WIDTH, PI
-  use kz_cycles_newton, only: newton, minimal_period
+  use kz_cycles_newton, only: newton, n_periods, minimal_period
   use kz_maps_matrices, only: eigenvalues, solved, IDENTITY
   use kz_maps_states, only: angle_difference, states_to_map, same_state, rounded
   implicit none
@@ -130,21 +130,15 @@ contains
     real(dp), intent(inout) :: u(:), v(:)
     integer, parameter :: ITERATIONS = 4
     real(dp), parameter :: ENDED = 1e-10_dp
-    real(dp) :: x(2, size(u)), step(2, size(u)), tangent(2, 2, WIDTH)
+    real(dp) :: x(2, size(u)), step(2, size(u)), residual(2, size(u)), matrix(2, 2, size(u))
     integer :: n, i, iteration
 
     n = size(u)
     x = reshape([(u(i), v(i), i=1, n)], [2, n])
     do iteration = 1, ITERATIONS
-      tangent(:, :, :n) = spread(IDENTITY, 3, n)
-      call flow%put_all(x(1, :), x(2, :))
-      call flow%to_map(n, tangent)
-      do i = 1, period
-        call flow%advance_tangent(n, tangent)
-      end do
-      call flow%to_physical(n, tangent)
+      call n_periods(flow, period, n, x, residual, matrix)
       do i = 1, n
-        step(:, i) = solved(tangent(:, :, i), [PI*angle_difference(flow%u(i), x(1, i)), flow%v(i) - x(2, i)])
+        step(:, i) = solved(matrix(:, :, i), residual(:, i))
       end do
       x = x - step/spread([PI, 1.0_dp], 2, n)
     end do

@@ -34,7 +34,7 @@ contains
     found = .false.
     blurred = .false.
     do iteration = 1, 40
-      call n_periods(flow, n, x, residual, matrix)
+      call n_periods(flow, n, 1, x, residual, matrix)
       step = solved(matrix, residual)
       if (.not. all(abs(step) < huge(1.0_dp))) return
       size_now = norm2(step)
@@ -81,25 +81,27 @@ contains
     end do
   end function uncertainty
 
-  !> residual = F^n(x) - x without whole turns (rad), matrix = the derivative of F^n.
-  subroutine n_periods(flow, n, x, residual, matrix)
+  !> residual = F^n(x) - x without whole turns (rad), matrix = the derivative of F^n, of each state.
+  subroutine n_periods(flow, n, states, x, residual, matrix)
     class(flow_t), intent(inout) :: flow !< the map of one drive period, by integration
     integer, intent(in) :: n !< drive periods of the map
-    real(dp), intent(in) :: x(2) !< physical state: half-turns, rad per drive radian
-    real(dp), intent(out) :: residual(2) !< image less state: rad, rad per drive radian
-    real(dp), intent(out) :: matrix(2, 2) !< derivative of the n-period map: rad, rad per drive radian
+    integer, intent(in) :: states !< at most WIDTH
+    real(dp), intent(in) :: x(2, states) !< physical states: half-turns, rad per drive radian
+    real(dp), intent(out) :: residual(2, states) !< image less state: rad, rad per drive radian
+    real(dp), intent(out) :: matrix(2, 2, states) !< derivative of the n-period map: rad, rad per drive radian
     real(dp) :: tangent(2, 2, WIDTH)
     integer :: i
 
-    call flow%put(1, x(1), x(2))
-    tangent(:, :, 1) = IDENTITY
-    call flow%to_map(1, tangent)
+    call flow%put_all(x(1, :), x(2, :))
+    tangent(:, :, :states) = spread(IDENTITY, 3, states)
+    call flow%to_map(states, tangent)
     do i = 1, n
-      call flow%advance_tangent(1, tangent)
+      call flow%advance_tangent(states, tangent)
     end do
-    call flow%to_physical(1, tangent)
-    residual = [PI*angle_difference(flow%u(1), x(1)), flow%v(1) - x(2)]
-    matrix = tangent(:, :, 1)
+    call flow%to_physical(states, tangent)
+    residual(1, :) = PI*angle_difference(flow%u(:states), x(1, :))
+    residual(2, :) = flow%v(:states) - x(2, :)
+    matrix = tangent(:, :, :states)
   end subroutine n_periods
 
   !> The smallest divisor of n after which the orbit of x returns to x.

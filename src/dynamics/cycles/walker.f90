@@ -3,7 +3,7 @@ module kz_cycles_walker
   use, intrinsic :: iso_c_binding, only: dp => c_double
   use kz_cycles_normal_forms, only: normal_form
   use kz_cycles_corrector, only: newton, tangent_at
-  use kz_cycles_curves, only: system_t, inner, wrapped, POINTS, UNKNOWNS
+  use kz_cycles_curves, only: system_t, inner, moved, wrapped, POINTS, UNKNOWNS
   implicit none
   private
   public :: walker_t, parents_t, advance, begin, distance, passes, set_parents, meets, becomes, find_zero, thinness, &
@@ -148,13 +148,10 @@ contains
     type(system_t), intent(in) :: system !< the equations
     real(dp), intent(in) :: a(:) !< unknowns
     real(dp), intent(in) :: b(:) !< others
-    real(dp) :: length, step(UNKNOWNS)
-    integer :: n
+    real(dp) :: length, step(2*system%n + system%columns)
 
-    n = 2*system%n
-    step(:n) = a(:n) - b(:n)
-    step(n + 1:n + system%columns) = matmul(a(n + 1:n + 2) - b(n + 1:n + 2), system%basis(:, :system%columns))
-    length = sqrt(inner(system, step(:n + system%columns), step(:n + system%columns)))
+    step = moved(system, a, b)
+    length = sqrt(inner(system, step, step))
   end function distance
 
   !> Begins on a curve near the seed.

@@ -168,7 +168,7 @@ contains
     real(dp) :: residual(2), matrix(2, 2)
     complex(dp) :: values(2)
 
-    call n_periods(flow, period, x, residual, matrix)
+    call n_periods(flow, period, 1, x, residual, matrix)
     values = eigenvalues(matrix, exp(-2*PI*beta*period))
     multiplier = real(values(1), dp)
     direction = [matrix(1, 2), multiplier - matrix(1, 1)]

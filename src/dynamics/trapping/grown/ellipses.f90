@@ -89,7 +89,7 @@ contains
     real(dp) :: residual(2), matrix(2, 2), basis(2, 2), inverse(2, 2), tried, first, last
 
     form = 0
-    call n_periods(fine, attractor%period, [attractor%u(j), attractor%v(j)], residual, matrix)
+    call n_periods(fine, attractor%period, 1, [attractor%u(j), attractor%v(j)], residual, matrix)
     call eigenbasis(matrix, attractor%multiplier, change(flow, attractor, j), basis, inverse)
     tried = ROUNDING*epsilon(1.0_dp)*maxval(hypot(PI*attractor%u, attractor%v)) &
              *norm2(inverse)/(1 - abs(attractor%multiplier(1)))
