@@ -106,14 +106,6 @@ static kz_status parse(const char *line, size_t length, const char *source, kz_j
                  lenient ? "unexpected character" : json_tokener_error_desc(error), place + 1);
 }
 
-/* A text as a node holds it: a NUL would end it early and becomes the control character 1, which no text may hold. */
-static char *node_text(const char *text, size_t length) {
-  char *copy = kz_malloc(length + 1);
-  for (size_t i = 0; i < length; i++) copy[i] = text[i] ? text[i] : '\1';
-  copy[length] = '\0';
-  return copy;
-}
-
 /* json-c ends whole numbers at those of 64 bits: digits beyond are not known. */
 static bool is_cut(kz_json *json) {
   return json_object_get_type(json) == json_type_int &&
@@ -146,7 +138,7 @@ static kz_node *node_of(kz_json *json, const char *source) {
     node->kind = type == json_type_object ? KZ_MAPPING : KZ_SEQUENCE;
     add_children(json, node);
   } else if (type == json_type_string) {
-    node->text = node_text(json_object_get_string(json), (size_t)json_object_get_string_len(json));
+    node->text = kz_node_text(json_object_get_string(json), (size_t)json_object_get_string_len(json));
   } else {
     node->text = kz_strdup(is_cut(json) ? "a number beyond 64 bits" : json ? json_object_get_string(json) : "null");
   }

@@ -86,7 +86,7 @@ SCENES = {
         "saddles: {velocity: {min: -1, max: 1}}\nwada: {length: 3}\n", "4:7", "wada: needs damping"),
     "edge without ends": ("pendulum: {k: 0, damping: 0.1, m: 0.3}\nedge: {first: {theta: 0, "
         "velocity: 0}, second: {theta: 1, velocity: 0}}\n", "2:7", "edge: needs a list of attractors"),
-    "shocks whose sizes go down": (GOOD + "  shocks: {sizes: [1, 0.5]}\n", "9:19", "basin.shocks.sizes: 0.5 is not above"),
+    "shocks whose sizes go down": (GOOD + "  shocks: {sizes: [1, 0.5]}\n", "9:19", "basin.shocks.sizes: has a size that is not above"),
     "sweep without a measure": (GOOD + "sweep: {parameter: drive_amplitude, min: 0, max: 0.5, count: 3, measure: []}\n",
         "9:74", "sweep.measure"),
     "sweep with an unknown measure": (GOOD + "sweep: {parameter: drive_amplitude, min: 0, max: 0.5, count: 3, measure: [angle]}\n",

@@ -93,7 +93,7 @@ def test_any_number_of_ranks_and_a_stop(kapitza, tmp_path):
     ({"names": ["share", "stare"]}, "measures.names"),
     ({"names": ["weighted_share"]}, "measures.weight: is missing, which weighted_share needs"),
     ({"names": ["share_within"]}, "measures.within: is missing, which share_within needs"),
-    ({"names": ["harmless"], "sizes": [0.3, 0.1]}, "measures.sizes: must be in rising order"),
+    ({"names": ["harmless"], "sizes": [0.3, 0.1]}, "measures.sizes: has a size that is not above the one before it"),
     ({"names": ["share"], "damping": 0}, "measures: needs damping"),
 ])
 def test_refused(kapitza, tmp_path, changes, words):

@@ -53,17 +53,6 @@ static void undecided_rules(kz_reading *reading, kz_scene *scene) {
 }
 
 /* The sizes of shocks must increase. */
-static void shocks_rules(kz_reading *reading, kz_scene *scene) {
-  const kz_reals *sizes = &scene->basin->shocks.sizes;
-  if (!scene->has_basin || !scene->basin->has_shocks) return;
-  if (sizes->count < 1 || sizes->count > KZ_MOST_SHOCK_SIZES)
-    kz_complain(reading, "basin.shocks.sizes", "has %lld values; give 1 to %d", (long long)sizes->count, KZ_MOST_SHOCK_SIZES);
-  for (int64_t i = 1; i < sizes->count; i++)
-    if (!(sizes->values[i] > sizes->values[i - 1]))
-      kz_complain(reading, "basin.shocks.sizes", "%s is not above the size before it; give sizes in rising order",
-                  kz_shortest(sizes->values[i]).text);
-}
-
 static void attractors_rules(kz_reading *reading, kz_scene *scene) {
   if (!scene->has_attractors) return;
   window_rules(reading, &scene->attractors->theta, &scene->attractors->velocity, "attractors");
@@ -78,6 +67,11 @@ static void lack_rule(kz_reading *reading, const char *lack, const char *study) 
   char key[16];
   snprintf(key, sizeof key, "%.*s", (int)strcspn(lack, ":"), lack);
   kz_complain(reading, kz_key_in(study, key).text, "%s", lack + strlen(key) + 2);
+}
+
+static void shocks_rules(kz_reading *reading, kz_scene *scene) {
+  if (scene->has_basin && scene->basin->has_shocks)
+    lack_rule(reading, kz_sizes_lack(&scene->basin->shocks.sizes), "basin.shocks");
 }
 
 static void measures_rules(kz_reading *reading, kz_scene *scene) {

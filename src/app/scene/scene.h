@@ -71,6 +71,8 @@ kz_status kz_tree_set(kz_node *root, const char *path, kz_node *value);
 kz_node *kz_tree_take(kz_node *root, const char *path);
 /* A copy of a tree, without the siblings of its root. */
 kz_node *kz_tree_copy(const kz_node *root);
+/* A text as a node holds it: a NUL would end it early and becomes the control character 1, which no text may hold. The caller frees it. */
+char *kz_node_text(const char *text, size_t length);
 
 /* [-+] digits [. digits] [e [-+] digits], no leading zeros. *whole: neither point nor exponent. */
 bool kz_text_is_decimal(const char *text, bool *whole);

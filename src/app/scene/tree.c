@@ -97,6 +97,13 @@ kz_node *kz_tree_take(kz_node *root, const char *path) {
   return child;
 }
 
+char *kz_node_text(const char *text, size_t length) {
+  char *copy = kz_malloc(length + 1);
+  for (size_t i = 0; i < length; i++) copy[i] = text[i] ? text[i] : '\1';
+  copy[length] = '\0';
+  return copy;
+}
+
 kz_node *kz_tree_copy(const kz_node *root) {
   kz_node *copy = kz_calloc(1, sizeof *copy);
   *copy = *root;

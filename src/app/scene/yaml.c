@@ -131,17 +131,6 @@ static void copy_children(yaml_document_t *document, const source_text *source, 
       copy_child(document, source, yaml_document_get_node(document, pair->key), pair->value, &end);
 }
 
-/* A scalar's text. A NUL written as "\0" would end it early: it becomes the control character 1, which no text may hold. */
-static char *copy_text(const yaml_node_t *from) {
-  const size_t length = from->data.scalar.length;
-  char *text = kz_malloc(length + 1);
-  memcpy(text, from->data.scalar.value, length);
-  for (size_t i = 0; i < length; i++)
-    if (text[i] == '\0') text[i] = '\1';
-  text[length] = '\0';
-  return text;
-}
-
 static kz_node *copy(yaml_document_t *document, const source_text *source, const yaml_node_t *from) {
   static const kz_node_kind kinds[] = {
       [YAML_SCALAR_NODE] = KZ_SCALAR, [YAML_SEQUENCE_NODE] = KZ_SEQUENCE, [YAML_MAPPING_NODE] = KZ_MAPPING};
@@ -153,7 +142,7 @@ static kz_node *copy(yaml_document_t *document, const source_text *source, const
   node->name = kz_strdup("");
   if (node->kind == KZ_SCALAR) {
     node->plain = from->data.scalar.style == YAML_PLAIN_SCALAR_STYLE;
-    node->text = copy_text(from);
+    node->text = kz_node_text((const char *)from->data.scalar.value, from->data.scalar.length);
   }
   copy_children(document, source, from, node);
   return node;
