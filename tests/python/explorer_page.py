@@ -138,17 +138,22 @@ class Page:
     def state(self):
         return self.run("document.body.dataset.state")
 
+    @contextmanager
+    def screen(self, width, height, mobile=False):
+        """Shows the page in a window of this size, CSS pixels."""
+        size = {"width": width, "height": height, "deviceScaleFactor": 1, "mobile": mobile}
+        self.driver.execute_cdp_cmd("Emulation.setDeviceMetricsOverride", size)
+        yield
+        self.driver.execute_cdp_cmd("Emulation.clearDeviceMetricsOverride", {})
+
     def fits(self, width, height):
-        """Whether a window of this size, CSS pixels, cuts nothing off, and the controls end above the line at the bottom."""
-        screen = {"width": width, "height": height, "deviceScaleFactor": 1, "mobile": False}
-        self.driver.execute_cdp_cmd("Emulation.setDeviceMetricsOverride", screen)
+        """Whether a window of this size cuts nothing off, and the controls end above the line at the bottom."""
         controls, line = "$('sliders').closest('aside').getBoundingClientRect()", "document.querySelector('footer').getBoundingClientRect()"
         sliders = "$('sliders').getBoundingClientRect()"
         hidden = f"getComputedStyle($('sliders').closest('aside')).overflowY === 'auto' || {sliders}.bottom <= {line}.top + 1"
         test = f"{controls}.bottom <= {line}.top + 1 && ({hidden}) && document.scrollingElement.scrollWidth <= {width}"
-        fits = wait_for(lambda: self.run(test))  # the picture takes its new size a moment later
-        self.driver.execute_cdp_cmd("Emulation.clearDeviceMetricsOverride", {})
-        return fits
+        with self.screen(width, height):
+            return wait_for(lambda: self.run(test))  # the picture takes its new size a moment later
 
     def press(self, name):
         self.run("$(arguments[0]).click()", name)
@@ -232,7 +237,7 @@ def folder(tmp_path_factory):
 
 @pytest.fixture(scope="module")
 def driver(folder):
-    with browser(folder, "1280,829") as found:  # 690 px are left inside of the window
+    with browser(folder, "960,640") as found:  # smaller ones draw fewer pixels
         yield found
         assert [entry for entry in found.get_log("browser") if entry["level"] == "SEVERE"] == []
 
