@@ -127,8 +127,8 @@ void kz_linear_floquet(const kz_pendulum *form, int64_t n, const double *k, cons
 
 /* ---- reference ---- */
 
-/* The number of steps a period that costs least for Taylor series in quad precision. Any other number gives the same motion, to some 1e-33 a
- * period. */
+/* The number of steps a period that costs least for Taylor series in quad precision, where the drive is a sine; with further harmonics more are
+ * taken. Any other number gives the same motion, to some 1e-33 a period. */
 enum { KZ_REFERENCE_STEPS = 18 };
 
 /* ---- any precision ---- */

@@ -1,6 +1,6 @@
 !> Whole drive periods in pairs of doubles, for tests in C.
 module kz_test_pairs
-  use, intrinsic :: iso_c_binding, only: c_double, c_int64_t, c_ptr, c_null_ptr, c_loc, c_f_pointer
+  use, intrinsic :: iso_c_binding, only: c_double, c_int32_t, c_int64_t, c_ptr, c_null_ptr, c_loc, c_f_pointer
   use kz_vector_map, only: WIDTH
   use kz_taylor_pairs, only: pairs_t, pair_series_t, pair_lanes_t, make_pairs, advance_pairs
   use kz_model_pendulum, only: pendulum_t
@@ -29,6 +29,16 @@ contains
     error = pairs%error
     handle = c_loc(pairs)
   end function pairs_create
+
+  !> Steps a period of the table for slow states; 0 = there is none, and Taylor series take its place.
+  integer(c_int32_t) function pairs_steps(handle) bind(C, name='kz_test_pairs_steps') result(steps)
+    type(c_ptr), value :: handle
+    type(pairs_t), pointer :: pairs
+
+    call c_f_pointer(handle, pairs)
+    steps = 0
+    if (size(pairs%level) > 0) steps = int(pairs%level(1)%n_steps, c_int32_t)
+  end function pairs_steps
 
   subroutine pairs_free(handle) bind(C, name='kz_test_pairs_free')
     type(c_ptr), value :: handle

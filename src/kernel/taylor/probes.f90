@@ -50,7 +50,7 @@ contains
     integer :: i
 
     speed = [(fastest*i/N, i=1, N)]
-    call make_drive(other, drive%pendulum, drive%n_steps + MORE_STEPS, drive%stretch)
+    call make_drive(other, drive%pendulum, drive%asked + MORE_STEPS, drive%stretch)
     call make_probes(drive, speed, probes)
     call make_probes(other, speed, again)
     angle = probes%image(1, :) - again%image(1, :)

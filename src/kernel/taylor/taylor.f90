@@ -4,7 +4,7 @@ module kz_taylor_taylor
   use, intrinsic :: iso_c_binding, only: dp => c_double, c_int32_t, c_int64_t
   use, intrinsic :: iso_fortran_env, only: real128, int64
   use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan
-  use kz_model_pendulum, only: pendulum_t
+  use kz_model_pendulum, only: pendulum_t, highest_harmonic
   use kz_model_series_r128, only: force_series
   use kz_model_release, only: stretch_t, whole_period, damping_series, drive_series, CUBIC
   implicit none
@@ -18,6 +18,8 @@ module kz_taylor_taylor
   integer, parameter, public :: ROUGH_STEPS = 20
   real(qp), parameter, public :: PI_QUAD = acos(-1.0_qp)
   real(qp), parameter :: TWO_PI = 2*PI_QUAD
+  !> Quarters of a step a period that each further harmonic takes: with fewer, most steps are halved (measured with 2 to 24 harmonics).
+  integer, parameter :: MORE_FOR_HARMONICS = 7
   !> How often steps may be halved.
   integer, parameter :: FINEST = 24
   !> KZ_TAYLOR_LANES, KZ_TAYLOR_DEEP, KZ_TAYLOR_LAST of taylor_steps.c.
@@ -44,6 +46,7 @@ module kz_taylor_taylor
   type :: drive_t
     type(pendulum_t) :: pendulum
     integer :: n_steps
+    integer :: asked !< steps a period if the drive were a sine
     integer(c_int32_t) :: rough = 0 !< 1: periods are right to 1e-20 only
     type(stretch_t) :: stretch
     type(force_t), allocatable :: force(:)
@@ -68,7 +71,7 @@ contains
   pure subroutine make_drive(drive, pendulum, n_steps, stretch, rough)
     type(drive_t), intent(out) :: drive !< the series of the drive for each step
     type(pendulum_t), intent(in) :: pendulum !< the pendulum
-    integer, intent(in) :: n_steps !< Steps a period where the motion is gentle.
+    integer, intent(in) :: n_steps !< steps a period where the motion is gentle and the drive a sine; harmonics take more
     type(stretch_t), intent(in), optional :: stretch !< left out: a whole period
     logical, intent(in), optional :: rough !< true: ROUGH_STEPS give 20 digits; left out: 33
     integer :: i
@@ -77,12 +80,13 @@ contains
     drive%stretch = whole_period()
     if (present(stretch)) drive%stretch = stretch
     drive%pendulum = pendulum
-    drive%n_steps = n_steps
-    allocate (drive%force(n_steps), drive%halved(2*n_steps))
-    do i = 1, n_steps
-      drive%force(i) = force_of_step(drive, TWO_PI*drive%stretch%begin + (i - 1)*(TWO_PI*drive%stretch%span)/n_steps, step_of(drive, 0))
+    drive%asked = n_steps
+    drive%n_steps = n_steps + (MORE_FOR_HARMONICS*(highest_harmonic(pendulum) - 1))/4
+    allocate (drive%force(drive%n_steps), drive%halved(2*drive%n_steps))
+    do i = 1, drive%n_steps
+      drive%force(i) = force_of_step(drive, TWO_PI*drive%stretch%begin + (i - 1)*(TWO_PI*drive%stretch%span)/drive%n_steps, step_of(drive, 0))
     end do
-    do i = 1, 2*n_steps
+    do i = 1, 2*drive%n_steps
       drive%halved(i) = force_of_step(drive, TWO_PI*drive%stretch%begin + (i - 1)*step_of(drive, 1), step_of(drive, 1))
     end do
   end subroutine make_drive

@@ -13,6 +13,8 @@
 
 /* tests/unit/pairs.f90. Tables whose error of a period is at most `tolerance`, for speeds up to `fastest`; *error: the measured one. */
 void *kz_test_pairs_create(const kz_pendulum *pendulum, double tolerance, double fastest, double *error);
+/* Steps of the table for slow states; 0 = there is none. */
+int32_t kz_test_pairs_steps(const void *pairs);
 void kz_test_pairs_free(void *pairs);
 /* half_turns [n][2], velocity [n][2]: high and low; turns [n] gains the net number of turns. */
 void kz_test_pairs_advance(const void *pairs, int64_t n, int64_t periods, double *half_turns, double *velocity, int64_t *turns);
@@ -21,6 +23,10 @@ double kz_test_rough_error(const kz_pendulum *pendulum, double fastest);
 
 /* pair_products.c */
 void kz_pair_product(int64_t rows, int64_t inner, int64_t columns, const double *left, const double *right, double *product);
+void kz_pair_bracket(int64_t n, int64_t top_f, int64_t top_g, int64_t top, const double *f, const double *f_slope, const double *g,
+                     const double *g_slope, double *bracket);
+void kz_pairs_split(int64_t n, const void *x, double *high, double *low);
+void kz_pairs_join(int64_t n, const double *high, const double *low, void *x);
 
 typedef __float128 quad;
 
@@ -194,38 +200,97 @@ TEST(rough_series) {
   }
 }
 
+/* Tables serve a square wave of four harmonics at the finest error, too: with fewer grades in quad precision none did. */
+TEST(tables_of_a_square_wave) {
+  kz_pendulum square = {1.0 / 121, 1.0 / 55, 0.3, .harmonics = 7};
+  for (int j = 1; j <= 7; j += 2) square.vertical[j - 1][0] = 0.3 * (4 / (double)PI_QUAD / j * (j % 4 == 1 ? 1 : -1) - (j == 1));
+  double error;
+  void *pairs = kz_test_pairs_create(&square, 3e-29, 2.5, &error);
+  assert_true(kz_test_pairs_steps(pairs) > 0 && kz_test_pairs_steps(pairs) <= 1200);
+  assert_true(error <= 3e-29);
+  kz_test_pairs_free(pairs);
+}
+
+enum { ROWS = 3, INNER = 60, COLUMNS = 16 };
+
+/* Random pairs [n]: high parts, then low ones. */
+static void fill(int64_t n, double *numbers) {
+  for (int64_t i = 0; i < n; i++) {
+    const pair x = any();
+    numbers[i] = x.high[0], numbers[n + i] = x.low[0];
+  }
+}
+
 /* Products of matrices err by some 2^-104 of the sum of the moduli of their terms, wherever a number stands; half of the terms cancel. */
 TEST(products_of_matrices_are_right_to_31_digits) {
-  enum { ROWS = 3, INNER = 60, COLUMNS = 16 };
-  static double left[ROWS][INNER][2], right[INNER][2][COLUMNS], product[ROWS][2][COLUMNS];
-  for (int k = 0; k < INNER; k++) {
-    for (int i = 0; i < ROWS; i++) {
-      const pair x = any();
-      left[i][k][0] = x.high[0], left[i][k][1] = x.low[0];
-    }
-    for (int j = 0; j < COLUMNS; j++) {
-      const pair x = any();
-      right[k][0][j] = x.high[0], right[k][1][j] = x.low[0];
-    }
-  }
-  for (int i = 0; i < ROWS; i++) /* the second half is the first with the other sign, but for a tiny part */
-    for (int k = INNER / 2; k < INNER; k++)
-      for (int part = 0; part < 2; part++) left[i][k][part] = -left[i][k - INNER / 2][part];
-  for (int k = INNER / 2; k < INNER; k++)
+  static double left[ROWS][2][INNER], right[INNER][2][COLUMNS], product[ROWS][2][COLUMNS];
+  for (int i = 0; i < ROWS; i++) fill(INNER, left[i][0]);
+  for (int k = 0; k < INNER; k++) fill(COLUMNS, right[k][0]);
+  for (int k = INNER / 2; k < INNER; k++) { /* the first half with the other sign, but for a tiny part */
+    for (int i = 0; i < ROWS; i++)
+      for (int part = 0; part < 2; part++) left[i][part][k] = -left[i][part][k - INNER / 2];
     for (int j = 0; j < COLUMNS; j++) {
       right[k][0][j] = right[k - INNER / 2][0][j];
       right[k][1][j] = right[k - INNER / 2][1][j] * (1 + 0x1p-10 * number());
     }
+  }
   kz_pair_product(ROWS, INNER, COLUMNS, left[0][0], right[0][0], product[0][0]);
   for (int i = 0; i < ROWS; i++)
     for (int j = 0; j < COLUMNS; j++) {
       quad exact = 0;
       double moduli = 0;
       for (int k = 0; k < INNER; k++) {
-        const quad term = ((quad)left[i][k][0] + left[i][k][1]) * ((quad)right[k][0][j] + right[k][1][j]);
+        const quad term = ((quad)left[i][0][k] + left[i][1][k]) * ((quad)right[k][0][j] + right[k][1][j]);
         exact += term;
         moduli += size(term);
       }
       assert_true(size((quad)product[i][0][j] + product[i][1][j] - exact) <= 4 * UNIT * moduli);
     }
+}
+
+/* So do brackets f_v g_theta - f_theta g_v of polynomials of different degrees in v. */
+TEST(brackets_are_right_to_31_digits) {
+  enum { TOP_F = 2, TOP_G = 4, TOP = TOP_F + TOP_G - 1 };
+  static double f[2][TOP_F + 1][2][COLUMNS], g[2][TOP_G + 1][2][COLUMNS], bracket[TOP + 1][2][COLUMNS];
+  for (int slope = 0; slope < 2; slope++) {
+    for (int a = 0; a <= TOP_F; a++) fill(COLUMNS, f[slope][a][0]);
+    for (int b = 0; b <= TOP_G; b++) fill(COLUMNS, g[slope][b][0]);
+  }
+  kz_pair_bracket(COLUMNS, TOP_F, TOP_G, TOP, f[0][0][0], f[1][0][0], g[0][0][0], g[1][0][0], bracket[0][0]);
+  for (int j = 0; j < COLUMNS; j++)
+    for (int c = 0; c <= TOP; c++) {
+      quad exact = 0;
+      double moduli = 0;
+      for (int a = 0; a <= TOP_F; a++) {
+        const int b = c + 1 - a;
+        if (b < 0 || b > TOP_G) continue;
+        const quad x = a * ((quad)f[0][a][0][j] + f[0][a][1][j]) * ((quad)g[1][b][0][j] + g[1][b][1][j]),
+                   y = b * ((quad)f[1][a][0][j] + f[1][a][1][j]) * ((quad)g[0][b][0][j] + g[0][b][1][j]);
+        exact += x - y;
+        moduli += size(x) + size(y);
+      }
+      assert_true(size((quad)bracket[c][0][j] + bracket[c][1][j] - exact) <= 4 * UNIT * moduli);
+    }
+}
+
+/* Quads become pairs and pairs quads, of either sign and any size, powers of two and what is just below them too. */
+TEST(quads_are_split_and_joined) {
+  for (int i = 0; i < 200000; i++) {
+    const double scale = ldexp(1, rand() % 1600 - 800), first = i % 3 ? number() : ldexp(1, i % 50);
+    const quad x = scale * ((quad)first + first * 0x1p-53 * (quad)number() * (i % 5));
+    double high, low;
+    quad joined, back;
+    kz_pairs_split(1, &x, &high, &low);
+    assert_true(high + low == high);
+    assert_true(size((quad)high + low - x) <= 0x1p-105 * size(x));
+    kz_pairs_join(1, &high, &low, &joined);
+    assert_true(size(joined - ((quad)high + low)) <= 0x1p-111 * size(x));
+    kz_pairs_split(1, &joined, &high, &low);
+    kz_pairs_join(1, &high, &low, &back);
+    assert_true(size(back - joined) <= 0x1p-105 * size(x));
+  }
+  const quad small[] = {0, 0x1p-1000Q, 0x1p1100Q};
+  double high[3], low[3];
+  kz_pairs_split(3, small, high, low);
+  assert_true(high[0] == 0 && high[1] == 0 && isinf(high[2]));
 }

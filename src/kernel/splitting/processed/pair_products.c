@@ -1,19 +1,104 @@
-/* Products of matrices in pairs of doubles: pair_products.f90. */
+/* Products of matrices and of polynomials in pairs of doubles: pair_products.f90. */
 #include "vector/pairs_arithmetic.h"
 
-/* product = left right: left [rows][inner][2], high and low of each number; right [inner][2][columns] and product [rows][2][columns], the high
- * parts of a row before its low ones. The number of columns is a multiple of the lanes of every vector (COLUMNS of pair_products.f90). The error
+#include <string.h>
+
+/* A number in quad precision by its bits: 1 of sign, 15 of the exponent, 112 after the first of the number. */
+typedef unsigned __int128 bits;
+typedef struct {
+  uint64_t low, high;
+} quad;
+
+enum { QUAD_BIAS = 16383, BIAS = 1023, REST = 112 - 52 /* bits of a quad beyond those of a double */ };
+
+/* Quads below 2^-900 count as 0. Those that no double holds, and what is no number, are infinite. */
+enum { LEAST = -900 };
+
+static double of_bits(uint64_t b) {
+  double x;
+  memcpy(&x, &b, sizeof x);
+  return x;
+}
+
+static uint64_t bits_of(double x) {
+  uint64_t b;
+  memcpy(&b, &x, sizeof b);
+  return b;
+}
+
+/* high[i] + low[i] = x[i] with an error of some 2^-106 of it: the first 53 bits, and the rest. */
+void kz_pairs_split(int64_t n, const quad *x, double *high, double *low) {
+  for (int64_t i = 0; i < n; i++) {
+    const uint64_t sign = x[i].high >> 63 << 63;
+    const int exponent = (int)(x[i].high >> 48 & 0x7fff) - QUAD_BIAS;
+    const uint64_t first = (x[i].high & 0xffffffffffff) << 4 | x[i].low >> REST, rest = x[i].low & ((UINT64_C(1) << REST) - 1);
+    high[i] = exponent < LEAST ? 0 : of_bits(sign | UINT64_C(0x7ff) << 52);
+    low[i] = 0;
+    if (exponent < LEAST || exponent > BIAS) continue;
+    const double top = of_bits(sign | (uint64_t)(exponent + BIAS) << 52 | first);
+    const double bottom = (double)(int64_t)rest * of_bits(sign | (uint64_t)(exponent - 112 + BIAS) << 52);
+    high[i] = top + bottom;
+    low[i] = bottom - (high[i] - top);
+  }
+}
+
+/* x[i] = high[i] + low[i], |low| at most half a unit in the last place of high, without what is beyond 113 bits. */
+void kz_pairs_join(int64_t n, const double *high, const double *low, quad *x) {
+  for (int64_t i = 0; i < n; i++) {
+    const uint64_t h = bits_of(high[i]), l = bits_of(low[i]), whole = UINT64_C(1) << 52, sign = h >> 63;
+    const int exponent = (int)(h >> 52 & 0x7ff), further = exponent - (int)(l >> 52 & 0x7ff);
+    if (exponent == 0 || exponent == 0x7ff) {
+      x[i] = (quad){0, sign << 63 | (exponent ? UINT64_C(0x7fff) << 48 : 0)};
+      continue;
+    }
+    bits sum = (bits)(whole | (h & (whole - 1))) << REST;
+    const bits small = (l << 1) && further < 113 ? ((bits)(whole | (l & (whole - 1))) << REST) >> further : 0;
+    sum = sign == l >> 63 ? sum + small : sum - small;
+    int shift = 0;
+    if (sum >> 112 == 0) sum <<= 1, shift = 1; /* below a power of two */
+    x[i] = (quad){(uint64_t)sum, sign << 63 | (uint64_t)(exponent - BIAS + QUAD_BIAS - shift) << 48 | ((uint64_t)(sum >> 64) & 0xffffffffffff)};
+  }
+}
+
+/* product = left right: left [rows][2][inner], right [inner][2][columns] and product [rows][2][columns], the high parts of a row before its low
+ * ones. The number of columns is a multiple of the lanes of every vector (COLUMNS of pair_products.f90). The error
  * of a number is at most some 2^-104 of the sum of the moduli of its terms. */
 void kz_pair_product(int64_t rows, int64_t inner, int64_t columns, const double *left, const double *right, double *product) {
   for (int64_t i = 0; i < rows; i++)
     for (int64_t first = 0; first < columns; first += LANES) {
       pair total = {same(0), same(0)};
       for (int64_t k = 0; k < inner; k++) {
-        const double *a = left + 2 * (i * inner + k), *b = right + 2 * k * columns + first;
-        gain(&total, (pair){same(a[0]), same(a[1])}, (pair){*(const vector *)b, *(const vector *)(b + columns)});
+        const double *a = left + 2 * i * inner + k, *b = right + 2 * k * columns + first;
+        gain(&total, (pair){same(a[0]), same(a[inner])}, (pair){*(const vector *)b, *(const vector *)(b + columns)});
       }
       total = quick_sum(total.high, total.low);
       *(vector *)(product + 2 * i * columns + first) = total.high;
       *(vector *)(product + (2 * i + 1) * columns + first) = total.low;
+    }
+}
+
+OPERATION pair at(const double *polynomial, int64_t n, int64_t power, int64_t i) {
+  const double *numbers = polynomial + 2 * n * power + i;
+  return (pair){*(const vector *)numbers, *(const vector *)(numbers + n)};
+}
+
+/* The brackets f_v g_theta - f_theta g_v of polynomials in v at n points, n a multiple of the lanes of every vector: their coefficients up to
+ * v^top. Polynomials, their slopes (derivatives by theta) and brackets [powers][2][n]: high and low parts. */
+void kz_pair_bracket(int64_t n, int64_t top_f, int64_t top_g, int64_t top, const double *f, const double *f_slope, const double *g,
+                     const double *g_slope, double *bracket) {
+  for (int64_t i = 0; i < n; i += LANES)
+    for (int64_t c = 0; c <= top; c++) {
+      pair total = {same(0), same(0)};
+      for (int64_t b = c + 1 < top_f ? 0 : c + 1 - top_f; b <= c + 1 && b <= top_g; b++) {
+        const int64_t a = c + 1 - b;
+        const vector by_v = same((double)a), by_w = same(-(double)b);
+        const pair x = at(f, n, a, i), y = at(f_slope, n, a, i);
+        const pair p = loose_product(x, at(g_slope, n, b, i)), q = loose_product(y, at(g, n, b, i));
+        gain(&total, p, (pair){by_v, same(0)});
+        gain(&total, q, (pair){by_w, same(0)});
+      }
+      total = quick_sum(total.high, total.low);
+      *(vector *)(bracket + 2 * n * c + i) = total.high;
+      *(vector *)(bracket + (2 * c + 1) * n + i) = total.low;
     }
 }

@@ -1,10 +1,11 @@
-!> Products of matrices of quads by pairs of doubles, some 32 digits, in a fiftieth of the time: a product of quads is a library's.
+!> Products of matrices of quads, and of polynomials, by pairs of doubles, some 32 digits, in a fiftieth of the time: a product of quads is a library's.
 module kz_processed_pair_products
   use, intrinsic :: iso_c_binding, only: c_double, c_int64_t
   use, intrinsic :: iso_fortran_env, only: real128
   implicit none
   private
-  public :: right_factor_t, right_factor, set_right_factor, pair_product, pair_of
+  public :: right_factor_t, right_factor, set_right_factor, pair_product, bracket_factor_t, set_bracket_factor, pair_bracket, &
+            pair_of
 
   integer, parameter :: qp = real128
   !> Columns of a right factor are a multiple of it: lanes of the longest vectors.
@@ -16,7 +17,38 @@ module kz_processed_pair_products
     real(c_double), allocatable :: row(:, :, :) !< (n_columns and more, 2, rows): high and low parts
   end type right_factor_t
 
+  !> A polynomial in v at many points, and its derivative by theta, as brackets take them.
+  type :: bracket_factor_t
+    integer :: n_points = 0
+    real(c_double), allocatable :: value(:, :, :) !< (n_points and more, 2, 0:degree): high and low parts
+    real(c_double), allocatable :: slope(:, :, :)
+  end type bracket_factor_t
+
   interface
+    !> pair_products.c
+    pure subroutine bracket_pairs(n, top_f, top_g, top, f, f_slope, g, g_slope, bracket) bind(C, name='kz_pair_bracket')
+      import :: c_double, c_int64_t
+      integer(c_int64_t), intent(in), value :: n, top_f, top_g, top
+      real(c_double), intent(in) :: f(*), f_slope(*), g(*), g_slope(*)
+      real(c_double), intent(out) :: bracket(*)
+    end subroutine bracket_pairs
+
+    !> pair_products.c
+    pure subroutine split(n, x, high, low) bind(C, name='kz_pairs_split')
+      import :: c_double, c_int64_t
+      integer(c_int64_t), intent(in), value :: n
+      type(*), intent(in) :: x(*)
+      real(c_double), intent(out) :: high(*), low(*)
+    end subroutine split
+
+    !> pair_products.c
+    pure subroutine join(n, high, low, x) bind(C, name='kz_pairs_join')
+      import :: c_double, c_int64_t
+      integer(c_int64_t), intent(in), value :: n
+      real(c_double), intent(in) :: high(*), low(*)
+      type(*), intent(inout) :: x(*)
+    end subroutine join
+
     !> pair_products.c
     pure subroutine multiply_pairs(rows, inner, columns, left, right, product) bind(C, name='kz_pair_product')
       import :: c_double, c_int64_t
@@ -37,26 +69,31 @@ contains
     pair(2) = real(x - pair(1), c_double)
   end function pair_of
 
+  !> The next multiple of COLUMNS.
+  pure integer function filled(n)
+    integer, intent(in) :: n
+
+    filled = COLUMNS*((n + COLUMNS - 1)/COLUMNS)
+  end function filled
+
   !> Space for a right factor; columns that fill it up are 0.
   pure subroutine right_factor(n_rows, n_columns, factor)
     integer, intent(in) :: n_rows, n_columns !< its size
     type(right_factor_t), intent(out) :: factor !< of zeros
 
     factor%n_columns = n_columns
-    allocate (factor%row(COLUMNS*((n_columns + COLUMNS - 1)/COLUMNS), 2, n_rows), source=0.0_c_double)
+    allocate (factor%row(filled(n_columns), 2, n_rows), source=0.0_c_double)
   end subroutine right_factor
 
   !> A matrix as a right factor.
   pure subroutine set_right_factor(matrix, factor)
     real(qp), intent(in) :: matrix(:, :) !< its numbers
     type(right_factor_t), intent(out) :: factor !< the same as pairs
-    integer :: i, j
+    integer :: i
 
     call right_factor(size(matrix, 1), size(matrix, 2), factor)
-    do j = 1, size(matrix, 2)
-      do i = 1, size(matrix, 1)
-        factor%row(j, :, i) = pair_of(matrix(i, j))
-      end do
+    do i = 1, size(matrix, 1)
+      call split(size(matrix, 2, c_int64_t), matrix(i, :), factor%row(:, 1, i), factor%row(:, 2, i))
     end do
   end subroutine set_right_factor
 
@@ -65,19 +102,55 @@ contains
     real(qp), intent(in) :: left(:, :) !< (rows, inner)
     type(right_factor_t), intent(in) :: right !< inner rows
     real(qp) :: product(size(left, 1), right%n_columns)
-    real(c_double) :: pairs(2, size(left, 2), size(left, 1)), sums(size(right%row, 1), 2, size(left, 1))
-    integer :: i, k
+    real(c_double) :: pairs(size(left, 2), 2, size(left, 1)), sums(size(right%row, 1), 2, size(left, 1))
+    real(qp) :: row(right%n_columns)
+    integer :: i
 
     do i = 1, size(left, 1)
-      do k = 1, size(left, 2)
-        pairs(:, k, i) = pair_of(left(i, k))
-      end do
+      call split(size(left, 2, c_int64_t), left(i, :), pairs(:, 1, i), pairs(:, 2, i))
     end do
     call multiply_pairs(int(size(left, 1), c_int64_t), int(size(left, 2), c_int64_t), int(size(right%row, 1), c_int64_t), pairs, &
                         right%row, sums)
     do i = 1, size(left, 1)
-      product(i, :) = real(sums(:right%n_columns, 1, i), qp) + sums(:right%n_columns, 2, i)
+      call join(size(row, kind=c_int64_t), sums(:, 1, i), sums(:, 2, i), row)
+      product(i, :) = row
     end do
   end function pair_product
+
+  !> Makes a factor of brackets.
+  subroutine set_bracket_factor(value, slope, factor)
+    real(qp), intent(in) :: value(:, 0:) !< (points, 0:degree): coefficients of powers of v
+    real(qp), intent(in) :: slope(:, 0:) !< their derivatives by theta
+    type(bracket_factor_t), intent(inout) :: factor !< the same as pairs
+    integer :: n
+
+    factor%n_points = size(value, 1)
+    if (allocated(factor%value)) deallocate (factor%value, factor%slope)
+    allocate (factor%value(filled(size(value, 1)), 2, 0:ubound(value, 2)), source=0.0_c_double)
+    allocate (factor%slope, source=factor%value)
+    do n = 0, ubound(value, 2)
+      call split(size(value, 1, c_int64_t), value(:, n), factor%value(:, 1, n), factor%value(:, 2, n))
+      call split(size(value, 1, c_int64_t), slope(:, n), factor%slope(:, 1, n), factor%slope(:, 2, n))
+    end do
+  end subroutine set_bracket_factor
+
+  !> total += weight*(f_v g_theta - f_theta g_v); powers of v beyond those of total are left out.
+  subroutine pair_bracket(f, g, weight, total)
+    type(bracket_factor_t), intent(in) :: f, g
+    real(qp), intent(in) :: weight !< 1 or -1
+    real(qp), intent(inout) :: total(:, 0:) !< (points, 0:degree)
+    real(c_double) :: bracket(size(f%value, 1), 2, 0:ubound(f%value, 3) + ubound(g%value, 3))
+    real(qp) :: coefficient(f%n_points)
+    integer :: n, top
+
+    top = min(ubound(total, 2), ubound(f%value, 3) + ubound(g%value, 3) - 1)
+    call bracket_pairs(int(size(f%value, 1), c_int64_t), int(ubound(f%value, 3), c_int64_t), int(ubound(g%value, 3), c_int64_t), int(top, c_int64_t), &
+                       f%value, f%slope, g%value, g%slope, bracket)
+    do n = 0, top
+      call join(int(f%n_points, c_int64_t), bracket(:, 1, n), bracket(:, 2, n), coefficient)
+      if (weight > 0) total(:, n) = total(:, n) + coefficient
+      if (weight < 0) total(:, n) = total(:, n) - coefficient
+    end do
+  end subroutine pair_bracket
 
 end module kz_processed_pair_products

@@ -1,13 +1,14 @@
 !> The series of the processed splitting in quad precision: the grades that need more than double precision.
 module kz_processed_series_r128
   use, intrinsic :: iso_fortran_env, only: rk => real128
-  use kz_processed_pair_products, only: matrix_t => right_factor_t, set_matrix => set_right_factor, pair_product
+  use kz_processed_pair_products, only: matrix_t => right_factor_t, set_matrix => set_right_factor, pair_product, &
+                                        factors_t => bracket_factor_t, set_bracket_factor, pair_bracket
   use kz_model_pendulum, only: pendulum_t, sine_force, highest_harmonic
   implicit none
   private
   public :: series_t, make_series, ORDER
 
-  integer, parameter :: ORDER = 8, HIGHEST = 14
+  integer, parameter :: ORDER = 10, HIGHEST = 14
 
   !> Of quads by pairs of doubles.
   interface matmul
@@ -15,6 +16,22 @@ module kz_processed_series_r128
   end interface matmul
 
   include 'series.inc'
+
+  subroutine set_factors(part)
+    type(part_t), intent(inout) :: part
+
+    call set_bracket_factor(part%value, part%slope, part%factors)
+  end subroutine set_factors
+
+  !> total += factor*{f, g}, {f, g} = f_v g_theta - f_theta g_v; powers of v beyond those of total are 0.
+  subroutine add_bracket(f, g, factor, total)
+    type(part_t), intent(in) :: f, g
+    real(rk), intent(in) :: factor
+    real(rk), intent(inout) :: total(:, 0:)
+
+    if (.not. (allocated(f%value) .and. allocated(g%value))) return
+    call pair_bracket(f%factors, g%factors, factor, total)
+  end subroutine add_bracket
 
   pure function product_of(left, right) result(product)
     real(rk), intent(in) :: left(:, :), right(:, :)

@@ -13,7 +13,34 @@ module kz_processed_series_r64
     real(rk), allocatable :: entry(:, :)
   end type matrix_t
 
+  !> Products take a part as it is.
+  type :: factors_t
+  end type factors_t
+
   include 'series.inc'
+
+  pure subroutine set_factors(part)
+    type(part_t), intent(inout) :: part
+
+    part%factors = factors_t()
+  end subroutine set_factors
+
+  !> total += factor*{f, g}, {f, g} = f_v g_theta - f_theta g_v; powers of v beyond those of total are 0.
+  subroutine add_bracket(f, g, factor, total)
+    type(part_t), intent(in) :: f, g
+    real(rk), intent(in) :: factor
+    real(rk), intent(inout) :: total(:, 0:)
+    integer :: a, b, top
+
+    if (.not. (allocated(f%value) .and. allocated(g%value))) return
+    top = ubound(total, 2)
+    do b = 0, ubound(g%value, 2)
+      do a = 0, min(ubound(f%value, 2), top + 1 - b)
+        if (a > 0) total(:, a + b - 1) = total(:, a + b - 1) + (factor*a)*f%value(:, a)*g%slope(:, b)
+        if (b > 0) total(:, a + b - 1) = total(:, a + b - 1) - (factor*b)*f%slope(:, a)*g%value(:, b)
+      end do
+    end do
+  end subroutine add_bracket
 
   pure subroutine set_matrix(entry, matrix)
     real(rk), intent(in) :: entry(:, :)

@@ -104,7 +104,7 @@ module kz_processed_tables
     type(kept_series_t), pointer :: last
 
     if (.not. c_associated(kept)) then
-      call make_series(pendulum, series)
+      call make_series(pendulum, ORDER, series)
       return
     end if
     call c_f_pointer(kept, last)
@@ -114,7 +114,7 @@ module kz_processed_tables
     end if
     if (.not. allocated(last%made)) then
       allocate (last%made)
-      call make_series(pendulum, last%made)
+      call make_series(pendulum, ORDER, last%made)
       last%pendulum = pendulum
     end if
     series = last%made

@@ -2,11 +2,11 @@
 module kz_processed_tables_r128
   use, intrinsic :: iso_c_binding, only: c_double, c_ptr
   use, intrinsic :: iso_fortran_env, only: rk => real128
-  use kz_model_pendulum, only: pendulum_t, exact_stiffness
+  use kz_model_pendulum, only: pendulum_t, exact_stiffness, highest_harmonic
   use kz_processed_pair_products, only: right_factor_t, right_factor, set_right_factor, pair_product, pair_of
   use kz_processed_harmonics, only: sine_polynomials, cosine_polynomials
   use kz_processed_tables, only: series_r64_t => series_t, make_processed_series, ORDER, HARMONICS
-  use kz_processed_series_r128, only: series_t, make_series, EXACT => ORDER
+  use kz_processed_series_r128, only: series_t, make_series, MOST_EXACT => ORDER
   implicit none
   private
   public :: series_t, processed_t, processor_t, make_mixed_series, make_processed, ORDER, HARMONICS
@@ -88,38 +88,42 @@ module kz_processed_tables_r128
   end subroutine make_clock
 
   !> The series of a pendulum: its first grades in quad precision, those beyond in double, right to 1e-15 of the force itself. Grade q of a
-  !> step h counts h**q, so little precision is enough for high ones.
+  !> step h counts h**q, so little precision is enough for high ones; with further harmonics of the drive, which make them larger, one grade more is
+  !> needed (a square wave's errors of a period would not fall below 5e-25).
   subroutine make_mixed_series(pendulum, kept, series)
     type(pendulum_t), intent(in) :: pendulum !< k, beta, m
     type(c_ptr), intent(in) :: kept !< series that are kept, kz_kept_series of kernel.h; null = none are
     type(series_t), intent(out) :: series !< what does not depend on the number of steps
     type(series_r64_t), allocatable :: rounded
     type(series_t), allocatable :: leading
+    integer :: exact
 
+    exact = merge(MOST_EXACT, MOST_EXACT - 2, highest_harmonic(pendulum) > 1)
     allocate (rounded, leading)
     call make_processed_series(pendulum, kept, rounded)
-    call make_series(pendulum, leading)
+    call make_series(pendulum, exact, leading)
     series%mirrored = rounded%mirrored
     series%times = rounded%times
     series%kick = rounded%kick
     series%slope = rounded%slope
     series%drift = rounded%drift
     series%processor = rounded%processor
-    call put_exact(leading, series)
+    call put_exact(leading, exact, series)
   end subroutine make_mixed_series
 
-  !> Grades up to EXACT, of a processor up to EXACT - 2, and nothing beyond what they have.
-  subroutine put_exact(leading, series)
+  !> Grades up to `exact`, of a processor up to exact - 2, and nothing beyond what they have.
+  subroutine put_exact(leading, exact, series)
     type(series_t), intent(in) :: leading
+    integer, intent(in) :: exact
     type(series_t), intent(inout) :: series
-    integer, parameter :: HALF = EXACT/2
+    integer, parameter :: HALF = MOST_EXACT/2
 
-    series%kick(:, :, :EXACT, :, :) = 0
-    series%kick(:leading%times, :HALF, :EXACT, :, :) = leading%kick
-    series%slope(:EXACT) = leading%slope(:EXACT)
-    series%drift(:, :EXACT) = leading%drift(:, :EXACT)
-    series%processor(:, :, :EXACT - 2, :, :, :) = 0
-    series%processor(:HALF, :EXACT, :EXACT - 2, :, :, :) = leading%processor(:, :, :EXACT - 2, :, :, :)
+    series%kick(:, :, :exact, :, :) = 0
+    series%kick(:leading%times, :HALF, :exact, :, :) = leading%kick(:, :, :exact, :, :)
+    series%slope(:exact) = leading%slope(:exact)
+    series%drift(:, :exact) = leading%drift(:, :exact)
+    series%processor(:, :, :exact - 2, :, :, :) = 0
+    series%processor(:HALF, :MOST_EXACT, :exact - 2, :, :, :) = leading%processor(:, :, :exact - 2, :, :, :)
   end subroutine put_exact
 
 end module kz_processed_tables_r128
