@@ -23,10 +23,10 @@ double kz_test_rough_error(const kz_pendulum *pendulum, double fastest);
 
 /* pair_products.c */
 void kz_pair_product(int64_t rows, int64_t inner, int64_t columns, const double *left, const double *right, double *product);
-void kz_pair_bracket(int64_t n, int64_t top_f, int64_t top_g, int64_t top, const double *f, const double *f_slope, const double *g,
-                     const double *g_slope, double *bracket);
-void kz_pairs_split(int64_t n, const void *x, double *high, double *low);
-void kz_pairs_join(int64_t n, const double *high, const double *low, void *x);
+void kz_pair_bracket(int64_t n, int64_t top_f, int64_t top_g, int64_t top, const double *f, const double *f_slope,
+                     const double *g, const double *g_slope, double *bracket);
+void kz_pairs_split(int64_t n, const int64_t *x, double *high, double *low);
+void kz_pairs_join(int64_t n, const double *high, const double *low, int64_t *x);
 
 typedef __float128 quad;
 
@@ -203,7 +203,8 @@ TEST(rough_series) {
 /* Tables serve a square wave of four harmonics at the finest error, too: with fewer grades in quad precision none did. */
 TEST(tables_of_a_square_wave) {
   kz_pendulum square = {1.0 / 121, 1.0 / 55, 0.3, .harmonics = 7};
-  for (int j = 1; j <= 7; j += 2) square.vertical[j - 1][0] = 0.3 * (4 / (double)PI_QUAD / j * (j % 4 == 1 ? 1 : -1) - (j == 1));
+  for (int j = 1; j <= 7; j += 2)
+    square.vertical[j - 1][0] = 0.3 * (4 / (double)PI_QUAD / j * (j % 4 == 1 ? 1 : -1) - (j == 1));
   double error;
   void *pairs = kz_test_pairs_create(&square, 3e-29, 2.5, &error);
   assert_true(kz_test_pairs_steps(pairs) > 0 && kz_test_pairs_steps(pairs) <= 1200);
@@ -273,24 +274,39 @@ TEST(brackets_are_right_to_31_digits) {
     }
 }
 
+static void split(quad x, double *high, double *low) {
+  int64_t bits[2];
+  memcpy(bits, &x, sizeof bits);
+  kz_pairs_split(1, bits, high, low);
+}
+
+static quad joined(double high, double low) {
+  int64_t bits[2];
+  quad x;
+  kz_pairs_join(1, &high, &low, bits);
+  memcpy(&x, bits, sizeof x);
+  return x;
+}
+
 /* Quads become pairs and pairs quads, of either sign and any size, powers of two and what is just below them too. */
 TEST(quads_are_split_and_joined) {
   for (int i = 0; i < 200000; i++) {
     const double scale = ldexp(1, rand() % 1600 - 800), first = i % 3 ? number() : ldexp(1, i % 50);
     const quad x = scale * ((quad)first + first * 0x1p-53 * (quad)number() * (i % 5));
-    double high, low;
-    quad joined, back;
-    kz_pairs_split(1, &x, &high, &low);
+    double high, low, again[2];
+    split(x, &high, &low);
     assert_true(high + low == high);
     assert_true(size((quad)high + low - x) <= 0x1p-105 * size(x));
-    kz_pairs_join(1, &high, &low, &joined);
-    assert_true(size(joined - ((quad)high + low)) <= 0x1p-111 * size(x));
-    kz_pairs_split(1, &joined, &high, &low);
-    kz_pairs_join(1, &high, &low, &back);
-    assert_true(size(back - joined) <= 0x1p-105 * size(x));
+    const quad back = joined(high, low);
+    assert_true(size(back - ((quad)high + low)) <= 0x1p-111 * size(x));
+    split(back, again, again + 1);
+    assert_true(size(joined(again[0], again[1]) - back) <= 0x1p-105 * size(x));
   }
-  const quad small[] = {0, 0x1p-1000Q, 0x1p1100Q};
-  double high[3], low[3];
-  kz_pairs_split(3, small, high, low);
-  assert_true(high[0] == 0 && high[1] == 0 && isinf(high[2]));
+  double high, low;
+  split(0, &high, &low);
+  assert_true(high == 0 && low == 0 && joined(high, low) == 0);
+  split(0x1p-1000Q, &high, &low);
+  assert_true(high == 0);
+  split(0x1p1100Q, &high, &low);
+  assert_true(isinf(high) && isinf((double)joined(high, low)));
 }

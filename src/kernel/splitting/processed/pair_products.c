@@ -3,11 +3,8 @@
 
 #include <string.h>
 
-/* A number in quad precision by its bits: 1 of sign, 15 of the exponent, 112 after the first of the number. */
+/* The bits of a number in quad precision, 64 lower and 64 higher ones: 1 of sign, 15 of the exponent, 112 after the first of the number. */
 typedef unsigned __int128 bits;
-typedef struct {
-  uint64_t low, high;
-} quad;
 
 enum { QUAD_BIAS = 16383, BIAS = 1023, REST = 112 - 52 /* bits of a quad beyond those of a double */ };
 
@@ -27,11 +24,12 @@ static uint64_t bits_of(double x) {
 }
 
 /* high[i] + low[i] = x[i] with an error of some 2^-106 of it: the first 53 bits, and the rest. */
-void kz_pairs_split(int64_t n, const quad *x, double *high, double *low) {
+void kz_pairs_split(int64_t n, const int64_t *x, double *high, double *low) {
   for (int64_t i = 0; i < n; i++) {
-    const uint64_t sign = x[i].high >> 63 << 63;
-    const int exponent = (int)(x[i].high >> 48 & 0x7fff) - QUAD_BIAS;
-    const uint64_t first = (x[i].high & 0xffffffffffff) << 4 | x[i].low >> REST, rest = x[i].low & ((UINT64_C(1) << REST) - 1);
+    const uint64_t lower = (uint64_t)x[2 * i], higher = (uint64_t)x[2 * i + 1];
+    const uint64_t sign = higher >> 63 << 63;
+    const int exponent = (int)(higher >> 48 & 0x7fff) - QUAD_BIAS;
+    const uint64_t first = (higher & 0xffffffffffff) << 4 | lower >> REST, rest = lower & ((UINT64_C(1) << REST) - 1);
     high[i] = exponent < LEAST ? 0 : of_bits(sign | UINT64_C(0x7ff) << 52);
     low[i] = 0;
     if (exponent < LEAST || exponent > BIAS) continue;
@@ -43,12 +41,12 @@ void kz_pairs_split(int64_t n, const quad *x, double *high, double *low) {
 }
 
 /* x[i] = high[i] + low[i], |low| at most half a unit in the last place of high, without what is beyond 113 bits. */
-void kz_pairs_join(int64_t n, const double *high, const double *low, quad *x) {
+void kz_pairs_join(int64_t n, const double *high, const double *low, int64_t *x) {
   for (int64_t i = 0; i < n; i++) {
     const uint64_t h = bits_of(high[i]), l = bits_of(low[i]), whole = UINT64_C(1) << 52, sign = h >> 63;
     const int exponent = (int)(h >> 52 & 0x7ff), further = exponent - (int)(l >> 52 & 0x7ff);
     if (exponent == 0 || exponent == 0x7ff) {
-      x[i] = (quad){0, sign << 63 | (exponent ? UINT64_C(0x7fff) << 48 : 0)};
+      x[2 * i] = 0, x[2 * i + 1] = (int64_t)(sign << 63 | (exponent ? UINT64_C(0x7fff) << 48 : 0));
       continue;
     }
     bits sum = (bits)(whole | (h & (whole - 1))) << REST;
@@ -56,7 +54,9 @@ void kz_pairs_join(int64_t n, const double *high, const double *low, quad *x) {
     sum = sign == l >> 63 ? sum + small : sum - small;
     int shift = 0;
     if (sum >> 112 == 0) sum <<= 1, shift = 1; /* below a power of two */
-    x[i] = (quad){(uint64_t)sum, sign << 63 | (uint64_t)(exponent - BIAS + QUAD_BIAS - shift) << 48 | ((uint64_t)(sum >> 64) & 0xffffffffffff)};
+    x[2 * i] = (int64_t)(uint64_t)sum;
+    x[2 * i + 1] = (int64_t)(sign << 63 | (uint64_t)(exponent - BIAS + QUAD_BIAS - shift) << 48 |
+                             ((uint64_t)(sum >> 64) & 0xffffffffffff));
   }
 }
 
@@ -71,7 +71,7 @@ void kz_pair_product(int64_t rows, int64_t inner, int64_t columns, const double 
         const double *a = left + 2 * i * inner + k, *b = right + 2 * k * columns + first;
         gain(&total, (pair){same(a[0]), same(a[inner])}, (pair){*(const vector *)b, *(const vector *)(b + columns)});
       }
-      total = quick_sum(total.high, total.low);
+      total = sum(total.high, total.low);
       *(vector *)(product + 2 * i * columns + first) = total.high;
       *(vector *)(product + (2 * i + 1) * columns + first) = total.low;
     }
@@ -84,8 +84,8 @@ OPERATION pair at(const double *polynomial, int64_t n, int64_t power, int64_t i)
 
 /* The brackets f_v g_theta - f_theta g_v of polynomials in v at n points, n a multiple of the lanes of every vector: their coefficients up to
  * v^top. Polynomials, their slopes (derivatives by theta) and brackets [powers][2][n]: high and low parts. */
-void kz_pair_bracket(int64_t n, int64_t top_f, int64_t top_g, int64_t top, const double *f, const double *f_slope, const double *g,
-                     const double *g_slope, double *bracket) {
+void kz_pair_bracket(int64_t n, int64_t top_f, int64_t top_g, int64_t top, const double *f, const double *f_slope,
+                     const double *g, const double *g_slope, double *bracket) {
   for (int64_t i = 0; i < n; i += LANES)
     for (int64_t c = 0; c <= top; c++) {
       pair total = {same(0), same(0)};
@@ -97,7 +97,7 @@ void kz_pair_bracket(int64_t n, int64_t top_f, int64_t top_g, int64_t top, const
         gain(&total, p, (pair){by_v, same(0)});
         gain(&total, q, (pair){by_w, same(0)});
       }
-      total = quick_sum(total.high, total.low);
+      total = sum(total.high, total.low);
       *(vector *)(bracket + 2 * n * c + i) = total.high;
       *(vector *)(bracket + (2 * c + 1) * n + i) = total.low;
     }

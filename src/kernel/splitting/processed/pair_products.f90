@@ -34,20 +34,20 @@ module kz_processed_pair_products
     end subroutine bracket_pairs
 
     !> pair_products.c
-    pure subroutine split(n, x, high, low) bind(C, name='kz_pairs_split')
+    pure subroutine split_bits(n, x, high, low) bind(C, name='kz_pairs_split')
       import :: c_double, c_int64_t
       integer(c_int64_t), intent(in), value :: n
-      type(*), intent(in) :: x(*)
+      integer(c_int64_t), intent(in) :: x(2, *)
       real(c_double), intent(out) :: high(*), low(*)
-    end subroutine split
+    end subroutine split_bits
 
     !> pair_products.c
-    pure subroutine join(n, high, low, x) bind(C, name='kz_pairs_join')
+    pure subroutine join_bits(n, high, low, x) bind(C, name='kz_pairs_join')
       import :: c_double, c_int64_t
       integer(c_int64_t), intent(in), value :: n
       real(c_double), intent(in) :: high(*), low(*)
-      type(*), intent(inout) :: x(*)
-    end subroutine join
+      integer(c_int64_t), intent(out) :: x(2, *)
+    end subroutine join_bits
 
     !> pair_products.c
     pure subroutine multiply_pairs(rows, inner, columns, left, right, product) bind(C, name='kz_pair_product')
@@ -68,6 +68,25 @@ contains
     pair(1) = real(x, c_double)
     pair(2) = real(x - pair(1), c_double)
   end function pair_of
+
+  !> Numbers as sums of two doubles.
+  pure subroutine split(x, high, low)
+    real(qp), intent(in) :: x(:)
+    real(c_double), intent(inout) :: high(:), low(:)
+
+    call split_bits(size(x, kind=c_int64_t), reshape(transfer(x, [0_c_int64_t]), [2, size(x)]), high, low)
+  end subroutine split
+
+  !> The sums of two doubles each.
+  pure function joined(n, high, low) result(x)
+    integer, intent(in) :: n
+    real(c_double), intent(in) :: high(:), low(:)
+    real(qp) :: x(n)
+    integer(c_int64_t) :: bits(2, n)
+
+    call join_bits(int(n, c_int64_t), high, low, bits)
+    x = transfer(bits, x)
+  end function joined
 
   !> The next multiple of COLUMNS.
   pure integer function filled(n)
@@ -93,7 +112,7 @@ contains
 
     call right_factor(size(matrix, 1), size(matrix, 2), factor)
     do i = 1, size(matrix, 1)
-      call split(size(matrix, 2, c_int64_t), matrix(i, :), factor%row(:, 1, i), factor%row(:, 2, i))
+      call split(matrix(i, :), factor%row(:, 1, i), factor%row(:, 2, i))
     end do
   end subroutine set_right_factor
 
@@ -103,17 +122,15 @@ contains
     type(right_factor_t), intent(in) :: right !< inner rows
     real(qp) :: product(size(left, 1), right%n_columns)
     real(c_double) :: pairs(size(left, 2), 2, size(left, 1)), sums(size(right%row, 1), 2, size(left, 1))
-    real(qp) :: row(right%n_columns)
     integer :: i
 
     do i = 1, size(left, 1)
-      call split(size(left, 2, c_int64_t), left(i, :), pairs(:, 1, i), pairs(:, 2, i))
+      call split(left(i, :), pairs(:, 1, i), pairs(:, 2, i))
     end do
     call multiply_pairs(int(size(left, 1), c_int64_t), int(size(left, 2), c_int64_t), int(size(right%row, 1), c_int64_t), pairs, &
                         right%row, sums)
     do i = 1, size(left, 1)
-      call join(size(row, kind=c_int64_t), sums(:, 1, i), sums(:, 2, i), row)
-      product(i, :) = row
+      product(i, :) = joined(right%n_columns, sums(:, 1, i), sums(:, 2, i))
     end do
   end function pair_product
 
@@ -129,8 +146,8 @@ contains
     allocate (factor%value(filled(size(value, 1)), 2, 0:ubound(value, 2)), source=0.0_c_double)
     allocate (factor%slope, source=factor%value)
     do n = 0, ubound(value, 2)
-      call split(size(value, 1, c_int64_t), value(:, n), factor%value(:, 1, n), factor%value(:, 2, n))
-      call split(size(value, 1, c_int64_t), slope(:, n), factor%slope(:, 1, n), factor%slope(:, 2, n))
+      call split(value(:, n), factor%value(:, 1, n), factor%value(:, 2, n))
+      call split(slope(:, n), factor%slope(:, 1, n), factor%slope(:, 2, n))
     end do
   end subroutine set_bracket_factor
 
@@ -147,7 +164,7 @@ contains
     call bracket_pairs(int(size(f%value, 1), c_int64_t), int(ubound(f%value, 3), c_int64_t), int(ubound(g%value, 3), c_int64_t), int(top, c_int64_t), &
                        f%value, f%slope, g%value, g%slope, bracket)
     do n = 0, top
-      call join(int(f%n_points, c_int64_t), bracket(:, 1, n), bracket(:, 2, n), coefficient)
+      coefficient = joined(f%n_points, bracket(:, 1, n), bracket(:, 2, n))
       if (weight > 0) total(:, n) = total(:, n) + coefficient
       if (weight < 0) total(:, n) = total(:, n) - coefficient
     end do
