@@ -14,7 +14,7 @@ def deciding(page):
     assert wait_for(lambda: page.state() == "computing")
 
 
-def test_a_picture_that_is_saved_ends_no_frame(page, folder):
+def test_a_picture_that_is_saved_ends_no_frame(page, webgl, folder):
     deciding(page)
     page.choose("save-width", "400")
     picture = matplotlib.image.imread(page.saved("save-png", folder / "view.png"))

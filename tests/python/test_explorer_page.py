@@ -120,7 +120,7 @@ def test_starts_are_told_in_the_units_of_the_axes(page):
     assert wait_for(lambda: page.run("$('pointer').textContent").startswith("θ −90")) and "°" in page.run("$('ending').textContent")
 
 
-def test_dragging_wraps_the_angle_and_moves_the_picture_at_once(page):
+def test_dragging_wraps_the_angle_and_moves_the_picture_at_once(page, webgl):
     page.driver.execute_script("explorer.basins.panes[0].pursue = () => {}")  # no new frame: the old one is moved
     before = np.array(page.pixels())
     for _ in range(3):
@@ -226,7 +226,7 @@ def test_a_reload_keeps_the_view_and_the_address_has_no_token(page, striped):
     assert float(page.run("$('value-m').value")) == pytest.approx(0.3 * 4**0.4, rel=1e-5)
 
 
-def test_a_refusal_empties_the_picture_and_the_view_lives_on(page):
+def test_a_refusal_empties_the_picture_and_the_view_lives_on(page, webgl):
     assert np.any(np.array(page.pixels())[:, 3])
     page.choose("value-m", "8")
     assert page.wait(state="error") == "pendulum.m: must not be 8" == page.run("document.querySelector('.refusal').textContent")
@@ -274,7 +274,7 @@ def test_sliders_stand_above_the_fold_and_nothing_jumps(page):
 
 
 @pytest.mark.extensive
-def test_two_values_stand_side_by_side_with_linked_cursors(page):
+def test_two_values_stand_side_by_side_with_linked_cursors(page, webgl):
     page.press("compare")
     page.slide("m", 0.5)
     page.wait()
@@ -289,7 +289,7 @@ def test_two_values_stand_side_by_side_with_linked_cursors(page):
 
 
 @pytest.mark.extensive
-def test_both_painters_draw_the_same(page, driver, striped):
+def test_both_painters_draw_the_same(page, webgl, driver, striped):
     page.choose("shade", "settling")
     page.choose("quality", "exact")
     page.wait()
@@ -303,7 +303,7 @@ def test_both_painters_draw_the_same(page, driver, striped):
     assert np.mean(np.max(np.abs(first - second), axis=1) > 12) < 0.35  # doubtful cells are striped otherwise, and shares of pixels
 
 
-def test_samples_soften_what_is_finer_than_a_pixel(page):
+def test_samples_soften_what_is_finer_than_a_pixel(page, webgl):
     before = len(np.unique(np.array(page.pixels()), axis=0))
     page.choose("samples", "3")
     assert "3 × 3 a pixel" in page.wait()
@@ -313,7 +313,7 @@ def test_samples_soften_what_is_finer_than_a_pixel(page):
 # ---- what is saved ----
 
 
-def test_pictures_and_tables_are_saved(page, folder):
+def test_pictures_and_tables_are_saved(page, webgl, folder):
     page.hand(0.7, 0.5, 0.7, 0.5)
     assert wait_for(lambda: not page.run("$('save-csv').disabled"))
     table = np.genfromtxt(page.saved("save-csv", folder / "orbit.csv"), delimiter=",", names=True)
@@ -340,7 +340,7 @@ def test_pictures_and_tables_are_saved(page, folder):
 
 
 @pytest.mark.extensive
-def test_films_are_saved(page, folder):
+def test_films_are_saved(page, webgl, folder):
     _ = page.choose("film-count", "3"), page.press("film-loop")
     with zipfile.ZipFile(page.saved("film-png", folder / "film.zip", 60)) as film:
         assert film.testzip() is None and film.namelist() == [f"film-00{n}.png" for n in range(4)]  # there and back

@@ -40,7 +40,7 @@ def test_a_plain_deep_picture_says_where_it_is_and_goes_to_a_boundary(page):
     assert page.window()["theta"]["min"] == pytest.approx(-np.pi) and wait_for(lambda: page.run("document.querySelector('.inset').hidden"))
 
 
-def test_the_relief_rises_inside_a_basin(page):
+def test_the_relief_rises_inside_a_basin(page, webgl):
     """By times that vary smoothly, of fewer cells, and as far as those of the picture itself do."""
     page.wait()
     columns, raised, shades = page.run("""(({columns, rows, cells, raised}) => [columns, raised,
@@ -79,7 +79,7 @@ def test_the_pointer_reads_the_measures_of_the_basin_under_it(page):
 
 
 @pytest.mark.extensive
-def test_the_list_lights_a_basin_and_keeps_the_one_that_is_clicked(page):
+def test_the_list_lights_a_basin_and_keeps_the_one_that_is_clicked(page, webgl):
     page.choose("shade", "none")  # one colour a basin
     page.wait()
     plain = np.unique(np.array(page.pixels()), axis=0).tolist()

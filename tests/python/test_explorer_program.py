@@ -15,7 +15,7 @@ TURN = 2 * np.pi
 
 @pytest.fixture
 def driver(tmp_path):
-    with browser(tmp_path, "760,520") as found:  # fewer cells
+    with browser(tmp_path, "560,440") as found:  # fewer cells
         yield found
 
 
