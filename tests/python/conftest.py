@@ -254,6 +254,12 @@ def datasets(path):
     return contents
 
 
+def flown(field, time, start, tolerance):
+    """The state after `time` of u' = field(t, u), by an integrator that shares nothing with the program: scipy's DOP853."""
+    from scipy.integrate import solve_ivp  # which takes a second to load, and few workers need
+    return solve_ivp(field, (0, time), start, method="DOP853", rtol=tolerance, atol=0.1 * tolerance).y[:, -1]
+
+
 def run_script(main, *arguments):
     """A script's main without the second that a new Python takes: its CompletedProcess."""
     output, errors, status = io.StringIO(), io.StringIO(), 0

@@ -7,10 +7,9 @@ import shutil
 import h5py
 import numpy as np
 import pytest
-from conftest import EXTENSIVE, ROOT, datasets, plot, run_scene, run_until_saved, with_extensive
+from conftest import EXTENSIVE, ROOT, datasets, flown, plot, run_scene, run_until_saved, with_extensive
 from kapitza import Result, SceneError
 from kapitza.style import name_text
-from scipy.integrate import solve_ivp
 from serving import Server
 
 PENDULUM = {"quality_factor": 5, "drive_frequency": 11, "drive_amplitude": 0.3}
@@ -50,8 +49,8 @@ def test_rest_is_that_of_the_linear_equation(atlas):
         inside = np.flatnonzero((xs > 3) & (xs < 30) & (ys > 0) & (ys < 0.8))
         for i in inside[:: max(1, len(inside) // 6)]:
             k, beta, m = xs[i] ** -2, 1 / (5 * xs[i]), ys[i]
-            ends = [solve_ivp(lambda t, u, k=k, beta=beta, m=m: [u[1], -beta * u[1] + (k - m * np.cos(t)) * u[0]], (0, 2 * np.pi), start,
-                              method="DOP853", rtol=1e-13, atol=1e-14).y[:, -1] for start in ([1, 0], [0, 1])]
+            ends = [flown(lambda t, u, k=k, beta=beta, m=m: [u[1], -beta * u[1] + (k - m * np.cos(t)) * u[0]], 2 * np.pi, start, 1e-13)
+                    for start in ([1, 0], [0, 1])]
             assert abs(ends[0][0] + ends[1][1] - multiplier * (1 + np.exp(-2 * np.pi * beta))) < 3e-11
 
 
@@ -127,8 +126,7 @@ def test_motions_of_a_point_are_cycles_of_its_pendulum(atlas):
         for _, motion in found.iterrows():
             assert len(motion["strobe_theta"]) == motion["period"]
             start = [motion["strobe_theta"][0], motion["strobe_velocity"][0], 1, 0, 0, 1]
-            end = solve_ivp(lambda t, u, *of: flow(u, t, *of), args=(k, beta, epsilon), t_span=(0, 2 * np.pi * motion["period"]), y0=start,
-                            method="DOP853", rtol=1e-12, atol=1e-13).y[:, -1]
+            end = flown(lambda t, u, of=(k, beta, epsilon): flow(u, t, *of), 2 * np.pi * motion["period"], start, 1e-12)
             assert abs(end[0] - start[0] - 2 * np.pi * motion["winding"]) < 2e-9 and abs(end[1] - start[1]) < 2e-9
             assert abs(end[2] + end[5] - sum(motion["multipliers"]).real) < 1e-7
             assert max(abs(one) for one in motion["multipliers"]) < 1

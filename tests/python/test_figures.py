@@ -4,9 +4,8 @@ import json
 
 import numpy as np
 import pytest
-from conftest import ROOT
+from conftest import ROOT, flown
 from kapitza import Result
-from scipy.integrate import solve_ivp
 
 REFERENCE = json.loads((ROOT / "tests" / "literature" / "reference.json").read_text())["blackburn_fig11_15_attractors_Q5_Omega11"]
 FIGURES = {11: "0.150", 12: "0.300", 13: "0.460", 14: "0.470", 15: "0.520"}
@@ -81,8 +80,7 @@ def test_every_attractor_attracts_and_closes(figure):
     for row in range(table.sizes["attractor"]):
         period, winding = int(table["period"].values[row]), int(table["winding"].values[row])
         start = points_of(table, row)[0]
-        end = solve_ivp(lambda t, x: (x[1], -beta * x[1] - (k - m * np.cos(t)) * np.sin(x[0])), (0, 2 * np.pi * period), start,
-                        method="DOP853", rtol=1e-13, atol=1e-14).y[:, -1]
+        end = flown(lambda t, x: (x[1], -beta * x[1] - (k - m * np.cos(t)) * np.sin(x[0])), 2 * np.pi * period, start, 1e-13)
         assert np.abs(end - start - [2 * np.pi * winding, 0]).max() < 1e-9, table["name"].values[row]
         assert np.hypot(table["multiplier_re"].values[row], table["multiplier_im"].values[row]).max() < 1
 

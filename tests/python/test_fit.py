@@ -10,7 +10,6 @@ import pytest
 from conftest import EXTENSIVE, PROGRAM, ROOT, run_script, with_extensive
 from kapitza import fitting
 from kapitza.least_squares import half_width
-from scipy.stats import binom
 
 sys.path.insert(0, str(ROOT / "tests" / "tools"))
 from fit_coverage import DECAY, FRICTION, NOISE, counted, track  # noqa: E402
@@ -47,6 +46,8 @@ def test_a_decay_gives_frequency_and_damping(seconds, samples, chance):
 @pytest.mark.parametrize(("pendulum", "tracks"), with_extensive([("viscous", 20)], [("viscous", 200), ("viscous + quadratic + dry", 100)]))
 def test_the_truth_lies_within_the_stated_errors(pendulum, tracks):
     """Of 95 % intervals 95 of 100 hold the truth, up to the chance of so many tracks: one number in 5000 lies outside of these bounds."""
+    from scipy.stats import binom  # which takes a second to load
+
     low, high = binom.ppf([1e-4, 1 - 1e-4], tracks, 0.95)
     for name, held in counted(pendulum, tracks).items():
         assert low <= held <= high, name

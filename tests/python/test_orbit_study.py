@@ -8,7 +8,6 @@ import numpy as np
 import pytest
 from conftest import datasets, refused_scene, run_scene, with_extensive
 from orbit_scenes import BLACKBURN, FIGURES, NODDING, WINDOW, closed, parameters
-from scipy import signal
 
 
 def test_open_record_tells_the_period(model):
@@ -43,6 +42,8 @@ def test_lines_of_chaos_are_those_of_the_velocity(model):
     samples = round(2 * pi / orbit["time"].values[1])
     assert [0.5 * cos(orbit["time"].values[i]) for i in range(samples)] == list(orbit["pivot"].values[:samples])  # as in 0.2.0
     velocity = orbit["velocity"].values[:-1]
+    from scipy import signal  # which takes a second to load
+
     window = signal.get_window("blackmanharris", len(velocity))
     mean = np.average(velocity, weights=window)
     lines = 2 * np.abs(np.fft.rfft((velocity - mean) * window)) / window.sum()

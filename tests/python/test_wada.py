@@ -2,8 +2,7 @@
 
 import numpy as np
 import pytest
-from conftest import datasets, run_scene, stopped_and_resumed
-from scipy.integrate import solve_ivp
+from conftest import datasets, flown, run_scene, stopped_and_resumed
 
 FORCED = {"pendulum": {"k": 1, "damping": 0.2, "m": 0, "torque_amplitude": 1.66},
           "attractors": {"velocity": {"min": -2, "max": 4}, "starts": 512},
@@ -51,7 +50,7 @@ def test_witnesses_end_where_they_should(forced):
         theta, velocity = y.reshape(2, -1)
         return np.concatenate([velocity, -0.2 * velocity - np.sin(theta) + 1.66 * np.cos(t)])
 
-    end = solve_ivp(field, (0, 2 * np.pi * periods), start.T.ravel(), method="DOP853", rtol=1e-10, atol=1e-10).y[:, -1].reshape(2, -1)
+    end = flown(field, 2 * np.pi * periods, start.T.ravel(), 1e-10).reshape(2, -1)
     for (_, _, attractor), theta, velocity in zip(known, *end, strict=True):
         gap = np.remainder(attractors["strobe_theta"].values[attractor] - (theta - a) + np.pi, 2 * np.pi) - np.pi
         assert np.nanmin(np.hypot(gap, attractors["strobe_velocity"].values[attractor] - (velocity - b))) < 1e-3

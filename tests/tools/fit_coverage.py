@@ -13,7 +13,6 @@ from multiprocessing import Pool
 from pathlib import Path
 
 import numpy as np
-from scipy.stats import beta
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "python"))
 from kapitza import fitting
@@ -49,6 +48,8 @@ def counted(name, tracks, processes=1):
 
 
 def main():
+    from scipy.stats import beta  # takes a second to load, which tests of fits, users of the rest, need not
+
     options = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     options.add_argument("--tracks", type=int, default=100)
     options.add_argument("--processes", type=int, default=1)
