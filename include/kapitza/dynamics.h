@@ -54,8 +54,9 @@ void kz_dynamics_update(kz_dynamics *dynamics);
 void kz_dynamics_learn_regions(kz_dynamics *dynamics, int64_t n, const double *state, int64_t most, int64_t budget);
 
 /* Ways to follow a start: by the scene's map, or by interpolation of the map table with 2 or 6 nodes an axis. SPARSE: by the scene's map, with a
- * look at the trapping regions every few periods only, so that `periods` may be larger by less than that. */
-enum { KZ_FOLLOW_DIRECT = 0, KZ_FOLLOW_SPARSE = 1, KZ_FOLLOW_LINEAR = 2, KZ_FOLLOW_QUINTIC = 6 };
+ * look at the trapping regions every few periods only, so that `periods` may be larger by less than that. SINGLE: the same, with the processed
+ * splitting in single precision, to some 1e-6 rad a period. */
+enum { KZ_FOLLOW_DIRECT = 0, KZ_FOLLOW_SPARSE = 1, KZ_FOLLOW_SINGLE = 3, KZ_FOLLOW_LINEAR = 2, KZ_FOLLOW_QUINTIC = 6 };
 /* Follows n starts, state [n][2], until a trapping region holds them, at most max_periods. label [n] = number of the attractor, 0 = not
  * settled. periods [n] = first period inside a trapping region, or max_periods. State [i] of a start that has not settled becomes its last
  * state, that of another one where it was left, in the map's own coordinates. */

@@ -13,7 +13,7 @@ module kz_api_follow
   private
 
   !> Ways of dynamics.h; those that remain are the nodes of the table's stencil.
-  integer(c_int32_t), parameter :: DIRECT = 0, SPARSE = 1
+  integer(c_int32_t), parameter :: DIRECT = 0, SPARSE = 1, SINGLE = 3
   !> Periods between two looks at the regions of starts that take hundreds of them.
   integer, parameter :: PRIMES(6) = [5, 7, 11, 13, 17, 19]
 
@@ -36,8 +36,10 @@ contains
     select case (stepping)
     case (DIRECT)
       call follow(flow, d%regions, d%attractors, state, label, periods, 1)
-    case (SPARSE)
+    case (SPARSE, SINGLE)
+      flow%single = stepping == SINGLE
       call follow(flow, d%regions, d%attractors, state, label, periods, apart(d%attractors))
+      flow%single = .false.
     case default
       allocate (map, source=make_table_map(d%table, int(stepping), flow))
       call follow(map, d%regions, d%attractors, state, label, periods, 1)

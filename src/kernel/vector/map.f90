@@ -41,6 +41,7 @@ module kz_vector_map
 
   !> A map that is integrated: it also has its derivative, and the states within the period.
   type, abstract, extends(map_t) :: flow_t
+    logical :: single = .false. !< `advance` may work in single precision
   contains
     !> Advances the lanes 1 .. n by one period; matrix(:, :, lane) is multiplied by the derivative of (theta, v), both in rad.
     procedure(advance_tangent_i), deferred :: advance_tangent

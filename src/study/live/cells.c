@@ -23,13 +23,13 @@ static void add_late(kz_travellers *late, int64_t number, int64_t spent, const d
   memcpy(late->state + 2 * late->n++, state, 2 * sizeof *state);
 }
 
-/* As method direct labels them, for so many periods. What then goes on joins `late`, or has not settled if that is NULL. Of late cells of a weakly
- * damped pendulum, which take hundreds of periods, regions are looked at in some periods alone. */
+/* As method direct labels them, for so many periods. What then goes on joins `late`, or has not settled if that is NULL. Late cells
+ * of a weakly damped pendulum, which take hundreds of periods, are followed in a cheaper way. */
 static void follow(kz_prepared *r, int64_t most, kz_travellers *from, kz_travellers *late, kz_frame_cell *cells) {
   int32_t label[2 * KZ_FRAME_TILE];
   int64_t periods[2 * KZ_FRAME_TILE];
   double time[2 * KZ_FRAME_TILE], *state = from->state;
-  const int32_t way = !late && kz_prepared_is_weak(r) ? KZ_FOLLOW_SPARSE : KZ_FOLLOW_DIRECT;
+  const int32_t way = late ? KZ_FOLLOW_DIRECT : kz_prepared_late_way(r);
   kz_dynamics_follow(r->dynamics, way, from->n, most, state, label, periods);
   for (int64_t i = 0; i < from->n; i++) {
     const int64_t number = from->number[i], spent = from->spent[i] + periods[i];

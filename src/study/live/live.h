@@ -54,8 +54,8 @@ static inline bool kz_prepared_moves(const kz_prepared *prepared) {
   return prepared->tolerance > 0;
 }
 
-/* Whether damping is so weak that motions take many periods on average. */
-bool kz_prepared_is_weak(const kz_prepared *prepared);
+/* The way (KZ_FOLLOW_...) in which cells of moving frames that take long are followed. */
+int32_t kz_prepared_late_way(const kz_prepared *prepared);
 
 /* The tolerance of moving frames of the scene's window, rad: much smaller than a cell. */
 double kz_moving_tolerance(const kz_scene *scene);

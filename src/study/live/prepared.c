@@ -46,8 +46,14 @@ double kz_moving_tolerance(const kz_scene *scene) {
   return kz_settling_mean(scene->parameters.pendulum.beta) < SLOW ? COARSE : COARSEST;
 }
 
-bool kz_prepared_is_weak(const kz_prepared *prepared) {
-  return kz_settling_mean(prepared->scene.parameters.pendulum.beta) >= WEAK;
+/* Whether damping is so weak that motions take many periods on average. */
+static bool is_weak(const kz_prepared *r) {
+  return kz_settling_mean(r->scene.parameters.pendulum.beta) >= WEAK;
+}
+
+int32_t kz_prepared_late_way(const kz_prepared *prepared) {
+  if (!is_weak(prepared)) return KZ_FOLLOW_DIRECT;
+  return prepared->tolerance < COARSEST ? KZ_FOLLOW_SPARSE : KZ_FOLLOW_SINGLE;
 }
 
 static kz_window window_of(const kz_scene *scene) {
@@ -78,7 +84,7 @@ static bool has_cover(const kz_prepared *r) {
 /* Extends the trapping regions of moving frames by orbits, where damping is so weak that this saves time. */
 static void learn(kz_prepared *r) {
   const double mean = kz_settling_mean(r->scene.parameters.pendulum.beta);
-  if (!kz_prepared_moves(r) || (!kz_prepared_is_weak(r) && !has_cover(r))) return;
+  if (!kz_prepared_moves(r) || (!is_weak(r) && !has_cover(r))) return;
   const int64_t n = (int64_t)fmin(ORBITS, VISITS / fmax(mean, has_cover(r) ? (double)r->periods : 0));
   KZ_FREED double *state = kz_malloc(2 * (size_t)(n + 1) * sizeof *state);
   kz_dynamics_starts(&r->search.window, r->search.seed, n, state);

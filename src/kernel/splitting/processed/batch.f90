@@ -7,7 +7,7 @@ module kz_processed_batch
   use kz_vector_sine, only: INVERSE_PI
   use kz_vector_wrap, only: wrap, vectors_of, flush_subnormals, restore_control
   use kz_processed_processor, only: change_coordinates, change_derivative
-  use kz_processed_stages, only: stages_t, make_stages, advance_stages, linear_stages, displaced_stages, tangent_stages, GROUP
+  use kz_processed_stages, only: stages_t, make_stages, advance_stages, single_stages, linear_stages, displaced_stages, tangent_stages, GROUP
   use kz_processed_tables, only: processed_t, processor_t
   implicit none
   private
@@ -55,7 +55,11 @@ contains
 
     u = self%u(:WIDTH)
     v = self%v(:WIDTH)
-    call advance_stages(self%stages%table, n, u, v)
+    if (self%single) then
+      call single_stages(self%stages, n, u, v)
+    else
+      call advance_stages(self%stages%table, n, u, v)
+    end if
     call take_images(self, n, u, v)
   end subroutine processed_advance
 

@@ -4,75 +4,32 @@
  * polynomials too (n_drift, n_kick). */
 #include "vector/vector.h"
 
+#include <stddef.h>
+
 #if !defined KAPITZA_FUSED || KAPITZA_FUSED != 1
 #error "the processed splitting is made for fused operations: -ffp-contract=fast (cmake/Compilers.cmake)"
 #endif
 
-/* Lanes of a vector, and vectors at once. */
-enum { LANES = VECTOR_BYTES / 8, CHAINS = 8 };
-#define EACH _Pragma("GCC unroll 8") for (int i = 0; i < CHAINS; i++)
-static const double round_to_even = 0x3p52; /* adding it rounds to an even integer */
+/* Vectors at once, at most. */
+enum { CHAINS = 8 };
+#define EACH _Pragma("GCC unroll 8") for (int i = 0; i < IN(CHAINS); i++)
 
 typedef float narrow __attribute__((vector_size(VECTOR_BYTES / 2), aligned(sizeof(float)), may_alias));
+typedef float floats __attribute__((vector_size(VECTOR_BYTES), aligned(sizeof(float)), may_alias));
 
-/* c[0] + c[1] q + .. */
-OPERATION void polynomial(int n, const double *c, const vector *q, vector *p) {
-  EACH p[i] = c[n - 1] + (vector){0};
-  for (int j = n - 2; j >= 0; j--) EACH p[i] = p[i] * q[i] + c[j];
-}
+#define NUMBER double
+#define VECTOR vector
+#define NARROW narrow
+#define ROUND_TO_EVEN 0x3p52
+#define IN(name) double_##name
+#include "stages.inc"
 
-/* kept: into it go the reduced angles at each kick, KZ_LANES a stage, if it is not NULL. */
-OPERATION void block(bool mirrored, int n_drift, int n_kick, int64_t n_stages, const double *restrict row, vector *u, vector *v,
-                     float *restrict kept) {
-  vector a[CHAINS], b[CHAINS], r[CHAINS], q[CHAINS], p[CHAINS];
-  const int n = n_drift + n_kick;
-  EACH a[i] = u[i];
-  EACH b[i] = v[i];
-  for (int64_t s = 0; s < n_stages; s++, row += mirrored ? n : 2 * n) {
-    EACH q[i] = b[i] * b[i];
-    polynomial(n_drift, row, q, p);
-    EACH a[i] += p[i] * b[i];
-    if (!mirrored) {
-      polynomial(n_drift, row + n, q, p);
-      EACH a[i] += p[i];
-    }
-    EACH r[i] = a[i] - ((a[i] + round_to_even) - round_to_even);
-    EACH q[i] = r[i] * r[i];
-    if (kept) {
-      EACH *(narrow *)(kept + i * LANES) = __builtin_convertvector(r[i], narrow);
-      kept += KZ_LANES;
-    }
-    EACH p[i] = row[n_drift + n_kick - 1] * q[i] + row[n_drift + n_kick - 2];
-    for (int j = n_kick - 3; j >= 0; j--) EACH p[i] = p[i] * q[i] + row[n_drift + j];
-    EACH r[i] -= r[i] * q[i];
-    EACH b[i] -= r[i] * p[i];
-    if (!mirrored) {
-      polynomial(n_kick, row + n + n_drift, q, p);
-      EACH b[i] -= p[i];
-    }
-  }
-  EACH u[i] = a[i];
-  EACH v[i] = b[i];
-}
-
-#define ALL(D, K)                                 \
-  for (int64_t i = 0; i < n; i += CHAINS * LANES) \
-  block(mirrored, D, K, n_stages, row, (vector *)(u + i), (vector *)(v + i), kept ? kept + i : 0)
-#define CASE(D, K)     \
-  case 16 * (D) + (K): \
-    ALL(D, K);         \
-    break;
-#define CASES(K) CASE(1, K) CASE(2, K) CASE(3, K) CASE(4, K)
-
-/* `mirrored` is a constant where it is called: each kind of pendulum has loops of its own. */
-OPERATION void run(bool mirrored, int32_t n_drift, int32_t n_kick, int64_t n_stages, const double *row, int64_t n, double *u,
-                   double *v, float *kept) {
-#ifdef __SANITIZE_ADDRESS__ /* one body for all lengths: the checks of 32 take a minute to compile */
-  ALL(n_drift, n_kick);
-#else
-  switch (16 * n_drift + n_kick) { CASES(4) CASES(5) CASES(6) CASES(7) CASES(8) CASES(9) CASES(10) CASES(11) }
-#endif
-}
+#define NUMBER float
+#define VECTOR floats
+#define NARROW floats
+#define ROUND_TO_EVEN 0x3p23f
+#define IN(name) single_##name
+#include "stages.inc"
 
 /* Does all drifts and kicks of a period. u (half-turns) and v (velocity times exp(beta t)) have KZ_LANES lanes; the first n lanes move, and
  * further ones up to a whole block. row [n_stages][n_drift + n_kick]: coefficients of a drift and a kick; twice as many without mirror
@@ -81,7 +38,21 @@ OPERATION void run(bool mirrored, int32_t n_drift, int32_t n_kick, int64_t n_sta
 void kz_processed_kicks(int32_t mirrored, int32_t n_drift, int32_t n_kick, int64_t n_stages, const double *row, int64_t n,
                         double *u, double *v, float *kept) {
   if (mirrored)
-    run(true, n_drift, n_kick, n_stages, row, n, u, v, kept);
+    double_run(true, n_drift, n_kick, n_stages, row, n, u, v, kept);
   else
-    run(false, n_drift, n_kick, n_stages, row, n, u, v, kept);
+    double_run(false, n_drift, n_kick, n_stages, row, n, u, v, kept);
+}
+
+/* The same in single precision, without angles: for motions whose ends no error of some 1e-6 rad keeps. */
+void kz_processed_kicks_single(int32_t mirrored, int32_t n_drift, int32_t n_kick, int64_t n_stages, const float *row, int64_t n,
+                               double *u, double *v) {
+  float a[KZ_LANES], b[KZ_LANES];
+  for (int i = 0; i < KZ_LANES; i++) a[i] = (float)u[i];
+  for (int i = 0; i < KZ_LANES; i++) b[i] = (float)v[i];
+  if (mirrored)
+    single_run(true, n_drift, n_kick, n_stages, row, n, a, b, NULL);
+  else
+    single_run(false, n_drift, n_kick, n_stages, row, n, a, b, NULL);
+  for (int i = 0; i < KZ_LANES; i++) u[i] = a[i];
+  for (int i = 0; i < KZ_LANES; i++) v[i] = b[i];
 }

@@ -7,7 +7,7 @@ module kz_processed_stages
   use kz_processed_tables, only: processed_t
   implicit none
   private
-  public :: stages_t, make_stages, advance_stages, linear_stages, displaced_stages, tangent_stages, GROUP, TERMS
+  public :: stages_t, make_stages, advance_stages, single_stages, linear_stages, displaced_stages, tangent_stages, GROUP, TERMS
 
   !> Coefficients of the slope of a kick (tangents.c): as a polynomial of the square, right to 1e-4 or better.
   integer, parameter :: TERMS = 5
@@ -17,6 +17,7 @@ module kz_processed_stages
   !> The tables of a period, and what its tangents take.
   type :: stages_t
     type(processed_t) :: table
+    real(c_float), allocatable :: row(:, :)   !< those of the stages in single precision
     real(c_float), allocatable :: slope(:, :) !< (1 + 2*TERMS, steps): a drift, and the slope of a kick
     real(c_float), allocatable :: kept(:, :)  !< (WIDTH, steps): of the last period, stages.c
     real(c_float), allocatable :: some(:, :)  !< (GROUP, steps): of those lanes whose neighbours are asked for
@@ -33,6 +34,16 @@ module kz_processed_stages
       real(c_double), intent(inout) :: u(WIDTH), v(WIDTH)
       real(c_float), intent(out), optional :: kept(WIDTH, *)
     end subroutine run_stages
+
+    !> The same in single precision.
+    subroutine run_single_stages(mirrored, n_drift, n_kick, n_stages, row, n, u, v) bind(C, name='kz_processed_kicks_single')
+      import :: c_double, c_float, c_int32_t, c_int64_t, WIDTH
+      integer(c_int32_t), value :: mirrored, n_drift, n_kick
+      integer(c_int64_t), value :: n_stages
+      real(c_float), intent(in) :: row(*)
+      integer(c_int64_t), value :: n
+      real(c_double), intent(inout) :: u(WIDTH), v(WIDTH)
+    end subroutine run_single_stages
 
     !> The derivative from them (tangents.c).
     subroutine run_tangents(mirrored, n_stages, row, last, decay, kept, n, c) bind(C, name='kz_processed_tangents')
@@ -68,6 +79,7 @@ contains
     integer :: i, n
 
     stages%table = table
+    stages%row = real(table%row, c_float)
     n = table%n_drift + table%n_kick
     allocate (stages%slope(1 + 2*TERMS, table%n_steps), stages%kept(WIDTH, table%n_steps), &
               stages%some(GROUP, table%n_steps))
@@ -162,11 +174,33 @@ contains
     integer, intent(in) :: n !< lanes
     real(rk), intent(inout) :: u(WIDTH), v(WIDTH) !< half-turns; rad per drive radian
     real(c_float), intent(out), optional :: kept(WIDTH, *) !< stages_t%kept
-    real(rk) :: step(WIDTH), even(WIDTH)
-    integer :: i, j
 
     call run_stages(merge(1_c_int32_t, 0_c_int32_t, table%mirrored), int(table%n_drift, c_int32_t), int(table%n_kick, c_int32_t), &
                     int(table%n_steps, c_int64_t), table%row, int(n, c_int64_t), u, v, kept)
+    call end_period(table, n, u, v)
+  end subroutine advance_stages
+
+  !> The same, with the stages in single precision.
+  subroutine single_stages(self, n, u, v)
+    type(stages_t), intent(in) :: self !< tables of a period
+    integer, intent(in) :: n !< lanes
+    real(rk), intent(inout) :: u(WIDTH), v(WIDTH) !< half-turns; rad per drive radian
+
+    associate (table => self%table)
+      call run_single_stages(merge(1_c_int32_t, 0_c_int32_t, table%mirrored), int(table%n_drift, c_int32_t), &
+                             int(table%n_kick, c_int32_t), int(table%n_steps, c_int64_t), self%row, int(n, c_int64_t), u, v)
+      call end_period(table, n, u, v)
+    end associate
+  end subroutine single_stages
+
+  !> The last drift, and the velocity itself again.
+  subroutine end_period(table, n, u, v)
+    type(processed_t), intent(in) :: table
+    integer, intent(in) :: n
+    real(rk), intent(inout) :: u(WIDTH), v(WIDTH)
+    real(rk) :: step(WIDTH), even(WIDTH)
+    integer :: i, j
+
     step(:n) = table%last(table%n_drift)
     do j = table%n_drift - 1, 1, -1
       do i = 1, n
@@ -183,7 +217,7 @@ contains
       u(i) = u(i) + v(i)*step(i) + even(i)
       v(i) = table%decay*v(i)
     end do
-  end subroutine advance_stages
+  end subroutine end_period
 
   !> The derivative along the stages from the lanes' present states; c(i, :, j): column j, angles in half-turns.
   subroutine tangent_stages(table, n, start_u, start_v, c)
