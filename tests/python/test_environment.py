@@ -83,7 +83,8 @@ def test_a_second_run_is_told_that_the_first_one_works(tmp_path):
 
 
 # The errors of so many steps are measured at 17 values before the sweep begins, each for many seconds.
-SLOW = [PROGRAM, "run", ROOT / "scenes" / "bifurcation.yaml", "--set", "numerics.scheme=split6", "--set", "numerics.steps_per_period=100000"]
+SLOW = [PROGRAM, "run", ROOT / "scenes" / "bifurcation.yaml", "--set", "numerics.scheme=split6", "--set",
+        "numerics.steps_per_period=100000"]
 
 
 def test_the_time_limit_is_heard_before_modelling(tmp_path):
