@@ -20,7 +20,7 @@ def test_it_has_the_sections_and_the_length_of_such_a_paper():
 
 @pytest.mark.parametrize(("page", "words"), [
     ("accuracy", "none of the 160,000 cells was wrong"), ("proofs", "| 1000 x 1000 | 100 % | 0.08 % | 6e-5 | 14 | 0 of 2300 |"),
-    ("benchmarks", "| direct | 125 (109 to 137) |")])
+    ("benchmarks", "| direct | 131 (116 to 150) |")])
 def test_its_numbers_are_those_of_the_validation(page, words):
     assert words in (ROOT / "docs" / "validation" / f"{page}.md").read_text() and f"../validation/{page}.md" in PAPER.read_text()
 
