@@ -23,6 +23,7 @@ FILM = (640, 400)
 EACH = 130  # ms of a picture of the film
 READY = "document.body.dataset.state === 'done' && ($('map').hidden || /up to 4/.test(document.querySelector('#map .note').textContent))"
 AMPLITUDES = [0.30 + 0.20 * i / 14 for i in range(15)] + [0.50 - 0.20 * i / 6 for i in range(1, 7)]
+KNOWN = "!$('pendulum').classList.contains('awaits')"  # the motion of the start
 NOTCHES = 14  # of the wheel
 
 
@@ -49,7 +50,7 @@ def film(driver, page):
         page.run("(explorer.basins.panes[0].most = 2.5e5, explorer.state.change({pendulum: {...explorer.state.pendulum, "
                  "drive_amplitude: arguments[0]}, jump: false}))", str(round(amplitude, 4)))  # as fine as on a machine at rest
         wait_for(lambda: page.run("((pane) => pane.latest?.key === JSON.stringify(pane.pendulum) && pane.latest.level === 1)"
-                                  "(explorer.basins.panes[0])"))
+                                  f"(explorer.basins.panes[0]) && {KNOWN}"))
         pictures.append(shown(driver))
     page.wait()
     page.run("explorer.state.change({drawn: 'on'})")  # the zoom stays on a boundary
@@ -69,7 +70,7 @@ def told(driver, server):
     for _ in range(STEP):
         page.press("story-next")
         time.sleep(3)  # values glide to their new ones
-    wait_for(lambda: page.run("explorer.basins.motion?.ending.period === 2 && !$('pendulum').classList.contains('awaits')"), 120)
+    wait_for(lambda: page.run("explorer.basins.motion?.ending.period === 2 && " + KNOWN), 120)
     time.sleep(1)
     return shown(driver)
 
