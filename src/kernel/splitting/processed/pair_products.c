@@ -3,6 +3,10 @@
 
 #include <string.h>
 
+#if __BYTE_ORDER__ != __ORDER_LITTLE_ENDIAN__
+#error "quads are read by their bits, the lower half first"
+#endif
+
 /* The bits of a number in quad precision, 64 lower and 64 higher ones: 1 of sign, 15 of the exponent, 112 after the first of the number. */
 typedef unsigned __int128 bits;
 
