@@ -23,6 +23,20 @@ def test_a_picture_that_is_saved_ends_no_frame(page, webgl, folder):
     assert len(colours & {tuple(pixel[:3]) for pixel in page.pixels()}) >= 2  # it has the colours of the page
 
 
+def test_a_view_that_changes_while_its_picture_is_computed_is_not_saved(page):
+    """The basins of one window stood under the axes of another."""
+    page.run("explorer.state.change({quality: 'moving', samples: '1'})")
+    page.wait()
+    said = page.module("save.js", "(() => { const saved = its.savePng(explorer.state, explorer.basins, 300);"
+                                  "explorer.state.change({pendulum: {...explorer.state.pendulum, m: '0.45'}}); return saved.catch(String); })()")
+    assert said == "Error: The view has changed while its picture was computed. Save it again."
+    page.wait()
+    page.choose("save-width", "400")
+    page.run("document.getElementById('save-png').click()")
+    assert page.run("document.getElementById('save-png').disabled")  # one at a time
+    assert wait_for(lambda: not page.run("document.getElementById('save-png').disabled"))
+
+
 def test_a_frame_that_others_end_is_asked_for_again(page):
     """The page settled for quick labels, or said for ever that it was computing."""
     deciding(page)

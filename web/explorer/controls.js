@@ -199,7 +199,11 @@ function overlayBox(name, basins) {
 
 function listenSaving(state, basins) {
   element("save-scene").onclick = guarded(() => saveScene(state, basins.active));
-  element("save-png").onclick = guarded(() => savePng(state, basins, pictureWidth()));
+  const png = element("save-png");
+  png.onclick = guarded(() => {
+    png.disabled = true; // one picture at a time: they have one program
+    return savePng(state, basins, pictureWidth()).finally(() => (png.disabled = false));
+  });
   element("save-html").onclick = guarded(() => saveHtml(state, basins));
   element("save-svg").onclick = guarded(() => saveSvg(state, basins));
   element("save-csv").onclick = () => saveText("orbit.csv", basins.motion.toCsv(), "text/csv");

@@ -74,7 +74,8 @@ export function drawPicture(surface, state, basins, pictures = new Map()) {
 }
 
 function drawPane(surface, pane, left, caption, picture) {
-  const plane = new Plane(pane.window, pane.over.clientWidth, pane.over.clientHeight);
+  const window = picture ? pane.state.window : pane.window; // of the picture; of what is on its way there
+  const plane = new Plane(window, pane.over.clientWidth, pane.over.clientHeight);
   plane.box = [plane.box[0] + left, plane.box[1] + HEAD, plane.box[2], plane.box[3]];
   pane.drawNow(); // the painter's canvas is read in the same turn in which it is drawn
   surface.image(picture ?? pane.basins, plane.box);
@@ -104,7 +105,9 @@ async function canvasOf(state, basins, width) {
   if (!width) return pictureCanvas(state, basins);
   const scale = width / pictureSize(basins)[0];
   const pictures = new Map();
+  const address = addressOf(state);
   for (const pane of basins.panes) pictures.set(pane, await computed(state, pane, scale));
+  if (addressOf(state) !== address) throw new Error("The view has changed while its picture was computed. Save it again.");
   return pictureCanvas(state, basins, scale, pictures);
 }
 
