@@ -28,7 +28,8 @@ def test_a_view_that_changes_while_its_picture_is_computed_is_not_saved(page):
     page.run("explorer.state.change({quality: 'moving', samples: '1'})")
     page.wait()
     said = page.module("save.js", "(() => { const saved = its.savePng(explorer.state, explorer.basins, 300);"
-                                  "explorer.state.change({pendulum: {...explorer.state.pendulum, m: '0.45'}}); return saved.catch(String); })()")
+                                  "explorer.state.change({pendulum: {...explorer.state.pendulum, m: '0.45'}});"
+                                  "return saved.catch(String); })()")
     assert said == "Error: The view has changed while its picture was computed. Save it again."
     page.wait()
     page.choose("save-width", "400")
