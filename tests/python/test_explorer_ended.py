@@ -23,6 +23,14 @@ def test_a_picture_that_is_saved_ends_no_frame(page, webgl, folder):
     assert len(colours & {tuple(pixel[:3]) for pixel in page.pixels()}) >= 2  # it has the colours of the page
 
 
+def test_a_picture_that_was_cancelled_is_not_the_one_wanted_since(page):
+    """The page said "done" until the next one was asked for."""
+    deciding(page)
+    change = "explorer.state.change({pendulum: {...explorer.state.pendulum, m: '5.4'}})"
+    assert page.run(f"($('cancel').click(), {change}, document.body.dataset.state)") == "moving"
+    assert "decided" in page.wait()
+
+
 def test_a_view_that_changes_while_its_picture_is_computed_is_not_saved(page):
     """The basins of one window stood under the axes of another."""
     page.run("explorer.state.change({quality: 'moving', samples: '1'})")

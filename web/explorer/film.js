@@ -131,7 +131,6 @@ export class Film {
     for (let n = 0; this.running && n < all; n++) {
       this.say(`picture ${n + 1} of ${all}`);
       this.set(element("film-key").value, this.valueAt(n < count ? n : 2 * count - 2 - n, count));
-      await pause(20);
       while (this.running && !["done", "error"].includes(document.body.dataset.state)) await pause(20);
       if (this.running && document.body.dataset.state === "error") throw new Error(element("status").textContent);
       if (this.running) await take(n);

@@ -70,6 +70,7 @@ export class Pane {
   /** The window, the pendulum or the quality that is wanted has changed. */
   changed() {
     this.version++;
+    this.say(this, "moving", ""); // at once: the frame before may still be on its way
     this.offer.hidden = true;
     this.giveUp();
     this.move();
@@ -209,7 +210,6 @@ export class Pane {
     this.controller = new AbortController();
     this.begun = performance.now();
     this.arrived = false;
-    if (!this.resting) this.say(this, "moving", "");
     let last = null;
     for await (const [header, bytes] of this.engine.answers(request, this.controller.signal)) {
       if (header.answer !== "frame") throw overtaken();
