@@ -32,27 +32,27 @@ enum { KZ_PLANE_LABELS, KZ_PLANE_SETTLING_TIME, KZ_PLANE_SMOOTH_TIME, KZ_PLANE_D
 enum { KZ_NO_LABEL = 255 }; /* not settled, or no attractor */
 enum { KZ_DOUBT_NONE = 0, KZ_DOUBT_OPEN = 1, KZ_DOUBT_UNSEEN = 2 };
 
-/* A level of a frame, which has every `level`-th cell (docs/reference/serve.md). The planes labels, other and doubt have bytes, times
+/* What is shown of a frame at once: every cell whose indices go in steps of `coarseness` (`level` of docs/reference/serve.md). The planes labels, other and doubt have bytes, times
  * are float; the pointer of a plane that was not requested is NULL. */
 typedef struct {
-  int64_t level, rows, columns;
+  int64_t coarseness, rows, columns;
   const kz_live_catalogue *catalogue;
   const void *plane[KZ_PLANES]; /* [rows][columns] */
   double seconds;               /* processor time of this process since the frame began */
-} kz_live_level;
+} kz_live_raster;
 
 /* Bytes of a cell in a plane. */
 size_t kz_plane_bytes(int plane);
 
 /* How a frame is made, and where it goes. */
 typedef struct {
-  bool moving;               /* true: fast, with an error per period much smaller than a cell; false: as method exact */
-  const kz_integers *levels; /* 8, 4, 2 or 1, falling */
-  bool plane[KZ_PLANES];     /* the planes to show */
-  kz_atlas *atlas;           /* what attracts at its point x, y, where the scene's pendulum lies, needs no search; NULL: none */
-  double x, y;               /* values of its two keys */
+  bool moving;                   /* true: fast, with an error per period much smaller than a cell; false: as method exact */
+  const kz_integers *coarseness; /* 8, 4, 2 or 1, falling */
+  bool plane[KZ_PLANES];         /* the planes to show */
+  kz_atlas *atlas; /* what attracts at its point x, y, where the scene's pendulum lies, needs no search; NULL: none */
+  double x, y;     /* values of its two keys */
   kz_status (*pause)(void *context); /* called every few milliseconds; any status but KZ_OK ends the frame with that status */
-  kz_status (*show)(void *context, const kz_live_level *level);
+  kz_status (*show)(void *context, const kz_live_raster *raster);
   void *context;
 } kz_frame;
 
@@ -69,15 +69,15 @@ kz_status kz_engine_catalogue(kz_engine *engine, const kz_scene *scene, const kz
 kz_status kz_engine_where(kz_engine *engine, const kz_scene *scene, int64_t n, const kz_coordinate (*start)[2],
                           kz_ending *endings);
 
-/* A level of a plane of two keys: periods and centres of the ends, with the values of the group /plane, x fastest; period KZ_NO_LABEL = not
+/* The same of a plane of two keys: periods and centres of the ends, with the values of the group /plane, x fastest; period KZ_NO_LABEL = not
  * settled, or no pendulum. */
 typedef struct {
-  int64_t level, rows, columns;
+  int64_t coarseness, rows, columns;
   const uint8_t *period, *centre; /* [rows][columns] */
-} kz_plane_level;
+} kz_plane_raster;
 /* Draws where the first start of the scene's sweep.ends ends over its plane; `pause` as in kz_frame. */
-kz_status kz_plane_draw(const kz_scene *scene, const kz_integers *levels, kz_status (*pause)(void *context),
-                        kz_status (*show)(void *context, const kz_plane_level *level), void *context);
+kz_status kz_plane_draw(const kz_scene *scene, const kz_integers *coarseness, kz_status (*pause)(void *context),
+                        kz_status (*show)(void *context, const kz_plane_raster *raster), void *context);
 
 /* The motion of the scene's study orbit, by the pendulum itself, after its transient: theta (rad, not wrapped) and velocity (rad per drive radian), each
  * [periods * samples_per_period + 1]. `pause` as in kz_frame, every 0.1 s. KZ_FAILED: it becomes too large for double precision. */

@@ -39,12 +39,12 @@ static uint64_t bit_of(int16_t label) {
   return label < 0 ? 0 : (uint64_t)1 << (label < KZ_BOX_LABELS - 1 ? label : KZ_BOX_LABELS - 1);
 }
 
-static void count_level(int64_t n, const uint64_t *held, int level, kz_box_counts *counts) {
+static void count_boxes(int64_t n, const uint64_t *held, int size, kz_box_counts *counts) {
   for (int64_t i = 0; i < n; i++) {
     uint64_t mask = held[i];
     if ((mask & (mask - 1)) == 0) continue; /* one label at most */
-    counts->boxes[level]++;
-    for (int label = 0; mask != 0; label++, mask >>= 1) counts->with[level][label] += (int64_t)(mask & 1);
+    counts->boxes[size]++;
+    for (int label = 0; mask != 0; label++, mask >>= 1) counts->with[size][label] += (int64_t)(mask & 1);
   }
 }
 
@@ -57,8 +57,8 @@ kz_status kz_boxes_count(int64_t columns, int64_t rows, const int16_t *label, kz
       const int16_t *corner = label + r * columns + c;
       held[r * across + c] = bit_of(corner[0]) | bit_of(corner[1]) | bit_of(corner[columns]) | bit_of(corner[columns + 1]);
     }
-  for (int level = 0; level < KZ_BOX_LEVELS; level++) {
-    count_level(across * up, held, level, counts);
+  for (int size = 0; size < KZ_BOX_SIZES; size++) {
+    count_boxes(across * up, held, size, counts);
     const int64_t half_across = across / 2, half_up = up / 2;
     for (int64_t r = 0; r < half_up; r++)
       for (int64_t c = 0; c < half_across; c++) {
@@ -73,7 +73,7 @@ kz_status kz_boxes_count(int64_t columns, int64_t rows, const int16_t *label, kz
   return KZ_OK;
 }
 
-double kz_boxes_dimension(const kz_box_counts *counts, int level) {
-  if (counts->boxes[level] == 0 || counts->boxes[level + 1] == 0) return NAN;
-  return log2((double)counts->boxes[level] / (double)counts->boxes[level + 1]);
+double kz_boxes_dimension(const kz_box_counts *counts, int size) {
+  if (counts->boxes[size] == 0 || counts->boxes[size + 1] == 0) return NAN;
+  return log2((double)counts->boxes[size] / (double)counts->boxes[size + 1]);
 }

@@ -37,7 +37,7 @@ contains
 
     call c_f_pointer(handle, pairs)
     steps = 0
-    if (size(pairs%level) > 0) steps = int(pairs%level(1)%n_steps, c_int32_t)
+    if (size(pairs%table) > 0) steps = int(pairs%table(1)%n_steps, c_int32_t)
   end function pairs_steps
 
   subroutine pairs_free(handle) bind(C, name='kz_test_pairs_free')

@@ -149,22 +149,22 @@ kz_status kz_answer_catalogue(int64_t sequence, bool final, const kz_live_catalo
   return finish(header);
 }
 
-/* Of a frame or chart: its level and its cells. */
-static void add_level(kz_json *header, int64_t level, int64_t rows, int64_t columns) {
-  kz_json_add_integer(header, "level", level);
+/* Of a frame or chart: its coarseness and its cells. */
+static void add_raster(kz_json *header, int64_t coarseness, int64_t rows, int64_t columns) {
+  kz_json_add_integer(header, "level", coarseness);
   kz_json_add_integer(header, "rows", rows);
   kz_json_add_integer(header, "columns", columns);
 }
 
-kz_status kz_answer_level(const kz_request *request, bool final, const kz_live_level *level) {
+kz_status kz_answer_raster(const kz_request *request, bool final, const kz_live_raster *raster) {
   static const char *const names[] = {"labels", "settling_time", "smooth_time", "doubt", "other"};
-  const size_t cells = (size_t)(level->rows * level->columns);
+  const size_t cells = (size_t)(raster->rows * raster->columns);
   size_t bytes = 0;
   kz_json *header = begin("frame", request->sequence, final), *planes = json_object_new_array();
-  add_level(header, level->level, level->rows, level->columns);
-  kz_json_add_integer(header, "catalogue", level->catalogue->version);
+  add_raster(header, raster->coarseness, raster->rows, raster->columns);
+  kz_json_add_integer(header, "catalogue", raster->catalogue->version);
   kz_json_add_text(header, "quality", request->quality == KZ_QUALITY_MOVING ? "moving" : "exact");
-  kz_json_add_real(header, "milliseconds", rint(1e6 * level->seconds) / 1e3);
+  kz_json_add_real(header, "milliseconds", rint(1e6 * raster->seconds) / 1e3);
   for (int64_t i = 0; i < request->planes.count; i++) {
     json_object_array_add(planes, kz_json_text(names[request->planes.values[i]]));
     bytes += cells * kz_plane_bytes((int)request->planes.values[i]);
@@ -172,7 +172,7 @@ kz_status kz_answer_level(const kz_request *request, bool final, const kz_live_l
   kz_json_add(header, "planes", planes);
   print(header, bytes);
   for (int64_t i = 0; i < request->planes.count; i++)
-    fwrite(level->plane[request->planes.values[i]], kz_plane_bytes((int)request->planes.values[i]), cells, stdout);
+    fwrite(raster->plane[request->planes.values[i]], kz_plane_bytes((int)request->planes.values[i]), cells, stdout);
   return send();
 }
 
@@ -210,14 +210,14 @@ kz_status kz_answer_orbit(const kz_request *request, int64_t samples, const doub
   return send();
 }
 
-kz_status kz_answer_plane(int64_t sequence, bool final, const kz_plane_level *level) {
-  const size_t cells = (size_t)(level->rows * level->columns);
+kz_status kz_answer_plane(int64_t sequence, bool final, const kz_plane_raster *raster) {
+  const size_t cells = (size_t)(raster->rows * raster->columns);
   kz_json *header = begin("chart", sequence, final);
-  add_level(header, level->level, level->rows, level->columns);
+  add_raster(header, raster->coarseness, raster->rows, raster->columns);
   kz_json_add(header, "planes", kz_json_texts((const char *const[]){"period", "centre", NULL}));
   print(header, 2 * cells);
-  fwrite(level->period, 1, cells, stdout);
-  fwrite(level->centre, 1, cells, stdout);
+  fwrite(raster->period, 1, cells, stdout);
+  fwrite(raster->centre, 1, cells, stdout);
   return send();
 }
 

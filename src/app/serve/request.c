@@ -20,7 +20,7 @@ static const kz_key rows[] = {
     {.path = "quality", .type = KZ_KEY_WORD, .unit = "", .words = "exact|moving", .fallback = "exact", .offset = AT(quality)},
     {.path = "rows", .type = KZ_KEY_INTEGER, .unit = "", .fallback = "", .low = 1, .high = 8192, .offset = AT(rows)},
     {.path = "columns", .type = KZ_KEY_INTEGER, .unit = "", .fallback = "", .low = 1, .high = 8192, .offset = AT(columns)},
-    {.path = "levels", .type = KZ_KEY_INTEGERS, .unit = "", .fallback = "[1]", .low = 1, .high = 8, .offset = AT(levels)},
+    {.path = "levels", .type = KZ_KEY_INTEGERS, .unit = "", .fallback = "[1]", .low = 1, .high = 8, .offset = AT(coarseness)},
     {.path = "planes", .type = KZ_KEY_WORDS, .unit = "", .words = KZ_PLANE_WORDS, .fallback = "[labels]", .offset = AT(planes)},
     {.path = NULL},
 };
@@ -88,12 +88,12 @@ static kz_status read_rows(const kz_key *key, kz_node *root, kz_request *request
   return KZ_OK;
 }
 
-static kz_status check_levels(const kz_integers *levels) {
-  for (int64_t i = 0; i < levels->count; i++) {
-    const int64_t level = levels->values[i];
-    if ((level & (level - 1)) != 0 || (i > 0 && level >= levels->values[i - 1]))
+static kz_status check_coarseness(const kz_integers *coarseness) {
+  for (int64_t i = 0; i < coarseness->count; i++) {
+    const int64_t step = coarseness->values[i];
+    if ((step & (step - 1)) != 0 || (i > 0 && step >= coarseness->values[i - 1]))
       return kz_fail(KZ_REFUSED, "%s: levels: %lld is out of place; it must be a list from 8, 4, 2, 1 in falling order", SOURCE,
-                     (long long)level);
+                     (long long)step);
   }
   return KZ_OK;
 }
@@ -106,7 +106,7 @@ static kz_status check_frame(const kz_request *request) {
   if (request->rows * request->columns > MOST_CELLS)
     return kz_fail(KZ_REFUSED, "%s: rows: %lld times %lld columns are more than %d cells", SOURCE, (long long)request->rows,
                    (long long)request->columns, MOST_CELLS);
-  return check_levels(&request->levels);
+  return check_coarseness(&request->coarseness);
 }
 
 static kz_status check_orbit(const kz_request *request) {
@@ -226,7 +226,7 @@ static kz_status read_root(const kz_node *tree, kz_node *root, kz_request *reque
   KZ_TRY(read_rows(rows, root, request));
   if (request->kind == KZ_REQUEST_CANCEL || request->kind == KZ_REQUEST_QUIT) return check_rest(root);
   if (request->kind == KZ_REQUEST_FRAME) KZ_TRY(read_frame(root, request));
-  if (request->kind == KZ_REQUEST_CHART) KZ_TRY(check_levels(&request->levels));
+  if (request->kind == KZ_REQUEST_CHART) KZ_TRY(check_coarseness(&request->coarseness));
   if (request->kind == KZ_REQUEST_WHERE) KZ_TRY(read_rows(start_rows, root, request));
   if (request->kind == KZ_REQUEST_MOTIONS || request->kind == KZ_REQUEST_LINE) return read_point(root, request);
   KZ_TRY(read_scene(tree, root, request));

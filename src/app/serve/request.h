@@ -25,7 +25,7 @@ typedef struct kz_request {
   char *view;
   int32_t quality;
   int64_t rows, columns;
-  kz_integers levels, planes;
+  kz_integers coarseness, planes;
   kz_decimal theta, velocity; /* start, for the request where */
   char *atlas;                /* for motions and frames: name of a result file, "" = none, */
   double x, y;                /* values of its keys, */

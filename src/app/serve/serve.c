@@ -191,20 +191,20 @@ static kz_status pause_drawing(void *context) {
   return s->drawn->ended || s->quits ? KZ_STOPPED : KZ_OK;
 }
 
-static kz_status show(void *context, const kz_live_level *level) {
+static kz_status show(void *context, const kz_live_raster *raster) {
   server *s = context;
-  const kz_integers *levels = &s->drawn->levels;
-  if (level->catalogue->version != s->shown) {
-    s->shown = level->catalogue->version;
-    KZ_TRY(kz_answer_catalogue(s->drawn->sequence, false, level->catalogue));
+  const kz_integers *coarseness = &s->drawn->coarseness;
+  if (raster->catalogue->version != s->shown) {
+    s->shown = raster->catalogue->version;
+    KZ_TRY(kz_answer_catalogue(s->drawn->sequence, false, raster->catalogue));
   }
-  return kz_answer_level(s->drawn, level->level == levels->values[levels->count - 1], level);
+  return kz_answer_raster(s->drawn, raster->coarseness == coarseness->values[coarseness->count - 1], raster);
 }
 
-static kz_status show_plane(void *context, const kz_plane_level *level) {
+static kz_status show_plane(void *context, const kz_plane_raster *raster) {
   server *s = context;
-  const kz_integers *levels = &s->drawn->levels;
-  return kz_answer_plane(s->drawn->sequence, level->level == levels->values[levels->count - 1], level);
+  const kz_integers *coarseness = &s->drawn->coarseness;
+  return kz_answer_plane(s->drawn->sequence, raster->coarseness == coarseness->values[coarseness->count - 1], raster);
 }
 
 static kz_status check_size(const kz_scene *scene) {
@@ -218,10 +218,10 @@ static kz_status draw(server *s, kz_request *request) {
   if (request->kind == KZ_REQUEST_CHART) {
     KZ_TRY(kz_drive_check_ends(&request->scene));
     KZ_TRY(check_size(&request->scene));
-    return kz_plane_draw(&request->scene, &request->levels, pause_drawing, show_plane, s);
+    return kz_plane_draw(&request->scene, &request->coarseness, pause_drawing, show_plane, s);
   }
   kz_frame frame = {.moving = request->quality == KZ_QUALITY_MOVING,
-                    .levels = &request->levels,
+                    .coarseness = &request->coarseness,
                     .pause = pause_drawing,
                     .show = show,
                     .context = s,

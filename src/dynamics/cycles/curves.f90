@@ -40,7 +40,7 @@ module kz_cycles_curves
     logical :: on_curve = .false.             !< the trace has its own equation
     real(dp) :: basis(2, 2) = 0               !< these directions
     type(jets_t) :: jets(2)                   !< of COARSE and FINE steps
-    real(dp) :: set_at(2, 2) = huge(1.0_dp)   !< the place of their pendulums; (place, level)
+    real(dp) :: set_at(2, 2) = huge(1.0_dp)   !< the place of their pendulums; (place, fineness)
     real(dp) :: image(2, 0:TERMS, POINTS) = 0 !< of each point, with its derivatives
     real(dp) :: trace = 0, determinant = 0, of_determinant(2) = 0
   end type system_t
@@ -112,9 +112,9 @@ contains
   end subroutine set_place
 
   !> image = that of each of the first n points after one or both halves of a period, with derivatives up to `order`.
-  subroutine images(system, level, order, y, at, n, halves, image, exists)
+  subroutine images(system, fineness, order, y, at, n, halves, image, exists)
     type(system_t), intent(inout) :: system !< of which the tables serve
-    integer, intent(in) :: level !< COARSE or FINE
+    integer, intent(in) :: fineness !< COARSE or FINE
     integer, intent(in) :: order !< 0 .. 3
     integer, intent(in) :: n !< points
     integer, intent(in) :: halves !< 1: to half a period; 2: to the next point of the cycle
@@ -126,10 +126,10 @@ contains
     real(dp), dimension(LANES, TERMS) :: theta, velocity
     integer :: first, lane, period
 
-    if (system%jets(level)%n_steps == 0) call make_jets(int(system%plane%steps)*level/FINE, system%jets(level))
-    exists = maxval(abs(system%set_at(:, level) - at)) <= 0
-    if (.not. exists) call set_place(system, system%jets(level), at, exists)
-    system%set_at(:, level) = merge(at, [huge(at), huge(at)], exists)
+    if (system%jets(fineness)%n_steps == 0) call make_jets(int(system%plane%steps)*fineness/FINE, system%jets(fineness))
+    exists = maxval(abs(system%set_at(:, fineness) - at)) <= 0
+    if (.not. exists) call set_place(system, system%jets(fineness), at, exists)
+    system%set_at(:, fineness) = merge(at, [huge(at), huge(at)], exists)
     if (.not. exists) return
     do first = 1, n, LANES
       theta = 0
@@ -139,7 +139,7 @@ contains
       u = [(y(2*min(first + lane - 1, n) - 1)/PI, lane=1, LANES)]
       v = [(y(2*min(first + lane - 1, n)), lane=1, LANES)]
       do period = 1, merge(system%stride, 1, halves == 2)
-        call advance_jets(system%jets(level), order, 1, halves*system%jets(level)%n_steps/2, u, v, theta, velocity)
+        call advance_jets(system%jets(fineness), order, 1, halves*system%jets(fineness)%n_steps/2, u, v, theta, velocity)
       end do
       do lane = 1, min(LANES, n - first + 1)
         image(1, :, first + lane - 1) = [PI*u(lane), theta(lane, :)]
@@ -150,9 +150,9 @@ contains
   end subroutine images
 
   !> The residuals and the matrix of the equations at y, by the unknowns: those of the points, then one for each direction of the place.
-  subroutine linearise(system, level, order, y, residual, matrix, exists)
+  subroutine linearise(system, fineness, order, y, residual, matrix, exists)
     type(system_t), intent(inout) :: system !< takes image, trace and determinant
-    integer, intent(in) :: level !< COARSE or FINE
+    integer, intent(in) :: fineness !< COARSE or FINE
     integer, intent(in) :: order !< 1 .. 3; the matrix of a trace needs 2
     real(dp), intent(in) :: y(:) !< the unknowns
     real(dp), intent(out) :: residual(:) !< of the equations, rad
@@ -162,7 +162,7 @@ contains
     integer :: n, i, next, side
 
     n = system%n
-    call images(system, level, order, y, y(2*n + 1:2*n + 2), n, 2, system%image, exists)
+    call images(system, fineness, order, y, y(2*n + 1:2*n + 2), n, 2, system%image, exists)
     if (.not. exists) return
     associate (image => system%image, kind => system%kind, basis => system%basis(:, :system%columns))
       residual = 0
@@ -180,7 +180,7 @@ contains
       end do
       residual(2*n - 1) = residual(2*n - 1) - 2*PI*kind%side*kind%turns
       system%trace = kind%side*(before(1, 1, n) + before(2, 2, n))
-      call set_determinant(system, level)
+      call set_determinant(system, fineness)
       if (.not. system%on_curve) return
       residual(2*n + 1) = system%trace - kind%multiplier*(1 + system%determinant)
       if (order < 2) return
@@ -214,12 +214,12 @@ contains
     end function part
   end subroutine add_trace
 
-  subroutine set_determinant(system, level)
+  subroutine set_determinant(system, fineness)
     type(system_t), intent(inout) :: system
-    integer, intent(in) :: level
+    integer, intent(in) :: fineness
     real(dp) :: decay(0:2)
 
-    decay = system%jets(level)%damping
+    decay = system%jets(fineness)%damping
     system%determinant = exp(-2*PI*system%n*system%stride*decay(0))
     system%of_determinant = -2*PI*system%n*system%stride*decay(1:2)*system%determinant
   end subroutine set_determinant

@@ -67,7 +67,7 @@ contains
     case (LEVEL_FINE)
       if (.not. allocated(levels%fine)) call make_fine(levels, fastest)
     case (LEVEL_PAIRS_16:LEVEL_PAIRS_28)
-      if (.not. allocated(levels%pairs(level)%level)) call make_table(levels, level, fastest)
+      if (.not. allocated(levels%pairs(level)%table)) call make_table(levels, level, fastest)
     case (LEVEL_QUAD)
       if (.not. allocated(levels%drive)) then
         allocate (levels%drive)
@@ -93,11 +93,11 @@ contains
     error = levels%error%worst
     if (levels%numerics%scheme == PROCESSED_ROW .and. error > ROUNDED) steps = ceiling(1.25_dp*levels%numerics%steps_per_period)
     if (level > LEVEL_PAIRS_16) then
-      if (.not. allocated(levels%pairs(level - 1)%level)) call make_table(levels, level - 1, fastest)
+      if (.not. allocated(levels%pairs(level - 1)%table)) call make_table(levels, level - 1, fastest)
       associate (coarser => levels%pairs(level - 1))
-        if (size(coarser%level) > 0) then
-          steps = coarser%level(1)%n_steps
-          error = coarser%level(1)%error
+        if (size(coarser%table) > 0) then
+          steps = coarser%table(1)%n_steps
+          error = coarser%table(1)%error
         end if
       end associate
     end if

@@ -16,22 +16,19 @@ typedef struct {
 
 enum { MAJORANTS = 2400 };
 
-/* Numbers are doubles, pairs or triples: KZ_ENCLOSE_DOUBLES .. KZ_ENCLOSE_TRIPLES, as the precisions of steps are. An error of a number of level l
- * is counted in units of u^(l + 1), u = 2^-53. */
-enum { KZ_LEVELS = KZ_ENCLOSURES };
-
-/* Every factor of rounding in a step. */
+/* Every factor of rounding in a step. Numbers are doubles, pairs or triples: KZ_ENCLOSE_DOUBLES .. KZ_ENCLOSE_TRIPLES, as the precisions of
+ * steps are. An error of a number of level l is counted in units of u^(l + 1), u = 2^-53. */
 typedef struct {
-  real sine[KZ_LEVELS];               /* (B1) of sine and cosine of a centre's angle */
-  real angle[KZ_LEVELS];              /* (B1) the same, for each rad of that angle and one more */
-  real start[KZ_LEVELS];              /* of the centre's velocity: what a step takes of it, relative */
-  real sums[KZ_LEVELS];               /* (B2) times what a sum of products loses */
-  real times[KZ_LEVELS];              /* (B2) of a product with a constant, and of the constant */
-  real factors[KZ_LEVELS][KZ_LEVELS]; /* [precision][level] (B2) of the factors of a product that were rounded */
-  real plus[KZ_LEVELS];               /* (B2) of a sum */
-  real state;                         /* (B3) u^2: of h v and of the angle, in doubles */
-  real slack[KZ_LEVELS];              /* beyond the lemmas: times slack_of_sums() */
-  real higher;                        /* for what is of higher order, (1 + u)^n with n u below 1e-2 */
+  real sine[KZ_ENCLOSURES];                   /* (B1) of sine and cosine of a centre's angle */
+  real angle[KZ_ENCLOSURES];                  /* (B1) the same, for each rad of that angle and one more */
+  real start[KZ_ENCLOSURES];                  /* of the centre's velocity: what a step takes of it, relative */
+  real sums[KZ_ENCLOSURES];                   /* (B2) times what a sum of products loses */
+  real times[KZ_ENCLOSURES];                  /* (B2) of a product with a constant, and of the constant */
+  real factors[KZ_ENCLOSURES][KZ_ENCLOSURES]; /* [precision][level] (B2) of the factors of a product that were rounded */
+  real plus[KZ_ENCLOSURES];                   /* (B2) of a sum */
+  real state;                                 /* (B3) u^2: of h v and of the angle, in doubles */
+  real slack[KZ_ENCLOSURES];                  /* beyond the lemmas: times slack_of_sums() */
+  real higher;                                /* for what is of higher order, (1 + u)^n with n u below 1e-2 */
 } kz_rounding_factors;
 extern const kz_rounding_factors kz_rounding;
 

@@ -1,5 +1,5 @@
 /* One drive period of the processed splitting in pairs of doubles: its stages, and its processor, a displacement that is small, so once a period
- * is enough. pairs_level.f90 makes the tables. */
+ * is enough. pairs_table.f90 makes the tables. */
 #include "vector/pairs_arithmetic.h"
 
 /* Angles (half-turns) and velocities (rad per drive radian), each high + low. */

@@ -8,7 +8,7 @@ module kz_taylor_pairs
   use, intrinsic :: ieee_exceptions, only: ieee_get_halting_mode, ieee_set_halting_mode, ieee_set_flag, ieee_usual
   use kz_vector_map, only: WIDTH
   use kz_vector_step_search, only: trial_t, search_steps, expected_steps
-  use kz_taylor_pairs_level, only: level_t, pair_lanes_t, make_level, advance_level, pair_of, quad_of
+  use kz_taylor_pairs_table, only: pairs_table_t, pair_lanes_t, make_pairs_table, advance_pairs_table, pair_of, quad_of
   use kz_processed_tables, only: MOST_DAMPING
   use kz_processed_tables_r128, only: series_t, make_mixed_series, MOST_PAIR_KICKS, ORDER
   use kz_model_pendulum, only: pendulum_t
@@ -24,7 +24,7 @@ module kz_taylor_pairs
   real(c_double), parameter :: CAUTION = 1.04_c_double
   !> The speeds of the first table, and how much faster those of the next are.
   real(c_double), parameter :: SLOWEST = 2.5_c_double, RATIO = 2
-  integer, parameter :: MOST_LEVELS = 8
+  integer, parameter :: MOST_TABLES = 8
   !> Probes of each table: states with its speeds, both ends included; how much more than their largest error is assumed; and what
   !> the rounding of a period is.
   integer, parameter :: N_PROBES = 2*WIDTH
@@ -37,7 +37,7 @@ module kz_taylor_pairs
     real(c_double) :: error = 0 !< the error of a period, rad: the largest of all tables
     real(c_double) :: fastest = 0      !< that the tables serve, rad per drive radian
     real(c_double) :: series_error = 0 !< of a period of faster states, of hypot(pi, v)
-    type(level_t), allocatable :: level(:)
+    type(pairs_table_t), allocatable :: table(:)
     type(drive_t) :: drive
   end type pairs_t
 
@@ -49,16 +49,16 @@ module kz_taylor_pairs
   end type pair_series_t
 
   !> A table whose number of steps is searched; each try takes a coefficient of a kick more.
-  type, extends(trial_t) :: level_trial_t
+  type, extends(trial_t) :: table_trial_t
     type(pendulum_t) :: pendulum
     type(series_t), pointer :: series => null()
     type(probes_t) :: probes
     real(c_double) :: fastest = 0, tolerance = 0
     integer :: kicks = 0
-    type(level_t) :: level
+    type(pairs_table_t) :: table
   contains
-    procedure :: measure => measure_level
-  end type level_trial_t
+    procedure :: measure => measure_table
+  end type table_trial_t
 
 contains
 
@@ -73,14 +73,14 @@ contains
     !> steps of a table for slow states whose error is known: the number to begin with follows from them; 0 = there is none
     integer, intent(in) :: like_steps
     real(c_double), intent(in) :: like_error !< rad
-    type(level_t), allocatable :: levels(:)
+    type(pairs_table_t), allocatable :: tables(:)
     logical :: halting(size(ieee_usual))
     integer :: n
 
     call make_drive(pairs%drive, pendulum, TAYLOR_STEPS)
     pairs%error = ROUNDING
     n = 0
-    allocate (levels(0:MOST_LEVELS))
+    allocate (tables(0:MOST_TABLES))
     if (pendulum%beta <= MOST_DAMPING) then
       call ieee_get_halting_mode(ieee_usual, halting) ! too few steps may overflow: that is what is measured
       call ieee_set_halting_mode(ieee_usual, .false.)
@@ -88,21 +88,21 @@ contains
         allocate (shared%series)
         call make_mixed_series(pendulum, shared%kept, shared%series)
         allocate (shared%slow)
-        call make_probes(pairs%drive, speeds_of(levels(0)), shared%slow)
+        call make_probes(pairs%drive, speeds_of(tables(0)), shared%slow)
       end if
       if (like_steps > 0) &
-        levels(0)%n_steps = multiple(CAUTION*expected_steps(int(like_steps, c_int32_t), like_error, tolerance, int(ORDER, c_int32_t)))
-      do while (n < MOST_LEVELS .and. levels(n)%fastest < fastest)
-        call choose_level(pendulum, shared, pairs%drive, tolerance, levels(n), levels(n + 1))
-        if (levels(n + 1)%error > tolerance) exit
+        tables(0)%n_steps = multiple(CAUTION*expected_steps(int(like_steps, c_int32_t), like_error, tolerance, int(ORDER, c_int32_t)))
+      do while (n < MOST_TABLES .and. tables(n)%fastest < fastest)
+        call choose_table(pendulum, shared, pairs%drive, tolerance, tables(n), tables(n + 1))
+        if (tables(n + 1)%error > tolerance) exit
         n = n + 1
-        pairs%error = max(pairs%error, levels(n)%error)
+        pairs%error = max(pairs%error, tables(n)%error)
       end do
       call ieee_set_flag(ieee_usual, .false.)
       call ieee_set_halting_mode(ieee_usual, halting)
     end if
-    allocate (pairs%level, source=levels(1:n))
-    pairs%fastest = levels(n)%fastest
+    allocate (pairs%table, source=tables(1:n))
+    pairs%fastest = tables(n)%fastest
     pairs%series_error = UNMEASURED
     if (pairs%fastest < fastest) pairs%series_error = measure_quad(pairs%drive, fastest)
   end subroutine make_pairs
@@ -122,7 +122,7 @@ contains
 
   !> Of the probes of the table after a slower one.
   pure function speeds_of(slower) result(speed)
-    type(level_t), intent(in) :: slower
+    type(pairs_table_t), intent(in) :: slower
     real(c_double) :: speed(N_PROBES), fastest
     integer :: i
 
@@ -132,18 +132,18 @@ contains
 
   !> The table after a slower one: with as many steps as are expected, or more, until the measured error is at most the tolerance for speeds
   !> beyond those of the slower one.
-  subroutine choose_level(pendulum, shared, drive, tolerance, slower, level)
+  subroutine choose_table(pendulum, shared, drive, tolerance, slower, table)
     type(pendulum_t), intent(in) :: pendulum
     type(pair_series_t), target, intent(in) :: shared
     type(drive_t), intent(in) :: drive
     real(c_double), intent(in) :: tolerance
-    type(level_t), intent(in) :: slower
-    type(level_t), intent(out) :: level
-    type(level_trial_t) :: trial
+    type(pairs_table_t), intent(in) :: slower
+    type(pairs_table_t), intent(out) :: table
+    type(table_trial_t) :: trial
     real(c_double) :: error
     integer :: fewest, n
 
-    trial = level_trial_t(ORDER, STRIDE, CAUTION, pendulum, shared%series, tolerance=tolerance, fastest=max(SLOWEST, RATIO*slower%fastest), &
+    trial = table_trial_t(ORDER, STRIDE, CAUTION, pendulum, shared%series, tolerance=tolerance, fastest=max(SLOWEST, RATIO*slower%fastest), &
                           kicks=expected_kicks(tolerance))
     fewest = slower%n_steps
     if (slower%fastest > 0) then
@@ -153,20 +153,20 @@ contains
       trial%probes = shared%slow
     end if
     call search_steps(trial, tolerance, max(FEWEST_STEPS, fewest), MOST_STEPS, n, error)
-    level = trial%level
-    level%error = error
-  end subroutine choose_level
+    table = trial%table
+    table%error = error
+  end subroutine choose_table
 
   !> The largest error of one period of n steps, rad.
-  function measure_level(trial, n) result(error)
-    class(level_trial_t), intent(inout) :: trial
+  function measure_table(trial, n) result(error)
+    class(table_trial_t), intent(inout) :: trial
     integer, intent(in) :: n
     real(c_double) :: error, distance, turns(WIDTH)
     real(qp) :: u
     type(pair_lanes_t) :: lanes
     integer :: first, lane
 
-    call make_level(trial%pendulum, trial%series, n, trial%kicks, trial%fastest, trial%tolerance, trial%level)
+    call make_pairs_table(trial%pendulum, trial%series, n, trial%kicks, trial%fastest, trial%tolerance, trial%table)
     trial%kicks = min(MOST_PAIR_KICKS, trial%kicks + 1)
     error = 0
     do first = 0, N_PROBES - WIDTH, WIDTH
@@ -174,7 +174,7 @@ contains
         lanes%u(lane, :) = pair_of(trial%probes%start(1, first + lane))
         lanes%v(lane, :) = pair_of(trial%probes%start(2, first + lane))
       end do
-      call advance_level(trial%level, WIDTH, lanes, turns)
+      call advance_pairs_table(trial%table, WIDTH, lanes, turns)
       do lane = 1, WIDTH
         u = quad_of(lanes%u(lane, :)) - trial%probes%image(1, first + lane)
         distance = real(hypot(PI*(u - 2*anint(u/2)), quad_of(lanes%v(lane, :)) - trial%probes%image(2, first + lane)), c_double)
@@ -183,7 +183,7 @@ contains
     end do
     error = MARGIN*error + ROUNDING
     if (.not. error <= huge(error)) error = huge(error)
-  end function measure_level
+  end function measure_table
 
   !> Advances n lanes by one period; a state that is lost becomes NaN.
   subroutine advance_pairs(pairs, n, lanes, turns)
@@ -191,20 +191,20 @@ contains
     integer, intent(in) :: n !< lanes in use
     type(pair_lanes_t), intent(inout) :: lanes !< physical states
     integer(c_int64_t), intent(inout) :: turns(WIDTH) !< gain the net number of turns, counterclockwise +
-    integer :: l, of_level(WIDTH), lane
+    integer :: l, of_table(WIDTH), lane
 
     do lane = 1, n
-      of_level(lane) = count(abs(lanes%v(lane, 1)) > pairs%level%fastest) + 1
+      of_table(lane) = count(abs(lanes%v(lane, 1)) > pairs%table%fastest) + 1
     end do
-    do l = 1, size(pairs%level)
-      if (any(of_level(:n) == l)) call advance_some(pairs%level(l), pack([(lane, lane=1, n)], of_level(:n) == l), lanes, turns)
+    do l = 1, size(pairs%table)
+      if (any(of_table(:n) == l)) call advance_some(pairs%table(l), pack([(lane, lane=1, n)], of_table(:n) == l), lanes, turns)
     end do
-    if (any(of_level(:n) > size(pairs%level))) &
-      call advance_fastest(pairs%drive, pack([(lane, lane=1, n)], of_level(:n) > size(pairs%level)), lanes, turns)
+    if (any(of_table(:n) > size(pairs%table))) &
+      call advance_fastest(pairs%drive, pack([(lane, lane=1, n)], of_table(:n) > size(pairs%table)), lanes, turns)
   end subroutine advance_pairs
 
-  subroutine advance_some(level, lane, lanes, turns)
-    type(level_t), intent(in) :: level
+  subroutine advance_some(table, lane, lanes, turns)
+    type(pairs_table_t), intent(in) :: table
     integer, intent(in) :: lane(:)
     type(pair_lanes_t), intent(inout) :: lanes
     integer(c_int64_t), intent(inout) :: turns(WIDTH)
@@ -216,7 +216,7 @@ contains
     some = pair_lanes_t(0, 0)
     some%u(:n, :) = lanes%u(lane, :)
     some%v(:n, :) = lanes%v(lane, :)
-    call advance_level(level, n, some, gained)
+    call advance_pairs_table(table, n, some, gained)
     lanes%u(lane, :) = some%u(:n, :)
     lanes%v(lane, :) = some%v(:n, :)
     turns(lane) = turns(lane) + int(gained(:n), c_int64_t)

@@ -5,8 +5,8 @@
 #include "numerics/share.h"
 
 enum {
-  STRIP = 1 << (KZ_BOX_LEVELS - 1),
-  SHOWN = 4 /* the level of boxes that the summary shows: 16 cells */
+  STRIP = 1 << (KZ_BOX_SIZES - 1),
+  SHOWN = 4 /* the size of boxes that the summary shows: 16 cells */
 };
 /* A basin has all of the boundary if it is in at least this share of the boxes. */
 static const double ALL = 0.99;
@@ -70,12 +70,12 @@ static void print_shared(const kz_box_counts *b, int64_t basins, FILE *summary) 
 
 static kz_status write_boxes(const kz_box_counts *b, int64_t count, kz_store *store, FILE *summary) {
   const int64_t basins = count < KZ_BOX_LABELS ? count : KZ_BOX_LABELS;
-  KZ_TRY(kz_store_dimension(store, "boundary", "box", KZ_BOX_LEVELS, NULL));
+  KZ_TRY(kz_store_dimension(store, "boundary", "box", KZ_BOX_SIZES, NULL));
   KZ_TRY(kz_store_dimension(store, "boundary", "basin", basins, NULL));
-  KZ_COLUMN(store, "boundary", "box_cells", KZ_BOX_LEVELS, int32_t, 1 << i);
-  KZ_COLUMN(store, "boundary", "boxes", KZ_BOX_LEVELS, int32_t, b->boxes[i]);
-  KZ_COLUMN(store, "boundary", "dimension", KZ_BOX_LEVELS, double, i + 1 < KZ_BOX_LEVELS ? kz_boxes_dimension(b, (int)i) : NAN);
-  KZ_COLUMN(store, "boundary", "shared", KZ_BOX_LEVELS * basins, double,
+  KZ_COLUMN(store, "boundary", "box_cells", KZ_BOX_SIZES, int32_t, 1 << i);
+  KZ_COLUMN(store, "boundary", "boxes", KZ_BOX_SIZES, int32_t, b->boxes[i]);
+  KZ_COLUMN(store, "boundary", "dimension", KZ_BOX_SIZES, double, i + 1 < KZ_BOX_SIZES ? kz_boxes_dimension(b, (int)i) : NAN);
+  KZ_COLUMN(store, "boundary", "shared", KZ_BOX_SIZES * basins, double,
             b->boxes[i / basins] > 0 ? (double)b->with[i / basins][i % basins] / (double)b->boxes[i / basins] : NAN);
   if (b->boxes[2] > 0) print_shared(b, basins, summary);
   return KZ_OK;

@@ -1,4 +1,4 @@
-/* A frame level by level: cells of a level that are pending are followed in tiles, then the level is shown. */
+/* A frame raster by raster, the coarse ones first: cells of a raster that are pending are followed in tiles, then it is shown. */
 #include <math.h>
 #include <stdlib.h>
 
@@ -17,9 +17,9 @@ typedef struct {
   kz_samples samples;          /* of a moving frame whose window is a curve */
   int64_t total, own;          /* cells; the first ones, of which the others are mirror images */
   kz_frame_cell *cell;         /* [total] */
-  int64_t n_pending, *pending; /* [total] numbers of the cells that a level follows */
-  bool *listed;                /* [own] cells that a level has followed, or is about to */
-  void *buffer;                /* of a level's planes */
+  int64_t n_pending, *pending; /* [total] numbers of the cells that a raster follows */
+  bool *listed;                /* [own] cells that a raster has followed, or is about to */
+  void *buffer;                /* of a raster's planes */
   bool searched;               /* attractors have been looked for among its cells */
   double begin;
 } making;
@@ -106,33 +106,33 @@ static void put(const making *m, int plane, const kz_frame_cell *cell, bool mirr
     times[at] = plane == KZ_PLANE_SETTLING_TIME ? (float)end->periods : cell->smooth;
 }
 
-/* A plane of a level. */
-static void fill(const making *m, int64_t level, int plane, void *values) {
+/* A plane of a raster. */
+static void fill(const making *m, int64_t coarseness, int plane, void *values) {
   const int64_t columns = m->scene->basin->theta.count, rows = m->scene->basin->velocity.count;
-  const int64_t across = kz_level_size(level, columns), up = kz_level_size(level, rows);
+  const int64_t across = kz_raster_size(coarseness, columns), up = kz_raster_size(coarseness, rows);
   for (int64_t i = 0; i < up; i++) {
-    const int64_t row = kz_level_place(level, i, rows) * columns;
+    const int64_t row = kz_raster_place(coarseness, i, rows) * columns;
     for (int64_t j = 0; j < across; j++) {
-      const int64_t f = row + kz_level_place(level, j, columns);
+      const int64_t f = row + kz_raster_place(coarseness, j, columns);
       const bool mirrored = f >= m->own;
       put(m, plane, m->cell + (mirrored ? m->total - 1 - f : f), mirrored, i * across + j, values);
     }
   }
 }
 
-static kz_status show(making *m, int64_t level) {
+static kz_status show(making *m, int64_t coarseness) {
   const int64_t columns = m->scene->basin->theta.count, rows = m->scene->basin->velocity.count;
-  kz_live_level shown = {.level = level,
-                         .rows = kz_level_size(level, rows),
-                         .columns = kz_level_size(level, columns),
-                         .catalogue = &m->prepared->catalogue};
+  kz_live_raster shown = {.coarseness = coarseness,
+                          .rows = kz_raster_size(coarseness, rows),
+                          .columns = kz_raster_size(coarseness, columns),
+                          .catalogue = &m->prepared->catalogue};
   size_t end = 0;
   static const int order[KZ_PLANES] = {/* floats first: aligned */ KZ_PLANE_SETTLING_TIME, KZ_PLANE_SMOOTH_TIME,
                                        KZ_PLANE_LABELS, KZ_PLANE_DOUBT, KZ_PLANE_OTHER};
   for (int p = 0; p < KZ_PLANES; p++) {
     if (!m->frame->plane[order[p]]) continue;
     void *values = (char *)m->buffer + end;
-    fill(m, level, order[p], values);
+    fill(m, coarseness, order[p], values);
     shown.plane[order[p]] = values;
     end += (size_t)(shown.rows * shown.columns) * kz_plane_bytes(order[p]);
   }
@@ -144,16 +144,16 @@ static kz_status make(making *m) {
   allocate(m);
   if (m->prepared->dynamics) KZ_TRY(kz_cells_begin(m->prepared, m->scene->basin, m->frame, &m->starts));
   if (kz_prepared_moves(m->prepared) && m->prepared->dynamics) kz_samples_make(&m->starts, &m->samples);
-  for (int64_t i = 0; i < m->frame->levels->count; i++) {
-    const int64_t level = m->frame->levels->values[i];
-    KZ_TRY(label(m, kz_level_pending(level, m->scene->basin->velocity.count, m->scene->basin->theta.count, m->own, m->listed,
-                                     m->pending)));
+  for (int64_t i = 0; i < m->frame->coarseness->count; i++) {
+    const int64_t coarseness = m->frame->coarseness->values[i];
+    KZ_TRY(label(m, kz_raster_pending(coarseness, m->scene->basin->velocity.count, m->scene->basin->theta.count, m->own,
+                                      m->listed, m->pending)));
     if (m->prepared->catalogue.list.count >= KZ_NO_LABEL)
       return kz_fail(
           KZ_REFUSED,
           "basin.attractors.max_period: the pendulum has %lld attractors, but a frame holds at most %d; use a smaller period",
           (long long)m->prepared->catalogue.list.count, KZ_NO_LABEL - 1);
-    KZ_TRY(show(m, level));
+    KZ_TRY(show(m, coarseness));
   }
   return KZ_OK;
 }

@@ -1,4 +1,4 @@
-/* Frames on request: levels, prepared pendulums, the engine, cells, threads. */
+/* Frames on request: rasters, prepared pendulums, the engine, cells, threads. */
 #pragma once
 
 #include <pthread.h>
@@ -8,23 +8,23 @@
 #include "kapitza/study_live.h"
 #include "window/window.h"
 
-/* ---- levels: the cells of a frame that a level shows, one for each multiple of the level. All cells of a level also belong to the finer
- * levels. ---- */
+/* ---- rasters: the cells of a frame that are shown at once, one for each multiple of the coarseness along each axis. All cells of a raster also
+ * belong to the finer ones. ---- */
 
-/* Number of cells of a level along an axis of `count` cells. */
-static inline int64_t kz_level_size(int64_t level, int64_t count) {
-  return (count + level - 1) / level;
+/* Number of cells of a raster along an axis of `count` cells. */
+static inline int64_t kz_raster_size(int64_t coarseness, int64_t count) {
+  return (count + coarseness - 1) / coarseness;
 }
 
 /* Index of the i-th of them along the axis. */
-static inline int64_t kz_level_place(int64_t level, int64_t i, int64_t count) {
-  const int64_t at = level * i + (level == 8 ? 5 : level > 1);
+static inline int64_t kz_raster_place(int64_t coarseness, int64_t i, int64_t count) {
+  const int64_t at = coarseness * i + (coarseness == 8 ? 5 : coarseness > 1);
   return at < count ? at : count - 1;
 }
 
-/* Lists the cells of a level that no level has followed: number [rows * columns] takes their numbers, theta fastest. A cell from `own` on is the
+/* Lists the cells of a raster that no raster has followed: number [rows * columns] takes their numbers, theta fastest. A cell from `own` on is the
  * mirror image of an own one, which is listed in its place, once. listed [own]: cells that are listed, or were. Returns how many. */
-int64_t kz_level_pending(int64_t level, int64_t rows, int64_t columns, int64_t own, bool *listed, int64_t *number);
+int64_t kz_raster_pending(int64_t coarseness, int64_t rows, int64_t columns, int64_t own, bool *listed, int64_t *number);
 
 /* ---- a prepared pendulum, which the engine keeps, with its map, attractors, trapping regions and catalogue ---- */
 

@@ -1,4 +1,4 @@
-/* Ends of one start over a plane of two keys, level by level, as frames are: the request chart of `kapitza serve`. */
+/* Ends of one start over a plane of two keys, raster by raster, as frames are: the request chart of `kapitza serve`. */
 #include "sweep/ends.h"
 #include "live.h"
 #include "sweep/plan.h"
@@ -8,9 +8,9 @@ typedef struct {
   kz_status (*pause)(void *context);
   void *context;
   int64_t rows, columns, *pending;
-  bool *listed;                         /* [rows][columns] points that a level has followed, or is about to */
+  bool *listed;                         /* [rows][columns] points that a raster has followed, or is about to */
   uint8_t *period, *centre;             /* [rows][columns] of all points, */
-  uint8_t *shown_period, *shown_centre; /* of a level */
+  uint8_t *shown_period, *shown_centre; /* of a raster */
 } drawing;
 
 static kz_status follow(drawing *d, int64_t n) {
@@ -27,32 +27,32 @@ static kz_status follow(drawing *d, int64_t n) {
   return KZ_OK;
 }
 
-/* Follows what is pending of a level, and gathers it. */
-static kz_status draw(drawing *d, const kz_plane_level *level) {
-  KZ_TRY(follow(d, kz_level_pending(level->level, d->rows, d->columns, d->rows * d->columns, d->listed, d->pending)));
-  for (int64_t i = 0; i < level->rows; i++)
-    for (int64_t j = 0; j < level->columns; j++) {
-      const int64_t at = i * level->columns + j,
-                    point = kz_level_place(level->level, i, d->rows) * d->columns + kz_level_place(level->level, j, d->columns);
+/* Follows what is pending of a raster, and gathers it. */
+static kz_status draw(drawing *d, const kz_plane_raster *raster) {
+  KZ_TRY(follow(d, kz_raster_pending(raster->coarseness, d->rows, d->columns, d->rows * d->columns, d->listed, d->pending)));
+  for (int64_t i = 0; i < raster->rows; i++)
+    for (int64_t j = 0; j < raster->columns; j++) {
+      const int64_t at = i * raster->columns + j, point = kz_raster_place(raster->coarseness, i, d->rows) * d->columns +
+                                                          kz_raster_place(raster->coarseness, j, d->columns);
       d->shown_period[at] = d->period[point];
       d->shown_centre[at] = d->centre[point];
     }
   return KZ_OK;
 }
 
-kz_status kz_plane_draw(const kz_scene *scene, const kz_integers *levels, kz_status (*pause)(void *context),
-                        kz_status (*show)(void *context, const kz_plane_level *level), void *context) {
+kz_status kz_plane_draw(const kz_scene *scene, const kz_integers *coarseness, kz_status (*pause)(void *context),
+                        kz_status (*show)(void *context, const kz_plane_raster *raster), void *context) {
   const int64_t rows = scene->sweep->y.values.count, columns = scene->sweep->x.values.count, n = rows * columns;
   KZ_FREED uint8_t *planes = kz_malloc(4 * (size_t)n);
   KZ_FREED int64_t *pending = kz_malloc((size_t)n * sizeof *pending);
   KZ_FREED bool *listed = kz_calloc((size_t)n, sizeof *listed);
   drawing d = {scene, pause, context, rows, columns, pending, listed, planes, planes + n, planes + 2 * n, planes + 3 * n};
-  for (int64_t i = 0; i < levels->count; i++) {
-    const int64_t step = levels->values[i];
-    const kz_plane_level level = {step, kz_level_size(step, rows), kz_level_size(step, columns), d.shown_period,
-                                  d.shown_centre};
-    KZ_TRY(draw(&d, &level));
-    KZ_TRY(show(context, &level));
+  for (int64_t i = 0; i < coarseness->count; i++) {
+    const int64_t step = coarseness->values[i];
+    const kz_plane_raster raster = {step, kz_raster_size(step, rows), kz_raster_size(step, columns), d.shown_period,
+                                    d.shown_centre};
+    KZ_TRY(draw(&d, &raster));
+    KZ_TRY(show(context, &raster));
   }
   return KZ_OK;
 }

@@ -1,5 +1,5 @@
 !> One drive period in pairs of doubles (some 32 digits): the tables of the processed splitting for one range of speeds.
-module kz_taylor_pairs_level
+module kz_taylor_pairs_table
   use, intrinsic :: iso_c_binding, only: c_double, c_int32_t, c_int64_t
   use, intrinsic :: iso_fortran_env, only: real128
   use kz_vector_map, only: WIDTH
@@ -8,7 +8,7 @@ module kz_taylor_pairs_level
   use kz_model_pendulum, only: pendulum_t
   implicit none
   private
-  public :: level_t, pair_lanes_t, make_level, advance_level, pair_of, quad_of, SINE_COEFFICIENTS
+  public :: pairs_table_t, pair_lanes_t, make_pairs_table, advance_pairs_table, pair_of, quad_of, SINE_COEFFICIENTS
 
   integer, parameter :: qp = real128
 
@@ -50,7 +50,7 @@ module kz_taylor_pairs_level
   end type displacement_t
 
   !> The tables of one period for speeds up to `fastest`, as kz_pairs_stages and kz_pairs_displace take them.
-  type :: level_t
+  type :: pairs_table_t
     real(c_double) :: fastest = 0, error = 0
     integer :: n_steps = 0, n_drift = 0, n_kick = 0, n_pairs = 0
     logical :: mirrored = .true.
@@ -58,7 +58,7 @@ module kz_taylor_pairs_level
     integer(c_int32_t), allocatable :: ordered(:) !< (n_steps): pairs.c
     real(c_double) :: decay(2) = 0
     type(displacement_t) :: to_kernel, from_kernel
-  end type level_t
+  end type pairs_table_t
 
   interface
     !> pairs.c
@@ -92,58 +92,58 @@ contains
   end function quad_of
 
   !> Makes the tables of a period of n_steps steps. Coefficients that are small compared with the tolerance are doubles.
-  subroutine make_level(pendulum, series, n_steps, n_kick, fastest, tolerance, level)
+  subroutine make_pairs_table(pendulum, series, n_steps, n_kick, fastest, tolerance, table)
     type(pendulum_t), intent(in) :: pendulum !< k, beta, m
     type(series_t), intent(in) :: series !< the series of the pendulum
     integer, intent(in) :: n_steps, n_kick !< steps a period; coefficients of a kick
     real(c_double), intent(in) :: fastest !< rad per drive radian: the largest speed that the tables shall serve
     real(c_double), intent(in) :: tolerance !< error of a period, rad
-    type(level_t), intent(out) :: level !< the tables; the error is still to be measured
-    type(processed_t) :: table
+    type(pairs_table_t), intent(out) :: table !< the tables; the error is still to be measured
+    type(processed_t) :: exact
     integer :: j, n, half, part
 
-    call make_processed(pendulum, series, n_steps, MOST_PAIR_DRIFTS, n_kick, fastest, table)
-    level%mirrored = table%mirrored
-    level%fastest = fastest
-    level%n_steps = n_steps
-    level%n_drift = table%n_drift
-    level%n_kick = n_kick
-    n = table%n_drift + n_kick
-    do part = 0, ubound(table%row, 1)/n - 1
-      level%n_pairs = max(level%n_pairs, min(n_kick - 1, number_of_pairs( &
-                      [(n_steps*maxval(abs(table%row(part*n + table%n_drift + j, :))), j=1, n_kick)], tolerance)))
+    call make_processed(pendulum, series, n_steps, MOST_PAIR_DRIFTS, n_kick, fastest, exact)
+    table%mirrored = exact%mirrored
+    table%fastest = fastest
+    table%n_steps = n_steps
+    table%n_drift = exact%n_drift
+    table%n_kick = n_kick
+    n = exact%n_drift + n_kick
+    do part = 0, ubound(exact%row, 1)/n - 1
+      table%n_pairs = max(table%n_pairs, min(n_kick - 1, number_of_pairs( &
+                      [(n_steps*maxval(abs(exact%row(part*n + exact%n_drift + j, :))), j=1, n_kick)], tolerance)))
     end do
-    half = n + 1 + level%n_pairs
-    allocate (level%row(half*ubound(table%row, 1)/n, n_steps + 1), level%ordered(n_steps))
-    level%row = 0
-    level%ordered = 0
-    do part = 0, ubound(table%row, 1)/n - 1
-      call set_rows(table%row(part*n + 1:(part + 1)*n, :), table%last(part*table%n_drift + 1:(part + 1)*table%n_drift), part == 0, &
-                    level, level%row(part*half + 1:(part + 1)*half, :))
+    half = n + 1 + table%n_pairs
+    allocate (table%row(half*ubound(exact%row, 1)/n, n_steps + 1), table%ordered(n_steps))
+    table%row = 0
+    table%ordered = 0
+    do part = 0, ubound(exact%row, 1)/n - 1
+      call set_rows(exact%row(part*n + 1:(part + 1)*n, :), exact%last(part*exact%n_drift + 1:(part + 1)*exact%n_drift), part == 0, &
+                    table, table%row(part*half + 1:(part + 1)*half, :))
     end do
-    level%decay = pair_of(table%decay)
-    call set_displacement(table%to_kernel, fastest, tolerance, level%to_kernel)
-    call set_displacement(table%from_kernel, fastest, tolerance, level%from_kernel)
-  end subroutine make_level
+    table%decay = pair_of(exact%decay)
+    call set_displacement(exact%to_kernel, fastest, tolerance, table%to_kernel)
+    call set_displacement(exact%from_kernel, fastest, tolerance, table%from_kernel)
+  end subroutine make_pairs_table
 
   !> The odd or the even coefficients of all stages; whether kicks are ordered, of the odd ones.
-  subroutine set_rows(exact, last, odd, level, row)
+  subroutine set_rows(exact, last, odd, table, row)
     real(qp), intent(in) :: exact(:, :), last(:)
     logical, intent(in) :: odd
-    type(level_t), intent(inout) :: level
+    type(pairs_table_t), intent(inout) :: table
     real(c_double), intent(inout) :: row(:, :)
     integer :: s, j, n
 
-    n = level%n_drift
-    do s = 1, level%n_steps
+    n = table%n_drift
+    do s = 1, table%n_steps
       call set_drift(exact(:n, s), row(:, s))
-      do j = 1, level%n_pairs
+      do j = 1, table%n_pairs
         row(n + 2*j:n + 2*j + 1, s) = pair_of(exact(n + j, s))
       end do
-      if (odd) level%ordered(s) = merge(1_c_int32_t, 0_c_int32_t, all([(is_ordered(exact(n + j:, s)), j=1, level%n_pairs)]))
-      row(n + 2*level%n_pairs + 2:, s) = real(exact(n + level%n_pairs + 1:, s), c_double)
+      if (odd) table%ordered(s) = merge(1_c_int32_t, 0_c_int32_t, all([(is_ordered(exact(n + j:, s)), j=1, table%n_pairs)]))
+      row(n + 2*table%n_pairs + 2:, s) = real(exact(n + table%n_pairs + 1:, s), c_double)
     end do
-    call set_drift(last, row(:, level%n_steps + 1))
+    call set_drift(last, row(:, table%n_steps + 1))
   end subroutine set_rows
 
   !> Whether the first coefficient is at least as large as the others together, with a margin for their rounding.
@@ -205,17 +205,17 @@ contains
     end subroutine set_harmonic
   end subroutine set_displacement
 
-  !> Advances n lanes by one period with the tables of one level.
-  subroutine advance_level(level, n, lanes, turns)
-    type(level_t), intent(in) :: level !< the tables
+  !> Advances n lanes by one period with the tables of one range of speeds.
+  subroutine advance_pairs_table(table, n, lanes, turns)
+    type(pairs_table_t), intent(in) :: table !< the tables
     integer, intent(in) :: n !< lanes in use
     type(pair_lanes_t), intent(inout) :: lanes !< physical states
     real(c_double), intent(out) :: turns(WIDTH) !< [n] the net number of turns
 
-    call pairs_displace(level%to_kernel, int(n, c_int64_t), lanes)
-    call pairs_stages(merge(1_c_int32_t, 0_c_int32_t, level%mirrored), int(level%n_steps, c_int64_t), int(level%n_drift, c_int64_t), int(level%n_kick, c_int64_t), &
-                      int(level%n_pairs, c_int64_t), level%row, level%ordered, level%decay, int(n, c_int64_t), lanes, turns)
-    call pairs_displace(level%from_kernel, int(n, c_int64_t), lanes)
-  end subroutine advance_level
+    call pairs_displace(table%to_kernel, int(n, c_int64_t), lanes)
+    call pairs_stages(merge(1_c_int32_t, 0_c_int32_t, table%mirrored), int(table%n_steps, c_int64_t), int(table%n_drift, c_int64_t), int(table%n_kick, c_int64_t), &
+                      int(table%n_pairs, c_int64_t), table%row, table%ordered, table%decay, int(n, c_int64_t), lanes, turns)
+    call pairs_displace(table%from_kernel, int(n, c_int64_t), lanes)
+  end subroutine advance_pairs_table
 
-end module kz_taylor_pairs_level
+end module kz_taylor_pairs_table
