@@ -3,7 +3,7 @@
 !> Its angle is that of a free flight at mid-period (`midperiod_angle`). The mirror symmetry halves the table: only angles 0 ..
 !> pi are stored; a state is folded there, and its image unfolded.
 module kz_maps_map_table
-  use, intrinsic :: iso_c_binding, only: dp => c_double, c_int64_t
+  use, intrinsic :: iso_c_binding, only: dp => c_double, c_int64_t, c_int32_t
   use kz_vector_map, only: map_t, flow_t, WIDTH
   use kz_maps_states, only: midperiod_angle, MIDPERIOD
   implicit none
@@ -27,8 +27,8 @@ module kz_maps_map_table
   !> Where lanes lie in the table.
   type :: place_t
     real(dp) :: fold(WIDTH)   !< -1 where the mirror image is stored; 0 at the two states that are their own images: they rest
-    integer :: i(WIDTH)       !< cell of the angle, from 0
-    integer :: j(WIDTH)       !< cell of the velocity, from 0
+    integer(c_int32_t) :: i(WIDTH) !< cell of the angle, from 0
+    integer(c_int32_t) :: j(WIDTH) !< cell of the velocity, from 0
     real(dp) :: x(WIDTH)      !< within the cell, [0, 1)
     real(dp) :: y(WIDTH)
     integer :: outside(WIDTH) !< the lanes that have no stencil; their cell is any
@@ -43,6 +43,20 @@ module kz_maps_map_table
     procedure :: advance => interpolate
     procedure :: to_map
   end type table_map_t
+
+  interface
+    !> stencil.c
+    subroutine sum_nodes(points, n, length, field, i, j, width, wu, wv, shift) bind(C, name='kz_sum_nodes')
+      import :: c_int32_t, c_int64_t, dp
+      integer(c_int32_t), value :: points, n
+      integer(c_int64_t), value :: length
+      real(dp), intent(in) :: field(*)
+      integer(c_int32_t), intent(in) :: i(*), j(*)
+      integer(c_int64_t), value :: width
+      real(dp), intent(in) :: wu(*), wv(*)
+      real(dp), intent(out) :: shift(*)
+    end subroutine sum_nodes
+  end interface
 
 contains
 
@@ -199,16 +213,14 @@ contains
     class(table_map_t), intent(inout) :: self !< the map
     integer, intent(in) :: n !< lanes
     type(place_t), intent(in) :: place !< where they lie
-    real(dp) :: x(WIDTH), y(WIDTH), shift(2, WIDTH), w
+    real(dp) :: x(WIDTH), y(WIDTH), shift(2, WIDTH), wu(WIDTH, 6), wv(WIDTH, 6), w
     integer :: lane
 
-    associate (table => self%table, p => place)
-      select case (self%points)
-      case (2)
-        call linear_stencils(n, table%n_theta, table%shift, p%i, p%j, p%x, p%y, shift)
-      case default
-        call quintic_stencils(n, table%n_theta, table%shift, p%i, p%j, p%x, p%y, shift)
-      end select
+    associate (p => place)
+      call lagrange(self%points, p%x, wu)
+      call lagrange(self%points, p%y, wv)
+      call sum_nodes(self%points, n, size(self%table%shift(:, :, 1), kind=c_int64_t), self%table%shift(1, 0, 1), p%i, p%j, &
+                     int(WIDTH, c_int64_t), wu, wv, shift)
       do lane = 1, n
         x(lane) = self%u(lane) + p%fold(lane)*(shift(1, lane) - MIDPERIOD*shift(2, lane))
         y(lane) = self%v(lane) + p%fold(lane)*shift(2, lane)
@@ -222,17 +234,6 @@ contains
       self%v(lane) = y(lane)
     end do
   end subroutine displace
-
-  ! The same source for both stencils: a constant size lets the compiler unroll the loops.
-  subroutine linear_stencils(n, n_theta, field, i, j, x, y, shift)
-    integer, parameter :: POINTS = 2
-    include 'stencil.inc'
-  end subroutine linear_stencils
-
-  subroutine quintic_stencils(n, n_theta, field, i, j, x, y, shift)
-    integer, parameter :: POINTS = 6
-    include 'stencil.inc'
-  end subroutine quintic_stencils
 
   !> The lanes `outside` through one period by integration; x (unwrapped half-turns) and y (velocity) take the images.
   subroutine integrate(self, outside, x, y)
