@@ -50,6 +50,7 @@ uint64_t kz_bytes_checksum(uint64_t sum, const void *bytes, size_t n) {
   sum = ~sum;
   for (; n >= SLICES; n -= SLICES, byte += SLICES) {
     uint64_t next = 0;
+#pragma GCC unroll 8
     for (int k = 0; k < SLICES; ++k) next ^= table[SLICES - 1 - k][(sum >> 8 * k ^ byte[k]) & 255];
     sum = next;
   }
