@@ -61,23 +61,19 @@ static kz_status share_tile(void *context, int64_t tile, void *record) {
   const counting *c = context;
   const kz_scene *scene = c->atlas->scene;
   const int64_t starts = scene->atlas->shares;
-  kz_numerics numerics = kz_steps_plain();
   kz_pendulum pendulum;
   double place[2];
   kz_atlas_region_place(c->raster, tile, place);
-  if (!kz_atlas_pendulum(scene, place, &pendulum)) return KZ_OK;
-  numerics.steps_per_period = (int32_t)fmax(STEPS, kz_steps_by_stiffness(&pendulum, STEPS));
+  KZ_FREED_BY(kz_dynamics_freed) kz_dynamics *dynamics = kz_atlas_dynamics(c->atlas, place, STEPS, &pendulum);
+  if (!dynamics) return KZ_OK;
   const kz_search search = {.window = {-M_PI, M_PI, -FASTEST, FASTEST},
                             .starts = starts,
                             .seed = 1,
                             .max_periods = kz_settling_periods(pendulum.beta)};
-  const kz_run alone = {0};
   KZ_FREED int32_t *label = kz_calloc((size_t)starts, sizeof *label);
-  kz_dynamics *dynamics = kz_dynamics_create(&pendulum, &numerics, scene->atlas->max_period);
-  const kz_status status = kz_search_window(&alone, dynamics, &search, label);
-  if (status == KZ_OK) count(c->atlas, dynamics, starts, label, record);
-  kz_dynamics_free(dynamics);
-  return status;
+  KZ_TRY(kz_search_window(NULL, dynamics, &search, label));
+  count(c->atlas, dynamics, starts, label, record);
+  return KZ_OK;
 }
 
 /* Counts where the starts end at the place of each region. Collective. */

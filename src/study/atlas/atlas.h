@@ -58,8 +58,7 @@ typedef struct {
 /* A point whose attractors were searched. */
 typedef struct {
   double place[2];
-  int64_t starts, unsettled; /* starts that were followed, and that ended on no cycle of these periods */
-  kz_atlas_seeds found;      /* attracting cycles, one of each pair of mirror images */
+  kz_atlas_seeds found; /* attracting cycles, one of each pair of mirror images */
 } kz_atlas_probe;
 
 struct kz_atlas {
@@ -172,6 +171,8 @@ void kz_atlas_explore_image(const kz_atlas *atlas, const kz_atlas_kind *kind, co
 void kz_atlas_explore_mirrored(const kz_atlas *atlas, const kz_atlas_kind *kind, const double *at, kz_atlas_seeds *seeds);
 /* Compares lines at values of k with those at -k; what has no partner there becomes a seed. */
 void kz_atlas_compare_images(kz_atlas *atlas);
+/* The dynamics of a place, with so many steps a period where the pendulum is gentle; NULL if there is no pendulum. The caller frees it. */
+kz_dynamics *kz_atlas_dynamics(const kz_atlas *atlas, const double place[2], int steps, kz_pendulum *pendulum);
 /* The attractors of a place by following starts, and where the mirror symmetry is broken also the images of what these end on. */
 kz_status kz_atlas_probe_at(const kz_atlas *atlas, const double place[2], int64_t starts, int64_t seed, kz_atlas_probe *probe);
 

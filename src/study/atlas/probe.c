@@ -1,16 +1,17 @@
-/* The attractors of a place: starts are followed until they repeat themselves, and Newton's method finds their cycles. */
+/* The attractors of a place: those that starts end on, as cycles of the atlas. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
+#include "labelling/search.h"
+#include "numerics/cells.h"
 #include "numerics/steps.h"
 #include "atlas.h"
 
-/* Drive periods between two looks; starts near rest; steps a period. */
-enum { STRETCH = 60, NEAR_REST = 4, STEPS = 16 };
-/* rad: a motion that returns so near has settled; it ends on a cycle that is so near; a cycle lies so near to where it was guessed; a cycle is
- * the same. */
-static const double SETTLED = 1e-4, ENDS = 3e-3, GUESSED = 0.1, ONE = 1e-6;
+/* Starts near rest; steps a period. */
+enum { NEAR_REST = 4, STEPS = 16 };
+/* rad: a cycle lies so near to where it was guessed; a cycle is the same. */
+static const double GUESSED = 0.1, ONE = 1e-6;
 static const double FASTEST = 2.5, FEWEST_PERIODS = 600, MOST_PERIODS = 6000;
 
 /* The kind of a cycle of period n whose points are y: rest, symmetric, or neither. */
@@ -48,107 +49,63 @@ bool kz_atlas_identify(const kz_atlas *atlas, const double place[2], const doubl
   return true;
 }
 
-/* The motions that are followed. */
-typedef struct {
-  int64_t n, *turns;
-  double *theta, *velocity, *from;
-} motions;
+kz_dynamics *kz_atlas_dynamics(const kz_atlas *atlas, const double place[2], int steps, kz_pendulum *pendulum) {
+  kz_numerics numerics = kz_steps_plain();
+  if (!kz_atlas_pendulum(atlas->scene, place, pendulum)) return NULL;
+  numerics.steps_per_period = (int32_t)fmax(steps, kz_steps_by_stiffness(pendulum, steps));
+  return kz_dynamics_create(pendulum, &numerics, atlas->scene->atlas->max_period);
+}
 
-static void begin(const kz_pendulum *pendulum, int64_t starts, int64_t seed, motions *m) {
+/* The starts of a place, in half-turns and velocity: some near rest, the others spread over a window, which is searched for trapping regions. */
+static void begin(kz_dynamics *dynamics, const kz_pendulum *pendulum, int64_t starts, int64_t seed, double *state) {
   const double fastest = fmax(FASTEST, 1 + 2 * sqrt(kz_stiffness(pendulum)));
   const kz_window window = {-M_PI, M_PI, -fastest, fastest};
   const double rest[NEAR_REST] = {0.01, M_PI - 0.01, 0.3, M_PI - 0.3};
-  *m = (motions){starts, kz_calloc((size_t)starts, sizeof *m->turns), kz_malloc((size_t)starts * sizeof *m->theta),
-                 kz_malloc((size_t)starts * sizeof *m->velocity), kz_malloc(2 * (size_t)starts * sizeof *m->from)};
-  kz_dynamics_starts(&window, seed, starts, m->from);
-  for (int64_t i = 0; i < starts; i++) {
-    m->theta[i] = i < NEAR_REST ? rest[i] : M_PI * m->from[2 * i];
-    m->velocity[i] = i < NEAR_REST ? 0 : m->from[2 * i + 1];
+  kz_dynamics_starts(&window, seed, starts, state);
+  for (int64_t i = 0; i < NEAR_REST && i < starts; i++) state[2 * i] = rest[i] / M_PI, state[2 * i + 1] = 0;
+  kz_dynamics_coarse_regions(dynamics, kz_dynamics_max_velocity(dynamics, &window));
+}
+
+/* The cycles that are known join those of the probe. */
+static void add_known(const kz_atlas *atlas, const kz_dynamics *dynamics, kz_atlas_probe *probe) {
+  for (int64_t number = 1; number <= kz_dynamics_count(dynamics); number++) {
+    double theta[KZ_CURVE_POINTS], velocity[KZ_CURVE_POINTS];
+    kz_attractor row;
+    kz_atlas_seed cycle;
+    bool known = false;
+    kz_dynamics_attractor(dynamics, number, &row);
+    if (row.period < 1 || row.period > KZ_CURVE_POINTS) continue;
+    kz_dynamics_strobe(dynamics, number, theta, velocity);
+    if (!kz_atlas_identify(atlas, probe->place, (double[]){theta[0], velocity[0]}, row.period, 1, &cycle)) continue;
+    for (int64_t i = 0; i < probe->found.count && !known; i++)
+      known = kz_atlas_same(atlas, probe->found.list + i, cycle.y, ONE);
+    if (!known) kz_atlas_put(&probe->found, &cycle);
   }
 }
 
-static void end(motions *m) {
-  free(m->turns);
-  free(m->theta);
-  free(m->velocity);
-  free(m->from);
-}
-
-/* What a motion that returns after n periods ends on joins the cycles of the probe; true if it is one of them. */
-static bool add_end(const kz_atlas *atlas, const double state[2], int n, kz_atlas_probe *probe) {
-  kz_atlas_seed cycle;
-  kz_atlas_seeds *found = &probe->found;
-  for (int64_t i = 0; i < found->count; i++)
-    if (n % kz_kind_period(&found->list[i].kind) == 0 && kz_atlas_same(atlas, found->list + i, state, ENDS)) return true;
-  if (!kz_atlas_identify(atlas, probe->place, state, n, 1, &cycle)) return false;
-  for (int64_t i = 0; i < found->count; i++)
-    if (kz_atlas_same(atlas, found->list + i, cycle.y, ONE)) return true;
-  kz_atlas_put(found, &cycle);
-  return true;
-}
-
-/* Motions that repeat themselves within the longest period leave. */
-static void look(const kz_atlas *atlas, const kz_flow *flow, motions *m, kz_atlas_probe *probe) {
-  const int64_t longest = atlas->scene->atlas->max_period;
-  int64_t left = 0;
-  KZ_FREED int8_t *period = kz_calloc((size_t)m->n + 1, 1);
-  KZ_FREED double *theta = kz_malloc((size_t)(m->n + 1) * sizeof *theta);
-  KZ_FREED double *velocity = kz_malloc((size_t)(m->n + 1) * sizeof *velocity);
-  memcpy(theta, m->theta, (size_t)m->n * sizeof *theta);
-  memcpy(velocity, m->velocity, (size_t)m->n * sizeof *velocity);
-  for (int n = 1; n <= longest; n++) {
-    kz_advance(flow, m->n, 1, theta, velocity, m->turns);
-    for (int64_t i = 0; i < m->n; i++)
-      if (period[i] == 0 && hypot(remainder(theta[i] - m->theta[i], 2 * M_PI), velocity[i] - m->velocity[i]) < SETTLED)
-        period[i] = (int8_t)n;
-  }
-  for (int64_t i = 0; i < m->n; i++) {
-    const double state[2] = {m->theta[i], m->velocity[i]};
-    if (period[i] > 0 && add_end(atlas, state, period[i], probe)) continue;
-    m->theta[left] = m->theta[i];
-    m->velocity[left++] = m->velocity[i];
-  }
-  m->n = left;
-}
-
-/* Follows motions until all have settled, for `most` periods at the longest. */
-static void follow(const kz_atlas *atlas, const kz_flow *flow, double most, motions *m, kz_atlas_probe *probe) {
-  for (double done = 0; done < most && m->n > 0; done += STRETCH) {
-    kz_advance(flow, m->n, STRETCH, m->theta, m->velocity, m->turns);
-    look(atlas, flow, m, probe);
-  }
-}
-
-/* The mirror images of the attractors as starts: where a tilt or a torque breaks the mirror symmetry they often lie in the basin of an
+/* From the mirror images of the attractors as starts: where a tilt or a torque breaks the mirror symmetry they often lie in the basin of an
  * attractor that few other starts reach. */
-static void begin_images(const kz_atlas_probe *probe, motions *m) {
-  size_t n = 1;
-  for (int64_t i = 0; i < probe->found.count; i++) n += (size_t)probe->found.list[i].kind.of.points;
-  *m = (motions){0, kz_calloc(n, sizeof *m->turns), kz_malloc(n * sizeof *m->theta), kz_malloc(n * sizeof *m->velocity), NULL};
-  for (int64_t i = 0; i < probe->found.count; i++) {
-    const kz_atlas_seed *cycle = probe->found.list + i;
-    for (int j = 0; j < cycle->kind.of.points; j++, m->n++) {
-      m->theta[m->n] = remainder(-cycle->y[2 * j], 2 * M_PI);
-      m->velocity[m->n] = -cycle->y[2 * j + 1];
-    }
-  }
+static kz_status discover_images(kz_dynamics *dynamics, int64_t most, const kz_atlas_seeds *found) {
+  int64_t n = 0;
+  KZ_FREED double *state = kz_malloc((size_t)(2 * KZ_CURVE_POINTS * found->count + 1) * sizeof *state);
+  for (int64_t i = 0; i < found->count; i++)
+    for (int j = 0; j < found->list[i].kind.of.points; j++, n++)
+      kz_start_state(-found->list[i].y[2 * j], -found->list[i].y[2 * j + 1], state + 2 * n);
+  return kz_discover(NULL, dynamics, most, n, state, NULL);
 }
 
 kz_status kz_atlas_probe_at(const kz_atlas *atlas, const double place[2], int64_t starts, int64_t seed, kz_atlas_probe *probe) {
   kz_pendulum pendulum;
-  kz_numerics numerics = kz_steps_plain();
-  KZ_FREED_BY(end) motions m = {0};
-  KZ_FREED_BY(end) motions images = {0};
-  *probe = (kz_atlas_probe){.place = {place[0], place[1]}, .starts = starts};
-  if (!kz_atlas_pendulum(atlas->scene, place, &pendulum)) return KZ_OK;
-  numerics.steps_per_period = (int32_t)fmax(STEPS, kz_steps_by_stiffness(&pendulum, STEPS));
-  kz_flow *flow = kz_flow_create(&pendulum, &numerics);
-  const double most = fmin(MOST_PERIODS, fmax(FEWEST_PERIODS, 60 / (M_PI * pendulum.beta)));
-  begin(&pendulum, starts, seed, &m);
-  follow(atlas, flow, most, &m, probe);
-  if (!atlas->plane.mirrored) begin_images(probe, &images);
-  follow(atlas, flow, most, &images, probe);
-  kz_flow_free(flow);
-  probe->unsettled = m.n;
+  KZ_FREED_BY(kz_dynamics_freed) kz_dynamics *dynamics = kz_atlas_dynamics(atlas, place, STEPS, &pendulum);
+  *probe = (kz_atlas_probe){.place = {place[0], place[1]}};
+  if (!dynamics) return KZ_OK;
+  KZ_FREED double *state = kz_malloc(2 * (size_t)starts * sizeof *state);
+  const int64_t most = (int64_t)fmin(MOST_PERIODS, fmax(FEWEST_PERIODS, 60 / (M_PI * pendulum.beta)));
+  begin(dynamics, &pendulum, starts, seed, state);
+  KZ_TRY(kz_discover(NULL, dynamics, most, starts, state, NULL));
+  add_known(atlas, dynamics, probe);
+  if (atlas->plane.mirrored) return KZ_OK;
+  KZ_TRY(discover_images(dynamics, most, &probe->found));
+  add_known(atlas, dynamics, probe);
   return KZ_OK;
 }

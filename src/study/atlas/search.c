@@ -39,7 +39,6 @@ static kz_status probe_all(const kz_run *run, const char *name, probing *p) {
     kz_atlas_seeds *mine = &p->probe[i].found;
     *mine = (kz_atlas_seeds){seeds.count, kz_malloc((size_t)(seeds.count + 1) * sizeof *mine->list)};
     memcpy(mine->list, seeds.list, (size_t)seeds.count * sizeof *mine->list);
-    p->probe[i].starts = p->starts;
   }
   return KZ_OK;
 }

@@ -11,11 +11,12 @@
 #include "attractors/plan.h"
 
 enum {
-  FIRST_LENGTH = 128, /* periods of the first round; a round that finds nothing doubles it */
-  TILE = 256,         /* starts per tile */
-  CHUNK = 64,         /* states per search, at most what kz_dynamics_find_cycle takes */
-  PILOT_STARTS = 512, /* starts that are followed before regions grow */
-  WORTH_CELLS = 4096, /* that are to be labelled, or starts: for fewer, regions do not grow */
+  FIRST_LENGTH = 128,   /* periods of the first round; a round that finds nothing doubles it */
+  FIRST_OF_CYCLES = 32, /* the same where cycles alone are looked for, which costs little */
+  TILE = 256,           /* starts per tile */
+  CHUNK = 64,           /* states per search, at most what kz_dynamics_find_cycle takes */
+  PILOT_STARTS = 512,   /* starts that are followed before regions grow */
+  WORTH_CELLS = 4096,   /* that are to be labelled, or starts: for fewer, regions do not grow */
   MANY_CELLS = 40000,
   FEW_CELLS = 96, /* of the regions' grid along an axis, where few are to be labelled: in coarser ones hardly anything grows */
   FEWEST_CELLS = 200, /* the same where many are */
@@ -39,6 +40,7 @@ typedef struct {
   int32_t *label;               /* [all] */
   int64_t all, sought;          /* how many of the pending ones a round looks for cycles from */
   int64_t age;                  /* periods through which the pending ones have been followed; INT64_MAX in the last round */
+  bool cycles_alone;            /* nothing else is looked for */
 } following;
 
 typedef struct {
@@ -137,7 +139,7 @@ static kz_status find_cycles(const kz_run *run, const following *f, double close
 static kz_status find_covered(const kz_run *run, following *f, int kind) {
   seeking s = {.dynamics = f->dynamics, .kind = kind, .age = f->age, .size = kz_dynamics_chaos_size()};
   KZ_FREED double *found = s.found = kz_calloc(2 * (size_t)s.size, sizeof(double));
-  for (int attempt = 0; attempt < COVER_TRIES && f->n > 0; attempt++) {
+  for (int attempt = 0; attempt < COVER_TRIES && f->n > 0 && !f->cycles_alone; attempt++) {
     const int64_t known = kz_dynamics_count(f->dynamics);
     s.n = kind == CHAOS ? 1 : f->n < QUASIPERIODIC_STARTS ? f->n : QUASIPERIODIC_STARTS;
     for (int64_t i = 0; i < s.n; i++)
@@ -156,7 +158,7 @@ static kz_status find_covered(const kz_run *run, following *f, int kind) {
 }
 
 static kz_status search_discover(const kz_run *run, following *f, int64_t max_periods) {
-  int64_t length = FIRST_LENGTH, done = 0;
+  int64_t length = f->cycles_alone ? FIRST_OF_CYCLES : FIRST_LENGTH, done = 0;
   for (;;) {
     kz_dynamics_update(f->dynamics);
     KZ_TRY(follow_pending(run, f, length));
@@ -182,7 +184,13 @@ static void list_all(following *f) {
 
 static kz_status discover_from(const kz_run *run, kz_dynamics *dynamics, int64_t sought, int64_t max_periods, int64_t n,
                                double *state, int32_t *label) {
-  following f = {.dynamics = dynamics, .all = n, .sought = sought > 0 ? sought : MOST_SOUGHT, .state = state, .label = label};
+  KZ_FREED int32_t *own = label ? NULL : kz_malloc((size_t)n * sizeof *own + 1);
+  following f = {.dynamics = dynamics,
+                 .all = n,
+                 .sought = sought > 0 ? sought : MOST_SOUGHT,
+                 .state = state,
+                 .label = label ? label : own,
+                 .cycles_alone = !label};
   list_all(&f);
   const kz_status status = search_discover(run, &f, max_periods);
   free(f.pending);
