@@ -46,3 +46,5 @@ void kz_help_print(const kz_command *command);
 void kz_manual_print(void);
 /* Prints the completion script of a shell: bash, zsh or fish. */
 void kz_completion_print(const char *shell);
+/* Prints what may stand in place of the last word of a command line, for these scripts. */
+void kz_completion_answer(const char *line);

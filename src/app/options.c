@@ -99,6 +99,13 @@ static kz_status set_completion(kz_options *options, const kz_option *row, const
   return KZ_OK;
 }
 
+static kz_status set_complete(kz_options *options, const kz_option *row, const char *argument) {
+  (void)row;
+  if (options->prints) kz_completion_answer(argument);
+  options->answered = true;
+  return KZ_OK;
+}
+
 static kz_status set_manual(kz_options *options, const kz_option *row, const char *argument) {
   (void)row, (void)argument;
   if (options->prints) kz_manual_print();
@@ -161,6 +168,8 @@ const kz_option kz_option_rows[] = {
     {"quality-factor", 0, "Q", NEEDS, set_text, OF(quality_factor), "quality factor of small swings; default: 20", NULL},
     {"degrees", 0, NULL, FIT, set_flag, OF(degrees), "the angles of the track are in degrees", NULL},
     {"completion", 0, "SHELL", TOP, set_completion, 0, "print the completion script for bash, zsh or fish", "bash|zsh|fish"},
+    {"complete", 0, "LINE", TOP, set_complete, 0,
+     "print the words that may end LINE, a command line, with their descriptions: what these scripts ask for", NULL},
     {"manual", 0, NULL, TOP, set_manual, 0, "print the manual page; to read it, pipe it into man -l -", NULL},
     {"help", 'h', NULL, RUN | CHECK | WHERE | VIEW | FIT | NEEDS | PLOT | INFO | SERVE | KEYS | TOP, NULL, 0,
      "print this help and exit", NULL},

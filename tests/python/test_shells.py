@@ -31,16 +31,21 @@ def in_shell(tool, script, *arguments):
     return done.stdout.split()
 
 
+def typed(line):
+    """The line with the program where it stands: the scripts ask the one that is typed."""
+    return line.replace("kapitza", str(PROGRAM), 1)
+
+
 def bash(line):
     """What bash offers at the end of a line."""
-    words = " ".join(f"'{word}'" for word in line.split(" "))
+    words = " ".join(f"'{word}'" for word in typed(line).split(" "))
     return in_shell("bash", f"compopt() {{ :; }}; source <('{PROGRAM}' --completion bash); COMP_WORDS=({words}); "
                             'COMP_CWORD=$((${#COMP_WORDS[@]} - 1)); _kapitza; echo "${COMPREPLY[@]}"', "--norc")
 
 
 def fish(line):
     """The same of fish, whose answers are words and descriptions with a tab between."""
-    done = subprocess.run(["fish", "--no-config", "-c", f"'{PROGRAM}' --completion fish | source; complete -C '{line}'"],
+    done = subprocess.run(["fish", "--no-config", "-c", f"'{PROGRAM}' --completion fish | source; complete -C '{typed(line)}'"],
                           capture_output=True, text=True)
     assert done.returncode == 0 and done.stderr == "", done.stderr
     return [row.split("\t")[0] for row in done.stdout.splitlines()]
@@ -60,10 +65,10 @@ def test_zsh_understands_its_completion(tmp_path):
     needs("zsh")
     (tmp_path / "_kapitza").write_text(output("--completion", "zsh"))
     subprocess.run(["zsh", "-n", tmp_path / "_kapitza"], check=True)
-    script = ("_describe() { print -l ${(P)2}; }; _arguments() { print -l -- $@; }; _files() { :; }; words=(kapitza run); CURRENT=3; "
-              f"source {tmp_path}/_kapitza")
-    found = in_shell("zsh", script, "-f")
-    assert all(any(f"{option}[" in word for word in found) for option in options_of("run"))
+    script = f"_describe() {{ print -l -- ${{(P)2}}; }}; _files() {{ print FILES; }}; source {tmp_path}/_kapitza"
+    found = in_shell("zsh", f"words=({PROGRAM} run --); CURRENT=3; {script}", "-f")
+    assert sorted(word.split(":")[0] for word in found if word.startswith("--")) == sorted(set(options_of("run")))
+    assert in_shell("zsh", f"words=({PROGRAM} run -o ''); CURRENT=4; {script}", "-f") == ["FILES"]
 
 
 def test_the_manual_page_has_every_option_and_no_warning(tmp_path):
