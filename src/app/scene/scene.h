@@ -169,9 +169,6 @@ void kz_scene_write(const kz_key *keys, const void *scene, bool flat, FILE *out)
 /* The scene reference (docs/reference/scene.md). */
 void kz_scene_reference(const kz_key *keys, FILE *out);
 
-/* Writes the keys as a JSON schema. It does not have the rules that connect keys of different mappings; the command check tests them. */
-void kz_scene_schema(const kz_key *keys, FILE *out);
-
 /* KZ_REFUSED unless `path` is a regular file: a device or a pipe could be read without end. */
 kz_status kz_scene_check_file(const char *path);
 /* Reads a regular scene file, or standard input ("-"), of at most 1 MB. The caller frees *text. */

@@ -1,0 +1,180 @@
+/* The table of keys as a JSON schema (draft 2020-12), for editors and other checkers. */
+#include <string.h>
+
+#include "app.h"
+#include "json.h"
+
+static const char *name_of(const kz_key *key) {
+  const char *dot = strrchr(key->path, '.');
+  return dot ? dot + 1 : key->path;
+}
+
+/* A key of the mapping `parent` itself. */
+static bool stands_in(const kz_key *key, const char *parent) {
+  const size_t length = (size_t)(name_of(key) - key->path);
+  return length == (parent[0] ? strlen(parent) + 1 : 0) && strncmp(key->path, parent, strlen(parent)) == 0;
+}
+
+/* An object with one member. */
+static kz_json *object_of(const char *name, kz_json *value) {
+  kz_json *object = json_object_new_object();
+  kz_json_add(object, name, value);
+  return object;
+}
+
+static kz_json *words_of(const char *words) {
+  kz_json *list = json_object_new_array();
+  int length;
+  for (const char *word; (word = kz_words_next(&words, &length));)
+    json_object_array_add(list, json_object_new_string_len(word, length));
+  return object_of("enum", list);
+}
+
+static kz_json *number_of(const kz_key *key, const char *type) {
+  kz_json *number = object_of("type", kz_json_text(type));
+  if (key->low == KZ_ABOVE_ZERO)
+    kz_json_add_integer(number, "exclusiveMinimum", 0);
+  else if (key->low > -DBL_MAX)
+    kz_json_add_real(number, "minimum", key->low);
+  if (key->high < DBL_MAX) kz_json_add_real(number, "maximum", key->high);
+  return number;
+}
+
+static const char HARMONIC[] =
+    "{\"type\": \"object\", \"required\": [\"order\", \"amplitude\"], \"additionalProperties\": false, \"properties\": {"
+    "\"order\": {\"type\": \"integer\", \"minimum\": 1, \"maximum\": " KZ_WRITTEN(KZ_HARMONICS) "}, \"amplitude\": {\"type\": "
+    "\"number\"}, \"phase\": {\"anyOf\": [{\"type\": \"number\"}, {\"type\": \"string\", \"pattern\": \"^[-+.0-9eE]+ deg$\"}]}}}";
+
+/* What one value may be. */
+static kz_json *value_of(const kz_key *key) {
+  switch (key->type) {
+    case KZ_KEY_TEXT:
+      return json_tokener_parse("{\"type\": \"string\", \"maxLength\": 500}");
+    case KZ_KEY_BOOLEAN:
+      return object_of("type", kz_json_text("boolean"));
+    case KZ_KEY_WORD:
+    case KZ_KEY_WORDS:
+      return words_of(kz_key_words(key));
+    case KZ_KEY_REAL:
+    case KZ_KEY_DECIMAL:
+    case KZ_KEY_REALS:
+      return number_of(key, "number");
+    case KZ_KEY_HARMONICS:
+      return json_tokener_parse(HARMONIC);
+    default:
+      return number_of(key, "integer");
+  }
+}
+
+/* A number, or a word such as "auto". */
+static bool takes_a_word(const kz_key *key) {
+  return key->type == KZ_KEY_COUNT && key->words;
+}
+
+/* What may stand in place of a number: one with a unit, a part of pi, a word; NULL = nothing. */
+static kz_json *other_of(const kz_key *key) {
+  const bool angle = kz_key_is_angle(key), decimal = key->type == KZ_KEY_DECIMAL, own = strcmp(key->unit, KZ_OWN_UNIT) == 0;
+  const bool real = key->type == KZ_KEY_REAL || decimal || key->type == KZ_KEY_REALS;
+  const bool unit = real && (kz_unit_is_known(key->unit) || own);
+  char pattern[128];
+  if (takes_a_word(key)) return words_of(key->words);
+  if (!angle && !decimal && !unit) return NULL;
+  if (angle)
+    snprintf(pattern, sizeof pattern, "^([-+.0-9eE]+ ?(deg|\xc2\xb0)|%s[-+.0-9eE]* ?pi(/[0-9]+)?)$",
+             decimal ? "[-+.0-9eE]+|" : "");
+  else
+    snprintf(pattern, sizeof pattern, "^([-+.0-9eE]+%s%s)$",
+             unit ? decimal ? "( ?(rad|deg|\xc2\xb0)/s)?" : " ?(\xc2\xb0(/s)?|[A-Za-z1][A-Za-z0-9/^ *]*)" : "",
+             unit && own ? "|[-+.0-9eE]* ?pi(/[0-9]+)?" : "");
+  kz_json *text = object_of("type", kz_json_text("string"));
+  kz_json_add_text(text, "pattern", pattern);
+  return text;
+}
+
+static kz_json *key_of(const kz_key *key) {
+  kz_json *value = value_of(key), *other = other_of(key);
+  if (other) {
+    kz_json *any = json_object_new_array();
+    json_object_array_add(any, other);
+    json_object_array_add(any, value);
+    value = object_of("anyOf", any);
+  }
+  if (key->type >= KZ_KEY_WORDS) {
+    kz_json *list = object_of("type", kz_json_text("array"));
+    kz_json_add_integer(list, "minItems", 1);
+    kz_json_add_integer(list, "maxItems", KZ_LIST_MAX);
+    kz_json_add(list, "items", value);
+    value = list;
+  }
+  const char *fallback = key->fallback ? key->fallback : "";
+  const bool word = key->type == KZ_KEY_WORD || (takes_a_word(key) && strcmp(fallback, key->words) == 0);
+  if (fallback[0]) kz_json_add(value, "default", word ? kz_json_text(fallback) : json_tokener_parse(fallback));
+  kz_json_add_text(value, "description", key->help);
+  if (key->unit[0]) kz_json_add_text(value, "unit", key->unit);
+  return value;
+}
+
+/* Whether a key belongs to a form; 0: to none. */
+static bool belongs(const kz_key *key, char form) {
+  return form ? key->form && strchr(key->form, form) : !key->form;
+}
+
+/* The keys of `parent` that belong to `form` (0: to none) and must be there. */
+static kz_json *required_of(const kz_key *keys, const char *parent, char form) {
+  kz_json *list = json_object_new_array();
+  for (const kz_key *key = keys; key->path; key++)
+    if (!key->fallback && belongs(key, form) && stands_in(key, parent)) json_object_array_add(list, kz_json_text(name_of(key)));
+  return list;
+}
+
+/* One of the ways to give the same: its required keys, and none of the other ways. */
+static kz_json *form_of(const kz_key *keys, const char *parent, char form) {
+  kz_json *object = object_of("required", required_of(keys, parent, form)), *others = json_object_new_object();
+  for (const kz_key *key = keys; key->path; key++)
+    if (key->form && !belongs(key, form) && stands_in(key, parent)) kz_json_add_boolean(others, name_of(key), false);
+  kz_json_add(object, "properties", others);
+  return object;
+}
+
+/* What a mapping must have one of: the ways to give its keys; of the scene (""), the studies, which are mappings at the top that have a field. */
+static kz_json *choices_of(const kz_key *keys, const char *parent) {
+  kz_json *list = json_object_new_array();
+  char seen = 0; /* forms come in the order of their letters */
+  for (const kz_key *key = keys; key->path; key++) {
+    if (!stands_in(key, parent)) continue;
+    if (key->form && key->form[0] > seen) json_object_array_add(list, form_of(keys, parent, seen = key->form[0]));
+    if (!parent[0] && key->type == KZ_KEY_MAPPING && key->offset != KZ_NO_FIELD)
+      json_object_array_add(list, object_of("required", kz_json_texts((const char *const[]){key->path, NULL})));
+  }
+  return list;
+}
+
+static kz_json *mapping_of(const kz_key *keys, const char *parent, const char *help) {
+  kz_json *object = object_of("type", kz_json_text("object")), *properties = json_object_new_object();
+  kz_json *choices = choices_of(keys, parent);
+  for (const kz_key *key = keys; key->path; key++)
+    if (stands_in(key, parent))
+      kz_json_add(properties, name_of(key), key->type == KZ_KEY_MAPPING ? mapping_of(keys, key->path, key->help) : key_of(key));
+  kz_json_add_text(object, "description", help);
+  kz_json_add_boolean(object, "additionalProperties", false);
+  kz_json_add(object, "required", required_of(keys, parent, 0));
+  kz_json_add(object, "properties", properties);
+  if (json_object_array_length(choices) > 0)
+    kz_json_add(object, "anyOf", choices);
+  else
+    json_object_put(choices);
+  return object;
+}
+
+void kz_scene_schema(const kz_key *keys, FILE *out) {
+  kz_json *schema = object_of("$schema", kz_json_text("https://json-schema.org/draft/2020-12/schema")),
+          *all = json_object_new_array();
+  json_object_array_add(all, mapping_of(keys, "", "What is modelled: a pendulum and at least one study."));
+  kz_json_add_text(schema, "title", "A scene of kapitza");
+  kz_json_add(schema, "allOf", all);
+  fputs(json_object_to_json_string_ext(schema,
+                                       JSON_C_TO_STRING_PRETTY | JSON_C_TO_STRING_SPACED | JSON_C_TO_STRING_NOSLASHESCAPE),
+        out);
+  fputc('\n', out);
+  json_object_put(schema);
+}
