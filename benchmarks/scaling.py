@@ -2,8 +2,8 @@
 
     scaling.py predict [--grid N] [--plot FILE] [--ranks R...] NAME=LOG...    seconds and efficiency; --grid: on N x N cells
     scaling.py page FILE                                                      the figure of docs/validation/scaling.md, from its table
-    scaling.py load [--grid N] LOG                                            seconds of its tiles, for build/tests/uneven
-    scaling.py share [--slower X] [--ranks R...] FILE                         what build/tests/uneven FILE X will measure
+    scaling.py load [--grid N] LOG                                            seconds of its tiles, for build/benchmarks/uneven
+    scaling.py share [--slower X] [--ranks R...] FILE                         what build/benchmarks/uneven FILE X will measure
 
 docs/validation/scaling.md says what is assumed, how the costs of messages were measured (messages.c), and how good it is.
 """

@@ -1,9 +1,9 @@
 """Shared fixtures: a result file as the contract asks for, made without the program, and the program itself."""
 
 import io
+import itertools
 import json
 import os
-import signal
 import subprocess
 import sys
 import time
@@ -158,9 +158,8 @@ def kapitza():
     """Runs the program: kapitza("run", scene, ranks=2, folder=..., check=0) -> CompletedProcess."""
     assert PROGRAM.is_file(), "build/kapitza is missing: scripts/setup builds it"
 
-    def call(*arguments, ranks=None, folder=ROOT, status=0, text=None):
-        launcher = ["mpirun", "-n", str(ranks)] if ranks else []
-        command = [*launcher, PROGRAM, *map(str, arguments)]
+    def call(*arguments, ranks=None, folder=ROOT, status=0, text=None, launcher=None):
+        command = [*(launcher or launched(ranks)), PROGRAM, *map(str, arguments)]
         done = subprocess.run(command, cwd=folder, input=text, capture_output=True, text=True)
         assert status is None or done.returncode == status, done.stderr + done.stdout
         return done
@@ -168,21 +167,27 @@ def kapitza():
     return call
 
 
+def launched(ranks, library=None, **settings):
+    """What begins a command on so many ranks (None: without mpirun), with a library of tests/tools before all others and its settings."""
+    exports = [f"LD_PRELOAD={PROGRAM.parent}/tests/{library}.so", *(f"KZ_{name}={value}" for name, value in settings.items())]
+    return [*(["mpirun", "-n", str(ranks)] if ranks else []), *(["env", *exports] if library else [])]
+
+
+def wait_for(condition, seconds=1000):
+    """Waits for a condition; whether it came. What works comes much sooner, on a busy machine too."""
+    end = time.monotonic() + seconds
+    while not condition():
+        if time.monotonic() > end:
+            return False
+        time.sleep(0.02)
+    return True
+
+
 def saved_bytes(checkpoint):
     """Bytes of finished records, nearly: those that are not 0 (room is allocated beforehand); 0 before the first record."""
     data = checkpoint.read_bytes() if checkpoint.exists() else b""
     marked = data[32:40] != bytes(8)  # the last word of the head
     return len(data) - data.count(0) if marked else 0
-
-
-def runs_until_saved(process, checkpoint, before):
-    """Waits until more is saved than `before`, or the process has ended; does it still run?"""
-    section_head = 72
-    while process.poll() is None:
-        if saved_bytes(checkpoint) > before + section_head:
-            return True
-        time.sleep(0.005)
-    return False
 
 
 def run_scene(kapitza, folder, scene, *options, ranks=None, name="s"):
@@ -201,26 +206,34 @@ def refused_scene(kapitza, folder, scene, *options, command="run", status=2):
     return done.stderr
 
 
-def stopped_and_resumed(kapitza, folder, scene, ranks):
+def stopped_and_resumed(kapitza, folder, scene, ranks, *options):
     """The same by a run on one rank that is stopped once something is saved, and that `ranks` go on with."""
-    (folder / "stopped.yaml").write_text(json.dumps(scene))
-    run_until_saved("stopped.yaml", file="stopped.h5", folder=folder, ranks=1)
-    kapitza("run", "stopped.yaml", "--resume", ranks=ranks, folder=folder)
+    (folder / "stopped.yaml").write_text(scene if isinstance(scene, str) else json.dumps(scene))
+    run_until_saved(kapitza, "stopped.yaml", *options, file="stopped.h5", folder=folder, ranks=None)
+    kapitza("run", "stopped.yaml", *options, "--resume", ranks=ranks, folder=folder)
     return Result(folder / "stopped.h5")
 
 
-def run_until_saved(*words, file, folder, ranks=2):
-    """kapitza run WORDS, asked to stop by SIGUSR1 as soon as more of FILE's work is saved; what it says to that."""
-    checkpoint = folder / f"{file}.checkpoint"
-    before = saved_bytes(checkpoint)
-    process = subprocess.Popen(["mpirun", "-n", str(ranks), PROGRAM, "run", *words], cwd=folder, text=True,
-                               stdout=subprocess.DEVNULL, stderr=subprocess.PIPE)
-    assert runs_until_saved(process, checkpoint, before), process.communicate()
-    process.send_signal(signal.SIGUSR1)
-    _, errors = process.communicate()
-    stopped = f"stopped by SIGUSR1; finished work is in {checkpoint.name}; --resume goes on from it"
-    assert process.returncode == 75 and stopped in errors, errors
-    return errors
+def run_until_saved(kapitza, *words, file, folder, ranks=2):
+    """kapitza run WORDS, asked to stop as soon as a record of FILE's work is saved (tests/tools/stop_at.c); what it says to that."""
+    resumed = int((folder / f"{file}.checkpoint").exists())  # whose section may have begun already
+    done = kapitza("run", *words, folder=folder, status=75, launcher=launched(ranks, "stop_at", WRITES=3, RESUMED=resumed))
+    assert f"stopped by SIGUSR1; finished work is in {file}.checkpoint; --resume goes on from it" in done.stderr, done.stderr
+    return done.stderr
+
+
+def stopped_in_each_stage(kapitza, *words, file, folder, ranks, writes=(1,)):
+    """kapitza run WORDS, resumed until it is done, on `ranks` in turn; each time it is stopped in the first stage that is new: before its
+    first tile (0 writes), or in the middle of its first record (1). The names of these stages."""
+    found = []
+    for start in itertools.count():
+        launcher = launched(ranks[start % len(ranks)], "stop_at", WRITES=writes[start % len(writes)])
+        done = kapitza("run", *words, *(["--resume"] if found else []), folder=folder, launcher=launcher, status=None)
+        if done.returncode == 0:
+            return found
+        assert done.returncode == 75 and "stopped by SIGUSR1; finished work is in" in done.stderr, done.stderr
+        data = (folder / f"{file}.checkpoint").read_bytes()
+        found.append(data[data.rindex(b"kzstage\0") + 8:][:32].split(b"\0")[0].decode())
 
 
 @pytest.fixture(scope="session")
@@ -258,6 +271,17 @@ def flown(field, time, start, tolerance):
     """The state after `time` of u' = field(t, u), by an integrator that shares nothing with the program: scipy's DOP853."""
     from scipy.integrate import solve_ivp  # which takes a second to load, and few workers need
     return solve_ivp(field, (0, time), start, method="DOP853", rtol=tolerance, atol=0.1 * tolerance).y[:, -1]
+
+
+def strobed(pendulum, states, periods=1, tolerance=1e-13):
+    """Angles and velocities [2, n] after whole drive periods, as flown; angles are not wrapped."""
+    k, beta, m = (pendulum[name] for name in ("k", "beta", "m"))
+
+    def field(t, u):
+        theta, velocity = u.reshape(2, -1)
+        return np.concatenate([velocity, -beta * velocity - (k - m * np.cos(t)) * np.sin(theta)])
+
+    return flown(field, 2 * np.pi * periods, np.ravel(states), tolerance).reshape(2, -1)
 
 
 def run_script(main, *arguments):

@@ -5,14 +5,13 @@ import os
 import shutil
 import subprocess
 import sys
-import time
 import urllib.error
 import urllib.request
 from contextlib import contextmanager
 from pathlib import Path
 
 import pytest
-from conftest import PROGRAM, ROOT
+from conftest import PROGRAM, ROOT, wait_for
 
 PYTHON = os.environ | {"PYTHONPATH": str(ROOT / "python")}
 FAKE = ROOT / "tests" / "tools" / "fake_serve.py"
@@ -42,7 +41,7 @@ class Server:
         data = body if isinstance(body, bytes) else json.dumps(body).encode()
         sent = {"X-Kapitza-Token": getattr(self, "token", None)} | {key.replace("_", "-"): value for key, value in headers.items()}
         asked = urllib.request.Request(f"{self.base}/{name}", data, {key: value for key, value in sent.items() if value is not None})
-        return urllib.request.urlopen(asked, timeout=120)
+        return urllib.request.urlopen(asked)
 
     def request(self, name, body, **headers):
         """Status and JSON of a POST; a header of None is left out."""
@@ -52,14 +51,16 @@ class Server:
         except urllib.error.HTTPError as error:
             return error.code, json.loads(error.read())
 
-    def ask(self, request, view="a"):
-        """[(header, payload), ...] of the program's answers."""
+    def answers(self, request, view="a"):
+        """Header and payload of each of the program's answers, as they come."""
         with self.post(f"ask?view={view}", request) as stream:
-            answers = []
-            while not answers or not answers[-1][0]["final"]:
+            header = {"final": False}
+            while not header["final"]:
                 header = json.loads(stream.readline())
-                answers.append((header, stream.read(header["bytes"])))
-            return answers
+                yield header, stream.read(header["bytes"])
+
+    def ask(self, request, view="a"):
+        return list(self.answers(request, view))
 
     def children(self):
         """Processes that compute for it."""
@@ -79,15 +80,6 @@ def parent_of(path):
     except (FileNotFoundError, ProcessLookupError):
         return None
     return None if rest[0] == "Z" else int(rest[1])
-
-
-def wait_for(condition, seconds=30):
-    end = time.monotonic() + seconds
-    while time.monotonic() < end:
-        if condition():
-            return True
-        time.sleep(0.05)
-    return False
 
 
 @contextmanager
@@ -128,9 +120,10 @@ class Page:
         script = f"const done = arguments[0]; import('/{name}').then((its) => done({text})).catch((error) => done(String(error)))"
         return self.driver.execute_async_script(script)
 
-    def wait(self, seconds=120, state="done"):
-        """Until the page has what was asked of it; its status line."""
-        assert wait_for(lambda: self.state() in ("done", "error"), seconds), self.state()
+    def wait(self, state="done"):
+        """Until the page has what was asked of it, and asks for no more; its status line."""
+        asks = "window.explorer?.basins?.panes.some((pane) => pane.pursuing)"
+        assert wait_for(lambda: self.state() in ("done", "error") and not self.run(asks)), self.state()
         words = self.run("$('status').textContent")
         assert self.state() == state, words
         return words
@@ -205,12 +198,12 @@ class Page:
             context.drawImage(pane.basins, 0, 0); const data = context.getImageData(0, 0, copy.width, copy.height).data, found = [];
             for (let i = 0; i < data.length; i += 28) found.push([...data.slice(i, i + 4)]); return found; })()""")
 
-    def saved(self, button, path, seconds=30):
+    def saved(self, button, path):
         """The file that a button saves, whole: the browser first makes an empty one."""
         path.unlink(missing_ok=True)
         self.press(button)
         part = path.with_name(f"{path.name}.crdownload")
-        assert wait_for(lambda: path.is_file() and path.stat().st_size > 0 and not part.exists(), seconds)
+        assert wait_for(lambda: path.is_file() and path.stat().st_size > 0 and not part.exists())
         return path
 
     def plays_alone(self, path):

@@ -26,7 +26,7 @@ class Server:
     def __exit__(self, *_):
         self.process.stdin.close()
         self.process.stdout.close()
-        assert self.process.wait(30) == 0
+        assert self.process.wait() == 0
 
     def send(self, text):
         self.process.stdin.write(text.encode() + b"\n")

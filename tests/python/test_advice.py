@@ -2,11 +2,9 @@
 file systems without locks, logs that a kill has cut. Nothing is left behind that stops the next run."""
 
 import json
-import os
-import subprocess
 
 import pytest
-from conftest import PROGRAM, ROOT
+from conftest import ROOT, launched
 
 SMALL = ROOT / "scenes" / "small.yaml"
 TINY = ["--set", "basin.theta.count=8", "--set", "basin.velocity.count=8", "--set", "basin.icm={theta: 40, velocity: 40}"]
@@ -32,9 +30,8 @@ def test_no_scene_of_the_repository_has_keys_that_do_nothing(kapitza, tmp_path):
 
 def test_a_file_system_without_locks(kapitza, tmp_path):
     """The empty checkpoint stayed and stopped the next run."""
-    done = subprocess.run([PROGRAM, "run", SMALL, *TINY], cwd=tmp_path, capture_output=True, text=True,
-                          env=os.environ | {"LD_PRELOAD": str(PROGRAM.parent / "tests" / "no_locks.so")})
-    assert done.returncode == 2 and "cannot be locked: No locks available" in done.stderr, done.stderr
+    done = kapitza("run", SMALL, *TINY, folder=tmp_path, launcher=launched(None, "no_locks"), status=2)
+    assert "cannot be locked: No locks available" in done.stderr, done.stderr
     assert not list(tmp_path.iterdir())
 
 

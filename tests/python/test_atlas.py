@@ -1,13 +1,12 @@
 """The study atlas: curves against the linear equation and the flutter table, lists against `attractors`, ranks, resumed runs."""
 
 import itertools
-import json
 import shutil
 
 import h5py
 import numpy as np
 import pytest
-from conftest import EXTENSIVE, ROOT, datasets, flown, plot, run_scene, run_until_saved, with_extensive
+from conftest import EXTENSIVE, ROOT, datasets, flown, plot, run_scene, with_extensive
 from kapitza import Result, SceneError
 from kapitza.style import name_text
 from serving import Server
@@ -320,14 +319,6 @@ def crossings(curves, x):
         y = ys[at] + (x - xs[at]) / (xs[at + 1] - xs[at]) * (ys[at + 1] - ys[at])
         found += [(*named, one) for one in y if 0 < one < 2]
     return found
-
-
-@pytest.mark.extensive
-def test_a_stopped_run_goes_on(atlas, kapitza, tmp_path):
-    (tmp_path / "s.yaml").write_text(json.dumps(SCENE))
-    run_until_saved("s.yaml", file="s.h5", folder=tmp_path)
-    kapitza("run", "s.yaml", "--resume", ranks=1, folder=tmp_path)
-    assert datasets(tmp_path / "s.h5") == datasets(atlas[2])
 
 
 def test_a_fold_begins_at_each_degenerate_doubling(atlas):

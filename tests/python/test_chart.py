@@ -50,20 +50,11 @@ def test_what_cannot_settle_is_told(chart):
     assert "no damped pendulum 20.00 %" in summary
 
 
-def test_any_number_of_ranks_and_every_view(chart, kapitza, tmp_path):
+def test_any_number_of_ranks_a_stop_and_every_view(chart, kapitza, tmp_path):
     _, _, path = chart
     kapitza("run", path.with_suffix(".yaml"), "-o", "again.h5", ranks=3, folder=tmp_path)
     assert datasets(tmp_path / "again.h5") == datasets(path)
+    assert datasets(stopped_and_resumed(kapitza, tmp_path, SCENE, ranks=3).path) == datasets(path)
     for view in ("ends", "exponent", "settling") if EXTENSIVE else ("ends",):
         done = plot("plane", path, "-o", tmp_path / f"{view}.png", "--view", view, "--dpi", 40)
         assert done.returncode == 0 and (tmp_path / f"{view}.png").stat().st_size > 4000, done.stderr
-
-
-def test_an_interrupted_chart_resumes_on_other_ranks(kapitza, tmp_path):
-    """With the same bytes. Motions of a weakly damped pendulum take so many periods that a stop always comes between two tiles."""
-    axes = {axis: {"parameter": parameter, "min": least, "max": most, "count": 16}
-            for axis, parameter, least, most in (("x", "m", 0.1, 0.3), ("y", "damping", 0.003, 0.005))}
-    scene = {"pendulum": {"k": 0.05, "damping": 0.1, "m": 0},
-             "sweep": {**axes, "measure": ["ends"], "ends": {"theta": np.linspace(0.2, 3, 5).tolist(), "max_period": 8}}}
-    whole, _ = run_scene(kapitza, tmp_path, scene, ranks=2)
-    assert datasets(stopped_and_resumed(kapitza, tmp_path, scene, ranks=3).path) == datasets(whole.path)

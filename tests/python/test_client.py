@@ -3,12 +3,11 @@
 import os
 import signal
 import threading
-import time
 
 import kapitza
 import numpy as np
 import pytest
-from conftest import ROOT
+from conftest import ROOT, wait_for
 from kapitza.client import Client, Ended
 from kapitza.program import command
 
@@ -52,7 +51,7 @@ def test_threads_share_an_engine(engine):
     for thread in threads:
         thread.start()
     for thread in threads:
-        thread.join(60)
+        thread.join()
     assert found == {shape: (shape, "inverted", 129) for shape in shapes}
 
 
@@ -81,9 +80,9 @@ def test_the_end_of_the_process_ends_every_request(engine):
 
     thread = threading.Thread(target=ask, daemon=True)
     thread.start()
-    time.sleep(0.2)
+    wait_for(lambda: engine._client._waiting)  # the frame has been asked for
     os.kill(engine._client._process.pid, signal.SIGKILL)
-    thread.join(30)
+    thread.join()
     assert ends
     with pytest.raises(RuntimeError):
         engine.where(1, 0)

@@ -66,5 +66,5 @@ def test_direct_integration_tells_doubtful_cells_one_by_one(kapitza, tmp_path):
 
 @pytest.mark.extensive
 def test_twenty_random_pendulums():
-    done = subprocess.run([sys.executable, ROOT / "tests" / "tools" / "doubt_coverage.py"], capture_output=True, text=True, check=False)
+    done = subprocess.run([sys.executable, ROOT / "benchmarks" / "doubt_coverage.py"], capture_output=True, text=True, check=False)
     assert done.returncode == 0, done.stdout + done.stderr

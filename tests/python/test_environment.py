@@ -92,15 +92,6 @@ def test_the_time_limit_is_heard_before_modelling(tmp_path):
     assert done.returncode == 75 and "time limit" in done.stderr and not list(tmp_path.iterdir()), done.stderr
 
 
-@pytest.mark.extensive
-def test_a_signal_is_heard_before_modelling(tmp_path):
-    process = subprocess.Popen(SLOW, cwd=tmp_path, stderr=subprocess.PIPE, text=True)
-    time.sleep(0.3)
-    process.send_signal(signal.SIGTERM)
-    _, message = process.communicate()
-    assert process.returncode == 75 and "SIGTERM" in message and not list(tmp_path.iterdir()), message
-
-
 @pytest.mark.parametrize("name", ["SIGINT", "SIGTERM", "SIGUSR1"])
 def test_an_ignored_signal_stays_ignored(tmp_path, name):
     """As below nohup, or after `trap '' INT`."""

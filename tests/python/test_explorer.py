@@ -11,12 +11,11 @@ import time
 from contextlib import suppress
 from pathlib import Path
 
-import h5py
 import numpy as np
 import pytest
 import yaml
-from conftest import PROGRAM, ROOT, with_extensive
-from explorer_page import Server, wait_for
+from conftest import PROGRAM, ROOT, wait_for, with_extensive
+from explorer_page import Server
 from kapitza.explorer.access import Access
 from kapitza.result import Result
 
@@ -96,13 +95,10 @@ def test_set_changes_the_scene():
 
 
 def test_a_newer_frame_ends_the_one_before_and_a_sudden_end_is_said(striped):
-    slow, answers = FRAME | {"pendulum": {"m": 7}, "levels": [8, 4, 2, 1]}, []
-    first = threading.Thread(target=lambda: answers.extend(striped.ask(slow, "slow")))
-    first.start()
-    time.sleep(0.3)
+    slow = striped.answers(FRAME | {"pendulum": {"m": 7}, "levels": [8, 4, 2, 1]}, "slow")
+    assert next(slow)[0]["answer"] == "catalogue"  # it is at work
     assert striped.ask(FRAME | {"pendulum": {"m": 1}}, "slow")[-1][0]["answer"] == "frame"
-    first.join(20)
-    assert answers[-1][0]["answer"] == "ended"
+    assert list(slow)[-1][0]["answer"] == "ended"
     ended = striped.ask(FRAME | {"pendulum": {"m": 9}}, "slow")[-1][0]
     assert (ended["answer"], ended["message"]) == ("error", "out of memory")
     assert striped.ask(FRAME | {"pendulum": {"m": 1}}, "slow")[-1][0]["answer"] == "frame"
@@ -110,11 +106,10 @@ def test_a_newer_frame_ends_the_one_before_and_a_sudden_end_is_said(striped):
 
 
 def test_a_program_that_does_not_hear_is_replaced(striped):
-    deaf = []  # what it was asked for has ended, as if it had heard
-    threading.Thread(target=lambda: deaf.extend(striped.ask(FRAME | {"pendulum": {"m": 6}}, "deaf"))).start()
-    time.sleep(0.3)
+    deaf = striped.answers(FRAME | {"pendulum": {"m": 6}, "levels": [2, 1]}, "deaf")
+    assert next(deaf)[0]["answer"] == "catalogue"
     assert striped.ask({"request": "cancel"}, "deaf")[-1][0]["answer"] == "ended"
-    assert wait_for(lambda: deaf and deaf[-1][0]["answer"] == "ended", 20)
+    assert list(deaf)[-1][0]["answer"] == "ended"  # as if it had heard
     assert striped.ask(FRAME | {"pendulum": {"m": 1}}, "deaf")[-1][0]["answer"] == "frame"
 
 
@@ -230,7 +225,7 @@ def test_few_descriptors_are_an_answer_not_a_traceback(tmp_path):
             assert running.request(f"ask?view={name}", {"request": "quit"})[0] in (200, 400)
         except (OSError, ValueError):
             pass  # turned away, or several answers
-    assert wait_for(lambda: answers(running), 30)
+    assert wait_for(lambda: answers(running))
     _ = [stranger.close() for stranger in strangers]
     assert running.end() == (0, "")
 
@@ -252,13 +247,12 @@ def test_it_leaves_no_process_and_no_file_behind(tmp_path, number):
     slow = FRAME | {"rows": 2000, "columns": 2000, "pendulum": PENDULUM | {"quality_factor": 150}}
     asked = threading.Thread(target=lambda: attempt(running.ask, slow))
     asked.start()
-    time.sleep(0.5)
+    assert wait_for(running.children)
     computing = running.children()
-    assert computing
     running.process.send_signal(number)
     running.process.communicate()
-    asked.join(30)
-    assert wait_for(lambda: not any(parent(process) for process in computing), 10)
+    asked.join()
+    assert wait_for(lambda: not any(parent(process) for process in computing))
     assert not list(tmp_path.iterdir())
 
 
@@ -280,39 +274,19 @@ def attempt(call, *arguments):
 
 
 @pytest.mark.extensive
-def test_a_result_opens_with_what_lies_over_its_basins(small_result, tmp_path):
-    shutil.copy(small_result, tmp_path / "more.h5")
-    with h5py.File(tmp_path / "more.h5", "a") as file:
-        saddles, manifolds = file.create_group("saddles"), file.create_group("manifolds")
-        saddles["strobe_theta"], saddles["strobe_velocity"] = [[0.5, np.nan], [1.0, 2.0]], [[0.1, np.nan], [0.2, 0.3]]
-        manifolds["theta"], manifolds["velocity"] = [0.0, 0.5, 3.1, -3.1, 1.0, 1.5], [0.0, 0.1, 0.2, 0.3, 0.4, 0.5]
-        manifolds["branch"] = [0, 0, 0, 0, 1, 1]
-        manifolds["arc_length"] = np.zeros(6)
-        for name, dtype in (("saddle", "i4"), ("polyline", "i4"), ("kind", "i1")):
-            manifolds[name] = np.zeros(6, dtype)
-        for name, dtype in (("period", "i4"), ("winding", "i4"), ("index", "i1")):
-            saddles[name] = np.ones(2, dtype)
-        saddles["name"] = ["unstable", "unstable"]
-        for group, sizes in ((saddles, {"saddle": 2, "phase": 2}), (manifolds, {"point": 6})):
-            variables = list(group.values())
-            for axis, (name, size) in enumerate(sizes.items()):
-                group[name] = np.arange(size)
-                group[name].make_scale(name)
-                for variable in (variable for variable in variables if axis < variable.ndim):
-                    variable.dims[axis].attach_scale(group[name])
-        saddles["pair"] = np.arange(2)
-        saddles["pair"].make_scale("pair")
-        for name in ("multiplier_re", "multiplier_im"):
-            saddles[name] = np.ones((2, 2))
-            saddles[name].dims[0].attach_scale(saddles["saddle"])
-            saddles[name].dims[1].attach_scale(saddles["pair"])
-    running = Server(tmp_path / "more.h5")
+def test_a_result_opens_with_what_lies_over_its_basins(model):
+    window = {"velocity": {"min": -2, "max": 2}}
+    result = model(PENDULUM, basin={"theta": {"count": 8}, "velocity": window["velocity"] | {"count": 8}, "method": "direct"},
+                   saddles=window, manifolds={"length": 1})
+    running = Server(result.path)
     state, text = running.request("state", {})[1], running.request("scene", VIEW)[1]["text"]
     assert running.end()[0] == 0
-    assert state["title"] == "A small look well inside the stable zone" and state["pendulum"]["quality_factor"] == 5
-    assert state["overlays"]["saddles"]["points"] == [[0.5, 0.1], [1.0, 0.2], [2.0, 0.3]]
-    assert state["overlays"]["manifolds"]["lines"] == [[[0, 0], [0.5, 0.1], [3.1, 0.2]], [[1, 0.4], [1.5, 0.5]]]
-    assert "max_periods" not in text
+    saddles, manifolds = result.group("saddles"), result.group("manifolds")
+    assert state["pendulum"]["quality_factor"] == 5 and "max_periods" not in text
+    assert state["overlays"]["saddles"]["points"] == np.column_stack([saddles["strobe_theta"], saddles["strobe_velocity"]]).tolist()
+    lines = state["overlays"]["manifolds"]["lines"]
+    assert len(lines) >= 16 and lines[0][0] == [manifolds["theta"].values[0], manifolds["velocity"].values[0]]
+    assert all(np.abs(np.diff(line, axis=0)[:, 0]).max() < np.pi for line in lines)  # cut where the angle wraps
 
 
 @pytest.mark.parametrize(("arguments", "message"), with_extensive(

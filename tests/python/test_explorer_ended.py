@@ -2,7 +2,7 @@
 
 import matplotlib.image
 import numpy as np
-from explorer_page import wait_for
+from conftest import wait_for
 from kapitza.explorer.access import Access
 
 pytest_plugins = ("explorer_page",)
@@ -91,7 +91,7 @@ def test_the_bob_has_the_colour_of_its_end_where_nothing_moves(page):
         $('pendulum').height);
         for (let i = 0; i < data.length; i += 4) if (data[i] === r && data[i + 1] === g && data[i + 2] === b) return true;
         return false; })(arguments[0])"""
-    assert wait_for(lambda: page.run(drawn, [int(colour[at:at + 2], 16) for at in (1, 3, 5)]), 5)
+    assert wait_for(lambda: page.run(drawn, [int(colour[at:at + 2], 16) for at in (1, 3, 5)]))
 
 
 def test_an_axis_has_room_for_its_numbers(modules):

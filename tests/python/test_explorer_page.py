@@ -3,7 +3,6 @@ double of the program (tests/tools/fake_serve.py), whose basins are stripes alon
 
 import json
 import re
-import time
 import xml.etree.ElementTree as ElementTree
 import zipfile
 
@@ -12,7 +11,8 @@ import mpmath
 import numpy as np
 import pytest
 import yaml
-from explorer_page import Page, wait_for
+from conftest import wait_for
+from explorer_page import Page
 from kapitza.explorer.picture import scene_in
 
 pytest_plugins = ("explorer_page",)
@@ -156,10 +156,10 @@ def test_dive_goes_to_a_boundary_between_two_starts(page):
     page.press("dive")
     for across in np.linspace(0.52, 0.58, 7):
         page.hand(across, 0.5, across, 0.5)
-        time.sleep(0.3)
+        page.wait()
         if page.run("!explorer.basins.onClick"):
             break
-    assert wait_for(lambda: page.run("explorer.state.window.theta.width") < 1e-3, 60)
+    assert wait_for(lambda: page.run("explorer.state.window.theta.width") < 1e-3)
     page.key("Escape")
     page.wait()
     width = page.run("explorer.state.window.theta.width")
@@ -252,7 +252,7 @@ def test_a_slow_frame_can_be_cancelled(page):
     page.choose("value-m", "7")
     assert wait_for(lambda: not page.run("$('cancel').disabled"))
     page.key("Escape")
-    assert "Cancelled" in page.wait(10)
+    assert "Cancelled" in page.wait()
     page.choose("value-m", "0.3")
     page.wait()
 
@@ -342,8 +342,8 @@ def test_pictures_and_tables_are_saved(page, webgl, folder):
 @pytest.mark.extensive
 def test_films_are_saved(page, webgl, folder):
     _ = page.choose("film-count", "3"), page.press("film-loop")
-    with zipfile.ZipFile(page.saved("film-png", folder / "film.zip", 60)) as film:
+    with zipfile.ZipFile(page.saved("film-png", folder / "film.zip")) as film:
         assert film.testzip() is None and film.namelist() == [f"film-00{n}.png" for n in range(4)]  # there and back
     for kind in ("webm", "mp4"):
-        assert page.saved(f"film-{kind}", folder / f"film.{kind}", 60).stat().st_size > 2000  # a head without pictures has 110 bytes
+        assert page.saved(f"film-{kind}", folder / f"film.{kind}").stat().st_size > 2000  # a head without pictures has 110 bytes
         assert wait_for(lambda: page.run("$('film-state').textContent") == "")

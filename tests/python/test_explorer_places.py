@@ -6,7 +6,8 @@ import re
 
 import numpy as np
 import pytest
-from explorer_page import Page, wait_for
+from conftest import wait_for
+from explorer_page import Page
 
 pytest_plugins = ("explorer_page",)
 TURN = 2 * np.pi
@@ -34,7 +35,8 @@ def test_a_plain_deep_picture_says_where_it_is_and_goes_to_a_boundary(page):
     assert wait_for(lambda: not page.run("document.querySelector('.inset').hidden || document.querySelector('.offer').hidden"))
     width = page.run("explorer.state.window.theta.width")
     page.run("document.querySelector('.offer').click()")
-    assert wait_for(lambda: len(page.shares()) > 1 and page.state() == "done")
+    assert wait_for(lambda: len(page.shares()) > 1)
+    page.wait()
     assert page.run("document.querySelector('.offer').hidden") and page.run("explorer.state.window.theta.width") == pytest.approx(width)
     page.run("document.querySelector('.inset').click()")
     assert page.window()["theta"]["min"] == pytest.approx(-np.pi) and wait_for(lambda: page.run("document.querySelector('.inset').hidden"))
@@ -249,7 +251,7 @@ def test_a_phone_reaches_every_control(page):
         with page.screen(width, 800, mobile=True):
             if width == 390:
                 _ = page.press("map-shown"), page.press("values-shown")
-            assert wait_for(lambda: page.run(script) == [], 5), (width, page.run(script))
+            assert wait_for(lambda: page.run(script) == []), (width, page.run(script))
             page.run("document.body.dataset.story = 'told'")  # its sentence is as wide as the screen, and in sight
             sentence = page.run("(({width, bottom}) => [width, bottom])($('story-words').getBoundingClientRect())")
             page.run("delete document.body.dataset.story")

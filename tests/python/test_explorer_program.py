@@ -5,8 +5,8 @@ import json
 import numpy as np
 import pytest
 import yaml
-from conftest import ROOT
-from explorer_page import Page, Server, browser, wait_for
+from conftest import ROOT, wait_for
+from explorer_page import Page, Server, browser
 from kapitza.result import Result
 
 SMALL = ROOT / "scenes" / "small.yaml"

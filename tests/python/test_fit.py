@@ -1,18 +1,15 @@
 """Pendulums from tracks: the truth lies within the stated errors, and what a model cannot describe is said."""
 
 import subprocess
-import sys
 from functools import partial
 
 import kapitza
 import numpy as np
 import pytest
-from conftest import EXTENSIVE, PROGRAM, ROOT, run_script, with_extensive
+from conftest import EXTENSIVE, PROGRAM, run_script, with_extensive
+from fit_coverage import DECAY, FRICTION, NOISE, counted, track
 from kapitza import fitting
 from kapitza.least_squares import half_width
-
-sys.path.insert(0, str(ROOT / "tests" / "tools"))
-from fit_coverage import DECAY, FRICTION, NOISE, counted, track  # noqa: E402
 
 
 def test_the_equation_is_that_of_the_program():

@@ -35,7 +35,7 @@ def test_a_log_tells_stages_and_the_end(kapitza, tmp_path):
 def test_a_log_goes_on_and_tells_how_a_run_was_stopped(kapitza, tmp_path):
     log = ["--log", "log.jsonl"]
     slow = ["--set", "basin.method=direct", "--set", "numerics.steps_per_period=1000"]
-    run_until_saved(SMALL, *slow, *log, file="small.h5", folder=tmp_path)
+    run_until_saved(kapitza, SMALL, *slow, *log, file="small.h5", folder=tmp_path)
     first = events(tmp_path / "log.jsonl")
     assert first[-1]["status"] == 75 and "stopped by SIGUSR1" in first[-1]["message"]
     kapitza("run", SMALL, *log, "-o", "other.h5", folder=tmp_path)

@@ -7,7 +7,7 @@ import subprocess
 from concurrent.futures import ThreadPoolExecutor
 
 import pytest
-from conftest import EXTENSIVE, PROGRAM, datasets, with_extensive
+from conftest import EXTENSIVE, PROGRAM, datasets, launched, with_extensive
 
 PLACES = 60 if EXTENSIVE else 2
 FOREVER = 10**12
@@ -33,9 +33,7 @@ def result(folder):
 
 def run(folder, *words, **settings):
     """Two ranks with the malloc that fails on purpose (tests/tools/failing_memory.c)."""
-    exports = {"LD_PRELOAD": PROGRAM.parent / "tests" / "failing_memory.so"}
-    exports |= {f"KZ_FAIL_{name}": value for name, value in settings.items()}
-    launcher = ["mpirun", "-n", "2", *(word for pair in exports.items() for word in ("-x", "=".join(map(str, pair))))]
+    launcher = launched(2, "failing_memory", **{f"FAIL_{name}": value for name, value in settings.items()})
     return subprocess.run([*launcher, PROGRAM, "run", "scene.yaml", "-o", "x.h5", *words], cwd=folder, capture_output=True, text=True)
 
 

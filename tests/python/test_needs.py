@@ -13,7 +13,7 @@ GRAVITY = 9.80665
 
 
 def ask(*words):
-    return subprocess.run([PROGRAM, "needs", *words], capture_output=True, text=True, timeout=60)
+    return subprocess.run([PROGRAM, "needs", *words], capture_output=True, text=True)
 
 
 def test_the_slow_equation_gives_the_smallest_amplitude_of_a_fast_pivot():
@@ -23,16 +23,6 @@ def test_the_slow_equation_gives_the_smallest_amplitude_of_a_fast_pivot():
     assert high == pytest.approx(0.2 * 0.45396, rel=1e-3)  # Mathieu's equation without gravity: q = 0.90805
     assert found["flutters"][0] == pytest.approx(high, rel=1e-6) and found["flutters"][1] > high
     assert found["stands_g"][0] == pytest.approx(low * (2 * math.pi * 400) ** 2 / GRAVITY)
-
-
-@pytest.mark.extensive
-def test_it_says_the_limits_that_check_says():
-    standing = ask("--length", "20", "cm", "--frequency", "3000 rpm").stdout.splitlines()[2]
-    few = ["--set", "basin.theta.count=4", "--set", "basin.velocity.count=4"]
-    checked = subprocess.run([PROGRAM, "check", ROOT / "scenes" / "laboratory.yaml", *few],
-                             capture_output=True, text=True, timeout=60).stdout
-    low, high = (word for word in standing.split() if word.replace(".", "").isdigit())
-    assert f"Rest upside down: stable (for amplitude from {low} mm to {high} mm)" in checked
 
 
 @pytest.mark.parametrize("quality", ["3", "200"])

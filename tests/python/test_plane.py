@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from conftest import datasets, refused_scene, run_scene, run_until_saved
+from conftest import datasets, refused_scene, run_scene, stopped_and_resumed
 
 PENDULUM = {"k": 0.05, "damping": 0.2, "m": 0.3}
 X, Y = {"parameter": "m", "min": 0.2, "max": 0.6, "count": 6}, {"parameter": "damping", "min": 0.1, "max": 0.3, "count": 3}
@@ -60,10 +60,7 @@ def test_any_number_of_ranks_and_a_stop(plane, kapitza, tmp_path):
     scene = plane.path.with_suffix(".yaml")
     kapitza("run", scene, "-o", "again.h5", ranks=3, folder=tmp_path)
     assert datasets(tmp_path / "again.h5") == datasets(plane.path)
-    run_until_saved(scene, "-o", "stopped.h5", "--set", "sweep.starts=512", file="stopped.h5", folder=tmp_path, ranks=1)
-    kapitza("run", scene, "-o", "stopped.h5", "--set", "sweep.starts=512", "--resume", ranks=2, folder=tmp_path)
-    kapitza("run", scene, "-o", "whole.h5", "--set", "sweep.starts=512", folder=tmp_path)
-    assert datasets(tmp_path / "stopped.h5") == datasets(tmp_path / "whole.h5")
+    assert datasets(stopped_and_resumed(kapitza, tmp_path, scene.read_text(), ranks=2).path) == datasets(plane.path)
 
 
 def test_smallest_shocks_over_a_plane(kapitza, tmp_path):

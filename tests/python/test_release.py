@@ -8,12 +8,12 @@ import kapitza as kapitza_package
 import numpy as np
 import own_orbit
 import pytest
-from conftest import EXTENSIVE
-from rigs import BETA, LINEAR, PENDULUM, SMOOTH, WINDOW, K, M, run, step
+from conftest import EXTENSIVE, flown
+from rigs import BETA, LINEAR, PENDULUM, SMOOTH, WINDOW, K, M, run
 
 
-def released(theta, velocity, phase, ramp, steps=1000):
-    """States at the strobe after which the drive has its final form, by Runge and Kutta."""
+def released(theta, velocity, phase, ramp):
+    """States at the strobe after which the drive has its final form, flown."""
     length = ramp["periods"] if ramp else 0
 
     def slope(t, x):
@@ -21,15 +21,13 @@ def released(theta, velocity, phase, ramp, steps=1000):
         rest = 1 - (s * s * (3 - 2 * s) if ramp and ramp.get("shape") == "smooth" else s)
         beta = BETA + ((ramp["from"] - BETA) * rest if ramp and ramp["key"] == "damping" else 0)
         m = M + ((ramp["from"] - M) * rest if ramp and ramp["key"] == "drive_amplitude" else 0)
-        return np.array([x[1], -beta * x[1] - (K - m * np.cos(t)) * np.sin(x[0])])
-    ends = sorted({2 * math.pi * n for n in range(1, max(1, math.ceil(length)) + 1)} | ({2 * math.pi * length} - {0.0}))
-    t, x = phase, np.array([theta, velocity])
-    for end in ends:
-        h = (end - t) / steps
-        for i in range(steps):
-            x = step(slope, t + i * h, x, h)
-        t = end
-    return x
+        angle, speed = x.reshape(2, -1)
+        return np.concatenate([speed, -beta * speed - (K - m * np.cos(t)) * np.sin(angle)])
+    ends = [phase, *sorted({2 * math.pi * max(1, math.ceil(length))} | ({2 * math.pi * length} - {0.0}))]  # a ramp has a corner at its end
+    x = np.concatenate([theta, velocity])
+    for begin, end in zip(ends, ends[1:], strict=False):
+        x = flown(lambda t, u, begin=begin: slope(begin + t, u), end - begin, x, 1e-11)
+    return x.reshape(2, -1)
 
 
 @pytest.mark.parametrize("phase, ramp", [(math.pi / 2, None), (0, LINEAR), (1.0, SMOOTH)])

@@ -21,7 +21,7 @@ def test_a_run_that_is_stopped_again_and_again_ends(kapitza, tmp_path):
     (tmp_path / "s.yaml").write_text(SCENE)
     kapitza("run", "s.yaml", "-o", "undisturbed.h5", ranks=2, folder=tmp_path)
     for ranks in range(1, STOPS + 1):
-        run_until_saved("s.yaml", "--resume", file="s.h5", folder=tmp_path, ranks=ranks)
+        run_until_saved(kapitza, "s.yaml", "--resume", file="s.h5", folder=tmp_path, ranks=ranks)
     kapitza("run", "s.yaml", "--resume", ranks=2, folder=tmp_path)
     assert datasets(tmp_path / "s.h5") == datasets(tmp_path / "undisturbed.h5")
     assert not (tmp_path / "s.h5.checkpoint").exists()

@@ -7,8 +7,8 @@ import math
 import kapitza as kapitza_package
 import numpy as np
 import pytest
-from conftest import ROOT, refused_scene, with_extensive
-from rigs import LINEAR, PENDULUM, RIGS, SMOOTH, WINDOW, period, run, step
+from conftest import ROOT, flown, refused_scene, with_extensive
+from rigs import LINEAR, PENDULUM, RIGS, SMOOTH, WINDOW, period, run
 from serving import Server
 
 
@@ -140,14 +140,9 @@ def test_an_oscillating_torque_is_that_of_the_equation(kapitza, tmp_path, torque
     found = run(kapitza, tmp_path, scene)["attractors"]
     t0 = (-amplitude / (1 + beta**2), amplitude * beta / (1 + beta**2))  # g = a cos t + b sin t and its slope at t = 0
     x = np.array([found["strobe_theta"][0, 0] + t0[0], found["strobe_velocity"][0, 0] + t0[1]])
-    start, steps = x.copy(), 1500 * int(found["period"][0])
-    h = 2 * math.pi * int(found["period"][0]) / steps
-
-    def slope(t, y):
-        return np.array([y[1], torque + amplitude * math.cos(t) - beta * y[1] - k * math.sin(y[0])])
-    for i in range(steps):
-        x = step(slope, i * h, x, h)
-    assert abs(math.remainder(x[0] - start[0], 2 * math.pi)) < 1e-9 and abs(x[1] - start[1]) < 1e-9
+    end = flown(lambda t, y: [y[1], torque + amplitude * math.cos(t) - beta * y[1] - k * math.sin(y[0])],
+                2 * math.pi * int(found["period"][0]), x, 1e-12)
+    assert abs(math.remainder(end[0] - x[0], 2 * math.pi)) < 1e-9 and abs(end[1] - x[1]) < 1e-9
 
 
 @pytest.mark.parametrize("name", with_extensive(["tilted"], ["square"]))

@@ -51,7 +51,7 @@ def test_resume_of_a_complete_file_is_success_at_once(kapitza, tmp_path):
 def test_a_stop_saves_and_resume_ends_with_the_same_bytes(kapitza, tmp_path):
     none = kapitza("run", SMALL, *SLOW, "--time-limit", "0.001", ranks=2, folder=tmp_path, status=75)
     assert none.stderr == "kapitza: stopped by the time limit of 0.001 s; nothing was saved\n" and not list(tmp_path.iterdir())
-    errors = run_until_saved(SMALL, *SLOW, file="small.h5", folder=tmp_path)
+    errors = run_until_saved(kapitza, SMALL, *SLOW, file="small.h5", folder=tmp_path)
     assert errors.count("\n") == 1 and "error" not in errors
     assert sorted(path.name for path in tmp_path.iterdir()) == ["small.h5.checkpoint"]
     other = kapitza("run", SMALL, *SLOW, "--resume", "--set", "basin.max_periods=1999", folder=tmp_path, status=2)

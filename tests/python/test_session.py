@@ -5,7 +5,6 @@ import os
 import signal
 import subprocess
 import sys
-import time
 
 import h5py
 import kapitza
@@ -14,7 +13,7 @@ import pandas
 import pytest
 import xarray
 import yaml
-from conftest import ROOT
+from conftest import ROOT, wait_for
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from kapitza.compare import match_attractors
@@ -91,8 +90,7 @@ def test_ctrl_c_keeps_what_is_finished(tmp_path):
     variables = os.environ | {"PYTHONPATH": str(ROOT / "python")}
     process = subprocess.Popen([sys.executable, "-c", INTERRUPTED, SMALL], cwd=tmp_path, env=variables, stdout=subprocess.PIPE, text=True)
     checkpoint = tmp_path / "out.h5.checkpoint"
-    while process.poll() is None and not (checkpoint.exists() and checkpoint.stat().st_blocks > 64):
-        time.sleep(0.05)
+    wait_for(lambda: process.poll() is not None or (checkpoint.exists() and checkpoint.stat().st_blocks > 64))
     process.send_signal(signal.SIGINT)
     said, _ = process.communicate()
     assert said == "stopped; finished work is kept in out.h5.checkpoint, and resume=True goes on from it\n"

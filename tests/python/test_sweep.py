@@ -5,7 +5,7 @@ import json
 import h5py
 import numpy as np
 import pytest
-from conftest import EXTENSIVE, ROOT, datasets, plot, run_until_saved
+from conftest import EXTENSIVE, ROOT, datasets, plot, run_scene, stopped_and_resumed
 
 REFERENCE = json.loads((ROOT / "tests" / "literature" / "reference.json").read_text())
 KINDS = ["left_the_range", "fold", "period_doubling", "neimark_sacker", "symmetry_breaking", "not_located"]
@@ -320,11 +320,5 @@ ALL = "attractors, basin_fractions, flutter_amplitude, release_angle, strobe"
 def test_same_bytes_on_any_number_of_ranks_and_resumed(kapitza, tmp_path):
     text = SCENE.format(measure=ALL, low=0.46, high=0.48, count=2, parameter="drive_amplitude", q=5, omega=11,
                         more=", starts: 64, transient: 100, samples: 16")
-    (tmp_path / "sweep.yaml").write_text(text)
-    kapitza("run", "sweep.yaml", "-o", "one.h5", ranks=1, folder=tmp_path)
-    kapitza("run", "sweep.yaml", "-o", "three.h5", ranks=3, folder=tmp_path)
-    one = datasets(tmp_path / "one.h5")
-    assert datasets(tmp_path / "three.h5") == one
-    run_until_saved("sweep.yaml", "-o", "resumed.h5", folder=tmp_path, file="resumed.h5")
-    kapitza("run", "sweep.yaml", "-o", "resumed.h5", "--resume", ranks=2, folder=tmp_path)
-    assert datasets(tmp_path / "resumed.h5") == one
+    one, three = (datasets(run_scene(kapitza, tmp_path, text, ranks=ranks)[0].path) for ranks in (1, 3))
+    assert one == three == datasets(stopped_and_resumed(kapitza, tmp_path, text, ranks=2).path)

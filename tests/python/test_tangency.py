@@ -4,14 +4,13 @@ import math
 import re
 import subprocess
 import sys
-from pathlib import Path
 
 import numpy as np
 import pytest
-from conftest import datasets, refused_scene, run_scene
+from conftest import ROOT, datasets, refused_scene, run_scene
 from kapitza.plots import line
 
-TOOL = Path(__file__).parents[1] / "tools" / "tangency_scipy.py"
+TOOL = ROOT / "benchmarks" / "tangency_scipy.py"
 SCIPY = 0.058589688430988  # of that tool, for k = 1, beta = 0.02
 
 

@@ -1,6 +1,5 @@
 """The trade between speed and accuracy: the study, the cache of true labels, and basin.accuracy."""
 
-import signal
 import subprocess
 import sys
 
@@ -8,15 +7,13 @@ import h5py
 import matplotlib.image
 import numpy as np
 import pytest
-from conftest import PROGRAM, ROOT, datasets, plot, runs_until_saved, saved_bytes
+from conftest import ROOT, datasets, plot, stopped_in_each_stage
 from kapitza.layout import VARIABLES
 from kapitza.plots.tradeoff import WAYS, way
 
-sys.path.insert(0, str(ROOT / "benchmarks"))
-
 SMALL = ROOT / "scenes" / "small.yaml"
 SETTINGS = "tradeoff={samples: 60, settings: [direct-24, icm-500, processed-1e-8]}"
-COVERAGE = ROOT / "tests" / "tools" / "reference_coverage.py"
+COVERAGE = ROOT / "benchmarks" / "reference_coverage.py"
 TIMING = {"tradeoff/seconds", "tradeoff/seconds_per_million_cells", "tradeoff/pareto"}
 WINDOW = ("--set", "basin={theta: {count: 60}, velocity: {min: -2, max: 2, count: 60}, accuracy: %s, "
                    "attractors: {starts: 2048}}")
@@ -50,38 +47,10 @@ def test_group_holds_what_the_contract_says(reference):
         assert np.all(np.isnan(group["wrong_distance"][:]) == (wrong == 0))
 
 
-@pytest.mark.extensive
-@pytest.mark.parametrize("ranks", [3])  # 1 and 2 in the stopped study
-def test_any_number_of_ranks_gives_the_same(kapitza, tmp_path, reference, ranks):
-    assert untimed(trade(kapitza, tmp_path, "some.h5", ranks=ranks)) == untimed(reference)
-
-
 def test_a_stopped_study_is_resumed(kapitza, tmp_path, reference):
-    """Stopped wherever a growing limit finds it, and resumed on other numbers of ranks until it is complete."""
-    statuses, limit = [], 0.3
-    while not statuses or statuses[-1] == 75:
-        done = kapitza("run", SMALL, "-o", "two.h5", "--set", "pendulum.drive_amplitude=0.46", "--set", SETTINGS, "--resume",
-                       "--time-limit", f"{limit:.3f}", ranks=1 + len(statuses) % 3, folder=tmp_path, status=None)
-        statuses.append(done.returncode)
-        limit *= 2
-    assert statuses[-1] == 0 and 75 in statuses
-    assert untimed(tmp_path / "two.h5") == untimed(reference)
-
-
-@pytest.mark.extensive
-def test_a_killed_study_is_resumed(tmp_path, reference):
-    """Killed whenever a few tiles more are saved, on one rank, until it gets through."""
-    command = [PROGRAM, "run", SMALL, "-o", "two.h5", "--set", "pendulum.drive_amplitude=0.46", "--set", SETTINGS, "--resume"]
-    checkpoint, kills = tmp_path / "two.h5.checkpoint", 0
-    while True:
-        before = saved_bytes(checkpoint)
-        process = subprocess.Popen(command, cwd=tmp_path, stdout=subprocess.DEVNULL)
-        if kills == 2 or not runs_until_saved(process, checkpoint, before):
-            break
-        process.send_signal(signal.SIGKILL)
-        process.wait()
-        kills += 1
-    assert process.wait() == 0 and kills == 2
+    """Stopped in each of its stages, and resumed on other numbers of ranks until it is complete."""
+    words = [SMALL, "-o", "two.h5", "--set", "pendulum.drive_amplitude=0.46", "--set", SETTINGS]
+    assert len(stopped_in_each_stage(kapitza, *words, file="two.h5", folder=tmp_path, ranks=[1, 2, 3])) > 3
     assert untimed(tmp_path / "two.h5") == untimed(reference)
 
 
@@ -129,13 +98,6 @@ def test_what_no_other_setting_reaches_is_exact(kapitza, tmp_path):
     with h5py.File(tmp_path / "exact.h5") as file:
         basin = file["basin"].attrs
         assert (basin["setting"], basin["method"]) == ("exact", "exact") and "wrong" not in basin
-
-
-@pytest.mark.extensive
-def test_starts_too_fast_to_judge_are_refused(kapitza, tmp_path):
-    done = kapitza("run", SMALL, "-o", "no.h5", *without_method(0.9), "--set", "basin.velocity.max=1e4", folder=tmp_path, status=2)
-    assert "basin.velocity: 3072 steps a period are too few for reference labels of starts with speed 1e+04" in done.stderr
-    assert list(tmp_path.iterdir()) == []
 
 
 @pytest.mark.parametrize("key", ["basin.method=icm", "basin.icm.theta=500", "numerics.scheme=rk4"])

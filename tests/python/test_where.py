@@ -83,7 +83,7 @@ def test_no_motion_is_followed_for_ever():
     """At the threshold of parametric resonance the multiplier of hanging is 1 to ten digits: its motions come near to nothing."""
     scene = ROOT / "scenes" / "butikov-fig12.yaml"
     words = [PROGRAM, "where", scene, "2.9", "0", "--json", "--set", "basin={velocity: {min: -2, max: 2}, max_periods: 2000}", *QUICK]
-    answer = json.loads(subprocess.run(words, capture_output=True, text=True, timeout=60).stdout)
+    answer = json.loads(subprocess.run(words, capture_output=True, text=True).stdout)
     assert (answer["name"], answer["decided"], answer["near_time"]) == ("down", True, None)
 
 

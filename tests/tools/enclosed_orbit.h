@@ -5,7 +5,6 @@
 
 #include "digits/number.h"
 #include "enclosed.h"
-#include "test.h"
 
 /* z of an orbit, in the coordinates of a set; the same but for a whole turn. */
 static inline void place_of_orbit(const kz_arbitrary *orbit, const kz_enclosure *set, double z[2]) {
@@ -17,7 +16,7 @@ static inline void place_of_orbit(const kz_arbitrary *orbit, const kz_enclosure 
   KZ_NUMBER(part);
   kz_arbitrary_write(orbit, text);
   for (int axis = 0; axis < 2; axis++) {
-    assert_true(kz_number_read(text + axis * (int)(size / 2), &x));
+    if (!kz_number_read(text + axis * (int)(size / 2), &x)) abort();
     for (int i = 0; i < 3; i++) {
       kz_number_of_double((axis ? set->velocity : set->theta)[i], &part);
       kz_number_subtract(&x, &x, &part, BITS);

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """A double of `kapitza serve` (docs/reference/serve.md) without mechanics: its basins are stripes. As the program of an explorer it shows
-what page and server do with what the program gives seldom: slow levels (pendulum m from 5 to 6: 0 to 1 s), deafness (m = 6), slow frames
-(m = 7), refusals (m = 8), a sudden end (m = 9)."""
+what page and server do with what the program gives seldom: slow levels (pendulum m from 5 to 6: 0 to 1 s), deafness after the first level
+(m = 6), slow frames (m = 7), refusals (m = 8), a sudden end (m = 9)."""
 
 import json
 import math
@@ -46,8 +46,6 @@ def label(theta, m):
 def frame(request):
     sequence, view = request["sequence"], request.get("view", "")
     pendulum = {"m": PENDULUM["m"]} | request.get("pendulum", PENDULUM)  # stories have other keys
-    if pendulum["m"] == 6:
-        time.sleep(60)
     if pendulum["m"] == 8:
         return answer("error", sequence, status=2, message="kapitza: error: -:1:418: pendulum.m: must not be 8")
     if pendulum["m"] == 9:
@@ -59,6 +57,8 @@ def frame(request):
     for level in levels:
         if pendulum["m"] == 7 or 5 < pendulum["m"] < 6:
             time.sleep(1.0 if pendulum["m"] == 7 else pendulum["m"] - 5)
+        if pendulum["m"] == 6 and level < levels[0]:
+            time.sleep(60)
         if newest.get(view) != sequence:
             return answer("ended", sequence)
         rows, columns = (math.ceil(request[name] / level) for name in ("rows", "columns"))

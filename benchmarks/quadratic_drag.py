@@ -1,4 +1,4 @@
-"""Which share of labels changes if friction is partly quadratic:  .venv/bin/python tests/tools/quadratic_drag.py [SIDE]
+"""Which share of labels changes if friction is partly quadratic:  scripts/benchmark quadratic_drag [SIDE]
 
 A rig has viscous and quadratic friction,  theta'' + beta theta' + drag |theta'| theta' + (k - m cos t) sin theta = 0.  A scene has the
 viscous friction that loses as much energy in swings of 10 or 40 degrees (`Fit.scene`). Both are followed from SIDE x SIDE starts by
@@ -9,7 +9,6 @@ many labels change anyway.
 import sys
 
 import numpy as np
-from runge_kutta import runge_kutta
 
 # Name -> k, beta, m, largest velocity, drive periods that are followed.
 RIGS = {"Fig. 12": (1 / 121, 1 / 55, 0.3, 2.0, 200),
@@ -17,10 +16,31 @@ RIGS = {"Fig. 12": (1 / 121, 1 / 55, 0.3, 2.0, 200),
 DRAGS = (0.0005, 0.002, 0.01, 0.05)  # per rad; a steel rod of 20 cm with a weight of 30 g has some 0.002
 
 
+def runge_kutta(pendulum, state, periods, steps):
+    """The state, (angle, velocity) or arrays of them, after whole drive periods; angles are not wrapped.
+    `drag`: of friction drag |v| v beside the viscous one."""
+    k, beta, m, drag = (pendulum.get(name, 0) for name in ("k", "beta", "m", "drag"))
+    theta, velocity = state
+    h = 2 * np.pi / steps
+
+    def slope(t, x, v):
+        return v, -(beta + drag * np.abs(v)) * v - (k - m * np.cos(t)) * np.sin(x)
+
+    for i in range(periods * steps):
+        t = (i % steps) * h
+        a = slope(t, theta, velocity)
+        b = slope(t + h / 2, theta + h / 2 * a[0], velocity + h / 2 * a[1])
+        c = slope(t + h / 2, theta + h / 2 * b[0], velocity + h / 2 * b[1])
+        d = slope(t + h, theta + h * c[0], velocity + h * c[1])
+        theta = theta + h / 6 * (a[0] + 2 * b[0] + 2 * c[0] + d[0])
+        velocity = velocity + h / 6 * (a[1] + 2 * b[1] + 2 * c[1] + d[1])
+    return np.array([theta, velocity])
+
+
 def ends(pendulum, starts, periods, steps=40):
     """Where each start ends: 0 down, 1 inverted, else ten times its turns in the last 20 periods."""
-    before = runge_kutta(pendulum, starts, periods - 20, steps, float)
-    theta, _ = runge_kutta(pendulum, before, 20, steps, float)
+    before = runge_kutta(pendulum, starts, periods - 20, steps)
+    theta, _ = runge_kutta(pendulum, before, 20, steps)
     turns = np.rint((theta - before[0]) / (2 * np.pi))
     return np.where(turns != 0, 10 * turns, np.cos(theta) < 0)
 

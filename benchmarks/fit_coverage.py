@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 """How often the stated errors of a fit hold the truth: synthetic tracks with noise, fitted, and counted.
 
-    tests/tools/fit_coverage.py                  100 tracks of each of two pendulums
-    tests/tools/fit_coverage.py --tracks 400     more tracks, for less noise in the count
+    scripts/benchmark fit_coverage                  100 tracks of each of two pendulums
+    scripts/benchmark fit_coverage --tracks 400     more tracks, for less noise in the count
 
 A line for each number of the model: its share of intervals that hold, with the 95 % interval (Clopper and Pearson) of this count.
 """
@@ -14,7 +14,7 @@ from pathlib import Path
 
 import numpy as np
 
-sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "python"))
+sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "python"))
 from kapitza import fitting
 
 NOISE = 2e-3  # rad

@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
 """Does `doubtful_share` understate, and does `exact` err? Random pendulums of no scene against quad precision.
 
-    tests/tools/doubt_coverage.py                              20 pendulums
-    tests/tools/doubt_coverage.py --pendulums 40 --seed 2 --ranks 2
-    tests/tools/doubt_coverage.py --first 14 --samples 400     the last six of them, in less time
-    tests/tools/doubt_coverage.py --hard --pendulums 14        strong damping, strong drive, no gravity, fast starts, boundaries 1e-8 wide
+    scripts/benchmark doubt_coverage                              20 pendulums
+    scripts/benchmark doubt_coverage --pendulums 40 --seed 2 --ranks 2
+    scripts/benchmark doubt_coverage --first 14 --samples 400     the last six of them, in less time
+    scripts/benchmark doubt_coverage --hard --pendulums 14        strong damping and drive, no gravity, fast starts, boundaries 1e-8 wide
 
 For each pendulum one run of the program: `basin` with its doubtful share, and `tradeoff`, which compares the same scheme and steps on
 random cells of the same window by quad precision. A share is understated where the wrong share of the cells of the trade-off is above
@@ -21,8 +21,7 @@ from pathlib import Path
 
 import numpy as np
 
-ROOT = Path(__file__).resolve().parents[2]
-sys.path[:0] = [str(ROOT / "python"), str(ROOT / "tests" / "tools")]
+sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "python"))
 
 from kapitza.script import run_script  # noqa: E402
 from reference_coverage import FAMILIES, PROGRAM, Kapitza, draw, lively_scene  # noqa: E402

@@ -3,7 +3,7 @@
 For a start on the unstable manifold, the drive at which its motion just comes back to the top is found by halving: with more drive it
 goes over, with less it falls back. The lowest of these drives over all starts is the tangency.
 
-    python tests/tools/tangency_scipy.py K BETA LOW HIGH
+    scripts/benchmark tangency_scipy K BETA LOW HIGH
 """
 
 import sys

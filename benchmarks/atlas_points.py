@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 """Compares an atlas with the attractors that many starts end on, at random points of its plane.
 
-    tests/tools/atlas_points.py atlas-blackburn.h5                    100 points, 32,768 starts each
-    tests/tools/atlas_points.py atlas-blackburn.h5 --points 20 --first 80 --processes 2
+    scripts/benchmark atlas_points atlas-blackburn.h5                    100 points, 32,768 starts each
+    scripts/benchmark atlas_points atlas-blackburn.h5 --points 20 --first 80 --processes 2
 
 A point disagrees where an attractor of up to `max_period` periods was found that the list lacks (missing), or where a motion of the list
 cannot be solved for (unsolved). Motions that exist and that no start reached are counted apart: their basins are small. A point whose list
@@ -23,7 +23,7 @@ import h5py
 import numpy as np
 import yaml
 
-ROOT = Path(__file__).resolve().parents[2]
+ROOT = Path(__file__).resolve().parents[1]
 sys.path.insert(0, str(ROOT / "python"))
 from kapitza import Result, SceneError  # noqa: E402
 

@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 """How often the stated 95 % intervals hold: random pendulums of no scene, small samples against large ones.
 
-    tests/tools/reference_coverage.py                              20 pendulums
-    tests/tools/reference_coverage.py --pendulums 40 --seed 2 --ranks 2
+    scripts/benchmark reference_coverage                              20 pendulums
+    scripts/benchmark reference_coverage --pendulums 40 --seed 2 --ranks 2
 
 For each pendulum the program runs three times: `tradeoff` on a sample; `basin.accuracy` with a random accuracy, on a sample of
 its own; `tradeoff` on a large sample, which stands for the real shares. Each run has its own seed, for its cells and for its
@@ -23,8 +23,8 @@ from pathlib import Path
 
 import numpy as np
 
-ROOT = Path(__file__).resolve().parents[2]
-sys.path.insert(0, str(ROOT / "scripts"))
+ROOT = Path(__file__).resolve().parents[1]
+sys.path.insert(0, str(ROOT / "python"))
 
 from kapitza import BadFile, Result  # noqa: E402
 from kapitza.script import run_script  # noqa: E402

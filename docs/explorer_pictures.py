@@ -11,7 +11,7 @@ import tempfile
 import time
 from pathlib import Path
 
-ROOT = Path(__file__).resolve().parents[2]
+ROOT = Path(__file__).resolve().parents[1]
 sys.path[:0] = [str(ROOT / folder) for folder in ("python", "tests/python", "tests/tools")]
 from explorer_page import Page, Server, browser, wait_for  # noqa: E402
 from PIL import Image  # noqa: E402
