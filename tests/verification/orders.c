@@ -51,20 +51,3 @@ TEST(test_orders) {
     assert_true(fabs(order - scheme.order) < (row == kz_scheme_find("processed") ? 1 : 0.4));
   }
 }
-
-/* Undamped, the split schemes conserve area through 1e5 periods and stay where they belong. */
-TEST(test_undamped) {
-  const kz_pendulum pendulum = {1.0 / 121, 0, 0.3};
-  for (int row = 1; row < kz_scheme_count(); row++) {
-    kz_numerics numerics = {.scheme = row, .steps_per_period = 24};
-    kz_flow *flow = kz_flow_create(&pendulum, &numerics);
-    double theta = 3.0, velocity = 0, matrix[4];
-    int64_t turns = 0;
-    kz_advance(flow, 1, 100000, &theta, &velocity, &turns);
-    assert_int_equal(turns, 0);
-    assert_true(fabs(fabs(theta) - M_PI) < 0.5);
-    kz_advance_tangent(flow, 1, 1, &theta, &velocity, &turns, matrix);
-    assert_true(fabs(matrix[0] * matrix[3] - matrix[1] * matrix[2] - 1) < 1e-12);
-    kz_flow_free(flow);
-  }
-}

@@ -31,16 +31,6 @@ static double growth(double k, double beta, double m, double *angle) {
   return log_multiplier;
 }
 
-/* Wronskian: c s' - s c' = 1. */
-TEST(area_is_kept) {
-  for (int i = 0; i < POINTS; i++) {
-    double k = random_between(-2, 20), beta = random_between(0, 1), m = random_between(-5, 5);
-    kz_half_period half = half_period(k, beta, m);
-    double scale = fabs(half.c * half.s_dot) + fabs(half.s * half.c_dot);
-    assert_true(fabs(half.c * half.s_dot - half.s * half.c_dot - 1) < 5e-13 * (1 + scale));
-  }
-}
-
 /* On an exact curve the multiplier is +1 or -1: Floquet's root lies within 1e-10. The curve's zero among c, s, c', s'. */
 static double floquet_zero(int curve, double k, double m) {
   kz_half_period half = half_period(k, 0, m);

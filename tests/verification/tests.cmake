@@ -1,7 +1,6 @@
 kapitza_test(certain LABEL verification LAYER dynamics)
 kapitza_test(depth LABEL verification LAYER app)
 target_include_directories(test_verification_depth PRIVATE ${PROJECT_SOURCE_DIR}/src/study)
-kapitza_test(drives LABEL verification LAYER dynamics)
 kapitza_test(orders LABEL verification LAYER kernel)
 kapitza_test(reference LABEL verification LAYER kernel)
 kapitza_test(stability LABEL verification LAYER analysis)

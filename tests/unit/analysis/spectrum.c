@@ -78,21 +78,6 @@ TEST(analytic_lines_come_back) {
   assert_int_equal(kz_spectrum_dominant(N_LINES, room->amplitude), 1);
 }
 
-TEST(parseval) {
-  kz_record record = closed(6, 0, 0);
-  fill(&record, 0.1, NODDING, 4, 0.7);
-  for (int i = 0; i < 6 * SAMPLES; i++) room->theta[i] = tanh(room->theta[i]); /* every line there is */
-  lines(&record, 6 * SAMPLES / 2);
-  double in_time = 0, in_lines = room->amplitude[0] * room->amplitude[0], last = 0;
-  for (int i = 0; i < 6 * SAMPLES; i++) {
-    in_time += room->theta[i] * room->theta[i] / (6 * SAMPLES);
-    last += (i % 2 ? -1 : 1) * room->theta[i] / (6 * SAMPLES);
-  }
-  for (int j = 1; j < 6 * SAMPLES / 2; j++) in_lines += room->amplitude[j] * room->amplitude[j] / 2;
-  in_lines += last * last;
-  assert_true(fabs(in_lines - in_time) < 1e-12 * in_time);
-}
-
 /* A mean velocity of more than half a turn a drive radian is no angle: it is not wrapped. */
 TEST(mean_velocity_is_not_wrapped) {
   kz_record record = closed(6, 0, 0);
@@ -102,21 +87,6 @@ TEST(mean_velocity_is_not_wrapped) {
   record.velocity = true;
   lines(&record, 20);
   assert_true(fabs(room->amplitude[0] - 5) < 1e-12 && fabs(room->amplitude[1] - NODDING[0].amplitude) < 1e-12);
-}
-
-TEST(mirror_orbit_has_mirrored_lines) {
-  static double amplitude[N_LINES], phase[N_LINES];
-  kz_record record = closed(6, 1.0 / 6, 0), mirror = closed(6, -1.0 / 6, 0);
-  fill(&record, 0.1, WITH_EVEN, 3, 0);
-  lines(&record, N_LINES);
-  memcpy(amplitude, room->amplitude, sizeof amplitude);
-  memcpy(phase, room->phase, sizeof phase);
-  for (int i = 0; i < 6 * SAMPLES; i++) room->theta[i] = -room->theta[i];
-  lines(&mirror, N_LINES);
-  for (int j = 0; j < N_LINES; j++) {
-    assert_true(fabs(room->amplitude[j] - amplitude[j]) < 1e-15);
-    if (amplitude[j] > 1e-5) assert_true(fabs(fabs(room->phase[j] - phase[j]) - PI) < 1e-12);
-  }
 }
 
 TEST(symmetry_is_told_from_even_lines) {

@@ -1,6 +1,7 @@
-/* The message of a failure belongs to the thread that failed. */
+/* The message of a failure belongs to the thread that failed. Lists grow: the sanitizers of the debug build see a write behind their end. */
 #include <pthread.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 #include "../../tools/test.h"
 
@@ -31,4 +32,18 @@ TEST(test_the_first_message_stays) {
   kz_fail(KZ_FAILED, "a consequence");
   assert_string_equal(kz_message(), "the cause");
   kz_message_clear();
+}
+
+/* A list that is exactly as long as its items grows too, whatever its length. */
+TEST(test_any_list_grows) {
+  for (int64_t length = 0; length <= 9; length++) {
+    int64_t *list = length > 0 ? kz_malloc((size_t)length * sizeof *list) : NULL;
+    for (int64_t i = 0; i < length; i++) list[i] = i;
+    for (int64_t n = length; n < 40; n++) {
+      list = kz_grown(list, n, sizeof *list);
+      list[n] = n;
+    }
+    for (int64_t i = 0; i < 40; i++) assert_int_equal(list[i], i);
+    free(list);
+  }
 }

@@ -77,24 +77,6 @@ TEST(test_interpolation) {
   }
 }
 
-/* The catalogue survives its travel as doubles. */
-TEST(test_packing) {
-  kz_dynamics *a = explored(0.46, 1, 3);
-  kz_pendulum pendulum = {1.0 / 121, 1.0 / 55, 0.46};
-  kz_dynamics *b = kz_dynamics_create(&pendulum, numerics(), 12);
-  int64_t size = kz_dynamics_packed_size(a);
-  double *flat = malloc((size_t)size * sizeof *flat), *again = malloc((size_t)size * sizeof *again);
-  kz_dynamics_pack(a, size, flat);
-  kz_dynamics_unpack(b, size, flat);
-  assert_int_equal(kz_dynamics_packed_size(b), size);
-  kz_dynamics_pack(b, size, again);
-  assert_memory_equal(flat, again, (size_t)size * sizeof *flat);
-  free(flat);
-  free(again);
-  kz_dynamics_free(a);
-  kz_dynamics_free(b);
-}
-
 /* Regions that grew with every attractor found are those that grow around all of them at once. */
 TEST(test_regions_know_no_order) {
   enum { N = 20000 / PART, CELLS = PART > 1 ? 150 : 300 };

@@ -31,11 +31,28 @@ static void true_period(const kz_pendulum *pendulum, int64_t n, double *theta, d
   kz_reference_read(n, states, theta, velocity, turns);
 }
 
-static kz_flow *flow_of(int scheme, int steps) {
+static kz_flow *flow_under(const kz_pendulum *pendulum, int scheme, int steps) {
   kz_numerics numerics = {.scheme = scheme, .steps_per_period = steps};
-  kz_flow *flow = kz_flow_create(&PENDULUM, &numerics);
+  kz_flow *flow = kz_flow_create(pendulum, &numerics);
   assert_non_null(flow);
   return flow;
+}
+
+static kz_flow *flow_of(int scheme, int steps) {
+  return flow_under(&PENDULUM, scheme, steps);
+}
+
+/* Drives beyond k - m cos t, which rk4 does not know; number DRIVES is the sine. */
+enum { DRIVES = 4 };
+static kz_pendulum drive(int which) {
+  if (which == DRIVES) return PENDULUM;
+  kz_pendulum p = {.k = 0.05, .beta = 0.1, .m = 0.4};
+  if (which == 0) p.harmonics = 2, p.vertical[1][0] = 0.2, p.vertical[1][1] = -0.1;
+  if (which == 1)
+    p.harmonics = 1, p.unmirrored = 1, p.vertical[0][0] = -0.05, p.horizontal[0][0] = 0.1, p.horizontal[0][1] = 0.07;
+  if (which == 2) p.unmirrored = 1, p.torque = 0.1;
+  if (which == 3) p.harmonics = 7, p.vertical[2][0] = -0.15, p.vertical[4][0] = 0.1, p.vertical[6][1] = 0.05;
+  return p;
 }
 
 /* tests/unit/neighbours.f90 */
@@ -55,23 +72,23 @@ TEST(test_sine) {
   }
 }
 
-/* The image of (-theta, -v) is the mirror image of that of (theta, v), to the bit. */
+/* The image of (-theta, -v) is the mirror image of that of (theta, v), to the bit; of a torque and a drive across none is. */
 TEST(test_mirror) {
-  for (int scheme = 0; scheme < kz_scheme_count(); scheme++) {
+  for (int way = 0; way < (DRIVES + 1) * kz_scheme_count(); way++) {
+    const int scheme = way / (DRIVES + 1), which = way % (DRIVES + 1);
+    if (scheme == 0 && which < DRIVES) continue;
+    const kz_pendulum pendulum = drive(which);
     double a[N], va[N], b[N], vb[N];
     int64_t ta[N], tb[N];
-    const int n = N;
-    kz_flow *flow = flow_of(scheme, 16);
+    int mirrored = 0;
+    kz_flow *flow = flow_under(&pendulum, scheme, 16);
     starts(a, va, ta);
     memcpy(tb, ta, sizeof tb);
-    for (int i = 0; i < n; i++) b[i] = -a[i], vb[i] = -va[i];
-    kz_advance(flow, n, 5, a, va, ta);
-    kz_advance(flow, n, 5, b, vb, tb);
-    for (int i = 0; i < n; i++) {
-      assert_true(a[i] == -b[i] && va[i] == -vb[i]);
-      assert_int_equal(ta[i], -tb[i]);
-      assert_true(fabs(a[i]) <= M_PI);
-    }
+    for (int i = 0; i < N; i++) b[i] = -a[i], vb[i] = -va[i];
+    kz_advance(flow, N, 5, a, va, ta);
+    kz_advance(flow, N, 5, b, vb, tb);
+    for (int i = 0; i < N; i++) mirrored += a[i] == -b[i] && va[i] == -vb[i] && ta[i] == -tb[i] && fabs(a[i]) <= M_PI;
+    assert_int_equal(mirrored, kz_is_mirrored(&pendulum) ? N : 0);
     kz_flow_free(flow);
   }
 }
@@ -118,24 +135,25 @@ TEST(test_tangent_lanes) {
 /* The split schemes contract areas by exactly exp(-2 pi beta) a period; rk4 nearly; the processed one in its own coordinates,
  * in the physical ones but for the truncation of the change of coordinates. */
 TEST(test_determinant) {
-  for (int scheme = 0; scheme < kz_scheme_count(); scheme++) {
+  for (int way = 0; way < (DRIVES + 1) * kz_scheme_count(); way++) {
+    const int scheme = way / (DRIVES + 1), which = way % (DRIVES + 1);
+    if (scheme == 0 && which < DRIVES) continue;
+    const kz_pendulum pendulum = drive(which);
     double theta[N], velocity[N], matrix[N][4];
     int64_t turns[N];
-    const int n = N;
-    kz_flow *flow = flow_of(scheme, scheme == 0 ? 400 : 24);
+    kz_flow *flow = flow_under(&pendulum, scheme, scheme == 0 ? 400 : which < DRIVES ? 150 : 24);
     starts(theta, velocity, turns);
-    kz_advance_tangent(flow, n, 1, theta, velocity, turns, matrix[0]);
-    for (int i = 0; i < n; i++) {
+    kz_advance_tangent(flow, N, 1, theta, velocity, turns, matrix[0]);
+    for (int i = 0; i < N; i++) {
       double determinant = matrix[i][0] * matrix[i][3] - matrix[i][1] * matrix[i][2];
       double scale = fabs(matrix[i][0] * matrix[i][3]) + fabs(matrix[i][1] * matrix[i][2]);
-      double error = fabs(determinant - exp(-2 * M_PI * PENDULUM.beta));
-      assert_true(error <= 400 * EPSILON * scale + (scheme == 0 ? 1e-9 : scheme == kz_scheme_find("processed") ? 1e-8 : 0));
+      double error = fabs(determinant - exp(-2 * M_PI * pendulum.beta));
+      assert_true(error <= 1000 * EPSILON * scale + (scheme == 0 ? 1e-9 : scheme == kz_scheme_find("processed") ? 1e-10 : 0));
     }
     kz_flow_free(flow);
   }
 }
 
-/* The tangent map is the derivative of the map. */
 /* The inverted pendulum at rest stays there exactly, whatever the drive. */
 TEST(test_rest) {
   const kz_pendulum pendulums[] = {{1.0 / 121, 1.0 / 55, 0.3}, {0, 0, 0.46}, {-1, 0.1, 0.6}, {5, 0.1, 0.5}, {0.01, 0.5, 3}};
@@ -188,6 +206,27 @@ TEST(test_choice) {
   assert_int_equal(kz_numerics_choose(&overdamped, 1e-10, 2, &numerics, &error), KZ_REFUSED);
 }
 
+/* Both splittings, of other drives; released.c holds the reference against orbits of many digits. */
+TEST(test_drives) {
+  static const char *const schemes[] = {"split6", "processed"};
+  static const int32_t steps[] = {192, 150};
+  for (int which = 0; which < DRIVES; which += PART > 1 ? 2 : 1) {
+    const kz_pendulum p = drive(which);
+    double theta[N], velocity[N], x[N], v[N];
+    int64_t turns[N];
+    starts(theta, velocity, turns);
+    true_period(&p, 40, theta, velocity, turns);
+    for (int scheme = 0; scheme < 2; scheme++) {
+      kz_flow *flow = flow_under(&p, kz_scheme_find(schemes[scheme]), steps[scheme]);
+      starts(x, v, turns);
+      kz_advance(flow, 40, 1, x, v, turns);
+      kz_flow_free(flow);
+      for (int i = 0; i < 40; i++)
+        assert_true(fabs(remainder(x[i] - theta[i], 2 * M_PI)) < 1e-11 && fabs(v[i] - velocity[i]) < 1e-11);
+    }
+  }
+}
+
 /* An integrator of the sixth order whose rounding is known. */
 typedef struct {
   double scale, rounding;
@@ -218,19 +257,23 @@ TEST(test_search) {
   }
 }
 
+/* The tangent map is the derivative of the map. */
 TEST(test_tangent) {
   const double h = 1e-5;
-  for (int scheme = 0; scheme < kz_scheme_count(); scheme++) {
-    kz_flow *flow = flow_of(scheme, 24);
+  for (int way = 0; way < (DRIVES + 1) * kz_scheme_count(); way++) {
+    const int scheme = way / (DRIVES + 1), which = way % (DRIVES + 1);
+    if (scheme == 0 && which < DRIVES) continue;
+    const kz_pendulum pendulum = drive(which);
+    kz_flow *flow = flow_under(&pendulum, scheme, 24);
     double theta = 0.7, velocity = -0.3, matrix[4], x[4] = {0.7 + h, 0.7 - h, 0.7, 0.7},
            v[4] = {-0.3, -0.3, -0.3 + h, -0.3 - h};
     int64_t turn = 0, turns[4] = {0};
     kz_advance_tangent(flow, 1, 2, &theta, &velocity, &turn, matrix);
     kz_advance(flow, 4, 2, x, v, turns);
-    assert_true(fabs((x[0] - x[1]) / (2 * h) - matrix[0]) < 1e-6);
-    assert_true(fabs((x[2] - x[3]) / (2 * h) - matrix[1]) < 1e-6);
-    assert_true(fabs((v[0] - v[1]) / (2 * h) - matrix[2]) < 1e-6);
-    assert_true(fabs((v[2] - v[3]) / (2 * h) - matrix[3]) < 1e-6);
+    for (int c = 0; c < 2; c++) {
+      assert_true(fabs(remainder(x[2 * c] - x[2 * c + 1], 2 * M_PI) / (2 * h) - matrix[c]) < 1e-6);
+      assert_true(fabs((v[2 * c] - v[2 * c + 1]) / (2 * h) - matrix[2 + c]) < 1e-6);
+    }
     kz_flow_free(flow);
   }
 }

@@ -135,6 +135,31 @@ TEST(long_text_comes_back) {
   free(scene);
 }
 
+/* What one study reads of another: lengths and single numbers. */
+TEST(numbers_and_lengths_are_read_before_the_end) {
+  const double velocities[2][3] = {{1, 2, 3}, {4, 5, 6}};
+  const int32_t periods[2] = {3, 7};
+  double value;
+  int64_t length[2];
+  kz_store *store = begin();
+  assert_int_equal(kz_store_dimension(store, "attractors", "attractor", 2, NULL), KZ_OK);
+  assert_int_equal(kz_store_dimension(store, "attractors", "phase", 3, NULL), KZ_OK);
+  assert_int_equal(kz_store_variable(store, "attractors", "period", periods), KZ_OK);
+  assert_int_equal(kz_store_variable(store, "attractors", "strobe_velocity", velocities), KZ_OK);
+  assert_int_equal(kz_store_number(store, "attractors", "period", (int64_t[]){1}, &value), KZ_OK);
+  assert_true(value == 7);
+  assert_int_equal(kz_store_number(store, "attractors", "strobe_velocity", (int64_t[]){1, 2}, &value), KZ_OK);
+  assert_true(value == 6);
+  assert_int_equal(kz_store_length(store, "attractors", "phase", length), KZ_OK);
+  assert_int_equal(kz_store_length(store, "orbit", "time", length + 1), KZ_OK);
+  assert_true(length[0] == 3 && length[1] == 0);
+  assert_int_equal(kz_store_number(store, "attractors", "period", (int64_t[]){2}, &value), KZ_FAILED);
+  kz_message_clear();
+  assert_int_equal(kz_store_number(store, "basin", "theta", (int64_t[]){0}, &value), KZ_FAILED);
+  assert_non_null(strstr(kz_message(), "basin/theta"));
+  kz_store_discard(store);
+}
+
 static void write_catalogue(int64_t n, int64_t n_phases) {
   const char *name[] = {"down", "rotation +1/1"};
   const int8_t centre[] = {0, 2};
