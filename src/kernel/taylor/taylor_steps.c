@@ -83,24 +83,28 @@ OPERATION void set_deep(coefficients *x, int64_t n, double sign, triple total) {
   x->coarse[n] = x->fine[n].high;
 }
 
-#define ORDER(name, i) x->name.KZ_LEVEL[i]
+/* Vectors of orbits beside each other: in doubles all, because the sums of one alone wait for each product. */
+enum { CHAINS = KZ_TAYLOR_LANES / LANES, CHAINS_deep = 1, CHAINS_fine = 1, CHAINS_coarse = CHAINS };
+
+#define EACH _Pragma("GCC unroll 4") for (int64_t j = 0; j < OF_LEVEL(CHAINS_); j++)
+#define ORDER(name, i) x[j].name.KZ_LEVEL[i]
 #define SHARED(name, i) OF_LEVEL(made_)(force->name.high[i], force->name.low[i], force->name.rest[i])
 #define PLAIN(name, i) OF_LEVEL(made_)(force->name[0] i, force->name[1] i, force->name[2] i)
-#define GAIN_along(total, b) OF_LEVEL(gain_)(&total, SHARED(along, i), ORDER(b, n - i))
-#define GAIN_across(total, b) OF_LEVEL(gain_)(&total, SHARED(across, i), ORDER(b, n - i))
-#define GAIN_w(total, b) OF_LEVEL(gain_)(&total, ORDER(b, i), ORDER(w, n - i))
+#define GAIN_along(total, b) EACH OF_LEVEL(gain_)(&total[j], SHARED(along, i), ORDER(b, n - i))
+#define GAIN_across(total, b) EACH OF_LEVEL(gain_)(&total[j], SHARED(across, i), ORDER(b, n - i))
+#define GAIN_w(total, b) EACH OF_LEVEL(gain_)(&total[j], ORDER(b, i), ORDER(w, n - i))
 #define KZ_NEXT OF_LEVEL(next_)
 #define KZ_ARGUMENTS const kz_taylor_force *force, series *x
-#define KZ_SUM(total) OF_LEVEL(number_) total = OF_LEVEL(made_)(0, 0, 0)
+#define KZ_SUM(total) OF_LEVEL(number_) total[OF_LEVEL(CHAINS_)] = {0}
 #define KZ_TERMS for (int64_t i = 0; i <= n; i++)
 #define KZ_GAIN(total, a, b) GAIN_##a(total, b)
 #define KZ_DAMP(total)                                                           \
   for (int64_t i = 0; i <= n && i < (force->has_ramp ? KZ_TAYLOR_RAMP : 1); i++) \
-  OF_LEVEL(gain_)(&total, PLAIN(damping, [i]), ORDER(w, n - i))
+  EACH OF_LEVEL(gain_)(&total[j], PLAIN(damping, [i]), ORDER(w, n - i))
 #define KZ_DAMPS_LATER
 #define KZ_HAS_ACROSS force->has_across
-#define KZ_PUSH(total) OF_LEVEL(gain_)(&total, PLAIN(torque, ), OF_LEVEL(made_)(-1, 0, 0))
-#define KZ_SET(name, sign, total) OF_LEVEL(set_)(&x->name, n + 1, sign 1.0, total)
+#define KZ_PUSH(total) EACH OF_LEVEL(gain_)(&total[j], PLAIN(torque, ), OF_LEVEL(made_)(-1, 0, 0))
+#define KZ_SET(name, sign, total) EACH OF_LEVEL(set_)(&x[j].name, n + 1, sign 1.0, total[j])
 
 #define KZ_LEVEL deep
 #include "motion.inc"
@@ -146,9 +150,9 @@ OPERATION mask is_complete(const series *x, orders of) {
   return is_small(x, of.fine, of.coarse * motion) & is_small(x, of.last, of.tolerance * motion);
 }
 
-OPERATION bool is_any(mask where) {
+OPERATION bool is_any(const mask *where) {
   int64_t bits = 0;
-  for (int i = 0; i < LANES; i++) bits |= where[i];
+  for (int64_t i = 0; i < KZ_TAYLOR_LANES; i++) bits |= where[i / LANES][i % LANES];
   return bits != 0;
 }
 
@@ -166,43 +170,56 @@ OPERATION triple keep(mask where, triple x) {
   return x;
 }
 
-OPERATION void begin(coefficients *x, triple start) {
+OPERATION void begin_with(triple start, coefficients *x) {
   x->deep[0] = start;
   x->fine[0] = upper(start);
   x->coarse[0] = start.part[0];
 }
 
-/* The steps of one vector of orbits; where their series were complete. */
-OPERATION mask advance(int64_t n, orders of, const kz_taylor_force *force, kz_taylor_state *state, int64_t first) {
-  triple theta = load(state->theta, first), w = load(state->w, first), s = load(state->s, first), c = load(state->c, first);
-  mask well = same(0) == same(0);
-  _Alignas(64) series x; /* a vector that crosses lines of the cache takes twice as long */
-  for (int64_t step = 0; step < n && is_any(well); step++) {
-    begin(&x.w, w);
-    begin(&x.s, s);
-    begin(&x.c, c);
-    for (int64_t i = 0; i < of.deep; i++) next_deep(force + step, &x, i);
-    for (int64_t i = of.deep; i < of.fine; i++) next_fine(force + step, &x, i);
-    for (int64_t i = of.fine; i < of.last; i++) next_coarse(force + step, &x, i);
-    well &= is_complete(&x, of);
-    theta = add_triples(add_triples(theta, w), sum_of(&x.w, of, true));
-    w = keep(well, add_triples(w, sum_of(&x.w, of, false)));
-    s = keep(well, add_triples(s, sum_of(&x.s, of, false)));
-    c = keep(well, add_triples(c, sum_of(&x.c, of, false)));
+OPERATION void begin(series *x, kz_taylor_state *state, int64_t first) {
+  begin_with(load(state->w, first), &x->w);
+  begin_with(load(state->s, first), &x->s);
+  begin_with(load(state->c, first), &x->c);
+}
+
+/* Adds a step to one chain, and clears what is not `well`. */
+OPERATION void end(const series *x, orders of, kz_taylor_state *state, int64_t first, mask *well) {
+  *well &= is_complete(x, of);
+  const triple theta = add_triples(load(state->theta, first), x->w.deep[0]);
+  save(add_triples(theta, sum_of(&x->w, of, true)), state->theta, first);
+  save(keep(*well, add_triples(x->w.deep[0], sum_of(&x->w, of, false))), state->w, first);
+  save(keep(*well, add_triples(x->s.deep[0], sum_of(&x->s, of, false))), state->s, first);
+  save(keep(*well, add_triples(x->c.deep[0], sum_of(&x->c, of, false))), state->c, first);
+}
+
+/* The orders of all chains. */
+OPERATION void make_series(orders of, const kz_taylor_force *force, series *x) {
+  for (int64_t j = 0; j < CHAINS; j++) {
+    for (int64_t i = 0; i < of.deep; i++) next_deep(force, x + j, i);
+    for (int64_t i = of.deep; i < of.fine; i++) next_fine(force, x + j, i);
   }
-  save(theta, state->theta, first);
-  save(w, state->w, first);
-  save(s, state->s, first);
-  save(c, state->c, first);
-  return well;
+  for (int64_t i = of.fine; i < of.last; i++) next_coarse(force, x, i);
+}
+
+/* The steps of all orbits; where their series were complete. */
+OPERATION void advance(int64_t n, orders of, const kz_taylor_force *force, kz_taylor_state *state, mask *well) {
+  _Alignas(64) series x[CHAINS]; /* a vector that crosses lines of the cache takes twice as long */
+  for (int64_t step = 0; step < n && is_any(well); step++) {
+    for (int64_t j = 0; j < CHAINS; j++) begin(&x[j], state, j * LANES);
+    make_series(of, force + step, x);
+    for (int64_t j = 0; j < CHAINS; j++) end(x + j, of, state, j * LANES, well + j);
+  }
 }
 
 /* Does the steps force [n], one after the other, to 33 digits, or if `rough` to 20. well [KZ_TAYLOR_LANES] becomes 0 for an orbit whose series has
  * not converged at the last order, or is too large at the last order in pairs: it needs shorter steps, and its state is meaningless. Orbits are
  * independent. */
 void kz_taylor_steps(int64_t n, int32_t rough, const kz_taylor_force *force, kz_taylor_state *state, int32_t *well) {
-  for (int64_t first = 0; first < KZ_TAYLOR_LANES; first += LANES) {
-    const mask complete = rough ? advance(n, ROUGH, force, state, first) : advance(n, EXACT, force, state, first);
-    for (int64_t i = 0; i < LANES; i++) well[first + i] = well[first + i] && complete[i];
-  }
+  mask complete[CHAINS];
+  for (int64_t j = 0; j < CHAINS; j++) complete[j] = same(0) == same(0);
+  if (rough)
+    advance(n, ROUGH, force, state, complete);
+  else
+    advance(n, EXACT, force, state, complete);
+  for (int64_t i = 0; i < KZ_TAYLOR_LANES; i++) well[i] = well[i] && complete[i / LANES][i % LANES];
 }
