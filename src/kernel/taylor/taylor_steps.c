@@ -83,8 +83,11 @@ OPERATION void set_deep(coefficients *x, int64_t n, double sign, triple total) {
   x->coarse[n] = x->fine[n].high;
 }
 
-/* Vectors of orbits beside each other: in doubles all, because the sums of one alone wait for each product. */
-enum { CHAINS = KZ_TAYLOR_LANES / LANES, CHAINS_deep = 1, CHAINS_fine = 1, CHAINS_coarse = CHAINS };
+/* Vectors of orbits beside each other: in doubles all of them, because the sums of one alone wait for each product. */
+#define CHAINS (KZ_TAYLOR_LANES / LANES)
+#define CHAINS_deep 1
+#define CHAINS_fine 1
+#define CHAINS_coarse CHAINS
 
 #define EACH _Pragma("GCC unroll 4") for (int64_t j = 0; j < OF_LEVEL(CHAINS_); j++)
 #define ORDER(name, i) x[j].name.KZ_LEVEL[i]
