@@ -12,51 +12,24 @@
 
 /* Velocities of the starts, rad per drive radian; steps a period of them. */
 static const double FASTEST = 2;
-enum { STEPS = 24, MOST = 128 /* attractors at one point */ };
-
-/* Starts that end on attractors of a class; the place in the list is that of an attractor. */
-typedef struct {
-  int64_t n, other; /* attractors; starts that end on none of up to max_period periods */
-  struct {
-    kz_atlas_class class;
-    int64_t hits;
-  } list[MOST];
-} ends;
+enum { STEPS = 24 };
 
 typedef struct {
   const kz_atlas *atlas;
   const kz_atlas_raster *raster;
 } counting;
 
-/* False for attractors that no class of the atlas has. */
-static bool class_of(const kz_atlas *atlas, const kz_attractor *row, kz_atlas_class *class) {
-  if (row->period < 1 || row->period > atlas->scene->atlas->max_period) return false;
+/* The place of an attractor's class among n that the lists have; n = it is none of them. */
+static int64_t place_of(const kz_atlas *atlas, const kz_attractor *row, int64_t n) {
   const int32_t turns = atlas->plane.mirrored ? abs(row->winding) : row->winding;
-  *class = (kz_atlas_class){KZ_CLASS_OTHER, row->period, turns};
-  if (row->symmetric && atlas->plane.mirrored)
-    *class =
-        (kz_atlas_class){row->period == 1 ? KZ_CLASS_REST : KZ_CLASS_SYMMETRIC, row->period, row->centre == KZ_ABOUT_INVERTED};
-  return true;
+  const bool symmetric = row->symmetric && atlas->plane.mirrored;
+  const kz_atlas_class class = kz_atlas_class_with(symmetric, row->period, turns, row->centre);
+  int64_t place = 0;
+  while (place < n && memcmp(atlas->class + place, &class, sizeof class)) place++;
+  return place;
 }
 
-static void count(const kz_atlas *atlas, kz_dynamics *dynamics, int64_t starts, const int32_t *label, ends *found) {
-  const int64_t known = kz_dynamics_count(dynamics);
-  KZ_FREED int64_t *hits = kz_calloc((size_t)known + 1, sizeof *hits);
-  for (int64_t i = 0; i < starts; i++) hits[label[i]]++;
-  found->other = hits[0];
-  for (int64_t number = 1; number <= known; number++) {
-    kz_attractor row;
-    kz_atlas_class class;
-    kz_dynamics_attractor(dynamics, number, &row);
-    if (found->n == MOST || !class_of(atlas, &row, &class)) {
-      found->other += hits[number];
-      continue;
-    }
-    found->list[found->n].class = class;
-    found->list[found->n++].hits = hits[number];
-  }
-}
-
+/* Record: starts that end on the attractors of each class, and behind them on none of up to max_periods periods. */
 static kz_status share_tile(void *context, int64_t tile, void *record) {
   const counting *c = context;
   const kz_scene *scene = c->atlas->scene;
@@ -72,7 +45,11 @@ static kz_status share_tile(void *context, int64_t tile, void *record) {
                             .max_periods = kz_settling_periods(pendulum.beta)};
   KZ_FREED int32_t *label = kz_calloc((size_t)starts, sizeof *label);
   KZ_TRY(kz_search_window(NULL, dynamics, &search, label));
-  count(c->atlas, dynamics, starts, label, record);
+  for (int64_t i = 0; i < starts; i++) {
+    kz_attractor row = {.period = 0};
+    if (label[i] > 0) kz_dynamics_attractor(dynamics, label[i], &row);
+    ((int64_t *)record)[place_of(c->atlas, &row, c->raster->n_classes)]++;
+  }
   return KZ_OK;
 }
 
@@ -80,18 +57,15 @@ static kz_status share_tile(void *context, int64_t tile, void *record) {
 static kz_status count_shares(const kz_atlas *atlas, const kz_run *run, kz_atlas_raster *raster) {
   counting c = {atlas, raster};
   const int64_t n = raster->n_regions, classes = raster->n_classes;
-  KZ_FREED ends *found = kz_calloc((size_t)n + 1, sizeof *found);
-  const kz_stage stage = kz_stage_for_all("atlas shares", n, sizeof *found, share_tile, &c);
+  const size_t bytes = (size_t)(classes + 1) * sizeof(int64_t);
+  KZ_FREED int64_t *found = kz_calloc((size_t)n + 1, bytes);
+  const kz_stage stage = kz_stage_for_all("atlas shares", n, bytes, share_tile, &c);
   KZ_TRY(kz_stage_run(run, &stage, found));
   raster->hits = kz_calloc((size_t)(n * classes) + 1, sizeof *raster->hits);
   raster->other = kz_calloc((size_t)n + 1, sizeof *raster->other);
   for (int64_t region = 0; region < n; region++) {
-    raster->other[region] = found[region].other;
-    for (int64_t i = 0; i < found[region].n; i++) {
-      int64_t class = 0;
-      while (class < classes && memcmp(atlas->class + class, &found[region].list[i].class, sizeof *atlas->class)) class++;
-      *(class < classes ? raster->hits + region * classes + class : raster->other + region) += found[region].list[i].hits;
-    }
+    memcpy(raster->hits + region * classes, found + region * (classes + 1), bytes - sizeof(int64_t));
+    raster->other[region] = found[region * (classes + 1) + classes];
   }
   return KZ_OK;
 }

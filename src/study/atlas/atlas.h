@@ -55,10 +55,10 @@ typedef struct {
   kz_atlas_crossing *list;
 } kz_atlas_crossings;
 
-/* A point whose attractors were searched. */
+/* A point, and its attracting cycles that a search has found: one of each pair of mirror images. */
 typedef struct {
   double place[2];
-  kz_atlas_seeds found; /* attracting cycles, one of each pair of mirror images */
+  kz_atlas_seeds found;
 } kz_atlas_probe;
 
 struct kz_atlas {
@@ -113,8 +113,9 @@ bool kz_atlas_reduce(const kz_atlas *atlas, double near, kz_atlas_kind *kind, do
 bool kz_atlas_add(const kz_atlas *atlas, kz_atlas_kind kind, const double *y, kz_atlas_seeds *seeds);
 void kz_atlas_put(kz_atlas_seeds *seeds, const kz_atlas_seed *seed); /* as it is */
 void kz_atlas_seeds_free(kz_atlas_seeds *seeds);
-/* The class of its attractors, whether that is a given one, and what it is called. */
+/* The class of its attractors, also as files and catalogues describe them, whether that is a given one, and what it is called. */
 kz_atlas_class kz_atlas_class_of(const kz_atlas_kind *kind);
+kz_atlas_class kz_atlas_class_with(bool symmetric, int32_t period, int32_t turns, int32_t centre);
 bool kz_atlas_is_of(const kz_atlas_kind *kind, const kz_atlas_class *class);
 int32_t kz_atlas_class_centre(const kz_atlas_class *class);
 void kz_atlas_class_name(const kz_atlas *atlas, const kz_atlas_class *class, char *text);
@@ -174,7 +175,7 @@ void kz_atlas_compare_images(kz_atlas *atlas);
 /* The dynamics of a place, with so many steps a period where the pendulum is gentle; NULL if there is no pendulum. The caller frees it. */
 kz_dynamics *kz_atlas_dynamics(const kz_atlas *atlas, const double place[2], int steps, kz_pendulum *pendulum);
 /* The attractors of a place by following starts, and where the mirror symmetry is broken also the images of what these end on. */
-kz_status kz_atlas_probe_at(const kz_atlas *atlas, const double place[2], int64_t starts, int64_t seed, kz_atlas_probe *probe);
+kz_status kz_atlas_probe_at(const kz_atlas *atlas, const double place[2], int64_t starts, int64_t seed, kz_atlas_seeds *found);
 
 /* The distance of a state from another one, or with side -1 from its mirror image. */
 static inline double kz_atlas_apart(const double *a, const double *b, double side) {

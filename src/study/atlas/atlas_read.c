@@ -108,10 +108,9 @@ static kz_status read_classes(kz_atlas *atlas, kz_store *store) {
   KZ_TRY(kz_store_length(store, GROUP, "class", &n));
   KZ_TRY(read_columns(store, CLASS_COLUMNS, name, n, &c));
   for (int64_t i = 0; i < n && i < KZ_ATLAS_MOST_CLASSES; i++) {
-    const int32_t period = (int32_t)c.of[OF_PERIOD][i], inverted = c.of[OF_CENTRE][i] == KZ_ABOUT_INVERTED;
     double count;
-    kz_atlas_class class = {KZ_CLASS_OTHER, period, (int32_t)c.of[OF_WINDING][i]};
-    if (c.of[OF_SYMMETRY][i] != 0) class = (kz_atlas_class){period == 1 ? KZ_CLASS_REST : KZ_CLASS_SYMMETRIC, period, inverted};
+    const kz_atlas_class class = kz_atlas_class_with(c.of[OF_SYMMETRY][i] != 0, (int32_t)c.of[OF_PERIOD][i],
+                                                     (int32_t)c.of[OF_WINDING][i], (int32_t)c.of[OF_CENTRE][i]);
     KZ_TRY(kz_store_number(store, GROUP, "attracting", (int64_t[]){i, cell[0], cell[1]}, &count));
     atlas->at_reference[kz_atlas_class_number(atlas, &class)] = (int32_t)(count == KZ_ATLAS_NOT_KNOWN ? -count : count);
   }

@@ -13,6 +13,11 @@ kz_atlas_class kz_atlas_class_of(const kz_atlas_kind *kind) {
   return (kz_atlas_class){kind->of.side > 0 ? KZ_CLASS_OTHER : KZ_CLASS_SYMMETRIC, kz_kind_period(kind), kind->of.turns};
 }
 
+kz_atlas_class kz_atlas_class_with(bool symmetric, int32_t period, int32_t turns, int32_t centre) {
+  if (!symmetric) return (kz_atlas_class){KZ_CLASS_OTHER, period, turns};
+  return (kz_atlas_class){period == 1 ? KZ_CLASS_REST : KZ_CLASS_SYMMETRIC, period, centre == KZ_ABOUT_INVERTED};
+}
+
 bool kz_atlas_is_of(const kz_atlas_kind *kind, const kz_atlas_class *class) {
   const kz_atlas_class own = kz_atlas_class_of(kind);
   return !memcmp(&own, class, sizeof own);

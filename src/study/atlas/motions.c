@@ -97,10 +97,8 @@ static void hunt_among(hunt *h, const kz_atlas_seeds *known) {
 
 /* Attractors that no curve bounds are searched. */
 static void hunt_by_starts(hunt *h) {
-  kz_atlas_probe probe;
-  if (kz_atlas_probe_at(h->atlas, h->place, STARTS, 1, &probe) != KZ_OK) return;
-  hunt_among(h, &probe.found);
-  kz_atlas_seeds_free(&probe.found);
+  KZ_FREED_BY(kz_atlas_seeds_free) kz_atlas_seeds found = {0};
+  if (kz_atlas_probe_at(h->atlas, h->place, STARTS, 1, &found) == KZ_OK) hunt_among(h, &found);
 }
 
 static void hunt_rest(hunt *h) {

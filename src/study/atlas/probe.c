@@ -66,8 +66,8 @@ static void begin(kz_dynamics *dynamics, const kz_pendulum *pendulum, int64_t st
   kz_dynamics_coarse_regions(dynamics, kz_dynamics_max_velocity(dynamics, &window));
 }
 
-/* The cycles that are known join those of the probe. */
-static void add_known(const kz_atlas *atlas, const kz_dynamics *dynamics, kz_atlas_probe *probe) {
+/* The cycles that are known join those of the place. */
+static void add_known(const kz_atlas *atlas, const kz_dynamics *dynamics, const double place[2], kz_atlas_seeds *found) {
   for (int64_t number = 1; number <= kz_dynamics_count(dynamics); number++) {
     double theta[KZ_CURVE_POINTS], velocity[KZ_CURVE_POINTS];
     kz_attractor row;
@@ -76,10 +76,9 @@ static void add_known(const kz_atlas *atlas, const kz_dynamics *dynamics, kz_atl
     kz_dynamics_attractor(dynamics, number, &row);
     if (row.period < 1 || row.period > KZ_CURVE_POINTS) continue;
     kz_dynamics_strobe(dynamics, number, theta, velocity);
-    if (!kz_atlas_identify(atlas, probe->place, (double[]){theta[0], velocity[0]}, row.period, 1, &cycle)) continue;
-    for (int64_t i = 0; i < probe->found.count && !known; i++)
-      known = kz_atlas_same(atlas, probe->found.list + i, cycle.y, ONE);
-    if (!known) kz_atlas_put(&probe->found, &cycle);
+    if (!kz_atlas_identify(atlas, place, (double[]){theta[0], velocity[0]}, row.period, 1, &cycle)) continue;
+    for (int64_t i = 0; i < found->count && !known; i++) known = kz_atlas_same(atlas, found->list + i, cycle.y, ONE);
+    if (!known) kz_atlas_put(found, &cycle);
   }
 }
 
@@ -94,18 +93,18 @@ static kz_status discover_images(kz_dynamics *dynamics, int64_t most, const kz_a
   return kz_discover(NULL, dynamics, most, n, state, NULL);
 }
 
-kz_status kz_atlas_probe_at(const kz_atlas *atlas, const double place[2], int64_t starts, int64_t seed, kz_atlas_probe *probe) {
+kz_status kz_atlas_probe_at(const kz_atlas *atlas, const double place[2], int64_t starts, int64_t seed, kz_atlas_seeds *found) {
   kz_pendulum pendulum;
   KZ_FREED_BY(kz_dynamics_freed) kz_dynamics *dynamics = kz_atlas_dynamics(atlas, place, STEPS, &pendulum);
-  *probe = (kz_atlas_probe){.place = {place[0], place[1]}};
+  *found = (kz_atlas_seeds){0};
   if (!dynamics) return KZ_OK;
   KZ_FREED double *state = kz_malloc(2 * (size_t)starts * sizeof *state);
   const int64_t most = (int64_t)fmin(MOST_PERIODS, fmax(FEWEST_PERIODS, 60 / (M_PI * pendulum.beta)));
   begin(dynamics, &pendulum, starts, seed, state);
   KZ_TRY(kz_discover(NULL, dynamics, most, starts, state, NULL));
-  add_known(atlas, dynamics, probe);
+  add_known(atlas, dynamics, place, found);
   if (atlas->plane.mirrored) return KZ_OK;
-  KZ_TRY(discover_images(dynamics, most, &probe->found));
-  add_known(atlas, dynamics, probe);
+  KZ_TRY(discover_images(dynamics, most, found));
+  add_known(atlas, dynamics, place, found);
   return KZ_OK;
 }

@@ -24,10 +24,9 @@ typedef struct {
 
 static kz_status probe_tile(void *context, int64_t tile, void *record) {
   const probing *p = context;
-  kz_atlas_probe probe;
-  KZ_TRY(kz_atlas_probe_at(p->atlas, p->probe[tile].place, p->starts, 1 + tile + 1000 * p->round, &probe));
-  kz_atlas_put_seeds(&probe.found, record);
-  kz_atlas_seeds_free(&probe.found);
+  KZ_FREED_BY(kz_atlas_seeds_free) kz_atlas_seeds found = {0};
+  KZ_TRY(kz_atlas_probe_at(p->atlas, p->probe[tile].place, p->starts, 1 + tile + 1000 * p->round, &found));
+  kz_atlas_put_seeds(&found, record);
   return KZ_OK;
 }
 
