@@ -80,6 +80,9 @@ typedef struct {
 } kz_flutter_drives;
 kz_flutter_drives kz_flutter_drives_find(const kz_pendulum *pendulum);
 
+/* How far two pendulums are apart, of the size of their parameters; INFINITY where only one has mirror symmetry. */
+double kz_pendulums_parted(const kz_pendulum *a, const kz_pendulum *b);
+
 /* M r^2 of a pendulum in SI units, kg m2; true if its inertia is at least that, to rounding. */
 double kz_point_inertia(const kz_pendulum_keys *written);
 bool kz_inertia_is_possible(const kz_pendulum_keys *written);

@@ -28,12 +28,6 @@ static bool is_undriven(const kz_pendulum *p) {
   return !driven;
 }
 
-/* Whether two pendulums have the same motions. */
-static bool is_alike(const kz_pendulum *a, const kz_pendulum *b) {
-  return a->k == b->k && a->beta == b->beta && a->m == b->m && a->torque == b->torque &&
-         !memcmp(a->vertical, b->vertical, sizeof a->vertical) && !memcmp(a->horizontal, b->horizontal, sizeof a->horizontal);
-}
-
 /* KZ_REFUSED where a key changes no motion: at no place of the plane. */
 static kz_status check_keys(const kz_scene *scene) {
   for (int axis = 0; axis < 2; axis++) {
@@ -44,7 +38,8 @@ static kz_status check_keys(const kz_scene *scene) {
       low[1 - axis] = high[1 - axis] = (double)i / (PLACES - 1);
       low[axis] = 0.25;
       high[axis] = 0.75;
-      same = kz_atlas_pendulum(scene, low, &first) && kz_atlas_pendulum(scene, high, &last) && is_alike(&first, &last);
+      same = kz_atlas_pendulum(scene, low, &first) && kz_atlas_pendulum(scene, high, &last) &&
+             kz_pendulums_parted(&first, &last) == 0;
     }
     if (same)
       return kz_fail(KZ_REFUSED, "atlas.%c.parameter: %s changes no motion of this pendulum; name a key that does",
@@ -92,16 +87,14 @@ static kz_status survey(kz_atlas *atlas) {
   return KZ_OK;
 }
 
-/* Whether the motions of p, half a period later and upside down, are those of q: k is the opposite, all else is the same, and the drive has
- * odd harmonics alone. */
+/* Whether the motions of p, half a period later and upside down, are those of q: even harmonics and k change their signs. */
 static bool is_turned_pendulum(const kz_pendulum *p, const kz_pendulum *q) {
   static const double SAME = 1e-9;
-  double most = fabs(p->beta - q->beta) + fabs(p->m - q->m) + fabs(p->torque - q->torque);
-  for (int j = 0; j < KZ_HARMONICS; j++)
-    for (int i = 0; i < 2; i++)
-      most += j % 2 == 0 ? fabs(p->vertical[j][i] - q->vertical[j][i]) + fabs(p->horizontal[j][i] - q->horizontal[j][i])
-                         : fabs(p->vertical[j][i]) + fabs(p->horizontal[j][i]);
-  return most < SAME && fabs(p->k + q->k) < SAME * (1 + fabs(p->k));
+  kz_pendulum turned = *p;
+  turned.k = -p->k;
+  for (int j = 1; j < KZ_HARMONICS; j += 2)
+    for (int i = 0; i < 2; i++) turned.vertical[j][i] = -p->vertical[j][i], turned.horizontal[j][i] = -p->horizontal[j][i];
+  return kz_pendulums_parted(&turned, q) < SAME;
 }
 
 /* Whether the place (1 - x, y), or (x, 1 - y), has the motions of (x, y) half a period later and upside down. */

@@ -65,8 +65,6 @@ double kz_moving_tolerance(const kz_scene *scene);
 kz_status kz_prepared_make(const kz_scene *scene, double tolerance, const kz_frame *frame, kz_prepared *prepared);
 void kz_prepared_free(kz_prepared *prepared);
 
-/* How far two pendulums are apart, of the size of their parameters; INFINITY where only one has mirror symmetry. */
-double kz_pendulums_parted(const kz_pendulum *a, const kz_pendulum *b);
 /* The relative distance of the scene's pendulum from the prepared one; INFINITY = too far to move it there. */
 double kz_prepared_distance(const kz_prepared *prepared, const kz_scene *scene);
 /* Moves it to the scene's pendulum: its attractors are continued, and those that the frame's atlas lists join them; trapping regions are
