@@ -16,7 +16,7 @@ static const double FIRST_SHARE = 1e-4, LAST_SHARE = 0.05;
 /* Flutter beside a critical value. */
 typedef struct {
   int32_t found;
-  double at, birth; /* values: where it was found; how far towards the critical one it reaches */
+  double at; /* the value where it was found */
   kz_attractor flutter;
 } beginning;
 
@@ -36,10 +36,11 @@ typedef struct {
   double *amplitude;
   /* what tiles work on */
   int side; /* of the critical value: 1 above, -1 below */
+  int way;  /* in which flutter is followed: 1 up, -1 down */
   beginning begun;
   leg before;
   int64_t piece; /* the first of the group */
-  int64_t step;  /* the first value of the leg, counted in the direction of `side` */
+  int64_t step;  /* the first value of the leg, counted in that direction */
 } flutter_job;
 
 /* The range and its neighbourhood, kept on one side of zero where the range is. */
@@ -72,18 +73,15 @@ static kz_status begin(void *context, int64_t tile, void *record) {
     out->at = f->critical + f->side * share * (range->max - range->min);
     out->found = f->path.pendulum(f->path.context, out->at, &pendulum) && kz_flutter_find(&pendulum, &out->flutter);
   }
-  kz_attractor back = out->flutter;
-  int32_t end_kind;
-  if (out->found) out->birth = kz_walk(&f->path, out->at, f->critical, &back, &end_kind);
   return KZ_OK;
 }
 
-/* The value at a step away from the critical one. */
+/* The value at a step of the way. */
 static int64_t value_at(const flutter_job *f, int64_t step) {
-  return f->side > 0 ? step : f->scene->sweep->values.count - 1 - step;
+  return f->way > 0 ? step : f->scene->sweep->values.count - 1 - step;
 }
 
-/* Carries flutter on to the next values of the range. */
+/* Carries flutter on to the next values of the range, at most to the critical one. */
 static kz_status follow_leg(void *context, int64_t tile, void *record) {
   const flutter_job *f = context;
   const kz_sweep_plan *plan = f->scene->sweep;
@@ -94,27 +92,13 @@ static kz_status follow_leg(void *context, int64_t tile, void *record) {
   for (int64_t i = 0; i < LEG; i++) out->amplitude[i] = NAN;
   for (int64_t i = 0; i < LEG && f->step + i < plan->values.count; i++) {
     const double value = kz_sweep_value(plan, value_at(f, f->step + i));
-    if (f->side > 0 ? value < out->at : value > out->at) continue;
+    if (f->way > 0 ? value < out->at : value > out->at) continue;
+    out->lost = f->side > 0 ? value <= f->critical : value >= f->critical;
+    if (out->lost) return KZ_OK;
     out->at = kz_walk(&f->path, out->at, value, &out->flutter, &end_kind);
     out->lost = out->at != value;
     if (out->lost) return KZ_OK;
     out->amplitude[i] = out->flutter.amplitude;
-  }
-  return KZ_OK;
-}
-
-/* Values that lie between the critical one and the place where flutter was found. */
-static kz_status follow_back(void *context, int64_t first, int64_t n, void *record) {
-  const flutter_job *f = context;
-  const kz_sweep_plan *plan = f->scene->sweep;
-  double *amplitude = record;
-  for (int64_t i = 0; i < LEG; i++) amplitude[i] = NAN;
-  for (int64_t i = 0; i < n; i++) {
-    const double value = kz_sweep_value(plan, first + i);
-    if ((value - f->begun.birth) * (value - f->begun.at) >= 0) continue;
-    kz_attractor back = f->begun.flutter;
-    int32_t end_kind;
-    if (kz_walk(&f->path, f->begun.at, value, &back, &end_kind) == value) amplitude[i] = back.amplitude;
   }
   return KZ_OK;
 }
@@ -125,9 +109,10 @@ static kz_status run_stage(flutter_job *f, const char *name, kz_tile_fn work, in
   return kz_stage_run(f->run, &stage, records);
 }
 
-/* From where flutter was found to all values of the range beyond. */
-static kz_status follow_on(flutter_job *f) {
+/* From where flutter was found one way. */
+static kz_status follow_on(flutter_job *f, int way) {
   leg after;
+  f->way = way;
   f->before = (leg){.at = f->begun.at, .flutter = f->begun.flutter};
   for (f->step = 0; f->step < f->scene->sweep->values.count && !f->before.lost; f->step += LEG) {
     KZ_TRY(run_stage(f, "flutter", follow_leg, 1, sizeof after, &after));
@@ -138,23 +123,13 @@ static kz_status follow_on(flutter_job *f) {
   return KZ_OK;
 }
 
-static kz_status return_to_birth(flutter_job *f) {
-  const int64_t count = f->scene->sweep->values.count;
-  const kz_stage stage = kz_stage_of_items("flutter's birth", count, LEG, LEG * sizeof(double), follow_back, f);
-  KZ_FREED double *amplitude = kz_malloc((size_t)stage.n_tiles * stage.record_bytes);
-  KZ_TRY(kz_stage_run(f->run, &stage, amplitude));
-  for (int64_t i = 0; i < count; i++)
-    if (!isnan(amplitude[i])) f->amplitude[i] = amplitude[i];
-  return KZ_OK;
-}
-
 /* Follows all the flutter that begins at a critical value; *reaches = whether it comes to the range. */
 static kz_status follow(flutter_job *f, bool *reaches) {
   for (f->side = 1; f->side >= -1; f->side -= 2) {
     KZ_TRY(run_stage(f, "flutter's beginning", begin, 1, sizeof f->begun, &f->begun));
     if (!f->begun.found) continue;
-    KZ_TRY(follow_on(f));
-    KZ_TRY(return_to_birth(f));
+    KZ_TRY(follow_on(f, f->side));
+    KZ_TRY(follow_on(f, -f->side));
   }
   *reaches = false;
   for (int64_t i = 0; i < f->scene->sweep->values.count; i++) *reaches = *reaches || !isnan(f->amplitude[i]);
