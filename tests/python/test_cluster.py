@@ -149,14 +149,15 @@ def test_an_array_without_its_values_is_refused_in_words(sweep, message):
 
 @pytest.mark.parametrize("builds", with_extensive([False], [True]))
 def test_the_apptainer_build_has_all_its_files(tmp_path, builds):
-    """Its steps on the files that it copies, for the instruction set that it names; no container is needed. Benchmarks named files of tests, which neither it nor
-    the sdist has."""
+    """Its steps on the files that it copies, for the instruction set that it names; no container is needed. Benchmarks named files of
+    tests, which neither it nor the sdist has."""
     lines = (ROOT / "packaging" / "images" / "kapitza.def").read_text().split("%files\n")[1].split("\n\n")[0].splitlines()
     for name, _ in map(str.split, lines):
         (shutil.copytree if (ROOT / name).is_dir() else shutil.copy)(ROOT / name, tmp_path / name)
     build = tmp_path / "build"
     settings = ["-DCMAKE_BUILD_TYPE=Release", "-DBUILD_TESTING=OFF", "-DKAPITZA_ARCH=x86-64"]
-    steps = ["-G", "Ninja", "-S", tmp_path, "-B", build, *settings], ["--build", build], ["--install", build, "--prefix", tmp_path / "local"]
+    steps = [["-G", "Ninja", "-S", tmp_path, "-B", build, *settings],
+             ["--build", build], ["--install", build, "--prefix", tmp_path / "local"]]
     for words in steps if builds else steps[:1]:
         done = subprocess.run(["cmake", *map(str, words)], capture_output=True, text=True)
         assert done.returncode == 0, done.stdout[-2000:] + done.stderr
