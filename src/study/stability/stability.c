@@ -9,19 +9,6 @@
 /* Points of a tile of the chart, and values of k of a tile of a curve. */
 enum { POINTS = 2048, PIECE = 64 };
 
-typedef struct {
-  double log_multiplier[POINTS], angle[POINTS];
-  uint8_t stable[POINTS];
-} chart_record;
-
-typedef struct {
-  double m[2][PIECE]; /* or k over m */
-} curve_record;
-
-static int64_t tiles_of(int64_t count, int64_t size) {
-  return (count + size - 1) / size;
-}
-
 static kz_axis times(const kz_axis *axis, double factor) {
   return (kz_axis){.min = axis->min * factor, .max = axis->max * factor, .count = axis->count};
 }
@@ -85,22 +72,17 @@ static void make_tasks(kz_chart *chart) {
       chart->tasks[chart->n_tasks++] = (kz_curve_task){-1, (int32_t)orders->values[i]};
 }
 
-static kz_chart begin(const kz_scene *scene, bool here) {
+static kz_chart begin(const kz_scene *scene) {
   const kz_stability_plan *plan = scene->stability;
   const kz_chart_axes axes = kz_stability_axes(plan);
-  const size_t points = here ? (size_t)(axes.k.count * axes.m.count) : 1;
   kz_chart chart = {.plan = plan,
                     .axes = axes,
                     .damping = {isnan(plan->damping) ? 0 : plan->damping, plan->quality_factor},
                     .k = axis_values(&axes.k),
                     .m = axis_values(&axes.m),
-                    .tasks = kz_malloc((size_t)(kz_curve_count + plan->subharmonics.count) * sizeof *chart.tasks),
-                    .log_multiplier = kz_malloc(points * sizeof *chart.log_multiplier),
-                    .angle = kz_malloc(points * sizeof *chart.angle),
-                    .stable = kz_malloc(points)};
+                    .tasks = kz_malloc((size_t)(kz_curve_count + plan->subharmonics.count) * sizeof *chart.tasks)};
   kz_drive_form(&scene->parameters, &chart.form);
   make_tasks(&chart);
-  chart.curves = kz_malloc(((here ? (size_t)(2 * chart.n_tasks * kz_chart_row(&axes)) : 0) + 1) * sizeof *chart.curves);
   return chart;
 }
 
@@ -108,23 +90,23 @@ static void release(kz_chart *chart) {
   free(chart->k);
   free(chart->m);
   free(chart->tasks);
-  free(chart->log_multiplier);
-  free(chart->angle);
-  free(chart->stable);
+  free(chart->points);
   free(chart->curves);
 }
 
 static kz_status chart_points(void *context, int64_t first, int64_t n, void *record) {
   const kz_chart *chart = context;
-  chart_record *out = record;
-  double k[POINTS], beta[POINTS], m[POINTS];
+  kz_chart_point *out = record;
+  double k[POINTS] = {0}, beta[POINTS] = {0}, m[POINTS] = {0}, log_multiplier[POINTS], angle[POINTS];
+  uint8_t stable[POINTS];
   const int64_t columns = chart->axes.k.count;
   for (int64_t i = 0; i < n; i++) {
     k[i] = chart->k[(first + i) % columns];
     m[i] = chart->m[(first + i) / columns];
     beta[i] = kz_damping_at(&chart->damping, k[i]);
   }
-  kz_linear_floquet(&chart->form, n, k, beta, m, out->log_multiplier, out->angle, out->stable);
+  kz_linear_floquet(&chart->form, n, k, beta, m, log_multiplier, angle, stable);
+  for (int64_t i = 0; i < n; i++) out[i] = (kz_chart_point){log_multiplier[i], angle[i], stable[i]};
   return KZ_OK;
 }
 
@@ -136,69 +118,39 @@ static int64_t values_of(const kz_chart *chart, const kz_curve_task *task) {
 /* Values of a curve: a row. It may be shorter than others. */
 static kz_status curve_points(void *context, int64_t item, int64_t most, void *record) {
   const kz_chart *chart = context;
-  curve_record *out = record;
+  kz_curve_point *out = record;
+  double m[2][PIECE] = {{0}};
   const int64_t first = item % kz_chart_row(&chart->axes);
   const kz_curve_task *task = &chart->tasks[item / kz_chart_row(&chart->axes)];
   const kz_curve *curve = task->row < 0 ? NULL : &kz_curves[task->row];
   const int64_t left = values_of(chart, task) - first, n = left < most ? left : most;
   if (!curve)
-    kz_subharmonic_values(task->order, n, chart->k + first, out->m[0], out->m[1]);
+    kz_subharmonic_values(task->order, n, chart->k + first, m[0], m[1]);
   else if (!curve->edge)
-    kz_curve_values(curve, &chart->damping, n, chart->k + first, out->m[0]);
+    kz_curve_values(curve, &chart->damping, n, chart->k + first, m[0]);
   else
-    for (int64_t i = 0; i < n; i++) out->m[0][i] = curve->edge(&chart->form, curve->number, chart->m[first + i]);
+    for (int64_t i = 0; i < n; i++) m[0][i] = curve->edge(&chart->form, curve->number, chart->m[first + i]);
+  for (int64_t i = 0; i < n; i++) out[i] = (kz_curve_point){{m[0][i], m[1][i]}};
   return KZ_OK;
 }
 
-static void unpack_chart(kz_chart *chart, const void *records) {
-  const int64_t points = chart->axes.k.count * chart->axes.m.count;
-  for (int64_t first = 0; first < points; first += POINTS) {
-    const chart_record *record = (const chart_record *)records + first / POINTS;
-    size_t n = (size_t)(points - first < POINTS ? points - first : POINTS);
-    memcpy(chart->log_multiplier + first, record->log_multiplier, n * sizeof(double));
-    memcpy(chart->angle + first, record->angle, n * sizeof(double));
-    memcpy(chart->stable + first, record->stable, n);
-  }
-}
-
-static void unpack_curves(kz_chart *chart, const void *records) {
-  const curve_record *record = records;
-  const int64_t columns = kz_chart_row(&chart->axes), pieces = tiles_of(columns, PIECE);
-  for (int64_t tile = 0; tile < pieces * chart->n_tasks; tile++) {
-    int64_t first = tile % pieces * PIECE, n = values_of(chart, &chart->tasks[tile / pieces]) - first;
-    if (n > PIECE) n = PIECE;
-    if (n <= 0) continue;
-    for (int64_t kind = 0; kind < 2; kind++)
-      memcpy(chart->curves + (2 * (tile / pieces) + kind) * columns + first, record[tile].m[kind], (size_t)n * sizeof(double));
-  }
-}
-
-static kz_stage chart_stage(kz_chart *chart) {
-  const int64_t points = chart->axes.k.count * chart->axes.m.count;
-  kz_stage stage = kz_stage_of_items("chart", points, POINTS, sizeof(chart_record), chart_points, chart);
-  stage.everywhere = false;
-  return stage;
-}
-
-static kz_stage curve_stage(kz_chart *chart) {
-  return kz_stage_of_rows("curves", chart->n_tasks, kz_chart_row(&chart->axes), PIECE, sizeof(curve_record), curve_points,
-                          chart);
-}
-
-/* Runs a stage; rank 0 puts its records into the chart. */
-static kz_status run_stage(const kz_run *run, const kz_stage *stage, void (*unpack)(kz_chart *chart, const void *records)) {
-  const bool here = kz_rank(run->ranks) == 0;
-  KZ_FREED void *records = here ? kz_malloc((size_t)stage->n_tiles * stage->record_bytes) : NULL;
-  KZ_TRY(kz_stage_run(run, stage, records));
-  if (here) unpack(stage->context, records);
-  return KZ_OK;
+/* Runs a stage; rank 0 gets its records, the others NULL. */
+static kz_status run_stage(const kz_run *run, const kz_stage *stage, void *records) {
+  void *all = kz_rank(run->ranks) == 0 ? kz_malloc((size_t)stage->n_tiles * stage->record_bytes) : NULL;
+  memcpy(records, &all, sizeof all);
+  return kz_stage_run(run, stage, all);
 }
 
 kz_status kz_stability_run(const kz_scene *scene, const kz_run *run, kz_store *store, FILE *summary) {
-  KZ_FREED_BY(release) kz_chart chart = begin(scene, kz_rank(run->ranks) == 0);
-  const kz_stage points = chart_stage(&chart), curves = curve_stage(&chart);
-  KZ_TRY(run_stage(run, &points, unpack_chart));
-  if (chart.n_tasks > 0) KZ_TRY(run_stage(run, &curves, unpack_curves));
+  KZ_FREED_BY(release) kz_chart chart = begin(scene);
+  const int64_t points = chart.axes.k.count * chart.axes.m.count, row = kz_chart_row(&chart.axes);
+  kz_stage of_points = kz_stage_of_items("chart", points, POINTS, POINTS * sizeof *chart.points, chart_points, &chart);
+  of_points.everywhere = false;
+  const kz_stage of_curves =
+      kz_stage_of_rows("curves", chart.n_tasks, row, PIECE, PIECE * sizeof *chart.curves, curve_points, &chart);
+  chart.stride = (row + PIECE - 1) / PIECE * PIECE;
+  KZ_TRY(run_stage(run, &of_points, &chart.points));
+  if (chart.n_tasks > 0) KZ_TRY(run_stage(run, &of_curves, &chart.curves));
   if (!store) return KZ_OK;
   kz_chart_summarise(&chart, summary);
   return kz_chart_write(&chart, store);

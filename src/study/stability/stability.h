@@ -22,6 +22,15 @@ typedef struct {
   int32_t row, order;
 } kz_curve_task;
 
+/* A point of the chart; of a curve: m, or k over m, and for a subharmonic order the exact curve and the formula. */
+typedef struct {
+  double log_multiplier, angle;
+  uint8_t stable;
+} kz_chart_point;
+typedef struct {
+  double value[2];
+} kz_curve_point;
+
 typedef struct {
   const kz_stability_plan *plan;
   kz_chart_axes axes;
@@ -30,9 +39,9 @@ typedef struct {
   double *k, *m; /* values of the axes */
   kz_curve_task *tasks;
   int64_t n_tasks;
-  double *log_multiplier, *angle; /* [m][k]; this and the following on rank 0 only */
-  uint8_t *stable;
-  double *curves; /* [task][2][longer axis]: the curve; for a subharmonic order the exact curve and the formula */
+  kz_chart_point *points; /* [m][k]; this and the curves on rank 0 only */
+  kz_curve_point *curves; /* [task][stride] */
+  int64_t stride;         /* the longer axis or a little more */
 } kz_chart;
 
 /* Values of a row of the chart's curves: the larger number of k and m. */

@@ -2,27 +2,23 @@
 #include <inttypes.h>
 #include <math.h>
 #include <stdio.h>
+#include <string.h>
 
 #include "stability.h"
 
 static const char *const GROUP = "stability";
 
-static kz_status write_curve(const kz_chart *chart, int64_t i, kz_store *store) {
-  const kz_curve_task *task = &chart->tasks[i];
-  const double *values = chart->curves + 2 * i * kz_chart_row(&chart->axes);
-  char name[64];
-  if (task->row >= 0) return kz_store_variable(store, GROUP, kz_curves[task->row].name, values);
-  snprintf(name, sizeof name, "subharmonic_%" PRId32, task->order);
-  KZ_TRY(kz_store_variable(store, GROUP, name, values));
-  snprintf(name, sizeof name, "butikov_subharmonic_%" PRId32, task->order);
-  return kz_store_variable(store, GROUP, name, values + kz_chart_row(&chart->axes));
-}
+#define COLUMN(type, name, n, expression) KZ_COLUMN(store, GROUP, name, n, type, expression)
 
-/* An axis in the words of ion traps. */
-static kz_status write_trap_axis(const char *name, int64_t count, const double *values, double factor, kz_store *store) {
-  KZ_FREED double *scaled = kz_malloc((size_t)count * sizeof *scaled);
-  for (int64_t i = 0; i < count; i++) scaled[i] = factor * values[i];
-  return kz_store_variable(store, GROUP, name, scaled);
+static kz_status write_curve(const kz_chart *chart, int64_t task_number, kz_store *store) {
+  const kz_curve_task *task = &chart->tasks[task_number];
+  const kz_curve_point *point = chart->curves + task_number * chart->stride;
+  const int64_t n = kz_chart_row(&chart->axes);
+  char name[64];
+  snprintf(name, sizeof name, "butikov_subharmonic_%" PRId32, task->order);
+  COLUMN(double, task->row >= 0 ? kz_curves[task->row].name : name + strlen("butikov_"), n, point[i].value[0]);
+  if (task->row < 0) COLUMN(double, name, n, point[i].value[1]);
+  return KZ_OK;
 }
 
 static kz_status write_axes(const kz_chart *chart, kz_store *store) {
@@ -30,8 +26,9 @@ static kz_status write_axes(const kz_chart *chart, kz_store *store) {
   KZ_TRY(kz_store_dimension(store, GROUP, "k", axes->k.count, chart->k));
   KZ_TRY(kz_store_dimension(store, GROUP, "m", axes->m.count, chart->m));
   if (isnan(chart->plan->a.min)) return KZ_OK;
-  KZ_TRY(write_trap_axis("a", axes->k.count, chart->k, 4, store));
-  return write_trap_axis("q", axes->m.count, chart->m, 2, store);
+  COLUMN(double, "a", axes->k.count, 4 * chart->k[i]);
+  COLUMN(double, "q", axes->m.count, 2 * chart->m[i]);
+  return KZ_OK;
 }
 
 /* Thresholds of the tongues, three ways: attributes such as tongue_1_lowest_m, tongue_1_lowest_m_determinant. */
@@ -71,9 +68,10 @@ static kz_status write_form(const kz_pendulum *form, kz_store *store) {
 
 kz_status kz_chart_write(const kz_chart *chart, kz_store *store) {
   KZ_TRY(write_axes(chart, store));
-  KZ_TRY(kz_store_variable(store, GROUP, "log_multiplier", chart->log_multiplier));
-  KZ_TRY(kz_store_variable(store, GROUP, "angle", chart->angle));
-  KZ_TRY(kz_store_variable(store, GROUP, "stable", chart->stable));
+  const int64_t n = chart->axes.k.count * chart->axes.m.count;
+  COLUMN(double, "log_multiplier", n, chart->points[i].log_multiplier);
+  COLUMN(double, "angle", n, chart->points[i].angle);
+  COLUMN(uint8_t, "stable", n, chart->points[i].stable);
   for (int64_t i = 0; i < chart->n_tasks; i++) KZ_TRY(write_curve(chart, i, store));
   KZ_TRY(write_form(&chart->form, store));
   return write_damping(chart, store);
@@ -81,7 +79,7 @@ kz_status kz_chart_write(const kz_chart *chart, kz_store *store) {
 
 void kz_chart_summarise(const kz_chart *chart, FILE *summary) {
   int64_t points = chart->axes.k.count * chart->axes.m.count, stable = 0;
-  for (int64_t i = 0; i < points; i++) stable += chart->stable[i];
+  for (int64_t i = 0; i < points; i++) stable += chart->points[i].stable;
   fprintf(summary, "stability: %" PRId64 " x %" PRId64 " points, %.2f %% of them stable, %" PRId64 " curve%s\n",
           chart->axes.k.count, chart->axes.m.count, 100.0 * (double)stable / (double)points, chart->n_tasks,
           chart->n_tasks == 1 ? "" : "s");
