@@ -190,9 +190,19 @@ def saved_bytes(checkpoint):
     return len(data) - data.count(0) if marked else 0
 
 
+def put_scene(path, scene):
+    """Writes a scene: a mapping, YAML, or the path of one."""
+    path.write_text(scene.read_text() if isinstance(scene, Path) else scene if isinstance(scene, str) else json.dumps(scene))
+
+
+def settings(*texts):
+    """Texts KEY=VALUE as options of a command."""
+    return [word for text in texts for word in ("--set", text)]
+
+
 def run_scene(kapitza, folder, scene, *options, ranks=None, name="s"):
-    """The result of a scene, a mapping or YAML, which becomes NAME.yaml of the folder, and the summary."""
-    (folder / f"{name}.yaml").write_text(scene if isinstance(scene, str) else json.dumps(scene))
+    """The result of a scene, which becomes NAME.yaml of the folder, and the summary."""
+    put_scene(folder / f"{name}.yaml", scene)
     done = kapitza("run", f"{name}.yaml", "--force", *options, ranks=ranks, folder=folder)
     return Result(folder / f"{name}.h5"), done.stdout
 
@@ -200,7 +210,7 @@ def run_scene(kapitza, folder, scene, *options, ranks=None, name="s"):
 def refused_scene(kapitza, folder, scene, *options, command="run", status=2):
     """The one line of the refusal (status 2) or failure (1) of a scene, which is written; nothing else is."""
     before = {path.name for path in folder.iterdir()}
-    (folder / "s.yaml").write_text(scene if isinstance(scene, str) else json.dumps(scene))
+    put_scene(folder / "s.yaml", scene)
     done = kapitza(command, "s.yaml", *options, folder=folder, status=status)
     assert done.stderr.count("\n") == 1 and {path.name for path in folder.iterdir()} == before | {"s.yaml"}, done.stderr
     return done.stderr
@@ -208,7 +218,7 @@ def refused_scene(kapitza, folder, scene, *options, command="run", status=2):
 
 def stopped_and_resumed(kapitza, folder, scene, ranks, *options):
     """The same by a run on one rank that is stopped once something is saved, and that `ranks` go on with."""
-    (folder / "stopped.yaml").write_text(scene if isinstance(scene, str) else json.dumps(scene))
+    put_scene(folder / "stopped.yaml", scene)
     run_until_saved(kapitza, "stopped.yaml", *options, file="stopped.h5", folder=folder, ranks=None)
     kapitza("run", "stopped.yaml", *options, "--resume", ranks=ranks, folder=folder)
     return Result(folder / "stopped.h5")

@@ -44,8 +44,3 @@ def test_a_log_whose_last_line_was_cut(kapitza, tmp_path):
     kapitza("run", SMALL, *TINY, "--force", "--log", "run.log", folder=tmp_path)
     broken = [line for line in (tmp_path / "run.log").read_text().splitlines() if not line.endswith("}")]
     assert len(broken) == 2
-
-
-def test_a_title_cannot_turn_the_terminal_round(kapitza, tmp_path):
-    done = kapitza("check", SMALL, "--set", 'title="a \u202e b"', folder=tmp_path, status=2)
-    assert "holds a line break or a control character" in done.stderr and "\u202e" not in done.stderr

@@ -3,8 +3,7 @@
 import math
 
 import pytest
-from conftest import ROOT, with_extensive
-from kapitza import Result
+from conftest import ROOT, run_scene, settings, with_extensive
 
 # Bifurcations of Q = 5, Omega = 11: the epsilon where they happen, where in the plane, and what is not there below, and above.
 # (name, whether it is its own mirror image)
@@ -28,10 +27,9 @@ def test_either_side_of_a_bifurcation(kapitza, tmp_path, name, distance):
     epsilon, centre, half_widths, not_below, not_above = CRITICAL[name]
     axes = [f"basin.{axis}={{min: {middle - half!r}, max: {middle + half!r}, count: 4}}"
             for axis, middle, half in zip(("theta", "velocity"), centre, half_widths, strict=True)]
-    settings = [*axes, f"pendulum.drive_amplitude={epsilon + distance!r}", "basin.method=direct", "basin.attractors.starts=64",
-                "basin.max_periods=1000"]
-    kapitza("run", ROOT / "scenes" / "small.yaml", "-o", "x.h5", *(word for text in settings for word in ("--set", text)), folder=tmp_path)
-    found = Result(tmp_path / "x.h5").group("attractors")
+    words = settings(*axes, f"pendulum.drive_amplitude={epsilon + distance!r}", "basin.method=direct", "basin.attractors.starts=64",
+                     "basin.max_periods=1000")
+    found = run_scene(kapitza, tmp_path, ROOT / "scenes" / "small.yaml", *words)[0].group("attractors")
     kinds = list(zip(map(str, found["name"].values), found["symmetric"].values.tolist(), strict=True))
     assert not set(kinds) & (not_below if distance < 0 else not_above)
     assert "chaotic" not in dict(kinds)

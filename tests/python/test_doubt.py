@@ -3,10 +3,9 @@
 import subprocess
 import sys
 
-import h5py
 import numpy as np
 import pytest
-from conftest import ROOT
+from conftest import ROOT, run_scene, settings
 
 SMALL = ROOT / "scenes" / "small.yaml"
 NAMES = [f"{name}_share{end}" for name in ("doubtful", "differing") for end in ("", "_low", "_high")]
@@ -15,10 +14,8 @@ SIDES = ("--set", "pendulum.drive_amplitude=0.46", "--set", "basin.theta.count=1
 
 def doubt(kapitza, folder, *options, ranks=None):
     """The shares of a scene without a symmetric window, so that the sample is not all cells; and the summary."""
-    done = kapitza("run", SMALL, "-o", "x.h5", "--force", *SIDES, "--set", "basin.velocity.max=1.9", *options, ranks=ranks,
-                   folder=folder)
-    with h5py.File(folder / "x.h5") as file:
-        return {name: float(file["basin"].attrs[name]) for name in NAMES}, done.stdout
+    result, said = run_scene(kapitza, folder, SMALL, *SIDES, "--set", "basin.velocity.max=1.9", *options, ranks=ranks)
+    return {name: float(result.group("basin").attrs[name]) for name in NAMES}, said
 
 
 def test_shares_are_stored_told_and_warned_of(kapitza, tmp_path):
@@ -50,18 +47,18 @@ def test_a_share_that_was_counted_has_no_interval(kapitza, tmp_path):
 def test_direct_integration_tells_doubtful_cells_one_by_one(kapitza, tmp_path):
     """They are the ones that method exact follows in more precision where both take the same steps, which exact takes for a tenth of the
     tolerance; all others have its labels and settling times."""
-    for method, tolerance in ("direct", "1e-13"), ("exact", "1e-12"):
-        kapitza("run", SMALL, "-o", f"{method}.h5", *SIDES, "--set", f"basin.method={method}", "--set", f"numerics.tolerance={tolerance}",
-                folder=tmp_path)
-    with h5py.File(tmp_path / "direct.h5") as direct, h5py.File(tmp_path / "exact.h5") as exact:
-        share = {name: float(direct["basin"].attrs[name]) for name in NAMES}
-        doubtful = direct["basin/evidence"][:] == 9
-        assert np.array_equal(doubtful, np.isin(exact["basin/evidence"][:], (3, 4, 5, 7)))
-        assert share["doubtful_share_low"] == share["doubtful_share"] == share["doubtful_share_high"] == pytest.approx(doubtful.mean())
-        assert 0.03 < share["doubtful_share"] < 0.12 and share["differing_share_high"] == 0
-        for name in ("attractor", "settling_time"):
-            differ = direct["basin"][name][:] != exact["basin"][name][:]
-            assert np.any(differ) and np.all(doubtful[differ])
+    def basin(method, tolerance):
+        options = settings(f"basin.method={method}", f"numerics.tolerance={tolerance}")
+        return run_scene(kapitza, tmp_path, SMALL, *SIDES, *options, name=method)[0].group("basin")
+
+    direct, exact = basin("direct", 1e-13), basin("exact", 1e-12)
+    share, doubtful = {name: float(direct.attrs[name]) for name in NAMES}, direct["evidence"].values == 9
+    assert np.array_equal(doubtful, np.isin(exact["evidence"].values, (3, 4, 5, 7)))
+    assert share["doubtful_share_low"] == share["doubtful_share"] == share["doubtful_share_high"] == pytest.approx(doubtful.mean())
+    assert 0.03 < share["doubtful_share"] < 0.12 and share["differing_share_high"] == 0
+    for name in ("attractor", "settling_time"):
+        differ = direct[name].values != exact[name].values
+        assert np.any(differ) and np.all(doubtful[differ])
 
 
 @pytest.mark.extensive

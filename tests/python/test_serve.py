@@ -8,7 +8,7 @@ from pathlib import Path
 import h5py
 import numpy as np
 import pytest
-from conftest import PROGRAM, ROOT
+from conftest import PROGRAM, ROOT, settings
 from serving import Server, places
 
 FIG12 = ROOT / "scenes" / "blackburn-fig12.yaml"
@@ -41,7 +41,7 @@ def test_the_program_says_what_it_serves(server):
 
 def test_a_frame_at_rest_is_what_a_run_of_method_exact_writes(server, tmp_path):
     sets = [f"basin.theta={AXES[0]}", f"basin.velocity={AXES[1]}", "basin.method=exact"]
-    options = [word for text in sets for word in ("--set", text)]
+    options = settings(*sets)
     subprocess.run([PROGRAM, "run", FIG12, "-o", tmp_path / "out.h5", *options], check=True, capture_output=True)
     _, frames = server.frame(30, 44, ("labels", "settling_time", "doubt", "other"), window=WINDOW, levels=[8, 1])
     planes = frames[-1][1]

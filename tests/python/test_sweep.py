@@ -10,21 +10,21 @@ from conftest import EXTENSIVE, ROOT, datasets, plot, run_scene, stopped_and_res
 REFERENCE = json.loads((ROOT / "tests" / "literature" / "reference.json").read_text())
 KINDS = ["left_the_range", "fold", "period_doubling", "neimark_sacker", "symmetry_breaking", "not_located"]
 SCENE = """\
-pendulum: {{quality_factor: {q}, drive_frequency: {omega}, drive_amplitude: 0.3}}
+pendulum: {pendulum}
 sweep: {{parameter: {parameter}, min: {low}, max: {high}, count: {count}, measure: [{measure}]{more}}}
 """
+FORM = "{{quality_factor: {}, drive_frequency: {}, drive_amplitude: 0.3}}"
+FIG12 = FORM.format(5, 11)
 
 
 @pytest.fixture(scope="session")
 def sweep(kapitza, tmp_path_factory):
-    """Runs a sweep and gives its group as (arrays, attributes); run.file is the file of the last one."""
+    """Runs a sweep and gives its group as (arrays, attributes); run.file is the file of the last one, run.said its summary."""
 
-    def run(measure, low, high, count, parameter="drive_amplitude", q=5, omega=11, more=""):
-        folder = tmp_path_factory.mktemp("sweep")
-        text = SCENE.format(measure=measure, low=low, high=high, count=count, parameter=parameter, q=q, omega=omega, more=more)
-        (folder / "sweep.yaml").write_text(text)
-        kapitza("run", "sweep.yaml", folder=folder)
-        run.file = folder / "sweep.h5"
+    def run(measure, low, high, count, parameter="drive_amplitude", pendulum=FIG12, more=""):
+        text = SCENE.format(measure=measure, low=low, high=high, count=count, parameter=parameter, pendulum=pendulum, more=more)
+        result, run.said = run_scene(kapitza, tmp_path_factory.mktemp("sweep"), text)
+        run.file = result.path
         with h5py.File(run.file) as file:
             group = file["sweep"]
             arrays = {name: item.asstr()[:] if h5py.check_string_dtype(item.dtype) else item[()] for name, item in group.items()}
@@ -69,15 +69,9 @@ def test_inverted_gives_way_to_flutter(sweep):
         assert (mirror == row) == bool(branches["branch_symmetric"][row])
 
 
-def test_flutter_begins_where_rest_ends_however_its_angle_is_written(kapitza, tmp_path):
+def test_flutter_begins_where_rest_ends_however_its_angle_is_written(sweep):
     """Upright rest may stand at -pi in a catalogue: what it turns into is found all the same."""
-    (tmp_path / "s.yaml").write_text("""\
-pendulum: {k: 0.1, damping: 0.1, m: 0.5}
-sweep: {parameter: m, min: 0.6, max: 0.65, count: 2, measure: [attractors], starts: 256, max_period: 4}
-""")
-    kapitza("run", "s.yaml", folder=tmp_path)
-    with h5py.File(tmp_path / "s.h5") as file:
-        branches = {name: item[:] for name, item in file["sweep"].items()} | {"branch_name": file["sweep/branch_name"].asstr()[:]}
+    branches, _ = sweep("attractors", 0.6, 0.65, 2, "m", "{k: 0.1, damping: 0.1, m: 0.5}", ", starts: 256, max_period: 4")
     assert ends(branches, "flutter") == (pytest.approx(0.625495916, abs=1e-9), "period_doubling", 0.65, "left_the_range")
 
 
@@ -138,33 +132,20 @@ def test_flutter_loses_its_symmetry_then_doubles(sweep):
         assert KINDS[branches["branch_start_kind"][row]] == "symmetry_breaking"
 
 
-def test_without_damping_multipliers_are_on_the_unit_circle(kapitza, tmp_path):
-    (tmp_path / "damping.yaml").write_text("""\
-pendulum: {k: 0.008264462809917356, damping: 0.02, m: 0.3}
-sweep: {parameter: damping, min: 0, max: 0.02, count: 3, measure: [attractors], starts: 256}
-""")
-    kapitza("run", "damping.yaml", folder=tmp_path)
-    with h5py.File(tmp_path / "damping.h5") as file:
-        group = file["sweep"]
-        names = group["branch_name"].asstr()[:]
-        row = list(names).index("inverted")
-        assert KINDS[group["branch_start_kind"][row]] == "neimark_sacker" and abs(group["branch_start"][row]) < 1e-9
-        assert np.isnan(group["branch_amplitude"][0]).all() and group["branch_amplitude"][1, row] == 0
+def test_without_damping_multipliers_are_on_the_unit_circle(sweep):
+    group, _ = sweep("attractors", 0, 0.02, 3, "damping", "{k: 0.008264462809917356, damping: 0.02, m: 0.3}", ", starts: 256")
+    row = list(group["branch_name"]).index("inverted")
+    assert KINDS[group["branch_start_kind"][row]] == "neimark_sacker" and abs(group["branch_start"][row]) < 1e-9
+    assert np.isnan(group["branch_amplitude"][0]).all() and group["branch_amplitude"][1, row] == 0
 
 
 @pytest.mark.extensive
-def test_gravity_upside_down(kapitza, tmp_path):
+def test_gravity_upside_down(sweep):
     """k -> -k turns the pendulum over and shifts the drive by half a period: branches are mirrored, down becomes inverted."""
-    (tmp_path / "turned.yaml").write_text("""\
-pendulum: {k: 0.1, damping: 0.05, m: 0.4}
-sweep: {parameter: k, min: -0.1, max: 0.1, count: 5, measure: [attractors], starts: 256}
-""")
-    kapitza("run", "turned.yaml", folder=tmp_path)
+    group, _ = sweep("attractors", -0.1, 0.1, 5, "k", "{k: 0.1, damping: 0.05, m: 0.4}", ", starts: 256")
     turned = {"down": "inverted", "inverted": "down", "flutter": "down 2-nodding", "down 2-nodding": "flutter"}
-    with h5py.File(tmp_path / "turned.h5") as file:
-        group = file["sweep"]
-        lives = {name: (group["branch_start"][row], group["branch_start_kind"][row], group["branch_end"][row],
-                        group["branch_end_kind"][row]) for row, name in enumerate(group["branch_name"].asstr()[:])}
+    lives = {name: (group["branch_start"][row], group["branch_start_kind"][row], group["branch_end"][row],
+                    group["branch_end_kind"][row]) for row, name in enumerate(group["branch_name"])}
     assert turned.keys() <= lives.keys()
     for name, other in turned.items():
         start, start_kind, end, end_kind = lives[name]
@@ -173,24 +154,19 @@ sweep: {parameter: k, min: -0.1, max: 0.1, count: 5, measure: [attractors], star
 
 
 @pytest.mark.extensive
-def test_chaos_is_one_branch(kapitza, tmp_path):
-    (tmp_path / "chaos.yaml").write_text("""\
-pendulum: {k: 0.25, damping: 0.05, m: 0.5}
-sweep: {parameter: m, min: 0.45, max: 0.5, count: 3, measure: [basin_fractions], starts: 64, velocity: {min: -1, max: 1}}
-""")
-    said = kapitza("run", "chaos.yaml", folder=tmp_path).stdout
-    with h5py.File(tmp_path / "chaos.h5") as file:
-        group = file["sweep"]
-        names = list(group["branch_name"].asstr()[group["branch_stable"][:] == 1])
-        row = names.index("chaotic")
-        share = 100 * group["fraction"][:, row]
-        assert f"{np.nanmin(share):.2f} to {np.nanmax(share):.2f} %" in next(line for line in said.splitlines() if "chaotic" in line)
-        assert names.count("rotation +8/8") == names.count("rotation -8/8") == names.count("chaotic") == 1
-        assert group["branch_period"][row] == 0 and group["branch_mirror"][row] == row
-        assert (group["branch_start"][row], KINDS[group["branch_start_kind"][row]]) == (0.475, "not_located")
-        assert KINDS[group["branch_end_kind"][row]] == "left_the_range" and group["fraction"][2, row] == 1
-        rotation = names.index("rotation +8/8")
-        assert KINDS[group["branch_end_kind"][rotation]] == "period_doubling" and 0.45 < group["branch_end"][rotation] < 0.475
+def test_chaos_is_one_branch(sweep):
+    pendulum, more = "{k: 0.25, damping: 0.05, m: 0.5}", ", starts: 64, velocity: {min: -1, max: 1}"
+    group, _ = sweep("basin_fractions", 0.45, 0.5, 3, "m", pendulum, more)
+    names = list(group["branch_name"][group["branch_stable"] == 1])
+    row = names.index("chaotic")
+    share = 100 * group["fraction"][:, row]
+    assert f"{np.nanmin(share):.2f} to {np.nanmax(share):.2f} %" in next(line for line in sweep.said.splitlines() if "chaotic" in line)
+    assert names.count("rotation +8/8") == names.count("rotation -8/8") == names.count("chaotic") == 1
+    assert group["branch_period"][row] == 0 and group["branch_mirror"][row] == row
+    assert (group["branch_start"][row], KINDS[group["branch_start_kind"][row]]) == (0.475, "not_located")
+    assert KINDS[group["branch_end_kind"][row]] == "left_the_range" and group["fraction"][2, row] == 1
+    rotation = names.index("rotation +8/8")
+    assert KINDS[group["branch_end_kind"][rotation]] == "period_doubling" and 0.45 < group["branch_end"][rotation] < 0.475
 
 
 def test_flutter_amplitudes(sweep):
@@ -213,25 +189,16 @@ def test_flutter_grows_with_the_square_root(sweep):
     assert 0 < attributes["fit_slope_stderr"] < 1e-2
 
 
-def test_a_summary_says_only_what_is_known(kapitza, tmp_path):
+def test_a_summary_says_only_what_is_known(sweep):
     """Too few values with flutter for an exponent: the summary leaves it out."""
-    (tmp_path / "s.yaml").write_text("""\
-pendulum: {quality_factor: 5, drive_frequency: 11, drive_amplitude: 0.5}
-sweep: {parameter: drive_amplitude, min: 0.46, max: 0.475, count: 7, measure: [flutter_amplitude]}
-""")
-    said = kapitza("run", "s.yaml", folder=tmp_path).stdout
-    assert "times the distance\n" in said and "nan" not in said
+    sweep("flutter_amplitude", 0.46, 0.475, 7)
+    assert "times the distance\n" in sweep.said and "nan" not in sweep.said
 
 
-def test_without_damping_a_sweep_says_that_nothing_attracts(kapitza, tmp_path):
-    (tmp_path / "s.yaml").write_text("""\
-pendulum: {drive_frequency: 11, drive_amplitude: 0.3}
-sweep: {parameter: drive_amplitude, min: 0.2, max: 0.3, count: 2, measure: [attractors, flutter_zone], starts: 16}
-""")
-    said = kapitza("run", "s.yaml", folder=tmp_path).stdout
-    assert "without damping there are none" in said and "nan" not in said
-    with h5py.File(tmp_path / "s.h5") as file:
-        assert file["sweep/branch"].shape == (0,) and np.isnan(file["sweep/flutter_onset"][:]).all()
+def test_without_damping_a_sweep_says_that_nothing_attracts(sweep):
+    arrays, _ = sweep("attractors, flutter_zone", 0.2, 0.3, 2, pendulum="{drive_frequency: 11, drive_amplitude: 0.3}", more=", starts: 16")
+    assert "without damping there are none" in sweep.said and "nan" not in sweep.said
+    assert arrays["branch"].shape == (0,) and np.isnan(arrays["flutter_onset"]).all()
 
 
 @pytest.mark.extensive
@@ -256,7 +223,7 @@ RELEASES = [(20, 11, 0.13, 0.25, 13 if EXTENSIVE else 4), (20, 11, 0.3, 0.5, 5 i
 
 @pytest.mark.parametrize(("q", "omega", "low", "high", "count"), RELEASES)
 def test_releases_from_rest(sweep, q, omega, low, high, count):
-    arrays, _ = sweep("release_angle", low, high, count, q=q, omega=omega)
+    arrays, _ = sweep("release_angle", low, high, count, pendulum=FORM.format(q, omega))
     compared = 0
     for row, value in enumerate(arrays["value"]):
         known = REFERENCE["blackburn_fig6_7_release"].get(f"{omega}_{q}_{round(value, 6):g}")
@@ -295,10 +262,9 @@ basin:
   icm: {theta: 300, velocity: 300}
 """
     shares = []
-    for name, text in (("starts", scene), ("grid", scene + grid)):
-        (tmp_path / f"{name}.yaml").write_text(text)
-        kapitza("run", f"{name}.yaml", folder=tmp_path)
-        with h5py.File(tmp_path / f"{name}.h5") as file:
+    for text in (scene, scene + grid):
+        result, _ = run_scene(kapitza, tmp_path, text)
+        with h5py.File(result.path) as file:
             group = file["sweep"]
             shares.append({(row, label): group["fraction"][row, column] for column, label in
                            enumerate(group["branch_name"].asstr()[:]) for row in range(2)})
@@ -306,7 +272,7 @@ basin:
             there = np.isfinite(share)
             assert np.all((low[there] <= share[there]) & (share[there] <= high[there]))
             assert np.nansum(share, axis=1) == pytest.approx([1, 1], abs=1e-3)
-            if name == "grid":
+            if text != scene:
                 basin, ids = file["basin/attractor"][:], file["attractors/name"].asstr()[:]
                 own = np.mean(np.isin(basin, np.flatnonzero(ids == "inverted")))
                 assert shares[1][1, "inverted"] == pytest.approx(own, abs=1e-12)
@@ -318,7 +284,7 @@ ALL = "attractors, basin_fractions, flutter_amplitude, release_angle, strobe"
 
 
 def test_same_bytes_on_any_number_of_ranks_and_resumed(kapitza, tmp_path):
-    text = SCENE.format(measure=ALL, low=0.46, high=0.48, count=2, parameter="drive_amplitude", q=5, omega=11,
-                        more=", starts: 64, transient: 100, samples: 16")
+    text = SCENE.format(measure=ALL, low=0.46, high=0.48, count=2, parameter="drive_amplitude",
+                        pendulum=FIG12, more=", starts: 64, transient: 100, samples: 16")
     one, three = (datasets(run_scene(kapitza, tmp_path, text, ranks=ranks)[0].path) for ranks in (1, 3))
     assert one == three == datasets(stopped_and_resumed(kapitza, tmp_path, text, ranks=2).path)

@@ -8,7 +8,7 @@ from decimal import Decimal, getcontext
 
 import numpy as np
 import pytest
-from conftest import PROGRAM, ROOT, with_extensive
+from conftest import PROGRAM, ROOT, run_scene, with_extensive
 from kapitza.result import Result
 
 SMALL = ROOT / "scenes" / "small.yaml"
@@ -34,8 +34,8 @@ def table(*arguments, starts):
 def test_the_labels_of_a_run(kapitza, tmp_path, words):
     """Labels, times, precisions and candidates are those of method exact, and the orbits those of the file, to the last bit."""
     words = [*words, "--set", "basin.theta={min: 2, max: 4, count: 24}", "--set", "basin.velocity.count=24", "--set", "basin.method=exact"]
-    kapitza("run", SMALL, *words, "-o", tmp_path / "exact.h5")
-    basin, attractors = (Result(tmp_path / "exact.h5").group(name) for name in ("basin", "attractors"))
+    result, _ = run_scene(kapitza, tmp_path, SMALL, *words)
+    basin, attractors = result.group("basin"), result.group("attractors")
     theta, velocity = np.meshgrid(basin["theta"].values, basin["velocity"].values)
     found = table(SMALL, *words, starts=np.column_stack([theta.ravel(), velocity.ravel()]))
     ids = np.array([int(row["attractor"]) for row in found])
@@ -68,9 +68,8 @@ def test_the_time_until_a_motion_looks_like_its_end(kapitza, tmp_path, start):
     """From this period on each strobe point lies within a degree of the attractor's, by a record of the motion; certain is another time."""
     answer = json.loads(where(SMALL, *start, "--json", *QUICK).stdout)
     scene = f"orbit: {{start: {{theta: {start[0]}, velocity: {start[1]}}}, periods: {answer['near_time'] + 300}, samples_per_period: 16}}\n"
-    (tmp_path / "orbit.yaml").write_text(SMALL.read_text().split("basin:")[0] + scene)
-    kapitza("run", "orbit.yaml", folder=tmp_path)
-    angle = Result(tmp_path / "orbit.h5").group("orbit")["strobe_theta"].values
+    result, _ = run_scene(kapitza, tmp_path, SMALL.read_text().split("basin:")[0] + scene)
+    angle = result.group("orbit")["strobe_theta"].values
     phases, cycle = np.arange(answer["period"])[:, None], np.array(answer["strobe_theta"])
     gap = angle - cycle[(np.arange(len(angle)) + phases) % answer["period"]]
     away = np.abs(np.remainder(gap + np.pi, 2 * np.pi) - np.pi) > np.radians(1)
