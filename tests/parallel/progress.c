@@ -6,17 +6,28 @@
 #include <sys/ioctl.h>
 #include <sys/wait.h>
 #include <termios.h>
+#include <time.h>
 
 #include "ranks.h"
 
 static char shown[100000];
 static int here = -1, there = -1; /* the ends of a terminal whose foreground is this process; -1: a machine without terminals */
 
+/* The clock of this process stands still but for what its work adds, in s: a busy machine changes no line. */
+static double passed = 1;
+
+int clock_gettime(clockid_t clock, struct timespec *now) {
+  (void)clock;
+  now->tv_sec = (time_t)passed;
+  now->tv_nsec = (long)(1e9 * (passed - (double)now->tv_sec));
+  return 0;
+}
+
 static kz_status fill(void *context, int64_t tile, void *bytes) {
   (void)context;
   (void)bytes;
   (void)tile;
-  pause_for(0.02);
+  passed += 0.02;
   return KZ_OK;
 }
 
@@ -31,7 +42,7 @@ static kz_status run_chain(int64_t n_stages) {
   kz_chain *chain = kz_chain_begin(&(kz_run){.ranks = ranks}, "reference");
   kz_status status = KZ_OK;
   for (int64_t i = 0; status == KZ_OK && i < n_stages; i++) {
-    pause_for(0.6);
+    passed += 0.6;
     status = run_cells(1);
     kz_chain_show(chain, 0.6 * (double)(i + 1));
   }
@@ -90,8 +101,7 @@ TEST(a_file_gets_lines) {
 /* Half of the time has passed after the second one, a second after the first line was due. */
 TEST(a_chain_of_stages_is_shown_as_one) {
   show_in_pipe(KZ_PROGRESS_ALWAYS, run_chain, 2);
-  assert_non_null(strstr(shown, "kapitza: reference: 5")); /* half, or a little more on a busy machine */
-  assert_non_null(strstr(shown, " left\n"));
+  assert_non_null(strstr(shown, "kapitza: reference: 51 %, 0:01, 0:01 left\n"));
   assert_non_null(strstr(shown, "kapitza: reference: 100 %, 0:01"));
   assert_null(strstr(shown, "cells"));
 }

@@ -99,6 +99,7 @@ def test_hanging_state_and_its_doubling(sweep):
 def test_rotation_is_born_in_a_fold(sweep):
     branches, _ = sweep("attractors", 0.02, 0.06, 5, more=", starts: 512")
     low = RANGES["spin_+1/1"]["low"]["eps"]
+    assert float(low) == pytest.approx(2 / 55, rel=1e-3)  # twice the damping, a simple law
     assert ends(branches, "rotation +1/1") == (near(low), "fold", 0.06, "left_the_range")
     assert ends(branches, "rotation -1/1") == (near(low), "fold", 0.06, "left_the_range")
     turned = np.flatnonzero((branches["branch_name"] == "rotation +1/1") & (branches["branch_stable"] == 0))
@@ -235,6 +236,9 @@ def test_releases_from_rest(sweep, q, omega, low, high, count):
                                 ("release_angle_scan", "release_angle", "release_angle_largest"))
         assert scan == pytest.approx(known["first_fail_deg"], abs=2e-5 if value < 0.3 else 1e-3)  # above: fractal edges
         assert first <= scan + 1e-6 <= largest + 2e-6
+        if (q, high) == (20, 0.25) and value > 0.15:  # a simple law: the rim, and the slow angle at t = 0, phi - epsilon sin phi
+            rim = 2 / (omega * value) ** 2
+            assert first == pytest.approx(np.degrees(np.arccos(rim) + value * np.sqrt(1 - rim**2)), abs=1.5)
         assert stays.max() == round(known["last_ok_deg"]) and abs(len(stays) - known["n_ok"]) <= 1
     assert compared >= 2
 
