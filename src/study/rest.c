@@ -5,7 +5,8 @@
 #include "kapitza/kernel.h"
 #include "kapitza/study.h"
 
-enum { POINTS = 4000, HALVINGS = 40 };
+/* Drives that are looked at; how often a change is looked for between two of them, and at how many drives. */
+enum { POINTS = 4000, ROUNDS = 7, PARTS = 64 };
 
 /* |k| + |m| up to which the answer takes less than a second. */
 static const double STIFFEST = 1e5;
@@ -25,24 +26,30 @@ typedef struct {
   double scale;
 } drive_words;
 
-static bool is_stable(const kz_pendulum *form, double k, double beta, double m) {
-  double growth, angle;
-  uint8_t stable;
-  kz_linear_floquet(form, 1, &k, &beta, &m, &growth, &angle, &stable);
-  return stable;
+/* Whether the position is stable at n drives, `step` apart. */
+static void look_at(const kz_pendulum *form, double k, double beta, double first, double step, int n, uint8_t *stable) {
+  KZ_FREED double *ks = kz_malloc((size_t)(5 * n) * sizeof *ks);
+  double *betas = ks + n, *ms = betas + n, *growth = ms + n, *angle = growth + n;
+  for (int i = 0; i < n; i++) {
+    ks[i] = k;
+    betas[i] = beta;
+    ms[i] = first + step * i;
+  }
+  kz_linear_floquet(form, n, ks, betas, ms, growth, angle, stable);
 }
 
 /* The drive between two of different answers at which the answer changes. */
 static double change_between(const kz_pendulum *form, double k, double beta, double below, double above) {
-  const bool first = is_stable(form, k, beta, below);
-  for (int i = 0; i < HALVINGS; i++) {
-    const double middle = (below + above) / 2;
-    if (is_stable(form, k, beta, middle) == first)
-      below = middle;
-    else
-      above = middle;
+  double part = above - below;
+  for (int round = 0; round < ROUNDS; round++) {
+    uint8_t stable[PARTS];
+    int same = 0;
+    part /= PARTS - 1;
+    look_at(form, k, beta, below, part, PARTS, stable);
+    while (same < PARTS - 2 && stable[same + 1] == stable[0]) same++;
+    below += part * same;
   }
-  return (below + above) / 2;
+  return below + part / 2;
 }
 
 /* The nearest change from place `at` on in steps of `by`, and the place behind it; NaN where none is met. */
@@ -58,19 +65,12 @@ static double next_change(const kz_pendulum *form, const uint8_t *stable, double
 
 /* The position at which gravity counts as k and the drive `form` as m; `most`: the largest drive that is looked at. */
 static rest look(const kz_pendulum *form, double k, double beta, double m, double most) {
-  KZ_FREED double *ks = kz_malloc(5 * POINTS * sizeof *ks);
   KZ_FREED uint8_t *stable = kz_malloc(POINTS);
-  double *betas = ks + POINTS, *ms = betas + POINTS, *growth = ms + POINTS, *angle = growth + POINTS;
   const double step = most / (POINTS - 1);
-  for (int i = 0; i < POINTS; i++) {
-    ks[i] = k;
-    betas[i] = beta;
-    ms[i] = step * i;
-  }
-  kz_linear_floquet(form, POINTS, ks, betas, ms, growth, angle, stable);
+  look_at(form, k, beta, 0, step, POINTS, stable);
   int here = (int)lrint(fabs(m) / step), up, down;
-  rest found = {.stable = is_stable(form, k, beta, fabs(m)), .low = NAN, .high = NAN};
-  stable[here] = found.stable;
+  look_at(form, k, beta, fabs(m), 0, 1, stable + here);
+  rest found = {.stable = stable[here], .low = NAN, .high = NAN};
   up = down = here;
   if (found.stable) {
     found.low = next_change(form, stable, step, k, beta, &down, -1);
