@@ -47,10 +47,13 @@ void kz_window_starts_free(kz_window_starts *starts) {
 static kz_status start_cell(void *context, int64_t cell, int32_t level, kz_start *start) {
   const kz_window_starts *s = context;
   const int64_t column = cell % s->plan->theta.count, row = cell / s->plan->theta.count;
-  if (s->images)
+  if (s->images) {
     kz_hand_over_start(&s->hand_over[level], s->place[0][column], s->place[1][row], start);
-  else
-    *start = kz_start_at(s->centre[0][column], s->centre[1][row]);
+    return KZ_OK;
+  }
+  *start = (kz_start){0}; /* in place: a copy of what was just written waits for it */
+  start->theta[0] = s->centre[0][column];
+  start->velocity[0] = s->centre[1][row];
   return KZ_OK;
 }
 
