@@ -102,13 +102,17 @@ static kz_status find_attractors(kz_window_labels *l) {
   return KZ_OK;
 }
 
+/* Column by column: cells beside each other in both directions share nodes of the map table, which is larger than the caches. */
 static kz_status label_tile(void *context, int64_t tile, void *record) {
   kz_window_labels *l = context;
-  const int64_t first = kz_tile_first(&l->tiles, tile), n = kz_tile_own(&l->tiles, tile);
+  const int64_t first = kz_tile_first(&l->tiles, tile), n = kz_tile_own(&l->tiles, tile), columns = l->tiles.chunk[1];
   KZ_FREED int64_t *cell = kz_malloc((size_t)n * sizeof *cell);
-  for (int64_t i = 0; i < n; i++) cell[i] = first + i;
-  const kz_status status = kz_label_first(&l->labeller, n, cell, l->cell);
-  return status == KZ_OK ? kz_tile_labels_pack(l, tile, record) : status;
+  KZ_FREED kz_label *found = kz_malloc((size_t)n * sizeof *found);
+  for (int64_t column = 0, i = 0; column < columns; column++)
+    for (int64_t k = column; k < n; k += columns) cell[i++] = first + k;
+  KZ_TRY(kz_label_first(&l->labeller, n, cell, found));
+  for (int64_t i = 0; i < n; i++) l->cell[cell[i] - first] = found[i];
+  return kz_tile_labels_pack(l, tile, record);
 }
 
 static kz_status label_all_tiles(kz_window_labels *l) {
