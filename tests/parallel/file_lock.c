@@ -25,8 +25,8 @@ static pid_t lock_for(double seconds) {
 /* Opens against a process that holds the file for so long or until the end of the test; the time it took. */
 static double open_against(double seconds, kz_status expected) {
   const kz_checkpoint_plan plan = {.path = path, .fingerprint = "k: 1\n", .resume = true};
-  const pid_t child = kz_rank(ranks) == 0 ? lock_for(seconds) : 0;
   const double begun = kz_clock();
+  const pid_t child = kz_rank(ranks) == 0 ? lock_for(seconds) : 0;
   const kz_status status = open_checkpoint(&plan);
   const double took = kz_clock() - begun;
   assert_all(status == expected && (status == KZ_OK || strstr(kz_message(), "held by another process")));
@@ -36,7 +36,7 @@ static double open_against(double seconds, kz_status expected) {
 
 TEST(orphans_are_waited_for) {
   const double took = open_against(1.5, KZ_OK);
-  assert_all(kz_rank(ranks) != 0 || (took > 1.0));
+  assert_all(kz_rank(ranks) != 0 || took > 1.4);
   assert_all(close_checkpoint(true) == KZ_OK);
 }
 

@@ -136,7 +136,7 @@ static kz_status wait_for_others(void *context, int64_t tile, void *bytes) {
   const tally *t = context;
   const double begun = kz_clock();
   memset(bytes, 1, 1);
-  while (tile == 0 && count(t) < N_TILES - 1 && kz_clock() - begun < 20) pause_for(0.001);
+  while (tile == 0 && count(t) < N_TILES - 1 && kz_clock() - begun < 1000) pause_for(0.001);
   if (tile == 0 && count(t) < N_TILES - 1) return kz_fail(KZ_FAILED, "%lld tiles are done", (long long)count(t));
   pause_for(0.001);
   return write(t->file, "x", 1) == 1 ? KZ_OK : kz_fail(KZ_FAILED, "no tally");

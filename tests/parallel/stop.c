@@ -50,10 +50,8 @@ TEST(a_signal_to_one_rank_stops_all) {
   int64_t done = 0;
   raising = 20;
   assert_all(open_checkpoint(&plan) == KZ_OK);
-  const double begun = kz_clock();
   const kz_status status = run(&done, true);
   assert_all(status == KZ_STOPPED && strstr(kz_message(), "SIGUSR1") && strstr(kz_message(), path));
-  assert_all(kz_clock() - begun < 10);
   assert_all(done < N_TILES / 4); /* the others learn of it with their next batch */
   assert_all(run(&done, true) == KZ_STOPPED);
   assert_all(close_checkpoint(false) == KZ_OK);

@@ -153,9 +153,9 @@ def test_an_address_serves_once(striped):
 
 def test_it_listens_on_loopback_alone(striped):
     with pytest.raises(ConnectionRefusedError):
-        socket.create_connection(("127.0.0.2", striped.port), timeout=5).close()
+        socket.create_connection(("127.0.0.2", striped.port)).close()
     if socket.has_ipv6:
-        with socket.create_connection(("::1", striped.port), timeout=5) as other:
+        with socket.create_connection(("::1", striped.port)) as other:
             other.sendall(b"GET / HTTP/1.1\r\nHost: [::1]:%d\r\n\r\n" % striped.port)
             assert other.recv(15) == b"HTTP/1.1 200 OK"
 
@@ -164,7 +164,7 @@ def test_it_listens_on_loopback_alone(striped):
 
 
 def raw(port, data):
-    with socket.create_connection(("127.0.0.1", port), timeout=20) as connection:
+    with socket.create_connection(("127.0.0.1", port)) as connection:
         with suppress(OSError):  # it may have been shut out before the end
             connection.sendall(data)
             connection.shutdown(socket.SHUT_WR)
@@ -196,7 +196,7 @@ def test_malformed_requests_are_answered_without_a_traceback(striped):
 
 def test_strangers_cannot_lock_the_owner_out(striped):
     """More idle connections than are kept: those without a token make room, and processor time is not burnt on them."""
-    strangers = [socket.create_connection(("127.0.0.1", striped.port), timeout=20) for _ in range(400)]
+    strangers = [socket.create_connection(("127.0.0.1", striped.port)) for _ in range(400)]
     before = processor_time(striped.process.pid)
     assert striped.request("state", {})[0] == 200
     time.sleep(0.5)
@@ -219,7 +219,7 @@ def test_few_descriptors_are_an_answer_not_a_traceback(tmp_path):
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr("explorer_page.PROGRAM", limit)
         running = Server(SMALL)
-    strangers = [socket.create_connection(("127.0.0.1", running.port), timeout=20) for _ in range(60)]
+    strangers = [socket.create_connection(("127.0.0.1", running.port)) for _ in range(60)]
     for name in range(8):
         try:
             assert running.request(f"ask?view={name}", {"request": "quit"})[0] in (200, 400)
