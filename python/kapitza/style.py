@@ -109,7 +109,7 @@ def _variants(colour: str) -> list[tuple[str, np.ndarray]]:
     for turn in np.radians((0, 30, -30, 60, -60, 90, -90, 120, -120, 150, -150, 180)):
         for lighter in (0, -0.12, 0.12, -0.24):
             place = (np.clip(lightness + lighter, 0.3, 0.88), chroma * np.cos(hue + turn), chroma * np.sin(hue + turn))
-            hexadecimal = to_hex(of_oklab(np.array(place)))
+            hexadecimal = to_hex(of_oklab(np.array(place)).tolist())
             found.append((hexadecimal, _oklab(hexadecimal)))
     return found
 

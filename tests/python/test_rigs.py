@@ -54,7 +54,7 @@ def test_samples_are_the_harmonics_that_they_hold(kapitza, tmp_path):
     assert (labels[0] == labels[1]).all()
     square = {"pendulum": {**PENDULUM, "waveform": "samples", "samples": [1] * 16 + [-1] * 32 + [1] * 16}, **basin}
     (tmp_path / "rig.yaml").write_text(json.dumps(square))
-    said = kapitza("check", "rig.yaml", folder=tmp_path).stdout.split("Drive: ")[1]
+    said = kapitza("check", "--all", "rig.yaml", folder=tmp_path).stdout.split("Drive: ")[1]
     times = 2 * math.pi * np.arange(64) / 64
     wave = np.array(square["pendulum"]["samples"], dtype=float)
     amplitude = np.fft.rfft(wave)[:17] / 32
@@ -110,7 +110,7 @@ def test_overtones_are_in_proportion_to_the_drive(kapitza, tmp_path):
                                         ({"torque": 0.01}, "Rest: none")])
 def test_rest_is_told_for_the_drive_that_is_there(kapitza, tmp_path, keys, rest):
     (tmp_path / "rig.yaml").write_text(json.dumps({"pendulum": {**PENDULUM, **keys}, "basin": WINDOW}))
-    assert rest in kapitza("check", "rig.yaml", folder=tmp_path).stdout
+    assert rest in kapitza("check", "--all", "rig.yaml", folder=tmp_path).stdout
 
 
 def bessel(n, x):

@@ -89,7 +89,7 @@ def label_regions(axes: Axes, atlas: xarray.Dataset, curves: list[Line2D], point
         for pixels, words in itertools.product(taken, dict.fromkeys((text, wrapped))):
             label = axes.text(0, 0, words, ha="center", va="center", fontsize="small", color=style.INK, zorder=8,
                               path_effects=[effects.withStroke(linewidth=2.2, foreground="white", alpha=0.85)])
-            box, letter = label.get_window_extent(renderer), label.get_fontsize() * axes.figure.dpi / 72
+            box, letter = label.get_window_extent(renderer), float(label.get_fontsize()) * axes.figure.dpi / 72
             free = pixels.free(places, box.width + GAP[0] * letter, box.height + GAP[1] * letter)
             for other in placed:
                 if other.get_text().split() == words.split():

@@ -1,5 +1,7 @@
 """Pictures on dark paper: the colours of a finished figure, with their lightness turned over and their hues kept."""
 
+from typing import Any
+
 import numpy as np
 from matplotlib import patheffects
 from matplotlib.collections import Collection
@@ -15,7 +17,7 @@ PAPER = 0.17  # lightness (OKLab) of what was white
 READABLE = 0.64  # least lightness of lines and letters
 
 
-def turned(colours: object, least: float = PAPER) -> np.ndarray:
+def turned(colours: Any, least: float = PAPER) -> np.ndarray:
     """Colours (anything that matplotlib takes) for dark paper, [n, 4]; `least`: their least lightness in OKLab. Pale areas are farther from
     dark paper than they were from white, because the eye sees less there."""
     rgba = to_rgba_array(colours)
