@@ -7,7 +7,7 @@ module kz_maps_step_error
   use kz_kernel_flows, only: make_flow
   use kz_model_pendulum, only: pendulum_t, stiffness, is_mirrored
   use kz_vector_step_table, only: numerics_t
-  use kz_processed_tables, only: recall_errors, keep_errors
+  use kz_vector_kept_errors, only: recall_errors, keep_errors
   use kz_maps_states, only: separation
   implicit none
   private

@@ -1,15 +1,15 @@
 !> The processed splitting in double precision: its tables, and its series, which may be kept.
 module kz_processed_tables
-  use, intrinsic :: iso_c_binding, only: c_double, c_int64_t, c_ptr, c_null_ptr, c_associated, c_f_pointer, c_loc
+  use, intrinsic :: iso_c_binding, only: c_double, c_ptr, c_associated, c_f_pointer, c_loc
   use, intrinsic :: iso_fortran_env, only: rk => real64
+  use kz_vector_kept_errors, only: kept_errors_t
   use kz_vector_locks, only: create_lock, free_lock, take_lock, leave_lock
   use kz_model_pendulum, only: pendulum_t, exact_stiffness, is_same
   use kz_processed_harmonics, only: sine_polynomials, cosine_polynomials
   use kz_processed_series_r64, only: series_t, make_series, ORDER, HARMONICS
   implicit none
   private
-  public :: series_t, kept_series_t, processed_t, processor_t, make_processed_series, make_processed, recall_errors, keep_errors, &
-            ORDER, HARMONICS, NODES
+  public :: series_t, kept_series_t, processed_t, processor_t, make_processed_series, make_processed, ORDER, HARMONICS, NODES
 
   !> Powers of the velocity in a drift (1, 3, 5, ..) and coefficients of a kick that are of use.
   integer, parameter, public :: MOST_DRIFTS = 4, MOST_KICKS = 11
@@ -19,26 +19,14 @@ module kz_processed_tables
   !> Pendulums that a hand moved whose series are kept. Over a plane, functions of degree 5 have 21 coefficients.
   integer, parameter :: NODES = 24
 
-  !> Errors of a period that are kept: a sweep tries 17 values.
-  integer, parameter :: MEASURED = 24
-
-  !> Errors of a period that were measured, and all numbers that they depend on.
-  type :: errors_t
-    integer(c_int64_t), allocatable :: key(:)
-    real(c_double), allocatable :: error(:)
-  end type errors_t
-
-  !> What kz_kept_series of kernel.h points at: the series that was made last, which a scene asks for several times, series of pendulums that a
-  !> hand moves, and the errors that were measured last: before a run, which may be refused, and after it. The caller owns it; the thread that holds the lock uses it.
-  type :: kept_series_t
+  !> What kz_kept_series of kernel.h points at: the series that was made last, which a scene asks for several times, and series of pendulums that a
+  !> hand moves. The caller owns it; the thread that holds the lock uses it.
+  type, extends(kept_errors_t) :: kept_series_t
     type(pendulum_t) :: pendulum
     type(series_t), allocatable :: made
     type(pendulum_t) :: place(NODES)
     type(series_t), allocatable :: node(:)
-    type(c_ptr) :: lock = c_null_ptr
     integer :: n_nodes = 0
-    type(errors_t) :: measured(MEASURED)
-    integer :: n_measured = 0 !< so far
   end type kept_series_t
 
   include 'tables.inc'
@@ -121,48 +109,12 @@ module kz_processed_tables
     call leave_lock(last%lock)
   end subroutine make_processed_series
 
-  !> Errors that were measured before, if they are kept.
-  logical function recall_errors(handle, key, error) result(known)
-    type(c_ptr), intent(in) :: handle !< kz_kept_series of kernel.h; null = nothing is kept
-    integer(c_int64_t), intent(in) :: key(:) !< the bits of all numbers that the errors depend on
-    real(c_double), intent(inout) :: error(:) !< rad; unchanged where they are not known
-    type(kept_series_t), pointer :: kept
-    integer :: i
-
-    known = .false.
-    if (.not. c_associated(handle)) return
-    call c_f_pointer(handle, kept)
-    call take_lock(kept%lock)
-    do i = 1, min(kept%n_measured, MEASURED)
-      if (size(kept%measured(i)%key) /= size(key)) cycle
-      if (any(kept%measured(i)%key /= key)) cycle
-      error = kept%measured(i)%error
-      known = .true.
-    end do
-    call leave_lock(kept%lock)
-  end function recall_errors
-
-  !> Keeps errors in place of the oldest.
-  subroutine keep_errors(handle, key, error)
-    type(c_ptr), intent(in) :: handle !< as recall_errors takes them
-    integer(c_int64_t), intent(in) :: key(:)
-    real(c_double), intent(in) :: error(:) !< rad
-    type(kept_series_t), pointer :: kept
-
-    if (.not. c_associated(handle)) return
-    call c_f_pointer(handle, kept)
-    call take_lock(kept%lock)
-    kept%measured(modulo(kept%n_measured, MEASURED) + 1) = errors_t(key, error)
-    kept%n_measured = kept%n_measured + 1
-    call leave_lock(kept%lock)
-  end subroutine keep_errors
-
   type(c_ptr) function series_create() bind(C, name='kz_kept_series_create') result(handle)
     type(kept_series_t), pointer :: kept
 
     allocate (kept)
     kept%lock = create_lock()
-    handle = c_loc(kept)
+    handle = c_loc(kept%kept_errors_t) ! the address of both
   end function series_create
 
   subroutine series_free(handle) bind(C, name='kz_kept_series_free')
