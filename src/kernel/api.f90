@@ -88,14 +88,15 @@ contains
     type(flows_t), pointer :: flows
     class(flow_t), allocatable :: flow
     real(c_double), allocatable :: tangent(:, :, :) !< unallocated: not asked
-    integer(c_int64_t) :: first, period
+    integer(c_int64_t) :: first, last, period
     integer :: lanes, i
 
     call c_f_pointer(handle, flows)
     allocate (flow, source=flows%fused)
     do first = 1, n, WIDTH
-      lanes = int(min(int(WIDTH, c_int64_t), n - first + 1))
-      call load(flow, lanes, theta(first:), velocity(first:))
+      last = min(first + WIDTH - 1, n)
+      lanes = int(last - first + 1)
+      call flow%put_all(theta(first:last)/PI, velocity(first:last))
       if (present(matrix)) tangent = spread(reshape([1.0_c_double, 0.0_c_double, 0.0_c_double, 1.0_c_double], [2, 2]), 3, WIDTH)
       call flow%to_map(lanes, tangent)
       do period = 1, periods
@@ -103,37 +104,14 @@ contains
         if (.not. present(matrix)) call flow%advance(lanes)
       end do
       call flow%to_physical(lanes, tangent)
-      call unload(flow, lanes, theta(first:), velocity(first:), turns(first:))
+      theta(first:last) = flow%u(:lanes)*PI
+      velocity(first:last) = flow%v(:lanes)
+      turns(first:last) = turns(first:last) + flow%turns(:lanes)
       do i = 1, merge(lanes, 0, present(matrix))
         matrix(:, :, first + i - 1) = transpose(tangent(:, :, i))
       end do
     end do
   end subroutine advance_batches
-
-  subroutine load(flow, lanes, theta, velocity)
-    class(flow_t), intent(inout) :: flow
-    integer, intent(in) :: lanes
-    real(c_double), intent(in) :: theta(*), velocity(*)
-    integer :: i
-
-    do i = 1, lanes
-      call flow%put(i, theta(i)/PI, velocity(i))
-    end do
-    do i = lanes + 1, WIDTH
-      call flow%put(i, 0.0_c_double, 0.0_c_double)
-    end do
-  end subroutine load
-
-  subroutine unload(flow, lanes, theta, velocity, turns)
-    class(flow_t), intent(in) :: flow
-    integer, intent(in) :: lanes
-    real(c_double), intent(inout) :: theta(*), velocity(*)
-    integer(c_int64_t), intent(inout) :: turns(*)
-
-    theta(:lanes) = flow%u(:lanes)*PI
-    velocity(:lanes) = flow%v(:lanes)
-    turns(:lanes) = turns(:lanes) + flow%turns(:lanes)
-  end subroutine unload
 
   subroutine sample(handle, periods, samples, theta, velocity, theta_out, velocity_out) bind(C, name='kz_sample')
     type(c_ptr), value :: handle

@@ -2,7 +2,7 @@
 !> series, never estimated.
 module kz_kernel_processed_choice
   use, intrinsic :: iso_c_binding, only: c_double, c_int32_t
-  use, intrinsic :: ieee_exceptions, only: ieee_get_halting_mode, ieee_set_halting_mode, ieee_set_flag, ieee_usual
+  use, intrinsic :: ieee_exceptions, only: ieee_set_halting_mode, ieee_set_flag, ieee_usual
   use kz_vector_map, only: flow_t, WIDTH, PI
   use kz_kernel_flows, only: make_processed_flow
   use kz_vector_step_search, only: trial_t, search_steps
@@ -48,16 +48,14 @@ contains
     real(c_double), value :: tolerance, fastest
     type(numerics_t), intent(inout) :: numerics
     real(c_double), intent(out) :: error
-    logical :: halting(size(ieee_usual))
     type(splitting_t) :: trial
     type(drive_t) :: drive
-    integer :: i
+    integer :: given, i
 
     status = REFUSED
     error = huge(error)
     if (pendulum%beta > MOST_DAMPING .or. out_of_reach(pendulum, fastest)) return
-    call ieee_get_halting_mode(ieee_usual, halting) ! too few steps may overflow: that is what is measured
-    call ieee_set_halting_mode(ieee_usual, .false.)
+    call ieee_set_halting_mode(ieee_usual, .false.) ! too few steps may overflow: that is what is measured; until this procedure returns
     trial%order = ORDER
     trial%pendulum = pendulum
     allocate (trial%series)
@@ -69,15 +67,10 @@ contains
     numerics%drift_terms = MOST_DRIFTS
     numerics%kick_terms = MOST_KICKS
     trial%numerics = numerics
-    if (numerics%steps_per_period > 0) then
-      call fit_terms(trial, tolerance, numerics, error)
-      status = OK
-    else
-      call compare_terms(trial, tolerance, numerics, error)
-      if (error <= tolerance) status = OK
-    end if
+    given = numerics%steps_per_period
+    call choose_terms(trial, tolerance, merge(given, FEWEST_STEPS, given > 0), merge(given, MOST_STEPS, given > 0), numerics, error)
+    if (given > 0 .or. error <= tolerance) status = OK
     call ieee_set_flag(ieee_usual, .false.)
-    call ieee_set_halting_mode(ieee_usual, halting)
   end function choose
 
   !> Whether a pendulum is too stiff, or a motion too fast, for any number of steps; numbers that are none are.
@@ -117,31 +110,35 @@ contains
     if (.not. error <= huge(error)) error = huge(error)
   end function measure_splitting
 
-  !> For each number of terms the fewest steps that reach the tolerance; of these the cheapest. The first, with all terms, gives
-  !> the fewest steps that the method can take.
-  subroutine compare_terms(trial, tolerance, numerics, error)
+  !> For each number of terms the fewest steps from `fewest` on that reach the tolerance; of these the cheapest. The first, with all terms, gives
+  !> the fewest steps that the method can take. A number of steps that is given (`fewest` = `most`) takes as few terms as cost no accuracy that the
+  !> tolerance asks for, or that the steps have.
+  subroutine choose_terms(trial, tolerance, fewest, most, numerics, error)
     type(splitting_t), intent(inout) :: trial
     real(c_double), intent(in) :: tolerance
-    type(numerics_t), intent(inout) :: numerics
+    integer, intent(in) :: fewest, most
+    type(numerics_t), intent(out) :: numerics
     real(c_double), intent(out) :: error
-    real(c_double) :: candidate_error
-    integer :: fewest, drifts, kicks, steps
+    real(c_double) :: candidate_error, enough
+    integer :: first, last, drifts, kicks, steps
 
-    call search_steps(trial, tolerance, FEWEST_STEPS, MOST_STEPS, fewest, error)
+    call search_steps(trial, tolerance, fewest, most, first, error)
     numerics = trial%numerics
-    if (error > tolerance) return
+    last = merge(most, huge(most), fewest == most)
+    enough = merge(max(tolerance, 1.2_c_double*error), tolerance, fewest == most)
+    if (error > enough) return
     do drifts = MOST_DRIFTS, 1, -1
       do kicks = MOST_KICKS, FEWEST_KICKS, -1
         trial%numerics%drift_terms = drifts
         trial%numerics%kick_terms = kicks
-        if (cheaper_steps(numerics, trial%numerics) < fewest) cycle
-        call search_steps(trial, tolerance, fewest, cheaper_steps(numerics, trial%numerics), steps, candidate_error)
-        if (candidate_error > tolerance) exit
+        if (cheaper_steps(numerics, trial%numerics) < first) cycle
+        call search_steps(trial, enough, first, min(last, cheaper_steps(numerics, trial%numerics)), steps, candidate_error)
+        if (candidate_error > enough) exit
         numerics = trial%numerics
         error = candidate_error
       end do
     end do
-  end subroutine compare_terms
+  end subroutine choose_terms
 
   !> How many steps of a candidate cost less than what is chosen.
   pure integer function cheaper_steps(chosen, candidate) result(steps)
@@ -155,29 +152,5 @@ contains
 
     n = numerics%drift_terms + numerics%kick_terms + OTHER_OPERATIONS
   end function operations
-
-  !> A given number of steps: as few terms as cost no accuracy that the tolerance asks for, or that the steps have.
-  subroutine fit_terms(trial, tolerance, numerics, error)
-    type(splitting_t), intent(inout) :: trial
-    real(c_double), intent(in) :: tolerance
-    type(numerics_t), intent(inout) :: numerics
-    real(c_double), intent(out) :: error
-    real(c_double) :: candidate_error, enough
-    integer :: drifts, kicks
-
-    error = trial%measure(int(numerics%steps_per_period))
-    enough = max(tolerance, 1.2_c_double*error)
-    do drifts = MOST_DRIFTS, 1, -1
-      do kicks = MOST_KICKS, FEWEST_KICKS, -1
-        trial%numerics%drift_terms = drifts
-        trial%numerics%kick_terms = kicks
-        if (operations(trial%numerics) >= operations(numerics)) cycle
-        candidate_error = trial%measure(int(numerics%steps_per_period))
-        if (candidate_error > enough) exit
-        numerics = trial%numerics
-        error = candidate_error
-      end do
-    end do
-  end subroutine fit_terms
 
 end module kz_kernel_processed_choice

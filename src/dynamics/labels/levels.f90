@@ -1,7 +1,7 @@
 !> The precision levels at which a pendulum's orbits are followed with their errors, each made when it is first needed.
 module kz_labels_levels
   use, intrinsic :: iso_c_binding, only: dp => c_double
-  use, intrinsic :: ieee_exceptions, only: ieee_get_halting_mode, ieee_set_halting_mode, ieee_set_flag, ieee_usual
+  use, intrinsic :: ieee_exceptions, only: ieee_set_halting_mode, ieee_set_flag, ieee_usual
   use kz_taylor_pairs, only: pairs_t, pair_series_t, make_pairs
   use kz_taylor_probes, only: measure_quad
   use kz_taylor_taylor, only: drive_t, make_drive, TAYLOR_STEPS
@@ -53,10 +53,8 @@ contains
     integer, intent(in) :: level !< LEVEL_DOUBLE or a finer one
     class(flow_t), intent(in) :: flow !< the scene's map
     real(dp), intent(in) :: fastest !< speeds that occur, rad per drive radian
-    logical :: halting(size(ieee_usual))
 
-    call ieee_get_halting_mode(ieee_usual, halting) ! too few steps may overflow: that is what is measured
-    call ieee_set_halting_mode(ieee_usual, .false.)
+    call ieee_set_halting_mode(ieee_usual, .false.) ! too few steps may overflow: that is what is measured; until this procedure returns
     if (.not. allocated(levels%probes)) then
       allocate (levels%probes)
       call make_speed_probes(levels%pendulum, fastest, levels%probes)
@@ -76,7 +74,6 @@ contains
       end if
     end select
     call ieee_set_flag(ieee_usual, .false.)
-    call ieee_set_halting_mode(ieee_usual, halting)
   end subroutine prepare_level
 
   !> Tables of pairs of doubles. Their steps are expected from those of the coarser ones, which are made first where this process has not met

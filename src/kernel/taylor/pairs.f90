@@ -5,7 +5,7 @@
 module kz_taylor_pairs
   use, intrinsic :: iso_c_binding, only: c_double, c_int32_t, c_int64_t, c_ptr, c_null_ptr
   use, intrinsic :: iso_fortran_env, only: real128
-  use, intrinsic :: ieee_exceptions, only: ieee_get_halting_mode, ieee_set_halting_mode, ieee_set_flag, ieee_usual
+  use, intrinsic :: ieee_exceptions, only: ieee_set_halting_mode, ieee_set_flag, ieee_usual
   use kz_vector_map, only: WIDTH
   use kz_vector_step_search, only: trial_t, search_steps, expected_steps
   use kz_taylor_pairs_table, only: pairs_table_t, pair_lanes_t, make_pairs_table, advance_pairs_table, pair_of, quad_of
@@ -74,7 +74,6 @@ contains
     integer, intent(in) :: like_steps
     real(c_double), intent(in) :: like_error !< rad
     type(pairs_table_t), allocatable :: tables(:)
-    logical :: halting(size(ieee_usual))
     integer :: n
 
     call make_drive(pairs%drive, pendulum, TAYLOR_STEPS)
@@ -82,8 +81,7 @@ contains
     n = 0
     allocate (tables(0:MOST_TABLES))
     if (pendulum%beta <= MOST_DAMPING) then
-      call ieee_get_halting_mode(ieee_usual, halting) ! too few steps may overflow: that is what is measured
-      call ieee_set_halting_mode(ieee_usual, .false.)
+      call ieee_set_halting_mode(ieee_usual, .false.) ! too few steps may overflow: that is what is measured; until this procedure returns
       if (.not. allocated(shared%series)) then
         allocate (shared%series)
         call make_mixed_series(pendulum, shared%kept, shared%series)
@@ -99,7 +97,6 @@ contains
         pairs%error = max(pairs%error, tables(n)%error)
       end do
       call ieee_set_flag(ieee_usual, .false.)
-      call ieee_set_halting_mode(ieee_usual, halting)
     end if
     allocate (pairs%table, source=tables(1:n))
     pairs%fastest = tables(n)%fastest
