@@ -25,13 +25,11 @@ module kz_labels_carrier
   end type orbit_t
 
   type :: carrier_t
-    !> states as regions see them: half-turns, rad per drive radian
-    real(dp) :: u(CAPACITY) = 0, v(CAPACITY) = 0
     !> of the last period: derivatives of the angle by angle and velocity, of the velocity by both
     real(dp) :: tangent(WIDTH, 4) = 0
     real(dp) :: noise(WIDTH) = 0           !< what steps and rounding added in it, rad
     real(dp) :: region_error(CAPACITY) = 0 !< how far the states may be from where regions see them, rad
-    class(flow_t), allocatable :: flow     !< the scene's map; between periods its lanes hold what regions see
+    class(flow_t), allocatable :: flow     !< the scene's map; between periods its lanes hold the states as regions see them
     type(period_error_t) :: error          !< of that map
     integer :: means = BY_MAP              !< what carries the orbits
     !> BY_FINE_MAP: with more steps; what takes its states to physical coordinates; its error
@@ -118,8 +116,8 @@ contains
 
     select case (self%means)
     case (BY_MAP)
-      orbit%u = [self%u(lane), 0.0_dp, 0.0_dp]
-      orbit%v = [self%v(lane), 0.0_dp]
+      orbit%u = [self%flow%u(lane), 0.0_dp, 0.0_dp]
+      orbit%v = [self%flow%v(lane), 0.0_dp]
     case (BY_FINE_MAP)
       call show_fine(self, lane, lane)
       orbit%u = [self%shown%u(lane), 0.0_dp, 0.0_dp]
@@ -152,8 +150,6 @@ contains
     if (self%means == BY_FINE_MAP) call self%fine%to_map(n, first=first)
     if (self%means /= BY_MAP) call put_shown(self, first, n)
     call self%flow%to_map(n, first=first)
-    self%u(first:n) = self%flow%u(first:n)
-    self%v(first:n) = self%flow%v(first:n)
   end subroutine to_map
 
   !> Puts the physical states of lanes first .. n, at most WIDTH, into the map.
@@ -190,8 +186,6 @@ contains
       self%velocity(to) = self%velocity(from)
     end select
     call self%flow%move(from, to)
-    self%u(to) = self%u(from)
-    self%v(to) = self%v(from)
     self%region_error(to) = self%region_error(from)
   end subroutine move
 
@@ -201,10 +195,10 @@ contains
     integer :: lane
 
     if (self%means == BY_MAP) then
-      call noise_at(self%error, n, self%v(:n), self%noise)
+      call noise_at(self%error, n, self%flow%v(:n), self%noise)
     else
       do lane = 1, n
-        self%noise(lane) = noise_of(self, self%v(lane))
+        self%noise(lane) = noise_of(self, self%flow%v(lane))
       end do
     end if
     call self%flow%advance_linear(n, self%tangent)
@@ -213,8 +207,6 @@ contains
       call put_shown(self, 1, n)
       call self%flow%to_map(n)
     end if
-    self%u(:n) = self%flow%u(:n)
-    self%v(:n) = self%flow%v(:n)
   end subroutine advance
 
   subroutine advance_precisely(self, n)

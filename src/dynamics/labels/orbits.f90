@@ -113,7 +113,7 @@ contains
     self%since(WIDTH + 1:) = 0
     self%doubted(WIDTH + 1:) = .false.
     call self%carrier%to_map(WIDTH + 1, WIDTH + n)
-    call find_regions(self%regions, self%attractors, n, self%carrier%u(WIDTH + 1:WIDTH + n), self%carrier%v(WIDTH + 1:WIDTH + n), &
+    call find_regions(self%regions, self%attractors, n, self%carrier%flow%u(WIDTH + 1:WIDTH + n), self%carrier%flow%v(WIDTH + 1:WIDTH + n), &
                       self%region(WIDTH + 1:))
   end subroutine admit
 
@@ -141,12 +141,12 @@ contains
     integer :: done(WIDTH)
 
     associate (m => self%active, carrier => self%carrier)
-      u = carrier%u(:WIDTH)
-      v = carrier%v(:WIDTH)
+      u = carrier%flow%u(:WIDTH)
+      v = carrier%flow%v(:WIDTH)
       call carrier%advance(m)
       call add_nonlinear(self, u, v, nonlinear)
       call spread_errors(m, carrier%tangent, carrier%noise, nonlinear, self%ellipse, self%trace)
-      call find_regions(self%regions, self%attractors, m, carrier%u(:m), carrier%v(:m), self%region)
+      call find_regions(self%regions, self%attractors, m, carrier%flow%u(:m), carrier%flow%v(:m), self%region)
       self%age(:m) = self%age(:m) + 1
       call flag_done(m, self%region, self%trace, min(TOLERABLE, self%handover)**2, done)
       if (size(self%regions%covered) > 0 .or. maxval(self%age(:m)) >= self%most) done = 1
@@ -199,7 +199,7 @@ contains
       call note_region(self, lane)
       if (.not. self%doubted(lane)) trapped = is_held(self, lane)
     else if (size(self%regions%covered) > 0) then
-      owner = chaos_region(self%regions, self%carrier%u(lane), self%carrier%v(lane))
+      owner = chaos_region(self%regions, self%carrier%flow%u(lane), self%carrier%flow%v(lane))
       if (owner > 0) owner = merge(owner, 0, self%attractors(owner)%period /= QUASIPERIODIC .or. &
                                  (self%trace(lane) < LINEAR**2 .and. .not. self%doubted(lane)))
       trapped = self%is_captured(lane, owner)
@@ -278,7 +278,7 @@ contains
     if (label == DOUBTFUL) next = int(merge(self%outlook%after, self%outlook%next, is_beyond(self, lane)), c_int8_t)
     self%decision(self%number(lane)) = decision_t(label_t(periods, int(label, c_int16_t), next=next), &
                                                   merge(self%level, self%outlook%none, decided), error, self%age(lane), &
-                                                  [self%carrier%u(lane), self%carrier%v(lane)])
+                                                  [self%carrier%flow%u(lane), self%carrier%flow%v(lane)])
   end subroutine note_end
 
   !> The first region that holds the state; a later one of another attractor counts in its place, but not for a guess.
@@ -311,7 +311,7 @@ contains
     real(dp) :: u(RIM), v(RIM), axes(3), angle, reach
     integer :: label(RIM), i
 
-    associate (u0 => self%carrier%u(lane), v0 => self%carrier%v(lane), error => self%carrier%region_error(lane))
+    associate (u0 => self%carrier%flow%u(lane), v0 => self%carrier%flow%v(lane), error => self%carrier%region_error(lane))
       reach = SAFETY*sqrt(self%ellipse(lane, 1) + self%ellipse(lane, 3)) + error
       held = cell_holds(self%regions, u0, v0, reach/PI, reach)
       if (held) return ! most errors are small
