@@ -69,21 +69,16 @@ contains
     class(flow_t), intent(inout) :: flow
     real(dp), intent(inout) :: state(:, :)
     integer(c_int32_t), intent(in) :: label(:)
-    real(dp) :: u(size(label)), v(size(label))
-    integer :: open(size(label)), i, n
+    real(dp), allocatable :: u(:), v(:)
+    integer, allocatable :: open(:)
+    integer :: i
 
-    n = 0
-    do i = 1, size(label)
-      if (label(i) /= 0) cycle
-      n = n + 1
-      open(n) = i
-      u(n) = state(1, i)
-      v(n) = state(2, i)
-    end do
-    call states_to_physical(flow, u(:n), v(:n))
-    do i = 1, n
-      state(:, open(i)) = [u(i), v(i)]
-    end do
+    open = pack([(i, i=1, size(label))], label == 0)
+    u = state(1, open)
+    v = state(2, open)
+    call states_to_physical(flow, u, v)
+    state(1, open) = u
+    state(2, open) = v
   end subroutine leave_open
 
   subroutine advance_states(handle, n, state) bind(C, name='kz_dynamics_advance')

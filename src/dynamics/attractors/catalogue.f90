@@ -3,15 +3,15 @@ module kz_attractors_catalogue
   use, intrinsic :: iso_c_binding, only: dp => c_double
   use, intrinsic :: iso_fortran_env, only: int64
   use kz_vector_map, only: PI
-  use kz_cycles_cycles, only: attractor_t
+  use kz_cycles_cycles, only: numbers_t, attractor_t
   use kz_grown_grid, only: COVER
   use kz_maps_states, only: rounded
   implicit none
   private
   public :: order_of, packed, packed_cycle_size, packed_chaos_size, unpack
 
-  !> Doubles in front of the arrays of an attractor.
-  integer, parameter :: HEAD = 15
+  !> Doubles in front of the arrays of an attractor: the bits of its numbers.
+  integer, parameter :: HEAD = storage_size(numbers_t())/storage_size(0.0_dp)
   !> Cells of a cover in a double, one bit each; doubles of a cover.
   integer, parameter :: BITS = 32, COVER_SIZE = COVER**2/BITS
 
@@ -62,24 +62,22 @@ contains
     end if
   end function key
 
-  !> The whole catalogue as doubles. Integers are exact in doubles.
+  !> The whole catalogue as doubles.
   function packed(attractors) result(flat)
     type(attractor_t), intent(in) :: attractors(:) !< the catalogue, numbered from 1
     real(dp), allocatable :: flat(:), bits(:)
-    integer :: i, covered
+    integer :: i
 
     flat = [real(size(attractors), dp)]
     do i = 1, size(attractors)
       associate (a => attractors(i))
-        covered = 0
-        if (allocated(a%cover)) covered = min(1, size(a%cover))
-        flat = [flat, real([a%period, a%winding, merge(1, 0, a%symmetric), a%mirror, a%centre, covered], dp), &
-                a%mean, a%mean_velocity, a%amplitude, a%lyapunov, a%lyapunov_error, &
-                real(a%multiplier(1), dp), aimag(a%multiplier(1)), real(a%multiplier(2), dp), aimag(a%multiplier(2))]
-        if (a%period > 0) flat = [flat, a%u, a%v, reshape(a%form, [3*a%period])]
-        if (covered == 0) cycle
-        bits = as_bits(a%cover) ! not on the stack
-        flat = [flat, bits]
+        flat = [flat, transfer(a%numbers_t, flat, HEAD)]
+        if (a%period > 0) then
+          flat = [flat, a%u, a%v, reshape(a%form, [3*a%period])]
+        else
+          bits = as_bits(a%cover) ! not on the stack
+          flat = [flat, bits]
+        end if
       end associate
     end do
   end function packed
@@ -136,34 +134,22 @@ contains
   subroutine unpack(flat, attractors)
     real(dp), intent(in) :: flat(:) !< what `packed` returned
     type(attractor_t), allocatable, intent(out) :: attractors(:) !< the catalogue
-    integer :: i, p, n, covered
+    integer :: i, p, n
 
     allocate (attractors(nint(flat(1))))
     p = 1
     do i = 1, size(attractors)
       associate (a => attractors(i))
-        a%period = nint(flat(p + 1))
-        n = max(0, a%period)
-        covered = nint(flat(p + 6))
-        a%winding = nint(flat(p + 2))
-        a%symmetric = nint(flat(p + 3)) == 1
-        a%mirror = nint(flat(p + 4))
-        a%centre = nint(flat(p + 5))
-        a%mean = flat(p + 7)
-        a%mean_velocity = flat(p + 8)
-        a%amplitude = flat(p + 9)
-        a%lyapunov = flat(p + 10)
-        a%lyapunov_error = flat(p + 11)
-        a%multiplier = [cmplx(flat(p + 12), flat(p + 13), dp), cmplx(flat(p + 14), flat(p + 15), dp)]
+        a%numbers_t = transfer(flat(p + 1:p + HEAD), a%numbers_t)
         p = p + HEAD
+        n = max(0, a%period)
         allocate (a%u, source=flat(p + 1:p + n))
         allocate (a%v, source=flat(p + n + 1:p + 2*n))
         allocate (a%form, source=reshape(flat(p + 2*n + 1:p + 5*n), [3, n]))
         p = p + 5*n
-        if (covered > 0) then
-          a%cover = of_bits(flat(p + 1:p + COVER_SIZE))
-          p = p + COVER_SIZE
-        end if
+        if (n > 0) cycle
+        a%cover = of_bits(flat(p + 1:p + COVER_SIZE))
+        p = p + COVER_SIZE
       end associate
     end do
   end subroutine unpack

@@ -7,7 +7,7 @@ module kz_cycles_cycles
   use kz_maps_states, only: angle_difference, states_to_map, same_state, rounded
   implicit none
   private
-  public :: attractor_t, close_cycle, complete_attractor, enter_points, is_slow, symmetrise, mirror_image, listed_from_lowest
+  public :: numbers_t, attractor_t, close_cycle, complete_attractor, enter_points, is_slow, symmetrise, mirror_image, listed_from_lowest
 
   !> In the place of a period: the attractor is a closed curve that a motion fills.
   integer, parameter, public :: QUASIPERIODIC = -1
@@ -18,8 +18,8 @@ module kz_cycles_cycles
   !> So far from it may the cycle of another flow lie, rad.
   real(dp), parameter :: BESIDE = 1e-3_dp
 
-  !> An attractor. Angles are half-turns in [-1, 1]; strobe points are in the order of time.
-  type :: attractor_t
+  !> What is known of an attractor in numbers, without a gap in the memory. Angles are half-turns in [-1, 1].
+  type :: numbers_t
     integer :: period = 0          !< drive periods; 0 = chaotic, QUASIPERIODIC
     integer :: winding = 0         !< net turns per `period` drive periods
     logical :: mirrored = .true.   !< mirror images of motions are motions
@@ -32,6 +32,10 @@ module kz_cycles_cycles
     complex(dp) :: multiplier(2) = 0
     real(dp) :: lyapunov = 0       !< largest exponent per drive period
     real(dp) :: lyapunov_error = 0
+  end type numbers_t
+
+  !> An attractor. Strobe points are in the order of time.
+  type, extends(numbers_t) :: attractor_t
     real(dp), allocatable :: u(:)
     real(dp), allocatable :: v(:)
     !> The strobe points in the coordinates of the flow whose orbits are labelled (`enter_points`): half-turns, rad per drive radian
