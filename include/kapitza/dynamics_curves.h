@@ -61,7 +61,5 @@ int32_t kz_curve_is_on(const kz_plane *plane, const kz_curve_kind *kind, double 
 /* The normal form at a point of a curve, its side, and the eigenvector at the first point. 0 if there is no pendulum. */
 int32_t kz_curve_form(const kz_plane *plane, const kz_curve_kind *kind, const double *y, double *coefficient, double side[2],
                       double eigenvector[2]);
-/* state [n + 1][2]: the strobe points after state [0], not wrapped. 0 if there is no pendulum. */
-int32_t kz_curve_orbit(const kz_plane *plane, const double place[2], int64_t n, double *state);
-/* Moves a state from t = 0 to t = pi. 0 if there is no pendulum. */
-int32_t kz_curve_half_period(const kz_plane *plane, const double place[2], double state[2]);
+/* state [n + 1][2]: the strobe points after state [0], not wrapped (halves 2); or the state at t = pi (halves 1, n = 1). 0 if there is no pendulum. */
+int32_t kz_curve_orbit(const kz_plane *plane, const double place[2], int32_t halves, int64_t n, double *state);

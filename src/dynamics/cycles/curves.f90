@@ -5,7 +5,7 @@
 !> their own mirror image. G is this map of x(1). The damping is constant, so that det DG = exp(-2 pi beta n), and one of the multipliers is e
 !> where trace DG = e (1 + det DG).
 module kz_cycles_curves
-  use, intrinsic :: iso_c_binding, only: dp => c_double, c_int32_t, c_bool, c_funptr, c_ptr, c_f_procpointer
+  use, intrinsic :: iso_c_binding, only: dp => c_double, c_int32_t, c_int64_t, c_bool, c_funptr, c_ptr, c_f_procpointer
   use kz_vector_map, only: PI
   use kz_model_pendulum, only: pendulum_t
   use kz_splitting_jets, only: jets_t, make_jets, set_pendulum, advance_jets, LANES, TERMS, DX, DY, DP_ => DP, DQ, &
@@ -148,6 +148,28 @@ contains
     end do
     exists = all(abs(image(:, 0, :n)) < 1e6_dp)
   end subroutine images
+
+  function orbit(plane, at, halves, n, state) bind(C, name='kz_curve_orbit') result(exists)
+    type(plane_t), intent(in) :: plane
+    real(dp), intent(in) :: at(2)
+    integer(c_int32_t), value :: halves
+    integer(c_int64_t), value :: n
+    real(dp), intent(inout) :: state(2, 0:n)
+    integer(c_int32_t) :: exists
+    type(system_t) :: system
+    real(dp) :: image(2, 0:TERMS, POINTS)
+    logical :: found
+    integer(c_int64_t) :: i
+
+    call make_system(plane, curve_kind_t(1, 1, 1, 0), 0, .false., system)
+    exists = 1
+    do i = 1, n
+      call images(system, COARSE, 0, state(:, i - 1), at, 1, int(halves), image, found)
+      if (.not. found) exists = 0
+      if (.not. found) return
+      state(:, i) = image(:, 0, 1)
+    end do
+  end function orbit
 
   !> The residuals and the matrix of the equations at y, by the unknowns: those of the points, then one for each direction of the place.
   subroutine linearise(system, fineness, order, y, residual, matrix, exists)

@@ -1,7 +1,7 @@
 !> Normal forms of bifurcations of cycles, from the composed derivatives of their maps (Kuznetsov, Elements of Applied Bifurcation Theory).
 module kz_cycles_normal_forms
-  use, intrinsic :: iso_c_binding, only: dp => c_double
-  use kz_cycles_curves, only: system_t
+  use, intrinsic :: iso_c_binding, only: dp => c_double, c_int32_t
+  use kz_cycles_curves, only: plane_t, curve_kind_t, system_t, make_system, linearise, UNKNOWNS, COARSE
   use kz_maps_matrices, only: inverse_of, IDENTITY
   use kz_splitting_jets, only: DX, DY, DP_ => DP, DQ, DXX, DXY, DYY, DXP, DYP, DXQ, DYQ, DXXX, DXXY, DXYY, DYYY
   implicit none
@@ -9,6 +9,22 @@ module kz_cycles_normal_forms
   public :: normal_form
 
 contains
+
+  function form_at(plane, kind, y, coefficient, side, eigenvector) bind(C, name='kz_curve_form') result(found)
+    type(plane_t), intent(in) :: plane
+    type(curve_kind_t), intent(in) :: kind
+    real(dp), intent(in) :: y(2*kind%points + 2)
+    real(dp), intent(out) :: coefficient, side(2), eigenvector(2)
+    integer(c_int32_t) :: found
+    real(dp) :: residual(UNKNOWNS), matrix(UNKNOWNS, UNKNOWNS)
+    type(system_t) :: system
+    logical :: exists
+
+    call make_system(plane, kind, 2, .true., system)
+    call linearise(system, COARSE, 3, y, residual, matrix, exists)
+    found = merge(1, 0, exists)
+    if (exists) call normal_form(system, coefficient, side, eigenvector)
+  end function form_at
 
   !> The normal form at a point of a curve, from the images of third order. e = 1: half the second derivative along the eigenvector; the pair of
   !> cycles exists on the side `side`. e = -1: the cubic coefficient, > 0 where the child attracts beyond the curve; the cycle itself attracts on

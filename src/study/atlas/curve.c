@@ -28,7 +28,7 @@ void kz_atlas_complete(const kz_atlas *atlas, kz_atlas_curve *curve, int64_t row
   const int n = curve->kind.of.points;
   double state[2 * KZ_CURVE_POINTS + 2], *at = curve->row + row * kz_atlas_width(&curve->kind);
   memcpy(state, at + KZ_ROW_POINTS, 2 * sizeof *state);
-  if (kz_curve_orbit(&atlas->plane, at, n - 1, state)) memcpy(at + KZ_ROW_POINTS, state, 2 * (size_t)n * sizeof *state);
+  if (kz_curve_orbit(&atlas->plane, at, 2, n - 1, state)) memcpy(at + KZ_ROW_POINTS, state, 2 * (size_t)n * sizeof *state);
 }
 
 void kz_atlas_between(const kz_atlas_curve *curve, int64_t row, double share, double *y) {

@@ -37,9 +37,9 @@ void kz_atlas_explore_image(const kz_atlas *atlas, const kz_atlas_kind *kind, co
   double y[KZ_ATLAS_UNKNOWNS], place[2];
   if (!atlas->turned || kind->rest >= 0 || !kz_atlas_image(atlas, at + 2 * n, place)) return;
   for (int i = 0; i < n; i++) {
-    double state[2] = {at[2 * i], at[2 * i + 1]};
-    if (!kz_curve_half_period(&atlas->plane, at + 2 * n, state)) return;
-    y[2 * i] = state[0] + half_turn, y[2 * i + 1] = state[1];
+    double state[4] = {at[2 * i], at[2 * i + 1]};
+    if (!kz_curve_orbit(&atlas->plane, at + 2 * n, 1, 1, state)) return;
+    y[2 * i] = state[2] + half_turn, y[2 * i + 1] = state[3];
   }
   add_beside(atlas, &image, y, place, seeds);
 }

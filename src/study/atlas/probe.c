@@ -27,7 +27,7 @@ static kz_atlas_kind kind_of(const kz_atlas *atlas, int n, const double *y, cons
 bool kz_atlas_identify(const kz_atlas *atlas, const double place[2], const double *state, int n, double steepest,
                        kz_atlas_seed *cycle) {
   double y[2 * KZ_CURVE_POINTS + 4] = {state[0], state[1]}, numbers[2], image[2];
-  if (n > KZ_CURVE_POINTS || !kz_curve_orbit(&atlas->plane, place, n, y)) return false;
+  if (n > KZ_CURVE_POINTS || !kz_curve_orbit(&atlas->plane, place, 2, n, y)) return false;
   const kz_curve_kind closed = {1, n, 0, (int32_t)rint((y[2 * n] - y[0]) / (2 * M_PI)), 0};
   y[2 * n] = place[0], y[2 * n + 1] = place[1];
   if (!kz_curve_solve(&atlas->plane, &closed, y, numbers) || kz_atlas_apart(y, state, 1) > GUESSED) return false;

@@ -22,7 +22,7 @@ kz_curve_kind kz_kind_of(const kz_plane *plane, int side, int points, int stride
   const int periods = stride > 1 ? stride : 1;
   KZ_FREED double *next = kz_malloc(2 * ((size_t)periods + 1) * sizeof *next);
   memcpy(next, y + 2 * points - 2, 2 * sizeof *next);
-  if (!kz_curve_orbit(plane, y + 2 * points, periods, next)) return (kz_curve_kind){0};
+  if (!kz_curve_orbit(plane, y + 2 * points, 2, periods, next)) return (kz_curve_kind){0};
   const int32_t turns = (int32_t)rint((next[2 * periods] - side * y[0]) / (2 * M_PI));
   return (kz_curve_kind){side, points, multiplier, turns, stride};
 }
@@ -76,7 +76,7 @@ bool kz_child_of(const kz_plane *plane, const kz_plane_cycle *flip, int axis, kz
     child->y[m + i] = flip->y[n + i] + by * along[i];
     state[i] = from[i] + size * vector[i];
   }
-  if (!kz_curve_orbit(plane, child->y + m, (of.points - 1) * stride, state)) return false;
+  if (!kz_curve_orbit(plane, child->y + m, 2, (of.points - 1) * stride, state)) return false;
   for (int i = 0; i < of.points; i++) memcpy(child->y + 2 * i, state + 2 * i * stride, 2 * sizeof *child->y);
   return true;
 }

@@ -80,7 +80,7 @@ static bool cycle_of(const kz_plane *plane, const kz_attractor *point, double pl
   const double at[2] = {place, 0};
   state[0] = point->theta, state[1] = point->velocity;
   c->kind.rest = point->symmetric && point->period == 1 ? cos(point->theta) < 0 : -1;
-  if (!kz_curve_orbit(plane, at, n, state)) return false;
+  if (!kz_curve_orbit(plane, at, 2, n, state)) return false;
   for (int i = 0; i < n / stride; i++) memcpy(c->y + 2 * i, state + 2 * i * stride, 2 * sizeof *c->y);
   memcpy(c->y + 2 * (n / stride), at, sizeof at);
   const int32_t turns = (int32_t)rint((state[2 * n] - side * state[0]) / (2 * M_PI));

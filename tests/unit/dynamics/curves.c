@@ -57,7 +57,7 @@ TEST(test_flutter) {
     assert_int_equal(kz_curve_form(&PLANE, &symmetric, y, &form, side, vector), 1);
     assert_true(form > 0 && side[1] < 0);
     child[0] = y[0] + 0.02 * vector[0], child[1] = y[1] + 0.02 * vector[1];
-    assert_int_equal(kz_curve_orbit(&PLANE, y + 2, 1, child), 1);
+    assert_int_equal(kz_curve_orbit(&PLANE, y + 2, 2, 1, child), 1);
     child[4] = y[2], child[5] = y[3] + 2e-5;
     assert_true(fabs(next_flip(&pair, child) - FLUTTER[i][3]) < (fabs(FLUTTER[i][0] - 11) < 0.5 ? 5.1e-10 : 5.1e-7));
   }
@@ -71,7 +71,7 @@ TEST(test_branches_of_a_fold) {
   const double place[2] = {17.0 / 27, 0.35054538465 / 0.8};
   int64_t events;
   int32_t ending;
-  assert_int_equal(kz_curve_orbit(&PLANE, place, 6, y), 1);
+  assert_int_equal(kz_curve_orbit(&PLANE, place, 2, 6, y), 1);
   y[N] = place[0], y[N + 1] = place[1];
   assert_int_equal(kz_curve_locate(&PLANE, &fold, y, UP), 1);
   assert_true(fabs(0.8 * y[N + 1] - 0.350545384650) < 1e-9);
@@ -123,7 +123,7 @@ TEST(test_trace_in_a_narrow_band) {
   double seed[N + 2] = {-0.13118270219777192, 0.10333998458147906}, row[MOST][WIDTH], special[4][3 + N];
   int64_t specials;
   int32_t ending;
-  assert_int_equal(kz_curve_orbit(&plane, place, N / 2 - 1, seed), 1);
+  assert_int_equal(kz_curve_orbit(&plane, place, 2, N / 2 - 1, seed), 1);
   seed[N] = place[0], seed[N + 1] = place[1];
   for (int direction = -1; direction <= 1; direction += 2) {
     const int64_t n = kz_curve_trace(&plane, &doubling, seed, direction, 0.02, MOST, row[0], 4, special[0], &specials, &ending);

@@ -83,7 +83,7 @@ TEST(test_repelling) {
   const double place[2] = {0, 0};
   double y[2 * N + 2] = {1.457070978577512, 0.16176735831871347}, numbers[2];
   kz_attractor point = {.period = N};
-  assert_true(kz_curve_orbit(&plane, place, N, y));
+  assert_true(kz_curve_orbit(&plane, place, 2, N, y));
   y[2 * N] = y[2 * N + 1] = 0;
   assert_true(kz_curve_solve(&plane, &kind, y, numbers));
   kz_branch_describe(NULL, &p, N, y, &point);

@@ -64,7 +64,7 @@ TEST(test_twice_round_in_a_narrow_band) {
     kz_atlas_kind kind = {{1, 6, 1, 2 * of->turns, 0}, -1};
     double once[8], y[14];
     memcpy(once, of_three[i / 2].at, 2 * sizeof *once);
-    assert_int_equal(kz_curve_orbit(&PLANE, of_three[i / 2].at + 2, 3, once), 1);
+    assert_int_equal(kz_curve_orbit(&PLANE, of_three[i / 2].at + 2, 2, 3, once), 1);
     memcpy(once + 6, of_three[i / 2].at + 2, 2 * sizeof *once);
     assert_int_equal(kz_curve_locate(&PLANE, of, once, UP), 1);
     for (int c = 0; c < 12; c++) y[c] = once[c % 6] + (c >= 6 && c % 2 == 0 ? 2 * M_PI * of->turns : 0);
