@@ -32,12 +32,22 @@ module kz_grown_ellipses
     integer :: between = 16   !< parts of the radius in the end, at each of which a ring is tried
   end type rings_t
 
+  !> A strobe point, and the norm of its ellipses.
+  type :: site_t
+    class(flow_t), pointer :: flow => null() !< the map whose orbits are to be trapped
+    type(rings_t) :: rings
+    integer :: period = 0                    !< of the cycle
+    real(dp) :: shrinking = 0                !< modulus of the larger multiplier
+    real(dp) :: u = 0, v = 0                 !< the point in the coordinates of the flow
+    real(dp) :: basis(2, 2) = 0, inverse(2, 2) = 0 !< eigenbasis of the monodromy, rad
+  end type site_t
+
 contains
 
   !> Sets attractor%form. For a symmetric cycle half of the points follow from the other half. A cycle that motions spiral into slowly has
   !> the ellipse of its first point alone, which is wide: motions come by there every period of the cycle.
   subroutine find_ellipses(flow, fine, attractor, others, rings)
-    class(flow_t), intent(inout) :: flow !< the map whose orbits are to be trapped
+    class(flow_t), intent(inout), target :: flow !< the map whose orbits are to be trapped
     class(flow_t), intent(inout) :: fine !< the map of the published strobe points
     type(attractor_t), intent(inout) :: attractor !< its points and multipliers, in; the ellipses, out
     type(attractor_t), intent(in) :: others(:) !< attractors whose strobe points no ellipse may contain
@@ -77,170 +87,178 @@ contains
     if (.not. attractor%form(1, j) > 0) square = huge(square)
   end function ellipse_square
 
-  !> The form of the largest trapping ellipse of strobe point j; 0 where none was found. Its rings begin where their shrinking
-  !> shows above rounding and above the distance by which the map's own cycle misses the fine one.
+  !> The form of the largest trapping ellipse of strobe point j; 0 where none was found.
   function ellipse(flow, fine, attractor, j, others, rings) result(form)
-    class(flow_t), intent(inout) :: flow, fine
+    class(flow_t), intent(inout), target :: flow
+    class(flow_t), intent(inout) :: fine
     type(attractor_t), intent(in) :: attractor
     integer, intent(in) :: j
     type(attractor_t), intent(in) :: others(:)
     type(rings_t), intent(in) :: rings
     real(dp) :: form(3)
-    real(dp) :: residual(2), matrix(2, 2), basis(2, 2), inverse(2, 2), tried, first, last
+    type(site_t) :: site
+    real(dp) :: first, last, residual(2), matrix(2, 2)
 
     form = 0
+    site = site_t(flow, rings, attractor%period, abs(attractor%multiplier(1)), attractor%kernel_u(j), attractor%kernel_v(j))
     call n_periods(fine, attractor%period, 1, [attractor%u(j), attractor%v(j)], residual, matrix)
-    call eigenbasis(matrix, attractor%multiplier, change(flow, attractor, j), basis, inverse)
-    tried = ROUNDING*epsilon(1.0_dp)*maxval(hypot(PI*attractor%u, attractor%v)) &
-             *norm2(inverse)/(1 - abs(attractor%multiplier(1)))
-    tried = max(tried, SMALLEST)
+    call eigenbasis(matrix, attractor%multiplier, change(flow, attractor, j), site%basis, site%inverse)
+    first = ROUNDING*epsilon(1.0_dp)*maxval(hypot(PI*attractor%u, attractor%v))*norm2(site%inverse)/(1 - site%shrinking)
+    call find_radii(site, max(first, SMALLEST), first, last)
+    if (first <= 0) return
+    if (j == 1 .and. is_slow(attractor)) call widen(site, last)
+    if (clearance(site, attractor, others) < max(last, 4*first)) return
+    associate (inverse => site%inverse)
+      form = [PI**2*(inverse(1, 1)**2 + inverse(2, 1)**2), &
+              PI*(inverse(1, 1)*inverse(1, 2) + inverse(2, 1)*inverse(2, 2)), &
+              inverse(1, 2)**2 + inverse(2, 2)**2]/last**2
+    end associate
+  end function ellipse
+
+  !> The first and the last radius of rings that are carried inside themselves; first = 0: none is. `least`: where their shrinking shows above
+  !> rounding and above the distance by which the map's own cycle misses the fine one.
+  subroutine find_radii(site, least, first, last)
+    type(site_t), intent(inout) :: site
+    real(dp), intent(in) :: least
+    real(dp), intent(out) :: first, last
+    real(dp) :: tried
+
+    tried = least
     first = 0
     last = 0
     do while (tried < LARGEST)
-      if (carried_inside(tried)) then
+      if (carried_inside(site, tried)) then
         if (first <= 0) first = tried
         last = tried
       else if (first > 0 .or. tried > LATEST) then
         exit
       end if
-      tried = tried*rings%growth
+      tried = tried*site%rings%growth
     end do
-    if (first <= 0) return
-    last = refined()
-    if (j == 1 .and. is_slow(attractor)) call widen()
-    if (clearance(attractor, j, inverse, others) < max(last, 4*first)) return
-    form = [PI**2*(inverse(1, 1)**2 + inverse(2, 1)**2), &
-            PI*(inverse(1, 1)*inverse(1, 2) + inverse(2, 1)*inverse(2, 2)), &
-            inverse(1, 2)**2 + inverse(2, 2)**2]/last**2
-  contains
-    !> Largest good radius between `last` and the next tried one, with rings from `first` on good too.
-    function refined() result(best)
-      real(dp) :: best
-      integer :: i
+    if (first > 0) call refine(site, first, last)
+  end subroutine find_radii
 
-      best = last
-      do i = 1, rings%halvings
-        tried = best + (rings%growth - 1)*last*0.5_dp**i
-        if (carried_inside(tried)) best = tried
-      end do
-      do i = 1, rings%between - 1
-        tried = best*i/rings%between
-        if (tried < first) cycle
-        if (carried_inside(tried)) cycle
-        best = max(first, 0.9_dp*best*(i - 1)/rings%between)
-        exit
-      end do
-    end function refined
+  !> `last` becomes the largest good radius between it and the next tried one, with rings from `first` on good too.
+  subroutine refine(site, first, last)
+    type(site_t), intent(inout) :: site
+    real(dp), intent(in) :: first
+    real(dp), intent(inout) :: last
+    real(dp) :: tried, interval
+    integer :: i
 
-    !> Whether the points of a ring are all carried inside it, by half of what the multiplier says or by 5 %.
-    function carried_inside(radius) result(inside)
-      real(dp), intent(in) :: radius
-      logical :: inside
-      real(dp) :: bound
-      integer :: i
+    interval = (site%rings%growth - 1)*last
+    do i = 1, site%rings%halvings
+      tried = last + interval*0.5_dp**i
+      if (carried_inside(site, tried)) last = tried
+    end do
+    do i = 1, site%rings%between - 1
+      tried = last*i/site%rings%between
+      if (tried < first) cycle
+      if (carried_inside(site, tried)) cycle
+      last = max(first, 0.9_dp*last*(i - 1)/site%rings%between)
+      exit
+    end do
+  end subroutine refine
 
-      call put_ring(radius, rings%points)
-      do i = 1, attractor%period
-        call flow%advance(rings%points)
-      end do
-      bound = radius*(1 - min(0.05_dp, 0.5_dp*(1 - abs(attractor%multiplier(1)))))
-      inside = all(norm2(normed(rings%points), 1) < bound)
-    end function carried_inside
+  !> Whether the points of a ring are all carried inside it, by half of what the multiplier says or by 5 %.
+  function carried_inside(site, radius) result(inside)
+    type(site_t), intent(inout) :: site
+    real(dp), intent(in) :: radius
+    logical :: inside
 
-    !> Widens the ellipse as long as the ring outside of it is carried inside it in the end: then the ring's inside is, too.
-    subroutine widen()
-      do while (last < LARGEST)
-        if (.not. comes_inside(STEP*last, last)) exit
-        last = STEP*last
-      end do
-    end subroutine widen
+    call put_ring(site, radius, site%rings%points)
+    call return_once(site, site%rings%points)
+    inside = all(norm2(normed(site, site%flow%u(:site%rings%points), site%flow%v(:site%rings%points)), 1) < &
+                 radius*(1 - min(0.05_dp, 0.5_dp*(1 - site%shrinking))))
+  end function carried_inside
 
-    !> Whether all points of a ring are inside the ellipse of another radius at once, soon enough, with neighbours beside each other: then what
-    !> lies between them is inside, too.
-    function comes_inside(radius, goal) result(inside)
-      real(dp), intent(in) :: radius, goal
-      logical :: inside
-      real(dp) :: x(2, FEW)
-      integer :: returns, i
+  !> Widens an ellipse as long as the ring outside of it is carried inside it in the end: then the ring's inside is, too.
+  subroutine widen(site, radius)
+    type(site_t), intent(inout) :: site
+    real(dp), intent(inout) :: radius
 
-      call put_ring(radius, FEW)
-      inside = .false.
-      do returns = 1, ceiling(PATIENCE*log(radius/goal)/(attractor%period*rate(attractor)))
-        do i = 1, attractor%period
-          call flow%advance(FEW)
-        end do
-        if (mod(returns, LOOKED_AT) /= 0) cycle
-        x = normed(FEW)
-        if (maxval(norm2(x, 1)) > FAR*radius) return
-        if (maxval(norm2(x, 1)) >= goal) cycle
-        inside = maxval(norm2(x - cshift(x, 1, 2), 1)) < APART*goal
-        return
-      end do
-    end function comes_inside
+    do while (radius < LARGEST)
+      if (.not. comes_inside(site, STEP*radius, radius)) exit
+      radius = STEP*radius
+    end do
+  end subroutine widen
 
-    subroutine put_ring(radius, n)
-      real(dp), intent(in) :: radius
-      integer, intent(in) :: n
-      real(dp) :: x(2)
-      integer :: i
+  !> Whether all points of a ring are inside the ellipse of another radius at once, soon enough, with neighbours beside each other: then what
+  !> lies between them is inside, too.
+  function comes_inside(site, radius, goal) result(inside)
+    type(site_t), intent(inout) :: site
+    real(dp), intent(in) :: radius, goal
+    logical :: inside
+    real(dp) :: x(2, FEW), rate
+    integer :: returns
 
-      do i = 1, n
-        x = radius*matmul(basis, [cos(2*PI*i/n), sin(2*PI*i/n)])
-        call flow%put(i, attractor%kernel_u(j) + x(1)/PI, attractor%kernel_v(j) + x(2))
-      end do
-    end subroutine put_ring
+    call put_ring(site, radius, FEW)
+    inside = .false.
+    rate = -log(site%shrinking)/site%period
+    do returns = 1, ceiling(PATIENCE*log(radius/goal)/(site%period*rate))
+      call return_once(site, FEW)
+      if (mod(returns, LOOKED_AT) /= 0) cycle
+      x = normed(site, site%flow%u(:FEW), site%flow%v(:FEW))
+      if (maxval(norm2(x, 1)) > FAR*radius) return
+      if (maxval(norm2(x, 1)) >= goal) cycle
+      inside = maxval(norm2(x - cshift(x, 1, 2), 1)) < APART*goal
+      return
+    end do
+  end function comes_inside
 
-    !> The states of the lanes, from the strobe point on, in the eigenbasis.
-    function normed(n) result(x)
-      integer, intent(in) :: n
-      real(dp) :: x(2, n)
-      integer :: i
+  !> Puts n points of a ring into the lanes.
+  subroutine put_ring(site, radius, n)
+    type(site_t), intent(inout) :: site
+    real(dp), intent(in) :: radius
+    integer, intent(in) :: n
+    real(dp) :: x(2)
+    integer :: i
 
-      do i = 1, n
-        x(:, i) = matmul(inverse, [PI*angle_difference(flow%u(i), attractor%kernel_u(j)), flow%v(i) - attractor%kernel_v(j)])
-      end do
-    end function normed
-  end function ellipse
+    do i = 1, n
+      x = radius*matmul(site%basis, [cos(2*PI*i/n), sin(2*PI*i/n)])
+      call site%flow%put(i, site%u + x(1)/PI, site%v + x(2))
+    end do
+  end subroutine put_ring
 
-  !> The rate at which motions approach a cycle, 1/drive period.
-  pure function rate(attractor)
-    type(attractor_t), intent(in) :: attractor
-    real(dp) :: rate
+  !> The lanes 1 .. n through a period of the cycle.
+  subroutine return_once(site, n)
+    type(site_t), intent(inout) :: site
+    integer, intent(in) :: n
+    integer :: i
 
-    rate = -log(abs(attractor%multiplier(1)))/attractor%period
-  end function rate
+    do i = 1, site%period
+      call site%flow%advance(n)
+    end do
+  end subroutine return_once
 
-  !> Distance, in the norm of the ellipse, from strobe point j to the nearest one of another attractor, its mirror image included.
+  !> States, from the strobe point on, in the eigenbasis.
+  pure function normed(site, u, v) result(x)
+    type(site_t), intent(in) :: site
+    real(dp), intent(in) :: u(:), v(:) !< half-turns, rad per drive radian
+    real(dp) :: x(2, size(u))
+    integer :: i
+
+    do i = 1, size(u)
+      x(:, i) = matmul(site%inverse, [PI*angle_difference(u(i), site%u), v(i) - site%v])
+    end do
+  end function normed
+
+  !> Distance, in the norm of the ellipse, from its strobe point to the nearest one of another attractor, its mirror image included.
   !> A larger ellipse is rejected: the scene's map then differs too much from the fine one. So is one whose first ring is not
   !> small against this distance: it would not decide at which of the two an orbit ends.
-  pure function clearance(attractor, j, inverse, others) result(distance)
+  pure function clearance(site, attractor, others) result(distance)
+    type(site_t), intent(in) :: site
     type(attractor_t), intent(in) :: attractor
-    integer, intent(in) :: j
-    real(dp), intent(in) :: inverse(2, 2)
     type(attractor_t), intent(in) :: others(:)
     real(dp) :: distance
     integer :: a
 
     distance = huge(1.0_dp)
-    if (attractor%mirrored .and. .not. attractor%symmetric) distance = to_points(-attractor%kernel_u, -attractor%kernel_v) ! the mirror image's
+    if (attractor%mirrored .and. .not. attractor%symmetric) & ! the mirror image's
+      distance = minval(norm2(normed(site, -attractor%kernel_u, -attractor%kernel_v), 1))
     do a = 1, size(others)
-      if (others(a)%period > 0) distance = min(distance, to_points(others(a)%kernel_u, others(a)%kernel_v))
+      if (others(a)%period > 0) distance = min(distance, minval(norm2(normed(site, others(a)%kernel_u, others(a)%kernel_v), 1)))
     end do
-
-  contains
-
-    pure function to_points(u, v) result(shortest)
-      real(dp), intent(in) :: u(:), v(:)
-      real(dp) :: shortest
-      integer :: i
-
-      shortest = huge(1.0_dp)
-      do i = 1, size(u)
-        shortest = min(shortest, norm2(matmul(inverse, [PI*angle_difference(u(i), attractor%kernel_u(j)), &
-                                                        v(i) - attractor%kernel_v(j)])))
-      end do
-    end function to_points
-
   end function clearance
 
   !> Derivative, at strobe point j, of the change to the flow's coordinates.
