@@ -8,7 +8,6 @@ module kz_api_follow
   use kz_labels_label, only: follow
   use kz_labels_smooth, only: smooth_times
   use kz_maps_map_table, only: table_map_t, make_table_map
-  use kz_labels_reference_map, only: reference_map_t, make_reference_map
   implicit none
   private
 
@@ -114,30 +113,5 @@ contains
     call smooth_times(flow, d%attractors, label, state, time)
     call return_flow(d, flow)
   end subroutine smooth_settling
-
-  subroutine follow_reference(handle, n_steps, n, max_periods, start, low, label, periods) &
-    bind(C, name='kz_dynamics_follow_reference')
-    type(c_ptr), value :: handle
-    integer(c_int32_t), value :: n_steps
-    integer(c_int64_t), value :: n, max_periods
-    real(dp), intent(in) :: start(2, n)
-    real(dp), intent(in), optional :: low(2, n)
-    integer(c_int32_t), intent(out) :: label(n)
-    integer(c_int64_t), intent(out) :: periods(n)
-    type(dynamics_t), pointer :: d
-    type(reference_map_t), allocatable :: map
-    real(dp), allocatable :: state(:, :)
-
-    d => of_handle(handle)
-    allocate (map, state(2, n))
-    if (present(low)) then
-      call make_reference_map(map, d%search%pendulum, int(n_steps), d%search%flow, start, state(1, :), low)
-    else ! gfortran would read the address that is not there
-      call make_reference_map(map, d%search%pendulum, int(n_steps), d%search%flow, start, state(1, :))
-    end if
-    state(2, :) = start(2, :)
-    periods = max_periods
-    call follow(map, d%regions, d%attractors, state, label, periods, 1)
-  end subroutine follow_reference
 
 end module kz_api_follow

@@ -4,9 +4,9 @@ module kz_api_label
   use, intrinsic :: iso_c_binding, only: dp => c_double, c_int8_t, c_int32_t, c_int64_t, c_ptr
   use kz_api_dynamics, only: dynamics_t, of_handle
   use kz_taylor_pairs, only: pair_of, quad_of
-  use kz_taylor_taylor, only: doubles_of, qp, PI_QUAD
+  use kz_taylor_taylor, only: drive_t, make_drive, doubles_of, qp, PI_QUAD
   use kz_vector_locks, only: take_lock, leave_lock
-  use kz_labels_carrier, only: carrier_t, orbit_t
+  use kz_labels_carrier, only: carrier_t, orbit_t, make_exact_carrier
   use kz_labels_levels, only: prepare_level, carrier_of, is_useful, outlook_from, LEVEL_DOUBLE, LEVEL_FINE, LEVEL_QUAD, NO_LEVEL
   use kz_labels_orbits, only: decision_t, outlook_t, follow_orbits, DOUBTFUL, PENDING
   use kz_labels_released, only: make_released, carry_released
@@ -160,6 +160,37 @@ contains
     call prepare_level(d%levels, level, d%flow, d%regions%top)
     call leave_lock(d%lock)
   end subroutine prepare
+
+  subroutine follow_reference(handle, n_steps, n, max_periods, start, low, label, periods) &
+    bind(C, name='kz_dynamics_follow_reference')
+    type(c_ptr), value :: handle
+    integer(c_int32_t), value :: n_steps
+    integer(c_int64_t), value :: n, max_periods
+    real(dp), intent(in) :: start(2, n)
+    real(dp), intent(in), optional :: low(2, n)
+    integer(c_int32_t), intent(out) :: label(n)
+    integer(c_int64_t), intent(out) :: periods(n)
+    type(dynamics_t), pointer :: d
+    type(drive_t), target :: drive
+    type(carrier_t) :: carrier
+    type(orbit_t), allocatable :: orbit(:)
+    type(decision_t), allocatable :: decision(:)
+    real(dp) :: rest(2)
+    integer(c_int64_t) :: i
+
+    d => of_handle(handle)
+    call make_drive(drive, d%search%pendulum, int(n_steps))
+    call make_exact_carrier(d%search%flow, drive, carrier)
+    allocate (orbit(n), decision(n))
+    do i = 1, n
+      rest = 0
+      if (present(low)) rest = low(:, i)
+      call begin_orbit(start_t([start(1, i), rest(1)], [start(2, i), rest(2)], 0, 0), .true., orbit(i))
+    end do
+    call follow_orbits(carrier, d%regions, d%attractors, max_periods, huge(1.0_dp), .false., 0_c_int32_t, outlook_t(), orbit, decision)
+    label = decision%end%label
+    periods = decision%end%periods
+  end subroutine follow_reference
 
   subroutine set_release(handle, release) bind(C, name='kz_dynamics_set_release')
     type(c_ptr), value :: handle

@@ -10,7 +10,7 @@ module kz_labels_carrier
   use kz_vector_map, only: flow_t, WIDTH, CAPACITY, PI
   implicit none
   private
-  public :: orbit_t, carrier_t, make_carrier
+  public :: orbit_t, carrier_t, make_carrier, make_exact_carrier
 
   !> What carries the orbits.
   integer, parameter, public :: BY_MAP = 0, BY_FINE_MAP = 1, BY_PAIRS = 2, BY_SERIES = 3
@@ -32,6 +32,7 @@ module kz_labels_carrier
     class(flow_t), allocatable :: flow     !< the scene's map; between periods its lanes hold the states as regions see them
     type(period_error_t) :: error          !< of that map
     integer :: means = BY_MAP              !< what carries the orbits
+    logical :: exact = .false.             !< their errors are not asked for: they stay as they are
     !> BY_FINE_MAP: with more steps; what takes its states to physical coordinates; its error
     class(flow_t), allocatable :: fine, shown
     type(period_error_t) :: fine_error
@@ -65,6 +66,19 @@ contains
     allocate (carrier%flow, source=flow)
     carrier%error = error
   end subroutine make_carrier
+
+  !> Carries orbits by Taylor series in quad precision, without what their errors need.
+  subroutine make_exact_carrier(flow, drive, carrier)
+    class(flow_t), intent(in) :: flow !< in whose coordinates trapping regions are
+    type(drive_t), intent(in), target :: drive !< of the pendulum
+    type(carrier_t), intent(out) :: carrier !< the carrier
+
+    allocate (carrier%flow, source=flow)
+    carrier%error%noise = 0
+    carrier%means = BY_SERIES
+    carrier%exact = .true.
+    carrier%drive => drive
+  end subroutine make_exact_carrier
 
   !> A map leaves out what the state has below the last place of its doubles.
   subroutine put(self, lane, orbit)
@@ -201,7 +215,7 @@ contains
         self%noise(lane) = noise_of(self, self%flow%v(lane))
       end do
     end if
-    call self%flow%advance_linear(n, self%tangent)
+    if (.not. self%exact) call self%flow%advance_linear(n, self%tangent)
     if (self%means /= BY_MAP) then
       call advance_precisely(self, n)
       call put_shown(self, 1, n)

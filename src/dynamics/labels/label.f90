@@ -54,7 +54,7 @@ contains
     do lane = WIDTH + 1, WIDTH + n
       associate (i => self%number(lane))
         self%most(lane) = self%periods(i)
-        call self%map%put_start(lane, i, self%state(1, i), self%state(2, i))
+        call self%map%put(lane, self%state(1, i), self%state(2, i))
       end associate
     end do
     self%age(WIDTH + 1:) = 0

@@ -144,8 +144,10 @@ contains
       u = carrier%flow%u(:WIDTH)
       v = carrier%flow%v(:WIDTH)
       call carrier%advance(m)
-      call add_nonlinear(self, u, v, nonlinear)
-      call spread_errors(m, carrier%tangent, carrier%noise, nonlinear, self%ellipse, self%trace)
+      if (.not. carrier%exact) then
+        call add_nonlinear(self, u, v, nonlinear)
+        call spread_errors(m, carrier%tangent, carrier%noise, nonlinear, self%ellipse, self%trace)
+      end if
       call find_regions(self%regions, self%attractors, m, carrier%flow%u(:m), carrier%flow%v(:m), self%region)
       self%age(:m) = self%age(:m) + 1
       call flag_done(m, self%region, self%trace, min(TOLERABLE, self%handover)**2, done)

@@ -24,8 +24,6 @@ module kz_vector_map
     procedure :: put => put_state
     !> Puts states into the lanes 1 .. size(u).
     procedure :: put_all
-    !> Puts start number `number`, which is (u, v) in double precision.
-    procedure :: put_start
     !> Copies lane `from` over lane `to`.
     procedure :: move => move_state
     !> Advances the lanes 1 .. n (or all) by one period.
@@ -173,18 +171,6 @@ contains
     call self%advance(n)
     call self%to_physical(n)
   end subroutine advance_physical
-
-  !> The states of a map are doubles: which start it is does not matter.
-  subroutine put_start(self, lane, number, u, v)
-    class(map_t), intent(inout) :: self
-    integer, intent(in) :: lane
-    integer(c_int64_t), intent(in) :: number
-    real(c_double), intent(in) :: u, v
-
-    associate (unused => number)
-    end associate
-    call self%put(lane, u, v)
-  end subroutine put_start
 
   !> Copies the state of a lane to another one.
   subroutine move_state(self, from, to)
