@@ -133,7 +133,7 @@ TEST(test_tangent_lanes) {
 }
 
 /* The split schemes contract areas by exactly exp(-2 pi beta) a period; rk4 nearly; the processed one in its own coordinates,
- * in the physical ones but for the truncation of the change of coordinates. */
+ * in the physical ones but for the truncation of the change of coordinates. A period has up to 2100 stages, each with its rounding. */
 TEST(test_determinant) {
   for (int way = 0; way < (DRIVES + 1) * kz_scheme_count(); way++) {
     const int scheme = way / (DRIVES + 1), which = way % (DRIVES + 1);
@@ -148,7 +148,7 @@ TEST(test_determinant) {
       double determinant = matrix[i][0] * matrix[i][3] - matrix[i][1] * matrix[i][2];
       double scale = fabs(matrix[i][0] * matrix[i][3]) + fabs(matrix[i][1] * matrix[i][2]);
       double error = fabs(determinant - exp(-2 * M_PI * pendulum.beta));
-      assert_true(error <= 1000 * EPSILON * scale + (scheme == 0 ? 1e-9 : scheme == kz_scheme_find("processed") ? 1e-10 : 0));
+      assert_true(error <= 2000 * EPSILON * scale + (scheme == 0 ? 1e-9 : scheme == kz_scheme_find("processed") ? 1e-10 : 0));
     }
     kz_flow_free(flow);
   }
