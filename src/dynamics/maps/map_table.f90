@@ -45,7 +45,7 @@ module kz_maps_map_table
   end type table_map_t
 
   interface
-    !> stencil.c
+    !> sum_nodes.c
     subroutine sum_nodes(points, n, length, field, i, j, width, wu, wv, shift) bind(C, name='kz_sum_nodes')
       import :: c_int32_t, c_int64_t, dp
       integer(c_int32_t), value :: points, n
