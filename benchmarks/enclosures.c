@@ -1,5 +1,5 @@
 /* Random starts of other drives than the sine lie in their enclosures after 1, 5 and 20 periods, by quad precision (in triples: by orbits of 200 bits):
- * 100,000 of each drive in doubles and in pairs and 100 in triples, which takes half an hour. With arguments DRIVE (0, 1, 2), PRECISION (0: doubles,
+ * 100,000 of each drive in doubles and in pairs and 1000 in triples, which takes half an hour. With arguments DRIVE (0, 1, 2), PRECISION (0: doubles,
  * 1: pairs, 2: triples), FIRST and END the starts FIRST .. END - 1 of one drive: many can be followed in parts. Exit status 1 if one lies outside. */
 #include "../tests/tools/enclosed.h"
 #include "../tests/tools/enclosed_orbit.h"
@@ -130,7 +130,7 @@ static bool enclose(int drive, int32_t precision, int64_t first, int64_t end) {
 }
 
 int main(int count, char **words) {
-  static const int64_t starts[] = {[KZ_ENCLOSE_DOUBLES] = 100000, [KZ_ENCLOSE_PAIRS] = 100000, [KZ_ENCLOSE_TRIPLES] = 100};
+  static const int64_t starts[] = {[KZ_ENCLOSE_DOUBLES] = 100000, [KZ_ENCLOSE_PAIRS] = 100000, [KZ_ENCLOSE_TRIPLES] = 1000};
   bool hold = true;
   if (count == 5) return !enclose(atoi(words[1]), atoi(words[2]), atoll(words[3]), atoll(words[4]));
   for (int drive = 0; drive < 3; drive++)

@@ -135,3 +135,10 @@ def test_the_picture(reference, tmp_path):
 def test_intervals_hold_on_pendulums_of_no_scene():
     done = subprocess.run([sys.executable, COVERAGE], capture_output=True, text=True, check=False)
     assert done.returncode == 0, done.stdout + done.stderr
+
+
+@pytest.mark.extensive
+def test_starts_too_fast_to_judge_are_refused(kapitza, tmp_path):
+    done = kapitza("run", SMALL, "-o", "no.h5", *without_method(0.9), "--set", "basin.velocity.max=1e4", folder=tmp_path, status=2)
+    assert "basin.velocity: 3072 steps a period are too few for reference labels of starts with speed 1e+04" in done.stderr
+    assert list(tmp_path.iterdir()) == []
