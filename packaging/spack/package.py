@@ -1,6 +1,6 @@
 """Recipe of kapitza for Spack 1.0 or newer. Copied as packages/kapitza/package.py into a Spack repository, it builds this folder's sources:
 
-spack dev-build --source-path FOLDER kapitza@0.4.0
+spack dev-build --source-path FOLDER kapitza@0.5.0
 """
 
 from spack.package import conflicts, depends_on, license, version
@@ -11,7 +11,7 @@ class Kapitza(CMakePackage):
     """Basins of attraction of the pendulum with a shaken pivot, on any number of MPI ranks."""
 
     license("MIT")
-    version("0.4.0")
+    version("0.5.0")
 
     depends_on("c", type="build")
     depends_on("fortran", type="build")
