@@ -10,6 +10,7 @@
 #include "kapitza/analysis.h"
 #include "kapitza/kernel.h"
 #include "kapitza/parallel.h"
+#include "kapitza/powers.h"
 #include "kapitza/store.h"
 #include "kapitza/study_axis.h"
 #include "kapitza/study_pendulum.h"
@@ -25,23 +26,18 @@ typedef struct {
 } kz_numerics_keys;
 enum { KZ_AUTO = 0 };
 
-/* The list of the studies, in the order in which they run. Everything else about a study stands in its folder: plan.h has what a scene says of
- * it, keys.c its keys and its row, variables.c what it writes. */
+/* Studies in the order in which they run: those of the two papers, then those of the powers. Everything else about a study stands in its
+ * folder: plan.h has what a scene says of it, keys.c its keys and its row, variables.c what it writes. */
 #define KZ_STUDIES(STUDY) \
   STUDY(basin)            \
   STUDY(attractors)       \
-  STUDY(saddles)          \
-  STUDY(manifolds)        \
-  STUDY(wada)             \
-  STUDY(tangency)         \
-  STUDY(edge)             \
   STUDY(orbit)            \
   STUDY(stability)        \
   STUDY(potential)        \
   STUDY(sweep)            \
-  STUDY(atlas)            \
   STUDY(measures)         \
-  STUDY(tradeoff)
+  STUDY(tradeoff)         \
+  KZ_POWER_STUDIES(STUDY)
 
 #define KZ_STUDY_PLAN(name) typedef struct kz_##name##_plan kz_##name##_plan;
 KZ_STUDIES(KZ_STUDY_PLAN)
@@ -140,6 +136,11 @@ typedef struct {
 /* A key of a scene (study_keys.h). */
 typedef struct kz_key kz_key;
 
+/* What a scene must have beside a study: one of other studies, joined by '|', for what it lacks otherwise. */
+typedef struct {
+  const char *what, *studies;
+} kz_study_need;
+
 /* A study. All ranks call `run`; `summary` (text for people) and `store` are NULL on all ranks but rank 0. `check` refuses a scene that the study
  * cannot model, for example because the steps are too coarse (NULL = nothing to refuse); its message begins with the keys that a user could
  * change ("numerics.steps_per_period|basin.velocity: ..."). */
@@ -151,6 +152,11 @@ typedef struct {
   kz_cost (*cost)(const kz_scene *scene);
   kz_status (*run)(const kz_scene *scene, const kz_run *run, kz_store *store, FILE *summary);
   kz_status (*check)(const kz_scene *scene);
+  /* What the plan lacks, "KEY: what is wrong", where KEY is one of the study; NULL = nothing, or no function. */
+  const char *(*lack)(const kz_scene *scene);
+  kz_study_need needs[2];
+  bool damped;  /* it has no meaning without damping */
+  bool follows; /* it follows motions of the scene's own pendulum */
 } kz_study;
 static inline bool kz_study_is_wanted(const kz_study *study, const kz_scene *scene) {
   return *(const bool *)((const char *)scene + study->wanted);

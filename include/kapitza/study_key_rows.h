@@ -18,8 +18,11 @@
 /* One row: the first four of every type, then what the type needs. */
 #define ROW(path_, type_, fallback_, place, help_, ...) \
   {.path = path_, .type = type_, .fallback = fallback_, place, .help = help_, __VA_ARGS__}
-/* A mapping; and one of which the field says whether it is given. */
+/* A mapping; one that gives an axis; and one of which the field says whether it is given. */
 #define MAPPING(path, fallback, help) ROW(path, KZ_KEY_MAPPING, fallback, NOWHERE, help, .unit = "")
+#define RANGE(path, range_, axis, fallback, help)                                 \
+  ROW(path, KZ_KEY_MAPPING, fallback, NOWHERE, help, .unit = "", .range = range_, \
+      .range_offset = offsetof(PLAN_OF(KEYS_OF), axis))
 #define PART(path, fallback, field, help) ROW(path, KZ_KEY_MAPPING, fallback, AT(field), help, .unit = "")
 /* Keys that basin.accuracy answers. */
 #define CHOSEN .chosen_by = "basin.accuracy"
@@ -43,34 +46,36 @@
 #define CENTRE_HELP "Middle of the window; up to 1000 digits, all of which count."
 
 /* The window of a study's starts or points; it may be the whole circle. */
-#define THETA_WINDOW(study, help)                                                                                              \
-  MAPPING(#study ".theta", "", help), REAL(#study ".theta.min", "rad", -1e6, 1e6, "", theta.min, "Lower edge of the window."), \
+#define THETA_WINDOW(study, help)                                                              \
+  RANGE(#study ".theta", KZ_RANGE_ANGLES, theta, "", help),                                    \
+      REAL(#study ".theta.min", "rad", -1e6, 1e6, "", theta.min, "Lower edge of the window."), \
       REAL(#study ".theta.max", "rad", -1e6, 1e6, "", theta.max, "Upper edge of the window.")
 #define VELOCITY_WINDOW(study, most, fallback, lowest, highest, help)                                                 \
-  MAPPING(#study ".velocity", fallback, help),                                                                        \
+  RANGE(#study ".velocity", KZ_RANGE_VELOCITIES, velocity, fallback, help),                                           \
       REAL(#study ".velocity.min", KZ_VELOCITY_UNIT, -most, most, lowest, velocity.min, "Lower edge of the window."), \
       REAL(#study ".velocity.max", KZ_VELOCITY_UNIT, -most, most, highest, velocity.max, "Upper edge of the window.")
-#define PLANE_AXIS(study, axis, help) MAPPING(#study "." #axis, NULL, help), PLANE_KEYS(study, axis)
+#define PLANE_AXIS(study, axis, help) RANGE(#study "." #axis, KZ_RANGE_PARAMETER, axis, NULL, help), PLANE_KEYS(study, axis)
 #define PLANE_KEYS(study, axis)                                                                                           \
   ROW(#study "." #axis ".parameter", KZ_KEY_WORD, NULL, AT(axis.parameter),                                               \
       "Key of the pendulum mapping, as written there, that takes the values.", .unit = "", .words_from = kz_sweep_words), \
       REAL(#study "." #axis ".min", KZ_OWN_UNIT, -DBL_MAX, DBL_MAX, NULL, axis.values.min, "First value."),               \
       REAL(#study "." #axis ".max", KZ_OWN_UNIT, -DBL_MAX, DBL_MAX, NULL, axis.values.max, "Last value.")
 
-/* The row of a study and its keys: the mapping of its name, the rows of the list that follows, an end. `check` may be NULL (see kz_study). */
+/* The row of a study, behind its keys: the mapping of its name, the rows of the list that follows, an end. More members of kz_study may be
+ * given, as `.check = kz_NAME_check`. */
 #ifdef KEYS_OF
 #define TEXT_OF(name) #name
 #define STRING_OF(name) TEXT_OF(name)
 #define STUDY(help, ...) ROW(STRING_OF(KEYS_OF), KZ_KEY_MAPPING, "", OF_SCENE(STORED(KEYS_OF)), help, .unit = "", __VA_ARGS__)
-#define KZ_STUDY_ROW(check) KZ_STUDY_ROW_OF(KEYS_OF, check)
-#define KZ_STUDY_ROW_OF(name, check) KZ_STUDY_ROW_NAMED(name, check)
-#define KZ_STUDY_ROW_NAMED(name, check)                               \
-  const kz_study kz_##name##_study = {#name,                          \
-                                      offsetof(kz_scene, has_##name), \
-                                      offsetof(kz_scene, name),       \
-                                      sizeof(kz_##name##_plan),       \
-                                      keys,                           \
-                                      kz_##name##_cost,               \
-                                      kz_##name##_run,                \
-                                      check}
+#define KZ_STUDY_ROW(...) KZ_STUDY_ROW_OF(KEYS_OF, __VA_ARGS__)
+#define KZ_STUDY_ROW_OF(name, ...) KZ_STUDY_ROW_NAMED(name, __VA_ARGS__)
+#define KZ_STUDY_ROW_NAMED(name_, ...)                                            \
+  const kz_study kz_##name_##_study = {.name = #name_,                            \
+                                       .wanted = offsetof(kz_scene, has_##name_), \
+                                       .plan = offsetof(kz_scene, name_),         \
+                                       .plan_bytes = sizeof(kz_##name_##_plan),   \
+                                       .keys = keys,                              \
+                                       .cost = kz_##name_##_cost,                 \
+                                       .run = kz_##name_##_run,                   \
+                                       __VA_ARGS__}
 #endif

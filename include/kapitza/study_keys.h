@@ -24,6 +24,14 @@ typedef enum {
   KZ_KEY_HARMONICS /* kz_harmonics: a list of mappings */
 } kz_key_type;
 
+/* What a mapping with the keys min and max gives, beyond its keys. */
+typedef enum {
+  KZ_RANGE_NONE,
+  KZ_RANGE_ANGLES,     /* kz_axis: both edges or neither, which means the whole circle */
+  KZ_RANGE_VELOCITIES, /* kz_axis */
+  KZ_RANGE_PARAMETER   /* kz_plane_axis: values of a parameter of the pendulum */
+} kz_range;
+
 #define KZ_NO_FIELD ((size_t)-1)
 #define KZ_UNSET_WORD (-1)
 #define KZ_UNSET_INTEGER INT64_MIN
@@ -41,6 +49,8 @@ struct kz_key {
   const char *form;      /* letters; keys of one mapping without a common letter exclude each other; NULL = of no form */
   size_t plan;           /* offset in kz_scene of the pointer to the plan that has the field; 0 = the scene has it */
   size_t offset;         /* of the field in that plan */
+  kz_range range;        /* of a mapping: what its keys give together */
+  size_t range_offset;   /* of that axis in the plan */
   const char *chosen_by; /* path of a number that excludes this key, because the program then chooses it; NULL = none */
   const char *help;      /* one sentence of the scene reference */
 };

@@ -184,7 +184,22 @@ static bool was_a_study(const kz_key *keys, const char *name, char *now, size_t 
   return false;
 }
 
+/* The power that a study needs and that this build leaves out; NULL = none. */
+static const char *missing_power(const char *study) {
+  static const char *const missing[][2] = {
+#define MISSING(name, power) {#name, #power},
+      KZ_MISSING_STUDIES(MISSING){NULL, NULL}};
+  for (size_t i = 0; missing[i][0]; i++)
+    if (strcmp(missing[i][0], study) == 0) return missing[i][1];
+  return NULL;
+}
+
 void kz_key_unknown(const kz_key *keys, const char *parent, const char *name, const char *prefix, char *text, size_t bytes) {
+  const char *power = parent[0] ? NULL : missing_power(name);
+  if (power) {
+    snprintf(text, bytes, "needs the power %s, which this build leaves out; build with -DKAPITZA_POWERS=all", power);
+    return;
+  }
   char names[1024], list[1024], nearest[64];
   const kz_key *mapping = kz_key_find(keys, parent), *elsewhere = find_elsewhere(keys, name);
   children(keys, parent, names, sizeof names);

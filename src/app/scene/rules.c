@@ -5,23 +5,13 @@
 
 #include "rules.h"
 #include "../../study/basin/plan.h"
-#include "../../study/attractors/plan.h"
-#include "../../study/saddles/plan.h"
 #include "../../study/orbit/plan.h"
 #include "../../study/stability/plan.h"
 #include "../../study/sweep/plan.h"
-#include "../../study/atlas/plan.h"
-#include "../../study/measures/plan.h"
-#include "../../study/tangency/plan.h"
 
 /* Complains about a key where it is given. */
 static void refuse(kz_reading *reading, const char *path, const char *why) {
   if (kz_tree_find(reading->root, path)) kz_complain(reading, path, "%s", why);
-}
-
-static void window_rules(kz_reading *reading, kz_axis *theta, const kz_axis *velocity, const char *study) {
-  kz_theta_rules(reading, theta, kz_key_in(study, "theta").text);
-  kz_axis_rules(reading, velocity, kz_key_in(study, "velocity").text);
 }
 
 static void basin_rules(kz_reading *reading, kz_scene *scene) {
@@ -52,11 +42,8 @@ static void undecided_rules(kz_reading *reading, kz_scene *scene) {
     kz_complain(reading, "basin.undecided", "decide needs basin.method: exact; choose that method, or flag");
 }
 
-/* The sizes of shocks must increase. */
 static void attractors_rules(kz_reading *reading, kz_scene *scene) {
-  if (!scene->has_attractors) return;
-  window_rules(reading, &scene->attractors->theta, &scene->attractors->velocity, "attractors");
-  if (scene->has_basin)
+  if (scene->has_attractors && scene->has_basin)
     kz_complain(reading, "attractors",
                 "repeats what basin does, which finds the attractors of its window itself; give one of them");
 }
@@ -69,52 +56,29 @@ static void lack_rule(kz_reading *reading, const char *lack, const char *study) 
   kz_complain(reading, kz_key_in(study, key).text, "%s", lack + strlen(key) + 2);
 }
 
+/* The sizes of shocks must increase. */
 static void shocks_rules(kz_reading *reading, kz_scene *scene) {
   if (scene->has_basin && scene->basin->has_shocks)
     lack_rule(reading, kz_sizes_lack(&scene->basin->shocks.sizes), "basin.shocks");
 }
 
-static void measures_rules(kz_reading *reading, kz_scene *scene) {
-  const kz_measures_plan *plan = scene->measures;
-  if (!scene->has_measures) return;
-  window_rules(reading, &scene->measures->theta, &scene->measures->velocity, "measures");
-  lack_rule(reading, kz_measures_lack(&plan->names, &plan->options), "measures");
-}
-
-static void saddles_rules(kz_reading *reading, kz_scene *scene) {
-  if (scene->has_saddles) window_rules(reading, &scene->saddles->theta, &scene->saddles->velocity, "saddles");
-}
-
-/* What edge and orbit.attractor need. */
-static void list_rule(kz_reading *reading, const kz_scene *scene, const char *path) {
-  if (!scene->has_basin && !scene->has_attractors)
-    refuse(reading, path, "needs a list of attractors; add a basin or attractors study to the scene");
-}
-
-static void basins_rule(kz_reading *reading, const kz_scene *scene, const char *path) {
-  list_rule(reading, scene, path);
-  if (!reading->message[0] && !(scene->parameters.pendulum.beta > 0))
-    refuse(reading, path, "needs damping, because without it there are no attractors; give damping");
-}
-
-static void edge_rules(kz_reading *reading, kz_scene *scene) {
-  basins_rule(reading, scene, "edge");
-  basins_rule(reading, scene, "wada");
-}
-
-static void manifolds_rules(kz_reading *reading, kz_scene *scene) {
-  static const char *const paths[] = {"manifolds", "wada", "tangency"};
-  for (size_t i = 0; !scene->has_saddles && i < sizeof paths / sizeof paths[0]; i++)
-    refuse(reading, paths[i], "needs a list of unstable cycles; add a saddles study to the scene");
-}
-
-static void tradeoff_rules(kz_reading *reading, kz_scene *scene) {
-  if (!scene->has_basin) refuse(reading, "tradeoff", "needs a window; add a basin study to the scene");
+/* The studies beside which another one needs to stand, at the key `path` that needs them. */
+static void need_rule(kz_reading *reading, const kz_study_need *need, const char *path) {
+  char studies[64] = "";
+  const char *words = need->studies, *word;
+  for (int length; (word = kz_words_next(&words, &length));) {
+    for (int i = 0; i < kz_study_count; i++)
+      if (strlen(kz_studies[i]->name) == (size_t)length && strncmp(kz_studies[i]->name, word, (size_t)length) == 0 &&
+          kz_study_is_wanted(kz_studies[i], reading->scene))
+        return;
+    snprintf(studies + strlen(studies), sizeof studies - strlen(studies), "%s%.*s", studies[0] ? " or " : "", length, word);
+  }
+  kz_complain(reading, path, "needs %s; add a %s study to the scene", need->what, studies);
 }
 
 /* Refuses keys that contradict orbit.attractor. */
 static void orbit_attractor_rules(kz_reading *reading, kz_scene *scene) {
-  list_rule(reading, scene, "orbit.attractor");
+  need_rule(reading, &(kz_study_need){"a list of attractors", "basin|attractors"}, "orbit.attractor");
   refuse(reading, "orbit.start", "contradicts attractor; give one of them");
   if (!scene->orbit->closed)
     refuse(reading, "orbit.closed",
@@ -173,13 +137,6 @@ static void check_stiffness(kz_reading *reading, const kz_pendulum *pendulum, co
               kz_stiffness(pendulum), KZ_MOST_STIFFNESS);
 }
 
-/* The scene's own pendulum, where a study follows motions of it. */
-static void stiffness_rules(kz_reading *reading, kz_scene *scene) {
-  const bool follows =
-      scene->has_basin || scene->has_attractors || scene->has_saddles || scene->has_orbit || scene->has_measures;
-  if (follows && !reading->message[0]) check_stiffness(reading, &scene->parameters.pendulum, "pendulum");
-}
-
 /* Converts a value that was written with a unit to the unit of the parameter; *written = that unit, unless it has one. */
 static void read_in_unit(kz_reading *reading, int32_t parameter, const char *path, double *value, kz_written_unit *written) {
   const char *unit = kz_sweep_parameters[parameter].unit;
@@ -228,39 +185,49 @@ static void parameter_values(kz_reading *reading, const kz_scene *scene, int32_t
   parameter_value(reading, scene, parameter, max.text, values->max);
 }
 
-static void tangency_rules(kz_reading *reading, kz_scene *scene) {
-  if (scene->has_tangency) parameter_values(reading, scene, scene->tangency->parameter, &scene->tangency->values, "tangency");
-}
-
-/* The two keys of a plane. */
-static void plane_rules(kz_reading *reading, const kz_scene *scene, kz_plane_axis *x, kz_plane_axis *y, const char *study) {
-  const kz_short_text of_x = kz_key_in(study, "x"), of_y = kz_key_in(study, "y");
-  parameter_values(reading, scene, x->parameter, &x->values, of_x.text);
-  parameter_values(reading, scene, y->parameter, &y->values, of_y.text);
-  if (x->parameter == y->parameter && y->parameter != KZ_UNSET_WORD)
-    kz_complain(reading, kz_key_in(of_y.text, "parameter").text,
-                "is also the parameter of %s; name another key of the pendulum mapping", of_x.text);
-}
-
 static void sweep_rules(kz_reading *reading, kz_scene *scene) {
   kz_sweep_plan *sweep = scene->sweep;
   if (!scene->has_sweep) return;
-  window_rules(reading, &sweep->theta, &sweep->velocity, "sweep");
   if (scene->has_basin && !isnan(scene->basin->accuracy))
     kz_complain(reading, "basin.accuracy",
                 "is chosen for one pendulum, and a sweep has many; give method, icm and numerics instead");
-  if (kz_sweep_is_plane(sweep))
-    plane_rules(reading, scene, &sweep->x, &sweep->y, "sweep");
-  else
-    parameter_values(reading, scene, sweep->parameter, &sweep->values, "sweep");
-  lack_rule(reading, kz_sweep_lack(sweep), "sweep");
+  if (!kz_sweep_is_plane(sweep)) parameter_values(reading, scene, sweep->parameter, &sweep->values, "sweep");
   if (sweep->ends.theta.count > 0 && sweep->ends.velocity.count != 1 && sweep->ends.velocity.count != sweep->ends.theta.count)
     kz_complain(reading, "sweep.ends.velocity", "has %lld values for %lld angles; give one for each angle, or one for all",
                 (long long)sweep->ends.velocity.count, (long long)sweep->ends.theta.count);
 }
 
-static void atlas_rules(kz_reading *reading, kz_scene *scene) {
-  if (scene->has_atlas) plane_rules(reading, scene, &scene->atlas->x, &scene->atlas->y, "atlas");
+/* The range that a mapping gives; returns the axis of a parameter. `other` is that of the mapping before, NULL = none. */
+static const kz_plane_axis *range_rule(kz_reading *reading, const kz_key *key, char *axis, const kz_plane_axis *other) {
+  kz_plane_axis *along = (kz_plane_axis *)axis;
+  if (key->range == KZ_RANGE_ANGLES) kz_theta_rules(reading, (kz_axis *)axis, key->path);
+  if (key->range == KZ_RANGE_VELOCITIES) kz_axis_rules(reading, (kz_axis *)axis, key->path);
+  if (key->range != KZ_RANGE_PARAMETER || along->parameter == KZ_UNSET_WORD) return other;
+  parameter_values(reading, reading->scene, along->parameter, &along->values, key->path);
+  if (other && other->parameter == along->parameter)
+    kz_complain(reading, kz_key_in(key->path, "parameter").text,
+                "is also the parameter of the other axis; name another key of the pendulum mapping");
+  return along;
+}
+
+/* What the row and the keys of a study say of it. */
+static void study_rules(kz_reading *reading, const kz_study *study) {
+  kz_scene *scene = reading->scene;
+  const kz_plane_axis *axis = NULL;
+  for (const kz_key *key = study->keys; key->path; key++)
+    if (key->range != KZ_RANGE_NONE)
+      axis = range_rule(reading, key, *(char **)((char *)scene + study->plan) + key->range_offset, axis);
+  if (study->lack) lack_rule(reading, study->lack(scene), study->name);
+  for (size_t i = 0; i < sizeof study->needs / sizeof study->needs[0] && study->needs[i].what; i++)
+    need_rule(reading, &study->needs[i], study->name);
+  if (study->damped && !reading->message[0] && !(scene->parameters.pendulum.beta > 0))
+    kz_complain(reading, study->name, "needs damping, because without it there are no attractors; give damping");
+  if (study->follows && !reading->message[0]) check_stiffness(reading, &scene->parameters.pendulum, "pendulum");
+}
+
+static void studies_rules(kz_reading *reading, kz_scene *scene) {
+  for (int i = 0; i < kz_study_count; i++)
+    if (kz_study_is_wanted(kz_studies[i], scene)) study_rules(reading, kz_studies[i]);
 }
 
 /* Whether the pendulum, or one of the sweep's, has no mirror symmetry. */
@@ -290,10 +257,9 @@ static void settling_rules(kz_reading *reading, kz_scene *scene) {
 }
 
 typedef void (*rule)(kz_reading *reading, kz_scene *scene);
-static const rule rules[] = {basin_rules,    table_rules,       undecided_rules, shocks_rules,      attractors_rules,
-                             saddles_rules,  measures_rules,    manifolds_rules, orbit_rules,       stability_rules,
-                             tradeoff_rules, kz_pendulum_rules, symmetry_rules,  stiffness_rules,   sweep_rules,
-                             atlas_rules,    tangency_rules,    edge_rules,      orbit_range_rules, settling_rules};
+static const rule rules[] = {basin_rules, table_rules,       undecided_rules,   shocks_rules,   attractors_rules,
+                             orbit_rules, stability_rules,   kz_pendulum_rules, symmetry_rules, studies_rules,
+                             sweep_rules, orbit_range_rules, settling_rules};
 
 void kz_reading_rules(kz_reading *reading) {
   for (size_t i = 0; i < sizeof rules / sizeof rules[0]; i++) rules[i](reading, reading->scene);

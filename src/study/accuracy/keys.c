@@ -11,4 +11,4 @@ static const kz_key keys[] = {
     {.path = NULL},
 };
 
-KZ_STUDY_ROW(kz_tradeoff_check);
+KZ_STUDY_ROW(.check = kz_tradeoff_check, .needs = {{"a window", "basin"}});

@@ -21,4 +21,4 @@ static const kz_key keys[] = {
     {.path = NULL},
 };
 
-KZ_STUDY_ROW(kz_atlas_check);
+KZ_STUDY_ROW(.check = kz_atlas_check);

@@ -15,4 +15,4 @@ static const kz_key keys[] = {
     {.path = NULL},
 };
 
-KZ_STUDY_ROW(kz_attractors_check);
+KZ_STUDY_ROW(.check = kz_attractors_check, .follows = true);

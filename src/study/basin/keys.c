@@ -75,4 +75,4 @@ static const kz_key keys[] = {
     {.path = NULL},
 };
 
-KZ_STUDY_ROW(kz_basin_check);
+KZ_STUDY_ROW(.check = kz_basin_check, .follows = true);

@@ -17,4 +17,4 @@ static const kz_key keys[] = {
     {.path = NULL},
 };
 
-KZ_STUDY_ROW(NULL);
+KZ_STUDY_ROW(.damped = true, .needs = {{"a list of attractors", "basin|attractors"}});

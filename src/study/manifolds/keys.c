@@ -17,4 +17,4 @@ static const kz_key keys[] = {
     {.path = NULL},
 };
 
-KZ_STUDY_ROW(NULL);
+KZ_STUDY_ROW(.needs = {{"a list of unstable cycles", "saddles"}});

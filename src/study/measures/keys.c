@@ -20,4 +20,4 @@ static const kz_key keys[] = {
     {.path = NULL},
 };
 
-KZ_STUDY_ROW(kz_measures_check);
+KZ_STUDY_ROW(.check = kz_measures_check, .follows = true, .lack = kz_measures_plan_lack);

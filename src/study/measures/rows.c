@@ -63,3 +63,7 @@ const char *kz_measures_lack(const kz_integers *list, const kz_measure_options *
     return "within: is missing, which share_within needs; give a number of drive periods";
   return kz_sizes_lack(&options->sizes);
 }
+
+const char *kz_measures_plan_lack(const kz_scene *scene) {
+  return kz_measures_lack(&scene->measures->names, &scene->measures->options);
+}

@@ -28,4 +28,4 @@ static const kz_key keys[] = {
     {.path = NULL},
 };
 
-KZ_STUDY_ROW(kz_orbit_check);
+KZ_STUDY_ROW(.check = kz_orbit_check, .follows = true);

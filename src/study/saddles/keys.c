@@ -13,4 +13,4 @@ static const kz_key keys[] = {
     {.path = NULL},
 };
 
-KZ_STUDY_ROW(NULL);
+KZ_STUDY_ROW(.follows = true);

@@ -34,4 +34,4 @@ static const kz_key keys[] = {
     {.path = NULL},
 };
 
-KZ_STUDY_ROW(NULL);
+KZ_STUDY_ROW();

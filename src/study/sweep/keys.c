@@ -5,8 +5,10 @@
 #include "plan.h"
 
 /* An axis of a plane, whose mapping belongs to form b. */
-#define PLANE_OF(axis, help)                                                                                  \
-  ROW("sweep." #axis, KZ_KEY_MAPPING, NULL, NOWHERE, help, .unit = "", .form = "b"), PLANE_KEYS(sweep, axis), \
+#define PLANE_OF(axis, help)                                                                                     \
+  ROW("sweep." #axis, KZ_KEY_MAPPING, NULL, NOWHERE, help, .unit = "", .form = "b", .range = KZ_RANGE_PARAMETER, \
+      .range_offset = offsetof(kz_sweep_plan, axis)),                                                            \
+      PLANE_KEYS(sweep, axis),                                                                                   \
       INTEGER("sweep." #axis ".count", 2, 1e5, NULL, axis.values.count, "Number of values, both ends included.")
 
 static const kz_key keys[] = {
@@ -53,4 +55,4 @@ static const kz_key keys[] = {
     {.path = NULL},
 };
 
-KZ_STUDY_ROW(kz_sweep_check);
+KZ_STUDY_ROW(.check = kz_sweep_check, .lack = kz_sweep_lack);

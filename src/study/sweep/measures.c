@@ -26,7 +26,8 @@ kz_integers kz_sweep_table_names(const kz_sweep_plan *plan) {
   return names;
 }
 
-const char *kz_sweep_lack(const kz_sweep_plan *plan) {
+const char *kz_sweep_lack(const kz_scene *scene) {
+  const kz_sweep_plan *plan = scene->sweep;
   const bool plane = kz_sweep_is_plane(plan);
   const kz_integers names = kz_sweep_table_names(plan);
   if (kz_words_repeat(&plan->measure)) return "measure: has a word twice; name each measure once";

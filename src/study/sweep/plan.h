@@ -49,7 +49,7 @@ static inline bool kz_sweep_has_table(const kz_sweep_plan *plan) {
   return has;
 }
 /* NULL, or what is wrong with the measures of a sweep, as "KEY: what is wrong" where KEY is a key of it. */
-const char *kz_sweep_lack(const kz_sweep_plan *plan);
+const char *kz_sweep_lack(const kz_scene *scene);
 
 static inline bool kz_sweep_is_plane(const kz_sweep_plan *plan) {
   return plan->x.parameter >= 0 && plan->parameter < 0;

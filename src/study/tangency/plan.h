@@ -5,8 +5,7 @@
 #include "kapitza/study.h"
 
 struct kz_tangency_plan {
-  int32_t parameter;    /* row of kz_sweep_parameters */
-  kz_axis values;       /* min, max; the count is not used */
+  kz_plane_axis axis;   /* the count is not used */
   int64_t saddle, into; /* ids: the cycle of the unstable manifold, that of the stable one; KZ_UNSET_INTEGER = the same */
   double length;        /* of each branch */
 };

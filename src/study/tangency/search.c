@@ -105,7 +105,7 @@ static const double MARGIN = 4;
 
 /* The pendulum at a value of the key; false if there is none. */
 static bool pendulum_at(const kz_tangency_search *s, double value, kz_pendulum *pendulum) {
-  return kz_pendulum_at(s->scene, 1, &s->scene->tangency->parameter, &value, pendulum) && pendulum->beta >= 0;
+  return kz_pendulum_at(s->scene, 1, &s->scene->tangency->axis.parameter, &value, pendulum) && pendulum->beta >= 0;
 }
 
 /* Moves a cycle to the pendulum of a value by Newton's method. */
@@ -121,7 +121,7 @@ static bool move(const kz_tangency_search *s, double value, kz_hinge *hinge) {
 
 /* Both cycles at a value, in steps from where they are known. */
 static bool move_both(kz_tangency_search *s, double value) {
-  const kz_axis *range = &s->scene->tangency->values;
+  const kz_axis *range = &s->scene->tangency->axis.values;
   const double way = value - s->value, steps = fmax(1, ceil(fabs(way) * PATH / (range->max - range->min)));
   if (way == 0) return true;
   for (double i = 1; i <= steps; i++)
@@ -220,7 +220,7 @@ static double root_again(kz_tangency_search *s, double value, double width) {
 
 /* Halves the range by whether branches cross; KZ_REFUSED if they do so at both ends or at neither. */
 static kz_status bracket(kz_tangency_search *s, double *apart, double *crossed) {
-  const kz_axis *range = &s->scene->tangency->values;
+  const kz_axis *range = &s->scene->tangency->axis.values;
   kz_touch ignored;
   const bool above = any_cross(s, range->max, &s->touch), below = any_cross(s, range->min, above ? &ignored : &s->touch);
   *crossed = above ? range->max : range->min;

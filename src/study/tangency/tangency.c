@@ -25,7 +25,7 @@ kz_cost kz_tangency_cost(const kz_scene *scene) {
 }
 
 kz_status kz_tangency_check(const kz_scene *scene) {
-  if (!kz_sweep_is_of_release(scene->tangency->parameter)) return KZ_OK;
+  if (!kz_sweep_is_of_release(scene->tangency->axis.parameter)) return KZ_OK;
   return kz_fail(KZ_REFUSED, "tangency.parameter: changes how cells are released, not the manifolds; name another key");
 }
 
@@ -57,9 +57,9 @@ static kz_status write_orbit(const kz_arm arm[2], const kz_touch *touch, kz_stor
 
 static kz_status write(work *w, const record *r, kz_store *store, FILE *summary) {
   const kz_tangency_plan *plan = w->search.scene->tangency;
-  const char *unit = kz_axis_unit(&plan->values, plan->parameter);
+  const char *unit = kz_axis_unit(&plan->axis.values, plan->axis.parameter);
   kz_arm arm[2];
-  KZ_TRY(kz_axis_describe(&plan->values, plan->parameter, "", "tangency", store));
+  KZ_TRY(kz_axis_describe(&plan->axis.values, plan->axis.parameter, "", "tangency", store));
   KZ_TRY(kz_store_real(store, "tangency", "value", r->found.value));
   KZ_TRY(kz_store_real(store, "tangency", "error", r->found.error));
   KZ_TRY(kz_store_text(store, "tangency", "crossing", r->found.above ? "above" : "below"));
@@ -73,9 +73,9 @@ static kz_status write(work *w, const record *r, kz_store *store, FILE *summary)
           "tangency: the unstable manifold of cycle %lld touches the stable one of cycle %lld at %s = %.14g (+- %.1g)%s%s; "
           "they cross "
           "%s it.\n",
-          (long long)w->saddle[0], (long long)w->saddle[1], kz_sweep_parameters[plan->parameter].name,
-          kz_axis_written(&plan->values, r->found.value), kz_axis_written(&plan->values, r->found.error), unit[0] ? " " : "",
-          unit, r->found.above ? "above" : "below");
+          (long long)w->saddle[0], (long long)w->saddle[1], kz_sweep_parameters[plan->axis.parameter].name,
+          kz_axis_written(&plan->axis.values, r->found.value), kz_axis_written(&plan->axis.values, r->found.error),
+          unit[0] ? " " : "", unit, r->found.above ? "above" : "below");
   return status;
 }
 
@@ -102,7 +102,7 @@ kz_status kz_tangency_run(const kz_scene *scene, const kz_run *run, kz_store *st
   const kz_tangency_plan *plan = scene->tangency;
   const char *const written = (const char *)&scene->parameters.written;
   work w = {.search = {.scene = scene,
-                       .value = *(const double *)(written + kz_sweep_parameters[plan->parameter].offset),
+                       .value = *(const double *)(written + kz_sweep_parameters[plan->axis.parameter].offset),
                        .nearness = NEARNESS},
             .saddle = {plan->saddle, plan->into == KZ_UNSET_INTEGER ? plan->saddle : plan->into}};
   const kz_stage stage = kz_stage_for_rank0("tangency", 1, sizeof(record), find, &w);
