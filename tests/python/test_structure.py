@@ -16,6 +16,18 @@ FORTRAN = sorted(SOURCES.rglob("*.f90"))
 LONGEST, LONGEST_OF_PACKAGE = 350, 250  # lines of a file
 
 
+# What stands at the top of the repository, one word for each file or folder.
+TOP = """.ci .clang-format .dockerignore .editorconfig .gitignore .pre-commit-config.yaml .proselintrc.json
+CHANGELOG.md CITATION.cff CMakeLists.txt CMakePresets.json CONTRIBUTING.md LICENSE README.md pyproject.toml
+benchmarks cmake docs include packaging python scenes scripts src tests web""".split()
+
+
+def test_top_of_the_repository_has_no_stray_file():
+    """The output of a command that was added by mistake would also go into the source distribution."""
+    tracked = subprocess.run(["git", "ls-files"], cwd=ROOT, capture_output=True, text=True, check=True).stdout.split()
+    assert {name.split("/")[0] for name in tracked} == set(TOP)
+
+
 def layers():
     """The layers that each layer may include: those below it, from CMakeLists.txt, and itself."""
     below = {}
