@@ -145,6 +145,16 @@ def made_file(tmp_path):
 
 
 @pytest.fixture(scope="session")
+def user_python(tmp_path_factory):
+    """Runs Python as README starts it, in an environment of PATH and HOME alone: user_python("-c", TEXT, cwd=...)."""
+    python, home = ROOT / ".venv" / "bin" / "python", tmp_path_factory.mktemp("home")
+    own = {"PATH": os.environ["PATH"], "HOME": str(home)}
+    found = subprocess.run([python, "-c", "import kapitza"], env=own, cwd=home, capture_output=True, text=True)
+    assert found.returncode == 0, f"scripts/setup makes the package importable in .venv: {found.stderr}"
+    return lambda *words, **more: subprocess.run([python, *map(str, words)], env=own, capture_output=True, text=True, **more)
+
+
+@pytest.fixture(scope="session")
 def fig12_attractors():
     """The published attractors of Blackburn's Fig. 12, for write_result."""
     known = json.loads((ROOT / "tests" / "literature" / "reference.json").read_text())

@@ -1,7 +1,6 @@
 """The explorer as its tests reach it: the server's process, its requests, a real browser."""
 
 import json
-import os
 import shutil
 import subprocess
 import sys
@@ -13,7 +12,6 @@ from pathlib import Path
 import pytest
 from conftest import PROGRAM, ROOT, wait_for
 
-PYTHON = os.environ | {"PYTHONPATH": str(ROOT / "python")}
 FAKE = ROOT / "tests" / "tools" / "fake_serve.py"
 
 
@@ -23,7 +21,7 @@ class Server:
     def __init__(self, source, *options, fake=False, environment=None):
         own = [sys.executable, "-m", "kapitza.explorer", "--program", FAKE]
         command = [*(own if fake else [PROGRAM, "view"]), source, "--no-browser", *options]
-        self.process = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, env=environment or PYTHON)
+        self.process = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, env=environment)
         self.title, self.url, self.hint = (self.process.stdout.readline().strip() for _ in range(3))
         self.base, _, once = self.url.partition("/?once=")
         self.token = self.request("token", {"once": once}, X_Kapitza_Token=None)[1]["token"]

@@ -1,6 +1,5 @@
 """Every command of the how-tos, the tutorials and the README is run in the order in which a reader types it."""
 
-import os
 import re
 import subprocess
 
@@ -8,9 +7,10 @@ import pytest
 from conftest import ROOT
 
 ELSEWHERE = {"cluster", "how-hard", "lesson", "stories"}  # run by test_cluster.py, test_tutorial.py; no commands
-PAGES = [ROOT / "README.md", *sorted((ROOT / "docs").glob("howto/*.md")), *sorted((ROOT / "docs").glob("tutorials/*.md"))]
-LONG = {"certain", "compare", "film", "first-basin", "ion-trap", "map", "my-pendulum", "pandas", "paper", "parameters", "push", "questions",
-        "shaker", "track", "where", "why-it-stands", "zoom"}  # the longest
+PAGES = [ROOT / "README.md", ROOT / "docs" / "reference" / "python.md",
+         *sorted((ROOT / "docs").glob("howto/*.md")), *sorted((ROOT / "docs").glob("tutorials/*.md"))]
+LONG = {"certain", "compare", "film", "first-basin", "ion-trap", "map", "my-pendulum", "pandas", "paper", "parameters", "push", "python",
+        "questions", "shaker", "track", "where", "why-it-stands", "zoom"}  # the longest
 PAGES = [pytest.param(page, marks=[pytest.mark.extensive] * (page.stem in LONG), id=page.stem)
          for page in PAGES if page.stem not in ELSEWHERE]
 
@@ -29,18 +29,20 @@ def clone(tmp_path):
 
 
 @pytest.mark.parametrize("page", PAGES)
-def test_the_commands_of_a_page_work(clone, page):
-    settings = os.environ | {"PYTHONPATH": str(ROOT / "python"), "KAPITZA": str(ROOT / "build" / "kapitza"), "MPLBACKEND": "agg"}
+def test_the_commands_of_a_page_work(clone, page, user_python):
     texts = blocks(page)
     assert texts
-    printed = ""
+    printed = session = ""
     for language, text in texts:
         if language == "text":
             lines = [line.rstrip() for line in printed.splitlines()]
             assert [line for line in text.splitlines() if line != "..." and line not in lines] == []
             continue
-        words = ["bash", "-euc", text] if language == "bash" else [ROOT / ".venv" / "bin" / "python", "-c", text]
-        done = subprocess.run(list(map(str, words)), cwd=clone, env=settings, capture_output=True, text=True)
+        if language == "bash":
+            done = subprocess.run(["bash", "-euc", text], cwd=clone, capture_output=True, text=True)
+        else:
+            session = text if "import kapitza" in text else session + text  # else the session goes on
+            done = user_python("-c", session, cwd=clone)
         assert done.returncode == 0, text + done.stdout + done.stderr
         printed = done.stdout
 

@@ -1,7 +1,5 @@
 """The notebooks of docs/notebooks: each runs from top to bottom in a kernel of its own, on small grids."""
 
-import os
-
 import pytest
 from conftest import ROOT
 
@@ -14,7 +12,6 @@ NOTEBOOKS = sorted((ROOT / "docs" / "notebooks").glob("*.py"))
 @pytest.mark.parametrize("path", NOTEBOOKS, ids=lambda path: path.stem)
 def test_a_notebook_runs(path, tmp_path, monkeypatch):
     monkeypatch.setenv("KAPITZA_NOTEBOOK_COUNT", "16")
-    monkeypatch.setenv("PYTHONPATH", os.pathsep.join([str(ROOT / "python"), *filter(None, [os.environ.get("PYTHONPATH")])]))
     notebook = jupytext.read(path)
     nbclient.NotebookClient(notebook, timeout=None, resources={"metadata": {"path": str(tmp_path)}}).execute()
     outputs = [output for cell in notebook.cells if cell.cell_type == "code" for output in cell.outputs]

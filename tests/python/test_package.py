@@ -3,7 +3,6 @@ every kind whose variables or attributes are missing or wrong."""
 
 import importlib
 import inspect
-import os
 import pkgutil
 import shutil
 import subprocess
@@ -72,7 +71,7 @@ def test_a_fresh_environment_builds_and_runs_an_example():
 
 @pytest.mark.parametrize("words, status", with_extensive([([], 2)], [(["portrait", "FILE"], 2), (["--help"], 0)]))
 def test_the_command_names_its_kinds(words, status):
-    done = python("-c", "from kapitza.command import main; main()", *words, env=os.environ | {"PYTHONPATH": str(ROOT / "python")})
+    done = python("-c", "from kapitza.command import main; main()", *words)
     assert done.returncode == status and "KIND: atlas, basin, compare" in done.stdout + done.stderr and "Traceback" not in done.stderr
 
 
@@ -175,7 +174,7 @@ def test_what_is_missing_or_wrong_is_named(results, tmp_path, kind, name, how, w
     assert not (tmp_path / "out.png").exists()
 
 
-def test_an_import_loads_no_library():
+def test_an_import_loads_no_library(user_python):
     """pandas, xarray and their like are loaded by the first name that needs them; names, modules and the version are there."""
     script = """import sys, kapitza
 heavy = {"pandas", "xarray", "numpy", "matplotlib", "h5py", "h5netcdf", "scipy", "yaml", "tqdm", "PIL"} & set(sys.modules)
@@ -183,7 +182,6 @@ assert not heavy and sum(name.startswith("kapitza") for name in sys.modules) == 
 assert set(kapitza.__all__) <= set(dir(kapitza)) and not hasattr(kapitza, "nonsense")
 assert all(callable(getattr(kapitza, name)) for name in kapitza.__all__) and kapitza.plots.__doc__ and kapitza.style.KINDS
 print(kapitza.__version__)"""
-    done = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, check=False,
-                          env=os.environ | {"PYTHONPATH": str(ROOT / "python")})
+    done = user_python("-c", script)
     version = subprocess.run([PROGRAM, "--version"], capture_output=True, text=True, check=True).stdout.split()[1]
     assert (done.returncode, done.stdout.strip()) == (0, version), done.stderr

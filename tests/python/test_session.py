@@ -1,7 +1,6 @@
 """The package in a Python session: runs of scenes in every form, what is refused, single starts, and what a result tells of itself."""
 
 import copy
-import os
 import signal
 import subprocess
 import sys
@@ -87,8 +86,7 @@ except KeyboardInterrupt as stop:
 
 
 def test_ctrl_c_keeps_what_is_finished(tmp_path):
-    variables = os.environ | {"PYTHONPATH": str(ROOT / "python")}
-    process = subprocess.Popen([sys.executable, "-c", INTERRUPTED, SMALL], cwd=tmp_path, env=variables, stdout=subprocess.PIPE, text=True)
+    process = subprocess.Popen([sys.executable, "-c", INTERRUPTED, SMALL], cwd=tmp_path, stdout=subprocess.PIPE, text=True)
     checkpoint = tmp_path / "out.h5.checkpoint"
     wait_for(lambda: process.poll() is not None or (checkpoint.exists() and checkpoint.stat().st_blocks > 64))
     process.send_signal(signal.SIGINT)
@@ -280,6 +278,5 @@ print("ended")
 def test_the_package_works_within_a_job_of_mpi(tmp_path, ranks):
     """The variables of its launcher are not those of the processes that it starts."""
     (tmp_path / "job.py").write_text(IN_A_JOB)
-    done = subprocess.run(["mpirun", "-n", "2", sys.executable, tmp_path / "job.py", SMALL, ranks], capture_output=True, text=True,
-                          env=os.environ | {"PYTHONPATH": str(ROOT / "python")})
+    done = subprocess.run(["mpirun", "-n", "2", sys.executable, tmp_path / "job.py", SMALL, ranks], capture_output=True, text=True)
     assert done.returncode == 0 and done.stdout.count("ended") == 2, done.stderr

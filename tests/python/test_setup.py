@@ -3,6 +3,7 @@
 import re
 import shutil
 import subprocess
+import sys
 
 import pytest
 from conftest import ROOT
@@ -119,6 +120,24 @@ def test_a_copied_or_moved_project_builds_its_own_sources(project):
     project.rename(moved)
     write_word(moved, "moved")
     assert built(moved)[1] == "moved"
+
+
+def test_set_up_makes_the_package_importable_wherever_the_project_is_moved(project):
+    """In .venv, without variables, from any folder; the second set-up changes nothing."""
+    def imported(folder):
+        done = subprocess.run([folder / ".venv" / "bin" / "python", "-c", "import kapitza; print(kapitza.__file__)"], cwd="/", env={},
+                              capture_output=True, text=True)
+        return done.stdout.strip()
+
+    subprocess.run([sys.executable, "-m", "venv", "--without-pip", project / ".venv"], check=True)
+    (project / "python" / "kapitza").mkdir(parents=True)
+    (project / "python" / "kapitza" / "__init__.py").touch()
+    assert imported(project) == ""
+    for _ in range(2):
+        built(project)
+        assert imported(project) == str(project / "python" / "kapitza" / "__init__.py")
+    moved = project.rename(project.with_name("moved"))
+    assert imported(moved) == str(moved / "python" / "kapitza" / "__init__.py")
 
 
 @pytest.mark.extensive
