@@ -84,11 +84,40 @@ def _is_text(scene: Any) -> bool:
     return isinstance(scene, str) and ("\n" in scene or (": " in scene and not Path(scene).exists()))
 
 
+class _Plain:
+    """Refuses what the program refuses in a scene: a few aliases stand for gigabytes, and tags for values of any kind."""
+
+    def compose_node(self, parent: Any, index: Any) -> Any:
+        event = self.peek_event()  # type: ignore[attr-defined]
+        for part, words in (("anchor", "an anchor (&name) or an alias (*name)"), ("tag", "a tag (!name)")):
+            if getattr(event, part, None) is not None:
+                raise yaml.MarkedYAMLError(problem=f"{words} stands here; write the value out", problem_mark=event.start_mark)
+        return super().compose_node(parent, index)  # type: ignore[misc]
+
+
+class _Texts(_Plain, yaml.BaseLoader):
+    pass
+
+
+class _Values(_Plain, yaml.SafeLoader):
+    pass
+
+
+def read_yaml(text: str, as_texts: bool = False) -> Any:
+    """What a YAML text says, numbers as texts where `as_texts`; yaml.YAMLError where it is none, or has anchors, aliases or tags."""
+    try:
+        return yaml.load(text, _Texts if as_texts else _Values)
+    except RecursionError:
+        raise yaml.YAMLError("it is nested too deeply") from None
+    except ValueError as error:  # the 99th of a month, a number of 5000 digits
+        raise yaml.YAMLError(str(error)) from error
+
+
 def tree_of(text: str) -> dict[str, Any]:
     """YAML text as nested dicts and lists of texts; {} where it is no mapping, of which the program says what is wrong."""
     try:
-        tree = yaml.load(text, yaml.BaseLoader)
-    except (yaml.YAMLError, RecursionError):
+        tree = read_yaml(text, as_texts=True)
+    except yaml.YAMLError:
         return {}
     return tree if isinstance(tree, dict) else {}
 

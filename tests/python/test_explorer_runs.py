@@ -1,5 +1,7 @@
 """What the explorer computes in the background and keeps, and the stories that it tells."""
 
+from argparse import ArgumentTypeError
+
 import numpy as np
 import pytest
 import yaml
@@ -8,7 +10,9 @@ from kapitza.explorer import atlas, overlays, stories
 from kapitza.explorer.kept import Kept
 from kapitza.explorer.program import Refused
 from kapitza.explorer.scene import BadRequest, Start
+from kapitza.plots.page_options import colour_file
 from kapitza.result import BadFile
+from kapitza.scene import tree_of
 from PIL import Image
 from PIL.PngImagePlugin import PngInfo
 
@@ -66,12 +70,35 @@ def test_the_stories_that_come_with_the_page_can_be_told():
     ("title: [", "mine.yaml:2: is not YAML"), ("steps: [{view: trace}]", "mine.yaml: step 1: say: is missing"),
     ("steps: [{say: a, view: side}]", "step 1: view: side is unknown"), ("steps: [{say: a, start: {theta: 1}}]", "step 1: start"),
     ("steps: [{say: a, pendulum: {m: 1}}]", r"step 1: pendulum.m: the story's own"), ("steps: [{say: a, map: on}]", "map: True is not"),
-    ("color: red", "color: unknown key; known are title"), ("steps: all", "steps: all is not")])
+    ("color: red", "color: unknown key; known are title"), ("steps: all", "steps: all is not"),
+    ("steps: [{say: a, glide: .inf}]", "step 1: glide: inf is not"), ("pendulum: {k: 2020-02-02}", "mine.yaml: pendulum: {'k': datetime"),
+    ("window: {theta: {min: }}", "window: {'theta': {'min': None}} is not")])
 def test_a_story_that_is_wrong_is_refused_with_its_place(change, words):
     right = {"title": "a", "pendulum": {"k": 0.1}, "steps": [{"say": "a"}]}
     text = change + "\n" if "[" in change and change.endswith("[") else yaml.safe_dump(right | yaml.safe_load(change))
     with pytest.raises(BadRequest, match=words):
         stories.read(text, "mine.yaml")
+
+
+@pytest.mark.parametrize(("value", "words"), [
+    ("&a [1]", "mine.yaml:2: .* an anchor"), ("*a", "mine.yaml:2: .* an alias"), ("!!float 1", "mine.yaml:2: .* a tag"),
+    ("2020-99-99", "mine.yaml: .* month"), ("9" * 5000, "mine.yaml: .* limit"), (f"0x{'f' * 6000}", "pendulum: a number of thousands"),
+    ("[" * 5000, "mine.yaml: .* too deeply")])
+def test_a_story_is_refused_before_anything_in_it_is_expanded(value, words):
+    """Aliases ten wide and six deep made gigabytes of 500 bytes."""
+    with pytest.raises(BadRequest, match=words):
+        stories.read(f"title: a\npendulum: {{k: {value}}}\nsteps: [{{say: a}}]\n", "mine.yaml")
+
+
+def test_aliases_of_a_scene_are_left_to_the_program_which_refuses_them(tmp_path):
+    """The page, plots and messages read scenes too, of files that others made."""
+    laughs = "a0: &a0 [x]\n" + "".join(f"a{n}: &a{n} [{', '.join([f'*a{n - 1}'] * 10)}]\n" for n in range(1, 7))
+    text = f"{laughs}pendulum: {{k: *a6}}\n"
+    (tmp_path / "laughs.yaml").write_text(text)
+    assert tree_of(text) == {} and Start(tmp_path / "laughs.yaml").tree == {}
+    assert Start("pendulum: {k: 1}\n", is_text=True, sets=[f"pendulum.m=[{'&a x, ' * 3}]"]).tree == {"pendulum": {"k": "1"}}
+    with pytest.raises(ArgumentTypeError, match="cannot be read: an anchor"):
+        colour_file(str(tmp_path / "laughs.yaml"))
 
 
 def test_a_picture_is_opened_by_the_scene_that_it_holds(tmp_path):

@@ -8,7 +8,7 @@ from pathlib import Path
 import yaml
 
 from kapitza.result import BadFile, Result
-from kapitza.scene import flow, put, texts, tree_of
+from kapitza.scene import flow, put, read_yaml, texts, tree_of
 from kapitza.units import parts_of
 
 from . import picture
@@ -106,8 +106,8 @@ def _changed(tree, sets):
     for word in sets:
         key, _, value = word.partition("=")
         try:
-            put(tree, key, yaml.load(value, yaml.BaseLoader))
-        except (yaml.YAMLError, RecursionError):
+            put(tree, key, read_yaml(value, as_texts=True))
+        except yaml.YAMLError:
             pass
     return tree
 

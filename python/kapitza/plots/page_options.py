@@ -9,6 +9,7 @@ from matplotlib.colors import is_color_like
 
 from kapitza import style
 from kapitza.plots.page import LEGENDS, NARROW, Page
+from kapitza.scene import read_yaml
 
 UNITS = {"mm": 1 / 25.4, "cm": 1 / 2.54, "in": 1.0, "pt": 1 / 72}
 
@@ -53,7 +54,7 @@ def points(text: str) -> float:
 def colour_file(text: str) -> dict[str, str]:
     """The mapping in a YAML (or JSON) file."""
     try:
-        colours = yaml.safe_load(Path(text).read_text(encoding="utf-8"))
+        colours = read_yaml(Path(text).read_text(encoding="utf-8"))
     except (OSError, yaml.YAMLError, UnicodeDecodeError) as error:
         raise argparse.ArgumentTypeError(f"{text} cannot be read: {' '.join(str(error).split())}") from error
     if not isinstance(colours, dict):

@@ -8,7 +8,6 @@ from pathlib import Path
 
 import numpy as np
 import xarray
-import yaml
 from matplotlib import colormaps
 from matplotlib.axes import Axes
 from matplotlib.colors import Normalize
@@ -21,6 +20,7 @@ from kapitza.plots.common import entitle, new_figure
 from kapitza.plots.plane_axes import label_keys
 from kapitza.plots.units import fixed_si, group_beside
 from kapitza.result import BadFile, Result
+from kapitza.scene import tree_of
 from kapitza.units import unit_text, with_unit
 
 OVER = {("attractor", "y", "x"), ("y", "x")}  # dimensions of measures: of each attractor, of the pendulum
@@ -90,7 +90,8 @@ def atlas_of(result: Result, plane: xarray.Dataset, path: Path | None) -> xarray
     keys, wanted = ([data.attrs[f"{which}_parameter"] for which in "xy"] for data in (atlas, plane))
     if keys != wanted:
         raise BadFile(f"{other.path}: its atlas is over {' and '.join(keys)}, the plane over {' and '.join(wanted)}")
-    ours, theirs = (yaml.safe_load(one.scene).get("pendulum", {}) for one in (result, other))
+    pendulums = [tree_of(one.scene).get("pendulum") for one in (result, other)]
+    ours, theirs = (found if isinstance(found, dict) else {} for found in pendulums)
     for key in sorted((ours.keys() | theirs.keys()) - set(keys)):
         if ours.get(key) != theirs.get(key):
             raise BadFile(f"{other.path}: its atlas is of another pendulum: {key} is {theirs.get(key)}, that of the plane {ours.get(key)}")
