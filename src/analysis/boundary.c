@@ -35,6 +35,35 @@ kz_slope kz_uncertainty_slopes(int64_t n, const kz_uncertain *uncertain, kz_slop
   return slope_between(uncertain, uncertain + nearest);
 }
 
+kz_slope kz_uncertainty_line(int64_t n, const kz_uncertain *uncertain) {
+  kz_slope line = {NAN, NAN, NAN, NAN, NAN};
+  double points = 0, mean_x = 0, mean_y = 0, xx = 0, xy = 0, yy = 0, noise = 0;
+  for (int pass = 0; pass < 2; pass++)
+    for (int64_t i = 0; i < n; i++) {
+      const double hits = (double)uncertain[i].uncertain, share = hits / (double)uncertain[i].pairs;
+      if (hits < KZ_ENOUGH_UNCERTAIN) continue;
+      if (pass == 0) {
+        if (points++ == 0) line.far = uncertain[i].distance;
+        line.near = uncertain[i].distance;
+        mean_x += (log(uncertain[i].distance) - mean_x) / points;
+        mean_y += (log(share) - mean_y) / points;
+        continue;
+      }
+      const double x = log(uncertain[i].distance) - mean_x, y = log(share) - mean_y;
+      xx += x * x;
+      xy += x * y;
+      yy += y * y;
+      noise += x * x * (1 - share) / hits;
+    }
+  if (points < 2) return (kz_slope){NAN, NAN, NAN, NAN, NAN};
+  line.slope = xy / xx;
+  const double scatter = points > 2 ? fmax(0, yy - line.slope * xy) / (points - 2) / xx : 0;
+  const double error = NORMAL * sqrt(fmax(noise / (xx * xx), scatter));
+  line.low = line.slope - error;
+  line.high = line.slope + error;
+  return line;
+}
+
 static uint64_t bit_of(int16_t label) {
   return label < 0 ? 0 : (uint64_t)1 << (label < KZ_BOX_LABELS - 1 ? label : KZ_BOX_LABELS - 1);
 }
@@ -48,29 +77,33 @@ static void count_boxes(int64_t n, const uint64_t *held, int size, kz_box_counts
   }
 }
 
-kz_status kz_boxes_count(int64_t columns, int64_t rows, const int16_t *label, kz_box_counts *counts) {
+int kz_box_sizes(int64_t columns, int64_t rows) {
+  int sizes = 0;
+  while (sizes < KZ_BOX_SIZES && (int64_t)1 << sizes <= columns && (int64_t)1 << sizes <= rows) sizes++;
+  return sizes;
+}
+
+void kz_boxes_count(int64_t columns, int64_t rows, const int16_t *label, int sizes, kz_box_counts *counts) {
   int64_t across = columns - 1, up = rows - 1;
-  if (across < 1 || up < 1) return KZ_OK;
-  uint64_t *held = kz_malloc((size_t)(across * up) * sizeof *held);
+  if (across < 1 || up < 1) return;
+  KZ_FREED uint64_t *held = kz_malloc((size_t)(across * up) * sizeof *held);
   for (int64_t r = 0; r < up; r++)
     for (int64_t c = 0; c < across; c++) {
       const int16_t *corner = label + r * columns + c;
       held[r * across + c] = bit_of(corner[0]) | bit_of(corner[1]) | bit_of(corner[columns]) | bit_of(corner[columns + 1]);
     }
-  for (int size = 0; size < KZ_BOX_SIZES; size++) {
+  for (int size = 0; size < sizes; size++) {
     count_boxes(across * up, held, size, counts);
-    const int64_t half_across = across / 2, half_up = up / 2;
+    const int64_t half_across = (across + 1) / 2, half_up = (up + 1) / 2;
     for (int64_t r = 0; r < half_up; r++)
       for (int64_t c = 0; c < half_across; c++) {
+        const int64_t right = 2 * c + 1 < across, above = 2 * r + 1 < up ? across : 0;
         const uint64_t *corner = held + 2 * r * across + 2 * c;
-        held[r * half_across + c] = corner[0] | corner[1] | corner[across] | corner[across + 1];
+        held[r * half_across + c] = corner[0] | corner[right] | corner[above] | corner[above + right];
       }
     across = half_across;
     up = half_up;
-    if (across < 1 || up < 1) break;
   }
-  free(held);
-  return KZ_OK;
 }
 
 double kz_boxes_dimension(const kz_box_counts *counts, int size) {

@@ -100,6 +100,37 @@ def test_refused(kapitza, tmp_path, changes, words):
     assert words in refused_scene(kapitza, tmp_path, {"pendulum": pendulum, "measures": WINDOW | changes})
 
 
+def test_boundaries_of_the_whole_picture(kapitza, tmp_path):
+    """Boxes, slopes and largest circles, found again from the labels of the basin: 80 cells end within the largest boxes."""
+    window = {"theta": {"min": -1, "max": 3.5}, "velocity": {"min": -1.5, "max": 1.2}}
+    names = ["shared_boundary", "wada_on_grid", "uncertainty_exponent", "boundary_dimension", "integrity_factor"]
+    scene = {"pendulum": {"k": 0.03, "damping": 0.1, "m": 0.45, "tilt": 0.2},
+             "measures": window | {"names": names, "cells": 80, "starts": 256},
+             "basin": {axis: limits | {"count": 80} for axis, limits in window.items()}}
+    result, summary = run_scene(kapitza, tmp_path, scene)
+    table, ids = result.measures, result.group("basin")["attractor"].values
+    boxes = [set(ids[row:row + 16, left:left + 16].ravel()) for row in range(0, 80, 16) for left in range(0, 80, 16)]
+    mixed = [box for box in boxes if len(box) > 1]
+    shared = [sum(one in box for box in mixed) / len(mixed) for one in range(4)]
+    assert list(table["shared_boundary"]) == shared == [1, 0.95, 0.3, 0.45]
+    assert table["wada_on_grid"].iloc[0] == 0
+    across, up = 4.5 / 80, 2.7 / 80
+    for one, row in table.iterrows():
+        side = ids == one
+        shares = [np.mean((side[:, d:-d] != side[:, :-2 * d]) | (side[:, d:-d] != side[:, 2 * d:])) for d in (1, 2, 4)]
+        slope = np.polyfit(np.log([1, 2, 4]), np.log(shares), 1)[0]
+        assert row["uncertainty_exponent"] == pytest.approx(slope, rel=1e-9)
+        foreign, largest = np.argwhere(~side), 0
+        for cell in np.argwhere(side):
+            edge = np.minimum(cell, 79 - cell) + 0.5
+            clear = np.hypot(*((foreign - cell) * [up, across]).T).min() - up / 2
+            largest = max(largest, min(clear, edge[0] * up, edge[1] * across))
+        assert row["integrity_factor"] == pytest.approx(largest, rel=1e-9)
+    outside = [one for one, value in enumerate(table["boundary_dimension"]) if not 1 <= value <= 2]
+    assert len(outside) > 0 and all(f"boundary_dimension of {one} is outside of 1 to 2" in summary for one in outside)
+    assert summary.count("is outside of 1 to 2") == len(outside)
+
+
 FORCED = {"velocity": {"min": -3, "max": 3}, "starts": 64, "cells": 48, "method": "direct"}
 
 

@@ -46,7 +46,7 @@ static kz_status count_boxes(const kz_basin_plan *plan, const kz_run *run, kz_st
     if (kz_sampling_enough(run, &mark, (double)row / (double)rows)) break;
     const int64_t n = rows - row < STRIP + 1 ? rows - row : STRIP + 1;
     status = kz_store_rows(store, "basin", "attractor", row, n, label);
-    if (status == KZ_OK) status = kz_boxes_count(columns, n, label, counts);
+    if (status == KZ_OK) kz_boxes_count(columns, n, label, kz_box_sizes(columns, rows), counts);
   }
   return status;
 }

@@ -2,12 +2,12 @@
 
 #include <math.h>
 
-/* One box: its settled cells, and how many of them each label has. */
-static void count_box(int64_t columns, const int16_t *label, kz_counts *counts) {
+/* One box of across x up cells: its settled cells, and how many of them each label has. */
+static void count_box(int64_t columns, int64_t across, int64_t up, const int16_t *label, kz_counts *counts) {
   int16_t seen[KZ_BOX_CELLS];
   int of[KZ_BOX_CELLS], n = 0, settled = 0;
-  for (int cell = 0; cell < KZ_BOX_CELLS; cell++) {
-    const int16_t own = label[cell / KZ_BOX * columns + cell % KZ_BOX];
+  for (int64_t cell = 0; cell < across * up; cell++) {
+    const int16_t own = label[cell / across * columns + cell % across];
     int k = 0;
     if (own < 0) continue;
     while (k < n && seen[k] != own) k++;
@@ -23,10 +23,14 @@ static void count_box(int64_t columns, const int16_t *label, kz_counts *counts) 
   for (int k = 0; k < n; k++) counts->parts[settled][of[k]]++;
 }
 
+static int64_t side_of(int64_t cells) {
+  return cells < KZ_BOX ? cells : KZ_BOX;
+}
+
 void kz_count_boxes(int64_t columns, int64_t rows, const int16_t *label, kz_counts *counts) {
-  for (int64_t row = 0; row + KZ_BOX <= rows; row += KZ_BOX)
-    for (int64_t column = 0; column + KZ_BOX <= columns; column += KZ_BOX)
-      count_box(columns, label + row * columns + column, counts);
+  for (int64_t row = 0; row < rows; row += KZ_BOX)
+    for (int64_t column = 0; column < columns; column += KZ_BOX)
+      count_box(columns, side_of(columns - column), side_of(rows - row), label + row * columns + column, counts);
 }
 
 /* n cells beside those to their left and right. */

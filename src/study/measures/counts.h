@@ -19,8 +19,9 @@ typedef struct {
       uncertain[KZ_DISTANCES]; /* [d]: cells compared with those 2^d columns away; those that differ */
 } kz_counts;
 
-/* Add boxes of 5 x 5 cells of label [rows][columns], from its first row on (incomplete boxes are left out), and pairs of cells along its
- * rows; circle = theta is periodic. Unsettled cells (-1) are left out, and so are boxes with no other cells. */
+/* Add boxes of 5 x 5 cells of label [rows][columns], from its first row and column on (smaller ones at the last),
+ * and pairs of cells along its rows; circle = theta is periodic. Unsettled cells (-1) are left out, and so are boxes
+ * with no other cells. */
 void kz_count_boxes(int64_t columns, int64_t rows, const int16_t *label, kz_counts *counts);
 void kz_count_pairs(int64_t columns, int64_t rows, const int16_t *label, bool circle, kz_counts *counts);
 

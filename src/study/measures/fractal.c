@@ -6,7 +6,7 @@
 #include "measures.h"
 #include "numerics/cells.h"
 
-enum { SHARED_LEVEL = 4 }; /* boxes of 16 cells, as basin.boundary shows them */
+enum { SHARED_BOX = 16 }; /* cells along an edge of a box of shared boundaries */
 static const double ALL = 0.99;
 
 static void entropies(const kz_measured *measured, double *entropy, double *boundary) {
@@ -35,7 +35,6 @@ void kz_measure_uncertainty_exponent(const kz_measured *measured, double *value)
   KZ_FREED kz_counts *counts = kz_malloc(sizeof *counts);
   for (int64_t id = 0; id < n; id++) {
     kz_uncertain uncertain[KZ_DISTANCES];
-    kz_slope slope[KZ_DISTANCES];
     int distances = 0;
     *counts = (kz_counts){0};
     for (int64_t i = 0; i < cells * cells; i++) side[i] = measured->picture.id[i] < 0 ? -1 : measured->picture.id[i] == id;
@@ -43,11 +42,10 @@ void kz_measure_uncertainty_exponent(const kz_measured *measured, double *value)
     for (int d = KZ_DISTANCES - 1; d >= 0; d--)
       if (counts->compared[d] > 0)
         uncertain[distances++] = (kz_uncertain){ldexp(across, d), counts->compared[d], counts->uncertain[d]};
-    const kz_slope whole =
-        distances > 1 ? kz_uncertainty_slopes(distances, uncertain, slope) : (kz_slope){.slope = NAN, .low = NAN, .high = NAN};
-    value[id] = whole.slope;
-    value[n + id] = whole.low;
-    value[2 * n + id] = whole.high;
+    const kz_slope line = kz_uncertainty_line(distances, uncertain);
+    value[id] = line.slope;
+    value[n + id] = line.low;
+    value[2 * n + id] = line.high;
   }
 }
 
@@ -63,14 +61,34 @@ void kz_measure_boundary_dimension(const kz_measured *measured, double *value) {
   }
 }
 
+/* Finds which basins the box of a picture that begins at a cell holds: seen [n]. Returns how many. */
+static int64_t look_into_box(const kz_measured *measured, int64_t left, int64_t bottom, bool *seen) {
+  const int64_t cells = measured->plan->options.cells;
+  int64_t basins = 0;
+  for (int64_t id = 0; id < measured->catalogue.count; id++) seen[id] = false;
+  for (int64_t row = bottom; row < cells && row < bottom + SHARED_BOX; row++)
+    for (int64_t column = left; column < cells && column < left + SHARED_BOX; column++) {
+      const int16_t id = measured->picture.id[row * cells + column];
+      if (id < 0 || seen[id]) continue;
+      seen[id] = true;
+      basins++;
+    }
+  return basins;
+}
+
 /* Of the boxes on any boundary, the share that each basin is in. */
 void kz_measure_shared_boundary(const kz_measured *measured, double *value) {
-  const int64_t cells = measured->plan->options.cells;
-  KZ_FREED kz_box_counts *counts = kz_calloc(1, sizeof *counts);
-  const bool counted = kz_boxes_count(cells, cells, measured->picture.id, counts) == KZ_OK;
-  const double boxes = (double)counts->boxes[SHARED_LEVEL];
-  for (int64_t id = 0; id < measured->catalogue.count; id++)
-    value[id] = counted && id < KZ_BOX_LABELS - 1 && boxes > 0 ? (double)counts->with[SHARED_LEVEL][id] / boxes : NAN;
+  const int64_t cells = measured->plan->options.cells, n = measured->catalogue.count;
+  KZ_FREED bool *seen = kz_malloc((size_t)n * sizeof *seen + 1);
+  double boxes = 0;
+  for (int64_t id = 0; id < n; id++) value[id] = 0;
+  for (int64_t bottom = 0; bottom < cells; bottom += SHARED_BOX)
+    for (int64_t left = 0; left < cells; left += SHARED_BOX) {
+      if (look_into_box(measured, left, bottom, seen) < 2) continue;
+      boxes++;
+      for (int64_t id = 0; id < n; id++) value[id] += seen[id];
+    }
+  for (int64_t id = 0; id < n; id++) value[id] = boxes > 0 ? value[id] / boxes : NAN;
 }
 
 /* Whether three or more basins share all of their boundary on the grid: each is in nearly every box of it. */

@@ -56,6 +56,14 @@ static void print_measure(const kz_measure *measure, int64_t n, const double *va
   fprintf(summary, "%s%s\n", unit == own ? "" : "  ", unit == own ? "" : unit);
 }
 
+/* A curve has at least the dimension 1, and a boundary in the plane at most 2. */
+static void print_impossible_dimensions(int64_t n, const double *value, FILE *summary) {
+  for (int64_t i = 0; i < n; i++)
+    if (value[i] < 1 || value[i] > 2)
+      fprintf(summary, "  boundary_dimension of %lld is outside of 1 to 2: starts were too few; give more cells\n",
+              (long long)i);
+}
+
 /* The variables of one measure, and its line of the summary. */
 static kz_status write_measure(const kz_measure *measure, const kz_measured *m, double omega, kz_store *store, FILE *summary) {
   const int64_t n = m->catalogue.count, length = kz_measure_length(measure, m);
@@ -65,6 +73,7 @@ static kz_status write_measure(const kz_measure *measure, const kz_measured *m, 
     fprintf(summary, "  %-22s for each pair, in the file\n", measure->word);
   else
     print_measure(measure, measure->shape == KZ_PER_INTERVAL ? n : length, value, omega, summary);
+  if (measure->fill == kz_measure_boundary_dimension) print_impossible_dimensions(n, value, summary);
   if (measure->shape == KZ_PER_PENDULUM) return kz_store_real(store, GROUP, measure->word, value[0]);
   KZ_TRY(kz_store_variable(store, GROUP, measure->word, value));
   for (int end = 1; end <= 2 && measure->shape == KZ_PER_INTERVAL; end++) {

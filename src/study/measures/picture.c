@@ -31,7 +31,7 @@ static void envelope(int64_t n, double step, const double *f, double *least, int
   }
 }
 
-/* Lines of a picture with what lies beside it: a copy on each side of a circle, else a foreign cell at each end. */
+/* Lines of a picture, of a circle with a copy on each side. */
 typedef struct {
   double *f, *least, *border;
   int64_t *place;
@@ -53,20 +53,28 @@ static void release(line *l) {
 
 /* Replaces n values, `stride` apart, by the squares of the distances along the line. */
 static void along(line *l, int64_t n, int64_t stride, double step, bool circle, double *value) {
-  const int64_t pad = circle ? n : 1, all = n + 2 * pad;
-  for (int64_t i = 0; i < all; i++)
-    l->f[i] = circle ? value[i % n * stride] : i == 0 || i == all - 1 ? 0 : value[(i - 1) * stride];
+  const int64_t pad = circle ? n : 0, all = n + 2 * pad;
+  for (int64_t i = 0; i < all; i++) l->f[i] = value[i % n * stride];
   envelope(all, step, l->f, l->least, l->place, l->border);
   for (int64_t i = 0; i < n; i++) value[i * stride] = l->least[i + pad];
+}
+
+/* The distance of the centre of cell i of n from the nearer end of its line. */
+static double end_distance(int64_t i, int64_t n, double step) {
+  return ((double)(i < n - 1 - i ? i : n - 1 - i) + 0.5) * step;
 }
 
 void kz_picture_distances(const kz_picture *picture, int16_t id, double *distance) {
   const int64_t columns = picture->columns, rows = picture->rows, longest = columns > rows ? columns : rows;
   const double half = fmin(picture->across, picture->up) / 2;
   KZ_FREED_BY(release) line l;
-  make(3 * longest + 2, &l);
+  make(3 * longest, &l);
   for (int64_t i = 0; i < columns * rows; i++) distance[i] = picture->id[i] == id ? INFINITY : 0;
   for (int64_t column = 0; column < columns; column++) along(&l, rows, columns, picture->up, false, distance + column);
   for (int64_t row = 0; row < rows; row++) along(&l, columns, 1, picture->across, picture->circle, distance + row * columns);
-  for (int64_t i = 0; i < columns * rows; i++) distance[i] = distance[i] > 0 ? sqrt(distance[i]) - half : 0;
+  for (int64_t i = 0; i < columns * rows; i++) {
+    double edge = end_distance(i / columns, rows, picture->up);
+    if (!picture->circle) edge = fmin(edge, end_distance(i % columns, columns, picture->across));
+    distance[i] = distance[i] > 0 ? fmin(sqrt(distance[i]) - half, edge) : 0;
+  }
 }

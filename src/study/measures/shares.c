@@ -76,7 +76,8 @@ static void mean_times(const kz_measured *measured, bool per_distance, double *v
     int64_t hits = 0;
     for (int64_t i = 0; i < ended->n; i++) {
       if (ended->id[i] != id) continue;
-      sum += ended->time[i] / (per_distance ? distance_of(measured, ended->start + 2 * i, entry) : 1);
+      const double distance = per_distance ? distance_of(measured, ended->start + 2 * i, entry) : 1;
+      sum += distance == 0 ? 0 : ended->time[i] / distance; /* a start on a strobe point has settled */
       hits++;
     }
     value[id] = hits > 0 ? sum / (double)hits : NAN;

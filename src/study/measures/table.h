@@ -39,7 +39,8 @@ enum {
   PENDULUM(entropy, KZ_NEEDS_PICTURE, "1", "basin entropy over boxes of 5 x 5 cells")                                        \
   PENDULUM(boundary_entropy, KZ_NEEDS_PICTURE, "1", "the same over the boxes on a boundary")                                 \
   INTERVAL(uncertainty_exponent, KZ_NEEDS_PICTURE, "1", "uncertainty exponent of the boundary of the basin")                 \
-  INTERVAL(boundary_dimension, KZ_NEEDS_PICTURE, "1", "dimension of the boundary of the basin")                              \
+  INTERVAL(boundary_dimension, KZ_NEEDS_PICTURE, "1",                                                                        \
+           "dimension of the boundary of the basin; outside of 1 to 2: too few cells")                                       \
   NUMBER(intermingledness, KZ_NEEDS_STARTS, "1", "intermingledness with the other basins, their mean")                       \
   PAIR(intermingled_with, KZ_NEEDS_STARTS, "1", "intermingledness with the other basin")                                     \
   NUMBER(shared_boundary, KZ_NEEDS_PICTURE, "1", "share of the boxes of 16 x 16 cells on any boundary that the basin is in") \

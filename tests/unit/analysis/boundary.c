@@ -44,11 +44,11 @@ static int16_t cantor_3(int row, int column) {
 TEST(test_dimensions) {
   kz_box_counts counts = {0};
   fill(line);
-  assert_true(kz_boxes_count(SIDE, 257, label[0], &counts) == KZ_OK);
+  kz_boxes_count(SIDE, 257, label[0], KZ_BOX_SIZES, &counts);
   for (int level = 0; level < 5; level++) assert_true(fabs(kz_boxes_dimension(&counts, level) - 1) < 0.05);
   memset(&counts, 0, sizeof counts);
   fill(cantor_3);
-  assert_true(kz_boxes_count(SIDE, 257, label[0], &counts) == KZ_OK);
+  kz_boxes_count(SIDE, 257, label[0], KZ_BOX_SIZES, &counts);
   double mean = 0;
   for (int level = 2; level < 7; level++) mean += kz_boxes_dimension(&counts, level) / 5;
   assert_true(fabs(mean - (1 + log(2) / log(3))) < 0.06);
@@ -58,14 +58,55 @@ TEST(test_dimensions) {
 TEST(test_which_basins_share_their_boundary) {
   kz_box_counts wada = {0}, pairs = {0};
   fill(cantor_3);
-  assert_true(kz_boxes_count(SIDE, 257, label[0], &wada) == KZ_OK);
+  kz_boxes_count(SIDE, 257, label[0], KZ_BOX_SIZES, &wada);
   fill(stripes);
-  assert_true(kz_boxes_count(SIDE, 257, label[0], &pairs) == KZ_OK);
+  kz_boxes_count(SIDE, 257, label[0], KZ_BOX_SIZES, &pairs);
   for (int i = 0; i < 3; i++) {
     assert_true((double)wada.with[6][i] > 0.99 * (double)wada.boxes[6]);
     assert_true(fabs((double)pairs.with[4][i] / (double)pairs.boxes[4] - 2.0 / 3) < 0.05);
   }
   assert_true(wada.with[6][3] == 0);
+}
+
+/* Every cell is in a box of each size, whatever the sizes of the grid and however it is cut into strips. */
+TEST(test_boxes_hold_every_cell) {
+  static const int sides[][2] = {{16, 16}, {80, 80}, {64, 49}, {131, 300}, {257, 130}};
+  static int16_t grid[300 * 300];
+  for (int64_t i = 0; i < 300 * 300; i++) grid[i] = (int16_t)((i * 2654435761u >> 13) % 97 == 0 ? i % 3 - 1 : 0);
+  for (size_t s = 0; s < sizeof sides / sizeof *sides; s++) {
+    const int columns = sides[s][0], rows = sides[s][1], sizes = kz_box_sizes(columns, rows);
+    kz_box_counts whole = {0}, strips = {0}, expected = {0};
+    kz_boxes_count(columns, rows, grid, sizes, &whole);
+    for (int row = 0; row + 1 < rows; row += 128)
+      kz_boxes_count(columns, rows - row < 129 ? rows - row : 129, grid + row * columns, sizes, &strips);
+    for (int size = 0; size < sizes; size++)
+      for (int top = 0; top + 1 < rows; top += 1 << size)
+        for (int left = 0; left + 1 < columns; left += 1 << size) {
+          bool held[2] = {false, false};
+          for (int r = top; r <= top + (1 << size) && r < rows; r++)
+            for (int c = left; c <= left + (1 << size) && c < columns; c++)
+              if (grid[r * columns + c] >= 0) held[grid[r * columns + c]] = true;
+          if (!held[0] || !held[1]) continue;
+          expected.boxes[size]++;
+          expected.with[size][0]++;
+          expected.with[size][1]++;
+        }
+    assert_true(sizes == (columns == 16 ? 5 : rows < 64 ? 6 : columns < 128 ? 7 : 8));
+    assert_true(memcmp(&whole, &expected, sizeof whole) == 0 && memcmp(&strips, &expected, sizeof strips) == 0);
+  }
+}
+
+/* The line goes through all distances, not through the ends; few uncertain pairs have no say; scatter widens the
+ * interval. */
+TEST(test_line_through_all_distances) {
+  const kz_uncertain bent[] = {{8, 1000, 800}, {4, 1000, 700}, {2, 1000, 400}, {1, 1000, 200}, {0.5, 1000, 29}};
+  const double y[] = {log(0.8), log(0.7), log(0.4), log(0.2)};
+  const double slope = (1.5 * (y[0] - y[3]) + 0.5 * (y[1] - y[2])) / 5 / M_LN2;
+  const kz_slope line = kz_uncertainty_line(5, bent), two = kz_uncertainty_line(2, bent + 2),
+                 one = kz_uncertainty_line(2, bent + 3);
+  assert_true(fabs(line.slope - slope) < 1e-12 && line.far == 8 && line.near == 1);
+  assert_true(line.low < 0.6 && 0.75 < line.high && fabs(line.low + line.high - 2 * slope) < 1e-12);
+  assert_true(fabs(two.slope - 1) < 1e-12 && two.low < 1 && 1 < two.high && isnan(one.slope) && isnan(one.far));
 }
 
 /* Pairs of points on a line whose gaps are coloured by turns: exponent 1 - ln 2/ln 3 over every decade; of one point it is 1. */

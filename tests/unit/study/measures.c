@@ -6,6 +6,7 @@
 
 #include "../../tools/test.h"
 
+#include "measures/counts.h"
 #include "measures/measures.h"
 #include "measures/picture.h"
 
@@ -187,6 +188,38 @@ TEST(test_riddled) {
   free(three);
 }
 
+/* Cells beyond the last whole box of 5 x 5 have a box of their own. */
+TEST(test_entropies_hold_every_cell) {
+  int16_t id[64 * 33];
+  for (int i = 0; i < 64 * 33; i++) id[i] = i % 64 == 63 && i / 64 % 2; /* labels are mixed in the last column alone */
+  kz_counts counts = {0};
+  double entropy, boundary;
+  int64_t cells = 0, boxes = 0;
+  kz_count_boxes(64, 33, id, &counts);
+  for (int n = 1; n <= KZ_BOX_CELLS; n++) {
+    cells += n * counts.boxes[n];
+    boxes += counts.boxes[n];
+  }
+  assert_true(cells == 64 * 33 && boxes == 13 * 7 && counts.boxes[12] == 1);
+  kz_entropy_of(&counts, &entropy, &boundary);
+  assert_true(boundary > 0.3 && fabs(entropy - boundary / 13) < 1e-14);
+}
+
+/* Three basins meet in the last column and row of a picture that boxes of 16 cells do not fill. */
+TEST(test_boxes_of_shared_boundaries_hold_every_cell) {
+  scene *s = make(3, 1, NULL);
+  double value[MOST];
+  for (int i = 1; i < CELLS; i += 2) {
+    s->id[i * CELLS + CELLS - 1] = 1;
+    s->id[(CELLS - 1) * CELLS + i] = 2;
+  }
+  kz_measure_shared_boundary(&s->measured, value);
+  assert_true(value[0] == 1 && value[1] == 13.0 / 25 && value[2] == 13.0 / 25);
+  kz_measure_wada_on_grid(&s->measured, value);
+  assert_true(value[0] == 0);
+  free(s);
+}
+
 TEST(test_distances_are_those_of_brute_force) {
   enum { N = 23 };
   int16_t id[N * N];
@@ -197,13 +230,15 @@ TEST(test_distances_are_those_of_brute_force) {
     kz_picture_distances(&picture, 0, distance);
     for (int i = 0; i < N * N; i++) {
       double least = INFINITY;
-      for (int row = -1; row <= N; row++)
+      for (int row = 0; row < N; row++)
         for (int column = -N; column < 2 * N; column++) {
-          const bool outside = row < 0 || row == N || (!circle && (column < 0 || column >= N));
-          if (!outside && id[row * N + (column + N) % N] == 0) continue;
+          const bool outside = !circle && (column < 0 || column >= N);
+          if (outside || id[row * N + (column + N) % N] == 0) continue;
           least = fmin(least, hypot(0.3 * (column - i % N), 0.7 * (row - i / N)));
         }
-      assert_true(fabs(distance[i] - (least > 0 ? least - 0.15 : 0)) < 1e-12);
+      const double up = 0.7 * (fmin(i / N, N - 1 - i / N) + 0.5), across = 0.3 * (fmin(i % N, N - 1 - i % N) + 0.5);
+      const double edge = circle ? up : fmin(up, across); /* where the window ends */
+      assert_true(fabs(distance[i] - (least > 0 ? fmin(least - 0.15, edge) : 0)) < 1e-12);
     }
   }
 }
@@ -230,16 +265,16 @@ TEST(test_shares_and_times) {
 }
 
 TEST(test_pace) {
-  const int16_t id[] = {0, 0, -1};
-  const uint32_t time[] = {6, 20, 9};
-  const double start[] = {0, 0.5, M_PI + 0.3, 0, 1, 1};
+  const int16_t id[] = {0, 0, -1, 0};
+  const uint32_t time[] = {6, 20, 9, 0};
+  const double start[] = {0, 0.5, M_PI + 0.3, 0, 1, 1, 0.4, 0.2}; /* the last: a strobe point */
   scene *s = make(2, 1, NULL);
   double value[MOST];
   s->theta[0] = 0.4;
   s->velocity[0] = 0.2;
-  s->measured.starts = (kz_ended){.n = 3, .start = start, .id = id, .time = time};
+  s->measured.starts = (kz_ended){.n = 4, .start = start, .id = id, .time = time};
   kz_measure_settling_pace(&s->measured, value);
-  assert_true(fabs(value[0] - (6 / 0.5 + 20 / hypot(M_PI - 0.1, 0.2)) / 2) < 1e-12 && isnan(value[1]));
+  assert_true(fabs(value[0] - (6 / 0.5 + 20 / hypot(M_PI - 0.1, 0.2)) / 3) < 1e-12 && isnan(value[1]));
   free(s);
 }
 
