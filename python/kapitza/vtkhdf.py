@@ -39,6 +39,8 @@ def write(result: Result, output: Path) -> None:
             cells = group.create_group("CellData")
             for name in VARIABLES:
                 cells[name] = h5py.ExternalLink(link, f"/basin/{name}")
+        with made.open("rb") as file:
+            os.fsync(file.fileno())  # a name never outlives its bytes
         os.replace(made, output)
 
 

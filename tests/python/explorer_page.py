@@ -62,13 +62,17 @@ class Server:
 
     def children(self):
         """Processes that compute for it."""
-        return [int(path.parent.name) for path in Path("/proc").glob("[0-9]*/stat") if self.process.pid == parent_of(path)]
+        return children_of(self.process.pid)
 
     def end(self):
         """Its exit status and what it said, after SIGTERM."""
         self.process.terminate()
         output, errors = self.process.communicate()
         return self.process.returncode, errors + "".join(line for line in output.splitlines() if "for another browser" not in line)
+
+
+def children_of(process):
+    return [int(path.parent.name) for path in Path("/proc").glob("[0-9]*/stat") if process == parent_of(path)]
 
 
 def parent_of(path):

@@ -6,6 +6,7 @@ import shutil
 import signal
 import socket
 import subprocess
+import sys
 import threading
 import time
 from contextlib import suppress
@@ -15,7 +16,7 @@ import numpy as np
 import pytest
 import yaml
 from conftest import PROGRAM, ROOT, wait_for, with_extensive
-from explorer_page import Server
+from explorer_page import Server, children_of
 from kapitza.explorer.access import Access
 from kapitza.result import Result
 
@@ -254,6 +255,28 @@ def test_it_leaves_no_process_and_no_file_behind(tmp_path, number):
     asked.join()
     assert wait_for(lambda: not any(parent(process) for process in computing))
     assert not list(tmp_path.iterdir())
+
+
+def test_what_is_computed_in_the_background_ends_with_a_server_that_is_killed(tmp_path):
+    """The run of a map went on, as a child of process 1. Here it is one that would not end by itself."""
+    (tmp_path / "endless").write_text("#!/bin/sh\nexec sleep 3000\n")
+    (tmp_path / "endless").chmod(0o755)
+    script = "import sys; from kapitza.explorer.kept import Kept; list(Kept(sys.argv[1], folder=sys.argv[2]).answers({}, None))"
+    owner = subprocess.Popen([sys.executable, "-c", script, tmp_path / "endless", tmp_path])
+    assert wait_for(lambda: any(b"sleep" in words_of(process) for process in children_of(owner.pid)))
+    (computing,) = children_of(owner.pid)
+    owner.kill()
+    owner.wait()
+    try:
+        assert wait_for(lambda: not parent(computing))
+    finally:
+        with suppress(ProcessLookupError):
+            os.kill(computing, signal.SIGKILL)
+
+
+def words_of(process):
+    """The command line of a process."""
+    return Path(f"/proc/{process}/cmdline").read_bytes()
 
 
 def parent(process):

@@ -1,5 +1,7 @@
 """What the explorer computes in the background and keeps, and the stories that it tells."""
 
+import os
+import time
 from argparse import ArgumentTypeError
 
 import numpy as np
@@ -42,6 +44,21 @@ def sorted_by_x(x, y, curve):
     part = slice(curve["first"], curve["first"] + curve["points"])
     order = np.argsort(x[part])
     return x[part][order], y[part][order]
+
+
+def test_a_damaged_result_is_computed_again_and_what_killed_explorers_left_goes(kept, monkeypatch, tmp_path):
+    """The map of that pendulum was an error for ever."""
+    monkeypatch.setattr(atlas, "STAGES", ({"max_period": 1, "checks": 0, "points": 24},))
+    first = list(atlas.maps(kept, {"pendulum": PENDULUM, **PLANE}))[-1]
+    (path,) = tmp_path.glob("*.h5")
+    whole = path.read_bytes()
+    for name, age in (("tmpold", 7200), ("tmpnew", 0)):
+        (tmp_path / name).mkdir()
+        os.utime(tmp_path / name, (time.time() - age,) * 2)
+    for damaged in (b"", whole[:len(whole) // 2], whole[:3000] + bytes(3000) + whole[6000:]):
+        path.write_bytes(damaged)
+        assert list(atlas.maps(kept, {"pendulum": PENDULUM, **PLANE}))[-1] == first and len(path.read_bytes()) == len(whole)
+    assert sorted(entry.name for entry in tmp_path.iterdir()) == sorted([path.name, "tmpnew"])
 
 
 def test_what_cannot_be_computed_is_refused_in_the_programs_words(kept):

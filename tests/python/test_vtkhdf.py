@@ -38,6 +38,13 @@ def test_it_holds_links_and_the_window(pair):
         assert group.attrs["Spacing"][:2] == pytest.approx([2 * np.pi / columns, 4 / rows])
 
 
+def test_it_is_on_the_disk_before_it_has_its_name(small_result, tmp_path, monkeypatch):
+    done = []
+    for name, real in (("fsync", os.fsync), ("replace", os.replace)):
+        monkeypatch.setattr(os, name, lambda *words, name=name, real=real: (done.append(name), real(*words)))
+    assert plot("vtkhdf", small_result, "-o", tmp_path / "small.vtkhdf").returncode == 0 and done == ["fsync", "replace"]
+
+
 def test_vtk_reads_it(pair):
     reader = pytest.importorskip("vtkmodules.vtkIOHDF", reason="no vtk: the sidecar is not read with it").vtkHDFReader()
     from vtkmodules.util.numpy_support import vtk_to_numpy

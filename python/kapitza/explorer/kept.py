@@ -4,26 +4,38 @@ import hashlib
 import json
 import os
 import re
+import shutil
 import subprocess
+import sys
 import tempfile
+import time
 from contextlib import suppress
 from pathlib import Path
 
 from kapitza.program import environment
-from kapitza.result import Result
+from kapitza.result import BadFile, Result
 
 from .program import Refused, plain
 
 PATIENCE = 0.2   # seconds between two words on the progress; a page that has gone is noticed by them
 MOST_KEPT = 100  # results; the oldest go first
+LEFT = 3600.0    # seconds after which nobody works in a folder that has not changed
 CALM = 5         # of its nice value: the pictures of the page go first
+DAMAGE = (BadFile, LookupError, OSError, RuntimeError, TypeError, ValueError)  # that a file which is no longer whole is read with
+# Python that becomes the command behind it, which Linux kills with this process, however this ends (1: PR_SET_PDEATHSIG, 9: SIGKILL). Not a
+# preexec_fn, which is not safe beside threads.
+BOUND = """import ctypes, os, sys
+ctypes.CDLL(None).prctl(1, 9)
+if os.getppid() == int(sys.argv[1]):
+    os.execv(sys.argv[2], sys.argv[2:])
+"""
 
 
 class Kept:
     """Those of one explorer. `program`: the executable; `numerics`: of its scene, or None; `folder`: None = in the user's cache."""
 
     def __init__(self, program, numerics=None, folder=None):
-        self._program, self._folder = Path(program), folder
+        self._program, self._folder = Path(program), folder and Path(folder)
         self._common = {"numerics": numerics} if numerics else {}
         self._running = set()
 
@@ -42,12 +54,19 @@ class Kept:
 
     def answers(self, scene, make, calm=CALM, **more):
         """(header, payload) of each answer: `progress` while the program computes, `calm` nicer than the page's pictures, then what `make`
-        makes of the result, with the keys `more`. Refused, with the program's words, where it cannot compute it."""
-        path = self._place(scene)
-        if not path.exists():
+        makes of the result, with the keys `more`. A kept result that is damaged is computed again. Refused, with the program's words, where
+        it cannot compute it."""
+        path, made = self._place(scene), None
+        if path.exists():
+            try:
+                made = make(Result(path))
+            except DAMAGE:
+                path.unlink(missing_ok=True)
+        if made is None:
             for _ in self._run(scene, path, calm):
                 yield {"answer": "progress", "final": False, "bytes": 0}, b""
-        header, payload = make(Result(path))
+            made = make(Result(path))
+        header, payload = made
         yield header | {"bytes": len(payload)} | more, payload
 
     def close(self):
@@ -77,17 +96,20 @@ class Kept:
         return self._folder
 
     def _run(self, scene, path, calm):
-        """Computes a result; yields now and then."""
+        """Computes a result; yields now and then. The program has its bytes on the disk before it ends."""
+        _tidy(path.parent)
         with tempfile.TemporaryDirectory(dir=path.parent) as folder:
             made, words, errors = (Path(folder) / name for name in ("result.h5", "scene", "errors"))
             words.write_text(self._text(scene))
+            command = [str(self._program), "run", "-", "-o", str(made), "--progress", "never"]
             with words.open() as given, errors.open("w") as said:
-                process = subprocess.Popen([str(self._program), "run", "-", "-o", str(made), "--progress", "never"], stdin=given,
+                process = subprocess.Popen([sys.executable, "-ISc", BOUND, str(os.getpid()), *command], stdin=given,
                                            stdout=subprocess.DEVNULL, stderr=said, env=environment(), start_new_session=True)
             self._running.add(process)
             try:
                 os.setpriority(os.PRIO_PROCESS, process.pid, calm)
                 while process.poll() is None:
+                    os.utime(folder)  # it is in use
                     yield
                     with suppress(subprocess.TimeoutExpired):
                         process.wait(PATIENCE)
@@ -98,6 +120,13 @@ class Kept:
             if process.returncode != 0:
                 raise Refused(plain((errors.read_text().strip().splitlines() or ["it could not be computed"])[-1]))
             os.replace(made, path)
-        kept = sorted(path.parent.glob("*.h5"), key=lambda file: file.stat().st_mtime)
-        for old in kept[:-MOST_KEPT]:
-            old.unlink(missing_ok=True)
+
+
+def _tidy(results):
+    """Removes the oldest results, and folders that explorers have left which were killed; another explorer may be at it too."""
+    with suppress(FileNotFoundError):
+        for old in sorted(results.glob("*.h5"), key=lambda file: file.stat().st_mtime)[:1 - MOST_KEPT]:
+            old.unlink()
+        for folder in results.glob("tmp*"):
+            if time.time() - folder.stat().st_mtime > LEFT:
+                shutil.rmtree(folder, ignore_errors=True)
