@@ -114,20 +114,23 @@ static double rounded(double value, double (*to_the_side)(double)) {
   return to_the_side(value / unit) * unit;
 }
 
-static void print_position(const char *name, const rest *r, const drive_words *words, FILE *out) {
+/* One position; `sign`: that of the drives, whose limits are counted from 0. */
+static void print_position(const char *name, const rest *r, const drive_words *words, double sign, FILE *out) {
   const double low = rounded(r->low * words->scale, ceil), high = rounded(r->high * words->scale, floor);
   fprintf(out, "Rest %s: %s", name, r->stable ? "stable" : "unstable");
   if (isnan(low) && isnan(high)) {
     fputs(".", out);
     return;
   }
+  const char *away = sign < 0 ? "down" : "up";
   fprintf(out, r->stable ? " (for %s" : " (stable for %s", words->name);
   if (low < NOTHING)
-    fputs(" above 0,", out);
+    fputs(sign < 0 ? " below 0," : " above 0,", out);
   else if (!isnan(low))
-    fprintf(out, " from %.4g%s", low, words->unit);
-  if (!isnan(high)) fprintf(out, low >= NOTHING ? " to %.4g%s" : " up to %.4g%s", high, words->unit);
-  if (!isnan(low) && isnan(high)) fputs(" up", out);
+    fprintf(out, " from %.4g%s", sign * low, words->unit);
+  if (!isnan(high) && !(low >= NOTHING)) fprintf(out, " %s", away);
+  if (!isnan(high)) fprintf(out, " to %.4g%s", sign * high, words->unit);
+  if (!isnan(low) && isnan(high)) fprintf(out, " %s", away);
   fputs(").", out);
 }
 
@@ -159,8 +162,8 @@ void kz_rest_print(const kz_parameters *parameters, FILE *out) {
   const drive_words words = words_of(parameters);
   rest down = look(&hanging, p->k, p->beta, m, most), inverted = look(&upside, -p->k, p->beta, m, most);
   if (!(form.m > 0)) down.low = down.high = inverted.low = inverted.high = NAN; /* no key scales this drive */
-  print_position("hanging down", &down, &words, out);
+  print_position("hanging down", &down, &words, sign, out);
   fputc(' ', out);
-  print_position("upside down", &inverted, &words, out);
+  print_position("upside down", &inverted, &words, sign, out);
   fputc('\n', out);
 }

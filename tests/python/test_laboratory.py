@@ -49,11 +49,14 @@ def test_the_first_line_says_what_stands(amplitude, words):
     assert 6.306e-3 == pytest.approx(np.sqrt(2 * 9.80665 * 0.2) / OMEGA, rel=2e-3)
 
 
-@pytest.mark.parametrize("pendulum, key, unit", [(ROD, "amplitude", " mm"), (PAPER, "drive_amplitude", "")])
+@pytest.mark.parametrize("pendulum, key, unit", [
+    (ROD, "amplitude", " mm"), (PAPER, "drive_amplitude", ""), (PAPER | {"drive_amplitude": -0.3}, "drive_amplitude", "")])
 def test_the_rod_stands_at_the_limits_that_are_printed(pendulum, key, unit):
-    """0.129 was printed for 0.12905, below which it falls."""
+    """0.129 was printed for 0.12905, below which it falls; and positive limits for a negative amplitude."""
     said = rest(kapitza.check(still(**pendulum)).text)
-    for limit in re.search(r"upside down: .*? from ([\d.]+)(?: mm)? to ([\d.]+)", said).groups():
+    limits = re.search(r"upside down: .*? from ([-\d.]+)(?: mm)? to ([-\d.]+)", said).groups()
+    assert [limit.startswith("-") for limit in limits] == [str(pendulum[key]).startswith("-")] * 2
+    for limit in limits:
         assert "upside down: stable" in rest(kapitza.check(still(**pendulum | {key: limit + unit})).text)
 
 
