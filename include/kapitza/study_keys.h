@@ -46,6 +46,7 @@ struct kz_key {
   const char *words;               /* "icm|direct"; of a count one word that stands for 0: "auto" */
   const char *(*words_from)(void); /* returns the words if another layer has them */
   const char *former;              /* removed words, or keys of a mapping, and their replacements: "old=new|old=new" */
+  const char *symbol;              /* its symbol in formulas, which a scene may write instead of its name; NULL = none */
   const char *form;      /* letters; keys of one mapping without a common letter exclude each other; NULL = of no form */
   size_t plan;           /* offset in kz_scene of the pointer to the plan that has the field; 0 = the scene has it */
   size_t offset;         /* of the field in that plan */

@@ -13,6 +13,8 @@ from typing import Any
 
 import yaml
 
+# Symbols that a scene may write instead of these keys of the pendulum and of the study stability.
+SYMBOLS = {"Q": "quality_factor", "Omega": "drive_frequency", "epsilon": "drive_amplitude", "beta": "damping"}
 _PLAIN = re.compile(r"(?!-( |$))[\w.+/-]([\w.+/ -]*[\w.+/-])?")  # a text that YAML takes as it is, on one line
 
 
@@ -114,22 +116,32 @@ def read_yaml(text: str, as_texts: bool = False) -> Any:
 
 
 def tree_of(text: str) -> dict[str, Any]:
-    """YAML text as nested dicts and lists of texts; {} where it is no mapping, of which the program says what is wrong."""
+    """YAML text as nested dicts and lists of texts; {} where it is no mapping, of which the program says what is wrong.
+    Symbols become the names of their keys."""
     try:
         tree = read_yaml(text, as_texts=True)
     except yaml.YAMLError:
         return {}
-    return tree if isinstance(tree, dict) else {}
+    return {key: _named(key, value) for key, value in tree.items()} if isinstance(tree, dict) else {}
+
+
+def _named(key: str, value: Any) -> Any:
+    """The value of a key of the scene with the names of its keys in place of their symbols."""
+    if key not in ("pendulum", "stability") or not isinstance(value, Mapping):
+        return value
+    return {SYMBOLS.get(name, name): item for name, item in value.items()}
 
 
 def put(tree: dict[str, Any], key: str, value: Any) -> None:
     """Sets a key such as basin.theta.count of a tree."""
     *above, last = key.split(".")
+    if above in (["pendulum"], ["stability"]):
+        last = SYMBOLS.get(last, last)
     for name in above:
         if not isinstance(tree.get(name), dict):
             tree[name] = {}
         tree = tree[name]
-    tree[last] = value
+    tree[last] = value if above else _named(last, value)
 
 
 def texts(value: Any) -> Any:

@@ -4,14 +4,9 @@
 #include "app.h"
 #include "json.h"
 
-static const char *name_of(const kz_key *key) {
-  const char *dot = strrchr(key->path, '.');
-  return dot ? dot + 1 : key->path;
-}
-
 /* A key of the mapping `parent` itself. */
 static bool stands_in(const kz_key *key, const char *parent) {
-  const size_t length = (size_t)(name_of(key) - key->path);
+  const size_t length = (size_t)(kz_key_name(key) - key->path);
   return length == (parent[0] ? strlen(parent) + 1 : 0) && strncmp(key->path, parent, strlen(parent)) == 0;
 }
 
@@ -22,11 +17,23 @@ static kz_json *object_of(const char *name, kz_json *value) {
   return object;
 }
 
+/* Adds the symbol of the key that a word names. */
+static void add_symbol(kz_json *list, const char *word, int length) {
+  for (const kz_key *key = kz_scene_keys(); key->path; key++) {
+    const char *name = kz_key_name(key);
+    if (!key->symbol || strlen(name) != (size_t)length || strncmp(name, word, (size_t)length) != 0) continue;
+    json_object_array_add(list, kz_json_text(key->symbol));
+    return;
+  }
+}
+
 static kz_json *words_of(const char *words) {
   kz_json *list = json_object_new_array();
   int length;
-  for (const char *word; (word = kz_words_next(&words, &length));)
+  for (const char *word; (word = kz_words_next(&words, &length));) {
     json_object_array_add(list, json_object_new_string_len(word, length));
+    add_symbol(list, word, length);
+  }
   return object_of("enum", list);
 }
 
@@ -119,20 +126,46 @@ static bool belongs(const kz_key *key, char form) {
   return form ? key->form && strchr(key->form, form) : !key->form;
 }
 
-/* The keys of `parent` that belong to `form` (0: to none) and must be there. */
+/* The keys of `parent` that belong to `form` (0: to none), must be there and have no symbol. */
 static kz_json *required_of(const kz_key *keys, const char *parent, char form) {
   kz_json *list = json_object_new_array();
   for (const kz_key *key = keys; key->path; key++)
-    if (!key->fallback && belongs(key, form) && stands_in(key, parent)) json_object_array_add(list, kz_json_text(name_of(key)));
+    if (!key->fallback && !key->symbol && belongs(key, form) && stands_in(key, parent))
+      json_object_array_add(list, kz_json_text(kz_key_name(key)));
   return list;
+}
+
+/* An object with this member. */
+static kz_json *with_member(const char *name) {
+  return object_of("required", kz_json_texts((const char *const[]){name, NULL}));
+}
+
+/* Requires those of them that have a symbol, by their name or their symbol. */
+static void require_symbols(const kz_key *keys, const char *parent, char form, kz_json *object) {
+  kz_json *all = json_object_new_array();
+  for (const kz_key *key = keys; key->path; key++) {
+    if (key->fallback || !key->symbol || !belongs(key, form) || !stands_in(key, parent)) continue;
+    kz_json *one = json_object_new_array();
+    json_object_array_add(one, with_member(kz_key_name(key)));
+    json_object_array_add(one, with_member(key->symbol));
+    json_object_array_add(all, object_of("oneOf", one));
+  }
+  if (json_object_array_length(all) > 0)
+    kz_json_add(object, "allOf", all);
+  else
+    json_object_put(all);
 }
 
 /* One of the ways to give the same: its required keys, and none of the other ways. */
 static kz_json *form_of(const kz_key *keys, const char *parent, char form) {
   kz_json *object = object_of("required", required_of(keys, parent, form)), *others = json_object_new_object();
-  for (const kz_key *key = keys; key->path; key++)
-    if (key->form && !belongs(key, form) && stands_in(key, parent)) kz_json_add_boolean(others, name_of(key), false);
+  for (const kz_key *key = keys; key->path; key++) {
+    if (!key->form || belongs(key, form) || !stands_in(key, parent)) continue;
+    kz_json_add_boolean(others, kz_key_name(key), false);
+    if (key->symbol) kz_json_add_boolean(others, key->symbol, false);
+  }
   kz_json_add(object, "properties", others);
+  require_symbols(keys, parent, form, object);
   return object;
 }
 
@@ -144,7 +177,7 @@ static kz_json *choices_of(const kz_key *keys, const char *parent) {
     if (!stands_in(key, parent)) continue;
     if (key->form && key->form[0] > seen) json_object_array_add(list, form_of(keys, parent, seen = key->form[0]));
     if (!parent[0] && key->type == KZ_KEY_MAPPING && key->offset != KZ_NO_FIELD)
-      json_object_array_add(list, object_of("required", kz_json_texts((const char *const[]){key->path, NULL})));
+      json_object_array_add(list, with_member(key->path));
   }
   return list;
 }
@@ -152,9 +185,12 @@ static kz_json *choices_of(const kz_key *keys, const char *parent) {
 static kz_json *mapping_of(const kz_key *keys, const char *parent, const char *help) {
   kz_json *object = object_of("type", kz_json_text("object")), *properties = json_object_new_object();
   kz_json *choices = choices_of(keys, parent);
-  for (const kz_key *key = keys; key->path; key++)
-    if (stands_in(key, parent))
-      kz_json_add(properties, name_of(key), key->type == KZ_KEY_MAPPING ? mapping_of(keys, key->path, key->help) : key_of(key));
+  for (const kz_key *key = keys; key->path; key++) {
+    if (!stands_in(key, parent)) continue;
+    kz_json_add(properties, kz_key_name(key),
+                key->type == KZ_KEY_MAPPING ? mapping_of(keys, key->path, key->help) : key_of(key));
+    if (key->symbol) kz_json_add(properties, key->symbol, key_of(key));
+  }
   kz_json_add_text(object, "description", help);
   kz_json_add_boolean(object, "additionalProperties", false);
   kz_json_add(object, "required", required_of(keys, parent, 0));

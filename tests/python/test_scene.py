@@ -53,6 +53,29 @@ def test_last_option_wins(tmp_path):
     assert at(yaml.safe_load(text), "basin.theta.count") == 5
 
 
+@pytest.mark.parametrize(("by_symbol", "by_name", "options"), [
+    ("pendulum: {Q: 5, Omega: 11, epsilon: 0.3}\nattractors: {velocity: {min: -1, max: 1}}\n",
+     "pendulum: {quality_factor: 5, drive_frequency: 11, drive_amplitude: 0.3}\nattractors: {velocity: {min: -1, max: 1}}\n",
+     [["pendulum.Q=4"], ["pendulum={Q: 4, Omega: 12, epsilon: 0.1}"]]),
+    ("pendulum: {k: 0.01, beta: 0.1, m: 0.5}\nsweep: {parameter: beta, min: 0.1, max: 0.2, count: 3, measure: [attractors]}\n",
+     "pendulum: {k: 0.01, damping: 0.1, m: 0.5}\nsweep: {parameter: damping, min: 0.1, max: 0.2, count: 3, measure: [attractors]}\n",
+     [["pendulum.beta=0.2", "sweep.max=0.3"]]),
+    ("stability: {k: {min: 0, max: 1}, m: {min: 0, max: 1}, beta: 0.1}\n",
+     "stability: {k: {min: 0, max: 1}, m: {min: 0, max: 1}, damping: 0.1}\n", [["stability.beta=0.2"]])])
+def test_symbols_are_spellings_of_keys(tmp_path, by_symbol, by_name, options):
+    """Q, Omega, epsilon and beta, which pictures and summaries print, in a scene and in --set."""
+    for words in [[], *options]:
+        changes = [word for option in words for word in ("--set", option)]
+        assert resolved(tmp_path, *changes, scene=by_symbol) == resolved(tmp_path, *changes, scene=by_name)
+
+
+def test_a_key_by_name_and_by_symbol_is_given_twice(tmp_path):
+    pendulum = "pendulum: {Q: 5, drive_frequency: 11, drive_amplitude: 0.3, quality_factor: 5}\n"
+    (tmp_path / "scene.yaml").write_text(pendulum + "attractors: {velocity: {min: -1, max: 1}}\n")
+    status, _, err = program(tmp_path, "check", "scene.yaml")
+    assert status == 2 and err.endswith("scene.yaml:1:61: pendulum.quality_factor: is given twice; give it once\n")
+
+
 LETTERS = st.characters(exclude_categories=["Cc", "Cs", "Cn", "Co", "Zl", "Zp"], exclude_characters="\ufeff")
 
 

@@ -1,6 +1,7 @@
 """The JSON schema of scenes: it takes every scene, and refuses what the program's own table refuses."""
 
 import json
+import re
 import subprocess
 import sys
 
@@ -60,6 +61,18 @@ def test_what_the_table_refuses_the_schema_refuses(text, validator, tmp_path):
     assert done.returncode == 2 and not validator.is_valid(yaml.safe_load(text))
 
 
+@pytest.mark.parametrize("pendulum, good", [
+    ("{Q: 5, Omega: 11, epsilon: 0.3}", True), ("{quality_factor: 5, Omega: 11, drive_amplitude: 0.3}", True),
+    ("{k: 0.1, beta: 0.1, m: 0.3}", True), ("{Omega: 11, drive_frequency: 11, epsilon: 0.3}", False),
+    ("{Q: 5, Omega: 11}", False), ("{k: 0.1, beta: 0.1, m: 0.3, epsilon: 0.3}", False)])
+def test_symbols_may_stand_for_keys(pendulum, good, validator, tmp_path):
+    text = f"pendulum: {pendulum}\nsweep: {{parameter: epsilon, min: 0.1, max: 0.2, count: 2, measure: [attractors]}}\n"
+    text = text if good and "k:" not in pendulum else text.replace("epsilon, min", "m, min")
+    (tmp_path / "scene.yaml").write_text(text)
+    done = subprocess.run([PROGRAM, "check", tmp_path / "scene.yaml"], capture_output=True, text=True)
+    assert (done.returncode == 0) == validator.is_valid(yaml.safe_load(text)) == good, done.stderr
+
+
 def test_the_keys_of_all_drives_are_good(validator):
     for drive in ("tilt: 5 deg, ellipse: 0.1, torque: 0.01, waveform: triangle", "waveform: samples, samples: [1, 0, -1, 0]",
                   "harmonics: [{order: 2, amplitude: 0.1, phase: 90 deg}, {order: 3, amplitude: 0.1}]",
@@ -87,7 +100,11 @@ def test_it_knows_every_key_with_its_default(validator):
 
     lines = (ROOT / "docs" / "reference" / "scene.md").read_text().splitlines()
     rows = [line.strip("| \n").split(" | ") for line in lines if line.startswith("| `")]
-    documented = {row[0].strip("`"): row[2] for row in rows if not row[1].startswith("a mapping")}
+    documented = {}
+    for row in rows:
+        name, *symbol = re.findall("`(.+?)`", row[0])
+        if not row[1].startswith("a mapping"):
+            documented |= dict.fromkeys([name, *(name.rpartition(".")[0] + "." + word for word in symbol)], row[2])
     known = dict(keys(validator.schema["allOf"][0]))
     assert known.keys() == documented.keys()
     for name, default in known.items():

@@ -265,6 +265,21 @@ def test_a_damaged_group_is_named_where_a_result_is_shown(result, tmp_path):
     assert "basin: damaged" in repr(kapitza.Result(path))
 
 
+def test_symbols_name_keys_of_the_pendulum():
+    """Q, Omega and epsilon in a scene, in what a call changes, and in what a refusal reports."""
+    scene = {"pendulum": {"Q": 5, "Omega": 11, "epsilon": 0.3}, "orbit": {"start": {"theta": 1, "velocity": 0}, "periods": 3}}
+    named = {"quality_factor": 4, "drive_frequency": 11, "drive_amplitude": 0.3}
+    assert kapitza.check(scene, set={"pendulum.Q": 4}).scene == kapitza.check(scene, set={"pendulum": named}).scene
+    with pytest.raises(kapitza.SceneError) as caught:
+        kapitza.check(scene, set={"pendulum.Q": -1})
+    assert (caught.value.key, caught.value.value) == ("pendulum.quality_factor", "-1")
+    swept = kapitza.sweep(scene, "epsilon", (0.1, 0.2), 3, "attractors", progress=False, starts=64)
+    assert swept.group("sweep").attrs["parameter"] == "drive_amplitude"
+    with kapitza.Engine(scene | {"basin": {"velocity": {"min": -2, "max": 2}}}) as engine:
+        labels = engine.frame(None, (5, 5), pendulum={"Q": 5, "Omega": 11, "epsilon": 0.2})
+        assert (labels == engine.frame(None, (5, 5), pendulum=named | {"quality_factor": 5, "drive_amplitude": 0.2})).all()
+
+
 IN_A_JOB = """
 import kapitza, sys
 result = kapitza.run(sys.argv[1], set={"basin.theta.count": 9, "basin.velocity.count": 9}, ranks=int(sys.argv[2]), progress=False)

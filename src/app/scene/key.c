@@ -29,9 +29,20 @@ bool kz_key_is_angle(const kz_key *key) {
   return strcmp(key->unit, "rad") == 0;
 }
 
+const char *kz_key_name(const kz_key *key) {
+  const char *dot = strrchr(key->path, '.');
+  return dot ? dot + 1 : key->path;
+}
+
+/* Whether `path` is that of the key with its symbol in place of its name. */
+static bool is_by_symbol(const kz_key *key, const char *path) {
+  const size_t above = (size_t)(kz_key_name(key) - key->path);
+  return key->symbol && strncmp(key->path, path, above) == 0 && strcmp(path + above, key->symbol) == 0;
+}
+
 const kz_key *kz_key_find(const kz_key *keys, const char *path) {
   for (; keys->path; keys++)
-    if (strcmp(keys->path, path) == 0) return keys;
+    if (strcmp(keys->path, path) == 0 || is_by_symbol(keys, path)) return keys;
   return NULL;
 }
 

@@ -16,9 +16,9 @@ static const char *scheme_words(void) {
 }
 
 #define MOST_HARMONICS KZ_WRITTEN(KZ_HARMONICS)
-#define PENDULUM(form_, name, unit_, low_, fallback, help)                                                     \
+#define PENDULUM(form_, name, unit_, low_, fallback, help, ...)                                                \
   ROW("pendulum." #name, KZ_KEY_REAL, fallback, AT(parameters.written.name), help, .unit = unit_, .low = low_, \
-      .high = DBL_MAX, .form = form_)
+      .high = DBL_MAX, .form = form_, __VA_ARGS__)
 
 static const kz_key own[] = {
     TEXT("title", "", title, "One line that names the scene in files and pictures."),
@@ -26,12 +26,14 @@ static const kz_key own[] = {
     MAPPING("pendulum", NULL,
             "The pendulum, given in one of three ways (a, b, c). A scene with the study `stability` alone needs none."),
     PENDULUM("ac", quality_factor, "", KZ_ABOVE_ZERO, "",
-             "Quality factor Q = omega0 I/b, so that beta = 1/(Omega Q). Left out in (a): no damping."),
+             "Quality factor Q = omega0 I/b, so that beta = 1/(Omega Q). Left out in (a): no damping.", .symbol = "Q"),
     PENDULUM("a", drive_frequency, "", KZ_ABOVE_ZERO, NULL,
-             "Drive frequency over natural frequency, Omega = omega/omega0, so that k = 1/Omega^2."),
-    PENDULUM("a", drive_amplitude, "", -DBL_MAX, NULL, "Drive amplitude epsilon = (A/r)(M r^2/I), so that m = epsilon."),
+             "Drive frequency over natural frequency, Omega = omega/omega0, so that k = 1/Omega^2.", .symbol = "Omega"),
+    PENDULUM("a", drive_amplitude, "", -DBL_MAX, NULL, "Drive amplitude epsilon = (A/r)(M r^2/I), so that m = epsilon.",
+             .symbol = "epsilon"),
     PENDULUM("b", k, "", -DBL_MAX, NULL, "Gravity, 1/Omega^2; 0 = none, below 0 = upward."),
-    PENDULUM("b", damping, "", 0.0, NULL, "Damping, beta of theta'' + beta theta' + (k - m cos t) sin theta = 0."),
+    PENDULUM("b", damping, "", 0.0, NULL, "Damping, beta of theta'' + beta theta' + (k - m cos t) sin theta = 0.",
+             .symbol = "beta"),
     PENDULUM("b", m, "", -DBL_MAX, NULL, "Drive amplitude, of any sign."),
     PENDULUM("c", length, "m", KZ_ABOVE_ZERO, "",
              "Length of a pendulum that is a point mass (I = M l^2). Another body needs mass, radius and inertia."),

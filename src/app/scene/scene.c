@@ -75,10 +75,13 @@ static kz_status apply_set(const kz_key *keys, kz_node *root, const char *option
   if (!equals || equals == option || equals - option >= (long)sizeof path)
     return kz_fail(KZ_REFUSED, "%s: is not KEY=VALUE; write for example --set basin.theta.count=200", label);
   snprintf(path, sizeof path, "%.*s", (int)(equals - option), option);
-  if (!kz_key_find(keys, path)) return refuse_key(keys, label, path);
+  const kz_key *key = kz_key_find(keys, path);
+  if (!key) return refuse_key(keys, label, path);
   kz_node *value;
   KZ_TRY(kz_tree_read(equals + 1, strlen(equals + 1), label, true, &value));
-  return kz_tree_set(root, path, value);
+  KZ_TRY(kz_tree_set(root, key->path, value));
+  kz_tree_name_symbols(keys, root);
+  return KZ_OK;
 }
 
 /* "--set KEY=VALUE", cut where it would bury the message. */
@@ -91,6 +94,7 @@ kz_status kz_scene_tree_read(const char *text, size_t length, const char *file, 
                              kz_scene_tree *tree) {
   *tree = (kz_scene_tree){.labels = kz_calloc((size_t)n_sets + 1, sizeof(kz_option_label))};
   KZ_TRY(kz_tree_read(text, length, file, false, &tree->root));
+  kz_tree_name_symbols(kz_scene_keys(), tree->root);
   for (int i = 0; tree->root->kind == KZ_MAPPING && i < n_sets; i++) {
     print_label(sets[i], tree->labels[i]);
     KZ_TRY(apply_set(kz_scene_keys(), tree->root, sets[i], tree->labels[i]));
@@ -115,6 +119,7 @@ static kz_status read_tree(kz_node *root, kz_scene *scene) {
 kz_status kz_scene_of_tree(kz_node *root, kz_scene *scene) {
   *scene = (kz_scene){.series = kz_kept_series_create()};
   kz_plans_create(scene);
+  kz_tree_name_symbols(kz_scene_keys(), root); /* of a request */
   const kz_status status = read_tree(root, scene);
   if (status != KZ_OK) kz_scene_free(scene);
   return status;

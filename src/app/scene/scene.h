@@ -23,7 +23,9 @@ int64_t kz_word_find(const char *words, const char *word);
 double kz_key_most_bare(const kz_key *key);
 /* True if the key is an angle, which may be written in degrees. */
 bool kz_key_is_angle(const kz_key *key);
-/* The row of `path`, or NULL. */
+/* The last part of the key's path. */
+const char *kz_key_name(const kz_key *key);
+/* The row of `path`, whose last part may be the symbol of the key; NULL if there is none. */
 const kz_key *kz_key_find(const kz_key *keys, const char *path);
 /* The words "a|b|c" as "a, b, c", written to `text` [bytes]. */
 void kz_key_list(const char *words, char *text, size_t bytes);
@@ -67,6 +69,8 @@ kz_node *kz_tree_child(const kz_node *mapping, const char *name);
 kz_node *kz_tree_find(const kz_node *root, const char *path);
 /* Puts `value` at `path` in place of the old node and creates the mappings on the way. The tree owns `value` in every case. */
 kz_status kz_tree_set(kz_node *root, const char *path, kz_node *value);
+/* Replaces symbols by the names of their keys: "Q: 5" of the pendulum by "quality_factor: 5", and "parameter: Q" of a sweep likewise. */
+void kz_tree_name_symbols(const kz_key *keys, kz_node *root);
 /* Removes the node at `path` from the tree and returns it, or NULL; the caller frees it. */
 kz_node *kz_tree_take(kz_node *root, const char *path);
 /* A copy of a tree, without the siblings of its root. */

@@ -85,6 +85,29 @@ kz_status kz_tree_set(kz_node *root, const char *path, kz_node *value) {
                  path);
 }
 
+static void set_text(char **text, const char *value) {
+  free(*text);
+  *text = kz_strdup(value);
+}
+
+/* Gives the value of `key` the name of `meant` if it is that key's symbol, and the name is one of its words. */
+static void name_value(const kz_key *key, const kz_key *meant, kz_node *root) {
+  kz_node *node = key->type == KZ_KEY_WORD ? kz_tree_find(root, key->path) : NULL;
+  if (node && node->text && strcmp(node->text, meant->symbol) == 0 && kz_word_find(kz_key_words(key), kz_key_name(meant)) >= 0)
+    set_text(&node->text, kz_key_name(meant));
+}
+
+void kz_tree_name_symbols(const kz_key *keys, kz_node *root) {
+  for (const kz_key *key = keys; key->path; key++) {
+    if (!key->symbol) continue;
+    char path[256];
+    snprintf(path, sizeof path, "%.*s%s", (int)(kz_key_name(key) - key->path), key->path, key->symbol);
+    kz_node *node = kz_tree_find(root, path);
+    if (node) set_text(&node->name, kz_key_name(key));
+    for (const kz_key *other = keys; other->path; other++) name_value(other, key, root);
+  }
+}
+
 kz_node *kz_tree_take(kz_node *root, const char *path) {
   const size_t length = strcspn(path, ".");
   kz_node *child = child_named(root, path, length);

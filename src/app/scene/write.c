@@ -59,9 +59,10 @@ static const char *default_of(const kz_key *key) {
 }
 
 static void write_row(const kz_key *keys, const kz_key *key, FILE *out) {
-  char accepted[700];
+  char accepted[700], symbol[64] = "";
   kz_type_accepts(keys, key, accepted, sizeof accepted);
-  fprintf(out, "| `%s` | %s | %s | %s%s%s%s |\n", key->path, accepted, default_of(key), key->form ? "(" : "",
+  if (key->symbol) snprintf(symbol, sizeof symbol, " or `%s`", key->symbol);
+  fprintf(out, "| `%s`%s | %s | %s | %s%s%s%s |\n", key->path, symbol, accepted, default_of(key), key->form ? "(" : "",
           key->form ? key->form : "", key->form ? ") " : "", key->help);
 }
 

@@ -10,8 +10,9 @@
       REAL("stability." #axis ".min", "", -1e6, 1e6, NULL, axis.min, "First value."),          \
       REAL("stability." #axis ".max", "", -1e6, 1e6, NULL, axis.max, "Last value."),           \
       INTEGER("stability." #axis ".count", 1, 1e6, "", axis.count, "Number of values; left out: 1000.")
-#define STABILITY_DAMPING(form_, name, low_, help) \
-  ROW("stability." #name, KZ_KEY_REAL, "", AT(name), help, .unit = "", .low = low_, .high = 1e5, .form = form_)
+#define STABILITY_DAMPING(form_, name, symbol_, low_, help)                                                     \
+  ROW("stability." #name, KZ_KEY_REAL, "", AT(name), help, .unit = "", .low = low_, .high = 1e5, .form = form_, \
+      .symbol = symbol_)
 
 static const kz_key keys[] = {
     STUDY("Study: the chart of the linear equation u'' + beta u' + (k - m f(t)) u = 0 over (k, m), and its transition "
@@ -19,8 +20,8 @@ static const kz_key keys[] = {
           "the wave form of the pendulum, or cos t."),
     STABILITY_AXIS("ab", k, NULL, "Values of k, both ends included; negative about the inverted position."),
     STABILITY_AXIS("ab", m, NULL, "Values of m, both ends included; about the inverted position m changes its sign as k does."),
-    STABILITY_DAMPING("ac", damping, 0.0, "beta, the same at every point; left out, with quality_factor: no damping."),
-    STABILITY_DAMPING("bd", quality_factor, 1e-3, "Q: beta = sqrt(abs(k))/Q at each point."),
+    STABILITY_DAMPING("ac", damping, "beta", 0.0, "beta, the same at every point; left out, with quality_factor: no damping."),
+    STABILITY_DAMPING("bd", quality_factor, "Q", 1e-3, "Q: beta = sqrt(abs(k))/Q at each point."),
     STABILITY_AXIS("cd", a, "", "Instead of k, in the words of ion traps: a = 4 k."),
     STABILITY_AXIS("dc", q, "", "Instead of m, in the words of ion traps: q = 2 m."),
     ROW("stability.curves", KZ_KEY_WORDS, "", AT(curves),
