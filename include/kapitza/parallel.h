@@ -112,24 +112,11 @@ void kz_checkpoint_clear(const char *path, const char *fingerprint);
 /* KZ_REFUSED if the fingerprint `there`, of the file PATH, differs from `here`; the message has the first line that differs. */
 kz_status kz_fingerprint_compare(const char *path, const char *there, const char *here);
 
-/* A sampled run, by which `check` estimates the time of a run. One process does a part of the tiles of long stages, spread over the stage,
- * and counts their time for the other tiles too. The records of the other tiles are copies of those that were done; collective stages have
- * zeros there. */
-typedef struct {
-  double weight;     /* how often the run does what is being done now */
-  double stands_for; /* tiles of the last stage that each of those done stands for */
-  double until;      /* s, kz_processor_clock: until then the present stage may do further tiles */
-  double last;       /* the same of all stages */
-  double since;      /* kz_processor_clock when the present weight began */
-  double counted;    /* s, with all weights, until then */
-} kz_sampling;
-
 /* The ranks and the checkpoint that stages use. If ranks is NULL, this process does everything without MPI, and collective calls return at
  * once. */
 typedef struct {
   kz_ranks *ranks;
   kz_checkpoint *checkpoint; /* for the records of kept stages; NULL = nothing is kept */
-  kz_sampling *sample;       /* the run is sampled (then ranks is NULL); NULL = it is not */
 } kz_run;
 
 /* Records of varying length that stay on the rank that made them. */
@@ -141,7 +128,6 @@ typedef struct {
 typedef struct {
   int64_t n;
   kz_local_record *list; /* [n], in no order */
-  double stands_for;     /* of a sampled run: how many records each one stands for; 0 = 1 */
 } kz_local_records;
 void kz_local_records_add(kz_local_records *records, int64_t tile, const void *data, size_t bytes);
 void kz_local_records_free(kz_local_records *records);
@@ -171,7 +157,6 @@ typedef struct {
   bool
       collective; /* true: all ranks do every tile together, in order, and get the same record (everywhere). `work` is collective
                       and may run stages, whose kept records last until its tile is finished */
-  bool whole;     /* a sampled run does all tiles, because what follows needs their own records */
 } kz_stage;
 
 /* A kept stage whose records all ranks receive; one whose records rank 0 alone receives. */
@@ -209,7 +194,7 @@ static inline kz_stage kz_stage_for_rank0(const char *name, int64_t n_tiles, siz
 /* Runs a stage and fills `records` [n_tiles][record_bytes] on the ranks that receive them; the others may pass NULL. The first failing rank
  * stops the others, and all return its status. KZ_STOPPED: a signal or the time limit came before the last tile was begun; finished kept
  * records are on the disk. Kept stages must come in the same order in every run. If `run` is NULL or has no ranks, this process does all
- * tiles in order, or a sample of them, and keeps nothing. Collective. */
+ * tiles in order and keeps nothing. Collective. */
 kz_status kz_stage_run(const kz_run *run, const kz_stage *stage, void *records);
 
 /* A chain of stages of one tile, each of which needs the one before, shows its progress as one stage, by an estimate of the seconds left.
@@ -218,32 +203,6 @@ typedef struct kz_chain kz_chain;
 kz_chain *kz_chain_begin(const kz_run *run, const char *name);
 void kz_chain_show(kz_chain *chain, double seconds_left);
 void kz_chain_end(kz_chain *chain, bool complete);
-
-/* Begins a sampled run, which takes about `patience` seconds of processor time of this thread. */
-void kz_sampling_begin(kz_sampling *sample, double patience);
-/* The processor seconds that the run would have taken so far. */
-double kz_sampling_seconds(const kz_sampling *sample);
-/* For code between stages. All do nothing, and return 1, in a run that is not sampled. What follows counts `factor` times as often; the
- * present weight; how many tiles each done tile of the last stage stands for. */
-void kz_sampling_weigh(const kz_run *run, double factor);
-double kz_sampling_weight(const kz_run *run);
-/* KZ_TRY of a call that counts `factor` times as often. */
-#define KZ_TRY_WEIGHED(run, factor, call)    \
-  do {                                       \
-    const double try_factor = (factor);      \
-    kz_sampling_weigh(run, try_factor);      \
-    const kz_status weighed_status = (call); \
-    kz_sampling_weigh(run, 1 / try_factor);  \
-    KZ_TRY(weighed_status);                  \
-  } while (0)
-double kz_sampling_stands_for(const kz_run *run);
-/* For a loop of steps that need each other. The mark is made before it. kz_sampling_enough is true if the run is sampled and has seen enough of
- * the loop, of which the share `done` is over; the rest is then counted, and the caller leaves the loop. */
-typedef struct {
-  double seconds, until;
-} kz_sampling_mark;
-kz_sampling_mark kz_sampling_mark_now(const kz_run *run);
-bool kz_sampling_enough(const kz_run *run, const kz_sampling_mark *mark, double done);
 
 /* How local records are delivered: each rank makes a message of each of its records, and rank 0 takes all messages, in any order. Both
  * functions may return KZ_FAILED. `make` fills message [message_bytes], at most 1 GiB; *bytes = the number of bytes in use, more than 0. */

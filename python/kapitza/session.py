@@ -92,14 +92,12 @@ def _interrupted(status: int, path: Path, named: bool) -> str:
 class Check:
     """What a run of a scene would model, and its cost. `text` is what the command `check` prints.
 
-    `scene` is YAML with every default, `studies` the names of the studies, and `cells` the number of cells. `seconds` is the estimated
-    time on one core; it is a lower bound if `text` says "more than".
+    `scene` is YAML with every default, `studies` the names of the studies, and `cells` the number of cells.
     """
 
     scene: str
     studies: list[str]
     cells: int
-    seconds: float
     text: str
 
     def __repr__(self) -> str:
@@ -115,7 +113,7 @@ def check(scene: SceneLike, set: Mapping[str, Any] | None = None) -> Check:
     """
     asked = Scene(scene, set)
     facts = json.loads(ask(["check", asked.path, *asked.sets, "--json"], asked))
-    return Check(facts["scene"], facts["studies"], facts["cells"], facts["seconds"], facts["text"])
+    return Check(facts["scene"], facts["studies"], facts["cells"], facts["text"])
 
 
 def needs(length: Any, frequency: Any, quality_factor: float | None = None) -> dict[str, Any]:

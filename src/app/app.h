@@ -124,14 +124,6 @@ double kz_memory_limit(const char *groups, const char *mount);
 /* "12.3 MB". */
 kz_short_text kz_cost_bytes(double bytes);
 
-/* Estimated processor time of a run, seconds on one core, from samples of its work. The samples take at most 15 s; if they do not finish, the
- * estimate is a lower bound. */
-typedef struct {
-  double seconds;
-  bool is_whole; /* false: a lower bound */
-} kz_estimate;
-kz_status kz_estimate_time(const kz_scene *scene, kz_estimate *estimate);
-
 /* The scene as text, in full, or as the fingerprint that a resumed run must match; the caller frees it. NULL if memory ran out. */
 char *kz_scene_text(const kz_scene *scene, bool fingerprint);
 

@@ -22,7 +22,7 @@ enum {
 const kz_command kz_commands[] = {
     {"run", RUN, " SCENE", 1, 1, kz_app_run, "model every study that SCENE contains"},
     {"check", CHECK, " SCENE", 1, 1, kz_app_check,
-     "check SCENE; print what a run would model, and the time, memory and disk that it would take"},
+     "check SCENE; print what a run would model, and the memory and disk that it would take"},
     {"where", WHERE, " SCENE THETA VELOCITY", 2, 5, kz_app_where,
      "say on which attractor a start ends; THETA is in rad from down, VELOCITY in rad per drive radian, with any number of "
      "digits, or both with units ('170 deg', of a scene in SI '3 rad/s'); write - in their place to read starts as CSV from "

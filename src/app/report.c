@@ -64,15 +64,6 @@ void kz_warnings_print(const kz_scene *scene, FILE *out) {
   kz_settling_warn(scene, out);
 }
 
-static void print_duration(double seconds, FILE *out) {
-  if (seconds < 120.0)
-    fprintf(out, "%.3g s", seconds);
-  else if (seconds < 7200.0)
-    fprintf(out, "%.3g min", seconds / 60.0);
-  else
-    fprintf(out, "%.3g h", seconds / 3600.0);
-}
-
 static void print_studies(const kz_scene *scene, FILE *out) {
   const char *before = "studies          ";
   for (int i = 0; i < kz_study_count; i++) {
@@ -85,8 +76,7 @@ static void print_studies(const kz_scene *scene, FILE *out) {
 }
 
 /* Five lines at most, then warnings; the rest for `all`. */
-static void print_check(const kz_options *options, const kz_scene *scene, const char *resolved, const kz_estimate *estimate,
-                        FILE *out) {
+static void print_check(const kz_options *options, const kz_scene *scene, const char *resolved, FILE *out) {
   const kz_cost cost = kz_cost_of(scene);
   const kz_pendulum *p = &scene->parameters.pendulum;
   fprintf(out, "%s is a valid scene.\n", options->scene);
@@ -95,9 +85,7 @@ static void print_check(const kz_options *options, const kz_scene *scene, const 
   fputs("\n", out);
   if (!isnan(p->k)) fprintf(out, "pendulum         k = %.10g, beta = %.10g, m = %.10g\n", p->k, p->beta, p->m);
   kz_rest_print(&scene->parameters, out);
-  fputs(estimate->is_whole ? "cost             " : "cost             more than ", out);
-  print_duration(estimate->seconds, out);
-  fprintf(out, " on one core (N ranks take an N-th of it), %s of memory, %s on disk\n",
+  fprintf(out, "cost             %s of memory, %s on disk\n",
           kz_cost_bytes(cost.memory_bytes + cost.rank0_bytes + cost.shared_bytes).text, kz_cost_bytes(cost.disk_bytes).text);
   kz_warnings_print(scene, out);
   if (!options->all) return;
@@ -115,8 +103,7 @@ static kz_json *studies_of(const kz_scene *scene) {
 }
 
 /* The same for programs, as one object on a line. */
-static void print_check_json(const kz_options *options, const kz_scene *scene, const char *resolved,
-                             const kz_estimate *estimate) {
+static void print_check_json(const kz_options *options, const kz_scene *scene, const char *resolved) {
   const kz_cost cost = kz_cost_of(scene);
   const kz_pendulum *p = &scene->parameters.pendulum;
   KZ_FREED char *text = NULL;
@@ -124,7 +111,7 @@ static void print_check_json(const kz_options *options, const kz_scene *scene, c
   kz_json *object = json_object_new_object(), *pendulum = json_object_new_object();
   FILE *out = open_memstream(&text, &bytes);
   if (out) {
-    print_check(options, scene, resolved, estimate, out);
+    print_check(options, scene, resolved, out);
     fclose(out);
   }
   kz_json_add_text(object, "scene", resolved);
@@ -138,8 +125,6 @@ static void print_check_json(const kz_options *options, const kz_scene *scene, c
   kz_json_add_real(object, "rank_bytes", cost.memory_bytes);
   kz_json_add_real(object, "rank0_bytes", cost.rank0_bytes);
   kz_json_add_real(object, "shared_bytes", cost.shared_bytes);
-  kz_json_add_real(object, "seconds", estimate->seconds);
-  kz_json_add_boolean(object, "seconds_is_whole", estimate->is_whole);
   kz_json_add_text(object, "text", text ? text : "");
   kz_json_print(object, stdout);
 }
@@ -148,13 +133,11 @@ static kz_status check_scene(const kz_options *options, const kz_scene *scene) {
   char *resolved = kz_scene_text(scene, false);
   const kz_cost cost = kz_cost_of(scene);
   kz_status status = resolved ? kz_cost_check(&cost, NULL) : kz_fail(KZ_FAILED, "out of memory");
-  kz_estimate estimate;
   if (status == KZ_OK) status = kz_studies_check(scene);
-  if (status == KZ_OK) status = kz_estimate_time(scene, &estimate);
   if (status == KZ_OK && options->json)
-    print_check_json(options, scene, resolved, &estimate);
+    print_check_json(options, scene, resolved);
   else if (status == KZ_OK)
-    print_check(options, scene, resolved, &estimate, stdout);
+    print_check(options, scene, resolved, stdout);
   free(resolved);
   return status;
 }

@@ -160,23 +160,19 @@ static kz_status deliver(mail *m, int64_t total) {
 }
 
 /* Without ranks: each record becomes a message that is taken at once. */
-static kz_status deliver_alone(const kz_run *run, const kz_local_records *records, const kz_delivery *delivery) {
+static kz_status deliver_alone(const kz_local_records *records, const kz_delivery *delivery) {
   KZ_FREED char *message = kz_malloc(delivery->message_bytes + 1);
-  kz_sampling_weigh(run, records->stands_for > 0 ? records->stands_for : 1);
-  const kz_sampling_mark mark = kz_sampling_mark_now(run);
   kz_status status = KZ_OK;
   for (int64_t i = 0; i < records->n && status == KZ_OK; i++) {
     size_t bytes = 0;
-    if (kz_sampling_enough(run, &mark, (double)i / (double)records->n)) break;
     status = delivery->make(delivery->context, records->list + i, message, &bytes);
     if (status == KZ_OK) status = delivery->take(delivery->context, message, bytes);
   }
-  kz_sampling_weigh(run, records->stands_for > 0 ? 1 / records->stands_for : 1);
   return status;
 }
 
 kz_status kz_local_records_deliver(const kz_run *run, const kz_local_records *records, const kz_delivery *delivery) {
-  if (!run || !run->ranks) return deliver_alone(run, records, delivery);
+  if (!run || !run->ranks) return deliver_alone(records, delivery);
   kz_ranks *ranks = run->ranks;
   mail m = {.ranks = ranks, .delivery = delivery, .records = records};
   for (int i = 0; i <= BUFFERS; i++) m.request[i] = MPI_REQUEST_NULL;

@@ -7,7 +7,6 @@
 #include "dispatch.h"
 #include "ranks.h"
 #include "record_buffer.h"
-#include "sampled_stage.h"
 #include "watch.h"
 
 /* Offsets of records and slots must not overflow. */
@@ -88,6 +87,14 @@ static kz_status recall(stage_run *run) {
   return KZ_OK;
 }
 
+/* The work of a tile, or of the items that it is made of. */
+static kz_status work_tile(const kz_stage *stage, int64_t tile, void *record) {
+  if (!stage->items) return stage->work(stage->context, tile, record);
+  const int64_t tiles = (stage->n_items + stage->batch - 1) / stage->batch; /* of a row */
+  const int64_t first = tile % tiles * stage->batch, left = stage->n_items - first;
+  return stage->items(stage->context, tile / tiles * stage->n_items + first, left < stage->batch ? left : stage->batch, record);
+}
+
 static kz_status do_tile(stage_run *run, int64_t tile) {
   const kz_stage *stage = run->stage;
   void *record;
@@ -97,7 +104,7 @@ static kz_status do_tile(stage_run *run, int64_t tile) {
     record = memset(run->records + (size_t)tile * stage->record_bytes, 0, stage->record_bytes);
   else
     record = kz_record_buffer_add(&run->buffered, tile);
-  KZ_TRY(kz_stage_work(stage, tile, record));
+  KZ_TRY(work_tile(stage, tile, record));
   if (stage->local) kz_local_records_add(stage->local, tile, record, *(uint64_t *)record);
   return run->kept ? kz_section_save(run->checkpoint, &run->section, tile, record) : KZ_OK;
 }
@@ -128,7 +135,7 @@ static kz_status do_collectively(stage_run *run, int64_t tile) {
   const kz_checkpoint outside = *checkpoint;
   void *record = memset(run->records + (size_t)tile * stage->record_bytes, 0, stage->record_bytes);
   checkpoint->seed = kz_bytes_checksum(checkpoint->seed, &tile, sizeof tile);
-  kz_status status = kz_ranks_agree(run->ranks, kz_stage_work(stage, tile, record));
+  kz_status status = kz_ranks_agree(run->ranks, work_tile(stage, tile, record));
   checkpoint->seed = outside.seed;
   checkpoint->end = outside.end;
   checkpoint->n_sections = outside.n_sections;
@@ -180,14 +187,13 @@ static kz_status run_alone(const kz_stage *stage, char *records) {
   KZ_FREED char *own = stage->local ? kz_malloc(stage->record_bytes + 1) : NULL;
   for (int64_t tile = 0; tile < stage->n_tiles; tile++) {
     char *record = own ? own : records + (size_t)tile * stage->record_bytes;
-    KZ_TRY(kz_stage_work(stage, tile, memset(record, 0, stage->record_bytes)));
+    KZ_TRY(work_tile(stage, tile, memset(record, 0, stage->record_bytes)));
     if (own) kz_local_records_add(stage->local, tile, own, *(uint64_t *)(void *)own);
   }
   return KZ_OK;
 }
 
 kz_status kz_stage_run(const kz_run *on, const kz_stage *stage, void *records) {
-  if (on && on->sample) return kz_stage_sample(on->sample, stage, records);
   if (!on || !on->ranks) return run_alone(stage, records);
   stage_run run = {.ranks = on->ranks,
                    .checkpoint = on->checkpoint,

@@ -1,7 +1,6 @@
 """What `kapitza check` estimates, against what runs take: memory of the largest rank, disk of the file and the checkpoint."""
 
 import json
-import os
 import re
 import subprocess
 import time
@@ -77,79 +76,3 @@ def test_many_unsettled_cells_are_labelled_again_in_parts(kapitza, tmp_path):
         stages = [json.loads(line).get("stage") for line in (tmp_path / f"{ranks}.jsonl").read_text().splitlines() if '"stage", ' in line]
         assert stages.count("cells 1") == 1 and stages.count("cells 2") == 2, stages
     assert datasets(tmp_path / "1.h5") == datasets(tmp_path / "3.h5")
-
-
-# Scenes of all studies that take a second or less: what is foretold comes from samples, so that a tenth or ten times would be a mistake
-# in what they stand for, whatever machine this is.
-PENDULUM = "pendulum: {quality_factor: 5, drive_frequency: 11, drive_amplitude: 0.3}\n"
-TIMED = {
-    "basin": "basin: {theta: {count: 200}, velocity: {min: -2, max: 2, count: 200}, method: direct}\n",
-    "boundary": "basin: {theta: {count: 60}, velocity: {min: -2, max: 2, count: 60}, boundary: {pairs: 4000}}\n",
-    "shocks": "basin: {theta: {count: 60}, velocity: {min: -2, max: 2, count: 60}, shocks: {scale: 0.5}}\n",
-    "exact": "basin: {theta: {count: 60}, velocity: {min: -2, max: 2, count: 60}, method: exact}\n",
-    "attractors": "attractors: {velocity: {min: -2, max: 2}, starts: 2048}\n",
-    "strobe": "sweep: {parameter: drive_amplitude, min: 0.46, max: 0.58, count: 8, measure: [strobe], start: {theta: 3.1, velocity: 0}, "
-              "transient: 600, samples: 64}\n",
-    "ends": "sweep: {x: {parameter: drive_amplitude, min: 0.2, max: 0.5, count: 24}, y: {parameter: quality_factor, min: 3, max: 9, "
-             "count: 24}, measure: [ends], ends: {theta: [1], velocity: [0]}}\n",
-    "stability": "stability: {k: {min: -1, max: 2, count: 600}, m: {min: 0, max: 3, count: 600}, curves: [exact_1, exact_2]}\n",
-    "orbit": "orbit: {start: {theta: 0.5, velocity: 0}, transient: 4000}\n",
-    "measures": "measures: {names: [share, shock], velocity: {min: -2, max: 2}, shock_tolerance: 0.02}\n",
-    "atlas": "atlas: {x: {parameter: drive_amplitude, min: 0, max: 0.5}, y: {parameter: quality_factor, min: 3, max: 9}, max_period: 1, "
-             "checks: 20}\n",
-}
-
-
-def marked(studies, *names):
-    """The names of the studies; those that are named take long."""
-    return with_extensive([study for study in studies if study not in names], studies)
-
-
-def processor_seconds(kapitza, scene, folder):
-    """(foretold, taken); all of a run, MPI's start too."""
-    (folder / "s.yaml").write_text(PENDULUM + scene)
-    foretold = float(re.search(r"cost +([\d.]+) s", kapitza("check", "s.yaml", folder=folder).stdout)[1])
-    before = os.times()
-    kapitza("run", "s.yaml", "--force", folder=folder)
-    after = os.times()
-    return foretold, after.children_user + after.children_system - before.children_user - before.children_system
-
-
-@pytest.mark.parametrize("study", marked(TIMED, "atlas", "boundary", "shocks", "strobe"))
-def test_the_time_is_foretold_from_samples(kapitza, tmp_path, study):
-    ratio = 0.0
-    for _ in range(3):  # a machine that is busy with other things may disturb one of them
-        foretold, taken = processor_seconds(kapitza, TIMED[study], tmp_path)
-        ratio = foretold / taken
-        if 1 / 2 < ratio < 2:
-            return
-    assert 1 / 3 < ratio < 3, (foretold, taken)
-
-
-# Each has stages that take long, and a small part of them is done.
-LONG = {
-    "basin": "basin: {theta: {count: 20000}, velocity: {min: -2, max: 2, count: 20000}, method: exact}\n",
-    "strobe": "sweep: {parameter: drive_amplitude, min: 0.46, max: 0.58, count: 4000, measure: [strobe], start: {theta: 3.1, velocity: 0}, "
-              "transient: 40000, samples: 64}\n",
-    "saddles": "saddles: {velocity: {min: -2, max: 2}, max_period: 9}\n",
-    "tradeoff": "basin: {theta: {count: 4000}, velocity: {min: -2, max: 2, count: 4000}}\ntradeoff: {samples: 40000}\n",
-}
-
-
-@pytest.mark.parametrize("study", marked(LONG, "tradeoff", "strobe", "saddles"))
-def test_a_check_ends_soon_and_leaves_nothing(kapitza, tmp_path, study):
-    (tmp_path / "s.yaml").write_text(PENDULUM + LONG[study])
-    before = os.times()
-    text = kapitza("check", "s.yaml", folder=tmp_path).stdout
-    after = os.times()
-    assert re.search("^cost .* on one core", text, re.MULTILINE)
-    assert after.children_user + after.children_system - before.children_user - before.children_system < 20
-    assert [path.name for path in tmp_path.iterdir()] == ["s.yaml"]
-
-
-@pytest.mark.parametrize("seed", with_extensive([4], [7]))
-def test_rare_attractors_are_known_before_cells_are_timed(kapitza, seed):
-    """Of these starts few end on a rare attractor; without it, a cell of its basin would be followed for all of max_periods."""
-    keys = ["--set", f"basin.attractors.seed={seed}", "--set", "basin.max_periods=4000000"]
-    text = kapitza("check", ROOT / "scenes" / "small.yaml", *keys).stdout
-    assert re.search("^cost +[0-9.]+ s", text, re.MULTILINE)

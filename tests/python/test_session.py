@@ -194,7 +194,7 @@ def test_an_orbit_and_a_sweep():
 
 def test_a_check_costs_nothing():
     found = kapitza.check(SMALL, set=FEW)
-    assert found.cells == 480 and found.studies == ["basin"] and 0 < found.seconds < 100 and "count: 24" in found.scene
+    assert found.cells == 480 and found.studies == ["basin"] and "count: 24" in found.scene
     assert str(found).startswith(f"{SMALL} is a valid scene.") and "\ncost " in found.text
 
 

@@ -81,10 +81,7 @@ kz_status kz_atlas_run(const kz_scene *scene, const kz_run *run, kz_store *store
   KZ_TRY(kz_atlas_search(&atlas, run));
   KZ_FREED_BY(kz_atlas_raster_free) kz_atlas_raster raster = {0};
   if (store || scene->atlas->shares > 0) kz_atlas_raster_make(&atlas, &raster);
-  if (scene->atlas->shares > 0) {
-    const double more = (double)KZ_ATLAS_REGIONS / (double)raster.n_regions; /* a sampled run knows few regions */
-    KZ_TRY_WEIGHED(run, more, count_shares(&atlas, run, &raster));
-  }
+  if (scene->atlas->shares > 0) KZ_TRY(count_shares(&atlas, run, &raster));
   return kz_ranks_agree(run->ranks, store ? kz_atlas_write(&atlas, &raster, store, summary) : KZ_OK);
 }
 

@@ -68,7 +68,7 @@ static kz_status births_tile(void *context, int64_t tile, void *record) {
 static kz_status find_births(const kz_atlas *atlas, const kz_run *run, int64_t n, const double (*place)[2],
                              kz_atlas_bag *found) {
   births b = {atlas, place};
-  return kz_atlas_gather(run, "atlas births", n * TILES, KZ_ATLAS_SEEDS_BYTES, false, births_tile, &b, found);
+  return kz_atlas_gather(run, "atlas births", n * TILES, KZ_ATLAS_SEEDS_BYTES, births_tile, &b, found);
 }
 
 enum {
@@ -118,7 +118,7 @@ static kz_status trace_pending(kz_atlas *atlas, const kz_run *run) {
   tracing t = {.atlas = atlas, .seed = seed};
   for (next_seeds(atlas, &t); t.n > 0; next_seeds(atlas, &t)) {
     KZ_FREED_BY(kz_atlas_bag_free) kz_atlas_bag traced = {0};
-    KZ_TRY(kz_atlas_gather(run, "atlas curves", t.n, KZ_ATLAS_CURVE_BYTES, true, trace_tile, &t, &traced));
+    KZ_TRY(kz_atlas_gather(run, "atlas curves", t.n, KZ_ATLAS_CURVE_BYTES, trace_tile, &t, &traced));
     for (int64_t i = 0; i < t.n; i++) {
       kz_atlas_curve curve = kz_atlas_curve_in(traced.record[i]);
       if (curve.n > 0)
@@ -194,18 +194,13 @@ static kz_status explore(kz_atlas *atlas, const kz_run *run, int64_t n_cycles, c
   exploring e = {atlas, atlas->n_explored, curves > 0 ? lines_of(atlas) : 0, n_cycles, cycle};
   const int64_t n = 2 * e.lines + curves + n_cycles;
   if (n == 0) return KZ_OK;
-  KZ_TRY(kz_atlas_gather(run, "atlas branches", n, KZ_ATLAS_SEEDS_BYTES, true, explore_tile, &e, &found));
+  KZ_TRY(kz_atlas_gather(run, "atlas branches", n, KZ_ATLAS_SEEDS_BYTES, explore_tile, &e, &found));
   atlas->n_explored = atlas->n_curves;
   add_pending(atlas, &found);
   return KZ_OK;
 }
 
-/* A sampled run searches cycles of one period alone. As measured, the time for all grows like the longest period. */
-static double growth_of(const kz_atlas *atlas) {
-  return (double)atlas->scene->atlas->max_period / (double)atlas->max_period;
-}
-
-static kz_status drain(kz_atlas *atlas, const kz_run *run, int64_t n_cycles, const kz_atlas_seed *cycle) {
+kz_status kz_atlas_drain(kz_atlas *atlas, const kz_run *run, int64_t n_cycles, const kz_atlas_seed *cycle) {
   KZ_TRY(explore(atlas, run, n_cycles, cycle));
   while (atlas->pending.count > 0 || atlas->n_explored < atlas->n_curves) {
     KZ_TRY(trace_pending(atlas, run));
@@ -214,15 +209,10 @@ static kz_status drain(kz_atlas *atlas, const kz_run *run, int64_t n_cycles, con
   return KZ_OK;
 }
 
-kz_status kz_atlas_drain(kz_atlas *atlas, const kz_run *run, int64_t n_cycles, const kz_atlas_seed *cycle) {
-  KZ_TRY_WEIGHED(run, growth_of(atlas), drain(atlas, run, n_cycles, cycle));
-  return KZ_OK;
-}
-
 kz_status kz_atlas_search_places(kz_atlas *atlas, const kz_run *run, int64_t n, const double (*place)[2]) {
   KZ_FREED_BY(kz_atlas_bag_free) kz_atlas_bag found = {0};
   if (n == 0) return KZ_OK;
-  KZ_TRY_WEIGHED(run, growth_of(atlas), find_births(atlas, run, n, place, &found));
+  KZ_TRY(find_births(atlas, run, n, place, &found));
   add_pending(atlas, &found);
   return kz_atlas_drain(atlas, run, 0, NULL);
 }

@@ -35,15 +35,11 @@ static kz_status share(const kz_run *run, kz_atlas_bag *b) {
 }
 
 /* Runs a stage whose records have different lengths. Collective. */
-kz_status kz_atlas_gather(const kz_run *run, const char *name, int64_t n, size_t bytes, bool whole, kz_tile_fn work,
-                          void *context, kz_atlas_bag *b) {
+kz_status kz_atlas_gather(const kz_run *run, const char *name, int64_t n, size_t bytes, kz_tile_fn work, void *context,
+                          kz_atlas_bag *b) {
   *b = (kz_atlas_bag){n, kz_calloc((size_t)n + 1, sizeof *b->record)};
-  const kz_stage stage = {
-      .name = name, .n_tiles = n, .record_bytes = bytes, .work = work, .context = context, .keep = true, .whole = whole};
+  const kz_stage stage = {.name = name, .n_tiles = n, .record_bytes = bytes, .work = work, .context = context, .keep = true};
   KZ_TRY(kz_stage_gather(run, &stage, name, take, b));
-  const uint64_t nothing = sizeof nothing;
-  for (int64_t i = 0; !whole && kz_sampling_stands_for(run) > 1 && i < n; i++)
-    if (!b->record[i]) bag_put(b, i, &nothing);
   return share(run, b);
 }
 

@@ -9,9 +9,8 @@
 enum {
   PER_PLACE = 75, /* checks of a round for each further place */
   MANY = 256,     /* starts at places that check the curves */
-  ROUNDS = 16,    /* of checks at most; of cycles of more periods than the next number most atlases take all */
-  USUAL_PERIOD = 2,
-  QUIET = 2 /* rounds in a row that find nothing end the search: small basins escape a single one */
+  ROUNDS = 16,    /* of checks at most */
+  QUIET = 2       /* rounds in a row that find nothing end the search: small basins escape a single one */
 };
 
 /* ---- places whose attractors are searched ---- */
@@ -32,7 +31,7 @@ static kz_status probe_tile(void *context, int64_t tile, void *record) {
 
 static kz_status probe_all(const kz_run *run, const char *name, probing *p) {
   KZ_FREED_BY(kz_atlas_bag_free) kz_atlas_bag found = {0};
-  KZ_TRY(kz_atlas_gather(run, name, p->n, KZ_ATLAS_SEEDS_BYTES, false, probe_tile, p, &found));
+  KZ_TRY(kz_atlas_gather(run, name, p->n, KZ_ATLAS_SEEDS_BYTES, probe_tile, p, &found));
   for (int64_t i = 0; i < p->n; i++) {
     const kz_atlas_seeds seeds = kz_atlas_seeds_in(found.record[i]);
     kz_atlas_seeds *mine = &p->probe[i].found;
@@ -163,13 +162,11 @@ static kz_status check(kz_atlas *atlas, const kz_run *run, int round, int64_t *w
 
 /* Rounds of random places, until some in a row find nothing that the curves do not explain. */
 static kz_status check_all(kz_atlas *atlas, const kz_run *run, probing *last) {
-  const double usual = atlas->scene->atlas->max_period > USUAL_PERIOD ? ROUNDS : QUIET, stands_for = run->sample ? usual : 1;
   for (int round = 0, quiet = 0; round < ROUNDS && quiet < QUIET && atlas->scene->atlas->checks > 0; round++) {
-    KZ_TRY_WEIGHED(run, stands_for, check(atlas, run, round, &atlas->disagreed, last));
+    KZ_TRY(check(atlas, run, round, &atlas->disagreed, last));
     atlas->checked = atlas->scene->atlas->checks;
     atlas->rounds = round + 1;
     quiet = atlas->disagreed == 0 ? quiet + 1 : 0;
-    if (run->sample) break;
   }
   kz_atlas_compare_images(atlas);
   return KZ_OK;
@@ -200,7 +197,6 @@ static kz_status confirm(kz_atlas *atlas, const kz_run *run, probing *p) {
 
 kz_status kz_atlas_search(kz_atlas *atlas, const kz_run *run) {
   if (!atlas->undriven) KZ_TRY(search_reference(atlas, run));
-  if (run->sample) atlas->max_period = 1;
   KZ_TRY(search_next(atlas, run, 0, atlas->scene->atlas->seeds));
   probing last = {0};
   kz_status status = check_all(atlas, run, &last);

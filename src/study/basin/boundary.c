@@ -37,13 +37,11 @@ static kz_status write_pairs(int n, const kz_uncertain *u, kz_store *store, FILE
 }
 
 /* Boxes of all cells, strip by strip from the file. */
-static kz_status count_boxes(const kz_basin_plan *plan, const kz_run *run, kz_store *store, kz_box_counts *counts) {
+static kz_status count_boxes(const kz_basin_plan *plan, kz_store *store, kz_box_counts *counts) {
   const int64_t columns = plan->theta.count, rows = plan->velocity.count;
   KZ_FREED int16_t *label = kz_malloc((size_t)((STRIP + 1) * columns) * sizeof *label);
   kz_status status = KZ_OK;
-  const kz_sampling_mark mark = kz_sampling_mark_now(run);
   for (int64_t row = 0; status == KZ_OK && row + 1 < rows; row += STRIP) {
-    if (kz_sampling_enough(run, &mark, (double)row / (double)rows)) break;
     const int64_t n = rows - row < STRIP + 1 ? rows - row : STRIP + 1;
     status = kz_store_rows(store, "basin", "attractor", row, n, label);
     if (status == KZ_OK) kz_boxes_count(columns, n, label, kz_box_sizes(columns, rows), counts);
@@ -91,7 +89,7 @@ kz_status kz_boundary_find(const kz_scene *scene, const kz_window_labels *labell
   kz_status status = KZ_OK;
   if (store) {
     status = write_pairs(kz_distances_of(plan), uncertain, store, summary);
-    if (status == KZ_OK) status = count_boxes(plan, labelling->run, store, &counts);
+    if (status == KZ_OK) status = count_boxes(plan, store, &counts);
     if (status == KZ_OK) status = write_boxes(&counts, catalogue->count, store, summary);
   }
   return kz_ranks_agree(labelling->run->ranks, status);

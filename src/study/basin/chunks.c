@@ -181,9 +181,7 @@ static kz_status count_rows(kz_chunks *c) {
   const int64_t most = (tiles->chunk[0] + KZ_BOX - 1) / KZ_BOX * KZ_BOX;
   KZ_FREED int16_t *ids = kz_malloc((size_t)(most * tiles->columns) * sizeof *ids);
   kz_status status = KZ_OK;
-  const kz_sampling_mark mark = kz_sampling_mark_now(c->labelling->run);
   for (int64_t row = 0; row < tiles->rows && status == KZ_OK; row += most) {
-    if (kz_sampling_enough(c->labelling->run, &mark, (double)row / (double)tiles->rows)) break;
     const int64_t n = tiles->rows - row < most ? tiles->rows - row : most;
     if ((status = kz_store_rows(c->store, "basin", "attractor", row, n, ids)) != KZ_OK) break;
     kz_count_boxes(tiles->columns, n, ids, &c->counts);

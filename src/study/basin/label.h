@@ -67,8 +67,3 @@ kz_status kz_tile_labels_replace(const kz_window_labels *labelling, kz_local_rec
 int64_t kz_tile_labels_pending(const kz_local_record *kept, int16_t wanted);
 /* Adds the tile to labelling->reached of every attractor that one of its cells ends on. */
 void kz_tile_labels_note_reached(const kz_window_labels *labelling, const kz_local_record *kept);
-
-/* How many tiles of the window each one in `records` stands for: 1, or more in a sampled run. */
-static inline double kz_tiles_stand_for(const kz_window_labels *labelling) {
-  return labelling->records.stands_for > 0 ? labelling->records.stands_for : 1;
-}

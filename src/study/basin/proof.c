@@ -90,7 +90,6 @@ static kz_status find_ellipses(const kz_run *run, job *j) {
   const int64_t count = kz_dynamics_count(j->dynamics), n = count < KZ_PROOF_MOST ? count : KZ_PROOF_MOST;
   seed seeds[KZ_PROOF_MOST];
   kz_stage stage = kz_stage_for_all("proved ellipses", n, sizeof *seeds, find_seed, j);
-  stage.whole = true;
   KZ_TRY(kz_stage_run(run, &stage, seeds));
   for (int64_t i = 0; i < n; i++) {
     const seed *s = &seeds[i];
@@ -116,7 +115,6 @@ static kz_status grow(const kz_run *run, const job *j, uint8_t *label) {
     char name[32];
     snprintf(name, sizeof name, "proof region %d", round);
     kz_stage stage = kz_stage_for_all(name, own / COLUMNS, COLUMNS, follow_row, (void *)j);
-    stage.whole = true;
     KZ_TRY(kz_stage_run(run, &stage, label));
     if ((double)kz_proof_adopt(j->proof, label, j->proved->mirror) <= GAIN * (double)own) return KZ_OK;
   }

@@ -86,7 +86,7 @@ static kz_status prove_left(const kz_run *run, part *p) {
   const kz_labeller labeller = {
       .way = KZ_BY_LEVELS, .context = p, .at = prove_at, .levels = proof_levels, .n_levels = KZ_ENCLOSURES, .run = run};
   KZ_FREED kz_label *label = kz_malloc((size_t)p->n_left * sizeof *label + 1);
-  KZ_TRY_WEIGHED(run, kz_tiles_stand_for(p->labelling), kz_label_items(&labeller, 1, p->n_left, p->left, label));
+  KZ_TRY(kz_label_items(&labeller, 1, p->n_left, p->left, label));
   for (int64_t i = 0; i < p->n_left; i++) {
     if (label[i].label <= 0) continue;
     p->number[p->left[i] - p->first] = (uint8_t)label[i].label;

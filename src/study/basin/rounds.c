@@ -71,9 +71,7 @@ static kz_status label_pending_tiles(kz_window_labels *l, int round, int64_t fro
   KZ_FREED kz_label *found = kz_malloc((size_t)n * sizeof *found);
   KZ_TRY(pick_pending(l, from, n, n, cell, level));
   for (int64_t i = 0; i < n; i++) found[i] = (kz_label){.label = l->wanted, .next = (uint8_t)level[i]};
-  kz_sampling_weigh(l->run, kz_tiles_stand_for(l));
   kz_status status = (l->wanted == 0 ? kz_label_items : kz_label_doubtful)(&l->labeller, round, n, cell, found);
-  kz_sampling_weigh(l->run, 1 / kz_tiles_stand_for(l));
   for (int64_t i = 0; i < l->records.n && status == KZ_OK; i++) status = merge(l, &l->records.list[i], from, n, found);
   return kz_ranks_agree(l->run->ranks, status);
 }

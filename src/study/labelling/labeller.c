@@ -147,7 +147,7 @@ static int32_t level_after(const kz_labeller *l, int32_t level, int64_t pending)
   if (pending == 0 || level == KZ_LEVELS || l->way != KZ_BY_LEVELS) return KZ_LEVELS + 1;
   if (level == KZ_LEVEL_QUAD) return l->decide ? KZ_LEVEL_ARBITRARY : last;
   if (level == KZ_LEVEL_ARBITRARY) return last;
-  return level >= KZ_LEVEL_FINE && (double)pending * kz_sampling_weight(l->run) <= FEW ? KZ_LEVEL_QUAD : level + 1;
+  return level >= KZ_LEVEL_FINE && pending <= FEW ? KZ_LEVEL_QUAD : level + 1;
 }
 
 /* Items that a level labels, in a stage. */

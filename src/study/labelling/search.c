@@ -230,7 +230,6 @@ kz_status kz_map_table_make(const kz_run *run, kz_dynamics *dynamics, int64_t n_
   kz_dynamics_table_create(dynamics, n_theta, n_velocity, max_velocity);
   const size_t bytes = TABLE_ROWS * (size_t)kz_dynamics_table_row_size(dynamics) * sizeof(double);
   kz_stage stage = kz_stage_of_items("map table", n_velocity, TABLE_ROWS, bytes, table_rows, dynamics);
-  stage.whole = true;
   KZ_FREED double *rows = kz_malloc((size_t)stage.n_tiles * stage.record_bytes);
   kz_status status = kz_stage_run(run, &stage, rows);
   if (status == KZ_OK) kz_dynamics_table_set(dynamics, rows);

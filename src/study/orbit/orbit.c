@@ -145,10 +145,8 @@ static kz_status skip_stretch(void *context, int64_t tile, void *record) {
 /* The transient in stretches, so that a stop request ends it between two of them and what is done is kept. Collective. */
 static kz_status skip_transient(kz_orbit *orbit, const kz_run *run) {
   const int64_t transient = orbit->scene->orbit->transient;
-  const kz_sampling_mark mark = kz_sampling_mark_now(run);
   for (int64_t done = 0; done < transient; done += STRETCH) {
     char name[32];
-    if (kz_sampling_enough(run, &mark, (double)done / (double)transient)) break;
     snprintf(name, sizeof name, "transient %" PRId64, done / STRETCH + 1);
     const int64_t periods = transient - done < STRETCH ? transient - done : STRETCH;
     kz_stretch stretch = {&orbit->model, periods, orbit->cycle.state};

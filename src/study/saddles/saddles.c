@@ -191,9 +191,7 @@ static kz_status run_rounds(const kz_scene *scene, const kz_run *run, kz_found *
     const int64_t before = found->count;
     KZ_TRY(kz_lines_run(run, &lines, name, found));
     quiet = round > 0 && found->count == before ? quiet + 1 : 0;
-    const bool sampled =
-        kz_sampling_stands_for(run) > 1; /* such a round always finds something new: most searches end after this one */
-    const bool last = round == ROUNDS - 1 || (sampled && round + 1 == USUAL_ROUNDS);
+    const bool last = round == ROUNDS - 1;
     if (here && (quiet == 1 || (last && quiet == 0))) list_cycles(scene, found, cycles, sums);
     enough = last || quiet == QUIET || (quiet > 0 && (undamped || sums->open == 0));
     KZ_TRY(kz_ranks_broadcast(run->ranks, &enough, sizeof enough));

@@ -177,14 +177,13 @@ static kz_status walk_round(walking *w, const kz_run *run, bool forward, int64_t
 }
 
 static kz_status walk_all(walking *w, const kz_run *run) {
-  const bool once = kz_sampling_weight(run) != 1; /* a sample knows few values */
   int64_t n, walked = 1;
-  for (int round = 0; walked > 0 && !(once && round > 0); round++) {
+  for (int round = 0; walked > 0; round++) {
     walked = 0;
     for (int forward = 1; forward >= 0; forward--) do {
         KZ_TRY(walk_round(w, run, forward, &n));
         walked += n;
-      } while (n > 0 && !once);
+      } while (n > 0);
   }
   return KZ_OK;
 }

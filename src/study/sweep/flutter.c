@@ -105,7 +105,6 @@ static kz_status follow_leg(void *context, int64_t tile, void *record) {
 
 static kz_status run_stage(flutter_job *f, const char *name, kz_tile_fn work, int64_t n_tiles, size_t bytes, void *records) {
   kz_stage stage = kz_stage_for_all(name, n_tiles, bytes, work, f);
-  stage.whole = true;
   return kz_stage_run(f->run, &stage, records);
 }
 

@@ -85,10 +85,8 @@ static kz_status walk(const kz_scene *scene, const kz_run *run, double *points) 
   const strobe_state start = {plan->start_theta, plan->start_velocity};
   const int64_t at_once = LEG_PERIODS / (plan->transient + plan->samples);
   walking w = {.scene = scene, .state = {start, start}, .values = at_once > 0 ? at_once : 1};
-  const kz_sampling_mark mark = kz_sampling_mark_now(run);
   for (w.first = 0; w.first < plan->values.count; w.first += w.values) {
     int64_t left = plan->transient;
-    if (kz_sampling_enough(run, &mark, (double)w.first / (double)plan->values.count)) break;
     for (w.pushed = true, w.samples = 0, w.skip = LEG_PERIODS; left > LEG_PERIODS; left -= LEG_PERIODS, w.pushed = false)
       KZ_TRY(run_leg(&w, run, NULL));
     w.skip = left;

@@ -51,7 +51,7 @@ static kz_status run_branches(const kz_scene *scene, const kz_run *run, kz_store
   KZ_FREED_BY(kz_sweep_branches_free) kz_sweep_branches branches = {0};
   KZ_FREED kz_sweep_catalogue *catalogue = kz_malloc((size_t)plan->values.count * sizeof *catalogue);
   KZ_TRY(kz_sweep_catalogues(scene, run, catalogue));
-  KZ_TRY_WEIGHED(run, kz_sampling_stands_for(run), kz_sweep_branches_make(scene, run, catalogue, &branches));
+  KZ_TRY(kz_sweep_branches_make(scene, run, catalogue, &branches));
   return kz_ranks_agree(run->ranks, store ? kz_sweep_branches_write(scene, catalogue, &branches, store, summary) : KZ_OK);
 }
 
