@@ -37,10 +37,10 @@ const char *kz_store_library(void);
 
 /* The words by which the half file of a killed run is known, in its first 8 KiB. */
 #define KZ_STORE_UNFINISHED "an unfinished result of kapitza"
-/* Creates PATH.part, which may hold the variables of `groups`, of which the last has no name. KZ_REFUSED if it cannot be written. `path` NULL:
- * the file stays in memory, and only kz_store_discard ends it. */
+/* Creates PATH.part, which may hold the variables of `groups`, of which the last has no name. KZ_REFUSED if it cannot be
+ * written. */
 kz_status kz_store_create(const char *path, const kz_group *groups, kz_store **store);
-/* PATH; NULL = in memory. */
+/* PATH. */
 const char *kz_store_path(const kz_store *store);
 /* Flushes and closes the file, and renames it to PATH (fsync before the rename). Frees the store in every case. After a failure (KZ_FAILED,
  * as on a full disk) neither PATH nor PATH.part is left. */

@@ -8,10 +8,6 @@
 #include <string.h>
 #include <unistd.h>
 
-/* A store in memory: bytes by which it grows; HDF5 wants a name of no file. */
-enum { MEMORY_STEP = 1 << 20 };
-static const char NOWHERE[] = "/dev/null/kapitza";
-
 /* Variable-length attributes have no limit of 64 KiB in this format. Other readers need not lock a file that has no name yet. */
 static kz_status create_file(kz_store *store) {
   const hid_t access = H5Pcreate(H5P_FILE_ACCESS), creation = H5Pcreate(H5P_FILE_CREATE);
@@ -19,8 +15,7 @@ static kz_status create_file(kz_store *store) {
                     H5Pset_fclose_degree(access, H5F_CLOSE_STRONG) >= 0 && H5Pset_file_locking(access, false, true) >= 0 &&
                     H5Pset_link_creation_order(creation, H5P_CRT_ORDER_TRACKED | H5P_CRT_ORDER_INDEXED) >= 0 &&
                     H5Pset_obj_track_times(creation, 0) >= 0 && H5Pset_attr_phase_change(creation, 64, 0) >= 0 &&
-                    (store->part || H5Pset_fapl_core(access, MEMORY_STEP, false) >= 0) &&
-                    (store->file = H5Fcreate(store->part ? store->part : NOWHERE, H5F_ACC_EXCL, creation, access)) >= 0;
+                    (store->file = H5Fcreate(store->part, H5F_ACC_EXCL, creation, access)) >= 0;
   const kz_status status = made ? KZ_OK : kz_hdf5_fail(__FILE__, __LINE__);
   H5Pclose(access);
   H5Pclose(creation);
@@ -47,7 +42,6 @@ static kz_status mark(const kz_store *store, const char *text) {
 
 /* Both here and in HDF5 the file is created, never opened: a link of that name must not lead elsewhere. */
 static kz_status try_path(kz_store *store, const char *path) {
-  if (!path) return KZ_OK;
   const size_t size = strlen(path) + sizeof ".part";
   store->path = kz_strdup(path);
   store->part = kz_malloc(size);

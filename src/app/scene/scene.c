@@ -182,11 +182,3 @@ void kz_scene_free(kz_scene *scene) {
   kz_kept_series_free(scene->series);
   memset(scene, 0, sizeof *scene);
 }
-
-void kz_scene_copy(const kz_scene *scene, kz_scene *copy) {
-  *copy = *scene;
-  if (copy->title) copy->title = kz_strdup(copy->title);
-  kz_plans_copy(copy);
-  copy->series = kz_kept_series_create();
-  copy->numerics.series = copy->series;
-}

@@ -163,8 +163,6 @@ kz_status kz_scene_of_tree(kz_node *root, kz_scene *scene);
 /* Reads the text of a scene and --set options ("KEY=VALUE") into a scene, which the caller frees. KZ_REFUSED names the first error. */
 kz_status kz_scene_read(const char *text, size_t length, const char *file, int n_sets, char *const *sets, kz_scene *scene);
 void kz_scene_free(kz_scene *scene);
-/* A copy with texts and series of its own; free it too. */
-void kz_scene_copy(const kz_scene *scene, kz_scene *copy);
 /* Completes a message "KEY|KEY: what is wrong" of another layer with the place of the first of its keys that the scene gives (else of the
  * last one's mapping). Other messages stay as they are. Returns `status`. */
 kz_status kz_scene_locate(kz_status status, const char *text, size_t length, const char *file, int n_sets, char *const *sets);
