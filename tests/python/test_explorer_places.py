@@ -184,6 +184,21 @@ def test_crossing_a_curve_says_what_happens_and_sliders_mark_it(page):
     assert mark == "0.468 mm: upright rest, period doubling"
 
 
+def test_a_jump_over_several_curves_says_what_lives_at_its_ends(modules):
+    """It named the first of 43 curves: "upright rest is stable again", beside a slider by which it does not stand."""
+    script = f"""import("/happenings.js").then(({{happening}}) => {{ const map = new its.Atlas(...{ATLAS});
+        const leans = {{...map.curves[0], kind: "rest_leans"}}, up = [[0.3, 0.2], [0.3, 0.9]], within = [[0.3, 0.7], [0.3, 0.9]];
+        map.crossed = () => [map.curves[0], leans].map((curve) => ({{curve, point: 0, at: 0.5, into: true}}));
+        const said = [up, up.toReversed(), within].map((way) => happening(map, ...way));
+        map.classes.push({{name: "x", words: "x 5/5", period: 5}}, {{name: "y", words: "y 3/3", period: 3}});
+        map.lists[1] = [3, 4, 2, 1].map((motion) => [motion, 1]);
+        said.push(happening(map, ...up)); map.lists[0] = null; return [...said, happening(map, ...up)]; }})"""
+    up, down, within, many, unknown = modules.module("atlas.js", script)
+    assert up == "New here: rotations 2/2, flutter. Gone: upright rest" and down == "New here: upright rest. Gone: rotations 2/2, flutter"
+    assert within == "" and many == "New here: rotations 2/2, flutter, y 3/3 and 1 more. Gone: upright rest"
+    assert unknown == "What has changed is not known: a curve of the map is missing"
+
+
 def test_sliders_know_their_unit_and_say_what_is_no_number(page):
     words = "[its.typed('9', '8 mm'), its.typed('1e1 cm', '8 mm'), its.typed('.5', '0.3'), its.typed('x', '0.3')]"
     assert page.module("sliders.js", words) == ["9 mm", "10 cm", "0.5", None]

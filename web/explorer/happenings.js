@@ -1,12 +1,29 @@
 // What happens to the motions where a way over the map crosses curves, in words.
 
-/** A sentence on the way from one place of an atlas to another; "" where nothing happens. */
+const NAMED = 3; // motions of a sentence that names several
+
+/** A sentence on the way from one place of an atlas to another: on the curve that it crosses; where there are several, on
+ * what lives at its ends. "" where nothing happens. */
 export function happening(atlas, from, to) {
   const crossings = atlas.crossed(from, to);
   if (!crossings.length) return "";
-  const [first, ...others] = crossings.sort((one, other) => one.curve.period - other.curve.period);
-  const change = changed(atlas, ...beside(first, from, to, 1.5 / atlas.cells));
-  return capital(sentence(atlas, first, change)) + (others.length ? ` (${others.length} more)` : "");
+  const [first, ...others] = crossings;
+  if (others.length) return compared(atlas, from, to);
+  return capital(sentence(atlas, first, changed(atlas, ...beside(first, from, to, 1.5 / atlas.cells))));
+}
+
+/** What a place has that another has not, and the other way round. */
+function compared(atlas, from, to) {
+  const isKnown = (place) => atlas.countOf(atlas.listAt(place)) !== null;
+  if (!isKnown(from) || !isKnown(to)) return "What has changed is not known: a curve of the map is missing";
+  const { born, gone } = changed(atlas, from, to);
+  const parts = [["New here", born], ["Gone", gone]].filter(([, motions]) => motions.length);
+  return parts.map(([word, motions]) => `${word}: ${listed(motions)}`).join(". ");
+}
+
+function listed(motions) {
+  const words = motions.toSorted((one, other) => one.period - other.period).map((motion) => motion.words);
+  return words.slice(0, NAMED).join(", ") + (words.length > NAMED ? ` and ${words.length - NAMED} more` : "");
 }
 
 /** Places before and behind a crossing of a way, so far from it. */
