@@ -10,9 +10,10 @@ double kz_point_distance(double theta, double velocity, const kz_strobe_point *p
 }
 
 static bool read_pendulum(FILE *in, kz_pendulum *p) {
-  if (fscanf(in, "%lf %lf %lf %lf %d", &p->k, &p->beta, &p->m, &p->torque, &p->harmonics) != 5) return false;
+  if (fscanf(in, "%lf %lf %lf %lf %lf %d", &p->k, &p->beta, &p->m, &p->torque, &p->torque_amplitude, &p->harmonics) != 6)
+    return false;
   if (p->harmonics < 0 || p->harmonics > KZ_HARMONICS) return false;
-  p->unmirrored = p->torque != 0;
+  p->unmirrored = p->torque != 0 || p->torque_amplitude != 0;
   for (int j = 0; j < p->harmonics; j++) {
     double *up = p->vertical[j], *aside = p->horizontal[j];
     if (fscanf(in, "%lf %lf %lf %lf", &up[0], &up[1], &aside[0], &aside[1]) != 4) return false;

@@ -41,7 +41,7 @@ class Catalogue:
     """A pendulum and the strobe points of its attractors, as text for reference_label and for the textbook programs."""
 
     def __init__(self, result):
-        self.pendulum = [result.pendulum.get(name, 0.0) for name in ("k", "beta", "m", "torque")]
+        self.pendulum = [result.pendulum.get(name, 0.0) for name in ("k", "beta", "m", "torque", "torque_amplitude")]
         with h5py.File(result.path) as file:
             drive = file["pendulum"]
             parts = [drive[name][:] for name in ("vertical", "horizontal") if name in drive]

@@ -1,10 +1,10 @@
 /* model: the pendulum, its drive, its symmetry, and bounds of its forces (Fortran; the layer above common).
  *
- * theta'' + beta theta' + a(t) sin theta - b(t) cos theta = torque
+ * theta'' + beta theta' + a(t) sin theta - b(t) cos theta = torque + torque_amplitude cos t
  * a = k - m cos t - sum_j (vertical[j-1][0] cos j t + vertical[j-1][1] sin j t)
  * b = sum_j (horizontal[j-1][0] cos j t + horizontal[j-1][1] sin j t)
- * theta in rad from the DOWN position, t in drive radians; a period is 2 pi. If vertical, horizontal and torque are 0, the pendulum is
- * {k, beta, m} and the equation is BSG Eq. 2, or BUT Eq. 9 in drive time. */
+ * theta in rad from the DOWN position, t in drive radians; a period is 2 pi. If vertical, horizontal and both torques are 0, the
+ * pendulum is {k, beta, m} and the equation is BSG Eq. 2, or BUT Eq. 9 in drive time. */
 #pragma once
 
 #include <stdint.h>
@@ -18,6 +18,7 @@ typedef struct {
   double beta;                        /* damping, >= 0 */
   double m;                           /* drive, any sign */
   double torque;                      /* constant torque, in units of I omega^2 */
+  double torque_amplitude;            /* amplitude of the oscillating torque, in the same units */
   double vertical[KZ_HARMONICS][2];   /* amplitudes of cosine and sine of harmonics 1, 2, .. */
   double horizontal[KZ_HARMONICS][2]; /* the same for the horizontal drive */
   int32_t harmonics;                  /* highest harmonic in use; 0 = none */
@@ -37,7 +38,7 @@ typedef struct {
 /* Wave forms of the drive. */
 enum { KZ_SINE = 0, KZ_SQUARE = 1, KZ_TRIANGLE = 2, KZ_SAMPLES = 3 };
 
-/* An upper bound of |a(t)| + |b(t)| + |torque| over all t. */
+/* An upper bound of |a(t)| + |b(t)| + |torque| + |torque_amplitude| over all t. */
 double kz_stiffness(const kz_pendulum *pendulum);
 
 /* 1 if the mirror image (-theta, -velocity) of every motion is a motion too, which needs no torque and no horizontal drive; else 0. */
@@ -47,7 +48,8 @@ int32_t kz_is_mirrored(const kz_pendulum *pendulum);
 int32_t kz_is_sine(const kz_pendulum *pendulum);
 
 /* Bounds of the force for enclosures, right up to rounding in extended precision.
- * kz_force_sizes: sizes [n] bound the Taylor coefficients of h (a(t) sin - b(t) cos) in t/h, for a step of length h that begins at any t.
+ * kz_force_sizes: sizes [n] bound the Taylor coefficients of h (a(t) sin - b(t) cos - torque(t)) in t/h, for a step of length h that
+ * begins at any t.
  * kz_force_majorant: the largest force at complex times with |Im t| <= r.
  * kz_force_largest: the largest force during step i of length h, counted from t = 0. */
 void kz_force_sizes(const kz_pendulum *pendulum, long double h, int32_t n, long double *sizes);

@@ -78,12 +78,11 @@ void kz_drive_resolve(const kz_parameters *parameters, kz_pendulum *pendulum);
 /* The drive for k = 0 and m = 1, for the linear equation at rest; the cosine of a scene without a pendulum. Coefficients beside m = 0 are left
  * as they are. */
 void kz_drive_form(const kz_parameters *parameters, kz_pendulum *form);
-const char *kz_drive_contradiction(const kz_pendulum_keys *written,
-                                   const kz_pendulum *pendulum); /* what contradicts; NULL = nothing */
-void kz_drive_print(const kz_parameters *parameters, FILE *out); /* a summary line: harmonics in use, and their error */
+const char *kz_drive_contradiction(const kz_pendulum_keys *written); /* what contradicts; NULL = nothing */
+void kz_drive_print(const kz_parameters *parameters, FILE *out);     /* a summary line: harmonics in use, and their error */
 /* Writes the group `pendulum`: every number that is integrated. Rank 0. */
 extern const kz_variable kz_pendulum_variables[];
 kz_status kz_pendulum_write(const kz_parameters *parameters, kz_store *store);
-/* Place of the pivot at a phase of the drive (rad): {aside, height} in units of I/(M r). At rest with torque_amplitude. */
+/* Place of the pivot at a phase of the drive (rad): {aside, height} in units of I/(M r). */
 void kz_pivot_at(const kz_parameters *parameters, double phase, double place[2]);
 void kz_release_resolve(const kz_parameters *parameters, kz_release *release);

@@ -195,7 +195,7 @@ def parameters_text(pendulum: Mapping[str, Any]) -> str:
     if not all(np.isfinite(value) for _, value in known):
         known = [("k", pendulum["k"]), (r"$\beta$", pendulum["beta"]), ("m", pendulum["m"])]
     torques = [(name.replace("_", " "), pendulum[name]) for name in TORQUES if pendulum.get(name)]
-    if "torque_amplitude" in pendulum:
+    if torques and pendulum["m"] == 0:
         known = known[:-1]  # the pivot is at rest
     return ",  ".join(f"{symbol} = {value:.6g}" for symbol, value in [*known, *torques])
 

@@ -1,4 +1,4 @@
-!> The equation of motion, theta'' + beta theta' + a(t) sin theta - b(t) cos theta = torque, with
+!> The equation of motion, theta'' + beta theta' + a(t) sin theta - b(t) cos theta = torque + torque_amplitude cos t, with
 !> a = k - m cos t - sum_j (vertical(1, j) cos j t + vertical(2, j) sin j t), b = sum_j (horizontal(1, j) cos j t + horizontal(2, j) sin j t):
 !> include/kapitza/model.h. Integrators take a and b, their series in time, their symmetry and bounds from here.
 module kz_model_pendulum
@@ -19,6 +19,7 @@ module kz_model_pendulum
     real(c_double) :: beta
     real(c_double) :: m
     real(c_double) :: torque = 0
+    real(c_double) :: torque_amplitude = 0
     real(c_double) :: vertical(2, MOST_HARMONICS) = 0
     real(c_double) :: horizontal(2, MOST_HARMONICS) = 0
     integer(c_int32_t) :: harmonics = 0
@@ -62,7 +63,7 @@ contains
     same = all(transfer(one, [0_c_int32_t]) == transfer(other, [0_c_int32_t])) ! to the bit
   end function is_same
 
-  !> An upper bound of |a(t)| + |b(t)| + |torque| over all t.
+  !> An upper bound of |a(t)| + |b(t)| + |torque| + |torque_amplitude| over all t.
   pure function stiffness(pendulum) bind(C, name='kz_stiffness') result(bound)
     type(pendulum_t), intent(in) :: pendulum !< the pendulum
     real(c_double) :: bound
@@ -81,7 +82,7 @@ contains
       bound = bound + hypot(pendulum%vertical(1, j), pendulum%vertical(2, j)) &
               + hypot(pendulum%horizontal(1, j), pendulum%horizontal(2, j))
     end do
-    bound = bound + abs(pendulum%torque)
+    bound = bound + abs(pendulum%torque) + abs(pendulum%torque_amplitude)
   end function exact_stiffness
 
   !> 1 if the mirror image (-theta, -velocity) of every motion is a motion too, else 0.
@@ -140,7 +141,7 @@ contains
       rate = rate + (pendulum%vertical(1, j)*cos(j*t) + pendulum%vertical(2, j)*sin(j*t))*sin(theta) &
              + (pendulum%horizontal(1, j)*cos(j*t) + pendulum%horizontal(2, j)*sin(j*t))*cos(theta)
     end do
-    if (pendulum%unmirrored /= 0) rate = rate + pendulum%torque
+    if (pendulum%unmirrored /= 0) rate = rate + pendulum%torque + pendulum%torque_amplitude*cos(t)
   end function acceleration
 
   !> kz_force_sizes of model.h.
@@ -152,7 +153,7 @@ contains
     real(ld) :: size
     integer :: i, j
 
-    size = abs(real(pendulum%m, ld))*h
+    size = (abs(real(pendulum%m, ld)) + abs(real(pendulum%torque_amplitude, ld)))*h
     do i = 0, n - 1
       sizes(i) = size
       size = size*(h/(i + 1))
@@ -174,7 +175,7 @@ contains
     real(c_long_double) :: bound
     integer :: j
 
-    bound = abs(real(pendulum%k, ld)) + abs(real(pendulum%m, ld))*cosh(r)
+    bound = abs(real(pendulum%k, ld)) + (abs(real(pendulum%m, ld)) + abs(real(pendulum%torque_amplitude, ld)))*cosh(r)
     do j = 1, pendulum%harmonics
       bound = bound + amplitude(pendulum, j)*cosh(j*r)
     end do
@@ -193,7 +194,7 @@ contains
     do j = 1, pendulum%harmonics
       bound = bound + amplitude(pendulum, j)
     end do
-    bound = bound + abs(real(pendulum%torque, ld))
+    bound = bound + abs(real(pendulum%torque, ld)) + abs(real(pendulum%torque_amplitude, ld))
   end function force_largest
 
   !> A bound of what harmonic j adds to |a(t)| + |b(t)|.

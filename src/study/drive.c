@@ -4,8 +4,8 @@
 
 #include "kapitza/study.h"
 
-/* Highest harmonics of the Fourier series that stand for a wave form with corners, for samples, and for the swing of a torque if they hold it. */
-enum { CORNERED = 7, SAMPLED = 16, SWUNG = 16 };
+/* Highest harmonics of the Fourier series that stand for a wave form with corners, and for samples. */
+enum { CORNERED = 7, SAMPLED = 16 };
 
 static bool has(double value) {
   return !isnan(value) && value != 0;
@@ -97,67 +97,15 @@ static double distance_from_samples(const kz_reals *samples) {
   return largest;
 }
 
-/* Largest Bessel function that may be left out beyond the last harmonic. */
-static const double BESSEL_LEFT = 1e-9;
-
-/* The motion of a free pendulum under an oscillating torque T cos t: g = amplitude cos(t + phase), g'' + beta g' = T cos t. */
-static void swing_of(double torque_amplitude, double beta, double *amplitude, double *phase) {
-  *amplitude = torque_amplitude / hypot(1, beta);
-  *phase = atan2(-beta, -1);
-}
-
-/* The amplitudes of cos j(t + phase) in cos g (j even) and sin g (j odd), j >= 1: 2 (-1)^floor(j/2) J_j. */
-static double bessel_of(double amplitude, int j) {
-  return (j / 2 % 2 == 0 ? 2 : -2) * jn(j, amplitude);
-}
-
-/* How many harmonics stand for gravity under a swing: SWUNG, or all if these leave more than BESSEL_LEFT. */
-static int harmonics_of_swing(double amplitude) {
-  return fabs(bessel_of(amplitude, SWUNG + 1)) > BESSEL_LEFT ? KZ_HARMONICS : SWUNG;
-}
-
-/* theta = phi + g: phi'' + beta phi' + k cos g sin phi + k sin g cos phi = torque, a drive of the pivot in the plane. */
-static void resolve_swing(const kz_pendulum_keys *written, kz_pendulum *p) {
-  double amplitude, phase;
-  swing_of(written->torque_amplitude, p->beta, &amplitude, &phase);
-  p->harmonics = 1;
-  for (int j = 1; j <= harmonics_of_swing(amplitude); j++) {
-    const double size = -p->k * bessel_of(amplitude, j);
-    double *harmonic = j % 2 == 0 ? p->vertical[j - 1] : p->horizontal[j - 1];
-    harmonic[0] = size * cos(j * phase), harmonic[1] = -size * sin(j * phase);
-    if (fabs(bessel_of(amplitude, j)) > 1e-17) p->harmonics = j;
-  }
-  p->k *= jn(0, amplitude);
-  p->unmirrored = 1;
-}
-
-const char *kz_drive_contradiction(const kz_pendulum_keys *written, const kz_pendulum *p) {
-  double amplitude, phase;
+const char *kz_drive_contradiction(const kz_pendulum_keys *written) {
   const bool shaped =
       written->waveform > KZ_SINE || written->harmonics.count > 0 || has(written->tilt) || has(written->ellipse);
-  if (has_coefficients(written) && (shaped || has(written->torque_amplitude)))
-    return "vertical and horizontal are the whole drive beside k and m; leave out waveform and the other keys of its form";
-  if (!has(written->torque_amplitude)) return NULL;
-  if (has(p->m) || shaped)
-    return "torque_amplitude is for a pivot at rest; set the drive's amplitude to 0 and leave out the other keys of its form";
-  swing_of(written->torque_amplitude, p->beta, &amplitude, &phase);
-  if (fabs(bessel_of(amplitude, KZ_HARMONICS + 1)) > BESSEL_LEFT)
-    return "torque_amplitude swings the pendulum so far that " KZ_WRITTEN(
-        KZ_HARMONICS) " harmonics do not hold its gravity; at most about 8.9";
-  return NULL;
+  if (!has_coefficients(written) || !shaped) return NULL;
+  return "vertical and horizontal are the whole drive beside k and m; leave out waveform and the other keys of its form";
 }
 
 void kz_drive_print(const kz_parameters *parameters, FILE *out) {
   const kz_pendulum_keys *written = &parameters->written;
-  if (has(written->torque_amplitude)) {
-    double amplitude, phase;
-    swing_of(written->torque_amplitude, parameters->pendulum.beta, &amplitude, &phase);
-    fprintf(out,
-            "Drive: angles are counted from the swing %.10g cos(t + %.10g); harmonics up to order %d stand for it, and leave "
-            "%.2g of k.\n",
-            amplitude, phase, (int)parameters->pendulum.harmonics,
-            fabs(bessel_of(amplitude, harmonics_of_swing(amplitude) + 1)));
-  }
   if (written->waveform != KZ_SAMPLES) return;
   fprintf(out, "Drive: harmonics up to order %d stand for %lld samples; they are off by %.2g of drive_amplitude at most.\n",
           highest_of_samples(&written->samples), (long long)written->samples.count, distance_from_samples(&written->samples));
@@ -220,8 +168,8 @@ void kz_drive_resolve(const kz_parameters *parameters, kz_pendulum *p) {
     for (int j = 1; j <= p->harmonics; j++) add_harmonic(written, j, p);
   }
   if (has(written->torque)) p->torque = written->torque;
-  p->unmirrored = plane || aside || has(written->torque);
-  if (has(written->torque_amplitude)) resolve_swing(written, p);
+  if (has(written->torque_amplitude)) p->torque_amplitude = written->torque_amplitude;
+  p->unmirrored = plane || aside || has(written->torque) || has(written->torque_amplitude);
 }
 
 void kz_drive_form(const kz_parameters *parameters, kz_pendulum *form) {
@@ -239,7 +187,6 @@ void kz_pivot_at(const kz_parameters *parameters, double phase, double place[2])
   const kz_pendulum *p = &parameters->pendulum;
   place[0] = 0;
   place[1] = p->m * cos(phase);
-  if (has(parameters->written.torque_amplitude)) return;
   for (int j = 1; j <= p->harmonics; j++) { /* a harmonic of the acceleration is j^2 times that of the path */
     const double c = cos(j * phase) / (j * j), s = sin(j * phase) / (j * j);
     place[0] += p->horizontal[j - 1][0] * c + p->horizontal[j - 1][1] * s;

@@ -103,9 +103,6 @@ static const char *limit_of_phases(const kz_scene *scene) {
 static const char *wrong_ramp(const kz_parameters *parameters) {
   const kz_pendulum_keys *written = &parameters->written;
   if (written->ramp_key == KZ_RAMP_DAMPING && written->ramp_from < 0) return "from: is below 0; a damping must be at least 0";
-  if (written->ramp_key == KZ_RAMP_DAMPING && !isnan(written->torque_amplitude))
-    return "key: a damping that changes also changes the swing from which torque_amplitude counts angles; leave one of them "
-           "out";
   if (written->ramp_key == KZ_RAMP_DRIVE && !(fabs(parameters->pendulum.m) > 0))
     return "key: the drive has amplitude 0, so a ramp cannot change it in proportion; choose damping";
   return NULL;

@@ -86,7 +86,7 @@ kz_status kz_parameters_resolve(kz_parameters *parameters) {
   if (!isfinite(p.k) || !isfinite(p.beta) || !isfinite(p.m))
     return kz_fail(KZ_REFUSED, "gives k = %g, beta = %g, m = %g, not all finite; use less extreme parameters", p.k, p.beta,
                    p.m);
-  const char *wrong = kz_drive_contradiction(&parameters->written, &p);
+  const char *wrong = kz_drive_contradiction(&parameters->written);
   if (wrong) return kz_fail(KZ_REFUSED, "%s", wrong);
   parameters->pendulum = p;
   fill_defined(parameters);
@@ -98,7 +98,8 @@ kz_status kz_parameters_resolve(kz_parameters *parameters) {
 
 double kz_pendulums_parted(const kz_pendulum *a, const kz_pendulum *b) {
   double size = fabs(a->k) + fabs(a->m) + a->beta;
-  double difference = fabs(a->k - b->k) + fabs(a->m - b->m) + fabs(a->beta - b->beta) + fabs(a->torque - b->torque);
+  double difference = fabs(a->k - b->k) + fabs(a->m - b->m) + fabs(a->beta - b->beta) + fabs(a->torque - b->torque) +
+                      fabs(a->torque_amplitude - b->torque_amplitude);
   if (kz_is_mirrored(a) != kz_is_mirrored(b)) return INFINITY;
   for (int j = 0; j < KZ_HARMONICS; j++)
     for (int i = 0; i < 2; i++)

@@ -38,7 +38,7 @@ def test_lists_are_those_of_the_search(kapitza, tmp_path, name):
     """At the junction two folds begin where nothing oscillates. Beyond them rotations were told that do not exist."""
     pendulum, x, y = PLANES[name]
     axes = {key: dict(zip(("parameter", "min", "max"), axis, strict=True)) for key, axis in (("x", x), ("y", y))}
-    checks = 2 if name in COMMON else 40
+    checks = 12 if name in COMMON else 40
     result, _ = run_scene(kapitza, tmp_path, {"pendulum": pendulum, "atlas": axes | {"max_period": 1, "checks": checks, "points": 16}})
     group = result.group("atlas")
     assert int(group.attrs["negative"]) == 0 and int(group.attrs["unsolved"]) == 0

@@ -1,14 +1,11 @@
 // Drives beyond the sine: what the page offers of them where the scene does not name them.
 
-const NEUTRAL = { tilt: "0", ellipse: "0", torque: "0", waveform: "sine" };
+/** Their values that change nothing. */
+export const NEUTRAL = { tilt: "0", ellipse: "0", torque: "0", waveform: "sine" };
 const FORMS = ["sine", "square", "triangle"]; // samples are a scene's own
 
 export const isOfDrive = (name) => name in NEUTRAL;
 
-/** Their values that change nothing; a torque that oscillates goes with none of them. */
-export function neutralFor(pendulum) {
-  return "torque_amplitude" in pendulum ? {} : NEUTRAL;
-}
 
 /** Whether a value is as good as left out. */
 export const isNeutral = (name, value) => NEUTRAL[name] === value || (isOfDrive(name) && Number(value) === 0);

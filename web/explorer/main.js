@@ -2,7 +2,7 @@
 
 import { Basins } from "./basins.js";
 import { listenControls } from "./controls.js";
-import { neutralFor } from "./drive.js";
+import { NEUTRAL } from "./drive.js";
 import { ask, signIn } from "./engine.js";
 import { listenKeys } from "./keyboard.js";
 import { addressOf, DEFAULTS, readAddress, remember, remembered, State } from "./state.js";
@@ -14,7 +14,7 @@ const dark = matchMedia("(prefers-color-scheme: dark)");
 async function begin() {
   await signIn();
   const start = await ask("state");
-  const scene = { ...neutralFor(start.pendulum), ...textsOf(start.pendulum) };
+  const scene = { ...NEUTRAL, ...textsOf(start.pendulum) };
   const state = new State({
     ...DEFAULTS,
     title: start.title,

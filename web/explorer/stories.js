@@ -1,7 +1,7 @@
 // Stories for a lecture: states of the page one after the other, each with a sentence. Where they come from: docs/howto/stories.md.
 
 import { nearestBoundary } from "./boundary.js";
-import { neutralFor } from "./drive.js";
+import { NEUTRAL } from "./drive.js";
 import { ask } from "./engine.js";
 import { VIEWS } from "./stage.js";
 import { numberOf, withUnit } from "./values.js";
@@ -53,7 +53,7 @@ export class Stories {
     document.documentElement.requestFullscreen?.().catch(() => {}); // the browser may not want it
     const whole = Window.from(story.window ?? this.state.whole.toRequest());
     const home = whole.centred(this.state.middle);
-    const scene = { ...neutralFor(story.pendulum), ...texts(story.pendulum) };
+    const scene = { ...NEUTRAL, ...texts(story.pendulum) };
     this.state.change({
       scene,
       pendulum: scene,

@@ -53,9 +53,10 @@ static const kz_key own[] = {
          "Makes the pivot's path an ellipse: the ratio of its axis across the path to the one along it; above 0 = clockwise."),
     REAL("pendulum.torque", "", -1e6, 1e6, "", parameters.written.torque,
          "Constant torque on the pendulum, in units of I omega^2."),
-    REAL("pendulum.torque_amplitude", "", -1e6, 1e6, "", parameters.written.torque_amplitude,
-         "A torque that oscillates beside it, torque_amplitude cos t, without a drive of the pivot (a Josephson junction under "
-         "microwaves). Angles are counted from the swing that it gives to a free pendulum."),
+    REAL(
+        "pendulum.torque_amplitude", "", -1e6, 1e6, "", parameters.written.torque_amplitude,
+        "Amplitude of a torque that oscillates with the drive, torque_amplitude cos t, in the same units (a Josephson junction "
+        "under microwaves)."),
     WORD("pendulum.waveform", "sine|square|triangle|samples", "", parameters.written.waveform,
          "Form of the drive in time, which is that of the pivot's downward acceleration; square and triangle: their Fourier "
          "series "

@@ -104,6 +104,7 @@ contains
       pendulum(i)%beta = (up%beta - down%beta)/width
       pendulum(i)%m = (up%m - down%m)/width
       pendulum(i)%torque = (up%torque - down%torque)/width
+      pendulum(i)%torque_amplitude = (up%torque_amplitude - down%torque_amplitude)/width
       pendulum(i)%vertical = (up%vertical - down%vertical)/width
       pendulum(i)%horizontal = (up%horizontal - down%horizontal)/width
     end do

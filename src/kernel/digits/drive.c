@@ -210,6 +210,7 @@ void kz_drive_expand(kz_series *series, kz_steps *steps, int64_t i, int64_t bits
   for (int64_t n = 0; n <= steps->force_orders; n++) {
     kz_number_of_double(0, series->along + n);
     kz_number_of_double(0, series->across + n);
+    kz_number_of_double(0, series->torque + n);
   }
   for (int64_t j = 1; j <= highest_harmonic(p); j++) {
     const double *up = p->vertical[j - 1], *right = p->horizontal[j - 1];
@@ -218,7 +219,10 @@ void kz_drive_expand(kz_series *series, kz_steps *steps, int64_t i, int64_t bits
     add_harmonic(steps, j, (double[]){sine_of_m, -up[0]}, (double[]){0, -up[1]}, &cosine, &sine, bits, series->along);
     if (!p->unmirrored) continue;
     add_harmonic(steps, j, (double[]){-right[0], 0}, (double[]){-right[1], 0}, &cosine, &sine, bits, series->across);
+    if (j > 1) continue;
+    add_harmonic(steps, j, (double[]){p->torque_amplitude, 0}, (double[]){0, 0}, &cosine, &sine, bits, series->torque);
   }
   if (steps->stretch->changes) put_on_ramp(series, steps, i, bits);
   kz_number_add(series->along, series->along, &steps->gravity, bits);
+  kz_number_add(series->torque, series->torque, &steps->torque, bits);
 }

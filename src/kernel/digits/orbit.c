@@ -5,7 +5,7 @@
 
 #include "step.h"
 
-enum { FEWEST_STEPS = 14, HALVINGS = 10, SERIES = 10, STROBE = 24 /* characters of a number of drive periods */ };
+enum { FEWEST_STEPS = 14, HALVINGS = 10, SERIES = 11, STROBE = 24 /* characters of a number of drive periods */ };
 
 struct kz_arbitrary {
   kz_pendulum pendulum;
@@ -47,8 +47,8 @@ static int64_t numbers_of(const kz_arbitrary *o) {
 
 static void share_memory(kz_arbitrary *o) {
   kz_series *s = &o->series;
-  kz_number **const all[SERIES + 1] = {&s->w,        &s->s,        &s->c,       &s->along,   &s->across,     &s->gain,
-                                       &s->angle[0], &s->angle[1], &s->rate[0], &s->rate[1], &o->steps.scale};
+  kz_number **const all[SERIES + 1] = {&s->w,    &s->s,        &s->c,        &s->along,   &s->across,  &s->torque,
+                                       &s->gain, &s->angle[0], &s->angle[1], &s->rate[0], &s->rate[1], &o->steps.scale};
   for (int i = 0; i <= SERIES; i++) *all[i] = o->workspace + i * (s->orders + 2);
 }
 

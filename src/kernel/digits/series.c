@@ -29,7 +29,8 @@ void kz_series_damp(const kz_steps *steps, const kz_number *rate, int64_t n, int
 #define KZ_GAIN(of, a, b) kz_series_add_product(x, steps, false, x->a, x->b, n, bits, &of)
 #define KZ_DAMP(of) kz_series_damp(steps, x->w, n, bits, &of)
 #define KZ_HAS_ACROSS steps->pendulum->unmirrored
-#define KZ_PUSH(of) kz_number_subtract(&of, &of, &steps->torque, bits)
+#define KZ_PUSH(of) \
+  if (n <= steps->force_orders) kz_number_subtract(&of, &of, x->torque + n, bits)
 #define KZ_SET(name, sign, of) kz_number_divide_by(x->name + n + 1, &of, sign(n + 1), bits)
 #include "taylor/motion.inc"
 

@@ -33,9 +33,9 @@ typedef struct {
 
 /* Series of one step: [orders + 1] each. */
 typedef struct {
-  int64_t orders;                       /* the most that fit */
-  kz_number *w, *s, *c;                 /* of the orbit: h v, sin theta, cos theta */
-  kz_number *along, *across;            /* of the drive: h^2 a(t), -h^2 b(t); across is not set for mirrored pendulums */
+  int64_t orders;                     /* the most that fit */
+  kz_number *w, *s, *c;               /* of the orbit: h v, sin theta, cos theta */
+  kz_number *along, *across, *torque; /* h^2 a(t), -h^2 b(t), h^2 torque(t); the last two are not set for mirrored pendulums */
   kz_number *gain, *angle[2], *rate[2]; /* of its neighbours: along c - across s; change of theta, and of h v, with x and y */
 } kz_series;
 

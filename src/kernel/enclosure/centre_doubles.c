@@ -38,7 +38,7 @@ typedef struct {
 #define KZ_GAIN(sum, a, b) EACH_PART sum[p] = fused(FACTOR_##a(i), x[n - i].b[p], sum[p])
 #define KZ_DAMP(sum) EACH_PART sum[p] = same(speed->damping.high) * x[n].w[p]
 #define KZ_HAS_ACROSS speed->has_across
-#define KZ_PUSH(sum) EACH_PART sum[p] -= speed->push.high
+#define KZ_PUSH(sum) EACH_PART sum[p] -= speed->torque[first + n].high
 #define KZ_SET(name, sign, sum) EACH_PART x[n + 1].name[p] = sum[p] * (sign UNIT_##name[n].high)
 #include "taylor/motion.inc"
 

@@ -61,7 +61,7 @@ OPERATION triple scaled_deep(triple s, triple factor) {
 #define KZ_GAIN(total, a, b) OF_LEVEL(gain_)(&total, ORDER(b, n - i), FACTOR_##a(i))
 #define KZ_DAMP(total) OF_LEVEL(gain_)(&total, ORDER(w, n), CONSTANT(, speed->damping))
 #define KZ_HAS_ACROSS speed->has_across
-#define KZ_PUSH(total) OF_LEVEL(gain_)(&total, OF_LEVEL(made_)(-1, 0, 0), CONSTANT(, speed->push))
+#define KZ_PUSH(total) OF_LEVEL(gain_)(&total, OF_LEVEL(made_)(-1, 0, 0), CONSTANT(, speed->torque[first + n]))
 #define KZ_SET(name, sign, total) \
   OF_LEVEL(put_)(OF_LEVEL(scaled_)(total, CONSTANT(sign, speed->UNIT_##name[n])), n + 1, &x->name)
 

@@ -25,16 +25,18 @@ static kz_constant times(const arb_t step, double factor) {
   return rounded(&x);
 }
 
-/* The powers of s = 0 .. 1 in h a(t + h s) and -h b(t + h s) of all steps: the drive's series of any digits, which scale its powers. */
+/* The powers of s = 0 .. 1 in h a(t + h s), -h b(t + h s) and h times the torque, of all steps: the drive's series of any digits, which scale its powers. */
 static void set_force(const kz_pendulum *pendulum, const arb_t h, kz_speed_class *speed) {
   const int64_t order = speed->order;
   const kz_stretch whole = {.is_whole = true};
-  kz_number *const numbers = kz_numbers_make(3 * order);
-  kz_series series = {.along = numbers + order, .across = numbers + 2 * order};
+  kz_number *const numbers = kz_numbers_make(4 * order);
+  kz_series series = {.along = numbers + order, .across = numbers + 2 * order, .torque = numbers + 3 * order};
   kz_steps steps = {.pendulum = pendulum, .stretch = &whole, .n = speed->n_steps, .scale = numbers, .force_orders = order - 1};
-  KZ_NUMBER(gravity);
-  kz_number_of_double(pendulum->k, &gravity);
-  kz_number_multiply(&steps.gravity, &gravity, h, BITS);
+  KZ_NUMBER(x);
+  kz_number_of_double(pendulum->k, &x);
+  kz_number_multiply(&steps.gravity, &x, h, BITS);
+  kz_number_of_double(pendulum->torque, &x);
+  kz_number_multiply(&steps.torque, &x, h, BITS);
   kz_number_set(numbers, h);
   for (int64_t n = 1; n < order; n++) {
     kz_number_multiply(numbers + n, numbers + n - 1, h, BITS);
@@ -45,10 +47,12 @@ static void set_force(const kz_pendulum *pendulum, const arb_t h, kz_speed_class
     for (int64_t n = 0; n < order; n++) {
       speed->along[i * order + n] = rounded(series.along + n);
       speed->across[i * order + n] = rounded(series.across + n);
+      speed->torque[i * order + n] = rounded(series.torque + n);
     }
   }
   kz_number_clear(&steps.gravity);
-  kz_numbers_free(numbers, 3 * order);
+  kz_number_clear(&steps.torque);
+  kz_numbers_free(numbers, 4 * order);
 }
 
 void kz_speed_class_set_constants(const kz_pendulum *pendulum, kz_speed_class *speed) {
@@ -58,7 +62,6 @@ void kz_speed_class_set_constants(const kz_pendulum *pendulum, kz_speed_class *s
   arb_mul_2exp_si(&h, &h, 1);
   arb_div_si(&h, &h, speed->n_steps, BITS);
   speed->damping = times(&h, pendulum->beta);
-  speed->push = times(&h, pendulum->torque);
   for (int32_t n = 0; n < speed->order; n++) {
     arb_div_si(&x, &h, n + 1, BITS);
     speed->step[n] = rounded(&x);

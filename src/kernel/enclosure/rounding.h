@@ -39,7 +39,7 @@ typedef struct {
   int n_majorants, order, precision;
   bool fits; /* whether the sizes of products are what (B2) counts on */
   real h;
-  real torque[KZ_ORDER_PAIRS];                                     /* sizes of the torque's powers of s */
+  real torque[KZ_ORDER_PAIRS];                                     /* sizes of the force's powers of s */
   real velocity[KZ_ORDER_PAIRS], sine[KZ_ORDER_PAIRS];             /* sizes of coefficients; of the cosine's too */
   real velocity_error[KZ_ORDER_PAIRS], sine_error[KZ_ORDER_PAIRS]; /* of the computed ones */
   majorant majorant[MAJORANTS];

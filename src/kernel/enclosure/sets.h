@@ -33,17 +33,16 @@ typedef struct {
   double theta_error, velocity_error; /* (B3) of the centre, a step */
   /* (B4) of (theta, velocity), by a neighbour's (theta, velocity) at the beginning of the step: frame renewed, frame kept. */
   double tangent_error[2][2][2];
-  double turn;                         /* (B5) rad: theta of a centre on a step, beyond h |velocity| */
-  double farthest[2];                  /* (B5) theta of a neighbour on the step, by the same */
-  double nonlinear[2];                 /* (B6) (theta, velocity) by a torque that acts for the whole step */
-  bool has_across;                     /* whether there is a drive across, or a torque */
-  double most_across;                  /* upper bound of |b(t)| */
-  double *most_torque;                 /* [n_steps] upper bound of |a(t)| + |b(t)| + |torque| on each step; behind the series */
-  kz_constant damping;                 /* h beta */
-  kz_constant step[KZ_ORDER_PAIRS];    /* h / (n + 1) */
+  double turn;                      /* (B5) rad: theta of a centre on a step, beyond h |velocity| */
+  double farthest[2];               /* (B5) theta of a neighbour on the step, by the same */
+  double nonlinear[2];              /* (B6) (theta, velocity) by a torque that acts for the whole step */
+  bool has_across;                  /* whether there is a drive across, or a torque */
+  double most_across;               /* upper bound of |b(t)| */
+  double *most_torque;              /* [n_steps] upper bound of |a(t)| + |b(t)| + |torque(t)| on each step; behind the series */
+  kz_constant damping;              /* h beta */
+  kz_constant step[KZ_ORDER_PAIRS]; /* h / (n + 1) */
   kz_constant inverse[KZ_ORDER_PAIRS]; /* 1 / (n + 1) */
-  kz_constant push;                    /* h torque */
-  kz_constant *across;                 /* [n_steps][order] powers of s in -h b(t), behind those along */
+  kz_constant *across, *torque;        /* [n_steps][order] powers of s in -h b(t) and h torque(t), behind those along */
   kz_constant along[];                 /* [n_steps][order] powers of s in h a(t) */
 } kz_speed_class;
 

@@ -172,9 +172,10 @@ static kz_speed_class *create(kz_step_bounds *b, double fastest, int32_t wanted)
   const int32_t n_steps = wanted > 0 ? wanted : choose_steps(b);
   if (n_steps == 0) return NULL;
   kz_speed_class *made = kz_calloc(
-      1, sizeof *made + 2 * (size_t)(n_steps * b->order) * sizeof *made->along + (size_t)n_steps * sizeof *made->most_torque);
+      1, sizeof *made + 3 * (size_t)(n_steps * b->order) * sizeof *made->along + (size_t)n_steps * sizeof *made->most_torque);
   made->across = made->along + n_steps * b->order;
-  made->most_torque = (double *)(made->across + n_steps * b->order);
+  made->torque = made->across + n_steps * b->order;
+  made->most_torque = (double *)(made->torque + n_steps * b->order);
   made->has_across = b->pendulum->unmirrored;
   made->n_steps = n_steps;
   made->order = b->order;

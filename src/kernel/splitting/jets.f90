@@ -79,7 +79,7 @@ contains
   subroutine set_pendulum(jets, pendulum)
     type(jets_t), intent(inout) :: jets !< its kicks and drifts
     type(pendulum_t), intent(in) :: pendulum(0:2) !< the pendulum; what its numbers grow by with p; and with q
-    real(rk) :: k(0:2), m(0:2), torque(0:2)
+    real(rk) :: k(0:2), m(0:2), torque(0:2), amplitude(0:2)
     integer :: i, n
 
     jets%damping = pendulum%beta
@@ -88,11 +88,12 @@ contains
     k = pendulum%k
     m = pendulum%m
     torque = pendulum%torque
+    amplitude = pendulum%torque_amplitude
     do n = 1, size(jets%weight)
       jets%kicks(:, 1, n) = jets%weight(n)*(k - m*jets%cosine(n))
       if (jets%mirrored) cycle ! nothing else is read
       jets%kicks(:, 2, n) = 0
-      jets%kicks(:, 3, n) = jets%weight(n)*torque
+      jets%kicks(:, 3, n) = jets%weight(n)*(torque + amplitude*jets%cosine(n))
     end do
     if (maxval(pendulum%harmonics) > 0) call add_harmonics(jets, pendulum)
     do i = 1, FUSED

@@ -32,8 +32,8 @@ module kz_taylor_taylor
 
   !> kz_taylor_force of taylor_steps.c.
   type, bind(C) :: force_t
-    type(shared_t) :: along, across
-    real(dp) :: torque(3), damping(0:CUBIC, 3)
+    type(shared_t) :: along, across, torque
+    real(dp) :: damping(0:CUBIC, 3)
     integer(c_int32_t) :: has_across, has_ramp
   end type force_t
 
@@ -103,16 +103,17 @@ contains
   pure type(force_t) function force_of_step(drive, t0, h) result(force)
     type(drive_t), intent(in) :: drive
     real(qp), intent(in) :: t0, h
-    real(qp) :: along(0:LAST - 1), across(0:LAST - 1), damping(0:CUBIC)
+    real(qp), dimension(0:LAST - 1) :: along, across, torque
+    real(qp) :: damping(0:CUBIC)
     integer :: i
 
     damping = 0
     damping(0) = drive%pendulum%beta*h
-    call force_series(drive%pendulum, t0, h, h*h, along, across)
+    call force_series(drive%pendulum, t0, h, h*h, along, across, torque)
     if (drive%stretch%changes) call put_on_ramp(drive, t0/TWO_PI, h, along, across, damping)
     force%along = round_series(along)
     force%across = round_series(-across)
-    force%torque = doubles_of(h*h*drive%pendulum%torque, 3)
+    force%torque = round_series(torque)
     do i = 0, CUBIC
       force%damping(i, :) = doubles_of(damping(i), 3)
     end do

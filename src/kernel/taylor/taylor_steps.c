@@ -2,9 +2,9 @@
  * which taylor.f90 makes the forces.
  *
  * With w = h theta', s = sin theta, c = cos theta over t = t0 + h x, 0 <= x <= 1, the scaled coefficients obey
- *   (n+1) w_(n+1) = -sum_i (d_i w_(n-i) + f_i s_(n-i) + g_i c_(n-i)) (+ torque at n = 0),
+ *   (n+1) w_(n+1) = -sum_i (d_i w_(n-i) + f_i s_(n-i) + g_i c_(n-i)) + p_n,
  *   (n+1) s_(n+1) = sum_i c_i w_(n-i),  (n+1) c_(n+1) = -sum_i s_i w_(n-i),
- * where d, f and g are damping, along and across. The orders up to KZ_TAYLOR_DEEP are sums of three doubles, those up to KZ_TAYLOR_FINE of
+ * where d, f, g and p are damping, along, across and torque. The orders up to KZ_TAYLOR_DEEP are sums of three doubles, those up to KZ_TAYLOR_FINE of
  * two (32 digits); those beyond, smaller than 1e-16 of the motion, need 16 digits and are plain doubles. States are sums of three doubles:
  * steps add up without loss. Images beside which those of doubles are measured need 20 digits, and so fewer orders and shorter steps (ROUGH). */
 #include "triples.h"
@@ -19,8 +19,7 @@ typedef struct {
 
 /* The force over a step h, as (h theta')' = -damping h theta' - along sin theta - across cos theta + torque in the time of the step. */
 typedef struct {
-  kz_taylor_shared along, across;
-  double torque[3];
+  kz_taylor_shared along, across, torque;
   double damping[3][KZ_TAYLOR_RAMP]; /* the largest parts first */
   int32_t has_across, has_ramp;      /* 1 if there are `across` and `torque`; 1 if the damping changes */
 } kz_taylor_force;
@@ -106,7 +105,7 @@ OPERATION void set_deep(coefficients *x, int64_t n, double sign, triple total) {
   EACH OF_LEVEL(gain_)(&total[j], PLAIN(damping, [i]), ORDER(w, n - i))
 #define KZ_DAMPS_LATER
 #define KZ_HAS_ACROSS force->has_across
-#define KZ_PUSH(total) EACH OF_LEVEL(gain_)(&total[j], PLAIN(torque, ), OF_LEVEL(made_)(-1, 0, 0))
+#define KZ_PUSH(total) EACH OF_LEVEL(gain_)(&total[j], SHARED(torque, n), OF_LEVEL(made_)(-1, 0, 0))
 #define KZ_SET(name, sign, total) EACH OF_LEVEL(set_)(&x[j].name, n + 1, sign 1.0, total[j])
 
 #define KZ_LEVEL deep

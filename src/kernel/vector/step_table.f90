@@ -279,7 +279,7 @@ contains
     if (period%mirrored) return
     period%kick(n) = real(weight*hypot(a, b), rk)
     period%shift(n) = real(atan2(b, a)/PI, rk)
-    period%push(n) = real(weight*pendulum%torque, rk)
+    period%push(n) = real(weight*(pendulum%torque + pendulum%torque_amplitude*real(clock, qp)), rk)
   end subroutine set_kick
 
 end module kz_vector_step_table

@@ -25,6 +25,7 @@ static void print_key(const kz_reference_labels *reference, char *key, size_t by
     attractors = checksum(reference->pendulum.vertical, sizeof reference->pendulum.vertical, attractors);
     attractors = checksum(reference->pendulum.horizontal, sizeof reference->pendulum.horizontal, attractors);
     attractors = checksum(&reference->pendulum.torque, sizeof reference->pendulum.torque, attractors);
+    attractors = checksum(&reference->pendulum.torque_amplitude, sizeof reference->pendulum.torque_amplitude, attractors);
   }
   snprintf(key, bytes, KZ_REFERENCE_WORDS " 1: %a %a %a; %a %a %lld%s%s; %a %a %lld%s%s; %lld %lld; %016llx\n",
            reference->pendulum.k, reference->pendulum.beta, reference->pendulum.m, p->theta.min, p->theta.max,

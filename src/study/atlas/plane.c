@@ -87,11 +87,13 @@ static kz_status survey(kz_atlas *atlas) {
   return KZ_OK;
 }
 
-/* Whether the motions of p, half a period later and upside down, are those of q: even harmonics and k change their signs. */
+/* Whether the motions of p, half a period later and upside down, are those of q: even harmonics, k and the
+ * oscillating torque change their signs. */
 static bool is_turned_pendulum(const kz_pendulum *p, const kz_pendulum *q) {
   static const double SAME = 1e-9;
   kz_pendulum turned = *p;
   turned.k = -p->k;
+  turned.torque_amplitude = -p->torque_amplitude;
   for (int j = 1; j < KZ_HARMONICS; j += 2)
     for (int i = 0; i < 2; i++) turned.vertical[j][i] = -p->vertical[j][i], turned.horizontal[j][i] = -p->horizontal[j][i];
   return kz_pendulums_parted(&turned, q) < SAME;

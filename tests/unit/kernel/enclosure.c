@@ -27,6 +27,7 @@ static kz_pendulum some_drive(int draw) {
   if (draw % 8 == 1) return p;
   for (int i = 0; i < 6; i++) p.horizontal[i / 2][i % 2] = uniform(-0.1, 0.1);
   p.torque = uniform(-0.1, 0.1);
+  p.torque_amplitude = uniform(-0.3, 0.3);
   p.unmirrored = 1;
   return p;
 }

@@ -15,8 +15,9 @@ static const double STARTS[][2] = {{0.3, 0.1}, {-2, 0.7}, {3, -1.2}};
 
 /* All numbers of the drive in use: damping, torque, harmonics of both drives; and the directions of p and q. */
 static void pendulums(kz_pendulum pendulum[3]) {
-  pendulum[0] = (kz_pendulum){.k = 0.1, .beta = 0.09, .m = 0.6, .torque = 0.02, .harmonics = 2, .unmirrored = 1};
-  pendulum[1] = (kz_pendulum){.k = -0.3, .beta = 0.4, .m = 0.2, .torque = 0.5};
+  pendulum[0] =
+      (kz_pendulum){.k = 0.1, .beta = 0.09, .m = 0.6, .torque = 0.02, .torque_amplitude = 0.3, .harmonics = 2, .unmirrored = 1};
+  pendulum[1] = (kz_pendulum){.k = -0.3, .beta = 0.4, .m = 0.2, .torque = 0.5, .torque_amplitude = -0.4};
   pendulum[2] = (kz_pendulum){.k = 1, .beta = -0.2, .m = -0.7};
   pendulum[0].vertical[1][0] = 0.11;
   pendulum[0].horizontal[0][1] = 0.07;
@@ -55,6 +56,7 @@ static void shifted(const kz_pendulum *pendulum, int along, double d, const doub
   if (along) {
     const kz_pendulum *by = pendulum + along;
     moved->k += d * by->k, moved->beta += d * by->beta, moved->m += d * by->m, moved->torque += d * by->torque;
+    moved->torque_amplitude += d * by->torque_amplitude;
     for (int j = 0; j < KZ_HARMONICS; j++)
       for (int i = 0; i < 2; i++)
         moved->vertical[j][i] += d * by->vertical[j][i], moved->horizontal[j][i] += d * by->horizontal[j][i];

@@ -50,7 +50,7 @@ static kz_pendulum drive(int which) {
   if (which == 0) p.harmonics = 2, p.vertical[1][0] = 0.2, p.vertical[1][1] = -0.1;
   if (which == 1)
     p.harmonics = 1, p.unmirrored = 1, p.vertical[0][0] = -0.05, p.horizontal[0][0] = 0.1, p.horizontal[0][1] = 0.07;
-  if (which == 2) p.unmirrored = 1, p.torque = 0.1;
+  if (which == 2) p.unmirrored = 1, p.torque = 0.1, p.torque_amplitude = 0.3;
   if (which == 3) p.harmonics = 7, p.vertical[2][0] = -0.15, p.vertical[4][0] = 0.1, p.vertical[6][1] = 0.05;
   return p;
 }
@@ -328,8 +328,8 @@ double kz_test_neighbour_error(const kz_pendulum *pendulum, int32_t scheme, int3
 /* Neighbours that are moved beside their orbits go where they go by themselves: with mirror symmetry, without it, in lanes too fast for the
  * tables, and by a scheme that has no tables. */
 TEST(test_neighbours) {
-  const kz_pendulum turned = {
-      .k = 0.1, .beta = 0.1, .m = 0.4, .unmirrored = 1, .torque = 0.1, .harmonics = 1, .horizontal = {{0.1, 0.07}}};
+  kz_pendulum turned = {.k = 0.1, .beta = 0.1, .m = 0.4, .unmirrored = 1, .harmonics = 1, .horizontal = {{0.1, 0.07}}};
+  turned.torque = 0.1, turned.torque_amplitude = 0.2;
   const struct {
     const kz_pendulum *pendulum;
     const char *scheme;

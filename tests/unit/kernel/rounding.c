@@ -89,8 +89,8 @@ static number force(const machine *x, int64_t i, int n, real share) {
 }
 
 #define ACROSS x->b->pendulum->unmirrored
-#define FACTOR_along(i) force(x, i, (int)n + 1, ACROSS ? (i == 0 ? 0.4L : 0.5L) : 1)
-#define FACTOR_across(i) force(x, i, (int)n + 1, i == 0 ? 0.4L : 0.5L)
+#define FACTOR_along(i) force(x, i, (int)n + 1, ACROSS ? 0.4L : 1)
+#define FACTOR_across(i) force(x, i, (int)n + 1, 0.4L)
 #define FACTOR_w(i) taken(x, x->w, i, (int)n + 1)
 #define SIZE_w velocity
 #define SIZE_s sine
@@ -106,7 +106,7 @@ static number force(const machine *x, int64_t i, int n, real share) {
 #define KZ_DAMP(of) \
   add_gain(&of, taken(x, x->w, n, (int)n + 1), of_constant(level_of(x->precision, (int)n + 1), x->b->h * x->b->pendulum->beta))
 #define KZ_HAS_ACROSS ACROSS
-#define KZ_PUSH(of) add_gain(&of, (number){1, 0}, force(x, 0, 1, 0.2L))
+#define KZ_PUSH(of) add_gain(&of, (number){1, 0}, force(x, n, (int)n + 1, 0.2L))
 #define KZ_SET(name, sign, of)                                                                                  \
   x->name[n + 1] = (number) {                                                                                   \
     x->b->SIZE_##name[n + 1], scaled(of, UNIT_##name / ((real)n + 1), level_of(x->precision, (int)n + 1)).error \

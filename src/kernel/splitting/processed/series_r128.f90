@@ -50,10 +50,11 @@ module kz_processed_series_r128
     product = matmul(matrix, columns)
   end subroutine multiply
 
-  subroutine add_time_derivative(grid, value, factor, total)
+  subroutine add_time_derivative(grid, n, value, factor, total)
     type(grid_t), intent(in) :: grid
-    real(rk), intent(in) :: value(grid%n_theta, grid%n_time), factor
-    real(rk), intent(inout) :: total(grid%n_theta, grid%n_time)
+    integer, intent(in) :: n
+    real(rk), intent(in) :: value(n, grid%n_time), factor
+    real(rk), intent(inout) :: total(n, grid%n_time)
 
     total = total + factor*pair_product(value, grid%time_derivative)
   end subroutine add_time_derivative

@@ -76,23 +76,26 @@ module kz_processed_series_r64
         half = half + columns(:size(half), j)*factors(j)
       end do
       total = half
-    else
+    else if (n == size(whole)) then
       whole = total
       do j = 1, n_columns
         whole = whole + columns(:size(whole), j)*factors(j)
       end do
       total = whole
+    else
+      total = total + matmul(columns, factors)
     end if
   end subroutine add_columns
 
-  subroutine add_time_derivative(grid, value, factor, total)
+  subroutine add_time_derivative(grid, n, value, factor, total)
     type(grid_t), intent(in) :: grid
-    real(rk), intent(in) :: value(grid%n_theta, grid%n_time), factor
-    real(rk), intent(inout) :: total(grid%n_theta, grid%n_time)
+    integer, intent(in) :: n
+    real(rk), intent(in) :: value(n, grid%n_time), factor
+    real(rk), intent(inout) :: total(n, grid%n_time)
     integer :: i
 
     do i = 1, grid%n_time
-      call add_columns(grid%n_theta, grid%n_time, value, factor*grid%time_derivative%entry(:, i), total(:, i))
+      call add_columns(n, grid%n_time, value, factor*grid%time_derivative%entry(:, i), total(:, i))
     end do
   end subroutine add_time_derivative
 

@@ -19,7 +19,7 @@ module kz_processed_slider
   real(rk), parameter :: RADIUS(2) = [2.0_rk, 1.0_rk/ORDER]
   !> Nodes that are farther, in units of RADIUS, do not count.
   real(rk), parameter :: FARTHEST = 0.5_rk
-  integer, parameter :: N_NUMBERS = 4 + 4*MOST_HARMONICS
+  integer, parameter :: N_NUMBERS = 5 + 4*MOST_HARMONICS
 
 contains
 
@@ -126,9 +126,9 @@ contains
     type(pendulum_t), intent(in) :: pendulum
     real(rk) :: numbers(N_NUMBERS)
 
-    numbers(:4) = [pendulum%k, pendulum%beta, pendulum%m, pendulum%torque]
-    numbers(5:4 + 2*MOST_HARMONICS) = reshape(pendulum%vertical, [2*MOST_HARMONICS])
-    numbers(5 + 2*MOST_HARMONICS:) = reshape(pendulum%horizontal, [2*MOST_HARMONICS])
+    numbers(:5) = [pendulum%k, pendulum%beta, pendulum%m, pendulum%torque, pendulum%torque_amplitude]
+    numbers(6:5 + 2*MOST_HARMONICS) = reshape(pendulum%vertical, [2*MOST_HARMONICS])
+    numbers(6 + 2*MOST_HARMONICS:) = reshape(pendulum%horizontal, [2*MOST_HARMONICS])
   end function numbers_of
 
   subroutine add_nodes(node, weight, series)

@@ -80,7 +80,7 @@ module kz_processed_tables
         of_sines(j) = of_sines(j) - h**(q - 1)*j*amplitude(1)
         of_cosines(j) = of_cosines(j) + h**(q - 1)*j*amplitude(2)
       end do
-      of_cosines(0) = of_cosines(0) + h**(q - 1)*series%slope(q)
+      of_cosines(0) = of_cosines(0) + h**(q - 1)*(dot_product(cosine(:1), series%slope(:, q, 1)) + sine(1)*series%slope(1, q, 2))
     end do
   end subroutine kick_harmonics
 

@@ -57,7 +57,10 @@ module kz_processed_tables_r128
 
     amplitude = 0
     do q = 2, ORDER, 2
-      if (trig == 2) amplitude(0, 1) = amplitude(0, 1) + h**(q - 1)*series%slope(q)
+      if (trig == 2) then
+        amplitude(0, :2) = amplitude(0, :2) + h**(q - 1)*series%slope(:, q, 1)
+        amplitude(0, series%times + 3) = amplitude(0, series%times + 3) + h**(q - 1)*series%slope(1, q, 2)
+      end if
       do j = 1, q/2
         amplitude(j, :) = amplitude(j, :) + (sign*j*h**(q - 1))*reshape(series%kick(:, j, q, trig, :), [2*(series%times + 1)])
       end do
@@ -120,7 +123,7 @@ module kz_processed_tables_r128
 
     series%kick(:, :, :exact, :, :) = 0
     series%kick(:leading%times, :HALF, :exact, :, :) = leading%kick(:, :, :exact, :, :)
-    series%slope(:exact) = leading%slope(:exact)
+    series%slope(:, :exact, :) = leading%slope(:, :exact, :)
     series%drift(:, :exact) = leading%drift(:, :exact)
     series%processor(:, :, :exact - 2, :, :, :) = 0
     series%processor(:HALF, :MOST_EXACT, :exact - 2, :, :, :) = leading%processor(:, :, :exact - 2, :, :, :)
