@@ -33,6 +33,15 @@ def test_resolved_scene_gives_the_same_datasets(kapitza, small_result, tmp_path)
     assert yaml.safe_load(resolved)["basin"]["attractors"]["starts"] == 8192
 
 
+def test_a_resolved_scene_has_no_half_of_a_mapping(kapitza, tmp_path):
+    """The measures strobe and ends have mappings with a required key: where it is not given, the defaults beside it are left out."""
+    text = "pendulum: {k: 0.1, damping: 0.1, m: 0.2}\nsweep: {parameter: m, min: 0.1, max: 0.2, count: 2, measure: [strobe]}\n"
+    resolved = run_scene(kapitza, tmp_path, text)[0].scene
+    assert "ends" not in resolved and "samples: 64" in resolved
+    (tmp_path / "again.yaml").write_text(resolved)
+    kapitza("check", "again.yaml", folder=tmp_path)
+
+
 def test_resume_of_a_complete_file_is_success_at_once(kapitza, tmp_path):
     kapitza("run", SMALL, "-o", "x.h5", folder=tmp_path)
     before = (tmp_path / "x.h5").stat().st_mtime_ns

@@ -18,6 +18,18 @@ static bool is_chosen(const kz_key *keys, const kz_key *key, const void *scene) 
   return key->chosen_by && kz_value_is_set(kz_key_find(keys, key->chosen_by), scene);
 }
 
+/* True where the mapping of the key lacks a required one: it is not given, and the key has its default. */
+static bool is_idle(const kz_key *keys, const kz_key *key, const void *scene) {
+  const char *dot = strrchr(key->path, '.');
+  const size_t length = dot ? (size_t)(dot - key->path) + 1 : 0;
+  for (const kz_key *row = keys; row->path; row++) {
+    const bool beside = strncmp(row->path, key->path, length) == 0 && !strchr(row->path + length, '.');
+    if (length && beside && row->type != KZ_KEY_MAPPING && !row->fallback && !row->form && !kz_value_is_set(row, scene))
+      return true;
+  }
+  return false;
+}
+
 static void indent(int depth, FILE *out) {
   fprintf(out, "%*s", 2 * depth, "");
 }
@@ -41,7 +53,7 @@ void kz_scene_write(const kz_key *keys, const void *scene, bool flat, FILE *out)
   const char *last = "";
   for (const kz_key *key = keys; key->path; key++) {
     if (key->type == KZ_KEY_MAPPING || !kz_value_is_set(key, scene) || is_left_out(keys, key, scene) ||
-        is_chosen(keys, key, scene))
+        is_chosen(keys, key, scene) || is_idle(keys, key, scene))
       continue;
     if (flat)
       fprintf(out, "%s: ", key->path);
