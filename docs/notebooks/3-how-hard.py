@@ -20,7 +20,7 @@ pendulum = {"quality_factor": 5, "drive_frequency": 11, "drive_amplitude": 0.300
 # The share of the starts that end upright, along the drive amplitude.
 
 # %%
-swept = kapitza.sweep({"pendulum": pendulum}, "drive_amplitude", (0.15, 0.45), max(3, COUNT // 4), starts=8 * COUNT)
+swept = kapitza.sweep({"pendulum": pendulum}, "drive_amplitude", {"min": 0.15, "max": 0.45, "count": max(3, COUNT // 4)}, starts=8 * COUNT)
 swept.plot()
 
 # %% [markdown]

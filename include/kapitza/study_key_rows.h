@@ -55,10 +55,11 @@
       REAL(#study ".velocity.min", KZ_VELOCITY_UNIT, -most, most, lowest, velocity.min, "Lower edge of the window."), \
       REAL(#study ".velocity.max", KZ_VELOCITY_UNIT, -most, most, highest, velocity.max, "Upper edge of the window.")
 #define PLANE_AXIS(study, axis, help) RANGE(#study "." #axis, KZ_RANGE_PARAMETER, axis, NULL, help), PLANE_KEYS(study, axis)
-#define PLANE_KEYS(study, axis)                                                                                           \
-  ROW(#study "." #axis ".parameter", KZ_KEY_WORD, NULL, AT(axis.parameter),                                               \
-      "Key of the pendulum mapping, as written there, that takes the values.", .unit = "", .words_from = kz_sweep_words), \
-      REAL(#study "." #axis ".min", KZ_OWN_UNIT, -DBL_MAX, DBL_MAX, NULL, axis.values.min, "First value."),               \
+#define PLANE_KEYS(study, axis)                                                                                      \
+  ROW(#study "." #axis ".parameter", KZ_KEY_WORD, NULL, AT(axis.parameter),                                          \
+      "Key of the pendulum mapping, as written there, that takes the values; pendulum.KEY is the same.", .unit = "", \
+      .words_from = kz_sweep_words),                                                                                 \
+      REAL(#study "." #axis ".min", KZ_OWN_UNIT, -DBL_MAX, DBL_MAX, NULL, axis.values.min, "First value."),          \
       REAL(#study "." #axis ".max", KZ_OWN_UNIT, -DBL_MAX, DBL_MAX, NULL, axis.values.max, "Last value.")
 
 /* The row of a study, behind its keys: the mapping of its name, the rows of the list that follows, an end. More members of kz_study may be

@@ -6,7 +6,7 @@ import os
 import re
 import shutil
 import tempfile
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from functools import cache
 from pathlib import Path
 from typing import Any
@@ -35,7 +35,7 @@ class Scene:
     """`text`: YAML. `is_file`: whether it was read from `path`. `sets`: words `--set KEY=VALUE` of a command line."""
 
     def __init__(self, scene: "SceneLike", changes: Mapping[str, Any] | None = None, method: str | None = None) -> None:
-        changes = dict(changes or {}) | ({"basin.method": method} if method else {})
+        changes = dict(_single_keys(changes or {})) | ({"basin.method": method} if method else {})
         self.sets = [word for key, value in changes.items() for word in ("--set", f"{key}={flow(value)}")]
         self._changes = changes
         self.is_file = False
@@ -130,6 +130,19 @@ def _named(key: str, value: Any) -> Any:
     if key not in ("pendulum", "stability") or not isinstance(value, Mapping):
         return value
     return {SYMBOLS.get(name, name): item for name, item in value.items()}
+
+
+def _single_keys(changes: Mapping[str, Any], above: str = "") -> Iterator[tuple[str, Any]]:
+    """The changes by the full names of their keys: those of a mapping one by one; a key that stands alone is one of the pendulum, as a
+    scene itself has mappings and a title only."""
+    for name, value in ((str(name), value) for name, value in changes.items()):
+        key = above + name
+        if isinstance(value, Mapping) and value and (above or "." not in name):
+            yield from _single_keys(value, f"{key}.")
+        elif key.startswith("ramp.") or not (above or "." in name or name == "title" or isinstance(value, Mapping)):
+            yield f"pendulum.{key}", value
+        else:
+            yield key, value
 
 
 def put(tree: dict[str, Any], key: str, value: Any) -> None:

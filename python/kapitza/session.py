@@ -29,7 +29,8 @@ def run(scene: SceneLike, output: str | os.PathLike[str] | None = None, ranks: i
     :param scene: path of a scene file, YAML text, or a mapping
     :param output: name of the result file; None = a temporary file that is removed at the end of the session
     :param ranks: number of MPI processes
-    :param set: keys to change, such as `{"basin.theta.count": 200}`
+    :param set: keys to change, such as `{"basin.theta.count": 200}`. A key of `pendulum` may stand alone, `{"drive_amplitude": 0.4}`; a
+        mapping such as `{"pendulum": {"drive_amplitude": 0.4}}` is merged with that of the scene, key by key
     :param resume: continue from the checkpoint of `output`; if `output` is complete for this scene, read it
     :param progress: whether to show a progress bar
     :param method: `basin.method`: "exact", "direct" or "icm"
@@ -203,22 +204,23 @@ def _attractor_id(scene: Scene, wanted: int | str) -> int:
     return int(ids[0])
 
 
-def sweep(scene: SceneLike, parameter: str, values: tuple[Any, Any], count: int = 50,
+def sweep(scene: SceneLike, parameter: str, values: Iterable[Any] | Mapping[str, Any],
           measure: str | Iterable[str] = ("attractors", "basin_fractions"), *, ranks: int = 1,
           output: str | os.PathLike[str] | None = None, progress: bool = True, **keys: Any) -> Result:
     """Follows the attractors along one key of the pendulum, in the window of the scene's basin if it has one.
 
     `result.group("sweep")` has the numbers. Every study of the scene runs, as it does from the command line.
 
-    :param parameter: key of the mapping `pendulum`, such as "drive_amplitude"
-    :param values: first and last value, both included
-    :param count: number of values
+    :param parameter: key of the mapping `pendulum`, such as "drive_amplitude" or "pendulum.drive_amplitude"
+    :param values: the values, ascending, at most 256; or a range `{"min": 0.1, "max": 0.5, "count": 50}`, both ends included
     :param measure: one or several measures of the study `sweep`, such as "attractors", "basin_fractions" or "release_angle"
     :param ranks: number of MPI processes
     :param output: name of the result file; None = a temporary file
     :param keys: further keys of the study `sweep`, such as `starts=4096`
     """
+    if isinstance(values, str) or isinstance(measure, int) or "count" in keys:
+        raise TypeError('values are a list such as [0.1, 0.2, 0.5], or a range {"min": 0.1, "max": 0.5, "count": 50}')
     asked = Scene(scene)
-    plan = {"parameter": parameter, "min": values[0], "max": values[1], "count": count,
+    plan = {"parameter": parameter, **(values if isinstance(values, Mapping) else {"values": list(values)}),
             "measure": [measure] if isinstance(measure, str) else list(measure), **keys}
     return run(asked.tree() | {"sweep": plan}, output, ranks, progress=progress)

@@ -1,4 +1,5 @@
 /* The table of keys as a JSON schema (draft 2020-12), for editors and other checkers. */
+#include <stdio.h>
 #include <string.h>
 
 #include "app.h"
@@ -17,23 +18,29 @@ static kz_json *object_of(const char *name, kz_json *value) {
   return object;
 }
 
-/* Adds the symbol of the key that a word names. */
-static void add_symbol(kz_json *list, const char *word, int length) {
-  for (const kz_key *key = kz_scene_keys(); key->path; key++) {
-    const char *name = kz_key_name(key);
-    if (!key->symbol || strlen(name) != (size_t)length || strncmp(name, word, (size_t)length) != 0) continue;
-    json_object_array_add(list, kz_json_text(key->symbol));
-    return;
+static void add_word(kz_json *list, const char *before, const char *word, int length) {
+  char text[128];
+  snprintf(text, sizeof text, "%s%.*s", before, length, word);
+  json_object_array_add(list, kz_json_text(text));
+}
+
+/* Adds the words, each with the symbol of the key that it names. */
+static void add_words(kz_json *list, const char *before, const char *words) {
+  int length;
+  for (const char *word; (word = kz_words_next(&words, &length));) {
+    const kz_key *key = kz_scene_keys();
+    add_word(list, before, word, length);
+    while (key->path &&
+           (!key->symbol || strlen(kz_key_name(key)) != (size_t)length || strncmp(kz_key_name(key), word, (size_t)length) != 0))
+      key++;
+    if (key->path) add_word(list, before, key->symbol, (int)strlen(key->symbol));
   }
 }
 
-static kz_json *words_of(const char *words) {
+static kz_json *words_of(const kz_key *key) {
   kz_json *list = json_object_new_array();
-  int length;
-  for (const char *word; (word = kz_words_next(&words, &length));) {
-    json_object_array_add(list, json_object_new_string_len(word, length));
-    add_symbol(list, word, length);
-  }
+  add_words(list, "", kz_key_words(key));
+  if (key->words_from == kz_sweep_words) add_words(list, KZ_OF_PENDULUM, kz_sweep_words());
   return object_of("enum", list);
 }
 
@@ -61,7 +68,7 @@ static kz_json *value_of(const kz_key *key) {
       return object_of("type", kz_json_text("boolean"));
     case KZ_KEY_WORD:
     case KZ_KEY_WORDS:
-      return words_of(kz_key_words(key));
+      return words_of(key);
     case KZ_KEY_REAL:
     case KZ_KEY_DECIMAL:
     case KZ_KEY_REALS:
@@ -84,7 +91,7 @@ static kz_json *other_of(const kz_key *key) {
   const bool real = key->type == KZ_KEY_REAL || decimal || key->type == KZ_KEY_REALS;
   const bool unit = real && (kz_unit_is_known(key->unit) || own);
   char pattern[128];
-  if (takes_a_word(key)) return words_of(key->words);
+  if (takes_a_word(key)) return words_of(key);
   if (!angle && !decimal && !unit) return NULL;
   if (angle)
     snprintf(pattern, sizeof pattern, "^([-+.0-9eE]+ ?(deg|\xc2\xb0)|%s[-+.0-9eE]* ?pi(/[0-9]+)?)$",

@@ -86,7 +86,7 @@ double kz_axis_value(const kz_axis *values, int64_t i) {
 }
 
 double kz_sweep_value(const kz_sweep_plan *plan, int64_t i) {
-  return kz_axis_value(&plan->values, i);
+  return plan->listed.count > 0 ? plan->listed.values[i] : kz_axis_value(&plan->values, i);
 }
 
 double kz_axis_written(const kz_axis *values, double value) {

@@ -166,7 +166,7 @@ def test_both_names_of_one_motion_are_shown(result):
 def test_a_sweep_keeps_the_window_of_the_scene():
     """Near the inverted state every start stands: the whole plane has other shares."""
     near = {"pendulum": FIG12, "basin": {"theta": {"min": 2.9, "max": 3.4, "count": 8}, "velocity": {"min": -0.1, "max": 0.1, "count": 8}}}
-    swept = kapitza.sweep(near, "drive_amplitude", (0.3, 0.31), 2, "basin_fractions", starts=64, progress=False).group("sweep")
+    swept = kapitza.sweep(near, "drive_amplitude", [0.3, 0.31], "basin_fractions", starts=64, progress=False).group("sweep")
     inverted = [branch for branch, code in enumerate(swept["branch_centre"].values) if code == 1]
     assert swept["fraction"].values[:, inverted].sum(axis=1) == pytest.approx([1, 1])
 
@@ -186,7 +186,7 @@ def test_an_orbit_and_a_sweep():
     assert orbit.group("orbit")["theta"].values[0] == pytest.approx(np.radians(170)) and orbit.groups == ["pendulum", "orbit"]
     cycle = kapitza.orbit(Scene(SMALL, FEW), attractor="rotation +1/1", progress=False)
     assert cycle.group("orbit").attrs["winding"] == 1
-    swept = kapitza.sweep({"pendulum": FIG12}, "drive_amplitude", (0.28, 0.3), 2, "basin_fractions", starts=64, progress=False)
+    swept = kapitza.sweep({"pendulum": FIG12}, "drive_amplitude", [0.28, 0.3], "basin_fractions", starts=64, progress=False)
     assert list(swept.group("sweep")["value"].values) == [0.28, 0.3]
     with pytest.raises(ValueError, match="give theta and velocity"):
         kapitza.orbit({"pendulum": FIG12})
@@ -273,7 +273,7 @@ def test_symbols_name_keys_of_the_pendulum():
     with pytest.raises(kapitza.SceneError) as caught:
         kapitza.check(scene, set={"pendulum.Q": -1})
     assert (caught.value.key, caught.value.value) == ("pendulum.quality_factor", "-1")
-    swept = kapitza.sweep(scene, "epsilon", (0.1, 0.2), 3, "attractors", progress=False, starts=64)
+    swept = kapitza.sweep(scene, "pendulum.epsilon", [0.1, 0.15, 0.2], "attractors", progress=False, starts=64)
     assert swept.group("sweep").attrs["parameter"] == "drive_amplitude"
     with kapitza.Engine(scene | {"basin": {"velocity": {"min": -2, "max": 2}}}) as engine:
         labels = engine.frame(None, (5, 5), pendulum={"Q": 5, "Omega": 11, "epsilon": 0.2})

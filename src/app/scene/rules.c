@@ -138,51 +138,77 @@ static void check_stiffness(kz_reading *reading, const kz_pendulum *pendulum, co
 }
 
 /* Converts a value that was written with a unit to the unit of the parameter; *written = that unit, unless it has one. */
-static void read_in_unit(kz_reading *reading, int32_t parameter, const char *path, double *value, kz_written_unit *written) {
+static void read_in_unit(kz_reading *reading, int32_t parameter, const kz_node *node, const char *path, double *value,
+                         kz_written_unit *written) {
   const char *unit = kz_sweep_parameters[parameter].unit;
-  const kz_node *node = kz_tree_find(reading->root, path);
   const char *wrong = !node || isnan(*value)     ? NULL
                       : strcmp(unit, "rad") == 0 ? kz_scalar_angle(node, value)
                                                  : kz_scalar_quantity(node, unit, value);
   if (wrong)
-    kz_complain(reading, path, "\"%.60s\" %s; it must be a number%s%s, as pendulum.%s is", node->text, wrong,
-                unit[0] == '1' ? "" : " in ", unit[0] == '1' ? "" : unit, kz_sweep_parameters[parameter].name);
+    kz_complain_at(reading, node, path, "\"%.60s\" %s; it must be a number%s%s, as pendulum.%s is", node->text, wrong,
+                   unit[0] == '1' ? "" : " in ", unit[0] == '1' ? "" : unit, kz_sweep_parameters[parameter].name);
   else if (node && !written->name[0])
     *written = kz_scalar_unit(node, unit);
 }
 
 /* One value of a key of the pendulum mapping: in the range of the key itself, and a pendulum. */
-static void parameter_value(kz_reading *reading, const kz_scene *scene, int32_t parameter, const char *path, double value) {
+static void parameter_value(kz_reading *reading, const kz_scene *scene, int32_t parameter, const kz_node *node,
+                            const char *path, double value) {
   kz_pendulum pendulum;
   const kz_short_text key = kz_key_in("pendulum", kz_sweep_parameters[parameter].name);
   const double low = kz_key_find(reading->keys, key.text)->low;
   if (isnan(value)) return;
   if (value < low)
-    kz_complain(reading, path, "%s is below what %s takes; %s%g", kz_shortest(value).text, key.text,
-                low == KZ_ABOVE_ZERO ? "above " : "at least ", low == KZ_ABOVE_ZERO ? 0.0 : low);
+    kz_complain_at(reading, node, path, "%s is below what %s takes; %s%g", kz_shortest(value).text, key.text,
+                   low == KZ_ABOVE_ZERO ? "above " : "at least ", low == KZ_ABOVE_ZERO ? 0.0 : low);
   else if (reading->message[0])
     return;
   else if (!kz_pendulum_at(scene, 1, &parameter, &value, &pendulum))
-    kz_complain(reading, path,
-                "%s gives no finite k, beta >= 0 and m, or an inertia below mass * radius^2; use a less extreme value",
-                kz_shortest(value).text);
+    kz_complain_at(reading, node, path,
+                   "%s gives no finite k, beta >= 0 and m, or an inertia below mass * radius^2; use a less extreme value",
+                   kz_shortest(value).text);
   else
     check_stiffness(reading, &pendulum, path);
 }
 
-/* The values of a key of the pendulum mapping that `path` walks along. */
-static void parameter_values(kz_reading *reading, const kz_scene *scene, int32_t parameter, kz_axis *values, const char *path) {
-  if (parameter == KZ_UNSET_WORD) return;
+/* The key of the pendulum mapping that `path` walks along. */
+static void parameter_rule(kz_reading *reading, int32_t parameter, const char *path) {
   const char *name = kz_sweep_parameters[parameter].name;
-  const kz_short_text min = kz_key_in(path, "min"), max = kz_key_in(path, "max");
-  read_in_unit(reading, parameter, min.text, &values->min, &values->written);
-  read_in_unit(reading, parameter, max.text, &values->max, &values->written);
-  kz_axis_rules(reading, values, path);
   if (!kz_tree_find(reading->root, kz_key_in("pendulum", name).text))
     kz_complain(reading, kz_key_in(path, "parameter").text,
                 "%s is not given in the pendulum mapping; name a key that is written there", name);
-  parameter_value(reading, scene, parameter, min.text, values->min);
-  parameter_value(reading, scene, parameter, max.text, values->max);
+}
+
+/* The range of that key's values. */
+static void parameter_values(kz_reading *reading, const kz_scene *scene, int32_t parameter, kz_axis *values, const char *path) {
+  if (parameter == KZ_UNSET_WORD) return;
+  const kz_short_text min = kz_key_in(path, "min"), max = kz_key_in(path, "max");
+  const kz_node *first = kz_tree_find(reading->root, min.text), *last = kz_tree_find(reading->root, max.text);
+  read_in_unit(reading, parameter, first, min.text, &values->min, &values->written);
+  read_in_unit(reading, parameter, last, max.text, &values->max, &values->written);
+  kz_axis_rules(reading, values, path);
+  parameter_rule(reading, parameter, path);
+  parameter_value(reading, scene, parameter, first, min.text, values->min);
+  parameter_value(reading, scene, parameter, last, max.text, values->max);
+}
+
+/* Values of a sweep that the scene lists. */
+static void listed_values(kz_reading *reading, const kz_scene *scene, kz_sweep_plan *sweep) {
+  static const char path[] = "sweep.values";
+  double *value = sweep->listed.values;
+  const int64_t count = sweep->listed.count;
+  const kz_node *node = kz_tree_find(reading->root, path)->first;
+  if (sweep->parameter == KZ_UNSET_WORD) return;
+  if (count < 2) kz_complain_at(reading, node, path, "has one value; give two or more");
+  parameter_rule(reading, sweep->parameter, "sweep");
+  for (int64_t i = 0; i < count; i++, node = node->next) {
+    read_in_unit(reading, sweep->parameter, node, path, value + i, &sweep->range.written);
+    parameter_value(reading, scene, sweep->parameter, node, path, value[i]);
+    if (i > 0 && !(value[i] - value[i - 1] > 8.0 * DBL_EPSILON * fabs(value[i])))
+      kz_complain_at(reading, node, path, "%s is not above the value before it, %s; give ascending values",
+                     kz_shortest(value[i]).text, kz_shortest(value[i - 1]).text);
+  }
+  sweep->values = (kz_axis){.min = value[0], .max = value[count - 1], .count = count, .written = sweep->range.written};
 }
 
 static void sweep_rules(kz_reading *reading, kz_scene *scene) {
@@ -191,7 +217,11 @@ static void sweep_rules(kz_reading *reading, kz_scene *scene) {
   if (scene->has_basin && !isnan(scene->basin->accuracy))
     kz_complain(reading, "basin.accuracy",
                 "is chosen for one pendulum, and a sweep has many; give method, icm and numerics instead");
-  if (!kz_sweep_is_plane(sweep)) parameter_values(reading, scene, sweep->parameter, &sweep->values, "sweep");
+  if (sweep->listed.count > 0)
+    listed_values(reading, scene, sweep);
+  else if (!kz_sweep_is_plane(sweep))
+    parameter_values(reading, scene, sweep->parameter, &sweep->range, "sweep");
+  if (sweep->listed.count == 0) sweep->values = sweep->range;
   if (sweep->ends.theta.count > 0 && sweep->ends.velocity.count != 1 && sweep->ends.velocity.count != sweep->ends.theta.count)
     kz_complain(reading, "sweep.ends.velocity", "has %lld values for %lld angles; give one for each angle, or one for all",
                 (long long)sweep->ends.velocity.count, (long long)sweep->ends.theta.count);

@@ -69,7 +69,8 @@ kz_node *kz_tree_child(const kz_node *mapping, const char *name);
 kz_node *kz_tree_find(const kz_node *root, const char *path);
 /* Puts `value` at `path` in place of the old node and creates the mappings on the way. The tree owns `value` in every case. */
 kz_status kz_tree_set(kz_node *root, const char *path, kz_node *value);
-/* Replaces symbols by the names of their keys: "Q: 5" of the pendulum by "quality_factor: 5", and "parameter: Q" of a sweep likewise. */
+#define KZ_OF_PENDULUM "pendulum." /* may stand before a key of the pendulum that a sweep or a plane names */
+/* Replaces other spellings of keys: "Q: 5" of the pendulum by "quality_factor: 5", and "parameter: Q" of a sweep likewise. */
 void kz_tree_name_symbols(const kz_key *keys, kz_node *root);
 /* Removes the node at `path` from the tree and returns it, or NULL; the caller frees it. */
 kz_node *kz_tree_take(kz_node *root, const char *path);

@@ -97,7 +97,17 @@ static void name_value(const kz_key *key, const kz_key *meant, kz_node *root) {
     set_text(&node->text, kz_key_name(meant));
 }
 
+/* Takes the name of the mapping from before a key of the pendulum. */
+static void name_parameter(const kz_key *key, kz_node *root) {
+  kz_node *node = key->words_from == kz_sweep_words ? kz_tree_find(root, key->path) : NULL;
+  if (!node || !node->text || strncmp(node->text, KZ_OF_PENDULUM, strlen(KZ_OF_PENDULUM)) != 0) return;
+  char *name = kz_strdup(node->text + strlen(KZ_OF_PENDULUM));
+  free(node->text);
+  node->text = name;
+}
+
 void kz_tree_name_symbols(const kz_key *keys, kz_node *root) {
+  for (const kz_key *key = keys; key->path; key++) name_parameter(key, root);
   for (const kz_key *key = keys; key->path; key++) {
     if (!key->symbol) continue;
     char path[256];

@@ -4,24 +4,27 @@
 #include "measures/option_keys.h"
 #include "plan.h"
 
-/* An axis of a plane, whose mapping belongs to form b. */
+/* An axis of a plane, whose mapping belongs to form c. */
 #define PLANE_OF(axis, help)                                                                                     \
-  ROW("sweep." #axis, KZ_KEY_MAPPING, NULL, NOWHERE, help, .unit = "", .form = "b", .range = KZ_RANGE_PARAMETER, \
+  ROW("sweep." #axis, KZ_KEY_MAPPING, NULL, NOWHERE, help, .unit = "", .form = "c", .range = KZ_RANGE_PARAMETER, \
       .range_offset = offsetof(kz_sweep_plan, axis)),                                                            \
       PLANE_KEYS(sweep, axis),                                                                                   \
       INTEGER("sweep." #axis ".count", 2, 1e5, NULL, axis.values.count, "Number of values, both ends included.")
 
 static const kz_key keys[] = {
-    STUDY("Study: quantities along one key of the pendulum mapping (a), or over two (b).",
+    STUDY("Study: quantities along one key of the pendulum mapping, at the values of a range (a) or a list (b), or over two "
+          "keys (c).",
           .former = "chart=sweep.measure ends, with sweep.x, sweep.y and sweep.ends"),
     ROW("sweep.parameter", KZ_KEY_WORD, NULL, AT(parameter),
-        "Key of the pendulum mapping, as written there, that takes the values.", .unit = "", .words_from = kz_sweep_words,
+        "Key of the pendulum mapping, as written there, that takes the values; pendulum.KEY is the same.", .unit = "",
+        .words_from = kz_sweep_words, .form = "ab"),
+    ROW("sweep.min", KZ_KEY_REAL, NULL, AT(range.min), "First value.", .unit = KZ_OWN_UNIT, .low = -DBL_MAX, .high = DBL_MAX,
         .form = "a"),
-    ROW("sweep.min", KZ_KEY_REAL, NULL, AT(values.min), "First value.", .unit = KZ_OWN_UNIT, .low = -DBL_MAX, .high = DBL_MAX,
+    ROW("sweep.max", KZ_KEY_REAL, NULL, AT(range.max), "Last value.", .unit = KZ_OWN_UNIT, .low = -DBL_MAX, .high = DBL_MAX,
         .form = "a"),
-    ROW("sweep.max", KZ_KEY_REAL, NULL, AT(values.max), "Last value.", .unit = KZ_OWN_UNIT, .low = -DBL_MAX, .high = DBL_MAX,
-        .form = "a"),
-    INTEGER("sweep.count", 2, 1e5, NULL, values.count, "Number of values, both ends included.", .form = "a"),
+    INTEGER("sweep.count", 2, 1e5, NULL, range.count, "Number of values, both ends included.", .form = "a"),
+    ROW("sweep.values", KZ_KEY_REALS, NULL, AT(listed), "The values themselves, ascending, two or more.", .unit = KZ_OWN_UNIT,
+        .low = -DBL_MAX, .high = DBL_MAX, .form = "b"),
     PLANE_OF(x, "Over a plane instead: the key along the horizontal axis."),
     PLANE_OF(y, "The key along the vertical axis."),
     ROW("sweep.measure", KZ_KEY_WORDS, NULL, AT(measure),

@@ -29,7 +29,9 @@ typedef struct {
 
 struct kz_sweep_plan {
   int32_t parameter;       /* row of kz_sweep_parameters; KZ_UNSET_WORD = over a plane */
-  kz_axis values;          /* both ends included */
+  kz_axis range;           /* as the scene gives it, or `listed`; NaN = not given */
+  kz_reals listed;         /* ascending */
+  kz_axis values;          /* the range, or the ends and the number of the list: kz_sweep_value has each */
   kz_plane_axis x, y;      /* of a plane */
   kz_integers measure;     /* indices in the list of kz_sweep_measure_words() */
   kz_axis theta, velocity; /* window of starts; the counts of the axes are not used */
