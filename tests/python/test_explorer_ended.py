@@ -31,6 +31,60 @@ def test_a_picture_that_was_cancelled_is_not_the_one_wanted_since(page):
     assert "decided" in page.wait()
 
 
+SHOWN = "((pane) => [pane.top && pane.shows(pane.top), pane.top?.level, [...$('legend').rows].map((row) => row.cells[2].textContent), " \
+        "$('cancel').textContent])(explorer.basins.panes[0])"
+
+
+def test_what_is_cancelled_at_once_still_shows_the_window_that_was_asked_for(page):
+    """The list kept the numbers of the window before, beside a patch of its picture, and a second Home did nothing."""
+    page.run("explorer.state.change({quality: 'exact', pendulum: {...explorer.state.pendulum, m: '5.2'}})")
+    page.wait()
+    page.run("explorer.state.change({window: explorer.state.window.zoomed(0.1, 0.52, 0.4), jump: true})")
+    page.wait()
+    page.press("home")
+    page.key("Escape")
+    assert page.wait().startswith("Cancelled.")
+    shown, level, shares, button = page.run(SHOWN)
+    assert shown and level < 8 and "–" not in shares and button == "Resume"
+    page.press("home")
+    assert "undecided" in page.wait()
+    assert page.run(SHOWN)[::3] == [True, "Cancel"] and page.run("$('cancel').disabled")
+
+
+def test_numbers_of_another_window_are_not_said_of_this_one(page):
+    """Where nothing of the window wanted came before it was cancelled twice."""
+    page.run("explorer.state.change({pendulum: {...explorer.state.pendulum, m: '5.2'}})")
+    page.wait()
+    zoom = "explorer.state.change({window: explorer.state.window.zoomed(1.9, 0.5, 0.5).moved(0, 0.2), jump: true})"
+    page.run("explorer.state.change({window: explorer.state.window.zoomed(0.1, 0.52, 0.4), jump: true})")
+    page.wait()
+    stop = "document.body.dispatchEvent(new KeyboardEvent('keydown', {key: 'Escape', bubbles: true, cancelable: true}))"
+    page.run(f"({zoom}, {stop}, {stop})")
+    assert page.wait().startswith("Cancelled.")
+    assert wait_for(lambda: page.run(SHOWN) == [False, 1, ["–"] * 3, "Resume"])
+    page.run("explorer.basins.point(explorer.basins.panes[0], [0.5, 0.45])")
+    assert "window" not in page.run("$('pointer').textContent")
+    page.press("cancel")
+    page.wait()
+    assert page.run(SHOWN)[::3] == [True, "Cancel"]
+    page.run(f"(explorer.state.change({{pendulum: {{...explorer.state.pendulum, m: '7'}}}}), {stop}, {stop})")
+    page.wait()
+    assert wait_for(lambda: page.run(SHOWN)[1:] == [None, [], "Resume"])  # no basins of another pendulum
+    page.run("explorer.state.change({pendulum: explorer.state.scene})")
+    page.wait()
+
+
+def test_escape_that_ends_something_else_stops_no_labels(page):
+    deciding(page)
+    page.run("document.querySelector('.menu').open = true")
+    page.key("Escape")
+    assert not page.run("document.querySelector('.menu').open") and "undecided" in page.wait()
+    page.run("explorer.state.change({pendulum: {...explorer.state.pendulum, m: '5.4'}})")
+    page.press("dive")
+    page.key("Escape")
+    assert page.run("$('dive').getAttribute('aria-pressed')") == "false" and "undecided" in page.wait()
+
+
 def test_a_view_that_changes_while_its_picture_is_computed_is_not_saved(page):
     """The basins of one window stood under the axes of another."""
     page.run("explorer.state.change({quality: 'moving', samples: '1'})")

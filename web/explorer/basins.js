@@ -149,6 +149,11 @@ export class Basins {
     this.write();
   }
 
+  /** Asks again for what was given up or refused. */
+  resume() {
+    for (const pane of this.panes) pane.resume();
+  }
+
   /** Follows an attractor itself, from one of its strobe points. */
   playAttractor(key) {
     const row = this.active.top && sharesOf(this.active.top).find((one) => one.key === key);
@@ -289,7 +294,9 @@ export class Basins {
     document.body.dataset.state = worst;
     element("status").textContent = all.find((one) => one.state === worst)?.words ?? "";
     element("progress").value = Math.min(...all.map((one) => one.progress ?? 0));
-    element("cancel").disabled = worst !== "computing" && worst !== "moving";
+    const isStopped = worst === "done" && this.panes.some((one) => one.isStopped);
+    element("cancel").textContent = isStopped ? "Resume" : "Cancel";
+    element("cancel").disabled = !isStopped && worst !== "computing" && worst !== "moving";
     const refusal = pane.root.querySelector(".refusal");
     refusal.hidden = this.states.get(pane).state !== "error";
     refusal.textContent = refusal.hidden ? "" : this.states.get(pane).words;
@@ -306,8 +313,9 @@ export class Basins {
   writeNow() {
     this.writePointed();
     if (!this.state.playing) this.drawStage(); // the catalogue has the bob's colour
-    const rows = rowsOf(this.panes.map((pane) => pane.top));
+    const rows = rowsOf(this.panes);
     writeLegend(element("legend"), rows);
+    element("legend").classList.toggle("stale", this.panes.some((pane) => pane.top && !pane.shows(pane.top)));
     this.passport.write(rows);
     const { theta, velocity } = this.state.window;
     const depth = this.state.home.theta.width / theta.width;

@@ -62,7 +62,12 @@ function listenStage(state, basins) {
   show();
   const close = (target) => document.querySelectorAll(".menu[open]").forEach((menu) => menu.contains(target) || (menu.open = false));
   addEventListener("pointerdown", (event) => close(event.target));
-  addEventListener("keydown", (event) => event.key === "Escape" && (close(null), (document.body.dataset.filled = "")));
+  addEventListener("keydown", (event) => {
+    if (event.key !== "Escape") return;
+    if (document.body.dataset.filled || document.querySelector(".menu[open]")) event.preventDefault(); // it stops no labels, too
+    close(null);
+    document.body.dataset.filled = "";
+  });
   for (const name in PARTS) document.querySelector(`[data-head=${name}]`).append(fillButton(name));
   for (const button of document.querySelectorAll("[data-fills]"))
     button.onclick = () => {
@@ -93,7 +98,11 @@ const guarded = (action) => () =>
     .catch((error) => complain(error.message));
 
 function listenWindow(state, basins, film) {
-  element("home").onclick = () => (state.change({ jump: false }), state.visit(state.home));
+  element("home").onclick = () => {
+    state.change({ jump: false });
+    state.visit(state.home);
+    basins.resume(); // where it is the window already
+  };
   element("back").onclick = () => state.back();
   element("forward").onclick = () => state.forward();
   const steps = () => {
@@ -110,6 +119,7 @@ function listenWindow(state, basins, film) {
   element("dive").onclick = () => dive.toggle();
   element("nearest").onclick = () => dive.nearest(basins.active);
   element("cancel").onclick = () => {
+    if (document.body.dataset.state === "done") return basins.resume();
     dive.stop();
     film.stop();
     for (const pane of basins.panes) pane.cancel();

@@ -11,9 +11,10 @@ function actionsOn(state, basins) {
     state.keep("move");
     state.change({ window: state.window.moved(x, y).wrapped(), jump: false });
   };
-  const stop = () => {
-    for (const id of ["dive", "film-play"]) if (element(id).getAttribute("aria-pressed") === "true") press(id);
-    press("cancel");
+  const stop = (hasClosed) => {
+    const running = ["dive", "film-play"].filter((id) => element(id).getAttribute("aria-pressed") === "true");
+    running.forEach(press);
+    if (!running.length && !hasClosed && document.body.dataset.state !== "done") press("cancel");
   };
   return [
     [["ArrowLeft"], "move left", move(-STEP, 0)],
@@ -58,7 +59,8 @@ export function listenKeys(state, basins) {
     const action = known.get((control ? "Ctrl+" : "") + event.key);
     const taken = event.altKey || element("help").open;
     if (!action || taken || (typing && event.key !== "Escape")) return;
+    const { defaultPrevented } = event;
     event.preventDefault();
-    action();
+    action(defaultPrevented);
   });
 }

@@ -19,13 +19,15 @@ export const ORDER = [
 
 const MARKED = 4000; // ms
 
-/** Rows of the last frames, by pane: {key, name, colour, shares: [of a, of b]}. */
-export function rowsOf(frames) {
+/** Rows of the last frames of panes: {key, name, colour, shares: [of a, of b]}; null: not known, as a picture was given up before any frame of
+ * its window came. */
+export function rowsOf(panes) {
   const rows = new Map();
-  frames.forEach((frame, pane) => {
-    for (const row of frame ? sharesOf(frame) : []) {
-      if (!rows.has(row.key)) rows.set(row.key, { ...row, shares: frames.map(() => null) });
-      rows.get(row.key).shares[pane] = row.share;
+  panes.forEach((pane, number) => {
+    const isKnown = pane.top && (!pane.isStopped || pane.shows(pane.top));
+    for (const row of pane.top ? sharesOf(pane.top) : []) {
+      if (!rows.has(row.key)) rows.set(row.key, { ...row, shares: panes.map(() => null) });
+      if (isKnown) rows.get(row.key).shares[number] = row.share;
     }
   });
   return [...rows.values()].sort(

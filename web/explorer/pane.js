@@ -57,6 +57,16 @@ export class Pane {
     return this.frames.includes(this.latest) ? this.latest : null;
   }
 
+  /** Whether a frame is of the window and the pendulum that are wanted. */
+  shows(frame) {
+    return frame !== null && frame.key === JSON.stringify(this.pendulum) && frame.window.equals(this.state.window.centred("hanging"));
+  }
+
+  /** Whether the last labels wanted have been given up, or refused. */
+  get isStopped() {
+    return this.version === this.stopped || this.version === this.failed;
+  }
+
   resized() {
     const ratio = devicePixelRatio || 1;
     const [left, top, width, height] = this.plane.box;
@@ -84,6 +94,11 @@ export class Pane {
     clearTimeout(this.waiting);
     if (this.resting || left < 0) controller.abort();
     else if (!this.arrived) this.waiting = setTimeout(() => this.version !== this.pursued && controller.abort(), left);
+  }
+
+  /** Asks again for what was given up or refused. */
+  resume() {
+    if (this.isStopped) this.changed();
   }
 
   /** Moves the old picture towards the window wanted, a step for each picture of the screen. */
@@ -118,17 +133,19 @@ export class Pane {
     for (let done = -1; done !== this.version && !this.closed;) {
       const version = (this.pursued = this.version);
       try {
+        if (this.ended === version) throw overtaken(); // while the frame before was on its way
         await this.frame({ quality: "moving", levels: [8, 4, 2, 1], samples: 1, most: this.most });
         this.measure(performance.now() - this.begun);
         if (version === this.version) await pause(REST);
         this.resting = true;
-        if (version === this.version && this.cancelled !== version) await this.rest(version);
+        if (version === this.version && this.stopped !== version) await this.rest(version);
       } catch (error) {
         this.resting = false;
         if (await this.again(error, version)) continue;
       }
       this.resting = false;
       done = version;
+      if (this.isStopped && this.failed !== version && this.complete !== version) this.rested();
     }
     this.pursuing = false;
   }
@@ -138,7 +155,7 @@ export class Pane {
     const wanted = () => version === this.version && !this.closed;
     if (!wanted()) return false;
     if (error.name !== "AbortError") this.refused(error);
-    if (error.name !== "AbortError" || this.cancelled === version) return false;
+    if (error.name !== "AbortError" || this.stopped === version) return false;
     do await pause(REST);
     while (this.lent > 0 && wanted());
     return wanted();
@@ -159,6 +176,7 @@ export class Pane {
     if (quality === "exact" || samples > 1 || this.most < MOST_MOVING) await this.frame({ quality, levels: [8, 4, 2, 1], samples });
     if (version === this.version) await this.shade();
     if (version !== this.version) return;
+    this.complete = version;
     this.say(this, "done", this.words());
     this.offer.hidden = !(this.top && sharesOf(this.top).filter(({ share }) => share > 0).length === 1);
     const key = JSON.stringify(this.pendulum);
@@ -242,20 +260,42 @@ export class Pane {
     this.report(this);
   }
 
-  /** Nothing stays under axes that it does not belong to. */
-  refused(error) {
+  /** Nothing stays under axes and values that it does not belong to. */
+  empty() {
     for (const frame of this.frames) this.painter.forget(frame);
     this.frames = [];
+  }
+
+  refused(error) {
+    this.failed = this.version;
+    this.empty();
     this.draw();
     this.report(this);
     this.say(this, "error", error.message);
   }
 
+  /** Gives up the labels that are being decided. The quick ones before them, without which nothing shows the window wanted, are given up BLIND
+   * after they were asked for, or when this is called again. */
   cancel() {
-    this.cancelled = this.version;
-    this.controller.abort();
-    this.engine.cancel().catch(() => {});
-    this.say(this, "done", "Cancelled. The picture shows what was computed before.");
+    if (!this.pursuing || this.complete === this.version) return;
+    const left = this.resting || this.stopped === this.version ? 0 : BLIND - (performance.now() - this.begun);
+    this.stopped = this.version;
+    clearTimeout(this.waiting);
+    const end = () => {
+      this.ended = this.stopped;
+      this.controller.abort();
+      this.engine.cancel().catch(() => {});
+    };
+    if (left > 0) this.waiting = setTimeout(end, left);
+    else end();
+  }
+
+  /** What a cancelled picture is. */
+  rested() {
+    if (this.top && this.top.key !== JSON.stringify(this.pendulum)) this.empty();
+    this.draw();
+    this.report(this);
+    this.say(this, "done", "Cancelled. The picture is what was computed until then.");
   }
 
   words() {

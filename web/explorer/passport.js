@@ -18,7 +18,8 @@ const returnTime = ({ period, multiplier }, units) =>
  * `units`: of the page. */
 export function measureWords(row, push, units) {
   const settling = row.settling > 0 ? `settles in ${timeOf(row.settling, units)} (mean)` : "";
-  return [`${shareWords(row.share)} of this window`, settling, returnTime(row, units), push].filter(Boolean).join(", ");
+  const share = row.share === null ? "" : `${shareWords(row.share)} of this window`;
+  return [share, settling, returnTime(row, units), push].filter(Boolean).join(", ");
 }
 
 /** What is known of an attractor itself, in words; `share`: of its basin. Measures of other kinds join here as further lines. */
@@ -30,7 +31,7 @@ export function passportWords(row, share, units) {
   const back = returnTime(row, units) && `, ${returnTime(row, units)}`;
   const [theta, velocity] = strobe[0].map((value) => value.toPrecision(5));
   return (
-    `${words}: ${shareWords(share)} of this window; in files ${name}\n${closes}${turns}; ${image}\n` +
+    `${words}:${share === null ? "" : ` ${shareWords(share)} of this window;`} in files ${name}\n${closes}${turns}; ${image}\n` +
     `largest multiplier ${multiplier.toPrecision(4)}${back}; strobe point θ ${units.angle(theta)}, velocity ${units.velocity(velocity)}`
   );
 }

@@ -17,7 +17,8 @@ export function wordsAt(pane, { passport, units }, across, up) {
   if (!found) return "not labelled yet";
   const { frame, cell } = found;
   const name = frame.labels[cell] === 255 ? unlabelled(frame) : frame.catalogue.attractors[frame.labels[cell]].words;
-  const measures = row ? `: ${measureWords(row, passport.pushOf(pane, row), units)}` : "";
+  const known = row && (pane.shows(frame) ? row : { ...row, share: null, settling: null }); // those of another window are no measures of this
+  const measures = row ? `: ${measureWords(known, passport.pushOf(pane, row), units)}` : "";
   return name + (frame.cells[4 * cell + 2] === 255 ? " (undecided)" : "") + measures;
 }
 

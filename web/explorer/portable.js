@@ -17,7 +17,7 @@ button:disabled{cursor:default}#views button{display:inline;width:auto;opacity:.
 
 export async function saveHtml(state, basins) {
   const rows = [];
-  for (const row of rowsOf(basins.panes.map((pane) => pane.top))) rows.push(await recorded(row, basins));
+  for (const row of rowsOf(basins.panes)) rows.push(await recorded(row, basins));
   const picture = pictureCanvas(state, basins).toDataURL("image/png");
   const data = JSON.stringify({ rows, pivotFrequency: state.pivotFrequency }).replace(/</g, "\\u003c");
   const title = state.title.replace(/&/g, "&amp;").replace(/</g, "&lt;");

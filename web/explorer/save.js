@@ -65,7 +65,7 @@ export function drawPicture(surface, state, basins, pictures = new Map()) {
     drawPane(surface, pane, left, basins.captionOf(pane), pictures.get(pane));
     left += pane.over.clientWidth;
   }
-  rowsOf(basins.panes.map((pane) => pane.top)).forEach((row, i) => {
+  rowsOf(basins.panes).forEach((row, i) => {
     surface.rectangle(left + 8, HEAD + 12 + 20 * i, 13, 13, LIGHT.ink);
     surface.rectangle(left + 9, HEAD + 13 + 20 * i, 11, 11, row.colour);
     surface.text(signed(row.words ?? row.name), left + 28, HEAD + 23 + 20 * i, "left");
