@@ -3,10 +3,12 @@
 What draws is imported where it draws: a session that draws nothing does not wait for matplotlib.
 """
 
+import itertools
 import os
 import shutil
 import subprocess
 from collections.abc import Iterable, Mapping
+from contextlib import suppress
 from pathlib import Path
 from typing import Any
 
@@ -34,12 +36,20 @@ def film(scene: SceneLike, key: str, values: Iterable[Any], output: str | os.Pat
     :param set: other keys to change
     :param centre: angle in the middle of the picture: "inverted" or "down"
     """
+    check_rate(rate)
+
     def pictures() -> Iterable[Image.Image]:
         for value in values:
             result = run(scene, set={**(set or {}), key: value}, ranks=ranks, progress=False)
             yield film_picture(result, heading(key, value), centre=centre)
 
     return write_film(output, pictures(), rate)
+
+
+def check_rate(rate: float) -> None:
+    """ValueError where it is none that a film can have."""
+    if not 0.1 <= rate <= 1000:
+        raise ValueError(f"rate {rate:g} is out of range; give a number from 0.1 to 1000")
 
 
 def film_picture(result: Result, heading: str, *, centre: str = "inverted", dpi: float = 150) -> Image.Image:
@@ -82,24 +92,22 @@ def write_film(output: str | os.PathLike[str], pictures: Iterable[Image.Image], 
     path = path.with_suffix(".gif") if is_gif else path
     part = path.with_name(f"part-{path.name}")
     part.unlink(missing_ok=True)  # a link there would lead elsewhere
-    (_write_gif if is_gif else _write_mp4)(part, pictures, rate)
-    part.replace(path)
+    try:
+        (_write_gif if is_gif else _write_mp4)(part, pictures, rate)
+        part.replace(path)
+    finally:
+        part.unlink(missing_ok=True)
     return path
 
 
 def _write_mp4(path: Path, pictures: Iterable[Image.Image], rate: float) -> None:
-    process = None
-    for picture in pictures:
-        if process is None:
-            process = subprocess.Popen(_ffmpeg(path, picture.size, rate), stdin=subprocess.PIPE)
-        assert process.stdin
-        try:
-            process.stdin.write(picture.tobytes())
-        except BrokenPipeError:
-            break
-    if process is None:
+    rest = iter(pictures)
+    if (first := next(rest, None)) is None:
         raise BadFile(f"{path}: there are no pictures to make a film of")
-    process.communicate()
+    with suppress(BrokenPipeError), subprocess.Popen(_ffmpeg(path, first.size, rate), stdin=subprocess.PIPE) as process:
+        assert process.stdin
+        for picture in itertools.chain([first], rest):
+            process.stdin.write(picture.tobytes())
     if process.returncode:
         raise BadFile(f"{path}: ffmpeg could not write the film")
 

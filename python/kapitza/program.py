@@ -7,10 +7,11 @@ import shutil
 import subprocess
 import warnings
 from collections.abc import Sequence
+from numbers import Integral
 from pathlib import Path
 from typing import Any
 
-from kapitza.scene import Scene
+from kapitza.scene import Scene, passed_on
 
 # What mpirun needs in containers and on small machines: root may run it, and ranks may outnumber cores. Variables,
 # because every MPI has other options for it (OMPI: Open MPI 4; PRTE: Open MPI 5; MPICH needs none).
@@ -73,8 +74,8 @@ def program() -> Path:
 
 def command(words: Sequence[str | os.PathLike[str]], ranks: int = 1) -> list[str]:
     """The command line of the program with these words, under a launcher of MPI where there are several ranks."""
-    if ranks < 1:
-        raise ValueError(f"ranks is {ranks}; it must be at least 1")
+    if not isinstance(ranks, Integral) or ranks < 1:
+        raise ValueError(f"ranks is {ranks!r}; it must be a whole number, at least 1")
     most = max(FEWEST_MOST_RANKS, RANKS_PER_CORE * (os.cpu_count() or 1))
     if ranks > most and not any(name.startswith(("SLURM_", "PBS_", "LSB_")) for name in os.environ):
         raise ValueError(f"ranks is {ranks}; on this machine it must be at most {most}, {RANKS_PER_CORE} for each core")
@@ -98,7 +99,7 @@ def _launcher(own: Path) -> str:
 
 def _word(word: str | os.PathLike[str]) -> str:
     """A word of a command line; a path that begins with - is no option."""
-    text = os.fspath(word)
+    text = passed_on(os.fspath(word), file_name=True)
     return f"./{text}" if text.startswith("-") and not isinstance(word, str) else text
 
 
@@ -112,7 +113,7 @@ def environment() -> dict[str, str]:
 
 def ask(words: Sequence[str | os.PathLike[str]], scene: Scene, text: str | None = None) -> str:
     """What the program prints; SceneError or RunError where it ends otherwise. `text`: its standard input."""
-    done = subprocess.run(command(words), input=text, capture_output=True, text=True, env=environment(), check=False)
+    done = subprocess.run(command(words), input=text and passed_on(text), capture_output=True, text=True, env=environment(), check=False)
     check_end(done.returncode, done.stderr, scene)
     return done.stdout
 

@@ -2,17 +2,22 @@
 
 import argparse
 import io
+import struct
 import zipfile
+import zlib
 from collections.abc import Iterator
 from pathlib import Path
 
 from PIL import Image, UnidentifiedImageError
 
-from kapitza.films import write_film
+from kapitza.films import check_rate, write_film
 from kapitza.result import BadFile
 
 FORMATS = (".mp4", ".gif")
 RATE = 25.0  # pictures a second, as the explorer plays them
+MOST_PIXELS = 7680 * 4320  # of a picture: those of an 8K screen
+MOST_BYTES = 4 * MOST_PIXELS  # of a PNG
+PNG = b"\x89PNG\r\n\x1a\n\0\0\0\rIHDR"  # how each begins; width and height follow
 
 
 def pictures_of(path: Path) -> Iterator[Image.Image]:
@@ -20,12 +25,28 @@ def pictures_of(path: Path) -> Iterator[Image.Image]:
     try:
         with zipfile.ZipFile(path) as archive:
             size = None
-            for name in sorted(archive.namelist()):
-                picture = Image.open(io.BytesIO(archive.read(name))).convert("RGB")
+            for entry in sorted(archive.infolist(), key=lambda entry: entry.filename):
+                picture = _picture_of(archive, entry)
                 size = size or picture.size
                 yield picture if picture.size == size else picture.resize(size)
-    except (zipfile.BadZipFile, UnidentifiedImageError, Image.DecompressionBombError, NotImplementedError, RuntimeError, EOFError) as error:
+    except (zipfile.BadZipFile, zlib.error, UnidentifiedImageError, NotImplementedError, RuntimeError, EOFError, SyntaxError,
+            ValueError) as error:
         raise BadFile(f"{path}: is not a ZIP of pictures as the explorer records them: {error}") from error
+
+
+def _picture_of(archive: zipfile.ZipFile, entry: zipfile.ZipInfo) -> Image.Image:
+    """One picture. What the directory and its header say of its size is looked at before it is read; ValueError where it is no PNG or
+    too large."""
+    if entry.compress_type not in (zipfile.ZIP_STORED, zipfile.ZIP_DEFLATED) or entry.file_size > MOST_BYTES:
+        raise ValueError(f"{entry.filename} takes more than {MOST_BYTES / 1e6:.0f} MB, or is packed in a way of its own")
+    with archive.open(entry) as file:
+        head = file.read(len(PNG) + 8)
+    if not head.startswith(PNG) or len(head) < len(PNG) + 8:
+        raise ValueError(f"{entry.filename} is no PNG")
+    width, height = struct.unpack(">2I", head[len(PNG):])
+    if width * height > MOST_PIXELS:
+        raise ValueError(f"{entry.filename} has {width} x {height} pixels; it may have {MOST_PIXELS / 1e6:.0f} million")
+    return Image.open(io.BytesIO(archive.read(entry)), formats=["PNG"]).convert("RGB")
 
 
 def main(words: list[str]) -> None:
@@ -38,6 +59,8 @@ def main(words: list[str]) -> None:
     output = given.output or given.file.with_suffix(".mp4")
     if output.suffix.lower() not in FORMATS:
         parser.error(f"{output}: the name must end in {' or '.join(FORMATS)}")
-    if not 0.1 <= given.rate <= 1000:
-        parser.error(f"--rate {given.rate:g} is out of range; give a number from 0.1 to 1000")
+    try:
+        check_rate(given.rate)
+    except ValueError as error:
+        parser.error(f"--{error}")
     print(write_film(output, pictures_of(given.file), given.rate))

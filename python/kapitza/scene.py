@@ -198,8 +198,19 @@ def new_path(name: str) -> Path:
     return Path(tempfile.mkdtemp(dir=session_folder())) / name
 
 
+def passed_on(text: str, file_name: bool = False) -> str:
+    """The text, if a program can be given it; names of files may hold bytes that are no letters, which Python has as surrogates."""
+    try:
+        text.encode(errors="surrogateescape" if file_name else "strict")
+    except UnicodeEncodeError as error:
+        raise ValueError(f"{text[:60]!a} holds half of a character: {text[error.start]!a}") from None
+    if "\0" in text:
+        raise ValueError(f"{text[:60]!a} holds the character NUL")
+    return text
+
+
 def write_scene(text: str) -> Path:
     """A file with this text, for commands whose standard input holds something else."""
     path = new_path("scene.yaml")
-    path.write_text(text, encoding="utf-8")
+    path.write_text(passed_on(text), encoding="utf-8")
     return path

@@ -1,9 +1,11 @@
 """Films: one goes on with its own whole frames, and with nobody else's; pictures of one size, MP4 and GIF."""
 
 import shutil
+import struct
 import subprocess
 import sys
 import zipfile
+import zlib
 
 import film_basin
 import kapitza
@@ -11,6 +13,7 @@ import numpy as np
 import pytest
 from conftest import ROOT, run_script
 from kapitza import films, recording
+from kapitza.explorer import picture
 from kapitza.result import BadFile
 from PIL import Image, ImageSequence
 
@@ -132,3 +135,56 @@ def test_what_is_no_recording_is_refused(tmp_path):
             recording.main([str(tmp_path / name), "-o", str(tmp_path / "film.gif")])
     with pytest.raises(SystemExit):
         recording.main([str(tmp_path / "a.zip"), "-o", str(tmp_path / "film.avi")])
+
+
+def chunk(kind, data):
+    return struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
+
+
+def png(width, height):
+    """A PNG of a few bytes whose header says how large it is."""
+    header = struct.pack(">2I5B", width, height, 1, 0, 0, 0, 0)
+    return b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", header) + chunk(b"IDAT", zlib.compress(b"\0")) + chunk(b"IEND", b"")
+
+
+@pytest.mark.parametrize("content, wrong", [
+    (png(30000, 30000), "has 30000 x 30000 pixels"), (png(12000, 12000), "has 12000 x 12000 pixels"), (b"BM" + bytes(60), "is no PNG"),
+    (png(30, 30)[:20], "is no PNG"), (png(30, 30), "truncated")])
+def test_pictures_that_are_too_large_or_damaged_cost_one_line(tmp_path, content, wrong):
+    """Nothing is made of them: neither pixels in memory nor a part of a film."""
+    with zipfile.ZipFile(tmp_path / "film.zip", "w") as archive:
+        archive.writestr("film-000.png", content)
+    for name in ("film.gif", "film.mp4"):
+        with pytest.raises((BadFile, OSError), match=wrong):
+            recording.main([str(tmp_path / "film.zip"), "-o", str(tmp_path / name)])
+    assert [path.name for path in tmp_path.iterdir()] == ["film.zip"]
+
+
+def test_a_damaged_archive_costs_one_line(tmp_path):
+    """Bytes that do not unpack, and a picture that would unpack to gigabytes."""
+    path = tmp_path / "film.zip"
+    with zipfile.ZipFile(path, "w", zipfile.ZIP_DEFLATED) as archive:
+        archive.writestr("film-000.png", png(30, 30) + bytes(1000))
+        packed = archive.getinfo("film-000.png")
+    whole = path.read_bytes()
+    start = packed.header_offset + 30 + len(packed.filename)
+    path.write_bytes(whole[:start] + b"\xff" * 10 + whole[start + 10:])
+    with pytest.raises(BadFile, match="is not a ZIP of pictures"):
+        recording.main([str(path), "-o", str(tmp_path / "film.gif")])
+    with zipfile.ZipFile(path, "w", zipfile.ZIP_DEFLATED, compresslevel=1) as archive, archive.open("film-000.png", "w") as file:
+        for _ in range(140):
+            file.write(bytes(1_000_000))
+    with pytest.raises(BadFile, match="takes more than 133 MB"):
+        recording.main([str(path), "-o", str(tmp_path / "film.gif")])
+
+
+def test_a_saved_picture_of_impossible_size_is_damaged(tmp_path):
+    (tmp_path / "a.png").write_bytes(png(30000, 30000))
+    with pytest.raises(BadFile, match="a.png: damaged"):
+        picture.scene_in(tmp_path / "a.png")
+
+
+def test_a_rate_that_no_film_has_is_refused_before_anything_runs():
+    for rate in (0, 2000):
+        with pytest.raises(ValueError, match=f"rate {rate} is out of range"):
+            kapitza.film("no such scene", "pendulum.k", [1], rate=rate)

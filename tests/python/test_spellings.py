@@ -63,3 +63,26 @@ def test_axes_of_planes_take_both_spellings():
     assert "parameter: drive_frequency" in kapitza.check({"pendulum": FIG12, "atlas": axes}).scene
     with pytest.raises(kapitza.SceneError, match=r"pendulum\.tiltt"):
         kapitza.check(SMALL, set={"tiltt": 1})
+
+
+@pytest.mark.parametrize("call", [
+    lambda: kapitza.check(SMALL, set={"title": "\ud800"}), lambda: kapitza.check("\ud800.yaml"),
+    lambda: kapitza.check("title: \ud800\npendulum: {}\n"), lambda: kapitza.run(SMALL, "\ud800.h5"),
+    lambda: kapitza.where(SMALL, "\ud800", 0), lambda: kapitza.needs("\ud800", "1"),
+    lambda: kapitza.Engine(SMALL, {"title": "\ud800"})])
+def test_half_of_a_character_is_refused_in_words(call):
+    with pytest.raises(ValueError, match="half of a character") as caught:
+        call()
+    assert not isinstance(caught.value, UnicodeError) and str(caught.value).isascii()
+
+
+def test_a_name_with_nul_is_refused_in_words():
+    for call in (lambda: kapitza.check("a\0b.yaml"), lambda: kapitza.run(SMALL, "a\0b.h5")):
+        with pytest.raises(ValueError, match="holds the character NUL"):
+            call()
+
+
+@pytest.mark.parametrize("ranks", [1.5, "2", 0, None, float("nan")])
+def test_ranks_are_a_whole_number(ranks):
+    with pytest.raises(ValueError, match="it must be a whole number, at least 1"):
+        kapitza.run(SMALL, ranks=ranks)

@@ -12,7 +12,7 @@ def scene_in(path):
     try:
         with Image.open(path, formats=["PNG"]) as picture:
             scene = picture.info.get(SCENE)  # texts stand before the pixels, which are not read
-    except (OSError, ValueError, SyntaxError) as error:
+    except (OSError, ValueError, SyntaxError, Image.DecompressionBombError) as error:
         raise BadFile(f"{path}: damaged") from error
     if scene is None:
         raise BadFile(f"{path}: the picture holds no scene; pictures that the explorer saves as PNG hold theirs")
