@@ -84,9 +84,10 @@ void *kz_calloc(size_t n, size_t bytes);
 void *kz_realloc(void *old, size_t bytes);
 char *kz_strdup(const char *text);
 char *kz_strndup(const char *text, size_t length);
-/* A list of kz_malloc and the others, or NULL, with space for one more item behind its first n: where it has none, the list moves to twice the space.
- * item: bytes of one. */
-void *kz_grown(void *list, int64_t n, size_t item);
+/* Returns the list, of kz_malloc and the others or NULL, with space for n items of `item` bytes. A list whose
+ * capacity is less moves to twice its space at least. *capacity: items that it has space for, 0 if that is not
+ * known. */
+void *kz_list_reserve(void *list, int64_t *capacity, int64_t n, size_t item);
 
 /* Before the declaration of a local variable: what it points to, or, by a function of its own, what it holds is freed when the function
  * returns, from whatever place. */

@@ -8,6 +8,8 @@
 /* Starts a thread with `stack_bytes` of stack; signals are left to the other threads. False if the system gives no thread. */
 bool kz_thread_start(pthread_t *thread, size_t stack_bytes, void *(*work)(void *context), void *context);
 
+/* Makes a condition for kz_thread_wait, whose clock nobody sets. */
+void kz_condition_make(pthread_cond_t *condition);
 /* Waits until `changed` is signalled, or for so many seconds. The caller holds the mutex. */
 void kz_thread_wait(pthread_cond_t *changed, pthread_mutex_t *mutex, double seconds);
 

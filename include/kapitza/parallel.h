@@ -126,7 +126,7 @@ typedef struct {
   void *data;
 } kz_local_record;
 typedef struct {
-  int64_t n;
+  int64_t n, capacity;
   kz_local_record *list; /* [n], in no order */
 } kz_local_records;
 void kz_local_records_add(kz_local_records *records, int64_t tile, const void *data, size_t bytes);

@@ -49,7 +49,7 @@ typedef struct {
   int64_t first, points; /* in the list of points */
 } kz_atlas_branch;
 typedef struct {
-  int64_t count, n_points;
+  int64_t count, n_points, capacity;
   kz_atlas_branch *branch; /* [count] */
   /* [n_points]: value of the key; mean height of the bob at the strobe points, -1 to 1; a strobe point; largest modulus of a multiplier over the
    * period. */

@@ -104,54 +104,51 @@ CURVE(butikov_damped_2) {
   return within(k, -INFINITY, 8.0 / 3, kz_hill_cut_whole(k, beta));
 }
 
-#define ROW(name, turning) {#name, #name, name, turning, NULL, 0}
-#define UPPER(name, turning) {#name "_upper", #name, name##_upper, turning, NULL, 0}
+#define CURVES(ROW, UPPER, EDGES)                                                               \
+  ROW(exact_1, 0)              /* k <= 0: 4k = a_0(2m) */                                       \
+  ROW(exact_2, 0)              /* k <= 1/4: 4k = b_1(2m) */                                     \
+  ROW(exact_3, 3)              /* 1/4 <= k <= 0.6304: 4k = a_1(2m) */                           \
+  UPPER(exact_3, 3)            /* k <= 0.6304: 4k = a_1(2m), beyond its turn */                 \
+  ROW(exact_4, 0)              /* k <= 1: 4k = b_2(2m) */                                       \
+  ROW(exact_5, 5)              /* 1 <= k <= 2.0313: 4k = a_2(2m) */                             \
+  UPPER(exact_5, 5)            /* k <= 2.0313: 4k = a_2(2m), beyond its turn */                 \
+  ROW(butikov_1, 0)            /* k <= 0: BUT (3) */                                            \
+  ROW(butikov_2, 0)            /* k <= 1/4: BUT (4) */                                          \
+  ROW(butikov_3, 0)            /* 1/4 <= k <= 13/20: BUT (5), minus */                          \
+  UPPER(butikov_3, 0)          /* k <= 13/20: BUT (5), plus */                                  \
+  ROW(butikov_4, 0)            /* k <= 1: BUT (6) */                                            \
+  ROW(butikov_5, 0)            /* 1 <= k < 8/3: BUT (7) */                                      \
+  ROW(butikov_4_refined, 0)    /* k <= 1: BUT (17) */                                           \
+  ROW(butikov_5_refined, 0)    /* 1 <= k <= 2.042: BUT (19), minus */                           \
+  UPPER(butikov_5_refined, 0)  /* k <= 2.042: BUT (19), plus */                                 \
+  ROW(blackburn_lower, 0)      /* k <= 0: BSG (5) */                                            \
+  ROW(blackburn_upper, 0)      /* k <= 0: BSG (6) */                                            \
+  ROW(blackburn_down_upper, 0) /* 0 <= k <= 1/4: BSG (6), hanging */                            \
+  ROW(damped_0, 0)             /* k <= 0: multiplier 1, continues curve 1 */                    \
+  ROW(damped_1, 3)             /* where tongue 1 is: multiplier -1, continues curves 2 and 3 */ \
+  UPPER(damped_1, 3)           /* the same, beyond its turn */                                  \
+  ROW(damped_2, 5)             /* where tongue 2 is: multiplier 1, continues curves 4 and 5 */  \
+  UPPER(damped_2, 5)           /* the same, beyond its turn */                                  \
+  ROW(butikov_damped_1, 0)     /* k <= 9/4 and a real root: BUT (25), corrected */              \
+  UPPER(butikov_damped_1, 0)   /* the same: its larger root */                                  \
+  ROW(butikov_damped_2, 0)     /* k <= 8/3 and a real root: BUT (26), corrected */              \
+  EDGES(hill, kz_hill_edge)    /* of any wave form */                                           \
+  EDGES(meissner, kz_meissner_edge)
+
+#define ROW(name, turning) {#name, #name, name, turning, NULL, 0},
+#define UPPER(name, turning) {#name "_upper", #name, name##_upper, turning, NULL, 0},
 #define EDGES(name, edge)                                                                     \
   {#name "_1", #name "_1", NULL, 0, edge, 1}, {#name "_2", #name "_2", NULL, 0, edge, 2},     \
       {#name "_3", #name "_3", NULL, 0, edge, 3}, {#name "_4", #name "_4", NULL, 0, edge, 4}, \
-      {#name "_5", #name "_5", NULL, 0, edge, 5}
-const kz_curve kz_curves[] = {
-    ROW(exact_1, 0),              /* k <= 0: 4k = a_0(2m) */
-    ROW(exact_2, 0),              /* k <= 1/4: 4k = b_1(2m) */
-    ROW(exact_3, 3),              /* 1/4 <= k <= 0.6304: 4k = a_1(2m) */
-    UPPER(exact_3, 3),            /* k <= 0.6304: 4k = a_1(2m), beyond its turn */
-    ROW(exact_4, 0),              /* k <= 1: 4k = b_2(2m) */
-    ROW(exact_5, 5),              /* 1 <= k <= 2.0313: 4k = a_2(2m) */
-    UPPER(exact_5, 5),            /* k <= 2.0313: 4k = a_2(2m), beyond its turn */
-    ROW(butikov_1, 0),            /* k <= 0: BUT (3) */
-    ROW(butikov_2, 0),            /* k <= 1/4: BUT (4) */
-    ROW(butikov_3, 0),            /* 1/4 <= k <= 13/20: BUT (5), minus */
-    UPPER(butikov_3, 0),          /* k <= 13/20: BUT (5), plus */
-    ROW(butikov_4, 0),            /* k <= 1: BUT (6) */
-    ROW(butikov_5, 0),            /* 1 <= k < 8/3: BUT (7) */
-    ROW(butikov_4_refined, 0),    /* k <= 1: BUT (17) */
-    ROW(butikov_5_refined, 0),    /* 1 <= k <= 2.042: BUT (19), minus */
-    UPPER(butikov_5_refined, 0),  /* k <= 2.042: BUT (19), plus */
-    ROW(blackburn_lower, 0),      /* k <= 0: BSG (5) */
-    ROW(blackburn_upper, 0),      /* k <= 0: BSG (6) */
-    ROW(blackburn_down_upper, 0), /* 0 <= k <= 1/4: BSG (6), hanging */
-    ROW(damped_0, 0),             /* k <= 0: multiplier 1, continues curve 1 */
-    ROW(damped_1, 3),             /* where tongue 1 is: multiplier -1, continues curves 2 and 3 */
-    UPPER(damped_1, 3),           /* the same, beyond its turn */
-    ROW(damped_2, 5),             /* where tongue 2 is: multiplier 1, continues curves 4 and 5 */
-    UPPER(damped_2, 5),           /* the same, beyond its turn */
-    ROW(butikov_damped_1, 0),     /* k <= 9/4 and a real root: BUT (25), corrected */
-    UPPER(butikov_damped_1, 0),   /* the same: its larger root */
-    ROW(butikov_damped_2, 0),     /* k <= 8/3 and a real root: BUT (26), corrected */
-    EDGES(hill, kz_hill_edge),    /* of any wave form */
-    EDGES(meissner, kz_meissner_edge),
-};
+      {#name "_5", #name "_5", NULL, 0, edge, 5},
+const kz_curve kz_curves[] = {CURVES(ROW, UPPER, EDGES)};
 const int kz_curve_count = sizeof kz_curves / sizeof kz_curves[0];
 
+#define NAME_OF_ROW(name, turning) "|" #name
+#define NAME_OF_UPPER(name, turning) ""
+#define NAMES_OF_EDGES(name, edge) "|" #name "_1|" #name "_2|" #name "_3|" #name "_4|" #name "_5"
 const char *kz_curve_names(void) {
-  static char names[512];
-  if (names[0]) return names;
-  for (int i = 0; i < kz_curve_count; i++) {
-    if (strcmp(kz_curves[i].name, kz_curves[i].asked) != 0) continue;
-    if (names[0]) strcat(names, "|");
-    strcat(names, kz_curves[i].name);
-  }
-  return names;
+  return &(CURVES(NAME_OF_ROW, NAME_OF_UPPER, NAMES_OF_EDGES))[1];
 }
 
 double kz_damping_at(const kz_damping *damping, double k) {

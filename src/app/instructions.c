@@ -1,4 +1,5 @@
 /* Compiled, like all layers, for the instruction set of the build: what the compiler says here is what the program uses. */
+#include <pthread.h>
 #include <string.h>
 
 #include "app.h"
@@ -7,16 +8,22 @@
 #define USED(name, text) KZ_WRITTEN(__##name##__),
 const char *const kz_instructions[] = {KZ_INSTRUCTION_LIST(USED) NULL};
 
-const char *kz_instruction_names(void) {
+static char names[256];
+
+static void join_names(void) {
 #define TEXT(name, text) text,
   static const char *const texts[] = {KZ_INSTRUCTION_LIST(TEXT) NULL};
 #undef TEXT
-  static char names[256];
-  names[0] = '\0';
   for (size_t i = 0; texts[i]; i++) {
     if (kz_instructions[i][0] != '1') continue;
     if (names[0]) strncat(names, " ", sizeof names - strlen(names) - 1);
     strncat(names, texts[i], sizeof names - strlen(names) - 1);
   }
-  return names[0] ? names : KZ_FIRST_INSTRUCTIONS;
+  if (!names[0]) strcpy(names, KZ_FIRST_INSTRUCTIONS);
+}
+
+const char *kz_instruction_names(void) {
+  static pthread_once_t once = PTHREAD_ONCE_INIT;
+  pthread_once(&once, join_names);
+  return names;
 }

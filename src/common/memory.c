@@ -1,6 +1,5 @@
 #include "kapitza/common.h"
 
-#include <malloc.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -47,9 +46,10 @@ void *kz_realloc(void *old, size_t bytes) {
   return __wrap_realloc(old, bytes);
 }
 
-void *kz_grown(void *list, int64_t n, size_t item) {
-  const size_t needed = (size_t)(n + 1) * item;
-  return needed <= malloc_usable_size(list) ? list : kz_realloc(list, n > 0 ? 2 * (size_t)n * item : item);
+void *kz_list_reserve(void *list, int64_t *capacity, int64_t n, size_t item) {
+  if (n <= *capacity) return list;
+  *capacity = n > 2 * *capacity ? n : 2 * *capacity;
+  return kz_realloc(list, (size_t)*capacity * item);
 }
 
 char *kz_strndup(const char *text, size_t length) {

@@ -18,9 +18,17 @@ bool kz_thread_start(pthread_t *thread, size_t stack_bytes, void *(*work)(void *
   return started;
 }
 
+void kz_condition_make(pthread_cond_t *condition) {
+  pthread_condattr_t attributes;
+  pthread_condattr_init(&attributes);
+  pthread_condattr_setclock(&attributes, CLOCK_MONOTONIC);
+  pthread_cond_init(condition, &attributes);
+  pthread_condattr_destroy(&attributes);
+}
+
 void kz_thread_wait(pthread_cond_t *changed, pthread_mutex_t *mutex, double seconds) {
   struct timespec until;
-  clock_gettime(CLOCK_REALTIME, &until);
+  clock_gettime(CLOCK_MONOTONIC, &until);
   const double end = (double)until.tv_nsec * 1e-9 + seconds;
   until.tv_sec += (time_t)floor(end);
   until.tv_nsec = (long)((end - floor(end)) * 1e9);

@@ -1,6 +1,7 @@
 #include "bytes.h"
 
 #include <errno.h>
+#include <pthread.h>
 #include <unistd.h>
 
 int kz_bytes_write(int file, const void *bytes, size_t n, int64_t offset) {
@@ -32,7 +33,9 @@ static const uint64_t POLYNOMIAL = 0xC96C5795D7870F42u;
 enum { SLICES = 8 };
 
 /* table[k][b]: what byte b, with k bytes after it, adds to the sum. */
-static void fill(uint64_t table[SLICES][256]) {
+static uint64_t table[SLICES][256];
+
+static void fill_table(void) {
   for (uint64_t byte = 0; byte < 256; ++byte) {
     uint64_t value = byte;
     for (int bit = 0; bit < 8; ++bit) value = value & 1 ? value >> 1 ^ POLYNOMIAL : value >> 1;
@@ -44,8 +47,8 @@ static void fill(uint64_t table[SLICES][256]) {
 
 /* Eight bytes at a time (slicing by 8: Kounavis and Berry, IEEE Trans. Comput. 57 (2008) 1550). */
 uint64_t kz_bytes_checksum(uint64_t sum, const void *bytes, size_t n) {
-  static uint64_t table[SLICES][256];
-  if (table[SLICES - 1][255] == 0) fill(table);
+  static pthread_once_t once = PTHREAD_ONCE_INIT;
+  pthread_once(&once, fill_table);
   const unsigned char *byte = bytes;
   sum = ~sum;
   for (; n >= SLICES; n -= SLICES, byte += SLICES) {

@@ -8,7 +8,7 @@ enum { TAG = 4, END = 5, BUFFERS = 4 };
 static const size_t MESSAGE_MAX = (size_t)1 << 30;
 
 void kz_local_records_add(kz_local_records *records, int64_t tile, const void *data, size_t bytes) {
-  records->list = kz_grown(records->list, records->n, sizeof *records->list);
+  records->list = kz_list_reserve(records->list, &records->capacity, records->n + 1, sizeof *records->list);
   void *copy = kz_malloc(bytes + 1);
   records->list[records->n++] = (kz_local_record){tile, bytes, memcpy(copy, data, bytes)};
 }

@@ -23,17 +23,19 @@ static int first_number(const char *const names[], size_t n) {
 /* MPI_Init writes some of these names by itself where no launcher did: they are looked for once, before it. SLURM_PROCID is no
  * such sign: a batch script and a shell within a job have it too. */
 static struct {
-  bool known;
   int rank, count;
 } launch;
 
-static void look(void) {
+static void find_launch(void) {
   const char *const ranks[] = {"OMPI_COMM_WORLD_RANK", "PMIX_RANK", "PMI_RANK"};
   const char *const counts[] = {"OMPI_COMM_WORLD_SIZE", "PMI_SIZE"};
-  if (launch.known) return;
   launch.rank = first_number(ranks, sizeof ranks / sizeof *ranks);
   launch.count = first_number(counts, sizeof counts / sizeof *counts);
-  launch.known = true;
+}
+
+static void look(void) {
+  static pthread_once_t once = PTHREAD_ONCE_INIT;
+  pthread_once(&once, find_launch);
 }
 
 int kz_launch_rank(void) {
@@ -63,18 +65,24 @@ static bool is_launched(void) {
   return false;
 }
 
-const char *kz_parallel_library(void) {
-  static char text[MPI_MAX_LIBRARY_VERSION_STRING];
+static char library[MPI_MAX_LIBRARY_VERSION_STRING];
+
+static void name_library(void) {
   int length = 0;
-  if (MPI_Get_library_version(text, &length) != MPI_SUCCESS) return "unknown MPI";
-  char *end = text;
-  for (const char *c = text; *c && *c != ',' && *c != '\n'; c++) /* MPICH writes columns: one blank is enough */
+  if (MPI_Get_library_version(library, &length) != MPI_SUCCESS) strcpy(library, "unknown MPI");
+  char *end = library;
+  for (const char *c = library; *c && *c != ',' && *c != '\n'; c++) /* MPICH writes columns: one blank is enough */
     if (*c != ' ' && *c != '\t')
       *end++ = *c;
-    else if (end > text && end[-1] != ' ')
+    else if (end > library && end[-1] != ' ')
       *end++ = ' ';
   *end = '\0';
-  return text;
+}
+
+const char *kz_parallel_library(void) {
+  static pthread_once_t once = PTHREAD_ONCE_INIT;
+  pthread_once(&once, name_library);
+  return library;
 }
 
 enum { ABANDON_SECONDS = 5 };

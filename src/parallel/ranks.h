@@ -17,7 +17,7 @@ struct kz_ranks {
   kz_stage_describe describe; /* words for the names of stages; NULL: the names */
   FILE *log;                  /* JSON lines, rank 0; NULL: none */
   kz_timing *timings;         /* [n_timings] of the stages, rank 0 */
-  int64_t n_timings;
+  int64_t n_timings, timings_capacity;
   double staged;  /* processor seconds of this process within stages */
   FILE *terminal; /* /dev/tty once opened, else NULL */
 };

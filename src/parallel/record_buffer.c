@@ -18,7 +18,7 @@ size_t kz_record_buffer_message_bytes(const kz_record_buffer *buffered) {
 }
 
 void *kz_record_buffer_add(kz_record_buffer *buffered, int64_t tile) {
-  buffered->slots = kz_grown(buffered->slots, buffered->n, buffered->stride);
+  buffered->slots = kz_list_reserve(buffered->slots, &buffered->capacity, buffered->n + 1, buffered->stride);
   char *slot = buffered->slots + (size_t)buffered->n++ * buffered->stride;
   memset(slot, 0, buffered->stride);
   memcpy(slot, &tile, sizeof tile);

@@ -7,7 +7,7 @@ typedef struct {
   size_t record_bytes;
   size_t stride;         /* bytes of a slot: tile number and record */
   int64_t message_slots; /* slots of a message */
-  int64_t n;
+  int64_t n, capacity;
   char *slots; /* [n][stride] */
 } kz_record_buffer;
 

@@ -33,7 +33,7 @@ void kz_work_note(kz_work *work, int64_t tile, const kz_stopwatch *watch) {
 static kz_timing *row_of(kz_ranks *ranks, const char *name) {
   for (int64_t i = 0; i < ranks->n_timings; ++i)
     if (strncmp(ranks->timings[i].stage, name, sizeof ranks->timings[i].stage - 1) == 0) return &ranks->timings[i];
-  ranks->timings = kz_grown(ranks->timings, ranks->n_timings, sizeof *ranks->timings);
+  ranks->timings = kz_list_reserve(ranks->timings, &ranks->timings_capacity, ranks->n_timings + 1, sizeof *ranks->timings);
   kz_timing *row = &ranks->timings[ranks->n_timings++];
   *row = (kz_timing){0};
   memcpy(row->stage, name, strnlen(name, sizeof row->stage - 1));

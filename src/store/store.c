@@ -3,6 +3,7 @@
 
 #include <errno.h>
 #include <fcntl.h>
+#include <pthread.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -162,10 +163,16 @@ char *kz_store_text_of(const kz_store *store, const char *name) {
   return copy;
 }
 
-const char *kz_store_library(void) {
-  static char text[32];
+static char library[32] = "unknown HDF5";
+
+static void name_library(void) {
   unsigned major, minor, release_number;
-  if (H5get_libversion(&major, &minor, &release_number) < 0) return "unknown HDF5";
-  snprintf(text, sizeof text, "HDF5 %u.%u.%u", major, minor, release_number);
-  return text;
+  if (H5get_libversion(&major, &minor, &release_number) < 0) return;
+  snprintf(library, sizeof library, "HDF5 %u.%u.%u", major, minor, release_number);
+}
+
+const char *kz_store_library(void) {
+  static pthread_once_t once = PTHREAD_ONCE_INIT;
+  pthread_once(&once, name_library);
+  return library;
 }

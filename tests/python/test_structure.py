@@ -190,9 +190,17 @@ def writable(library):
     return found
 
 
-@pytest.mark.parametrize("layer", ["model", "kernel", "dynamics"])
+@pytest.mark.parametrize("layer", ["model", "kernel", "dynamics", "analysis", "study"])
 def test_nothing_is_kept_between_two_calls(layer):
     assert not writable(PROGRAM.parent / f"libkapitza_{layer}.a"), "what is kept belongs to an object that the caller owns"
+
+
+@pytest.mark.parametrize("layer", ["common", "store", "parallel", "app"])
+def test_tables_are_made_once(layer):
+    """What other layers keep between two calls is made by pthread_once; the handlers of failures and signals are set by who begins."""
+    for member, names in writable(PROGRAM.parent / f"libkapitza_{layer}.a").items():
+        once = [name for name in names if name.startswith("once.")]
+        assert 2 * len(once) == len(names) or member in {"memory.c.o", "status.c.o", "signals.c.o", "abandon.c.o"}, (member, names)
 
 
 def test_writable_data_is_found():

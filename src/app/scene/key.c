@@ -129,7 +129,7 @@ static size_t least(size_t a, size_t b) {
 
 /* Edit distance with swapped neighbours counted once (Damerau 1964, optimal string alignment). */
 static size_t distance(const char *a, const char *b) {
-  static size_t d[LONGEST_WORD + 1][LONGEST_WORD + 1];
+  size_t d[LONGEST_WORD + 1][LONGEST_WORD + 1];
   const size_t n = strlen(a), m = strlen(b);
   if (n > LONGEST_WORD || m > LONGEST_WORD) return SIZE_MAX;
   for (size_t i = 0; i <= n; i++)

@@ -7,12 +7,17 @@
 #include "kapitza/study_key_rows.h"
 #include "scene.h"
 
+static char schemes[128];
+
+static void join_schemes(void) {
+  for (int32_t row = 0; row < kz_scheme_count(); row++) kz_words_add(schemes, sizeof schemes, kz_scheme_at(row).name);
+}
+
 /* The names of the kernel's table of schemes. */
 static const char *scheme_words(void) {
-  static char words[512];
-  words[0] = '\0';
-  for (int32_t row = 0; row < kz_scheme_count(); row++) kz_words_add(words, sizeof words, kz_scheme_at(row).name);
-  return words;
+  static pthread_once_t once = PTHREAD_ONCE_INIT;
+  pthread_once(&once, join_schemes);
+  return schemes;
 }
 
 #define MOST_HARMONICS KZ_WRITTEN(KZ_HARMONICS)
@@ -115,7 +120,7 @@ static int64_t append(kz_key *joined, int64_t n, const kz_key *keys) {
   return n + more;
 }
 
-static void join(void) {
+static void join_keys(void) {
   int64_t n = length_of(own);
   for (int i = 0; i < kz_study_count; i++) n += length_of(kz_studies[i]->keys);
   kz_key *joined = kz_malloc(((size_t)n + 1) * sizeof *joined);
@@ -126,6 +131,6 @@ static void join(void) {
 
 const kz_key *kz_scene_keys(void) {
   static pthread_once_t once = PTHREAD_ONCE_INIT;
-  pthread_once(&once, join);
+  pthread_once(&once, join_keys);
   return table;
 }

@@ -72,11 +72,8 @@ kz_status kz_orbit_answer(const kz_request *request, kz_status (*meanwhile)(void
   if (!kz_memory_is_there(3 * bytes))
     return kz_fail(KZ_FAILED, "request: periods: needs %zu MB of memory, more than there are", 2 * bytes >> 20);
   KZ_FREED double *theta = kz_malloc(bytes), *velocity = kz_malloc(bytes);
-  job j = {.scene = &request->scene,
-           .theta = theta,
-           .velocity = velocity,
-           .mutex = PTHREAD_MUTEX_INITIALIZER,
-           .changed = PTHREAD_COND_INITIALIZER};
+  job j = {.scene = &request->scene, .theta = theta, .velocity = velocity, .mutex = PTHREAD_MUTEX_INITIALIZER};
+  kz_condition_make(&j.changed);
   if (!kz_thread_start(&thread, STACK_BYTES, compute, &j))
     return kz_fail(KZ_FAILED, "request: orbit: no thread can be started");
   kz_status status = follow(&j, request, meanwhile, context, &ended);

@@ -13,39 +13,40 @@
 enum { MANY = 1 << 19 };       /* cells that are timed by method exact, where they do not take longer than LONG */
 static const double LONG = 20; /* s */
 
-#define DIRECT(label, scheme, steps) {label, KZ_METHOD_DIRECT, scheme, steps, 0, KZ_QUINTIC, 1000, false}
-#define PROCESSED(tolerance) \
-  {"processed-" #tolerance, KZ_METHOD_DIRECT, "processed", KZ_AUTO, tolerance, KZ_QUINTIC, 1000, true}
-#define ICM(label, interpolation, nodes) {label, KZ_METHOD_ICM, "processed", KZ_AUTO, 1e-12, interpolation, nodes, false}
+#define DIRECT(ROW, label, scheme, steps) ROW(label, KZ_METHOD_DIRECT, scheme, steps, 0, KZ_QUINTIC, 1000, false)
+#define PROCESSED(ROW, tolerance) \
+  ROW("processed-" #tolerance, KZ_METHOD_DIRECT, "processed", KZ_AUTO, tolerance, KZ_QUINTIC, 1000, true)
+#define ICM(ROW, label, interpolation, nodes) \
+  ROW(label, KZ_METHOD_ICM, "processed", KZ_AUTO, 1e-12, interpolation, nodes, false)
 
-const kz_setting kz_settings[] = {
-    PROCESSED(1e-4),
-    PROCESSED(1e-6),
-    PROCESSED(1e-8),
-    PROCESSED(1e-10),
-    PROCESSED(1e-12),
-    DIRECT("direct-rk4-100-1992", "rk4", 100),
-    DIRECT("direct-rk4-400", "rk4", 400),
-    DIRECT("direct-8", "split6", 8),
-    DIRECT("direct-24", "split6", 24),
-    {"direct-96", KZ_METHOD_DIRECT, "split6", 96, 0, KZ_QUINTIC, 1000, true},
-    {"icm-linear-500-1992", KZ_METHOD_ICM, "rk4", 100, 0, KZ_LINEAR, 500, false},
-    ICM("icm-linear-1000", KZ_LINEAR, 1000),
-    ICM("icm-linear-2000", KZ_LINEAR, 2000),
-    ICM("icm-250", KZ_QUINTIC, 250),
-    ICM("icm-500", KZ_QUINTIC, 500),
-    ICM("icm-1000", KZ_QUINTIC, 1000),
-    ICM("icm-2000", KZ_QUINTIC, 2000),
-    {"exact", KZ_METHOD_EXACT, "processed", KZ_AUTO, 1e-12, KZ_QUINTIC, 1000, false},
-};
+#define SETTINGS(ROW)                                                             \
+  PROCESSED(ROW, 1e-4)                                                            \
+  PROCESSED(ROW, 1e-6)                                                            \
+  PROCESSED(ROW, 1e-8)                                                            \
+  PROCESSED(ROW, 1e-10)                                                           \
+  PROCESSED(ROW, 1e-12)                                                           \
+  DIRECT(ROW, "direct-rk4-100-1992", "rk4", 100)                                  \
+  DIRECT(ROW, "direct-rk4-400", "rk4", 400)                                       \
+  DIRECT(ROW, "direct-8", "split6", 8)                                            \
+  DIRECT(ROW, "direct-24", "split6", 24)                                          \
+  ROW("direct-96", KZ_METHOD_DIRECT, "split6", 96, 0, KZ_QUINTIC, 1000, true)     \
+  ROW("icm-linear-500-1992", KZ_METHOD_ICM, "rk4", 100, 0, KZ_LINEAR, 500, false) \
+  ICM(ROW, "icm-linear-1000", KZ_LINEAR, 1000)                                    \
+  ICM(ROW, "icm-linear-2000", KZ_LINEAR, 2000)                                    \
+  ICM(ROW, "icm-250", KZ_QUINTIC, 250)                                            \
+  ICM(ROW, "icm-500", KZ_QUINTIC, 500)                                            \
+  ICM(ROW, "icm-1000", KZ_QUINTIC, 1000)                                          \
+  ICM(ROW, "icm-2000", KZ_QUINTIC, 2000)                                          \
+  ROW("exact", KZ_METHOD_EXACT, "processed", KZ_AUTO, 1e-12, KZ_QUINTIC, 1000, false)
+
+#define SETTING(...) {__VA_ARGS__},
+const kz_setting kz_settings[] = {SETTINGS(SETTING)};
 const int kz_setting_count = sizeof kz_settings / sizeof kz_settings[0];
 const kz_setting *const kz_setting_exact = kz_settings + sizeof kz_settings / sizeof kz_settings[0] - 1;
 
+#define LABEL(label, ...) "|" label
 const char *kz_tradeoff_words(void) {
-  static char words[1024];
-  words[0] = '\0';
-  for (int i = 0; i < kz_setting_count; i++) kz_words_add(words, sizeof words, kz_settings[i].label);
-  return words;
+  return &(SETTINGS(LABEL))[1];
 }
 
 kz_numerics kz_setting_numerics(const kz_setting *setting, const kz_pendulum *pendulum, kz_kept_series *series,

@@ -17,16 +17,13 @@
 
 #define COLUMN(type, name, expression) KZ_COLUMN(store, "tradeoff", name, trade->count, type, expression)
 
-static const char *scheme_name(const kz_numerics *numerics) {
-  static char names[8][sizeof((kz_scheme *)0)->name];
-  return strcpy(names[numerics->scheme], kz_scheme_at(numerics->scheme).name);
-}
-
 static kz_status write_configs(const kz_trade *trade, kz_store *store) {
   const kz_trade_row *r = trade->row;
+  KZ_FREED kz_scheme *scheme = kz_malloc((size_t)trade->count * sizeof *scheme + 1);
+  for (int64_t i = 0; i < trade->count; i++) scheme[i] = kz_scheme_at(r[i].numerics.scheme);
   COLUMN(const char *, "label", r[i].setting->label);
   COLUMN(int8_t, "method", r[i].setting->method);
-  COLUMN(const char *, "scheme", scheme_name(&r[i].numerics));
+  COLUMN(const char *, "scheme", scheme[i].name);
   COLUMN(int32_t, "steps_per_period", r[i].numerics.steps_per_period);
   COLUMN(int8_t, "interpolation", r[i].setting->interpolation);
   COLUMN(int32_t, "table_nodes", r[i].setting->nodes);
@@ -69,7 +66,7 @@ static void print_row(const kz_reference_labels *reference, const kz_trade *trad
   const kz_setting_measured *m = &r->measured;
   const kz_share wrong = kz_share_of(m->wrong, reference->samples);
   fprintf(summary, "%c %-20s %-7s %9s x %-3d %-8s %5lld  %7.3f  %6.3f .. %6.3f  %7.3f  %9.3f  %9.3f\n", r->pareto ? '*' : ' ',
-          s->label, kz_method_names[s->method], scheme_name(&r->numerics), (int)r->numerics.steps_per_period,
+          s->label, kz_method_names[s->method], kz_scheme_at(r->numerics.scheme).name, (int)r->numerics.steps_per_period,
           s->method != KZ_METHOD_ICM ? "-" : kz_interpolation_names[s->interpolation], (long long)s->nodes, 100 * wrong.share,
           100 * wrong.low, 100 * wrong.high, 100 * (double)m->count_error / (double)reference->samples, r->seconds,
           1e6 * m->cell);

@@ -13,7 +13,7 @@ static const double GROWN = 0.5;
 static const double NO_GRAVITY = 1e-9, BESIDE = 1e-8;
 
 static void add(kz_atlas_crossings *crossings, kz_atlas_crossing crossing) {
-  crossings->list = kz_grown(crossings->list, crossings->count, sizeof *crossings->list);
+  crossings->list = kz_list_reserve(crossings->list, &crossings->capacity, crossings->count + 1, sizeof *crossings->list);
   crossings->list[crossings->count++] = crossing;
 }
 

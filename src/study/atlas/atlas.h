@@ -22,6 +22,7 @@ typedef kz_plane_cycle kz_atlas_seed;
 typedef struct {
   int64_t count;
   kz_atlas_seed *list;
+  int64_t capacity;
 } kz_atlas_seeds;
 
 /* Attractors of one kind; mirror images count as one. */
@@ -51,7 +52,7 @@ typedef struct {
   double share; /* of the step from that row */
 } kz_atlas_crossing;
 typedef struct {
-  int64_t count;
+  int64_t count, capacity;
   kz_atlas_crossing *list;
 } kz_atlas_crossings;
 
@@ -68,7 +69,7 @@ struct kz_atlas {
   double longest; /* step along curves */
   bool undriven;  /* no drive at the lowest y: rest alone attracts */
   bool turned;    /* every place has an image with -k in place of k */
-  int64_t n_curves, n_explored;
+  int64_t n_curves, n_explored, curve_capacity;
   kz_atlas_curve *curve;
   kz_atlas_seeds pending;
   int32_t n_classes;

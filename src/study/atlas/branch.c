@@ -66,7 +66,7 @@ void kz_atlas_draw(const kz_atlas *atlas, int axis, const kz_atlas_kind *kind, i
     put_point(atlas, axis, points, row, row + 4, largest_multiplier(kind, row + 2), line);
   }
   branch.points = line->n_points - branch.first;
-  line->branch = kz_grown(line->branch, line->count, sizeof *line->branch);
+  line->branch = kz_list_reserve(line->branch, &line->capacity, line->count + 1, sizeof *line->branch);
   line->branch[line->count++] = branch;
 }
 

@@ -185,7 +185,7 @@ bool kz_atlas_keep(kz_atlas *atlas, kz_atlas_curve *curve) {
     kz_atlas_curve_free(curve);
     return false;
   }
-  atlas->curve = kz_grown(atlas->curve, atlas->n_curves, sizeof *atlas->curve);
+  atlas->curve = kz_list_reserve(atlas->curve, &atlas->curve_capacity, atlas->n_curves + 1, sizeof *atlas->curve);
   atlas->curve[atlas->n_curves++] = *curve;
   return true;
 }

@@ -166,7 +166,7 @@ bool kz_atlas_add(const kz_atlas *atlas, kz_atlas_kind kind, const double *y, kz
 }
 
 void kz_atlas_put(kz_atlas_seeds *seeds, const kz_atlas_seed *seed) {
-  seeds->list = kz_grown(seeds->list, seeds->count, sizeof *seeds->list);
+  seeds->list = kz_list_reserve(seeds->list, &seeds->capacity, seeds->count + 1, sizeof *seeds->list);
   seeds->list[seeds->count++] = *seed;
 }
 

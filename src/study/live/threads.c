@@ -106,7 +106,8 @@ static void join(helper *h, kz_prepared *prepared) {
 kz_status kz_frame_follow(const kz_frame_task *task) {
   const int64_t tiles = (task->n + KZ_FRAME_TILE - 1) / KZ_FRAME_TILE;
   const int spare = spare_cores();
-  sharing all = {.task = task, .mutex = PTHREAD_MUTEX_INITIALIZER, .ended = PTHREAD_COND_INITIALIZER};
+  sharing all = {.task = task, .mutex = PTHREAD_MUTEX_INITIALIZER};
+  kz_condition_make(&all.ended);
   KZ_FREED helper *helpers = kz_calloc((size_t)spare + 1, sizeof *helpers);
   int started = 0;
   for (; started < spare && 2 * (started + 2) <= tiles; started++) { /* a thread pays from two tiles on */

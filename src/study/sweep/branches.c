@@ -28,7 +28,7 @@ void kz_sweep_branches_free(kz_sweep_branches *branches) {
 }
 
 static int64_t add_node(kz_sweep_branches *branches, const kz_sweep_entry *entry, int64_t value, bool attracts) {
-  branches->nodes = kz_grown(branches->nodes, branches->n_nodes, sizeof *branches->nodes);
+  branches->nodes = kz_list_reserve(branches->nodes, &branches->nodes_capacity, branches->n_nodes + 1, sizeof *branches->nodes);
   branches->nodes[branches->n_nodes++] = (kz_sweep_node){.entry = *entry,
                                                          .value = value,
                                                          .attracts = attracts,

@@ -110,7 +110,7 @@ typedef struct {
 } kz_sweep_node;
 
 typedef struct {
-  int64_t n_nodes;
+  int64_t n_nodes, nodes_capacity;
   kz_sweep_node *nodes;
   int64_t n_branches, *first_node; /* [n_branches] in the order of the file */
   kz_fine_maps *maps;              /* of the values */

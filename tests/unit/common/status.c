@@ -34,16 +34,22 @@ TEST(test_the_first_message_stays) {
   kz_message_clear();
 }
 
-/* A list that is exactly as long as its items grows too, whatever its length. */
+/* A list grows by the capacity that it is said to have: a list of unknown capacity too, and the space at least
+ * doubles. */
 TEST(test_any_list_grows) {
   for (int64_t length = 0; length <= 9; length++) {
-    int64_t *list = length > 0 ? kz_malloc((size_t)length * sizeof *list) : NULL;
+    int64_t *list = length > 0 ? kz_malloc((size_t)length * sizeof *list) : NULL, capacity = 0, moves = 0;
     for (int64_t i = 0; i < length; i++) list[i] = i;
-    for (int64_t n = length; n < 40; n++) {
-      list = kz_grown(list, n, sizeof *list);
+    for (int64_t n = length; n < 200; n++) {
+      const int64_t before = capacity;
+      list = kz_list_reserve(list, &capacity, n + 1, sizeof *list);
+      assert_true(capacity >= n + 1 && (capacity == before || capacity >= 2 * before));
+      moves += capacity > before;
       list[n] = n;
     }
-    for (int64_t i = 0; i < 40; i++) assert_int_equal(list[i], i);
+    for (int64_t i = 0; i < 200; i++) assert_int_equal(list[i], i);
+    assert_true(moves <= 9);
+    assert_ptr_equal(list, kz_list_reserve(list, &capacity, 5, sizeof *list));
     free(list);
   }
 }
