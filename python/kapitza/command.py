@@ -6,6 +6,7 @@ from collections.abc import Callable
 
 from kapitza import recording, vtkhdf
 from kapitza.plots import atlas, basin, chart, compare, line, orbit, passport, potential, stability, sweep, tradeoff
+from kapitza.program import ERROR
 from kapitza.report import command as report
 from kapitza.result import Result
 from kapitza.script import run_apart
@@ -40,6 +41,9 @@ def main(*kind: str) -> None:
     if words[:1] in (["-h"], ["--help"]):
         print(USAGE)
         return
+    if words[:1] == [""]:
+        print(f"{ERROR}plot: the name of FILE is empty; kapitza plot [KIND] FILE", file=sys.stderr)
+        sys.exit(2)
     is_file = [word.startswith("-") for word in words[:2]] in ([False], [False, True])  # FILE [options]
     if not words or (words[0] not in KINDS and not is_file):
         print(USAGE, file=sys.stderr)

@@ -33,6 +33,8 @@ def opened(path: Path) -> tuple[dict[str, Any], list[str], dict[str, Any]]:
             attributes, pendulum = _attributes(file), _attributes(file["pendulum"]) if "pendulum" in groups else {}
     except OSError as error:
         reason = "truncated" if "truncated" in str(error) else "not an HDF5 file, or damaged"
+        if path.suffix in (".yaml", ".yml"):
+            reason = f"is a scene, not a result; kapitza run {path} makes its result {path.stem}.h5"
         raise BadFile(f"{path}: {reason}") from error
     except (KeyError, RuntimeError, ValueError) as error:
         raise BadFile(f"{path}: damaged") from error

@@ -1,6 +1,5 @@
 """What the explorer has recorded, a ZIP of pictures, as MP4 or GIF."""
 
-import argparse
 import io
 import struct
 import zipfile
@@ -11,6 +10,7 @@ from pathlib import Path
 from PIL import Image, UnidentifiedImageError
 
 from kapitza.films import check_rate, write_film
+from kapitza.options import Parser, wrong_ending
 from kapitza.result import BadFile
 
 FORMATS = (".mp4", ".gif")
@@ -51,14 +51,14 @@ def _picture_of(archive: zipfile.ZipFile, entry: zipfile.ZipInfo) -> Image.Image
 
 def main(words: list[str]) -> None:
     """Writes the film and prints its name."""
-    parser = argparse.ArgumentParser(prog="kapitza plot film", description="an MP4 or GIF of the pictures that the explorer has recorded")
+    parser = Parser(prog="kapitza plot film", description="an MP4 or GIF of the pictures that the explorer has recorded")
     parser.add_argument("file", type=Path, help="ZIP of PNG pictures")
     parser.add_argument("-o", "--output", type=Path, help="NAME.mp4 or NAME.gif (default: FILE's name with .mp4; .gif without ffmpeg)")
     parser.add_argument("--rate", type=float, default=RATE, help=f"pictures a second (default: {RATE:g})")
     given = parser.parse_args(words)
     output = given.output or given.file.with_suffix(".mp4")
     if output.suffix.lower() not in FORMATS:
-        parser.error(f"{output}: the name must end in {' or '.join(FORMATS)}")
+        parser.error(wrong_ending(output, FORMATS))
     try:
         check_rate(given.rate)
     except ValueError as error:

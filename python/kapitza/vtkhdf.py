@@ -3,7 +3,6 @@
 It is VTK's own HDF layout (ImageData, version 2.0), whose cells are external links to the variables of FILE: both move together.
 """
 
-import argparse
 import os
 import tempfile
 from pathlib import Path
@@ -11,6 +10,7 @@ from pathlib import Path
 import h5py
 import numpy as np
 
+from kapitza.options import Parser, wrong_ending
 from kapitza.result import BadFile, Result
 
 VARIABLES = ("attractor", "settling_time", "evidence")  # of the group basin, over velocity and theta
@@ -68,13 +68,13 @@ def _axis(group: h5py.Group, name: str) -> np.ndarray:
 
 def main(words: list[str]) -> None:
     """Writes the sidecar of a result file, and prints its name."""
-    parser = argparse.ArgumentParser(prog="kapitza plot vtkhdf",
+    parser = Parser(prog="kapitza plot vtkhdf",
                                      description="a small file through which ParaView reads the basins of a result")
     parser.add_argument("file", type=Path, help="result file that holds a basin")
     parser.add_argument("-o", "--output", type=Path, help="the sidecar (default: beside FILE, with .vtkhdf)")
     given = parser.parse_args(words)
     output = given.output or given.file.with_suffix(".vtkhdf")
     if output.suffix.lower() != ".vtkhdf":
-        parser.error(f"{output}: the name must end in .vtkhdf")
+        parser.error(wrong_ending(output, [".vtkhdf"]))
     write(Result(given.file), output)
     print(output)

@@ -33,7 +33,7 @@ const kz_command kz_commands[] = {
     {"info", INFO, " FILE", 1, 1, kz_app_info, "say what the result FILE holds: pendulum, studies and attractors"},
     {"fit", FIT, " TRACK", 1, 1, kz_app_fit,
      "find the pendulum of a recorded track: CSV with the columns time (s) and theta (rad) or theta_deg"},
-    {"needs", NEEDS, "", 0, 0, kz_app_needs,
+    {"needs", NEEDS, " --length L --frequency F", 0, 0, kz_app_needs,
      "say between which amplitudes of the pivot a pendulum of --length stands upside down and flutters at --frequency"},
     {"serve", SERVE, " SCENE", 1, 1, kz_app_serve,
      "answer requests of other programs (JSON lines on standard input) for frames, orbits and ends of starts"},
@@ -196,6 +196,14 @@ static void describe(const kz_command *command, struct option *longs, char *shor
   *shorts = '\0';
 }
 
+/* Whether an option is how other programs are told the number of their ranks. */
+static bool is_number_of_ranks(const char *name) {
+  static const char *const names[] = {"-n", "-np", "-j", "--np", "--ranks", "--jobs"};
+  for (size_t i = 0; i < sizeof names / sizeof *names; i++)
+    if (strcmp(name, names[i]) == 0) return true;
+  return false;
+}
+
 static kz_status refuse_option(const kz_command *command, const char *typed, bool lacks_argument) {
   char names[256] = "", nearest[64];
   const size_t length = strcspn(typed, "=");
@@ -208,6 +216,8 @@ static kz_status refuse_option(const kz_command *command, const char *typed, boo
     kz_words_add(names, sizeof names, name);
   }
   snprintf(name, sizeof name, "%.*s", (int)length, typed);
+  if (command->bit == RUN && is_number_of_ranks(name))
+    return kz_fail(KZ_REFUSED, "%.80s: unknown option; several ranks: mpirun -n 4 kapitza run SCENE", typed);
   if (kz_key_suggest(name, names, nearest, sizeof nearest) && strcmp(nearest, name) != 0)
     return kz_fail(KZ_REFUSED, "%.80s: unknown option; did you mean %s?", typed, nearest);
   return kz_fail(KZ_REFUSED, "%.80s: %s; kapitza%s%s --help lists the options", typed,
@@ -219,13 +229,24 @@ static bool is_operand(const char *argument) {
   return argument[0] != '-' || argument[1] == '\0' || argument[1] == '.' || (argument[1] >= '0' && argument[1] <= '9');
 }
 
-static kz_status take_operand(const kz_command *command, char *argument, kz_options *options) {
-  const char *last = options->n_sets > 0 ? options->sets[options->n_sets - 1] : "=";
-  if (options->n_operands == command->most && !strchr(last, '='))
-    return kz_fail(KZ_REFUSED, "--set %.80s %.80s: is two words; write --set %.80s=%.80s", last, argument, last, argument);
+/* Refuses an operand that belongs to a --set which is written with blanks: "KEY VALUE", "KEY= VALUE", "KEY =VALUE" or "KEY = VALUE". */
+static kz_status check_set(const kz_command *command, char *const *argument, const kz_options *options) {
+  if (options->n_sets == 0) return KZ_OK;
+  const char *last = options->sets[options->n_sets - 1], *equals = strchr(last, '=');
+  const bool is_apart = !equals && argument[0][0] == '=';
+  if (!is_apart && (options->n_operands < command->most || (equals && equals[1]))) return KZ_OK;
+  const bool is_alone = is_apart && !argument[0][1];
+  const char *value = is_alone ? argument[1] ? argument[1] : "VALUE" : argument[0] + is_apart;
+  return kz_fail(KZ_REFUSED, "--set %.80s %.80s%s%.80s: is %s words; write --set %.*s=%.80s", last, argument[0],
+                 is_alone ? " " : "", is_alone ? value : "", is_alone ? "three" : "two", (int)strcspn(last, "="), last, value);
+}
+
+/* Takes the operand at `argument`, which the others of the command line follow. */
+static kz_status take_operand(const kz_command *command, char **argument, kz_options *options) {
+  KZ_TRY(check_set(command, argument, options));
   if (options->n_operands == command->most)
-    return kz_fail(KZ_REFUSED, "%.80s: one argument too many; kapitza %s%s", argument, command->name, command->operand);
-  options->operands[options->n_operands++] = argument;
+    return kz_fail(KZ_REFUSED, "%.80s: one argument too many; kapitza %s%s", *argument, command->name, command->operand);
+  options->operands[options->n_operands++] = *argument;
   return KZ_OK;
 }
 
@@ -239,7 +260,7 @@ static kz_status next_option(const kz_command *command, int argc, char **argv, c
     if (!all && strcmp(argv[optind], "--") == 0)
       all = true;
     else
-      KZ_TRY(take_operand(command, argv[optind], options));
+      KZ_TRY(take_operand(command, argv + optind, options));
   }
   if (optind < argc) *letter = getopt_long(argc, argv, shorts, longs, NULL);
   return KZ_OK;

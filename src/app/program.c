@@ -55,6 +55,8 @@ static kz_status carry_out(const kz_command *command, int argc, char **argv, kz_
 static kz_status dispatch(int argc, char **argv, kz_options *options) {
   char names[128] = "", nearest[64];
   if (argc < 2) return kz_fail(KZ_REFUSED, "no command; kapitza run SCENE, or kapitza --help");
+  char *asked[] = {argv[0], argc > 2 ? argv[2] : "--help", "--help", NULL}; /* kapitza help [COMMAND] */
+  if (strcmp(argv[1], "help") == 0) return dispatch(argc > 2 ? 3 : 2, asked, options);
   if (argv[1][0] == '-') {
     KZ_TRY(kz_options_read(&kz_program, argc, argv, options));
     return options->answered ? agree_alone(options) : kz_fail(KZ_REFUSED, "no command; kapitza run SCENE, or kapitza --help");

@@ -8,6 +8,7 @@ from pathlib import Path
 from matplotlib.figure import Figure
 
 from kapitza import style
+from kapitza.options import Parser, wrong_ending
 from kapitza.plots.dark import darken
 from kapitza.plots.page import SEPARATOR, Picture, current, drawing, lay_out, new_figure
 from kapitza.plots.page_options import add_page_options, page_of
@@ -19,10 +20,10 @@ __all__ = ["argument_parser", "entitle", "figure_of", "new_figure", "parsed", "w
 FORMATS = (".png", ".svg", ".pdf")
 
 
-def argument_parser(kind: str, description: str | None, study: str) -> argparse.ArgumentParser:
+def argument_parser(kind: str, description: str | None, study: str) -> Parser:
     """A parser of what every kind takes; `study`: what its file must hold, for the help."""
-    parser = argparse.ArgumentParser(prog=f"kapitza plot {kind}", description=description,
-                                     formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = Parser(prog=f"kapitza plot {kind}", description=description,
+                    formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("file", help=f"result file that holds {study}")
     parser.add_argument("-o", "--output", type=Path, help="picture; .png, .svg or .pdf (default: FILE's name with .png, here)")
     parser.add_argument("--dpi", type=resolution, default=200)
@@ -37,12 +38,12 @@ def resolution(text: str) -> int:
     return int(text)
 
 
-def parsed(parser: argparse.ArgumentParser, words: list[str], ending: str = "") -> argparse.Namespace:
+def parsed(parser: Parser, words: list[str], ending: str = "") -> argparse.Namespace:
     """The arguments, with the picture's name: that of the file, with `ending`, where none is given."""
     arguments = parser.parse_args(words)
     arguments.output = arguments.output or Path(f"{Path(arguments.file).stem or 'picture'}{ending}.png")
     if arguments.output.suffix.lower() not in FORMATS:
-        parser.error(f"{arguments.output}: the name must end in {', '.join(FORMATS)}")
+        parser.error(wrong_ending(arguments.output, FORMATS))
     return arguments
 
 
