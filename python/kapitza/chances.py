@@ -1,13 +1,14 @@
 """How likely a motion is: the share of a basin under a spread of starts, and shares along a sweep or over a plane, by name."""
 
 import math
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 import pandas
 import xarray
 
 from kapitza import units
+from kapitza.scene import tree_of
 from kapitza.table import CENTRES, cells_of, edges_of
 
 if TYPE_CHECKING:
@@ -105,8 +106,11 @@ def share(result: "Result", name: str) -> xarray.DataArray:
         names = [str(one) for one in sweep["branch_name"].values]
         kinds = [CENTRES[int(code)] for code in sweep["branch_centre"].values]
         chosen = _chosen(name, names, kinds)
-        return sweep["fraction"].fillna(0).isel(branch=chosen).sum("branch").rename(f"share of {name}").assign_attrs(
+        along = sweep["fraction"].fillna(0).isel(branch=chosen).sum("branch").rename(f"share of {name}").assign_attrs(
             long_name=f"share of the starts that end on {name}", units="1")
+        n, known = _followed(result), sweep["fraction"].notnull().any("branch").values
+        low, high = wilson(np.rint(along.values * n), n)
+        return along.assign_coords(low=("value", np.where(known, low, 0.0)), high=("value", np.where(known, high, 1.0)))
     chart = result.group("plane")
     ends = chart["end"].isin([CYCLE, CHAOTIC])
     kinds = [CENTRES[code] if code < len(CENTRES) else "neither" for code in range(4)]
@@ -114,6 +118,13 @@ def share(result: "Result", name: str) -> xarray.DataArray:
         raise KeyError(f"a plane knows no {name!r}; give {', '.join(kinds)}")
     return (ends & (chart["end_centre"] == kinds.index(name))).mean("start").rename(f"share of {name}").assign_attrs(
         long_name=f"share of the starts that end {name}", units="1")
+
+
+def _followed(result: "Result") -> int:
+    """The number of cells or starts whose ends a sweep counts at each value."""
+    scene = tree_of(result.scene)
+    axes = [scene.get("basin", {}).get(name, {}) for name in ("theta", "velocity")]
+    return math.prod(int(axis["count"]) for axis in axes) if all(axes) else int(scene["sweep"]["starts"])
 
 
 def _chosen(name: str, names: list[str], kinds: list[str]) -> list[int]:
@@ -124,13 +135,21 @@ def _chosen(name: str, names: list[str], kinds: list[str]) -> list[int]:
     return chosen
 
 
-def largest(result: "Result", name: str, least: float) -> float:
+class Largest(NamedTuple):
+    """The largest value of a key with a share; for `low` the lower ends of the shares' 95 % intervals count, for `high` the upper."""
+
+    value: float
+    low: float
+    high: float
+
+
+def largest(result: "Result", name: str, least: float) -> Largest:
     """As Result.largest."""
     along = share(result, name)
     if along.ndim != 1:
         raise ValueError("a plane has no single value; take .share(name) of it")
-    enough = along["value"].values[along.values >= least]
-    return float(enough.max()) if enough.size else math.nan
+    value, low, high = (float(along["value"].where(of >= least).max()) for of in (along, along["low"], along["high"]))
+    return Largest(value, low, high)
 
 
 def agreement(result: "Result", table: Any) -> "Agreement":

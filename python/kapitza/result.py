@@ -14,7 +14,7 @@ from kapitza.reading import File
 from kapitza.table import attractors_table, ids_of, labels_array, measures_table, starts_table
 
 if TYPE_CHECKING:
-    from kapitza.chances import Agreement
+    from kapitza.chances import Agreement, Largest
     from kapitza.compare import Comparison
     from kapitza.engine import Engine
 
@@ -131,14 +131,20 @@ class Result(File):
     def share(self, name: str) -> xarray.DataArray:
         """The share of the starts that end on attractors of a name along a sweep, or in motions about a centre over a plane.
 
+        Along a sweep it has the coordinates `low` and `high`, its 95 % interval (Wilson): `share.low`.
+
         :param name: name of branches, or a centre: "down", "inverted", "rotating", "neither"; a plane knows centres only
         :raises KeyError: if there is none
         """
         from kapitza.chances import share
         return share(self, name)
 
-    def largest(self, name: str, share: float) -> float:
-        """The largest swept value at which at least this share of the starts ends on attractors of a name; NaN if there is none."""
+    def largest(self, name: str, share: float) -> "Largest":
+        """The largest swept value at which at least this share of the starts ends on attractors of a name; NaN if there is none.
+
+        :return: a named tuple `value, low, high`: `low` and `high` are the same of the lower and the upper ends of the shares' 95 %
+            intervals
+        """
         from kapitza.chances import largest
         return largest(self, name, share)
 

@@ -79,8 +79,29 @@ def test_shares_along_a_sweep_by_name(swept):
     assert inverted.dims == ("value",) and np.allclose(inverted, np.nan_to_num(sweep["fraction"].values[:, rows]).sum(axis=1))
     assert (result.share("rotating") >= result.share("rotation +1/1") - 1e-12).all()
     enough = sweep["value"].values[inverted.values >= 0.01]
-    assert result.largest("inverted", 0.01) == (enough.max() if enough.size else pytest.approx(np.nan, nan_ok=True))
-    assert np.isnan(result.largest("inverted", 1.1))
+    assert result.largest("inverted", 0.01).value == (enough.max() if enough.size else pytest.approx(np.nan, nan_ok=True))
+    assert np.isnan(result.largest("inverted", 1.1)).all()
+
+
+def test_shares_have_the_intervals_of_the_file(swept):
+    """Of one branch those of the file; of several Wilson's of their sum."""
+    result = kapitza.Result(swept)
+    sweep = result.group("sweep")
+    for row in np.flatnonzero(sweep["branch_stable"].values):
+        name = str(sweep["branch_name"].values[row])
+        if list(sweep["branch_name"].values).count(name) == 1:
+            there, share = np.isfinite(sweep["fraction"].values[:, row]), result.share(name)
+            for edge in ("low", "high"):
+                assert share[edge].values[there] == pytest.approx(sweep[f"fraction_{edge}"].values[there, row], abs=1e-12)
+    share = result.share("rotating")
+    assert (share.low <= share).all() and (share <= share.high).all() and (share.high - share.low < 0.3).all()
+    least = float(share.max()) - 1e-9
+    value, low, high = result.largest("rotating", least)
+    assert value == sweep["value"].values[share.values >= least].max() and (np.isnan(low) or low <= value) and value <= high
+
+
+def test_shares_of_no_branch(swept):
+    result = kapitza.Result(swept)
     with pytest.raises(KeyError, match="the names are"):
         result.share("nobody")
 
