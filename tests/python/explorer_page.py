@@ -22,7 +22,7 @@ class Server:
         own = [sys.executable, "-m", "kapitza.explorer", "--program", FAKE]
         command = [*(own if fake else [PROGRAM, "view"]), source, "--no-browser", *options]
         self.process = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, env=environment)
-        self.title, self.url, self.hint = (self.process.stdout.readline().strip() for _ in range(3))
+        self.title, self.url, self.hint, self.forward = (self.process.stdout.readline().strip() for _ in range(4))
         self.base, _, once = self.url.partition("/?once=")
         self.token = self.request("token", {"once": once}, X_Kapitza_Token=None)[1]["token"]
         self.process.stdout.readline()  # the address for another browser

@@ -31,7 +31,8 @@ FRAME = {"request": "frame", **VIEW}
 def server():
     running = Server(SMALL)
     yield running
-    assert running.hint == "Each address serves one browser. Ctrl-C ends it." and running.end() == (0, "")
+    assert running.hint == "Each address serves one browser. Ctrl-C ends it."
+    assert f"ssh -L {running.port}:127.0.0.1:{running.port} " in running.forward and running.end() == (0, "")
 
 
 @pytest.fixture(scope="module")

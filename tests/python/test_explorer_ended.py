@@ -1,5 +1,7 @@
 """Frames of the explorer that others end, and pages that others lock out."""
 
+import re
+
 import matplotlib.image
 import numpy as np
 from conftest import wait_for
@@ -48,6 +50,8 @@ def test_what_is_cancelled_at_once_still_shows_the_window_that_was_asked_for(pag
     assert shown and level < 8 and "–" not in shares and button == "Resume"
     page.press("home")
     assert "undecided" in page.wait()
+    drawn = "explorer.basins.panes[0].drawnFrames.map((frame) => explorer.basins.panes[0].shows(frame))"
+    assert wait_for(lambda: set(page.run(drawn)) == {True})  # no patch of the window before
     assert page.run(SHOWN)[::3] == [True, "Cancel"] and page.run("$('cancel').disabled")
 
 
@@ -189,3 +193,55 @@ def test_back_undoes_values_and_windows_one_hand_at_a_time(page):
     assert page.run(shown) == before
     page.press("forward")
     assert page.run(shown) == moved and page.run("$('back').disabled") is False
+
+
+def test_the_title_follows_the_pendulum(page):
+    """"Well inside the stable zone" stood over pendulums far outside of it."""
+    titles = "[$('title').textContent, document.title, explorer.state.shownTitle]"
+    assert page.run(titles) == ["Stripes"] * 3
+    page.choose("value-m", "0.05")
+    assert page.run(titles) == ["m 0.05 instead of 0.3"] * 3
+    page.choose("value-m", "0.3")
+    assert page.run(titles) == ["Stripes"] * 3
+
+
+def test_a_spectrum_without_lines_says_why(page):
+    """It looked as if something had failed."""
+    drawn = """(() => { const stage = explorer.basins.stage, said = [], own = CanvasRenderingContext2D.prototype.fillText;
+        CanvasRenderingContext2D.prototype.fillText = function (words, ...at) { said.push(words); own.call(this, words, ...at); };
+        const motion = (amplitude) => ({ending: {period: 1}, spectrum: () => [[0, 0], [1, amplitude]]});
+        stage.draw(motion(arguments[0]), 'spectrum', explorer.state.colours, explorer.basins.units, null);
+        CanvasRenderingContext2D.prototype.fillText = own; return said.includes("At rest nothing moves:"); })"""
+    assert [page.run(f"{drawn}(arguments[0])", amplitude) for amplitude in (1e-9, 0.1)] == [True, False]
+
+
+def test_keys_work_while_a_menu_has_the_focus(page):
+    press = """((target, key) => { document.querySelector(target).focus(); document.activeElement.dispatchEvent(
+        new KeyboardEvent('keydown', {key, bubbles: true, cancelable: true})); })(...arguments)"""
+    width = page.run("explorer.state.window.theta.width")
+    for target in (".menu summary", "#home", "#slider-m"):
+        page.run(press, target, "+")
+        assert page.run("explorer.state.window.theta.width") < width, target
+        page.press("home")
+    page.run(press, "#value-m", "+")  # a text keeps its own keys, as a button does
+    page.run(press, "#slider-m", "ArrowRight")
+    playing = page.run("explorer.state.playing")
+    page.run(press, "#home", " ")
+    assert page.run("[explorer.state.window.theta.width, explorer.state.playing]") == [width, playing]
+    page.run("explorer.state.change({pendulum: explorer.state.scene})")
+
+
+def test_a_start_is_told_in_few_digits_and_plain_words(page):
+    page.hand(0.7, 0.5, 0.7, 0.5)
+    assert wait_for(lambda: page.run("$('ending').dataset.ending"))
+    words = page.run("$('ending').textContent")
+    assert "double" not in words and "decided: no rounding error can change this end" in words
+    assert max(len(digits) for digits in re.findall(r"\.(\d+)", words)) <= 4, words
+    deep = page.module("units.js", "new its.Units('pi', null).start({theta: '3.' + '1'.repeat(60), velocity: '1e-9'})")
+    assert deep == ["3." + "1" * 39, "0"]  # of a window 1e-35 wide
+
+
+def test_no_program_stays_for_a_closed_page(page, striped):
+    assert striped.children()
+    page.driver.get("about:blank")
+    assert wait_for(lambda: not striped.children())

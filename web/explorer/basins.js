@@ -277,7 +277,8 @@ export class Basins {
     const wordsOf = (pane) => (this.spread ? likelyWords(pane, at, this.spread) : wordsAt(pane, this, ...at));
     const words = at ? this.panes.map(wordsOf).join("  |  ") : "";
     const start = at && this.startAt(...at);
-    const place = at && `θ ${brief(this.units.angle(start.theta))}  velocity ${brief(this.units.velocity(start.velocity))}`;
+    const [angle, speed] = at ? this.units.start(start).map(brief) : [];
+    const place = `θ ${angle}  velocity ${speed}`;
     element("pointer").textContent = at ? signed(`${place}  ${words}`) : "";
   }
 
@@ -321,7 +322,9 @@ export class Basins {
     const depth = this.state.home.theta.width / theta.width;
     const digits = Math.max(2, 3 - Math.floor(Math.log10(theta.width)));
     const middle = (range) => range.centre.rounded(digits).toString();
-    const [angle, speed] = [this.units.angle(middle(theta)), this.units.velocity(middle(velocity))].map((words) => signed(brief(words)));
+    const { units } = this;
+    const centre = [units.angle(middle(theta), digits), units.velocity(middle(velocity), digits)];
+    const [angle, speed] = centre.map((words) => signed(brief(words)));
     element("where").textContent =
       `Depth ${depth < 1e6 ? Number(depth.toPrecision(3)) : depth.toExponential(1)}×  centre θ ${angle}, velocity ${speed}`;
     element("where").dataset.window = JSON.stringify(this.state.window.toRequest());

@@ -43,6 +43,14 @@ function actionsOn(state, basins) {
 
 const NAMES = { " ": "space", ArrowLeft: "←", ArrowRight: "→", ArrowUp: "↑", ArrowDown: "↓" };
 
+/** Keys that an element with the focus takes itself: texts take all, lists those that choose, buttons and boxes those that press. */
+const OWN = [
+  ["input[type=range]", /^Arrow|^Page|^Home|^End/],
+  ["input[type=checkbox], input[type=file], button, summary", /^( |Enter)$/],
+  ["select", /^( |Enter|Arrow.*|Page.*|Home|End)$/],
+  ["input, textarea", /^/],
+];
+
 export function listenKeys(state, basins) {
   const actions = actionsOn(state, basins);
   const known = new Map(actions.flatMap(([keys, , action]) => keys.map((key) => [key, action])));
@@ -55,10 +63,11 @@ export function listenKeys(state, basins) {
   element("help-shown").onclick = () => element("help").showModal();
   addEventListener("keydown", (event) => {
     const control = event.ctrlKey || event.metaKey;
-    const typing = event.target.matches(control ? "input:not([type=range])" : "input, select, textarea, button, summary");
+    const typing = !control && (OWN.find(([kinds]) => event.target.matches(kinds))?.[1].test(event.key) ?? false);
+    const undoes = control && event.target.matches("input:not([type=range])");
     const action = known.get((control ? "Ctrl+" : "") + event.key);
     const taken = event.altKey || element("help").open;
-    if (!action || taken || (typing && event.key !== "Escape")) return;
+    if (!action || taken || undoes || (typing && event.key !== "Escape")) return;
     const { defaultPrevented } = event;
     event.preventDefault();
     action(defaultPrevented);

@@ -19,8 +19,8 @@ export const ORDER = [
 
 const MARKED = 4000; // ms
 
-/** Rows of the last frames of panes: {key, name, colour, shares: [of a, of b]}; null: not known, as a picture was given up before any frame of
- * its window came. */
+/** Rows of the last frames of panes: {key, name, colour, shares: [of a, of b]}; null: not known, as a picture was given up before
+ * any frame of its window came. */
 export function rowsOf(panes) {
   const rows = new Map();
   panes.forEach((pane, number) => {

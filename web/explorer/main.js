@@ -37,7 +37,10 @@ async function begin() {
   Object.assign(state, remembered(), readAddress(location.hash, { pendulum: scene }));
   state.home = state.whole.centred(state.middle);
   state.window ??= state.home;
-  document.title = document.getElementById("title").textContent = start.title;
+  const titleKeys = ["title", "pendulum", "scene"];
+  const showTitle = () => (document.title = document.getElementById("title").textContent = state.shownTitle);
+  showTitle();
+  state.listen((keys) => titleKeys.some((key) => keys.has(key)) && showTitle());
   setTheme(state);
   const setLetters = () => (document.body.dataset.letters = state.letters);
   setLetters();
@@ -50,6 +53,8 @@ async function begin() {
   const map = listenControls(state, basins);
   listenKeys(state, basins);
   basins.show();
+  // No program stays for a closed page.
+  addEventListener("pagehide", () => [...basins.panes, map].forEach(({ engine }) => engine.close()));
   window.explorer = { state, basins, map }; // for the browser's console
 }
 

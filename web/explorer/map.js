@@ -132,6 +132,7 @@ export class MotionMap {
     const atlas = (found) => {
       instead.abort();
       this.atlas = found;
+      this.from = found.holds(this.place) ? this.place : null;
       this.paint();
       this.note(`up to ${found.longest} drive period${found.longest === 1 ? "" : "s"}`);
       this.state.change({ ground: { atlas: found, axes: this.axes, others: this.asked } });

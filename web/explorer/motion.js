@@ -135,10 +135,11 @@ export const settledAfter = ({ settling_time: certain, near_time: near }) => Mat
 
 /** Where a start ends, in words; `units`: of the page. */
 export function endingWords(ending, units) {
-  const from = `from θ = ${units.angle(ending.theta)}, velocity ${units.velocity(ending.velocity)}`;
+  const [angle, speed] = units.start(ending);
+  const from = `from θ = ${angle}, velocity ${speed}`;
   if (ending.attractor < 0) return `not settled\n${from}`;
   const near = Number.isFinite(ending.near_time) ? `, within 1° after ${units.time(ending.near_time)}` : "";
-  const sure = ending.decided ? `decided: ${ending.precision}` : `not decided: ${ending.words} or ${ending.other_words ?? "another"}`;
+  const sure = ending.decided ? "decided: no rounding error can change this end" : `not decided: ${ending.words} or ${ending.other_words ?? "another"}`;
   const certain = ending.settling_time > 0 ? `certain after ${units.time(ending.settling_time)}` : "certain at once";
   return `ends on ${ending.words}: ${certain}${near}\n${from}\n${sure}`;
 }

@@ -29,7 +29,6 @@ export async function openPicture(state, file) {
   const whole = Window.from(edges);
   const found = { start: null, ...readAddress(address, { pendulum: scene }) };
   const home = whole.centred(found.middle ?? state.middle);
-  document.title = element("title").textContent = title;
   const fresh = { pane: "a", lit: null, pinned: null, past: [], undone: [], jump: true };
   state.change({ title, scene, whole, home, pivotFrequency, ...fresh, ...found, window: found.window ?? home });
 }

@@ -59,7 +59,15 @@ export class Pane {
 
   /** Whether a frame is of the window and the pendulum that are wanted. */
   shows(frame) {
-    return frame !== null && frame.key === JSON.stringify(this.pendulum) && frame.window.equals(this.state.window.centred("hanging"));
+    if (frame?.key !== JSON.stringify(this.pendulum)) return false;
+    return frame.window.equals(this.state.window.centred("hanging"));
+  }
+
+  /** The frames that are drawn: those of the window alone once one of them has every cell, lest patches of others stay. */
+  get drawnFrames() {
+    const window = this.window.centred("hanging");
+    const own = this.frames.filter((frame) => frame.window.equals(window));
+    return own.some(({ level }) => level === 1) ? own : this.frames;
   }
 
   /** Whether the last labels wanted have been given up, or refused. */
@@ -274,8 +282,8 @@ export class Pane {
     this.say(this, "error", error.message);
   }
 
-  /** Gives up the labels that are being decided. The quick ones before them, without which nothing shows the window wanted, are given up BLIND
-   * after they were asked for, or when this is called again. */
+  /** Gives up the labels that are being decided. The quick ones before them, without which nothing shows the window wanted, are
+   * given up BLIND after they were asked for, or when this is called again. */
   cancel() {
     if (!this.pursuing || this.complete === this.version) return;
     const left = this.resting || this.stopped === this.version ? 0 : BLIND - (performance.now() - this.begun);
@@ -308,7 +316,7 @@ export class Pane {
 
   /** The frame and the cell of it that lie at a place of the window (shares): {frame, cell}, or null. */
   cellAt(across, up) {
-    for (const frame of this.frames.toReversed()) {
+    for (const frame of this.drawnFrames.toReversed()) {
       const { place, period } = placementOf(frame, this.window);
       const x = ((across - place[0]) / place[2]) % period;
       const [column, row] = [Math.floor((x < 0 ? x + period : x) * frame.columns), Math.floor(((up - place[1]) / place[3]) * frame.rows)];
@@ -325,7 +333,7 @@ export class Pane {
   drawNow() {
     cancelAnimationFrame(this.drawn);
     this.drawn = null;
-    this.painter.draw(seen(this.frames, this.window), this.window, shadingOf(this.state.shade));
+    this.painter.draw(seen(this.drawnFrames, this.window), this.window, shadingOf(this.state.shade));
     this.drawAbove();
     this.inset.draw(this.window);
   }

@@ -40,7 +40,7 @@ export function passportWords(row, share, units) {
 export function spectrumWords(motion, units) {
   const lines = motion.spectrum(HIGHEST).filter(([frequency, amplitude]) => frequency > 0 && amplitude > FAINT);
   const strongest = lines.sort(([, one], [, other]) => other - one).slice(0, STRONGEST);
-  if (!strongest.length) return "spectrum: no line, it rests";
+  if (!strongest.length) return "spectrum: no lines, as nothing moves";
   return `spectrum: ${units.frequencies(strongest.map(([frequency, amplitude]) => [frequency, amplitude.toPrecision(2)]))}`;
 }
 

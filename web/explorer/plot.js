@@ -65,6 +65,13 @@ export class Plot {
     this.surface.circle(...this.place([x, y]), radius, this.surface.theme.mark, this.surface.theme.paper);
   }
 
+  /** Lines of words in the middle. */
+  say(...lines) {
+    const [left, top, width, height] = this.box;
+    const step = 18 * (this.surface.letters ?? 1);
+    lines.forEach((words, i) => this.surface.text(words, left + width / 2, top + height / 2 + step * i, "center"));
+  }
+
   /** Both axes with their words; `across` and `up`: {ticks} of their own, {inPi} for fractions of pi, {per} for values counted in that many. */
   axes(words, upWords, { across = {}, up = {} } = {}) {
     const [left, top, width, height] = this.box;

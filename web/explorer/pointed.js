@@ -17,7 +17,7 @@ export function wordsAt(pane, { passport, units }, across, up) {
   if (!found) return "not labelled yet";
   const { frame, cell } = found;
   const name = frame.labels[cell] === 255 ? unlabelled(frame) : frame.catalogue.attractors[frame.labels[cell]].words;
-  const known = row && (pane.shows(frame) ? row : { ...row, share: null, settling: null }); // those of another window are no measures of this
+  const known = row && (pane.shows(frame) ? row : { ...row, share: null, settling: null }); // not those of another window
   const measures = row ? `: ${measureWords(known, passport.pushOf(pane, row), units)}` : "";
   return name + (frame.cells[4 * cell + 2] === 255 ? " (undecided)" : "") + measures;
 }

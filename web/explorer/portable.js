@@ -20,7 +20,7 @@ export async function saveHtml(state, basins) {
   for (const row of rowsOf(basins.panes)) rows.push(await recorded(row, basins));
   const picture = pictureCanvas(state, basins).toDataURL("image/png");
   const data = JSON.stringify({ rows, pivotFrequency: state.pivotFrequency }).replace(/</g, "\\u003c");
-  const title = state.title.replace(/&/g, "&amp;").replace(/</g, "&lt;");
+  const title = state.shownTitle.replace(/&/g, "&amp;").replace(/</g, "&lt;");
   const values = Object.entries(asScene(basins.active.pendulum)).map(([name, value]) => `${name}: ${typeof value === "object" ? "…" : value}`);
   const text = `<!doctype html><html lang="en"><head><meta charset="utf-8"><meta name="viewport" content="width=device-width">
 <title>${title}</title><style>${STYLE}</style></head><body><h1>${title}</h1><p>${values.join(", ").replace(/</g, "&lt;")}</p>

@@ -59,7 +59,7 @@ export function pictureSize(basins) {
 export function drawPicture(surface, state, basins, pictures = new Map()) {
   const [width, height] = pictureSize(basins);
   surface.rectangle(0, 0, width, height, LIGHT.paper);
-  surface.text(state.title, 66, 20, "left", { size: 15 });
+  surface.text(state.shownTitle, 66, 20, "left", { size: 15 });
   let left = 0;
   for (const pane of basins.panes) {
     drawPane(surface, pane, left, basins.captionOf(pane), pictures.get(pane));

@@ -7,6 +7,7 @@ export const VIEWS = ["pendulum", "trace", "phase", "strobe", "spectrum"];
 const RECENT = 8; // drive periods of the trace
 const MOST_LINES = 3; // drive frequencies of the spectrum
 const DECADES = 6;
+const NO_LINES = ["At rest nothing moves:", "there are no lines."];
 const SMALL = 500; // px, below which letters alone are enlarged
 const LECTURE = 1.3; // how much larger everything is in one, beside letters
 const POINT = 1 / 45; // radius of a strobe point, of the shorter side of its plot, and
@@ -83,6 +84,7 @@ export class Stage {
       const level = Math.log10(amplitude);
       if (level > -DECADES) plot.line([[frequency, -DECADES], [frequency, level]], surface.theme.mark, 2);
     }
+    if (lines.every(([, amplitude]) => Math.log10(amplitude) <= -DECADES)) plot.say(...NO_LINES);
   }
 }
 

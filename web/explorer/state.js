@@ -1,5 +1,6 @@
 // What the page shows, in one place, and its copy in the address: a reload keeps it, and a link shares it.
 
+import { keyWords } from "./values.js";
 import { Window } from "./window.js";
 
 export const DEFAULTS = {
@@ -19,6 +20,7 @@ export const DEFAULTS = {
 };
 
 const PAUSE = 1000; // ms
+const NAMED = 2; // values in a title
 
 /** The state: change() tells everyone who listens which keys have changed. */
 export class State {
@@ -37,6 +39,14 @@ export class State {
     const keys = Object.keys(values).filter((key) => this[key] !== values[key]);
     Object.assign(this, values);
     if (keys.length) for (const listener of this.listeners) listener(new Set(keys));
+  }
+
+  /** The scene's title; once the pendulum is another one, what differs: the title may say what holds no more. */
+  get shownTitle() {
+    const { title, pendulum, scene } = this;
+    const names = Object.keys(pendulum).filter((name) => pendulum[name] !== scene[name]);
+    const words = names.slice(0, NAMED).map((name) => `${keyWords(name)} ${pendulum[name]} instead of ${scene[name]}`);
+    return names.length ? words.join(", ") + (names.length > NAMED ? " …" : "") : title;
   }
 
   /** Goes to another window; the present one is kept for back(). */

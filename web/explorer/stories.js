@@ -9,7 +9,7 @@ import { Window } from "./window.js";
 
 const GLIDE = 1.5; // seconds in which numbers of the pendulum go to their new values
 const PRESENTER = { ArrowRight: 1, PageDown: 1, Enter: 1, " ": 1, ArrowLeft: -1, PageUp: -1, Backspace: -1 };
-const KEPT = ["scene", "pendulum", "other", "pane", "pivotFrequency", "start", "window", "home", "whole", "view", "map", "speed", "lit", "pinned", "past", "undone"];
+const KEPT = ["title", "scene", "pendulum", "other", "pane", "pivotFrequency", "start", "window", "home", "whole", "view", "map", "speed", "lit", "pinned", "past", "undone"];
 const element = (id) => document.getElementById(id);
 const texts = (pendulum) => Object.fromEntries(Object.entries(pendulum).map(([name, value]) => [name, typeof value === "number" ? String(value) : value]));
 
@@ -55,6 +55,7 @@ export class Stories {
     const home = whole.centred(this.state.middle);
     const scene = { ...NEUTRAL, ...texts(story.pendulum) };
     this.state.change({
+      title: story.title,
       scene,
       pendulum: scene,
       other: null,

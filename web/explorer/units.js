@@ -4,10 +4,11 @@ import { Decimal } from "./decimal.js";
 import { degrees } from "./ticks.js";
 import { TURN } from "./window.js";
 
-const BEYOND = 10; // digits of a start that the width of its window does not need
+const BEYOND = 21; // digits of a start that the width of its window does not need,
+const FEWEST = 4; // and digits that it has at least
 
 /** Digits behind the point that a start given as a text has, without those that nobody reads. */
-const digitsOf = (text) => Math.max(6, (text.split(".")[1] ?? "").length - BEYOND);
+const digitsOf = (text) => Math.max(FEWEST, (text.split(".")[1] ?? "").length - BEYOND);
 
 /** The units that the page has chosen; `pivotFrequency`: rad/s, or null where the scene does not say. */
 export class Units {
@@ -17,13 +18,20 @@ export class Units {
   }
 
   /** An angle (decimal text, rad) in words. */
-  angle(text) {
-    return this.degrees ? `${Decimal.from(text).times(degrees(text.length)).rounded(digitsOf(text))}°` : text;
+  angle(text, digits = digitsOf(text)) {
+    return this.degrees ? `${Decimal.from(text).times(degrees(text.length)).rounded(digits)}°` : text;
   }
 
   /** A velocity (decimal text, rad per drive radian) in words. */
-  velocity(text) {
-    return this.omega ? `${Decimal.from(text).times(Decimal.from(this.omega)).rounded(digitsOf(text))} rad/s` : text;
+  velocity(text, digits = digitsOf(text)) {
+    return this.omega ? `${Decimal.from(text).times(Decimal.from(this.omega)).rounded(digits)} rad/s` : text;
+  }
+
+  /** A start, {theta, velocity} as decimal texts, in words: without the digits that nobody reads. */
+  start({ theta, velocity }) {
+    const rounded = (text) => Decimal.from(text).rounded(digitsOf(text)).toString();
+    const [angle, speed] = [this.degrees ? theta : rounded(theta), this.omega ? velocity : rounded(velocity)];
+    return [this.angle(angle), this.velocity(speed)];
   }
 
   /** A time (drive periods) in words. */

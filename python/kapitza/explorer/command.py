@@ -2,7 +2,7 @@
 
 import argparse
 import signal
-import sys
+import socket
 import threading
 import webbrowser
 from pathlib import Path
@@ -52,8 +52,9 @@ def _serve(explorer, opens):
     try:
         explorer.on_trade = lambda: print(f"for another browser: {explorer.new_address()}", flush=True)
         print(f"{explorer.title}\n{explorer.new_address()}\nEach address serves one browser. Ctrl-C ends it.", flush=True)
-        if opens and not webbrowser.open(explorer.new_address()):
-            print("no browser was found: open the address above in one", file=sys.stderr)
+        if not opens or not webbrowser.open(explorer.new_address()):
+            forward = f"ssh -L {explorer.port}:127.0.0.1:{explorer.port} {socket.gethostname()}"
+            print(f"Open it in a browser here; on another machine first: {forward}", flush=True)
         stop.wait()
     finally:
         explorer.close()
