@@ -89,8 +89,10 @@ typedef struct {
   size_t offset; /* in kz_pendulum_keys */
 } kz_sweep_parameter;
 extern const kz_sweep_parameter kz_sweep_parameters[];
-/* The names of these keys, and of the measures of a sweep, each list joined by '|'. */
+/* The names of these keys, of those that change motions and not only how cells are released, and of the measures of a sweep, each list
+ * joined by '|'. */
 const char *kz_sweep_words(void);
+const char *kz_motion_words(void);
 const char *kz_sweep_measure_words(void);
 
 /* What one of a unit of the drive is in SI: *unit becomes "s" for "drive periods", "rad/s" for "rad per drive radian". 1, and *unit as it is, for

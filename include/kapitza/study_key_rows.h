@@ -58,7 +58,7 @@
 #define PLANE_KEYS(study, axis)                                                                                      \
   ROW(#study "." #axis ".parameter", KZ_KEY_WORD, NULL, AT(axis.parameter),                                          \
       "Key of the pendulum mapping, as written there, that takes the values; pendulum.KEY is the same.", .unit = "", \
-      .words_from = kz_sweep_words),                                                                                 \
+      .words_from = kz_motion_words),                                                                                \
       REAL(#study "." #axis ".min", KZ_OWN_UNIT, -DBL_MAX, DBL_MAX, NULL, axis.values.min, "First value."),          \
       REAL(#study "." #axis ".max", KZ_OWN_UNIT, -DBL_MAX, DBL_MAX, NULL, axis.values.max, "Last value.")
 

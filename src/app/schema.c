@@ -40,7 +40,7 @@ static void add_words(kz_json *list, const char *before, const char *words) {
 static kz_json *words_of(const kz_key *key) {
   kz_json *list = json_object_new_array();
   add_words(list, "", kz_key_words(key));
-  if (key->words_from == kz_sweep_words) add_words(list, KZ_OF_PENDULUM, kz_sweep_words());
+  if (kz_key_is_parameter(key)) add_words(list, KZ_OF_PENDULUM, kz_key_words(key));
   return object_of("enum", list);
 }
 

@@ -37,7 +37,6 @@ ASKS(boundary, s->has_basin && s->basin->has_boundary)
 ASKS(orbit_on_ramp, s->has_orbit && s->parameters.has_ramp)
 ASKS(decisions, s->has_basin && s->basin->undecided == KZ_UNDECIDED_DECIDE)
 ASKS(depth, s->has_basin && (s->basin->theta.centre.text[0] || s->basin->velocity.centre.text[0]))
-ASKS(plane_over_ramp, s->has_sweep &&kz_sweep_is_plane(s->sweep) && is_swept(s, kz_sweep_is_of_release))
 /* A sweep over a ramp: its values differ in their cells alone. */
 static bool asks_more_than_cells(const kz_scene *s) {
   if (!is_swept(s, kz_sweep_is_of_release)) return false;
@@ -72,7 +71,6 @@ static const struct {
     {asks_tradeoff, MIRRORED, "study tradeoff needs mirror symmetry, which this drive does not have; leave one of them out"},
     {asks_rk4, MIRRORED,
      "numerics.scheme rk4 needs mirror symmetry, which this drive does not have; choose processed or split6"},
-    {asks_plane_over_ramp, NO_RAMP_OVER, "a sweep over a plane does not follow a ramp; choose another parameter for its axis"},
     {asks_more_than_cells, NO_RAMP_OVER,
      "a sweep over a ramp needs the study basin and measures basin_fractions and phases only"},
     {asks_decisions, ONE_PHASE, "basin.undecided decide needs starts at one phase; choose flag"},

@@ -6,39 +6,45 @@
 #include "kapitza/study.h"
 #include "sweep/plan.h"
 
-#define PARAMETERS(KEY, NAMED)             \
-  KEY(quality_factor, "1")                 \
-  KEY(drive_frequency, "1")                \
-  KEY(drive_amplitude, "1")                \
-  KEY(k, "1")                              \
-  KEY(damping, "1")                        \
-  KEY(m, "1")                              \
-  KEY(mass, "kg")                          \
-  KEY(radius, "m")                         \
-  KEY(inertia, "kg m2")                    \
-  KEY(friction, "kg m2 s-1")               \
-  KEY(gravity, "m s-2")                    \
-  KEY(pivot_amplitude, "m")                \
-  KEY(pivot_frequency, "rad s-1")          \
-  KEY(frequency, "Hz")                     \
-  KEY(length, "m")                         \
-  KEY(amplitude, "m")                      \
-  KEY(decay_time, "s")                     \
-  KEY(tilt, "rad")                         \
-  KEY(ellipse, "1")                        \
-  KEY(torque, "1")                         \
-  KEY(torque_amplitude, "1")               \
+/* Keys that change the motions of a pendulum, and those that change only how cells are released. */
+#define MOTION_PARAMETERS(KEY)    \
+  KEY(quality_factor, "1")        \
+  KEY(drive_frequency, "1")       \
+  KEY(drive_amplitude, "1")       \
+  KEY(k, "1")                     \
+  KEY(damping, "1")               \
+  KEY(m, "1")                     \
+  KEY(mass, "kg")                 \
+  KEY(radius, "m")                \
+  KEY(inertia, "kg m2")           \
+  KEY(friction, "kg m2 s-1")      \
+  KEY(gravity, "m s-2")           \
+  KEY(pivot_amplitude, "m")       \
+  KEY(pivot_frequency, "rad s-1") \
+  KEY(frequency, "Hz")            \
+  KEY(length, "m")                \
+  KEY(amplitude, "m")             \
+  KEY(decay_time, "s")            \
+  KEY(tilt, "rad")                \
+  KEY(ellipse, "1")               \
+  KEY(torque, "1")                \
+  KEY(torque_amplitude, "1")
+#define RELEASE_PARAMETERS(NAMED)          \
   NAMED("ramp.periods", ramp_periods, "1") \
   NAMED("ramp.from", ramp_from, "1")
 
 #define KEY_ROW(name_, unit_) NAMED_ROW(#name_, name_, unit_)
 #define NAMED_ROW(name_, field_, unit_) {name_, unit_, offsetof(kz_pendulum_keys, field_)},
-const kz_sweep_parameter kz_sweep_parameters[] = {PARAMETERS(KEY_ROW, NAMED_ROW)};
+const kz_sweep_parameter kz_sweep_parameters[] = {MOTION_PARAMETERS(KEY_ROW) RELEASE_PARAMETERS(NAMED_ROW)};
 
 #define KEY_WORD(name_, unit_) "|" #name_
 #define NAMED_WORD(name_, field_, unit_) "|" name_
 const char *kz_sweep_words(void) {
-  return &(PARAMETERS(KEY_WORD, NAMED_WORD))[1];
+  return &(MOTION_PARAMETERS(KEY_WORD) RELEASE_PARAMETERS(NAMED_WORD))[1];
+}
+
+const char *kz_motion_words(void) {
+  return &(MOTION_PARAMETERS(KEY_WORD))[1];
 }
 
 bool kz_sweep_is_of_release(int32_t parameter) {

@@ -6,7 +6,7 @@ import pytest
 from conftest import refused_scene
 from test_atlas import PENDULUM, SCENE
 
-BAD = {"one key": ({"y": {"parameter": "drive_frequency", "min": 3, "max": 30}}, "atlas.y.parameter: is also the parameter of atlas.x"),
+BAD = {"one key": ({"y": {"parameter": "drive_frequency", "min": 3, "max": 30}}, "atlas.y.parameter: is also the parameter of the other axis"),
        "a key of another form": ({"x": {"parameter": "k", "min": 0, "max": 1}}, "atlas.x.parameter: k is not given"),
        "no damping": ({"x": {"parameter": "drive_frequency", "min": 0, "max": 30}}, "atlas.x.min: 0 is below what pendulum"),
        "an edge that is no number": ({"x": {"parameter": "drive_frequency", "min": ".nan", "max": 30}}, "atlas.x.min: \".nan\" is not a"),
@@ -35,5 +35,5 @@ def test_planes_without_damping_or_without_effect_are_refused(kapitza, tmp_path)
     idle = {"pendulum": dict(PENDULUM, ramp={"key": "damping", "from": 0.1, "periods": 4}),
             "basin": {"theta": {"count": 8}, "velocity": {"min": -1, "max": 1, "count": 8}},
             "atlas": {"x": {"parameter": "ramp.periods", "min": 1, "max": 4}, "y": {"parameter": "drive_amplitude", "min": 0, "max": 1}}}
-    for scene, message in ((undamped, "no damped pendulum at damping = 0"), (idle, "ramp.periods changes no motion")):
+    for scene, message in ((undamped, "no damped pendulum at damping = 0"), (idle, "\"ramp.periods\" is unknown; it must be one of")):
         assert message in refused_scene(kapitza, tmp_path, scene)

@@ -69,6 +69,14 @@ def test_symbols_are_spellings_of_keys(tmp_path, by_symbol, by_name, options):
         assert resolved(tmp_path, *changes, scene=by_symbol) == resolved(tmp_path, *changes, scene=by_name)
 
 
+@pytest.mark.parametrize("axis", ["sweep.x.parameter", "sweep.y.parameter", "tangency.parameter", "atlas.x.parameter", "atlas.y.parameter"])
+def test_a_plane_lists_only_the_keys_that_it_takes(axis):
+    """A ramp changes no motion: planes and tangencies refuse its keys, a sweep along a line takes them."""
+    rows = [line.split(" | ") for line in (ROOT / "docs" / "reference" / "scene.md").read_text().splitlines()]
+    accepted = {row[0].strip("| `"): row[1] for row in rows if len(row) > 2}
+    assert "drive_amplitude" in accepted[axis] and "ramp" not in accepted[axis] and "ramp.periods" in accepted["sweep.parameter"]
+
+
 def test_a_key_by_name_and_by_symbol_is_given_twice(tmp_path):
     pendulum = "pendulum: {Q: 5, drive_frequency: 11, drive_amplitude: 0.3, quality_factor: 5}\n"
     (tmp_path / "scene.yaml").write_text(pendulum + "attractors: {velocity: {min: -1, max: 1}}\n")

@@ -25,6 +25,10 @@ double kz_key_most_bare(const kz_key *key) {
   return strstr(key->path, "amplitude") ? 1 : 10;
 }
 
+bool kz_key_is_parameter(const kz_key *key) {
+  return key->words_from == kz_sweep_words || key->words_from == kz_motion_words;
+}
+
 bool kz_key_is_angle(const kz_key *key) {
   return strcmp(key->unit, "rad") == 0;
 }

@@ -21,6 +21,8 @@ const char *kz_key_words(const kz_key *key);
 int64_t kz_word_find(const char *words, const char *word);
 /* The largest value, in m, that needs no unit; infinity for other units. */
 double kz_key_most_bare(const kz_key *key);
+/* True if the words of the key are the names of keys of the pendulum. */
+bool kz_key_is_parameter(const kz_key *key);
 /* True if the key is an angle, which may be written in degrees. */
 bool kz_key_is_angle(const kz_key *key);
 /* The last part of the key's path. */

@@ -99,7 +99,7 @@ static void name_value(const kz_key *key, const kz_key *meant, kz_node *root) {
 
 /* Takes the name of the mapping from before a key of the pendulum. */
 static void name_parameter(const kz_key *key, kz_node *root) {
-  kz_node *node = key->words_from == kz_sweep_words ? kz_tree_find(root, key->path) : NULL;
+  kz_node *node = kz_key_is_parameter(key) ? kz_tree_find(root, key->path) : NULL;
   if (!node || !node->text || strncmp(node->text, KZ_OF_PENDULUM, strlen(KZ_OF_PENDULUM)) != 0) return;
   char *name = kz_strdup(node->text + strlen(KZ_OF_PENDULUM));
   free(node->text);

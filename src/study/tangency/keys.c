@@ -8,7 +8,7 @@ static const kz_key keys[] = {
     STUDY("Study: the value of a key of the pendulum at which an unstable and a stable manifold touch and begin to cross.",
           .range = KZ_RANGE_PARAMETER, .range_offset = offsetof(kz_tangency_plan, axis)),
     ROW("tangency.parameter", KZ_KEY_WORD, NULL, AT(axis.parameter), "Key of the pendulum mapping, as written there.",
-        .unit = "", .words_from = kz_sweep_words),
+        .unit = "", .words_from = kz_motion_words),
     REAL("tangency.min", KZ_OWN_UNIT, -DBL_MAX, DBL_MAX, NULL, axis.values.min,
          "First value; the manifolds cross at one end only."),
     REAL("tangency.max", KZ_OWN_UNIT, -DBL_MAX, DBL_MAX, NULL, axis.values.max, "Last value."),
@@ -19,4 +19,4 @@ static const kz_key keys[] = {
     {.path = NULL},
 };
 
-KZ_STUDY_ROW(.check = kz_tangency_check, .needs = {{"a list of unstable cycles", "saddles"}});
+KZ_STUDY_ROW(.needs = {{"a list of unstable cycles", "saddles"}});

@@ -24,11 +24,6 @@ kz_cost kz_tangency_cost(const kz_scene *scene) {
   return (kz_cost){.disk_bytes = 1e4, .memory_bytes = 1e7};
 }
 
-kz_status kz_tangency_check(const kz_scene *scene) {
-  if (!kz_sweep_is_of_release(scene->tangency->axis.parameter)) return KZ_OK;
-  return kz_fail(KZ_REFUSED, "tangency.parameter: changes how cells are released, not the manifolds; name another key");
-}
-
 static kz_status find(void *context, int64_t tile, void *out) {
   work *w = context;
   record *r = out;
