@@ -47,8 +47,8 @@ int64_t kz_spectrum_dominant(int64_t n_lines, const double *amplitude);
  * 1e-3 of the largest are relevant, and n <= periods/8; returns 0 if no n fits (aperiodic, not settled, or the record is too short). */
 int64_t kz_spectrum_period(const kz_record *record, int64_t n_lines, const double *amplitude);
 
-/* True if a closed orbit is its own mirror image (theta, v) -> (-theta, -v): it does not turn over, and it is at rest or has only odd lines
- * with an even n. amplitude [n_lines] belongs to a record of n = periods. */
+/* True if a closed orbit is its own image: (-theta, -v) half of its n periods later, half a drive period included if n is odd. It does not turn over,
+ * and it is at rest or has only odd lines. amplitude [n_lines] belongs to a record of n = periods. */
 bool kz_spectrum_symmetric(const kz_record *record, int64_t n_lines, const double *amplitude);
 
 /* ---- roots ---- */

@@ -18,14 +18,16 @@ typedef struct {
   double low[2], high[2]; /* curves and branches end beyond them */
   int32_t steps;          /* of split6 a period, even; steps on the way are twice as long */
   int32_t mirrored;       /* 1 if all pendulums have mirror symmetry, else 0 */
+  int32_t half_period;    /* 1 if not, but with a motion theta(t) all have -theta(t + pi), else 0 */
 } kz_plane;
 
 /* Which cycles: F(x(i)) = x(i+1), side (F(x(n)) - 2 pi turns) = x(1). side 1: cycles of `points` periods with so many net turns; side -1:
  * symmetric cycles of twice as many periods, about down (turns 0) or inverted (1). multiplier: of curves, 1 or -1 of this map. stride: drive periods between
- * two points where cycles have more periods than points, so that F is its power; 0 = 1. */
+ * two points where cycles have more periods than points, so that F is its power; 0 = 1. half 1, of side -1: the last F ends half a period before, so that
+ * the cycles have one period less and are their own images under (theta, v, t) -> (-theta, -v, t + pi). */
 enum { KZ_CURVE_POINTS = 16 };
 typedef struct {
-  int32_t side, points, multiplier, turns, stride;
+  int32_t side, points, multiplier, turns, stride, half;
 } kz_curve_kind;
 
 /* How a trace ends: outside of the plane, at its own start, at its longest, where a cycle meets its parent (at a degenerate flip or symmetry
@@ -42,7 +44,7 @@ enum { KZ_TRACE_LEFT, KZ_TRACE_CLOSED, KZ_TRACE_LONG, KZ_TRACE_MERGED, KZ_TRACE_
 int64_t kz_curve_trace(const kz_plane *plane, const kz_curve_kind *kind, const double *seed, int32_t direction, double longest,
                        int64_t most, double *rows, int64_t most_special, double *special, int64_t *n_special, int32_t *ending);
 
-/* What happens on a branch: a multiplier of its map is 1 or -1; it meets the cycle of half its period, its mirror image, or rest, and ends. */
+/* What happens on a branch: a multiplier of its map is 1 or -1; it meets the cycle of half its period, its image, or rest, and ends. */
 enum { KZ_EVENT_FOLD = 1, KZ_EVENT_FLIP = 2, KZ_EVENT_HALVES = 3, KZ_EVENT_MIRROR = 4, KZ_EVENT_REST = 5 };
 /* Follows the cycle near `start` along a line, first in the direction `along` (a unit vector), attracting or not, through folds; side 1 or -1:
  * one of the two branches of the fold at `start`. *step: the first step, 0 = short; then the one that would follow; NULL = not asked for. rows

@@ -41,6 +41,12 @@ enum { KZ_SINE = 0, KZ_SQUARE = 1, KZ_TRIANGLE = 2, KZ_SAMPLES = 3 };
 /* An upper bound of |a(t)| + |b(t)| + |torque| + |torque_amplitude| over all t. */
 double kz_stiffness(const kz_pendulum *pendulum);
 
+/* Symmetries: with a motion theta(t), -theta(t) is one too; -theta(t + pi); pi + theta(t + pi). */
+enum { KZ_SYMMETRY_MIRROR = 1, KZ_SYMMETRY_HALF_PERIOD = 2, KZ_SYMMETRY_HALF_TURN = 4 };
+/* The sum of those that a pendulum has. */
+int32_t kz_symmetries(const kz_pendulum *pendulum);
+/* The one by which attractors and cycles have images: KZ_SYMMETRY_MIRROR, else KZ_SYMMETRY_HALF_PERIOD, else 0. */
+int32_t kz_pairing_symmetry(const kz_pendulum *pendulum);
 /* 1 if the mirror image (-theta, -velocity) of every motion is a motion too, which needs no torque and no horizontal drive; else 0. */
 int32_t kz_is_mirrored(const kz_pendulum *pendulum);
 

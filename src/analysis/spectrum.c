@@ -160,7 +160,7 @@ bool kz_spectrum_symmetric(const kz_record *record, int64_t n_lines, const doubl
   bool at_rest = kz_spectrum_dominant(n_lines, amplitude) == 0;
   double least = at_rest ? KZ_LINE_FLOOR : least_line(n_lines, amplitude, MATTERS_CLOSED);
   bool centred = fabs(sin(amplitude[0])) <= least;
-  if (at_rest || !centred || record->periods % 2 != 0) return at_rest && centred;
+  if (at_rest || !centred) return at_rest && centred;
   for (int64_t j = 2; j < n_lines; j += 2) {
     if (amplitude[j] > least) return false;
   }

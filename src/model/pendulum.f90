@@ -6,12 +6,14 @@ module kz_model_pendulum
   use, intrinsic :: iso_fortran_env, only: real64, real128
   implicit none
   private
-  public :: pendulum_t, is_same, stiffness, exact_stiffness, is_mirrored, is_sine, highest_harmonic, acceleration, force_at, &
-            force_of_parameters, sine_force, MOST_HARMONICS
+  public :: pendulum_t, is_same, stiffness, exact_stiffness, symmetries, pairing_symmetry, is_mirrored, is_sine, highest_harmonic, &
+            acceleration, force_at, force_of_parameters, sine_force, MOST_HARMONICS
 
   integer, parameter :: qp = real128, ld = c_long_double
   !> KZ_HARMONICS of model.h.
   integer, parameter :: MOST_HARMONICS = 24
+  !> KZ_SYMMETRY_... of model.h; 0 = none.
+  integer(c_int32_t), parameter, public :: MIRROR = 1, HALF_PERIOD = 2, HALF_TURN = 4
   real(qp), parameter :: PI = 3.14159265358979323846264338327950288_qp
 
   type, bind(C) :: pendulum_t
@@ -84,6 +86,35 @@ contains
     end do
     bound = bound + abs(pendulum%torque) + abs(pendulum%torque_amplitude)
   end function exact_stiffness
+
+  !> The symmetries of the equation, a sum of MIRROR, HALF_PERIOD and HALF_TURN. Coefficients count as 0 if they are 0 exactly: half a period later those
+  !> of odd harmonics have changed their signs, upside down a and b have.
+  pure function symmetries(pendulum) bind(C, name='kz_symmetries') result(sum_of)
+    type(pendulum_t), intent(in) :: pendulum !< the pendulum
+    integer(c_int32_t) :: sum_of
+    logical :: vertical(0:1), horizontal(0:1) ! of even harmonics with gravity, of odd ones
+    integer :: j
+
+    vertical = [abs(pendulum%k) > 0, abs(pendulum%m + pendulum%vertical(1, 1)) > 0 .or. abs(pendulum%vertical(2, 1)) > 0]
+    horizontal = [.false., maxval(abs(pendulum%horizontal(:, 1))) > 0]
+    do j = 2, pendulum%harmonics
+      vertical(mod(j, 2)) = vertical(mod(j, 2)) .or. maxval(abs(pendulum%vertical(:, j))) > 0
+      horizontal(mod(j, 2)) = horizontal(mod(j, 2)) .or. maxval(abs(pendulum%horizontal(:, j))) > 0
+    end do
+    sum_of = 0
+    if (pendulum%unmirrored == 0) sum_of = sum_of + MIRROR
+    if (.not. (vertical(1) .or. horizontal(0) .or. abs(pendulum%torque) > 0)) sum_of = sum_of + HALF_PERIOD
+    if (.not. (vertical(0) .or. horizontal(0) .or. abs(pendulum%torque_amplitude) > 0)) sum_of = sum_of + HALF_TURN
+  end function symmetries
+
+  !> The symmetry by which attractors and cycles have images: MIRROR, else HALF_PERIOD, else 0.
+  pure function pairing_symmetry(pendulum) bind(C, name='kz_pairing_symmetry') result(symmetry)
+    type(pendulum_t), intent(in) :: pendulum !< the pendulum
+    integer(c_int32_t) :: symmetry
+
+    symmetry = iand(symmetries(pendulum), HALF_PERIOD)
+    if (is_mirrored(pendulum) /= 0) symmetry = MIRROR
+  end function pairing_symmetry
 
   !> 1 if the mirror image (-theta, -velocity) of every motion is a motion too, else 0.
   pure function is_mirrored(pendulum) bind(C, name='kz_is_mirrored') result(mirrored)

@@ -1,4 +1,5 @@
 /* The drive of a pendulum from the keys that describe it: wave form, further harmonics, tilt, ellipse, torque, phase of release. */
+#include <float.h>
 #include <math.h>
 #include <stdio.h>
 
@@ -128,7 +129,8 @@ static void along(const kz_pendulum_keys *written, double m, int j, double *cosi
 /* Harmonic j of the pivot's motion in the plane: along the tilted line, and across it, a quarter of a drive period later. */
 static void add_harmonic(const kz_pendulum_keys *written, int j, kz_pendulum *p) {
   const double tilt = isnan(written->tilt) ? 0 : written->tilt, ellipse = isnan(written->ellipse) ? 0 : written->ellipse;
-  const double quarter = j * M_PI / 2, up = cos(tilt), aside = sin(tilt);
+  const double quarter = j * M_PI / 2, aside = sin(tilt);
+  const double up = fabs(cos(tilt)) > DBL_EPSILON ? cos(tilt) : 0; /* 90 deg is horizontal, though no double is pi/2 */
   double c, s;
   along(written, p->m, j, &c, &s);
   const double across_c = ellipse * (c * cos(quarter) - s * sin(quarter)),

@@ -3,12 +3,12 @@ module kz_api_cycles
   use, intrinsic :: iso_c_binding, only: dp => c_double, c_int64_t, c_ptr
   use kz_vector_map, only: flow_t, PI
   use kz_kernel_flows, only: make_flow, fine_numerics
-  use kz_model_pendulum, only: pendulum_t, is_mirrored
+  use kz_model_pendulum, only: pendulum_t, pairing_symmetry, HALF_PERIOD
   use kz_vector_step_table, only: numerics_t
   use kz_api_attractors, only: row_of
   use kz_cycles_described, only: attractor_row_t
   use kz_api_dynamics, only: dynamics_t, of_handle
-  use kz_attractors_cycle_search, only: append_with_mirror, join
+  use kz_attractors_cycle_search, only: append_with_image, join
   use kz_cycles_cycles, only: attractor_t, close_cycle, enter_points, symmetrise
   use kz_cycles_features, only: find_features
   use kz_cycles_shooting, only: shoot, smallest_period, closed_orbit_t
@@ -68,11 +68,11 @@ contains
       call place_cycle(d, reshape(found(3:2 + 2*period, i), [2, period]), new, is_placed)
       if (.not. is_placed) cycle
       if (is_known(d%attractors, new) .or. is_known(batch, new)) cycle
-      new%mirrored = is_mirrored(d%search%pendulum) /= 0
-      if (new%mirrored) call symmetrise(new)
+      new%symmetry = pairing_symmetry(d%search%pendulum)
+      call symmetrise(d%search%sampling_flow, new)
       call enter_points(d%search%flow, new)
       call find_features(d%search%sampling_flow, d%search%pendulum, new, new%u(:1), new%v(:1), period)
-      call append_with_mirror(new, batch)
+      call append_with_image(d%search, new, batch)
       if (size(batch) >= BATCH_SIZE) call join_batch(d%attractors, batch)
     end do
     call join_batch(d%attractors, batch)
@@ -105,7 +105,7 @@ contains
   !> A batch joins the catalogue: to lengthen it for every cycle would take a time that grows with the square of their number.
   subroutine join_batch(attractors, batch)
     type(attractor_t), allocatable, intent(inout) :: attractors(:)
-    type(attractor_t), allocatable, intent(inout) :: batch(:) !< its mirror images are numbered from its own beginning; empty afterwards
+    type(attractor_t), allocatable, intent(inout) :: batch(:) !< its images are numbered from its own beginning; empty afterwards
 
     batch%mirror = batch%mirror + size(attractors)
     call join(attractors, batch)
@@ -123,7 +123,10 @@ contains
     do i = size(attractors), 1, -1
       associate (a => attractors(i))
         if (a%period /= cycle%period) exit
-        if (abs(maxval(abs(a%v)) - maxval(abs(cycle%v))) > ONE) exit
+        if (abs(maxval(abs(a%v)) - maxval(abs(cycle%v))) > ONE) then
+          if (a%symmetry == HALF_PERIOD) cycle ! images have other speeds at the strobe
+          exit
+        end if
         do first = 1, a%period
           if (all(separation(a%u, a%v, cshift(cycle%u, first), cshift(cycle%v, first)) < ONE)) return
         end do

@@ -2,7 +2,7 @@
 module kz_api_dynamics
   use, intrinsic :: iso_c_binding, only: dp => c_double, c_int64_t, c_ptr, c_f_pointer, c_loc, c_null_ptr
   use kz_attractors_chaos, only: carry_chaos
-  use kz_attractors_cycle_search, only: search_t, add_with_mirror, known
+  use kz_attractors_cycle_search, only: search_t, add_with_image, known
   use kz_cycles_cycles, only: attractor_t, close_cycle, complete_attractor
   use kz_grown_ellipses, only: rings_t
   use kz_grown_moving, only: aged_regions
@@ -15,7 +15,7 @@ module kz_api_dynamics
   use kz_vector_map, only: flow_t, PI, WIDTH
   use kz_vector_step_table, only: numerics_t
   use kz_maps_map_table, only: table_t
-  use kz_model_pendulum, only: pendulum_t, is_mirrored
+  use kz_model_pendulum, only: pendulum_t, pairing_symmetry
   use kz_model_release, only: release_t
   implicit none
   private
@@ -137,7 +137,7 @@ contains
     type(pendulum_t), intent(in) :: pendulum
     type(numerics_t), intent(in) :: numerics
     real(dp), value :: error
-    integer(c_int64_t), intent(out) :: lost !< attractors that are there no more, their mirror images not counted
+    integer(c_int64_t), intent(out) :: lost !< attractors that are there no more, their images not counted
     type(c_ptr) :: moved
     type(dynamics_t), pointer :: from, d
     integer, allocatable :: number(:)
@@ -178,7 +178,7 @@ contains
     call carry(d%search, int(period), theta/PI, velocity, d%attractors, number)
   end subroutine add_cycle
 
-  !> Appends the cycle near a strobe point, and its mirror image; number = 0 where none attracts, or none that is new.
+  !> Appends the cycle near a strobe point, and its image; number = 0 where none attracts, or none that is new.
   subroutine carry(search, period, u, v, attractors, number)
     type(search_t), intent(inout) :: search
     integer, intent(in) :: period
@@ -190,13 +190,12 @@ contains
 
     number = 0
     call close_cycle(search%fine, search%pendulum%beta, period, u, v, FARTHEST, new, found, blurred)
-    new%mirrored = is_mirrored(search%pendulum) /= 0
-    if (found) call complete_attractor(new, found)
+    new%symmetry = pairing_symmetry(search%pendulum)
+    if (found) call complete_attractor(search%sampling_flow, new, found)
     if (.not. found) return
     if (known(attractors, new%period, new%u, new%v)) return
-    call add_with_mirror(search, new, attractors)
-    number = size(attractors)
-    if (.not. new%symmetric) number = number - 1
+    number = size(attractors) + 1
+    call add_with_image(search, new, attractors)
   end subroutine carry
 
 end module kz_api_dynamics

@@ -3,11 +3,12 @@
 module kz_attractors_chaos
   use, intrinsic :: iso_c_binding, only: dp => c_double
   use kz_vector_map, only: flow_t, WIDTH, PI
-  use kz_cycles_cycles, only: attractor_t
+  use kz_cycles_cycles, only: attractor_t, half_period_images
   use kz_cycles_features, only: find_features
   use kz_grown_grid, only: regions_t, find_regions, cover_cell, COVER
-  use kz_attractors_cycle_search, only: search_t, append_with_mirror
-  use kz_model_pendulum, only: pendulum_t, is_mirrored
+  use kz_attractors_cycle_search, only: search_t, append_with_image
+  use kz_maps_states, only: states_to_physical
+  use kz_model_pendulum, only: pendulum_t, pairing_symmetry, MIRROR
   implicit none
   private
   public :: find_chaos, carry_chaos, set_cover, append_cover, is_damped
@@ -38,7 +39,7 @@ contains
     real(dp), intent(in) :: u, v !< start, half-turns, rad per drive radian
     type(attractor_t), allocatable, intent(inout) :: attractors(:) !< the catalogue, which gains what is found
     type(attractor_t) :: attractor
-    logical, allocatable :: visited(:)
+    logical, allocatable :: visited(:), image(:)
     logical :: trapped
     integer :: lane
 
@@ -52,15 +53,14 @@ contains
     if (trapped .or. .not. any(visited)) return
     call measure_exponent(search%flow, attractor%lyapunov, attractor%lyapunov_error)
     if (attractor%lyapunov <= CONFIDENCE*attractor%lyapunov_error) return
-    attractor%mirrored = is_mirrored(search%pendulum) /= 0
-    call set_cover(attractor, visited)
+    call set_cover(search, regions, [(lane, lane=1, WIDTH)], VISITS, .false., attractor, visited, image)
     call search%flow%to_physical(1)
     call find_features(search%sampling_flow, search%pendulum, attractor, search%flow%u(:1), search%flow%v(:1), FEATURE_PERIODS)
     if (attractor%symmetric) then
       attractor%mean = 0
       attractor%mean_velocity = 0
     end if
-    call append_cover(attractor, attractors)
+    call append_cover(search, image, attractor, attractors)
   end subroutine find_chaos
 
   !> Whether areas shrink so fast that what goes on for long attracts.
@@ -76,9 +76,9 @@ contains
     type(search_t), intent(inout) :: search !< the flows of the pendulum
     type(regions_t), intent(in) :: regions !< its trapping regions
     type(attractor_t), intent(in) :: old !< the attractor
-    type(attractor_t), allocatable, intent(inout) :: attractors(:) !< the catalogue, which gains it and its mirror image
+    type(attractor_t), allocatable, intent(inout) :: attractors(:) !< the catalogue, which gains it and its image
     type(attractor_t) :: attractor
-    logical, allocatable :: visited(:)
+    logical, allocatable :: visited(:), image(:)
     integer, allocatable :: inner(:)
     logical :: trapped
     integer :: lane, cell
@@ -91,10 +91,9 @@ contains
     call visit(search%flow, regions, attractors, CARRIED_TRANSIENT, CARRIED_VISITS, visited, trapped)
     if (trapped .or. .not. any(visited)) return
     attractor = old
-    attractor%mirrored = is_mirrored(search%pendulum) /= 0
     call widen(visited)
-    call set_cover(attractor, visited)
-    call append_cover(attractor, attractors)
+    call set_cover(search, regions, [(lane, lane=1, WIDTH)], CARRIED_VISITS, .true., attractor, visited, image)
+    call append_cover(search, image, attractor, attractors)
   end subroutine carry_chaos
 
   !> The cells of a cover whose four neighbours belong to it too; all, where there are none.
@@ -121,14 +120,25 @@ contains
     marked(:, :COVER - 1) = marked(:, :COVER - 1) .or. before(:, 2:)
   end subroutine widen
 
-  !> Appends an attractor with its cover, and its mirror image if that is another one.
-  subroutine append_cover(attractor, attractors)
+  !> Appends an attractor with its cover, and its image if that is another one.
+  subroutine append_cover(search, image, attractor, attractors)
+    type(search_t), intent(inout) :: search !< the flows
+    logical, intent(in) :: image(:) !< the cells of the image, of set_cover
     type(attractor_t), intent(inout) :: attractor !< what joins the catalogue
     type(attractor_t), allocatable, intent(inout) :: attractors(:) !< the catalogue
 
-    call append_with_mirror(attractor, attractors)
-    if (attractor%mirrored .and. .not. attractor%symmetric) attractors(size(attractors))%cover = COVER**2 + 1 - attractor%cover
+    call append_with_image(search, attractor, attractors)
+    if (attractor%symmetry /= 0 .and. .not. attractor%symmetric) attractors(size(attractors))%cover = cells_of(image)
   end subroutine append_cover
+
+  !> The numbers of the marked cells.
+  pure function cells_of(marked) result(cells)
+    logical, intent(in) :: marked(COVER**2)
+    integer, allocatable :: cells(:)
+    integer :: cell
+
+    cells = pack([(cell, cell=1, COVER**2)], marked)
+  end function cells_of
 
   !> Follows the lanes of a flow, and marks the cells of the cover that they visit after the transient; trapped = a trapping region
   !> holds one of them.
@@ -168,16 +178,58 @@ contains
     part = PARTING_PERIODS*mean > log(PARTED)
   end function neighbours_part
 
-  !> The cover: all visited cells. An attractor whose cover meets its own mirror image in most cells is that image.
-  subroutine set_cover(attractor, visited)
-    type(attractor_t), intent(inout) :: attractor !< whose cover is set
+  !> The cover: all visited cells. An attractor whose cover meets its own image in most cells is that image.
+  subroutine set_cover(search, regions, lanes, periods, widened, attractor, visited, image)
+    type(search_t), intent(inout) :: search !< whose flow holds orbits on the attractor
+    type(regions_t), intent(in) :: regions !< say where cells lie
+    integer, intent(in) :: lanes(:), periods !< lanes of these orbits; drive periods for which images are followed
+    logical, intent(in) :: widened !< whether the visited cells are widened ones
+    type(attractor_t), intent(inout) :: attractor !< whose symmetry and cover are set
     logical, intent(inout) :: visited(COVER**2) !< cells that orbits visit
-    integer :: cell
+    logical, allocatable, intent(out) :: image(:) !< those of the images
 
-    attractor%symmetric = attractor%mirrored .and. 2*count(visited .and. visited(COVER**2:1:-1)) > count(visited)
-    if (attractor%symmetric) visited = visited .or. visited(COVER**2:1:-1)
-    attractor%cover = pack([(cell, cell=1, COVER**2)], visited)
+    allocate (image(COVER**2), source=.false.)
+    attractor%symmetry = pairing_symmetry(search%pendulum)
+    if (attractor%symmetry == MIRROR) then
+      image = visited(COVER**2:1:-1)
+    else if (attractor%symmetry /= 0) then
+      call visit_images(search, regions, lanes, periods, image)
+      if (widened) call widen(image)
+    end if
+    attractor%symmetric = 2*count(visited .and. image) > count(visited)
+    if (attractor%symmetric) visited = visited .or. image
+    attractor%cover = cells_of(visited)
   end subroutine set_cover
+
+  !> Marks the cells that the images of some lanes visit, half a drive period later; the lanes stay as they are.
+  subroutine visit_images(search, regions, lanes, periods, image)
+    type(search_t), intent(inout) :: search
+    type(regions_t), intent(in) :: regions
+    integer, intent(in) :: lanes(:), periods
+    logical, intent(inout) :: image(COVER**2)
+    real(dp) :: u(size(lanes)), v(size(lanes)), kept_u(WIDTH), kept_v(WIDTH)
+    integer :: n, period, lane, cell
+
+    n = size(lanes)
+    associate (flow => search%flow)
+      kept_u = flow%u(:WIDTH)
+      kept_v = flow%v(:WIDTH)
+      u = flow%u(lanes)
+      v = flow%v(lanes)
+      call states_to_physical(flow, u, v)
+      call half_period_images(search%sampling_flow, u, v)
+      call flow%put_all(u, v)
+      call flow%to_map(n)
+      do period = 1, periods
+        call flow%advance(n)
+        do lane = 1, n
+          cell = cover_cell(regions, flow%u(lane), flow%v(lane))
+          if (cell > 0) image(cell) = .true.
+        end do
+      end do
+      call flow%put_all(kept_u, kept_v)
+    end associate
+  end subroutine visit_images
 
   !> Largest Lyapunov exponent per period of the orbits in all lanes, with its standard error; 0 where it is small at first and falls on.
   subroutine measure_exponent(flow, mean, error)

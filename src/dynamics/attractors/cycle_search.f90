@@ -3,8 +3,8 @@ module kz_attractors_cycle_search
   use, intrinsic :: iso_c_binding, only: dp => c_double
   use kz_vector_map, only: flow_t, WIDTH, PI
   use kz_attractors_centres, only: find_centre, CENTRED
-  use kz_model_pendulum, only: pendulum_t, is_mirrored
-  use kz_cycles_cycles, only: attractor_t, close_cycle, complete_attractor, enter_points, mirror_image, listed_from_lowest, SLOW
+  use kz_model_pendulum, only: pendulum_t, pairing_symmetry, HALF_PERIOD
+  use kz_cycles_cycles, only: attractor_t, close_cycle, complete_attractor, enter_points, image_of, listed_from_lowest, SLOW
   use kz_grown_ellipses, only: rings_t, find_ellipses
   use kz_cycles_newton, only: newton, n_periods
   use kz_cycles_features, only: find_features
@@ -13,7 +13,7 @@ module kz_attractors_cycle_search
   use kz_maps_states, only: separation, same_state
   implicit none
   private
-  public :: search_t, find_cycle, add_with_mirror, append_with_mirror, append, join, known
+  public :: search_t, find_cycle, add_with_image, append_with_image, append, join, known
 
   !> The flows and settings of a search.
   type :: search_t
@@ -40,7 +40,7 @@ module kz_attractors_cycle_search
 contains
 
   !> Tries physical states (at most WIDTH) whose orbits may have settled on unknown cycles, from state `next` on, until it finds one. It
-  !> appends the cycle and its mirror image.
+  !> appends the cycle and its image.
   subroutine find_cycle(search, u, v, closeness, next, n_blurred, attractors)
     type(search_t), intent(inout) :: search !< the flows and the longest period of the search
     real(dp), intent(in) :: u(:), v(:) !< states to look from, half-turns, rad per drive radian
@@ -112,11 +112,11 @@ contains
       found = promise == KNOWN_ONE
       if (promise /= UNSURE) return
       call close_cycle(search%fine, search%pendulum%beta, period, x(1), x(2), farthest, candidate, found, blurred)
-      candidate%mirrored = is_mirrored(search%pendulum) /= 0
-      if (found) call complete_attractor(candidate, found)
+      candidate%symmetry = pairing_symmetry(search%pendulum)
+      if (found) call complete_attractor(search%sampling_flow, candidate, found)
       if (blurred) n_blurred(period) = n_blurred(period) + 1
       if (.not. found) return
-      if (.not. known(attractors, candidate%period, candidate%u, candidate%v)) call add_with_mirror(search, candidate, attractors)
+      if (.not. known(attractors, candidate%period, candidate%u, candidate%v)) call add_with_image(search, candidate, attractors)
     end subroutine try
   end subroutine try_recurrences
 
@@ -205,32 +205,43 @@ contains
     known = .false.
   end function known
 
-  !> Completes an attractor (trapping ellipses, features) and appends it, and its mirror image if that is another one.
-  subroutine add_with_mirror(search, attractor, attractors)
+  !> Completes an attractor (trapping ellipses, features) and appends it, and its image if that is another one.
+  subroutine add_with_image(search, attractor, attractors)
     type(search_t), intent(inout) :: search !< the flows and the longest period of the search
     type(attractor_t), intent(inout) :: attractor !< the attractor: points, multipliers, symmetry; comes back complete
     type(attractor_t), allocatable, intent(inout) :: attractors(:) !< the catalogue, which gains it
+    integer :: n_known
 
+    n_known = size(attractors)
     if (attractor%period > 0) then
       call enter_points(search%flow, attractor)
       call find_ellipses(search%flow, search%fine, attractor, attractors, search%rings)
       call find_features(search%sampling_flow, search%pendulum, attractor, attractor%u(:1), attractor%v(:1), attractor%period)
     end if
-    call append_with_mirror(attractor, attractors)
-  end subroutine add_with_mirror
+    call append_with_image(search, attractor, attractors)
+    if (attractor%symmetry /= HALF_PERIOD .or. attractor%period <= 0 .or. size(attractors) < n_known + 2) return
+    associate (image => attractors(n_known + 2))
+      call find_ellipses(search%flow, search%fine, image, attractors(:n_known + 1), search%rings)
+    end associate
+  end subroutine add_with_image
 
-  !> Appends a complete cycle or chaotic attractor, and its mirror image if that is another one.
-  subroutine append_with_mirror(attractor, attractors)
-    type(attractor_t), intent(inout) :: attractor !< what joins the catalogue; its number of the mirror image is set
+  !> Appends a complete cycle or chaotic attractor, and its image if that is another one.
+  subroutine append_with_image(search, attractor, attractors)
+    type(search_t), intent(inout) :: search !< the flows
+    type(attractor_t), intent(inout) :: attractor !< what joins the catalogue; its number of the image is set
     type(attractor_t), allocatable, intent(inout) :: attractors(:) !< the catalogue
+    type(attractor_t) :: image
+    logical :: paired
 
-    attractor%mirror = size(attractors) + 1
-    if (attractor%mirrored .and. .not. attractor%symmetric) attractor%mirror = size(attractors) + 2
+    paired = attractor%symmetry /= 0 .and. .not. attractor%symmetric
+    attractor%mirror = size(attractors) + merge(2, 1, paired)
     call append(attractors, attractor)
-    if (attractor%symmetric .or. .not. attractor%mirrored) return
-    call append(attractors, mirror_image(attractor))
-    attractors(size(attractors))%mirror = size(attractors) - 1
-  end subroutine append_with_mirror
+    if (.not. paired) return
+    call image_of(search%sampling_flow, attractor, image)
+    if (image%symmetry == HALF_PERIOD .and. image%period > 0) call enter_points(search%flow, image)
+    image%mirror = size(attractors)
+    call append(attractors, image)
+  end subroutine append_with_image
 
   !> Appends an attractor, with its strobe points in order from the lowest.
   subroutine append(attractors, attractor)

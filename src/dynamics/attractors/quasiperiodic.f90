@@ -10,7 +10,6 @@ module kz_attractors_quasiperiodic
   use kz_cycles_cycles, only: attractor_t, QUASIPERIODIC
   use kz_grown_grid, only: regions_t, find_regions, cover_cell, COVER
   use kz_vector_map, only: flow_t, WIDTH, PI
-  use kz_model_pendulum, only: is_mirrored
   implicit none
   private
   public :: find_quasiperiodic
@@ -41,7 +40,7 @@ module kz_attractors_quasiperiodic
 
 contains
 
-  !> Looks for a quasi-periodic motion among orbits. It appends the first one with its cover, and its mirror image if that is another one.
+  !> Looks for a quasi-periodic motion among orbits. It appends the first one with its cover, and its image if that is another one.
   subroutine find_quasiperiodic(search, regions, state, age, attractors)
     type(search_t), intent(inout) :: search !< the flows of the search
     type(regions_t), intent(in) :: regions !< the trapping regions: what they hold is not looked at
@@ -51,7 +50,7 @@ contains
     type(attractor_t) :: attractor
     type(record_t) :: record
     real(dp) :: before(AVERAGES, WIDTH)
-    logical, allocatable :: visited(:)
+    logical, allocatable :: visited(:), image(:)
     integer, allocatable :: lane(:)
     integer :: n, i
 
@@ -70,9 +69,8 @@ contains
     call visit_cells(search%flow, regions, n, lane, visited)
     if (.not. any(visited)) return ! it does not come to all angles, or is faster than the cover reaches
     attractor%period = QUASIPERIODIC
-    attractor%mirrored = is_mirrored(search%pendulum) /= 0
-    call set_cover(attractor, visited)
-    call append_cover(attractor, attractors)
+    call set_cover(search, regions, lane, VISITS, .false., attractor, visited, image)
+    call append_cover(search, image, attractor, attractors)
   end subroutine find_quasiperiodic
 
   !> Whether a lane is on a closed curve: nothing traps it, its averages have converged, its tangent neither grows nor shrinks.

@@ -2,7 +2,8 @@
 !> on which a multiplier is 1 or -1 (docs/explanation/atlas.md).
 !>
 !> The unknowns y are the points x(i) of a cycle, rad and rad per drive radian, not wrapped, and then its place, in the rectangle's sides. F(x(i)) = x(i+1), side*(F(x(n)) - 2 pi turns) = x(1): side = 1 for cycles of n periods, side = -1 for those of 2 n periods that are
-!> their own mirror image. G is this map of x(1). The damping is constant, so that det DG = exp(-2 pi beta n), and one of the multipliers is e
+!> their own mirror image, or, if the last F ends half a period before (kind%half), for those of 2 n - 1 periods that are their own image half a period
+!> later. G is this map of x(1). The damping is constant, so that det DG = exp(-2 pi beta n), and one of the multipliers is e
 !> where trace DG = e (1 + det DG).
 module kz_cycles_curves
   use, intrinsic :: iso_c_binding, only: dp => c_double, c_int32_t, c_int64_t, c_bool, c_funptr, c_ptr, c_f_procpointer
@@ -20,14 +21,14 @@ module kz_cycles_curves
   real(dp), parameter :: OF_POINTS = 0.04_dp
 
   type, bind(C) :: curve_kind_t
-    integer(c_int32_t) :: side, points, multiplier, turns, stride = 0
+    integer(c_int32_t) :: side, points, multiplier, turns, stride = 0, half = 0
   end type curve_kind_t
 
   type, bind(C) :: plane_t
     type(c_funptr) :: pendulum
     type(c_ptr) :: context
     real(dp) :: low(2), high(2)
-    integer(c_int32_t) :: steps, mirrored
+    integer(c_int32_t) :: steps, mirrored, half_period
   end type plane_t
 
   !> The equations of one kind of cycles on a plane, and what they were at the last place.
@@ -113,19 +114,21 @@ contains
   end subroutine set_place
 
   !> image = that of each of the first n points after one or both halves of a period, with derivatives up to `order`.
-  subroutine images(system, fineness, order, y, at, n, halves, image, exists)
+  subroutine images(system, fineness, order, y, at, n, halves, image, exists, ends_early)
     type(system_t), intent(inout) :: system !< of which the tables serve
     integer, intent(in) :: fineness !< COARSE or FINE
     integer, intent(in) :: order !< 0 .. 3
     integer, intent(in) :: n !< points
-    integer, intent(in) :: halves !< 1: to half a period; 2: to the next point of the cycle
+    integer, intent(in) :: halves !< half periods until the image
     real(dp), intent(in) :: y(:) !< the points: rad, rad per drive radian
     real(dp), intent(in) :: at(2) !< the place
     real(dp), intent(out) :: image(2, 0:TERMS, POINTS) !< (angle and velocity, value and derivatives, point): rad
     logical, intent(out) :: exists !< whether there is a damped pendulum
+    logical, intent(in), optional :: ends_early !< the image of the last point is that of half a period before
     real(dp), dimension(LANES) :: u, v
     real(dp), dimension(LANES, TERMS) :: theta, velocity
-    integer :: first, lane, period
+    integer :: first, lane, period, n_steps
+    logical :: early
 
     if (system%jets(fineness)%n_steps == 0) call make_jets(int(system%plane%steps)*fineness/FINE, system%jets(fineness))
     exists = maxval(abs(system%set_at(:, fineness) - at)) <= 0
@@ -139,10 +142,19 @@ contains
       velocity(:, DY) = 1
       u = [(y(2*min(first + lane - 1, n) - 1)/PI, lane=1, LANES)]
       v = [(y(2*min(first + lane - 1, n)), lane=1, LANES)]
-      do period = 1, merge(system%stride, 1, halves == 2)
-        call advance_jets(system%jets(fineness), order, 1, halves*system%jets(fineness)%n_steps/2, u, v, theta, velocity)
+      n_steps = system%jets(fineness)%n_steps
+      early = .false.
+      if (present(ends_early)) early = ends_early .and. first + LANES > n
+      do period = 1, halves/2 - merge(1, 0, early)
+        call advance_jets(system%jets(fineness), order, 1, n_steps, u, v, theta, velocity)
       end do
-      do lane = 1, min(LANES, n - first + 1)
+      if (early .or. mod(halves, 2) == 1) call advance_jets(system%jets(fineness), order, 1, n_steps/2, u, v, theta, velocity)
+      if (early) then
+        image(1, :, n) = [PI*u(n - first + 1), theta(n - first + 1, :)]
+        image(2, :, n) = [v(n - first + 1), velocity(n - first + 1, :)]
+        call advance_jets(system%jets(fineness), order, n_steps/2 + 1, n_steps, u, v, theta, velocity)
+      end if
+      do lane = 1, min(LANES, n - first + merge(0, 1, early))
         image(1, :, first + lane - 1) = [PI*u(lane), theta(lane, :)]
         image(2, :, first + lane - 1) = [v(lane), velocity(lane, :)]
       end do
@@ -185,7 +197,7 @@ contains
     integer :: n, i, next, side
 
     n = system%n
-    call images(system, fineness, order, y, y(2*n + 1:2*n + 2), n, 2, system%image, exists)
+    call images(system, fineness, order, y, y(2*n + 1:2*n + 2), n, 2*system%stride, system%image, exists, system%kind%half /= 0)
     if (.not. exists) return
     associate (image => system%image, kind => system%kind, basis => system%basis(:, :system%columns))
       residual = 0
@@ -240,11 +252,12 @@ contains
   subroutine set_determinant(system, fineness)
     type(system_t), intent(inout) :: system
     integer, intent(in) :: fineness
-    real(dp) :: decay(0:2)
+    real(dp) :: decay(0:2), lacking
 
     decay = system%jets(fineness)%damping
-    system%determinant = exp(-2*PI*system%n*system%stride*decay(0))
-    system%of_determinant = -2*PI*system%n*system%stride*decay(1:2)*system%determinant
+    lacking = merge(PI, 0.0_dp, system%kind%half /= 0)
+    system%determinant = exp(-2*PI*system%n*system%stride*decay(0) + lacking*decay(0))
+    system%of_determinant = (-2*PI*system%n*system%stride*decay(1:2) + lacking*decay(1:2))*system%determinant
   end subroutine set_determinant
 
   !> a with the weights of the inner product.

@@ -4,10 +4,12 @@ module kz_cycles_cycles
   use kz_vector_map, only: flow_t, WIDTH, PI
   use kz_cycles_newton, only: newton, n_periods, minimal_period
   use kz_maps_matrices, only: eigenvalues, solved, IDENTITY
-  use kz_maps_states, only: angle_difference, states_to_map, same_state, rounded
+  use kz_model_pendulum, only: MIRROR, HALF_PERIOD
+  use kz_maps_states, only: angle_difference, states_to_map, same_state, rounded, wrapped
   implicit none
   private
-  public :: numbers_t, attractor_t, close_cycle, complete_attractor, enter_points, is_slow, symmetrise, mirror_image, listed_from_lowest
+  public :: numbers_t, attractor_t, close_cycle, complete_attractor, enter_points, is_slow, symmetrise, image_of, half_period_images, &
+            listed_from_lowest
 
   !> In the place of a period: the attractor is a closed curve that a motion fills.
   integer, parameter, public :: QUASIPERIODIC = -1
@@ -22,9 +24,9 @@ module kz_cycles_cycles
   type :: numbers_t
     integer :: period = 0          !< drive periods; 0 = chaotic, QUASIPERIODIC
     integer :: winding = 0         !< net turns per `period` drive periods
-    logical :: mirrored = .true.   !< mirror images of motions are motions
-    logical :: symmetric = .false. !< the orbit is its own mirror image
-    integer :: mirror = 0          !< number of the mirror image in the catalogue, from 1
+    integer :: symmetry = MIRROR   !< by which attractors have images: pairing_symmetry of the pendulum
+    logical :: symmetric = .false. !< the orbit is its own image
+    integer :: mirror = 0          !< number of the image in the catalogue, from 1
     integer :: centre = 3          !< 0 down, 1 inverted, 2 rotating, 3 none of these
     real(dp) :: mean = 0           !< mean angle and velocity over time, half-turns and rad per drive radian
     real(dp) :: mean_velocity = 0
@@ -75,14 +77,15 @@ contains
   end subroutine close_cycle
 
   !> True if a closed cycle attracts; it then sets the exponent and the symmetry of the attractor.
-  subroutine complete_attractor(cycle, attracts)
+  subroutine complete_attractor(sampling_flow, cycle, attracts)
+    class(flow_t), intent(inout) :: sampling_flow !< a fine flow whose steps are not fused
     type(attractor_t), intent(inout) :: cycle !< what close_cycle found
     logical, intent(out) :: attracts !< its larger multiplier lies inside the unit circle
 
     attracts = abs(cycle%multiplier(1)) < 1
     if (.not. attracts) return
     cycle%lyapunov = log(abs(cycle%multiplier(1)))/cycle%period
-    if (cycle%mirrored) call symmetrise(cycle)
+    call symmetrise(sampling_flow, cycle)
   end subroutine complete_attractor
 
   !> Strobe points, winding and monodromy of the closed orbit through x.
@@ -162,13 +165,25 @@ contains
     if (is_slow) is_slow = -log(abs(attractor%multiplier(1))) < SLOW*attractor%period
   end function is_slow
 
-  !> Makes a cycle that is its own mirror image, x(1 + n/2) = -x(1), exact: x(j + n/2) = -x(j) to the bit, or exactly down or inverted.
-  subroutine symmetrise(cycle)
+  !> Sees whether a cycle is its own image. It makes one that is its mirror image, x(1 + n/2) = -x(1), exact: x(j + n/2) = -x(j) to the bit, or
+  !> exactly down or inverted.
+  subroutine symmetrise(sampling_flow, cycle)
+    class(flow_t), intent(inout) :: sampling_flow !< a fine flow whose steps are not fused
     type(attractor_t), intent(inout) :: cycle !< points, winding, period; comes back symmetric where it is
+    real(dp) :: u(1), v(1)
     integer :: n, half
 
     n = cycle%period
-    if (cycle%winding /= 0) return
+    if (cycle%winding /= 0 .or. cycle%symmetry == 0) return
+    if (cycle%symmetry == HALF_PERIOD) then
+      if (mod(n, 2) == 0) return
+      u = cycle%u(:1)
+      v = cycle%v(:1)
+      call half_period_images(sampling_flow, u, v)
+      half = 1 + mod((n + 1)/2, n)
+      cycle%symmetric = same_state(u(1), v(1), cycle%u(half), cycle%v(half))
+      return
+    end if
     if (n == 1) then
       cycle%symmetric = same_state(cycle%u(1), cycle%v(1), -cycle%u(1), -cycle%v(1))
       if (cycle%symmetric) then
@@ -187,20 +202,43 @@ contains
     cycle%v(half + 1:) = -cycle%v(:half)
   end subroutine symmetrise
 
-  !> The mirror image (-theta, -v) of an attractor, exact to the bit.
-  pure function mirror_image(attractor) result(image)
+  !> Strobe states become those of their images under (theta, v, t) -> (-theta, -v, t + pi), half a period later.
+  subroutine half_period_images(sampling_flow, u, v)
+    class(flow_t), intent(inout) :: sampling_flow !< a fine flow whose steps are not fused
+    real(dp), intent(inout) :: u(:), v(:) !< physical states, half-turns, rad per drive radian
+    real(dp) :: shown_u(2, WIDTH), shown_v(2, WIDTH)
+    integer :: first, n
+
+    do first = 1, size(u), WIDTH
+      n = min(WIDTH, size(u) - first + 1)
+      call sampling_flow%put_all(u(first:first + n - 1), v(first:first + n - 1))
+      call sampling_flow%sample(2, shown_u(:, :n), shown_v(:, :n))
+      u(first:first + n - 1) = -wrapped(shown_u(1, :n))
+      v(first:first + n - 1) = -shown_v(1, :n)
+    end do
+  end subroutine half_period_images
+
+  !> The image of an attractor: (-theta, -v), exact to the bit, or that of half a period later, without ellipses and kernel coordinates.
+  subroutine image_of(sampling_flow, attractor, image)
+    class(flow_t), intent(inout) :: sampling_flow !< a fine flow whose steps are not fused
     type(attractor_t), intent(in) :: attractor !< the attractor
-    type(attractor_t) :: image
+    type(attractor_t), intent(out) :: image !< its image
 
     image = attractor
     image%winding = -attractor%winding
     image%mean = -attractor%mean
     image%mean_velocity = -attractor%mean_velocity
-    if (allocated(attractor%u)) image%u = -attractor%u
-    if (allocated(attractor%v)) image%v = -attractor%v
+    if (attractor%period <= 0) return
+    if (attractor%symmetry == HALF_PERIOD) then
+      call half_period_images(sampling_flow, image%u, image%v)
+      image%form = 0
+      return
+    end if
+    image%u = -attractor%u
+    image%v = -attractor%v
     if (allocated(attractor%kernel_u)) image%kernel_u = -attractor%kernel_u
     if (allocated(attractor%kernel_v)) image%kernel_v = -attractor%kernel_v
-  end function mirror_image
+  end subroutine image_of
 
   !> The strobe points in order from that with the lowest velocity, then the lowest angle (compared rounded to 1e-9).
   subroutine listed_from_lowest(cycle)

@@ -2,7 +2,8 @@
 module kz_cycles_tracing
   use, intrinsic :: iso_c_binding, only: dp => c_double, c_int32_t, c_int64_t
   use kz_vector_map, only: PI
-  use kz_cycles_curves, only: plane_t, curve_kind_t, system_t, make_system, linearise, UNKNOWNS, FINE
+  use kz_cycles_curves, only: plane_t, curve_kind_t, system_t, make_system, linearise, images, POINTS, UNKNOWNS, COARSE, FINE
+  use kz_splitting_jets, only: TERMS
   use kz_cycles_corrector, only: newton
   use kz_cycles_normal_forms, only: normal_form
   use kz_cycles_walker, only: walker_t, parents_t, advance, begin, distance, passes, set_parents, meets, find_zero, thinness, &
@@ -126,30 +127,35 @@ contains
   !> Whether a fold comes so near to a parent that this one's own multiplier is -1: their distance alone does not show it, since it is small all along
   !> folds of strongly unstable cycles.
   function on_parents_curve(system, y, was, is) result(on)
-    type(system_t), intent(in) :: system
+    type(system_t), intent(inout) :: system
     real(dp), intent(in) :: y(:)
     type(parents_t), intent(in) :: was, is
     real(dp), parameter :: BESIDE = 1e-3_dp ! rad
     type(curve_kind_t) :: kind
-    real(dp) :: parent(UNKNOWNS), next
-    logical :: on, at_rest
+    real(dp) :: parent(UNKNOWNS), next, later(2, 0:TERMS, POINTS)
+    logical :: on, at_rest, half
     integer :: which, n
 
     on = .false.
     do which = HALVES, REST
       if (.not. is%distance(which) < min(BESIDE, was%distance(which))) cycle
-      at_rest = which == REST .or. (which == MIRROR .and. system%n == 1)
+      half = which == MIRROR .and. system%plane%half_period /= 0
+      at_rest = which == REST .or. (which == MIRROR .and. system%n == 1 .and. .not. half)
       kind = system%kind
-      kind%points = merge(1, system%n/2, at_rest)
+      kind%points = merge(1, (system%n + merge(1, 0, half))/2, at_rest)
       kind%side = merge(-1, 1, which == MIRROR)
+      kind%half = merge(1, 0, half)
       n = 2*kind%points
       parent(:n) = y(:n)
       if (at_rest) parent(:n) = [PI*anint(y(1)/PI), 0.0_dp]
       parent(n + 1:n + 2) = y(2*system%n + 1:2*system%n + 2)
-      next = merge(parent(1), y(n + 1), at_rest)
+      if (half) call images(system, COARSE, 0, parent(n - 1:n), parent(n + 1:n + 2), 1, 1, later, on)
+      next = merge(later(1, 0, 1), y(n + 1), half)
+      if (at_rest) next = parent(1)
       kind%turns = nint((next - kind%side*parent(1))/(2*PI))
       kind%multiplier = -1
-      if (is_on(system%plane, kind, parent) /= 0) on = .true.
+      on = is_on(system%plane, kind, parent) /= 0
+      if (on) return
     end do
   end function on_parents_curve
 

@@ -3,7 +3,8 @@ module kz_cycles_walker
   use, intrinsic :: iso_c_binding, only: dp => c_double
   use kz_cycles_normal_forms, only: normal_form
   use kz_cycles_corrector, only: newton, tangent_at
-  use kz_cycles_curves, only: system_t, inner, moved, wrapped, POINTS, UNKNOWNS
+  use kz_cycles_curves, only: system_t, images, inner, moved, wrapped, POINTS, UNKNOWNS, COARSE
+  use kz_splitting_jets, only: TERMS
   implicit none
   private
   public :: walker_t, parents_t, advance, begin, distance, passes, set_parents, meets, becomes, find_zero, thinness, &
@@ -12,7 +13,7 @@ module kz_cycles_walker
   !> Steps of Newton's method end below it, which square them, and below this part of a short step along a branch; steps longer than that are shortened:
   !> rad.
   real(dp), parameter :: CLOSE = 1e-5_dp, OF_STEP = 0.1_dp, FAR = 1e3_dp
-  !> KZ_EVENT_... of dynamics_curves.h: a multiplier 1, -1; a meeting with the cycle of half the period, with the mirror image, with rest.
+  !> KZ_EVENT_... of dynamics_curves.h: a multiplier 1, -1; a meeting with the cycle of half the period, with the image, with rest.
   integer, parameter :: FOLD = 1, FLIP = 2, HALVES = 3, MIRROR = 4, REST = 5
   !> What may change its sign on a curve: its normal form, thinness.
   integer, parameter :: OF_FORM = 0, OF_WIDTH = -1
@@ -25,7 +26,7 @@ module kz_cycles_walker
     logical :: is_sharp = .true.
   end type walker_t
 
-  !> How a cycle differs from what it may grow out of: the cycle of half its period, its mirror image, rest.
+  !> How a cycle differs from what it may grow out of: the cycle of half its period, its image, rest.
   type :: parents_t
     logical :: there(HALVES:REST) = .false.
     real(dp) :: distance(HALVES:REST) = huge(1.0_dp), difference(2*POINTS, HALVES:REST) = 0
@@ -225,9 +226,10 @@ contains
 
   !> Sets how a cycle differs from its parents.
   subroutine set_parents(system, y, parents)
-    type(system_t), intent(in) :: system !< the equations
+    type(system_t), intent(inout) :: system !< the equations, of which the tables serve
     real(dp), intent(in) :: y(:) !< the cycle
     type(parents_t), intent(out) :: parents !< how it differs from them
+    real(dp) :: later(2, 0:TERMS, POINTS) ! of each point, half a point further
     integer :: n, i, other
 
     n = system%n
@@ -235,22 +237,29 @@ contains
     if (system%plane%mirrored /= 0) then
       parents%there(MIRROR) = system%kind%side > 0 .and. system%kind%turns == 0 .and. (n == 1 .or. mod(n, 2) == 0)
       parents%there(REST) = system%kind%side < 0 .and. n == 1
+    else if (system%plane%half_period /= 0) then
+      if (system%kind%side > 0 .and. system%kind%turns == 0 .and. mod(n*system%stride, 2) == 1) &
+        call images(system, COARSE, 0, y, y(2*n + 1:2*n + 2), n, system%stride, later, parents%there(MIRROR))
     end if
     do i = 1, n
       other = mod(i - 1 + n/2, n) + 1
-      if (parents%there(HALVES)) call put(HALVES, -1)
-      if (parents%there(MIRROR)) call put(MIRROR, 1)
+      if (parents%there(HALVES)) call put(HALVES, -1, y(2*other - 1:2*other))
+      if (parents%there(MIRROR)) then
+        if (system%plane%mirrored /= 0) call put(MIRROR, 1, y(2*other - 1:2*other))
+        if (system%plane%mirrored == 0) call put(MIRROR, 1, later(:, 0, other))
+      end if
     end do
     if (parents%there(REST)) parents%difference(:2, REST) = [0.5_dp*wrapped(2*y(1)), y(2)]
     do i = HALVES, REST
       if (parents%there(i)) parents%distance(i) = norm2(parents%difference(:2*n, i))/sqrt(real(n, dp))
     end do
   contains
-    subroutine put(which, sign_of)
+    subroutine put(which, sign_of, x)
       integer, intent(in) :: which, sign_of
+      real(dp), intent(in) :: x(2)
 
-      parents%difference(2*i - 1, which) = wrapped(y(2*i - 1) + sign_of*y(2*other - 1))
-      parents%difference(2*i, which) = y(2*i) + sign_of*y(2*other)
+      parents%difference(2*i - 1, which) = wrapped(y(2*i - 1) + sign_of*x(1))
+      parents%difference(2*i, which) = y(2*i) + sign_of*x(2)
     end subroutine put
   end subroutine set_parents
 

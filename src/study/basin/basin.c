@@ -49,10 +49,12 @@ static kz_status find_phases(const kz_scene *scene, const kz_window_labels *labe
                  .release = scene->parameters.release,
                  .phases = scene->basin->phases,
                  .n = scene->basin->theta.count * scene->basin->velocity.count,
+                 .folded = kz_window_mirrors_itself(scene->basin) &&
+                           kz_phases_fold(&scene->parameters.pendulum, &scene->parameters.release, scene->basin->phases),
                  .stage = "phases"};
   kz_status status = kz_phases_label(&p, labelling->run);
   if (status == KZ_OK && store) status = write_group(scene->basin, &p, catalogue, store, summary);
-  free(p.label);
+  kz_phases_free(&p);
   return kz_ranks_agree(labelling->run->ranks, status);
 }
 

@@ -107,7 +107,7 @@ typedef struct {
  * KZ_REFUSED if the window is too fast for a proof. */
 kz_status kz_proof_plan(const kz_scene *scene, kz_proof **proof);
 /* Proves the regions of the known attractors, in kept stages, with the same result on every rank. Collective. */
-kz_status kz_prove_regions(const kz_run *run, const kz_dynamics *dynamics, kz_proof *proof, kz_proved *proved);
+kz_status kz_prove_regions(const kz_window_labels *labelling, kz_proof *proof, kz_proved *proved);
 
 /* Random real starts of the window. */
 typedef struct {

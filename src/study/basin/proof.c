@@ -49,6 +49,7 @@ kz_status kz_proof_plan(const kz_scene *scene, kz_proof **proof) {
 /* What the tiles of a stage need. */
 typedef struct {
   const kz_dynamics *dynamics;
+  bool mirrored; /* the pendulum has mirror symmetry */
   kz_proof *proof;
   kz_proved *proved;
 } job;
@@ -76,12 +77,12 @@ static kz_status find_seed(void *context, int64_t tile, void *record) {
   double point[2], other[2];
   kz_dynamics_attractor(j->dynamics, tile + 1, &attractor);
   first_point(j->dynamics, tile + 1, attractor.period, point);
-  s->mirror = attractor.mirror;
+  s->mirror = j->mirrored ? attractor.mirror : tile + 1;
   s->theta = point[0];
   s->velocity = point[1];
-  if (attractor.period <= 0 || attractor.mirror < tile + 1 || attractor.mirror > KZ_PROOF_MOST) return KZ_OK;
+  if (attractor.period <= 0 || s->mirror < tile + 1 || s->mirror > KZ_PROOF_MOST) return KZ_OK;
   s->ellipse = kz_proof_find_ellipse(j->proof, attractor.period, s->theta, s->velocity);
-  first_point(j->dynamics, attractor.mirror, attractor.period, other);
+  first_point(j->dynamics, s->mirror, attractor.period, other);
   if (!kz_proof_is_mirror(j->proof, attractor.period, other, point, &s->ellipse)) s->ellipse.radius = 0;
   return KZ_OK;
 }
@@ -120,8 +121,9 @@ static kz_status grow(const kz_run *run, const job *j, uint8_t *label) {
   }
 }
 
-kz_status kz_prove_regions(const kz_run *run, const kz_dynamics *dynamics, kz_proof *proof, kz_proved *proved) {
-  job j = {.dynamics = dynamics, .proof = proof, .proved = proved};
+kz_status kz_prove_regions(const kz_window_labels *labelling, kz_proof *proof, kz_proved *proved) {
+  const kz_run *run = labelling->run;
+  job j = {labelling->dynamics, !labelling->plan->unmirrored, proof, proved};
   KZ_TRY(find_ellipses(run, &j));
   if (!proved->any) return KZ_OK;
   KZ_FREED uint8_t *label = kz_malloc((size_t)kz_proof_own(proof));

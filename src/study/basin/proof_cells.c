@@ -204,7 +204,7 @@ static kz_status prove_sample(const kz_run *run, const kz_basin_plan *plan, cons
 kz_status kz_prove_window(kz_window_labels *labelling, kz_proof *proof, kz_proof_sample *sample) {
   kz_proved proved = {.any = false};
   *sample = (kz_proof_sample){.high = 1};
-  KZ_TRY(kz_prove_regions(labelling->run, labelling->dynamics, proof, &proved));
+  KZ_TRY(kz_prove_regions(labelling, proof, &proved));
   if (!proved.any) return KZ_OK;
   KZ_TRY(prove_cells(labelling, proof, &proved));
   return prove_sample(labelling->run, labelling->plan, proof, sample);

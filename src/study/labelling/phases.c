@@ -1,6 +1,7 @@
 #include "phases.h"
 
 #include <math.h>
+#include <stdlib.h>
 
 enum { BLOCK = 16384 };
 
@@ -28,10 +29,31 @@ static kz_status label_at_phase(void *context, int64_t first, int64_t n, void *r
   return status;
 }
 
+bool kz_phases_fold(const kz_pendulum *pendulum, const kz_release *release, int64_t phases) {
+  return kz_pairing_symmetry(pendulum) == KZ_SYMMETRY_HALF_PERIOD && phases % 2 == 0 && !(release->periods > 0);
+}
+
+/* Phases at which items are followed. */
+static int64_t own_phases(const kz_phases *p) {
+  return p->folded ? p->phases / 2 : p->phases;
+}
+
 kz_status kz_phases_label(kz_phases *p, const kz_run *run) {
-  const kz_stage stage = kz_stage_of_rows(p->stage, p->phases, p->n, BLOCK, BLOCK * sizeof(int16_t), label_at_phase, p);
+  const int64_t known = kz_dynamics_count(p->labeller.dynamics);
+  const kz_stage stage = kz_stage_of_rows(p->stage, own_phases(p), p->n, BLOCK, BLOCK * sizeof(int16_t), label_at_phase, p);
   p->label = kz_rank(run->ranks) == 0 ? kz_malloc((size_t)stage.n_tiles * stage.record_bytes) : NULL;
+  p->image = kz_calloc((size_t)known + 1, sizeof *p->image);
+  for (int64_t i = 1; i <= known; i++) {
+    kz_attractor row;
+    kz_dynamics_attractor(p->labeller.dynamics, i, &row);
+    p->image[i] = (int16_t)row.mirror;
+  }
   return kz_stage_run(run, &stage, p->label);
+}
+
+void kz_phases_free(kz_phases *p) {
+  free(p->label);
+  free(p->image);
 }
 
 double kz_phases_bytes(int64_t phases, int64_t n) {
@@ -39,6 +61,7 @@ double kz_phases_bytes(int64_t phases, int64_t n) {
 }
 
 int16_t kz_phases_at(const kz_phases *p, int64_t phase, int64_t item) {
+  if (phase >= own_phases(p)) return p->image[kz_phases_at(p, phase - own_phases(p), p->n - 1 - item)];
   return p->label[(phase * blocks_of(p->n) + item / BLOCK) * BLOCK + item % BLOCK];
 }
 

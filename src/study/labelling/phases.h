@@ -7,14 +7,20 @@ typedef struct {
   kz_labeller labeller; /* of the items 0 .. n - 1; not of a run */
   kz_release release;   /* whose phase is replaced */
   int64_t phases, n;
+  bool
+      folded; /* item n - 1 - i at a phase is the image of item i half a drive period before: the second half of the phases follows */
   const char *stage;
-  int16_t *label; /* on rank 0, of kz_phases_label: the caller frees it */
+  int16_t *label; /* on rank 0, of kz_phases_label: of kz_phases_free */
+  int16_t *image; /* [attractors + 1] numbers of the images */
 } kz_phases;
+/* Whether items that mirror each other are released at so many phases of a pendulum as `folded` says. */
+bool kz_phases_fold(const kz_pendulum *pendulum, const kz_release *release, int64_t phases);
 
 /* Phase i, rad. */
 double kz_phase_at(const kz_phases *phases, int64_t i);
 /* Labels all items at all phases, in one kept stage. Collective. */
 kz_status kz_phases_label(kz_phases *phases, const kz_run *run);
+void kz_phases_free(kz_phases *phases);
 /* Bytes that the labels take. */
 double kz_phases_bytes(int64_t phases, int64_t n);
 

@@ -126,9 +126,13 @@ static bool is_symmetric(const kz_axis *axis) {
   return axis->min == -axis->max && axis->centre.high == 0;
 }
 
+bool kz_window_mirrors_itself(const kz_basin_plan *plan) {
+  return is_symmetric(&plan->theta) && is_symmetric(&plan->velocity);
+}
+
 int64_t kz_unique_cells(const kz_basin_plan *plan) {
   const int64_t total = plan->theta.count * plan->velocity.count;
-  return !plan->unmirrored && is_symmetric(&plan->theta) && is_symmetric(&plan->velocity) ? (total + 1) / 2 : total;
+  return !plan->unmirrored && kz_window_mirrors_itself(plan) ? (total + 1) / 2 : total;
 }
 
 void kz_start_state(double theta, double velocity, double state[2]) {

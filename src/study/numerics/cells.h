@@ -40,6 +40,8 @@ kz_window kz_motions_window(const kz_axis *theta, const kz_axis *velocity);
 /* Number of cells of a tile of labels, at most `most`; fewer if a cell may take long, so that a stop loses seconds of work only. */
 int64_t kz_tile_cells(const kz_scene *scene, int64_t most);
 
+/* Whether cell total - 1 - f has the mirror image of the start of cell f. */
+bool kz_window_mirrors_itself(const kz_basin_plan *plan);
 /* Number of cells that are labelled. In a window that is its own mirror image, cell total - 1 - f is the mirror image of cell f. */
 int64_t kz_unique_cells(const kz_basin_plan *plan);
 

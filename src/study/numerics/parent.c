@@ -18,28 +18,44 @@ static bool take_means(int points, double side, const double *cycle, double *y) 
   return true;
 }
 
+/* Means of the points of a cycle of an odd number of periods and of its images, half a period later: of the first half of them. */
+static bool take_image_means(const kz_plane *plane, int n, const double *cycle, double *y) {
+  for (int i = 0; i < (n + 1) / 2; i++) {
+    const double *own = cycle + 2 * i, *other = cycle + 2 * ((i + n / 2) % n);
+    double state[4] = {other[0], other[1]};
+    if (!kz_curve_orbit(plane, cycle + 2 * n, 1, 1, state)) return false;
+    y[2 * i] = own[0] - 0.5 * remainder(own[0] + state[2], 2 * M_PI);
+    y[2 * i + 1] = 0.5 * (own[1] - state[3]);
+  }
+  return true;
+}
+
 kz_curve_kind kz_kind_of(const kz_plane *plane, int side, int points, int stride, int multiplier, const double *y) {
-  const int periods = stride > 1 ? stride : 1;
-  KZ_FREED double *next = kz_malloc(2 * ((size_t)periods + 1) * sizeof *next);
+  const int half = side < 0 && plane->half_period, periods = (stride > 1 ? stride : 1) - half;
+  KZ_FREED double *next = kz_malloc(2 * ((size_t)periods + 2) * sizeof *next);
   memcpy(next, y + 2 * points - 2, 2 * sizeof *next);
   if (!kz_curve_orbit(plane, y + 2 * points, 2, periods, next)) return (kz_curve_kind){0};
-  const int32_t turns = (int32_t)rint((next[2 * periods] - side * y[0]) / (2 * M_PI));
-  return (kz_curve_kind){side, points, multiplier, turns, stride};
+  if (half && !kz_curve_orbit(plane, y + 2 * points, 1, 1, next + 2 * periods)) return (kz_curve_kind){0};
+  const int32_t turns = (int32_t)rint((next[2 * (periods + half)] - side * y[0]) / (2 * M_PI));
+  return (kz_curve_kind){side, points, multiplier, turns, stride, half};
 }
 
 int32_t kz_kind_period(const kz_cycle_kind *kind) {
   const int stride = kind->of.stride > 1 ? kind->of.stride : 1;
-  return kind->rest >= 0 ? 1 : kind->of.points * stride * (kind->of.side < 0 ? 2 : 1);
+  return kind->rest >= 0 ? 1 : kind->of.points * stride * (kind->of.side < 0 ? 2 : 1) - kind->of.half;
 }
 
 bool kz_parent_of(const kz_plane *plane, int event, const kz_plane_cycle *cycle, kz_plane_cycle *parent) {
   const int n = cycle->kind.of.points;
-  const bool at_rest = event == KZ_EVENT_REST || (event == KZ_EVENT_MIRROR && n == 1);
-  const int points = at_rest ? 1 : n / 2, side = event == KZ_EVENT_MIRROR ? -1 : 1;
+  const bool half = event == KZ_EVENT_MIRROR && plane->half_period;
+  const bool at_rest = event == KZ_EVENT_REST || (event == KZ_EVENT_MIRROR && n == 1 && !half);
+  const int points = at_rest ? 1 : (n + half) / 2, side = event == KZ_EVENT_MIRROR ? -1 : 1;
   *parent = (kz_plane_cycle){.kind.rest = at_rest ? cos(cycle->y[0]) < 0 : -1};
   if (at_rest)
     parent->y[0] = M_PI * parent->kind.rest;
-  else if (n % 2 != 0 || !take_means(points, side, cycle->y, parent->y))
+  else if (half) {
+    if (cycle->kind.of.stride > 1 || !take_image_means(plane, n, cycle->y, parent->y)) return false;
+  } else if (n % 2 != 0 || !take_means(points, side, cycle->y, parent->y))
     return false;
   memcpy(parent->y + 2 * points, cycle->y + 2 * n, 2 * sizeof *parent->y);
   parent->kind.of = kz_kind_of(plane, side, points, cycle->kind.of.stride, -1, parent->y);
@@ -50,21 +66,25 @@ kz_cycle_kind kz_child_kind(const kz_cycle_kind *kind) {
   const kz_curve_kind *of = &kind->of;
   if (kind->rest >= 0 && of->side > 0) return (kz_cycle_kind){{-1, 1, 0, kind->rest, 0}, -1};
   if (kind->rest >= 0) return (kz_cycle_kind){{1, 1, 0, 0, 0}, -1};
-  return (kz_cycle_kind){{1, 2 * of->points, 0, of->side > 0 ? 2 * of->turns : 0, of->stride}, -1};
+  if (!of->half) return (kz_cycle_kind){{1, 2 * of->points, 0, of->side > 0 ? 2 * of->turns : 0, of->stride}, -1};
+  const int32_t period = kz_kind_period(kind);
+  int32_t stride = 1;
+  while (period % stride != 0 || period / stride > KZ_CURVE_POINTS) stride++;
+  return (kz_cycle_kind){{1, period / stride, 0, 0, stride > 1 ? stride : 0}, -1};
 }
 
 bool kz_child_of(const kz_plane *plane, const kz_plane_cycle *flip, int axis, kz_plane_cycle *child, double along[2]) {
   const kz_curve_kind *kind = &flip->kind.of;
-  const int n = 2 * kind->points, stride = kind->stride > 1 ? kind->stride : 1;
+  const int n = 2 * kind->points, own_stride = kind->stride > 1 ? kind->stride : 1;
   *child = (kz_plane_cycle){.kind = kz_child_kind(&flip->kind)};
   const kz_curve_kind of = child->kind.of;
-  const int m = 2 * of.points;
+  const int m = 2 * of.points, stride = of.stride > 1 ? of.stride : 1;
   double form, side[2], vector[2];
   kz_pendulum pendulum;
   if (of.points > KZ_CURVE_POINTS || !plane->pendulum(plane->context, flip->y + n, &pendulum) ||
       !kz_curve_form(plane, kind, flip->y, &form, side, vector) || form == 0 || fabs(side[axis]) < KZ_CHILD_FLAT)
     return false;
-  const double gradient = side[axis], other = 1 - exp(-2 * M_PI * pendulum.beta * kind->points * stride);
+  const double gradient = side[axis], other = 1 - exp(-2 * M_PI * pendulum.beta * kind->points * own_stride);
   const double by = fmin(BESIDE, fmin(CHANGED, FARTHEST * FARTHEST * fabs(form)) * other / fabs(gradient));
   const double size = sqrt(fabs(gradient / form) * by / other);
   KZ_FREED double *state = kz_malloc(2 * ((size_t)(of.points * stride) + 1) * sizeof *state);

@@ -18,7 +18,7 @@ typedef struct {
 int32_t kz_kind_period(const kz_cycle_kind *kind);
 
 /* The kind of a cycle on a curve, with the turns that it takes: y [points][2] and its place, its points `stride` periods apart. side -1: its last
- * point is carried to the mirror image of the first. points = 0 where it cannot be carried. */
+ * point is carried to the image of the first. points = 0 where it cannot be carried. */
 kz_curve_kind kz_kind_of(const kz_plane *plane, int side, int points, int stride, int multiplier, const double *y);
 
 /* What a cycle near its end merges with at an event of its branch (KZ_EVENT_HALVES, _MIRROR or _REST): that cycle, with the multiplier -1 of its own

@@ -92,7 +92,7 @@ static int64_t arrival(const walking *w, const task *t, const kz_sweep_piece *pi
   return add_node(b, &(kz_sweep_entry){.point = *point, .shock = {NAN, NAN, NAN}}, value, piece->attracts);
 }
 
-/* A piece that reaches neither value: one for a motion and its mirror image. */
+/* A piece that reaches neither value: one for a motion and its image. */
 static void add_between(kz_sweep_branches *b, int64_t value, const kz_sweep_piece *piece) {
   const double low = fmin(piece->begin, piece->end), high = fmax(piece->begin, piece->end),
                near = 1e-9 * fmax(fabs(low), fabs(high));
@@ -112,7 +112,7 @@ static void add_between(kz_sweep_branches *b, int64_t value, const kz_sweep_piec
   set_end(node, true, high, turned ? piece->begin_kind : piece->end_kind);
 }
 
-/* Joins both ends of a piece: `point` is its end, or that of its mirror image. */
+/* Joins both ends of a piece: `point` is its end, or that of its image. */
 static void join(const walking *w, const task *t, const kz_sweep_piece *piece, const kz_attractor *point) {
   kz_sweep_branches *b = w->branches;
   const int64_t from = piece->from_start ? t->node : -1, there = arrival(w, t, piece, point);
@@ -140,9 +140,13 @@ static void join(const walking *w, const task *t, const kz_sweep_piece *piece, c
 static void join_walk(const walking *w, const task *t, const kz_sweep_walk *walk) {
   for (int64_t i = 0; i < walk->count; i++) {
     const kz_sweep_piece *piece = walk->piece + i;
-    const kz_attractor image = kz_branch_point_mirrored(piece->point);
+    const int64_t value = piece->reached == 1 ? aim(w, t) : w->branches->nodes[t->node].value;
+    kz_pendulum pendulum;
     join(w, t, piece, &piece->point);
-    if (piece->twice && piece->reached >= 0) join(w, t, piece, &image);
+    if (!piece->twice || piece->reached < 0 || !kz_sweep_pendulum(w->scene, kz_sweep_value(w->scene->sweep, value), &pendulum))
+      continue;
+    const kz_attractor image = kz_branch_point_image(&pendulum, piece->point);
+    join(w, t, piece, &image);
   }
 }
 

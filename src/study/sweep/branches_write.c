@@ -31,25 +31,26 @@ static void name_of(const kz_sweep_branches *b, int64_t branch, char *text) {
   kz_orbit_name(point->period, point->winding, point->centre, text);
 }
 
-static bool mirrors(const writing *w, const kz_sweep_node *node, const kz_attractor *image) {
-  kz_pendulum pendulum;
+static bool mirrors(const writing *w, const kz_pendulum *pendulum, const kz_sweep_node *node, const kz_attractor *image) {
   const kz_attractor *point = &node->entry.point;
   if (image->period == 0)
     return point->period == 0 && fabs(point->velocity - image->velocity) < 1e-3 && fabs(point->theta - image->theta) < 1e-3;
-  return kz_sweep_pendulum(w->scene, kz_sweep_value(w->scene->sweep, node->value), &pendulum) &&
-         kz_branch_same(w->branches->maps, &pendulum, point, image);
+  return kz_branch_same(w->branches->maps, pendulum, point, image);
 }
 
-/* The branch that holds the mirror image of this one's first cycle; -1 where none does. */
+/* The branch that holds the image of this one's first cycle; -1 where none does. */
 static int32_t mirror_of(const writing *w, int64_t branch) {
   const kz_sweep_node *first = first_of(w->branches, branch);
-  const kz_attractor image = kz_branch_point_mirrored(first->entry.point);
-  if (image.symmetric) return (int32_t)branch;
-  if (first->between) return -1;
+  kz_pendulum pendulum;
+  if (first->entry.point.symmetric) return (int32_t)branch;
+  if (first->between || !kz_sweep_pendulum(w->scene, kz_sweep_value(w->scene->sweep, first->value), &pendulum) ||
+      !kz_pairing_symmetry(&pendulum))
+    return -1;
+  const kz_attractor image = kz_branch_point_image(&pendulum, first->entry.point);
   for (int64_t other = 0; other < w->branches->n_branches; other++) {
     const kz_sweep_node *node = first_of(w->branches, other);
     while (node->value < first->value && node->next >= 0) node = w->branches->nodes + node->next;
-    if (node->value == first->value && !node->between && mirrors(w, node, &image)) return (int32_t)other;
+    if (node->value == first->value && !node->between && mirrors(w, &pendulum, node, &image)) return (int32_t)other;
   }
   return -1;
 }

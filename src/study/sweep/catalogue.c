@@ -25,8 +25,8 @@ static int64_t count_alike(const kz_phases *p, int64_t total) {
 
 /* How many of the first n_cells of the grid (0: of the starts), with their mirror images, end alike at all phases, by attractors and regions
  * that are known; `release`: that of the value. Collective. */
-static kz_status measure_phases(const kz_scene *scene, const kz_run *run, kz_dynamics *dynamics, const kz_release *release,
-                                int64_t n_cells, int64_t max_periods, int64_t *alike) {
+static kz_status measure_phases(const kz_scene *scene, const kz_run *run, const kz_pendulum *pendulum, kz_dynamics *dynamics,
+                                const kz_release *release, int64_t n_cells, int64_t max_periods, int64_t *alike) {
   const kz_sweep_plan *plan = scene->sweep;
   const int64_t n = n_cells > 0 ? n_cells : plan->starts;
   const kz_window window = kz_window_of(&plan->theta, &plan->velocity);
@@ -34,16 +34,18 @@ static kz_status measure_phases(const kz_scene *scene, const kz_run *run, kz_dyn
   for (int64_t i = 0; i < n_cells; i++) kz_cell_start(scene->basin, i, start + 2 * i);
   if (n_cells == 0) kz_dynamics_starts(&window, plan->seed, n, start); /* half-turns */
   for (int64_t i = n_cells; i < n; i++) start[2 * i] *= M_PI;
-  kz_phases p = {.labeller = kz_pair_labeller(start, max_periods, KZ_BY_STATES, dynamics),
-                 .release = *release,
-                 .phases = plan->phases,
-                 .n = n,
-                 .stage = "sweep phases"};
+  kz_phases p = {
+      .labeller = kz_pair_labeller(start, max_periods, KZ_BY_STATES, dynamics),
+      .release = *release,
+      .phases = plan->phases,
+      .n = n,
+      .folded = n_cells > 0 && kz_window_mirrors_itself(scene->basin) && kz_phases_fold(pendulum, release, plan->phases),
+      .stage = "sweep phases"};
   p.labeller.at_strobe = false;
   const kz_status status = kz_phases_label(&p, run);
   if (status == KZ_OK && p.label)
     *alike = count_alike(&p, n_cells > 0 ? scene->basin->theta.count * scene->basin->velocity.count : n);
-  free(p.label);
+  kz_phases_free(&p);
   KZ_TRY(status);
   return kz_ranks_broadcast(run->ranks, alike, sizeof *alike);
 }
@@ -198,7 +200,7 @@ static kz_status find_shocks(searching *s, kz_sweep_catalogue *catalogue) {
   return KZ_OK;
 }
 
-static kz_status search(searching *s, const kz_release *release, kz_sweep_catalogue *catalogue) {
+static kz_status search(searching *s, const kz_pendulum *pendulum, const kz_release *release, kz_sweep_catalogue *catalogue) {
   const kz_sweep_plan *plan = s->scene->sweep;
   const int64_t periods = s->n_cells > 0 ? s->scene->basin->max_periods : s->max_periods;
   KZ_TRY(sweep_catalogue_discover(s));
@@ -209,7 +211,7 @@ static kz_status search(searching *s, const kz_release *release, kz_sweep_catalo
   if (kz_sweep_measures(plan, KZ_SWEEP_LIFETIME))
     KZ_TRY(measure_lifetime(plan, s->run, s->dynamics, s->max_periods, &catalogue->lifetime));
   if (kz_sweep_measures(plan, KZ_SWEEP_PHASES))
-    KZ_TRY(measure_phases(s->scene, s->run, s->dynamics, release, s->n_cells, periods, &catalogue->alike));
+    KZ_TRY(measure_phases(s->scene, s->run, pendulum, s->dynamics, release, s->n_cells, periods, &catalogue->alike));
   return kz_sweep_measures(plan, KZ_SWEEP_RESILIENCE) ? find_shocks(s, catalogue) : KZ_OK;
 }
 
@@ -227,7 +229,7 @@ static kz_status sweep_catalogue_tile(void *context, int64_t tile, void *record)
   if (!kz_sweep_pendulum(scene, value, &pendulum) || pendulum.beta <= 0) return KZ_OK;
   const kz_release release = kz_sweep_release_at(scene, value);
   begin(&pendulum, &release, &s);
-  return search(&s, &release, record);
+  return search(&s, &pendulum, &release, record);
 }
 
 kz_status kz_sweep_catalogues(const kz_scene *scene, const kz_run *run, kz_sweep_catalogue *catalogue) {

@@ -1,14 +1,15 @@
-/* A point of a branch: of an attractor, mirrored, beside another one. */
+/* The path of a sweep; a point of a branch beside another one. */
 #include <math.h>
 #include <stdlib.h>
 
 #include "sweep.h"
 
-kz_attractor kz_branch_point_mirrored(kz_attractor point) {
-  point.theta = -point.theta;
-  point.velocity = -point.velocity;
-  point.winding = -point.winding;
-  return point;
+static bool pendulum_of_scene(const void *context, double value, kz_pendulum *pendulum) {
+  return kz_sweep_pendulum(context, value, pendulum);
+}
+
+kz_path kz_sweep_path(const kz_scene *scene, kz_fine_maps *maps) {
+  return (kz_path){pendulum_of_scene, scene, maps};
 }
 
 double kz_branch_points_apart(const kz_attractor *a, const kz_attractor *b) {

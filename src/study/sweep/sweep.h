@@ -39,7 +39,7 @@ typedef struct {
   int32_t begin_kind, end_kind;
   int32_t from_start;      /* 1: begins at the cycle that is followed */
   int32_t reached;         /* 0: ends at the first value, 1: at the second, -1: at an event */
-  int32_t attracts, twice; /* twice: its mirror image branches off with it */
+  int32_t attracts, twice; /* twice: its image branches off with it */
   double step;             /* that would follow from its end, in distances of the two values */
   kz_attractor point;      /* where it ends */
 } kz_sweep_piece;
@@ -69,8 +69,8 @@ bool kz_flutter_find(const kz_pendulum *pendulum, kz_attractor *flutter);
  * changes sign there. NaN if it does not change sign. */
 double kz_flutter_critical(const kz_path *path, double low, double high);
 
-/* A cycle with a strobe point, or of a chaotic attractor its means; its mirror image. */
-kz_attractor kz_branch_point_mirrored(kz_attractor point);
+/* A cycle with a strobe point, or of a chaotic attractor its means; its image. */
+kz_attractor kz_branch_point_image(const kz_pendulum *pendulum, kz_attractor point);
 /* The distance between two chaotic attractors, by their means. */
 double kz_branch_points_apart(const kz_attractor *a, const kz_attractor *b);
 /* By centre, period (chaotic last), |winding|/period, + first: below 0 where p comes first, 0 where these are equal. */

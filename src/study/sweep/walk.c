@@ -29,14 +29,6 @@ typedef struct {
   kz_sweep_walk *found;
 } walking;
 
-static bool pendulum_of_scene(const void *context, double value, kz_pendulum *pendulum) {
-  return kz_sweep_pendulum(context, value, pendulum);
-}
-
-kz_path kz_sweep_path(const kz_scene *scene, kz_fine_maps *maps) {
-  return (kz_path){pendulum_of_scene, scene, maps};
-}
-
 static bool attracts(const kz_attractor *point) {
   return hypot(point->multiplier_re[0], point->multiplier_im[0]) < 1;
 }
@@ -52,16 +44,19 @@ static bool pendulum_at(const void *context, const double place[2], kz_pendulum 
 
 /* The plane of the way; false where its first value has no pendulum. */
 static bool plane_of(const way *w, kz_plane *plane) {
-  kz_pendulum pendulum;
+  kz_pendulum pendulum, last;
   kz_numerics fine;
   if (!pendulum_at(w, (double[]){0, 0}, &pendulum)) return false;
+  int32_t symmetry = kz_pairing_symmetry(&pendulum);
+  if (pendulum_at(w, (double[]){1, 0}, &last) && kz_pairing_symmetry(&last) != symmetry) symmetry = 0;
   kz_numerics_fine(&pendulum, &fine);
   *plane = (kz_plane){.pendulum = pendulum_at,
                       .context = w,
                       .low = {0, -1},
                       .high = {1, 1},
                       .steps = 2 * fine.steps_per_period, /* Newton's method takes half of them */
-                      .mirrored = kz_is_mirrored(&pendulum)};
+                      .mirrored = symmetry == KZ_SYMMETRY_MIRROR,
+                      .half_period = symmetry == KZ_SYMMETRY_HALF_PERIOD};
   return true;
 }
 
@@ -71,20 +66,22 @@ static bool is_symmetric(const cycle *c) {
 
 /* The cycle through a strobe point at a place. Long ones have points several periods apart: so few that a pair of them lies half a cycle apart. */
 static bool cycle_of(const kz_plane *plane, const kz_attractor *point, double place, cycle *c) {
-  const bool halved = point->symmetric && point->period > 1;
+  const bool half = point->symmetric && plane->half_period, mirrored = point->symmetric && plane->mirrored;
+  const bool halved = half || (mirrored && point->period > 1);
   const int side = halved ? -1 : 1;
-  const int n = halved ? point->period / 2 : point->period;
+  const int n = halved ? (point->period + half) / 2 : point->period;
   int stride = 1;
   while (n % stride != 0 || n / stride > KZ_CURVE_POINTS || (n % 2 == 0 && n / stride % 2 != 0)) stride++;
   KZ_FREED double *state = kz_malloc(2 * ((size_t)n + 1) * sizeof *state);
   const double at[2] = {place, 0};
   state[0] = point->theta, state[1] = point->velocity;
-  c->kind.rest = point->symmetric && point->period == 1 ? cos(point->theta) < 0 : -1;
-  if (!kz_curve_orbit(plane, at, 2, n, state)) return false;
+  c->kind.rest = mirrored && !halved ? cos(point->theta) < 0 : -1;
+  if (!kz_curve_orbit(plane, at, 2, n - half, state)) return false;
+  if (half && !kz_curve_orbit(plane, at, 1, 1, state + 2 * (n - 1))) return false;
   for (int i = 0; i < n / stride; i++) memcpy(c->y + 2 * i, state + 2 * i * stride, 2 * sizeof *c->y);
   memcpy(c->y + 2 * (n / stride), at, sizeof at);
   const int32_t turns = (int32_t)rint((state[2 * n] - side * state[0]) / (2 * M_PI));
-  c->kind.of = (kz_curve_kind){side, n / stride, 0, turns, stride > 1 ? stride : 0};
+  c->kind.of = (kz_curve_kind){side, n / stride, 0, turns, stride > 1 ? stride : 0, half};
   return true;
 }
 
@@ -95,11 +92,24 @@ static bool describe(const walking *w, const cycle *c, kz_attractor *point) {
   const bool at_end = *place == 0 || *place == 1;
   if (!pendulum_at(w->way, place, &pendulum)) return false;
   const bool halved = c->kind.of.side < 0 && c->kind.rest < 0;
-  const int n = 2 * c->kind.of.points;
-  double state[4 * KZ_CURVE_POINTS];
-  for (int i = 0; i < n; i++) state[i] = c->y[i], state[n + i] = -c->y[i]; /* a symmetric cycle goes on with its mirror image */
+  const int points = c->kind.of.points;
+  int n = halved && !c->kind.of.half ? 2 * points : points;
+  double state[4 * KZ_CURVE_POINTS + 2];
+  memcpy(state, c->y, 2 * (size_t)points * sizeof *state);
+  for (int i = points; i < n; i++) /* a symmetric cycle goes on with its image */
+    state[2 * i] = -c->y[2 * (i - points)], state[2 * i + 1] = -c->y[2 * (i - points) + 1];
+  if (c->kind.of.half && c->kind.of.stride > 1) n = 1; /* its points are not equally far apart */
+  for (; c->kind.of.half && n > 1 && n < 2 * points - 1; n++) {
+    double half[4] = {c->y[2 * (n - points)], c->y[2 * (n - points) + 1]};
+    if (!kz_curve_orbit(&w->plane, place, 1, 1, half)) return false;
+    state[2 * n] = -half[2], state[2 * n + 1] = -half[3];
+  }
   *point = (kz_attractor){.period = kz_kind_period(&c->kind), .symmetric = is_symmetric(c)};
-  kz_branch_describe(at_end ? w->way->path->maps : NULL, &pendulum, halved ? n : n / 2, state, point);
+  kz_branch_describe(at_end ? w->way->path->maps : NULL, &pendulum, n, state, point);
+  if (!w->plane.mirrored && !w->plane.half_period && kz_pairing_symmetry(&pendulum)) { /* of this value alone */
+    const kz_attractor image = kz_branch_point_image(&pendulum, *point);
+    point->symmetric = kz_branch_same(w->way->path->maps, &pendulum, point, &image);
+  }
   return true;
 }
 
@@ -166,11 +176,8 @@ static void follow_child(const walking *w, const cycle *flip, int kind, int dept
   if (depth == DEEPEST || !kz_child_of(&w->plane, flip, 0, &child, along) || kz_kind_period(&child.kind) > w->max_period)
     return;
   const double at = value_at(w->way, flip->y[2 * flip->kind.of.points]);
-  const kz_sweep_piece piece = {.begin = at,
-                                .begin_kind = kind,
-                                .reached = -1,
-                                .step = FIRST,
-                                .twice = is_symmetric(flip) && w->plane.mirrored && child.kind.of.side > 0};
+  const kz_sweep_piece piece = {
+      .begin = at, .begin_kind = kind, .reached = -1, .step = FIRST, .twice = is_symmetric(flip) && child.kind.of.side > 0};
   follow(w, &child, along, piece, depth + 1);
 }
 
@@ -310,6 +317,19 @@ static bool same_pendulum(const void *context, double value, kz_pendulum *pendul
   (void)value;
   *pendulum = *(const kz_pendulum *)context;
   return true;
+}
+
+kz_attractor kz_branch_point_image(const kz_pendulum *pendulum, kz_attractor point) {
+  const kz_path path = {same_pendulum, pendulum};
+  const way here = {&path, 0, 1};
+  double state[4] = {point.theta, point.velocity};
+  kz_plane plane;
+  point.winding = -point.winding;
+  if (point.period > 0 && plane_of(&here, &plane) && plane.half_period && kz_curve_orbit(&plane, (double[]){0, 0}, 1, 1, state))
+    point.theta = state[2], point.velocity = state[3];
+  point.theta = -point.theta;
+  point.velocity = -point.velocity;
+  return point;
 }
 
 bool kz_cycle_near(const kz_pendulum *pendulum, const double state[2], double farthest, kz_attractor *point) {

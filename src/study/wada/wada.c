@@ -134,6 +134,7 @@ kz_cost kz_wada_cost(const kz_scene *scene) {
 static kz_status read_saddles(const kz_wada_plan *plan, const kz_run *run, kz_store *store, work *w) {
   KZ_FREED_BY(kz_listed_free) kz_listed list;
   KZ_TRY(kz_listed_read(run, store, "saddles", "saddle", &list));
+  const bool mirrored = kz_is_mirrored(&w->job.scene->parameters.pendulum);
   w->n_saddles = list.count;
   w->branch = kz_calloc((size_t)list.count + 1, sizeof *w->branch);
   w->twin = kz_calloc((size_t)list.count + 1, sizeof *w->twin);
@@ -144,7 +145,7 @@ static kz_status read_saddles(const kz_wada_plan *plan, const kz_run *run, kz_st
                                .spacing = plan->spacing,
                                .length = plan->length,
                                .fastest = plan->max_speed};
-    w->twin[i] = list.mirror[i] >= 0 && list.mirror[i] < (double)i ? (int64_t)list.mirror[i] : i;
+    w->twin[i] = mirrored && list.mirror[i] >= 0 && list.mirror[i] < (double)i ? (int64_t)list.mirror[i] : i;
   }
   return KZ_OK;
 }

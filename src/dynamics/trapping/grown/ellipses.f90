@@ -9,6 +9,7 @@ module kz_grown_ellipses
   use kz_cycles_cycles, only: attractor_t, is_slow
   use kz_cycles_newton, only: n_periods
   use kz_maps_matrices, only: inverse_of, eigenvector, IDENTITY
+  use kz_model_pendulum, only: MIRROR
   use kz_maps_states, only: angle_difference
   implicit none
   private
@@ -55,7 +56,7 @@ contains
     integer :: j, n_own
 
     n_own = attractor%period
-    if (attractor%symmetric .and. n_own > 1) n_own = n_own/2
+    if (attractor%symmetric .and. attractor%symmetry == MIRROR .and. n_own > 1) n_own = n_own/2
     attractor%form = 0
     do j = 1, merge(1, n_own, is_slow(attractor))
       attractor%form(:, j) = ellipse(flow, fine, attractor, j, others, rings)
@@ -254,7 +255,7 @@ contains
     integer :: a
 
     distance = huge(1.0_dp)
-    if (attractor%mirrored .and. .not. attractor%symmetric) & ! the mirror image's
+    if (attractor%symmetry == MIRROR .and. .not. attractor%symmetric) & ! the mirror image's
       distance = minval(norm2(normed(site, -attractor%kernel_u, -attractor%kernel_v), 1))
     do a = 1, size(others)
       if (others(a)%period > 0) distance = min(distance, minval(norm2(normed(site, others(a)%kernel_u, others(a)%kernel_v), 1)))
