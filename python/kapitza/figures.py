@@ -18,6 +18,7 @@ _MANIFOLDS: _Row = ("", "basin", ["--centre", "inverted", "--saddles", "--manifo
 _LABORATORY: _Row = ("", "basin", ["--centre", "inverted", "--degrees", "--si"])
 _ORBIT: _Row = ("", "orbit", [])
 _PHASE: _Row = ("", "orbit", ["--panels", "phase,path"])
+_CHAOS: _Row = ("", "orbit", ["--panels", "time,phase"])
 _TIME: _Row = ("", "orbit", ["--panels", "time"])
 _SWEEP: _Row = ("", "sweep", [])
 _UP: _Row = ("", "sweep", ["--view", "up"])
@@ -64,6 +65,8 @@ _SCENES = {
     "blackburn-fig14": [_BASIN, _FLUTTER],
     "blackburn-fig15": [_BASIN, _FLUTTER],
     "blackburn-walk": [_SWEEP, _BRANCHES],
+    "blackburn-chaos": [_CHAOS],
+    "butikov-chaos": [_CHAOS],
     "butikov-fig01": [_CHART],
     "butikov-fig02": [_ORBIT],
     "butikov-fig03": [_ORBIT],

@@ -1,14 +1,52 @@
 """The numbers of Blackburn, Smith and Groenbech-Jensen (1992). A function gives those of one part of the paper."""
 
 import numpy as np
+from scipy.integrate import solve_ivp
+from scipy.optimize import brentq
+from scipy.special import mathieu_a, mathieu_b
 
 from .number import Number
 from .runs import FIVE, at, curves, sweep
 
 
+def mathieu_m(characteristic, k):
+    """m of the curve 4k = characteristic(2m), by Mathieu's functions of scipy."""
+    return brentq(lambda m: characteristic(2 * m) - 4 * k, 1e-6, 2, xtol=1e-14)
+
+
+def fast_motion(runs, known):
+    """(9): the slow angle with xi(t) against the angle itself, after a release of 10 degrees from inverted, epsilon = 0.15."""
+    pendulum, start, periods = {"quality_factor": 5, "drive_frequency": 11, "drive_amplitude": 0.15}, np.pi + np.radians(10), 5
+    slow, _ = runs(
+        {"pendulum": pendulum, "orbit": {"model": "effective", "start": {"theta": start, "velocity": 0}, "periods": periods}}, "orbit"
+    )
+
+    def motion(t, y):
+        return y[1], -y[1] / 55 - (1 / 121 - 0.15 * np.cos(t)) * np.sin(y[0])
+
+    true = solve_ivp(motion, (0, slow["time"][-1]), (start + slow["xi"][0], 0), "DOP853", slow["time"], rtol=1e-12, atol=1e-12).y[0]
+    without, with_xi = (np.abs(angle - true).max() for angle in (slow["theta"], slow["theta"] + slow["xi"]))
+    yield Number(
+        "(9)",
+        f"largest distance of Theta + xi from theta over that of Theta alone, {periods} drive periods, epsilon = 0.15",
+        with_xi / without,
+        reference=0,
+        bar=0.3,
+    )
+
+
 def boundaries(runs, known):
     """Eqs (5), (6), Figs 3 and 4: where both positions at rest are stable."""
-    names = ("damped_0", "damped_1", "exact_1", "exact_2", "blackburn_lower", "blackburn_upper", "blackburn_down_upper")
+    names = (
+        "damped_0",
+        "damped_1",
+        "exact_1",
+        "exact_2",
+        "blackburn_lower",
+        "blackburn_upper",
+        "blackburn_down_upper",
+        "blackburn_upper_note",
+    )
     for name, row in known.items():
         if not name.startswith("blackburn_fig4_Omega"):
             continue
@@ -35,6 +73,35 @@ def boundaries(runs, known):
     damped, _ = curves(runs, -k, k, 2, names, quality_factor=5.0)
     yield Number("(5)", "lower boundary of the inverted position, Omega = 11", at(free, -k, "blackburn_lower"), "0.129")
     yield Number("(6)", "upper boundary of the inverted position, Omega = 11", at(free, -k, "blackburn_upper"), "0.465")
+    yield Number(
+        "note 13",
+        "upper boundary of the inverted position, Omega = 11, by 0.450 + 2.22/Omega^2",
+        at(free, -k, "blackburn_upper_note"),
+        reference=0.450 + 2.22 / 121,
+        bar=1e-12,
+    )
+    yield Number(
+        "Figs 2, 3",
+        "lower boundary of the inverted position, Omega = 11, exact",
+        at(free, -k, "exact_1"),
+        reference=mathieu_m(lambda q: mathieu_a(0, q), -k),
+        bar=1e-9,
+    )
+    yield Number(
+        "Figs 2, 3",
+        "upper boundary of the inverted position, Omega = 11, exact",
+        at(free, -k, "exact_2"),
+        reference=mathieu_m(lambda q: mathieu_b(1, q), -k),
+        bar=1e-9,
+    )
+    near, _ = curves(runs, 0.25 - 1e-4, 0.25, 2, ["exact_2", "blackburn_tangent"])
+    yield Number(
+        "Sec. II",
+        "m of the upper boundary over that of its tangent, delta = 1/4 - epsilon/2, at delta = 0.2499",
+        near["exact_2"][0] / near["blackburn_tangent"][0],
+        reference=1,
+        bar=1e-4,
+    )
     yield Number(
         "Sec. III",
         "upper boundary of the inverted position, Omega = 11, exact",
@@ -189,4 +256,4 @@ def cores(runs, known):
         )
 
 
-PARTS = [boundaries, potential, releases, attractors, cores]
+PARTS = [boundaries, fast_motion, potential, releases, attractors, cores]

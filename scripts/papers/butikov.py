@@ -118,8 +118,30 @@ def third_harmonics(runs, known):
         )
 
 
+def transition_orbits(runs, known):
+    """Figs 5 and 6: the oscillations on curves 4 and 5, whose harmonics follow from the recurrence of the Mathieu functions."""
+    for place, scene, part, lines in (("Fig. 5", "butikov-fig05", sine, (2, 3)), ("Fig. 6", "butikov-fig06", cosine, (2, 3))):
+        values, attributes = runs(scene, "orbit")
+        k, m = (0.9, 1.106725136346255) if place == "Fig. 5" else (1.1, 0.5212279114123391)
+        orders = np.arange(1 if place == "Fig. 5" else 0, 40)
+        matrix = np.diag(k - orders.astype(float) ** 2) - m / 2 * (np.eye(len(orders), k=1) + np.eye(len(orders), k=-1))
+        if place == "Fig. 6":
+            matrix[1, 0] *= 2  # the constant term stands once in cos(0)
+        mode = np.linalg.svd(matrix)[2][-1]
+        of = dict(zip(orders, mode, strict=True))
+        yield Number(place, "period of the oscillation, drive periods", attributes["period"], reference=1)
+        for line in lines:
+            yield Number(
+                place,
+                f"amplitude of harmonic {line} over that of harmonic 1",
+                part(values, line) / part(values, 1),
+                reference=of[line] / of[1],
+                bar=1e-8,
+            )
+
+
 def nodding(runs, known):
-    """Figs 7 and 8, whose k, m and Q are not stated: multiple nodding of every kind."""
+    """Figs 7 and 8: multiple nodding of every kind; the paper does not state k, m and Q of Fig. 7."""
     for row in known["multiple_nodding_cycles"].values():
         points = np.array(row["strobe_theta_v_at_t0"], dtype=float)
         pendulum = {"k": row["k"], "damping": float(row["beta"]), "m": row["m"]}
@@ -145,6 +167,14 @@ def nodding(runs, known):
 def subharmonics(runs, known):
     """Fig. 9: the curves of order n, exact and by (21) with its signs corrected."""
     value = undamped(runs, subharmonics=(2, 4, 6))
+    chart, _ = curves(runs, -0.1, 0, 2, ["butikov_1"], (1000,))
+    yield Number(
+        "(21)",
+        "m of the curve of order 1000 at k = -0.1 over that of (3), its limit",
+        at(chart, -0.1, "butikov_subharmonic_1000") / at(chart, -0.1, "butikov_1"),
+        reference=1,
+        bar=1e-5,
+    )
     for n in (2, 4, 6):
         for row in known[f"butikov_fig9_n{n}"]:
             k, printed = float(row["k"]), row["roots_as_printed"]
@@ -216,4 +246,4 @@ def subharmonic_orbits(runs, known):
             )
 
 
-PARTS = [zones, turns, parametric_oscillation, third_harmonics, nodding, subharmonics, subharmonic_orbits]
+PARTS = [zones, turns, parametric_oscillation, third_harmonics, transition_orbits, nodding, subharmonics, subharmonic_orbits]

@@ -75,6 +75,12 @@ CURVE(blackburn_lower) {
 CURVE(blackburn_upper) {
   return within(k, -INFINITY, 0, 0.450 - 1.799 * k);
 }
+CURVE(blackburn_upper_note) {
+  return within(k, -INFINITY, 0, 0.450 - 2.22 * k);
+}
+CURVE(blackburn_tangent) {
+  return within(k, -INFINITY, 0.25, 2 * (0.25 - k));
+}
 CURVE(blackburn_down_upper) {
   return within(k, 0, 0.25, 0.450 - 1.799 * k);
 }
@@ -123,6 +129,8 @@ CURVE(butikov_damped_2) {
   UPPER(butikov_5_refined, 0)  /* k <= 2.042: BUT (19), plus */                                 \
   ROW(blackburn_lower, 0)      /* k <= 0: BSG (5) */                                            \
   ROW(blackburn_upper, 0)      /* k <= 0: BSG (6) */                                            \
+  ROW(blackburn_upper_note, 0) /* k <= 0: BSG, note 13 */                                       \
+  ROW(blackburn_tangent, 0)    /* k <= 1/4: BSG, delta = 1/4 - epsilon/2, tangent to b_1 */     \
   ROW(blackburn_down_upper, 0) /* 0 <= k <= 1/4: BSG (6), hanging */                            \
   ROW(damped_0, 0)             /* k <= 0: multiplier 1, continues curve 1 */                    \
   ROW(damped_1, 3)             /* where tongue 1 is: multiplier -1, continues curves 2 and 3 */ \

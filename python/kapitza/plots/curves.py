@@ -15,7 +15,8 @@ COLOURS = ["#12806a", "#2f6db3", "#5b2a7a", "#c2452f", "#b08a1e", "#3b3f45"]
 
 # Formula -> the exact curve that it approximates; subharmonics and upper branches by rule.
 EXACT = {
-    "blackburn_lower": "exact_1", "blackburn_upper": "exact_2", "blackburn_down_upper": "exact_2",
+    "blackburn_lower": "exact_1", "blackburn_upper": "exact_2", "blackburn_upper_note": "exact_2", "blackburn_tangent": "exact_2",
+    "blackburn_down_upper": "exact_2",
     "butikov_4_refined": "exact_4", "butikov_5_refined": "exact_5", "butikov_5_refined_upper": "exact_5_upper",
     **{f"meissner_{number}": f"hill_{number}" for number in range(1, 6)},
 }
@@ -24,7 +25,9 @@ LABELS = {
     "butikov_5": "Butikov Eq. 7", "butikov_4_refined": "Butikov Eq. 17", "butikov_5_refined": "Butikov Eq. 19",
     "butikov_damped_1": "Butikov Eq. 25", "butikov_damped_2": "Butikov Eq. 26",
     **{f"meissner_{number}": f"square wave, curve {number}" for number in range(1, 6)},
-    "blackburn_lower": "Blackburn Eq. 5", "blackburn_upper": "Blackburn Eq. 6", "blackburn_down_upper": "Blackburn Eq. 6, down",
+    "blackburn_lower": "Blackburn Eq. 5", "blackburn_upper": "Blackburn Eq. 6", "blackburn_upper_note": "Blackburn note 13",
+    "blackburn_tangent": "tangent at k = 1/4",
+    "blackburn_down_upper": "Blackburn Eq. 6, down",
 }
 # What a curve bounds; the numbers are Butikov's.
 CURVES = {1: "curve 1: inverted stands above it", 2: "curve 2: first tongue, left edge", 3: "curve 3: first tongue, right edge",

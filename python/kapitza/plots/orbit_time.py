@@ -19,6 +19,9 @@ def draw_time(axes: Axes, orbit: Orbit, *, harmonics: int = 3, colours: Sequence
     span = 2 * orbit.period if orbit.closed and orbit.period <= 4 else np.inf
     for t, y in _repeated(orbit, span):
         axes.plot(orbit.clock * t, y, color=style.INK, linewidth=1.3, zorder=3)
+    if "xi" in orbit.data:
+        axes.plot(orbit.clock * orbit.time, orbit.deflection() + np.degrees(orbit.data["xi"].values), color=HARMONICS[0], linewidth=0.9,
+                  zorder=2, label="with the fast motion ξ")
     start, end = axes.dataLim.intervalx / orbit.clock
     if orbit.resting:
         axes.text(0.5, 0.8, "at rest: no motion beyond rounding", transform=axes.transAxes, ha="center", color=style.FAINT)

@@ -34,6 +34,9 @@ static kz_status write_series(const kz_orbit *orbit, kz_store *store) {
   COLUMN("pivot", n, pivot(parameters, 1, 2 * M_PI * (double)(i % samples) / (double)samples));
   if (moves_aside(&parameters->pendulum))
     COLUMN("pivot_aside", n, pivot(parameters, 0, 2 * M_PI * (double)(i % samples) / (double)samples));
+  if (orbit->model.kind == KZ_EFFECTIVE)
+    COLUMN("xi", n,
+           -parameters->pendulum.m * sin(motion->theta[i * stride]) * cos(2 * M_PI * (double)(i % samples) / (double)samples));
   SCALE("strobe_time", strobes, 2 * M_PI * (double)i);
   COLUMN("strobe_theta", strobes, motion->theta[i * motion->samples]);
   COLUMN("strobe_velocity", strobes, motion->velocity[i * motion->samples]);

@@ -9,6 +9,7 @@ const kz_variable kz_orbit_variables[] = {
     {"time", KZ_REAL, {"time"}, TIME, "time since the record began"},
     {"theta", KZ_REAL, {"time"}, ANGLE, "angle from down, counterclockwise, not wrapped"},
     {"velocity", KZ_REAL, {"time"}, VELOCITY, "angular velocity"},
+    {"xi", KZ_REAL, {"time"}, ANGLE, "fast motion about the slow angle theta, -m sin(theta) cos(t), Blackburn (1992) Eq. (9)"},
     {"pivot", KZ_REAL, {"time"}, NONE, "height of the pivot, of a sine m cos t, in units of I/(M r)"},
     {"pivot_aside", KZ_REAL, {"time"}, NONE, "how far the pivot is aside, in units of I/(M r)"},
     {"strobe_time", KZ_REAL, {"strobe_time"}, TIME, "time of the strobe points, both ends of the record"},

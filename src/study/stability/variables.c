@@ -32,6 +32,8 @@ const kz_variable kz_stability_variables[] = {
     CURVE("butikov_5_refined_upper", "transition curve by Butikov (2018) Eq. (19), other sign"),
     CURVE("blackburn_lower", "lower boundary of the inverted state, Blackburn (1992) Eq. (5)"),
     CURVE("blackburn_upper", "upper boundary of the inverted state, Blackburn (1992) Eq. (6)"),
+    CURVE("blackburn_upper_note", "the same, Blackburn (1992) note 13: 0.450 + 2.22/Omega^2"),
+    CURVE("blackburn_tangent", "tangent of exact_2 at k = 1/4, Blackburn (1992): delta = 1/4 - epsilon/2"),
     CURVE("blackburn_down_upper", "upper boundary of the hanging state, Blackburn (1992) Eq. (6)"),
     CURVE("damped_0", "exact lower boundary of the inverted state with damping"),
     CURVE("damped_1", "exact lowest m of the damped tongue from k = 1/4"),
