@@ -19,7 +19,7 @@
 #define ROW(path_, type_, fallback_, place, help_, ...) \
   {.path = path_, .type = type_, .fallback = fallback_, place, .help = help_, __VA_ARGS__}
 /* A mapping; one that gives an axis; and one of which the field says whether it is given. */
-#define MAPPING(path, fallback, help) ROW(path, KZ_KEY_MAPPING, fallback, NOWHERE, help, .unit = "")
+#define MAPPING(path, fallback, help, ...) ROW(path, KZ_KEY_MAPPING, fallback, NOWHERE, help, .unit = "", __VA_ARGS__)
 #define RANGE(path, range_, axis, fallback, help)                                 \
   ROW(path, KZ_KEY_MAPPING, fallback, NOWHERE, help, .unit = "", .range = range_, \
       .range_offset = offsetof(PLAN_OF(KEYS_OF), axis))

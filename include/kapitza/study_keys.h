@@ -43,7 +43,7 @@ struct kz_key {
   const char *unit;                /* "" = none */
   double low, high;                /* accepted values, ends included */
   const char *fallback;            /* default as YAML text; "" = may be left out without one; NULL = required */
-  const char *words;               /* "icm|direct"; of a count one word that stands for 0: "auto" */
+  const char *words;               /* "icm|direct"; of a count one word that stands for 0: "auto"; of a mapping see `former` */
   const char *(*words_from)(void); /* returns the words if another layer has them */
   const char *former;              /* removed words, or keys of a mapping, and their replacements: "old=new|old=new" */
   const char *symbol;              /* its symbol in formulas, which a scene may write instead of its name; NULL = none */

@@ -23,7 +23,7 @@ typedef struct {
 enum { KZ_RAMP_DAMPING = 0, KZ_RAMP_DRIVE = 1 };
 enum { KZ_RAMP_LINEAR = 0, KZ_RAMP_SMOOTH = 1 };
 
-/* The mapping `pendulum` as written, in one of three forms a, b, c; NaN = key not given. */
+/* The mapping `pendulum` as written, in one of four forms a, b, c, d; NaN = key not given. */
 typedef struct {
   double quality_factor, drive_frequency, drive_amplitude;                           /* a: Q, Omega, epsilon */
   double k, damping, m;                                                              /* b: k, beta, m */
@@ -32,7 +32,10 @@ typedef struct {
   double frequency;                               /* c: Hz, instead of pivot_frequency */
   double amplitude;                               /* c: m, instead of pivot_amplitude */
   double decay_time;                              /* c: s, 2 I/b, instead of friction or quality_factor */
+  double constant_torque, oscillating_torque;     /* c: N m */
+  double beta_c, omega, i_dc, i_ac;               /* d: of a Josephson junction */
   double tilt, ellipse, torque, torque_amplitude; /* rad; ratio of the axes; both in units of I omega^2 */
+  double constant_torque_ratio, torque_ratio;     /* the same torques in units of M g r */
   double start_phase;                             /* of the scene's basin: phase of the drive at the release, rad */
   double ramp_from, ramp_periods;                 /* in the units of its key; drive periods */
   int32_t ramp_key, ramp_shape;                   /* KZ_RAMP_DAMPING, ..; KZ_RAMP_LINEAR, .. */

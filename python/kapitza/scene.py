@@ -14,7 +14,7 @@ from typing import Any
 import yaml
 
 # Symbols that a scene may write instead of these keys of the pendulum and of the study stability.
-SYMBOLS = {"Q": "quality_factor", "Omega": "drive_frequency", "epsilon": "drive_amplitude", "beta": "damping"}
+SYMBOLS = {"Q": "quality_factor", "Omega": "drive_frequency", "epsilon": "drive_amplitude", "beta": "damping", "gamma": "torque_ratio"}
 _PLAIN = re.compile(r"(?!-( |$))[\w.+/-]([\w.+/ -]*[\w.+/-])?")  # a text that YAML takes as it is, on one line
 
 

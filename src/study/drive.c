@@ -17,6 +17,12 @@ const kz_drive_key kz_drive_keys[] = {
     {"pendulum.ellipse", offsetof(kz_pendulum_keys, ellipse)},
     {"pendulum.torque", offsetof(kz_pendulum_keys, torque)},
     {"pendulum.torque_amplitude", offsetof(kz_pendulum_keys, torque_amplitude)},
+    {"pendulum.constant_torque_ratio", offsetof(kz_pendulum_keys, constant_torque_ratio)},
+    {"pendulum.torque_ratio", offsetof(kz_pendulum_keys, torque_ratio)},
+    {"pendulum.constant_torque", offsetof(kz_pendulum_keys, constant_torque)},
+    {"pendulum.oscillating_torque", offsetof(kz_pendulum_keys, oscillating_torque)},
+    {"pendulum.i_dc", offsetof(kz_pendulum_keys, i_dc)},
+    {"pendulum.i_ac", offsetof(kz_pendulum_keys, i_ac)},
     {NULL, 0},
 };
 
@@ -169,9 +175,7 @@ void kz_drive_resolve(const kz_parameters *parameters, kz_pendulum *p) {
     p->harmonics = highest_of(written);
     for (int j = 1; j <= p->harmonics; j++) add_harmonic(written, j, p);
   }
-  if (has(written->torque)) p->torque = written->torque;
-  if (has(written->torque_amplitude)) p->torque_amplitude = written->torque_amplitude;
-  p->unmirrored = plane || aside || has(written->torque) || has(written->torque_amplitude);
+  p->unmirrored = plane || aside || has(p->torque) || has(p->torque_amplitude);
 }
 
 void kz_drive_form(const kz_parameters *parameters, kz_pendulum *form) {

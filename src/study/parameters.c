@@ -11,17 +11,42 @@ static kz_pendulum from_quality(const kz_pendulum_keys *written) {
   return (kz_pendulum){.k = 1.0 / (omega * omega), .beta = isnan(q) ? 0.0 : 1.0 / (omega * q), .m = written->drive_amplitude};
 }
 
+/* The same of a Josephson junction, in units of its plasma frequency. */
+static kz_pendulum from_junction(const kz_pendulum_keys *written) {
+  const double omega = written->omega;
+  return (kz_pendulum){.k = 1.0 / (omega * omega), .beta = 1.0 / (omega * sqrt(written->beta_c)), .m = 0};
+}
+
 /* omega in rad/s, however it is written. */
 static double pivot_frequency(const kz_pendulum_keys *written) {
   return isnan(written->frequency) ? written->pivot_frequency : 2 * M_PI * written->frequency;
+}
+
+static double inertia_of(const kz_pendulum_keys *written) {
+  return isnan(written->length) ? written->inertia : written->mass * written->length * written->length;
 }
 
 /* beta from whatever says how swings decay: b/(I omega), 2/(tau omega), or omega0/(Q omega); `lever` = M r/I, 1/m. */
 static double damping_of(const kz_pendulum_keys *written, double lever, double omega) {
   if (!isnan(written->decay_time)) return 2 / (written->decay_time * omega);
   if (!isnan(written->quality_factor)) return sqrt(lever * fabs(written->gravity)) / (written->quality_factor * omega);
-  const double inertia = isnan(written->length) ? written->inertia : written->mass * written->length * written->length;
-  return written->friction / (inertia * omega);
+  return written->friction / (inertia_of(written) * omega);
+}
+
+/* A torque in units of I omega^2, however it is written: so, in units of M g r, or in N m. */
+static double torque_of(const kz_pendulum_keys *written, double k, double own, double ratio, double current, double moment) {
+  const double omega = pivot_frequency(written);
+  if (!isnan(own)) return own;
+  if (!isnan(ratio)) return k * ratio;
+  if (!isnan(current)) return k * current;
+  return isnan(moment) ? 0 : moment / (inertia_of(written) * omega * omega);
+}
+
+static void set_torques(const kz_pendulum_keys *written, kz_pendulum *p) {
+  p->torque =
+      torque_of(written, p->k, written->torque, written->constant_torque_ratio, written->i_dc, written->constant_torque);
+  p->torque_amplitude =
+      torque_of(written, p->k, written->torque_amplitude, written->torque_ratio, written->i_ac, written->oscillating_torque);
 }
 
 /* k = M g r/(I omega^2), m = M r A/I (BSG Eq. 1 in drive time); M r/I = 1/l of a point mass. */
@@ -43,6 +68,7 @@ bool kz_inertia_is_possible(const kz_pendulum_keys *written) {
 
 static kz_pendulum from_written(const kz_pendulum_keys *written) {
   if (!isnan(written->drive_frequency)) return from_quality(written);
+  if (!isnan(written->omega)) return from_junction(written);
   if (!isnan(pivot_frequency(written))) return from_si(written);
   return (kz_pendulum){.k = written->k, .beta = written->damping, .m = written->m};
 }
@@ -51,12 +77,12 @@ static kz_pendulum from_written(const kz_pendulum_keys *written) {
 static void fill_defined(kz_parameters *parameters) {
   const kz_pendulum *p = &parameters->pendulum;
   const kz_pendulum_keys *written = &parameters->written;
-  const bool given = !isnan(written->drive_frequency);
+  const bool given = !isnan(written->drive_frequency), junction = !isnan(written->omega);
   parameters->drive_amplitude = p->m;
   parameters->pivot_frequency = pivot_frequency(written);
-  parameters->drive_frequency = given ? written->drive_frequency : NAN;
-  parameters->quality_factor = written->quality_factor;
-  if (!given && p->k > 0.0) parameters->drive_frequency = 1.0 / sqrt(p->k);
+  parameters->drive_frequency = given ? written->drive_frequency : junction ? written->omega : NAN;
+  parameters->quality_factor = junction ? sqrt(written->beta_c) : written->quality_factor;
+  if (!given && !junction && p->k > 0.0) parameters->drive_frequency = 1.0 / sqrt(p->k);
   if (!given && isnan(written->quality_factor) && p->k != 0.0 && p->beta > 0.0)
     parameters->quality_factor = sqrt(fabs(p->k)) / p->beta;
 }
@@ -83,9 +109,12 @@ void kz_periods_print(int64_t periods, double omega, FILE *out) {
 
 kz_status kz_parameters_resolve(kz_parameters *parameters) {
   kz_pendulum p = from_written(&parameters->written);
-  if (!isfinite(p.k) || !isfinite(p.beta) || !isfinite(p.m))
-    return kz_fail(KZ_REFUSED, "gives k = %g, beta = %g, m = %g, not all finite; use less extreme parameters", p.k, p.beta,
-                   p.m);
+  set_torques(&parameters->written, &p);
+  if (!isfinite(p.k) || !isfinite(p.beta) || !isfinite(p.m) || !isfinite(p.torque) || !isfinite(p.torque_amplitude))
+    return kz_fail(KZ_REFUSED,
+                   "gives k = %g, beta = %g, m = %g, torque = %g, torque_amplitude = %g, not all finite; use less extreme "
+                   "parameters",
+                   p.k, p.beta, p.m, p.torque, p.torque_amplitude);
   const char *wrong = kz_drive_contradiction(&parameters->written);
   if (wrong) return kz_fail(KZ_REFUSED, "%s", wrong);
   parameters->pendulum = p;

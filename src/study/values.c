@@ -28,7 +28,15 @@
   KEY(tilt, "rad")                \
   KEY(ellipse, "1")               \
   KEY(torque, "1")                \
-  KEY(torque_amplitude, "1")
+  KEY(torque_amplitude, "1")      \
+  KEY(constant_torque_ratio, "1") \
+  KEY(torque_ratio, "1")          \
+  KEY(constant_torque, "N m")     \
+  KEY(oscillating_torque, "N m")  \
+  KEY(beta_c, "1")                \
+  KEY(omega, "1")                 \
+  KEY(i_dc, "1")                  \
+  KEY(i_ac, "1")
 #define RELEASE_PARAMETERS(NAMED)          \
   NAMED("ramp.periods", ramp_periods, "1") \
   NAMED("ramp.from", ramp_from, "1")

@@ -149,15 +149,20 @@ static size_t distance(const char *a, const char *b) {
   return d[n][m];
 }
 
-bool kz_key_renamed(const kz_key *key, const char *word, char *now, size_t bytes) {
+/* Writes what stands for `word` in a list "word=meaning|word=meaning" to `now`; false if it is not there. */
+static bool find_meaning(const char *pairs, const char *word, char *now, size_t bytes) {
   const size_t length = strlen(word);
-  for (const char *pair = key->former; pair; pair = strchr(pair, '|') ? strchr(pair, '|') + 1 : NULL) {
+  for (const char *pair = pairs; pair; pair = strchr(pair, '|') ? strchr(pair, '|') + 1 : NULL) {
     if (strncmp(pair, word, length) != 0 || pair[length] != '=') continue;
     pair += length + 1;
     snprintf(now, bytes, "%.*s", (int)strcspn(pair, "|"), pair);
     return true;
   }
   return false;
+}
+
+bool kz_key_renamed(const kz_key *key, const char *word, char *now, size_t bytes) {
+  return find_meaning(key->former, word, now, bytes);
 }
 
 bool kz_key_suggest(const char *word, const char *words, char *nearest, size_t bytes) {
@@ -221,6 +226,8 @@ void kz_key_unknown(const kz_key *keys, const char *parent, const char *name, co
   kz_key_list(names, list, sizeof list);
   if (mapping ? kz_key_renamed(mapping, name, nearest, sizeof nearest) : was_a_study(keys, name, nearest, sizeof nearest))
     snprintf(text, bytes, "is no longer a key; use %s", nearest);
+  else if (mapping && find_meaning(mapping->words, name, nearest, sizeof nearest))
+    snprintf(text, bytes, "unknown key; the program calls it %s", nearest);
   else if (kz_key_suggest(name, names, nearest, sizeof nearest))
     snprintf(text, bytes, "unknown key; did you mean %s%s?", prefix, nearest);
   else if (elsewhere)

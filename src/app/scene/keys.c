@@ -25,11 +25,18 @@ static const char *scheme_words(void) {
   ROW("pendulum." #name, KZ_KEY_REAL, fallback, AT(parameters.written.name), help, .unit = unit_, .low = low_, \
       .high = DBL_MAX, .form = form_, __VA_ARGS__)
 
+/* Words for keys of the pendulum in books and papers. */
+#define OTHER_WORDS                                                                                                     \
+  "g=torque_ratio, gamma of the equation, or gravity|q=quality_factor|omega_D=drive_frequency|omega_d=drive_frequency|" \
+  "F_D=torque_ratio|F=torque_ratio|drive_strength=torque_ratio|driving_torque=torque_ratio|forcing=torque_ratio|"       \
+  "i=i_dc|I=i_dc|current=i_dc|bias=i_dc|bias_current=i_dc|betac=beta_c|beta_C=beta_c|stewart_mccumber=beta_c"
+
 static const kz_key own[] = {
     TEXT("title", "", title, "One line that names the scene in files and pictures."),
 
     MAPPING("pendulum", NULL,
-            "The pendulum, given in one of three ways (a, b, c). A scene with the study `stability` alone needs none."),
+            "The pendulum, given in one of four ways (a, b, c, d). A scene with the study `stability` alone needs none.",
+            .words = OTHER_WORDS),
     PENDULUM("ac", quality_factor, "", KZ_ABOVE_ZERO, "",
              "Quality factor Q = omega0 I/b, so that beta = 1/(Omega Q). Left out in (a): no damping.", .symbol = "Q"),
     PENDULUM("a", drive_frequency, "", KZ_ABOVE_ZERO, NULL,
@@ -53,15 +60,27 @@ static const kz_key own[] = {
     PENDULUM("c", friction, "kg m2 s-1", 0.0, "", "Friction b; beta = b/(I omega). Instead of quality_factor."),
     PENDULUM("c", pivot_amplitude, "m", -DBL_MAX, "", "Another name of amplitude."),
     PENDULUM("c", pivot_frequency, "rad s-1", KZ_ABOVE_ZERO, "", "Angular frequency omega of the pivot. Instead of frequency."),
+    PENDULUM("c", constant_torque, "N m", -DBL_MAX, "", "Constant torque. It needs mass beside length."),
+    PENDULUM("c", oscillating_torque, "N m", -DBL_MAX, "",
+             "Amplitude of a torque that oscillates with the drive, as cos omega t."),
+    PENDULUM("d", beta_c, "", KZ_ABOVE_ZERO, NULL,
+             "Of a Josephson junction: McCumber's and Stewart's parameter, so that Q = sqrt(beta_c)."),
+    PENDULUM("d", omega, "", KZ_ABOVE_ZERO, NULL,
+             "Of a junction: angular frequency of the microwaves over that of the plasma, so that k = 1/omega^2."),
+    PENDULUM("d", i_dc, "", -DBL_MAX, "", "Of a junction: constant current over the critical one; torque = k i_dc."),
+    PENDULUM("d", i_ac, "", -DBL_MAX, "", "Of a junction: amplitude of the microwave current over the critical current."),
     REAL("pendulum.tilt", "rad", -M_PI, M_PI, "", parameters.written.tilt, "Angle between the pivot's path and the vertical."),
     REAL("pendulum.ellipse", "", -10, 10, "", parameters.written.ellipse,
          "Makes the pivot's path an ellipse: the ratio of its axis across the path to the one along it; above 0 = clockwise."),
     REAL("pendulum.torque", "", -1e6, 1e6, "", parameters.written.torque,
          "Constant torque on the pendulum, in units of I omega^2."),
-    REAL(
-        "pendulum.torque_amplitude", "", -1e6, 1e6, "", parameters.written.torque_amplitude,
-        "Amplitude of a torque that oscillates with the drive, torque_amplitude cos t, in the same units (a Josephson junction "
-        "under microwaves)."),
+    REAL("pendulum.torque_amplitude", "", -1e6, 1e6, "", parameters.written.torque_amplitude,
+         "Amplitude of a torque that oscillates with the drive, torque_amplitude cos t, in the same units."),
+    REAL("pendulum.constant_torque_ratio", "", -1e6, 1e6, "", parameters.written.constant_torque_ratio,
+         "The constant torque in units of M g r: torque = k constant_torque_ratio."),
+    ROW("pendulum.torque_ratio", KZ_KEY_REAL, "", AT(parameters.written.torque_ratio),
+        "Amplitude of the oscillating torque in units of M g r, as gamma of textbooks: torque_amplitude = k torque_ratio.",
+        .unit = "", .low = -1e6, .high = 1e6, .symbol = "gamma"),
     WORD("pendulum.waveform", "sine|square|triangle|samples", "", parameters.written.waveform,
          "Form of the drive in time, which is that of the pivot's downward acceleration; square and triangle: their Fourier "
          "series "

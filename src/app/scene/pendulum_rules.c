@@ -9,11 +9,16 @@ static bool is_given(double value) {
   return !isnan(value);
 }
 
+/* Whether a torque is given in N m. */
+static bool has_moment(const kz_pendulum_keys *w) {
+  return is_given(w->constant_torque) || is_given(w->oscillating_torque);
+}
+
 /* Whether the keys of a pendulum in SI units are the ones that are used. */
 static bool is_laboratory(const kz_pendulum_keys *w) {
   return is_given(w->length) || is_given(w->mass) || is_given(w->radius) || is_given(w->inertia) || is_given(w->friction) ||
          is_given(w->decay_time) || is_given(w->gravity) || is_given(w->amplitude) || is_given(w->pivot_amplitude) ||
-         is_given(w->frequency) || is_given(w->pivot_frequency);
+         is_given(w->frequency) || is_given(w->pivot_frequency) || has_moment(w);
 }
 
 /* Adds one thing that is missing to the list. */
@@ -26,9 +31,9 @@ static void check_complete(kz_reading *reading, const kz_pendulum_keys *w) {
   char list[700] = "";
   const size_t n = sizeof list;
   const bool body = is_given(w->radius) || is_given(w->inertia);
-  const bool friction_alone = is_given(w->friction) && !is_given(w->inertia);
+  const bool needs_mass = (is_given(w->friction) || has_moment(w)) && !is_given(w->inertia);
   if (!body && !is_given(w->length)) lack(list, n, true, "length (of a point mass; of another body mass, radius and inertia)");
-  lack(list, n, (body || friction_alone) && !is_given(w->mass), body ? "mass" : "mass (beside friction)");
+  lack(list, n, (body || needs_mass) && !is_given(w->mass), body ? "mass" : "mass (beside friction or a torque)");
   lack(list, n, body && !is_given(w->radius), "radius");
   lack(list, n, body && !is_given(w->inertia), "inertia");
   lack(list, n, !is_given(w->frequency) && !is_given(w->pivot_frequency), "frequency (in Hz; or pivot_frequency in rad/s)");
@@ -49,14 +54,23 @@ static void check_once(kz_reading *reading, const kz_pendulum_keys *w) {
                {w->length, w->inertia, "length", "pendulum.inertia"},
                {w->quality_factor, w->decay_time, "quality_factor", "pendulum.decay_time"},
                {w->quality_factor, w->friction, "quality_factor", "pendulum.friction"},
-               {w->decay_time, w->friction, "decay_time", "pendulum.friction"}};
+               {w->decay_time, w->friction, "decay_time", "pendulum.friction"},
+               {w->torque, w->constant_torque_ratio, "torque", "pendulum.constant_torque_ratio"},
+               {w->torque, w->constant_torque, "torque", "pendulum.constant_torque"},
+               {w->torque, w->i_dc, "torque", "pendulum.i_dc"},
+               {w->constant_torque_ratio, w->constant_torque, "constant_torque_ratio", "pendulum.constant_torque"},
+               {w->constant_torque_ratio, w->i_dc, "constant_torque_ratio", "pendulum.i_dc"},
+               {w->torque_amplitude, w->torque_ratio, "torque_amplitude", "pendulum.torque_ratio"},
+               {w->torque_amplitude, w->oscillating_torque, "torque_amplitude", "pendulum.oscillating_torque"},
+               {w->torque_amplitude, w->i_ac, "torque_amplitude", "pendulum.i_ac"},
+               {w->torque_ratio, w->oscillating_torque, "torque_ratio", "pendulum.oscillating_torque"},
+               {w->torque_ratio, w->i_ac, "torque_ratio", "pendulum.i_ac"}};
   for (size_t i = 0; i < sizeof pairs / sizeof *pairs; i++)
     if (is_given(pairs[i].one) && is_given(pairs[i].other))
       kz_complain(reading, pairs[i].path, "contradicts %s, which gives the same; give one of them", pairs[i].name);
 }
 
 static void check_laboratory(kz_reading *reading, const kz_pendulum_keys *w) {
-  check_once(reading, w);
   check_complete(reading, w);
   if (reading->message[0] || !is_given(w->inertia) || kz_inertia_is_possible(w)) return;
   kz_complain(reading, "pendulum.inertia",
@@ -105,6 +119,7 @@ void kz_pendulum_rules(kz_reading *reading, kz_scene *scene) {
     scene->parameters.pivot_frequency = NAN;
     return;
   }
+  check_once(reading, written);
   check_samples(reading, written);
   check_coefficients(reading, &written->vertical, "pendulum.vertical");
   check_coefficients(reading, &written->horizontal, "pendulum.horizontal");

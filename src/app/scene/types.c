@@ -24,6 +24,7 @@ static const type types[] = {
     {"kg", "", "a", "mass", ""},
     {"kg m2", "", "a", "moment of inertia", ""},
     {"kg m2 s-1", "", "a", "friction", "It is a torque divided by an angular velocity."},
+    {"N m", "", "a", "torque", ""},
     {KZ_OWN_UNIT, "", "a", "value",
      "Any unit of the parameter may stand behind it; an angle is in rad, in degrees or a part of pi."},
 };

@@ -43,6 +43,9 @@ static const unit units[] = {
     {"kg m2 s-1", "kg m2/s", 1},
     {"kg m2 s-1", "g cm2/s", 1e-7},
     {"kg m2 s-1", "N m s", 1},
+    {"N m", "N m", 1},
+    {"N m", "mN m", 1e-3},
+    {"N m", "uN m", 1e-6},
 };
 enum { UNITS = sizeof units / sizeof units[0] };
 

@@ -1,4 +1,4 @@
-/* Measures of the linear motion near a cycle: return time by Floquet's multipliers, growth of small disturbances by singular values of the
+/* Measures of a motion itself and of the linear motion near it: mean velocity; return time by Floquet's multipliers, growth of small disturbances by singular values of the
  * map's derivatives, in the norm hypot(dtheta, dvelocity / shock_scale). */
 #include <math.h>
 #include <string.h>
@@ -24,6 +24,14 @@ void kz_measure_return_time(const kz_measured *measured, double *value) {
     const kz_attractor *row = &measured->catalogue.entries[id].row;
     const double largest = hypot(row->multiplier_re[0], row->multiplier_im[0]);
     value[id] = row->period > 0 ? -row->period / log(largest) : NAN;
+  }
+}
+
+/* Of a cycle from its turns, to the last digit. */
+void kz_measure_mean_velocity(const kz_measured *measured, double *value) {
+  for (int64_t id = 0; id < measured->catalogue.count; id++) {
+    const kz_attractor *row = &measured->catalogue.entries[id].row;
+    value[id] = row->period > 0 ? (double)row->winding / row->period : row->mean_velocity;
   }
 }
 

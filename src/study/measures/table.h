@@ -27,6 +27,7 @@ enum {
   NUMBER(settling_pace, KZ_NEEDS_STARTS, "1|drive periods",                                                                  \
          "mean of settling time over distance, per rad, of the starts that end on it")                                       \
   NUMBER(return_time, 0, "1|drive periods", "time in which the slowest small disturbance falls to 1/e")                      \
+  NUMBER(mean_velocity, 0, "1|rad per drive radian", "mean velocity, a junction's voltage in units of hbar omega/2e")        \
   NUMBER(reactivity, KZ_NEEDS_TANGENTS, "1", "largest growth of a small disturbance in one drive period")                    \
   NUMBER(amplification, KZ_NEEDS_TANGENTS, "1", "largest growth of a small disturbance by any later strobe")                 \
   NUMBER(shock_angle, KZ_NEEDS_SHOCKS, "rad", "smallest change of the angle that leaves the basin")                          \

@@ -1,0 +1,180 @@
+"""Torques in the words of textbooks and of junctions; every number that scenes/textbooks and docs/howto/textbooks.md say a book prints."""
+
+import json
+import math
+import re
+
+import h5py
+import numpy as np
+import pytest
+import yaml
+from conftest import ROOT, run_scene
+
+SCENES = ROOT / "scenes" / "textbooks"
+PAGE = (ROOT / "docs" / "howto" / "textbooks.md").read_text()
+WINDOW = {"velocity": {"min": -2, "max": 2}, "starts": 64}
+
+
+def scene_of(name, **pendulum):
+    scene = yaml.safe_load((SCENES / f"{name}.yaml").read_text())
+    return scene | {"pendulum": scene["pendulum"] | pendulum}
+
+
+def found(kapitza, folder, name, **pendulum):
+    """(period, |winding|) of the attractors of a scene."""
+    rows = run_scene(kapitza, folder, scene_of(name, **pendulum))[0].group("attractors")
+    return set(zip(rows["period"].values.tolist(), np.abs(rows["winding"].values).tolist(), strict=True))
+
+
+def limit_of_rest(kapitza, name, words):
+    return float(re.search(words + r" ([\d.]+)", kapitza("check", "--all", SCENES / f"{name}.yaml").stdout).group(1))
+
+
+def test_every_scene_stands_on_the_page():
+    assert {path.stem for path in SCENES.glob("*.yaml")} == set(re.findall(r"textbooks/([\w-]+)\.yaml", PAGE))
+
+
+OMEGA, MASS, LENGTH, GRAVITY = 3.0, 0.2, 0.5, 9.81
+K = GRAVITY / LENGTH / OMEGA**2
+MOMENT = MASS * GRAVITY * LENGTH  # M g r, N m
+SI = {"length": LENGTH, "mass": MASS, "pivot_frequency": OMEGA, "amplitude": 0, "gravity": GRAVITY, "quality_factor": 4}
+OWN = {"quality_factor": 4, "drive_frequency": 1 / math.sqrt(K), "drive_amplitude": 0}
+WAYS = {
+    "in units of I omega^2": OWN | {"torque": 0.2 * K, "torque_amplitude": 0.5 * K},
+    "in units of M g r": OWN | {"constant_torque_ratio": 0.2, "gamma": 0.5},
+    "N m": SI | {"constant_torque": f"{0.2 * MOMENT} N m", "oscillating_torque": f"{500 * MOMENT} mN m"},
+    "a body": {name: value for name, value in SI.items() if name != "length"}
+    | {"radius": LENGTH, "inertia": MASS * LENGTH**2, "constant_torque_ratio": 0.2, "oscillating_torque": 0.5 * MOMENT},
+    "junction": {"beta_c": 16, "omega": 1 / math.sqrt(K), "i_dc": 0.2, "i_ac": 0.5},
+}
+
+
+@pytest.mark.parametrize("way", WAYS)
+def test_all_words_give_one_pendulum(kapitza, tmp_path, way):
+    result, _ = run_scene(kapitza, tmp_path, {"pendulum": WAYS[way], "attractors": WINDOW})
+    numbers = [result.pendulum[name] for name in ("k", "beta", "m", "torque", "torque_amplitude", "quality_factor")]
+    assert np.allclose(numbers, [K, math.sqrt(K) / 4, 0, 0.2 * K, 0.5 * K, 4], rtol=1e-14, atol=0)
+
+
+@pytest.mark.parametrize(
+    ("parameter", "pendulum", "low", "high"),
+    [("drive_frequency", OWN | {"gamma": 0.5}, 0.8, 1.4), ("pivot_frequency", SI | {"oscillating_torque": 0.5 * MOMENT}, 3, 6)],
+)
+def test_a_torque_stays_the_same_in_a_sweep_of_the_frequency(kapitza, tmp_path, parameter, pendulum, low, high):
+    """At both ends of the sweep the cycle is that of the torque 0.5 M g r; in units of I omega^2 it has become smaller."""
+    sweep = {"parameter": parameter, "min": low, "max": high, "count": 2, "measure": ["attractors"], **WINDOW}
+    swept, _ = run_scene(kapitza, tmp_path, {"pendulum": pendulum, "sweep": sweep}, name="swept")
+    with h5py.File(swept.path) as file:
+        cycles = np.stack([file["sweep/branch_theta"][:], file["sweep/branch_velocity"][:]], axis=-1)[
+            :, file["sweep/branch_stable"][:] == 1
+        ]
+    for value, cycle in zip((low, high), cycles, strict=True):
+        k = GRAVITY / LENGTH / value**2 if parameter == "pivot_frequency" else 1 / value**2
+        alone = {"k": k, "damping": math.sqrt(k) / 4, "m": 0, "torque_amplitude": 0.5 * k}
+        rows = run_scene(kapitza, tmp_path, {"pendulum": alone, "attractors": WINDOW}, name="alone")[0].group("attractors")
+        strobe = np.array([rows["strobe_theta"].values[0, 0], rows["strobe_velocity"].values[0, 0]])
+        assert np.nanmin(np.abs(cycle - strobe).sum(axis=-1)) < 1e-9
+
+
+def test_miles_loses_symmetry_where_he_says(kapitza, tmp_path):
+    """delta = 1/8, epsilon = 1/2: the multiplier of the symmetric cycle reaches 1 at the frequency .595017791."""
+    frequency, left = np.array([0.59503, 0.5951]), []
+    for value in frequency:
+        pendulum = {"quality_factor": 4, "drive_frequency": float(value), "drive_amplitude": 0, "torque_ratio": 0.5}
+        rows = run_scene(kapitza, tmp_path, {"pendulum": pendulum, "attractors": WINDOW})[0].group("attractors")
+        left.append(1 - rows["multiplier_re"].values[:, 0].max())
+    assert abs(frequency[0] - left[0] * (frequency[1] - frequency[0]) / (left[1] - left[0]) - 0.595017791) < 2e-8
+
+
+@pytest.mark.parametrize(("word", "meant"), [("F_D", "torque_ratio"), ("current", "i_dc"), ("omega_D", "drive_frequency")])
+def test_words_of_books_are_answered_by_the_key(kapitza, tmp_path, word, meant):
+    (tmp_path / "s.yaml").write_text(json.dumps({"pendulum": OWN | {word: 1}, "attractors": WINDOW}))
+    assert f"pendulum.{word}: unknown key; the program calls it {meant}" in kapitza("run", "s.yaml", folder=tmp_path, status=2).stderr
+
+
+@pytest.mark.parametrize(
+    ("pendulum", "named"),
+    [
+        (OWN | {"torque": 1, "constant_torque_ratio": 1}, "pendulum.constant_torque_ratio: contradicts torque"),
+        (WAYS["junction"] | {"torque_ratio": 1}, "pendulum.i_ac: contradicts torque_ratio"),
+        (WAYS["junction"] | {"k": 1}, "pendulum.k: contradicts pendulum.beta_c"),
+        ({name: value for name, value in WAYS["N m"].items() if name != "mass"}, "lacks: mass (beside friction or a torque)"),
+    ],
+)
+def test_two_words_for_one_torque_are_refused(kapitza, tmp_path, pendulum, named):
+    (tmp_path / "s.yaml").write_text(json.dumps({"pendulum": pendulum, "attractors": WINDOW}))
+    assert named in kapitza("run", "s.yaml", folder=tmp_path, status=2).stderr
+
+
+def test_taylor(kapitza, tmp_path):
+    """Table 12.1."""
+    result, _ = run_scene(kapitza, tmp_path, scene_of("taylor"))
+    with h5py.File(result.path) as file:
+        branch = {name: file[f"sweep/branch_{name}"][:] for name in ("period", "end", "stable")}
+        ends = file["sweep/branch_name"].asstr()[:]
+    doublings = [branch["end"][(branch["period"] == n) & (branch["stable"] == 1)] for n in (1, 2, 4, 8)]
+    assert len(ends) and [round(float(values.max()), 4) for values in doublings] == [1.0664, 1.0793, 1.0821, 1.0827]
+    assert np.allclose([values.max() for values in doublings], [1.0663729, 1.0793139, 1.0820844, 1.0826783], rtol=0, atol=6e-8)
+
+
+@pytest.mark.parametrize(
+    ("name", "amplitude", "motion"),
+    [
+        ("baker-gollub", 1.07, {(2, 0)}),
+        ("baker-gollub", 1.15, {(0, 0)}),
+        ("baker-gollub", 1.35, {(1, 1)}),
+        ("baker-gollub", 1.45, {(2, 2)}),
+        ("baker-gollub", 1.47, {(4, 4)}),
+        ("baker-gollub", 1.5, {(0, 0)}),
+        ("giordano", 1.35, {(1, 1)}),
+        ("giordano", 1.44, {(2, 2)}),
+        ("giordano", 1.465, {(4, 4)}),
+    ],
+)
+def test_baker_and_gollub_and_giordano(kapitza, tmp_path, name, amplitude, motion):
+    assert found(kapitza, tmp_path, name, torque_ratio=amplitude) == motion
+
+
+def test_hubbard(kapitza, tmp_path):
+    scene = scene_of("hubbard")
+    scene["basin"] |= {"theta": {"count": 32}, "velocity": {"min": -3, "max": 5, "count": 32}}
+    result, _ = run_scene(kapitza, tmp_path, scene)
+    assert result.group("attractors")["period"].values.tolist() == [1] and np.all(result.group("basin")["attractor"].values == 0)
+
+
+@pytest.mark.parametrize(("ratio", "all_rest"), [(0.126, True), (0.1285, False)])
+def test_strogatz(kapitza, tmp_path, ratio, all_rest):
+    """Running begins at the homoclinic, 4 alpha/pi = .12732 for small alpha, .127008860 at alpha = .1."""
+    scene = scene_of("strogatz", constant_torque_ratio=ratio)
+    scene["basin"] |= {"theta": {"count": 16}, "velocity": {"min": 0, "max": 4, "count": 8}}
+    result, _ = run_scene(kapitza, tmp_path, scene)
+    rows = result.group("attractors")
+    rest = int(np.flatnonzero((rows["period"] == 1) & (rows["winding"] == 0))[0])
+    assert bool(np.all(result.group("basin")["attractor"].values == rest)) == all_rest
+
+
+def test_landau_and_lifshitz(kapitza):
+    assert math.isclose(
+        limit_of_rest(kapitza, "landau-lifshitz", "upside down: stable .for drive_amplitude from"), math.sqrt(2) / 100, rel_tol=1e-3
+    )
+
+
+def test_kapitza(kapitza):
+    """A omega = sqrt(2 g l)."""
+    limit = limit_of_rest(kapitza, "kapitza", "upside down: stable .for amplitude from")
+    assert math.isclose(limit * 1e-3 * 2 * math.pi * 50, math.sqrt(2 * 9.80665 * 0.2), rel_tol=1e-3)
+
+
+def test_butikov(kapitza):
+    assert limit_of_rest(kapitza, "butikov", "hanging down: unstable .stable for drive_amplitude up to") == 0.1002
+
+
+def test_mccumber_and_stewart(kapitza, tmp_path):
+    """On a step the mean velocity is whole, and the currents of step 1 lie about the Ohmic line i = omega / sqrt(beta_c)."""
+    result, _ = run_scene(kapitza, tmp_path, scene_of("mccumber-stewart"))
+    with h5py.File(result.path) as file:
+        group = file["line"]
+        velocity, current = group["mean_velocity"][:], group["value"][:]
+    velocity = velocity.reshape(len(current), -1) if velocity.shape[0] == len(current) else velocity.reshape(-1, len(current)).T
+    steps = {n: current[np.any(velocity == n, axis=1)] for n in (0, 1)}
+    assert steps[0].min() == 0 and steps[1].size >= 2 and abs(steps[1].mean() - 1.5) <= 0.25
