@@ -1,25 +1,22 @@
 """A pendulum from a recorded track: natural frequency, damping and their errors, by least squares on the equation of motion."""
 
-import argparse
 import math
-import os
-import sys
-from collections.abc import Sequence
 from functools import cached_property
-from pathlib import Path
 from typing import Any
 
 import numpy as np
-import pandas
-import yaml
 
-from kapitza.least_squares import UNITS, Model, fitted
-from kapitza.least_squares import simulated as simulated
+from kapitza.first_fit import first_fit
+from kapitza.motion_fit import UNITS, Model, fitted
+from kapitza.motion_fit import simulated as simulated
 from kapitza.units import HERTZ, TURN, angle, quantity
 
 GRAVITY = 9.80665        # m/s^2
 CERTAIN = 10.83          # of the F statistic of one more number: less happens to 1 in 1000 tracks by chance
 ALIKE = 0.5              # correlation of neighbouring residuals, from which on the model does not describe the track
+LINE = 20.0              # strongest line in the spectrum of residuals, in means: noise has a stronger one in 1 of 10^6 tracks
+SHARES = 0.05, 0.01      # of the swing in the residuals, from which on such a track is refused: of a free decay, of a driven track
+DETERMINED = 0.1         # largest error of the natural frequency, in natural frequencies
 
 # Model -> the kinds of damping that it has.
 MODELS = {"viscous": ("viscous",), "viscous + quadratic": ("viscous", "quadratic"),
@@ -31,24 +28,37 @@ class Fit:
     larger one improves beyond chance.
 
     :param time: times in s, ascending
-    :param theta: angles in rad from any zero near the rest position
+    :param theta: angles in rad from any zero near the rest position; jumps of a turn are removed (`jumps` counts them)
     :param omega: angular frequency of the drive in rad/s; None = a free decay
+    :raises ValueError: if the track cannot be used, or if no model describes it or several do
     """
 
     def __init__(self, time: Any, theta: Any, omega: float | None = None) -> None:
         self.time, self.theta = (np.asarray(values, dtype=float).ravel() for values in (time, theta))
-        self.omega = omega
+        self.omega, self.jumps = omega, 0
         self._check()
-        self.models = {}
-        guess = _guess(self.time, self.theta, omega)
-        known = {key: value for key, value in guess.items() if key != "dry"}
-        for name, kinds in MODELS.items():
-            begins = [dict.fromkeys(kinds, 0.0) | known]
+        self._unwrap()
+        minima = first_fit(self.time, self.theta, omega)
+        self.models = self._models(minima[0], omega, list(MODELS))
+        self._check_fit(minima)
+        if omega is not None:
+            self._check_drive(omega)
+
+    def _models(self, first: Model, omega: float | None, names: list[str]) -> dict[str, Model]:
+        """The fits by name; each begins at the one before."""
+        models = {names[0]: first}
+        for name in names[1:]:
+            kinds = MODELS[name]
+            known = dict.fromkeys(kinds, 0.0) | list(models.values())[-1].values
+            begins = [known]
             if "dry" in kinds and omega is None:  # dry friction that stops a pendulum leaves little viscous friction
-                begins.append(dict.fromkeys(kinds, 0.0) | guess | {"viscous": 1e-3 * guess["omega0"]})
+                omega0 = known["omega0"]
+                swing = [np.abs(half - known["offset"]).max() for half in np.array_split(self.theta, 2)]
+                dry = omega0 * math.pi * max(swing[0] - swing[1], 0.0) / (self.time[-1] - self.time[0])
+                begins.append(known | {"viscous": 1e-3 * omega0, "quadratic": 0.0, "dry": dry})
             found = [fitted(name, self.time, self.theta, begin, omega) for begin in begins]
-            self.models[name] = min(found, key=lambda model: model.residual)
-            known = dict(self.models[name].values)
+            models[name] = min(found, key=lambda model: model.residual)
+        return models
 
     def _check(self) -> None:
         if self.time.size != self.theta.size:
@@ -59,8 +69,50 @@ class Fit:
             raise ValueError("the track has values that are not finite numbers")
         if not (np.diff(self.time) > 0).all():
             raise ValueError("the times of the track do not ascend")
+        if not 1e-3 <= (span := float(self.time[-1] / 2 - self.time[0] / 2) * 2) <= 1e7:
+            raise ValueError(f"the track takes {span:.3g} s; it must be 1e-3 to 1e7 s, with times in s")
+        if (largest := float(np.abs(self.theta).max())) > 1e4:
+            raise ValueError(f"the angles reach {largest:.3g} rad; a track has at most 1e4 rad")
         if np.ptp(self.theta) < 1e-6:
             raise ValueError("the track does not move")
+
+    def _unwrap(self) -> None:
+        """Removes the jumps of an angle that is kept within a turn."""
+        self.jumps = int(np.count_nonzero(np.abs(np.diff(self.theta)) > math.pi))
+        if self.jumps and np.ptp(self.theta) > 1.001 * TURN:
+            raise ValueError("neighbouring angles differ by more than half a turn; are they in degrees?")
+        if self.jumps:
+            self.theta = np.unwrap(self.theta)
+
+    def _check_fit(self, minima: list[Model]) -> None:
+        """Refuses residuals that are no noise, and numbers that the track does not determine."""
+        best, omega0 = self.best, self.best.values["omega0"]
+        spectrum = np.abs(np.fft.rfft(best.left))[1:] ** 2
+        share = best.residual / float(np.std(self.theta))
+        if spectrum.max() > LINE * spectrum.mean() and share > SHARES[self.omega is not None]:
+            noise = float(np.sqrt(np.mean(np.diff(best.left) ** 2) / 2))
+            raise ValueError(
+                f"no model describes the track: {best.name} leaves {1e3 * best.residual:.3g} mrad of swings of "
+                f"{1e3 * np.std(self.theta):.3g} mrad, neighbours differ by {1e3 * noise:.3g} mrad, and that is no noise; "
+                f"{'check the frequency of the drive, ' if self.omega else ''}give a part of it or record more samples")
+        for other in minima[1:]:
+            apart = abs(other.values["omega0"] - minima[0].values["omega0"])
+            if not _improves(other, minima[0], self.time.size, 1) and apart > minima[0].errors["omega0"]:
+                raise ValueError(
+                    f"the track does not tell natural frequencies of {omega0 / TURN:.4g} and "
+                    f"{other.values['omega0'] / TURN:.4g} Hz apart; record a longer one, or more samples")
+        if not best.errors["omega0"] < DETERMINED * omega0:
+            raise ValueError(
+                f"the track does not determine the natural frequency ({omega0 / TURN:.4g} ± "
+                f"{best.errors['omega0'] / TURN:.2g} Hz); record a longer one, or more samples")
+
+    def _check_drive(self, omega: float) -> None:
+        """Refuses a frequency that the track does not show: a free decay with the same damping leaves as little."""
+        names = list(MODELS)[:list(MODELS).index(self.best.name) + 1]
+        free = self._models(first_fit(self.time, self.theta, None)[0], None, names)[self.best.name]
+        if not _improves(free, self.best, self.time.size):
+            raise ValueError(f"the track shows no drive of {omega / TURN:.6g} Hz: a free decay describes it as well; "
+                             "leave the frequency out")
 
     @cached_property
     def best(self) -> Model:
@@ -83,8 +135,14 @@ class Fit:
 
     @property
     def largest(self) -> float:
-        """Largest swing of the track in degrees; what it says of larger ones is no measurement."""
-        return float(np.degrees(np.abs(self.theta - self.best.values["offset"]).max()))
+        """Largest swing, about hanging or inverted, in degrees; what a track says of larger ones is no measurement."""
+        rest = self.best.values["offset"] + (math.pi if self.inverted else 0.0)
+        return float(np.degrees(np.abs(np.remainder(self.theta - rest + math.pi, TURN) - math.pi).max()))
+
+    @property
+    def inverted(self) -> bool:
+        """Whether the track swings about the inverted position."""
+        return math.cos(float(np.median(self.theta)) - self.best.values["offset"]) < 0
 
     @property
     def length(self) -> float:
@@ -104,8 +162,12 @@ class Fit:
             amplitude = f"{abs(self.best.values['drive']) * self.length:.9g} m"
         if frequency is None or amplitude is None:
             raise ValueError("a free decay knows no shaker: give frequency and amplitude, such as frequency='50 Hz', amplitude='8 mm'")
-        pendulum = {"length": f"{self.length:.9g} m", "quality_factor": self.quality_factor(swing),
-                    "frequency": frequency, "amplitude": amplitude}
+        quality = self.quality_factor(swing)
+        if math.isinf(quality):  # which a scene has not: the least that the track allows
+            values, errors = self.best.values, self.best.errors
+            quality = values["omega0"] / max(values["viscous"] + errors["viscous"], 1e-9 * values["omega0"])
+        pendulum = {"length": f"{self.length:.9g} m", "quality_factor": float(f"{quality:.6g}"), "frequency": frequency,
+                    "amplitude": amplitude}
         return {"title": "A pendulum fitted to a track", "pendulum": pendulum,
                 "basin": {"theta": {"count": 300}, "velocity": {"min": -0.05, "max": 0.05, "count": 200}}}
 
@@ -120,6 +182,10 @@ class Fit:
             lines.append(f"What {best.name} leaves is no noise: neighbouring residuals are alike, so that the errors below are too small.")
         lines += [f"  {name:10s} {value:12.6g} ± {best.errors[name]:.2g} {UNITS[name]}" for name, value in best.values.items()]
         lines.append(f"natural frequency {best.values['omega0'] / TURN:.6g} Hz, length of a simple pendulum {self.length:.5g} m")
+        if self.inverted:
+            lines.append("The track swings about the inverted position.")
+        if self.jumps:
+            lines.append(f"{self.jumps} jumps of a turn between neighbouring angles were removed.")
         if min(best.values.get(kind, 0.0) for kind in ("viscous", "quadratic", "dry")) < 0:
             lines.append("A negative coefficient says that friction falls with speed, within the speeds of this track alone.")
         swings = [swing for swing in (2.0, 10.0, 40.0) if swing < 0.95 * self.largest] + [self.largest]
@@ -127,33 +193,11 @@ class Fit:
         return "\n".join(lines)
 
 
-def _improves(model: Model, larger: Model, samples: int) -> bool:
-    """Whether a larger model leaves so much less that chance does not do it."""
-    more = len(larger.values) - len(model.values)
+def _improves(model: Model, larger: Model, samples: int, more: int | None = None) -> bool:
+    """Whether a larger model, with so many more numbers, leaves so much less that chance does not do it."""
+    more = more or len(larger.values) - len(model.values)
     before, after = model.residual**2 * samples, larger.residual**2 * samples
     return (before - after) / more > CERTAIN * after / (samples - len(larger.values))
-
-
-def _guess(time: np.ndarray, theta: np.ndarray, omega: float | None) -> dict[str, float]:
-    """Numbers to begin with: from the crossings of the mean, and from how the swing shrinks between the halves of the track."""
-    offset = float(np.median(theta))
-    swing = theta - offset
-    if omega is not None:  # the slow motion
-        width = max(1, round(TURN / omega / float(np.median(np.diff(time)))))
-        swing = np.convolve(np.pad(swing, width, mode="edge"), np.ones(width) / width, "same")[width:-width]
-    step = swing[1:] - swing[:-1]
-    up = np.flatnonzero((swing[:-1] < 0) & (swing[1:] >= 0))
-    if up.size < 2:
-        raise ValueError("the track has fewer than two whole swings; record a longer one")
-    crossings = time[up] - swing[up] * (time[up + 1] - time[up]) / step[up]
-    size = [float(np.abs(half).max()) for half in np.array_split(np.abs(swing), 2)]
-    span = (time[-1] - time[0]) / 2
-    first = np.polynomial.Polynomial.fit(time[:5] - time[0], theta[:5], 1).convert().coef
-    omega0 = TURN * (up.size - 1) / float(crossings[-1] - crossings[0]) * (1 + size[0] ** 2 / 16 * (size[0] < 2))
-    guess = {"omega0": omega0, "offset": offset, "theta": float(first[0]), "velocity": float(first[1] if len(first) > 1 else 0),
-             "viscous": max(2 * math.log(max(size[0] / max(size[1], 1e-9), 1.0001)) / span, 1e-4),
-             "dry": omega0 * math.pi / 2 * max(size[0] - size[1], 0.0) / span}
-    return guess | ({"drive": 0.0, "phase": 0.0} if omega is not None else {})
 
 
 def fit(time: Any, theta: Any, *, degrees: bool = False, frequency: Any = None) -> Fit:
@@ -167,55 +211,7 @@ def fit(time: Any, theta: Any, *, degrees: bool = False, frequency: Any = None) 
     :param theta: angles in rad from any zero near the rest position
     :param degrees: whether the angles are in degrees
     :param frequency: of the pivot's drive: Hz, or a text such as "50 Hz"; None = a free decay
-    :raises ValueError: if the track cannot be used
+    :raises ValueError: if the track cannot be used, or if no model describes it or several do
     """
     angles = np.radians(np.asarray(theta, dtype=float)) if degrees else theta
     return Fit(time, angles, None if frequency is None else TURN * quantity(frequency, HERTZ))
-
-
-TIMES, ANGLES = ("time", "t", "time_s"), ("theta", "angle", "theta_rad", "angle_rad", "theta_deg", "angle_deg")
-
-
-def read_track(path: str | os.PathLike[str]) -> tuple[np.ndarray, np.ndarray, bool]:
-    """Times, angles and whether these are in degrees: of a CSV file whose first line names its columns (time, and theta or theta_deg), or
-    of two columns of numbers without names."""
-    table = pandas.read_csv(path, comment="#", skipinitialspace=True)
-    names = {str(name).strip().lower(): name for name in table.columns}
-    time, theta = (next((name for name in known if name in names), None) for known in (TIMES, ANGLES))
-    if time is None and theta is None and len(names) >= 2 and all(_is_number(name) for name in list(names)[:2]):
-        table = pandas.read_csv(path, comment="#", skipinitialspace=True, header=None)
-        names, time, theta = {"time": table.columns[0], "theta": table.columns[1]}, "time", "theta"
-    if time is None or theta is None:
-        raise ValueError(f"has the columns {', '.join(map(str, names))}; it needs time (s) and theta (rad) or theta_deg")
-    columns = [pandas.to_numeric(table[names[name]], errors="coerce").to_numpy(dtype=float) for name in (time, theta)]
-    if wrong := np.flatnonzero(~np.isfinite(columns[0] * columns[1])).tolist():
-        raise ValueError(f"row {wrong[0] + 1} holds no two finite numbers")
-    return columns[0], columns[1], theta.endswith("_deg")
-
-
-def _is_number(text: str) -> bool:
-    try:
-        return math.isfinite(float(text))
-    except ValueError:
-        return False
-
-
-def main(words: Sequence[str] | None = None) -> None:
-    """The command `kapitza fit`."""
-    parser = argparse.ArgumentParser(prog="kapitza fit", description="natural frequency and damping of a pendulum from a recorded track")
-    parser.add_argument("track", type=Path, help="CSV file with the columns time (s) and theta (rad) or theta_deg")
-    parser.add_argument("--frequency", help="of the drive of a driven track: Hz, or with a unit such as 3000 rpm")
-    parser.add_argument("--degrees", action="store_true", help="angles are in degrees")
-    arguments = parser.parse_args(words)
-    try:
-        time, theta, degrees = read_track(arguments.track)
-        found = fit(time, theta, degrees=degrees or arguments.degrees, frequency=arguments.frequency)
-    except (OSError, UnicodeDecodeError, ValueError, pandas.errors.ParserError) as error:
-        reason = error.strerror if isinstance(error, OSError) and error.strerror else str(error)
-        print(f"kapitza: error: {arguments.track}: {reason}", file=sys.stderr)
-        sys.exit(2)
-    print(found)
-    known = {"length": f"{found.length:.6g} m", "quality_factor": round(found.quality_factor(), 4)}
-    pendulum = found.scene()["pendulum"] if found.omega else known
-    print("pendulum: " + yaml.safe_dump(pendulum, default_flow_style=True, sort_keys=False, width=200).strip()
-          + ("" if found.omega else "   # and frequency and amplitude of the shaker"))

@@ -9,7 +9,7 @@ import pytest
 from conftest import EXTENSIVE, PROGRAM, run_script, with_extensive
 from fit_coverage import DECAY, FRICTION, NOISE, counted, track
 from kapitza import fitting
-from kapitza.least_squares import half_width
+from kapitza.track import main, read_track
 
 
 def test_the_equation_is_that_of_the_program():
@@ -50,11 +50,6 @@ def test_the_truth_lies_within_the_stated_errors(pendulum, tracks):
         assert low <= held <= high, name
 
 
-def test_few_samples_have_wider_intervals():
-    """Student's t of 95 %, from tables."""
-    assert [half_width(spare) for spare in (10, 14, 55, 1000)] == pytest.approx([2.228, 2.145, 2.004, 1.962], abs=4e-3)
-
-
 @pytest.mark.parametrize(("seconds", "samples"), LENGTHS["all kinds"])
 def test_drag_and_friction_are_told_from_viscous_damping(seconds, samples):
     time, truth = np.linspace(0, seconds, samples), FRICTION
@@ -77,17 +72,47 @@ def test_a_bearing_that_stops_the_pendulum():
     assert found.largest < 5 and " at 10 deg" not in repr(found) and found.quality_factor() == found.quality_factor(f"{found.largest} deg")
 
 
-@pytest.mark.extensive
-def test_a_driven_track_gives_drive_and_phase():
-    """Shaken eight times as fast as it swings; the amplitude of the pivot comes with its length."""
-    time, omega, truth = np.linspace(0, 8, 300), 56.0, DECAY | {"drive": 0.05, "phase": 0.7}
-    found = kapitza.fit(time, track(truth, time, omega=omega), frequency=f"{omega / (2 * np.pi):.15g} Hz")
-    values = found.models["viscous"].values
-    assert values["omega0"] == pytest.approx(7, rel=5e-3) and abs(values["drive"]) == pytest.approx(0.05, rel=0.1)
-    turn = values["phase"] + (np.pi if values["drive"] < 0 else 0)
-    assert np.cos(turn - 0.7) > 0.98
-    pendulum = found.scene()["pendulum"]
-    assert float(pendulum["amplitude"].split()[0]) == pytest.approx(0.05 * 9.80665 / 49, rel=0.1)
+@pytest.mark.parametrize(("hertz", "samples", "drive"), [(8.9, 60, 0.05), (6, 14, 0.15)])
+def test_a_driven_track_gives_drive_and_phase(hertz, samples, drive):
+    """Many samples in a drive period, and few; the free decay, where the search began once, has another frequency."""
+    time, truth = np.arange(0, 4, 1 / samples), DECAY | {"drive": drive, "phase": 0.7}
+    found = kapitza.fit(time, track(truth, time, omega=2 * np.pi * hertz), frequency=f"{hertz} Hz")
+    assert all(abs(found.best.values[name] - value) < 2 * found.best.errors[name] for name, value in truth.items())
+    amplitude = found.scene()["pendulum"]["amplitude"]
+    assert float(amplitude.split()[0]) == pytest.approx(drive * 9.80665 / 49, rel=0.1)
+
+
+def test_a_pendulum_that_the_drive_holds_inverted():
+    time, omega = np.arange(0, 3, 1 / 40), 2 * np.pi * 8
+    truth = DECAY | {"theta": np.pi + 0.3, "drive": 0.35, "phase": 0.7}
+    found = kapitza.fit(time, track(truth, time, omega=omega), frequency="8 Hz")
+    assert found.inverted and found.largest < 60
+    assert found.best.values["omega0"] == pytest.approx(7, abs=2 * found.best.errors["omega0"])
+
+
+def test_a_frequency_that_the_track_does_not_show_is_refused():
+    time = np.linspace(0, 5, 60)
+    with pytest.raises(ValueError, match="shows no drive of 6 Hz: a free decay describes it as well"):
+        kapitza.fit(time, track(DECAY, time), frequency="6 Hz")
+
+
+@pytest.mark.parametrize("frequency", [None, "5 Hz"])
+def test_a_model_that_does_not_describe_the_track_is_refused(frequency):
+    """A track with a drive of 8 Hz, as a free decay and with a wrong frequency."""
+    time = np.arange(0, 2.6, 1 / 30)
+    theta = track(DECAY | {"drive": 0.2, "phase": 0.7}, time, omega=2 * np.pi * 8)
+    with pytest.raises(ValueError, match="no model describes the track: .* mrad"):
+        kapitza.fit(time, theta, frequency=frequency)
+
+
+def test_an_angle_that_jumps_at_pi_is_unwrapped():
+    time = np.linspace(0, 9, 100)
+    plain = track(DECAY, time)
+    shifted = np.remainder(plain + 3.0 + np.pi, 2 * np.pi) - np.pi
+    assert np.abs(np.diff(shifted)).max() > 5
+    found, expected = kapitza.fit(time, shifted), kapitza.fit(time, plain)
+    assert found.best.values["omega0"] == pytest.approx(expected.best.values["omega0"], rel=1e-6)
+    assert f"{found.jumps} jumps of a turn" in repr(found) and expected.jumps == 0 and "jumps" not in repr(expected)
 
 
 @pytest.mark.parametrize(("time", "theta", "words"), [
@@ -97,10 +122,86 @@ def test_a_driven_track_gives_drive_and_phase():
     (np.arange(30), np.full(30, np.nan), "not finite"),
     (np.arange(30), np.zeros(30), "does not move"),
     (np.linspace(0, 1, 30), np.linspace(0, 1, 30), "fewer than two whole swings"),
+    (np.arange(30), 1e300 * np.sin(np.arange(30)), "the angles reach 1e\\+300 rad"),
+    (1e-300 * np.arange(30), np.sin(np.arange(30)), "takes 2.9e-299 s"),
+    (1e307 * np.arange(-15, 15), np.sin(np.arange(30)), "takes 2.9e\\+308 s|takes inf s"),
+    (np.arange(30), 40 * np.sin(np.arange(30)), "are they in degrees"),
+    (np.arange(40000), np.sin(2 * np.arange(40000)), "at most 10000"),
 ])
 def test_tracks_that_cannot_be_used(time, theta, words):
     with pytest.raises(ValueError, match=words):
         kapitza.fit(time, theta)
+
+
+COLUMNS = np.column_stack([np.linspace(0, 9, 60), np.degrees(track(DECAY, np.linspace(0, 9, 60)))])
+
+
+def rows(mark, comma=False, scale=1.0):
+    """The track as text, with a mark between columns."""
+    lines = [f"{time * scale:.9g}{mark}{angle:.9g}" for time, angle in COLUMNS]
+    return "".join(line.replace(".", ",") + "\n" if comma else line + "\n" for line in lines)
+
+
+FILES = {
+    "plain": ("time,theta_deg\n" + rows(","), "utf-8", "'theta_deg' in deg; ',' between columns, decimal points, UTF-8"),
+    "bare": (rows(","), "utf-8", "column 2 in deg; ','"),
+    "german": ("Zeit [s];Winkel [°]\n" + rows(";", comma=True), "latin-1",
+               "'Winkel [°]' in °; ';' between columns, decimal commas, Latin-1"),
+    "german without names": (rows(";", comma=True), "utf-8", "decimal commas"),
+    "tabs": ("t / ms\tn\tangle (deg)\n" + rows("\t1\t", scale=1e3), "utf-8", "'t / ms' in ms, angles of 'angle (deg)' in deg; tabs"),
+    "utf-16": ("time\ttheta\ns\t°\n" + rows("\t", comma=True), "utf-16", "'theta' in °; tabs between columns, decimal commas, UTF-16"),
+    "utf-16 without a mark": ("time;theta\n" + rows(";"), "utf-16-le", "UTF-16"),
+    "with a mark": ("time,angle_deg\n" + rows(","), "utf-8-sig", "'time' in s, angles of 'angle_deg' in deg"),
+    "units in a row": ("# made by a sensor\nTime;Angle\n[s];[deg]\n" + rows(";"), "utf-8", "'Angle' in deg"),
+    "blanks": ("t   theta_deg\n" + rows("   "), "utf-8", "blanks between columns"),
+    "quoted": ('"time","angle [deg]"\n' + "".join(f'"{t:.9g}","{a:.9g}"\n'.replace(".", ",") for t, a in COLUMNS),
+               "utf-8", "decimal commas"),
+}
+
+
+@pytest.mark.parametrize("name", FILES)
+def test_files_of_laboratories_are_read(tmp_path, name):
+    text, encoding, said = FILES[name]
+    (tmp_path / "track.csv").write_bytes(text.encode(encoding))
+    found = read_track(tmp_path / "track.csv", degrees=True)
+    assert found.time == pytest.approx(COLUMNS[:, 0], abs=1e-8)
+    assert found.theta == pytest.approx(np.radians(COLUMNS[:, 1]), abs=1e-8)
+    assert said in found.taken and found.taken.startswith("60 samples")
+
+
+@pytest.mark.parametrize(("data", "said"), [
+    (b"", "is empty"),
+    (b"time;theta\n0,5;1,2\n1;high\n", "row 2 holds no two finite numbers"),
+    (b"time,theta [gon]\n0,5\n", "a column in 'gon'; the units are rad"),
+    (b"time,speed\n0,1\n", "it needs time (s) and theta"),
+    (b"\xff\xfe\x00", "UTF-16|utf-16"),
+    (b"time,theta\n0,1,2,3\n0,1\n", "ected 2|columns|finite"),
+])
+def test_files_that_are_no_track_give_one_line(tmp_path, data, said):
+    (tmp_path / "wrong.csv").write_bytes(data)
+    done = run_script(partial(main, [str(tmp_path / "wrong.csv")]))
+    assert done.returncode == 2 and done.stderr.count("\n") == 1, done.stderr
+    assert any(word in done.stderr for word in said.split("|")), done.stderr
+
+
+def test_a_file_is_measured_before_it_is_read(tmp_path):
+    with open(tmp_path / "huge.csv", "wb") as file:
+        file.truncate(20 << 30)
+    done = run_script(partial(main, [str(tmp_path / "huge.csv")]))
+    said = f"kapitza: error: {tmp_path / 'huge.csv'}: is larger than 64 MB; no track is that large\n"
+    assert (done.returncode, done.stderr) == (2, said)
+
+
+@pytest.mark.parametrize(("viscous", "said"), with_extensive([(0.0, "quality_factor")], [(0.15, "quality_factor: 46")]))
+def test_the_printed_pendulum_is_one_of_a_scene(tmp_path, viscous, said):
+    """Of a pendulum without damping too, whose quality factor is no number."""
+    time = np.linspace(0, 9, 60)
+    np.savetxt(tmp_path / "track.csv", np.column_stack([time, track(DECAY | {"viscous": viscous}, time, 4)]), delimiter=",")
+    done = subprocess.run([PROGRAM, "fit", "track.csv"], cwd=tmp_path, capture_output=True, text=True)
+    assert done.returncode == 0 and said in done.stdout and ".inf" not in done.stdout, done.stderr
+    (tmp_path / "scene.yaml").write_text(done.stdout.splitlines()[-1] + "\nattractors: {velocity: {min: -0.05, max: 0.05}}\n")
+    checked = subprocess.run([PROGRAM, "check", "scene.yaml"], cwd=tmp_path, capture_output=True, text=True)
+    assert checked.returncode == 0, checked.stderr
 
 
 def test_the_command(tmp_path):
@@ -112,13 +213,9 @@ def test_the_command(tmp_path):
     done = subprocess.run([PROGRAM, "fit", "bare.csv", "--degrees"], cwd=tmp_path, capture_output=True, text=True)
     assert done.returncode == 0 and "natural frequency 1.11" in done.stdout, done.stderr
     assert "pendulum: {length: 0.2" in done.stdout and "quality_factor: 46" in done.stdout
-    (named, bare) = (fitting.read_track(tmp_path / f"{name}.csv") for name in ("track", "bare"))
-    assert np.array_equal(named[:2], bare[:2]) and (named[2], bare[2]) == (True, False)
     if EXTENSIVE:
         again = subprocess.run([PROGRAM, "fit", "track.csv"], cwd=tmp_path, capture_output=True, text=True)
-        assert again.returncode == 0 and again.stdout == done.stdout, again.stderr
-    (tmp_path / "wrong.csv").write_text("time,speed\n0,1\n")
-    for words, said in ((["absent.csv"], "absent.csv: No such file"), (["wrong.csv"], "it needs time (s) and theta"),
-                        (["track.csv", "--frequency", "fast"], "'fast' is not a number")):
-        done = run_script(partial(fitting.main, [str(tmp_path / words[0]), *words[1:]]))
+        assert again.returncode == 0 and again.stdout.split("\n", 1)[1] == done.stdout.split("\n", 1)[1], again.stderr
+    for words, said in ((["absent.csv"], "absent.csv: No such file"), (["track.csv", "--frequency", "fast"], "'fast' is not a number")):
+        done = run_script(partial(main, [str(tmp_path / words[0]), *words[1:]]))
         assert done.returncode == 2 and said in done.stderr
