@@ -43,17 +43,18 @@ contains
     type(decision_t), allocatable :: found(:)
     integer(c_int64_t), allocatable :: place(:)
     integer(c_int64_t) :: i
+    logical :: early
 
     d => of_handle(handle)
-    if (level == LEVEL_QUAD .and. before <= LEVEL_FINE) then
-      call label_some(d, int(level), int(before), .true., max_periods, start, decision)
-      place = pack([(i, i=1, n)], decision%end%label == DOUBTFUL)
-      allocate (found(size(place)))
-      if (size(place) > 0) call label_some(d, int(level), int(before), .false., max_periods, start(place), found)
-      decision(place) = found
-    else
-      call label_some(d, int(level), int(before), .false., max_periods, start, decision)
-    end if
+    early = level == LEVEL_QUAD .and. before <= LEVEL_FINE
+    call label_some(d, int(level), int(before), early, max_periods, start, decision)
+    if (level /= LEVEL_QUAD) return
+    ! Quad precision to its last digit: leaving it early, or for pairs of doubles, adds errors.
+    place = pack([(i, i=1, n)], decision%end%label == DOUBTFUL .and. (early .or. decision%end%next == LEVEL_QUAD))
+    allocate (found(size(place)))
+    if (size(place) > 0) &
+      call label_some(d, int(level), min(int(before), LEVEL_FINE), .false., max_periods, start(place), found)
+    decision(place) = found
   end subroutine label_starts
 
   !> Labels starts at a level. `early`: orbits leave it as soon as half of its digits are used up, which decides most of them in half of the time.

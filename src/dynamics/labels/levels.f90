@@ -28,6 +28,8 @@ module kz_labels_levels
   integer, parameter :: FEWEST_FINE_STEPS = 48, MOST_FINE_STEPS = 320
   !> rad: below it the error of a period is that of rounding.
   real(dp), parameter :: ROUNDED = 1e-13_dp
+  !> Growth of an error over what a label bears, beyond which quad precision without pairs of doubles does not decide either.
+  real(dp), parameter :: LOST_IN_PAIRS = 3000
   !> rad: of a period in pairs of doubles.
   real(dp), parameter :: PAIRS_ERRORS(LEVEL_PAIRS_16:LEVEL_PAIRS_28) = [1e-16_dp, 1e-20_dp, 1e-24_dp, 3e-29_dp]
 
@@ -134,13 +136,19 @@ contains
   end function is_useful
 
   !> What comes after a level. Pairs of doubles alone are skipped, and for other pairs: whatever their digits, labels are the same and so is
-  !> the evidence for them.
+  !> the evidence for them. Quad precision is tried again, without the pairs.
   pure function outlook_from(levels, level) result(outlook)
     type(levels_t), intent(in) :: levels !< of a pendulum; the level has been prepared
     integer, intent(in) :: level !< LEVEL_DOUBLE or a finer one
     type(outlook_t) :: outlook
 
     outlook%none = NO_LEVEL
+    if (level == LEVEL_QUAD) then
+      outlook%next = LEVEL_QUAD
+      outlook%after = LEVEL_QUAD + 1
+      outlook%reach = LOST_IN_PAIRS*TOLERABLE
+      return
+    end if
     outlook%next = level + 1
     if (.not. is_useful(levels, int(outlook%next))) outlook%next = outlook%next + 1
     outlook%after = outlook%next

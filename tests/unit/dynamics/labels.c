@@ -185,6 +185,37 @@ TEST(test_wrong_labels_are_doubtful) {
   kz_dynamics_free(d);
 }
 
+/* Items that have passed through the pairs of doubles are decided where quad precision alone decides them. */
+TEST(test_quads_decide_after_pairs_what_they_decide_alone) {
+  enum { N = 100000 };
+  static double x[2 * N];
+  static kz_start start[N];
+  static kz_decision decision[N], alone[N];
+  int64_t left = N;
+  int decided = 0;
+  if (PART > 1) return; /* other tests show the sanitizers the same code */
+  kz_dynamics *d = explored(0.46, 1, 3);
+  kz_dynamics_fine_regions(d, 400, 3);
+  kz_dynamics_starts(&WINDOW, 3, N, x);
+  for (int i = 0; i < N; i++) start[i] = (kz_start){.theta = {x[2 * i] * M_PI, 0}, .velocity = {x[2 * i + 1], 0}};
+  for (int32_t level = KZ_LEVEL_DOUBLE; level <= KZ_LEVEL_PAIRS_28; level++) {
+    const int64_t n = left;
+    kz_dynamics_label(d, level, level > KZ_LEVEL_DOUBLE ? level - 1 : level, n, start, 2000, decision);
+    left = 0;
+    for (int64_t i = 0; i < n; i++)
+      if (decision[i].end.label == KZ_DOUBTFUL) start[left++] = start[i];
+  }
+  kz_dynamics_label(d, KZ_LEVEL_QUAD, KZ_LEVEL_FINE, left, start, 2000, alone);
+  kz_dynamics_label(d, KZ_LEVEL_QUAD, KZ_LEVEL_PAIRS_28, left, start, 2000, decision);
+  for (int64_t i = 0; i < left; i++) {
+    assert_int_equal(decision[i].end.label, alone[i].end.label);
+    decided += alone[i].end.label != KZ_DOUBTFUL;
+  }
+  print_message("quads decide %d of %d\n", decided, (int)left);
+  assert_true(decided > 0 && decided < left);
+  kz_dynamics_free(d);
+}
+
 /* Of a decided orbit the whole ellipse of its error lies in the region, not its state alone: both ends of the longest diameter, along which the tangents
  * have stretched the error, do. A label shows no difference here, since regions lie within their basins. */
 TEST(test_regions_hold_whole_ellipses) {
