@@ -6,7 +6,8 @@ import pytest
 from conftest import refused_scene
 from test_atlas import PENDULUM, SCENE
 
-BAD = {"one key": ({"y": {"parameter": "drive_frequency", "min": 3, "max": 30}}, "atlas.y.parameter: is also the parameter of the other axis"),
+BAD = {"one key": ({"y": {"parameter": "drive_frequency", "min": 3, "max": 30}},
+     "atlas.y.parameter: is also the parameter of the other axis"),
        "a key of another form": ({"x": {"parameter": "k", "min": 0, "max": 1}}, "atlas.x.parameter: k is not given"),
        "no damping": ({"x": {"parameter": "drive_frequency", "min": 0, "max": 30}}, "atlas.x.min: 0 is below what pendulum"),
        "an edge that is no number": ({"x": {"parameter": "drive_frequency", "min": ".nan", "max": 30}}, "atlas.x.min: \".nan\" is not a"),
