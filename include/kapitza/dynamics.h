@@ -163,12 +163,13 @@ void kz_dynamics_unpack(kz_dynamics *dynamics, int64_t n, const double *flat);
 
 /* Searches cycles of up to max_period <= 64 periods, attracting or not, along a line through n_nodes <= 64 states node [n_nodes][2] (rad,
  * rad per drive radian). Wherever an image of the line passes near the line, multiple shooting begins. window = least and largest angle,
- * least and largest velocity; a cycle counts if it has a point there. shortest: rad, no shorter piece of the line is halved: cycles whose
- * multiplier is above some 0.2 / shortest are missed. found [most][2 + 2 max_period]: period, largest speed, and each
+ * least and largest velocity; a cycle counts if it has a point there. steepest: largest trace of the cycles, of the map that
+ * closes them (for symmetric ones half of their period), in that of a multiplier of 1; no piece shorter than 0.1 rad / steepest is halved. INFINITY: cycles
+ * of any trace. found [most][2 + 2 max_period]: period, largest speed, and each
  * point as half-turns and velocity, right to about 1e-8; a cycle may occur twice. work [2]: number of starts followed, number of orbits
  * that shooting tried to close. Returns the number of cycles. Ends early with more than most_starts starts, or more than `most` cycles. */
 int64_t kz_dynamics_search_line(const kz_pendulum *pendulum, int64_t max_period, int64_t n_nodes, const double *node,
-                                const double window[4], double shortest, int64_t most_starts, int64_t most, double *found,
+                                const double window[4], double steepest, int64_t most_starts, int64_t most, double *found,
                                 int64_t work[2]);
 /* Adds n cycles from such searches, in the order of periods and speeds, and their mirror images to an empty catalogue. They become cycles
  * of the map of published values, whose points are right to rounding. The catalogue then serves for reading and ordering; it has no

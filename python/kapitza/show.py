@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 import xarray
 
+from kapitza.plots.atlas_classes import missing_text
 from kapitza.style import TORQUES
 from kapitza.units import si_parameters
 
@@ -38,11 +39,11 @@ def _studies(result: "Result") -> list[str]:
         if name not in ("pendulum", "attractors"):
             try:
                 with xarray.open_dataset(result.path, group=name, engine="h5netcdf", phony_dims="sort") as dataset:
-                    sizes = dataset.sizes
+                    sizes, missing = dataset.sizes, missing_text(dataset)
             except Exception:  # of a damaged file: which error depends on the damage
                 lines.append(f"{name}: damaged")
             else:
-                lines.append(f"{name}: " + " x ".join(f"{size} {axis}" for axis, size in sizes.items()))
+                lines.append(f"{name}: " + " x ".join(f"{size} {axis}" for axis, size in sizes.items()) + missing)
     return lines
 
 

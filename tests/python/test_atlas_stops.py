@@ -6,7 +6,7 @@ import pytest
 from conftest import datasets, stopped_in_each_stage, with_extensive
 from test_atlas import PENDULUM
 
-STAGES = {"atlas births", "atlas branches", "atlas curves", "atlas checks", "atlas motions", "atlas shares"}
+STAGES = {"atlas cycles", "atlas births", "atlas branches", "atlas curves", "atlas checks", "atlas motions", "atlas shares"}
 SMALL = {"pendulum": PENDULUM,
          "atlas": {"x": {"parameter": "drive_frequency", "min": 9, "max": 12}, "y": {"parameter": "drive_amplitude", "min": 0, "max": 0.3},
                    "max_period": 1, "seeds": 2, "checks": 2, "points": 16, "shares": 40}}

@@ -11,7 +11,7 @@ from .scene import BadRequest
 
 # A map comes soon, as its first stage is computed beside the page's pictures, and then with more: cycles of more periods, gaps between the
 # curves looked for, finer cells.
-STAGES = ({"max_period": 1, "seeds": 4, "checks": 0, "points": 160}, {"max_period": 2, "checks": 0, "points": 160},
+STAGES = ({"max_period": 1, "seeds": 4, "checks": 0, "points": 160}, {"max_period": 2, "seeds": 8, "checks": 0, "points": 160},
           {"max_period": 4, "checks": 60, "points": 400})
 
 

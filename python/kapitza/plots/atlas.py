@@ -1,6 +1,6 @@
-"""Draws an atlas of kapitza: every motion over a plane of two keys of the pendulum.
+"""Draws an atlas of kapitza: motions over a plane of two keys of the pendulum.
 
-    kapitza plot atlas atlas-blackburn.h5                      the map: all curves, over the number of attractors
+    kapitza plot atlas atlas-blackburn.h5                      the map: the curves, over the number of attractors
     kapitza plot atlas atlas-blackburn.h5 --view motions       small maps: where each motion attracts
     kapitza plot atlas atlas-blackburn.h5 --view line --x 11   all branches along the line where x is 11; those that repel are dashed
     kapitza plot atlas atlas-blackburn.h5 --longest 2          cycles of up to two periods alone
@@ -21,7 +21,7 @@ from matplotlib.lines import Line2D
 from matplotlib.ticker import FixedLocator, FuncFormatter, NullLocator
 
 from kapitza import style
-from kapitza.plots.atlas_classes import BREAKING, DOUBLING, FOLD, LEANS, SWINGS, belongs, centre_of, gives_birth, motion_text
+from kapitza.plots.atlas_classes import BREAKING, DOUBLING, FOLD, LEANS, SWINGS, belongs, centre_of, gives_birth, missing_text, motion_text
 from kapitza.plots.atlas_curves import BOLD_UP_TO, DASHES, FAINT, LONGER, PERIODS, curve_points, is_bold, mark_curves
 from kapitza.plots.atlas_labels import POINTS, label_regions, mark_points
 from kapitza.plots.atlas_labels import region_text as region_text
@@ -146,10 +146,11 @@ def draw_map(axes: Axes, atlas: xarray.Dataset, *, colours: Mapping[int, str] = 
 
 
 def map_page(result: Result, atlas: xarray.Dataset, longest: int, points: str | None = None) -> Figure:
-    """The plane with all curves, and labels of its regions; `points`: a CSV file of points on top."""
+    """The plane with its curves, and labels of its regions; `points`: a CSV file of points on top."""
     figure = new_figure(8.6, 6.2)
     axes = draw_map(figure.subplots(), atlas, longest=longest, points=points)
-    entitle(figure, result, f"every motion of up to {int(atlas.attrs['max_period'])} periods: {atlas.sizes['curve']} curves")
+    longest_sought = int(atlas.attrs["max_period"])
+    entitle(figure, result, f"motions of up to {longest_sought} periods: {atlas.sizes['curve']} curves{missing_text(atlas)}")
     figure.draw_without_rendering()
     label_regions(axes, atlas, [line for line in axes.lines if is_bold(line)],
                   [line for line in axes.lines if line.get_zorder() in (SPECIAL, POINTS)])

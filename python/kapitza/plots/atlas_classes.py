@@ -1,5 +1,7 @@
 """Classes of attractors in an atlas of kapitza, and the curves that are about them."""
 
+import math
+
 import xarray
 
 from kapitza import style
@@ -18,6 +20,14 @@ def motion_text(name: str) -> str:
         if name.startswith(kind) and name.endswith("-nodding"):
             return f"{text} in {name.removeprefix(kind).removesuffix('-nodding')}"
     return name
+
+
+def missing_text(atlas: xarray.Dataset) -> str:
+    """How many curves with wide bands are missing, as a part of a sentence; nothing of files without an estimate."""
+    if "missing_high" not in atlas.attrs:
+        return ""
+    low, high = math.floor(float(atlas.attrs["missing_low"])), math.ceil(float(atlas.attrs["missing_high"]))
+    return f", an estimated {f'{low} to {high}' if high > low else low} missing with bands above 1e-4 of the plane"
 
 
 def centre_of(class_name: object) -> int:

@@ -50,6 +50,7 @@ contains
     call set_parents(walker%system, walker%y, was)
     call normal_form(walker%system, form, side, eigenvector)
     excess = thinness(walker%system, form, side)
+    ending = THIN
     if (excess > 0) return
     call put(walker, form, side)
     length = 0

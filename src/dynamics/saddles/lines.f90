@@ -1,5 +1,7 @@
 !> All cycles of the stroboscopic map near a line of starts. The images of the line stretch and fold; pieces of it are halved until
-!> those whose images pass near themselves are short. Where F^n(x) comes near x, the orbit of x closes by multiple shooting.
+!> those whose images pass near themselves are short. Where F^n(x) comes near x, the orbit of x closes by multiple shooting. Where mirror
+!> images of motions are motions, a symmetric cycle closes where -F^n(x) comes near x: it repels over half of its period by a square root
+!> of what it does over all of it, so that longer pieces show it. Without a limit of the length of pieces F^n shows all.
 module kz_saddles_lines
   use, intrinsic :: iso_c_binding, only: dp => c_double, c_int64_t
   use kz_kernel_flows, only: make_flow, fine_numerics
@@ -7,7 +9,7 @@ module kz_saddles_lines
   use kz_vector_step_table, only: numerics_t
   use kz_cycles_shooting, only: shoot, smallest_period, closed_orbit_t
   use kz_maps_states, only: separation, wrapped
-  use kz_model_pendulum, only: pendulum_t
+  use kz_model_pendulum, only: pendulum_t, is_mirrored
   implicit none
   private
 
@@ -18,6 +20,8 @@ module kz_saddles_lines
   real(dp), parameter :: REACH = 0.25_dp, SHORT = 0.25_dp
   !> So far beyond its ends, in units of the piece, an image is taken as straight.
   real(dp), parameter :: BEYOND = 0.25_dp
+  !> Length (rad) of the least piece that is halved: times the trace of the steepest cycles, and where these have no limit.
+  real(dp), parameter :: STRETCH = 0.1_dp, SHORTEST = 1e-13_dp
   !> How often a piece is halved at most.
   integer, parameter :: HALVINGS = 45
   !> rad: when an orbit is closed, when two points of it are one, and how far outside a window its edge still is.
@@ -26,12 +30,12 @@ module kz_saddles_lines
 contains
 
   !> kz_dynamics_search_line of dynamics.h.
-  function search_line(pendulum, max_period, n_nodes, node, window, shortest, most_starts, most, found, work) &
+  function search_line(pendulum, max_period, n_nodes, node, window, steepest, most_starts, most, found, work) &
     bind(C, name='kz_dynamics_search_line') result(n_found)
     type(pendulum_t), intent(in) :: pendulum
     integer(c_int64_t), value :: max_period, n_nodes
     real(dp), intent(in) :: node(2, n_nodes), window(4)
-    real(dp), value :: shortest
+    real(dp), value :: steepest
     integer(c_int64_t), value :: most_starts, most
     real(dp), intent(out) :: found(2 + 2*max_period, most)
     integer(c_int64_t), intent(out) :: work(2)
@@ -40,8 +44,9 @@ contains
     type(numerics_t) :: numerics
     real(dp), allocatable :: waiting(:, :, :, :)
     real(dp) :: piece(2, 0:max_period, 2, WIDTH), orbit(2, 0:max_period, WIDTH)
-    integer :: n_waiting, lanes, i
+    integer :: n_waiting, lanes, i, halves
 
+    halves = merge(int(max_period)/2, 0, is_mirrored(pendulum) /= 0 .and. steepest < huge(steepest))
     numerics = fine_numerics(pendulum)
     numerics%steps_per_period = numerics%steps_per_period/FEWER
     call make_flow(pendulum, numerics, .true., flow)
@@ -72,11 +77,9 @@ contains
     !> 2 WIDTH of each length.)
     subroutine look_between(a, b)
       real(dp), intent(in) :: a(2, 0:max_period), b(2, 0:max_period)
-      real(dp) :: share
-      logical :: near
       integer :: n
 
-      if (is_long(a, b, shortest)) then
+      if (is_long(a, b, max(SHORTEST, STRETCH/steepest), halves)) then
         n_waiting = n_waiting + 1
         waiting(:, :, 1, n_waiting) = a
         waiting(:, :, 2, n_waiting) = b
@@ -84,12 +87,25 @@ contains
       end if
       do n = 1, int(max_period)
         if (norm2(b(:, n) - a(:, n)) > SHORT) return
-        call find_pass(a(:, 0), b(:, 0), a(:, n), b(:, n), share, near)
-        if (.not. near) cycle
-        work(2) = work(2) + 1
-        call close_orbit(flow, window, a(:, :n - 1) + share*(b(:, :n - 1) - a(:, :n - 1)), n_found, found)
+        call close_pass(a, b, n, 1)
+        if (n <= halves) call close_pass(a, b, n, -1)
       end do
     end subroutine look_between
+
+    !> The cycle of n periods, or with side -1 the symmetric one of 2 n, near the place where a short piece passes near its image.
+    subroutine close_pass(a, b, n, side)
+      real(dp), intent(in) :: a(2, 0:max_period), b(2, 0:max_period)
+      integer, intent(in) :: n, side
+      real(dp) :: share, points(2, n)
+      logical :: near
+
+      call find_pass(a(:, 0), b(:, 0), side*a(:, n), side*b(:, n), share, near)
+      if (.not. near) return
+      work(2) = work(2) + 1
+      points = a(:, :n - 1) + share*(b(:, :n - 1) - a(:, :n - 1))
+      if (side > 0) call close_orbit(flow, window, steepest, pendulum%beta, points, n_found, found)
+      if (side < 0) call close_orbit(flow, window, steepest, pendulum%beta, reshape([points, -points], [2, 2*n]), n_found, found)
+    end subroutine close_pass
   end function search_line
 
   !> orbit(:, 1:) becomes the images of the starts orbit(:, 0): rad, turns counted.
@@ -110,12 +126,13 @@ contains
   end subroutine follow
 
   !> Whether an image of the piece is too long to decide whether it passes near the piece.
-  pure function is_long(a, b, shortest) result(long)
+  pure function is_long(a, b, shortest, halves) result(long)
     real(dp), intent(in) :: a(:, 0:) !< orbits of the ends
     real(dp), intent(in) :: b(:, 0:)
     real(dp), intent(in) :: shortest !< rad: no shorter piece is halved
+    integer, intent(in) :: halves !< images up to this one may pass near the mirror image of the piece too
     logical :: long
-    real(dp) :: length
+    real(dp) :: length, nearest
     integer :: n
 
     long = .false.
@@ -123,7 +140,10 @@ contains
     length = 0
     do n = 1, ubound(a, 2)
       length = max(length, norm2(b(:, n) - a(:, n)))
-      long = length > SHORT .and. min(distance(a(:, 0), a(:, n)), distance(b(:, 0), b(:, n))) < REACH + length
+      if (length <= SHORT) cycle
+      nearest = min(distance(a(:, 0), a(:, n)), distance(b(:, 0), b(:, n)))
+      if (n <= halves) nearest = min(nearest, distance(-a(:, 0), a(:, n)), distance(-b(:, 0), b(:, n)))
+      long = nearest < REACH + length
       if (long) return
     end do
   end function is_long
@@ -150,10 +170,10 @@ contains
     d = separation(a(1)/PI, a(2), b(1)/PI, b(2))
   end function distance
 
-  !> The cycle near an orbit joins those that were found, if there is one and the window has a point of it.
-  subroutine close_orbit(flow, window, orbit, n_found, found)
+  !> The cycle near an orbit joins those that were found, if there is one that is not too steep and the window has a point of it.
+  subroutine close_orbit(flow, window, steepest, damping, orbit, n_found, found)
     class(flow_t), intent(inout) :: flow
-    real(dp), intent(in) :: window(4)
+    real(dp), intent(in) :: window(4), steepest, damping
     real(dp), intent(in) :: orbit(:, :) !< rad
     integer(c_int64_t), intent(inout) :: n_found
     real(dp), intent(inout) :: found(:, :)
@@ -166,6 +186,9 @@ contains
     call shoot(flow, CLOSE, x, closed)
     if (.not. closed%step < CLOSE) return
     period = smallest_period(x, ONE)
+    if (period == size(x, 2)) then
+      if (steepness(x, closed%matrix, damping) > steepest) return
+    end if
     if (.not. any(inside(window, x(1, :), x(2, :)))) return
     n_found = n_found + 1
     if (n_found > size(found, 2)) return
@@ -173,6 +196,27 @@ contains
     found(:2, n_found) = [real(period, dp), maxval(abs(x(2, :period)))]
     found(3:2 + 2*period, n_found) = reshape(x(:, :period), [2*period])
   end subroutine close_orbit
+
+  !> The trace of the map of which a closed orbit is a fixed point, in that of a multiplier of 1: of its half, whose square the whole is, where
+  !> the second half of the orbit is the mirror image of the first.
+  pure function steepness(x, matrix, damping)
+    real(dp), intent(in) :: x(:, :) !< half-turns, rad per drive radian
+    real(dp), intent(in) :: matrix(2, 2) !< derivative over the whole orbit
+    real(dp), intent(in) :: damping
+    real(dp) :: steepness, determinant, trace
+    integer :: n
+
+    n = size(x, 2)
+    trace = matrix(1, 1) + matrix(2, 2)
+    determinant = exp(-2*PI*damping*n)
+    if (mod(n, 2) == 0) then
+      if (all(separation(x(1, :), x(2, :), -cshift(x(1, :), n/2), -cshift(x(2, :), n/2)) < ONE)) then
+        determinant = exp(-PI*damping*n)
+        trace = sqrt(max(0.0_dp, trace + 2*determinant))
+      end if
+    end if
+    steepness = abs(trace)/(1 + determinant)
+  end function steepness
 
   !> The states (half-turns, rad per drive radian) that lie in the window.
   pure function inside(window, u, v)

@@ -112,7 +112,8 @@ static void cross(kz_atlas *atlas, int64_t number, int64_t row, int axis, double
     kz_pendulum pendulum;
     const bool there = kz_atlas_pendulum(atlas->scene, a, &pendulum); /* a little outside of the plane there may be none */
     const double d = there ? exp(-2 * M_PI * pendulum.beta * curve->kind.of.points) : 0;
-    const double wide[2] = {kz_atlas_band(&curve->kind, d, a, other), kz_atlas_band(&curve->kind, d, b, other)};
+    const double wide[2] = {kz_atlas_band(&curve->kind, d, a[KZ_ROW_FORM], fabs(a[KZ_ROW_SIDE + other])),
+                            kz_atlas_band(&curve->kind, d, b[KZ_ROW_FORM], fabs(b[KZ_ROW_SIDE + other]))};
     kz_atlas_crossing crossing = {.at = value(c.p[other], s),
                                   .width = exp((1 - s) * log(wide[0]) + s * log(wide[1])),
                                   .class = kz_atlas_class_number(atlas, &own),

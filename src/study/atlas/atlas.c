@@ -1,4 +1,4 @@
-/* Study `atlas`: every motion of up to max_period periods over a plane of two keys. */
+/* Study `atlas`: motions of up to max_period periods over a plane of two keys. */
 #include "atlas.h"
 
 #include <math.h>

@@ -18,6 +18,7 @@ enum { KZ_ATLAS_UNKNOWNS = 2 * KZ_CURVE_POINTS + 2, KZ_ATLAS_MOST_CLASSES = 512 
 
 /* Which cycles a curve is about; a cycle or a point of a curve from which one is traced. */
 typedef kz_cycle_kind kz_atlas_kind;
+typedef struct kz_atlas_plan kz_atlas_plan;
 typedef kz_plane_cycle kz_atlas_seed;
 typedef struct {
   int64_t count;
@@ -62,8 +63,17 @@ typedef struct {
   kz_atlas_seeds found;
 } kz_atlas_probe;
 
+/* Why a seed leads to no curve: Newton's method finds no point of one; the band beside it is thinner than 1e-10 sides of the plane; the curve is
+ * that of a shorter cycle, whose point lies outside of the plane. */
+enum { KZ_ATLAS_NO_POINT, KZ_ATLAS_TOO_THIN, KZ_ATLAS_OF_SHORTER, KZ_ATLAS_REFUSALS };
+
+/* The search does not depend on which key a scene calls x: its vertical axis is the one that begins without a drive, or along which the drive grows
+ * more. Where that is x, scene and plan have x and y exchanged. */
 struct kz_atlas {
   const kz_scene *scene;
+  int swapped; /* 1: the axes of the scene are exchanged, so that axis i here is 1 - i there; else 0 */
+  kz_scene own_scene;
+  kz_atlas_plan own_plan;
   int64_t max_period; /* of the cycles whose curves are sought: the scene's */
   kz_plane plane;
   double longest; /* step along curves */
@@ -76,7 +86,10 @@ struct kz_atlas {
   kz_atlas_class class[KZ_ATLAS_MOST_CLASSES];
   double reference[2];                         /* without an undriven edge: a place, */
   int32_t at_reference[KZ_ATLAS_MOST_CLASSES]; /* and what attracts there */
-  int64_t refused;                             /* seeds that lead to no curve */
+  int64_t refused[KZ_ATLAS_REFUSALS];          /* seeds that lead to no curve */
+  int64_t places, cycles;                      /* of the census: random places, and the cycles that were followed from there */
+  kz_atlas_seeds sightings;                    /* the first curves that these met, */
+  int64_t *sighting_place, sighting_capacity;  /* and the number of the place of each */
   int64_t rounds, checked, disagreed;          /* of random places, the last two of the last round */
   int64_t compared, alone;                     /* crossings of lines at k and -k; those without a partner */
   int64_t listed, unsolved;                    /* motions in the lists of these places; those that could not be solved for */
@@ -101,8 +114,12 @@ void kz_atlas_end(kz_atlas *atlas);
 bool kz_atlas_pendulum(const void *scene, const double place[2], kz_pendulum *pendulum);
 /* The place with -k in place of k; false if it lies outside of the rectangle. */
 bool kz_atlas_image(const kz_atlas *atlas, const double place[2], double image[2]);
-/* The values of the keys at a place. */
+/* The values of the keys at a place, as the plan of the search has them. */
 void kz_atlas_values(const kz_atlas_plan *plan, const double place[2], double value[2]);
+/* An axis of the plan, from an axis of the file, or the other way round. */
+static inline int kz_atlas_axis(const kz_atlas *atlas, int axis) {
+  return axis ^ atlas->swapped;
+}
 
 /* ---- cycles ---- */
 
@@ -184,8 +201,9 @@ static inline double kz_atlas_apart(const double *a, const double *b, double sid
 }
 /* Whether a state is one of the points of a cycle or of its mirror image, within `near` rad. */
 bool kz_atlas_same(const kz_atlas *atlas, const kz_atlas_seed *cycle, const double *state, double near);
-/* The cycle of n periods near a state, if the trace of its map is below `steepest` times that of a multiplier of 1: 1 = it attracts. */
-bool kz_atlas_identify(const kz_atlas *atlas, const double place[2], const double *state, int n, double steepest,
+/* The cycle of n periods near n points, if the trace of its map, for a symmetric cycle of its half, is below `steepest` times that of a
+ * multiplier of 1: 1 = it attracts. */
+bool kz_atlas_identify(const kz_atlas *atlas, const double place[2], const double *points, int n, double steepest,
                        kz_atlas_seed *cycle);
 
 /* ---- arrangement ---- */
@@ -193,9 +211,11 @@ bool kz_atlas_identify(const kz_atlas *atlas, const double place[2], const doubl
 /* The crossings of the line where coordinate `axis` is `value`, in order of the other coordinate; with the classes that change, or one for
  * each curve alone. */
 void kz_atlas_crossings_of(kz_atlas *atlas, int axis, double value, bool classes, kz_atlas_crossings *crossings);
-/* The width of the band of attractors at a row of a curve along an axis, in sides of the plane, if it is narrow; d: determinant of
- * the cycle's map. */
-double kz_atlas_band(const kz_atlas_kind *kind, double d, const double *row, int axis);
+/* The width of the band of attractors at a point of a curve with this normal form, in sides of the plane, if it is narrow: along the direction in
+ * which the gradient of the form's side was taken. d: determinant of the cycle's map. */
+double kz_atlas_band(const kz_atlas_kind *kind, double d, double form, double gradient);
+/* The widest band of attractors beside a curve within the plane, across the curve; 1 at most. */
+double kz_atlas_widest(const kz_atlas *atlas, const kz_atlas_curve *curve);
 /* Takes edges of narrow bands that lack the other edge out of the crossings of a line. */
 void kz_atlas_pair(kz_atlas_crossings *crossings);
 /* The order of crossings along a line, for qsort. */
@@ -218,13 +238,16 @@ void kz_atlas_crossings_free(kz_atlas_crossings *crossings);
  * pair of mirror images; *unsolved = those that were not found; both 0 where the list is not known. */
 void kz_atlas_confirm(kz_atlas *atlas, const double place[2], const kz_atlas_seeds *known, int64_t *listed, int64_t *unsolved);
 
-/* The place of a value along an axis. KZ_REFUSED outside of the plane. */
+/* The place of a value along an axis of the file, to that of the search. KZ_REFUSED outside of the plane. */
 kz_status kz_atlas_place(const kz_atlas *atlas, int axis, double value, double *place);
 /* Multipliers of the whole period of a cycle from trace and determinant of its own map. */
 void kz_atlas_multipliers(const kz_atlas_kind *kind, const double number[2], double re[2], double im[2]);
 /* Adds a branch of kz_curve_branch to a line along an axis, with a point where it gains or loses its stability, an event. */
 void kz_atlas_draw(const kz_atlas *atlas, int axis, const kz_atlas_kind *kind, int64_t n, const double *row, int64_t n_events,
                    const double *event, kz_atlas_branches *line);
+
+/* How many places of the census see each curve: places [n_curves]. */
+void kz_atlas_count_sightings(const kz_atlas *atlas, int64_t *places);
 
 /* ---- records of tiles ---- */
 
@@ -248,8 +271,11 @@ kz_atlas_curve kz_atlas_curve_in(const char *record);
 
 /* Follows cycles, and then traces and explores every curve that comes of them, until nothing is left. Collective. */
 kz_status kz_atlas_drain(kz_atlas *atlas, const kz_run *run, int64_t n_cycles, const kz_atlas_seed *cycle);
-/* Curves from the cycles of n places. Collective. */
-kz_status kz_atlas_search_places(kz_atlas *atlas, const kz_run *run, int64_t n, const double (*place)[2]);
+/* A seed waits to be traced unless it lies on a known curve. */
+void kz_atlas_await(kz_atlas *atlas, const kz_atlas_seed *seed);
+/* Finds all cycles of n places, follows each to the first curve that it meets, and traces and explores the curves that come of them. *wide: how many
+ * new curves have a band of 1e-4 sides or more; NULL: the places are not random, and count for no estimate. Collective. */
+kz_status kz_atlas_census(kz_atlas *atlas, const kz_run *run, int64_t n, const double (*place)[2], int64_t *wide);
 /* Runs all stages. Collective. */
 kz_status kz_atlas_search(kz_atlas *atlas, const kz_run *run);
 
@@ -282,3 +308,5 @@ void kz_atlas_order(kz_atlas *atlas);
 
 /* Writes the group /atlas and the summary. Rank 0. */
 kz_status kz_atlas_write(kz_atlas *atlas, const kz_atlas_raster *raster, kz_store *store, FILE *summary);
+/* Writes how many curves are missing, as the census tells. */
+kz_status kz_atlas_write_tally(const kz_atlas *atlas, kz_store *store, FILE *summary);

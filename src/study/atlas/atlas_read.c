@@ -57,9 +57,10 @@ static kz_status read_rows(const kz_atlas *atlas, const columns *points, int64_t
   for (int64_t i = 0; i < curve->n; i++) {
     double *row = curve->row + i * width;
     for (int c = 0; c < 2; c++) {
-      row[KZ_ROW_PLACE + c] = (points->of[X + c][first + i] - axis[c]->min) / (axis[c]->max - axis[c]->min);
-      row[KZ_ROW_TANGENT + c] = points->of[TANGENT_X + c][first + i];
-      row[KZ_ROW_SIDE + c] = points->of[SIDE_X + c][first + i];
+      const int of = kz_atlas_axis(atlas, c);
+      row[KZ_ROW_PLACE + c] = (points->of[X + of][first + i] - axis[c]->min) / (axis[c]->max - axis[c]->min);
+      row[KZ_ROW_TANGENT + c] = points->of[TANGENT_X + of][first + i];
+      row[KZ_ROW_SIDE + c] = points->of[SIDE_X + of][first + i];
       row[KZ_ROW_POINTS + c] = points->of[THETA + c][first + i];
     }
     row[KZ_ROW_FORM] = points->of[FORM][first + i];
@@ -114,7 +115,8 @@ static kz_status read_classes(kz_atlas *atlas, kz_store *store) {
     KZ_TRY(kz_store_number(store, GROUP, "attracting", (int64_t[]){i, cell[0], cell[1]}, &count));
     atlas->at_reference[kz_atlas_class_number(atlas, &class)] = (int32_t)(count == KZ_ATLAS_NOT_KNOWN ? -count : count);
   }
-  for (int i = 0; i < 2; i++) atlas->reference[i] = ((double)cell[1 - i] + 0.5) / (double)atlas->scene->atlas->points;
+  for (int i = 0; i < 2; i++)
+    atlas->reference[i] = ((double)cell[1 - kz_atlas_axis(atlas, i)] + 0.5) / (double)atlas->scene->atlas->points;
   return KZ_OK;
 }
 

@@ -2,6 +2,7 @@
 #include <inttypes.h>
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "kapitza/analysis.h"
 #include "numerics/share.h"
@@ -72,10 +73,11 @@ static void listing_free(listing *l) {
   free(l->on);
 }
 
+/* The value at a place of the search along an axis of the file. */
 static double at(const kz_atlas *atlas, const double *place, int axis) {
   double value[2];
   kz_atlas_values(atlas->scene->atlas, place, value);
-  return value[axis];
+  return value[kz_atlas_axis(atlas, axis)];
 }
 
 #define COLUMN(type, name, n, expression) KZ_COLUMN(store, "atlas", name, n, type, expression)
@@ -122,10 +124,10 @@ static kz_status write_points(const kz_atlas *atlas, const listing *l, kz_store 
   COLUMN(double, "strobe_theta", l->n, remainder(l->row[i][KZ_ROW_POINTS], 2 * M_PI));
   COLUMN(double, "strobe_velocity", l->n, l->row[i][KZ_ROW_POINTS + 1]);
   COLUMN(double, "normal_form", l->n, l->row[i][KZ_ROW_FORM]);
-  COLUMN(double, "side_x", l->n, l->row[i][KZ_ROW_SIDE]);
-  COLUMN(double, "side_y", l->n, l->row[i][KZ_ROW_SIDE + 1]);
-  COLUMN(double, "tangent_x", l->n, l->row[i][KZ_ROW_TANGENT]);
-  COLUMN(double, "tangent_y", l->n, l->row[i][KZ_ROW_TANGENT + 1]);
+  COLUMN(double, "side_x", l->n, l->row[i][KZ_ROW_SIDE + kz_atlas_axis(atlas, 0)]);
+  COLUMN(double, "side_y", l->n, l->row[i][KZ_ROW_SIDE + kz_atlas_axis(atlas, 1)]);
+  COLUMN(double, "tangent_x", l->n, l->row[i][KZ_ROW_TANGENT + kz_atlas_axis(atlas, 0)]);
+  COLUMN(double, "tangent_y", l->n, l->row[i][KZ_ROW_TANGENT + kz_atlas_axis(atlas, 1)]);
   COLUMN(int8_t, "supercritical", l->n, atlas->curve[l->curve[i]].kind.of.multiplier < 0 && l->row[i][KZ_ROW_FORM] > 0);
   KZ_TRY(kz_store_dimension(store, GROUP, "special", l->n_special, NULL));
   COLUMN(double, "special_x", l->n_special, at(atlas, l->special[i] + 1, 0));
@@ -143,6 +145,24 @@ static double middle_of(const kz_atlas *atlas, int64_t i, int axis) {
   return at(atlas, place, axis);
 }
 
+static double region_middle(const kz_atlas *atlas, const kz_atlas_raster *r, int64_t region, int axis) {
+  double place[2];
+  kz_atlas_region_place(r, region, place);
+  return at(atlas, place, axis);
+}
+
+/* Writes layers of cells, each [y][x] of the search. */
+static kz_status write_cells(const kz_atlas *atlas, const char *name, int64_t layers, int64_t n, size_t bytes,
+                             const void *cells, kz_store *store) {
+  if (!atlas->swapped) return kz_store_variable(store, GROUP, name, cells);
+  KZ_FREED char *exchanged = kz_malloc((size_t)(layers * n * n) * bytes + 1);
+  for (int64_t i = 0; i < layers * n * n; i++) {
+    const int64_t layer = i / (n * n), row = i / n % n, column = i % n;
+    memcpy(exchanged + (size_t)i * bytes, (const char *)cells + (size_t)((layer * n + column) * n + row) * bytes, bytes);
+  }
+  return kz_store_variable(store, GROUP, name, exchanged);
+}
+
 static kz_status write_raster(const kz_atlas *atlas, const kz_atlas_raster *r, kz_store *store) {
   const int64_t n = r->points;
   KZ_TRY(kz_store_dimension(store, GROUP, "class", r->n_classes, NULL));
@@ -153,12 +173,12 @@ static kz_status write_raster(const kz_atlas *atlas, const kz_atlas_raster *r, k
   COLUMN(int8_t, "class_symmetric", r->n_classes, atlas->class[i].type != KZ_CLASS_OTHER);
   KZ_SCALE(store, GROUP, "row", n, middle_of(atlas, i, 1));
   KZ_SCALE(store, GROUP, "column", n, middle_of(atlas, i, 0));
-  KZ_TRY(kz_store_variable(store, GROUP, "attracting", r->attracting));
-  KZ_TRY(kz_store_variable(store, GROUP, "count", r->count));
-  KZ_TRY(kz_store_variable(store, GROUP, "list", r->list));
+  KZ_TRY(write_cells(atlas, "attracting", r->n_classes, n, sizeof *r->attracting, r->attracting, store));
+  KZ_TRY(write_cells(atlas, "count", 1, n, sizeof *r->count, r->count, store));
+  KZ_TRY(write_cells(atlas, "list", 1, n, sizeof *r->list, r->list, store));
   KZ_TRY(kz_store_dimension(store, GROUP, "region", r->n_regions, NULL));
-  COLUMN(double, "region_x", r->n_regions, middle_of(atlas, r->region[i].cell % n, 0));
-  COLUMN(double, "region_y", r->n_regions, middle_of(atlas, r->region[i].cell / n, 1));
+  COLUMN(double, "region_x", r->n_regions, region_middle(atlas, r, i, 0));
+  COLUMN(double, "region_y", r->n_regions, region_middle(atlas, r, i, 1));
   COLUMN(double, "region_share", r->n_regions, (double)r->region[i].cells / (double)(n * n));
   COLUMN(double, "region_radius", r->n_regions, r->region[i].radius / (double)n);
   if (!r->hits) return KZ_OK;
@@ -177,7 +197,10 @@ static int64_t open_ends(const kz_atlas *atlas) {
 static kz_status write_attributes(const kz_atlas *atlas, const kz_atlas_raster *raster, kz_store *store) {
   const kz_plane_axis *axis[] = {&atlas->scene->atlas->x, &atlas->scene->atlas->y};
   const kz_share wrong = kz_share_of(atlas->disagreed, atlas->checked), missing = kz_share_of(atlas->unsolved, atlas->listed);
-  for (int i = 0; i < 2; i++) KZ_TRY(kz_axis_describe(&axis[i]->values, axis[i]->parameter, i ? "y" : "x", GROUP, store));
+  for (int i = 0; i < 2; i++) {
+    const kz_plane_axis *of = axis[kz_atlas_axis(atlas, i)];
+    KZ_TRY(kz_axis_describe(&of->values, of->parameter, i ? "y" : "x", GROUP, store));
+  }
   KZ_TRY(kz_store_integer(store, GROUP, "max_period", atlas->scene->atlas->max_period));
   KZ_TRY(kz_store_integer(store, GROUP, "mirrored", atlas->plane.mirrored));
   KZ_TRY(kz_store_integer(store, GROUP, "lists", raster->lists));
@@ -187,7 +210,9 @@ static kz_status write_attributes(const kz_atlas *atlas, const kz_atlas_raster *
   KZ_TRY(kz_store_integer(store, GROUP, "listed", atlas->listed));
   KZ_TRY(kz_store_integer(store, GROUP, "unsolved", atlas->unsolved));
   KZ_TRY(kz_store_integer(store, GROUP, "open_ends", open_ends(atlas)));
-  KZ_TRY(kz_store_integer(store, GROUP, "refused", atlas->refused));
+  KZ_TRY(kz_store_integer(store, GROUP, "refused_no_point", atlas->refused[KZ_ATLAS_NO_POINT]));
+  KZ_TRY(kz_store_integer(store, GROUP, "refused_too_thin", atlas->refused[KZ_ATLAS_TOO_THIN]));
+  KZ_TRY(kz_store_integer(store, GROUP, "refused_of_shorter", atlas->refused[KZ_ATLAS_OF_SHORTER]));
   if (atlas->compared > 0) KZ_TRY(kz_store_integer(store, GROUP, "compared", atlas->compared));
   if (atlas->compared > 0) KZ_TRY(kz_store_integer(store, GROUP, "alone", atlas->alone));
   if (atlas->checked == 0) return KZ_OK;
@@ -196,13 +221,14 @@ static kz_status write_attributes(const kz_atlas *atlas, const kz_atlas_raster *
 }
 
 static void print(const kz_atlas *atlas, const kz_atlas_raster *r, const listing *l, FILE *summary) {
+  const int32_t parameter[] = {atlas->scene->atlas->x.parameter, atlas->scene->atlas->y.parameter};
   int64_t kinds[KZ_CURVE_KINDS] = {0}, most = 0;
   for (int64_t i = 0; i < atlas->n_curves; i++) kinds[kind_of(atlas->curve + i)]++;
   for (int64_t i = 0; i < r->points * r->points; i++)
     if (r->count[i] > most) most = r->count[i];
   fprintf(summary, "atlas: %s x %s, cycles of up to %" PRId64 " periods: %" PRId64 " curves (%" PRId64 " points)\n",
-          kz_sweep_parameters[atlas->scene->atlas->x.parameter].name,
-          kz_sweep_parameters[atlas->scene->atlas->y.parameter].name, atlas->scene->atlas->max_period, atlas->n_curves, l->n);
+          kz_sweep_parameters[parameter[atlas->swapped]].name, kz_sweep_parameters[parameter[1 - atlas->swapped]].name,
+          atlas->scene->atlas->max_period, atlas->n_curves, l->n);
   fprintf(summary, "  folds %" PRId64 ", period doublings %" PRId64 ", symmetry breakings %" PRId64 ", of rest %" PRId64 "\n",
           kinds[KZ_CURVE_FOLD], kinds[KZ_CURVE_PERIOD_DOUBLING], kinds[KZ_CURVE_SYMMETRY_BREAKING],
           kinds[KZ_CURVE_REST_SWINGS] + kinds[KZ_CURVE_REST_LEANS]);
@@ -238,5 +264,5 @@ kz_status kz_atlas_write(kz_atlas *atlas, const kz_atlas_raster *raster, kz_stor
   KZ_TRY(write_points(atlas, &l, store));
   KZ_TRY(write_raster(atlas, raster, store));
   print(atlas, raster, &l, summary);
-  return KZ_OK;
+  return kz_atlas_write_tally(atlas, store, summary);
 }

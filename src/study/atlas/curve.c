@@ -86,8 +86,10 @@ void kz_atlas_trace(const kz_atlas *atlas, const kz_atlas_seed *seed, kz_atlas_c
   kz_atlas_point_of(curve, curve->n / 2, middle.y);
   if (!kz_atlas_reduce(atlas, BLURRED, &middle.kind, middle.y)) return;
   kz_atlas_curve_free(curve);
-  *curve = (kz_atlas_curve){
-      .kind = seed->kind, .row = kz_calloc(1, sizeof *curve->row), .special = kz_calloc(1, sizeof *curve->special)};
+  *curve = (kz_atlas_curve){.kind = seed->kind,
+                            .ending = {KZ_TRACE_MERGED, KZ_TRACE_MERGED},
+                            .row = kz_calloc(1, sizeof *curve->row),
+                            .special = kz_calloc(1, sizeof *curve->special)};
   if (kz_atlas_add(atlas, middle.kind, middle.y, &one)) {
     kz_atlas_curve_free(curve);
     trace_both(atlas, one.list, curve);

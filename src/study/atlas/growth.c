@@ -4,72 +4,6 @@
 #include <string.h>
 
 #include "atlas.h"
-#include "saddles/saddles.h"
-
-/* ---- cycles of single places, attracting or not: they exist in far more of the plane than they attract in ---- */
-
-/* rad: no shorter piece of a line of starts is halved; traces of cycles that are followed, in those of a multiplier of 1; two cycles are one. */
-static const double SHORTEST = 1e-3, STEEPEST = 100, ONE = 1e-5;
-static const double FASTEST = 2.5;
-/* Of one piece of a line; tiles of a place. */
-enum { MOST_STARTS = 200000, TILES = 8 };
-
-typedef struct {
-  const kz_atlas *atlas;
-  const double (*place)[2];
-} births;
-
-/* The window of the search at a place: no cycle of this pendulum is faster. */
-static kz_saddles_plan window_of(const kz_atlas *atlas, const kz_pendulum *pendulum) {
-  const double fastest = fmax(FASTEST, 1 + 2 * sqrt(kz_stiffness(pendulum)));
-  return (kz_saddles_plan){
-      .theta = {.min = -M_PI, .max = M_PI}, .velocity = {.min = -fastest, .max = fastest}, .max_period = atlas->max_period};
-}
-
-/* A cycle of kz_dynamics_search_line joins those of a line, unless it is there already. */
-static void join(const kz_atlas *atlas, const double place[2], const double *found, kz_atlas_seeds *cycles) {
-  const double state[2] = {M_PI * found[2], found[3]};
-  kz_atlas_seed cycle;
-  for (int64_t i = 0; i < cycles->count; i++)
-    if (kz_kind_period(&cycles->list[i].kind) == (int32_t)found[0] && kz_atlas_same(atlas, cycles->list + i, state, ONE))
-      return;
-  if (kz_atlas_identify(atlas, place, state, (int)found[0], STEEPEST, &cycle)) kz_atlas_add(atlas, cycle.kind, cycle.y, cycles);
-}
-
-/* The cycles along one line of starts. */
-static void search_line(const kz_atlas *atlas, const double place[2], const kz_lines *lines, int64_t line,
-                        kz_atlas_seeds *cycles) {
-  KZ_FREED double *found = kz_malloc(kz_piece_bytes(lines->plan));
-  for (int64_t piece = 0; piece < lines->pieces; piece++) {
-    int64_t work[2];
-    const int64_t n = kz_lines_search(lines, line * lines->pieces + piece, MOST_STARTS, found, work);
-    for (int64_t i = 0; i < n; i++) join(atlas, place, found + i * (2 + 2 * lines->plan->max_period), cycles);
-  }
-}
-
-static kz_status births_tile(void *context, int64_t tile, void *record) {
-  const births *b = context;
-  const double *place = b->place[tile / TILES];
-  KZ_FREED_BY(kz_atlas_seeds_free) kz_atlas_seeds cycles = {0};
-  KZ_FREED_BY(kz_atlas_seeds_free) kz_atlas_seeds seeds = {0};
-  kz_pendulum pendulum;
-  if (kz_atlas_pendulum(b->atlas->scene, place, &pendulum)) {
-    const kz_saddles_plan plan = window_of(b->atlas, &pendulum);
-    kz_lines lines = kz_lines_of(&pendulum, &plan, 0);
-    lines.shortest = SHORTEST;
-    for (int64_t line = tile % TILES; line < lines.count; line += TILES) search_line(b->atlas, place, &lines, line, &cycles);
-    for (int64_t i = 0; i < cycles.count; i++) kz_atlas_explore_first(b->atlas, cycles.list + i, &seeds);
-  }
-  kz_atlas_put_seeds(&seeds, record);
-  return KZ_OK;
-}
-
-/* Seeds from cycles at n places, attracting or not, that are found on lines of starts: the curves that they meet first. Collective. */
-static kz_status find_births(const kz_atlas *atlas, const kz_run *run, int64_t n, const double (*place)[2],
-                             kz_atlas_bag *found) {
-  births b = {atlas, place};
-  return kz_atlas_gather(run, "atlas births", n * TILES, KZ_ATLAS_SEEDS_BYTES, births_tile, &b, found);
-}
 
 enum {
   LINES = 5,        /* along each axis on which all branches are followed */
@@ -113,6 +47,11 @@ static void next_seeds(kz_atlas *atlas, tracing *t) {
   pending->count = left;
 }
 
+/* By the ending of a trace without a point. */
+static int refusal_of(int32_t ending) {
+  return ending == KZ_TRACE_THIN ? KZ_ATLAS_TOO_THIN : ending == KZ_TRACE_MERGED ? KZ_ATLAS_OF_SHORTER : KZ_ATLAS_NO_POINT;
+}
+
 static kz_status trace_pending(kz_atlas *atlas, const kz_run *run) {
   KZ_FREED kz_atlas_seed *seed = kz_malloc((size_t)(atlas->pending.count + 1) * sizeof *seed);
   tracing t = {.atlas = atlas, .seed = seed};
@@ -121,10 +60,12 @@ static kz_status trace_pending(kz_atlas *atlas, const kz_run *run) {
     KZ_TRY(kz_atlas_gather(run, "atlas curves", t.n, KZ_ATLAS_CURVE_BYTES, trace_tile, &t, &traced));
     for (int64_t i = 0; i < t.n; i++) {
       kz_atlas_curve curve = kz_atlas_curve_in(traced.record[i]);
-      if (curve.n > 0)
+      if (curve.n > 0) {
         kz_atlas_keep(atlas, &curve);
-      else
-        kz_atlas_curve_free(&curve), atlas->refused++;
+        continue;
+      }
+      atlas->refused[refusal_of(curve.ending[1])]++;
+      kz_atlas_curve_free(&curve);
     }
   }
   return KZ_OK;
@@ -177,15 +118,9 @@ static kz_status explore_tile(void *context, int64_t tile, void *record) {
   return KZ_OK;
 }
 
-/* Seeds of records that lie on no known curve wait to be traced. */
-static void add_pending(kz_atlas *atlas, const kz_atlas_bag *found) {
-  for (int64_t i = 0; i < found->n; i++) {
-    const kz_atlas_seeds seeds = kz_atlas_seeds_in(found->record[i]);
-    for (int64_t j = 0; j < seeds.count; j++) {
-      if (kz_kind_period(&seeds.list[j].kind) > atlas->max_period || kz_atlas_known(atlas, seeds.list + j) >= 0) continue;
-      kz_atlas_add(atlas, seeds.list[j].kind, seeds.list[j].y, &atlas->pending);
-    }
-  }
+void kz_atlas_await(kz_atlas *atlas, const kz_atlas_seed *seed) {
+  if (kz_kind_period(&seed->kind) <= atlas->max_period && kz_atlas_known(atlas, seed) < 0)
+    kz_atlas_add(atlas, seed->kind, seed->y, &atlas->pending);
 }
 
 static kz_status explore(kz_atlas *atlas, const kz_run *run, int64_t n_cycles, const kz_atlas_seed *cycle) {
@@ -196,7 +131,10 @@ static kz_status explore(kz_atlas *atlas, const kz_run *run, int64_t n_cycles, c
   if (n == 0) return KZ_OK;
   KZ_TRY(kz_atlas_gather(run, "atlas branches", n, KZ_ATLAS_SEEDS_BYTES, explore_tile, &e, &found));
   atlas->n_explored = atlas->n_curves;
-  add_pending(atlas, &found);
+  for (int64_t i = 0; i < found.n; i++) {
+    const kz_atlas_seeds seeds = kz_atlas_seeds_in(found.record[i]);
+    for (int64_t j = 0; j < seeds.count; j++) kz_atlas_await(atlas, seeds.list + j);
+  }
   return KZ_OK;
 }
 
@@ -207,12 +145,4 @@ kz_status kz_atlas_drain(kz_atlas *atlas, const kz_run *run, int64_t n_cycles, c
     KZ_TRY(explore(atlas, run, 0, NULL));
   }
   return KZ_OK;
-}
-
-kz_status kz_atlas_search_places(kz_atlas *atlas, const kz_run *run, int64_t n, const double (*place)[2]) {
-  KZ_FREED_BY(kz_atlas_bag_free) kz_atlas_bag found = {0};
-  if (n == 0) return KZ_OK;
-  KZ_TRY(find_births(atlas, run, n, place, &found));
-  add_pending(atlas, &found);
-  return kz_atlas_drain(atlas, run, 0, NULL);
 }

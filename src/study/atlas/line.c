@@ -13,7 +13,7 @@ kz_status kz_atlas_line(kz_atlas *atlas, int axis, double value, kz_atlas_branch
   KZ_TRY(kz_atlas_place(atlas, 1 - axis, value, &place));
   for (int64_t i = 0; i < atlas->n_curves; i++)
     if (!atlas->curve[i].signature) complete(atlas, atlas->curve + i);
-  kz_atlas_explore_line(atlas, axis, place, 0, &seeds, line);
+  kz_atlas_explore_line(atlas, kz_atlas_axis(atlas, axis), place, 0, &seeds, line);
   kz_atlas_seeds_free(&seeds);
   return KZ_OK;
 }

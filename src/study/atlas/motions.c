@@ -154,7 +154,7 @@ kz_status kz_atlas_motions(kz_atlas *atlas, double x, double y, bool states, kz_
   const double value[2] = {x, y};
   double place[2];
   *motions = (kz_motions){.x = x, .y = y};
-  for (int i = 0; i < 2; i++) KZ_TRY(kz_atlas_place(atlas, i, value[i], place + i));
+  for (int i = 0; i < 2; i++) KZ_TRY(kz_atlas_place(atlas, i, value[i], place + kz_atlas_axis(atlas, i)));
   KZ_FREED int32_t *counts = kz_malloc(KZ_ATLAS_MOST_CLASSES * sizeof *counts);
   kz_atlas_pendulum(atlas->scene, place, &motions->pendulum);
   kz_atlas_count(atlas, place, counts);

@@ -29,7 +29,8 @@ static bool is_undriven(const kz_pendulum *p) {
 }
 
 /* KZ_REFUSED where a key changes no motion: at no place of the plane. */
-static kz_status check_keys(const kz_scene *scene) {
+static kz_status check_keys(const kz_atlas *atlas) {
+  const kz_scene *scene = atlas->scene;
   for (int axis = 0; axis < 2; axis++) {
     bool same = true;
     for (int i = 0; i < PLACES && same; i++) {
@@ -43,7 +44,8 @@ static kz_status check_keys(const kz_scene *scene) {
     }
     if (same)
       return kz_fail(KZ_REFUSED, "atlas.%c.parameter: %s changes no motion of this pendulum; name a key that does",
-                     axis ? 'y' : 'x', kz_sweep_parameters[axis ? scene->atlas->y.parameter : scene->atlas->x.parameter].name);
+                     kz_atlas_axis(atlas, axis) ? 'y' : 'x',
+                     kz_sweep_parameters[axis ? scene->atlas->y.parameter : scene->atlas->x.parameter].name);
   }
   return KZ_OK;
 }
@@ -69,7 +71,7 @@ static kz_status survey(kz_atlas *atlas) {
           KZ_REFUSED,
           "atlas.x.min|atlas.y.min: there is no damped pendulum at %s, %s; an atlas needs damping above 0 in the whole "
           "rectangle",
-          text[0], text[1]);
+          text[atlas->swapped], text[1 - atlas->swapped]);
     }
     if (!kz_is_mirrored(&pendulum)) atlas->plane.mirrored = 0;
     if (place[1] == 0) {
@@ -124,13 +126,39 @@ bool kz_atlas_image(const kz_atlas *atlas, const double place[2], double image[2
   return false;
 }
 
+/* Whether the axis of x begins without a drive, and that of y does not, or along it the drive grows more than along that of y. */
+static bool is_swapped(const kz_scene *scene) {
+  const kz_atlas_plan *plan = scene->atlas;
+  kz_pendulum pendulum;
+  bool undriven[2] = {true, true};
+  double end[2] = {0, 0};
+  for (int axis = 0; axis < 2; axis++) {
+    for (int i = 0; i < PLACES; i++) {
+      double place[2];
+      place[axis] = 0, place[1 - axis] = (double)i / (PLACES - 1);
+      undriven[axis] = undriven[axis] && kz_atlas_pendulum(scene, place, &pendulum) && is_undriven(&pendulum);
+    }
+    if (kz_atlas_pendulum(scene, (double[]){axis == 0, axis == 1}, &pendulum)) end[axis] = kz_stiffness(&pendulum);
+  }
+  if (undriven[0] != undriven[1]) return undriven[0];
+  return end[0] != end[1] ? end[0] > end[1] : plan->x.parameter > plan->y.parameter;
+}
+
 kz_status kz_atlas_begin(const kz_scene *scene, kz_atlas *atlas) {
   *atlas =
       (kz_atlas){.scene = scene, .longest = LONGEST, .max_period = scene->atlas->max_period, .reference = {0.0123, 0.0071}};
-  atlas->plane =
-      (kz_plane){.pendulum = kz_atlas_pendulum, .context = scene, .low = {-MARGIN, -MARGIN}, .high = {1 + MARGIN, 1 + MARGIN}};
+  atlas->swapped = is_swapped(scene);
+  if (atlas->swapped) {
+    atlas->own_scene = *scene;
+    atlas->own_plan = *scene->atlas;
+    atlas->own_plan.x = scene->atlas->y, atlas->own_plan.y = scene->atlas->x;
+    atlas->own_scene.atlas = &atlas->own_plan;
+    atlas->scene = &atlas->own_scene;
+  }
+  atlas->plane = (kz_plane){
+      .pendulum = kz_atlas_pendulum, .context = atlas->scene, .low = {-MARGIN, -MARGIN}, .high = {1 + MARGIN, 1 + MARGIN}};
   KZ_TRY(survey(atlas));
-  KZ_TRY(check_keys(scene));
+  KZ_TRY(check_keys(atlas));
   if (atlas->undriven) atlas->plane.low[1] = -BELOW;
   atlas->turned = is_turned(atlas);
   return KZ_OK;
@@ -140,4 +168,6 @@ void kz_atlas_end(kz_atlas *atlas) {
   for (int64_t i = 0; i < atlas->n_curves; i++) kz_atlas_curve_free(atlas->curve + i);
   free(atlas->curve);
   kz_atlas_seeds_free(&atlas->pending);
+  kz_atlas_seeds_free(&atlas->sightings);
+  free(atlas->sighting_place);
 }

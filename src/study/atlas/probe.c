@@ -24,18 +24,40 @@ static kz_atlas_kind kind_of(const kz_atlas *atlas, int n, const double *y, cons
   return kind;
 }
 
-bool kz_atlas_identify(const kz_atlas *atlas, const double place[2], const double *state, int n, double steepest,
+/* The trace of the map of which a cycle is a fixed point, in that of a multiplier of 1: of the half map, whose square F^n is, by trace and
+ * determinant of F^n. */
+static double steepness(const kz_atlas_kind *kind, const double numbers[2]) {
+  if (kind->of.side > 0) return fabs(numbers[0]) / (1 + numbers[1]);
+  const double half = sqrt(numbers[1]);
+  return sqrt(fmax(0, numbers[0] + 2 * half)) / (1 + half);
+}
+
+/* Lifts the angles of a cycle so that each point follows from the one before; *turns = net turns. */
+static bool lift(const kz_plane *plane, const double place[2], int n, double *y, int32_t *turns) {
+  for (int i = 0; i < n; i++) {
+    double step[4] = {y[2 * i], y[2 * i + 1]}, *next = y + 2 * ((i + 1) % n);
+    if (!kz_curve_orbit(plane, place, 2, 1, step)) return false;
+    const double whole = rint((step[2] - next[0]) / (2 * M_PI));
+    if (i + 1 < n) next[0] += 2 * M_PI * whole;
+    *turns = (int32_t)whole;
+  }
+  return true;
+}
+
+bool kz_atlas_identify(const kz_atlas *atlas, const double place[2], const double *points, int n, double steepest,
                        kz_atlas_seed *cycle) {
-  double y[2 * KZ_CURVE_POINTS + 4] = {state[0], state[1]}, numbers[2], image[2];
-  if (n > KZ_CURVE_POINTS || !kz_curve_orbit(&atlas->plane, place, 2, n, y)) return false;
-  const kz_curve_kind closed = {1, n, 0, (int32_t)rint((y[2 * n] - y[0]) / (2 * M_PI)), 0};
+  kz_curve_kind closed = {1, n, 0, 0, 0};
+  double y[2 * KZ_CURVE_POINTS + 2], numbers[2], image[2];
+  if (n > KZ_CURVE_POINTS) return false;
+  memcpy(y, points, 2 * (size_t)n * sizeof *y);
+  if (!lift(&atlas->plane, place, n, y, &closed.turns)) return false;
   y[2 * n] = place[0], y[2 * n + 1] = place[1];
-  if (!kz_curve_solve(&atlas->plane, &closed, y, numbers) || kz_atlas_apart(y, state, 1) > GUESSED) return false;
+  if (!kz_curve_solve(&atlas->plane, &closed, y, numbers) || kz_atlas_apart(y, points, 1) > GUESSED) return false;
   for (int d = 1; d < n; d++)
     if (n % d == 0 && kz_atlas_apart(y + 2 * d, y, 1) < ONE) return kz_atlas_identify(atlas, place, y, d, steepest, cycle);
-  if (!(fabs(numbers[0]) < steepest * (1 + numbers[1]))) return false;
   image[0] = y[0] + 2 * M_PI * closed.turns, image[1] = y[1];
   const kz_atlas_kind kind = kind_of(atlas, n, y, image);
+  if (!(steepness(&kind, numbers) < steepest)) return false;
   kz_atlas_seeds one = {0};
   const int m = 2 * kind.of.points;
   y[m] = place[0], y[m + 1] = place[1];
@@ -69,14 +91,15 @@ static void begin(kz_dynamics *dynamics, const kz_pendulum *pendulum, int64_t st
 /* The cycles that are known join those of the place. */
 static void add_known(const kz_atlas *atlas, const kz_dynamics *dynamics, const double place[2], kz_atlas_seeds *found) {
   for (int64_t number = 1; number <= kz_dynamics_count(dynamics); number++) {
-    double theta[KZ_CURVE_POINTS], velocity[KZ_CURVE_POINTS];
+    double theta[KZ_CURVE_POINTS], velocity[KZ_CURVE_POINTS], points[2 * KZ_CURVE_POINTS];
     kz_attractor row;
     kz_atlas_seed cycle;
     bool known = false;
     kz_dynamics_attractor(dynamics, number, &row);
     if (row.period < 1 || row.period > KZ_CURVE_POINTS) continue;
     kz_dynamics_strobe(dynamics, number, theta, velocity);
-    if (!kz_atlas_identify(atlas, place, (double[]){theta[0], velocity[0]}, row.period, 1, &cycle)) continue;
+    for (int i = 0; i < row.period; i++) points[2 * i] = theta[i], points[2 * i + 1] = velocity[i];
+    if (!kz_atlas_identify(atlas, place, points, row.period, 1, &cycle)) continue;
     for (int64_t i = 0; i < found->count && !known; i++) known = kz_atlas_same(atlas, found->list + i, cycle.y, ONE);
     if (!known) kz_atlas_put(found, &cycle);
   }

@@ -7,10 +7,10 @@
 #include "atlas.h"
 
 enum {
-  PER_PLACE = 75, /* checks of a round for each further place */
-  MANY = 256,     /* starts at places that check the curves */
-  ROUNDS = 16,    /* of checks at most */
-  QUIET = 2       /* rounds in a row that find nothing end the search: small basins escape a single one */
+  FURTHER = 20, /* places of a round whose cycles are searched */
+  MANY = 256,   /* starts at places that check the curves */
+  ROUNDS = 16,  /* of checks at most */
+  QUIET = 2     /* rounds in a row that find nothing end the search */
 };
 
 /* ---- places whose attractors are searched ---- */
@@ -122,11 +122,11 @@ static kz_status search_reference(kz_atlas *atlas, const kz_run *run) {
   return status;
 }
 
-/* The next places of the sequence. */
-static kz_status search_next(kz_atlas *atlas, const kz_run *run, int64_t first, int64_t n) {
+/* The census of the next places of the sequence; *wide: as in kz_atlas_census. */
+static kz_status search_next(kz_atlas *atlas, const kz_run *run, int64_t first, int64_t n, int64_t *wide) {
   KZ_FREED double (*place)[2] = kz_malloc((size_t)(n + 1) * sizeof *place);
   for (int64_t i = 0; i < n; i++) kz_even_share(first + i + 1, place[i]);
-  return kz_atlas_search_places(atlas, run, n, place);
+  return kz_atlas_census(atlas, run, n, place, wide);
 }
 
 /* Whether the curves do not explain what was found, or contradict each other. */
@@ -142,31 +142,37 @@ static kz_status mend(kz_atlas *atlas, const kz_run *run, int64_t n, kz_atlas_pr
   *wrong = 0;
   for (int64_t i = 0; i < n; i++)
     if (is_wrong(atlas, probe + i)) memcpy(place[(*wrong)++], probe[i].place, sizeof *place);
-  KZ_TRY(kz_atlas_search_places(atlas, run, *wrong, place));
+  KZ_TRY(kz_atlas_census(atlas, run, *wrong, place, NULL));
   return explain(atlas, run, n, probe);
 }
 
-/* A round: the cycles of further places, then the attractors of random ones; *wrong = how many had an attractor without an explanation. The
- * probes of the former round go. */
-static kz_status check(kz_atlas *atlas, const kz_run *run, int round, int64_t *wrong, probing *p) {
+/* A round: the census of further places and then, if that finds no curve with a wide band, the attractors of random ones. *quiet: neither finds
+ * anything. The probes of the former round go. */
+static kz_status check(kz_atlas *atlas, const kz_run *run, int round, bool *quiet, probing *p) {
   const int64_t n = atlas->scene->atlas->checks;
+  int64_t wide;
+  KZ_TRY(search_next(atlas, run, atlas->scene->atlas->seeds + round * FURTHER, FURTHER, &wide));
+  kz_atlas_compare_images(atlas);
+  KZ_TRY(kz_atlas_drain(atlas, run, 0, NULL));
+  *quiet = wide == 0;
+  if (!*quiet && round + 1 < ROUNDS) return KZ_OK;
   probes_free(p->n, p->probe);
   *p = (probing){atlas, n, MANY, 2 + round, kz_calloc((size_t)n, sizeof *p->probe)};
   for (int64_t i = 0; i < n; i++) kz_even_share(1001 + round * n + i, p->probe[i].place);
-  KZ_TRY(search_next(atlas, run, atlas->scene->atlas->seeds + round * (n / PER_PLACE), n / PER_PLACE));
-  kz_atlas_compare_images(atlas);
-  KZ_TRY(kz_atlas_drain(atlas, run, 0, NULL));
   KZ_TRY(probe_all(run, "atlas checks", p));
-  return mend(atlas, run, n, p->probe, wrong);
+  KZ_TRY(mend(atlas, run, n, p->probe, &atlas->disagreed));
+  atlas->checked = n;
+  *quiet = *quiet && atlas->disagreed == 0;
+  return KZ_OK;
 }
 
-/* Rounds of random places, until some in a row find nothing that the curves do not explain. */
+/* Rounds, until some in a row find nothing. */
 static kz_status check_all(kz_atlas *atlas, const kz_run *run, probing *last) {
   for (int round = 0, quiet = 0; round < ROUNDS && quiet < QUIET && atlas->scene->atlas->checks > 0; round++) {
-    KZ_TRY(check(atlas, run, round, &atlas->disagreed, last));
-    atlas->checked = atlas->scene->atlas->checks;
+    bool is_quiet;
+    KZ_TRY(check(atlas, run, round, &is_quiet, last));
     atlas->rounds = round + 1;
-    quiet = atlas->disagreed == 0 ? quiet + 1 : 0;
+    quiet = is_quiet ? quiet + 1 : 0;
   }
   kz_atlas_compare_images(atlas);
   return KZ_OK;
@@ -197,7 +203,8 @@ static kz_status confirm(kz_atlas *atlas, const kz_run *run, probing *p) {
 
 kz_status kz_atlas_search(kz_atlas *atlas, const kz_run *run) {
   if (!atlas->undriven) KZ_TRY(search_reference(atlas, run));
-  KZ_TRY(search_next(atlas, run, 0, atlas->scene->atlas->seeds));
+  int64_t wide;
+  KZ_TRY(search_next(atlas, run, 0, atlas->scene->atlas->seeds, &wide));
   probing last = {0};
   kz_status status = check_all(atlas, run, &last);
   kz_atlas_join(atlas);

@@ -3,6 +3,7 @@
 #include "atlas.h"
 
 #define OF_CURVE {"curve"}
+#define OF_DECADE {"decade"}
 #define OF_POINT {"point"}
 #define OF_SPECIAL {"special"}
 #define OF_CLASS {"class"}
@@ -21,6 +22,17 @@ const kz_variable kz_atlas_variables[] = {
     {"curve_points", KZ_INT32, OF_CURVE, NONE, "number of the curve's points"},
     {"curve_closed", KZ_INT8, OF_CURVE, NONE, "whether the curve is closed", {"no", "yes"}},
     {"curve_open", KZ_INT8, OF_CURVE, NONE, "number of its ends that lie within the plane without a reason: the curve is not whole"},
+    {"curve_band", KZ_REAL, OF_CURVE, NONE, "widest band of attractors beside the curve within the plane, in sides of the plane"},
+    {"curve_places", KZ_INT32, OF_CURVE, NONE, "number of places of the census from which the curve was seen"},
+    {"decade", KZ_INT32, OF_DECADE, NONE, "number of the decade of curve_band, the widest first"},
+    {"decade_band", KZ_REAL, OF_DECADE, NONE, "least curve_band of the decade"},
+    {"decade_curves", KZ_INT32, OF_DECADE, NONE, "number of its curves"},
+    {"decade_seen", KZ_INT32, OF_DECADE, NONE, "number of them that places of the census saw"},
+    {"decade_once", KZ_INT32, OF_DECADE, NONE, "number of them that one place saw"},
+    {"decade_twice", KZ_INT32, OF_DECADE, NONE, "number of them that two places saw"},
+    {"decade_missing", KZ_REAL, OF_DECADE, NONE, "estimated number of curves of the decade that are missing (Chao 1987)"},
+    {"decade_missing_low", KZ_REAL, OF_DECADE, NONE, "lower end of the 95 % interval of this number"},
+    {"decade_missing_high", KZ_REAL, OF_DECADE, NONE, "upper end of the 95 % interval of this number"},
     {"point", KZ_INT32, OF_POINT, NONE, "place in the list of points"},
     {"x", KZ_REAL, OF_POINT, "@x_units", "value of the key x_parameter of the pendulum"},
     {"y", KZ_REAL, OF_POINT, "@y_units", "value of the key y_parameter of the pendulum"},

@@ -22,6 +22,20 @@ kz_share kz_share_of_part(int64_t hits, int64_t n, int64_t total) {
   return interval(hits, n, total > 1 ? Z * Z * (double)(total - n) / (double)(total - 1) : Z * Z);
 }
 
+kz_unseen kz_unseen_of(int64_t once, int64_t twice) {
+  const double f1 = (double)once, f2 = (double)twice + 1, number = f1 * (f1 - 1) / (2 * f2);
+  const double of_once = f1 * (2 * f1 - 1) * (2 * f1 - 1) / (4 * f2 * f2);
+  const double of_twice = f1 * f1 * (f2 - 1) * (f1 - 1) * (f1 - 1) / (4 * f2 * f2 * f2 * f2);
+  return (kz_unseen){number, number + of_once + of_twice};
+}
+
+void kz_unseen_interval(kz_unseen unseen, double *low, double *high) {
+  const double t = unseen.number;
+  const double factor = t > 0 ? exp(Z * sqrt(log1p(unseen.variance / (t * t)))) : 1;
+  *low = t / factor;
+  *high = t * factor;
+}
+
 int64_t kz_share_sample(double share) {
   int64_t n = (int64_t)ceil(Z * Z * (1 / share - 1));
   while (kz_share_of(0, n).high > share) n++;

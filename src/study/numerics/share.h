@@ -11,6 +11,15 @@ kz_share kz_share_of(int64_t hits, int64_t n);
 /* The same for n different items of `total`: the variance is smaller by the factor (total - n)/(total - 1), and 0 for n = total. */
 kz_share kz_share_of_part(int64_t hits, int64_t n, int64_t total);
 
+/* Number of kinds that no sample has, where `once` and `twice` of them are in one and in two samples: Chao's estimate without its bias, and its
+ * variance (A. Chao, Biometrics 43 (1987) 783). It is low where some kinds are much rarer than others. */
+typedef struct {
+  double number, variance;
+} kz_unseen;
+kz_unseen kz_unseen_of(int64_t once, int64_t twice);
+/* Its 95 % interval, from 0 on: the logarithm is taken as normal. */
+void kz_unseen_interval(kz_unseen unseen, double *low, double *high);
+
 /* The smallest sample size for which the upper bound is at most `share` if there is no hit. */
 int64_t kz_share_sample(double share);
 

@@ -13,8 +13,6 @@ enum {
 };
 /* rad: between the lines of the first round, between the starts of a line to begin with, between two cycles. */
 static const double SPACING = 0.2, CELL = 0.05, ONE = 1e-5;
-/* rad: the least piece of a line for cycles of any multiplier. */
-static const double SHORTEST = 1e-13;
 
 static double width(const kz_axis *axis) {
   return axis->max - axis->min;
@@ -28,7 +26,7 @@ static bool is_mirrored(const kz_saddles_plan *plan) {
 kz_lines kz_lines_of(const kz_pendulum *pendulum, const kz_saddles_plan *plan, int round) {
   kz_axis velocity = plan->velocity;
   if (kz_is_mirrored(pendulum) && is_mirrored(plan)) velocity.min = 0;
-  kz_lines lines = {.pendulum = pendulum, .plan = plan, .rows = round % 2 == 0, .shortest = SHORTEST};
+  kz_lines lines = {.pendulum = pendulum, .plan = plan, .rows = round % 2 == 0, .steepest = INFINITY};
   lines.along = lines.rows ? plan->theta : velocity;
   lines.across = lines.rows ? velocity : plan->theta;
   lines.count = (int64_t)fmax(LEAST_LINES, ceil(width(&lines.across) / SPACING * pow(2, round / 2)));
@@ -56,7 +54,7 @@ int64_t kz_lines_search(const kz_lines *lines, int64_t tile, int64_t most_starts
     node[i][0] = lines->rows ? along : across;
     node[i][1] = lines->rows ? across : along;
   }
-  return kz_dynamics_search_line(lines->pendulum, plan->max_period, CELLS + 1, node[0], window, lines->shortest, most_starts,
+  return kz_dynamics_search_line(lines->pendulum, plan->max_period, CELLS + 1, node[0], window, lines->steepest, most_starts,
                                  MOST_OF_A_PIECE, found, work);
 }
 

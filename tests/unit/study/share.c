@@ -103,3 +103,14 @@ TEST(test_cost_grows) {
     assert_true(kz_setting_cost(&more, 1e6, 10) > cost);
   }
 }
+
+/* Chao's estimate: 34 kinds seen once and 29 twice of 183 leave 19 unseen, of 203; none seen once leave none. */
+TEST(test_the_number_of_kinds_that_nobody_saw) {
+  double low, high;
+  const kz_unseen unseen = kz_unseen_of(34, 29);
+  assert_true(fabs(unseen.number - 34. * 33 / 60) < 1e-12);
+  kz_unseen_interval(unseen, &low, &high);
+  assert_true(fabs(low - 8) < 0.1 && fabs(high - 43.8) < 0.5);
+  kz_unseen_interval(kz_unseen_of(0, 12), &low, &high);
+  assert_true(low == 0 && high == 0);
+}
