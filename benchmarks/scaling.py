@@ -104,6 +104,7 @@ def draw(curves, path):
         right.set(xlabel="ranks", ylabel="efficiency", ylim=(0, 1.05))
         left.legend(fontsize="small", loc="lower left")
         style.save(figure, Path(path), 300)
+        print(path)
 
 
 def page(options):

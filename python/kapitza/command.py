@@ -3,9 +3,10 @@ makes a film of pictures. Without KIND the main study of the file is drawn. The 
 
 import sys
 from collections.abc import Callable
+from functools import partial
 
 from kapitza import recording, vtkhdf
-from kapitza.plots import atlas, basin, chart, compare, line, orbit, passport, potential, stability, sweep, tradeoff
+from kapitza.plots import kinds, picture
 from kapitza.program import ERROR
 from kapitza.report import command as report
 from kapitza.result import Result
@@ -13,22 +14,8 @@ from kapitza.script import run_apart
 from kapitza.show import main_kind
 
 # KIND -> a function that takes the other words of the command line.
-KINDS: dict[str, Callable[[list[str]], None]] = {
-    "atlas": atlas.main,
-    "basin": basin.main,
-    "compare": compare.main,
-    "film": recording.main,
-    "line": line.main,
-    "orbit": orbit.main,
-    "passport": passport.main,
-    "plane": chart.main,
-    "potential": potential.main,
-    "report": report.main,
-    "stability": stability.main,
-    "sweep": sweep.main,
-    "tradeoff": tradeoff.main,
-    "vtkhdf": vtkhdf.main,
-}
+_MAINS: dict[str, Callable[[list[str]], None]] = {"film": recording.main, "report": report.main, "vtkhdf": vtkhdf.main}
+KINDS = {kind: _MAINS.get(kind) or partial(picture.main, kind) for kind in sorted({*_MAINS, *kinds.KINDS})}
 USAGE = f"""\
 usage: kapitza plot [KIND] FILE [options]
 KIND: {', '.join(KINDS)}; without it the main study of FILE is drawn

@@ -126,9 +126,10 @@ class Comparison:
         return table.rename(index=names[0], columns=names[1]).rename_axis(index="first", columns="second")
 
     def plot(self, **options: Any) -> "Figure":
-        """Both basins, and where they differ: a figure. Options: width ("178mm", or inches), centre ("down" or "inverted")."""
-        from kapitza.plots.compare import comparison_figure
-        return comparison_figure(self, **options)
+        """Both basins, and where they differ: a figure. Options as of `kapitza plot compare`, such as width ("178mm", or inches) and centre
+        ("down" or "inverted")."""
+        from kapitza.plots.picture import picture
+        return picture(self.first, "compare", other=self.second, **options)
 
     def __repr__(self) -> str:
         table = self.table.to_string(index=False, formatters={name: "{:.2%}".format for name in

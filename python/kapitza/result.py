@@ -14,6 +14,9 @@ from kapitza.reading import File
 from kapitza.table import attractors_table, ids_of, labels_array, measures_table, starts_table
 
 if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+
     from kapitza.chances import Agreement, Largest
     from kapitza.compare import Comparison
     from kapitza.engine import Engine
@@ -190,15 +193,18 @@ class Result(File):
         from kapitza.chances import agreement
         return agreement(self, table)
 
-    def plot(self, kind: str | None = None, **options: Any) -> Any:
+    def plot(self, kind: str | None = None, *, ax: "Axes | None" = None, **options: Any) -> "Figure":
         """Draws a group of the file and returns the matplotlib Figure.
 
         :param kind: a kind of picture, such as "basin" or "orbit"; None = that of the main study of the file
-        :param options: options of `kapitza plot KIND`, such as `centre="inverted"`, `si=True` or `width="86mm"`; `points` of a basin is a
-            table as `agree` takes it
+        :param ax: axes of a figure of yours that take the picture, of one panel, without title; None = a page of its own
+        :param options: options of `kapitza plot KIND`, such as `centre="inverted"`, `si=True` or `width="86mm"`; `colours` is the name of
+            a file or a mapping such as `{"inverted": "gold"}`, `points` of a basin a table as `agree` takes it
+        :raises ValueError: if the kind does not take an option or its value; the text lists what it takes
         """
-        from kapitza.show import figure_of
-        return figure_of(self, kind, options)
+        from kapitza.plots.picture import picture
+        from kapitza.show import main_kind
+        return picture(self, kind or main_kind(self), ax, **options)
 
     def report(self, output: str | os.PathLike[str] | None = None) -> Path:
         """Writes a self-contained HTML page on the result and returns its path.

@@ -1,7 +1,6 @@
 """What a result says of itself in a session: a few lines, the same as HTML with a small picture, and its figures."""
 
 import base64
-import contextlib
 import html
 import io
 import sys
@@ -15,8 +14,6 @@ from kapitza.style import TORQUES
 from kapitza.units import si_parameters
 
 if TYPE_CHECKING:
-    from matplotlib.figure import Figure
-
     from kapitza.result import Result
 
 MOST = 12  # attractors that are listed
@@ -93,7 +90,7 @@ def as_html(result: "Result") -> str:
 def _picture(result: "Result") -> str:
     from kapitza.result import BadFile
     try:
-        figure = figure_of(result, None, {"no_title": True, "legend": "none", "width": "90mm"})
+        figure = result.plot(no_title=True, legend="none", width="90mm")
     except BadFile:
         return ""
     data = io.BytesIO()
@@ -108,34 +105,3 @@ def main_kind(result: "Result") -> str:
     if kind := next((name for name in KINDS if name in result.groups), None):
         return kind
     raise BadFile(f"{result.path}: contains no study that can be drawn")
-
-
-def figure_of(result: "Result", kind: str | None, options: dict[str, Any]) -> "Figure":
-    """The figure that `kapitza plot KIND` would write."""
-    from kapitza.plots.common import figure_of as figure_on_page
-    from kapitza.plots.kinds import KINDS
-    from kapitza.scene import new_path
-    kind = kind or main_kind(result)
-    if kind not in KINDS:
-        raise ValueError(f"{kind!r} is not a kind of picture; the kinds are {', '.join(KINDS)}")
-    points = options.get("points")
-    if points is not None and hasattr(points, "to_csv"):
-        path = new_path("points.csv")
-        points.to_csv(path, index=False)
-        options = options | {"points": path}
-    words = [str(result.path)]
-    for name, value in options.items():
-        option = "--" + name.replace("_", "-")
-        words += [option] * bool(value) if isinstance(value, bool) else [option, str(value)]
-    return figure_on_page(result, _parsed(KINDS[kind].parse_arguments, words), KINDS[kind].draw)
-
-
-def _parsed(parse: Callable[[list[str]], Any], words: list[str]) -> Any:
-    """The arguments of a picture; an error that would end a command line is a ValueError here."""
-    said = io.StringIO()
-    try:
-        with contextlib.redirect_stderr(said):
-            return parse(words)
-    except SystemExit as error:
-        line = said.getvalue().strip().splitlines()[-1]
-        raise ValueError(line.split("error: ", 1)[-1].replace("argument --", "")) from error

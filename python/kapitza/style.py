@@ -241,10 +241,9 @@ def using(font_size: float = FONT_SIZE, colours: Mapping[str, str] | None = None
 
 
 def save(figure: "Figure", output: Path, dpi: float) -> None:
-    """Writes the picture and prints its name. The same figure gives the same bytes: no clock goes into it."""
+    """Writes the picture. The same figure gives the same bytes: no clock goes into it."""
     clock = {".svg": {"Date": None}, ".pdf": {"CreationDate": None}}.get(Path(output).suffix.lower(), {})
     with warnings.catch_warnings():
         warnings.simplefilter("error")  # a failed layout is a fault, not a footnote
         warnings.filterwarnings("ignore", message="Glyph")  # a letter of the title that the font lacks is seen as a box
         figure.savefig(output, dpi=dpi, metadata=clock)
-    print(output)

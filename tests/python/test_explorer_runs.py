@@ -12,7 +12,7 @@ from kapitza.explorer import atlas, overlays, stories
 from kapitza.explorer.kept import Kept
 from kapitza.explorer.program import Refused
 from kapitza.explorer.scene import BadRequest, Start
-from kapitza.plots.page_options import colour_file
+from kapitza.plots.page_options import colours_of
 from kapitza.result import BadFile
 from kapitza.scene import tree_of
 from PIL import Image
@@ -115,7 +115,7 @@ def test_aliases_of_a_scene_are_left_to_the_program_which_refuses_them(tmp_path)
     assert tree_of(text) == {} and Start(tmp_path / "laughs.yaml").tree == {}
     assert Start("pendulum: {k: 1}\n", is_text=True, sets=[f"pendulum.m=[{'&a x, ' * 3}]"]).tree == {"pendulum": {"k": "1"}}
     with pytest.raises(ArgumentTypeError, match="cannot be read: an anchor"):
-        colour_file(str(tmp_path / "laughs.yaml"))
+        colours_of(str(tmp_path / "laughs.yaml"))
 
 
 def test_a_picture_is_opened_by_the_scene_that_it_holds(tmp_path):

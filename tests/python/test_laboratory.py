@@ -110,8 +110,7 @@ def test_reports_and_comparisons_are_in_si(tmp_path):
         kapitza.run(SCENE, tmp_path / f"{name}.h5", set=FEW | {"pendulum.amplitude": amplitude}, progress=False)
     assert plot("report", tmp_path / "one.h5", "-o", tmp_path / "one.html").returncode == 0
     assert "period (s)" in (tmp_path / "one.html").read_text()
-    arguments = compare.parse_arguments([str(tmp_path / "one.h5"), str(tmp_path / "other.h5"), "--si"])
-    panels = compare.draw(kapitza.Result(tmp_path / "one.h5"), arguments).axes
+    panels = compare.draw(kapitza.Result(tmp_path / "one.h5"), other=tmp_path / "other.h5", si=True).axes
     assert panels[0].get_ylabel() == "velocity dθ/dt (rad/s)"
 
 

@@ -117,7 +117,8 @@ def test_a_result_tells_what_it_holds(result):
     assert page.count("<tr>") == 1 + min(len(table), 12) and "data:image/png" in page
     with pytest.raises(KeyError, match="the names are"):
         result.basin("nobody")
-    for options, words in (({"breadth": "86mm"}, "unrecognized arguments: --breadth"), ({"width": "86"}, "width: 86 is not a width")):
+    for options, words in (({"breadth": "86mm"}, "'breadth' is no option of the kind basin; its options are width, "),
+                           ({"width": "86"}, "width: 86 is not a width"), ({"kind": "bassin"}, "the kinds are basin, ")):
         with pytest.raises(ValueError, match=words):
             result.plot(**options)
 

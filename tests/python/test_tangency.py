@@ -67,7 +67,7 @@ def test_a_range_without_a_tangency_is_refused(kapitza, tmp_path, words, named):
 def test_a_picture_of_measures_marks_the_value(weak):
     """Shares of a sweep of the same key, with their band, and the dashed line at the value."""
     result, _ = weak
-    figure = line.draw(result, line.parse_arguments([str(result.path)]))
+    figure = line.draw(result)
     axes, = figure.axes
     lines = [list(drawn.get_xdata()) for drawn in axes.lines]
     shares = [list(drawn.get_ydata()) for drawn in axes.lines if len(drawn.get_xdata()) == 3]

@@ -24,9 +24,9 @@ def result(model):
                  orbit={"start": {"theta": 2.9, "velocity": 0}, "periods": 30}, potential={"drive_amplitudes": [0.3]})
 
 
-def page(kind, result, *words):
+def page(kind, result, **options):
     """The figure of a kind with these options, drawn."""
-    figure = kind.draw(result, kind.parse_arguments(["x.h5", *words]))
+    figure = kind.draw(result, **options)
     figure.draw_without_rendering()
     return figure
 
@@ -52,7 +52,7 @@ def assert_shows(axis, label, low, high):
 @pytest.mark.extensive
 def test_a_measured_point_lands_on_its_cell(result):
     """Data coordinates are those of the labels: degrees and rad/s, also of dots, legends aside."""
-    axes = page(basin, result, "--degrees", "--si").axes[0]
+    axes = page(basin, result, degrees=True, si=True).axes[0]
     assert_shows(axes.xaxis, "angle", -180, 180)
     assert_shows(axes.yaxis, "(rad/s)", -2 * OMEGA, 2 * OMEGA)
     (image,) = axes.images
@@ -71,7 +71,7 @@ def test_a_measured_point_lands_on_its_cell(result):
 
 @pytest.mark.extensive
 def test_times_in_seconds(result):
-    times = page(basin, result, "--si", "--quantity", "settling_time").axes[0].child_axes[0]
+    times = page(basin, result, si=True, quantity="settling_time").axes[0].child_axes[0]
     longest = float(result.convergence_times(si=True).where(result.labels(si=True) >= 0).max())
     assert_shows(times.yaxis, "(s,", 1 / 12.25, longest + 1 / 12.25)
     assert longest == pytest.approx(float(result.convergence_times().where(result.labels() >= 0).max()) / 12.25)
@@ -79,7 +79,7 @@ def test_times_in_seconds(result):
 
 @pytest.mark.extensive
 def test_an_orbit_in_seconds_and_hertz(result):
-    drive, lab = ({panel.get_label(): panel for panel in page(orbit, result, *words).axes} for words in ([], ["--degrees", "--si"]))
+    drive, lab = ({panel.get_label(): panel for panel in page(orbit, result, degrees=si, si=si).axes} for si in (False, True))
     for name, axis, label, factor in (("time", "x", "time (s)", 1 / 12.25), ("phase", "y", "(rad/s)", OMEGA),
                                       ("spectrum", "x", "(Hz)", 12.25), ("spectrum", "y", "(deg)", 180 / np.pi)):
         interval = getattr(drive[name], f"{axis}axis").get_view_interval()
@@ -89,12 +89,12 @@ def test_an_orbit_in_seconds_and_hertz(result):
 
 @pytest.mark.extensive
 def test_potentials_and_strobe_points_in_degrees(result, swept):
-    assert_shows(page(potential, result, "--degrees").axes[1].xaxis, "angle", 0, 360)
-    for panel in page(sweep, Result(swept), "--view", "strobe", "--degrees").axes:
+    assert_shows(page(potential, result, degrees=True).axes[1].xaxis, "angle", 0, 360)
+    for panel in page(sweep, Result(swept), view="strobe", degrees=True).axes:
         assert_shows(panel.yaxis, "strobe", *panel.get_ylim())
         angles = np.mod(np.degrees(Result(swept).group("sweep")["strobe_theta"].values), 360)
         assert np.min(panel.lines[0].get_ydata()) == pytest.approx(np.min(angles), abs=20)
-    plain, degrees = (page(sweep, Result(swept), "--view", "flutter", *words).axes[1] for words in ([], ["--degrees"]))
+    plain, degrees = (page(sweep, Result(swept), view="flutter", degrees=words).axes[1] for words in (False, True))
     assert degrees.lines[0].get_ydata() == pytest.approx((180 / np.pi) ** 2 * plain.lines[0].get_ydata())
     assert "degrees²" in degrees.get_ylabel()
 

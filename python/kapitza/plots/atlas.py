@@ -26,9 +26,8 @@ from kapitza.plots.atlas_curves import BOLD_UP_TO, DASHES, FAINT, LONGER, PERIOD
 from kapitza.plots.atlas_labels import POINTS, label_regions, mark_points
 from kapitza.plots.atlas_labels import region_text as region_text
 from kapitza.plots.atlas_line import draw_line
-from kapitza.plots.common import argument_parser, entitle, new_figure, parsed, write_picture
+from kapitza.plots.page import BadOption, entitle, new_panels
 from kapitza.plots.plane_axes import key_text
-from kapitza.plots.units import groups_of
 from kapitza.result import Result
 
 CUSP = 0  # of special_kind
@@ -36,23 +35,19 @@ MOST_SHADES = 14
 SPECIAL = 6  # zorder of cusps and degenerate points
 NOT_KNOWN, UNKNOWN = 255, "#e7b9c4"  # of `attracting` where a curve is missing, and its colour
 LONGEST = 16  # periods of the cycles whose curves are drawn
+STUDY = "an atlas"
 VIEWS = ("map", "motions", "line")
 
 
-def parse_arguments(words: list[str]) -> argparse.Namespace:
-    parser = argument_parser("atlas", __doc__, "an atlas")
-    parser.add_argument("--view", choices=VIEWS, default="map")
-    parser.add_argument("--longest", type=int, default=LONGEST, help="longest period of the cycles that are drawn")
+def add_options(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument("--view", choices=VIEWS)
+    parser.add_argument("--longest", type=int, help="longest period of the cycles that are drawn")
     parser.add_argument("--x", type=float, help="the line of the view `line`: value of the key along the horizontal axis, "
                         "in the unit of that axis")
     parser.add_argument("--y", type=float, help="or of that along the vertical axis (default: the middle of the horizontal one)")
     parser.add_argument("--points", metavar="CSV", help="points on the map, with the columns x, y and label; points with one label have "
                         "one mark")
-    parser.add_argument("--theme", choices=("light", "dark"), default="light", help="the paper")
-    arguments = parsed(parser, words)
-    if arguments.x is not None and arguments.y is not None:
-        parser.error("a line has --x or --y, not both")
-    return arguments
+    parser.add_argument("--theme", choices=("light", "dark"), help="the paper")
 
 
 def shade_counts(axes: Axes, atlas: xarray.Dataset) -> tuple[ListedColormap, int]:
@@ -147,8 +142,8 @@ def draw_map(axes: Axes, atlas: xarray.Dataset, *, colours: Mapping[int, str] = 
 
 def map_page(result: Result, atlas: xarray.Dataset, longest: int, points: str | None = None) -> Figure:
     """The plane with its curves, and labels of its regions; `points`: a CSV file of points on top."""
-    figure = new_figure(8.6, 6.2)
-    axes = draw_map(figure.subplots(), atlas, longest=longest, points=points)
+    figure, (axes,) = new_panels(8.6, 6.2)
+    draw_map(axes, atlas, longest=longest, points=points)
     longest_sought = int(atlas.attrs["max_period"])
     entitle(figure, result, f"motions of up to {longest_sought} periods: {atlas.sizes['curve']} curves{missing_text(atlas)}")
     figure.draw_without_rendering()
@@ -170,8 +165,7 @@ def motions_page(result: Result, atlas: xarray.Dataset) -> Figure:
     chosen = motions(atlas)
     columns = 4 if len(chosen) > 6 else max(1, min(3, len(chosen)))
     rows = max(1, math.ceil(len(chosen) / columns))
-    figure = new_figure(9.2, 2.1 * rows + 0.5)
-    panels = np.atleast_1d(figure.subplots(rows, columns, sharex=True, sharey=True)).ravel()
+    figure, panels = new_panels(9.2, 2.1 * rows + 0.5, rows, columns, sharex=True, sharey=True)
     for axes, number in zip(panels, chosen, strict=False):
         attracting = atlas["attracting"].values[number]
         known = attracting != NOT_KNOWN
@@ -200,11 +194,11 @@ def line_page(result: Result, atlas: xarray.Dataset, x: float | None, y: float |
     middle = float(atlas["column"].values[[0, -1]].mean())
     fixed, varies, value = ("y", "x", y) if y is not None else ("x", "y", middle if x is None else x)
     unit = str(atlas.attrs.get(f"{fixed}_units", "1"))
-    figure = new_figure(8.6, 5.4)
+    figure, (axes,) = new_panels(8.6, 5.4)
     scale = {which: float(atlas.attrs.get(f"{which}_written_scale", 1)) for which in "xy"}  # what the program has, of one on an axis
     table = result.line(**{fixed: value * scale[fixed]})
     table["value"] /= scale[varies]
-    axes = draw_line(figure.subplots(), table[table["period"] <= longest])
+    draw_line(axes, table[table["period"] <= longest])
     axes.set_xlabel(key_text(atlas, varies))
     half = (atlas["row" if varies == "y" else "column"].values[[0, -1]])
     axes.set_xlim(half[0] - (half[1] - half[0]) / 2000, half[1] + (half[1] - half[0]) / 2000)
@@ -214,12 +208,12 @@ def line_page(result: Result, atlas: xarray.Dataset, x: float | None, y: float |
     return figure
 
 
-def draw(result: Result, arguments: argparse.Namespace) -> Figure:
-    atlas = groups_of(result, arguments)("atlas")
-    if arguments.view == "line":
-        return line_page(result, atlas, arguments.x, arguments.y, arguments.longest)
-    return map_page(result, atlas, arguments.longest, arguments.points) if arguments.view == "map" else motions_page(result, atlas)
-
-
-def main(words: list[str]) -> None:
-    write_picture(parse_arguments(words), draw)
+def draw(result: Result, *, view: str = "map", longest: int = LONGEST, x: float | None = None, y: float | None = None,
+         points: str | None = None) -> Figure:
+    """The page of the view that is asked for."""
+    if x is not None and y is not None:
+        raise BadOption("a line has --x or --y, not both")
+    atlas = result.group("atlas", written=True)
+    if view == "line":
+        return line_page(result, atlas, x, y, longest)
+    return map_page(result, atlas, longest, points) if view == "map" else motions_page(result, atlas)

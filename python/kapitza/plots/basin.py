@@ -7,6 +7,8 @@
 
 import argparse
 from collections.abc import Sequence
+from functools import partial
+from typing import Any
 
 import matplotlib as mpl
 import numpy as np
@@ -18,26 +20,25 @@ from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 
 from kapitza import style
-from kapitza.plots.common import argument_parser, entitle, new_figure, parsed, write_picture
 from kapitza.plots.dots import mark_strobe_points
-from kapitza.plots.page import lay_out
+from kapitza.plots.page import BadOption, entitle, lay_out, new_panels
 from kapitza.plots.plane import Plane, label_axes
 from kapitza.plots.skeleton import mark_manifolds, mark_saddles
-from kapitza.plots.units import add_si, groups_of
+from kapitza.plots.units import add_si
 from kapitza.result import BadFile, Result
 from kapitza.units import drive_unit
 
 EVIDENCE_COLOURS = ["#ffffff", "#35618f", "#a9c4df", "#8c1d18", "#e58a2b", "#e8c34a", "#3f8f5b", "#c9b8dd", "#5a3d7a",
                     "#d8b8b5", "#2b2b2b", "#c2447e", "#6fb7b7"]
+STUDY = "a basin"
 PAGE_WIDTH, PLANE_WIDTH, TITLES = 7.6, 5.3, 0.9  # inches, nearly the same in every figure
 
 
-def parse_arguments(words: list[str]) -> argparse.Namespace:
-    parser = argument_parser("basin", __doc__, "a basin")
-    parser.add_argument("--quantity", choices=["attractor", "settling_time", "evidence", "common"], default="attractor",
+def add_options(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument("--quantity", choices=["attractor", "settling_time", "evidence", "common"],
                         help="common: the attractor that a cell reaches at all of basin.phases")
     parser.add_argument("--attractor", metavar="ID|NAME", help="black and white: the basin of one attractor, or of all of one name")
-    parser.add_argument("--centre", choices=["down", "inverted"], default="down",
+    parser.add_argument("--centre", choices=["down", "inverted"],
                         help="state in the middle of a whole-circle picture (default: down)")
     parser.add_argument("--saddles", action="store_true", help="mark the unstable cycles of the study saddles by crosses")
     parser.add_argument("--manifolds", action="store_true",
@@ -49,10 +50,6 @@ def parse_arguments(words: list[str]) -> argparse.Namespace:
     add_si(parser, "velocities in rad/s, times in s")
     parser.add_argument("--no-legend", action="store_true")
     parser.add_argument("--no-dots", action="store_true", help="leave out the strobe points of the attractors")
-    arguments = parsed(parser, words)
-    if arguments.attractor and (arguments.quantity != "attractor" or arguments.shade):
-        parser.error("--attractor cannot be combined with --quantity or --shade")
-    return arguments
 
 
 def chosen_ids(result: Result, attractors: xarray.Dataset, wanted: str) -> list[int]:
@@ -169,49 +166,52 @@ def _method(basin: xarray.Dataset) -> str:
     return words.get(method, method)
 
 
-def draw(result: Result, arguments: argparse.Namespace) -> Figure:
-    """The page: one plane, and what the arguments say about it."""
-    group = groups_of(result, arguments)
+def draw(result: Result, *, quantity: str = "attractor", attractor: int | str | None = None, centre: str = "down", saddles: bool = False,
+         manifolds: bool = False, points: Any = None, shade: bool = False, degrees: bool = False, si: bool = False,
+         no_dots: bool = False) -> Figure:
+    """The page: one plane, and what is asked about it."""
+    if attractor is not None and (quantity != "attractor" or shade):
+        raise BadOption("--attractor cannot be combined with --quantity or --shade")
+    group = partial(result.group, si=si, degrees=degrees, written=True)
     basin, attractors = group("basin"), group("attractors")
     labels = basin["attractor"].values
     if labels.size == 0 or labels.dtype.kind not in "iu" or not -1 <= labels.min() <= labels.max() < attractors.sizes["attractor"]:
         raise BadFile(f"{result.path}: is damaged: some cells have ids of attractors that the file does not list")
-    plane = Plane(basin, arguments.centre)
-    figure = new_figure(PAGE_WIDTH, PLANE_WIDTH * plane.shape + TITLES)
-    axes, centre = figure.subplots(), arguments.centre
-    ids = chosen_ids(result, attractors, arguments.attractor) if arguments.attractor else []
-    if arguments.attractor:
+    plane = Plane(basin, centre)
+    figure, (axes,) = new_panels(PAGE_WIDTH, PLANE_WIDTH * plane.shape + TITLES)
+    ids = [] if attractor is None else chosen_ids(result, attractors, str(attractor))
+    if ids:
         draw_one(axes, basin, attractors, ids, centre=centre, dots=False)
-    elif arguments.quantity == "attractor":
-        draw_basins(axes, basin, attractors, centre=centre, dots=False, shade=arguments.shade)
-    elif arguments.quantity == "evidence":
+    elif quantity == "attractor":
+        draw_basins(axes, basin, attractors, centre=centre, dots=False, shade=shade)
+    elif quantity == "evidence":
         draw_evidence(axes, basin, centre=centre)
-    elif arguments.quantity == "common":
+    elif quantity == "common":
         draw_common(axes, basin, attractors, result.group("phases"), centre=centre)
     else:
         draw_settling_time(axes, basin, centre=centre)
-    if arguments.manifolds:
+    if manifolds:
         mark_manifolds(axes, basin, group("manifolds"), centre=centre)
-    if arguments.saddles:
+    if saddles:
         mark_saddles(axes, basin, group("saddles"), centre=centre)
-    if arguments.points:
-        mark_releases(axes, plane, result, arguments.points)
+    if points is not None:
+        mark_releases(axes, plane, result, points)
     if plane.place:
         axes.set_title(plane.place, fontsize="medium", fontweight="normal", parse_math=False)
     rows, columns = basin["attractor"].shape
     entitle(figure, result, style.parameters_text(result.pendulum), f"{columns} × {rows} starts", _method(basin))
-    if not arguments.no_dots and arguments.quantity == "attractor":
+    if not no_dots and quantity == "attractor":
         lay_out(figure)  # dots are as large as the cells beneath them allow
         mark_attractors(axes, plane, basin, attractors, ids)
     return figure
 
 
-def mark_releases(axes: Axes, plane: Plane, result: Result, table: str) -> Axes:
+def mark_releases(axes: Axes, plane: Plane, result: Result, table: Any) -> Axes:
     """Measured releases: circles where the basin says the same, crosses where it does not, in the colours of the ends that were seen."""
     try:
         found = result.agree(table).table
     except (OSError, ValueError) as error:
-        raise BadFile(f"{table}: {error}") from error
+        raise BadFile(f"{'points' if hasattr(table, 'columns') else table}: {error}") from error
     colours: dict[str, str] = dict(zip(result.attractors["name"], style.colours(result.group("attractors")), strict=True))
     centres: dict[str, str] = dict(zip(result.attractors["centre"], colours.values(), strict=False))
     for agrees, mark, gid in ((True, "o", "agree"), (False, "X", "differ")):
@@ -234,7 +234,3 @@ def mark_attractors(axes: Axes, plane: Plane, basin: xarray.Dataset, attractors:
     else:
         mark_strobe_points(axes, plane, basin, attractors,
                            colours={index: style.shade(colour, -0.45) for index, colour in enumerate(style.colours(attractors))})
-
-
-def main(words: list[str]) -> None:
-    write_picture(parse_arguments(words), draw)

@@ -9,7 +9,7 @@
 
 import argparse
 import math
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 
 import numpy as np
@@ -21,31 +21,27 @@ from matplotlib.patches import Patch
 from matplotlib.ticker import MaxNLocator
 
 from kapitza import style
-from kapitza.plots.common import argument_parser, entitle, new_figure, parsed, write_picture
 from kapitza.plots.curves import curve_names, exact_of, is_branch, whole_curve
+from kapitza.plots.page import BadOption, entitle, new_panels
 from kapitza.plots.plane_axes import label_keys
 from kapitza.plots.plane_measures import MOST, measure_page
-from kapitza.plots.units import add_si, fixed_si, groups_of
+from kapitza.plots.units import add_si, fixed_si
 from kapitza.result import BadFile, Result
 from kapitza.units import unit_text, with_unit
 
+STUDY = "ends or measures over a plane"
 CYCLE, CHAOTIC = 0, 1  # codes of the variable `end`
 LINEAR = "limits of rest (linear)"
 VIEWS = ("ends", "exponent", "settling")
 
 
-def parse_arguments(words: list[str]) -> argparse.Namespace:
-    parser = argument_parser("plane", __doc__, "ends or measures over a plane")
+def add_options(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--view", choices=VIEWS, help="of ends (default: ends)")
     parser.add_argument("--measure", metavar="NAME", help="the measure to draw (default: ends if there are any, else the first measure)")
     parser.add_argument("--attractor", metavar="NAME", nargs="+", help=f"names, or numbers; left out: the {MOST} most frequent names")
     parser.add_argument("--atlas", metavar="FILE", type=Path, help="result with the study atlas, whose curves are drawn on top (default: "
                         "those of the same file)")
     add_si(parser, "times in s and velocities in rad/s")
-    arguments = parsed(parser, words)
-    if arguments.view and (arguments.measure or arguments.attractor or arguments.atlas):
-        parser.error("--view cannot be combined with --measure, --attractor or --atlas")
-    return arguments
 
 
 def kinds(chart: xarray.Dataset, colours: Mapping[str, str] | None = None) -> tuple[np.ndarray, list[str]]:
@@ -139,18 +135,21 @@ def panel(axes: Axes, result: Result, chart: xarray.Dataset, view: str, *, legen
     return axes
 
 
-def draw(result: Result, arguments: argparse.Namespace) -> Figure:
+def draw(result: Result, *, view: str | None = None, measure: str | None = None, attractor: Sequence[str] | None = None,
+         atlas: Path | None = None, si: bool = False) -> Figure:
     """The page: of a measure, or one panel for each start."""
-    chart = groups_of(result, arguments)("plane")
+    if view and (measure or attractor or atlas):
+        raise BadOption("--view cannot be combined with --measure, --attractor or --atlas")
+    chart = result.group("plane", si=si, written=True)
     if chart.sizes["x"] < 2 or chart.sizes["y"] < 2:
         raise BadFile(f"{result.path}: the chart has one value only along an axis, so there is no area to draw")
-    if not arguments.view and (arguments.measure or arguments.attractor or arguments.atlas or "end" not in chart):
-        return measure_page(result, chart, arguments)
+    if not view and (measure or attractor or atlas or "end" not in chart):
+        return measure_page(result, chart, measure, attractor, atlas)
     if "end" not in chart:
         raise BadFile(f"{result.path}: the plane has no ends; add ends to sweep.measure")
-    figure = new_figure(8.2, 4.8 * chart.sizes["start"])
-    for place, axes in enumerate(np.atleast_1d(figure.subplots(chart.sizes["start"], 1))):
-        panel(axes, result, chart.isel(start=place), arguments.view or "ends")
+    figure, panels = new_panels(8.2, 4.8 * chart.sizes["start"], chart.sizes["start"])
+    for place, axes in enumerate(panels):
+        panel(axes, result, chart.isel(start=place), view or "ends")
     swept = {chart.attrs["x_parameter"], chart.attrs["y_parameter"]}
     names = {"beta": "β"} if swept & {"k", "m", "damping"} else {"quality_factor": "Q"}
     kept = [f"{symbol} = {result.pendulum[name]:.6g}" for name, symbol in names.items()
@@ -158,7 +157,3 @@ def draw(result: Result, arguments: argparse.Namespace) -> Figure:
     words = fixed_si(result, chart) if result.pivot_frequency else ",  ".join(kept)
     entitle(figure, result, f"{chart.sizes['x']} × {chart.sizes['y']} points", words)
     return figure
-
-
-def main(words: list[str]) -> None:
-    write_picture(parse_arguments(words), draw)

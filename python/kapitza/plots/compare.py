@@ -16,24 +16,21 @@ from matplotlib.patches import Patch
 from kapitza import style
 from kapitza.compare import Comparison
 from kapitza.plots.basin import draw_basins, write_legend
-from kapitza.plots.common import argument_parser, entitle, new_figure, parsed, title_text, write_picture
-from kapitza.plots.page import Page, Picture, current, drawing, lay_out
-from kapitza.plots.page_options import length
+from kapitza.plots.page import Picture, current, entitle, new_panels, title_text
 from kapitza.plots.plane import Plane, label_axes
 from kapitza.plots.units import add_si
 from kapitza.result import BadFile, Result
 from kapitza.units import in_units
 
+STUDY, LEGEND = "a basin", "below"
 DIFFERENT = style.INK
 
 
-def parse_arguments(words: list[str]) -> argparse.Namespace:
-    parser = argument_parser("compare", __doc__, "a basin")
+def add_options(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("other", help="result file with the other basin")
-    parser.add_argument("--centre", choices=["down", "inverted"], default="down",
+    parser.add_argument("--centre", choices=["down", "inverted"],
                         help="state in the middle of a whole circle (default: down)")
     add_si(parser, "velocities in rad/s")
-    return parsed(parser, words, "-compare")  # FILE.png is the basin itself
 
 
 def matched_colours(comparison: Comparison) -> tuple[list[str], list[str]]:
@@ -56,12 +53,12 @@ def draw_differing(axes: Axes, comparison: Comparison, *, colours: str = DIFFERE
     return label_axes(axes, plane)
 
 
-def comparison_panels(comparison: Comparison, centre: str, si: bool = False) -> Picture:
+def comparison_panels(comparison: Comparison, centre: str, si: bool = False) -> Figure:
     """Three panels: first, second, difference; one above the other on a narrow page."""
     plane = Plane(comparison.first.group("basin"), centre)
     narrow = current().narrow
-    figure = new_figure(6.4, 3 * 4.0 * plane.shape + 1.2) if narrow else new_figure(14.0, 4.0 * plane.shape + 1.2)
-    panels = figure.subplots(3, 1, sharex=True) if narrow else figure.subplots(1, 3, sharey=True)
+    figure, panels = (new_panels(6.4, 3 * 4.0 * plane.shape + 1.2, 3, sharex=True) if narrow else
+                      new_panels(14.0, 4.0 * plane.shape + 1.2, 1, 3, sharey=True))
     for axes, result, colours in zip(panels, (comparison.first, comparison.second), matched_colours(comparison), strict=False):
         basin, attractors = result.group("basin", si=si), result.group("attractors", si=si)
         draw_basins(axes, basin, attractors, colours=colours, centre=centre, legend=False, dots=False)
@@ -74,7 +71,7 @@ def comparison_panels(comparison: Comparison, centre: str, si: bool = False) -> 
         axes.set_xlabel("")
     _write_both(panels[-1], comparison)
     entitle(figure, comparison.first, "shares of the starts: first → second")
-    if comparison.first.title != comparison.second.title and figure.heading and not current().heading:
+    if comparison.first.title != comparison.second.title and isinstance(figure, Picture) and figure.heading and not current().heading:
         figure.heading.set_text(f"{title_text(comparison.first)} → {title_text(comparison.second)}")
     return figure
 
@@ -103,26 +100,14 @@ def _difference(result: Result, comparison: Comparison) -> str:
     return ", ".join(words) or (title_text(result) if comparison.first.title != comparison.second.title else str(result.path.name))
 
 
-def comparison_figure(comparison: Comparison, width: str | float | None = None, centre: str = "down") -> Figure:
-    """The figure of a comparison; width: a text such as "178mm", or inches."""
-    page = Page(length(width) if isinstance(width, str) else width, legend="below")
-    with drawing(page):
-        return lay_out(comparison_panels(comparison, centre))
-
-
-def draw(result: Result, arguments: argparse.Namespace) -> Figure:
-    """The page of the two files."""
-    comparison = result.compare(arguments.other)
-    if arguments.si and result.pivot_frequency != comparison.second.pivot_frequency:
-        raise BadFile(f"{result.path}, {arguments.other}: their pivots have different frequencies, so that a cell is not the same start in "
-                      "rad/s; leave out --si")
+def draw(result: Result, *, other: Result | str, centre: str = "down", si: bool = False) -> Figure:
+    """The page of the two results."""
+    comparison = result.compare(other)
+    files = f"{result.path}, {comparison.second.path}"
+    if si and result.pivot_frequency != comparison.second.pivot_frequency:
+        raise BadFile(f"{files}: their pivots have different frequencies, so that a cell is not the same start in rad/s; leave out --si")
     try:
-        return comparison_panels(comparison, arguments.centre, arguments.si)
+        comparison.differing  # noqa: B018  # which needs one window
     except ValueError as error:
-        raise BadFile(f"{result.path}, {arguments.other}: {error}") from error
-
-
-def main(words: list[str]) -> None:
-    arguments = parse_arguments(words)
-    arguments.legend = arguments.legend or "below"
-    write_picture(arguments, draw)
+        raise BadFile(f"{files}: {error}") from error
+    return comparison_panels(comparison, centre, si)

@@ -7,9 +7,8 @@ from matplotlib.collections import LineCollection
 from matplotlib.colors import LogNorm
 from matplotlib.figure import Figure
 
-from kapitza.plots.common import new_figure
 from kapitza.plots.curves import K_LABEL, LABELS, M_LABEL, curve_names, exact_of, label
-from kapitza.plots.page import current
+from kapitza.plots.page import current, new_panels
 from kapitza.result import BadFile
 
 MAP = "plasma_r"
@@ -56,9 +55,8 @@ def error_figure(chart: xarray.Dataset) -> Figure:
     """Rows and curves side by side."""
     if not errors_of(chart):
         raise BadFile("this view needs curves by formulas together with the exact curves; add both to stability.curves")
-    narrow = current().narrow
-    figure = new_figure(6.4, 14) if narrow else new_figure(12.5, 11)
-    left, right = figure.subplots(2, 1, height_ratios=[2, 1]) if narrow else figure.subplots(1, 2, width_ratios=[3, 2])
+    figure, (left, right) = (new_panels(6.4, 14, 2, height_ratios=[2, 1]) if current().narrow else
+                             new_panels(12.5, 11, 1, 2, width_ratios=[3, 2]))
     draw_error_rows(left, chart)
     draw_error_curves(right, chart)
     return figure

@@ -1,8 +1,9 @@
-"""The kinds of pictures, by the group of a result that each draws; the first that a result holds is its main one."""
+"""The kinds of pictures: a module each, with `draw` (of a Result, with keywords), `add_options` (the same for the command line) and `STUDY`
+(what its file must hold). The first whose name is a group of a result shows its main study."""
 
 from types import ModuleType
 
-from kapitza.plots import atlas, basin, chart, line, orbit, potential, stability, sweep, tradeoff
+from kapitza.plots import atlas, basin, chart, compare, line, orbit, passport, potential, stability, sweep, tradeoff
 
 KINDS: dict[str, ModuleType] = {"basin": basin, "sweep": sweep, "plane": chart, "line": line, "orbit": orbit, "stability": stability,
-                                "potential": potential, "tradeoff": tradeoff, "atlas": atlas}
+                                "potential": potential, "tradeoff": tradeoff, "atlas": atlas, "compare": compare, "passport": passport}

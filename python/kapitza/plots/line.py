@@ -5,7 +5,7 @@
 
 import argparse
 import math
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 
 import numpy as np
 import xarray
@@ -14,10 +14,12 @@ from matplotlib.figure import Figure
 
 from kapitza import style
 from kapitza.plots.branches import parameter_text
-from kapitza.plots.common import argument_parser, entitle, new_figure, parsed, write_picture
-from kapitza.plots.units import add_si, fixed_si, group_beside, groups_of
+from kapitza.plots.page import entitle, new_panels
+from kapitza.plots.units import add_si, fixed_si, group_beside
 from kapitza.result import Result
 from kapitza.units import with_unit
+
+STUDY = "measures along a line"
 
 
 def measures_of(line: xarray.Dataset) -> list[str]:
@@ -56,12 +58,11 @@ def mark_tangency(axes: Axes, tangency: xarray.Dataset, *, named: bool) -> Axes:
     return axes
 
 
-def draw(result: Result, arguments: argparse.Namespace) -> Figure:
+def draw(result: Result, *, measure: Sequence[str] | None = None, si: bool = False) -> Figure:
     """The page: the panels over each other, with one legend."""
-    line = groups_of(result, arguments)("line")
-    names = arguments.measure or measures_of(line)
-    figure = new_figure(7.2, 1.2 + 2.2 * len(names))
-    panels = np.atleast_1d(figure.subplots(len(names), 1, sharex=True))
+    line = result.group("line", si=si, written=True)
+    names = measure or measures_of(line)
+    figure, panels = new_panels(7.2, 1.2 + 2.2 * len(names), len(names), sharex=True)
     tangency = group_beside(result, "tangency", line) if "tangency" in result.groups else None
     for axes, name in zip(panels, names, strict=True):
         draw_measure(axes, line, name, legend=axes is panels[0])
@@ -72,12 +73,6 @@ def draw(result: Result, arguments: argparse.Namespace) -> Figure:
     return figure
 
 
-def parse_arguments(words: list[str]) -> argparse.Namespace:
-    parser = argument_parser("line", __doc__, "measures along a line")
+def add_options(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--measure", nargs="+", metavar="NAME", help="the measures to draw; left out: all")
     add_si(parser, "measures with times in s and velocities in rad/s")
-    return parsed(parser, words)
-
-
-def main(words: list[str]) -> None:
-    write_picture(parse_arguments(words), draw)

@@ -17,30 +17,32 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from kapitza import style
-from kapitza.plots.common import argument_parser, entitle, new_figure, parsed, write_picture
 from kapitza.plots.orbit_panels import draw_path, draw_phase, draw_spectrum
 from kapitza.plots.orbit_record import Orbit
 from kapitza.plots.orbit_time import draw_time
-from kapitza.plots.page import current
+from kapitza.plots.page import current, entitle, new_figure, new_panels
 from kapitza.plots.units import add_si
 from kapitza.result import Result
 
 PANELS: dict[str, Callable[..., Axes]] = {"time": draw_time, "path": draw_path, "phase": draw_phase, "spectrum": draw_spectrum}
+STUDY = "an orbit"
 PANEL = 2.3  # inches of usual letters that a panel needs
 
 
-def parse_arguments(words: list[str]) -> argparse.Namespace:
-    parser = argument_parser("orbit", __doc__, "an orbit")
-    parser.add_argument("--panels", default=",".join(PANELS), help=f"some of {','.join(PANELS)} (default: all)")
-    parser.add_argument("--harmonics", type=int, default=3, choices=range(5), help="lines drawn into the time graph (default: 3)")
+def add_options(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument("--panels", type=panel_names, help=f"some of {','.join(PANELS)} (default: all)")
+    parser.add_argument("--harmonics", type=int, choices=range(5), help="lines drawn into the time graph (default: 3)")
     parser.add_argument("--last", type=periods, metavar="N", help="of an open record, the last N drive periods")
     parser.add_argument("--degrees", action="store_true", help="the lines of the spectrum in degrees too, as all angles are")
     add_si(parser, "time in s, velocities in rad/s, frequencies in Hz")
-    arguments = parsed(parser, words)
-    arguments.panels = arguments.panels.split(",")
-    if not set(arguments.panels) <= PANELS.keys() or len(set(arguments.panels)) < len(arguments.panels):
-        parser.error(f"--panels: give one or more of {','.join(PANELS)}")
-    return arguments
+
+
+def panel_names(text: str) -> list[str]:
+    """Some of PANELS, each once."""
+    names = text.split(",")
+    if not set(names) <= PANELS.keys() or len(set(names)) < len(names):
+        raise argparse.ArgumentTypeError(f"give one or more of {','.join(PANELS)}")
+    return names
 
 
 def periods(text: str) -> float:
@@ -52,6 +54,9 @@ def periods(text: str) -> float:
 
 def lay_out(panels: Sequence[str]) -> tuple[Figure, dict[str, Axes]]:
     """The time graph over the whole width, the others beneath it, as many side by side as the page has place for."""
+    if len(panels) == 1:
+        figure, (axes,) = new_panels(*((6.4, 4.4) if current().inches < 2 * PANEL else (6.6, 3.0)))
+        return figure, {panels[0]: axes}
     below = [name for name in panels if name != "time"]
     columns = int(max(1, min(len(below), current().inches // PANEL)))
     rows: list[Any] = [["time"] * columns] if "time" in panels else []
@@ -79,16 +84,13 @@ def write_title(figure: Figure, result: Result, orbit: Orbit) -> None:
     entitle(figure, result, *parts)
 
 
-def draw(result: Result, arguments: argparse.Namespace) -> Figure:
+def draw(result: Result, *, panels: Sequence[str] = tuple(PANELS), harmonics: int = 3, last: float | None = None, degrees: bool = False,
+         si: bool = False) -> Figure:
     """The page: the panels that were asked for."""
-    orbit = Orbit(result, arguments.last, si=arguments.si)
-    figure, axes = lay_out(arguments.panels)
+    orbit = Orbit(result, last, si=si)
+    figure, axes = lay_out(panels)
     for name, panel in axes.items():
-        options = {"time": {"harmonics": arguments.harmonics}, "spectrum": {"degrees": arguments.degrees}}
+        options: dict[str, dict[str, Any]] = {"time": {"harmonics": harmonics}, "spectrum": {"degrees": degrees}}
         PANELS[name](panel, orbit, **options.get(name, {}))
     write_title(figure, result, orbit)
     return figure
-
-
-def main(words: list[str]) -> None:
-    write_picture(parse_arguments(words), draw)

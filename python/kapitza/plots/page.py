@@ -1,11 +1,14 @@
-"""The page of a picture: how wide it is, how large its letters are, where its legend stands. Panels keep their shape on any page."""
+"""The page of a picture: how wide it is, how large its letters are, where its legend stands, what is written on it. Panels keep their
+shape on any page."""
 
 from collections.abc import Iterator
 from contextlib import contextmanager
 from contextvars import ContextVar
 from dataclasses import dataclass, field
 from io import BytesIO
+from typing import Any
 
+import numpy as np
 from matplotlib.artist import Artist
 from matplotlib.axes import Axes
 from matplotlib.backends.backend_agg import FigureCanvasAgg
@@ -16,6 +19,7 @@ from matplotlib.text import Text
 
 from kapitza import style
 from kapitza.plots.strokes import fix_ticks
+from kapitza.result import Result
 
 NARROW = 6.0  # inches of usual letters: on a narrower page the legend stands below, and panels side by side stand one above the other
 LEGENDS = ("right", "below", "none")
@@ -23,10 +27,15 @@ BELOW = "below"  # mark of a legend under all panels
 SEPARATOR = "   |   "  # between the parts of the line under a picture
 
 
+class BadOption(ValueError):
+    """An option that a picture does not take, or not beside another one."""
+
+
 @dataclass(frozen=True)
 class Page:
     """`width` in inches, None = that of each kind of picture; `font_size` in points; `legend`: one of LEGENDS; `colours`: name of an
-    attractor or kind of motion -> colour; `heading`: instead of the scene's title."""
+    attractor or kind of motion -> colour; `heading`: instead of the scene's title; `axes`: those that take the picture, on a page that is
+    somebody else's."""
 
     width: float | None = None
     font_size: float = style.FONT_SIZE
@@ -34,6 +43,7 @@ class Page:
     title: bool = True
     heading: str | None = None
     colours: dict[str, str] = field(default_factory=dict)
+    axes: Axes | None = None
 
     @property
     def narrow(self) -> bool:
@@ -83,14 +93,46 @@ class Picture(Figure):
 
 def new_figure(width: float, height: float) -> Picture:
     """An empty page that no window shows, `width` and `height` inches for letters of the usual size; laid out when it is written."""
+    if current().axes is not None:
+        raise BadOption("ax takes one panel, and this picture has several; choose a view, a measure or a panel of it")
     figure = Picture(figsize=(width * current().scale, height * current().scale), layout="constrained")
     FigureCanvasAgg(figure)  # which measures words
     return figure
 
 
-def lay_out(figure: Figure, page: Page | None = None) -> Figure:
+def new_panels(width: float, height: float, rows: int = 1, columns: int = 1, **options: Any) -> tuple[Figure, list[Axes]]:
+    """A new figure with its panels, row by row; a single one is the axes of the page, if it has any."""
+    axes = current().axes
+    if axes is not None and rows * columns == 1:
+        return axes.figure.figure, [axes]  # its figure may be a part of one
+    figure = new_figure(width, height)
+    return figure, list(np.ravel(figure.subplots(rows, columns, **options)))
+
+
+def title_text(result: Result) -> str:
+    """The scene's title, or the file's name: plain text, to be drawn with parse_math=False."""
+    return "".join(letter if letter.isprintable() else "?" for letter in result.title)
+
+
+def entitle(figure: Figure, result: Result, *parts: str) -> None:
+    """The title that the page asks for, else the scene's, above the figure; the parts that are not empty below it."""
+    if current().axes is not None:
+        return
+    title = current().heading or title_text(result)
+    heading = figure.suptitle(title, x=0.01, ha="left", fontsize="large", fontweight="bold", parse_math=False)
+    footer = figure.supxlabel(SEPARATOR.join(filter(None, parts)), x=0.01, ha="left", fontsize="small", color=style.FAINT)
+    if isinstance(figure, Picture):
+        figure.heading, figure.footer = heading, footer
+
+
+def lay_out(figure: Figure) -> Figure:
     """Gives the figure the page's width, its legend its place, its words their lines; its first panel keeps its shape."""
-    page = page or current()
+    page = current()
+    if page.axes is not None:
+        legend = page.axes.get_legend()
+        if legend and page.legend == "none":
+            legend.remove()
+        return figure
     _arrange(figure)
     shape = _shape(figure) if figure.axes else 1.0
     if not page.title:

@@ -17,24 +17,23 @@ from matplotlib.figure import Figure
 from kapitza import style
 from kapitza.measures import rows_of
 from kapitza.plots.basin import draw_one
-from kapitza.plots.common import argument_parser, entitle, new_figure, parsed, write_picture
 from kapitza.plots.orbit_panels import STROBE, draw_phase, draw_spectrum
 from kapitza.plots.orbit_record import Orbit
 from kapitza.plots.orbit_time import draw_time
+from kapitza.plots.page import entitle, new_figure
 from kapitza.plots.units import add_si
 from kapitza.result import BadFile, Result
 from kapitza.session import orbit
 
+STUDY = "attractors or measures"
 CHAOTIC_PERIODS, CHAOTIC_TRANSIENT = 200, 200  # drive periods of the record of a chaotic motion, and before it
 MOST_LINES = 13  # of a table in one column
 SAME = 1e-6  # rad: strobe points of one attractor in two groups differ less
 
 
-def parse_arguments(words: list[str]) -> argparse.Namespace:
-    parser = argument_parser("passport", __doc__, "attractors or measures")
-    parser.add_argument("--attractor", metavar="ID|NAME", default="0", help="default: the first one")
+def add_options(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument("--attractor", metavar="ID|NAME", help="default: the first one")
     add_si(parser, "times in s, velocities in rad/s, frequencies in Hz")
-    return parsed(parser, words)
 
 
 def chosen_row(result: Result, wanted: str) -> tuple[str, int]:
@@ -160,14 +159,13 @@ def fill(axes: dict[str, Axes], motion: Orbit, shown: dict[str, Any], attractors
         draw_table(axes["table"], shown["table"], legend=True)
 
 
-def draw(result: Result, arguments: argparse.Namespace) -> Figure:
+def draw(result: Result, *, attractor: int | str = 0, si: bool = False) -> Figure:
     """The page of one attractor."""
-    group, number = chosen_row(result, arguments.attractor)
-    motion = orbit_of(result, group, number, arguments.si)
-    more, shown = panels_of(result, group, number, arguments.si)
+    group, number = chosen_row(result, str(attractor))
+    more, shown = panels_of(result, group, number, si)
     figure, axes = new_page(more)
-    table = result.group(group, si=arguments.si)
-    fill(axes, motion, shown, table, number)
+    table = result.group(group, si=si)
+    fill(axes, orbit_of(result, group, number, si), shown, table, number)
     period = int(table["period"].values[number])
     name = style.name_text(style.names_with_ids(table["name"].values)[number])
     left_out = {"multipliers": "no multipliers", "basin": "no basin", "table": "no measures"}
@@ -175,7 +173,3 @@ def draw(result: Result, arguments: argparse.Namespace) -> Figure:
     entitle(figure, result, name, f"period {period}" if period else "", style.parameters_text(result.pendulum),
             f"in the file: {', '.join(missing)}" if missing else "")
     return figure
-
-
-def main(words: list[str]) -> None:
-    write_picture(parse_arguments(words), draw)

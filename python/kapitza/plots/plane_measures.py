@@ -1,6 +1,5 @@
 """Measures over a plane of two keys: a panel for each name of attractors, or one for a measure of the whole pendulum."""
 
-import argparse
 import math
 import re
 from collections.abc import Iterable
@@ -16,7 +15,7 @@ from matplotlib.patheffects import withStroke
 
 from kapitza import style
 from kapitza.plots.atlas_curves import PERIODS, curve_points, mark_curves
-from kapitza.plots.common import entitle, new_figure
+from kapitza.plots.page import entitle, new_panels
 from kapitza.plots.plane_axes import label_keys
 from kapitza.plots.units import fixed_si, group_beside
 from kapitza.result import BadFile, Result
@@ -124,24 +123,24 @@ def grid_of(count: int) -> tuple[Figure, list[Axes]]:
     """A page with so many panels of one scale."""
     columns = min(COLUMNS, count)
     rows = math.ceil(count / columns)
-    figure = new_figure(7.2, 4.8) if count == 1 else new_figure(2.0 + 2.6 * columns, 1.1 + 2.2 * rows)
-    panels = np.atleast_1d(figure.subplots(rows, columns, sharex=True, sharey=True, squeeze=False)).ravel()
+    width, height = (7.2, 4.8) if count == 1 else (2.0 + 2.6 * columns, 1.1 + 2.2 * rows)
+    figure, panels = new_panels(width, height, rows, columns, sharex=True, sharey=True)
     for axes in panels[count:]:
         axes.set_visible(False)
     for axes in panels[max(0, count - columns):count]:
         axes.tick_params(labelbottom=True)
-    return figure, list(panels[:count])
+    return figure, panels[:count]
 
 
-def measure_page(result: Result, plane: xarray.Dataset, arguments: argparse.Namespace) -> Figure:
-    """The page of one measure."""
+def measure_page(result: Result, plane: xarray.Dataset, measure: str | None, attractor: Iterable[str] | None, path: Path | None) -> Figure:
+    """The page of one measure, the first where none is given; `attractor`: names; `path`: of the atlas whose curves lie on top."""
     known = measures_of(plane)
-    measure = arguments.measure or known[0]
+    measure = measure or next(iter(known), "measure")
     if measure not in known:
         raise BadFile(f"{result.path}: its plane has no {measure}; it has {', '.join(known) or 'no measure of attractors'}")
-    atlas = atlas_of(result, plane, arguments.atlas)
+    atlas = atlas_of(result, plane, path)
     single = plane[measure].dims == ("y", "x")
-    chosen: dict[str, list[int]] = {"": []} if single else panels_of(result, plane, arguments.attractor)
+    chosen: dict[str, list[int]] = {"": []} if single else panels_of(result, plane, attractor)
     images = [(plane[measure].values, False)] if single else [of_name(plane, measure, numbers) for numbers in chosen.values()]
     norm = norm_of(np.array([values for values, _ in images]))
     figure, panels = grid_of(len(images))

@@ -13,11 +13,11 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import FuncFormatter, MultipleLocator
 
 from kapitza import style
-from kapitza.plots.common import argument_parser, entitle, new_figure, parsed, write_picture
-from kapitza.plots.units import groups_of
+from kapitza.plots.page import entitle, new_panels
 from kapitza.result import Result
 from kapitza.units import TURN, drive_unit
 
+STUDY = "a potential"
 COLOURS = ["#6b747e", "#2f6db3", "#12806a", "#c2452f", "#5b2a7a", "#b08a1e"]  # of the drive amplitudes, in turn
 FORMULAS = (("blackburn", (0, (4, 2)), "Blackburn Eq. 11"), ("simple", (0, (1, 1.5)), "leading order (Eq. 12)"))  # name, dashes, label
 
@@ -73,11 +73,10 @@ def _over_the_circle(axes: Axes, theta: xarray.DataArray) -> Axes:
     return axes
 
 
-def draw(result: Result, arguments: argparse.Namespace) -> Figure:
+def draw(result: Result, *, degrees: bool = False) -> Figure:
     """The page: the potentials above, the formulas' differences below."""
-    potential = groups_of(result, arguments)("potential")
-    figure = new_figure(7.2, 6.4)
-    above, below = figure.subplots(2, 1, sharex=True, height_ratios=[3, 2])
+    potential = result.group("potential", degrees=degrees, written=True)
+    figure, (above, below) = new_panels(7.2, 6.4, 2, sharex=True, height_ratios=[3, 2])
     draw_energy(above, potential)
     draw_differences(below, potential, legend=False)
     above.set_xlabel("")
@@ -85,11 +84,5 @@ def draw(result: Result, arguments: argparse.Namespace) -> Figure:
     return figure
 
 
-def parse_arguments(words: list[str]) -> argparse.Namespace:
-    parser = argument_parser("potential", __doc__, "a potential")
+def add_options(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--degrees", action="store_true", help="angles in degrees instead of parts of pi")
-    return parsed(parser, words)
-
-
-def main(words: list[str]) -> None:
-    write_picture(parse_arguments(words), draw)

@@ -19,21 +19,19 @@ from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 
 from kapitza import style
-from kapitza.plots.common import argument_parser, entitle, new_figure, parsed, write_picture
 from kapitza.plots.curves import A_LABEL, Q_LABEL, axes_of, curve_names, draw_curves, exact_of, is_branch, lowest_point, whole_curve
 from kapitza.plots.formula_errors import error_figure
-from kapitza.plots.page import current
+from kapitza.plots.page import current, entitle, new_panels
 from kapitza.result import BadFile, Result
 
+STUDY = "a stability chart"
 STABLE = "#e4e9ee"
 WIDEST, FEWEST = 0.03, 40  # of the view frequency: relative distance of neighbouring columns, and how many there must be
 RESTS = ("white", style.KINDS["inverted"], style.KINDS["down"], "#a9c8a4")  # stable: neither, inverted, hanging, both
 
 
-def parse_arguments(words: list[str]) -> argparse.Namespace:
-    parser = argument_parser("stability", __doc__, "a stability chart")
-    parser.add_argument("--view", choices=list(VIEWS), default="zones")
-    return parsed(parser, words)
+def add_options(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument("--view", choices=list(VIEWS))
 
 
 def frame(axes: Axes, chart: xarray.Dataset) -> Axes:
@@ -162,8 +160,8 @@ def _frequency_legend(axes: Axes, colours: Sequence[str]) -> None:
 def _page(panel: Callable[..., Axes]) -> Callable[[xarray.Dataset], Figure]:
     """What makes a page of one panel."""
     def make(chart: xarray.Dataset) -> Figure:
-        figure = new_figure(8.2, 4.8)
-        panel(figure.subplots(), chart)
+        figure, (axes,) = new_panels(8.2, 4.8)
+        panel(axes, chart)
         return figure
     return make
 
@@ -178,15 +176,11 @@ def damping_text(chart: xarray.Dataset) -> str:
     return f"β = {chart.attrs['damping']:g}" if chart.attrs.get("damping", 0) > 0 else "no damping"
 
 
-def draw(result: Result, arguments: argparse.Namespace) -> Figure:
+def draw(result: Result, *, view: str = "zones") -> Figure:
     """The page of the view that was asked for."""
     chart = result.group("stability")
     if chart.sizes["k"] < 2 or chart.sizes["m"] < 2:
         raise BadFile(f"{result.path}: the chart has one value only along an axis, so there is no area to draw")
-    figure = VIEWS[arguments.view](chart)
+    figure = VIEWS[view](chart)
     entitle(figure, result, f"{chart.sizes['k']} x {chart.sizes['m']} points", damping_text(chart))
     return figure
-
-
-def main(words: list[str]) -> None:
-    write_picture(parse_arguments(words), draw)

@@ -21,13 +21,13 @@ from matplotlib.patches import Patch
 
 from kapitza import style
 from kapitza.plots.branches import attracting_branches, branch_colours, draw_lives, draw_shares, named_branches, parameter_text
-from kapitza.plots.common import argument_parser, entitle, new_figure, parsed, write_picture
 from kapitza.plots.flutter import draw_amplitude, draw_square, draw_zone
-from kapitza.plots.page import current
-from kapitza.plots.units import fixed_si, groups_of
+from kapitza.plots.page import current, entitle, new_panels
+from kapitza.plots.units import fixed_si
 from kapitza.result import BadFile, Result
 from kapitza.units import drive_unit, in_degrees
 
+STUDY = "a sweep"
 UP, DOWN = "#2f6db3", "#c2452f"
 STAYS = "#f2d08a"
 NARROWEST = 0.04                                        # of the circle, in parts of pi
@@ -35,12 +35,10 @@ PI_STEPS = [1 / 4, 1 / 8, 1 / 16, 1 / 32, 0.01]         # between ticks, in part
 DEGREE_STEPS = [45, 15, 5, 2]
 
 
-def parse_arguments(words: list[str]) -> argparse.Namespace:
-    parser = argument_parser("sweep", __doc__, "a sweep")
+def add_options(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--view", choices=[name for name, _, _ in VIEWS], help="default: the first that the file has")
     parser.add_argument("--degrees", action="store_true",
                         help="strobe points and squared amplitudes in degrees too, as all other angles are")
-    return parsed(parser, words)
 
 
 def draw_releases(axes: Axes, sweep: xarray.Dataset, *, colours: tuple[str, str, str, str] = (STAYS, style.FAINT, DOWN, style.INK),
@@ -112,8 +110,8 @@ def strobe_range(sweep: xarray.Dataset) -> tuple[float, float]:
 
 def fractions_figure(sweep: xarray.Dataset) -> Figure:
     """Shares of the starts; under them the lives of the branches that the legend names."""
-    figure, named = new_figure(8.6, 8.2), named_branches(sweep)
-    top, bottom = figure.subplots(2, 1, sharex=True, height_ratios=[3, 2])
+    named = named_branches(sweep)
+    figure, (top, bottom) = new_panels(8.6, 8.2, 2, sharex=True, height_ratios=[3, 2])
     colours = branch_colours(sweep, named)
     draw_shares(top, sweep, colours=colours)
     draw_lives(bottom, sweep, colours=colours, only=named)
@@ -123,66 +121,48 @@ def fractions_figure(sweep: xarray.Dataset) -> Figure:
 
 def branches_figure(sweep: xarray.Dataset) -> Figure:
     """The life of every branch, named, and where it repels."""
-    figure = new_figure(6.4 if current().narrow else 8.6, 1.6 + (0.18 if current().narrow else 0.16) * len(attracting_branches(sweep)))
-    draw_lives(figure.subplots(), sweep, names=True)
+    width, line = (6.4, 0.18) if current().narrow else (8.6, 0.16)
+    figure, (axes,) = new_panels(width, 1.6 + line * len(attracting_branches(sweep)))
+    draw_lives(axes, sweep, names=True)
     return figure
 
 
 def flutter_figure(sweep: xarray.Dataset) -> Figure:
     """Amplitude and its square side by side; one above the other on a narrow page."""
-    narrow = current().narrow
-    figure = new_figure(6.4, 8) if narrow else new_figure(9, 3.9)
-    left, right = figure.subplots(2, 1) if narrow else figure.subplots(1, 2)
+    figure, (left, right) = new_panels(6.4, 8, 2) if current().narrow else new_panels(9, 3.9, 1, 2)
     draw_amplitude(left, sweep)
     draw_square(right, sweep)
     return figure
 
 
-def zone_figure(sweep: xarray.Dataset) -> Figure:
-    figure = new_figure(9.6, 5)
-    draw_zone(figure.subplots(), sweep)
-    return figure
-
-
-def releases_figure(sweep: xarray.Dataset) -> Figure:
-    figure = new_figure(10, 4.8)
-    draw_releases(figure.subplots(), sweep)
-    return figure
-
-
-def phases_figure(sweep: xarray.Dataset) -> Figure:
-    figure = new_figure(8.6, 4.4)
-    draw_alike(figure.subplots(), sweep)
-    return figure
+def one_panel(panel: Callable[..., Axes], width: float, height: float, **options: bool) -> Callable[[xarray.Dataset], Figure]:
+    """What makes a page of one panel."""
+    def make(sweep: xarray.Dataset) -> Figure:
+        figure, (axes,) = new_panels(width, height)
+        panel(axes, sweep, **options)
+        return figure
+    return make
 
 
 def strobe_figure(sweep: xarray.Dataset) -> Figure:
     """The walk up above the walk down."""
-    figure = new_figure(8.6, 7)
-    above, below = figure.subplots(2, 1, sharex=True, sharey=True)
+    figure, (above, below) = new_panels(8.6, 7, 2, sharex=True, sharey=True)
     draw_strobe(above, sweep)
     draw_strobe(below, sweep, up=False)
     above.set_xlabel("")
     return figure
 
 
-def up_figure(sweep: xarray.Dataset) -> Figure:
-    """The walk up alone."""
-    figure = new_figure(8.6, 4.2)
-    draw_strobe(figure.subplots(), sweep, legend=False)
-    return figure
-
-
 # name, a variable that it needs, what makes its page
 VIEWS: list[tuple[str, str, Callable[[xarray.Dataset], Figure]]] = [
     ("fractions", "fraction", fractions_figure),
-    ("phases", "alike", phases_figure),
+    ("phases", "alike", one_panel(draw_alike, 8.6, 4.4)),
     ("branches", "branch_start", branches_figure),
     ("flutter", "flutter_amplitude", flutter_figure),
-    ("zone", "flutter_onset", zone_figure),
-    ("releases", "release_stays", releases_figure),
+    ("zone", "flutter_onset", one_panel(draw_zone, 9.6, 5)),
+    ("releases", "release_stays", one_panel(draw_releases, 10, 4.8)),
     ("strobe", "strobe_theta", strobe_figure),
-    ("up", "strobe_theta", up_figure),
+    ("up", "strobe_theta", one_panel(draw_strobe, 8.6, 4.2, legend=False)),
 ]
 
 
@@ -211,13 +191,9 @@ def fixed_text(result: Result, sweep: xarray.Dataset) -> str:
     return ",  ".join(kept)
 
 
-def draw(result: Result, arguments: argparse.Namespace) -> Figure:
+def draw(result: Result, *, view: str | None = None, degrees: bool = False) -> Figure:
     """The page of the view that was asked for, or of the first that the file has."""
-    sweep = groups_of(result, arguments)("sweep")
-    figure = chosen_view(result, sweep, arguments.view)(sweep)
+    sweep = result.group("sweep", degrees=degrees, written=True)
+    figure = chosen_view(result, sweep, view)(sweep)
     entitle(figure, result, f"{sweep.sizes['value']} values", fixed_text(result, sweep))
     return figure
-
-
-def main(words: list[str]) -> None:
-    write_picture(parse_arguments(words), draw)

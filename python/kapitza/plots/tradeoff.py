@@ -19,9 +19,10 @@ from matplotlib.lines import Line2D
 from matplotlib.ticker import LogLocator, NullFormatter
 
 from kapitza import style
-from kapitza.plots.common import argument_parser, entitle, new_figure, parsed, write_picture
+from kapitza.plots.page import entitle, new_panels
 from kapitza.result import Result
 
+STUDY = "a trade-off"
 METHODS = ("icm", "direct", "exact")
 INTERPOLATIONS = ("linear", "quintic")
 # Way to label -> colour and marker.
@@ -35,10 +36,8 @@ WAYS = {
 }
 
 
-def parse_arguments(words: list[str]) -> argparse.Namespace:
-    parser = argument_parser("tradeoff", __doc__, "a trade-off")
+def add_options(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--per-cell", action="store_true", help="time of the labels alone, without table and trapping regions")
-    return parsed(parser, words)
 
 
 def way(method_code: int, scheme: str, interpolation_code: int) -> str:
@@ -118,15 +117,11 @@ def draw_tradeoff(axes: Axes, trade: xarray.Dataset, *, per_cell: bool = False, 
     return axes
 
 
-def draw(result: Result, arguments: argparse.Namespace) -> Figure:
+def draw(result: Result, *, per_cell: bool = False) -> Figure:
     """The page: one panel, its legend beside it."""
     trade = result.group("tradeoff")
-    figure = new_figure(7.2, 4.8)
-    draw_tradeoff(figure.subplots(), trade, per_cell=arguments.per_cell)
+    figure, (axes,) = new_panels(7.2, 4.8)
+    draw_tradeoff(axes, trade, per_cell=per_cell)
     parameters = [f"{symbol} = {result.pendulum[name]:.6g}" for symbol, name in (("k", "k"), ("β", "beta"), ("m", "m"))]
     entitle(figure, result, ",  ".join(parameters), f"{int(trade.attrs['samples'])} cells compared with quad precision")
     return figure
-
-
-def main(words: list[str]) -> None:
-    write_picture(parse_arguments(words), draw)

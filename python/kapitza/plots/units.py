@@ -1,7 +1,6 @@
-"""The option --si of pictures, and the groups of a result in the units that a picture has."""
+"""The option --si of pictures, and what their pages say in SI units."""
 
 import argparse
-from collections.abc import Callable
 
 import xarray
 
@@ -12,12 +11,6 @@ from kapitza.result import Result
 def add_si(parser: argparse.ArgumentParser, what: str) -> None:
     """The option --si; `what` says which axes it changes."""
     parser.add_argument("--si", action="store_true", help=f"{what}, of a scene in SI units")
-
-
-def groups_of(result: Result, arguments: argparse.Namespace) -> Callable[[str], xarray.Dataset]:
-    """A function from the name of a group to its numbers in the units of the picture: by --si, by --degrees, and of
-    a swept key as its scene is written."""
-    return lambda name: result.group(name, si=getattr(arguments, "si", False), degrees=getattr(arguments, "degrees", False), written=True)
 
 
 def fixed_si(result: Result, drawn: xarray.Dataset) -> str:
