@@ -72,9 +72,9 @@ def test_a_bearing_that_stops_the_pendulum():
     assert found.largest < 5 and " at 10 deg" not in repr(found) and found.quality_factor() == found.quality_factor(f"{found.largest} deg")
 
 
-@pytest.mark.parametrize(("hertz", "samples", "drive"), [(8.9, 60, 0.05), (6, 14, 0.15)])
+@pytest.mark.parametrize(("hertz", "samples", "drive"), [(15, 60, 0.09), (6, 14, 0.15)])
 def test_a_driven_track_gives_drive_and_phase(hertz, samples, drive):
-    """Many samples in a drive period, and few; the free decay, where the search began once, has another frequency."""
+    """Few samples in a drive period, and less than three; the first ended at 8.80 ± 0.06 rad/s without a drive."""
     time, truth = np.arange(0, 4, 1 / samples), DECAY | {"drive": drive, "phase": 0.7}
     found = kapitza.fit(time, track(truth, time, omega=2 * np.pi * hertz), frequency=f"{hertz} Hz")
     assert all(abs(found.best.values[name] - value) < 2 * found.best.errors[name] for name, value in truth.items())
