@@ -50,6 +50,7 @@ typedef struct {
   int n_joined;
   bool resume, force, all, json, json_schema, layout, no_browser, degrees;
   int64_t boundary;                    /* digits of --boundary; 0 = not given */
+  bool compared;                       /* the command lines of all ranks were compared, or are by the command */
   bool answered;                       /* --help or the like was printed: nothing is left to do */
   const char *port;                    /* of view, as written; NULL = not given */
   const char *frequency;               /* of fit and needs, as written; NULL = not given */

@@ -25,8 +25,9 @@ static int join_units(int argc, char **argv, kz_options *options) {
 
 /* A command or an answer that takes no MPI, started by a launcher on many ranks: all must have been given it, or those that were given a run would wait
  * for ever for those that were not. */
-static kz_status agree_alone(const kz_options *options) {
+static kz_status agree_alone(kz_options *options) {
   kz_ranks *ranks = NULL;
+  options->compared = true;
   if (kz_launch_count() <= 1) return KZ_OK;
   kz_status status = kz_ranks_start(NULL, NULL, &ranks);
   if (status == KZ_OK) status = kz_ranks_compare(ranks, options->words, "command line");
@@ -48,7 +49,17 @@ static kz_status carry_out(const kz_command *command, int argc, char **argv, kz_
   KZ_TRY(kz_operands_check(command, options));
   options->scene = options->operands[0];
   if (command->carry_out != kz_app_run) KZ_TRY(agree_alone(options));
+  options->compared = true;
   return command->carry_out(options);
+}
+
+/* A command line that is refused before ranks are compared: rank 0 may have been given another one, and would say nothing of this one. */
+static kz_status refuse_together(kz_options *options) {
+  char message[KZ_MESSAGE_BYTES];
+  snprintf(message, sizeof message, "%s", kz_message());
+  kz_message_clear();
+  KZ_TRY(agree_alone(options));
+  return kz_fail(KZ_REFUSED, "%s", message);
 }
 
 /* The first word: a command, or an option of the program itself. */
@@ -100,7 +111,8 @@ kz_status kz_app(int argc, char **argv) {
   options.sets = kz_calloc((size_t)argc + 1, sizeof *options.sets);
   options.origins = kz_calloc((size_t)argc + 1, sizeof *options.origins);
   options.joined = kz_calloc((size_t)argc + 1, sizeof *options.joined);
-  const kz_status status = dispatch(argc, argv, &options);
+  kz_status status = dispatch(argc, argv, &options);
+  if (status == KZ_REFUSED && !options.compared) status = refuse_together(&options);
   while (options.n_joined > 0) free(options.joined[--options.n_joined]);
   free(options.joined);
   free(options.line);

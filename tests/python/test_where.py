@@ -183,4 +183,4 @@ def test_what_is_no_boundary_is_refused(kapitza, tmp_path, arguments, words):
 def test_a_boundary_deeper_than_the_periods_allow_is_not_found(kapitza, tmp_path):
     (tmp_path / "k01.yaml").write_text(K01)
     ends = ["k01.yaml", "-2.367", "17", "-2.3672", "17", "--set", "basin.max_periods=30"]
-    assert "settle within 30 periods (max_periods" in kapitza("where", *ends, "--boundary", "40", folder=tmp_path, status=1).stderr
+    assert "settle within 30 periods (max_periods" in kapitza("where", *ends, "--boundary", "40", folder=tmp_path, status=2).stderr

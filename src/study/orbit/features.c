@@ -58,7 +58,7 @@ kz_status kz_orbit_features_make(kz_orbit *orbit) {
   record.centre = features->origin;
   KZ_TRY(make_lines(motion, &record, features));
   if (record.closed && features->period != period)
-    return kz_fail(KZ_FAILED,
+    return kz_fail(KZ_REFUSED,
                    "orbit: by its strobe points the cycle has period %lld, by its spectral lines %lld; choose another cycle",
                    (long long)period, (long long)features->period);
   features->chaotic = orbit->parting && features->period == 0;

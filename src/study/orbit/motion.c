@@ -45,7 +45,7 @@ static kz_status check_range(const kz_orbit_motion *motion) {
   for (int64_t i = 0; i <= motion->periods * motion->samples; i++) {
     if (isfinite(motion->theta[i]) && isfinite(motion->velocity[i])) continue;
     return kz_fail(
-        KZ_FAILED,
+        KZ_REFUSED,
         "orbit: the motion becomes too large for double precision in period %lld; use fewer periods or a smaller start",
         (long long)(i / motion->samples));
   }

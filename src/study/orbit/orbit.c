@@ -41,7 +41,7 @@ static kz_status find_cycle(const kz_model *model, kz_state start, kz_cycle *cyc
     for (int n = 1; n <= MOST_PERIODS; n++)
       if (back[n] < WITHIN[i] && close_with(model, n, start, cycle)) return KZ_OK;
   }
-  return kz_fail(KZ_FAILED,
+  return kz_fail(KZ_REFUSED,
                  "orbit.closed: no cycle of up to %d periods near theta = %.9g, velocity = %.9g; give a nearer start, a longer "
                  "transient, or the period",
                  MOST_PERIODS, start.theta, start.velocity);
@@ -54,24 +54,24 @@ static kz_status check_linear(const kz_model *model, int64_t period, kz_state st
   kz_model_skip(model, period, &end);
   double gap = hypot(end.theta - start.theta, end.velocity - start.velocity);
   if (gap <= CLOSED * hypot(start.theta - model->origin, start.velocity)) return KZ_OK;
-  return kz_fail(KZ_FAILED,
+  return kz_fail(KZ_REFUSED,
                  "orbit.closed: the linear motion ends %.3g from its start after %lld periods; choose parameters on a curve of "
                  "this period, or leave closed out",
                  gap, (long long)period);
 }
 
 /* The cycle at or near `start`: of the given period, or (period = 0) of the shortest that the orbit comes back to. Newton's
- * method on the strobe map for the pendulum; for the linear model the orbit itself must close. KZ_FAILED says what was
+ * method on the strobe map for the pendulum; for the linear model the orbit itself must close. KZ_REFUSED says what was
  * found instead. */
 static kz_status close_cycle(const kz_model *model, int64_t period, kz_state start, kz_cycle *cycle) {
   if (!model->flow) return check_linear(model, period, start, cycle);
   if (period == 0) return find_cycle(model, start, cycle);
   if (!close_with(model, period, start, cycle))
-    return kz_fail(KZ_FAILED,
+    return kz_fail(KZ_REFUSED,
                    "orbit.closed: no cycle of %lld periods within %g of theta = %.9g, velocity = %.9g; give a nearer start",
                    (long long)period, MAX_DISTANCE, start.theta, start.velocity);
   if (cycle->period == period) return KZ_OK;
-  return kz_fail(KZ_FAILED,
+  return kz_fail(KZ_REFUSED,
                  "orbit.period: is %lld, but the cycle found there closes after %lld; give that period, or a nearer start",
                  (long long)period, (long long)cycle->period);
 }

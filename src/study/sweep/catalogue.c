@@ -162,7 +162,7 @@ static kz_status collect(const searching *s, kz_sweep_catalogue *catalogue) {
     kz_dynamics_attractor(s->dynamics, order[i], &entry.point);
     if (entry.point.period < 0 || entry.hits + s->hits[entry.point.mirror] == 0) continue;
     if (catalogue->count == KZ_SWEEP_MOST)
-      return kz_fail(KZ_FAILED, "sweep: more than %d attractors at one value; use more damping or a smaller window",
+      return kz_fail(KZ_REFUSED, "sweep: more than %d attractors at one value; use more damping or a smaller window",
                      KZ_SWEEP_MOST);
     catalogue->entries[catalogue->count++] = entry;
   }

@@ -157,7 +157,7 @@ static kz_status measure_point(void *context, int64_t tile, void *record) {
   KZ_TRY(kz_measured_make(&pendulum, &points->scene->numerics, &points->plan, KZ_BY_STATES,
                           kz_measures_need(&points->plan.names), NULL, &measured));
   if (measured.catalogue.count > KZ_POINT_MOST)
-    return kz_fail(KZ_FAILED, "sweep: more than %d attractors at one point; use more damping or a smaller window",
+    return kz_fail(KZ_REFUSED, "sweep: more than %d attractors at one point; use more damping or a smaller window",
                    KZ_POINT_MOST);
   out->count = measured.catalogue.count;
   for (int64_t id = 0; id < out->count; id++) {

@@ -109,7 +109,7 @@ static kz_status search_piece(piece *p, double finest, bool *found) {
 
 static kz_status lost(const kz_question *q) {
   return kz_fail(
-      KZ_FAILED,
+      KZ_REFUSED,
       "--boundary: beside the boundary no starts on both sides settle within %lld periods (max_periods of the scene); "
       "allow more periods, or give other starts",
       (long long)q->max_periods);
