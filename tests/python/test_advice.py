@@ -7,7 +7,7 @@ import pytest
 from conftest import ROOT, launched
 
 SMALL = ROOT / "scenes" / "small.yaml"
-TINY = ["--set", "basin.theta.count=8", "--set", "basin.velocity.count=8", "--set", "basin.icm={theta: 40, velocity: 40}"]
+TINY = ["--set", "basin.theta.count=8", "--set", "basin.velocity.count=8"]
 IDLE = "warning: basin.icm: is not used by this basin.method"
 UNDAMPED = "warning: pendulum: has no damping"
 

@@ -19,7 +19,8 @@ def doubt(kapitza, folder, *options, ranks=None):
 
 
 def test_shares_are_stored_told_and_warned_of(kapitza, tmp_path):
-    shares, summary = doubt(kapitza, tmp_path, "--set", "numerics.scheme=split6", "--set", "basin.method=icm")
+    shares, summary = doubt(kapitza, tmp_path, "--set", "numerics.scheme=split6", "--set", "basin.method=icm",
+                            "--set", "basin.icm={theta: 250, velocity: 250}")
     # Measured: 14.4 % (13.7 .. 15.1) and 0.1 %. So few cells grow no regions: orbits are trapped later, and more lose their labels.
     assert 0.11 < shares["doubtful_share_low"] < shares["doubtful_share"] < shares["doubtful_share_high"] < 0.16
     assert shares["doubtful_share_high"] - shares["doubtful_share_low"] < 0.02

@@ -141,7 +141,7 @@ def test_damaged_checkpoints_are_never_used(kapitza, tmp_path, undisturbed, stop
 
 def test_memory_that_one_rank_may_not_have_ends_all(tmp_path):
     """Rank 1 alone may have little memory: it says so beforehand, and all ranks leave with one line."""
-    table = ["--set", "basin.icm={theta: 9000, velocity: 9000}"]
+    table = ["--set", "basin.method=icm", "--set", "basin.icm={theta: 9000, velocity: 9000}"]
     limit = 'if [ "$OMPI_COMM_WORLD_RANK" = 1 ]; then ulimit -v 600000; fi; exec "$@"'
     words = ["mpirun", "-n", "2", "bash", "-c", limit, "limited", str(PROGRAM), "run", str(SMALL), *table]
     done = subprocess.run(words, cwd=tmp_path, capture_output=True, text=True)

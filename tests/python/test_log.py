@@ -14,7 +14,7 @@ def events(path):
 
 
 def test_a_log_tells_stages_and_the_end(kapitza, tmp_path):
-    done = kapitza("run", SMALL, "--log", "log.jsonl", "--timings", ranks=2, folder=tmp_path)
+    done = kapitza("run", SMALL, "--set", "basin.method=icm", "--log", "log.jsonl", "--timings", ranks=2, folder=tmp_path)
     lines = events(tmp_path / "log.jsonl")
     assert lines[0]["event"] == "begin" and lines[0]["ranks"] == 2 and lines[0]["file"] == "small.h5"
     assert lines[-1] == lines[-1] | {"event": "end", "status": 0, "message": ""}

@@ -46,7 +46,7 @@ def test_the_scene_given_by_a_bare_name_writes_into_the_current_folder(kapitza, 
 def test_check_runs_nothing(kapitza, tmp_path):
     said = kapitza("check", SMALL, folder=tmp_path).stdout
     rows = dict(re.findall(r"^(.+?)\s{2,}(.+)$", said, re.MULTILINE))
-    assert len(said.splitlines()) == 5 and rows["studies"] == "basin (icm), 10000 cells" and "max_periods" not in said
-    assert re.fullmatch(r"[\d.]+ MB of memory, 1.1 MB on disk", rows["cost"])
+    assert len(said.splitlines()) == 5 and rows["studies"] == "basin (exact), 10000 cells" and "max_periods" not in said
+    assert re.fullmatch(r"[\d.]+ MB of memory, 633.9 kB on disk", rows["cost"])
     assert "\n\ntitle: " in kapitza("check", SMALL, "--all", folder=tmp_path).stdout
     assert list(tmp_path.iterdir()) == []
