@@ -51,7 +51,7 @@ def test_quickstart_replaces_only_a_result_of_another_run(tmp_path, ends, calls)
     """Status 2 is said for any bad input; only a result of another scene or program is replaced. mpirun and the program are stubs."""
     (tmp_path / "scripts").mkdir()
     shutil.copy(ROOT / "scripts" / "quickstart", tmp_path / "scripts")
-    (tmp_path / "scripts" / "setup").write_text(f'cd {tmp_path}; PATH={tmp_path}:$PATH\n')
+    (tmp_path / "scripts" / "setup").write_text(f'cd {tmp_path}; PATH={tmp_path}:$PATH; say() {{ echo "$says: $*"; }}\n')
     (tmp_path / "ends").write_text("".join(f"{end} \n" for end in ends))
     (tmp_path / "mpirun").write_text('#!/bin/bash\necho "${!#}" >> calls\nread -r status words < <(sed -n "$(wc -l < calls)p" ends)\n'
                                      'echo "$words" >&2\nexit "$status"\n')
@@ -62,6 +62,8 @@ def test_quickstart_replaces_only_a_result_of_another_run(tmp_path, ends, calls)
     done = shell(tmp_path / "scripts" / "quickstart")
     assert (tmp_path / "calls").read_text().split() == calls, done.stderr
     complete = ends[-1] == "0"
+    assert done.stdout.startswith("quickstart: mpirun -n 2 ")
+    assert ("build/kapitza view scenes/" in done.stdout and ".venv/bin/python " in done.stdout) == complete
     assert (done.returncode == 0) == complete and (tmp_path / "picture").exists() == complete
 
 
@@ -138,6 +140,20 @@ def test_set_up_makes_the_package_importable_wherever_the_project_is_moved(proje
         assert imported(project) == str(project / "python" / "kapitza" / "__init__.py")
     moved = project.rename(project.with_name("moved"))
     assert imported(moved) == str(moved / "python" / "kapitza" / "__init__.py")
+
+
+def test_set_up_says_each_stage_with_its_time(project):
+    """How long it takes and how much disk before it begins, a line for each stage, nothing the second time."""
+    (project / ".venv" / "requirements.done").unlink()
+    (project / ".venv" / "bin").mkdir()
+    for name in ("pip", "python"):
+        (project / ".venv" / "bin" / name).write_text("#!/bin/sh\n")
+        (project / ".venv" / "bin" / name).chmod(0o755)
+    first, second = (shell(project / "scripts" / "setup") for _ in range(2))
+    lines = re.findall(r"^setup: \d+ min \d\d s: (.+)$", first.stdout, re.MULTILINE)
+    assert len(lines) == len(first.stdout.splitlines()) and "minutes on two cores" in lines[0] and "GB of disk" in lines[0]
+    assert {"configuring and building build", "build is built", "the Python packages are installed"} < set(lines)
+    assert (first.returncode, second.returncode, second.stdout) == (0, 0, ""), first.stderr
 
 
 @pytest.mark.extensive
