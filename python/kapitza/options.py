@@ -33,7 +33,7 @@ class Parser(argparse.ArgumentParser):
     def _unknown(self, word: str) -> str:
         if not word.startswith("-"):
             return f"{word}: one argument too many; {self.prog} --help shows what it takes"
-        nearest = difflib.get_close_matches(word.partition("=")[0], self._option_string_actions, 1)
+        nearest = difflib.get_close_matches(word.partition("=")[0], self._option_string_actions, 1, 0.8)
         return f"{word}: unknown option; " + (f"did you mean {nearest[0]}?" if nearest else f"{self.prog} --help lists the options")
 
     def parse_known_args(self, args: Sequence[str] | None = None, namespace: Any = None) -> Any:  # type: ignore[override]

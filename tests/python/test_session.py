@@ -4,6 +4,7 @@ import copy
 import signal
 import subprocess
 import sys
+import warnings
 
 import h5py
 import kapitza
@@ -33,7 +34,9 @@ def test_a_scene_is_a_path_a_text_or_a_mapping(result, tmp_path):
     mapping["basin"] |= {"theta": {"count": np.int64(24)}, "velocity": {"min": -2, "max": 2.0, "count": 20}, "attractors": {"starts": 256}}
     mapped = kapitza.run(mapping, progress=False)
     text = kapitza.run(SMALL.read_text(), output=tmp_path / "text.h5", set=FEW, ranks=2, progress=False)
-    again = kapitza.run(result.scene, progress=False)
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")  # the text with every default was warned of a map table that nothing uses
+        again = kapitza.run(result.scene, progress=False)
     assert mapped.title == "A: small look" and text.path == tmp_path / "text.h5"
     for other in (mapped, text, again):
         assert np.array_equal(other.labels(), result.labels())

@@ -28,10 +28,10 @@ static void basin_rules(kz_reading *reading, kz_scene *scene) {
   if (!plan->velocity.centre.text[0]) kz_axis_rules(reading, &plan->velocity, "basin.velocity");
 }
 
-/* A map table without method icm is allowed, but nothing uses it: the run says so, unless an option has set the method. */
+/* A map table without method icm is allowed, but nothing uses it: the run says so, unless a method is named, as
+ * in the resolved text of every scene. */
 static void table_rules(kz_reading *reading, kz_scene *scene) {
-  const kz_node *method = kz_tree_find(reading->root, "basin.method");
-  const bool given = kz_tree_find(reading->root, "basin.icm") && !(method && method->line == 0);
+  const bool given = kz_tree_find(reading->root, "basin.icm") && !kz_tree_find(reading->root, "basin.method");
   scene->basin->table_is_idle = given && isnan(scene->basin->accuracy) && scene->basin->method != KZ_METHOD_ICM;
 }
 
