@@ -97,6 +97,8 @@ void kz_free_local(void *variable);
 
 /* True if `bytes` bytes could be allocated now. Nothing is allocated. */
 bool kz_memory_is_there(size_t bytes);
+/* Fails with the key of a request that `needed` bytes are for, where these could not be allocated now. */
+kz_status kz_memory_ask(const char *key, size_t needed);
 
 /* Sets the function that is called when memory runs out; `leave` must end the process. Default: abort. */
 void kz_memory_on_failure(void (*leave)(void));

@@ -75,3 +75,8 @@ bool kz_memory_is_there(size_t bytes) {
   free(memory);
   return memory != NULL;
 }
+
+kz_status kz_memory_ask(const char *key, size_t needed) {
+  if (kz_memory_is_there(needed)) return KZ_OK;
+  return kz_fail(KZ_FAILED, "request: %s: needs %zu MB of memory, more than there are", key, needed >> 20);
+}

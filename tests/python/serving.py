@@ -13,9 +13,11 @@ TYPES = {"labels": np.uint8, "settling_time": np.dtype("<f4"), "smooth_time": np
 class Server:
     """A running program; `with` ends it."""
 
-    def __init__(self, scene, *arguments, folder=None):
+    def __init__(self, scene, *arguments, folder=None, memory=None):
+        """memory: bytes of address space that the program may use."""
         command = [PROGRAM, "serve", scene, *arguments]
-        self.process = subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, cwd=folder)
+        limited = ["prlimit", f"--as={memory}"] if memory else []
+        self.process = subprocess.Popen([*limited, *command], stdin=subprocess.PIPE, stdout=subprocess.PIPE, cwd=folder)
         self.ready, _ = self.receive()
         self.sequence = 0
         self.catalogues = {}  # attractors by version

@@ -39,6 +39,17 @@ def test_the_program_says_what_it_serves(server):
     assert server.ready["window"]["velocity"] == {"min": -2, "max": 2, "count": 1000}
 
 
+def test_a_frame_for_which_memory_is_short_is_one_error():
+    """4096 x 4096 cells do not fit into 400 MB: the program says so before it begins, and makes the next frame."""
+    planes = ("labels", "settling_time", "smooth_time", "doubt", "other")
+    with Server(FIG12, memory=400_000_000) as running:
+        for quality in "exact", "moving":
+            answers = running.ask("frame", rows=4096, columns=4096, planes=planes, quality=quality)
+            assert [header["answer"] for header, _ in answers] == ["error"] and answers[0][0]["status"] == 1
+            assert "request: rows: needs 720 MB of memory" in answers[0][0]["message"]
+        assert len(running.frame(30, 44)[1]) > 0
+
+
 def test_a_frame_at_rest_is_what_a_run_of_method_exact_writes(server, tmp_path):
     sets = [f"basin.theta={AXES[0]}", f"basin.velocity={AXES[1]}", "basin.method=exact"]
     options = settings(*sets)

@@ -69,8 +69,7 @@ kz_status kz_orbit_answer(const kz_request *request, kz_status (*meanwhile)(void
   const size_t bytes = (size_t)samples * sizeof(double);
   pthread_t thread;
   bool ended = false;
-  if (!kz_memory_is_there(3 * bytes))
-    return kz_fail(KZ_FAILED, "request: periods: needs %zu MB of memory, more than there are", 2 * bytes >> 20);
+  KZ_TRY(kz_memory_ask("periods", 3 * bytes));
   KZ_FREED double *theta = kz_malloc(bytes), *velocity = kz_malloc(bytes);
   job j = {.scene = &request->scene, .theta = theta, .velocity = velocity, .mutex = PTHREAD_MUTEX_INITIALIZER};
   kz_condition_make(&j.changed);

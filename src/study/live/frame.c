@@ -6,7 +6,10 @@
 #include "numerics/cells.h"
 #include "basin/plan.h"
 
-enum { MOST_STARTS = 64 /* of the search among cells that do not settle */ };
+enum {
+  MOST_STARTS = 64,        /* of the search among cells that do not settle */
+  LABELS_BYTES = 16 << 20, /* memory in which starts are labelled */
+};
 
 typedef struct {
   kz_engine *engine;
@@ -28,13 +31,24 @@ size_t kz_plane_bytes(int plane) {
   return plane == KZ_PLANE_SETTLING_TIME || plane == KZ_PLANE_SMOOTH_TIME ? sizeof(float) : 1;
 }
 
-static void allocate(making *m) {
+/* Bytes of a cell in all planes of a frame. */
+static size_t planes_bytes(const kz_frame *frame) {
   size_t bytes = 0;
-  for (int plane = 0; plane < KZ_PLANES; plane++) bytes += m->frame->plane[plane] ? kz_plane_bytes(plane) : 0;
+  for (int plane = 0; plane < KZ_PLANES; plane++) bytes += frame->plane[plane] ? kz_plane_bytes(plane) : 0;
+  return bytes;
+}
+
+/* Asks for the memory of a frame, and for that of its labels, which is about the same whatever its size. */
+static kz_status ask_for_memory(const making *m) {
+  const size_t cell = sizeof *m->cell + sizeof *m->pending + sizeof *m->listed + planes_bytes(m->frame);
+  return kz_memory_ask("rows", (size_t)m->total * cell + LABELS_BYTES);
+}
+
+static void allocate(making *m) {
   m->cell = kz_calloc((size_t)m->total, sizeof *m->cell);
   m->pending = kz_malloc((size_t)m->total * sizeof *m->pending);
   m->listed = kz_calloc((size_t)m->own, sizeof *m->listed);
-  m->buffer = kz_malloc((size_t)m->total * bytes + sizeof(float));
+  m->buffer = kz_malloc((size_t)m->total * planes_bytes(m->frame) + sizeof(float));
 }
 
 static kz_status follow(making *m, int64_t n) {
@@ -165,6 +179,7 @@ kz_status kz_engine_frame(kz_engine *engine, const kz_scene *scene, const kz_fra
               .begin = kz_process_clock(),
               .total = scene->basin->theta.count * scene->basin->velocity.count,
               .own = kz_unique_cells(scene->basin)};
+  KZ_TRY(ask_for_memory(&m));
   KZ_TRY(kz_engine_prepared(engine, scene, frame, &m.prepared));
   const bool was_busy = m.prepared->busy;
   m.prepared->busy = true;

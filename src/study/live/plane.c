@@ -43,6 +43,7 @@ static kz_status draw(drawing *d, const kz_plane_raster *raster) {
 kz_status kz_plane_draw(const kz_scene *scene, const kz_integers *coarseness, kz_status (*pause)(void *context),
                         kz_status (*show)(void *context, const kz_plane_raster *raster), void *context) {
   const int64_t rows = scene->sweep->y.values.count, columns = scene->sweep->x.values.count, n = rows * columns;
+  KZ_TRY(kz_memory_ask("x", (size_t)n * (4 + sizeof(int64_t) + sizeof(bool))));
   KZ_FREED uint8_t *planes = kz_malloc(4 * (size_t)n);
   KZ_FREED int64_t *pending = kz_malloc((size_t)n * sizeof *pending);
   KZ_FREED bool *listed = kz_calloc((size_t)n, sizeof *listed);
