@@ -66,7 +66,8 @@ def test_an_installation_is_whole(installed, tmp_path):
                  "share/zsh/site-functions/_kapitza", "share/fish/vendor_completions.d/kapitza.fish", "share/doc/kapitza/README.md",
                  "share/doc/kapitza/docs/reference/commands.md", "share/doc/kapitza/docs/figures/blackburn-fig12.png"):
         assert (installed / path).stat().st_size > 0, path
-    scenes = sorted(path.name for path in (ROOT / "scenes").glob("*.yaml"))
-    assert sorted(path.name for path in (installed / "share/kapitza/scenes").iterdir()) == scenes
+    there = installed / "share/kapitza/scenes"
+    scenes = sorted(path.relative_to(ROOT / "scenes") for path in (ROOT / "scenes").rglob("*.yaml"))
+    assert sorted(path.relative_to(there) for path in there.rglob("*.yaml")) == scenes
     done = call(installed / "bin/kapitza", "check", installed / "share/kapitza/scenes/small.yaml", folder=tmp_path)
     assert done.returncode == 0, done.stderr
