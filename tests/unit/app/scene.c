@@ -120,7 +120,8 @@ TEST(errors_name_place_key_and_remedy) {
   expect_refused("basin: {}\n", NULL,
                  "s.yaml:1:1: pendulum: is missing; it must be a mapping of quality_factor, drive_frequency, "
                  "drive_amplitude, k, damping, m, length, frequency, amplitude, decay_time, gravity, mass, radius, "
-                 "inertia, friction, pivot_amplitude, pivot_frequency, tilt, ellipse, torque, torque_amplitude, "
+                 "inertia, friction, pivot_amplitude, pivot_frequency, constant_torque, oscillating_torque, "
+                 "beta_c, omega, i_dc, i_ac, tilt, ellipse, torque, torque_amplitude, constant_torque_ratio, torque_ratio, "
                  "waveform, samples, ramp, harmonics, vertical, horizontal; also missing: basin.velocity");
   expect_refused(GOOD "  theta: {max: 1, min: 2}\n", NULL,
                  "s.yaml:4:16: basin.theta.max: 1 is too small; it must be greater than min = 2");
