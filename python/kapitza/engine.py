@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 import pandas
 
+from kapitza import units
 from kapitza.client import Client, Ended
 from kapitza.program import ERROR, RunError, SceneError, check_end, command, scene_error
 from kapitza.scene import Scene, SceneLike, texts
@@ -83,12 +84,14 @@ class Engine:
 
     def where(self, theta: Any, velocity: Any, pendulum: Mapping[str, Any] | None = None) -> dict[str, Any]:
         """Returns where one start ends: a dict with the columns of `kapitza.where`."""
+        units.note_bare([theta])
         header, _ = self._ask({"request": "where", "theta": theta, "velocity": velocity}, pendulum)
         return {key: value for key, value in header.items() if key not in ("answer", "sequence", "final", "bytes")}
 
     def orbit(self, theta: Any, velocity: Any, periods: int = 100, pendulum: Mapping[str, Any] | None = None,
               samples_per_period: int = 64) -> pandas.DataFrame:
         """Models one motion: a table with the columns time (drive radians), theta (rad, not wrapped), velocity (rad per drive radian)."""
+        units.note_bare([theta])
         header, payload = self._ask({"request": "orbit", "theta": theta, "velocity": velocity, "periods": periods,
                                      "samples_per_period": samples_per_period}, pendulum)
         values = np.frombuffer(payload, "<f8").reshape(2, header["samples"])

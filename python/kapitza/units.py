@@ -2,7 +2,8 @@
 
 import math
 import re
-from collections.abc import Mapping
+import warnings
+from collections.abc import Iterable, Mapping
 from typing import Any
 
 import numpy as np
@@ -105,11 +106,24 @@ def in_degrees(variable: xarray.DataArray) -> np.ndarray:
     return np.degrees(variable.values / drive_unit(variable))
 
 
+def note_bare(angles: Iterable[Any]) -> None:
+    """Warns of the first angle without a unit that is so large that degrees may be meant."""
+    for value in angles:
+        try:
+            number = float(value)
+        except (TypeError, ValueError):
+            continue
+        if abs(number) > 2 * TURN:
+            warnings.warn(f'an angle without a unit is in rad; write "{number:g} deg" for degrees', stacklevel=3)
+            return
+
+
 def angle(value: Any) -> float:
-    """An angle in rad: a number, or a text such as "175 deg", "175°", "pi/2" or "3 pi/4".
+    """An angle in rad: a number, or a text such as "175 deg", "175°", "pi/2" or "3 pi/4". Large numbers are noted.
 
     :raises ValueError: if the text is none of these
     """
+    note_bare([value])
     if not isinstance(value, str):
         return float(value)
     text = value.strip()

@@ -27,12 +27,9 @@ static void print_decision(const kz_ending *e) {
   putchar('\n');
 }
 
-/* The start, with a note where its angle looks like degrees. */
 static void print_start(const kz_coordinate start[2], double omega) {
   printf("theta = %.10g (%.6g deg), velocity = %.10g", start[0].high, start[0].high * 180 / M_PI, start[1].high);
   isnan(omega) ? puts("") : printf(" (%.6g rad/s)\n", start[1].high * omega);
-  if (fabs(start[0].high) > 4 * M_PI)
-    printf("note            an angle without a unit is in rad; write \"%.6g deg\" for degrees\n", start[0].high);
 }
 
 /* A number of drive periods, and what they are in seconds. */
@@ -43,7 +40,7 @@ static void print_time(const char *words, int64_t periods, double omega) {
 }
 
 /* `omega`: of the pivot, rad/s; NaN where the scene is not in SI units, which are printed then too. */
-static void print_person(const kz_coordinate start[2], const kz_ending *e, double omega) {
+static void print_person(const kz_coordinate start[2], const kz_ending *e, double omega, bool damped) {
   const bool si = !isnan(omega);
   print_start(start, omega);
   if (e->end.label < 0) {
@@ -51,7 +48,8 @@ static void print_person(const kz_coordinate start[2], const kz_ending *e, doubl
       printf("ends on         no cycle and no chaos: it settles nowhere (%s)\n", e->entry.name);
       print_decision(e);
     } else {
-      puts("ends on         no known attractor: it has not settled");
+      puts(damped ? "ends on         no known attractor: it has not settled"
+                  : "ends on         nothing: without damping there are no attractors");
     }
     return;
   }
@@ -156,20 +154,27 @@ static void print_csv_names(const kz_coordinate start[2], const kz_ending *e, do
   for (int i = 0; i < n; i++) printf("%s%c", list[i].name, i + 1 < n ? ',' : '\n');
 }
 
-static void print_endings(const kz_options *options, const kz_starts *starts, const kz_ending *endings) {
+static void print_endings(const kz_options *options, const kz_starts *starts, const kz_ending *endings, bool damped) {
   const bool table = options->n_operands == 2;
   const double omega = starts->pivot_frequency;
   if (table && !options->json) print_csv_names(starts->start[0], endings, omega);
   for (int64_t i = 0; i < starts->n; i++) {
     const kz_coordinate *start = starts->start[i];
-    (options->json ? print_json : table ? print_csv : print_person)(start, endings + i, omega);
+    if (options->json || table)
+      (options->json ? print_json : print_csv)(start, endings + i, omega);
+    else
+      print_person(start, endings + i, omega, damped);
   }
 }
 
-/* In a scene in SI units people think in rad/s. */
+/* A number without a unit may be meant in degrees, and in a scene in SI units in rad/s. */
 static void print_note(const kz_options *options, const kz_starts *starts) {
-  const double speed = starts->start[0][1].high;
-  if (options->json || options->n_operands != 3 || isnan(starts->pivot_frequency) || speed == 0) return;
+  const double speed = starts->start[0][1].high, angle = starts->start[0][0].high;
+  double number;
+  if (options->json || options->n_operands != 3) return;
+  if (fabs(angle) > 4 * M_PI && !kz_text_real(options->operands[1], &number))
+    printf("note            an angle without a unit is in rad; write \"%.6g deg\" for degrees\n", angle);
+  if (isnan(starts->pivot_frequency) || speed == 0) return;
   if (strstr(options->operands[2], "/s")) return;
   printf("note            a velocity without a unit is in rad per drive radian: %.6g is %.6g rad/s; ", speed,
          speed * starts->pivot_frequency);
@@ -179,7 +184,9 @@ static void print_note(const kz_options *options, const kz_starts *starts) {
 static kz_status answer_where(const kz_options *options, const kz_scene *scene, const kz_starts *starts) {
   kz_ending *endings = kz_calloc((size_t)starts->n, sizeof *endings);
   const kz_status status = kz_where(scene, starts->n, starts->start, endings);
-  if (status == KZ_OK) print_endings(options, starts, endings);
+  const bool damped = scene->parameters.pendulum.beta > 0;
+  if (status == KZ_OK) print_endings(options, starts, endings, damped);
+  if (status == KZ_OK && !damped && (options->json || options->n_operands == 2)) kz_settling_warn(scene, stderr);
   if (status == KZ_OK) print_note(options, starts);
   kz_where_free(starts->n, endings);
   free(endings);

@@ -17,6 +17,16 @@ LONG = ["--set", "pendulum={quality_factor: 20, drive_frequency: 8, drive_amplit
 QUICK = ["--set", "basin.icm={theta: 100, velocity: 100}", "--set", "basin.attractors.starts=1024"]
 
 
+def test_notes_stand_where_they_are_needed(kapitza):
+    """Degrees that look like radians, and a pendulum without attractors."""
+    note = 'note            an angle without a unit is in rad; write "175 deg" for degrees'
+    assert note in kapitza("where", SMALL, "175", "0", *QUICK).stdout
+    assert "note" not in kapitza("where", SMALL, "900 deg", "0", *QUICK).stdout
+    undamped = ["--set", "pendulum={k: 0.01, beta: 0, m: 0.3}", "--set", "basin.max_periods=50"]
+    said = kapitza("where", SMALL, "1", "0", *undamped).stdout
+    assert said.endswith("ends on         nothing: without damping there are no attractors\n")
+
+
 def where(*arguments, text=""):
     """The command with `text` on standard input."""
     command = [PROGRAM, "where", *map(str, arguments)]
