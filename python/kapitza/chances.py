@@ -8,6 +8,7 @@ import pandas
 import xarray
 
 from kapitza import units
+from kapitza.bounded import table_file
 from kapitza.scene import tree_of
 from kapitza.table import CENTRES, cells_of, edges_of
 
@@ -154,7 +155,9 @@ def largest(result: "Result", name: str, least: float) -> Largest:
 
 def agreement(result: "Result", table: Any) -> "Agreement":
     """As Result.agree."""
-    measured = (pandas.read_csv(table) if not isinstance(table, pandas.DataFrame) else table).reset_index(drop=True)
+    if not isinstance(table, pandas.DataFrame):
+        table = pandas.read_csv(table_file(table))
+    measured = table.reset_index(drop=True)
     theta, velocity = measured_starts(measured)
     if "end" not in measured or not len(measured):
         raise ValueError("the table of releases needs a column end, such as inverted or down, and a row for each release")

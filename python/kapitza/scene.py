@@ -13,6 +13,8 @@ from typing import Any
 
 import yaml
 
+from kapitza.bounded import read_text
+
 # Symbols that a scene may write instead of these keys of the pendulum and of the study stability.
 SYMBOLS = {"Q": "quality_factor", "Omega": "drive_frequency", "epsilon": "drive_amplitude", "beta": "damping", "gamma": "torque_ratio"}
 _PLAIN = re.compile(r"(?!-( |$))[\w.+/-]([\w.+/ -]*[\w.+/-])?")  # a text that YAML takes as it is, on one line
@@ -54,7 +56,7 @@ class Scene:
             raise TypeError(f"a scene is the path of a file, YAML text or a mapping, not {scene!r}")
         else:
             self.is_file, self.path = True, Path(scene)
-            self.text = self.path.read_text(encoding="utf-8", errors="replace") if self.path.is_file() else ""
+            self.text = _text_of(self.path)
         if not self.is_file and not isinstance(scene, Scene):
             self.path = write_scene(self.text)
 
@@ -79,6 +81,14 @@ class Scene:
 
 
 SceneLike = str | os.PathLike[str] | Mapping[str, Any] | Scene
+
+
+def _text_of(path: Path) -> str:
+    """The text of a scene file; "" where it is none, which the program refuses."""
+    try:
+        return read_text(path, "scene", "replace") if path.is_file() else ""
+    except ValueError:
+        return ""
 
 
 def _is_text(scene: Any) -> bool:

@@ -150,6 +150,7 @@ def where(scene: SceneLike, theta: Any, velocity: Any, set: Mapping[str, Any] | 
     """
     asked = Scene(scene, set)
     angles, velocities = (np.ravel(values) for values in np.broadcast_arrays(_starts(theta), _starts(velocity)))
+    units.note_bare(angles)
     for text in (*angles, *velocities):
         if any(letter in str(text) for letter in ",\r\n"):
             raise SceneError(f"{str(text)!r} is not one number; give an array for several starts")

@@ -14,10 +14,10 @@ import numpy as np
 import pandas
 import yaml
 
+from kapitza.bounded import TABLE, read_bytes
 from kapitza.fitting import Fit, fit
 from kapitza.units import TURN, length_text
 
-LARGEST = 64 << 20  # bytes of a file
 SEPARATORS = {"\t": "tabs", ";": "';'", ",": "','", r"\s+": "blanks"}
 TIMES, ANGLES = ("time", "t", "zeit", "temps"), ("theta", "θ", "angle", "winkel", "phi", "φ")
 SECONDS = {"s": 1.0, "sec": 1.0, "ms": 1e-3, "us": 1e-6, "µs": 1e-6}
@@ -48,11 +48,7 @@ def read_track(path: str | os.PathLike[str], degrees: bool = False) -> Track:
     :param degrees: whether angles without a unit are in degrees
     :raises ValueError: if the file is no such table
     """
-    with open(path, "rb") as file:
-        data = file.read(LARGEST + 1)
-    if len(data) > LARGEST:
-        raise ValueError(f"is larger than {LARGEST >> 20} MB; no track is that large")
-    text, encoding = _decoded(data)
+    text, encoding = _decoded(read_bytes(path, TABLE, "track"))
     lines = [line for line in text.splitlines() if line.strip() and not line.lstrip().startswith("#")]
     if not lines:
         raise ValueError("is empty; a track has columns of times and angles")

@@ -13,7 +13,7 @@ import pandas
 import pytest
 import xarray
 import yaml
-from conftest import ROOT, wait_for
+from conftest import PROGRAM, ROOT, wait_for
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from kapitza.compare import match_attractors
@@ -267,6 +267,40 @@ def test_a_damaged_group_is_named_where_a_result_is_shown(result, tmp_path):
         del file["basin/theta"]
         file["basin/theta"] = np.zeros(3)
     assert "basin: damaged" in repr(kapitza.Result(path))
+
+
+def test_files_are_measured_before_they_are_read(result, tmp_path):
+    """A sparse file of a terabyte in place of a scene, of colours, of a table: a line, and no traceback for want of memory."""
+    huge = tmp_path / "huge.yaml"
+    with huge.open("wb") as file:
+        file.truncate(1 << 40)
+    for call in (kapitza.run, kapitza.check, lambda scene: kapitza.where(scene, 1, 0), kapitza.Engine, lambda scene: kapitza.film(
+            scene, "pendulum.m", [1, 2], tmp_path / "a.gif")):
+        with pytest.raises(kapitza.SceneError, match="has more than 1000000 bytes; a scene has at most that many"):
+            call(huge)
+    for call in (lambda: result.plot(colours=huge), lambda: result.agree(huge)):
+        with pytest.raises(ValueError, match="is larger than (1|64) MB; no (list of colours|table) is that large"):
+            call()
+    seen = subprocess.run([PROGRAM, "view", "--no-browser", huge], capture_output=True, text=True)
+    assert (seen.returncode, seen.stderr) == (2, f"kapitza: error: {huge}: is larger than 1 MB; no scene is that large\n")
+
+
+@pytest.mark.parametrize("call", [
+    lambda result, theta: kapitza.where(result.scene, theta, 0), lambda result, theta: kapitza.orbit(result.scene, theta, 0, periods=1),
+    lambda result, theta: result.at(theta, 0), lambda result, theta: result.probability(theta, 0, (0.1, 0.1))])
+def test_a_large_angle_without_a_unit_is_noted(result, call):
+    """175 is taken for radians, as the shell notes."""
+    with pytest.warns(UserWarning, match='an angle without a unit is in rad; write "175 deg" for degrees'):
+        call(result, 175)
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        call(result, "175 deg")
+
+
+def test_where_without_damping_says_that_nothing_attracts():
+    undamped = {"pendulum": {"k": 0.01, "damping": 0, "m": 0.3}, "basin": {"velocity": {"min": -2, "max": 2}, "max_periods": 50}}
+    with pytest.warns(UserWarning, match="no damping, so there are no attractors"):
+        assert kapitza.where(undamped, 1, 0)["attractor"].tolist() == [-1]
 
 
 def test_symbols_name_keys_of_the_pendulum():

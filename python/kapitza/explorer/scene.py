@@ -7,6 +7,7 @@ from pathlib import Path
 
 import yaml
 
+from kapitza.bounded import read_text
 from kapitza.result import BadFile, Result
 from kapitza.scene import flow, put, read_yaml, texts, tree_of
 from kapitza.units import parts_of
@@ -39,7 +40,7 @@ class Start:
         elif first == picture.SIGNATURE:
             self.text, self.path = picture.scene_in(self.path), None
         else:
-            self.text = self.path.read_text(encoding="utf-8", errors="replace")
+            self.text = _text_of(self.path)
         self.sets = list(sets)
         self.tree = _changed(tree_of(self.text), self.sets)
         self._file = None
@@ -133,6 +134,13 @@ def _first_bytes(path):
             return file.read(len(HDF5_SIGNATURE))
     except OSError as error:
         raise BadFile(f"{path}: cannot be read: {error.strerror}") from error
+
+
+def _text_of(path):
+    try:
+        return read_text(path, "scene", "replace")
+    except ValueError as error:
+        raise BadFile(f"{path}: {error}") from None
 
 
 def _mapping(request, name):

@@ -5,6 +5,7 @@ from pathlib import Path
 
 import yaml
 
+from kapitza.bounded import read_text
 from kapitza.scene import read_yaml, texts
 from kapitza.units import written_frequency
 
@@ -19,7 +20,7 @@ WORDS = {"view": ("pendulum", "trace", "phase", "strobe", "spectrum"), "fill": (
 
 def written(folder):
     """The stories of a folder, in the order of their names."""
-    return [read(path.read_text(encoding="utf-8"), path.name) for path in sorted(Path(folder).glob("*.yaml"))]
+    return [read(read_text(path, "story"), path.name) for path in sorted(Path(folder).glob("*.yaml"))]
 
 
 def read(text, name):

@@ -12,6 +12,7 @@ from matplotlib.text import Text
 from matplotlib.transforms import Bbox
 
 from kapitza import style
+from kapitza.bounded import table_file
 from kapitza.plots.atlas_classes import motion_text
 from kapitza.reading import BadFile
 
@@ -26,7 +27,10 @@ def mark_points(axes: Axes, path: str) -> list[Line2D]:
     """Points of a CSV file, a mark for each label; the marks, for the legend."""
     import pandas
 
-    table = pandas.read_csv(path, comment="#")
+    try:
+        table = pandas.read_csv(table_file(path), comment="#")
+    except (OSError, ValueError) as error:
+        raise BadFile(str(error)) from error
     if missing := {"x", "y", "label"} - set(table.columns):
         raise BadFile(f"{path}: lacks the column {sorted(missing)[0]}")
     handles = []

@@ -5,7 +5,6 @@ import os
 import re
 from collections.abc import Mapping
 from dataclasses import replace
-from pathlib import Path
 from typing import Any
 
 import yaml
@@ -13,6 +12,7 @@ from matplotlib.axes import Axes
 from matplotlib.colors import is_color_like
 
 from kapitza import style
+from kapitza.bounded import read_text
 from kapitza.plots.page import LEGENDS, NARROW, Page
 from kapitza.scene import read_yaml
 
@@ -62,8 +62,8 @@ def colours_of(given: str | os.PathLike[str] | Mapping[Any, Any]) -> dict[str, s
     """The colours of a mapping, or of the one in a YAML (or JSON) file."""
     text = "colours" if isinstance(given, Mapping) else str(given)
     try:
-        colours = given if isinstance(given, Mapping) else read_yaml(Path(text).read_text(encoding="utf-8"))
-    except (OSError, yaml.YAMLError, UnicodeDecodeError) as error:
+        colours = given if isinstance(given, Mapping) else read_yaml(read_text(text, "list of colours"))
+    except (OSError, yaml.YAMLError, ValueError) as error:
         raise argparse.ArgumentTypeError(f"{text} cannot be read: {' '.join(str(error).split())}") from error
     if not isinstance(colours, Mapping):
         raise argparse.ArgumentTypeError(f'{text} contains no colours; write lines such as inverted: "#f2b233"')

@@ -134,5 +134,6 @@ def _scene(result: Result) -> str:
 
 def _provenance(result: Result) -> str:
     rows = [[_text(name.replace("_", " ")), _text(result.attributes[name])] for name in PROVENANCE if name in result.attributes]
-    rows.append(["sha256 of the file", hashlib.sha256(result.path.read_bytes()).hexdigest()])
+    with result.path.open("rb") as file:
+        rows.append(["sha256 of the file", hashlib.file_digest(file, "sha256").hexdigest()])
     return "<h2>Provenance</h2>\n" + _table(["", ""], rows).replace(" class=number", "")
