@@ -33,6 +33,8 @@ def test_the_census_says_how_much_is_missing(atlas):  # noqa: F811
     wide = int((band >= 1e-4).sum())
     low, high = (float(group.attrs[f"missing_{end}"]) for end in ("low", "high"))
     assert int(group["decade_curves"][:4].sum()) == wide and 0 <= low <= high < 3
+    assert int(group.attrs["dropped"]) == 0 and "found no room" not in summary + missing_text(group)
+    assert "12 cycles found no room" in missing_text(group.assign_attrs(dropped=12))
     assert "are missing" in summary and "missing" in missing_text(group) and missing_text(group) in as_text(result)
 
 

@@ -27,7 +27,9 @@ def missing_text(atlas: xarray.Dataset) -> str:
     if "missing_high" not in atlas.attrs:
         return ""
     low, high = math.floor(float(atlas.attrs["missing_low"])), math.ceil(float(atlas.attrs["missing_high"]))
-    return f", an estimated {f'{low} to {high}' if high > low else low} missing with bands above 1e-4 of the plane"
+    dropped = int(atlas.attrs.get("dropped", 0))
+    return (f", an estimated {f'{low} to {high}' if high > low else low} missing with bands above 1e-4 of the plane"
+            f"{f', or more: {dropped} cycles found no room' if dropped else ''}")
 
 
 def centre_of(class_name: object) -> int:

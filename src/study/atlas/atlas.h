@@ -23,7 +23,7 @@ typedef kz_plane_cycle kz_atlas_seed;
 typedef struct {
   int64_t count;
   kz_atlas_seed *list;
-  int64_t capacity;
+  int64_t capacity, dropped; /* dropped: those that a record had no room for */
 } kz_atlas_seeds;
 
 /* Attractors of one kind; mirror images count as one. */
@@ -91,6 +91,7 @@ struct kz_atlas {
   kz_atlas_seeds sightings;                    /* the first curves that these met, */
   int64_t *sighting_place, sighting_capacity;  /* and the number of the place of each */
   int64_t rounds, checked, disagreed;          /* of random places, the last two of the last round */
+  int64_t dropped;                             /* cycles and points of curves that records had no room for */
   int64_t compared, alone;                     /* crossings of lines at k and -k; those without a partner */
   int64_t listed, unsolved;                    /* motions in the lists of these places; those that could not be solved for */
 };

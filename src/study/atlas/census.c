@@ -85,11 +85,12 @@ static void census_free(census *c) {
 }
 
 /* The cycles of n places, each once, in tiles. */
-static void list_cycles(census *c, const kz_atlas_bag *found) {
+static void list_cycles(census *c, const kz_atlas_bag *found, int64_t *dropped) {
   for (int64_t place = 0; place < found->n / TILES; place++) {
     KZ_FREED_BY(kz_atlas_seeds_free) kz_atlas_seeds all = {0};
     for (int64_t tile = place * TILES; tile < (place + 1) * TILES; tile++) {
       const kz_atlas_seeds some = kz_atlas_seeds_in(found->record[tile]);
+      *dropped += some.dropped;
       for (int64_t i = 0; i < some.count; i++)
         if (!has_cycle(c->atlas, &all, kz_kind_period(&some.list[i].kind), some.list[i].y)) kz_atlas_put(&all, some.list + i);
     }
@@ -178,10 +179,11 @@ static kz_status take_census(kz_atlas *atlas, const kz_run *run, int64_t n, cons
   KZ_FREED_BY(kz_atlas_bag_free) kz_atlas_bag births = {0};
   KZ_FREED_BY(census_free) census c = {.atlas = atlas, .place = place};
   KZ_TRY(kz_atlas_gather(run, "atlas cycles", n * TILES, KZ_ATLAS_SEEDS_BYTES, cycles_tile, &c, &found));
-  list_cycles(&c, &found);
+  list_cycles(&c, &found, &atlas->dropped);
   KZ_TRY(kz_atlas_gather(run, "atlas births", c.n, KZ_ATLAS_SEEDS_BYTES, births_tile, &c, &births));
   for (int64_t tile = 0; tile < births.n; tile++) {
     const kz_atlas_seeds seeds = kz_atlas_seeds_in(births.record[tile]);
+    atlas->dropped += seeds.dropped;
     for (int64_t i = 0; i < seeds.count; i++)
       if (band_at(atlas, seeds.list + i) > LEAST_BAND) kz_atlas_await(atlas, seeds.list + i);
   }

@@ -133,6 +133,7 @@ static kz_status explore(kz_atlas *atlas, const kz_run *run, int64_t n_cycles, c
   atlas->n_explored = atlas->n_curves;
   for (int64_t i = 0; i < found.n; i++) {
     const kz_atlas_seeds seeds = kz_atlas_seeds_in(found.record[i]);
+    atlas->dropped += seeds.dropped;
     for (int64_t j = 0; j < seeds.count; j++) kz_atlas_await(atlas, seeds.list + j);
   }
   return KZ_OK;

@@ -43,20 +43,26 @@ kz_status kz_atlas_gather(const kz_run *run, const char *name, int64_t n, size_t
   return share(run, b);
 }
 
+typedef struct {
+  uint64_t bytes;
+  int64_t dropped;
+} seeds_head;
+
 void kz_atlas_put_seeds(const kz_atlas_seeds *seeds, void *record) {
-  const size_t most = (KZ_ATLAS_SEEDS_BYTES - sizeof(uint64_t)) / sizeof *seeds->list,
+  const size_t most = (KZ_ATLAS_SEEDS_BYTES - sizeof(seeds_head)) / sizeof *seeds->list,
                n = (size_t)seeds->count < most ? (size_t)seeds->count : most;
-  const uint64_t bytes = sizeof bytes + n * sizeof *seeds->list;
-  memcpy(record, &bytes, sizeof bytes);
-  if (n > 0) memcpy((char *)record + sizeof bytes, seeds->list, n * sizeof *seeds->list);
+  const seeds_head head = {sizeof head + n * sizeof *seeds->list, seeds->count - (int64_t)n};
+  memcpy(record, &head, sizeof head);
+  if (n > 0) memcpy((char *)record + sizeof head, seeds->list, n * sizeof *seeds->list);
 }
 
 /* The seeds of a record; they stay where they are. */
 kz_atlas_seeds kz_atlas_seeds_in(const char *record) {
-  uint64_t bytes;
-  memcpy(&bytes, record, sizeof bytes);
-  return (kz_atlas_seeds){.count = (int64_t)((bytes - sizeof bytes) / sizeof(kz_atlas_seed)),
-                          .list = (kz_atlas_seed *)(void *)(record + sizeof bytes)};
+  seeds_head head;
+  memcpy(&head, record, sizeof head);
+  return (kz_atlas_seeds){.count = (int64_t)((head.bytes - sizeof head) / sizeof(kz_atlas_seed)),
+                          .list = (kz_atlas_seed *)(void *)(record + sizeof head),
+                          .dropped = head.dropped};
 }
 
 typedef struct {

@@ -35,6 +35,7 @@ static kz_status probe_all(const kz_run *run, const char *name, probing *p) {
   for (int64_t i = 0; i < p->n; i++) {
     const kz_atlas_seeds seeds = kz_atlas_seeds_in(found.record[i]);
     kz_atlas_seeds *mine = &p->probe[i].found;
+    p->atlas->dropped += seeds.dropped;
     *mine = (kz_atlas_seeds){seeds.count, kz_malloc((size_t)(seeds.count + 1) * sizeof *mine->list)};
     memcpy(mine->list, seeds.list, (size_t)seeds.count * sizeof *mine->list);
   }

@@ -60,6 +60,7 @@ static kz_status write_tally(const kz_atlas *atlas, const tally *t, kz_store *st
   estimate(t, 0, SUMMARY_DECADES, &missing, &low, &high);
   KZ_TRY(kz_store_integer(store, GROUP, "places", atlas->places));
   KZ_TRY(kz_store_integer(store, GROUP, "cycles", atlas->cycles));
+  KZ_TRY(kz_store_integer(store, GROUP, "dropped", atlas->dropped));
   KZ_TRY(kz_store_real(store, GROUP, "missing_low", low));
   KZ_TRY(kz_store_real(store, GROUP, "missing_high", high));
   COLUMN(double, "curve_band", atlas->n_curves, t->band[i]);
@@ -86,6 +87,12 @@ static void print_tally(const kz_atlas *atlas, const tally *t, FILE *summary) {
           " random places were followed to their births; an estimated %.0f to %.0f of "
           "%.0f curves with bands above %.0e of the plane are missing\n",
           atlas->cycles, atlas->places, floor(low), ceil(high), (double)curves + ceil(high), decade_band(SUMMARY_DECADES - 1));
+  if (atlas->dropped > 0)
+    fprintf(summary,
+            "  warning: %" PRId64
+            " cycles or points of curves found no room in records and were not followed; more curves may be "
+            "missing than estimated\n",
+            atlas->dropped);
 }
 
 kz_status kz_atlas_write_tally(const kz_atlas *atlas, kz_store *store, FILE *summary) {

@@ -73,3 +73,19 @@ TEST(test_twice_round_in_a_narrow_band) {
     assert_true(!memcmp(&kind.of, of, sizeof *of) && kind.rest == -1);
   }
 }
+
+/* A record that is full says how many seeds it has no room for. */
+TEST(test_a_full_record_counts_what_it_drops) {
+  KZ_FREED_BY(kz_atlas_seeds_free) kz_atlas_seeds seeds = {0};
+  KZ_FREED char *record = kz_malloc(KZ_ATLAS_SEEDS_BYTES);
+  const kz_atlas_seed seed = {.kind = {{1, 1, 0, 0, 0}, -1}};
+  const int64_t most = KZ_ATLAS_SEEDS_BYTES / (int64_t)sizeof seed;
+  for (int64_t i = 0; i < most + 5; i++) {
+    kz_atlas_put(&seeds, &seed);
+    kz_atlas_put_seeds(&seeds, record);
+    const kz_atlas_seeds kept = kz_atlas_seeds_in(record);
+    assert_int_equal(kept.count + kept.dropped, i + 1);
+    assert_true(kept.dropped == 0 || kept.count >= most - 1);
+  }
+  assert_true(kz_atlas_seeds_in(record).dropped >= 5);
+}
