@@ -4,6 +4,7 @@ in libexec, and the licences of the libraries inside.
     assemble.py PURE.whl LAUNCHER SHARE LICENCES OUT ARCH=PROGRAM...
 """
 
+import json
 import re
 import shutil
 import subprocess
@@ -20,6 +21,32 @@ The sources of the libraries are Debian's: the source packages with these names,
 packages whose static libraries were taken (lines `static`).
 
 """
+
+
+# Licences of what stands in sources.txt, by the beginning of its name.
+LICENCES = {"libgsl": "GPL-3.0-or-later", "libfftw3": "GPL-2.0-or-later", "libgmp": "LGPL-3.0-or-later OR GPL-2.0-or-later",
+            "libmpfr": "LGPL-3.0-or-later", "libjson-c": "MIT", "libyaml": "MIT", "zlib1g": "Zlib", "flint": "LGPL-3.0-or-later",
+            "hdf5": "BSD-3-Clause", "libc6": "LGPL-2.1-or-later", "libgcc": "GPL-3.0-or-later WITH GCC-exception-3.1",
+            "libcrypt": "LGPL-2.1-or-later", "linux-libc": "GPL-2.0-only WITH Linux-syscall-note"}
+
+
+def component(kind, package, digest):
+    """A row of sources.txt as a component of CycloneDX; what is only linked against (kind `binary`) is excluded from the wheel."""
+    name, version = package.split("=", 1)
+    address = f"pkg:deb/debian/{name}@{version.replace(':', '%3A').replace('+', '%2B')}"
+    licence = next(words for start, words in LICENCES.items() if name.startswith(start))
+    return {"type": "library", "name": name, "version": version, "scope": "excluded" if kind == "binary" else "required",
+            "purl": f"{address}?arch={'source' if kind == 'source' else 'amd64'}",
+            "hashes": [{"alg": "SHA-256", "content": digest}], "licenses": [{"expression": licence}]}
+
+
+def bill_of_materials(sources, version):
+    """CycloneDX 1.6: what the wheel contains beside kapitza, from the text of sources.txt."""
+    rows = [line.split()[:3] for line in sources.splitlines() if line and not line.startswith("#")]
+    own = {"type": "application", "name": "kapitza", "version": version, "licenses": [{"expression": "MIT"}]}
+    bill = {"bomFormat": "CycloneDX", "specVersion": "1.6", "version": 1, "metadata": {"component": own},
+            "components": [component(*row) for row in rows]}
+    return json.dumps(bill, indent=1) + "\n"
 
 
 def rewrite_metadata(text, licences):
@@ -59,6 +86,10 @@ def main():
         add_programs(data, launcher, dict(word.split("=", 1) for word in words))
         shutil.copytree(share, data / "data" / "share", ignore=shutil.ignore_patterns("figures"))
         names = add_licences(info, Path(licences))
+        (info / "sboms").mkdir()
+        version = re.match(r"kapitza-([^-]+)\.dist-info", info.name)[1]
+        sources = Path(__file__).with_name("sources.txt").read_text()
+        (info / "sboms" / "kapitza.cdx.json").write_text(bill_of_materials(sources, version))
         metadata = info / "METADATA"
         metadata.write_text(rewrite_metadata(metadata.read_text(), names))
         (info / "WHEEL").write_text(f"Wheel-Version: 1.0\nGenerator: scripts/wheel\nRoot-Is-Purelib: false\nTag: {TAG}\n")

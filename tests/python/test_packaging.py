@@ -1,5 +1,6 @@
 """Packages, without a build of them: one version, what each recipe names, the launcher of the wheel, its lists and metadata."""
 
+import json
 import os
 import re
 import subprocess
@@ -74,7 +75,7 @@ def test_install_names_every_library():
     """The sentence for other systems, and the static libraries of the wheel."""
     text = (ROOT / "docs" / "start" / "install.md").read_text()
     assert all(name in text for name in ("MPI", "HDF5", "GSL", "FFTW 3", "FLINT", "json-c", "libyaml", "zlib"))
-    wheel = (ROOT / "scripts" / "wheel").read_text()
+    wheel = (ROOT / "scripts" / "wheel").read_text() + (WHEEL / "sources.txt").read_text()
     built = {"libopenmpi-dev", "libhdf5-dev", "libflint-dev"}  # MPI is PyPI's; these two are compiled
     assert all(re.search(rf"\b{name}\b", wheel) for name in libraries(2) - built)
 
@@ -168,9 +169,25 @@ def test_a_folder_of_other_files_is_left_alone(tmp_path):
 
 def test_every_source_and_tool_has_its_hash():
     rows = [line.split() for line in (WHEEL / "sources.txt").read_text().splitlines() if not line.startswith("#")]
-    assert len(rows) > 5 and all(row[0] in ("binary", "source") and re.fullmatch("[0-9a-f]{64}", row[2]) for row in rows)
+    assert len(rows) > 5 and all(row[0] in ("binary", "source", "static") and re.fullmatch("[0-9a-f]{64}", row[2]) for row in rows)
     tools = [line for line in (WHEEL / "requirements.txt").read_text().splitlines() if not line.startswith("#")]
     assert tools and all(re.fullmatch(r"[\w-]+==\S+ --hash=sha256:[0-9a-f]{64}", line) for line in tools)
+
+
+def test_the_wheel_lists_what_it_contains():
+    """Every pinned file is a component of the CycloneDX list, and the libraries that are linked in are pinned by their versions."""
+    sources = (WHEEL / "sources.txt").read_text()
+    bill = json.loads(assemble.bill_of_materials(sources, VERSION))
+    parts = {part["name"]: part for part in bill["components"]}
+    linked = re.search(r"cp \$from/lib\{([\w,-]+)\}\.a", (ROOT / "scripts" / "wheel").read_text())[1]
+    names = {"gsl": "libgsl-dev", "gmp": "libgmp-dev", "mpfr": "libmpfr-dev", "fftw3": "libfftw3-dev", "json-c": "libjson-c-dev",
+             "yaml": "libyaml-dev", "z": "zlib1g-dev", "gslcblas": "libgsl-dev"}
+    assert {names[word] for word in linked.split(",")} | {"flint", "hdf5"} == {name for name in parts if parts[name]["scope"] == "required"}
+    assert len(parts) == len([line for line in sources.splitlines() if line and not line.startswith("#")])
+    assert bill["specVersion"] == "1.6" and bill["metadata"]["component"]["version"] == VERSION
+    for part in parts.values():
+        assert part["licenses"][0]["expression"] and re.fullmatch("[0-9a-f]{64}", part["hashes"][0]["content"]), part["name"]
+        assert part["purl"].startswith(f"pkg:deb/debian/{part['name']}@") and ":" not in part["purl"].split("@")[1]
 
 
 @pytest.mark.parametrize("name", ["requirements", "requirements-docs"])
