@@ -107,13 +107,13 @@ def in_degrees(variable: xarray.DataArray) -> np.ndarray:
 
 
 def note_bare(angles: Iterable[Any]) -> None:
-    """Warns of the first angle without a unit that is so large that degrees may be meant."""
+    """Warns of the first angle without a unit that is large and round, so that degrees may be meant."""
     for value in angles:
         try:
             number = float(value)
         except (TypeError, ValueError):
             continue
-        if abs(number) > 2 * TURN:
+        if abs(number) > 2 * TURN and (10 * number).is_integer():
             warnings.warn(f'an angle without a unit is in rad; write "{number:g} deg" for degrees', stacklevel=3)
             return
 

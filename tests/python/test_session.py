@@ -295,6 +295,7 @@ def test_a_large_angle_without_a_unit_is_noted(result, call):
     with warnings.catch_warnings():
         warnings.simplefilter("error")
         call(result, "175 deg")
+        call(result, 28 * np.pi + 0.1)  # a computed angle
 
 
 def test_where_without_damping_says_that_nothing_attracts():
