@@ -6,7 +6,7 @@ from math import cos, pi, sqrt
 
 import numpy as np
 import pytest
-from conftest import datasets, refused_scene, run_scene, with_extensive
+from conftest import ROOT, datasets, refused_scene, run_scene, with_extensive
 from orbit_scenes import BLACKBURN, FIGURES, NODDING, WINDOW, closed, parameters
 
 
@@ -21,6 +21,33 @@ def test_open_record_tells_the_period(model):
     start = dict(zip(("theta", "velocity"), map(float, spin["strobe_points"][0]), strict=True))
     orbit = model({**BLACKBURN, "drive_amplitude": 0.3}, orbit={"start": start, "periods": 300}).group("orbit")
     assert (orbit.attrs["closed"], orbit.attrs["period"], orbit.attrs["winding"]) == (0, 6, 2)
+
+
+@pytest.mark.parametrize(("scene", "period", "name"), [
+    ("butikov-fig07", 4, "down 4-nodding"), ("butikov-fig08", 6, "down 6-nodding")])
+def test_butikovs_figures_are_his_noddings(kapitza, tmp_path, scene, period, name):
+    orbit = run_scene(kapitza, tmp_path, (ROOT / "scenes" / f"{scene}.yaml").read_text())[0].group("orbit")
+    phases = orbit["line_phase"].values[[1, period - 1, period + 1]]
+    assert (orbit.attrs["period"], orbit.attrs["name"], orbit.attrs["dominant_line"]) == (period, name, 1)
+    assert scene == "butikov-fig07" or np.all(np.abs(np.sin(2 * phases)) > 0.1)  # neither sines nor cosines
+
+
+def test_the_slow_motion_has_its_fast_part(model):
+    """Theta + xi is a quarter as far from the angle as Theta alone: Blackburn (1992), Eq. (9)."""
+    pendulum, start = {"k": 1 / 121, "damping": 1 / 55, "m": 0.15}, {"theta": pi + 0.17, "velocity": 0}
+    slow = model(pendulum, orbit={"model": "effective", "start": start, "periods": 5}).group("orbit")
+    xi, theta = slow["xi"].values, slow["theta"].values
+    assert np.abs(xi + 0.15 * np.sin(theta) * np.cos(slow["time"].values)).max() < 1e-14
+    whole = model(pendulum, orbit={"start": {"theta": theta[0] + xi[0], "velocity": 0}, "periods": 5}).group("orbit")["theta"].values
+    whole = whole[::(len(whole) - 1) // (len(theta) - 1)]
+    assert np.abs(theta + xi - whole).max() < 0.3 * np.abs(theta - whole).max()
+
+
+def test_chaos_of_the_papers_ends_on_a_rotation(kapitza, tmp_path):
+    orbit = run_scene(kapitza, tmp_path, (ROOT / "scenes" / "blackburn-chaos.yaml").read_text())[0].group("orbit")
+    turns = np.diff(orbit["strobe_theta"].values) / (2 * pi)
+    assert np.ptp(turns[:40]) > 1  # how long it lasts depends on the last digits of a machine, what is left does not
+    assert re.fullmatch(r"rotation [+-](1/1|2/2)", orbit.attrs["settles_on"])
 
 
 def test_chaos_is_never_a_long_period(model):

@@ -35,6 +35,16 @@ def test_axes_hold_both_ends_exactly(kapitza, tmp_path):
     assert (m[0], m[-1], len(m)) == (0, 4, 81)
 
 
+def test_note_13_and_the_tangent_of_blackburn(kapitza, tmp_path):
+    """0.450 + 2.22/Omega^2 at Omega = 11 beside the exact .46787, and the line that touches curve 2 at k = 1/4."""
+    names = "[exact_2, blackburn_upper, blackburn_upper_note, blackburn_tangent]"
+    chart = "stability: {k: {min: %r, max: %r, count: 2}, m: {min: 0, max: 1, count: 2}, curves: %s}\n"
+    with run(kapitza, tmp_path, PENDULUM + chart % (-1 / 121, 0.2499, names)) as file:
+        exact, chord, note, tangent = (file[f"stability/{name}"][:] for name in names[1:-1].split(", "))
+    assert abs(note[0] - (0.450 + 2.22 / 121)) < 1e-15 and abs(note[0] - exact[0]) < 5e-4 < abs(chord[0] - exact[0])
+    assert abs(tangent[1] - 2e-4) < 1e-15 and abs(exact[1] / tangent[1] - 1) < 1e-4
+
+
 def test_curves_bring_their_upper_branch_and_subharmonics_both_kinds(kapitza, tmp_path):
     scene = CHART + "  curves: [exact_5, butikov_5_refined, exact_5]\n  subharmonics: [6, 2, 6]\n"
     with run(kapitza, tmp_path, scene) as file:
