@@ -1,7 +1,6 @@
-# Powers: what the program can do beyond the two papers. KAPITZA_POWERS chooses which of them are built; the core includes nothing of any of
-# them. A power is one folder, or one in each of two layers.
+# Powers: folders of studies that can be left out of the build. KAPITZA_POWERS chooses which of them are built; nothing else includes them.
 
-set(KAPITZA_POWERS all CACHE STRING "powers that are built, as \"atlas;live\"; all, or empty for what the two papers ask")
+set(KAPITZA_POWERS all CACHE STRING "powers that are built, separated by semicolons; all, or empty for none")
 set_property(GLOBAL PROPERTY kapitza_powers "")
 
 # kapitza_power(name FOLDERS folder of src ... [STUDIES study ...] [NEEDS power ...]): with its folders left out, its studies are refused

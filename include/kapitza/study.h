@@ -26,15 +26,17 @@ typedef struct {
 } kz_numerics_keys;
 enum { KZ_AUTO = 0 };
 
-/* Studies in the order in which they run: those of the two papers, then those of the powers. Everything else about a study stands in its
- * folder: plan.h has what a scene says of it, keys.c its keys and its row, variables.c what it writes. */
+/* Studies in the order in which they run, then those of the powers of this build (cmake/power_list.cmake). Everything else about a study
+ * stands in its folder: plan.h has what a scene says of it, keys.c its keys and its row, variables.c what it writes. */
 #define KZ_STUDIES(STUDY) \
   STUDY(basin)            \
   STUDY(attractors)       \
+  STUDY(saddles)          \
   STUDY(orbit)            \
   STUDY(stability)        \
   STUDY(potential)        \
   STUDY(sweep)            \
+  STUDY(atlas)            \
   STUDY(measures)         \
   STUDY(tradeoff)         \
   KZ_POWER_STUDIES(STUDY)

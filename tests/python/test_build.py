@@ -5,7 +5,7 @@ import shutil
 import subprocess
 
 import pytest
-from conftest import EXTENSIVE, PROGRAM, ROOT
+from conftest import EXTENSIVE, PROGRAM, ROOT, datasets
 
 
 def call(*words, folder=ROOT, **more):
@@ -21,6 +21,24 @@ def configured(folder, *options):
     done = call("cmake", "-G", "Ninja", "-S", ROOT, "-B", folder, *options)
     assert done.returncode == 0, done.stderr
     return folder
+
+
+def test_an_unknown_power_is_refused(tmp_path):
+    done = call("cmake", "-G", "Ninja", "-S", ROOT, "-B", tmp_path / "b", "-DKAPITZA_POWERS=flying")
+    assert done.returncode != 0 and "KAPITZA_POWERS: flying is no power; there are boundaries" in done.stderr
+
+
+@pytest.mark.extensive
+def test_the_program_builds_without_powers(tmp_path):
+    """The studies that are left out are refused by the name of their power; the others give the same datasets."""
+    build = configured(tmp_path / "core", "-DKAPITZA_POWERS=", "-DCMAKE_BUILD_TYPE=Release", "-DKAPITZA_WERROR=ON", "-DBUILD_TESTING=OFF")
+    assert call("ninja", "-j2", "kapitza", folder=build).returncode == 0
+    small = ROOT / "scenes" / "small.yaml"
+    for program, name in ((build / "kapitza", "core"), (PROGRAM, "all")):
+        assert call(program, "run", small, "-o", tmp_path / f"{name}.h5").returncode == 0
+    assert datasets(tmp_path / "core.h5") == datasets(tmp_path / "all.h5")
+    done = call(build / "kapitza", "check", small, "--set", "wada={}")
+    assert done.returncode == 2 and "wada: needs the power boundaries, which this build leaves out" in done.stderr
 
 
 def test_clang_takes_every_c_file(tmp_path):
