@@ -108,6 +108,7 @@ def test_the_wheel_goes_to_boundaries_where_it_is_asked_to(page):
         page.press("home")
         page.wait()
         page.wheel(0.3, 0.5, -100)
+        assert wait_for(lambda: page.window()["theta"]["min"] != -np.pi)  # the page takes a turn of the wheel with its next picture
         return page.window()["theta"]["min"]
 
     page.key("w")
