@@ -26,7 +26,9 @@ packages whose static libraries were taken (lines `static`).
 # Licences of what stands in sources.txt, by the beginning of its name.
 LICENCES = {"libgsl": "GPL-3.0-or-later", "libfftw3": "GPL-2.0-or-later", "libgmp": "LGPL-3.0-or-later OR GPL-2.0-or-later",
             "libmpfr": "LGPL-3.0-or-later", "libjson-c": "MIT", "libyaml": "MIT", "zlib1g": "Zlib", "flint": "LGPL-3.0-or-later",
-            "hdf5": "BSD-3-Clause", "libc6": "LGPL-2.1-or-later", "libgcc": "GPL-3.0-or-later WITH GCC-exception-3.1",
+            "hdf5": "BSD-3-Clause", "libc6": "LGPL-2.1-or-later", "libgfortran": "GPL-3.0-or-later WITH GCC-exception-3.1",
+            "libgcc-s1": "GPL-3.0-or-later WITH GCC-exception-3.1",
+            "libgcc-12-dev": "GPL-3.0-or-later WITH GCC-exception-3.1 AND LGPL-2.1-or-later",  # with libquadmath
             "libcrypt": "LGPL-2.1-or-later", "linux-libc": "GPL-2.0-only WITH Linux-syscall-note"}
 
 
