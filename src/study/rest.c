@@ -11,9 +11,6 @@ enum { POINTS = 4000, ROUNDS = 7, PARTS = 64 };
 /* |k| + |m| up to which the answer takes less than a second. */
 static const double STIFFEST = 1e5;
 
-/* A limit below is that of a drive of 0, at which nothing moves the pendulum away or back. */
-static const double NOTHING = 1e-12;
-
 /* The interval of drives m about `at` in which the position keeps its answer, or the next one in which it is stable. */
 typedef struct {
   bool stable;      /* at the scene's drive */
@@ -38,6 +35,11 @@ static void look_at(const kz_pendulum *form, double k, double beta, double first
   kz_linear_floquet(form, n, ks, betas, ms, growth, angle, stable);
 }
 
+/* Without gravity a position is neutral at a drive of 0 and stable at every small one, which rounding hides. */
+static bool is_weightless(double k) {
+  return !(fabs(k) > 0);
+}
+
 /* The drive between two of different answers at which the answer changes. */
 static double change_between(const kz_pendulum *form, double k, double beta, double below, double above) {
   double part = above - below;
@@ -57,6 +59,7 @@ static double next_change(const kz_pendulum *form, const uint8_t *stable, double
   for (int i = *at; i >= 0 && i + by >= 0 && i + by < POINTS; i += by) {
     if (stable[i] == stable[i + by]) continue;
     *at = i + by;
+    if (i + *at == 1 && is_weightless(k)) return 0;
     return change_between(form, k, beta, step * (by > 0 ? i : i + by), step * (by > 0 ? i + by : i));
   }
   *at = -1;
@@ -69,7 +72,11 @@ static rest look(const kz_pendulum *form, double k, double beta, double m, doubl
   const double step = most / (POINTS - 1);
   look_at(form, k, beta, 0, step, POINTS, stable);
   int here = (int)lrint(fabs(m) / step), up, down;
-  look_at(form, k, beta, fabs(m), 0, 1, stable + here);
+  if (here == 0 && is_weightless(k) && fabs(m) > 0)
+    here = 1;
+  else
+    look_at(form, k, beta, fabs(m), 0, 1, stable + here);
+  if (is_weightless(k)) stable[0] = false;
   rest found = {.stable = stable[here], .low = NAN, .high = NAN};
   up = down = here;
   if (found.stable) {
@@ -124,11 +131,11 @@ static void print_position(const char *name, const rest *r, const drive_words *w
   }
   const char *away = sign < 0 ? "down" : "up";
   fprintf(out, r->stable ? " (for %s" : " (stable for %s", words->name);
-  if (low < NOTHING)
+  if (low <= 0)
     fputs(sign < 0 ? " below 0," : " above 0,", out);
   else if (!isnan(low))
     fprintf(out, " from %.4g%s", sign * low, words->unit);
-  if (!isnan(high) && !(low >= NOTHING)) fprintf(out, " %s", away);
+  if (!isnan(high) && !(low > 0)) fprintf(out, " %s", away);
   if (!isnan(high)) fprintf(out, " to %.4g%s", sign * high, words->unit);
   if (!isnan(low) && isnan(high)) fprintf(out, " %s", away);
   fputs(").", out);

@@ -60,6 +60,16 @@ def test_the_rod_stands_at_the_limits_that_are_printed(pendulum, key, unit):
         assert "upside down: stable" in rest(kapitza.check(still(**pendulum | {key: limit + unit})).text)
 
 
+@pytest.mark.parametrize("m, limits", [(0.3, "above 0, up to 0.4638"), (-0.3, "below 0, down to -0.4638"),
+                                       (1e-13, "above 0, up to 0.4638")])
+def test_without_gravity_both_rests_are_stable_from_no_drive_on(m, limits):
+    """Rounding was printed as a limit, 1.906e-11. The drive acts as gravity of m^2/(2 (1 + beta^2)) does."""
+    said = rest(kapitza.check(still(k=0, damping=0.1, m=m)).text)
+    assert said.count(f": stable (for m {limits})") == 2
+    assert "unstable (stable for m above 0, up to" in rest(kapitza.check(still(k=0, damping=0.1, m=0)).text)
+    assert "to 0)" not in rest(kapitza.check(still(k=0, damping=0.1, m=2000)).text)
+
+
 def test_numbers_without_a_unit_are_noted():
     bare = kapitza.check(still(**ROD | {"length": 0.2, "amplitude": 0.008, "frequency": 50})).text
     assert "note: pendulum: numbers without a unit are taken so: length 0.2 m, frequency 50 Hz, amplitude 0.008 m" in bare
