@@ -98,9 +98,12 @@ const char *kz_motion_words(void);
 const char *kz_sweep_measure_words(void);
 
 /* What one of a unit of the drive is in SI: *unit becomes "s" for "drive periods", "rad/s" for "rad per drive radian". 1, and *unit as it is, for
- * other units and where omega (of the pivot, rad/s) is NaN. kz_periods_print: prints "50 drive periods (1 s)". */
+ * other units and where omega (of the pivot, rad/s) is NaN. kz_periods_print: prints "50 drive periods (1 s)".
+ * kz_rate_print: prints a rate per drive period with its standard error, and per unit of the scene's time: s, 1/omega0
+ * where the scene has drive_frequency or omega, else drive radian. */
 double kz_si_factor(double omega, const char **unit);
 void kz_periods_print(int64_t periods, double omega, FILE *out);
+void kz_rate_print(const kz_parameters *parameters, double rate, double error, FILE *out);
 
 /* A value along an axis of values of a key, in the unit that the scene writes; the name of this unit, "" of a pure number. */
 double kz_axis_written(const kz_axis *values, double value);

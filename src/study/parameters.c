@@ -107,6 +107,18 @@ void kz_periods_print(int64_t periods, double omega, FILE *out) {
   if (!isnan(omega)) fprintf(out, " (%.4g %s)", (double)periods * factor, unit);
 }
 
+void kz_rate_print(const kz_parameters *parameters, double rate, double error, FILE *out) {
+  const kz_pendulum_keys *written = &parameters->written;
+  const bool si = !isnan(parameters->pivot_frequency);
+  const bool natural = !isnan(written->drive_frequency) || !isnan(written->omega);
+  const double omega = si ? parameters->pivot_frequency : natural ? parameters->drive_frequency : 1;
+  const double factor = omega / (2 * M_PI);
+  fprintf(out, "%.4g +- %.2g per drive period, %.4g +- %.2g per %s", rate, error, rate * factor, error * factor,
+          si        ? "s"
+          : natural ? "1/omega0"
+                    : "drive radian");
+}
+
 kz_status kz_parameters_resolve(kz_parameters *parameters) {
   kz_pendulum p = from_written(&parameters->written);
   set_torques(&parameters->written, &p);

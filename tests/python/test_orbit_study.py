@@ -61,6 +61,23 @@ def test_chaos_is_never_a_long_period(model):
     assert abs(orbit.attrs["lyapunov"] - listed["lyapunov"].values[0]) < 6 * orbit.attrs["lyapunov_error"]
 
 
+@pytest.mark.parametrize(("keys", "unit", "omega"), [
+    ({"k": 0.25, "damping": 0.05, "m": 0.5}, "drive radian", 1),
+    ({"drive_frequency": 2, "quality_factor": 10, "drive_amplitude": 0.5}, "1/omega0", 2),
+    ({"length": "9.80665 m", "frequency": f"{1 / pi} Hz", "amplitude": "4.903325 m", "quality_factor": 10}, "s", 2)])
+def test_exponents_are_told_in_time_of_the_scene(kapitza, tmp_path, keys, unit, omega):
+    """One pendulum in drive radians, in natural frequencies, and of 9.80665 m with a drive of 2 rad/s."""
+    scene = {"pendulum": keys, "attractors": {"velocity": {"min": -2, "max": 2}, "starts": 64},
+             "orbit": {"start": {"theta": 1, "velocity": 0.2}, "transient": 1000, "periods": 400}}
+    result, said = run_scene(kapitza, tmp_path, scene)
+    listed, orbit = result.group("attractors"), result.group("orbit").attrs
+    told = re.findall(r"exponent(?: of 0:)? (\S+) \+- (\S+) per drive period, (\S+) \+- (\S+) per (.*)", said)
+    for line, (mean, error) in zip(told, [(listed["lyapunov"].values[0], listed["lyapunov_error"].values[0]),
+                                          (orbit["lyapunov"], orbit["lyapunov_error"])], strict=True):
+        numbers = [mean, error, mean * omega / (2 * pi), error * omega / (2 * pi)]
+        assert line[4] == unit and [float(text) for text in line[:4]] == pytest.approx(numbers, rel=0.05)
+
+
 def test_lines_of_chaos_are_those_of_the_velocity(model):
     """Its angle drifts by many turns, whose spectrum hides everything else; against numpy's transform through the same window."""
     orbit = model({"k": 0.25, "damping": 0.05, "m": 0.5},

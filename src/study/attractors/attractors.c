@@ -35,7 +35,7 @@ static kz_status publish(const kz_scene *scene, const kz_dynamics *dynamics, con
   kz_motions_warn(&motions, &classes, summary);
   kz_catalogue_make(dynamics, reached, &catalogue);
   KZ_TRY(kz_catalogue_write(&catalogue, &scene->parameters.pendulum, false, store));
-  kz_catalogue_print(&catalogue, false, summary);
+  kz_catalogue_print(&catalogue, &scene->parameters, false, summary);
   fprintf(summary, "%lld of %lld starts did not settle within ", (long long)reached[0], (long long)starts);
   kz_periods_print(search_of(scene).max_periods, scene->parameters.pivot_frequency, summary);
   fputs(".\n", summary);

@@ -164,7 +164,7 @@ static void print_decided(const kz_basin_plan *plan, const kz_window_summary *la
 kz_status kz_basin_write(const kz_scene *scene, const kz_catalogue *catalogue, const kz_window_summary *labels, kz_store *store,
                          FILE *summary) {
   const kz_basin_plan *plan = scene->basin;
-  kz_catalogue_print(catalogue, true, summary);
+  kz_catalogue_print(catalogue, &scene->parameters, true, summary);
   print_settled(scene, labels, catalogue->count > 0, summary);
   if (plan->method == KZ_METHOD_EXACT) {
     print_decided(plan, labels, summary);

@@ -1,5 +1,6 @@
 #include "catalogue.h"
 
+#include <inttypes.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -157,7 +158,18 @@ static void fill_row(const kz_entry *e, table_row row) {
   snprintf(row[5], CELL_BYTES, "%.3f %%", 100 * e->fraction);
 }
 
-void kz_catalogue_print(const kz_catalogue *catalogue, bool with_fraction, FILE *summary) {
+/* The exponents of attractors that never close. */
+static void print_exponents(const kz_catalogue *catalogue, const kz_parameters *parameters, FILE *summary) {
+  for (int64_t i = 0; i < catalogue->count; i++) {
+    const kz_attractor *row = &catalogue->entries[i].row;
+    if (row->period > 0 || isnan(row->lyapunov_error)) continue;
+    fprintf(summary, "      exponent of %" PRId64 ": ", i);
+    kz_rate_print(parameters, row->lyapunov, row->lyapunov_error, summary);
+    fputc('\n', summary);
+  }
+}
+
+void kz_catalogue_print(const kz_catalogue *catalogue, const kz_parameters *parameters, bool with_fraction, FILE *summary) {
   static const char *const titles[COLUMNS] = {"period", "winding", "amplitude", "multiplier", "exponent", "share"};
   static const int widths[COLUMNS] = {6, 7, 9, 10, 8, 8};
   const int64_t n = catalogue->count;
@@ -181,4 +193,5 @@ void kz_catalogue_print(const kz_catalogue *catalogue, bool with_fraction, FILE 
   }
   for (int c = 0; c < columns; c++)
     if (!differs[c]) fprintf(summary, "      %s of each: %s\n", titles[c], rows[0][c]);
+  print_exponents(catalogue, parameters, summary);
 }

@@ -38,5 +38,5 @@ kz_status kz_catalogue_write_motions(const kz_catalogue *catalogue, const char *
 /* n NaNs; the caller frees them. */
 double *kz_nan_filled(int64_t n);
 
-/* Prints the table of attractors. */
-void kz_catalogue_print(const kz_catalogue *catalogue, bool with_fraction, FILE *summary);
+/* Prints the table of attractors, and the exponents of chaotic ones with their errors. */
+void kz_catalogue_print(const kz_catalogue *catalogue, const kz_parameters *parameters, bool with_fraction, FILE *summary);

@@ -106,8 +106,10 @@ void kz_orbit_print(const kz_orbit *orbit, FILE *summary) {
     print_open(orbit, summary);
   if (p->closed && !isnan(omega)) fprintf(summary, " (%.4g %s)", time, unit);
   if (p->dominant > 0) print_line(p, omega, summary);
-  if (!p->closed && isfinite(orbit->lyapunov))
-    fprintf(summary, "; largest Lyapunov exponent %.4f +- %.4f per period", orbit->lyapunov, orbit->lyapunov_error);
+  if (!p->closed && isfinite(orbit->lyapunov)) {
+    fputs("; largest Lyapunov exponent ", summary);
+    kz_rate_print(&orbit->scene->parameters, orbit->lyapunov, orbit->lyapunov_error, summary);
+  }
   fprintf(summary, "\n");
 }
 
