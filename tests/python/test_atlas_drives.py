@@ -61,6 +61,19 @@ def test_odd_drives_have_images_at_the_opposite_gravity(kapitza, tmp_path, drive
     assert int(attributes["compared"]) > 600 and int(attributes["alone"]) == 0 and int(attributes["open_ends"]) == 0
 
 
+@pytest.mark.parametrize("torque", [0, 0.01])
+def test_curves_that_are_not_looked_for_are_told(kapitza, tmp_path, torque):
+    """A horizontal shaker, whose cycles have images half a period later, which a constant torque takes from them."""
+    scene = {"pendulum": PENDULUM | {"tilt": "90 deg", "torque": torque},
+             "atlas": {"x": {"parameter": "drive_frequency", "min": 5.5, "max": 9},
+                       "y": {"parameter": "drive_amplitude", "min": 0.15, "max": 3},
+                       "max_period": 1, "seeds": 2, "checks": 0, "points": 16}}
+    result, said = run_scene(kapitza, tmp_path, scene)
+    told = result.group("atlas").attrs.get("not_located")
+    assert (told is None) == (torque > 0) == ("without this symmetry" not in said)
+    assert told is None or f"warning: {told}\n" in said
+
+
 @pytest.fixture(scope="module")
 def tilted(kapitza, tmp_path_factory):
     """The file of an atlas whose pendulum moves everywhere: the attractors of a cell are what its lists begin with."""

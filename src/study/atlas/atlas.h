@@ -78,6 +78,7 @@ struct kz_atlas {
   kz_plane plane;
   double longest; /* step along curves */
   bool undriven;  /* no drive at the lowest y: rest alone attracts */
+  bool unpaired;  /* every place has the symmetry of half a period and no mirror symmetry; tracing ignores it */
   bool turned;    /* every place has an image with -k in place of k */
   int64_t n_curves, n_explored, curve_capacity;
   kz_atlas_curve *curve;

@@ -35,6 +35,11 @@ static int64_t winding_of(const kz_atlas_curve *curve) {
   return curve->kind.of.side > 0 && curve->kind.rest < 0 ? curve->kind.of.turns : 0;
 }
 
+/* What an atlas cannot know where cycles have images half a period later. */
+static const char *const UNPAIRED =
+    "with a motion theta(t) also -theta(t + half a drive period) is one; cycles are followed without this symmetry, so "
+    "the curves on which they lose it are not located, and lists beyond such a curve may lack its motions";
+
 /* The points of all curves, one after the other. */
 typedef struct {
   int64_t n, n_special;
@@ -203,6 +208,7 @@ static kz_status write_attributes(const kz_atlas *atlas, const kz_atlas_raster *
   }
   KZ_TRY(kz_store_integer(store, GROUP, "max_period", atlas->scene->atlas->max_period));
   KZ_TRY(kz_store_integer(store, GROUP, "mirrored", atlas->plane.mirrored));
+  if (atlas->unpaired) KZ_TRY(kz_store_text(store, GROUP, "not_located", UNPAIRED));
   KZ_TRY(kz_store_integer(store, GROUP, "lists", raster->lists));
   KZ_TRY(kz_store_integer(store, GROUP, "negative", raster->negative));
   KZ_TRY(kz_store_integer(store, GROUP, "checked", atlas->checked));
@@ -235,6 +241,7 @@ static void print(const kz_atlas *atlas, const kz_atlas_raster *r, const listing
   fprintf(summary,
           "  %" PRId64 " lists of attractors in %" PRId64 " x %" PRId64 " cells, up to %" PRId64 " attractors at once\n",
           r->lists, r->points, r->points, most);
+  if (atlas->unpaired) fprintf(summary, "  warning: %s\n", UNPAIRED);
   if (r->negative > 0)
     fprintf(summary, "  warning: %" PRId64 " cells lie beyond a curve that is missing; their lists are not known\n",
             r->negative);
