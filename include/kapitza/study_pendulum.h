@@ -83,6 +83,7 @@ void kz_drive_resolve(const kz_parameters *parameters, kz_pendulum *pendulum);
 void kz_drive_form(const kz_parameters *parameters, kz_pendulum *form);
 const char *kz_drive_contradiction(const kz_pendulum_keys *written); /* what contradicts; NULL = nothing */
 void kz_drive_print(const kz_parameters *parameters, FILE *out);     /* a summary line: harmonics in use, and their error */
+void kz_symmetries_print(const kz_pendulum *pendulum, FILE *out);    /* a line: the images that every motion has */
 /* Writes the group `pendulum`: every number that is integrated. Rank 0. */
 extern const kz_variable kz_pendulum_variables[];
 kz_status kz_pendulum_write(const kz_parameters *parameters, kz_store *store);

@@ -92,6 +92,7 @@ static void print_check(const kz_options *options, const kz_scene *scene, const 
   fprintf(out, "memory per rank  %s, %s more on rank 0, and a share of %s\n", kz_cost_bytes(cost.memory_bytes).text,
           kz_cost_bytes(cost.rank0_bytes).text, kz_cost_bytes(cost.shared_bytes).text);
   kz_drive_print(&scene->parameters, out);
+  kz_symmetries_print(p, out);
   fprintf(out, "\n%s", resolved);
 }
 

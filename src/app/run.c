@@ -161,6 +161,7 @@ static void print_pendulum(const kz_scene *scene, FILE *out) {
   if (scene->title[0]) fprintf(out, "%s\n", scene->title);
   if (!isnan(p->k)) fprintf(out, "k = %.10g, beta = %.10g, m = %.10g\n", p->k, p->beta, p->m);
   kz_drive_print(&scene->parameters, out);
+  if (!kz_is_mirrored(p)) kz_symmetries_print(p, out);
 }
 
 static kz_status open_outputs(job *j) {

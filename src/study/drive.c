@@ -118,6 +118,19 @@ void kz_drive_print(const kz_parameters *parameters, FILE *out) {
           highest_of_samples(&written->samples), (long long)written->samples.count, distance_from_samples(&written->samples));
 }
 
+void kz_symmetries_print(const kz_pendulum *p, FILE *out) {
+  static const char *const IMAGES[] = {"-theta(t)", "-theta(t + pi)", "pi + theta(t + pi)"}; /* by KZ_SYMMETRY_ bit */
+  const int32_t symmetries = kz_symmetries(p);
+  const char *before = "Symmetry: with a motion theta(t) also ";
+  if (isnan(p->k)) return;
+  for (int i = 0; i < 3; i++) {
+    if (!(symmetries >> i & 1)) continue;
+    fprintf(out, "%s%s", before, IMAGES[i]);
+    before = ", ";
+  }
+  fputs(symmetries ? ".\n" : "Symmetry: none.\n", out);
+}
+
 /* The pivot's motion along its line: cosine and sine of harmonic j. */
 static void along(const kz_pendulum_keys *written, double m, int j, double *cosine, double *sine) {
   double form[2];

@@ -113,6 +113,20 @@ def test_rest_is_told_for_the_drive_that_is_there(kapitza, tmp_path, keys, rest)
     assert rest in kapitza("check", "--all", "rig.yaml", folder=tmp_path).stdout
 
 
+@pytest.mark.parametrize(("keys", "images"), [
+    ({"k": 0.1, "m": 0.3}, "with a motion theta(t) also -theta(t)"),
+    ({"k": 0, "m": 0.3}, "with a motion theta(t) also -theta(t), pi + theta(t + pi)"),
+    ({"k": 0.1, "m": 0, "torque_amplitude": 1}, "with a motion theta(t) also -theta(t + pi)"),
+    ({"k": 0.1, "m": 0.3, "tilt": 0.1}, "none")])
+def test_symmetries_of_the_drive_are_told(kapitza, tmp_path, keys, images):
+    scene = {"pendulum": keys | {"damping": 0.1}, "orbit": {"start": {"theta": 1, "velocity": 0}, "periods": 2}}
+    (tmp_path / "rig.yaml").write_text(json.dumps(scene))
+    line = f"Symmetry: {images}.\n"
+    assert line in kapitza("check", "--all", "rig.yaml", folder=tmp_path).stdout
+    said = kapitza("run", "rig.yaml", folder=tmp_path).stdout
+    assert (line in said) == ("torque_amplitude" in keys or "tilt" in keys)
+
+
 def bessel(n, x):
     return sum((-1) ** i * (x / 2) ** (2 * i + n) / (math.factorial(i) * math.factorial(i + n)) for i in range(20))
 
