@@ -161,8 +161,8 @@ int64_t kz_dynamics_packed_size(const kz_dynamics *dynamics);
 void kz_dynamics_pack(const kz_dynamics *dynamics, int64_t n, double *flat);
 void kz_dynamics_unpack(kz_dynamics *dynamics, int64_t n, const double *flat);
 
-/* Searches cycles of up to max_period <= 64 periods, attracting or not, along a line through n_nodes <= 64 states node [n_nodes][2] (rad,
- * rad per drive radian). Wherever an image of the line passes near the line, multiple shooting begins. window = least and largest angle,
+/* Searches cycles of up to max_period <= 64 periods, attracting or not, along a line through n_nodes states node [n_nodes][2] (rad, rad per
+ * drive radian). Wherever an image of the line passes near the line, multiple shooting begins. window = least and largest angle,
  * least and largest velocity; a cycle counts if it has a point there. steepest: largest trace of the cycles, of the map that
  * closes them (for symmetric ones half of their period), in that of a multiplier of 1; no piece shorter than 0.1 rad / steepest is halved. INFINITY: cycles
  * of any trace. found [most][2 + 2 max_period]: period, largest speed, and each

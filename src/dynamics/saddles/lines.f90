@@ -22,6 +22,8 @@ module kz_saddles_lines
   real(dp), parameter :: BEYOND = 0.25_dp
   !> Length (rad) of the least piece that is halved: times the trace of the steepest cycles, and where these have no limit.
   real(dp), parameter :: STRETCH = 0.1_dp, SHORTEST = 1e-13_dp
+  !> Pieces between the first starts that are halved together.
+  integer, parameter :: CELLS = 16
   !> How often a piece is halved at most.
   integer, parameter :: HALVINGS = 45
   !> rad: when an orbit is closed, when two points of it are one, and how far outside a window its edge still is.
@@ -44,7 +46,7 @@ contains
     type(numerics_t) :: numerics
     real(dp), allocatable :: waiting(:, :, :, :)
     real(dp) :: piece(2, 0:max_period, 2, WIDTH), orbit(2, 0:max_period, WIDTH)
-    integer :: n_waiting, lanes, i, halves
+    integer :: n_waiting, lanes, first, i, halves
 
     halves = merge(int(max_period)/2, 0, is_mirrored(pendulum) /= 0 .and. steepest < huge(steepest))
     numerics = fine_numerics(pendulum)
@@ -52,24 +54,26 @@ contains
     call make_flow(pendulum, numerics, .true., flow)
     work = 0
     allocate (waiting(2, 0:max_period, 2, 2*WIDTH*HALVINGS))
-    n_waiting = 0
     n_found = 0
-    lanes = int(n_nodes)
-    orbit(:, 0, :lanes) = node
-    call follow(flow, orbit(:, :, :lanes))
-    do i = 1, lanes - 1
-      call look_between(orbit(:, :, i), orbit(:, :, i + 1))
-    end do
-    do while (n_waiting > 0 .and. n_found <= most .and. work(1) <= most_starts)
-      lanes = min(n_waiting, WIDTH)
-      n_waiting = n_waiting - lanes
-      piece(:, :, :, :lanes) = waiting(:, :, :, n_waiting + 1:n_waiting + lanes)
-      orbit(:, 0, :lanes) = 0.5_dp*(piece(:, 0, 1, :lanes) + piece(:, 0, 2, :lanes))
+    do first = 1, int(n_nodes) - 1, CELLS
+      n_waiting = 0
+      lanes = min(CELLS + 1, int(n_nodes) - first + 1)
+      orbit(:, 0, :lanes) = node(:, first:first + lanes - 1)
       call follow(flow, orbit(:, :, :lanes))
-      work(1) = work(1) + lanes
-      do i = 1, lanes
-        call look_between(piece(:, :, 1, i), orbit(:, :, i))
-        call look_between(orbit(:, :, i), piece(:, :, 2, i))
+      do i = 1, lanes - 1
+        call look_between(orbit(:, :, i), orbit(:, :, i + 1))
+      end do
+      do while (n_waiting > 0 .and. n_found <= most .and. work(1) <= most_starts)
+        lanes = min(n_waiting, WIDTH)
+        n_waiting = n_waiting - lanes
+        piece(:, :, :, :lanes) = waiting(:, :, :, n_waiting + 1:n_waiting + lanes)
+        orbit(:, 0, :lanes) = 0.5_dp*(piece(:, 0, 1, :lanes) + piece(:, 0, 2, :lanes))
+        call follow(flow, orbit(:, :, :lanes))
+        work(1) = work(1) + lanes
+        do i = 1, lanes
+          call look_between(piece(:, :, 1, i), orbit(:, :, i))
+          call look_between(orbit(:, :, i), piece(:, :, 2, i))
+        end do
       end do
     end do
   contains

@@ -17,8 +17,7 @@ static const double FASTEST = 2.5;
 /* Sides of the plane: curves are traced from places where the band beside them is wider; the search goes on while curves are found that have a
  * band as wide as the second. */
 static const double LEAST_BAND = 1e-5, WIDE_BAND = 1e-4;
-/* MOST_STARTS: of one piece of a line. */
-enum { MOST_STARTS = 200000, TILES = 8, CYCLES_OF_A_TILE = 16 };
+enum { TILES = 8, CYCLES_OF_A_TILE = 16 };
 
 /* A place, or a tile of cycles of it. */
 typedef struct {
@@ -55,11 +54,11 @@ static void join_cycle(const kz_atlas *atlas, const double place[2], const doubl
 static void search_line(const kz_atlas *atlas, const double place[2], const kz_lines *lines, int64_t line,
                         kz_atlas_seeds *cycles) {
   KZ_FREED double *found = kz_malloc(kz_piece_bytes(lines->plan));
-  for (int64_t piece = 0; piece < lines->pieces; piece++) {
-    int64_t work[2];
-    const int64_t n = kz_lines_search(lines, line * lines->pieces + piece, MOST_STARTS, found, work);
-    for (int64_t i = 0; i < n; i++) join_cycle(atlas, place, found + i * (2 + 2 * lines->plan->max_period), cycles);
-  }
+  int64_t work[2];
+  const int64_t n = kz_lines_search(lines, line, INT64_MAX, found, work);
+  cycles->dropped += n > KZ_CYCLES_OF_A_PIECE;
+  for (int64_t i = 0; i < n && i < KZ_CYCLES_OF_A_PIECE; i++)
+    join_cycle(atlas, place, found + i * (2 + 2 * lines->plan->max_period), cycles);
 }
 
 static kz_status cycles_tile(void *context, int64_t tile, void *record) {
@@ -72,6 +71,7 @@ static kz_status cycles_tile(void *context, int64_t tile, void *record) {
     const kz_saddles_plan plan = window_of(c->atlas, &pendulum);
     kz_lines lines = kz_lines_of(&pendulum, &plan, set);
     lines.steepest = STEEPEST[set];
+    lines.cells *= lines.pieces, lines.pieces = 1;
     for (int64_t line = tile % TILES; line < lines.count; line += TILES) search_line(c->atlas, place, &lines, line, &cycles);
   }
   kz_atlas_put_seeds(&cycles, record);

@@ -51,7 +51,7 @@ typedef struct {
 void kz_atlas_put_seeds(const kz_atlas_seeds *seeds, void *record) {
   const size_t most = (KZ_ATLAS_SEEDS_BYTES - sizeof(seeds_head)) / sizeof *seeds->list,
                n = (size_t)seeds->count < most ? (size_t)seeds->count : most;
-  const seeds_head head = {sizeof head + n * sizeof *seeds->list, seeds->count - (int64_t)n};
+  const seeds_head head = {sizeof head + n * sizeof *seeds->list, seeds->dropped + seeds->count - (int64_t)n};
   memcpy(record, &head, sizeof head);
   if (n > 0) memcpy((char *)record + sizeof head, seeds->list, n * sizeof *seeds->list);
 }

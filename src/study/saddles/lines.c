@@ -7,9 +7,8 @@
 
 enum {
   LEAST_LINES = 4,
-  CELLS = 16,              /* of a piece */
-  MOST_OF_A_PIECE = 16384, /* cycles, those found repeatedly counted again */
-  MOST_STARTS = 20000000,  /* of a piece */
+  CELLS = 16,             /* of a piece */
+  MOST_STARTS = 20000000, /* of a piece */
 };
 /* rad: between the lines of the first round, between the starts of a line to begin with, between two cycles. */
 static const double SPACING = 0.2, CELL = 0.05, ONE = 1e-5;
@@ -31,6 +30,7 @@ kz_lines kz_lines_of(const kz_pendulum *pendulum, const kz_saddles_plan *plan, i
   lines.across = lines.rows ? velocity : plan->theta;
   lines.count = (int64_t)fmax(LEAST_LINES, ceil(width(&lines.across) / SPACING * pow(2, round / 2)));
   lines.pieces = (int64_t)fmax(1, ceil(width(&lines.along) / (CELLS * CELL)));
+  lines.cells = CELLS;
   return lines;
 }
 
@@ -39,23 +39,23 @@ size_t kz_cycle_bytes(const kz_saddles_plan *plan) {
 }
 
 size_t kz_piece_bytes(const kz_saddles_plan *plan) {
-  return sizeof(uint64_t) + MOST_OF_A_PIECE * kz_cycle_bytes(plan);
+  return sizeof(uint64_t) + KZ_CYCLES_OF_A_PIECE * kz_cycle_bytes(plan);
 }
 
 int64_t kz_lines_search(const kz_lines *lines, int64_t tile, int64_t most_starts, double *found, int64_t work[2]) {
   const kz_saddles_plan *plan = lines->plan;
   const double window[4] = {plan->theta.min, plan->theta.max, plan->velocity.min, plan->velocity.max};
-  const double first = (double)(tile % lines->pieces * CELLS), cells = (double)(lines->pieces * CELLS);
+  const double first = (double)(tile % lines->pieces * lines->cells), cells = (double)(lines->pieces * lines->cells);
   const double line = (double)(tile / lines->pieces) + 0.5;
-  double node[CELLS + 1][2];
-  for (int i = 0; i <= CELLS; i++) {
-    const double along = lines->along.min + width(&lines->along) * (first + i) / cells;
+  KZ_FREED double (*node)[2] = kz_malloc((size_t)(lines->cells + 1) * sizeof *node);
+  for (int64_t i = 0; i <= lines->cells; i++) {
+    const double along = lines->along.min + width(&lines->along) * (first + (double)i) / cells;
     const double across = lines->across.min + width(&lines->across) * line / (double)lines->count;
     node[i][0] = lines->rows ? along : across;
     node[i][1] = lines->rows ? across : along;
   }
-  return kz_dynamics_search_line(lines->pendulum, plan->max_period, CELLS + 1, node[0], window, lines->steepest, most_starts,
-                                 MOST_OF_A_PIECE, found, work);
+  return kz_dynamics_search_line(lines->pendulum, plan->max_period, lines->cells + 1, node[0], window, lines->steepest,
+                                 most_starts, KZ_CYCLES_OF_A_PIECE, found, work);
 }
 
 static int compare(const void *first, const void *second) {
@@ -109,7 +109,8 @@ static kz_status search_tile(void *context, int64_t tile, void *record) {
   uint64_t *bytes = record;
   int64_t work[2], n = kz_lines_search(lines, tile, MOST_STARTS, (double *)(bytes + 1), work);
   if (work[0] > MOST_STARTS) return too_many(lines->plan, MOST_STARTS, "starts on one piece of a line of the search");
-  if (n > MOST_OF_A_PIECE) return too_many(lines->plan, MOST_OF_A_PIECE, "cycles on one piece of a line of the search");
+  if (n > KZ_CYCLES_OF_A_PIECE)
+    return too_many(lines->plan, KZ_CYCLES_OF_A_PIECE, "cycles on one piece of a line of the search");
   n = drop_repeats(lines->plan, n, (double *)(bytes + 1));
   *bytes = sizeof *bytes + (uint64_t)n * kz_cycle_bytes(lines->plan);
   return KZ_OK;

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "atlas/atlas.h"
+#include "saddles/saddles.h"
 
 /* k = x, beta = 0.1, m = y. */
 static bool pendulum_at(const void *context, const double place[2], kz_pendulum *pendulum) {
@@ -88,4 +89,26 @@ TEST(test_a_full_record_counts_what_it_drops) {
     assert_true(kept.dropped == 0 || kept.count >= most - 1);
   }
   assert_true(kz_atlas_seeds_in(record).dropped >= 5);
+  kz_atlas_seeds none = {.dropped = 2}; /* for which the search had no room */
+  kz_atlas_put_seeds(&none, record);
+  assert_int_equal(kz_atlas_seeds_in(record).dropped, 2);
+}
+
+/* A line of starts that is searched as a whole shows the cycles of its pieces. */
+TEST(test_a_line_has_the_cycles_of_its_pieces) {
+  enum { PERIODS = 2, STRIDE = 2 + 2 * PERIODS };
+  const kz_pendulum pendulum = {1.0 / 121, 1.0 / 55, 0.5};
+  const kz_saddles_plan plan = {.theta = {.min = -M_PI, .max = M_PI}, .velocity = {.min = -2, .max = 2}, .max_period = PERIODS};
+  kz_lines pieces = kz_lines_of(&pendulum, &plan, 0), whole = pieces;
+  KZ_FREED double *found = kz_malloc(2 * kz_piece_bytes(&plan));
+  int64_t work[2], all[2] = {0}, n = 0;
+  pieces.steepest = whole.steepest = 1e4;
+  whole.cells *= whole.pieces, whole.pieces = 1;
+  for (int64_t piece = 0; piece < pieces.pieces; piece++) {
+    n += kz_lines_search(&pieces, 3 * pieces.pieces + piece, INT64_MAX, found + n * STRIDE, work);
+    for (int i = 0; i < 2; i++) all[i] += work[i];
+  }
+  assert_true(n > 3 && kz_lines_search(&whole, 3, INT64_MAX, found + n * STRIDE, work) == n);
+  assert_memory_equal(found, found + n * STRIDE, (size_t)(n * STRIDE) * sizeof *found);
+  assert_memory_equal(work, all, sizeof all);
 }
