@@ -1,2 +1,6 @@
 # Every power, those that another needs first.
-kapitza_power(boundaries FOLDERS study/manifolds study/wada study/tangency study/edge STUDIES manifolds wada tangency edge)
+kapitza_power(saddles FOLDERS study/saddles study/manifolds study/wada study/tangency study/edge dynamics/saddles
+  STUDIES saddles manifolds wada tangency edge)
+kapitza_power(atlas FOLDERS study/atlas FILES include/kapitza/study_atlas.h STUDIES atlas NEEDS saddles)
+kapitza_power(live FOLDERS study/live study/where app/live FILES include/kapitza/study_live.h include/kapitza/study_where.h
+  COMMANDS where view serve NEEDS atlas)

@@ -31,12 +31,10 @@ enum { KZ_AUTO = 0 };
 #define KZ_STUDIES(STUDY) \
   STUDY(basin)            \
   STUDY(attractors)       \
-  STUDY(saddles)          \
   STUDY(orbit)            \
   STUDY(stability)        \
   STUDY(potential)        \
   STUDY(sweep)            \
-  STUDY(atlas)            \
   STUDY(measures)         \
   STUDY(tradeoff)         \
   KZ_POWER_STUDIES(STUDY)

@@ -13,13 +13,6 @@ typedef struct kz_atlas kz_atlas; /* study_atlas.h */
 kz_engine *kz_engine_create(void);
 void kz_engine_free(kz_engine *engine);
 
-/* The attractors in the order of the file: the index of an entry is its id. */
-typedef struct {
-  int64_t count;
-  kz_entry *entries;
-  int32_t *id_of; /* [number], from 1: id of the attractor with this number in kz_dynamics; -1 = not in the catalogue */
-} kz_catalogue;
-
 /* All known attractors of a pendulum; the labels of a frame are ids of `list`. */
 typedef struct {
   int64_t version; /* from 1; every other catalogue has another number */

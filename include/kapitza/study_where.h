@@ -3,17 +3,7 @@
 
 #include <stdint.h>
 
-#include "kapitza/dynamics.h"
-#include "kapitza/study.h"
-
-/* An attractor as users see it. */
-typedef struct {
-  kz_attractor row;
-  char name[KZ_NAME_LENGTH];
-  int32_t mirror;           /* id of the mirror image */
-  double fraction;          /* share of the grid's cells that end on it; NaN without a grid */
-  double *theta, *velocity; /* [period] strobe points: rad, rad per drive radian */
-} kz_entry;
+#include "kapitza/study_catalogue.h"
 
 /* Where a start ends, as users see it. */
 typedef struct {
@@ -23,9 +13,6 @@ typedef struct {
   double error;      /* rad: bound of the orbit's error when it was trapped; NaN = not decided, or chaotic */
   char other_name[KZ_NAME_LENGTH]; /* "" = none */
 } kz_ending;
-
-/* The word of the precision that gives labels this evidence: double, pairs, quad, arbitrary; NULL = not decided, or not settled. */
-const char *kz_evidence_word(uint8_t evidence);
 
 /* Finds where n starts end: start [n], theta and velocity; high and low of a coordinate with a centre are the nearest pair of doubles.
  * The attractors are those that the search of the scene's study basin or attractors finds, and those that the starts lead to. Each start is

@@ -4,7 +4,7 @@
 #include <stdbool.h>
 #include <stdio.h>
 
-#include "kapitza/study_where.h"
+#include "kapitza/study.h"
 #include "scene/scene.h"
 
 /* Instruction sets that this build can use beside the processor's first one; the program's entry refuses a CPU that lacks one which it does.
@@ -44,15 +44,12 @@ typedef struct {
   const char *output; /* FILE; NULL = base name of the scene + ".h5" in the current folder */
   char **sets;        /* KEY=VALUE of every --set, in order */
   int n_sets;
-  char **origins; /* of every --origin, in order */
-  int n_origins;
   char **joined; /* words of the command line that were made of a number and its unit; n_joined of them */
   int n_joined;
-  bool resume, force, all, json, json_schema, layout, no_browser, degrees;
-  int64_t boundary;                    /* digits of --boundary; 0 = not given */
+  bool resume, force, all, json, json_schema, layout, degrees;
+  void *own;                           /* what the command's own options set; NULL = it has none */
   bool compared;                       /* the command lines of all ranks were compared, or are by the command */
   bool answered;                       /* --help or the like was printed: nothing is left to do */
-  const char *port;                    /* of view, as written; NULL = not given */
   const char *frequency;               /* of fit and needs, as written; NULL = not given */
   const char *length, *quality_factor; /* of needs, likewise */
   double time_limit;                   /* seconds; 0 = none */
@@ -75,33 +72,20 @@ kz_status kz_app_run(const kz_options *options);
 /* What a stage does, for progress: "labels in quad precision (1)" for "quad 1". */
 void kz_stage_words(const char *name, char *words, size_t bytes);
 kz_status kz_app_check(const kz_options *options);
-kz_status kz_app_where(const kz_options *options);
-kz_status kz_app_serve(const kz_options *options);
-kz_status kz_app_view(const kz_options *options); /* replaces the process by the explorer; returns only after a failure */
-kz_status kz_app_fit(const kz_options *options);  /* replaces the process by a command of the package; so do these three */
+kz_status kz_app_fit(const kz_options *options); /* replaces the process by a command of the package; so do the next two */
 kz_status kz_app_plot(const kz_options *options);
 kz_status kz_app_info(const kz_options *options);
 kz_status kz_app_needs(const kz_options *options);
 kz_status kz_app_keys(const kz_options *options);
 void kz_app_version(FILE *out);
 
-/* The starts of the command where, from the operands or from lines "theta,velocity" of standard input. start [n] = theta and velocity, as
- * doubles, or both in all digits if one of them has more. KZ_REFUSED names the operand or the line. The caller frees *starts in every case. */
-typedef struct {
-  int64_t n;
-  kz_coordinate (*start)[2];
-  double pivot_frequency; /* rad/s, for velocities in rad/s; NaN if the scene is not in SI units */
-} kz_starts;
-kz_status kz_starts_read(const kz_options *options, double pivot_frequency, kz_starts *starts);
-void kz_starts_free(kz_starts *starts);
-
 /* Calls `answer` with the scene of the command line, on the process that prints; a message about a key is given its place in the scene. */
 kz_status kz_scene_answer(const kz_options *options, kz_status (*answer)(const kz_options *, const kz_scene *));
 
-struct json_object;
-/* Adds "theta", "velocity", and where the start ends to an object (json.h); also in SI units unless `omega`, the frequency of the pivot in rad/s,
- * is NaN. */
-void kz_ending_add(struct json_object *object, const kz_coordinate start[2], const kz_ending *ending, double omega);
+/* This process becomes `module` of the Python package, whose file in the package is `entry`, with words [n] behind it. Returns only after a
+ * failure. kz_program_path: the path of this executable, which the caller frees; NULL after a failure. */
+kz_status kz_package_become(const char *entry, const char *module, int n, const char *const *words);
+char *kz_program_path(void);
 
 /* Writes the name of the result to path [bytes]. KZ_REFUSED if the name is too long. */
 kz_status kz_output_name(const kz_options *options, char *path, size_t bytes);

@@ -1,40 +1,54 @@
 /* The commands and options of the command line: parsing, help, the manual page and completions come from the same rows. */
 #pragma once
 
+#include <string.h>
+
 #include "app.h"
-
-/* Bits of the commands. */
-enum { KZ_FIT = 128, KZ_NEEDS = 256, KZ_PLOT = 512 };
-
-typedef struct {
-  const char *name;    /* "" = the program itself */
-  int bit;             /* in kz_option.commands */
-  const char *operand; /* " SCENE", or "" */
-  int fewest, most;    /* operands */
-  kz_status (*carry_out)(const kz_options *options);
-  const char *help;
-} kz_command;
 
 typedef struct kz_option {
   const char *name;
-  int letter;           /* of the short form; 0: none */
-  const char *argument; /* its name, or NULL */
-  int commands;
-  kz_status (*apply)(kz_options *options, const struct kz_option *row, const char *argument); /* NULL: --help and --version */
-  size_t member;                                                                              /* of kz_options that it sets */
+  int letter;                                                                           /* of the short form; 0: none */
+  const char *argument;                                                                 /* its name, or NULL */
+  kz_status (*apply)(void *members, const struct kz_option *row, const char *argument); /* NULL: --help and --version */
+  size_t member; /* that it sets: of kz_options, or of the command's own */
   const char *help;
   const char *words; /* what the argument can be, joined by '|'; NULL = anything */
 } kz_option;
 
-extern const kz_command kz_commands[], kz_program;
-extern const int kz_command_count;
-extern const kz_option kz_option_rows[]; /* ended by a row without name */
-/* The option of a command that comes after `row` (NULL: the first); NULL if there is none. */
-static inline const kz_option *kz_option_next(const kz_command *command, const kz_option *row) {
-  for (row = row ? row + 1 : kz_option_rows; row->name; row++)
-    if (row->commands & command->bit) return row;
+typedef struct {
+  const char *name;    /* "" = the program itself */
+  const char *operand; /* " SCENE", or "" */
+  int fewest, most;    /* operands */
+  kz_status (*carry_out)(const kz_options *options);
+  const char *help;
+  const char *options;  /* names of its options, joined by '|', in the order of its help */
+  const kz_option *own; /* those that no other command has, ended by a row without name; NULL = none */
+  size_t own_bytes;     /* of the members that these set: kz_options.own, zeros before */
+  bool passes_words;    /* the package reads the words behind it */
+  bool joins_units;     /* a number and a unit behind it are one word */
+} kz_command;
+
+extern const kz_command kz_program;
+extern const kz_command kz_program;
+/* The commands, then those of the powers of this build (cmake/power_list.cmake), each kz_NAME_command of its folder; NULL ends the list. */
+extern const kz_command *const kz_commands[];
+extern const kz_option kz_option_rows[]; /* options of the core, ended by a row without name */
+static inline const kz_option *kz_option_find(const kz_option *list, const char *name, int length) {
+  for (; list && list->name; list++)
+    if (strncmp(list->name, name, (size_t)length) == 0 && list->name[length] == '\0') return list;
   return NULL;
 }
+/* The option that stands first in *options, which moves behind it; NULL at the end of the list. */
+static inline const kz_option *kz_option_next(const kz_command *command, const char **options) {
+  int length;
+  const char *name = kz_words_next(options, &length);
+  const kz_option *own = name ? kz_option_find(command->own, name, length) : NULL;
+  return own || !name ? own : kz_option_find(kz_option_rows, name, length);
+}
+
+/* For rows: sets the member, a bool or a text, of kz_options or of the command's own. */
+kz_status kz_option_flag(void *members, const kz_option *row, const char *argument);
+kz_status kz_option_text(void *members, const kz_option *row, const char *argument);
 
 /* Reads the words behind the name of a command. argv is permuted. KZ_REFUSED names the word. */
 kz_status kz_options_read(const kz_command *command, int argc, char **argv, kz_options *options);

@@ -48,7 +48,8 @@ void kz_completion_print(const char *shell) {
 }
 
 static void print_options(const kz_command *command) {
-  for (const kz_option *row = NULL; (row = kz_option_next(command, row));) printf("--%s\t%s\n", row->name, row->help);
+  const char *names = command->options;
+  for (const kz_option *row; (row = kz_option_next(command, &names));) printf("--%s\t%s\n", row->name, row->help);
 }
 
 /* What the argument of an option can be. */
@@ -63,8 +64,8 @@ static void print_arguments(const kz_option *row) {
 
 /* The option of a command that takes an argument and is written so; NULL if there is none. */
 static const kz_option *option_of(const kz_command *command, const char *word) {
-  const kz_option *row = NULL;
-  while ((row = kz_option_next(command, row))) {
+  const char *names = command->options;
+  for (const kz_option *row; (row = kz_option_next(command, &names));) {
     const bool is_short = word[0] == '-' && row->letter && word[1] == row->letter && word[2] == '\0';
     if (row->argument && (is_short || (strncmp(word, "--", 2) == 0 && strcmp(word + 2, row->name) == 0))) return row;
   }
@@ -82,9 +83,9 @@ void kz_completion_answer(const char *line) {
     before = last;
     last = word;
   }
-  for (int i = 0; i < kz_command_count; i++) {
-    if (n <= 2) printf("%s\t%s\n", kz_commands[i].name, kz_commands[i].help);
-    if (n > 2 && strcmp(first, kz_commands[i].name) == 0) command = kz_commands + i;
+  for (int i = 0; kz_commands[i]; i++) {
+    if (n <= 2) printf("%s\t%s\n", kz_commands[i]->name, kz_commands[i]->help);
+    if (n > 2 && strcmp(first, kz_commands[i]->name) == 0) command = kz_commands[i];
   }
   const kz_option *row = option_of(command, before);
   if (row)

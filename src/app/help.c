@@ -16,10 +16,11 @@ enum { N_STATUSES = sizeof statuses / sizeof statuses[0] };
 void kz_help_print(const kz_command *command) {
   const char *space = command->name[0] ? " " : "";
   printf("Usage: kapitza%s%s%s [OPTION]...\n%s\n\n", space, command->name, command->operand, command->help);
-  for (int i = 0; command == &kz_program && i < kz_command_count; i++)
-    printf("  %-24s %s\n", kz_commands[i].name, kz_commands[i].help);
+  for (int i = 0; command == &kz_program && kz_commands[i]; i++)
+    printf("  %-24s %s\n", kz_commands[i]->name, kz_commands[i]->help);
   if (command == &kz_program) putchar('\n');
-  for (const kz_option *row = NULL; (row = kz_option_next(command, row));) {
+  const char *names = command->options;
+  for (const kz_option *row; (row = kz_option_next(command, &names));) {
     char name[64];
     snprintf(name, sizeof name, "--%s%s%s", row->name, row->argument ? " " : "", row->argument ? row->argument : "");
     if (row->letter)
@@ -41,7 +42,8 @@ static void print_roff(const char *text) {
 }
 
 static void print_options(const kz_command *command) {
-  for (const kz_option *row = NULL; (row = kz_option_next(command, row));) {
+  const char *names = command->options;
+  for (const kz_option *row; (row = kz_option_next(command, &names));) {
     fputs(".TP\n", stdout);
     if (row->letter) printf("\\fB\\-%c\\fR, ", row->letter);
     fputs("\\fB\\-\\-", stdout);
@@ -73,7 +75,7 @@ void kz_manual_print(void) {
       "netCDF "
       "tools read. A SCENE of \\- is standard input.");
   print_options(&kz_program);
-  for (int i = 0; i < kz_command_count; i++) print_command(kz_commands + i);
+  for (int i = 0; kz_commands[i]; i++) print_command(kz_commands[i]);
   puts(".SH EXIT STATUS");
   for (int i = 0; i < N_STATUSES; i++) printf(".TP\n.B %d\n%s\n", statuses[i].status, statuses[i].meaning);
   puts(

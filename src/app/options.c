@@ -5,71 +5,64 @@
 
 #include "commands.h"
 
-enum {
-  RUN = 1,
-  CHECK = 2,
-  KEYS = 4,
-  TOP = 8,
-  WHERE = 16,
-  VIEW = 32,
-  SERVE = 64,
-  FIT = KZ_FIT,
-  NEEDS = KZ_NEEDS,
-  PLOT = KZ_PLOT,
-  INFO = 1024
+#define HELP "|help"
+static const kz_command commands[] = {
+    {"run", " SCENE", 1, 1, kz_app_run, "model every study that SCENE contains",
+     "output|set|resume|force|time-limit|progress|timings|log" HELP},
+    {"check", " SCENE", 1, 1, kz_app_check,
+     "check SCENE; print what a run would model, and the memory and disk that it would take", "set|json|all" HELP},
+    {"plot", " [KIND] FILE", 1, 1, kz_app_plot,
+     "draw the result FILE as a picture; kapitza plot KIND --help lists the options of a kind, kapitza plot alone the kinds",
+     "help", .passes_words = true},
+    {"info", " FILE", 1, 1, kz_app_info, "say what the result FILE holds: pendulum, studies and attractors", "help"},
+    {"fit", " TRACK", 1, 1, kz_app_fit,
+     "find the pendulum of a recorded track: CSV with the columns time (s) and theta (rad) or theta_deg",
+     "frequency|degrees" HELP, .joins_units = true},
+    {"needs", " --length L --frequency F", 0, 0, kz_app_needs,
+     "say between which amplitudes of the pivot a pendulum of --length stands upside down and flutters at --frequency",
+     "json|length|frequency|quality-factor" HELP, .joins_units = true},
+    {"keys", "", 0, 0, kz_app_keys, "print the reference of all keys of a scene (docs/reference/scene.md)",
+     "json-schema|layout" HELP},
 };
+_Static_assert(sizeof commands / sizeof *commands == 7, "the commands of the core below");
+#define DECLARE(name) extern const kz_command kz_##name##_command;
+#define REFER(name) &kz_##name##_command,
+KZ_POWER_COMMANDS(DECLARE)
+/* clang-format off */
+const kz_command *const kz_commands[] = {commands, commands + 1, commands + 2, commands + 3, commands + 4, commands + 5, commands + 6,
+                                         KZ_POWER_COMMANDS(REFER) NULL};
+/* clang-format on */
+const kz_command kz_program = {"",
+                               " COMMAND",
+                               0,
+                               0,
+                               NULL,
+                               "basins of attraction of the pendulum with a shaken pivot",
+                               "completion|complete|manual" HELP "|version"};
 
-const kz_command kz_commands[] = {
-    {"run", RUN, " SCENE", 1, 1, kz_app_run, "model every study that SCENE contains"},
-    {"check", CHECK, " SCENE", 1, 1, kz_app_check,
-     "check SCENE; print what a run would model, and the memory and disk that it would take"},
-    {"where", WHERE, " SCENE THETA VELOCITY", 2, 5, kz_app_where,
-     "say on which attractor a start ends; THETA is in rad from down, VELOCITY in rad per drive radian, with any number of "
-     "digits, or both with units ('170 deg', of a scene in SI '3 rad/s'); write - in their place to read starts as CSV from "
-     "standard input; --boundary takes two starts"},
-    {"view", VIEW, " SCENE|FILE", 1, 1, kz_app_view, "open the basins of a scene or of a result in the browser"},
-    {"plot", PLOT, " [KIND] FILE", 1, 1, kz_app_plot,
-     "draw the result FILE as a picture; kapitza plot KIND --help lists the options of a kind, kapitza plot alone the kinds"},
-    {"info", INFO, " FILE", 1, 1, kz_app_info, "say what the result FILE holds: pendulum, studies and attractors"},
-    {"fit", FIT, " TRACK", 1, 1, kz_app_fit,
-     "find the pendulum of a recorded track: CSV with the columns time (s) and theta (rad) or theta_deg"},
-    {"needs", NEEDS, " --length L --frequency F", 0, 0, kz_app_needs,
-     "say between which amplitudes of the pivot a pendulum of --length stands upside down and flutters at --frequency"},
-    {"serve", SERVE, " SCENE", 1, 1, kz_app_serve,
-     "answer requests of other programs (JSON lines on standard input) for frames, orbits and ends of starts"},
-    {"keys", KEYS, "", 0, 0, kz_app_keys, "print the reference of all keys of a scene (docs/reference/scene.md)"},
-};
-const int kz_command_count = sizeof kz_commands / sizeof kz_commands[0];
-const kz_command kz_program = {"", TOP, " COMMAND", 0, 0, NULL, "basins of attraction of the pendulum with a shaken pivot"};
+/* The member that a row sets. */
+#define MEMBER(type) (*(type *)((char *)members + row->member))
 
-/* The member of kz_options that a row sets. */
-#define MEMBER(type) (*(type *)((char *)options + row->member))
-
-static kz_status set_flag(kz_options *options, const kz_option *row, const char *argument) {
+kz_status kz_option_flag(void *members, const kz_option *row, const char *argument) {
   (void)argument;
   MEMBER(bool) = true;
   return KZ_OK;
 }
 
-static kz_status set_text(kz_options *options, const kz_option *row, const char *argument) {
+kz_status kz_option_text(void *members, const kz_option *row, const char *argument) {
   MEMBER(const char *) = argument;
   return KZ_OK;
 }
 
-static kz_status set_file(kz_options *options, const kz_option *row, const char *argument) {
+static kz_status set_file(void *members, const kz_option *row, const char *argument) {
   MEMBER(const char *) = argument;
   return argument[0] ? KZ_OK : kz_fail(KZ_REFUSED, "--%s: the name is empty; give the name of a file", row->name);
 }
 
-static kz_status add_set(kz_options *options, const kz_option *row, const char *argument) {
+static kz_status add_set(void *members, const kz_option *row, const char *argument) {
+  kz_options *options = members;
   (void)row;
   options->sets[options->n_sets++] = (char *)argument;
-  return KZ_OK;
-}
-
-static kz_status add_origin(kz_options *options, const kz_option *row, const char *argument) {
-  (void)row;
-  options->origins[options->n_origins++] = (char *)argument;
   return KZ_OK;
 }
 
@@ -84,14 +77,16 @@ static kz_status find_word(const kz_option *row, const char *argument, int64_t *
   return kz_fail(KZ_REFUSED, "--%s: \"%s\" is unknown; it must be %s or %s", row->name, argument, list, last + 1);
 }
 
-static kz_status set_progress(kz_options *options, const kz_option *row, const char *argument) {
+static kz_status set_progress(void *members, const kz_option *row, const char *argument) {
+  kz_options *options = members;
   int64_t index;
   KZ_TRY(find_word(row, argument, &index));
   options->progress = (kz_progress)index;
   return KZ_OK;
 }
 
-static kz_status set_completion(kz_options *options, const kz_option *row, const char *argument) {
+static kz_status set_completion(void *members, const kz_option *row, const char *argument) {
+  kz_options *options = members;
   int64_t index;
   KZ_TRY(find_word(row, argument, &index));
   if (options->prints) kz_completion_print(argument);
@@ -99,14 +94,16 @@ static kz_status set_completion(kz_options *options, const kz_option *row, const
   return KZ_OK;
 }
 
-static kz_status set_complete(kz_options *options, const kz_option *row, const char *argument) {
+static kz_status set_complete(void *members, const kz_option *row, const char *argument) {
+  kz_options *options = members;
   (void)row;
   if (options->prints) kz_completion_answer(argument);
   options->answered = true;
   return KZ_OK;
 }
 
-static kz_status set_manual(kz_options *options, const kz_option *row, const char *argument) {
+static kz_status set_manual(void *members, const kz_option *row, const char *argument) {
+  kz_options *options = members;
   (void)row, (void)argument;
   if (options->prints) kz_manual_print();
   options->answered = true;
@@ -114,7 +111,8 @@ static kz_status set_manual(kz_options *options, const kz_option *row, const cha
 }
 
 /* A number of seconds, or with s, m, h of seconds, minutes, hours. */
-static kz_status set_time_limit(kz_options *options, const kz_option *row, const char *argument) {
+static kz_status set_time_limit(void *members, const kz_option *row, const char *argument) {
+  kz_options *options = members;
   static const char units[] = "smh";
   static const double seconds[] = {1.0, 60.0, 3600.0};
   char number[64];
@@ -129,71 +127,59 @@ static kz_status set_time_limit(kz_options *options, const kz_option *row, const
   return KZ_OK;
 }
 
-static kz_status set_boundary(kz_options *options, const kz_option *row, const char *argument) {
-  const kz_node node = {.kind = KZ_SCALAR, .text = (char *)argument, .plain = true};
-  const char *wrong = kz_scalar_integer(&node, &options->boundary);
-  if (wrong || options->boundary < 1 || options->boundary > KZ_BOUNDARY_MOST_DIGITS)
-    return kz_fail(KZ_REFUSED, "--%s: \"%.40s\" %s; give a number of digits from 1 to %d", row->name, argument,
-                   wrong ? wrong : "is out of range", KZ_BOUNDARY_MOST_DIGITS);
-  return KZ_OK;
-}
-
 #define OF(member) offsetof(kz_options, member)
 const kz_option kz_option_rows[] = {
-    {"output", 'o', "FILE", RUN, set_file, OF(output),
+    {"output", 'o', "FILE", set_file, OF(output),
      "name of the result; default: the base name of SCENE with .h5, in the current folder", NULL},
-    {"set", 0, "KEY=VALUE", RUN | CHECK | WHERE | VIEW | SERVE, add_set, 0,
+    {"set", 0, "KEY=VALUE", add_set, 0,
      "change or add a key of the scene; VALUE is YAML; if a key is given twice, the last value counts", NULL},
-    {"resume", 0, NULL, RUN, set_flag, OF(resume), "continue from FILE.checkpoint if it exists", NULL},
-    {"force", 0, NULL, RUN, set_flag, OF(force), "overwrite FILE, discard FILE.checkpoint", NULL},
-    {"time-limit", 0, "T", RUN, set_time_limit, 0,
+    {"resume", 0, NULL, kz_option_flag, OF(resume), "continue from FILE.checkpoint if it exists", NULL},
+    {"force", 0, NULL, kz_option_flag, OF(force), "overwrite FILE, discard FILE.checkpoint", NULL},
+    {"time-limit", 0, "T", set_time_limit, 0,
      "stop after T seconds (or 30m, 1.5h), save all finished work, exit with status 75", NULL},
-    {"progress", 0, "WHEN", RUN, set_progress, 0, "when to show progress: auto, always or never", "auto|always|never"},
-    {"timings", 0, NULL, RUN, set_flag, OF(timings), "print at the end how long each stage took", NULL},
-    {"log", 0, "FILE", RUN, set_file, OF(log), "append progress, stages, warnings and the end to FILE, as JSON lines", NULL},
-    {"json", 0, NULL, WHERE | CHECK | NEEDS, set_flag, OF(json), "print JSON, one object a line", NULL},
-    {"all", 0, NULL, CHECK, set_flag, OF(all), "print the scene with every default, too", NULL},
-    {"boundary", 0, "DIGITS", WHERE, set_boundary, 0,
-     "print the point between two starts at which their basins meet, correct to DIGITS decimal places", NULL},
-    {"json-schema", 0, NULL, KEYS, set_flag, OF(json_schema), "print the keys as a JSON schema, for editors", NULL},
-    {"layout", 0, NULL, KEYS, set_flag, OF(layout),
+    {"progress", 0, "WHEN", set_progress, 0, "when to show progress: auto, always or never", "auto|always|never"},
+    {"timings", 0, NULL, kz_option_flag, OF(timings), "print at the end how long each stage took", NULL},
+    {"log", 0, "FILE", set_file, OF(log), "append progress, stages, warnings and the end to FILE, as JSON lines", NULL},
+    {"json", 0, NULL, kz_option_flag, OF(json), "print JSON, one object a line", NULL},
+    {"all", 0, NULL, kz_option_flag, OF(all), "print the scene with every default, too", NULL},
+    {"json-schema", 0, NULL, kz_option_flag, OF(json_schema), "print the keys as a JSON schema, for editors", NULL},
+    {"layout", 0, NULL, kz_option_flag, OF(layout),
      "print the variables of the result file, with their group, dimensions, type and units, as JSON lines", NULL},
-    {"port", 0, "N", VIEW, set_text, OF(port), "port of the local server, 1024 to 65535; default: a free one", NULL},
-    {"no-browser", 0, NULL, VIEW, set_flag, OF(no_browser), "print the address, and do not open a browser", NULL},
-    {"origin", 0, "ORIGIN", VIEW, add_origin, 0,
-     "also answer pages of this origin (a proxy or a tunnel), such as https://hub.example.org", NULL},
-    {"length", 0, "L", NEEDS, set_text, OF(length), "length of a point mass on a light rod, such as 20 cm; needed", NULL},
-    {"frequency", 0, "F", FIT | NEEDS, set_text, OF(frequency),
+    {"length", 0, "L", kz_option_text, OF(length), "length of a point mass on a light rod, such as 20 cm; needed", NULL},
+    {"frequency", 0, "F", kz_option_text, OF(frequency),
      "frequency of the drive: Hz, or with a unit such as 3000 rpm; without it a track of fit is a free decay", NULL},
-    {"quality-factor", 0, "Q", NEEDS, set_text, OF(quality_factor), "quality factor of small swings; default: 20", NULL},
-    {"degrees", 0, NULL, FIT, set_flag, OF(degrees), "the angles of the track are in degrees", NULL},
-    {"completion", 0, "SHELL", TOP, set_completion, 0, "print the completion script for bash, zsh or fish", "bash|zsh|fish"},
-    {"complete", 0, "LINE", TOP, set_complete, 0,
+    {"quality-factor", 0, "Q", kz_option_text, OF(quality_factor), "quality factor of small swings; default: 20", NULL},
+    {"degrees", 0, NULL, kz_option_flag, OF(degrees), "the angles of the track are in degrees", NULL},
+    {"completion", 0, "SHELL", set_completion, 0, "print the completion script for bash, zsh or fish", "bash|zsh|fish"},
+    {"complete", 0, "LINE", set_complete, 0,
      "print the words that may end LINE, a command line, with their descriptions: what these scripts ask for", NULL},
-    {"manual", 0, NULL, TOP, set_manual, 0, "print the manual page; to read it, pipe it into man -l -", NULL},
-    {"help", 'h', NULL, RUN | CHECK | WHERE | VIEW | FIT | NEEDS | PLOT | INFO | SERVE | KEYS | TOP, NULL, 0,
-     "print this help and exit", NULL},
-    {"version", 'V', NULL, TOP, NULL, 0, "print the versions of the program and of its libraries, and exit", NULL},
+    {"manual", 0, NULL, set_manual, 0, "print the manual page; to read it, pipe it into man -l -", NULL},
+    {"help", 'h', NULL, NULL, 0, "print this help and exit", NULL},
+    {"version", 'V', NULL, NULL, 0, "print the versions of the program and of its libraries, and exit", NULL},
     {.name = NULL},
 };
-enum { N_ROWS = sizeof kz_option_rows / sizeof kz_option_rows[0], NO_LETTER = 256 };
+enum { MOST_OPTIONS = 16 /* of a command */, NO_LETTER = 256 };
 
-/* What getopt calls the option: its letter, or a number above all letters. */
-static int letter_of(const kz_option *row) {
-  return row->letter ? row->letter : NO_LETTER + (int)(row - kz_option_rows);
-}
-
-/* getopt's own description of the options of a command. */
-static void describe(const kz_command *command, struct option *longs, char *shorts) {
+/* getopt's own description of the options of a command: letter = that of the row, or NO_LETTER + its place in row [MOST_OPTIONS]. */
+static void describe(const kz_command *command, const kz_option **row, struct option *longs, char *shorts) {
   shorts = stpcpy(shorts, "+:");
-  for (const kz_option *row = NULL; (row = kz_option_next(command, row));) {
-    *longs++ = (struct option){row->name, row->argument ? required_argument : no_argument, NULL, letter_of(row)};
-    if (!row->letter) continue;
-    *shorts++ = (char)row->letter;
-    if (row->argument) *shorts++ = ':';
+  const char *names = command->options;
+  for (int i = 0; (row[i] = kz_option_next(command, &names)); i++) {
+    const kz_option *r = row[i];
+    *longs++ =
+        (struct option){r->name, r->argument ? required_argument : no_argument, NULL, r->letter ? r->letter : NO_LETTER + i};
+    if (!r->letter) continue;
+    *shorts++ = (char)r->letter;
+    if (r->argument) *shorts++ = ':';
   }
   *longs = (struct option){NULL, 0, NULL, 0};
   *shorts = '\0';
+}
+
+static const kz_option *row_of(const kz_option *const *row, int letter) {
+  if (letter >= NO_LETTER) return row[letter - NO_LETTER];
+  while ((*row)->letter != letter) row++;
+  return *row;
 }
 
 /* Whether an option is how other programs are told the number of their ranks. */
@@ -211,12 +197,13 @@ static kz_status refuse_option(const kz_command *command, const char *typed, boo
   if (lacks_argument)
     return kz_fail(KZ_REFUSED, "%s: needs a value; kapitza%s%s --help shows its form", typed, space, command->name);
   char name[64];
-  for (const kz_option *row = NULL; (row = kz_option_next(command, row));) {
+  const char *rest = command->options;
+  for (const kz_option *row; (row = kz_option_next(command, &rest));) {
     snprintf(name, sizeof name, "--%s", row->name);
     kz_words_add(names, sizeof names, name);
   }
   snprintf(name, sizeof name, "%.*s", (int)length, typed);
-  if (command->bit == RUN && is_number_of_ranks(name))
+  if (command->carry_out == kz_app_run && is_number_of_ranks(name))
     return kz_fail(KZ_REFUSED, "%.80s: unknown option; several ranks: mpirun -n 4 kapitza run SCENE", typed);
   if (kz_key_suggest(name, names, nearest, sizeof nearest) && strcmp(nearest, name) != 0)
     return kz_fail(KZ_REFUSED, "%.80s: unknown option; did you mean %s?", typed, nearest);
@@ -266,10 +253,17 @@ static kz_status next_option(const kz_command *command, int argc, char **argv, c
   return KZ_OK;
 }
 
+static bool is_own(const kz_command *command, const kz_option *row) {
+  for (const kz_option *own = command->own; own && own->name; own++)
+    if (own == row) return true;
+  return false;
+}
+
 kz_status kz_options_read(const kz_command *command, int argc, char **argv, kz_options *options) {
-  struct option longs[N_ROWS + 1];
-  char shorts[2 * N_ROWS + 3];
-  describe(command, longs, shorts);
+  const kz_option *list[MOST_OPTIONS + 1];
+  struct option longs[MOST_OPTIONS + 1];
+  char shorts[2 * MOST_OPTIONS + 3];
+  describe(command, list, longs, shorts);
   opterr = 0;
   optind = 1;
   for (int letter;;) {
@@ -279,10 +273,9 @@ kz_status kz_options_read(const kz_command *command, int argc, char **argv, kz_o
       const bool is_letter = letter == '?' && optopt > 0 && optopt < 256 && strncmp(argv[optind - 1], "--", 2) != 0;
       return refuse_option(command, is_letter ? (const char[]){'-', (char)optopt, '\0'} : argv[optind - 1], letter == ':');
     }
-    const kz_option *row = kz_option_rows;
-    while (letter_of(row) != letter) row++;
+    const kz_option *row = row_of(list, letter);
     if (row->apply) {
-      KZ_TRY(row->apply(options, row, optarg));
+      KZ_TRY(row->apply(is_own(command, row) ? options->own : options, row, optarg));
       continue;
     }
     options->answered = true;

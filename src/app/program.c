@@ -37,13 +37,14 @@ static kz_status agree_alone(kz_options *options) {
 
 static kz_status carry_out(const kz_command *command, int argc, char **argv, kz_options *options) {
   const bool asks = argc > 1 && (strcmp(argv[1], "--help") == 0 || strcmp(argv[1], "-h") == 0);
-  if (command->bit == KZ_PLOT && !asks) {
+  if (command->passes_words && !asks) {
     options->n_words = argc - 1;
     options->plot_words = argv + 1;
     KZ_TRY(agree_alone(options));
     return command->carry_out(options);
   }
-  if (command->bit & (KZ_FIT | KZ_NEEDS)) argc = join_units(argc, argv, options);
+  if (command->joins_units) argc = join_units(argc, argv, options);
+  if (command->own_bytes > 0) options->own = kz_calloc(1, command->own_bytes);
   KZ_TRY(kz_options_read(command, argc, argv, options));
   if (options->answered) return agree_alone(options);
   KZ_TRY(kz_operands_check(command, options));
@@ -72,10 +73,14 @@ static kz_status dispatch(int argc, char **argv, kz_options *options) {
     KZ_TRY(kz_options_read(&kz_program, argc, argv, options));
     return options->answered ? agree_alone(options) : kz_fail(KZ_REFUSED, "no command; kapitza run SCENE, or kapitza --help");
   }
-  for (int i = 0; i < kz_command_count; i++) {
-    if (strcmp(argv[1], kz_commands[i].name) == 0) return carry_out(&kz_commands[i], argc - 1, argv + 1, options);
-    kz_words_add(names, sizeof names, kz_commands[i].name);
+  const kz_command *command;
+  for (int i = 0; (command = kz_commands[i]); i++) {
+    if (strcmp(argv[1], command->name) == 0) return carry_out(command, argc - 1, argv + 1, options);
+    kz_words_add(names, sizeof names, command->name);
   }
+#define MISSING(name, power) \
+  if (strcmp(argv[1], #name) == 0) return kz_fail(KZ_REFUSED, "%s: " KZ_MISSING_POWER, #name, #power);
+  KZ_MISSING_COMMANDS(MISSING)
   if (kz_key_suggest(argv[1], names, nearest, sizeof nearest))
     return kz_fail(KZ_REFUSED, "%.80s: unknown command; did you mean %s?", argv[1], nearest);
   return kz_fail(KZ_REFUSED, "%.80s: unknown command; kapitza --help lists the commands", argv[1]);
@@ -109,7 +114,6 @@ kz_status kz_app(int argc, char **argv) {
   options.line = join(argc, argv);
   options.words = options.line + strcspn(options.line, " ");
   options.sets = kz_calloc((size_t)argc + 1, sizeof *options.sets);
-  options.origins = kz_calloc((size_t)argc + 1, sizeof *options.origins);
   options.joined = kz_calloc((size_t)argc + 1, sizeof *options.joined);
   kz_status status = dispatch(argc, argv, &options);
   if (status == KZ_REFUSED && !options.compared) status = refuse_together(&options);
@@ -117,7 +121,7 @@ kz_status kz_app(int argc, char **argv) {
   free(options.joined);
   free(options.line);
   free(options.sets);
-  free(options.origins);
+  free(options.own);
   if (!prints && status != KZ_FAILED) kz_message_clear();
   return status;
 }

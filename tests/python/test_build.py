@@ -25,7 +25,7 @@ def configured(folder, *options):
 
 def test_an_unknown_power_is_refused(tmp_path):
     done = call("cmake", "-G", "Ninja", "-S", ROOT, "-B", tmp_path / "b", "-DKAPITZA_POWERS=flying")
-    assert done.returncode != 0 and "KAPITZA_POWERS: flying is no power; there are boundaries" in done.stderr
+    assert done.returncode != 0 and "KAPITZA_POWERS: flying is no power; there are saddles" in done.stderr
 
 
 @pytest.mark.extensive
@@ -38,7 +38,9 @@ def test_the_program_builds_without_powers(tmp_path):
         assert call(program, "run", small, "-o", tmp_path / f"{name}.h5").returncode == 0
     assert datasets(tmp_path / "core.h5") == datasets(tmp_path / "all.h5")
     done = call(build / "kapitza", "check", small, "--set", "wada={}")
-    assert done.returncode == 2 and "wada: needs the power boundaries, which this build leaves out" in done.stderr
+    assert done.returncode == 2 and "wada: needs the power saddles, which this build leaves out" in done.stderr
+    done = call(build / "kapitza", "where", small, 0, 0)
+    assert done.returncode == 2 and "where: needs the power live, which this build leaves out" in done.stderr
 
 
 def test_clang_takes_every_c_file(tmp_path):

@@ -217,8 +217,7 @@ static const char *missing_power(const char *study) {
 void kz_key_unknown(const kz_key *keys, const char *parent, const char *name, const char *prefix, char *text, size_t bytes) {
   const char *power = parent[0] ? NULL : missing_power(name);
   if (power) {
-    snprintf(text, bytes, "needs the power %s, which this build leaves out; configure it with cmake -DKAPITZA_POWERS=all",
-             power);
+    snprintf(text, bytes, KZ_MISSING_POWER, power);
     return;
   }
   char names[1024], list[1024], nearest[64];

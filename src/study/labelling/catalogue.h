@@ -8,7 +8,7 @@
 #include "kapitza/dynamics.h"
 #include "kapitza/store.h"
 #include "kapitza/study.h"
-#include "kapitza/study_live.h"
+#include "kapitza/study_catalogue.h"
 
 /* Makes the catalogue of the attractors whose reached [number] is not 0, and of their mirror images; NULL: of all. The caller frees it. */
 void kz_catalogue_make(const kz_dynamics *dynamics, const int64_t *reached, kz_catalogue *catalogue);

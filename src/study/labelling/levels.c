@@ -1,6 +1,6 @@
 #include "levels.h"
 #include "basin/plan.h"
-#include "kapitza/study_where.h"
+#include "kapitza/study_catalogue.h"
 
 #include <stddef.h>
 

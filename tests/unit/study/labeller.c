@@ -3,7 +3,7 @@
 #include <stdlib.h>
 
 #include "../../tools/test.h"
-#include "kapitza/study_where.h"
+#include "kapitza/study_catalogue.h"
 
 #include "labelling/labeller.h"
 #include "labelling/search.h"

@@ -5,7 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "../app.h"
+#include "commands.h"
 #include "answer.h"
 #include "inbox.h"
 #include "map.h"
@@ -283,7 +283,7 @@ static kz_status greet(server *s, const kz_options *options) {
   return status;
 }
 
-kz_status kz_app_serve(const kz_options *options) {
+static kz_status serve(const kz_options *options) {
   server s = {0};
   if (!options->prints) return KZ_OK;
   if (strcmp(options->scene, "-") == 0)
@@ -301,3 +301,9 @@ kz_status kz_app_serve(const kz_options *options) {
   kz_scene_tree_free(&s.tree);
   return status == KZ_STOPPED ? KZ_OK : status;
 }
+
+const kz_command kz_serve_command = {
+    "serve",   " SCENE",
+    1,         1,
+    serve,     "answer requests of other programs (JSON lines on standard input) for frames, orbits and ends of starts",
+    "set|help"};

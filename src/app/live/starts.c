@@ -5,7 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "app.h"
+#include "where.h"
 
 enum { MOST_STARTS = 100000 };
 
@@ -109,8 +109,9 @@ static kz_status read_operands(const kz_options *options, kz_starts *starts) {
 }
 
 static kz_status read_starts(const kz_options *options, kz_starts *starts) {
+  const int64_t digits = ((const kz_where_options *)options->own)->boundary;
   const char *const *operands = options->operands;
-  if (options->boundary > 0 && options->n_operands != 5)
+  if (digits > 0 && options->n_operands != 5)
     return kz_fail(KZ_REFUSED,
                    "--boundary: takes two starts; kapitza where SCENE THETA VELOCITY THETA VELOCITY --boundary DIGITS");
   if (options->n_operands == 2) {
@@ -120,7 +121,7 @@ static kz_status read_starts(const kz_options *options, kz_starts *starts) {
       return kz_fail(KZ_REFUSED, "-: the scene and the starts cannot both come from standard input; give a scene file");
     return read_table(starts);
   }
-  if (options->boundary == 0 && options->n_operands > 3)
+  if (digits == 0 && options->n_operands > 3)
     return kz_fail(KZ_REFUSED, "%.80s: one argument too many; two starts go with --boundary alone", operands[3]);
   return read_operands(options, starts);
 }

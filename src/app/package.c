@@ -15,11 +15,16 @@ typedef struct {
   char own_python[PATH_MAX + 32]; /* of the virtual environment that scripts/setup makes */
 } places;
 
-static kz_status find_program(places *p) {
-  const ssize_t length = readlink("/proc/self/exe", p->program, sizeof p->program - 1);
+static kz_status find_program(char program[PATH_MAX]) {
+  const ssize_t length = readlink("/proc/self/exe", program, PATH_MAX - 1);
   if (length < 0) return kz_fail(KZ_FAILED, "the program cannot find itself: %s", strerror(errno));
-  p->program[length] = '\0';
+  program[length] = '\0';
   return KZ_OK;
+}
+
+char *kz_program_path(void) {
+  char program[PATH_MAX];
+  return find_program(program) == KZ_OK ? kz_strdup(program) : NULL;
 }
 
 /* The package and its Python; `entry`: file of the command in the package. */
@@ -57,8 +62,9 @@ static kz_status set_module_path(const places *p) {
   return set ? KZ_OK : kz_fail(KZ_FAILED, "out of memory");
 }
 
-/* This process becomes `module`, whose file in the package is `entry`, with words [n] behind it. Returns only after a failure. */
-static kz_status become(places *p, const char *entry, const char *module, int n, const char *const *words) {
+kz_status kz_package_become(const char *entry, const char *module, int n, const char *const *words) {
+  places found, *p = &found;
+  KZ_TRY(find_program(p->program));
   KZ_TRY(find_places(p, entry));
   KZ_TRY(set_module_path(p));
   const char *python = python_of(p);
@@ -74,32 +80,13 @@ static kz_status become(places *p, const char *entry, const char *module, int n,
                  python, strerror(errno));
 }
 
-kz_status kz_app_view(const kz_options *options) {
-  places p;
-  if (!options->prints) return KZ_OK;
-  KZ_TRY(kz_scene_check_file(options->scene));
-  KZ_TRY(find_program(&p));
-  const char *fixed[] = {options->no_browser ? "--no-browser" : "--browser", "--program", p.program, "--port",
-                         options->port ? options->port : "0"};
-  const size_t n_fixed = sizeof fixed / sizeof fixed[0];
-  KZ_FREED const char **words = kz_calloc(n_fixed + 2 * (size_t)(options->n_sets + options->n_origins) + 2, sizeof *words);
-  memcpy(words, fixed, sizeof fixed);
-  int n = (int)n_fixed;
-  for (int i = 0; i < options->n_sets; i++) words[n++] = "--set", words[n++] = options->sets[i];
-  for (int i = 0; i < options->n_origins; i++) words[n++] = "--origin", words[n++] = options->origins[i];
-  words[n++] = "--", words[n++] = options->scene;
-  return become(&p, "explorer/__main__.py", "kapitza.explorer", n, words);
-}
-
 /* A command of the package with n words behind it. */
 static kz_status call_package(const kz_options *options, const char *command, int n, const char *const *words) {
-  places p;
   if (!options->prints) return KZ_OK;
-  KZ_TRY(find_program(&p));
   KZ_FREED const char **all = kz_calloc((size_t)n + 1, sizeof *all);
   all[0] = command;
   if (n > 0) memcpy(all + 1, words, (size_t)n * sizeof *all);
-  return become(&p, "__main__.py", "kapitza", n + 1, all);
+  return kz_package_become("__main__.py", "kapitza", n + 1, all);
 }
 
 kz_status kz_app_fit(const kz_options *options) {

@@ -3,8 +3,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "app.h"
+#include "commands.h"
 #include "json.h"
+#include "where.h"
 
 static void print_number(double value) {
   fputs(kz_shortest(value).text, stdout);
@@ -208,7 +209,7 @@ static void print_boundary(const kz_boundary_point *point) {
 
 static kz_status answer_boundary(const kz_options *options, const kz_scene *scene, const kz_starts *starts) {
   kz_boundary_point point;
-  KZ_TRY(kz_where_boundary(scene, starts->start, options->boundary, &point));
+  KZ_TRY(kz_where_boundary(scene, starts->start, ((const kz_where_options *)options->own)->boundary, &point));
   if (options->json)
     print_boundary(&point);
   else
@@ -221,11 +222,40 @@ static kz_status answer(const kz_options *options, const kz_scene *scene) {
   kz_starts starts;
   kz_status status = kz_starts_read(options, scene->parameters.pivot_frequency, &starts);
   if (status == KZ_OK) status = kz_studies_check(scene);
-  if (status == KZ_OK) status = (options->boundary > 0 ? answer_boundary : answer_where)(options, scene, &starts);
+  if (status == KZ_OK)
+    status = (((const kz_where_options *)options->own)->boundary > 0 ? answer_boundary : answer_where)(options, scene, &starts);
   kz_starts_free(&starts);
   return status;
 }
 
-kz_status kz_app_where(const kz_options *options) {
+static kz_status where(const kz_options *options) {
   return kz_scene_answer(options, answer);
 }
+
+static kz_status set_boundary(void *members, const kz_option *row, const char *argument) {
+  kz_where_options *options = members;
+  const kz_node node = {.kind = KZ_SCALAR, .text = (char *)argument, .plain = true};
+  const char *wrong = kz_scalar_integer(&node, &options->boundary);
+  if (wrong || options->boundary < 1 || options->boundary > KZ_BOUNDARY_MOST_DIGITS)
+    return kz_fail(KZ_REFUSED, "--%s: \"%.40s\" %s; give a number of digits from 1 to %d", row->name, argument,
+                   wrong ? wrong : "is out of range", KZ_BOUNDARY_MOST_DIGITS);
+  return KZ_OK;
+}
+
+static const kz_option rows[] = {
+    {"boundary", 0, "DIGITS", set_boundary, 0,
+     "print the point between two starts at which their basins meet, correct to DIGITS decimal places", NULL},
+    {.name = NULL},
+};
+const kz_command kz_where_command = {
+    "where",
+    " SCENE THETA VELOCITY",
+    2,
+    5,
+    where,
+    "say on which attractor a start ends; THETA is in rad from down, VELOCITY in rad per drive radian, with any number of "
+    "digits, or both with units ('170 deg', of a scene in SI '3 rad/s'); write - in their place to read starts as CSV from "
+    "standard input; --boundary takes two starts",
+    "set|json|boundary|help",
+    rows,
+    sizeof(kz_where_options)};

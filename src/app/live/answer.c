@@ -8,7 +8,7 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "../app.h"
+#include "where.h"
 #include "../json.h"
 #include "kapitza/version.h"
 #include "../../study/basin/plan.h"
