@@ -22,6 +22,7 @@ _CHAOS: _Row = ("", "orbit", ["--panels", "time,phase"])
 _TIME: _Row = ("", "orbit", ["--panels", "time"])
 _SWEEP: _Row = ("", "sweep", [])
 _UP: _Row = ("", "sweep", ["--view", "up"])
+_FLUTTER_GROWS: _Row = ("", "sweep", ["--view", "flutter"])
 _BRANCHES: _Row = ("-branches", "sweep", ["--view", "branches"])
 _CHART: _Row = ("", "stability", [])
 _GROWTH: _Row = ("", "stability", ["--view", "growth"])
@@ -47,7 +48,7 @@ _SCENES = {
     "blackburn-fig02": [_GROWTH],
     "blackburn-fig03": [_CHART],
     "blackburn-fig04": [_FREQUENCY],
-    "blackburn-fig04-dots": [_SWEEP],
+    "blackburn-fig04-dots": [_ENDS],
     "blackburn-fig05": [_POTENTIAL],
     "blackburn-fig06-omega11": [_SWEEP],
     "blackburn-fig06-omega30": [_SWEEP],
@@ -58,7 +59,7 @@ _SCENES = {
     "blackburn-fig09b": [_PHASE],
     "blackburn-fig09c": [_PHASE],
     "blackburn-fig09d": [_PHASE],
-    "blackburn-fig10": [_SWEEP],
+    "blackburn-fig10": [_FLUTTER_GROWS],
     "blackburn-fig11": [_BASIN, _INVERTED],
     "blackburn-fig12": [_BASIN, _INVERTED, _TIMES],
     "blackburn-fig13": [_BASIN, _INVERTED],

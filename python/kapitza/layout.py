@@ -53,8 +53,6 @@ OPTIONAL = {
         _part(f"fraction fraction_low fraction_high {_BRANCHES}"),
         _part("alike alike_low alike_high", "phases"),
         _part(_BRANCHES),
-        _part("flutter_amplitude", "critical_value fit_slope fit_slope_stderr fit_exponent fit_exponent_error"),
-        _part("flutter_onset flutter_asymmetry flutter_end flutter_release_end"),
         _part("release_stays release release_angle release_angle_largest release_angle_scan"),
         _part("strobe_theta sample_walk"),
     ],

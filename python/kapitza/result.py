@@ -156,6 +156,20 @@ class Result(File):
         from kapitza.engine import Engine
         return Engine(self.scene, {"basin.theta.count": 2, "basin.velocity": {"min": -1, "max": 1, "count": 2}})
 
+    def flutter(self) -> xarray.Dataset:
+        """The flutter of a sweep with branches: `amplitude`, the largest angle from inverted over `value`, up to where it loses its mirror
+        symmetry; NaN = not there.
+
+        Attributes in the unit of the swept key: `onset`, the value of the period doubling from which it grows, `asymmetry`, where it loses
+        its mirror symmetry, `end`, where the pair that follows doubles its period; NaN = not within the range. `slope` and `slope_stderr`
+        are those of the line through amplitude^2 over the distance from the onset, `exponent` that of the amplitude at the onset, and
+        `exponent_error` its change if all values are used instead of the nearer half.
+
+        :raises KeyError: if the sweep has no branches
+        """
+        from kapitza.flutter import flutter
+        return flutter(self.group("sweep", written=True))
+
     def motions(self, x: float, y: float, *, states: bool = True) -> pandas.DataFrame:
         """The motions that attract at any point of an atlas, of up to its `max_period` periods, in some milliseconds.
 

@@ -19,8 +19,8 @@ SI: dict[str, tuple[str, float, int]] = {
 COUNTED = re.compile(r"(.*_)?period")  # variables that name a motion by its period, which stays a whole number
 HERTZ = {"Hz": 1.0, "kHz": 1e3, "rpm": 1 / 60, "1/min": 1 / 60, "1/s": 1.0, "rad/s": 1 / TURN}
 LENGTHS = {"m": 1.0, "cm": 1e-2, "mm": 1e-3, "um": 1e-6}
-# Attributes of a group that are values of its swept key (1), or counted per value of it (-1).
-OF_KEY = {"sweep": {"critical_value": 1, "fit_slope": -1, "fit_slope_stderr": -1}, "tangency": {"value": 1, "error": 1}}
+# Attributes of a group that are values of its swept key.
+OF_KEY = {"tangency": ("value", "error")}
 FREQUENCIES = {"frequency": TURN, "pivot_frequency": 1.0}  # keys of the drive's frequency -> rad/s of a value
 
 
@@ -76,7 +76,7 @@ def in_written_units(dataset: xarray.Dataset, group: str, axes: Mapping[Any, str
             if axes.get(name) == key:
                 changed[name] = (variable.dims, variable.values / scale, variable.attrs | {"units": unit})
         if key == "parameter":
-            attributes |= {name: attributes[name] / scale**power for name, power in OF_KEY.get(group, {}).items() if name in attributes}
+            attributes |= {name: attributes[name] / scale for name in OF_KEY.get(group, ()) if name in attributes}
     coordinates = {name: value for name, value in changed.items() if name in dataset.coords}
     rest = {name: value for name, value in changed.items() if name not in coordinates}
     return dataset.assign(rest).assign_coords(coordinates).assign_attrs(attributes)

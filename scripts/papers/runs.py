@@ -13,7 +13,7 @@ FIVE = {"quality_factor": 5, "drive_frequency": 11, "drive_amplitude": 0.5}  # o
 
 
 class Runs:
-    """`runs(scene, group)`: (variables, attributes) of a group of the result; a scene is a mapping or the name of one of scenes/."""
+    """`runs(scene, group)`: (variables, attributes) of a group of the result."""
 
     def __init__(self, program=ROOT / "build" / "kapitza"):
         self.program = program
@@ -26,7 +26,8 @@ class Runs:
     def __exit__(self, *_):
         self.folder.cleanup()
 
-    def __call__(self, scene, group):
+    def path(self, scene):
+        """The result file of a scene, which is a mapping or the name of one of scenes/."""
         key = scene if isinstance(scene, str) else json.dumps(scene)
         if key not in self.paths:
             path = Path(self.folder.name) / f"{len(self.paths)}.h5"
@@ -37,7 +38,10 @@ class Runs:
             if done.returncode != 0:
                 raise RuntimeError(f"{key}: {done.stderr.strip()}")
             self.paths[key] = path
-        with h5py.File(self.paths[key]) as file:
+        return self.paths[key]
+
+    def __call__(self, scene, group):
+        with h5py.File(self.path(scene)) as file:
             return {name: _values(item) for name, item in file[group].items()}, dict(file[group].attrs)
 
 

@@ -52,9 +52,10 @@ static kz_status find_amplitudes(const rig *r, amplitudes *found) {
                    r->frequency, natural / (2 * M_PI));
   double from, to;
   kz_standing_drives(&p, &from, &to);
-  const kz_flutter_drives flutter = kz_flutter_drives_find(&p);
+  double onset, end;
+  kz_flutter_drives(&p, &onset, &end);
   found[0] = (amplitudes){"stands", "stands upside down", from * r->length, to * r->length};
-  found[1] = (amplitudes){"flutters", "flutters", flutter.onset * r->length, flutter.end * r->length};
+  found[1] = (amplitudes){"flutters", "flutters", onset * r->length, end * r->length};
   return KZ_OK;
 }
 

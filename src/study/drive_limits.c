@@ -24,8 +24,6 @@ ASKS(ends, s->has_sweep &&kz_sweep_measures(s->sweep, KZ_SWEEP_ENDS))
 ASKS(curves_of_sine, s->has_stability && !kz_is_sine(&s->parameters.pendulum) && kz_stability_needs_sine(s->stability))
 ASKS(potential, s->has_potential)
 ASKS(other_models, s->has_orbit && s->orbit->model != KZ_PENDULUM)
-ASKS(flutter, s->has_sweep && (kz_sweep_measures(s->sweep, KZ_SWEEP_FLUTTER_AMPLITUDE) ||
-                               kz_sweep_measures(s->sweep, KZ_SWEEP_FLUTTER_RANGE)))
 ASKS(rest, s->has_stability && !kz_is_mirrored(&s->parameters.pendulum))
 ASKS(table, s->has_basin && s->basin->method == KZ_METHOD_ICM)
 ASKS(tradeoff, s->has_tradeoff)
@@ -63,8 +61,6 @@ static const struct {
      "stability.curves over k and subharmonics are those of the sine; leave them out, or ask for hill_1 to hill_5"},
     {asks_potential, SINE, "study potential needs a pivot that moves up and down as a sine; leave one of them out"},
     {asks_other_models, SINE, "orbit.model needs a pivot that moves up and down as a sine; choose the model pendulum"},
-    {asks_flutter, SINE,
-     "sweep.measure flutter_amplitude and flutter_zone need a pivot that moves up and down as a sine; leave one of them out"},
     {asks_rest, MIRRORED,
      "study stability needs a pendulum that can rest, which this drive or torque always moves; leave one of them out"},
     {asks_table, MIRRORED, "basin.method icm needs mirror symmetry, which this drive does not have; choose exact or direct"},

@@ -33,7 +33,7 @@ sweep:
   min: 0.46
   max: 0.48
   count: 3
-  measure: [attractors, basin_fractions, phases, flutter_amplitude, release_angle, strobe]
+  measure: [attractors, basin_fractions, phases, release_angle, strobe]
   starts: 128
   phases: 2
   transient: 20

@@ -206,7 +206,6 @@ OVER_TILT = {"parameter": "tilt", "min": 0, "max": 0.2, "count": 2}
 @pytest.mark.parametrize("keys, study, named", [
     ({"torque": 0.1}, {"potential": {"drive_amplitudes": [0.3]}}, "pendulum.torque: study potential"),
     ({"tilt": 0}, {"basin": {**WINDOW, "method": "icm"}, "sweep": {**OVER_TILT, "measure": ["basin_fractions"]}}, "basin.method icm"),
-    ({"tilt": 0}, {"sweep": {**OVER_TILT, "measure": ["flutter_zone"]}}, "pendulum.tilt: sweep.measure flutter"),
     ({"tilt": 0}, {"sweep": {"x": OVER_TILT, "y": {"parameter": "drive_amplitude", "min": 0.1, "max": 0.2, "count": 2},
                              "measure": ["ends"], "ends": {"theta": [1]}}}, "pendulum.tilt: sweep.measure ends"),
     ({}, {"basin": {**WINDOW, "method": "icm"}, "sweep": {**OVER_TILT, "parameter": "drive_amplitude", "measure": ["phases"]}},
@@ -313,8 +312,7 @@ STUDIES = {
     "icm": [{"basin": {**WINDOW, "method": "icm"}}],
     "numerics.scheme: rk4": [{"basin": {**WINDOW, "method": "direct"}, "numerics": {"scheme": "rk4"}}],
     "stability": [{"stability": {"k": {"min": 0, "max": 1, "count": 3}, "m": {"min": 0, "max": 1, "count": 3}}}],
-    "orbit.model": [{"orbit": {"start": {"theta": 1, "velocity": 0}, "model": "effective"}},
-                    {"sweep": {"parameter": "drive_amplitude", "min": 0.4, "max": 0.5, "count": 2, "measure": ["flutter_amplitude"]}}],
+    "orbit.model": [{"orbit": {"start": {"theta": 1, "velocity": 0}, "model": "effective"}}],
     "proof": [{"basin": {**WINDOW, **keys}} for keys in ({"proof": True}, {"boundary": {}}, {"accuracy": 0.99})],
 }
 RELEASED = {5: ({}, {"start_phase": 1}), 6: ({"ramp": LINEAR}, {})}  # by column

@@ -136,7 +136,7 @@ attractors: {velocity: {min: -1, max: 1}, starts: 64}
 orbit: {start: {theta: 3, velocity: 0}, periods: 8}
 stability: {k: {min: -1, max: 1, count: 3}, m: {min: 0, max: 1, count: 3}, curves: [exact_1], damping: 0.1}
 potential: {drive_amplitudes: [0.3], theta: {count: 5}}
-sweep: {parameter: friction, min: 0.4, max: 0.5, count: 2, measure: [attractors, flutter_amplitude, strobe], starts: 64, samples: 4}
+sweep: {parameter: friction, min: 0.4, max: 0.5, count: 2, measure: [attractors, strobe], starts: 64, samples: 4}
 """
 
 

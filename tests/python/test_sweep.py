@@ -5,7 +5,8 @@ import json
 import h5py
 import numpy as np
 import pytest
-from conftest import EXTENSIVE, ROOT, datasets, plot, run_scene, stopped_and_resumed
+from conftest import EXTENSIVE, ROOT, datasets, run_scene, stopped_and_resumed, with_extensive
+from kapitza import Result
 
 REFERENCE = json.loads((ROOT / "tests" / "literature" / "reference.json").read_text())
 KINDS = ["left_the_range", "fold", "period_doubling", "neimark_sacker", "symmetry_breaking", "not_located"]
@@ -171,52 +172,83 @@ def test_chaos_is_one_branch(sweep):
     assert KINDS[group["branch_end_kind"][rotation]] == "period_doubling" and 0.45 < group["branch_end"][rotation] < 0.475
 
 
-def test_flutter_amplitudes(sweep):
-    arrays, attributes = sweep("flutter_amplitude", 0.47, 0.56, 19)
+NEAR_INVERTED = ", theta: {min: 3, max: 3.3}, velocity: {min: -0.02, max: 0.02}, starts: 16, max_period: 2"
+
+
+@pytest.fixture(scope="session")
+def flutter(sweep):
+    """Result.flutter of a sweep over the drive amplitude, from few starts beside inverted."""
+
+    def run(low, high, count, pendulum=FIG12):
+        sweep("attractors", low, high, count, pendulum=pendulum, more=NEAR_INVERTED)
+        return Result(sweep.file).flutter()
+
+    return run
+
+
+def test_flutter_amplitudes(flutter):
+    found = flutter(0.46, 0.56, 21)
     known = {round(float(row["eps"]), 6): row["amp_rad"] for row in REFERENCE["blackburn_fig9_10_flutter_Q5_Omega11"]}
-    compared = [(amplitude, known[round(value, 6)]) for value, amplitude in
-                zip(arrays["value"], arrays["flutter_amplitude"], strict=True) if round(value, 6) in known]
+    compared = [(float(found["amplitude"].sel(value=value)), known[round(value, 6)]) for value in found["value"].values
+                if round(value, 6) in known]
     assert len(compared) >= 15
     assert all(ours == pytest.approx(theirs, abs=1e-8) for ours, theirs in compared)
-    assert attributes["critical_value"] == pytest.approx(0.46819030239029, abs=1e-12)
+    assert found.attrs["onset"] == pytest.approx(0.46819030239029, abs=1e-12) and np.isnan(found["amplitude"][0])
 
 
-def test_flutter_grows_with_the_square_root(sweep):
-    arrays, attributes = sweep("flutter_amplitude", 0.4683, 0.473, 48)
-    assert abs(attributes["fit_exponent"] - 0.5) < attributes["fit_exponent_error"] < 1e-3
-    assert attributes["fit_slope"] == pytest.approx(3.7902**2, rel=1e-2)
-    distance = arrays["value"] - attributes["critical_value"]
-    slope, intercept = np.polyfit(distance, arrays["flutter_amplitude"] ** 2, 1)
-    assert attributes["fit_slope"] == pytest.approx(slope, rel=1e-9) and abs(intercept) < 2e-4
-    assert 0 < attributes["fit_slope_stderr"] < 1e-2
+def test_flutter_grows_with_the_square_root(flutter):
+    found = flutter(0.4681, 0.473, 50)
+    law = found.attrs
+    assert abs(law["exponent"] - 0.5) < law["exponent_error"] < 1e-3
+    assert law["slope"] == pytest.approx(3.7902**2, rel=1e-2)
+    there = np.isfinite(found["amplitude"].values)
+    distance = found["value"].values[there] - law["onset"]
+    slope, intercept = np.polyfit(distance, found["amplitude"].values[there] ** 2, 1)
+    assert law["slope"] == pytest.approx(slope, rel=1e-9) and abs(intercept) < 2e-4
+    assert 0 < law["slope_stderr"] < 1e-2 and np.isnan(law["asymmetry"]) and np.isnan(law["end"])
 
 
-def test_a_summary_says_only_what_is_known(sweep):
-    """Too few values with flutter for an exponent: the summary leaves it out."""
-    sweep("flutter_amplitude", 0.46, 0.475, 7)
-    assert "times the distance\n" in sweep.said and "nan" not in sweep.said
+def test_a_law_of_few_values_is_not_known(flutter):
+    law = flutter(0.46, 0.475, 4).attrs
+    assert law["onset"] == pytest.approx(0.46819030239029, abs=1e-12) and np.isnan([law["slope"], law["exponent"]]).all()
 
 
 def test_without_damping_a_sweep_says_that_nothing_attracts(sweep):
-    arrays, _ = sweep("attractors, flutter_zone", 0.2, 0.3, 2, pendulum="{drive_frequency: 11, drive_amplitude: 0.3}", more=", starts: 16")
+    arrays, _ = sweep("attractors", 0.2, 0.3, 2, pendulum="{drive_frequency: 11, drive_amplitude: 0.3}", more=", starts: 16")
     assert "without damping there are none" in sweep.said and "nan" not in sweep.said
-    assert arrays["branch"].shape == (0,) and np.isnan(arrays["flutter_onset"]).all()
+    assert arrays["branch"].shape == (0,) and np.isnan(Result(sweep.file).flutter()["amplitude"]).all()
 
 
-@pytest.mark.extensive
-def test_flutter_zone_over_the_frequency(sweep):
-    arrays, _ = sweep("flutter_zone", *((7, 15, 5) if EXTENSIVE else (11, 15, 2)), parameter="drive_frequency")
-    for row, omega in enumerate(arrays["value"]):
-        known = REFERENCE["blackburn_fig4_upper_flutter"][f"Omega{round(omega)}_Q5"]
-        assert arrays["flutter_onset"][row] == pytest.approx(known["eps_c"], abs=1e-9)
-        assert arrays["flutter_asymmetry"][row] == near(known["eps_symmetry_breaking"])
-        assert known["eps_c"] < arrays["flutter_release_end"][row] <= known["first_eps_1deg_release_fails"] + 1e-6
+@pytest.mark.parametrize("omega", with_extensive([11], [5, 7, 9, 13, 15, 20, 30]))
+def test_flutter_ends_at_any_frequency(flutter, omega):
+    """The dots of Fig. 4: the cycle goes on far beyond the releases of 1 degree that fail."""
+    known = REFERENCE["blackburn_fig4_upper_flutter"][f"Omega{omega}_Q5"]
+    law = flutter(0.44, 0.62, 10, FORM.format(5, omega)).attrs
+    assert law["onset"] == pytest.approx(known["eps_c"], abs=1e-11)
+    assert law["asymmetry"] == pytest.approx(known["eps_symmetry_breaking"], abs=1e-11)
+    assert known["first_eps_1deg_release_fails"] < law["asymmetry"] < law["end"]
     doubling = float(REFERENCE["blackburn_flutter_cascade_Q5_Omega11"]["eps_period_doubling_of_asymmetric_flutter"])
-    assert arrays["flutter_end"][list(arrays["value"]).index(11)] == near(doubling)
-    picture = sweep.file.with_suffix(".svg")
-    assert plot("sweep", sweep.file, "-o", picture).returncode == 0 and "a release of 1° from rest fails" in picture.read_text()
-    refused = plot("sweep", sweep.file, "--view", "strobe")
-    assert refused.returncode == 1 and refused.stderr.endswith("has no strobe; it has zone\n")
+    assert omega != 11 or law["end"] == pytest.approx(doubling, abs=1e-11)
+
+
+@pytest.mark.parametrize("omega", with_extensive([9], [5, 7, 11, 13, 15, 20, 30]))
+def test_releases_of_one_degree_fail_where_the_dots_are(kapitza, tmp_path, omega):
+    """Steps of 0.002, as the reference: at its value a release no longer ends about inverted."""
+    first = REFERENCE["blackburn_fig4_upper_flutter"][f"Omega{omega}_Q5"]["first_eps_1deg_release_fails"]
+    over = f"{{parameter: drive_frequency, min: {omega}, max: {omega + 1}, count: 2}}"
+    up = f"{{parameter: drive_amplitude, min: {first - 0.02}, max: {first}, count: 11}}"
+    text = f"pendulum: {FORM.format(5, omega)}\nsweep: {{x: {over}, y: {up}, measure: [ends], ends: {{theta: [179 deg]}}}}\n"
+    plane = run_scene(kapitza, tmp_path, text)[0].group("plane")
+    about = (plane["end"].values[0, :, 0] == 0) & (plane["end_centre"].values[0, :, 0] == 1)
+    assert not about[-1] and (about[:-1].all() or omega == 11)  # there a step in between fails too
+
+
+def test_what_replaces_the_measures_of_flutter_is_said(kapitza, tmp_path):
+    for word in ("flutter_amplitude", "flutter_zone"):
+        text = SCENE.format(measure=word, low=0.46, high=0.47, count=2, parameter="drive_amplitude", pendulum=FIG12, more="")
+        (tmp_path / "old.yaml").write_text(text)
+        said = kapitza("check", tmp_path / "old.yaml", status=2).stderr
+        assert said.count("\n") == 1 and f'"{word}"' in said and "it was removed: use attractors" in said
 
 
 RELEASES = [(20, 11, 0.13, 0.25, 13 if EXTENSIVE else 4), (20, 11, 0.3, 0.5, 5 if EXTENSIVE else 2),
@@ -285,7 +317,7 @@ basin:
         assert shares[0][key] == pytest.approx(shares[1][key], abs=0.02), key
 
 
-ALL = "attractors, basin_fractions, flutter_amplitude, release_angle, strobe"
+ALL = "attractors, basin_fractions, release_angle, strobe"
 
 
 def test_same_bytes_on_any_number_of_ranks_and_resumed(kapitza, tmp_path):

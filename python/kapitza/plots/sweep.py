@@ -1,9 +1,8 @@
 """Draws a sweep of kapitza: quantities along one parameter of the pendulum.
 
     kapitza plot sweep blackburn-walk.h5                       basins along the parameter, branches under them
-    kapitza plot sweep blackburn-fig10.h5                      amplitude of the flutter, and its square
+    kapitza plot sweep blackburn-fig10.h5 --view flutter       amplitude of the flutter, and its square
     kapitza plot sweep blackburn-fig06-omega11.h5              releases from rest that stay
-    kapitza plot sweep blackburn-fig04-dots.h5                 where flutter ends
     kapitza plot sweep bifurcation.h5                          strobe points, up and down
     kapitza plot sweep FILE --view phases                      how much ends alike at all phases of release
     kapitza plot sweep FILE --view branches                    one view of a file that holds several
@@ -20,8 +19,9 @@ from matplotlib.figure import Figure
 from matplotlib.patches import Patch
 
 from kapitza import style
+from kapitza.flutter import flutter
 from kapitza.plots.branches import attracting_branches, branch_colours, draw_lives, draw_shares, named_branches, parameter_text
-from kapitza.plots.flutter import draw_amplitude, draw_square, draw_zone
+from kapitza.plots.flutter import draw_amplitude, draw_square
 from kapitza.plots.page import current, entitle, new_panels
 from kapitza.plots.units import fixed_si
 from kapitza.result import BadFile, Result
@@ -130,8 +130,9 @@ def branches_figure(sweep: xarray.Dataset) -> Figure:
 def flutter_figure(sweep: xarray.Dataset) -> Figure:
     """Amplitude and its square side by side; one above the other on a narrow page."""
     figure, (left, right) = new_panels(6.4, 8, 2) if current().narrow else new_panels(9, 3.9, 1, 2)
-    draw_amplitude(left, sweep)
-    draw_square(right, sweep)
+    found = flutter(sweep)
+    draw_amplitude(left, found)
+    draw_square(right, found)
     return figure
 
 
@@ -158,8 +159,7 @@ VIEWS: list[tuple[str, str, Callable[[xarray.Dataset], Figure]]] = [
     ("fractions", "fraction", fractions_figure),
     ("phases", "alike", one_panel(draw_alike, 8.6, 4.4)),
     ("branches", "branch_start", branches_figure),
-    ("flutter", "flutter_amplitude", flutter_figure),
-    ("zone", "flutter_onset", one_panel(draw_zone, 9.6, 5)),
+    ("flutter", "branch_amplitude", flutter_figure),
     ("releases", "release_stays", one_panel(draw_releases, 10, 4.8)),
     ("strobe", "strobe_theta", strobe_figure),
     ("up", "strobe_theta", one_panel(draw_strobe, 8.6, 4.2, legend=False)),
@@ -186,8 +186,6 @@ def fixed_text(result: Result, sweep: xarray.Dataset) -> str:
         names = {"beta": r"$\beta$"}
     kept = [f"{symbol} = {result.pendulum[name]:.6g}" for name, symbol in names.items()
             if name != swept and np.isfinite(result.pendulum.get(name, np.nan))]
-    if "flutter_onset" in sweep:
-        kept = [text for text in kept if r"\epsilon" not in text]
     return ",  ".join(kept)
 
 

@@ -5,6 +5,8 @@
 
 /* What branches off begins so far from a curve at most: in sides of the plane; in rad; where the multiplier -1 has changed by so much. */
 static const double BESIDE = 3e-5, FARTHEST = 0.05, CHANGED = 0.04;
+/* Loss of area over the cycle at which a child begins as near as rounding allows: where less is lost, it begins no nearer. */
+static const double LEAST_DAMPED = 2e-3;
 
 /* The means of the pairs of points that lie half a period apart; side -1: of a point and the mirror image of the other. */
 static bool take_means(int points, double side, const double *cycle, double *y) {
@@ -85,7 +87,8 @@ bool kz_child_of(const kz_plane *plane, const kz_plane_cycle *flip, int axis, kz
       !kz_curve_form(plane, kind, flip->y, &form, side, vector) || form == 0 || fabs(side[axis]) < KZ_CHILD_FLAT)
     return false;
   const double gradient = side[axis], other = 1 - exp(-2 * M_PI * pendulum.beta * kind->points * own_stride);
-  const double by = fmin(BESIDE, fmin(CHANGED, FARTHEST * FARTHEST * fabs(form)) * other / fabs(gradient));
+  const double by =
+      fmin(BESIDE, fmin(CHANGED * fmax(other, LEAST_DAMPED), FARTHEST * FARTHEST * fabs(form) * other) / fabs(gradient));
   const double size = sqrt(fabs(gradient / form) * by / other);
   KZ_FREED double *state = kz_malloc(2 * ((size_t)(of.points * stride) + 1) * sizeof *state);
   const double at_rest[2] = {M_PI * flip->kind.rest, 0},

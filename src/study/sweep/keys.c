@@ -30,10 +30,10 @@ static const kz_key keys[] = {
     ROW("sweep.measure", KZ_KEY_WORDS, NULL, AT(measure),
         "attractors: branches joined by continuation, with their ends; basin_fractions: their shares of the cells of basin, or "
         "of the starts; lifetime: mean settling time of long transients; resilience: smallest shocks that leave the basins; "
-        "phases: share of cells or starts that ends alike at all phases of release; flutter_amplitude: of the period-2 cycle "
-        "about inverted; flutter_zone: how far it reaches when m is raised; release_angle: from rest; strobe: bifurcations. "
+        "phases: share of cells or starts that ends alike at all phases of release; release_angle: from rest; strobe: "
+        "bifurcations. "
         "Over a plane: ends of the starts of sweep.ends. Both ways: the words of measures.names.",
-        .unit = "", .words_from = kz_sweep_measure_words),
+        .unit = "", .words_from = kz_sweep_measure_words, .former = "flutter_amplitude=attractors|flutter_zone=attractors"),
     THETA_WINDOW(sweep, "Angles of the starts; left out: the whole circle [-pi, pi)."),
     VELOCITY_WINDOW(sweep, KZ_MOST_SPEED, "", "-2", "2", "Velocities of the starts; a grid of basin has its own window."),
     INTEGER("sweep.starts", 1, 1e7, "2048", starts, "Starts of the search at each value."),

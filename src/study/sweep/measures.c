@@ -34,9 +34,8 @@ const char *kz_sweep_lack(const kz_scene *scene) {
   for (int64_t i = 0; i < plan->measure.count; i++) {
     const int64_t measure = plan->measure.values[i];
     if (plane && measure < KZ_SWEEP_ENDS)
-      return "measure: attractors, basin_fractions, lifetime, resilience, phases, flutter_amplitude, flutter_zone, "
-             "release_angle "
-             "and strobe go along one key; give parameter, min, max and count instead of x and y";
+      return "measure: attractors, basin_fractions, lifetime, resilience, phases, release_angle and "
+             "strobe go along one key; give parameter, min, max and count instead of x and y";
     if (!plane && measure == KZ_SWEEP_ENDS)
       return "measure: ends is over a plane; give x and y instead of parameter, min, max and count";
   }

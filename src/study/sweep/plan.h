@@ -6,16 +6,14 @@
 
 /* The measures of a sweep: code, word in the scene, the function that runs it. The first five come from the branches and have no functions of
  * their own; ends is over a plane, all others along one key. Further words are those of the table of measures (src/study/measures). */
-#define KZ_SWEEP_MEASURES(MEASURE)                                           \
-  MEASURE(KZ_SWEEP_ATTRACTORS, "attractors", NULL)                           \
-  MEASURE(KZ_SWEEP_BASIN_FRACTIONS, "basin_fractions", NULL)                 \
-  MEASURE(KZ_SWEEP_LIFETIME, "lifetime", NULL)                               \
-  MEASURE(KZ_SWEEP_RESILIENCE, "resilience", NULL)                           \
-  MEASURE(KZ_SWEEP_PHASES, "phases", NULL)                                   \
-  MEASURE(KZ_SWEEP_FLUTTER_AMPLITUDE, "flutter_amplitude", kz_sweep_flutter) \
-  MEASURE(KZ_SWEEP_FLUTTER_RANGE, "flutter_zone", kz_sweep_flutter_range)    \
-  MEASURE(KZ_SWEEP_RELEASE_ANGLE, "release_angle", kz_sweep_release)         \
-  MEASURE(KZ_SWEEP_STROBE, "strobe", kz_sweep_strobe)                        \
+#define KZ_SWEEP_MEASURES(MEASURE)                                   \
+  MEASURE(KZ_SWEEP_ATTRACTORS, "attractors", NULL)                   \
+  MEASURE(KZ_SWEEP_BASIN_FRACTIONS, "basin_fractions", NULL)         \
+  MEASURE(KZ_SWEEP_LIFETIME, "lifetime", NULL)                       \
+  MEASURE(KZ_SWEEP_RESILIENCE, "resilience", NULL)                   \
+  MEASURE(KZ_SWEEP_PHASES, "phases", NULL)                           \
+  MEASURE(KZ_SWEEP_RELEASE_ANGLE, "release_angle", kz_sweep_release) \
+  MEASURE(KZ_SWEEP_STROBE, "strobe", kz_sweep_strobe)                \
   MEASURE(KZ_SWEEP_ENDS, "ends", kz_ends_run)
 #define KZ_MEASURE_CODE(code, word, run) code,
 enum { KZ_SWEEP_MEASURES(KZ_MEASURE_CODE) KZ_SWEEP_TABLE /* from here on the rows of kz_measures */ };

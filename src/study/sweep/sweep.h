@@ -58,17 +58,6 @@ void kz_sweep_follow(const kz_path *path, double from, double to, int64_t max_pe
  * In and out: *point, the cycle at that value. */
 double kz_walk(const kz_path *path, double from, double to, kz_attractor *point, int32_t *end_kind);
 
-/* The attracting cycle of the period and the symmetry of *point within `farthest` rad of a state; false if there is none. */
-bool kz_cycle_near(const kz_pendulum *pendulum, const double state[2], double farthest, kz_attractor *point);
-
-/* Finds the attracting symmetric period-2 cycle about inverted (flutter) of a pendulum whose inverted state has lost its stability by the
- * multiplier -1. It searches along the eigenvector with growing amplitudes; false if it finds none. */
-bool kz_flutter_find(const kz_pendulum *pendulum, kz_attractor *flutter);
-
-/* The value between low and high, to rounding, at which a multiplier of the inverted state passes -1: 1 + trace + det of its one-period map
- * changes sign there. NaN if it does not change sign. */
-double kz_flutter_critical(const kz_path *path, double low, double high);
-
 /* A cycle with a strobe point, or of a chaotic attractor its means; its image. */
 kz_attractor kz_branch_point_image(const kz_pendulum *pendulum, kz_attractor point);
 /* The distance between two chaotic attractors, by their means. */
@@ -127,8 +116,6 @@ kz_status kz_sweep_branches_write(const kz_scene *scene, const kz_sweep_catalogu
 
 /* ---- the other measures: each runs its stage and, on rank 0, writes its variables. Collective. ---- */
 
-kz_status kz_sweep_flutter(const kz_scene *scene, const kz_run *run, kz_store *store, FILE *summary);
-kz_status kz_sweep_flutter_range(const kz_scene *scene, const kz_run *run, kz_store *store, FILE *summary);
 kz_status kz_sweep_release(const kz_scene *scene, const kz_run *run, kz_store *store, FILE *summary);
 kz_status kz_sweep_strobe(const kz_scene *scene, const kz_run *run, kz_store *store, FILE *summary);
 kz_status kz_ends_run(const kz_scene *scene, const kz_run *run, kz_store *store, FILE *summary);

@@ -29,10 +29,6 @@ typedef struct {
   kz_sweep_walk *found;
 } walking;
 
-static bool attracts(const kz_attractor *point) {
-  return hypot(point->multiplier_re[0], point->multiplier_im[0]) < 1;
-}
-
 static double value_at(const way *w, double place) {
   return place == 1 ? w->to : w->from + place * (w->to - w->from);
 }
@@ -289,30 +285,6 @@ double kz_walk(const kz_path *path, double from, double to, kz_attractor *point,
   return first->reached == 1 ? to : first->reached == 0 ? from : first->end;
 }
 
-/* 1 + trace + det: the characteristic polynomial at -1 of the one-period map about inverted. NaN without a pendulum. */
-static double flip_test(const kz_path *path, double value) {
-  const way here = {path, value, value};
-  const kz_curve_kind rest = {1, 1, 0, 0, 0};
-  double y[] = {M_PI, 0, 0, 0}, numbers[2];
-  kz_plane plane;
-  if (!plane_of(&here, &plane) || !kz_curve_solve(&plane, &rest, y, numbers)) return NAN;
-  return 1 + numbers[0] + numbers[1];
-}
-
-double kz_flutter_critical(const kz_path *path, double low, double high) {
-  const double at_low = flip_test(path, low), at_high = flip_test(path, high);
-  if (!(at_low * at_high <= 0)) return NAN;
-  for (;;) {
-    const double middle = low + (high - low) / 2, at_middle = flip_test(path, middle);
-    if (middle == low || middle == high || at_middle == 0) return middle;
-    if (!isfinite(at_middle)) return NAN;
-    if ((at_middle > 0) == (at_low > 0))
-      low = middle;
-    else
-      high = middle;
-  }
-}
-
 static bool same_pendulum(const void *context, double value, kz_pendulum *pendulum) {
   (void)value;
   *pendulum = *(const kz_pendulum *)context;
@@ -330,17 +302,4 @@ kz_attractor kz_branch_point_image(const kz_pendulum *pendulum, kz_attractor poi
   point.theta = -point.theta;
   point.velocity = -point.velocity;
   return point;
-}
-
-bool kz_cycle_near(const kz_pendulum *pendulum, const double state[2], double farthest, kz_attractor *point) {
-  const kz_path path = {same_pendulum, pendulum};
-  const way here = {&path, 0, 1};
-  walking w = {.way = &here};
-  double numbers[2];
-  cycle c;
-  point->theta = state[0], point->velocity = state[1];
-  if (!plane_of(&here, &w.plane) || !cycle_of(&w.plane, point, 0, &c) || !kz_curve_solve(&w.plane, &c.kind.of, c.y, numbers))
-    return false;
-  if (!(hypot(c.y[0] - state[0], c.y[1] - state[1]) <= farthest) || !(numbers[1] < 1)) return false;
-  return describe(&w, &c, point) && attracts(point);
 }
