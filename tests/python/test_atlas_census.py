@@ -1,7 +1,8 @@
 """What the census of an atlas finds and says, and planes with x and y exchanged."""
 
 import numpy as np
-from conftest import run_scene
+import pytest
+from conftest import run_scene, with_extensive
 from test_atlas import BREAKING, DOUBLING, FOLD, PENDULUM, SCENE, atlas, crossing  # noqa: F401
 
 
@@ -38,16 +39,49 @@ def test_the_census_says_how_much_is_missing(atlas):  # noqa: F811
     assert "are missing" in summary and "missing" in missing_text(group) and missing_text(group) in as_text(result)
 
 
-def test_families_that_hardly_attract_are_found(kapitza, tmp_path):
-    """A symmetric inverted 6-nodding repels over its six periods with the square of what it does over three: it was left out at each place.
-    Values by an integrator of its own (fold, loss of symmetry, doubling at Omega = 13.7)."""
-    scene = {"pendulum": PENDULUM, "atlas": {"x": {"parameter": "drive_frequency", "min": 13.6, "max": 13.8},
-                                             "y": {"parameter": "drive_amplitude", "min": 0.52, "max": 0.55}, "max_period": 6, "seeds": 2,
-                                             "checks": 0, "points": 16}}
-    group = run_scene(kapitza, tmp_path, scene)[0].group("atlas")
-    for kind, symmetric, value in ((FOLD, 1, 0.532813117), (BREAKING, 1, 0.536545728), (DOUBLING, 0, 0.537042433)):
-        found = [crossing(group["x"][first:first + n].values, group["y"][first:first + n].values, 13.7)
+BUTIKOV = {"k": 0.1, "damping": 0.1, "m": 0.5}
+# Families whose bands starts hardly ever reach, by an integrator of their own: curves (kind, whether the cycle is symmetric, value) of
+# cycles of six periods across a line, and a point of it with the multipliers and a strobe point of one of its motions.
+FAMILIES = {
+    "13.7, symmetric": (PENDULUM, {"x": ("drive_frequency", 13.69, 13.71), "y": ("drive_amplitude", 0.525, 0.545)}, 13.7,
+                        [(FOLD, 1, 0.532813117), (BREAKING, 1, 0.536545728), (DOUBLING, 0, 0.537042433)],
+                        0.5347, (0.759438, 0.759438), (2.391146461415400929945, -0.006100438780240941489)),
+    "13.7, asymmetric": (PENDULUM, {"x": ("drive_frequency", 13.69, 13.71), "y": ("drive_amplitude", 0.495, 0.51)}, 13.7,
+                         [(FOLD, 0, 0.501471804), (DOUBLING, 0, 0.502082616)], None, None, None),
+    "14.4011, down": (PENDULUM, {"x": ("drive_frequency", 14.39, 14.41), "y": ("drive_amplitude", 0.675, 0.7)}, 14.4011,
+                      [(FOLD, 1, 0.681935), (BREAKING, 1, 0.682844), (DOUBLING, 0, 0.683093)],
+                      0.6824, (0.769681, 0.769681), (-0.8900242233, -1.0275572553)),
+    "14.4011, inverted": (PENDULUM, {"x": ("drive_frequency", 14.4, 14.402), "y": ("drive_amplitude", 0.6945, 0.6975)}, 14.4011,
+                          [(FOLD, 1, 0.695394), (BREAKING, 1, 0.696160), (DOUBLING, 0, 0.696368)],
+                          0.6958, (0.769681, 0.769681), (-2.7059035693, -2.1016951629)),
+    "k = -.2": (BUTIKOV, {"x": ("k", -0.21, -0.19), "y": ("m", 0.57, 0.585)}, -0.2,
+                [(FOLD, 0, 0.576048242), (DOUBLING, 0, 0.580031115)],
+                0.578, (0.20637, 0.11171), (2.8383184853070825350, -1.2663423823554121889)),
+    "k = -.45": (BUTIKOV, {"x": ("k", -0.451, -0.449), "y": ("m", 0.353, 0.359)}, -0.45,
+                 [(FOLD, 0, 0.355589834), (DOUBLING, 0, 0.356272811)], None, None, None),
+}
+
+
+@pytest.mark.parametrize("name", with_extensive(["13.7, symmetric", "k = -.2"],
+                                                ["13.7, asymmetric", "14.4011, down", "14.4011, inverted", "k = -.45"]))
+def test_families_that_hardly_attract_are_found(kapitza, tmp_path, name):
+    """A symmetric 6-nodding repels over its six periods with the square of what it does over three: it was left out at each place."""
+    pendulum, axes, x, curves, y, moduli, strobe = FAMILIES[name]
+    plane = {axis: dict(zip(("parameter", "min", "max"), words, strict=True)) for axis, words in axes.items()}
+    result, _ = run_scene(kapitza, tmp_path, {"pendulum": pendulum,
+                                              "atlas": plane | {"max_period": 6, "seeds": 2, "checks": 0, "points": 16}})
+    group = result.group("atlas")
+    for kind, symmetric, value in curves:
+        found = [crossing(group["x"][first:first + n].values, group["y"][first:first + n].values, x)
                  for of, own, period, first, n in zip(*(group[f"curve_{name}"].values for name in (
                      "kind", "symmetric", "period", "first", "points")), strict=True)
                  if (of, own, period) == (kind, symmetric, 6) and n >= 6]
-        assert min(abs(y - value) for y in found) < 1e-6, kind
+        assert min(abs(at - value) for at in found) < 1e-6, kind
+    if strobe is None:
+        return
+    motions = result.motions(x, y)
+    motion = motions[motions["period"] == 6].iloc[0]
+    assert sorted(map(abs, motion["multipliers"])) == pytest.approx(sorted(moduli), abs=1e-5)
+    states = np.array([motion["strobe_theta"], motion["strobe_velocity"]])
+    away = min(np.hypot(*(side * states - np.reshape(strobe, (2, 1)))).min() for side in (1, -1))
+    assert away < (1e-5 if x == 14.4011 else 1e-9)  # that frequency is a rounded one
