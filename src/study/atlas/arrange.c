@@ -111,7 +111,7 @@ static void cross(kz_atlas *atlas, int64_t number, int64_t row, int axis, double
     const kz_atlas_class own = kz_atlas_class_of(&curve->kind);
     kz_pendulum pendulum;
     const bool there = kz_atlas_pendulum(atlas->scene, a, &pendulum); /* a little outside of the plane there may be none */
-    const double d = there ? exp(-2 * M_PI * pendulum.beta * curve->kind.of.points) : 0;
+    const double d = there ? kz_kind_determinant(&curve->kind.of, pendulum.beta) : 0;
     const double wide[2] = {kz_atlas_band(&curve->kind, d, a[KZ_ROW_FORM], fabs(a[KZ_ROW_SIDE + other])),
                             kz_atlas_band(&curve->kind, d, b[KZ_ROW_FORM], fabs(b[KZ_ROW_SIDE + other]))};
     kz_atlas_crossing crossing = {.at = value(c.p[other], s),
@@ -202,7 +202,8 @@ void kz_atlas_base(kz_atlas *atlas, double x, int32_t *counts) {
   kz_pendulum pendulum;
   const double place[2] = {x, 0};
   if (!kz_atlas_pendulum(atlas->scene, place, &pendulum)) return;
-  const kz_atlas_class rest = {KZ_CLASS_REST, 1, pendulum.k < 0};
+  const kz_atlas_class rest =
+      kz_atlas_class_with(atlas, kz_atlas_paired(atlas), 1, 0, pendulum.k < 0 ? KZ_ABOUT_INVERTED : KZ_ABOUT_DOWN);
   counts[kz_atlas_class_number(atlas, &rest)] = 1;
 }
 

@@ -78,7 +78,6 @@ struct kz_atlas {
   kz_plane plane;
   double longest; /* step along curves */
   bool undriven;  /* no drive at the lowest y: rest alone attracts */
-  bool unpaired;  /* every place has the symmetry of half a period and no mirror symmetry; tracing ignores it */
   bool turned;    /* every place has an image with -k in place of k */
   int64_t n_curves, n_explored, curve_capacity;
   kz_atlas_curve *curve;
@@ -135,7 +134,7 @@ void kz_atlas_put(kz_atlas_seeds *seeds, const kz_atlas_seed *seed); /* as it is
 void kz_atlas_seeds_free(kz_atlas_seeds *seeds);
 /* The class of its attractors, also as files and catalogues describe them, whether that is a given one, and what it is called. */
 kz_atlas_class kz_atlas_class_of(const kz_atlas_kind *kind);
-kz_atlas_class kz_atlas_class_with(bool symmetric, int32_t period, int32_t turns, int32_t centre);
+kz_atlas_class kz_atlas_class_with(const kz_atlas *atlas, bool symmetric, int32_t period, int32_t turns, int32_t centre);
 bool kz_atlas_is_of(const kz_atlas_kind *kind, const kz_atlas_class *class);
 int32_t kz_atlas_class_centre(const kz_atlas_class *class);
 void kz_atlas_class_name(const kz_atlas *atlas, const kz_atlas_class *class, char *text);
@@ -161,7 +160,7 @@ int64_t kz_atlas_known(const kz_atlas *atlas, const kz_atlas_seed *seed);
 bool kz_atlas_keep(kz_atlas *atlas, kz_atlas_curve *curve);
 void kz_atlas_curve_free(kz_atlas_curve *curve);
 /* Sets the signature of each of its points. */
-void kz_atlas_sign(kz_atlas_curve *curve);
+void kz_atlas_sign(const kz_atlas *atlas, kz_atlas_curve *curve);
 /* Joins ends of folds to the degenerate points that they run into. */
 void kz_atlas_join(kz_atlas *atlas);
 /* How many ends of a curve lie within the plane without a reason: it is not whole. */
@@ -201,8 +200,17 @@ kz_status kz_atlas_probe_at(const kz_atlas *atlas, const double place[2], int64_
 static inline double kz_atlas_apart(const double *a, const double *b, double side) {
   return hypot(remainder(a[0] - side * b[0], 2 * M_PI), a[1] - side * b[1]);
 }
-/* Whether a state is one of the points of a cycle or of its mirror image, within `near` rad. */
-bool kz_atlas_same(const kz_atlas *atlas, const kz_atlas_seed *cycle, const double *state, double near);
+/* The image of a state at a place: (-theta, -v), or that of the state half a period later. False where no image of a motion is a motion. */
+bool kz_atlas_image_state(const kz_atlas *atlas, const double place[2], const double *state, double image[2]);
+/* The points of a cycle in the order of time, also those that its kind leaves out as images of others: point [2 KZ_CURVE_POINTS][2]; returns how many,
+ * 0 where an orbit cannot be followed. */
+int kz_atlas_points(const kz_atlas *atlas, const kz_atlas_kind *kind, const double place[2], const double *y, double *point);
+/* Whether a state is one of the points of a cycle or of its image, within `near` rad; image: of the state, NULL where there is none. */
+bool kz_atlas_same(const kz_atlas_seed *cycle, const double *state, const double *image, double near);
+/* Whether each motion has an image: then a cycle is its own image or one of two. */
+static inline bool kz_atlas_paired(const kz_atlas *atlas) {
+  return atlas->plane.mirrored || atlas->plane.half_period;
+}
 /* The cycle of n periods near n points, if the trace of its map, for a symmetric cycle of its half, is below `steepest` times that of a
  * multiplier of 1: 1 = it attracts. */
 bool kz_atlas_identify(const kz_atlas *atlas, const double place[2], const double *points, int n, double steepest,

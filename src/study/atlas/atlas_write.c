@@ -26,7 +26,7 @@ static int centre_of(const kz_atlas *atlas, const kz_atlas_curve *curve) {
   if (curve->kind.rest >= 0) return curve->kind.rest ? KZ_ABOUT_INVERTED : KZ_ABOUT_DOWN;
   if (of.side < 0) return of.turns ? KZ_ABOUT_INVERTED : KZ_ABOUT_DOWN;
   if (of.turns != 0) return KZ_ROTATING;
-  if (!atlas->plane.mirrored) return KZ_ABOUT_NEITHER;
+  if (!kz_atlas_paired(atlas)) return KZ_ABOUT_NEITHER;
   for (int i = 0; i < of.points; i++) cosine += cos(curve->row[KZ_ROW_POINTS + 2 * i]);
   return cosine < 0 ? KZ_ABOUT_INVERTED : KZ_ABOUT_DOWN;
 }
@@ -34,11 +34,6 @@ static int centre_of(const kz_atlas *atlas, const kz_atlas_curve *curve) {
 static int64_t winding_of(const kz_atlas_curve *curve) {
   return curve->kind.of.side > 0 && curve->kind.rest < 0 ? curve->kind.of.turns : 0;
 }
-
-/* What an atlas cannot know where cycles have images half a period later. */
-static const char *const UNPAIRED =
-    "with a motion theta(t) also -theta(t + half a drive period) is one; cycles are followed without this symmetry, so "
-    "the curves on which they lose it are not located, and lists beyond such a curve may lack its motions";
 
 /* The points of all curves, one after the other. */
 typedef struct {
@@ -207,8 +202,7 @@ static kz_status write_attributes(const kz_atlas *atlas, const kz_atlas_raster *
     KZ_TRY(kz_axis_describe(&of->values, of->parameter, i ? "y" : "x", GROUP, store));
   }
   KZ_TRY(kz_store_integer(store, GROUP, "max_period", atlas->scene->atlas->max_period));
-  KZ_TRY(kz_store_integer(store, GROUP, "mirrored", atlas->plane.mirrored));
-  if (atlas->unpaired) KZ_TRY(kz_store_text(store, GROUP, "not_located", UNPAIRED));
+  KZ_TRY(kz_store_integer(store, GROUP, "mirrored", kz_atlas_paired(atlas)));
   KZ_TRY(kz_store_integer(store, GROUP, "lists", raster->lists));
   KZ_TRY(kz_store_integer(store, GROUP, "negative", raster->negative));
   KZ_TRY(kz_store_integer(store, GROUP, "checked", atlas->checked));
@@ -241,7 +235,6 @@ static void print(const kz_atlas *atlas, const kz_atlas_raster *r, const listing
   fprintf(summary,
           "  %" PRId64 " lists of attractors in %" PRId64 " x %" PRId64 " cells, up to %" PRId64 " attractors at once\n",
           r->lists, r->points, r->points, most);
-  if (atlas->unpaired) fprintf(summary, "  warning: %s\n", UNPAIRED);
   if (r->negative > 0)
     fprintf(summary, "  warning: %" PRId64 " cells lie beyond a curve that is missing; their lists are not known\n",
             r->negative);

@@ -27,11 +27,12 @@ void kz_atlas_multipliers(const kz_atlas_kind *kind, const double number[2], dou
 }
 
 /* The columns of a point of a branch: place, and points of the cycle. */
-static void put_point(const kz_atlas *atlas, int axis, int points, const double *place, const double *state, double multiplier,
-                      kz_atlas_branches *line) {
-  double *to = line->point[line->n_points++], value[2], cosine = 0;
+static void put_point(const kz_atlas *atlas, int axis, const kz_atlas_kind *kind, const double *place, const double *state,
+                      double multiplier, kz_atlas_branches *line) {
+  double *to = line->point[line->n_points++], value[2], cosine = 0, point[4 * KZ_CURVE_POINTS];
+  const int points = kz_atlas_points(atlas, kind, place, state, point);
   kz_atlas_values(atlas->scene->atlas, place, value);
-  for (int p = 0; p < points; p++) cosine += cos(state[2 * p]);
+  for (int p = 0; p < points; p++) cosine += cos(point[2 * p]);
   to[KZ_LINE_VALUE] = value[axis];
   to[KZ_LINE_HEIGHT] = -cosine / points;
   to[KZ_LINE_THETA] = remainder(state[0], 2 * M_PI);
@@ -62,8 +63,8 @@ void kz_atlas_draw(const kz_atlas *atlas, int axis, const kz_atlas_kind *kind, i
   for (int64_t i = 0; i < n; i++, row += width) {
     for (; i > 0 && event < last && (event[0] > KZ_EVENT_FLIP || lies_between(event[0], row - width, row));
          event += 3 + 2 * points)
-      if (event[0] <= KZ_EVENT_FLIP) put_point(atlas, axis, points, event + 1, event + 3, 1, line);
-    put_point(atlas, axis, points, row, row + 4, largest_multiplier(kind, row + 2), line);
+      if (event[0] <= KZ_EVENT_FLIP) put_point(atlas, axis, kind, event + 1, event + 3, 1, line);
+    put_point(atlas, axis, kind, row, row + 4, largest_multiplier(kind, row + 2), line);
   }
   branch.points = line->n_points - branch.first;
   line->branch = kz_list_reserve(line->branch, &line->capacity, line->count + 1, sizeof *line->branch);

@@ -35,9 +35,12 @@ static kz_saddles_plan window_of(const kz_atlas *atlas, const kz_pendulum *pendu
       .theta = {.min = -M_PI, .max = M_PI}, .velocity = {.min = -fastest, .max = fastest}, .max_period = atlas->max_period};
 }
 
-static bool has_cycle(const kz_atlas *atlas, const kz_atlas_seeds *cycles, int32_t period, const double *state) {
+static bool has_cycle(const kz_atlas *atlas, const double place[2], const kz_atlas_seeds *cycles, int32_t period,
+                      const double *state) {
+  double at_image[2];
+  const double *image = kz_atlas_image_state(atlas, place, state, at_image) ? at_image : NULL;
   for (int64_t i = 0; i < cycles->count; i++)
-    if (kz_kind_period(&cycles->list[i].kind) == period && kz_atlas_same(atlas, cycles->list + i, state, ONE)) return true;
+    if (kz_kind_period(&cycles->list[i].kind) == period && kz_atlas_same(cycles->list + i, state, image, ONE)) return true;
   return false;
 }
 
@@ -47,7 +50,7 @@ static void join_cycle(const kz_atlas *atlas, const double place[2], const doubl
   kz_atlas_seed cycle = {.kind = {{1, n, 0, 0, 0}, -1}};
   for (int i = 0; i < n; i++) cycle.y[2 * i] = M_PI * found[2 + 2 * i], cycle.y[2 * i + 1] = found[3 + 2 * i];
   memcpy(cycle.y + 2 * n, place, 2 * sizeof *cycle.y);
-  if (!has_cycle(atlas, cycles, n, cycle.y)) kz_atlas_put(cycles, &cycle);
+  if (!has_cycle(atlas, place, cycles, n, cycle.y)) kz_atlas_put(cycles, &cycle);
 }
 
 /* The cycles along one line of starts. */
@@ -92,7 +95,8 @@ static void list_cycles(census *c, const kz_atlas_bag *found, int64_t *dropped) 
       const kz_atlas_seeds some = kz_atlas_seeds_in(found->record[tile]);
       *dropped += some.dropped;
       for (int64_t i = 0; i < some.count; i++)
-        if (!has_cycle(c->atlas, &all, kz_kind_period(&some.list[i].kind), some.list[i].y)) kz_atlas_put(&all, some.list + i);
+        if (!has_cycle(c->atlas, c->place[place], &all, kz_kind_period(&some.list[i].kind), some.list[i].y))
+          kz_atlas_put(&all, some.list + i);
     }
     for (int64_t i = 0; i < all.count; i++) {
       if (i % CYCLES_OF_A_TILE == 0) {
@@ -133,7 +137,7 @@ static double band_at(const kz_atlas *atlas, const kz_atlas_seed *at) {
   if (!kz_atlas_pendulum(atlas->scene, at->y + 2 * at->kind.of.points, &pendulum) ||
       !kz_curve_form(&atlas->plane, &at->kind.of, at->y, &form, side, vector))
     return 0;
-  return kz_atlas_band(&at->kind, exp(-2 * M_PI * pendulum.beta * at->kind.of.points), form, hypot(side[0], side[1]));
+  return kz_atlas_band(&at->kind, kz_kind_determinant(&at->kind.of, pendulum.beta), form, hypot(side[0], side[1]));
 }
 
 double kz_atlas_widest(const kz_atlas *atlas, const kz_atlas_curve *curve) {
@@ -143,7 +147,7 @@ double kz_atlas_widest(const kz_atlas *atlas, const kz_atlas_curve *curve) {
     const double *row = curve->row + i * kz_atlas_width(&curve->kind), *side = row + KZ_ROW_SIDE;
     if (!(row[0] >= 0 && row[0] <= 1 && row[1] >= 0 && row[1] <= 1) || !kz_atlas_pendulum(atlas->scene, row, &pendulum))
       continue;
-    const double d = exp(-2 * M_PI * pendulum.beta * curve->kind.of.points);
+    const double d = kz_kind_determinant(&curve->kind.of, pendulum.beta);
     widest = fmax(widest, kz_atlas_band(&curve->kind, d, row[KZ_ROW_FORM], hypot(side[0], side[1])));
   }
   return fmin(widest, 1);

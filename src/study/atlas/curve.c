@@ -97,24 +97,30 @@ void kz_atlas_trace(const kz_atlas *atlas, const kz_atlas_seed *seed, kz_atlas_c
   kz_atlas_seeds_free(&one);
 }
 
-static void signature_of(const kz_atlas_kind *kind, const double *place, const double *point, double *signature) {
-  double cosine = 0, energy = 0, both = 0;
-  for (int i = 0; i < kind->of.points; i++) {
+/* A cycle that is not its own image half a period later has other strobe points than this: both count. */
+static void signature_of(const kz_atlas *atlas, const kz_atlas_kind *kind, const double *place, const double *y,
+                         double *signature) {
+  double cosine = 0, energy = 0, both = 0, point[4 * KZ_CURVE_POINTS];
+  int n = atlas->plane.half_period ? kz_atlas_points(atlas, kind, place, y, point) : kind->of.points;
+  if (!atlas->plane.half_period) memcpy(point, y, 2 * (size_t)n * sizeof *point);
+  for (int i = 0; i < kind->of.points && atlas->plane.half_period && kind->of.side > 0; i++)
+    n += kz_atlas_image_state(atlas, place, y + 2 * i, point + 2 * n);
+  for (int i = 0; i < n; i++) {
     const double c = cos(point[2 * i]), v = point[2 * i + 1];
     cosine += c;
     energy += v * v;
     both += v * v * c;
   }
-  const double scale = WEIGHT / kind->of.points;
+  const double scale = WEIGHT / fmax(n, 1);
   const double all[KZ_SIGNATURE] = {place[0], place[1], scale * cosine, scale * energy, scale * both};
   memcpy(signature, all, sizeof all);
 }
 
-void kz_atlas_sign(kz_atlas_curve *curve) {
+void kz_atlas_sign(const kz_atlas *atlas, kz_atlas_curve *curve) {
   const int64_t width = kz_atlas_width(&curve->kind);
   curve->signature = kz_malloc((size_t)(curve->n + 1) * sizeof *curve->signature);
   for (int64_t i = 0; i < curve->n; i++)
-    signature_of(&curve->kind, curve->row + i * width, curve->row + i * width + KZ_ROW_POINTS, curve->signature[i]);
+    signature_of(atlas, &curve->kind, curve->row + i * width, curve->row + i * width + KZ_ROW_POINTS, curve->signature[i]);
 }
 
 /* Whether a point lies on a step of a curve: Newton's method, begun at the step's own cycle at that place, ends at the point. */
@@ -124,13 +130,14 @@ static bool is_of_step(const kz_atlas *atlas, const kz_atlas_curve *curve, int64
   const double *a = curve->row + row * kz_atlas_width(&curve->kind), *b = a + kz_atlas_width(&curve->kind);
   const double step[2] = {b[0] - a[0], b[1] - a[1]};
   const double along[2] = {fabs(step[0]) < fabs(step[1]), fabs(step[0]) >= fabs(step[1])};
-  double y[KZ_ATLAS_UNKNOWNS];
+  double y[KZ_ATLAS_UNKNOWNS], at_image[2];
   kz_atlas_between(curve, row, share, y);
   memcpy(y + n, seed->y + n, 2 * sizeof *y);
   kz_atlas_seed found = {.kind = curve->kind};
   if (!kz_curve_locate(&atlas->plane, &curve->kind.of, y, along)) return false;
   memcpy(found.y, y, ((size_t)n + 2) * sizeof *y);
-  return hypot(y[n] - seed->y[n], y[n + 1] - seed->y[n + 1]) < SAME_PLACE && kz_atlas_same(atlas, &found, seed->y, SAME);
+  const double *image = kz_atlas_image_state(atlas, seed->y + n, seed->y, at_image) ? at_image : NULL;
+  return hypot(y[n] - seed->y[n], y[n + 1] - seed->y[n + 1]) < SAME_PLACE && kz_atlas_same(&found, seed->y, image, SAME);
 }
 
 /* Whether a point lies on a curve. */
@@ -159,7 +166,7 @@ static bool is_alike(const kz_atlas_kind *a, const kz_atlas_kind *b) {
 
 int64_t kz_atlas_known(const kz_atlas *atlas, const kz_atlas_seed *seed) {
   double signature[KZ_SIGNATURE];
-  signature_of(&seed->kind, seed->y + 2 * seed->kind.of.points, seed->y, signature);
+  signature_of(atlas, &seed->kind, seed->y + 2 * seed->kind.of.points, seed->y, signature);
   for (int64_t i = 0; i < atlas->n_curves; i++)
     if (is_alike(&atlas->curve[i].kind, &seed->kind) && is_on(atlas, atlas->curve + i, seed, signature)) return i;
   return -1;
@@ -179,7 +186,7 @@ static int64_t common(const kz_atlas *atlas, const kz_atlas_curve *curve, const 
 }
 
 bool kz_atlas_keep(kz_atlas *atlas, kz_atlas_curve *curve) {
-  kz_atlas_sign(curve);
+  kz_atlas_sign(atlas, curve);
   for (int64_t i = 0; i < atlas->n_curves; i++) {
     int64_t tried;
     if (!is_alike(&atlas->curve[i].kind, &curve->kind)) continue;

@@ -13,9 +13,10 @@ kz_atlas_class kz_atlas_class_of(const kz_atlas_kind *kind) {
   return (kz_atlas_class){kind->of.side > 0 ? KZ_CLASS_OTHER : KZ_CLASS_SYMMETRIC, kz_kind_period(kind), kind->of.turns};
 }
 
-kz_atlas_class kz_atlas_class_with(bool symmetric, int32_t period, int32_t turns, int32_t centre) {
+kz_atlas_class kz_atlas_class_with(const kz_atlas *atlas, bool symmetric, int32_t period, int32_t turns, int32_t centre) {
   if (!symmetric) return (kz_atlas_class){KZ_CLASS_OTHER, period, turns};
-  return (kz_atlas_class){period == 1 ? KZ_CLASS_REST : KZ_CLASS_SYMMETRIC, period, centre == KZ_ABOUT_INVERTED};
+  const int32_t type = period == 1 && atlas->plane.mirrored ? KZ_CLASS_REST : KZ_CLASS_SYMMETRIC;
+  return (kz_atlas_class){type, period, centre == KZ_ABOUT_INVERTED};
 }
 
 bool kz_atlas_is_of(const kz_atlas_kind *kind, const kz_atlas_class *class) {
@@ -24,7 +25,7 @@ bool kz_atlas_is_of(const kz_atlas_kind *kind, const kz_atlas_class *class) {
 }
 
 int32_t kz_atlas_images(const kz_atlas *atlas, const kz_atlas_class *class) {
-  return class->type == KZ_CLASS_OTHER && atlas->plane.mirrored ? 2 : 1;
+  return class->type == KZ_CLASS_OTHER && kz_atlas_paired(atlas) ? 2 : 1;
 }
 
 int32_t kz_atlas_class_number(kz_atlas *atlas, const kz_atlas_class *class) {
@@ -44,9 +45,9 @@ void kz_atlas_class_name(const kz_atlas *atlas, const kz_atlas_class *class, cha
   if (class->type != KZ_CLASS_OTHER)
     kz_orbit_name(class->period, 0, class->turns ? KZ_ABOUT_INVERTED : KZ_ABOUT_DOWN, text);
   else if (class->turns == 0)
-    snprintf(text, KZ_NAME_LENGTH, atlas->plane.mirrored ? "asymmetric %d-nodding" : "%d-nodding", (int)class->period);
+    snprintf(text, KZ_NAME_LENGTH, kz_atlas_paired(atlas) ? "asymmetric %d-nodding" : "%d-nodding", (int)class->period);
   else
-    snprintf(text, KZ_NAME_LENGTH, atlas->plane.mirrored ? "rotation %d/%d" : "rotation %+d/%d", (int)class->turns,
+    snprintf(text, KZ_NAME_LENGTH, kz_atlas_paired(atlas) ? "rotation %d/%d" : "rotation %+d/%d", (int)class->turns,
              (int)class->period);
 }
 
@@ -60,11 +61,25 @@ kz_motion_kind kz_atlas_described(const kz_atlas *atlas, const kz_atlas_class *c
   return kind;
 }
 
-/* The second half of a symmetric cycle is the mirror image of the first. */
-bool kz_atlas_same(const kz_atlas *atlas, const kz_atlas_seed *cycle, const double *state, double near) {
+bool kz_atlas_image_state(const kz_atlas *atlas, const double place[2], const double *state, double image[2]) {
+  double later[4] = {state[0], state[1], state[0], state[1]};
+  if (!kz_atlas_paired(atlas) || (atlas->plane.half_period && !kz_curve_orbit(&atlas->plane, place, 1, 1, later))) return false;
+  image[0] = -later[2], image[1] = -later[3];
+  return true;
+}
+
+int kz_atlas_points(const kz_atlas *atlas, const kz_atlas_kind *kind, const double place[2], const double *y, double *point) {
+  const int n = kind->of.points, period = kz_kind_period(kind);
+  memcpy(point, y, 2 * (size_t)n * sizeof *point);
+  for (int i = n; i < period; i++)
+    if (!kz_atlas_image_state(atlas, place, y + 2 * (i - n), point + 2 * i)) return 0;
+  return period;
+}
+
+/* The points that a symmetric cycle leaves out are images of others. */
+bool kz_atlas_same(const kz_atlas_seed *cycle, const double *state, const double *image, double near) {
   for (int i = 0; i < cycle->kind.of.points; i++)
-    if (kz_atlas_apart(cycle->y + 2 * i, state, 1) < near ||
-        (atlas->plane.mirrored && kz_atlas_apart(cycle->y + 2 * i, state, -1) < near))
+    if (kz_atlas_apart(cycle->y + 2 * i, state, 1) < near || (image && kz_atlas_apart(cycle->y + 2 * i, image, 1) < near))
       return true;
   return false;
 }
@@ -107,6 +122,26 @@ static bool is_rest(const kz_atlas *atlas, double near, const kz_atlas_kind *kin
          rest.of.multiplier < 0;
 }
 
+/* Images run half a period later: the image of a cycle's first point is the point (q + 1) / 2 further if the cycle is its own image and has the odd
+ * period q. */
+static bool reduce_to_image(const kz_atlas *atlas, double near, kz_atlas_kind *kind, double *y) {
+  const int n = kind->of.points, period = kz_kind_period(kind);
+  for (int q = 1; q <= period && atlas->plane.half_period; q += 2) {
+    const int points = (q + 1) / 2, power = kind->of.side < 0 ? period / q : 2;
+    double image[2], point[KZ_ATLAS_UNKNOWNS];
+    if (period % q != 0 || (kind->of.side < 0 ? q == period : q < period || kind->of.turns != 0)) continue;
+    if (!kz_atlas_image_state(atlas, y + 2 * n, y, image) || kz_atlas_apart(image, y + 2 * (points % n), 1) >= near) continue;
+    memcpy(point, y, 2 * (size_t)points * sizeof *point);
+    memcpy(point + 2 * points, y + 2 * n, 2 * sizeof *point);
+    kz_curve_kind of = kz_kind_of(&atlas->plane, -1, points, 0, kind->of.multiplier, point);
+    if (of.points == 0 || !is_on_its_curve(atlas, power, &of, point)) continue;
+    memcpy(y, point, (2 * (size_t)points + 2) * sizeof *y);
+    kind->of = of;
+    return true;
+  }
+  return false;
+}
+
 bool kz_atlas_reduce(const kz_atlas *atlas, double near, kz_atlas_kind *kind, double *y) {
   const int n = kind->of.points;
   if (is_rest(atlas, near, kind, y)) {
@@ -130,23 +165,25 @@ bool kz_atlas_reduce(const kz_atlas *atlas, double near, kz_atlas_kind *kind, do
       kind->of = of;
       return true;
     }
-  return false;
+  return reduce_to_image(atlas, near, kind, y);
 }
 
-/* Angles from a point in [-pi, pi), of mirror images that with positive turns, symmetric cycles about down or inverted. */
-static void canonical(const kz_atlas *atlas, kz_atlas_kind *kind, double *y) {
+/* Angles from a point in [-pi, pi), of images that with positive turns, symmetric cycles about down or inverted. */
+static bool canonical(const kz_atlas *atlas, kz_atlas_kind *kind, double *y) {
   const int n = 2 * kind->of.points;
   double lift = 2 * M_PI * floor(y[0] / (2 * M_PI) + 0.5);
   if (kind->of.side < 0) {
     const int32_t pairs = (kind->of.turns - (kind->of.turns & 1)) / 2;
     lift = 2 * M_PI * pairs;
     kind->of.turns -= 2 * pairs;
-  } else if (kind->of.turns < 0 && atlas->plane.mirrored) {
+  } else if (kind->of.turns < 0 && kz_atlas_paired(atlas)) {
     kind->of.turns = -kind->of.turns;
-    for (int i = 0; i < n; i++) y[i] = -y[i];
+    for (int i = 0; i < n; i += 2)
+      if (!kz_atlas_image_state(atlas, y + n, y + i, y + i)) return false;
     lift = 2 * M_PI * floor(y[0] / (2 * M_PI) + 0.5);
   }
   for (int i = 0; i < n; i += 2) y[i] -= lift;
+  return true;
 }
 
 bool kz_atlas_add(const kz_atlas *atlas, kz_atlas_kind kind, const double *y, kz_atlas_seeds *seeds) {
@@ -160,7 +197,7 @@ bool kz_atlas_add(const kz_atlas *atlas, kz_atlas_kind kind, const double *y, kz
     if (y[n + i] < atlas->plane.low[i] || y[n + i] > atlas->plane.high[i]) return false;
   while (kz_atlas_reduce(atlas, ONE, &seed.kind, seed.y)) continue;
   if (kz_kind_period(&seed.kind) > atlas->scene->atlas->max_period) return false;
-  canonical(atlas, &seed.kind, seed.y);
+  if (!canonical(atlas, &seed.kind, seed.y)) return false;
   kz_atlas_put(seeds, &seed);
   return true;
 }

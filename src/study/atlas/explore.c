@@ -193,7 +193,7 @@ static void explore_images(const kz_atlas *atlas, const kz_atlas_curve *curve, k
 /* The mirror images of a curve where the mirror symmetry is broken: elsewhere they are the curve itself. */
 static void explore_mirrored(const kz_atlas *atlas, const kz_atlas_curve *curve, kz_atlas_seeds *seeds) {
   kz_atlas_seed at = {.kind = curve->kind};
-  for (int64_t i = 0; i < IMAGES && curve->n > 0 && !atlas->plane.mirrored; i++) {
+  for (int64_t i = 0; i < IMAGES && curve->n > 0 && !kz_atlas_paired(atlas); i++) {
     kz_atlas_point_of(curve, (2 * i + 1) * curve->n / (2 * IMAGES), at.y);
     kz_atlas_explore_mirrored(atlas, &at.kind, at.y, seeds);
   }

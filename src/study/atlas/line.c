@@ -3,7 +3,7 @@
 
 static void complete(const kz_atlas *atlas, kz_atlas_curve *curve) {
   for (int64_t i = 0; i < curve->n; i++) kz_atlas_complete(atlas, curve, i);
-  kz_atlas_sign(curve);
+  kz_atlas_sign(atlas, curve);
 }
 
 kz_status kz_atlas_line(kz_atlas *atlas, int axis, double value, kz_atlas_branches *line) {

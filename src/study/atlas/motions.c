@@ -25,8 +25,10 @@ static bool attracts(const double number[2]) {
 }
 
 static void take(hunt *h, const kz_atlas_seed *cycle, const double number[2], int64_t curve) {
+  double at_image[2];
+  const double *image = kz_atlas_image_state(h->atlas, h->place, cycle->y, at_image) ? at_image : NULL;
   for (int32_t i = 0; i < h->found; i++)
-    if (kz_atlas_same(h->atlas, h->cycle + i, cycle->y, ONE)) return;
+    if (kz_atlas_same(h->cycle + i, cycle->y, image, ONE)) return;
   h->cycle[h->found] = *cycle;
   memcpy(h->number[h->found], number, sizeof *h->number);
   h->curve[h->found++] = curve;
@@ -109,13 +111,12 @@ static void hunt_rest(hunt *h) {
 
 static void set_state(const hunt *h, int32_t i, kz_motion *motion) {
   const kz_atlas_seed *cycle = h->cycle + i;
+  double point[4 * KZ_CURVE_POINTS];
   motion->curve = h->curve[i];
-  motion->strobes = motion->of.period;
-  for (int32_t s = 0; s < motion->of.period; s++) {
-    const int32_t at = s % cycle->kind.of.points;
-    const double sign = s < cycle->kind.of.points ? 1 : -1; /* the second half of a symmetric cycle */
-    motion->theta[s] = remainder(sign * cycle->y[2 * at], 2 * M_PI);
-    motion->velocity[s] = sign * cycle->y[2 * at + 1];
+  motion->strobes = kz_atlas_points(h->atlas, &cycle->kind, h->place, cycle->y, point);
+  for (int32_t s = 0; s < motion->strobes; s++) {
+    motion->theta[s] = remainder(point[2 * s], 2 * M_PI);
+    motion->velocity[s] = point[2 * s + 1];
   }
   kz_atlas_multipliers(&cycle->kind, h->number[i], motion->multiplier_re, motion->multiplier_im);
 }

@@ -56,8 +56,8 @@ static kz_status survey(kz_atlas *atlas) {
   const kz_plane_axis *axis[] = {&scene->atlas->x, &scene->atlas->y};
   double stiffest = -1;
   bool rests = false; /* at some place of the lowest y: without gravity no rest attracts there */
-  atlas->undriven = atlas->unpaired = true;
-  atlas->plane.mirrored = 1;
+  atlas->undriven = true;
+  atlas->plane.mirrored = atlas->plane.half_period = 1;
   for (int i = 0; i < PLACES * PLACES; i++) {
     const double place[2] = {(double)(i % PLACES) / (PLACES - 1), (double)(i / PLACES) / (PLACES - 1)};
     kz_pendulum pendulum;
@@ -74,7 +74,7 @@ static kz_status survey(kz_atlas *atlas) {
           text[atlas->swapped], text[1 - atlas->swapped]);
     }
     if (!kz_is_mirrored(&pendulum)) atlas->plane.mirrored = 0;
-    if (!(kz_symmetries(&pendulum) & KZ_SYMMETRY_HALF_PERIOD)) atlas->unpaired = false;
+    if (!(kz_symmetries(&pendulum) & KZ_SYMMETRY_HALF_PERIOD)) atlas->plane.half_period = 0;
     if (place[1] == 0) {
       if (!is_undriven(&pendulum)) atlas->undriven = false;
       rests = rests || pendulum.k != 0;
@@ -87,7 +87,7 @@ static kz_status survey(kz_atlas *atlas) {
     atlas->plane.steps = fine.steps_per_period;
   }
   atlas->undriven = atlas->undriven && rests;
-  atlas->unpaired = atlas->unpaired && !atlas->plane.mirrored;
+  if (atlas->plane.mirrored) atlas->plane.half_period = 0;
   return KZ_OK;
 }
 

@@ -17,6 +17,12 @@ static const double FASTEST = 2.5, FEWEST_PERIODS = 600, MOST_PERIODS = 6000;
 /* The kind of a cycle of period n whose points are y: rest, symmetric, or neither. */
 static kz_atlas_kind kind_of(const kz_atlas *atlas, int n, const double *y, const double *image) {
   kz_atlas_kind kind = {{1, n, 0, (int32_t)rint((image[0] - y[0]) / (2 * M_PI)), 0}, -1};
+  if (atlas->plane.half_period) {
+    double point[KZ_ATLAS_UNKNOWNS];
+    memcpy(point, y, (2 * (size_t)n + 2) * sizeof *point);
+    while (kz_atlas_reduce(atlas, ONE, &kind, point)) continue;
+    return kind;
+  }
   if (!atlas->plane.mirrored || kind.of.turns != 0) return kind;
   if (n == 1 && kz_atlas_apart(y, y, -1) < ONE) kind.rest = cos(y[0]) > 0 ? 0 : 1;
   if (n % 2 == 0 && kz_atlas_apart(y, y + n, -1) < ONE)
@@ -91,7 +97,7 @@ static void begin(kz_dynamics *dynamics, const kz_pendulum *pendulum, int64_t st
 /* The cycles that are known join those of the place. */
 static void add_known(const kz_atlas *atlas, const kz_dynamics *dynamics, const double place[2], kz_atlas_seeds *found) {
   for (int64_t number = 1; number <= kz_dynamics_count(dynamics); number++) {
-    double theta[KZ_CURVE_POINTS], velocity[KZ_CURVE_POINTS], points[2 * KZ_CURVE_POINTS];
+    double theta[KZ_CURVE_POINTS], velocity[KZ_CURVE_POINTS], points[2 * KZ_CURVE_POINTS], at_image[2];
     kz_attractor row;
     kz_atlas_seed cycle;
     bool known = false;
@@ -100,7 +106,8 @@ static void add_known(const kz_atlas *atlas, const kz_dynamics *dynamics, const 
     kz_dynamics_strobe(dynamics, number, theta, velocity);
     for (int i = 0; i < row.period; i++) points[2 * i] = theta[i], points[2 * i + 1] = velocity[i];
     if (!kz_atlas_identify(atlas, place, points, row.period, 1, &cycle)) continue;
-    for (int64_t i = 0; i < found->count && !known; i++) known = kz_atlas_same(atlas, found->list + i, cycle.y, ONE);
+    const double *image = kz_atlas_image_state(atlas, place, cycle.y, at_image) ? at_image : NULL;
+    for (int64_t i = 0; i < found->count && !known; i++) known = kz_atlas_same(found->list + i, cycle.y, image, ONE);
     if (!known) kz_atlas_put(found, &cycle);
   }
 }
@@ -126,7 +133,7 @@ kz_status kz_atlas_probe_at(const kz_atlas *atlas, const double place[2], int64_
   begin(dynamics, &pendulum, starts, seed, state);
   KZ_TRY(kz_discover(NULL, dynamics, most, starts, state, NULL));
   add_known(atlas, dynamics, place, found);
-  if (atlas->plane.mirrored) return KZ_OK;
+  if (kz_atlas_paired(atlas)) return KZ_OK;
   KZ_TRY(discover_images(dynamics, most, found));
   add_known(atlas, dynamics, place, found);
   return KZ_OK;

@@ -47,6 +47,10 @@ int32_t kz_kind_period(const kz_cycle_kind *kind) {
   return kind->rest >= 0 ? 1 : kind->of.points * stride * (kind->of.side < 0 ? 2 : 1) - kind->of.half;
 }
 
+double kz_kind_determinant(const kz_curve_kind *kind, double beta) {
+  return exp(-M_PI * beta * (2 * kind->points * (kind->stride > 1 ? kind->stride : 1) - kind->half));
+}
+
 bool kz_parent_of(const kz_plane *plane, int event, const kz_plane_cycle *cycle, kz_plane_cycle *parent) {
   const int n = cycle->kind.of.points;
   const bool half = event == KZ_EVENT_MIRROR && plane->half_period;
@@ -77,7 +81,7 @@ kz_cycle_kind kz_child_kind(const kz_cycle_kind *kind) {
 
 bool kz_child_of(const kz_plane *plane, const kz_plane_cycle *flip, int axis, kz_plane_cycle *child, double along[2]) {
   const kz_curve_kind *kind = &flip->kind.of;
-  const int n = 2 * kind->points, own_stride = kind->stride > 1 ? kind->stride : 1;
+  const int n = 2 * kind->points;
   *child = (kz_plane_cycle){.kind = kz_child_kind(&flip->kind)};
   const kz_curve_kind of = child->kind.of;
   const int m = 2 * of.points, stride = of.stride > 1 ? of.stride : 1;
@@ -86,7 +90,7 @@ bool kz_child_of(const kz_plane *plane, const kz_plane_cycle *flip, int axis, kz
   if (of.points > KZ_CURVE_POINTS || !plane->pendulum(plane->context, flip->y + n, &pendulum) ||
       !kz_curve_form(plane, kind, flip->y, &form, side, vector) || form == 0 || fabs(side[axis]) < KZ_CHILD_FLAT)
     return false;
-  const double gradient = side[axis], other = 1 - exp(-2 * M_PI * pendulum.beta * kind->points * own_stride);
+  const double gradient = side[axis], other = 1 - kz_kind_determinant(kind, pendulum.beta);
   const double by =
       fmin(BESIDE, fmin(CHANGED * fmax(other, LEAST_DAMPED), FARTHEST * FARTHEST * fabs(form) * other) / fabs(gradient));
   const double size = sqrt(fabs(gradient / form) * by / other);

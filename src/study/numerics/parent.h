@@ -17,6 +17,9 @@ typedef struct {
 /* Drive periods of a cycle of this kind. */
 int32_t kz_kind_period(const kz_cycle_kind *kind);
 
+/* Determinant of the derivative of the map of which a cycle is a fixed point. */
+double kz_kind_determinant(const kz_curve_kind *kind, double beta);
+
 /* The kind of a cycle on a curve, with the turns that it takes: y [points][2] and its place, its points `stride` periods apart. side -1: its last
  * point is carried to the image of the first. points = 0 where it cannot be carried. */
 kz_curve_kind kz_kind_of(const kz_plane *plane, int side, int points, int stride, int multiplier, const double *y);
