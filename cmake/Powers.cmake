@@ -3,10 +3,10 @@
 set(KAPITZA_POWERS all CACHE STRING "powers that are built, separated by semicolons; all, or empty for none")
 set_property(GLOBAL PROPERTY kapitza_powers "")
 
-# kapitza_power(name FOLDERS folder of src ... [FILES file of src or include ...] [STUDIES study ...] [COMMANDS command ...] [NEEDS power ...]):
+# kapitza_power(name FOLDERS folder of src ... [FILES file of src or include ...] [STUDIES study ...] [PARTS part ...] [COMMANDS command ...] [NEEDS power ...]):
 # with its folders left out, its studies and commands are refused by the name of the power. The order of the studies is that in which they
-# run, after those of the core. FILES are of the power too, and stand in folders of the core: its headers in include/kapitza.
-set(KAPITZA_KINDS STUDIES COMMANDS)
+# run, after those of the core. PARTS are parts of the study basin, with a row as a study has. FILES are of the power too, and stand in folders of the core: its headers in include/kapitza.
+set(KAPITZA_KINDS STUDIES PARTS COMMANDS)
 function(kapitza_power name)
   cmake_parse_arguments(arg "" "" "FOLDERS;FILES;NEEDS;${KAPITZA_KINDS}" ${ARGN})
   foreach(list FOLDERS FILES NEEDS ${KAPITZA_KINDS})
@@ -52,4 +52,7 @@ foreach(power ${known})
   endif()
 endforeach()
 set(KAPITZA_CHOSEN ${chosen})
+string(APPEND power_STUDIES "${power_PARTS}")
+string(REPLACE "MISSING(" "MISSING(basin." missing_PARTS "${missing_PARTS}")
+string(APPEND missing_STUDIES "${missing_PARTS}")
 configure_file(cmake/powers.h.in ${PROJECT_BINARY_DIR}/include/kapitza/powers.h @ONLY)

@@ -24,6 +24,7 @@ typedef struct {
   const char *units, *long_name; /* units "@NAME": the value of the group's attribute NAME, written before; "1|WORDS": unit 1
                                   * of UDUNITS, and ", in WORDS" is added to the long name */
   const char *flags[KZ_MAX_FLAGS + 1]; /* meanings of 0, 1, 2, ...; NULL-ended */
+  const char *group;                   /* that it stands in; NULL = that of its table */
 } kz_variable;
 
 /* A group of the file and its variables, of which the last has no name. */

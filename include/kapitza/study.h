@@ -134,6 +134,7 @@ typedef struct {
   double shared_bytes; /* more on all ranks together */
 } kz_cost;
 
+typedef struct kz_basin_part kz_basin_part;
 /* A key of a scene (study_keys.h). */
 typedef struct kz_key kz_key;
 
@@ -156,8 +157,12 @@ typedef struct {
   /* What the plan lacks, "KEY: what is wrong", where KEY is one of the study; NULL = nothing, or no function. */
   const char *(*lack)(const kz_scene *scene);
   kz_study_need needs[2];
-  bool damped;  /* it has no meaning without damping */
-  bool follows; /* it follows motions of the scene's own pendulum */
+  const kz_basin_part
+      *of_basin; /* it is a part of the study basin, whose run does its work (src/study/basin/basin.h); NULL = it is not */
+  const char
+      *at_strobe; /* the complaint where cells are not released at a strobe of the final drive; NULL = it takes any release */
+  bool damped;    /* it has no meaning without damping */
+  bool follows;   /* it follows motions of the scene's own pendulum */
 } kz_study;
 static inline bool kz_study_is_wanted(const kz_study *study, const kz_scene *scene) {
   return *(const bool *)((const char *)scene + study->wanted);

@@ -12,7 +12,7 @@ static const double PROCESS_BYTES = 3.7e7;
 kz_cost kz_cost_of(const kz_scene *scene) {
   kz_cost total = {0};
   for (int i = 0; i < kz_study_count; i++) {
-    if (!kz_study_is_wanted(kz_studies[i], scene)) continue;
+    if (!kz_studies[i]->cost || !kz_study_is_wanted(kz_studies[i], scene)) continue;
     const kz_cost cost = kz_studies[i]->cost(scene);
     total.cells += cost.cells;
     total.disk_bytes += cost.disk_bytes;

@@ -177,7 +177,7 @@ static kz_status run_studies(job *j) {
   KZ_TRY(kz_ranks_agree(j->run.ranks, j->first ? open_outputs(j) : KZ_OK));
   kz_abandon_run(&j->run, j->path);
   for (int i = 0; i < kz_study_count; i++)
-    if (kz_study_is_wanted(kz_studies[i], &j->scene))
+    if (kz_studies[i]->run && kz_study_is_wanted(kz_studies[i], &j->scene))
       KZ_TRY(kz_ranks_agree(j->run.ranks, kz_studies[i]->run(&j->scene, &j->run, j->store, j->summary)));
   return KZ_OK;
 }

@@ -99,13 +99,12 @@ static bool is_name(const char *row, const char *name) {
 /* The table's row, under the name asked for. */
 static kz_status find(const kz_store *store, const char *group, const char *name, kz_variable *row) {
   for (const kz_group *g = store->groups; g->name; g++)
-    if (strcmp(g->name, group + (group[0] == '/')) == 0)
-      for (const kz_variable *v = g->variables; v->name; v++)
-        if (is_name(v->name, name)) {
-          *row = *v;
-          row->name = name;
-          return KZ_OK;
-        }
+    for (const kz_variable *v = g->variables; v->name; v++)
+      if (strcmp(v->group ? v->group : g->name, group + (group[0] == '/')) == 0 && is_name(v->name, name)) {
+        *row = *v;
+        row->name = name;
+        return KZ_OK;
+      }
   return kz_fail(KZ_FAILED, "the result file has no variable %s/%s", group, name);
 }
 

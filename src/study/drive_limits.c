@@ -30,7 +30,6 @@ ASKS(tradeoff, s->has_tradeoff)
 ASKS(rk4, s->asked.scheme == kz_scheme_find("rk4"))
 ASKS(no_basin, !s->has_basin)
 ASKS(accuracy, s->has_basin && !isnan(s->basin->accuracy))
-ASKS(proof, s->has_basin && s->basin->proof)
 ASKS(boundary, s->has_basin && s->basin->has_boundary)
 ASKS(orbit_on_ramp, s->has_orbit && s->parameters.has_ramp)
 ASKS(decisions, s->has_basin && s->basin->undecided == KZ_UNDECIDED_DECIDE)
@@ -74,7 +73,6 @@ static const struct {
     {asks_no_basin, AT_STROBE, "needs the study basin; add it to the scene"},
     {asks_table, AT_STROBE, "basin.method icm follows whole drive periods from phase 0 only; choose exact or direct"},
     {asks_accuracy, AT_STROBE, "basin.accuracy needs starts at phase 0 and no ramp; leave one of them out"},
-    {asks_proof, AT_STROBE, "basin.proof needs starts at phase 0 and no ramp; leave one of them out"},
     {asks_boundary, AT_STROBE, "basin.boundary needs starts at phase 0 and no ramp; leave one of them out"},
     {asks_tradeoff, AT_STROBE, "study tradeoff needs starts at phase 0 and no ramp; leave one of them out"},
     {asks_orbit_on_ramp, AT_STROBE, "study orbit does not follow a ramp; leave one of them out"},
@@ -84,6 +82,9 @@ static const struct {
 static const char *limit_of(const kz_scene *scene, int needs) {
   for (size_t i = 0; i < sizeof limits / sizeof *limits; i++)
     if (limits[i].needs == needs && limits[i].is_asked(scene)) return limits[i].complaint;
+  for (int i = 0; i < kz_study_count; i++)
+    if (needs == AT_STROBE && kz_studies[i]->at_strobe && kz_study_is_wanted(kz_studies[i], scene))
+      return kz_studies[i]->at_strobe;
   return NULL;
 }
 

@@ -26,8 +26,10 @@ const kz_group kz_groups[] = {
 
 kz_status kz_studies_check(const kz_scene *scene) {
   KZ_TRY(kz_drive_check(scene));
-  for (int i = 0; i < kz_study_count; i++)
-    if (kz_studies[i]->check && kz_study_is_wanted(kz_studies[i], scene)) KZ_TRY(kz_studies[i]->check(scene));
+  for (int pass = 0; pass < 2; pass++) /* parts of the basin come before it */
+    for (int i = 0; i < kz_study_count; i++)
+      if ((pass == 0) == (kz_studies[i]->of_basin != NULL) && kz_studies[i]->check && kz_study_is_wanted(kz_studies[i], scene))
+        KZ_TRY(kz_studies[i]->check(scene));
   return KZ_OK;
 }
 

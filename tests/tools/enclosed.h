@@ -2,6 +2,7 @@
 #pragma once
 
 #include "kapitza/kernel.h"
+#include "kapitza/kernel_enclosure.h"
 
 typedef __float128 quad;
 

@@ -204,18 +204,20 @@ static bool was_a_study(const kz_key *keys, const char *name, char *now, size_t 
   return false;
 }
 
-/* The power that a study needs and that this build leaves out; NULL = none. */
-static const char *missing_power(const char *study) {
+/* The power that a key needs and that this build leaves out; NULL = none. */
+static const char *missing_power(const char *path) {
   static const char *const missing[][2] = {
 #define MISSING(name, power) {#name, #power},
       KZ_MISSING_STUDIES(MISSING){NULL, NULL}};
   for (size_t i = 0; missing[i][0]; i++)
-    if (strcmp(missing[i][0], study) == 0) return missing[i][1];
+    if (strcmp(missing[i][0], path) == 0) return missing[i][1];
   return NULL;
 }
 
 void kz_key_unknown(const kz_key *keys, const char *parent, const char *name, const char *prefix, char *text, size_t bytes) {
-  const char *power = parent[0] ? NULL : missing_power(name);
+  char path[256];
+  snprintf(path, sizeof path, "%s%s%s", parent, parent[0] ? "." : "", name);
+  const char *power = missing_power(path);
   if (power) {
     snprintf(text, bytes, KZ_MISSING_POWER, power);
     return;

@@ -132,19 +132,23 @@ static int64_t length_of(const kz_key *keys) {
 
 static const kz_key *table;
 
-/* Puts `keys` behind the `n` first ones of `joined`, and an end; returns their number. */
-static int64_t append(kz_key *joined, int64_t n, const kz_key *keys) {
+/* Puts `keys` among the `n` first ones of `joined`, behind those of their mapping, or at their end; returns their number. */
+static int64_t add(kz_key *joined, int64_t n, const kz_key *keys) {
   const int64_t more = length_of(keys);
-  memcpy(joined + n, keys, ((size_t)more + 1) * sizeof *keys);
+  const size_t mapping = strcspn(keys->path, ".") + 1;
+  int64_t at = n;
+  while (at > 0 && keys->path[mapping - 1] && strncmp(joined[at - 1].path, keys->path, mapping) != 0) at--;
+  memmove(joined + at + more, joined + at, (size_t)(n - at) * sizeof *keys);
+  memcpy(joined + at, keys, (size_t)more * sizeof *keys);
   return n + more;
 }
 
 static void join_keys(void) {
   int64_t n = length_of(own);
   for (int i = 0; i < kz_study_count; i++) n += length_of(kz_studies[i]->keys);
-  kz_key *joined = kz_malloc(((size_t)n + 1) * sizeof *joined);
-  n = append(joined, 0, own);
-  for (int i = 0; i < kz_study_count; i++) n = append(joined, n, kz_studies[i]->keys);
+  kz_key *joined = kz_calloc((size_t)n + 1, sizeof *joined);
+  n = add(joined, 0, own);
+  for (int i = 0; i < kz_study_count; i++) n = add(joined, n, kz_studies[i]->keys);
   table = joined;
 }
 

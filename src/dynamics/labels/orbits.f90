@@ -30,7 +30,7 @@ module kz_labels_orbits
     integer(c_int64_t) :: periods = 0       !< first period inside a trapping region, or those followed
     integer(c_int16_t) :: label = PENDING   !< attractor from 1, 0 = not settled, DOUBTFUL, PENDING
     integer(c_int16_t) :: other = 0
-    integer(c_int8_t) :: evidence = 0, proof = 0, proved = 0
+    integer(c_int8_t) :: evidence = 0
     integer(c_int8_t) :: next = 0           !< the level that may decide a doubtful orbit
   end type label_t
 

@@ -3,7 +3,7 @@
 
 #include <stdbool.h>
 
-#include "kapitza/kernel.h"
+#include "kapitza/kernel_enclosure.h"
 #include "sets.h"
 
 typedef long double real;

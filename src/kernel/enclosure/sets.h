@@ -5,7 +5,7 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-#include "kapitza/kernel.h"
+#include "kapitza/kernel_enclosure.h"
 #include "vector/pairs_arithmetic.h"
 
 /* Orders of the Taylor polynomials: of the centre in doubles; in pairs or triples; of the tangent map with new frames, where its remainder is

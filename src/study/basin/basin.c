@@ -63,6 +63,33 @@ static double phases_bytes(const kz_basin_plan *plan) {
   return kz_phases_bytes(plan->phases, plan->theta.count * plan->velocity.count);
 }
 
+/* ---- parts of other folders ---- */
+
+static const kz_basin_part *wanted_part(const kz_scene *scene, int study) {
+  return kz_study_is_wanted(kz_studies[study], scene) ? kz_studies[study]->of_basin : NULL;
+}
+
+static double parts_bytes(const kz_scene *scene) {
+  double bytes = 0;
+  for (int i = 0; i < kz_study_count; i++)
+    if (wanted_part(scene, i)) bytes += wanted_part(scene, i)->bytes(scene);
+  return bytes;
+}
+
+static kz_status make_parts(const kz_scene *scene, kz_chunks *chunks) {
+  for (int i = 0; i < kz_study_count; i++) {
+    if (!wanted_part(scene, i)) continue;
+    kz_part *p = chunks->parts + chunks->n_parts++;
+    p->part = wanted_part(scene, i);
+    KZ_TRY(p->part->make(scene, &p->own));
+  }
+  return KZ_OK;
+}
+
+static void free_parts(kz_chunks *chunks) {
+  for (int i = 0; i < chunks->n_parts; i++) chunks->parts[i].part->free(chunks->parts[i].own);
+}
+
 /* Of FILE and FILE.checkpoint. Measured with Fig. 12's scene on 10^6 to 4 10^8 cells: finer grids have longer runs of equal labels. */
 static double packed_bytes(double cells) {
   return 0.9 * pow(cells, 0.96);
@@ -76,7 +103,7 @@ kz_cost kz_basin_cost(const kz_scene *scene) {
   const double regions = pow((double)kz_regions_cells(cells), 2);
   return (kz_cost){.cells = cells,
                    .disk_bytes = 3e5 + 40 * (double)plan->starts + 8.2 * nodes + packed_bytes((double)cells),
-                   .memory_bytes = 14 * nodes + 100 * regions + kz_proof_bytes(scene) + phases_bytes(plan) +
+                   .memory_bytes = 14 * nodes + 100 * regions + parts_bytes(scene) + phases_bytes(plan) +
                                    40 * (double)kz_tile_capacity(&tiles),
                    .rank0_bytes = 4e6,
                    .shared_bytes = 0.2 * (double)cells};
@@ -115,8 +142,7 @@ static void measure_numerics(const kz_scene *scene, kz_dynamics *dynamics, kz_wi
 }
 
 /* Writes everything that follows from the labels of the cells. Rank 0. */
-static kz_status write_results(const kz_scene *scene, const kz_chunks *chunks, const kz_proof *proof,
-                               const kz_proof_sample *proved, FILE *summary) {
+static kz_status write_results(const kz_scene *scene, const kz_chunks *chunks, FILE *summary) {
   kz_dynamics *dynamics = chunks->labelling->dynamics;
   kz_window_summary labels = {.cells = chunks->labelling->tiles.cells,
                               .counts = chunks->counts,
@@ -124,22 +150,21 @@ static kz_status write_results(const kz_scene *scene, const kz_chunks *chunks, c
                               .doubt = kz_doubt_of(scene->basin, chunks->sample, chunks->counts.doubtful)};
   measure_numerics(scene, dynamics, &labels, summary);
   KZ_TRY(kz_basin_write(scene, chunks->catalogue, &labels, chunks->store, summary));
-  if (proof) KZ_TRY(kz_proof_write(proof, chunks->catalogue, labels.cells, &chunks->counts, proved, chunks->store, summary));
+  for (int i = 0; i < chunks->n_parts; i++) KZ_TRY(chunks->parts[i].part->write(chunks->parts[i].own, chunks, summary));
   return kz_lifetime_write(scene->basin, chunks->transients, chunks->store, summary);
 }
 
-static kz_status write_window(const kz_scene *scene, kz_proof *proof, kz_chunks *chunks, FILE *summary) {
+static kz_status write_window(const kz_scene *scene, kz_chunks *chunks, FILE *summary) {
   kz_window_labels *labelling = chunks->labelling;
   const kz_run *run = labelling->run;
   kz_store *store = chunks->store;
-  kz_proof_sample proved = {.starts = 0};
   KZ_TRY(kz_label_window(labelling));
-  if (proof) KZ_TRY(kz_prove_window(labelling, proof, &proved));
+  for (int i = 0; i < chunks->n_parts; i++) KZ_TRY(chunks->parts[i].part->follow(chunks->parts[i].own, labelling));
   KZ_TRY(kz_doubt_follow(scene->basin, run, labelling->dynamics, chunks->sample));
   kz_catalogue_make(labelling->dynamics, labelling->reached, chunks->catalogue);
   KZ_TRY(kz_ranks_agree(run->ranks, store ? kz_basin_declare(scene, &labelling->tiles, store) : KZ_OK));
   KZ_TRY(kz_cells_write(chunks));
-  KZ_TRY(kz_ranks_agree(run->ranks, store ? write_results(scene, chunks, proof, &proved, summary) : KZ_OK));
+  KZ_TRY(kz_ranks_agree(run->ranks, store ? write_results(scene, chunks, summary) : KZ_OK));
   KZ_TRY(kz_boundary_find(scene, labelling, chunks->catalogue, store, summary));
   KZ_TRY(find_phases(scene, labelling, chunks->catalogue, store, summary));
   return kz_shocks_find_all(scene, labelling, chunks->catalogue, store, summary);
@@ -157,18 +182,17 @@ static kz_status run_damped(const kz_scene *scene, const kz_run *run, kz_store *
   kz_doubt_sample sample = {0};
   kz_transients transients = kz_transients_make(plan);
   kz_chunks chunks = {&labelling, &catalogue, store, .sample = &sample, .transients = &transients};
-  kz_proof *proof;
   labelling.dynamics = kz_dynamics_create(&scene->parameters.pendulum, &scene->numerics, plan->max_period);
   kz_dynamics_set_release(labelling.dynamics, &scene->parameters.release);
-  kz_status status = kz_ranks_agree(run->ranks, kz_proof_plan(scene, &proof));
+  kz_status status = kz_ranks_agree(run->ranks, make_parts(scene, &chunks));
   if (status == KZ_OK) {
     const kz_window motions = kz_motions_window(&plan->theta, &plan->velocity);
     labelling.search.max_velocity = kz_dynamics_max_velocity(labelling.dynamics, &motions);
-    status = write_window(scene, proof, &chunks, summary);
+    status = write_window(scene, &chunks, summary);
   }
   kz_dynamics_free(labelling.dynamics);
   kz_window_labels_free(&labelling);
-  kz_proof_free(proof);
+  free_parts(&chunks);
   kz_catalogue_free(&catalogue);
   kz_doubt_free(&sample);
   free(transients.time);
@@ -233,10 +257,6 @@ kz_status kz_basin_check(const kz_scene *scene) {
   kz_numerics reference;
   if (!(motions.pendulum.beta > 0)) return KZ_OK;
   KZ_TRY(kz_pairs_check(scene->basin));
-  kz_proof *proof;
-  const kz_status status = kz_proof_plan(scene, &proof);
-  kz_proof_free(proof);
-  KZ_TRY(status);
   if (isnan(scene->basin->accuracy)) return kz_motions_check(&motions);
   return kz_reference_labels_numerics(scene->basin, &motions.pendulum, &reference);
 }

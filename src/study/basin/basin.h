@@ -1,4 +1,4 @@
-/* The study `basin` and its parts: cells in the file, measures of them, transients, boundaries, phases of release, shocks, proofs. */
+/* The study `basin` and its parts: cells in the file, measures of them, transients, boundaries, phases of release, shocks. */
 #pragma once
 
 #include "labelling/catalogue.h"
@@ -35,9 +35,32 @@ void kz_transients_add(kz_transients *transients, int64_t n, const void *picked)
 /* Writes and prints the mean of the slow ones; moves the times. Rank 0. */
 kz_status kz_lifetime_write(const kz_basin_plan *plan, kz_transients *transients, kz_store *store, FILE *summary);
 
+/* ---- parts of the study that other folders add: rows of kz_studies with `of_basin`, whose work the run of the basin does ---- */
+
+typedef struct kz_chunks kz_chunks;
+struct kz_basin_part {
+  /* Bytes of memory that it takes on a rank. */
+  double (*bytes)(const kz_scene *scene);
+  /* *own = what it needs until `free`, NULL: nothing is to be done. */
+  kz_status (*make)(const kz_scene *scene, void **own);
+  void (*free)(void *own);
+  /* After the cells are labelled. Collective. */
+  kz_status (*follow)(void *own, kz_window_labels *labelling);
+  /* Replaces labels of the own cells of a tile of this rank, cell [kz_tile_own]; NULL: none. */
+  kz_status (*take)(void *own, int64_t tile, kz_label *cell);
+  /* Attributes, variables and lines of the summary. Rank 0. */
+  kz_status (*write)(void *own, const kz_chunks *chunks, FILE *summary);
+};
+enum { KZ_MOST_PARTS = 8 };
+/* A part of this run. */
+typedef struct {
+  const kz_basin_part *part;
+  void *own;
+} kz_part;
+
 /* ---- the cells in the file, chunk by chunk ---- */
 
-typedef struct {
+struct kz_chunks {
   kz_window_labels *labelling;
   kz_catalogue *catalogue;   /* out: its fractions */
   kz_store *store;           /* NULL on all ranks but rank 0 */
@@ -49,7 +72,9 @@ typedef struct {
   uint8_t *evidence;
   int16_t *others;   /* second candidates */
   int64_t *cells_of; /* [attractors] number of cells */
-} kz_chunks;
+  int n_parts;
+  kz_part parts[KZ_MOST_PARTS];
+};
 
 /* Declares the variables of the cells; their dimensions must exist. Rank 0. */
 kz_status kz_chunks_declare(const kz_basin_plan *plan, const kz_tiles *tiles, kz_store *store);
@@ -94,34 +119,3 @@ kz_status kz_pairs_check(const kz_basin_plan *plan);
 
 /* uncertain [kz_distances_of]: of evenly spread starts of the window, each with a partner at every distance. Collective. */
 kz_status kz_pairs_count(const kz_basin_plan *plan, const kz_window_labels *labelling, kz_uncertain *uncertain);
-
-/* ---- labels that are proved, for basin.proof ---- */
-
-/* The attractors that are proved to exist: numbers of kz_dynamics, mirror [0] = 0. */
-typedef struct {
-  bool any, has[KZ_PROOF_MOST + 1];
-  uint8_t mirror[KZ_PROOF_MOST + 1];
-} kz_proved;
-
-/* *proof = an empty proof for the scene's basin, or NULL without basin.proof; the caller frees it with kz_proof_free in every case.
- * KZ_REFUSED if the window is too fast for a proof. */
-kz_status kz_proof_plan(const kz_scene *scene, kz_proof **proof);
-/* Proves the regions of the known attractors, in kept stages, with the same result on every rank. Collective. */
-kz_status kz_prove_regions(const kz_window_labels *labelling, kz_proof *proof, kz_proved *proved);
-
-/* Random real starts of the window. */
-typedef struct {
-  int64_t starts, unproved;
-  double high; /* upper bound of the share of the window's area that is not proved, with KZ_PROOF_CONFIDENCE */
-} kz_proof_sample;
-#define KZ_PROOF_CONFIDENCE 0.95
-
-/* Proves regions, cells and the sample, one after the other. Collective. */
-kz_status kz_prove_window(kz_window_labels *labelling, kz_proof *proof, kz_proof_sample *sample);
-
-/* Bytes of memory that a proof takes on a rank. */
-double kz_proof_bytes(const kz_scene *scene);
-
-/* The results: attributes of /basin, columns of /attractors, and lines of the summary. Rank 0. */
-kz_status kz_proof_write(const kz_proof *proof, const kz_catalogue *catalogue, int64_t cells, const kz_counts *counts,
-                         const kz_proof_sample *sample, kz_store *store, FILE *summary);

@@ -136,10 +136,10 @@ static void print_settled(const kz_scene *scene, const kz_window_summary *labels
     fprintf(summary, "%lld of %lld cells did not settle within ", unsettled, cells);
   kz_periods_print(scene->basin->max_periods, scene->parameters.pivot_frequency, summary);
   fputs(".\n", summary);
-  if (labels->counts.nowhere > 0)
+  if (labels->counts.evidence[KZ_NOWHERE] > 0)
     fprintf(summary, "%lld of them settle nowhere (evidence 12): their motions are quasi-periodic.\n",
-            (long long)labels->counts.nowhere);
-  if (unsettled > labels->counts.nowhere && attracts)
+            (long long)labels->counts.evidence[KZ_NOWHERE]);
+  if (unsettled > labels->counts.evidence[KZ_NOWHERE] && attracts)
     fprintf(summary,
             "Here a motion takes some %.0f periods to come e times closer to its attractor: a larger basin.max_periods or "
             "basin.attractors.max_period may settle more cells.\n",
@@ -154,7 +154,7 @@ static const char *advice(const kz_basin_plan *plan) {
 }
 
 static void print_decided(const kz_basin_plan *plan, const kz_window_summary *labels, FILE *summary) {
-  const long long undecided = labels->counts.undecided;
+  const long long undecided = labels->counts.evidence[KZ_UNDECIDED];
   if (undecided == 0)
     fputs("All cells are decided.\n", summary);
   else
@@ -168,7 +168,7 @@ kz_status kz_basin_write(const kz_scene *scene, const kz_catalogue *catalogue, c
   print_settled(scene, labels, catalogue->count > 0, summary);
   if (plan->method == KZ_METHOD_EXACT) {
     print_decided(plan, labels, summary);
-    KZ_TRY(kz_store_integer(store, "basin", "undecided", labels->counts.undecided));
+    KZ_TRY(kz_store_integer(store, "basin", "undecided", labels->counts.evidence[KZ_UNDECIDED]));
   }
   KZ_TRY(kz_catalogue_write(catalogue, &scene->parameters.pendulum, true, store));
   KZ_TRY(write_flags(catalogue, store));

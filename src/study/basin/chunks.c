@@ -32,12 +32,7 @@ static void count(kz_chunks *c, int64_t tile) {
   const kz_tiles *tiles = &c->labelling->tiles;
   const int64_t n = kz_tile_count(tiles, tile), rows = n / tiles->columns;
   for (int64_t i = 0; i < n; i++) {
-    c->counts.undecided += c->evidence[i] == KZ_UNDECIDED;
-    c->counts.nowhere += c->evidence[i] == KZ_NOWHERE;
-    c->counts.proved_in_pairs += c->evidence[i] == KZ_PROVED_IN_PAIRS;
-    c->counts.proved_in_triples += c->evidence[i] == KZ_PROVED_IN_TRIPLES;
-    c->counts.proved +=
-        c->evidence[i] == KZ_PROVED || c->evidence[i] == KZ_PROVED_IN_PAIRS || c->evidence[i] == KZ_PROVED_IN_TRIPLES;
+    c->counts.evidence[c->evidence[i]]++;
     if (c->ids[i] < 0)
       c->counts.unsettled++;
     else
@@ -111,19 +106,19 @@ static kz_status add(kz_chunks *c, int64_t from, int64_t tile, char *message, si
   return pack(c, tile, message, bytes);
 }
 
-/* Proved labels replace the labels of the own cells of a tile. Refuted cells are counted with their mirror images. */
-static void take_proofs(kz_chunks *c, int64_t tile) {
+/* Labels of parts of the study replace those of the own cells of a tile. Changed cells are counted with their mirror images. */
+static kz_status take_labels(kz_chunks *c, int64_t tile) {
   const kz_tiles *tiles = &c->labelling->tiles;
   const int64_t first = kz_tile_first(tiles, tile), n = kz_tile_own(tiles, tile);
-  for (int64_t i = 0; i < n; i++) {
-    kz_label *cell = &c->labelling->cell[i];
-    if (cell->proof == 0) continue;
-    const bool twice = tiles->unique_cells < tiles->cells && 2 * (first + i) + 1 < tiles->cells;
-    if (cell->label != cell->proved && cell->evidence != KZ_UNDECIDED) c->counts.refuted += twice ? 2 : 1;
-    cell->label = cell->proved;
-    cell->other = 0;
-    cell->evidence = cell->proof;
+  for (int p = 0; p < c->n_parts; p++) {
+    if (!c->parts[p].part->take) continue;
+    KZ_FREED kz_label *own = memcpy(kz_malloc((size_t)n * sizeof *own), c->labelling->cell, (size_t)n * sizeof *own);
+    KZ_TRY(c->parts[p].part->take(c->parts[p].own, tile, c->labelling->cell));
+    for (int64_t i = 0; i < n; i++)
+      if (own[i].label != c->labelling->cell[i].label && own[i].evidence != KZ_UNDECIDED)
+        c->counts.changed += tiles->unique_cells < tiles->cells && 2 * (first + i) + 1 < tiles->cells ? 2 : 1;
   }
+  return KZ_OK;
 }
 
 /* The labels of the sample's cells that lie in the tile. */
@@ -142,7 +137,7 @@ static kz_status make(void *context, const kz_local_record *piece, void *message
   KZ_TRY(kz_tile_labels_unpack(c->labelling, piece));
   note_sample(c, piece->tile);
   count_doubtful(c, piece->tile);
-  take_proofs(c, piece->tile);
+  KZ_TRY(take_labels(c, piece->tile));
   *bytes = 0;
   KZ_TRY(add(c, piece->tile, piece->tile, message, bytes));
   return tiles->own == tiles->n || image == piece->tile ? KZ_OK : add(c, piece->tile, image, message, bytes);

@@ -27,7 +27,6 @@ struct kz_basin_plan {
   int64_t starts;
   int64_t max_period;
   int64_t seed;
-  bool proof;      /* prove the labels */
   bool unmirrored; /* the pendulum has no mirror symmetry */
   double accuracy; /* NaN, or the share of right labels for which the program chooses method, table and numerics */
   bool has_boundary;

@@ -6,9 +6,8 @@
 
 #include "kapitza/dynamics.h"
 
-/* How a label was found: the values of the file's variable `evidence`. From KZ_UNDECIDED on the scene's own numerics did not decide it. The
- * values KZ_PROVED, KZ_PROVED_IN_PAIRS and KZ_PROVED_IN_TRIPLES are from basin.proof with any method; they and KZ_NOWHERE, the motion is
- * quasi-periodic, occur in the file only. KZ_LEFT is a doubtful label of method direct. */
+/* How a label was found: the values of the file's variable `evidence`. From KZ_UNDECIDED on the scene's own numerics did not decide it.
+ * KZ_NOWHERE, the motion is quasi-periodic, and the values that are missing here, which are those of powers, occur in the file only. KZ_LEFT is a doubtful label of method direct. */
 enum {
   KZ_UNSETTLED = 0,
   KZ_INSIDE = 1,
@@ -16,12 +15,9 @@ enum {
   KZ_UNDECIDED = 3,
   KZ_IN_QUAD = 4,
   KZ_IN_PAIRS = 5,
-  KZ_PROVED = 6,
   KZ_IN_FINE = 7,
   KZ_IN_ARBITRARY = 8,
   KZ_LEFT = 9,
-  KZ_PROVED_IN_PAIRS = 10,
-  KZ_PROVED_IN_TRIPLES = 11,
   KZ_NOWHERE = 12
 };
 

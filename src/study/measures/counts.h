@@ -5,14 +5,16 @@
 #include <stdbool.h>
 #include <stdint.h>
 
+#include "kapitza/store.h"
+
 enum { KZ_BOX = 5 }; /* cells along an edge of a box of the basin entropy */
 enum { KZ_DISTANCES = 8, KZ_BOX_CELLS = KZ_BOX * KZ_BOX };
 
 /* All fields are int64_t, so that kz_ranks_sum can add them. */
 typedef struct {
-  int64_t proved, refuted;                           /* proved cells; those of them whose label the proof changed */
-  int64_t proved_in_pairs, proved_in_triples;        /* parts of `proved` */
-  int64_t unsettled, nowhere, undecided, doubtful;   /* cells; unsettled: with nowhere; doubtful: without mirror images */
+  int64_t evidence[KZ_MAX_FLAGS];                    /* [code]: cells of which the file has this evidence */
+  int64_t unsettled, doubtful, changed;              /* cells; unsettled: without id; doubtful: without mirror images; changed:
+                                                      * decided ones to which a part of the study has given another label */
   int64_t boxes[KZ_BOX_CELLS + 1];                   /* [i]: boxes with i settled cells */
   int64_t parts[KZ_BOX_CELLS + 1][KZ_BOX_CELLS + 1]; /* [i][j]: attractors that have j cells of such a box */
   int64_t compared[KZ_DISTANCES],

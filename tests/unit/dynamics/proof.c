@@ -7,6 +7,7 @@
 
 #include "../../tools/part.h"
 #include "kapitza/dynamics.h"
+#include "kapitza/dynamics_proof.h"
 
 /* Fig. 12's pendulum and its rotation of one turn a period (tests/literature). */
 static const kz_pendulum pendulum = {1.0 / 121, 1.0 / 55, 0.3};

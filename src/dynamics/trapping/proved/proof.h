@@ -1,9 +1,9 @@
-/* Inside of the proofs (dynamics.h): a region of starts that are proved to end on an attractor, and sets that are followed into it. */
+/* Inside of the proofs (dynamics_proof.h): a region of starts that are proved to end on an attractor, and sets that are followed into it. */
 #pragma once
 
 #include <stdbool.h>
 
-#include "kapitza/dynamics.h"
+#include "kapitza/dynamics_proof.h"
 
 /* An ellipse of the region, with the box around it, which excludes most sets quickly. */
 typedef struct {

@@ -5,7 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "basin.h"
+#include "proof.h"
 #include "numerics/share.h"
 
 enum {
@@ -29,7 +29,7 @@ typedef struct {
   const kz_proved *proved;
   int64_t from, to, first, n; /* tiles; first cell, cells */
   uint64_t *wanted;           /* [n] bits */
-  uint8_t *number, *evidence; /* [n] */
+  kz_proof_mark *mark;        /* [n] */
   int64_t n_left, *left;      /* cells to prove */
 } part;
 
@@ -89,57 +89,69 @@ static kz_status prove_left(const kz_run *run, part *p) {
   KZ_TRY(kz_label_items(&labeller, 1, p->n_left, p->left, label));
   for (int64_t i = 0; i < p->n_left; i++) {
     if (label[i].label <= 0) continue;
-    p->number[p->left[i] - p->first] = (uint8_t)label[i].label;
-    p->evidence[p->left[i] - p->first] = label[i].evidence;
+    p->mark[p->left[i] - p->first] = (kz_proof_mark){(uint8_t)label[i].label, label[i].evidence};
   }
   return KZ_OK;
 }
 
-/* Into the tiles of this rank. */
-static kz_status keep(kz_window_labels *l, const part *p) {
+/* The marks of the tiles of this rank. */
+static kz_status keep(const kz_window_labels *l, const part *p, kz_proof_work *run) {
   for (int64_t i = 0; i < l->records.n; i++) {
-    kz_local_record *packed = &l->records.list[i];
-    if (packed->tile < p->from || packed->tile >= p->to) continue;
-    const int64_t before = kz_tile_first(&l->tiles, packed->tile) - p->first;
-    KZ_TRY(kz_tile_labels_unpack(l, packed));
-    for (int64_t k = 0; k < kz_tile_own(&l->tiles, packed->tile); k++) {
-      l->cell[k].proof = p->evidence[before + k];
-      l->cell[k].proved = p->number[before + k];
-    }
-    KZ_TRY(kz_tile_labels_replace(l, packed));
+    const int64_t tile = l->records.list[i].tile;
+    if (tile < p->from || tile >= p->to) continue;
+    const size_t n = (size_t)kz_tile_own(&l->tiles, tile);
+    void *packed = kz_malloc(kz_pack_bytes(n, sizeof *p->mark));
+    const size_t bytes = kz_squeeze(p->mark + kz_tile_first(&l->tiles, tile) - p->first, n, sizeof *p->mark, packed);
+    run->tile[tile] = (kz_proof_tile){bytes, kz_realloc(packed, bytes + 1)};
+    if (bytes == 0) return kz_fail(KZ_FAILED, "no memory to pack a tile of %zu cells", n);
   }
   return KZ_OK;
 }
 
-static kz_status prove_part(kz_window_labels *l, part *p) {
+kz_status kz_proof_take(const kz_proof_work *run, int64_t tile, kz_label *cell) {
+  const kz_proof_tile *kept = run->tile ? run->tile + tile : NULL;
+  if (!kept || kept->bytes == 0) return KZ_OK;
+  const int64_t n = kz_tile_own(&run->tiles, tile);
+  KZ_FREED kz_proof_mark *mark = kz_malloc((size_t)n * sizeof *mark);
+  if (!kz_unsqueeze(kept->marks, kept->bytes, (size_t)n, sizeof *mark, mark))
+    return kz_fail(KZ_FAILED, "a packed tile of %lld cells is damaged, or memory ran out", (long long)n);
+  for (int64_t i = 0; i < n; i++) {
+    if (mark[i].evidence == 0) continue;
+    cell[i].label = mark[i].number;
+    cell[i].other = 0;
+    cell[i].evidence = mark[i].evidence;
+  }
+  return KZ_OK;
+}
+
+static kz_status prove_part(kz_window_labels *l, part *p, kz_proof_work *kept) {
   const kz_run *run = l->run;
-  memset(p->number, 0, (size_t)p->n);
-  memset(p->evidence, 0, (size_t)p->n);
+  memset(p->mark, 0, (size_t)p->n * sizeof *p->mark);
   KZ_TRY(kz_ranks_agree(run->ranks, find_wanted(l, p)));
   KZ_TRY(kz_ranks_sum(run->ranks, (int64_t *)p->wanted, p->n / 64 + 1));
   p->n_left = 0;
   for (int64_t i = 0; i < p->n; i++)
     if (p->wanted[i / 64] >> (i % 64) & 1) p->left[p->n_left++] = p->first + i;
   KZ_TRY(prove_left(run, p));
-  return kz_ranks_agree(run->ranks, keep(l, p));
+  return kz_ranks_agree(run->ranks, keep(l, p, kept));
 }
 
-/* Follows the starts of all cells into the region, in kept stages, and sets the fields `proof` and `proved` of the cells. Cells whose label
+/* Follows the starts of all cells into the region, in kept stages, and keeps their marks. Cells whose label
  * is an attractor that is not proved are left out. Collective. */
-static kz_status prove_cells(kz_window_labels *l, const kz_proof *proof, const kz_proved *proved) {
+static kz_status prove_cells(kz_window_labels *l, kz_proof_work *run, const kz_proved *proved) {
   const kz_tiles *tiles = &l->tiles;
   const int64_t capacity = kz_tile_capacity(tiles), at_once = capacity < MOST_CELLS ? MOST_CELLS / capacity : 1;
   const int64_t most = capacity * (at_once < tiles->own ? at_once : tiles->own);
-  if (!proved->any) return KZ_OK;
+  run->tile = kz_calloc((size_t)tiles->own, sizeof *run->tile);
   KZ_FREED uint64_t *wanted = kz_malloc((size_t)(most / 64 + 1) * sizeof *wanted);
-  KZ_FREED uint8_t *number = kz_malloc((size_t)most), *evidence = kz_malloc((size_t)most);
+  KZ_FREED kz_proof_mark *mark = kz_malloc((size_t)most * sizeof *mark);
   KZ_FREED int64_t *left = kz_malloc((size_t)most * sizeof *left);
-  part p = {l, proof, proved, .wanted = wanted, .number = number, .evidence = evidence, .left = left};
+  part p = {l, run->proof, proved, .wanted = wanted, .mark = mark, .left = left};
   for (p.from = 0; p.from < tiles->own; p.from = p.to) {
     p.to = p.from + at_once < tiles->own ? p.from + at_once : tiles->own;
     p.first = kz_tile_first(tiles, p.from);
     p.n = kz_tile_first(tiles, p.to - 1) + kz_tile_own(tiles, p.to - 1) - p.first;
-    KZ_TRY(prove_part(l, &p));
+    KZ_TRY(prove_part(l, &p, run));
   }
   return KZ_OK;
 }
@@ -201,11 +213,12 @@ static kz_status prove_sample(const kz_run *run, const kz_basin_plan *plan, cons
   return KZ_OK;
 }
 
-kz_status kz_prove_window(kz_window_labels *labelling, kz_proof *proof, kz_proof_sample *sample) {
+kz_status kz_prove_window(kz_proof_work *run, kz_window_labels *labelling) {
   kz_proved proved = {.any = false};
-  *sample = (kz_proof_sample){.high = 1};
-  KZ_TRY(kz_prove_regions(labelling, proof, &proved));
+  run->sample = (kz_proof_sample){.high = 1};
+  run->tiles = labelling->tiles;
+  KZ_TRY(kz_prove_regions(labelling, run->proof, &proved));
   if (!proved.any) return KZ_OK;
-  KZ_TRY(prove_cells(labelling, proof, &proved));
-  return prove_sample(labelling->run, labelling->plan, proof, sample);
+  KZ_TRY(prove_cells(labelling, run, &proved));
+  return prove_sample(labelling->run, labelling->plan, run->proof, &run->sample);
 }

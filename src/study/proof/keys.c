@@ -1,0 +1,17 @@
+/* The part `proof` of the study basin: its row, and its key. */
+#define KEYS_OF proof
+
+#include "kapitza/study_key_rows.h"
+#include "plan.h"
+#include "proof.h"
+
+static const kz_key keys[] = {
+    ROW("basin.proof", KZ_KEY_BOOLEAN, "false", OF_SCENE(has_proof),
+        "Prove the labels under the differential equation itself: `evidence` marks those that are proved, `proved_share` is "
+        "their share, `other_share_high` bounds the area that ends elsewhere. Some ten times the time of the cells.",
+        .unit = ""),
+    {.path = NULL},
+};
+
+KZ_PART_ROW(.check = kz_proof_check, .of_basin = &kz_proof_part,
+            .at_strobe = "basin.proof needs starts at phase 0 and no ramp; leave one of them out");
