@@ -156,6 +156,13 @@ class Result(File):
         from kapitza.engine import Engine
         return Engine(self.scene, {"basin.theta.count": 2, "basin.velocity": {"min": -1, "max": 1, "count": 2}})
 
+    @cached_property
+    def _certainty(self) -> dict[str, float]:
+        """Of the lists of an atlas; files of 0.4 do not say."""
+        import h5py
+        with h5py.File(self.path) as file:
+            return {name: float(value) for name, value in file["atlas"].attrs.items() if name == "lacking_high"}
+
     def flutter(self) -> xarray.Dataset:
         """The flutter of a sweep with branches: `amplitude`, the largest angle from inverted over `value`, up to where it loses its mirror
         symmetry; NaN = not there.
@@ -181,9 +188,12 @@ class Result(File):
         :return: a row for each motion: name, period, winding, centre, symmetric, images (2: its mirror image attracts too), curve (number
             of the curve from which it was carried), multipliers (over its period), strobe_theta, strobe_velocity (lists; empty without
             `states`)
+            The attribute `lacking_high` of the table is the probability, at most, that the list lacks a motion.
         :raises SceneError: outside of the plane, and where the list is not known: the curves contradict each other, so that one is missing
         """
-        return self._engine.motions(self.path, x, y, states=states)
+        table = self._engine.motions(self.path, x, y, states=states)
+        table.attrs |= self._certainty
+        return table
 
     def line(self, *, x: float | None = None, y: float | None = None) -> pandas.DataFrame:
         """The branches of all cycles along a line through an atlas, attracting or not, of up to its `max_period` periods.

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 import xarray
 
-from kapitza.plots.atlas_classes import missing_text
+from kapitza.plots.atlas_classes import lacking_text, missing_text
 from kapitza.style import TORQUES
 from kapitza.units import si_parameters
 
@@ -37,6 +37,8 @@ def _studies(result: "Result") -> list[str]:
             try:
                 with xarray.open_dataset(result.path, group=name, engine="h5netcdf", phony_dims="sort") as dataset:
                     sizes, missing = dataset.sizes, missing_text(dataset)
+                    if "lacking_high" in dataset.attrs:
+                        missing += f"; {lacking_text(dataset.attrs['lacking_high'])}"
             except Exception:  # of a damaged file: which error depends on the damage
                 lines.append(f"{name}: damaged")
             else:

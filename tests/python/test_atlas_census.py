@@ -23,7 +23,9 @@ def test_a_plane_with_x_and_y_exchanged_has_the_same_curves(atlas, kapitza, tmp_
 
 def test_the_census_says_how_much_is_missing(atlas):  # noqa: F811
     """Places that see a curve, and the estimate of each decade, in the file, the summary and a picture."""
+    from kapitza.explorer.atlas import packed
     from kapitza.plots.atlas_classes import missing_text
+    from kapitza.reading import arrays_of
     from kapitza.show import as_text
 
     result, summary, _ = atlas
@@ -36,6 +38,13 @@ def test_the_census_says_how_much_is_missing(atlas):  # noqa: F811
     assert int(group["decade_curves"][:4].sum()) == wide and 0 <= low <= high < 3
     assert int(group.attrs["dropped"]) == 0 and "found no room" not in summary + missing_text(group)
     assert "12 cycles found no room" in missing_text(group.assign_attrs(dropped=12))
+    upper = float(np.sum(group["decade_missing_high"].values * 0.1 ** np.arange(group.sizes["decade"])))
+    lacking = float(group.attrs["lacking_high"])
+    assert lacking == pytest.approx(min(1, max(upper, np.exp(-1) / group.attrs["places"])))
+    assert result.motions(11, 0.5).attrs == {"lacking_high": lacking}
+    words = f"a motion may be missing at a point with a probability of at most {100 * lacking:.1f} %"
+    assert words in as_text(result) and packed(*arrays_of(result.path, "atlas"))[0]["certainty"] == words
+    assert f"lacks a motion with a probability of at most {lacking:.1g}" in summary
     assert "are missing" in summary and "missing" in missing_text(group) and missing_text(group) in as_text(result)
 
 

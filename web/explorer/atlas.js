@@ -5,7 +5,7 @@ export class Atlas {
   /** Of an answer to the request atlas. */
   constructor(header, bytes) {
     Object.assign(this, { curves: header.curves, classes: header.classes, lists: header.lists, cells: header.cells });
-    Object.assign(this, { longest: header.max_period, mirrored: header.mirrored });
+    Object.assign(this, { longest: header.max_period, mirrored: header.mirrored, certainty: header.certainty });
     Object.assign(this, { file: header.file, low: header.low, width: header.width }); // in the file's units
     const n = header.points;
     [this.x, this.y, this.sideX, this.sideY] = [0, 1, 2, 3].map((i) => new Float32Array(bytes.buffer, 4 * n * i, n));

@@ -134,7 +134,7 @@ export class MotionMap {
       this.atlas = found;
       this.from = found.holds(this.place) ? this.place : null;
       this.paint();
-      this.note(`up to ${found.longest} drive period${found.longest === 1 ? "" : "s"}`);
+      this.note(`up to ${found.longest} drive period${found.longest === 1 ? "" : "s"}; ${found.certainty}`);
       this.state.change({ ground: { atlas: found, axes: this.axes, others: this.asked } });
     };
     const curves = taken(atlases(this.axes, this.pendulum, signal), atlas, signal);

@@ -3,7 +3,7 @@
 import numpy as np
 
 from kapitza import style
-from kapitza.plots.atlas_classes import centre_of, motion_text
+from kapitza.plots.atlas_classes import centre_of, lacking_text, motion_text
 from kapitza.reading import arrays_of
 
 from .kept import CALM
@@ -38,7 +38,8 @@ def packed(atlas, attributes):
     lists = [None if number < 0 else [[int(row), int(attracting[row, first[int(number)]])]
                                       for row in np.flatnonzero(attracting[:, first[int(number)]])] for number in numbers]
     header = {
-        "max_period": int(attributes["max_period"]), "mirrored": bool(attributes["mirrored"]), "cells": len(atlas["row"]),
+        "max_period": int(attributes["max_period"]), "certainty": lacking_text(float(attributes["lacking_high"])),
+        "mirrored": bool(attributes["mirrored"]), "cells": len(atlas["row"]),
         "points": len(atlas["x"]), "low": low, "width": width, "curves": [_curve(atlas, i) for i in range(len(atlas["curve"]))],
         "classes": [_motion(atlas, i) for i in range(len(atlas["class"]))], "lists": lists}
     places = [(atlas[name] - low[i]) / width[i] for i, name in enumerate("xy")]

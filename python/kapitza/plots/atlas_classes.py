@@ -32,6 +32,11 @@ def missing_text(atlas: xarray.Dataset) -> str:
             f"{f', or more: {dropped} cycles found no room' if dropped else ''}")
 
 
+def lacking_text(lacking: float) -> str:
+    """How certain it is that a list is whole: `lacking`, the probability that it is not, at most."""
+    return f"a motion may be missing at a point with a probability of at most {100 * lacking:.1f} %"
+
+
 def centre_of(class_name: object) -> int:
     """The centre of a class, by its name."""
     name = style.name_text(class_name)
