@@ -37,7 +37,7 @@ print(f"It stands {falls['velocity'].iloc[0] - pushes[1]:.4f} and falls at {fall
 
 # %% [markdown]
 # The smallest shock in any direction, and where it leads, is `basin: {shocks: {scale: 0.5}}` in a scene
-# ([how far to the edge](../explanation/shocks.md)).
+# ([how far to the edge](../explanation/boundaries.md#smallest-shocks)).
 
 # %% [markdown]
 # Where a release near the upright position ends, over frequency and amplitude of the drive.

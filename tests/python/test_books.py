@@ -9,8 +9,7 @@ from conftest import ROOT
 ELSEWHERE = {"cluster", "how-hard", "lesson", "stories"}  # run by test_cluster.py, test_tutorial.py; no commands
 PAGES = [ROOT / "README.md", ROOT / "docs" / "reference" / "python.md",
          *sorted((ROOT / "docs").glob("howto/*.md")), *sorted((ROOT / "docs").glob("tutorials/*.md"))]
-LONG = {"certain", "compare", "film", "first-basin", "ion-trap", "map", "my-pendulum", "pandas", "paper", "parameters", "push", "python",
-        "questions", "shaker", "track", "where", "why-it-stands", "zoom"}  # the longest
+LONG = {"first-basin", "ion-trap", "map", "my-pendulum", "python", "questions", "recipes", "shaker", "track", "why-it-stands"}
 PAGES = [pytest.param(page, marks=[pytest.mark.extensive] * (page.stem in LONG), id=page.stem)
          for page in PAGES if page.stem not in ELSEWHERE]
 

@@ -12,7 +12,7 @@
 
 /* ---- where the points of a branch of an unstable manifold end ---- */
 
-/* rad: bound of the distance of a computed point from the manifold, which shrinks along it; docs/explanation/wada.md. */
+/* rad: bound of the distance of a computed point from the manifold, which shrinks along it; docs/explanation/boundaries.md. */
 static const double OFF = 1e-11;
 /* rad: nearer to the cycle, points are not labelled, because OFF counts there; the others contain their images. */
 static const double BESIDE = 1e-6;
