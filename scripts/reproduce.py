@@ -45,9 +45,13 @@ def step(*command):
     return subprocess.run(command, cwd=ROOT).returncode
 
 
+def result_of(scene):
+    return f"results/{Path(scene).name}.h5"
+
+
 def run_scene(scene, ranks):
     """Goes on from an interrupted run, keeps a complete result, replaces one of another scene or program (status 2)."""
-    run = ["mpirun", "-n", str(ranks), "build/kapitza", "run", f"scenes/{scene}.yaml", "-o", f"results/{scene}.h5"]
+    run = ["mpirun", "-n", str(ranks), "build/kapitza", "run", f"scenes/{scene}.yaml", "-o", result_of(scene)]
     status = step(*run, "--resume")
     return step(*run, "--force") if status == 2 else status
 
@@ -58,7 +62,7 @@ def draw_figures(arguments):
         if status := run_scene(scene, arguments.ranks):
             sys.exit(status)
         for name, _, kind, options in (figure for figure in arguments.figures if figure[1] == scene):
-            if status := step("build/kapitza", "plot", kind, f"results/{scene}.h5", "-o", f"results/{name}.png", *options):
+            if status := step("build/kapitza", "plot", kind, result_of(scene), "-o", f"results/{name}.png", *options):
                 sys.exit(status)
             shrink(RESULTS / f"{name}.png")
 

@@ -57,11 +57,12 @@ void kz_dynamics_learn_regions(kz_dynamics *dynamics, int64_t n, const double *s
  * look at the trapping regions every few periods only, so that `periods` may be larger by less than that. SINGLE: the same, with the processed
  * splitting in single precision, to some 1e-6 rad a period. */
 enum { KZ_FOLLOW_DIRECT = 0, KZ_FOLLOW_SPARSE = 1, KZ_FOLLOW_SINGLE = 3, KZ_FOLLOW_LINEAR = 2, KZ_FOLLOW_QUINTIC = 6 };
-/* Follows n starts, state [n][2], until a trapping region holds them, at most max_periods. label [n] = number of the attractor, 0 = not
- * settled. periods [n] = first period inside a trapping region, or max_periods. State [i] of a start that has not settled becomes its last
- * state, that of another one where it was left, in the map's own coordinates. */
+/* Follows n starts, state [n][2], until a trapping region holds them, at most max_periods. label [n] = number of the attractor,
+ * 0 = not settled. periods [n] = first period inside a trapping region, or max_periods. State [i] of a start that has not settled
+ * becomes its last state, that of another one where it was left, in the map's own coordinates. turns [n] = net turns by which the
+ * angle on the line is more than that of the state; NULL = not needed. */
 void kz_dynamics_follow(kz_dynamics *dynamics, int32_t stepping, int64_t n, int64_t max_periods, double *state, int32_t *label,
-                        int64_t *periods);
+                        int64_t *periods, int64_t *turns);
 /* Moves n physical states, state [n][2] = half-turns in [-1, 1] and velocity, by one period of the scene's map. Not for several threads. */
 void kz_dynamics_advance(kz_dynamics *dynamics, int64_t n, double *state);
 
@@ -74,8 +75,7 @@ void kz_dynamics_follow_reference(kz_dynamics *dynamics, int32_t n_steps, int64_
 
 /* Settling times that vary smoothly with the start, for pictures: time [n], in drive periods, at which the motions come into the trapping ellipse
  * of a strobe point of their attractor, interpolated by its exponent. Motions have label [n] and are at state [n][2], as kz_dynamics_follow
- * leaves them, after time [n] periods, in and out; they are followed for at most 200 more. The time stays as it is where the label is below 1, the
- * attractor has no ellipse, or the motion is not in it by then. */
+ * leaves them, after time [n] periods, in and out. The time stays as it is where no ellipse of an attractor holds a motion after 200 more. */
 void kz_dynamics_smooth_times(kz_dynamics *dynamics, int64_t n, const int32_t *label, const double *state, double *time);
 
 /* Where an orbit begins. */
@@ -83,6 +83,8 @@ typedef struct {
   double theta[2], velocity[2]; /* rad, rad per drive radian: the sum of two doubles, high and low */
   int64_t periods;              /* drive periods before this start; the settling time includes them */
   double error[3]; /* ellipse of the start's own error: entries theta theta, theta velocity, velocity velocity of its matrix */
+  double from;     /* rad: angle of the release, where periods > 0; else it is theta */
+  int64_t turns;   /* net turns by which the angle on the line from there is more than theta */
 } kz_start;
 
 /* Precision levels at which orbits are followed with their errors, from the cheapest to the finest: the scene's numerics; doubles with
@@ -111,6 +113,7 @@ typedef struct {
   int16_t other;    /* of a start that no level decides: the second candidate, 0 = none */
   uint8_t evidence; /* 0 = not labelled yet; else how it is known (study/labelling/levels.h), which dynamics does not say */
   uint8_t next;     /* of a doubtful orbit: the lowest level that may decide it, by the growth of its error */
+  int32_t turns;    /* of kz_dynamics_count_turns */
 } kz_label;
 
 /* A label with the orbit behind it. */
@@ -120,6 +123,8 @@ typedef struct {
   double error;    /* rad: bound of the orbit's error when it was trapped; meaningless for chaotic or undecided orbits */
   int64_t age;     /* drive periods after which the orbit was left */
   double state[2]; /* where it was then, as kz_dynamics_follow leaves states */
+  int64_t turns;   /* net turns by which its angle on the line was then more than state[0] */
+  double from;     /* rad: angle of its release */
 } kz_decision;
 
 /* Labels n starts at one level: decision [n]. `before` is the level at which they were doubtful. Each orbit carries its error. It uses the
@@ -128,11 +133,15 @@ typedef struct {
 void kz_dynamics_label(kz_dynamics *dynamics, int32_t level, int32_t before, int64_t n, const kz_start *start,
                        int64_t max_periods, kz_decision *decision);
 
+/* Fills decision [n].end.turns: net turns from the angle of the release to the middle of the cycle (down or inverted, else its mean),
+ * rounded. KZ_NO_TURNS of other ends, and if no ellipse of the cycle holds the orbit after max_periods more. */
+enum { KZ_NO_TURNS = INT32_MIN };
+void kz_dynamics_count_turns(kz_dynamics *dynamics, int64_t n, int64_t max_periods, kz_decision *decision);
+
 /* Sets how starts are released. The errors of a release are measured at its first use, which must come after the trapping regions are made. */
 void kz_dynamics_set_release(kz_dynamics *dynamics, const kz_release *release);
-/* Moves those of n starts that have spent no periods, with their errors, from their release to the strobe from which on the drive has its final form, in the precision of
- * `level`. An orbit whose error exceeds 1e-4 rad gets a very large error, so that no level decides it. If the release takes no time, the
- * starts stay as they are. */
+/* Moves those of n starts that have spent no periods, with their errors, from their release to the strobe from which on the drive has its
+ * final form, in the precision of `level`. An orbit whose error exceeds 1e-4 rad gets a very large error, so that no level decides it. */
 void kz_dynamics_release(kz_dynamics *dynamics, int32_t level, int64_t n, kz_start *start);
 
 /* Looks for an unknown cycle near n <= 64 states that return to themselves within `closeness` rad, until it finds one or has tried all
@@ -144,9 +153,8 @@ int64_t kz_dynamics_cycle_size(const kz_dynamics *dynamics);
  * [kz_dynamics_chaos_size]: a chaotic attractor, for kz_dynamics_adopt, if the orbits separate and no region traps them; else nothing. */
 void kz_dynamics_find_chaos(kz_dynamics *dynamics, const double *state, double *found);
 int64_t kz_dynamics_chaos_size(void);
-/* Looks for a quasi-periodic motion among n <= 64 states, whose orbits it follows through 8000 periods at most. age: periods after their starts; where damping
- * has not had the time to bring them to an attractor, nothing is looked for. found [kz_dynamics_chaos_size]: the motion, for kz_dynamics_adopt, or
- * nothing. */
+/* Looks for a quasi-periodic motion among n <= 64 states, whose orbits it follows through 8000 periods at most, if damping has had the time
+ * to bring them to an attractor in `age` periods. found [kz_dynamics_chaos_size]: the motion, for kz_dynamics_adopt, or nothing. */
 void kz_dynamics_find_quasiperiodic(kz_dynamics *dynamics, int64_t n, const double *state, int64_t age, double *found);
 /* Adds the attractors in `found`, of one of the calls above, to the catalogue. */
 void kz_dynamics_adopt(kz_dynamics *dynamics, const double *found);

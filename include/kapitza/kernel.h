@@ -185,6 +185,8 @@ kz_arbitrary *kz_arbitrary_beside(const kz_arbitrary *orbit, const kz_jet *at_ma
 
 /* The state as pairs of doubles, high + low: theta in rad, in [-pi, pi] without whole turns; velocity in rad per drive radian. */
 void kz_arbitrary_read(const kz_arbitrary *orbit, double theta[2], double velocity[2]);
+/* Net turns by which its angle on the line, from the release on, is more than that which is read. */
+int64_t kz_arbitrary_turns(const kz_arbitrary *orbit);
 
 /* The same in quad precision: state [0] is theta, state [1] the velocity. */
 void kz_arbitrary_read_quads(const kz_arbitrary *orbit, __float128 state[2]);

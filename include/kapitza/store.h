@@ -71,6 +71,8 @@ kz_status kz_store_chunk(kz_store *store, const char *group, const char *name, c
 /* Writes the meanings of the integers first .. first + n - 1 of an existing variable, as attributes flag_values and flag_meanings (CF: words
  * separated by blanks). */
 kz_status kz_store_flags(kz_store *store, const char *group, const char *name, int32_t first, int64_t n, const char *meanings);
+/* Sets the attribute _FillValue of a variable of integers: the number that stands for a missing one. */
+kz_status kz_store_missing(kz_store *store, const char *group, const char *name, int32_t value);
 /* Reads rows first .. first + n - 1 of a variable from the file. */
 kz_status kz_store_rows(kz_store *store, const char *group, const char *name, int64_t first, int64_t n, void *data);
 

@@ -1,6 +1,7 @@
 """Which figure comes from which scene drawn how: the one table behind scripts/reproduce.
 
-A row is a scene, named after the paper and its figure (docs/explanation/theory.md), and its figures: (suffix of the name, kind, options).
+A row is a scene of scenes/, named after the paper and its figure (docs/explanation/theory.md), and its figures: (suffix of the name,
+kind, options).
 """
 
 _Row = tuple[str, str, list[str]]
@@ -114,6 +115,7 @@ _SCENES = {
     "tradeoff-strong-drive": [_TRADE],
     "tradeoff-weak-damping": [_TRADE],
     "tradeoff-zero-gravity": [_TRADE],
+    "textbooks/hubbard": [("-turns", "basin", ["--quantity", "turns"])],
     "wada-forced": [("", "basin", ["--saddles", "--manifolds"])],
     "zoom-fig12": [_ZOOM],
 }
@@ -126,7 +128,7 @@ _NARROW = {"blackburn-fig04-dots", "blackburn-fig06-omega11", "square-wave", "ti
            "start-phase-common", "tradeoff-fig12", "tradeoff-fig13"}
 
 # (name, scene, kind, options); a scene is run once for all its figures.
-FIGURES = [(scene + suffix, scene, kind, [*options, *(COLUMN if scene + suffix in _NARROW else PAGE)])
+FIGURES = [(scene.rpartition("/")[2] + suffix, scene, kind, [*options, *(COLUMN if scene + suffix in _NARROW else PAGE)])
            for scene, rows in _SCENES.items() for suffix, kind, options in rows]
 
 # Name -> (page of docs/tutorials, result that its commands make, kind, options).

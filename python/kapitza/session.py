@@ -138,8 +138,9 @@ def where(scene: SceneLike, theta: Any, velocity: Any, set: Mapping[str, Any] | 
 
     The columns are theta, velocity, attractor (id; -1 = not settled), name, period (0 = chaotic), winding, settling_time (drive periods
     after which the end is certain), decided, strobe_theta and strobe_velocity (lists), precision, error (rad), other_attractor,
-    other_name and near_time (drive periods after which the angle stays within 1 degree of the final motion). A value that does not exist
-    is missing. For a scene in SI units there are also velocity_rad_per_s, settling_seconds, near_seconds and strobe_velocity_rad_per_s.
+    other_name, near_time (drive periods after which the angle stays within 1 degree of the final motion) and turns (net turns until an
+    oscillation; missing for other ends). A value that does not exist is missing. For a scene in SI units there are also
+    velocity_rad_per_s, settling_seconds, near_seconds and strobe_velocity_rad_per_s.
 
     :param scene: path of a scene file, YAML text, or a mapping
     :param theta: angles in rad from down, or texts such as "175 deg" and "pi/2"; a number or an array
@@ -156,7 +157,7 @@ def where(scene: SceneLike, theta: Any, velocity: Any, set: Mapping[str, Any] | 
             raise SceneError(f"{str(text)!r} is not one number; give an array for several starts")
     table = "".join(f"{angle},{speed}\n" for angle, speed in zip(angles, velocities, strict=True))
     rows = [json.loads(line) for line in ask(["where", asked.path, "-", *asked.sets, "--json"], asked, table).splitlines()]
-    return pandas.DataFrame(rows).astype({name: "Int64" for name in ("period", "winding", "settling_time", "near_time")})
+    return pandas.DataFrame(rows).astype({name: "Int64" for name in ("period", "winding", "settling_time", "near_time", "turns")})
 
 
 def _starts(values: Any) -> np.ndarray:

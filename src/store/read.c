@@ -106,17 +106,31 @@ kz_status kz_store_chunk(kz_store *store, const char *group, const char *name, c
   return status;
 }
 
-kz_status kz_store_flags(kz_store *store, const char *group, const char *name, int32_t first, int64_t n, const char *meanings) {
-  hid_t dataset;
-  KZ_TRY(open_variable(store, group, name, &dataset));
+/* An attribute of the variable's own type: first, first + 1, ... */
+static kz_status write_integers(hid_t dataset, const char *name, int32_t first, int64_t n) {
   const hid_t type = H5Dget_type(dataset);
   int64_t *values = kz_malloc((size_t)n * sizeof *values); /* wide enough for any integer type */
   for (int64_t i = 0; i < n; i++) ((int32_t *)values)[i] = first + (int32_t)i;
   kz_status status = KZ_HDF5_STATUS(H5Tconvert(H5T_NATIVE_INT32, type, (size_t)n, values, NULL, H5P_DEFAULT));
-  if (status == KZ_OK) status = kz_attribute_array(dataset, "flag_values", type, (hsize_t)n, values);
-  if (status == KZ_OK) status = kz_attribute_text(dataset, "flag_meanings", meanings);
+  if (status == KZ_OK) status = kz_attribute_array(dataset, name, type, (hsize_t)n, values);
   if (type >= 0) H5Tclose(type);
-  H5Dclose(dataset);
   free(values);
+  return status;
+}
+
+kz_status kz_store_flags(kz_store *store, const char *group, const char *name, int32_t first, int64_t n, const char *meanings) {
+  hid_t dataset;
+  KZ_TRY(open_variable(store, group, name, &dataset));
+  kz_status status = write_integers(dataset, "flag_values", first, n);
+  if (status == KZ_OK) status = kz_attribute_text(dataset, "flag_meanings", meanings);
+  H5Dclose(dataset);
+  return status;
+}
+
+kz_status kz_store_missing(kz_store *store, const char *group, const char *name, int32_t value) {
+  hid_t dataset;
+  KZ_TRY(open_variable(store, group, name, &dataset));
+  const kz_status status = write_integers(dataset, "_FillValue", value, 1);
+  H5Dclose(dataset);
   return status;
 }

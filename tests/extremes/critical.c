@@ -68,7 +68,7 @@ static kz_dynamics *searched(const kz_pendulum *pendulum, const kz_numerics *num
     state[2 * i] = (centre[0] + share * largest[0]) / PI;
     state[2 * i + 1] = centre[1] + share * largest[1];
   }
-  kz_dynamics_follow(d, KZ_FOLLOW_DIRECT, STATES, 100, state, label, periods);
+  kz_dynamics_follow(d, KZ_FOLLOW_DIRECT, STATES, 100, state, label, periods, NULL);
   find_cycles(d, STATES, state, 0.02);
   return d;
 }
@@ -140,7 +140,7 @@ TEST(attractors_close_together_are_told_apart) {
     kz_dynamics_coarse_regions(d, 3);
     find_cycles(d, STATES, state, 0.02);
     kz_dynamics_update(d);
-    kz_dynamics_follow(d, KZ_FOLLOW_DIRECT, STATES, 2000, state, label, periods);
+    kz_dynamics_follow(d, KZ_FOLLOW_DIRECT, STATES, 2000, state, label, periods, NULL);
     const int64_t count = kz_dynamics_count(d);
     assert_int_equal(count, apart > 1e-7 ? 2 : 1);
     for (int i = 0; i < STATES && count == 2; i++) {

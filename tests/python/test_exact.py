@@ -15,6 +15,7 @@ basin:
   velocity: {min: -2, max: 2, count: 24}
   method: exact
   attractors: {starts: 512}
+  turns: true
 """
 # What of its numerics alone gets wrong.
 COARSE = ("--set", "numerics={scheme: rk4, steps_per_period: 60}")
@@ -40,6 +41,7 @@ def test_labels_hang_on_no_numerics(kapitza, exact, tmp_path):
     decided = (fine["evidence"] != UNDECIDED) & (coarse["evidence"] != UNDECIDED)
     assert decided.mean() > 0.9
     assert np.array_equal(fine["name"][decided], coarse["name"][decided])
+    assert np.array_equal(fine["turns"][decided], coarse["turns"][decided], equal_nan=True) and np.nanmax(fine["turns"]) > 10
     assert np.mean(direct["name"] != fine["name"]) > 0.1
     assert coarse["doubtful_share"] > fine["doubtful_share"] > 0.05
     assert {"cells 1", "pairs 16", "quad 1"} <= {line[:8].strip() for line in said.splitlines()}

@@ -46,7 +46,7 @@ def test_a_frame_for_which_memory_is_short_is_one_error():
         for quality in "exact", "moving":
             answers = running.ask("frame", rows=4096, columns=4096, planes=planes, quality=quality)
             assert [header["answer"] for header, _ in answers] == ["error"] and answers[0][0]["status"] == 1
-            assert "request: rows: needs 720 MB of memory" in answers[0][0]["message"]
+            assert "request: rows: needs 848 MB of memory" in answers[0][0]["message"]
         assert len(running.frame(30, 44)[1]) > 0
 
 

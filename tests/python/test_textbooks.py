@@ -3,15 +3,18 @@
 import json
 import math
 import re
+from decimal import Decimal, localcontext
 
 import h5py
 import numpy as np
 import pytest
 import yaml
 from conftest import ROOT, run_scene
+from kapitza import session
 
 SCENES = ROOT / "scenes" / "textbooks"
 PAGE = (ROOT / "docs" / "howto" / "textbooks.md").read_text()
+UNDECIDED = 3
 WINDOW = {"velocity": {"min": -2, "max": 2}, "starts": 64}
 
 
@@ -140,6 +143,65 @@ def test_hubbard(kapitza, tmp_path):
     scene["basin"] |= {"theta": {"count": 32}, "velocity": {"min": -3, "max": 5, "count": 32}}
     result, _ = run_scene(kapitza, tmp_path, scene)
     assert result.group("attractors")["period"].values.tolist() == [1] and np.all(result.group("basin")["attractor"].values == 0)
+
+
+def turns_of(scene, theta, velocity, **keys):
+    return session.where(scene, theta, velocity, keys)["turns"].to_numpy(dtype=float, na_value=np.nan)
+
+
+def turned(theta, velocity, phase=0.0, periods=60, steps=400):
+    """The same by Runge-Kutta steps, as the angle at the end is that of a well."""
+
+    def rates(time, state):
+        return np.array([state[1], -0.1 * state[1] - np.sin(state[0]) + np.cos(time)])
+
+    state, step, angles = np.array([theta, velocity], dtype=float), 2 * np.pi / steps, []
+    for i in range(periods * steps):
+        time = phase + i * step
+        a = rates(time, state)
+        b = rates(time + step / 2, state + step / 2 * a)
+        c = rates(time + step / 2, state + step / 2 * b)
+        d = rates(time + step, state + step * c)
+        state = state + step / 6 * (a + 2 * b + 2 * c + d)
+        angles.append(state[0])
+    return round((np.mean(angles[-steps:]) - theta) / (2 * np.pi))
+
+
+def test_the_lakes_of_hubbard(kapitza, tmp_path):
+    """Net turns of the article's starts; of a start of many digits, of one given a turn farther; of cells of any depth as of starts."""
+    scene = scene_of("hubbard")
+    assert turns_of(scene, 0, [1.85, 1.9, 2, -2, 0]).tolist() == [0, 1, 3, -2, 0]
+    assert turns_of(scene, ["6.283185307179586476925286766559", "2 pi"], [2, 2]).tolist() == [3, 3]
+    released = turns_of(scene, 0, [1.85, -1.2], **{"basin.start_phase": 1.0})
+    assert released.tolist() == [turned(0, 1.85, phase=1), turned(0, -1.2, phase=1)]
+    for centre, width, count in (("0.3", "4", 12), ("2.8", "1e-16", 4)):
+        window = {"centre": centre, "width": width, "count": count}, {"centre": "3.21", "width": width, "count": count}
+        scene["basin"] = {"theta": window[0], "velocity": window[1], "turns": True}
+        basin = run_scene(kapitza, tmp_path, scene)[0].group("basin")
+        with localcontext(prec=60):
+            shares = [basin[name].values.tolist() for name in ("theta_offset", "velocity_offset")]
+            starts = [
+                [f"{Decimal(axis['centre']) + Decimal(share) * Decimal(width):.50f}" for share in along]
+                for axis, along in zip(window, shares, strict=True)
+            ]
+        angles, speeds = (values.ravel() for values in np.meshgrid(*starts))
+        decided = basin["evidence"].values.ravel() != UNDECIDED
+        assert np.array_equal(turns_of(scene_of("hubbard"), angles, speeds)[decided], basin["turns"].values.ravel()[decided])
+        assert np.mean(decided) > 0.9
+
+
+@pytest.mark.parametrize("method", ["icm", "direct"])
+def test_every_method_counts_turns(kapitza, tmp_path, method):
+    """Mirrored starts turn the other way; ends that rotate have no number."""
+    scene = yaml.safe_load((ROOT / "scenes" / "blackburn-fig12.yaml").read_text())
+    scene["basin"] |= {"theta": {"count": 60}, "velocity": {"min": -2, "max": 2, "count": 60}, "turns": True}
+    exact, other = (run_scene(kapitza, tmp_path, scene, "--set", f"basin.method={word}", name=word)[0] for word in ("exact", method))
+    basin, same = exact.group("basin"), other.group("basin")
+    turns = basin["turns"].values
+    agree = same["attractor"].values == basin["attractor"].values
+    assert np.mean(agree) > 0.97 and np.mean((same["turns"].values == turns)[agree & ~np.isnan(turns)]) > 0.97
+    assert np.array_equal(turns, -turns[::-1, ::-1], equal_nan=True) and np.nanmax(turns) > 5
+    assert np.array_equal(np.isnan(turns), exact.group("attractors")["winding"].values[basin["attractor"].values] != 0)
 
 
 @pytest.mark.parametrize(("ratio", "all_rest"), [(0.126, True), (0.1285, False)])

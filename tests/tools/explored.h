@@ -34,7 +34,7 @@ static inline kz_dynamics *explored_pendulum(const kz_pendulum *pendulum, const 
     kz_dynamics_coarse_regions(d, max_velocity);
   for (int round = 0; n > 0 && round < 12; round++) {
     kz_dynamics_update(d);
-    kz_dynamics_follow(d, KZ_FOLLOW_DIRECT, n, 128, state, label, periods);
+    kz_dynamics_follow(d, KZ_FOLLOW_DIRECT, n, 128, state, label, periods, NULL);
     int64_t open = 0;
     for (int64_t i = 0; i < n; i++)
       if (label[i] == 0) {

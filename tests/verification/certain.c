@@ -145,7 +145,7 @@ static int32_t end_of(kz_dynamics *d, const double state[2]) {
   double x[2] = {state[0], state[1]};
   int32_t label;
   int64_t periods;
-  kz_dynamics_follow(d, KZ_FOLLOW_DIRECT, 1, MAX_PERIODS, x, &label, &periods);
+  kz_dynamics_follow(d, KZ_FOLLOW_DIRECT, 1, MAX_PERIODS, x, &label, &periods, NULL);
   return label;
 }
 

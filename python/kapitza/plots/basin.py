@@ -3,6 +3,7 @@
     kapitza plot basin blackburn-fig12.h5                              every basin in its colour
     kapitza plot basin blackburn-fig12.h5 --attractor inverted         one basin, black on white, as the papers print it
     kapitza plot basin blackburn-fig12.h5 --quantity settling_time     how long every start takes until its end is certain
+    kapitza plot basin hubbard.h5 --quantity turns                     how often every start turns round before it ends (basin.turns)
 """
 
 import argparse
@@ -24,6 +25,7 @@ from kapitza.plots.dots import mark_strobe_points
 from kapitza.plots.page import BadOption, entitle, lay_out, new_panels
 from kapitza.plots.plane import Plane, label_axes
 from kapitza.plots.skeleton import mark_manifolds, mark_saddles
+from kapitza.plots.turns import draw_turns
 from kapitza.plots.units import add_si
 from kapitza.result import BadFile, Result
 from kapitza.units import drive_unit
@@ -35,8 +37,9 @@ PAGE_WIDTH, PLANE_WIDTH, TITLES = 7.6, 5.3, 0.9  # inches, nearly the same in ev
 
 
 def add_options(parser: argparse.ArgumentParser) -> None:
-    parser.add_argument("--quantity", choices=["attractor", "settling_time", "evidence", "common"],
-                        help="common: the attractor that a cell reaches at all of basin.phases")
+    parser.add_argument("--quantity", choices=["attractor", "settling_time", "turns", "evidence", "common"],
+                        help="turns: net turns until the end, of basin.turns; common: the attractor that a cell reaches at all of "
+                        "basin.phases")
     parser.add_argument("--attractor", metavar="ID|NAME", help="black and white: the basin of one attractor, or of all of one name")
     parser.add_argument("--centre", choices=["down", "inverted"],
                         help="state in the middle of a whole-circle picture (default: down)")
@@ -186,6 +189,10 @@ def draw(result: Result, *, quantity: str = "attractor", attractor: int | str | 
         draw_basins(axes, basin, attractors, centre=centre, dots=False, shade=shade)
     elif quantity == "evidence":
         draw_evidence(axes, basin, centre=centre)
+    elif quantity == "turns":
+        if "turns" not in basin:
+            raise BadFile(f"{result.path}: has no turns; a run with basin.turns: true counts them")
+        draw_turns(axes, basin, centre=centre)
     elif quantity == "common":
         draw_common(axes, basin, attractors, result.group("phases"), centre=centre)
     else:

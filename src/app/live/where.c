@@ -58,6 +58,7 @@ static void print_person(const kz_coordinate start[2], const kz_ending *e, doubl
   print_time("certain", e->end.periods, omega);
   if (e->near_time >= 0) print_time("within 1 deg", e->near_time, omega);
   print_decision(e);
+  if (e->end.turns != KZ_NO_TURNS) printf("turns           %d\n", (int)e->end.turns);
   if (e->entry.row.period == 0) {
     puts("period          none: chaotic");
     return;
@@ -78,11 +79,11 @@ typedef struct {
   const char *word;   /* TEXT: "" = none; FLAG: "true" or "false" */
   const double *list; /* LIST: a number for each strobe point, of which CSV has the first */
 } member;
-enum { MEMBERS = 19, MEMBERS_SI = 4 /* the last ones, which an SI scene adds */ };
+enum { MEMBERS = 20, MEMBERS_SI = 4 /* the last ones, which an SI scene adds */ };
 
 /* Fills list [MEMBERS] and returns their number. */
 static int list_members(const kz_coordinate start[2], const kz_ending *e, double omega, member *list) {
-  const bool settled = e->end.label >= 0;
+  const bool settled = e->end.label >= 0, has_turns = settled && e->end.turns != KZ_NO_TURNS;
   const char *precision = kz_evidence_word(e->end.evidence);
   const member all[MEMBERS] = {
       {"theta", NUMBER, .value = start[0].high},
@@ -100,6 +101,7 @@ static int list_members(const kz_coordinate start[2], const kz_ending *e, double
       {"other_attractor", NUMBER, .value = e->end.other},
       {"other_name", TEXT, .word = e->other_name},
       {"near_time", NUMBER, .value = e->near_time >= 0 ? (double)e->near_time : NAN},
+      {"turns", NUMBER, .value = has_turns ? e->end.turns : NAN},
       {"velocity_rad_per_s", NUMBER, .value = start[1].high * omega},
       {"settling_seconds", NUMBER, .value = settled ? (double)e->end.periods * 2 * M_PI / omega : NAN},
       {"near_seconds", NUMBER, .value = e->near_time >= 0 ? (double)e->near_time * 2 * M_PI / omega : NAN},

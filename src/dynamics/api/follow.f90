@@ -6,7 +6,9 @@ module kz_api_follow
   use kz_api_dynamics, only: dynamics_t, of_handle, borrow_flow, return_flow
   use kz_cycles_cycles, only: attractor_t
   use kz_labels_label, only: follow
+  use kz_labels_orbits, only: decision_t
   use kz_labels_smooth, only: smooth_times
+  use kz_labels_turns, only: count_turns
   use kz_maps_map_table, only: table_map_t, make_table_map
   implicit none
   private
@@ -18,13 +20,14 @@ module kz_api_follow
 
 contains
 
-  subroutine follow_starts(handle, stepping, n, max_periods, state, label, periods) bind(C, name='kz_dynamics_follow')
+  subroutine follow_starts(handle, stepping, n, max_periods, state, label, periods, turns) bind(C, name='kz_dynamics_follow')
     type(c_ptr), value :: handle
     integer(c_int32_t), value :: stepping
     integer(c_int64_t), value :: n, max_periods
     real(dp), intent(inout) :: state(2, n)
     integer(c_int32_t), intent(out) :: label(n)
     integer(c_int64_t), intent(out) :: periods(n)
+    integer(c_int64_t), intent(out), optional :: turns(n)
     type(dynamics_t), pointer :: d
     class(flow_t), allocatable :: flow
     class(map_t), allocatable :: map
@@ -34,14 +37,14 @@ contains
     call borrow_flow(d, flow)
     select case (stepping)
     case (DIRECT)
-      call follow(flow, d%regions, d%attractors, state, label, periods, 1)
+      call follow(flow, d%regions, d%attractors, state, label, periods, 1, turns)
     case (SPARSE, SINGLE)
       flow%single = stepping == SINGLE
-      call follow(flow, d%regions, d%attractors, state, label, periods, apart(d%attractors))
+      call follow(flow, d%regions, d%attractors, state, label, periods, apart(d%attractors), turns)
       flow%single = .false.
     case default
       allocate (map, source=make_table_map(d%table, int(stepping), flow))
-      call follow(map, d%regions, d%attractors, state, label, periods, 1)
+      call follow(map, d%regions, d%attractors, state, label, periods, 1, turns)
     end select
     call leave_open(flow, state, label)
     call return_flow(d, flow)
@@ -113,5 +116,19 @@ contains
     call smooth_times(flow, d%attractors, label, state, time)
     call return_flow(d, flow)
   end subroutine smooth_settling
+
+  subroutine count_all_turns(handle, n, max_periods, decision) bind(C, name='kz_dynamics_count_turns')
+    type(c_ptr), value :: handle
+    integer(c_int64_t), value :: n, max_periods
+    type(decision_t), intent(inout) :: decision(n)
+    type(dynamics_t), pointer :: d
+    class(flow_t), allocatable :: flow, sampling_flow
+
+    d => of_handle(handle)
+    call borrow_flow(d, flow)
+    allocate (sampling_flow, source=d%search%sampling_flow)
+    call count_turns(flow, sampling_flow, d%attractors, max_periods, decision)
+    call return_flow(d, flow)
+  end subroutine count_all_turns
 
 end module kz_api_follow

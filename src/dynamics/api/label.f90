@@ -28,6 +28,8 @@ module kz_api_label
     real(dp) :: velocity(2)
     integer(c_int64_t) :: periods
     real(dp) :: error(3)
+    real(dp) :: from = 0
+    integer(c_int64_t) :: turns = 0
   end type start_t
 
 contains
@@ -71,6 +73,7 @@ contains
     allocate (orbit(size(start)))
     do i = 1, size(start)
       call begin_orbit(start(i), level > LEVEL_DOUBLE, orbit(i))
+      decision(i)%from = angle_of_release(start(i))
     end do
     call label_orbits(d, level, before, early, most, orbit, decision)
   end subroutine label_some
@@ -81,21 +84,33 @@ contains
     logical, intent(in) :: precisely !< to all digits of its pairs, else to those of doubles
     type(orbit_t), intent(out) :: orbit !< the orbit
     real(qp) :: u
+    real(dp) :: turns
 
     if (precisely) then
       u = (real(start%theta(1), qp) + start%theta(2))/PI_QUAD
-      orbit%u = doubles_of(u - 2*anint(u/2), 3)
+      turns = real(anint(u/2), dp)
+      orbit%u = doubles_of(u - 2*turns, 3)
       orbit%v = start%velocity
       orbit%lost = 4*real(epsilon(u), dp)
     else
       orbit%u = [wrapped(start%theta(1)/PI), start%theta(2)/PI, 0.0_dp]
+      turns = 0.5_dp*(start%theta(1)/PI - orbit%u(1))
       orbit%v = start%velocity
       orbit%lost = 2*epsilon(1.0_dp)
     end if
     orbit%lost = orbit%lost*(max(abs(start%theta(1)), PI) + abs(start%velocity(1)))
     orbit%age = start%periods
     orbit%p = start%error
+    orbit%turns = start%turns + nint(turns, c_int64_t)
   end subroutine begin_orbit
+
+  !> The angle at which a start was released, rad.
+  pure function angle_of_release(start) result(from)
+    type(start_t), intent(in) :: start
+    real(dp) :: from
+
+    from = merge(start%theta(1), start%from, start%periods == 0)
+  end function angle_of_release
 
   !> Orbits begin at a level and go down from level to level as their errors grow.
   subroutine label_orbits(d, level, before, early, most, orbit, decision)
@@ -232,13 +247,14 @@ contains
     end do
     call carry_released(d%released, d%search%pendulum, precisely, orbit)
     do i = 1, size(at_release)
-      start(at_release(i)) = start_of(orbit(i), precisely)
+      start(at_release(i)) = start_of(orbit(i), start(at_release(i))%theta(1), precisely)
     end do
   end subroutine release_starts
 
   !> Back to rad, which costs a rounding.
-  pure function start_of(orbit, precisely) result(start)
+  pure function start_of(orbit, from, precisely) result(start)
     type(orbit_t), intent(in) :: orbit
+    real(dp), intent(in) :: from !< angle of its release, rad
     logical, intent(in) :: precisely
     type(start_t) :: start
     real(dp) :: error(3)
@@ -250,6 +266,8 @@ contains
     error = orbit%p
     call add_ellipse(merge(1e-31_dp, 2*epsilon(1.0_dp), precisely)*PI, error)
     start%error = error
+    start%from = from
+    start%turns = orbit%turns
   end function start_of
 
 end module kz_api_label

@@ -22,6 +22,7 @@ module kz_labels_carrier
     real(dp) :: p(3)  !< what its state may be off: theta theta, theta v, v v (rad, rad per drive radian),
     real(dp) :: lost  !< and so much more in any direction
     integer(c_int64_t) :: age !< periods since it was released
+    integer(c_int64_t) :: turns = 0 !< net turns by which its angle on the line is more than u
   end type orbit_t
 
   type :: carrier_t
@@ -43,11 +44,14 @@ module kz_labels_carrier
     type(drive_t), pointer :: drive => null()
     real(dp) :: drive_error = 0
     real(qp), private :: theta(CAPACITY) = 0, velocity(CAPACITY) = 0
+    integer(c_int64_t), private :: turns(CAPACITY) = 0 !< net turns that the lanes of no map have counted
   contains
     !> Puts an orbit into a lane; its error grows by what that costs.
     procedure :: put
     !> The physical state of a lane.
     procedure :: take
+    !> Net turns of a lane of `flow`.
+    procedure :: turns_of
     !> Lanes first .. n become visible after they have been put.
     procedure :: to_map
     procedure :: move
@@ -88,6 +92,7 @@ contains
     real(dp) :: noise
 
     noise = noise_of(self, orbit%v(1))
+    self%turns(lane) = orbit%turns
     select case (self%means)
     case (BY_MAP)
       call self%flow%put(lane, orbit%u(1), orbit%v(1))
@@ -128,12 +133,15 @@ contains
     integer, intent(in) :: lane
     type(orbit_t), intent(inout) :: orbit
 
+    orbit%turns = self%turns(lane)
     select case (self%means)
     case (BY_MAP)
+      orbit%turns = self%turns_of(lane)
       orbit%u = [self%flow%u(lane), 0.0_dp, 0.0_dp]
       orbit%v = [self%flow%v(lane), 0.0_dp]
     case (BY_FINE_MAP)
       call show_fine(self, lane, lane)
+      orbit%turns = orbit%turns + self%fine%turns(lane) + self%shown%turns(lane)
       orbit%u = [self%shown%u(lane), 0.0_dp, 0.0_dp]
       orbit%v = [self%shown%v(lane), 0.0_dp]
     case (BY_PAIRS)
@@ -144,6 +152,15 @@ contains
       orbit%v = pair_of(self%velocity(lane))
     end select
   end subroutine take
+
+  pure function turns_of(self, lane) result(turns)
+    class(carrier_t), intent(in) :: self
+    integer, intent(in) :: lane
+    integer(c_int64_t) :: turns
+
+    turns = self%turns(lane) + self%flow%turns(lane)
+    if (self%means == BY_FINE_MAP) turns = turns + self%fine%turns(lane) + self%shown%turns(lane)
+  end function turns_of
 
   !> The physical states of lanes first .. n of the map with more steps.
   subroutine show_fine(self, first, n)
@@ -192,6 +209,7 @@ contains
     select case (self%means)
     case (BY_FINE_MAP)
       call self%fine%move(from, to)
+      call self%shown%move(from, to)
     case (BY_PAIRS)
       self%pair_u(to, :) = self%pair_u(from, :)
       self%pair_v(to, :) = self%pair_v(from, :)
@@ -200,6 +218,7 @@ contains
       self%velocity(to) = self%velocity(from)
     end select
     call self%flow%move(from, to)
+    self%turns(to) = self%turns(from)
     self%region_error(to) = self%region_error(from)
   end subroutine move
 
@@ -227,20 +246,18 @@ contains
     class(carrier_t), intent(inout) :: self
     integer, intent(in) :: n
     type(pair_lanes_t) :: lanes
-    integer(c_int64_t) :: turns(WIDTH)
 
-    turns = 0
     select case (self%means)
     case (BY_FINE_MAP)
       call self%fine%advance(n)
     case (BY_PAIRS)
       lanes%u = self%pair_u(:WIDTH, :)
       lanes%v = self%pair_v(:WIDTH, :)
-      call advance_pairs(self%pairs, n, lanes, turns)
+      call advance_pairs(self%pairs, n, lanes, self%turns(:WIDTH))
       self%pair_u(:n, :) = lanes%u(:n, :)
       self%pair_v(:n, :) = lanes%v(:n, :)
     case (BY_SERIES)
-      call advance_period(self%drive, self%theta(:n), self%velocity(:n), turns(:n))
+      call advance_period(self%drive, self%theta(:n), self%velocity(:n), self%turns(:n))
     end select
   end subroutine advance_precisely
 

@@ -17,6 +17,7 @@ module kz_labels_label
     real(dp), pointer :: state(:, :) => null()
     integer(c_int32_t), pointer :: label(:) => null()
     integer(c_int64_t), pointer :: periods(:) => null()
+    integer(c_int64_t), pointer :: turns(:) => null()
     integer(c_int64_t) :: most(CAPACITY) = 0 !< periods that the start of a lane is followed at most
     integer :: apart = 1 !< periods from one look at the regions to the next
   contains
@@ -31,7 +32,7 @@ contains
   !> Follows start i for periods(i) at most. label(i) = attractor (from 1) that it ends on, 0 where it has not settled;
   !> periods(i) becomes its first period inside a trapping region, or the periods followed. state: physical starts (half-turns,
   !> rad per drive radian); it becomes the states where the orbits were left, in the map's coordinates.
-  subroutine follow(map, regions, attractors, state, label, periods, apart)
+  subroutine follow(map, regions, attractors, state, label, periods, apart, turns)
     class(map_t), intent(inout), target :: map !< what moves the states by one period
     type(regions_t), intent(in), target :: regions !< the trapping regions
     type(attractor_t), intent(in), target :: attractors(:) !< the catalogue, numbered from 1
@@ -39,10 +40,12 @@ contains
     integer(c_int32_t), intent(out), target :: label(:) !< attractor from 1, 0 = not settled
     integer(c_int64_t), intent(inout), target :: periods(:) !< most periods, in; first period inside a trapping region, out
     integer, intent(in) :: apart !< periods from one look at the regions to the next: the first period inside may be later by less than that
+    integer(c_int64_t), intent(out), target, optional :: turns(:) !< net turns by which the angle of a last state is more on the line
     type(starts_t) :: starts
 
     starts = starts_t(map=map, regions=regions, attractors=attractors, state=state, label=label, periods=periods, apart=apart, &
                       items=size(label))
+    if (present(turns)) starts%turns => turns
     call starts%run()
   end subroutine follow
 
@@ -93,6 +96,7 @@ contains
       self%label(i) = self%region(lane)
       self%periods(i) = self%age(lane)
       self%state(:, i) = [self%map%u(lane), self%map%v(lane)]
+      if (associated(self%turns)) self%turns(i) = self%map%turns(lane)
     end associate
   end function is_done
 

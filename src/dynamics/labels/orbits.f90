@@ -32,6 +32,7 @@ module kz_labels_orbits
     integer(c_int16_t) :: other = 0
     integer(c_int8_t) :: evidence = 0
     integer(c_int8_t) :: next = 0           !< the level that may decide a doubtful orbit
+    integer(c_int32_t) :: turns = 0         !< net turns until its end (count_turns)
   end type label_t
 
   !> kz_decision of dynamics.h: a label with the orbit behind it.
@@ -41,6 +42,8 @@ module kz_labels_orbits
     real(dp) :: error = 0                 !< how far the orbit may be off then, rad
     integer(c_int64_t) :: age = 0         !< periods after which it was left
     real(dp) :: state(2) = 0              !< where it was then, in the map's coordinates
+    integer(c_int64_t) :: turns = 0       !< net turns by which its angle on the line is then more than state(1)
+    real(dp) :: from = 0                  !< angle of the release on the line, rad
   end type decision_t
 
   !> What comes after a level. The states of a doubtful orbit are followed on, with the growth of its error by the tangents alone, until they
@@ -280,7 +283,8 @@ contains
     if (label == DOUBTFUL) next = int(merge(self%outlook%after, self%outlook%next, is_beyond(self, lane)), c_int8_t)
     self%decision(self%number(lane)) = decision_t(label_t(periods, int(label, c_int16_t), next=next), &
                                                   merge(self%level, self%outlook%none, decided), error, self%age(lane), &
-                                                  [self%carrier%flow%u(lane), self%carrier%flow%v(lane)])
+                                                  [self%carrier%flow%u(lane), self%carrier%flow%v(lane)], &
+                                                  self%carrier%turns_of(lane), self%decision(self%number(lane))%from)
   end subroutine note_end
 
   !> The first region that holds the state; a later one of another attractor counts in its place, but not for a guess.

@@ -5,7 +5,7 @@
 
 #include "step.h"
 
-enum { FEWEST_STEPS = 14, HALVINGS = 10, SERIES = 11, STROBE = 24 /* characters of a number of drive periods */ };
+enum { FEWEST_STEPS = 14, HALVINGS = 10, SERIES = 11, COUNTS = 48 /* characters of two whole numbers */ };
 
 struct kz_arbitrary {
   kz_pendulum pendulum;
@@ -85,6 +85,7 @@ void kz_arbitrary_free(kz_arbitrary *o) {
 
 static void copy_place(const kz_place *from, kz_place *to) {
   to->strobe = from->strobe;
+  to->turns = from->turns;
   kz_number_set(&to->theta, &from->theta);
   kz_number_set(&to->velocity, &from->velocity);
   for (int axis = 0; axis < 2; axis++) {
@@ -114,6 +115,7 @@ static bool advance_in_steps(kz_arbitrary *o, int64_t bits, int degree, kz_jet *
 static void wrap(kz_arbitrary *o, int64_t bits) {
   const double turns = rint(kz_number_double(&o->place.theta) / (2 * M_PI));
   if (turns == 0) return;
+  o->place.turns += (int64_t)turns;
   KZ_NUMBER(angle);
   KZ_NUMBER(factor);
   kz_number_two_pi(&angle, o->bits + 40);
@@ -195,6 +197,10 @@ void kz_arbitrary_read(const kz_arbitrary *o, double theta[2], double velocity[2
   read_pair(&o->place.velocity, velocity);
 }
 
+int64_t kz_arbitrary_turns(const kz_arbitrary *o) {
+  return o->place.turns;
+}
+
 void kz_arbitrary_read_quads(const kz_arbitrary *o, __float128 state[2]) {
   state[0] = kz_number_quad(&o->place.theta);
   state[1] = kz_number_quad(&o->place.velocity);
@@ -202,22 +208,24 @@ void kz_arbitrary_read_quads(const kz_arbitrary *o, __float128 state[2]) {
 
 size_t kz_arbitrary_size(const kz_arbitrary *o) {
   enum { REST = 128 }; /* exponents, signs, blanks */
-  return 2 * ((size_t)(o->bits + 64) / 4 + REST + STROBE);
+  return 2 * ((size_t)(o->bits + 64) / 4 + REST + COUNTS);
 }
 
 void kz_arbitrary_write(const kz_arbitrary *o, char *text) {
   const size_t half = kz_arbitrary_size(o) / 2;
   memset(text, 0, 2 * half);
   kz_number_write(&o->place.theta, text, half);
-  kz_number_write(&o->place.velocity, text + half, half - STROBE);
-  snprintf(text + 2 * half - STROBE, STROBE, "%lld", (long long)o->place.strobe);
+  kz_number_write(&o->place.velocity, text + half, half - COUNTS);
+  snprintf(text + 2 * half - COUNTS, COUNTS, "%lld %lld", (long long)o->place.strobe, (long long)o->place.turns);
 }
 
 kz_status kz_arbitrary_restore(kz_arbitrary *o, const char *text) {
   const size_t half = kz_arbitrary_size(o) / 2;
   if (!kz_number_read(text, &o->place.theta) || !kz_number_read(text + half, &o->place.velocity))
     return kz_fail(KZ_FAILED, "the state of an orbit that was kept cannot be read");
-  o->place.strobe = atoll(text + 2 * half - STROBE);
+  char *second;
+  o->place.strobe = strtoll(text + 2 * half - COUNTS, &second, 10);
+  o->place.turns = strtoll(second, NULL, 10);
   return KZ_OK;
 }
 

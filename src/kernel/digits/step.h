@@ -45,6 +45,7 @@ typedef struct {
   kz_number angle[2], rate[2]; /* derivatives of theta and v by x and y, */
   int64_t tangent_bits;        /* to so many bits */
   int64_t strobe;              /* drive periods since the strobe at or before the release */
+  int64_t turns;               /* net turns that were taken out of theta since the release */
   int columns;                 /* 2, or 1: of x alone */
 } kz_place;
 

@@ -91,7 +91,7 @@ static void find_distances(const reference_job *h, int64_t n, const int64_t *cel
       kz_start_state(kz_axis_centre(&plan->theta, f % plan->theta.count + by[0]),
                      kz_axis_centre(&plan->velocity, f / plan->theta.count + by[1]), state + 2 * i);
     }
-    kz_dynamics_follow(h->dynamics, KZ_FOLLOW_DIRECT, 4 * n, plan->max_periods, state, label, periods);
+    kz_dynamics_follow(h->dynamics, KZ_FOLLOW_DIRECT, 4 * n, plan->max_periods, state, label, periods, NULL);
     for (int64_t i = 0; i < 4 * n; i++)
       if (label[i] != labels[i / 4].end.label) labels[i / 4].distance = (uint8_t)distance;
   }

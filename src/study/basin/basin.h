@@ -67,10 +67,11 @@ struct kz_chunks {
   kz_doubt_sample *sample;   /* out: its labels; NULL = none */
   kz_counts counts;          /* in: 0; out: of all cells */
   kz_transients *transients; /* in: none; out: of all cells, on rank 0; NULL: not needed */
-  int16_t *ids;              /* one tile; this and the next three are buffers */
+  int16_t *ids;              /* one tile; this and the next four are buffers */
   uint32_t *periods;
   uint8_t *evidence;
-  int16_t *others;   /* second candidates */
+  int16_t *others; /* second candidates */
+  int32_t *turns;
   int64_t *cells_of; /* [attractors] number of cells */
   int n_parts;
   kz_part parts[KZ_MOST_PARTS];
@@ -78,7 +79,7 @@ struct kz_chunks {
 
 /* Declares the variables of the cells; their dimensions must exist. Rank 0. */
 kz_status kz_chunks_declare(const kz_basin_plan *plan, const kz_tiles *tiles, kz_store *store);
-/* Writes all labels and counts them; it uses the last five fields for itself. Collective. */
+/* Writes all labels and counts them; it uses the last six fields for itself. Collective. */
 kz_status kz_cells_write(kz_chunks *chunks);
 
 /* ---- everything else in the file and the summary ---- */

@@ -6,13 +6,12 @@
 
 #include "basin.h"
 
-enum { VARIABLES = 4 };
-static const char *const variables[VARIABLES] = {"attractor", "settling_time", "evidence", "other_attractor"};
-static const size_t items[VARIABLES] = {sizeof(int16_t), sizeof(uint32_t), sizeof(uint8_t), sizeof(int16_t)};
+enum { OTHER = 3, TURNS = 4, VARIABLES = 5 };
+static const char *const variables[VARIABLES] = {"attractor", "settling_time", "evidence", "other_attractor", "turns"};
+static const size_t items[VARIABLES] = {sizeof(int16_t), sizeof(uint32_t), sizeof(uint8_t), sizeof(int16_t), sizeof(int32_t)};
 
-/* The last one is of method exact. */
-static int count_variables(const kz_basin_plan *plan) {
-  return plan->method == KZ_METHOD_EXACT ? VARIABLES : VARIABLES - 1;
+static bool has_variable(const kz_basin_plan *plan, int v) {
+  return (v != OTHER || plan->method == KZ_METHOD_EXACT) && (v != TURNS || plan->turns);
 }
 
 /* A chunk of each variable, packed, and settling times as they are; a message has one or two of them. */
@@ -46,10 +45,11 @@ static void count(kz_chunks *c, int64_t tile) {
 static kz_status pack(const kz_chunks *c, int64_t tile, char *message, size_t *bytes) {
   const kz_tiles *tiles = &c->labelling->tiles;
   const size_t n = (size_t)kz_tile_capacity(tiles);
-  const void *const arrays[VARIABLES] = {c->ids, c->periods, c->evidence, c->others};
+  const void *const arrays[VARIABLES] = {c->ids, c->periods, c->evidence, c->others, c->turns};
   head h = {.tile = tile};
   char *end = message + *bytes + sizeof h;
-  for (int v = 0; v < count_variables(c->labelling->plan); v++) {
+  for (int v = 0; v < VARIABLES; v++) {
+    if (!has_variable(c->labelling->plan, v)) continue;
     if ((h.bytes[v] = kz_pack_into(arrays[v], n, items[v], true, end)) == 0)
       return kz_fail(KZ_FAILED, "no memory to pack %zu cells", n);
     end += h.bytes[v];
@@ -96,6 +96,7 @@ static void fill(kz_chunks *c, int64_t tile, bool image) {
     ids[i] = id;
     others[i] = id_of(c, cell->other, mirrored);
     periods[i] = (uint32_t)cell->periods;
+    c->turns[i] = id < 0 || cell->turns == KZ_NO_TURNS ? KZ_NO_TURNS : mirrored ? -cell->turns : cell->turns;
   }
 }
 
@@ -114,9 +115,13 @@ static kz_status take_labels(kz_chunks *c, int64_t tile) {
     if (!c->parts[p].part->take) continue;
     KZ_FREED kz_label *own = memcpy(kz_malloc((size_t)n * sizeof *own), c->labelling->cell, (size_t)n * sizeof *own);
     KZ_TRY(c->parts[p].part->take(c->parts[p].own, tile, c->labelling->cell));
-    for (int64_t i = 0; i < n; i++)
-      if (own[i].label != c->labelling->cell[i].label && own[i].evidence != KZ_UNDECIDED)
+    for (int64_t i = 0; i < n; i++) {
+      kz_label *cell = c->labelling->cell + i;
+      const bool differs = own[i].label != cell->label, was_open = own[i].evidence == KZ_UNDECIDED;
+      if (differs || (was_open && cell->evidence != KZ_UNDECIDED)) cell->turns = KZ_NO_TURNS;
+      if (differs && !was_open)
         c->counts.changed += tiles->unique_cells < tiles->cells && 2 * (first + i) + 1 < tiles->cells ? 2 : 1;
+    }
   }
   return KZ_OK;
 }
@@ -146,8 +151,9 @@ static kz_status make(void *context, const kz_local_record *piece, void *message
 static kz_status write_chunks(const kz_chunks *c, const head *h, const char *packed) {
   const kz_tiles *tiles = &c->labelling->tiles;
   const int64_t place[] = {h->tile / tiles->across * tiles->chunk[0], h->tile % tiles->across * tiles->chunk[1]};
-  for (int v = 0; v < count_variables(c->labelling->plan); packed += h->bytes[v++])
-    KZ_TRY(kz_store_chunk(c->store, "basin", variables[v], place, packed, h->bytes[v]));
+  for (int v = 0; v < VARIABLES; packed += h->bytes[v++])
+    if (has_variable(c->labelling->plan, v))
+      KZ_TRY(kz_store_chunk(c->store, "basin", variables[v], place, packed, h->bytes[v]));
   return KZ_OK;
 }
 
@@ -166,8 +172,9 @@ static kz_status take(void *context, const void *message, size_t bytes) {
 }
 
 kz_status kz_chunks_declare(const kz_basin_plan *plan, const kz_tiles *tiles, kz_store *store) {
-  for (int v = 0; v < count_variables(plan); v++) KZ_TRY(kz_store_chunked(store, "basin", variables[v], tiles->chunk));
-  return KZ_OK;
+  for (int v = 0; v < VARIABLES; v++)
+    if (has_variable(plan, v)) KZ_TRY(kz_store_chunked(store, "basin", variables[v], tiles->chunk));
+  return plan->turns ? kz_store_missing(store, "basin", "turns", KZ_NO_TURNS) : KZ_OK;
 }
 
 /* Boxes and pairs that tiles cut: rank 0 reads whole rows back, as many as a tile has or a few more. */
@@ -206,6 +213,7 @@ kz_status kz_cells_write(kz_chunks *c) {
   KZ_FREED int16_t *ids = c->ids = kz_calloc(n + 1, sizeof *ids), *others = c->others = kz_calloc(n + 1, sizeof *others);
   KZ_FREED uint32_t *periods = c->periods = kz_calloc(n + 1, sizeof *periods);
   KZ_FREED uint8_t *evidence = c->evidence = kz_calloc(n + 1, sizeof *evidence);
+  KZ_FREED int32_t *turns = c->turns = kz_calloc(n + 1, sizeof *turns);
   KZ_FREED int64_t *cells_of = c->cells_of = kz_calloc((size_t)c->catalogue->count + 1, sizeof *cells_of);
   return deliver(c);
 }

@@ -43,6 +43,8 @@ static const kz_key keys[] = {
     INTEGER("basin.attractors.max_period", 1, 512, "48", max_period, "Longest period of the search."),
     INTEGER("basin.attractors.seed", 0, 9007199254740992.0, "1", seed,
             "Number that chooses the starts; another seed gives other starts."),
+    BOOLEAN("basin.turns", "false", turns,
+            "Count the net turns of each cell until an oscillation on which it ends: variable `turns`."),
     REAL("basin.accuracy", "", 0.5, 0.999999, "", accuracy,
          "Share of right labels, instead of method, icm and numerics: the program takes the cheapest setting whose labels "
          "agree with a sample in quad precision to this share (95 % bound), or method exact if there is none."),

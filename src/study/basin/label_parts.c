@@ -21,6 +21,7 @@ void kz_window_labels_start(kz_window_labels *l) {
   l->labeller.way = kz_way_of(l->plan->method, l->plan->interpolation);
   l->labeller.run = l->run;
   l->labeller.tile = l->tile;
+  l->labeller.turns = l->plan->turns;
 }
 
 size_t kz_tile_labels_bytes(const kz_window_labels *l) {

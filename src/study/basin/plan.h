@@ -27,6 +27,7 @@ struct kz_basin_plan {
   int64_t starts;
   int64_t max_period;
   int64_t seed;
+  bool turns;      /* count the net turns of each cell */
   bool unmirrored; /* the pendulum has no mirror symmetry */
   double accuracy; /* NaN, or the share of right labels for which the program chooses method, table and numerics */
   bool has_boundary;

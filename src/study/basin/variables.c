@@ -18,6 +18,7 @@ const kz_variable kz_basin_variables[] = {
     {"settling_time", KZ_UINT32, {"velocity", "theta"}, PERIODS, "time after which it is certain where the start ends (inside a trapping region)"},
     {"evidence", KZ_UINT8, {"velocity", "theta"}, NONE, "how the label is known", {EVIDENCE}},
     {"other_attractor", KZ_INT16, {"velocity", "theta"}, NONE, "id of the second candidate of an undecided cell; -1 = none"},
+    {"turns", KZ_INT32, {"velocity", "theta"}, NONE, "net turns until the end, counterclockwise +"},
     {0},
 };
 

@@ -32,7 +32,7 @@ static void find_others(kz_dynamics *dynamics, int64_t max_periods, int64_t n, c
     const int64_t n_open = left;
     for (int64_t i = 0; i < n_open; i++) memcpy(from + 2 * i, state + 2 * open[i], 2 * sizeof *from);
     step_aside(n_open, from, places, end);
-    kz_dynamics_follow(dynamics, KZ_FOLLOW_DIRECT, 4 * n_open, max_periods, end, found, late);
+    kz_dynamics_follow(dynamics, KZ_FOLLOW_DIRECT, 4 * n_open, max_periods, end, found, late, NULL);
     left = 0;
     for (int64_t i = 0; i < n_open; i++) {
       const int64_t own = open[i];
@@ -47,16 +47,24 @@ void kz_states_of(int64_t n, const kz_start *start, double *state) {
   for (int64_t i = 0; i < n; i++) kz_start_state(start[i].theta[0], start[i].velocity[0], state + 2 * i);
 }
 
+kz_decision kz_decision_by_state(const kz_start *start, int32_t label, int64_t periods, const double state[2], int64_t turns) {
+  return (kz_decision){.end = {.periods = start->periods + periods, .label = (int16_t)label},
+                       .level = KZ_LEVELS,
+                       .error = NAN,
+                       .state = {state[0], state[1]},
+                       .turns = start->turns + llrint(start->theta[0] / (2 * M_PI)) + turns,
+                       .from = start->periods > 0 ? start->from : start->theta[0]};
+}
+
 static void find_some(kz_dynamics *dynamics, int64_t max_periods, bool others, int64_t n, const kz_start *start,
                       kz_decision *decision) {
   double state[2 * BATCH] = {0}, end[2 * BATCH];
   int32_t label[BATCH];
-  int64_t periods[BATCH];
+  int64_t periods[BATCH], turns[BATCH];
   kz_states_of(n, start, state);
   memcpy(end, state, sizeof state);
-  kz_dynamics_follow(dynamics, KZ_FOLLOW_DIRECT, n, max_periods, end, label, periods);
-  for (int64_t i = 0; i < n; i++)
-    decision[i] = (kz_decision){{start[i].periods + periods[i], (int16_t)label[i]}, .level = KZ_LEVELS, .error = NAN};
+  kz_dynamics_follow(dynamics, KZ_FOLLOW_DIRECT, n, max_periods, end, label, periods, turns);
+  for (int64_t i = 0; i < n; i++) decision[i] = kz_decision_by_state(start + i, label[i], periods[i], end + 2 * i, turns[i]);
   if (others) find_others(dynamics, max_periods, n, state, label, decision);
 }
 

@@ -9,6 +9,9 @@
  * and, as second candidate, the attractor of the nearest start that ends elsewhere. */
 enum { KZ_OPEN_DOUBTFUL, KZ_OPEN_BY_STATES, KZ_OPEN_IN_QUADS, KZ_OPEN_CANDIDATES };
 
+/* A decision by the state alone: the label of a start that was followed for so many periods to a state, with so many turns. */
+kz_decision kz_decision_by_state(const kz_start *start, int32_t label, int64_t periods, const double state[2], int64_t turns);
+
 /* The states of n starts: state [n][2], half-turns and velocity. */
 void kz_states_of(int64_t n, const kz_start *start, double *state);
 

@@ -84,11 +84,12 @@ static kz_status follow_states(const kz_labeller *l, int32_t stepping, const bat
   KZ_FREED double *state = kz_malloc(2 * (size_t)b->n * sizeof *state);
   KZ_FREED int32_t *label = kz_malloc((size_t)b->n * sizeof *label);
   KZ_FREED int64_t *periods = kz_malloc((size_t)b->n * sizeof *periods);
+  KZ_FREED int64_t *turns = kz_malloc((size_t)b->n * sizeof *turns);
   KZ_TRY(starts_of(l, KZ_LEVEL_DOUBLE, b->n, b->item, b->first, b->start));
   kz_states_of(b->n, b->start, state);
-  kz_dynamics_follow(l->dynamics, stepping, b->n, l->max_periods, state, label, periods);
+  kz_dynamics_follow(l->dynamics, stepping, b->n, l->max_periods, state, label, periods, turns);
   for (int64_t i = 0; i < b->n; i++)
-    b->decision[i] = (kz_decision){.end = {.label = (int16_t)label[i], .periods = b->start[i].periods + periods[i]}};
+    b->decision[i] = kz_decision_by_state(b->start + i, label[i], periods[i], state + 2 * i, turns[i]);
   return KZ_OK;
 }
 
@@ -113,6 +114,7 @@ static uint8_t evidence_of(const kz_labeller *l, int32_t level, const kz_decisio
 
 static kz_status label_batch(const kz_labeller *l, int32_t level, int32_t before, const batch *b, kz_label *label) {
   KZ_TRY(decide_batch(l, level, before, b));
+  if (l->turns) kz_dynamics_count_turns(l->dynamics, b->n, l->max_periods, b->decision);
   for (int64_t i = 0; i < b->n; i++) {
     const kz_decision *d = b->decision + i;
     label[i] = d->end;

@@ -44,6 +44,7 @@ typedef struct {
   const kz_run *run; /* its ranks share the items, in kept stages; NULL = this process does all */
   const char *stage; /* name of the first stage; NULL = that of the level */
   int64_t tile;      /* most items that are followed together; 0 = as many as the level takes */
+  bool turns;        /* count the net turns of each item too */
 } kz_labeller;
 
 /* The way of a method (KZ_METHOD_EXACT, ...) with an interpolation (KZ_LINEAR, ...). */

@@ -53,7 +53,7 @@ static kz_status follow_starts(void *context, int64_t first, int64_t n, void *re
   followed *out = record;
   int64_t periods[TILE];
   for (int64_t i = 0; i < n; i++) memcpy(out->state + 2 * i, f->state + 2 * f->pending[first + i], 2 * sizeof(double));
-  kz_dynamics_follow(f->dynamics, KZ_FOLLOW_DIRECT, n, f->periods, out->state, out->label, periods);
+  kz_dynamics_follow(f->dynamics, KZ_FOLLOW_DIRECT, n, f->periods, out->state, out->label, periods, NULL);
   return KZ_OK;
 }
 

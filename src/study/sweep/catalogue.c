@@ -66,7 +66,7 @@ static kz_status follow_starts(void *context, int64_t first, int64_t n, void *re
   uint32_t *time = record;
   int32_t label[TILE];
   int64_t periods[TILE];
-  kz_dynamics_follow(f->dynamics, KZ_FOLLOW_DIRECT, n, f->max_periods, f->start + 2 * first, label, periods);
+  kz_dynamics_follow(f->dynamics, KZ_FOLLOW_DIRECT, n, f->max_periods, f->start + 2 * first, label, periods, NULL);
   for (int64_t i = 0; i < n; i++) time[i] = label[i] > 0 ? (uint32_t)periods[i] : KZ_NOT_ENDED;
   return KZ_OK;
 }

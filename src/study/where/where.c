@@ -39,6 +39,7 @@ static kz_labeller labeller_of(const kz_question *q) {
   return (kz_labeller){.dynamics = q->dynamics,
                        .max_periods = q->max_periods,
                        .way = KZ_BY_LEVELS,
+                       .turns = true,
                        .open = KZ_OPEN_CANDIDATES,
                        .start = start_of,
                        .decide = decide,

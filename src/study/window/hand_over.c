@@ -116,8 +116,8 @@ void kz_hand_over_change(const kz_hand_over *h, double theta, double velocity, d
 }
 
 void kz_hand_over_start(const kz_hand_over *h, __float128 theta, __float128 velocity, kz_start *start) {
-  *start = (kz_start){.periods = h->periods, .error = {h->error * h->error, 0, h->error * h->error}};
   const kz_image *image = h->image;
+  *start = (kz_start){.periods = h->periods, .error = {h->error * h->error, 0, h->error * h->error}, .turns = image->turns};
   if (h->in_quads) {
     add_quad(image->theta, in_quads(image->jet.linear[0], image->jet.bent[0], theta, velocity), start->theta);
     add_quad(image->velocity, in_quads(image->jet.linear[1], image->jet.bent[1], theta, velocity), start->velocity);

@@ -152,6 +152,7 @@ static kz_status add_image(kz_images *images) {
   next->jet = last->jet;
   KZ_TRY(kz_arbitrary_advance(images->orbit, bits, 3, &next->jet));
   kz_arbitrary_read(images->orbit, next->theta, next->velocity);
+  next->turns = kz_arbitrary_turns(images->orbit);
   next->lost = last->lost + (double)(exp2l((long double)(4 - bits)) / size_of(&next->jet));
   images->n++;
   if (images->digits > 0) mark(images);

@@ -37,6 +37,7 @@ static void carry(const kz_jet *tangent, long double own, ellipse *e) {
 typedef struct {
   kz_arbitrary *orbit;
   int64_t bits, periods, released; /* released: periods after which the drive has its final form */
+  double from;                     /* angle of the release, rad */
   ellipse error;
 } path;
 
@@ -64,7 +65,9 @@ static kz_status advance(path *p) {
 static kz_start start_of(const path *p) {
   const long double unit = unit_of(p) * unit_of(p);
   kz_start start = {.periods = p->periods,
-                    .error = {(double)(unit * p->error.xx), (double)(unit * p->error.xy), (double)(unit * p->error.yy)}};
+                    .error = {(double)(unit * p->error.xx), (double)(unit * p->error.xy), (double)(unit * p->error.yy)},
+                    .from = p->from,
+                    .turns = kz_arbitrary_turns(p->orbit)};
   kz_arbitrary_read(p->orbit, start.theta, start.velocity);
   return start;
 }
@@ -104,6 +107,7 @@ kz_status kz_own_orbit_decide(kz_dynamics *dynamics, const kz_parameters *parame
         .bits = bits < MOST_BITS ? bits : MOST_BITS, .released = kz_release_strobes(&parameters->release), .error = {1, 0, 1}};
     p.orbit = kz_arbitrary_create(&parameters->pendulum, start, p.bits);
     kz_arbitrary_release(p.orbit, &parameters->release);
+    p.from = start_of(&p).theta[0];
     status = follow(&p, dynamics, max_periods, decision);
     kz_arbitrary_free(p.orbit);
     if (bits >= MOST_BITS) break;

@@ -49,6 +49,7 @@ static kz_status start_cell(void *context, int64_t cell, int32_t level, kz_start
   const int64_t column = cell % s->plan->theta.count, row = cell / s->plan->theta.count;
   if (s->images) {
     kz_hand_over_start(&s->hand_over[level], s->place[0][column], s->place[1][row], start);
+    start->from = kz_axis_centre(&s->plan->theta, column);
     return KZ_OK;
   }
   *start = (kz_start){0}; /* in place: a copy of what was just written waits for it */

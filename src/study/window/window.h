@@ -11,7 +11,8 @@
 typedef struct {
   double theta[2], velocity[2]; /* pairs: rad in [-pi, pi], rad per drive radian */
   kz_jet jet;
-  double lost; /* error of the centre, relative to the present size of the window */
+  int64_t turns; /* net turns by which the angle of the centre on the line is more */
+  double lost;   /* error of the centre, relative to the present size of the window */
 } kz_image;
 
 typedef struct {

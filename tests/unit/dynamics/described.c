@@ -113,7 +113,7 @@ static void carry(kz_dynamics *dynamics, double end[2]) {
   int64_t periods;
   end[0] = 0.3;
   end[1] = 0.4;
-  kz_dynamics_follow(dynamics, KZ_FOLLOW_DIRECT, 1, 3, end, &label, &periods);
+  kz_dynamics_follow(dynamics, KZ_FOLLOW_DIRECT, 1, 3, end, &label, &periods, NULL);
 }
 
 /* How far the map of a pendulum that was moved is from that of one made anew. */

@@ -63,8 +63,8 @@ TEST(test_interpolation) {
       memcpy(y, x, sizeof y);
       kz_dynamics_coarse_regions(d, 3);
       with_table(d, (fine ? 400 : 200) + 1, 3);
-      kz_dynamics_follow(d, KZ_FOLLOW_DIRECT, N, 1, x, label, periods);
-      kz_dynamics_follow(d, points, N, 1, y, label, periods);
+      kz_dynamics_follow(d, KZ_FOLLOW_DIRECT, N, 1, x, label, periods, NULL);
+      kz_dynamics_follow(d, points, N, 1, y, label, periods, NULL);
       for (int i = 0; i < N; i++) {
         double du = x[2 * i] - y[2 * i];
         error[fine] += fabs(du - 2 * rint(du / 2)) + fabs(x[2 * i + 1] - y[2 * i + 1]);
@@ -92,9 +92,9 @@ TEST(test_regions_know_no_order) {
   kz_dynamics_fine_regions(b, CELLS, 3);
   assert_true(kz_dynamics_trapped_share(a) == kz_dynamics_trapped_share(b));
   kz_dynamics_starts(&WINDOW, 3, N, x);
-  kz_dynamics_follow(a, KZ_FOLLOW_DIRECT, N, 1, x, label_a, periods);
+  kz_dynamics_follow(a, KZ_FOLLOW_DIRECT, N, 1, x, label_a, periods, NULL);
   kz_dynamics_starts(&WINDOW, 3, N, x);
-  kz_dynamics_follow(b, KZ_FOLLOW_DIRECT, N, 1, x, label_b, periods);
+  kz_dynamics_follow(b, KZ_FOLLOW_DIRECT, N, 1, x, label_b, periods, NULL);
   for (int i = 0; i < N; i++) {
     assert_int_equal(label_a[i], label_b[i]);
     trapped += label_a[i] > 0;
@@ -133,7 +133,7 @@ TEST(test_chaos) {
   assert_int_equal(row.period, 0);
   assert_int_equal(row.symmetric, 1);
   assert_true(row.lyapunov > 0.8 && row.lyapunov < 0.9 && row.lyapunov_error < 0.02);
-  kz_dynamics_follow(d, KZ_FOLLOW_DIRECT, N, 2000, x, label, periods);
+  kz_dynamics_follow(d, KZ_FOLLOW_DIRECT, N, 2000, x, label, periods, NULL);
   for (int i = 0; i < N; i++) assert_int_equal(label[i], 1);
   kz_dynamics_starts(&WINDOW, 1, N, x); /* errors grow on it, but who comes to it stays */
   for (int i = 0; i < N; i++) x[2 * i] *= M_PI;
@@ -144,7 +144,7 @@ TEST(test_chaos) {
   assert_in_range(doubtful, 0, 1);
   with_table(d, 200, TOP);
   kz_dynamics_starts(&WINDOW, 1, N, x);
-  kz_dynamics_follow(d, KZ_FOLLOW_QUINTIC, N, 2000, x, label, periods);
+  kz_dynamics_follow(d, KZ_FOLLOW_QUINTIC, N, 2000, x, label, periods, NULL);
   for (int i = 0; i < N; i++) assert_int_equal(label[i], 1);
   kz_dynamics_free(d);
 }
@@ -160,13 +160,13 @@ TEST(test_sparse_looks) {
   int64_t periods[2][N], later = 0, settled = 0;
   kz_dynamics_coarse_regions(d, 3);
   kz_dynamics_starts(&WINDOW, 1, N, x[0]);
-  kz_dynamics_follow(d, KZ_FOLLOW_DIRECT, N, 1000, x[0], label[0], periods[0]);
+  kz_dynamics_follow(d, KZ_FOLLOW_DIRECT, N, 1000, x[0], label[0], periods[0], NULL);
   for (int first = 0; first < N; first += 64) find_cycles(d, 64, x[0] + 2 * first, 0.02);
   assert_true(kz_dynamics_count(d) >= (PART > 1 ? 4 : 6));
   kz_dynamics_update(d);
   for (int way = 0; way < 2; way++) {
     kz_dynamics_starts(&WINDOW, 2, N, x[way]);
-    kz_dynamics_follow(d, way == 0 ? KZ_FOLLOW_DIRECT : KZ_FOLLOW_SPARSE, N, MOST, x[way], label[way], periods[way]);
+    kz_dynamics_follow(d, way == 0 ? KZ_FOLLOW_DIRECT : KZ_FOLLOW_SPARSE, N, MOST, x[way], label[way], periods[way], NULL);
   }
   for (int i = 0; i < N; i++) {
     if (label[0][i] == 0 || periods[0][i] > MOST - LATER) continue;
@@ -194,7 +194,7 @@ TEST(test_single_precision) {
     for (int way = 0; way < 3; way++) {
       kz_dynamics_starts(&WINDOW, 5, N, x[way]);
       for (int i = 0; way == 2 && i < 2 * N; i++) x[2][i] = -x[2][i];
-      kz_dynamics_follow(d, way == 0 ? KZ_FOLLOW_DIRECT : KZ_FOLLOW_SINGLE, N, 1, x[way], label, periods);
+      kz_dynamics_follow(d, way == 0 ? KZ_FOLLOW_DIRECT : KZ_FOLLOW_SINGLE, N, 1, x[way], label, periods, NULL);
     }
     for (int i = 0; i < 2 * N; i += 2) {
       farthest = fmax(farthest, hypot(M_PI * remainder(x[1][i] - x[0][i], 2), x[1][i + 1] - x[0][i + 1]));

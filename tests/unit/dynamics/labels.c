@@ -21,8 +21,8 @@ TEST(test_mirrored_labels) {
     kz_window wide = {-M_PI, M_PI, -6, 6};
     kz_dynamics_starts(&wide, 5, N, x);
     for (int i = 0; i < 2 * N; i++) y[i] = -x[i];
-    kz_dynamics_follow(d, ways[way], N, 2000, x, a, pa);
-    kz_dynamics_follow(d, ways[way], N, 2000, y, b, pb);
+    kz_dynamics_follow(d, ways[way], N, 2000, x, a, pa, NULL);
+    kz_dynamics_follow(d, ways[way], N, 2000, y, b, pb, NULL);
     for (int i = 0; i < N; i++) {
       kz_attractor row;
       double theta[12], velocity[12];
@@ -86,13 +86,13 @@ TEST(test_processed) {
     kz_dynamics_starts(&WINDOW, 3, N, x);
     memcpy(y, x, sizeof x);
     for (int i = 0; i < 2 * N; i++) z[i] = -x[i];
-    kz_dynamics_follow(reference, KZ_FOLLOW_DIRECT, N, 2000, y, expected, periods);
+    kz_dynamics_follow(reference, KZ_FOLLOW_DIRECT, N, 2000, y, expected, periods, NULL);
     memcpy(y, x, sizeof x);
-    kz_dynamics_follow(d, KZ_FOLLOW_DIRECT, N, 2000, y, label, periods);
-    kz_dynamics_follow(d, KZ_FOLLOW_DIRECT, N, 2000, z, mirrored, late);
+    kz_dynamics_follow(d, KZ_FOLLOW_DIRECT, N, 2000, y, label, periods, NULL);
+    kz_dynamics_follow(d, KZ_FOLLOW_DIRECT, N, 2000, z, mirrored, late, NULL);
     with_table(d, PART > 1 ? 100 : 300, 3);
     memcpy(y, x, sizeof x);
-    kz_dynamics_follow(d, KZ_FOLLOW_DIRECT, N, 2000, y, cells, late);
+    kz_dynamics_follow(d, KZ_FOLLOW_DIRECT, N, 2000, y, cells, late, NULL);
     for (int i = 0; i < N; i++) {
       kz_attractor row;
       double theta[12], velocity[12];
@@ -128,8 +128,8 @@ TEST(test_regions_are_right) {
     int inside = 0;
     kz_dynamics_starts(&WINDOW, 9, N, x);
     memcpy(y, x, sizeof y);
-    kz_dynamics_follow(d, KZ_FOLLOW_DIRECT, N, 1, x, label, periods);
-    kz_dynamics_follow(plain, KZ_FOLLOW_DIRECT, N, 3000, y, expected, late);
+    kz_dynamics_follow(d, KZ_FOLLOW_DIRECT, N, 1, x, label, periods, NULL);
+    kz_dynamics_follow(plain, KZ_FOLLOW_DIRECT, N, 3000, y, expected, late, NULL);
     for (int i = 0; i < N; i++) {
       if (label[i] == 0 || periods[i] > 0) continue;
       inside++;
@@ -155,7 +155,7 @@ TEST(test_wrong_labels_are_doubtful) {
   kz_dynamics_starts(&WINDOW, 3, N, x);
   for (int i = 0; i < 2 * N; i++) start[i] = i % 2 ? x[i] : x[i] * M_PI;
   memcpy(y, x, sizeof x);
-  kz_dynamics_follow(d, KZ_FOLLOW_DIRECT, N, 2000, x, direct, periods);
+  kz_dynamics_follow(d, KZ_FOLLOW_DIRECT, N, 2000, x, direct, periods, NULL);
   label_starts(d, KZ_LEVEL_DOUBLE, N, start, followed);
   kz_dynamics_follow_reference(d, KZ_REFERENCE_STEPS, N, 2000, start, NULL, expected, periods);
   for (int i = 0; i < N; i++) {
@@ -245,7 +245,7 @@ TEST(test_regions_hold_whole_ellipses) {
       expected[n] = decision[i].end.label;
     }
   }
-  kz_dynamics_follow(d, KZ_FOLLOW_DIRECT, n, 1, ends, label, periods);
+  kz_dynamics_follow(d, KZ_FOLLOW_DIRECT, n, 1, ends, label, periods, NULL);
   int held = 0;
   for (int64_t i = 0; i < n; i++) held += label[i] == expected[i] && periods[i] == 0;
   print_message("%d of %d ends of ellipses held\n", held, (int)n);
@@ -282,5 +282,49 @@ TEST(test_growth_foretells_the_level) {
     print_message("%d of %d decided\n", (int)decided, (int)n[skips]);
     assert_true(skips ? 10 * decided <= n[skips] : 2 * decided > n[skips]);
   }
+  kz_dynamics_free(d);
+}
+
+/* Of the motions that end on no rotation: whole turns from the start to the nearer of down and inverted at the end, by the angles of an integrator. */
+TEST(test_turns_are_those_of_the_angle) {
+  enum { N = 512, LEVELS = 4, LATER = 600 };
+  static const int32_t levels[LEVELS] = {KZ_LEVEL_DOUBLE, KZ_LEVEL_FINE, KZ_LEVEL_PAIRS_20, KZ_LEVEL_QUAD};
+  static double x[2 * N];
+  static kz_start start[2 * N];
+  static kz_decision decision[LEVELS][2 * N];
+  int counted = 0, turned = 0;
+  if (PART > 1) return; /* other tests show the sanitizers the same code */
+  kz_dynamics *d = explored(0.3, 1, 3);
+  kz_dynamics_fine_regions(d, 400, 3);
+  kz_flow *flow = kz_flow_create(&(kz_pendulum){1.0 / 121, 1.0 / 55, 0.3}, numerics());
+  kz_dynamics_starts(&WINDOW, 3, N, x);
+  for (int i = 0; i < N; i++) { /* some are given a turn too far */
+    start[i] = (kz_start){.theta = {x[2 * i] * M_PI + (i % 8 ? 0 : 2 * M_PI)}, .velocity = {x[2 * i + 1]}};
+    start[N + i] = (kz_start){.theta = {-start[i].theta[0]}, .velocity = {-start[i].velocity[0]}};
+  }
+  for (int l = 0; l < LEVELS; l++) {
+    kz_dynamics_label(d, levels[l], levels[l] > 0 ? levels[l] - 1 : 0, 2 * N, start, 2000, decision[l]);
+    kz_dynamics_count_turns(d, 2 * N, 2000, decision[l]);
+  }
+  for (int i = 0; i < N; i++) {
+    double theta = start[i].theta[0], velocity = start[i].velocity[0];
+    int64_t turns = 0;
+    kz_attractor row = {.winding = 1};
+    if (decision[0][i].end.label <= 0) continue;
+    kz_dynamics_attractor(d, decision[0][i].end.label, &row);
+    kz_advance(flow, 1, LATER, &theta, &velocity, &turns);
+    const double end = M_PI * rint(theta / M_PI) + 2 * M_PI * (double)turns;
+    const int expected = row.winding == 0 ? (int)rint((end - start[i].theta[0]) / (2 * M_PI)) : KZ_NO_TURNS;
+    for (int l = 0; l < LEVELS; l++) {
+      if (decision[l][i].end.label <= 0) continue;
+      assert_int_equal(decision[l][i].end.turns, expected);
+      assert_int_equal(decision[l][N + i].end.turns, expected == KZ_NO_TURNS ? expected : -expected);
+    }
+    counted += expected != KZ_NO_TURNS;
+    turned += expected != KZ_NO_TURNS && expected != 0;
+  }
+  print_message("%d of %d end on no rotation, %d of them turn\n", counted, N, turned);
+  assert_true(turned > 40 && counted > turned + 40 && counted < N);
+  kz_flow_free(flow);
   kz_dynamics_free(d);
 }
