@@ -60,6 +60,8 @@ double kz_root(kz_real_fn fn, void *context, double low, double high);
 
 /* ---- shares ---- */
 
+/* The value below which a standard normal variable lies with this probability, between 0 and 1. */
+double kz_normal_quantile(double probability);
 /* Upper bound of a share that occurred `hits` times in n independent draws; it holds with probability `confidence`, such as 0.95 (C. J.
  * Clopper, E. S. Pearson, Biometrika 26 (1934) 404). */
 double kz_share_upper(int64_t hits, int64_t n, double confidence);
@@ -143,8 +145,6 @@ typedef struct {
   double from; /* earlier ends are left out, and times count from here */
   double mean, low, high;
 } kz_lifetime;
-/* The lifetime if `ended` motions have ended and all motions together have lasted `total`. */
-kz_lifetime kz_lifetime_of(int64_t ended, double total);
 /* The lifetime from the tail of time [n], drive periods, which is reordered. KZ_NOT_ENDED: the motion had not ended by the time `longest`. */
 #define KZ_NOT_ENDED UINT32_MAX
 kz_lifetime kz_lifetime_tail(int64_t n, uint32_t *time, double longest);

@@ -103,20 +103,7 @@ void kz_sample_model(int32_t model, const kz_pendulum *pendulum, int64_t periods
  * u'' + beta u' + (k - m f(t)) u = 0, Hill's equation; f is the drive of a pendulum `form` with k = 0 and m = 1. NULL means the cosine (BUT Eq. 23;
  * beta = 0: Mathieu's equation with a = 4k, q = 2m). t in drive radians; about the inverted state k and m change their signs. The substitution
  * u = exp(-beta t/2) w removes the damping: w'' + (k - beta^2/4 - m f) w = 0. If f is even in t, half a period determines the whole one;
- * else the second half is followed too, backwards.
- *
- * Half a period: w(pi) = c, s and w'(pi) = c', s' of the two solutions with (w, w') = (1, 0), (0, 1) at t = 0. Over a whole
- * period of an even drive trace/2 = 2 c s' - 1 = 2 s c' + 1, so every transition curve is a zero of one of the four numbers. */
-
-/* c, s, c', s' of one point, in units of 2^exponent. */
-typedef struct {
-  double c, s, c_dot, s_dot;
-  int64_t exponent; /* 0 unless one of them exceeds 2^400 */
-} kz_half_period;
-
-/* Solutions at t = pi for n points k [n], beta [n], m [n]. Relative error about 1e-15 (1 + sqrt(|k| + |m|)). */
-void kz_linear_half_period(const kz_pendulum *form, int64_t n, const double *k, const double *beta, const double *m,
-                           kz_half_period *half);
+ * else the second half is followed too, backwards. */
 
 /* Floquet's answer for n points.
  * log_multiplier [n]: natural log of the largest |multiplier| over one period.
@@ -187,9 +174,6 @@ kz_arbitrary *kz_arbitrary_beside(const kz_arbitrary *orbit, const kz_jet *at_ma
 void kz_arbitrary_read(const kz_arbitrary *orbit, double theta[2], double velocity[2]);
 /* Net turns by which its angle on the line, from the release on, is more than that which is read. */
 int64_t kz_arbitrary_turns(const kz_arbitrary *orbit);
-
-/* The same in quad precision: state [0] is theta, state [1] the velocity. */
-void kz_arbitrary_read_quads(const kz_arbitrary *orbit, __float128 state[2]);
 
 /* The exact state as text [kz_arbitrary_size], for a checkpoint, and back. KZ_FAILED if the text is not such a state. */
 size_t kz_arbitrary_size(const kz_arbitrary *orbit);

@@ -32,11 +32,6 @@ double kz_hill_cut_angle(double k, double nu);
 /* Characteristic values of Mathieu's equation and the exact transition curves as roots. Curve 1 .. 5 = a_0, b_1, a_1, b_2, a_2
  * of y'' + (a - 2 q cos 2z) y = 0 with a = 4k, q = 2m (BUT sections 2-3). */
 
-/* k of a curve at m >= 0. GSL 2.7 loses digits without a message: its relative error is 1e-12 at q = 3e4, 1e-8 at 1e5, and 1 at 1e6; the
- * tridiagonal eigenproblem does not. */
-double kz_mathieu_k_gsl(int curve, double m);
-double kz_mathieu_k_tridiagonal(int curve, double m);
-
 /* m at which curve 3 or 5 turns back, at its largest k. */
 double kz_mathieu_turn(int curve);
 

@@ -1,6 +1,7 @@
 /* Statistics (GSL): straight lines through points, bounds of shares, and how long motions take that have not settled soon. */
 #include <gsl/gsl_cdf.h>
 #include <gsl/gsl_fit.h>
+#include <gsl/gsl_statistics_uint.h>
 #include <math.h>
 
 #include "kapitza/analysis.h"
@@ -23,6 +24,10 @@ double kz_share_upper(int64_t hits, int64_t n, double confidence) {
   return high;
 }
 
+double kz_normal_quantile(double probability) {
+  return gsl_cdf_ugaussian_Pinv(probability);
+}
+
 /* Quantile of the chi-squared distribution: GSL's does not converge for many degrees of freedom, where the formula of E. B. Wilson and
  * M. M. Hilferty, Proc. Natl. Acad. Sci. 17 (1931) 684, is right to 1e-5. */
 static double chi_squared(double probability, double freedom) {
@@ -31,7 +36,8 @@ static double chi_squared(double probability, double freedom) {
   return freedom * pow(1 - variance + gsl_cdf_ugaussian_Pinv(probability) * sqrt(variance), 3);
 }
 
-kz_lifetime kz_lifetime_of(int64_t ended, double total) {
+/* The lifetime if `ended` motions have ended and all motions together have lasted `total`. */
+static kz_lifetime lifetime_of(int64_t ended, double total) {
   kz_lifetime life = {.ended = ended, .mean = NAN, .low = NAN, .high = INFINITY};
   if (!(total > 0)) return life;
   if (ended > 0) {
@@ -42,25 +48,6 @@ kz_lifetime kz_lifetime_of(int64_t ended, double total) {
   return life;
 }
 
-/* The value that would stand at `place` of the n in order; moves them. C. A. R. Hoare's FIND, Commun. ACM 4 (1961) 321. */
-static uint32_t value_at(int64_t place, int64_t n, uint32_t *value) {
-  for (int64_t low = 0, high = n - 1; low < high;) {
-    const uint32_t middle = value[place];
-    int64_t i = low, j = high;
-    while (i <= j) {
-      while (value[i] < middle) i++;
-      while (value[j] > middle) j--;
-      if (i > j) break;
-      const uint32_t moved = value[i];
-      value[i++] = value[j];
-      value[j--] = moved;
-    }
-    if (j < place) low = i;
-    if (place < i) high = j;
-  }
-  return value[place];
-}
-
 kz_lifetime kz_lifetime_tail(int64_t all, uint32_t *time, double longest) {
   int64_t n = 0;
   for (int64_t i = 0; i < all; i++)
@@ -68,7 +55,7 @@ kz_lifetime kz_lifetime_tail(int64_t all, uint32_t *time, double longest) {
   /* Most motions settle at once; the tail is what is left of them after the nine tenths that settle soonest, or after half of those
    * that settle at all where more are open. */
   const int64_t open = all - n, soonest = 10 * open < all ? (9 * all) / 10 : n / 2;
-  const double from = n > 0 ? value_at(soonest < n ? soonest : n - 1, n, time) : 0;
+  const double from = n > 0 ? gsl_stats_uint_select(time, 1, (size_t)n, (size_t)(soonest < n ? soonest : n - 1)) : 0;
   double total = (double)open * (longest - from);
   int64_t ended = 0;
   for (int64_t i = 0; i < n; i++) {
@@ -76,7 +63,7 @@ kz_lifetime kz_lifetime_tail(int64_t all, uint32_t *time, double longest) {
     total += time[i] - from;
     ended++;
   }
-  kz_lifetime life = kz_lifetime_of(ended, total);
+  kz_lifetime life = lifetime_of(ended, total);
   life.from = from;
   life.open = open;
   return life;

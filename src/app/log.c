@@ -1,4 +1,5 @@
 #include "app.h"
+#include "json.h"
 
 #include <errno.h>
 #include <fcntl.h>
@@ -34,26 +35,15 @@ kz_status kz_log_open(const char *path, FILE **log) {
   return kz_fail(KZ_REFUSED, "--log: %s: exists and is no log of this program; use another name", path);
 }
 
-/* Prints `text` escaped for JSON, without the quotes. */
-static void print_escaped(FILE *log, const char *text) {
-  for (; *text; text++) {
-    if (*text == '"' || *text == '\\')
-      fprintf(log, "\\%c", *text);
-    else if ((unsigned char)*text < 32 || *text == 127)
-      fprintf(log, "\\u%04x", (unsigned)*text);
-    else
-      fputc(*text, log);
-  }
-}
-
 void kz_log_event(FILE *log, double seconds, const char *event, const char *const *fields) {
   if (!log) return;
   fprintf(log, "%s%s\", \"seconds\": %.3f", FIRST, event, seconds);
   for (; *fields; fields += 2) {
     const bool number = fields[0][0] == '#';
-    fprintf(log, ", \"%s\": %s", fields[0] + number, number ? "" : "\"");
-    print_escaped(log, fields[1]);
-    if (!number) fputc('"', log);
+    kz_json *text = kz_json_text(fields[1]);
+    fprintf(log, ", \"%s\": %s", fields[0] + number,
+            number ? fields[1] : json_object_to_json_string_ext(text, JSON_C_TO_STRING_NOSLASHESCAPE));
+    json_object_put(text);
   }
   fputs("}\n", log);
   fflush(log);

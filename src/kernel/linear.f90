@@ -20,8 +20,10 @@ module kz_kernel_linear
   !> Numbers beyond 2**LIFT_BITS are scaled down by it.
   integer, parameter :: LIFT_BITS = 400
 
-  type, bind(C) :: half_period_t
-    real(c_double) :: c, s, c_dot, s_dot
+  !> w(pi) = c, s and w'(pi) = c_dot, s_dot of the solutions with (w, w') = (1, 0), (0, 1) at t = 0, in units of 2**exponent. Over a whole period of
+  !> an even drive trace/2 = 2 c s_dot - 1 = 2 s c_dot + 1.
+  type :: half_period_t
+    real(rk) :: c, s, c_dot, s_dot
     integer(c_int64_t) :: exponent
   end type half_period_t
 
@@ -34,10 +36,10 @@ module kz_kernel_linear
 contains
 
   !> Solutions at t = pi for n points.
-  subroutine half_periods(form, n, k, beta, m, half) bind(C, name='kz_linear_half_period')
+  subroutine half_periods(form, n, k, beta, m, half)
     type(pendulum_t), intent(in), optional :: form !< the drive, with k = 0 and m = 1
-    integer(c_int64_t), value :: n
-    real(c_double), intent(in) :: k(n), beta(n), m(n) !< stiffness, damping, drive [n]
+    integer(c_int64_t), intent(in) :: n
+    real(rk), intent(in) :: k(n), beta(n), m(n) !< stiffness, damping, drive [n]
     type(half_period_t), intent(out) :: half(n) !< the four numbers [n]
     type(pendulum_t) :: wave
     integer(c_int64_t) :: first

@@ -165,7 +165,10 @@ TEST(folded_images_hand_nothing_over) {
                       {.jet = {.linear = {{1e-8, 0}, {0, 1e-8}}}},
                       {.jet = {.linear = {{1e-9, 0}, {0, 1e-9}}, .bent = {{[3] = 1e-17}}}}};
   const kz_images images = {.n = 2, .image = image};
-  assert_int_equal(kz_hand_over_at(&images, kz_level_rows, 0.5).periods, 2);
+  kz_hand_over hand_over[KZ_LEVELS];
+  kz_hand_overs_make(&images, 0.5, hand_over);
+  assert_int_equal(hand_over[0].periods, 2);
   image[2].jet.bent[0][0] = 1e-6L;
-  assert_int_equal(kz_hand_over_at(&images, kz_level_rows, 0.5).periods, 1);
+  kz_hand_overs_make(&images, 0.5, hand_over);
+  assert_int_equal(hand_over[0].periods, 1);
 }

@@ -119,8 +119,6 @@ typedef struct {
   char text[128];
 } kz_short_text;
 kz_short_text kz_shortest(double value);
-/* The text in double quotes; what may stand in one needs no other escapes than those of these and of backslashes. */
-void kz_text_print(const char *text, FILE *out);
 
 /* The field of a key in `scene`. read: reads it from a node; returns what is wrong, or NULL; *culprit = the node,
  * or the item of its list, that is wrong. is_set: true if it is given. print: prints it as YAML flow text. A mapping supports is_set only. */

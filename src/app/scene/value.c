@@ -155,7 +155,8 @@ static void print_real(const kz_key *key, const void *value, FILE *out) {
   fprintf(out, fabs(number) > kz_key_most_bare(key) ? "%s m" : "%s", kz_shortest(number).text);
 }
 
-void kz_text_print(const char *text, FILE *out) {
+/* Prints the text in double quotes; what may stand in one needs no other escapes than those of these and of backslashes. */
+static void print_quoted(const char *text, FILE *out) {
   fputc('"', out);
   for (; *text; text++) fprintf(out, *text == '"' || *text == '\\' ? "\\%c" : "%c", *text);
   fputc('"', out);
@@ -163,12 +164,12 @@ void kz_text_print(const char *text, FILE *out) {
 
 static void print_text(const kz_key *key, const void *value, FILE *out) {
   (void)key;
-  kz_text_print(*(char *const *)value, out);
+  print_quoted(*(char *const *)value, out);
 }
 
 static void print_decimal(const kz_key *key, const void *value, FILE *out) {
   (void)key;
-  kz_text_print(((const kz_decimal *)value)->text, out);
+  print_quoted(((const kz_decimal *)value)->text, out);
 }
 
 static void print_harmonic(const kz_key *key, const void *value, FILE *out) {

@@ -201,11 +201,6 @@ int64_t kz_arbitrary_turns(const kz_arbitrary *o) {
   return o->place.turns;
 }
 
-void kz_arbitrary_read_quads(const kz_arbitrary *o, __float128 state[2]) {
-  state[0] = kz_number_quad(&o->place.theta);
-  state[1] = kz_number_quad(&o->place.velocity);
-}
-
 size_t kz_arbitrary_size(const kz_arbitrary *o) {
   enum { REST = 128 }; /* exponents, signs, blanks */
   return 2 * ((size_t)(o->bits + 64) / 4 + REST + COUNTS);

@@ -1,22 +1,7 @@
 /* A step of centres in doubles. A centre is high + low, so that what is added to it is rounded, but not the sum. */
-#include "operations.h"
+#include "sines.h"
 
-enum { P = KZ_ORDER_DOUBLES, TERMS = 12 };
-
-/* Sine and cosine of high + low: off by at most 8 u (B1). */
-OPERATION void sine_of(pair theta, vector *sine, vector *cosine) {
-  static const double pi[3] = KZ_PI;
-  const vector count = nearest_integer(theta.high * (1 / pi[0])), sign = sign_of_parity(count);
-  const vector x = fused(count, same(-pi[0]), theta.high) - count * pi[1], square = x * x;
-  vector s = same(1), c = same(1);
-  for (int n = 2 * TERMS; n > 0; n -= 2) {
-    s = fused(same(-1.0 / (n * (n + 1))), square * s, same(1));
-    c = fused(same(-1.0 / ((n - 1) * n)), square * c, same(1));
-  }
-  s *= x;
-  *sine = sign * fused(theta.low, c, s);
-  *cosine = sign * fused(-theta.low, s, c);
-}
+enum { P = KZ_ORDER_DOUBLES };
 
 /* Of one order: coefficients of the velocity, of sine and cosine. Those of an order lie together, so that one address serves all three. */
 typedef struct {
@@ -62,7 +47,7 @@ void kz_centres_step_doubles(const kz_speed_class *speed, int32_t step, kz_sets 
   _Alignas(VECTOR_BYTES) coefficients x[P];
   EACH_PART {
     x[0].w[p] = sets[p].velocity.high;
-    sine_of(sets[p].theta, &x[0].s[p], &x[0].c[p]);
+    sine_in_doubles(sets[p].theta, &x[0].s[p], &x[0].c[p]);
     sets[p].most_sine = sine_bound(speed, x[0].s[p], sets[p].velocity.high);
   }
   for (int order = 0; order + 1 < P; order++) next_order(speed, step * speed->order, x, order);
@@ -70,14 +55,5 @@ void kz_centres_step_doubles(const kz_speed_class *speed, int32_t step, kz_sets 
     for (int i = 0; i < n; i++) circle[p].cosine[i] = x[i].c[p];
     for (int i = 0; i < n && speed->has_across; i++) circle[p].sine[i] = x[i].s[p];
     finish(speed, x, p, &sets[p]);
-  }
-}
-
-void kz_enclosure_sine_doubles(int64_t n, const double *theta, double *sine, double *cosine) {
-  for (int64_t i = 0; i < n; i++) {
-    vector s, c;
-    sine_of((pair){same(theta[2 * i]), same(theta[2 * i + 1])}, &s, &c);
-    sine[i] = s[0];
-    cosine[i] = c[0];
   }
 }

@@ -1,10 +1,8 @@
 /* A step of centres in pairs of doubles or in triples. The first coefficients of a centre in triples are triples. Those that follow, and all of
  * a centre in pairs, are pairs, the later ones doubles. */
-#include "operations.h"
-#include "taylor/triples.h"
+#include "sines.h"
 
 enum { P = KZ_ORDER_PAIRS, PAIRS = KZ_COEFFICIENTS_PAIRS, TRIPLES = KZ_COEFFICIENTS_TRIPLES, FINE = KZ_COEFFICIENTS_FINE };
-enum { TERMS = 18, TERMS_TRIPLES = 24 };
 
 /* The coefficients of the velocity, of sine or of cosine: of the triples and pairs their first parts too, as pairs and as doubles. */
 typedef struct {
@@ -72,10 +70,6 @@ OPERATION triple scaled_deep(triple s, triple factor) {
 #define KZ_LEVEL coarse
 #include "taylor/motion.inc"
 
-OPERATION pair fine(kz_constant c) {
-  return made_fine(c.high, c.low, c.rest);
-}
-
 /* *faster = the sum of the coefficients from `first` on, of which `fine_ones` are more than doubles, for the velocity; *farther = the same times
  * h / (n + 1), for the angle. */
 OPERATION void sum_series(const kz_speed_class *speed, int first, int fine_ones, const coefficients *w, pair *faster,
@@ -91,58 +85,6 @@ OPERATION void sum_series(const kz_speed_class *speed, int first, int fine_ones,
     *faster = plus(*faster, w->fine[n]);
     *farther = plus(*farther, multiply(w->fine[n], fine(speed->step[n])));
   }
-}
-
-/* 1 - x y / (n (n + 1)). */
-OPERATION pair nested(pair x, pair y, int n) {
-  const double product = (double)n * (n + 1), high = -1 / product;
-  const kz_constant c = {high, -fma(high, product, 1) / product, 0};
-  return plus((pair){same(1), same(0)}, multiply(multiply(x, y), fine(c)));
-}
-
-/* Sine and cosine, off by at most 48 u^2 (B1). */
-static void sine_of(pair theta, pair *sine, pair *cosine) {
-  static const double pi[3] = KZ_PI;
-  const vector count = nearest_integer(theta.high * (1 / pi[0])), sign = sign_of_parity(count);
-  const pair x = less_multiple(theta, count, pi), square = multiply(x, x);
-  pair s = {same(1), same(0)}, c = s;
-  for (int n = 2 * TERMS; n > 0; n -= 2) {
-    s = nested(square, s, n);
-    c = nested(square, c, n - 1);
-  }
-  s = multiply(s, x);
-  *sine = (pair){sign * s.high, sign * s.low};
-  *cosine = (pair){sign * c.high, sign * c.low};
-}
-
-/* x less `count` times a number; off by at most 80 u^3 (|x| + |count number|), |count| <= 2^20. */
-OPERATION triple less_multiple_of(triple x, vector count, const double number[3]) {
-  gain_triple(&x, (triple){{count, same(0), same(0)}}, made_deep(-number[0], -number[1], -number[2]));
-  return in_order(x);
-}
-
-/* The same as nested, in triples. */
-OPERATION triple nested_triples(triple x, triple y, int n) {
-  const double product = (double)n * (n + 1), high = 1 / product, i[2] = {high, fma(-high, product, 1) / product};
-  return add_triples(made_deep(1, 0, 0), multiply_triples(multiply_triples(x, inverse_with(-1, product, i)), y));
-}
-
-OPERATION triple signed_triple(vector sign, triple x) {
-  return (triple){{sign * x.part[0], sign * x.part[1], sign * x.part[2]}};
-}
-
-/* Sine and cosine of |theta| <= farthest, off by at most (500 + 160 (farthest + 1)) u^3 (B1). */
-static void sine_of_triple(triple theta, triple *sine, triple *cosine) {
-  static const double pi[3] = KZ_PI;
-  const vector count = nearest_integer(theta.part[0] * (1 / pi[0])), sign = sign_of_parity(count);
-  const triple x = less_multiple_of(theta, count, pi), square = multiply_triples(x, x);
-  triple s = made_deep(1, 0, 0), c = s;
-  for (int n = 2 * TERMS_TRIPLES; n > 0; n -= 2) {
-    s = nested_triples(square, s, n);
-    c = nested_triples(square, c, n - 1);
-  }
-  *sine = signed_triple(sign, multiply_triples(s, x));
-  *cosine = signed_triple(sign, c);
 }
 
 OPERATION triple join(pair x, vector rest) {
@@ -172,13 +114,13 @@ OPERATION void step_one(bool triples, const kz_speed_class *speed, int32_t i, kz
   const int fine_ones = triples ? FINE : PAIRS;
   if (triples) {
     triple sine, cosine;
-    sine_of_triple(join(x->theta, x->theta_rest), &sine, &cosine);
+    sine_in_triples(join(x->theta, x->theta_rest), &sine, &cosine);
     put_deep(join(x->velocity, x->velocity_rest), 0, &y.w);
     put_deep(sine, 0, &y.s);
     put_deep(cosine, 0, &y.c);
   } else {
     pair sine, cosine;
-    sine_of(x->theta, &sine, &cosine);
+    sine_in_pairs(x->theta, &sine, &cosine);
     put_fine(x->velocity, 0, &y.w);
     put_fine(sine, 0, &y.s);
     put_fine(cosine, 0, &y.c);
@@ -216,23 +158,4 @@ void kz_sets_wrap_triples(kz_sets *x) {
   x->theta_rest = theta.part[2];
   const vector p[2] = {0x1p-147 * size_of(turns), same(0)};
   kz_sets_widen(p, x);
-}
-
-void kz_enclosure_sine_pairs(int64_t n, const double *theta, double *sine, double *cosine) {
-  for (int64_t i = 0; i < n; i++) {
-    pair s, c;
-    sine_of((pair){same(theta[2 * i]), same(theta[2 * i + 1])}, &s, &c);
-    sine[2 * i] = s.high[0];
-    sine[2 * i + 1] = s.low[0];
-    cosine[2 * i] = c.high[0];
-    cosine[2 * i + 1] = c.low[0];
-  }
-}
-
-void kz_enclosure_sine_triples(int64_t n, const double *theta, double *sine, double *cosine) {
-  for (int64_t i = 0; i < n; i++) {
-    triple s, c;
-    sine_of_triple(made_deep(theta[3 * i], theta[3 * i + 1], theta[3 * i + 2]), &s, &c);
-    for (int j = 0; j < 3; j++) sine[3 * i + j] = s.part[j][0], cosine[3 * i + j] = c.part[j][0];
-  }
 }

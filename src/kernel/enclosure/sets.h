@@ -97,11 +97,6 @@ void kz_sets_renew_frame(kz_sets *sets);
 kz_speed_class *kz_speed_class_create(const kz_pendulum *pendulum, int32_t precision, double fastest, int32_t n_steps);
 /* Sets the constants of a class whose number of steps and order are set. */
 void kz_speed_class_set_constants(const kz_pendulum *pendulum, kz_speed_class *speed);
-/* Sine and cosine of theta [n][2], high and low, as a step takes them (for tests): [n] in doubles, [n][2] in pairs; [n][3] in triples. */
-void kz_enclosure_sine_doubles(int64_t n, const double *theta, double *sine, double *cosine);
-void kz_enclosure_sine_pairs(int64_t n, const double *theta, double *sine, double *cosine);
-void kz_enclosure_sine_triples(int64_t n, const double *theta, double *sine, double *cosine);
-
 OPERATION vector size_of(vector x) {
   return (vector)((mask)x & INT64_MAX);
 }

@@ -75,8 +75,5 @@ typedef struct {
   double best_wrong; /* the lowest share of a setting in double precision; NaN without one */
 } kz_trade;
 
-/* Sets `pareto` of the rows. */
-void kz_pareto(kz_trade *trade);
-
 /* The name FILE.truth of the cache of reference labels beside the result; the caller frees it; NULL without a store. */
 char *kz_reference_path(const kz_store *store);

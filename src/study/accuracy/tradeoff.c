@@ -177,7 +177,7 @@ static void free_trade(kz_trade *trade) {
   free(trade->row);
 }
 
-void kz_pareto(kz_trade *trade) {
+static void find_pareto(kz_trade *trade) {
   for (kz_trade_row *a = trade->row; a < trade->row + trade->count; a++) {
     a->pareto = true;
     for (const kz_trade_row *b = trade->row; b < trade->row + trade->count; b++)
@@ -198,7 +198,7 @@ static void rate(const kz_reference_labels *reference, const kz_setting_measured
     row->seconds = measured[i].set_up + measured[i].cell * cells;
     if (row->setting->method != KZ_METHOD_EXACT) trade->best_wrong = fmin(trade->best_wrong, row->wrong);
   }
-  kz_pareto(trade);
+  find_pareto(trade);
 }
 
 static kz_status run_settings(const kz_reference_labels *reference, kz_trade *trade, const kz_run *run) {

@@ -2,6 +2,7 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "kapitza/analysis.h"
 #include "labelling/labeller.h"
 #include "labelling/search.h"
 #include "measures.h"
@@ -11,18 +12,6 @@ enum {
   PILOTS = 512, /* starts of the search; others that end nowhere known start another one */
   ROUNDS = 2    /* of it, at most */
 };
-
-/* The quantile of the normal distribution at p, to rounding: Halley's method on erfc. */
-static double normal_quantile(double p) {
-  double x = 0;
-  for (int i = 0; i < 64; i++) {
-    const double error = 0.5 * erfc(-x * M_SQRT1_2) - p, slope = exp(-x * x / 2) / sqrt(2 * M_PI);
-    const double step = fmax(-1, fmin(1, error / slope / (1 + x * error / (2 * slope))));
-    x -= step;
-    if (fabs(step) < 1e-15) break;
-  }
-  return x;
-}
 
 /* Starts spread evenly over a window, rad and rad per drive radian. */
 static void spread(const kz_window *window, const kz_measures_plan *plan, double *start) {
@@ -37,8 +26,8 @@ static void spread_by_weight(const kz_measures_plan *plan, double *start) {
   spread(&unit, plan, start);
   for (int64_t i = 0; i < plan->starts; i++) {
     const double p = fmin(fmax(start[2 * i], least), 1 - least), q = fmin(fmax(start[2 * i + 1], least), 1 - least);
-    start[2 * i] = plan->options.weight.theta + plan->options.weight.theta_spread * normal_quantile(p);
-    start[2 * i + 1] = plan->options.weight.velocity + plan->options.weight.velocity_spread * normal_quantile(q);
+    start[2 * i] = plan->options.weight.theta + plan->options.weight.theta_spread * kz_normal_quantile(p);
+    start[2 * i + 1] = plan->options.weight.velocity + plan->options.weight.velocity_spread * kz_normal_quantile(q);
   }
 }
 

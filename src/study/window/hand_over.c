@@ -67,7 +67,7 @@ static int64_t last_image(const kz_images *images, const kz_level *level, double
   return last;
 }
 
-kz_hand_over kz_hand_over_at(const kz_images *images, const kz_level *level, double reach) {
+static kz_hand_over hand_over_at(const kz_images *images, const kz_level *level, double reach) {
   const int64_t n = last_image(images, level, reach);
   const kz_image *image = images->image + n;
   const sizes s = sizes_of(&image->jet, reach);
@@ -83,7 +83,7 @@ kz_hand_over kz_hand_over_at(const kz_images *images, const kz_level *level, dou
 }
 
 void kz_hand_overs_make(const kz_images *images, double reach, kz_hand_over *hand_over) {
-  for (int32_t level = 0; level < KZ_LEVELS; level++) hand_over[level] = kz_hand_over_at(images, kz_level_rows + level, reach);
+  for (int32_t level = 0; level < KZ_LEVELS; level++) hand_over[level] = hand_over_at(images, kz_level_rows + level, reach);
 }
 
 static double in_doubles(const double *linear, const double *b, double x, double y) {

@@ -82,9 +82,7 @@ bool kz_image_is_final(const kz_images *images, int64_t n);
 /* True if the polynomial of image n is right to so many digits of x. */
 bool kz_image_is_straight(const kz_images *images, int64_t n, int64_t digits);
 
-/* The hand-over by image 0, or by the last image at a strobe of the final drive whose polynomial is as accurate as the level's own arithmetic, for shares up to `reach`. */
-kz_hand_over kz_hand_over_at(const kz_images *images, const kz_level *level, double reach);
-/* The same for every level: hand_over [KZ_LEVELS]. */
+/* hand_over [KZ_LEVELS]: for every level the hand-over by image 0, or by the last image at a strobe of the final drive whose polynomial is as accurate as the level's own arithmetic, for shares up to `reach`. */
 void kz_hand_overs_make(const kz_images *images, double reach, kz_hand_over *hand_over);
 /* *start = the start at the shares theta and velocity of the width of the images. */
 void kz_hand_over_start(const kz_hand_over *hand_over, __float128 theta, __float128 velocity, kz_start *start);

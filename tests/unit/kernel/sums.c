@@ -6,8 +6,7 @@
 #include "../../tools/test.h"
 
 #include "digits/number.h"
-#include "enclosure/operations.h"
-#include "taylor/triples.h"
+#include "enclosure/sines.h"
 
 static double uniform(double low, double high) {
   return low + (high - low) * rand() / RAND_MAX;
@@ -122,12 +121,18 @@ TEST(sines_are_as_good_as_their_bounds) {
     theta[2] = theta[1] * uniform(-0x1p-54, 0x1p-54);
     __float128 exact[2];
     sincosf128((__float128)theta[0] + theta[1], &exact[0], &exact[1]);
-    kz_enclosure_sine_doubles(1, theta, sine, cosine);
-    worst = fmax(worst, fmax(fabs((double)(sine[0] - exact[0])), fabs((double)(cosine[0] - exact[1]))));
+    const pair angle = {same(theta[0]), same(theta[1])};
+    vector s, c;
+    sine_in_doubles(angle, &s, &c);
+    worst = fmax(worst, fmax(fabs((double)(s[0] - exact[0])), fabs((double)(c[0] - exact[1]))));
     if (i % 10 != 0) continue;
-    kz_enclosure_sine_pairs(1, theta, sine, cosine);
-    worst_pair = fmax(worst_pair, sine_is_off(2, theta, sine, cosine));
-    kz_enclosure_sine_triples(1, theta, sine, cosine);
+    pair sines, cosines;
+    sine_in_pairs(angle, &sines, &cosines);
+    worst_pair = fmax(worst_pair, sine_is_off(2, theta, (double[]){sines.high[0], sines.low[0]},
+                                              (double[]){cosines.high[0], cosines.low[0]}));
+    triple sines3, cosines3;
+    sine_in_triples(made_deep(theta[0], theta[1], theta[2]), &sines3, &cosines3);
+    for (int k = 0; k < 3; k++) sine[k] = sines3.part[k][0], cosine[k] = cosines3.part[k][0];
     worst_triple = fmax(worst_triple, sine_is_off(3, theta, sine, cosine) / (500 + 160 * (fabs(theta[0]) + 1)));
   }
   assert_true(worst < 0x8p-53 && worst > 0.1 * 0x8p-53);

@@ -47,15 +47,6 @@ TEST(test_smallest_sample_proves_its_share) {
   }
 }
 
-TEST(test_pareto_front) {
-  const double seconds[] = {1, 2, 3, 2, 4, 1}, wrong[] = {0.5, 0.2, 0.2, 0.3, 0.1, 0.5};
-  const bool expected[] = {true, true, false, false, true, true};
-  kz_trade_row row[6];
-  for (int i = 0; i < 6; i++) row[i] = (kz_trade_row){.seconds = seconds[i], .wrong = wrong[i]};
-  kz_pareto(&(kz_trade){.count = 6, .row = row});
-  for (int i = 0; i < 6; i++) assert_int_equal(row[i].pareto, expected[i]);
-}
-
 TEST(test_shuffled_cells_are_a_permutation) {
   const int64_t totals[] = {1, 2, 3, 5, 16, 17, 1000, 10007};
   for (size_t t = 0; t < sizeof totals / sizeof *totals; t++) {
