@@ -3,13 +3,15 @@
 set(KAPITZA_POWERS all CACHE STRING "powers that are built, separated by semicolons; all, or empty for none")
 set_property(GLOBAL PROPERTY kapitza_powers "")
 
-# kapitza_power(name FOLDERS folder of src ... [FILES file of src or include ...] [STUDIES study ...] [PARTS part ...] [COMMANDS command ...] [NEEDS power ...]):
+# kapitza_power(name FOLDERS folder of src ... [FILES file of src or include ...] [SCRIPT file] [STUDIES study ...] [PARTS part ...] [KEYS key ...] [COMMANDS command ...] [NEEDS power ...]):
 # with its folders left out, its studies and commands are refused by the name of the power. The order of the studies is that in which they
-# run, after those of the core. PARTS are parts of the study basin, with a row as a study has. FILES are of the power too, and stand in folders of the core: its headers in include/kapitza.
-set(KAPITZA_KINDS STUDIES PARTS COMMANDS)
+# run, after those of the core. PARTS are parts of the study basin, with a row as a study has; KEYS are
+# the keys that they add. FILES are of the power too, and stand in folders of the core: its headers in include/kapitza. SCRIPT finds a library that
+# it needs.
+set(KAPITZA_KINDS STUDIES PARTS KEYS COMMANDS)
 function(kapitza_power name)
-  cmake_parse_arguments(arg "" "" "FOLDERS;FILES;NEEDS;${KAPITZA_KINDS}" ${ARGN})
-  foreach(list FOLDERS FILES NEEDS ${KAPITZA_KINDS})
+  cmake_parse_arguments(arg "" "" "FOLDERS;FILES;SCRIPT;NEEDS;${KAPITZA_KINDS}" ${ARGN})
+  foreach(list FOLDERS FILES SCRIPT NEEDS ${KAPITZA_KINDS})
     set_property(GLOBAL PROPERTY kapitza_power_${name}_${list} ${arg_${list}})
   endforeach()
   set_property(GLOBAL APPEND PROPERTY kapitza_powers ${name})
@@ -46,6 +48,10 @@ foreach(power ${known})
       endif()
     endforeach()
   endforeach()
+  get_property(script GLOBAL PROPERTY kapitza_power_${power}_SCRIPT)
+  if(power IN_LIST chosen AND script)
+    include(${script})
+  endif()
   if(NOT power IN_LIST chosen)
     get_property(folders GLOBAL PROPERTY kapitza_power_${power}_FOLDERS)
     list(APPEND KAPITZA_LEFT_OUT ${folders})
@@ -53,6 +59,5 @@ foreach(power ${known})
 endforeach()
 set(KAPITZA_CHOSEN ${chosen})
 string(APPEND power_STUDIES "${power_PARTS}")
-string(REPLACE "MISSING(" "MISSING(basin." missing_PARTS "${missing_PARTS}")
-string(APPEND missing_STUDIES "${missing_PARTS}")
+string(APPEND missing_STUDIES "${missing_KEYS}")
 configure_file(cmake/powers.h.in ${PROJECT_BINARY_DIR}/include/kapitza/powers.h @ONLY)

@@ -55,7 +55,6 @@ void sincosf128(__float128 x, __float128 *sine, __float128 *cosine);
 
 /* Words of scenes and files, in the order of their codes (KZ_METHOD_ICM ..., KZ_LINEAR ...). */
 #define KZ_METHOD_WORDS "icm", "direct", "exact"
-#define KZ_UNDECIDED_WORDS "flag", "decide"
 #define KZ_INTERPOLATION_WORDS "linear", "quintic"
 
 /* What a macro stands for, as text. */

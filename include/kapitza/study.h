@@ -143,6 +143,10 @@ typedef struct {
   const char *what, *studies;
 } kz_study_need;
 
+/* What a scene may ask for needs: a pivot that moves up and down as a sine; mirror symmetry; starts at a strobe of the final drive; one phase of
+ * release for all cells; no ramp along its axes. */
+typedef enum { KZ_NEEDS_SINE, KZ_NEEDS_MIRROR, KZ_NEEDS_STROBE, KZ_NEEDS_ONE_PHASE, KZ_NEEDS_NO_RAMP_OVER } kz_drive_need;
+
 /* A study. All ranks call `run`; `summary` (text for people) and `store` are NULL on all ranks but rank 0. `check` refuses a scene that the study
  * cannot model, for example because the steps are too coarse (NULL = nothing to refuse); its message begins with the keys that a user could
  * change ("numerics.steps_per_period|basin.velocity: ..."). */
@@ -157,12 +161,12 @@ typedef struct {
   /* What the plan lacks, "KEY: what is wrong", where KEY is one of the study; NULL = nothing, or no function. */
   const char *(*lack)(const kz_scene *scene);
   kz_study_need needs[2];
-  const kz_basin_part
-      *of_basin; /* it is a part of the study basin, whose run does its work (src/study/basin/basin.h); NULL = it is not */
-  const char
-      *at_strobe; /* the complaint where cells are not released at a strobe of the final drive; NULL = it takes any release */
-  bool damped;    /* it has no meaning without damping */
-  bool follows;   /* it follows motions of the scene's own pendulum */
+  /* It is a part of the study basin, whose run does its work (src/study/basin/label.h); NULL = it is not. */
+  const kz_basin_part *of_basin;
+  /* The complaint if the scene asks for what needs this of drive or release; NULL = it does not, or no function. */
+  const char *(*limit)(const kz_scene *scene, kz_drive_need need);
+  bool damped;  /* it has no meaning without damping */
+  bool follows; /* it follows motions of the scene's own pendulum */
 } kz_study;
 static inline bool kz_study_is_wanted(const kz_study *study, const kz_scene *scene) {
   return *(const bool *)((const char *)scene + study->wanted);

@@ -32,8 +32,6 @@ ASKS(no_basin, !s->has_basin)
 ASKS(accuracy, s->has_basin && !isnan(s->basin->accuracy))
 ASKS(boundary, s->has_basin && s->basin->has_boundary)
 ASKS(orbit_on_ramp, s->has_orbit && s->parameters.has_ramp)
-ASKS(decisions, s->has_basin && s->basin->undecided == KZ_UNDECIDED_DECIDE)
-ASKS(depth, s->has_basin && (s->basin->theta.centre.text[0] || s->basin->velocity.centre.text[0]))
 /* A sweep over a ramp: its values differ in their cells alone. */
 static bool asks_more_than_cells(const kz_scene *s) {
   if (!is_swept(s, kz_sweep_is_of_release)) return false;
@@ -45,53 +43,51 @@ static bool asks_more_than_cells(const kz_scene *s) {
   return !of_cells;
 }
 
-/* What a row needs: a pivot that moves up and down as a sine; mirror symmetry; starts at a strobe of the final drive; one phase of release for all
- * cells; no ramp along its axes. */
-enum { SINE, MIRRORED, AT_STROBE, ONE_PHASE, NO_RAMP_OVER };
-
 /* What a scene may ask for that does not take every drive or release, and the complaint. */
 static const struct {
   bool (*is_asked)(const kz_scene *);
-  int needs;
+  kz_drive_need needs;
   const char *complaint;
 } limits[] = {
-    {asks_ends, SINE, "sweep.measure ends needs a pivot that moves up and down as a sine; leave one of them out"},
-    {asks_curves_of_sine, SINE,
+    {asks_ends, KZ_NEEDS_SINE, "sweep.measure ends needs a pivot that moves up and down as a sine; leave one of them out"},
+    {asks_curves_of_sine, KZ_NEEDS_SINE,
      "stability.curves over k and subharmonics are those of the sine; leave them out, or ask for hill_1 to hill_5"},
-    {asks_potential, SINE, "study potential needs a pivot that moves up and down as a sine; leave one of them out"},
-    {asks_other_models, SINE, "orbit.model needs a pivot that moves up and down as a sine; choose the model pendulum"},
-    {asks_rest, MIRRORED,
+    {asks_potential, KZ_NEEDS_SINE, "study potential needs a pivot that moves up and down as a sine; leave one of them out"},
+    {asks_other_models, KZ_NEEDS_SINE, "orbit.model needs a pivot that moves up and down as a sine; choose the model pendulum"},
+    {asks_rest, KZ_NEEDS_MIRROR,
      "study stability needs a pendulum that can rest, which this drive or torque always moves; leave one of them out"},
-    {asks_table, MIRRORED, "basin.method icm needs mirror symmetry, which this drive does not have; choose exact or direct"},
-    {asks_tradeoff, MIRRORED, "study tradeoff needs mirror symmetry, which this drive does not have; leave one of them out"},
-    {asks_rk4, MIRRORED,
+    {asks_table, KZ_NEEDS_MIRROR,
+     "basin.method icm needs mirror symmetry, which this drive does not have; choose exact or direct"},
+    {asks_tradeoff, KZ_NEEDS_MIRROR,
+     "study tradeoff needs mirror symmetry, which this drive does not have; leave one of them out"},
+    {asks_rk4, KZ_NEEDS_MIRROR,
      "numerics.scheme rk4 needs mirror symmetry, which this drive does not have; choose processed or split6"},
-    {asks_more_than_cells, NO_RAMP_OVER,
+    {asks_more_than_cells, KZ_NEEDS_NO_RAMP_OVER,
      "a sweep over a ramp needs the study basin and measures basin_fractions and phases only"},
-    {asks_decisions, ONE_PHASE, "basin.undecided decide needs starts at one phase; choose flag"},
-    {asks_depth, ONE_PHASE, "a window by centre and width needs starts at one phase; give min and max"},
-    {asks_no_basin, AT_STROBE, "needs the study basin; add it to the scene"},
-    {asks_table, AT_STROBE, "basin.method icm follows whole drive periods from phase 0 only; choose exact or direct"},
-    {asks_accuracy, AT_STROBE, "basin.accuracy needs starts at phase 0 and no ramp; leave one of them out"},
-    {asks_boundary, AT_STROBE, "basin.boundary needs starts at phase 0 and no ramp; leave one of them out"},
-    {asks_tradeoff, AT_STROBE, "study tradeoff needs starts at phase 0 and no ramp; leave one of them out"},
-    {asks_orbit_on_ramp, AT_STROBE, "study orbit does not follow a ramp; leave one of them out"},
+    {asks_no_basin, KZ_NEEDS_STROBE, "needs the study basin; add it to the scene"},
+    {asks_table, KZ_NEEDS_STROBE, "basin.method icm follows whole drive periods from phase 0 only; choose exact or direct"},
+    {asks_accuracy, KZ_NEEDS_STROBE, "basin.accuracy needs starts at phase 0 and no ramp; leave one of them out"},
+    {asks_boundary, KZ_NEEDS_STROBE, "basin.boundary needs starts at phase 0 and no ramp; leave one of them out"},
+    {asks_tradeoff, KZ_NEEDS_STROBE, "study tradeoff needs starts at phase 0 and no ramp; leave one of them out"},
+    {asks_orbit_on_ramp, KZ_NEEDS_STROBE, "study orbit does not follow a ramp; leave one of them out"},
 };
 
 /* The complaint of the first row that the scene asks for; NULL = none. */
-static const char *limit_of(const kz_scene *scene, int needs) {
+static const char *limit_of(const kz_scene *scene, kz_drive_need needs) {
   for (size_t i = 0; i < sizeof limits / sizeof *limits; i++)
     if (limits[i].needs == needs && limits[i].is_asked(scene)) return limits[i].complaint;
-  for (int i = 0; i < kz_study_count; i++)
-    if (needs == AT_STROBE && kz_studies[i]->at_strobe && kz_study_is_wanted(kz_studies[i], scene))
-      return kz_studies[i]->at_strobe;
+  for (int i = 0; i < kz_study_count; i++) {
+    const char *limit =
+        kz_studies[i]->limit && kz_study_is_wanted(kz_studies[i], scene) ? kz_studies[i]->limit(scene, needs) : NULL;
+    if (limit) return limit;
+  }
   return NULL;
 }
 
 /* Of cells that are released at many phases. */
 static const char *limit_of_phases(const kz_scene *scene) {
-  const char *why = limit_of(scene, ONE_PHASE);
-  return why ? why : limit_of(scene, AT_STROBE);
+  const char *why = limit_of(scene, KZ_NEEDS_ONE_PHASE);
+  return why ? why : limit_of(scene, KZ_NEEDS_STROBE);
 }
 
 /* The complaint about a ramp; NULL = none. */
@@ -121,8 +117,8 @@ static kz_status check_release(const kz_scene *scene) {
   const bool ramp = scene->parameters.has_ramp;
   const char *wrong = ramp ? wrong_ramp(&scene->parameters) : NULL;
   if (wrong) return kz_fail(KZ_REFUSED, "pendulum.ramp.%s", wrong);
-  const char *why = limit_of(scene, NO_RAMP_OVER);
-  if (!why && kz_release_strobes(&scene->parameters.release) > 0) why = limit_of(scene, AT_STROBE);
+  const char *why = limit_of(scene, KZ_NEEDS_NO_RAMP_OVER);
+  if (!why && kz_release_strobes(&scene->parameters.release) > 0) why = limit_of(scene, KZ_NEEDS_STROBE);
   return why ? kz_fail(KZ_REFUSED, "%s: %s", ramp ? "pendulum.ramp" : "basin.start_phase", why) : KZ_OK;
 }
 
@@ -144,8 +140,8 @@ kz_status kz_drive_check(const kz_scene *scene) {
   const char *chart = wrong_chart(scene);
   if (chart) return kz_fail(KZ_REFUSED, "%s", chart);
   const bool varied = is_swept(scene, kz_sweep_is_of_drive);
-  const char *why = kz_is_sine(p) && !varied ? NULL : limit_of(scene, SINE);
-  if (!why && (!kz_is_mirrored(p) || varied)) why = limit_of(scene, MIRRORED);
+  const char *why = kz_is_sine(p) && !varied ? NULL : limit_of(scene, KZ_NEEDS_SINE);
+  if (!why && (!kz_is_mirrored(p) || varied)) why = limit_of(scene, KZ_NEEDS_MIRROR);
   if (why) return kz_fail(KZ_REFUSED, "%s: %s", kz_drive_made_by(&scene->parameters.written), why);
   return check_release(scene);
 }

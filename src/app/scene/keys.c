@@ -132,15 +132,23 @@ static int64_t length_of(const kz_key *keys) {
 
 static const kz_key *table;
 
-/* Puts `keys` among the `n` first ones of `joined`, behind those of their mapping, or at their end; returns their number. */
+/* Whether a row is that of the mapping of `path`, or of a key in it. */
+static bool is_beside(const kz_key *row, const char *path) {
+  const char *dot = strrchr(path, '.');
+  const size_t length = dot ? (size_t)(dot - path) : 0;
+  return dot && strncmp(row->path, path, length) == 0 && (row->path[length] == '.' || row->path[length] == '\0');
+}
+
+/* Puts each of `keys` among the `n` first ones of `joined`, behind those of its mapping, or at their end; returns their number. */
 static int64_t add(kz_key *joined, int64_t n, const kz_key *keys) {
-  const int64_t more = length_of(keys);
-  const size_t mapping = strcspn(keys->path, ".") + 1;
-  int64_t at = n;
-  while (at > 0 && keys->path[mapping - 1] && strncmp(joined[at - 1].path, keys->path, mapping) != 0) at--;
-  memmove(joined + at + more, joined + at, (size_t)(n - at) * sizeof *keys);
-  memcpy(joined + at, keys, (size_t)more * sizeof *keys);
-  return n + more;
+  for (; keys->path; keys++, n++) {
+    int64_t at = n;
+    while (at > 0 && !is_beside(joined + at - 1, keys->path)) at--;
+    if (at == 0) at = n;
+    memmove(joined + at + 1, joined + at, (size_t)(n - at) * sizeof *keys);
+    joined[at] = *keys;
+  }
+  return n;
 }
 
 static void join_keys(void) {

@@ -35,13 +35,6 @@ static void table_rules(kz_reading *reading, kz_scene *scene) {
   scene->basin->table_is_idle = given && isnan(scene->basin->accuracy) && scene->basin->method != KZ_METHOD_ICM;
 }
 
-/* undecided: decide needs method exact. */
-static void undecided_rules(kz_reading *reading, kz_scene *scene) {
-  if (!scene->has_basin || scene->basin->undecided == KZ_UNDECIDED_FLAG) return;
-  if (scene->basin->method != KZ_METHOD_EXACT || !isnan(scene->basin->accuracy))
-    kz_complain(reading, "basin.undecided", "decide needs basin.method: exact; choose that method, or flag");
-}
-
 static void attractors_rules(kz_reading *reading, kz_scene *scene) {
   if (scene->has_attractors && scene->has_basin)
     kz_complain(reading, "attractors",
@@ -287,9 +280,9 @@ static void settling_rules(kz_reading *reading, kz_scene *scene) {
 }
 
 typedef void (*rule)(kz_reading *reading, kz_scene *scene);
-static const rule rules[] = {basin_rules, table_rules,       undecided_rules,   shocks_rules,   attractors_rules,
-                             orbit_rules, stability_rules,   kz_pendulum_rules, symmetry_rules, studies_rules,
-                             sweep_rules, orbit_range_rules, settling_rules};
+static const rule rules[] = {basin_rules,   table_rules,     shocks_rules,      attractors_rules,
+                             orbit_rules,   stability_rules, kz_pendulum_rules, symmetry_rules,
+                             studies_rules, sweep_rules,     orbit_range_rules, settling_rules};
 
 void kz_reading_rules(kz_reading *reading) {
   for (size_t i = 0; i < sizeof rules / sizeof rules[0]; i++) rules[i](reading, reading->scene);

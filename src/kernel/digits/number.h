@@ -5,7 +5,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
-#include "kapitza/kernel.h"
+#include "kapitza/kernel_digits.h"
 
 #if __has_include(<flint/arb.h>)
 #include <flint/arb.h>

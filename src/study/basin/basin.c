@@ -72,22 +72,22 @@ static const kz_basin_part *wanted_part(const kz_scene *scene, int study) {
 static double parts_bytes(const kz_scene *scene) {
   double bytes = 0;
   for (int i = 0; i < kz_study_count; i++)
-    if (wanted_part(scene, i)) bytes += wanted_part(scene, i)->bytes(scene);
+    if (wanted_part(scene, i) && wanted_part(scene, i)->bytes) bytes += wanted_part(scene, i)->bytes(scene);
   return bytes;
 }
 
-static kz_status make_parts(const kz_scene *scene, kz_chunks *chunks) {
+static kz_status make_parts(const kz_scene *scene, kz_window_labels *labelling) {
   for (int i = 0; i < kz_study_count; i++) {
     if (!wanted_part(scene, i)) continue;
-    kz_part *p = chunks->parts + chunks->n_parts++;
+    kz_part *p = labelling->parts + labelling->n_parts++;
     p->part = wanted_part(scene, i);
     KZ_TRY(p->part->make(scene, &p->own));
   }
   return KZ_OK;
 }
 
-static void free_parts(kz_chunks *chunks) {
-  for (int i = 0; i < chunks->n_parts; i++) chunks->parts[i].part->free(chunks->parts[i].own);
+static void free_parts(kz_window_labels *labelling) {
+  for (const kz_part *p = labelling->parts; p < labelling->parts + labelling->n_parts; p++) p->part->free(p->own);
 }
 
 /* Of FILE and FILE.checkpoint. Measured with Fig. 12's scene on 10^6 to 4 10^8 cells: finer grids have longer runs of equal labels. */
@@ -141,16 +141,25 @@ static void measure_numerics(const kz_scene *scene, kz_dynamics *dynamics, kz_wi
   kz_steps_warn_table(scene->basin, labels->table_error, summary);
 }
 
+/* What is said of undecided cells. */
+static const char *advice_of(const kz_window_labels *labelling) {
+  for (const kz_part *p = labelling->parts; p < labelling->parts + labelling->n_parts; p++)
+    if (p->part->advice) return p->part->advice(p->own);
+  return "their orbits need more than quad precision.";
+}
+
 /* Writes everything that follows from the labels of the cells. Rank 0. */
 static kz_status write_results(const kz_scene *scene, const kz_chunks *chunks, FILE *summary) {
   kz_dynamics *dynamics = chunks->labelling->dynamics;
   kz_window_summary labels = {.cells = chunks->labelling->tiles.cells,
                               .counts = chunks->counts,
                               .trapped_share = kz_dynamics_trapped_share(dynamics),
+                              .advice = advice_of(chunks->labelling),
                               .doubt = kz_doubt_of(scene->basin, chunks->sample, chunks->counts.doubtful)};
   measure_numerics(scene, dynamics, &labels, summary);
   KZ_TRY(kz_basin_write(scene, chunks->catalogue, &labels, chunks->store, summary));
-  for (int i = 0; i < chunks->n_parts; i++) KZ_TRY(chunks->parts[i].part->write(chunks->parts[i].own, chunks, summary));
+  for (const kz_part *p = chunks->labelling->parts; p < chunks->labelling->parts + chunks->labelling->n_parts; p++)
+    if (p->part->write) KZ_TRY(p->part->write(p->own, chunks, summary));
   return kz_lifetime_write(scene->basin, chunks->transients, chunks->store, summary);
 }
 
@@ -159,7 +168,8 @@ static kz_status write_window(const kz_scene *scene, kz_chunks *chunks, FILE *su
   const kz_run *run = labelling->run;
   kz_store *store = chunks->store;
   KZ_TRY(kz_label_window(labelling));
-  for (int i = 0; i < chunks->n_parts; i++) KZ_TRY(chunks->parts[i].part->follow(chunks->parts[i].own, labelling));
+  for (const kz_part *p = labelling->parts; p < labelling->parts + labelling->n_parts; p++)
+    if (p->part->follow) KZ_TRY(p->part->follow(p->own, labelling));
   KZ_TRY(kz_doubt_follow(scene->basin, run, labelling->dynamics, chunks->sample));
   kz_catalogue_make(labelling->dynamics, labelling->reached, chunks->catalogue);
   KZ_TRY(kz_ranks_agree(run->ranks, store ? kz_basin_declare(scene, &labelling->tiles, store) : KZ_OK));
@@ -184,7 +194,7 @@ static kz_status run_damped(const kz_scene *scene, const kz_run *run, kz_store *
   kz_chunks chunks = {&labelling, &catalogue, store, .sample = &sample, .transients = &transients};
   labelling.dynamics = kz_dynamics_create(&scene->parameters.pendulum, &scene->numerics, plan->max_period);
   kz_dynamics_set_release(labelling.dynamics, &scene->parameters.release);
-  kz_status status = kz_ranks_agree(run->ranks, make_parts(scene, &chunks));
+  kz_status status = kz_ranks_agree(run->ranks, make_parts(scene, &labelling));
   if (status == KZ_OK) {
     const kz_window motions = kz_motions_window(&plan->theta, &plan->velocity);
     labelling.search.max_velocity = kz_dynamics_max_velocity(labelling.dynamics, &motions);
@@ -192,7 +202,7 @@ static kz_status run_damped(const kz_scene *scene, const kz_run *run, kz_store *
   }
   kz_dynamics_free(labelling.dynamics);
   kz_window_labels_free(&labelling);
-  free_parts(&chunks);
+  free_parts(&labelling);
   kz_catalogue_free(&catalogue);
   kz_doubt_free(&sample);
   free(transients.time);

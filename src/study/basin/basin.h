@@ -35,29 +35,6 @@ void kz_transients_add(kz_transients *transients, int64_t n, const void *picked)
 /* Writes and prints the mean of the slow ones; moves the times. Rank 0. */
 kz_status kz_lifetime_write(const kz_basin_plan *plan, kz_transients *transients, kz_store *store, FILE *summary);
 
-/* ---- parts of the study that other folders add: rows of kz_studies with `of_basin`, whose work the run of the basin does ---- */
-
-typedef struct kz_chunks kz_chunks;
-struct kz_basin_part {
-  /* Bytes of memory that it takes on a rank. */
-  double (*bytes)(const kz_scene *scene);
-  /* *own = what it needs until `free`, NULL: nothing is to be done. */
-  kz_status (*make)(const kz_scene *scene, void **own);
-  void (*free)(void *own);
-  /* After the cells are labelled. Collective. */
-  kz_status (*follow)(void *own, kz_window_labels *labelling);
-  /* Replaces labels of the own cells of a tile of this rank, cell [kz_tile_own]; NULL: none. */
-  kz_status (*take)(void *own, int64_t tile, kz_label *cell);
-  /* Attributes, variables and lines of the summary. Rank 0. */
-  kz_status (*write)(void *own, const kz_chunks *chunks, FILE *summary);
-};
-enum { KZ_MOST_PARTS = 8 };
-/* A part of this run. */
-typedef struct {
-  const kz_basin_part *part;
-  void *own;
-} kz_part;
-
 /* ---- the cells in the file, chunk by chunk ---- */
 
 struct kz_chunks {
@@ -73,8 +50,6 @@ struct kz_chunks {
   int16_t *others; /* second candidates */
   int32_t *turns;
   int64_t *cells_of; /* [attractors] number of cells */
-  int n_parts;
-  kz_part parts[KZ_MOST_PARTS];
 };
 
 /* Declares the variables of the cells; their dimensions must exist. Rank 0. */
@@ -91,6 +66,7 @@ typedef struct {
   double trapped_share; /* share of the cells of the trapping regions' grid that are trapped */
   double step_error;    /* rad: the largest error of one drive period in a sample */
   kz_doubt doubt;       /* of the labels */
+  const char *advice;   /* what is said of cells that stay undecided */
   double table_error;   /* rad: the same of the map table; NaN without a table */
 } kz_window_summary;
 

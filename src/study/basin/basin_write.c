@@ -146,19 +146,12 @@ static void print_settled(const kz_scene *scene, const kz_window_summary *labels
             1 / (M_PI * scene->parameters.pendulum.beta));
 }
 
-/* Prints what a user can do about undecided cells. */
-static const char *advice(const kz_basin_plan *plan) {
-  if (plan->undecided == KZ_UNDECIDED_DECIDE)
-    return "the largest number of digits that was tried does not decide where they end.";
-  return "their orbits need more than quad precision; basin.undecided: decide follows them further.";
-}
-
-static void print_decided(const kz_basin_plan *plan, const kz_window_summary *labels, FILE *summary) {
+static void print_decided(const kz_window_summary *labels, FILE *summary) {
   const long long undecided = labels->counts.evidence[KZ_UNDECIDED];
   if (undecided == 0)
     fputs("All cells are decided.\n", summary);
   else
-    fprintf(summary, "%lld cells are undecided (evidence 3): %s\n", undecided, advice(plan));
+    fprintf(summary, "%lld cells are undecided (evidence 3): %s\n", undecided, labels->advice);
 }
 
 kz_status kz_basin_write(const kz_scene *scene, const kz_catalogue *catalogue, const kz_window_summary *labels, kz_store *store,
@@ -167,7 +160,7 @@ kz_status kz_basin_write(const kz_scene *scene, const kz_catalogue *catalogue, c
   kz_catalogue_print(catalogue, &scene->parameters, true, summary);
   print_settled(scene, labels, catalogue->count > 0, summary);
   if (plan->method == KZ_METHOD_EXACT) {
-    print_decided(plan, labels, summary);
+    print_decided(labels, summary);
     KZ_TRY(kz_store_integer(store, "basin", "undecided", labels->counts.evidence[KZ_UNDECIDED]));
   }
   KZ_TRY(kz_catalogue_write(catalogue, &scene->parameters.pendulum, true, store));

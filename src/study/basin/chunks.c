@@ -111,10 +111,11 @@ static kz_status add(kz_chunks *c, int64_t from, int64_t tile, char *message, si
 static kz_status take_labels(kz_chunks *c, int64_t tile) {
   const kz_tiles *tiles = &c->labelling->tiles;
   const int64_t first = kz_tile_first(tiles, tile), n = kz_tile_own(tiles, tile);
-  for (int p = 0; p < c->n_parts; p++) {
-    if (!c->parts[p].part->take) continue;
+  for (int p = 0; p < c->labelling->n_parts; p++) {
+    const kz_part *part = c->labelling->parts + p;
+    if (!part->part->take) continue;
     KZ_FREED kz_label *own = memcpy(kz_malloc((size_t)n * sizeof *own), c->labelling->cell, (size_t)n * sizeof *own);
-    KZ_TRY(c->parts[p].part->take(c->parts[p].own, tile, c->labelling->cell));
+    KZ_TRY(part->part->take(part->own, tile, c->labelling->cell));
     for (int64_t i = 0; i < n; i++) {
       kz_label *cell = c->labelling->cell + i;
       const bool differs = own[i].label != cell->label, was_open = own[i].evidence == KZ_UNDECIDED;

@@ -10,23 +10,16 @@ static const kz_key keys[] = {
             "Angles of the cells; min and max, or centre and width, at most 2 pi; neither: the whole circle [-pi, pi)."),
     EDGE("basin.theta.min", "rad", 1e6, "", theta_edges.min, "Lower edge of the window."),
     EDGE("basin.theta.max", "rad", 1e6, "", theta_edges.max, "Upper edge of the window."),
-    DECIMAL("basin.theta.centre", "rad", -1e6, 1e6, "", theta.centre, CENTRE_HELP),
-    DECIMAL("basin.theta.width", "rad", 1e-300, 7, "", theta.width, "Width of the window."),
     INTEGER("basin.theta.count", 1, 1e6, "1000", theta.count, "Cells along theta."),
     MAPPING("basin.velocity", NULL, "Velocities of the cells."),
     EDGE("basin.velocity.min", KZ_VELOCITY_UNIT, KZ_MOST_SPEED, NULL, velocity_edges.min, "Lower edge of the window."),
     EDGE("basin.velocity.max", KZ_VELOCITY_UNIT, KZ_MOST_SPEED, NULL, velocity_edges.max, "Upper edge of the window."),
-    DECIMAL("basin.velocity.centre", KZ_VELOCITY_UNIT, -KZ_MOST_SPEED, KZ_MOST_SPEED, NULL, velocity.centre, CENTRE_HELP),
-    DECIMAL("basin.velocity.width", KZ_VELOCITY_UNIT, 1e-300, 2e9, NULL, velocity.width, "Width of the window."),
     INTEGER("basin.velocity.count", 1, 1e6, "1000", velocity.count, "Cells along the velocity."),
     WORD("basin.method", KZ_JOINED(KZ_METHOD_WORDS), "exact", method,
          "exact: the error of each orbit decides its label; undecided cells are followed again in more precision, and flagged "
          "in evidence if quad precision does not decide them; direct: double precision alone, doubtful labels are marked in "
          "evidence; icm: interpolated cell mapping, the method of the papers. A sweep uses direct.",
          .former = "hybrid=direct", CHOSEN),
-    WORD("basin.undecided", KZ_JOINED(KZ_UNDECIDED_WORDS), "flag", undecided,
-         "Cells that quad precision does not decide, by method exact. flag: flagged with two candidates; decide: followed in "
-         "as many digits as needed, some 0.1 to 0.4 s a cell."),
     MAPPING("basin.icm", "", "The map table of method icm."),
     INTEGER("basin.icm.theta", 8, 1e5, "1000", table_theta, "Nodes along theta.", CHOSEN),
     INTEGER("basin.icm.velocity", 8, 1e5, "1000", table_velocity, "Nodes along the velocity.", CHOSEN),

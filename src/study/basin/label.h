@@ -3,9 +3,8 @@
 
 #include "measures/counts.h"
 #include "labelling/search.h"
-#include "labelling/labeller.h"
+#include "labelling/cell_starts.h"
 #include "numerics/cells.h"
-#include "window/window.h"
 
 /* A tile is a number of whole rows of cells, or a part of one row, so its cells are consecutive. If the window is its own mirror image,
  * tile t is the mirror image of tile n - 1 - t. */
@@ -28,31 +27,64 @@ int64_t kz_tile_own(const kz_tiles *tiles, int64_t tile);
 /* Number of cells of a chunk. */
 int64_t kz_tile_capacity(const kz_tiles *tiles);
 
+typedef struct kz_window_labels kz_window_labels;
+/* ---- parts of the study that other folders add: rows of kz_studies with `of_basin`, whose work the run of the basin does ---- */
+
+typedef struct kz_chunks kz_chunks;
+struct kz_basin_part {
+  /* Bytes of memory that it takes on a rank. Every function but make and free may be NULL. */
+  double (*bytes)(const kz_scene *scene);
+  /* *own = what it needs until `free`. */
+  kz_status (*make)(const kz_scene *scene, void **own);
+  void (*free)(void *own);
+  /* After the attractors of the window are found: may change labelling->labeller, that of its cells. Collective. */
+  kz_status (*label)(void *own, kz_window_labels *labelling);
+  /* Where that gave the cells starts that doubles do not distinguish: others like them, up to `reach` of the window's width from its middle, for
+   * start_at; NULL: it did not. The caller frees it. start_at: at these shares of the width, from the middle, for a level. */
+  void *(*starts)(void *own, double reach);
+  void (*start_at)(const void *starts, int32_t level, __float128 theta, __float128 velocity, kz_start *start);
+  /* What is said of cells that stay undecided; NULL = nothing in particular. */
+  const char *(*advice)(void *own);
+  /* After the cells are labelled. Collective. */
+  kz_status (*follow)(void *own, kz_window_labels *labelling);
+  /* Replaces labels of the own cells of a tile of this rank, cell [kz_tile_own]. */
+  kz_status (*take)(void *own, int64_t tile, kz_label *cell);
+  /* Attributes, variables and lines of the summary. Rank 0. */
+  kz_status (*write)(void *own, const kz_chunks *chunks, FILE *summary);
+};
+enum { KZ_MOST_PARTS = 8 };
+/* A part of this run. */
 typedef struct {
+  const kz_basin_part *part;
+  void *own;
+} kz_part;
+
+struct kz_window_labels {
   const kz_basin_plan *plan;
   const kz_parameters *parameters;
   kz_dynamics *dynamics;
   kz_search search; /* of the starts */
   kz_tiles tiles;
-  kz_images *images;       /* for a window by centre and width with method exact; else NULL */
-  kz_window_starts starts; /* of all cells */
-  kz_labeller labeller;    /* of the cells, whose items are their numbers */
-  int64_t tile;            /* most cells that are followed together */
+  kz_cell_starts starts; /* of all cells */
+  int n_parts;
+  kz_part parts[KZ_MOST_PARTS];
+  kz_labeller labeller; /* of the cells, whose items are their numbers */
+  int64_t tile;         /* most cells that are followed together */
   const kz_run *run;
   kz_label *cell;           /* [kz_tile_capacity] a tile, unpacked */
   kz_local_records records; /* tiles of this rank, packed */
   int16_t wanted;           /* label of the pending cells: 0 or KZ_DOUBTFUL */
   int64_t *before;          /* [own tiles + 1]: number of pending cells in all tiles before */
   int64_t *reached;         /* [INT16_MAX + 1]: number of starts and tiles that ended on each attractor */
-} kz_window_labels;
+};
 
 /* Finds the attractors and labels all cells but mirror images. Out: `records`, the tiles of this rank; `reached`, of all ranks. The caller
  * frees *labelling in every case. Collective. */
 kz_status kz_label_window(kz_window_labels *labelling);
 void kz_window_labels_free(kz_window_labels *labelling);
 
-/* Makes starts and labeller, after the images if the window needs them. */
-void kz_window_labels_start(kz_window_labels *labelling);
+/* Makes starts and labeller. Collective. */
+kz_status kz_window_labels_start(kz_window_labels *labelling);
 
 /* ---- packed tiles ---- */
 

@@ -4,24 +4,22 @@
 #include "label.h"
 #include "plan.h"
 
-enum {
-  MOST_DECIDED = 100000
-}; /* windows of at most so many cells: own orbits decide their pending cells even if basin.undecided is flag */
-
 /* A packed tile. After it: the numbers of the attractors that it reaches (int32_t), its cells as kz_squeeze has them. */
 typedef struct {
   uint64_t bytes; /* all */
   int64_t n_reached, n_pending, n_doubtful;
 } head;
 
-void kz_window_labels_start(kz_window_labels *l) {
-  kz_window_starts_make(l->plan, l->parameters, l->dynamics, l->images, &l->starts);
-  l->labeller = kz_window_labeller(&l->starts,
-                                   l->plan->undecided == KZ_UNDECIDED_DECIDE || (l->images && l->tiles.cells <= MOST_DECIDED));
+kz_status kz_window_labels_start(kz_window_labels *l) {
+  kz_cell_starts_make(l->plan, &l->starts);
+  l->labeller = kz_cell_starts_labeller(&l->starts, l->dynamics);
+  for (const kz_part *p = l->parts; p < l->parts + l->n_parts; p++)
+    if (p->part->label) KZ_TRY(p->part->label(p->own, l));
   l->labeller.way = kz_way_of(l->plan->method, l->plan->interpolation);
   l->labeller.run = l->run;
   l->labeller.tile = l->tile;
   l->labeller.turns = l->plan->turns;
+  return KZ_OK;
 }
 
 size_t kz_tile_labels_bytes(const kz_window_labels *l) {

@@ -1,6 +1,7 @@
 /* Pairs of starts beside each other: how many of them end differently, by their distance. */
 #include <float.h>
 #include <math.h>
+#include <stdlib.h>
 
 #include "numerics/share.h"
 #include "basin.h"
@@ -16,8 +17,8 @@ static const double nearest_of_doubles = 1e-12, nearest_of_pairs = 1e-25, neares
 typedef struct {
   const kz_basin_plan *plan;
   kz_dynamics *dynamics;
-  kz_images *images; /* of the window, where the partners lie in it or about it too; else NULL */
-  kz_hand_over hand_over[KZ_LEVELS];
+  const kz_part *deep; /* which makes the starts, where the partners lie in a deep window or about it too; else NULL */
+  void *starts;        /* its own */
 } pairing;
 
 typedef struct {
@@ -104,11 +105,11 @@ static kz_status start_at(void *context, int64_t i, int32_t level, kz_start *sta
   const kz_axis *const axes[] = {&p->plan->theta, &p->plan->velocity};
   const point *at = t->point + i;
   *start = (kz_start){.periods = 0};
-  if (p->images) {
+  if (p->starts) {
     __float128 place[2];
     for (int axis = 0; axis < 2; axis++)
       place[axis] = ((__float128)at->share[axis] - 0.5) + at->offset[axis] / kz_axis_width(axes[axis]);
-    kz_hand_over_start(&p->hand_over[level], place[0], place[1], start);
+    p->deep->part->start_at(p->starts, level, place[0], place[1], start);
   } else {
     kz_axis_at(axes[0], at->share[0], at->offset[0], start->theta);
     kz_axis_at(axes[1], at->share[1], at->offset[1], start->velocity);
@@ -145,9 +146,12 @@ static kz_status count_some(void *context, int64_t first, int64_t n, void *recor
 }
 
 static pairing pairing_of(const kz_basin_plan *plan, const kz_window_labels *labelling) {
-  pairing p = {.plan = plan, .dynamics = labelling->dynamics, .images = is_within(plan) ? labelling->images : NULL};
+  pairing p = {.plan = plan, .dynamics = labelling->dynamics};
   const double reach = 0.5 + plan->boundary.farthest / narrower_side(plan);
-  if (p.images) kz_hand_overs_make(p.images, reach, p.hand_over);
+  for (int i = 0; is_within(plan) && i < labelling->n_parts && !p.starts; i++) {
+    p.deep = labelling->parts + i;
+    if (p.deep->part->starts) p.starts = p.deep->part->starts(p.deep->own, reach);
+  }
   return p;
 }
 
@@ -164,5 +168,6 @@ kz_status kz_pairs_count(const kz_basin_plan *plan, const kz_window_labels *labe
       uncertain[d].uncertain += records[tile].uncertain[d];
     }
   }
+  free(p.starts);
   return status;
 }

@@ -4,7 +4,6 @@
 #include "kapitza/study.h"
 
 enum { KZ_METHOD_ICM = 0, KZ_METHOD_DIRECT = 1, KZ_METHOD_EXACT = 2 };
-enum { KZ_UNDECIDED_FLAG = 0, KZ_UNDECIDED_DECIDE = 1 }; /* what happens to cells that quad precision does not decide */
 enum { KZ_LINEAR = 0, KZ_QUINTIC = 1 };
 
 enum { KZ_BOUNDARY_FEWEST_DECADES = 2, KZ_BOUNDARY_MOST_DECADES = 23 };
@@ -19,7 +18,7 @@ struct kz_basin_plan {
   kz_axis theta;    /* rad; the whole circle is [-pi, pi) */
   kz_axis velocity; /* rad per drive radian */
   kz_edges theta_edges, velocity_edges;
-  int32_t method, undecided;
+  int32_t method;
   int64_t table_theta, table_velocity; /* nodes of the map table */
   bool table_is_idle;                  /* the scene gives keys of a map table, but its method does not use one */
   int32_t interpolation;

@@ -5,7 +5,6 @@
 
 #include "numerics/step_check.h"
 #include "label.h"
-#include "window/window.h"
 #include "plan.h"
 
 /* ---- pending cells, unsettled or doubtful: counted, picked and labelled again, a bounded number at a time ---- */
@@ -124,15 +123,11 @@ static kz_status label_all_tiles(kz_window_labels *l) {
   return kz_stage_run(l->run, &stage, NULL);
 }
 
-/* The starts of all cells, after the images of the window where they need them; the check of a map table that labels them. Nothing is checked
+/* The starts of all cells; the check of a map table that labels them. Nothing is checked
  * if basin.accuracy chose the setting, which compares labels. */
 static kz_status make_starts(kz_window_labels *l) {
   const kz_basin_plan *plan = l->plan;
-  if (kz_plan_is_centred(plan) && plan->method == KZ_METHOD_EXACT) {
-    l->images = kz_images_create(l->parameters, &plan->theta, &plan->velocity);
-    KZ_TRY(kz_images_run(l->run, l->dynamics, l->images, plan->max_periods));
-  }
-  kz_window_labels_start(l);
+  KZ_TRY(kz_window_labels_start(l));
   if (plan->method != KZ_METHOD_ICM || !isnan(plan->accuracy)) return KZ_OK;
   return kz_ranks_agree(l->run->ranks,
                         kz_steps_check_table(plan, kz_dynamics_table_error(l->dynamics, kz_stencil(plan->interpolation))));
@@ -178,8 +173,7 @@ kz_status kz_label_window(kz_window_labels *l) {
 
 void kz_window_labels_free(kz_window_labels *l) {
   kz_local_records_free(&l->records);
-  kz_window_starts_free(&l->starts);
-  kz_images_free(l->images);
+  kz_cell_starts_free(&l->starts);
   free(l->cell);
   free(l->before);
   free(l->reached);

@@ -13,5 +13,9 @@ static const kz_key keys[] = {
     {.path = NULL},
 };
 
-KZ_PART_ROW(.check = kz_proof_check, .of_basin = &kz_proof_part,
-            .at_strobe = "basin.proof needs starts at phase 0 and no ramp; leave one of them out");
+static const char *limit(const kz_scene *scene, kz_drive_need need) {
+  (void)scene;
+  return need == KZ_NEEDS_STROBE ? "basin.proof needs starts at phase 0 and no ramp; leave one of them out" : NULL;
+}
+
+KZ_PART_ROW(has_proof, .check = kz_proof_check, .of_basin = &kz_proof_part, .limit = limit);

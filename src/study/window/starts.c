@@ -12,20 +12,12 @@ static __float128 *places(const kz_axis *axis, const kz_view *view, int i) {
   return place;
 }
 
-/* Centres of the cells of an axis, rad or rad per drive radian. */
-static double *centres(const kz_axis *axis) {
-  double *centre = kz_malloc((size_t)axis->count * sizeof *centre);
-  for (int64_t cell = 0; cell < axis->count; cell++) centre[cell] = kz_axis_centre(axis, cell);
-  return centre;
-}
-
 void kz_window_starts_make(const kz_basin_plan *plan, const kz_parameters *parameters, kz_dynamics *dynamics, kz_images *images,
                            kz_window_starts *starts) {
   kz_view view;
   *starts = (kz_window_starts){.plan = plan, .parameters = parameters, .dynamics = dynamics, .images = kz_images_hold(images)};
   if (!images) {
-    starts->centre[0] = centres(&plan->theta);
-    starts->centre[1] = centres(&plan->velocity);
+    kz_cell_starts_make(plan, &starts->cells);
     return;
   }
   kz_images_serve(images, parameters, &plan->theta, &plan->velocity, &view);
@@ -38,8 +30,7 @@ void kz_window_starts_free(kz_window_starts *starts) {
   kz_images_free(starts->images);
   free(starts->place[0]);
   free(starts->place[1]);
-  free(starts->centre[0]);
-  free(starts->centre[1]);
+  kz_cell_starts_free(&starts->cells);
   *starts = (kz_window_starts){0};
 }
 
@@ -47,14 +38,9 @@ void kz_window_starts_free(kz_window_starts *starts) {
 static kz_status start_cell(void *context, int64_t cell, int32_t level, kz_start *start) {
   const kz_window_starts *s = context;
   const int64_t column = cell % s->plan->theta.count, row = cell / s->plan->theta.count;
-  if (s->images) {
-    kz_hand_over_start(&s->hand_over[level], s->place[0][column], s->place[1][row], start);
-    start->from = kz_axis_centre(&s->plan->theta, column);
-    return KZ_OK;
-  }
-  *start = (kz_start){0}; /* in place: a copy of what was just written waits for it */
-  start->theta[0] = s->centre[0][column];
-  start->velocity[0] = s->centre[1][row];
+  if (!s->images) return kz_cell_starts_at((void *)&s->cells, cell, level, start);
+  kz_hand_over_start(&s->hand_over[level], s->place[0][column], s->place[1][row], start);
+  start->from = kz_axis_centre(&s->plan->theta, column);
   return KZ_OK;
 }
 

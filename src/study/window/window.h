@@ -2,7 +2,8 @@
 #pragma once
 
 #include "kapitza/study.h"
-#include "labelling/labeller.h"
+#include "kapitza/kernel_digits.h"
+#include "labelling/cell_starts.h"
 
 /* ---- images: all cells of a small window move together at first. The program follows one orbit, that of the centre, in as many digits as the
  * depth needs, and beside it the window as a polynomial of degree 3. After n periods this gives the start of every cell. ---- */
@@ -105,7 +106,7 @@ typedef struct {
   kz_images *images; /* this struct is a holder; NULL = the cells are doubles */
   kz_hand_over hand_over[KZ_LEVELS];
   __float128 *place[2]; /* with images: place of each column and of each row, in shares of the images' width */
-  double *centre[2];    /* without images: centre of each column and of each row, rad and rad per drive radian */
+  kz_cell_starts cells; /* without images */
 } kz_window_starts;
 
 /* Makes the starts from finished images that serve the window (kz_images_serve), or without images (NULL). The caller frees them. */

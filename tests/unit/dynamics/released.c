@@ -6,6 +6,7 @@
 #include <stdlib.h>
 
 #include "kapitza/dynamics.h"
+#include "kapitza/kernel_digits.h"
 
 enum { BITS = 200, STARTS = 3 };
 

@@ -9,6 +9,7 @@
 
 #include "digits/number.h"
 #include "kapitza/kernel.h"
+#include "kapitza/kernel_digits.h"
 
 /* A sine, and everything that a drive can have. */
 static const kz_pendulum pendulums[] = {{.k = 0.1, .beta = 0.1, .m = 0.4},

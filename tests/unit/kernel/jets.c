@@ -4,6 +4,7 @@
 #include <math.h>
 
 #include "kapitza/kernel.h"
+#include "kapitza/kernel_digits.h"
 
 enum { TERMS = 15, STEPS = 96 };
 /* tests/unit/jets.f90: pendulum [3] = itself, what grows with p and with q; derivative [TERMS][2]. */

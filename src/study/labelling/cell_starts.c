@@ -1,0 +1,36 @@
+#include "cell_starts.h"
+
+#include <stdlib.h>
+
+#include "basin/plan.h"
+#include "numerics/cells.h"
+
+static double *centres(const kz_axis *axis) {
+  double *centre = kz_malloc((size_t)axis->count * sizeof *centre);
+  for (int64_t cell = 0; cell < axis->count; cell++) centre[cell] = kz_axis_centre(axis, cell);
+  return centre;
+}
+
+void kz_cell_starts_make(const kz_basin_plan *plan, kz_cell_starts *starts) {
+  *starts = (kz_cell_starts){plan, {centres(&plan->theta), centres(&plan->velocity)}};
+}
+
+void kz_cell_starts_free(kz_cell_starts *starts) {
+  free(starts->centre[0]);
+  free(starts->centre[1]);
+  *starts = (kz_cell_starts){0};
+}
+
+kz_status kz_cell_starts_at(void *starts, int64_t cell, int32_t level, kz_start *start) {
+  const kz_cell_starts *s = starts;
+  (void)level;
+  *start = (kz_start){0}; /* in place: a copy of what was just written waits for it */
+  start->theta[0] = s->centre[0][cell % s->plan->theta.count];
+  start->velocity[0] = s->centre[1][cell / s->plan->theta.count];
+  return KZ_OK;
+}
+
+kz_labeller kz_cell_starts_labeller(const kz_cell_starts *starts, kz_dynamics *dynamics) {
+  return (kz_labeller){dynamics,           starts->plan->max_periods,  KZ_BY_LEVELS,
+                       KZ_OPEN_CANDIDATES, .start = kz_cell_starts_at, .context = (void *)starts};
+}

@@ -1,0 +1,17 @@
+/* The cells of a window as starts for a labeller; items are the numbers of cells, theta fastest. */
+#pragma once
+
+#include "labeller.h"
+
+typedef struct {
+  const kz_basin_plan *plan;
+  double *centre[2]; /* of each column and of each row: rad, rad per drive radian */
+} kz_cell_starts;
+
+/* The caller frees them. */
+void kz_cell_starts_make(const kz_basin_plan *plan, kz_cell_starts *starts);
+void kz_cell_starts_free(kz_cell_starts *starts);
+/* A kz_start_fn, whose context they are. */
+kz_status kz_cell_starts_at(void *starts, int64_t cell, int32_t level, kz_start *start);
+/* The labeller of the cells, by levels. */
+kz_labeller kz_cell_starts_labeller(const kz_cell_starts *starts, kz_dynamics *dynamics);
