@@ -2,26 +2,19 @@
 
 import re
 import subprocess
+import sys
 from functools import cache
+from importlib.machinery import SourceFileLoader
+from importlib.util import module_from_spec, spec_from_loader
 from pathlib import Path
 
 from conftest import PROGRAM, ROOT
 from test_structure import SOURCES, edges, source_of
 
-
-@cache
-def powers():
-    """{power: {word of kapitza_power: [its values]}} of cmake/power_list.cmake."""
-    found = {}
-    for name, rest in re.findall(r"^kapitza_power\((\w+)([^)]*)\)", (ROOT / "cmake" / "power_list.cmake").read_text(), re.MULTILINE):
-        lists = found[name] = {}
-        for word in rest.split():
-            if word.isupper():
-                values = lists[word] = []
-            else:
-                values.append(word)
-    assert len(found) > 1
-    return found
+SPEC = spec_from_loader("ledger", SourceFileLoader("ledger", str(ROOT / "scripts" / "ledger")))
+LEDGER = module_from_spec(SPEC)
+SPEC.loader.exec_module(LEDGER)
+powers = cache(LEDGER.powers)
 
 
 def power_of(path):
@@ -53,9 +46,7 @@ def symbols():
 
 
 def test_all_folders_of_powers_exist():
-    files = [SOURCES / folder for lists in powers().values() for folder in lists["FOLDERS"]]
-    files += [ROOT / file for lists in powers().values() for file in lists.get("FILES", ())]
-    assert not [path for path in files if not path.exists()]
+    assert len(powers()) > 1 and all(LEDGER.belongings().values())
 
 
 def test_the_core_includes_no_power():
@@ -65,8 +56,35 @@ def test_the_core_includes_no_power():
 def test_the_core_calls_no_power():
     """But for the rows by which studies, commands and the like are registered: cmake writes their names into the core's tables."""
     registered = {f"kz_{item}_{end}" for lists in powers().values() for kind, items in lists.items()
-                  if kind not in ("FOLDERS", "FILES", "SCRIPT", "NEEDS") for item in items for end in ("study", "variables", "command")}
+                  if kind not in ("FOLDERS", "FILES", "SCRIPT", "NEEDS", "BESIDE") for item in items
+                  for end in ("study", "variables", "command")}
     place = {name: path for path, name, kind in symbols() if kind in "TDRBV"}
     assert len(place) > 1000
     assert not trespasses((path, place[name]) for path, name, kind in symbols()
                           if kind == "U" and name in place and name not in registered)
+
+
+def test_the_table_of_budgets_is_kept():
+    """docs/develop/developer.md: a row for the core, each power and all; what takes more than its budget says why."""
+    assert not LEDGER.faults()
+    done = subprocess.run([sys.executable, ROOT / "scripts" / "ledger"], capture_output=True, text=True)
+    assert done.returncode == 0 and [line.split()[0] for line in done.stdout.splitlines()[1:]] == ["core", *powers(), "all"]
+
+
+def test_every_line_is_counted_once():
+    """The rows add up to the last, and that to what stands in the folders."""
+    ledger = LEDGER.measured()
+    for column, (folders, ends) in LEDGER.COLUMNS.items():
+        texts = [path.read_text() for folder in folders for path in (ROOT / folder).rglob("*") if path.suffix in ends]
+        parts = [amounts[column] for part, amounts in ledger.items() if part != "all"]
+        assert sum(parts) == ledger["all"][column] == sum(len(text.split()) if column == "words" else text.count("\n") for text in texts)
+
+
+def test_what_exceeds_its_budget_is_told(monkeypatch):
+    measured, table = LEDGER.measured(), LEDGER.budgets()
+    monkeypatch.setattr(LEDGER, "budgets", lambda: table | {"atlas": (table["atlas"][0] | {"src": 100}, "")})
+    assert LEDGER.faults() == [f"atlas: {measured['atlas']['src']} src exceed the budget of 100; say why"]
+    monkeypatch.setattr(LEDGER, "budgets", lambda: table | {"atlas": (table["atlas"][0] | {"src": 100}, "Curves are long.")})
+    assert not LEDGER.faults()
+    monkeypatch.setattr(LEDGER, "budgets", lambda: {part: row for part, row in table.items() if part != "atlas"})
+    assert LEDGER.faults() == ["atlas is in one of power_list.cmake and developer.md"]
