@@ -82,7 +82,7 @@ int64_t kz_turning_points(int64_t n, double step, const double *theta, const dou
 
 enum { KZ_NAME_LENGTH = 48 };
 
-/* The name of an attractor from its period (0 = chaotic), winding and centre, into text [KZ_NAME_LENGTH]; docs/explanation/orbits.md has
+/* The name of an attractor from its period (0 = it never closes), winding and centre, into text [KZ_NAME_LENGTH]; docs/explanation/orbits.md has
  * the table. */
 void kz_orbit_name(int64_t period, int64_t winding, int centre, char *text);
 

@@ -153,9 +153,9 @@ int64_t kz_dynamics_cycle_size(const kz_dynamics *dynamics);
  * [kz_dynamics_chaos_size]: a chaotic attractor, for kz_dynamics_adopt, if the orbits separate and no region traps them; else nothing. */
 void kz_dynamics_find_chaos(kz_dynamics *dynamics, const double *state, double *found);
 int64_t kz_dynamics_chaos_size(void);
-/* Looks for a quasi-periodic motion among n <= 64 states, whose orbits it follows through 8000 periods at most, if damping has had the time
+/* Looks for a running state among n <= 64 states, whose orbits it follows through 8000 periods at most, if damping has had the time
  * to bring them to an attractor in `age` periods. found [kz_dynamics_chaos_size]: the motion, for kz_dynamics_adopt, or nothing. */
-void kz_dynamics_find_quasiperiodic(kz_dynamics *dynamics, int64_t n, const double *state, int64_t age, double *found);
+void kz_dynamics_find_running(kz_dynamics *dynamics, int64_t n, const double *state, int64_t age, double *found);
 /* Adds the attractors in `found`, of one of the calls above, to the catalogue. */
 void kz_dynamics_adopt(kz_dynamics *dynamics, const double *found);
 /* Adds the cycle of `period` <= max_period drive periods within 0.2 rad of a strobe point (rad, rad per drive radian), and its mirror image,
@@ -193,8 +193,8 @@ void kz_dynamics_table_set(kz_dynamics *dynamics, const double *rows);
 /* Share of the cells of the regions' grid that belong to a trapping region. */
 double kz_dynamics_trapped_share(const kz_dynamics *dynamics);
 
-/* A motion of one pendulum: an attractor, or a cycle on a branch, which need not attract. period: 0 = chaotic; -1 = quasi-periodic: what ends there
- * settles nowhere, and files do not list it. Of cycles on branches mirror, mean values and exponents are not known. */
+/* A motion of one pendulum: an attractor, or a cycle on a branch, which need not attract. period: 0 = it never closes: chaotic, or with the winding 1
+ * or -1, the sign of its mean velocity, a running state. Of cycles on branches mirror, mean values and exponents are not known. */
 typedef struct {
   double theta, velocity; /* the first strobe point of a cycle, else the means: rad in [-pi, pi], rad per drive radian */
   int32_t period, winding, centre, symmetric, mirror; /* centre: 0 down, 1 inverted, 2 rotating, 3 none of these */
@@ -203,6 +203,9 @@ typedef struct {
   double multiplier_re[2], multiplier_im[2];          /* over the period: larger modulus first, + imaginary first */
   double lyapunov, lyapunov_error;                    /* largest exponent per drive period, and its standard error */
 } kz_attractor;
+static inline bool kz_is_running(const kz_attractor *attractor) {
+  return attractor->period == 0 && attractor->winding != 0;
+}
 
 /* Finds the cycle near a state by Newton's method on the strobe map of `numerics`; n = a period after which it closes. The cycle need not
  * attract. cycle->period = its smallest period, or 0 if none lies within `max_distance` (rad). theta (rad) and velocity [n], in: the first is
@@ -213,6 +216,8 @@ void kz_dynamics_close_cycle(const kz_pendulum *pendulum, const kz_numerics *num
 int64_t kz_dynamics_count(const kz_dynamics *dynamics);
 /* Attractor `number`, from 1 to the count. */
 void kz_dynamics_attractor(const kz_dynamics *dynamics, int64_t number, kz_attractor *attractor);
+/* 1 if averages along orbits alone show that it is an attractor, a running state round which no band was found that traps motions; else 0. */
+int32_t kz_dynamics_is_averaged(const kz_dynamics *dynamics, int64_t number);
 /* Its strobe points theta [period] in [-pi, pi) and velocity [period], from that with the lowest velocity on; a chaotic one has none. */
 void kz_dynamics_strobe(const kz_dynamics *dynamics, int64_t number, double *theta, double *velocity);
 /* number [count] = the numbers of the attractors in the order of the file. */

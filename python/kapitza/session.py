@@ -136,10 +136,10 @@ def needs(length: Any, frequency: Any, quality_factor: float | None = None) -> d
 def where(scene: SceneLike, theta: Any, velocity: Any, set: Mapping[str, Any] | None = None) -> pandas.DataFrame:
     """Returns where starts end: a table with a row for each start.
 
-    The columns are theta, velocity, attractor (id; -1 = not settled), name, period (0 = chaotic), winding, settling_time (drive periods
-    after which the end is certain), decided, strobe_theta and strobe_velocity (lists), precision, error (rad), other_attractor,
-    other_name, near_time (drive periods after which the angle stays within 1 degree of the final motion) and turns (net turns until an
-    oscillation; missing for other ends). A value that does not exist is missing. For a scene in SI units there are also
+    The columns are theta, velocity, attractor (id; -1 = not settled), name, period (0 = it never closes), winding, settling_time (drive
+    periods after which the end is certain), decided, strobe_theta and strobe_velocity (lists), precision, error (rad), other_attractor,
+    other_name, near_time (drive periods after which the angle stays within 1 degree of the final motion), turns (net turns until an
+    oscillation; missing for other ends) and mean_velocity. A value that does not exist is missing. For a scene in SI units there are also
     velocity_rad_per_s, settling_seconds, near_seconds and strobe_velocity_rad_per_s.
 
     :param scene: path of a scene file, YAML text, or a mapping

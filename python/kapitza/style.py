@@ -36,6 +36,7 @@ KINDS = {
     "down": "#d5dce3",
     "rotation +": "#2f6db3",
     "rotation -": "#c2452f",
+    "running +": "#85acf8", "running -": "#fad1a7",
     "flutter": "#5b2a7a",
     "down nodding": "#12806a",
     "inverted nodding": "#e58ab8",
@@ -61,10 +62,10 @@ DOWN, INVERTED, ROTATING = 0, 1, 2
 
 def kind(period: int, winding: int, centre: int) -> str:
     """The kind of motion of an attractor: a key of KINDS."""
-    if period == 0:
+    if period == 0 and winding == 0:
         return "chaotic"
     if centre == ROTATING:
-        return "rotation +" if winding > 0 else "rotation -"
+        return f"{'rotation' if period > 0 else 'running'} {'+' if winding > 0 else '-'}"
     if centre == INVERTED:
         return {1: "inverted", 2: "flutter"}.get(period, "inverted nodding")
     if centre == DOWN:
@@ -139,7 +140,7 @@ def _colour(index: int, period: int, winding: int, centre: int, mirror: int) -> 
     name = kind(period, winding, centre)
     if name.startswith("rotation"):
         return shade(kind_colour(name), _rotation_shade(period, winding))
-    lighter = -0.3 if _is_second(index, mirror) else 0.0
+    lighter = -0.3 if _is_second(index, mirror) and winding == 0 else 0.0
     if name in ("down nodding", "inverted nodding"):
         lighter += 0.55 * (1 - 2 / period) if period > 1 else 0.6
     return shade(kind_colour(name), lighter)

@@ -12,12 +12,13 @@ from kapitza.units import TURN
 
 CENTRES = ("down", "inverted", "rotating", "neither")  # codes of the variable centre
 OPTIONS = {"starts", "cells", "shock_scale", "shock_tolerance"}  # attributes of the group measures that are no measures
-PLAIN = ("amplitude", "lyapunov", "lyapunov_error", "fraction")  # columns that a file may lack
+PLAIN = ("amplitude", "mean_velocity", "lyapunov", "lyapunov_error", "fraction")  # columns that a file may lack
 
 
 def attractors_table(attractors: xarray.Dataset) -> pandas.DataFrame:
-    """A row each, by id: name, period (0: chaotic), winding, centre, symmetric, mirror (id), amplitude (rad), lyapunov and its error (per
-    drive period), fraction (share of the grid), multipliers (complex), strobe_theta (rad) and strobe_velocity (lists)."""
+    """A row each, by id: name, period (0: it never closes), winding, centre, symmetric, mirror (id), amplitude (rad), mean_velocity,
+    lyapunov and its error (per drive period), fraction (share of the grid), multipliers (complex), strobe_theta (rad) and
+    strobe_velocity (lists)."""
     count = attractors.sizes["attractor"]
     columns: dict[str, object] = {"name": [str(name) for name in attractors["name"].values],
                                   "period": attractors["period"].values, "winding": attractors["winding"].values,

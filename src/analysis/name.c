@@ -26,8 +26,8 @@ void kz_orbit_name(int64_t period, int64_t winding, int centre, char *text) {
       return;
     }
   }
-  if (period <= 0)
-    strcpy(text, period < 0 ? "quasi-periodic" : "chaotic");
+  if (period == 0)
+    strcpy(text, winding == 0 ? "chaotic" : winding > 0 ? "running +" : "running -");
   else if (centre == KZ_ROTATING)
     snprintf(text, KZ_NAME_LENGTH, "rotation %+" PRId64 "/%" PRId64, winding, period);
   else

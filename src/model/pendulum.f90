@@ -6,8 +6,8 @@ module kz_model_pendulum
   use, intrinsic :: iso_fortran_env, only: real64, real128
   implicit none
   private
-  public :: pendulum_t, is_same, stiffness, exact_stiffness, symmetries, pairing_symmetry, is_mirrored, is_sine, highest_harmonic, &
-            acceleration, force_at, force_of_parameters, sine_force, MOST_HARMONICS
+  public :: pendulum_t, is_same, stiffness, exact_stiffness, symmetries, is_driven, pairing_symmetry, is_mirrored, is_sine, &
+            highest_harmonic, acceleration, force_at, force_of_parameters, sine_force, MOST_HARMONICS
 
   integer, parameter :: qp = real128, ld = c_long_double
   !> KZ_HARMONICS of model.h.
@@ -106,6 +106,16 @@ contains
     if (.not. (vertical(1) .or. horizontal(0) .or. abs(pendulum%torque) > 0)) sum_of = sum_of + HALF_PERIOD
     if (.not. (vertical(0) .or. horizontal(0) .or. abs(pendulum%torque_amplitude) > 0)) sum_of = sum_of + HALF_TURN
   end function symmetries
+
+  !> Whether anything of the equation depends on time.
+  pure function is_driven(pendulum) result(driven)
+    type(pendulum_t), intent(in) :: pendulum !< the pendulum
+    logical :: driven
+
+    driven = abs(pendulum%m) > 0 .or. abs(pendulum%torque_amplitude) > 0
+    if (pendulum%harmonics > 0) driven = driven .or. any(abs(pendulum%vertical(:, :pendulum%harmonics)) > 0) .or. &
+                                       any(abs(pendulum%horizontal(:, :pendulum%harmonics)) > 0)
+  end function is_driven
 
   !> The symmetry by which attractors and cycles have images: MIRROR, else HALF_PERIOD, else 0.
   pure function pairing_symmetry(pendulum) bind(C, name='kz_pairing_symmetry') result(symmetry)

@@ -19,7 +19,7 @@ basin:
 """
 # What of its numerics alone gets wrong.
 COARSE = ("--set", "numerics={scheme: rk4, steps_per_period: 60}")
-UNSETTLED, UNDECIDED, IN_QUAD, IN_FINE, IN_ARBITRARY, NOWHERE = 0, 3, 4, 7, 8, 12
+UNSETTLED, UNDECIDED, IN_QUAD, IN_FINE, IN_ARBITRARY, AVERAGED = 0, 3, 4, 7, 8, 12
 
 
 def cells(result):
@@ -91,24 +91,48 @@ DRIVEN = {"torque": ("{k: 0.1, damping: 0.05, m: 0.05, torque: 0.1137}", 0), "el
 
 
 @pytest.mark.parametrize("name", with_extensive(["ellipse"], ["torque"]))
-def test_quasi_periodic_motions_are_recognised(kapitza, tmp_path, name):
-    """They were followed for all of max_periods, most of them in every precision."""
+def test_running_states_are_ends(kapitza, tmp_path, name):
+    """Their starts were labelled -1, after quad precision; a band round the curve traps them in doubles."""
     pendulum, cycles = DRIVEN[name]
     scene = LONG.replace("{quality_factor: 20, drive_frequency: 8, drive_amplitude: 0.35}", pendulum)
     result, said = run_scene(kapitza, tmp_path, scene, "--timings")
     basin = cells(result)
-    nowhere = basin["evidence"] == NOWHERE
-    assert np.array_equal(nowhere, basin["attractor"] == -1) and np.count_nonzero(nowhere) > 200 and basin["undecided"] == 0
-    assert len(basin["name"]) and len(set(basin["name"].ravel())) == cycles + 1
-    assert np.max(basin["settling_time"]) < 500 < basin["max_periods"]
-    assert f"{np.count_nonzero(nowhere)} of them settle nowhere (evidence 12)" in said and "\nquad" not in said
+    rows = result.group("attractors")
+    running = rows["name"].values.tolist().index("running -" if name == "ellipse" else "running +")
+    assert len(rows["period"]) == cycles + 1 and (rows["period"][running], abs(rows["winding"][running])) == (0, 1)
+    assert abs(rows["lyapunov"][running]) <= rows["lyapunov_error"][running] < 1e-9
+    assert rows["mean_velocity"][running] == pytest.approx({"torque": 2.273414659, "ellipse": -0.1745591202}[name], abs=2e-9)
+    assert np.count_nonzero(basin["attractor"] == running) > 200 and basin["undecided"] == 0
+    assert set(np.unique(basin["evidence"])) <= {1, 2, 5, IN_FINE} and np.max(basin["settling_time"]) < 500
+    assert "\nquad" not in said
     assert datasets(run_scene(kapitza, tmp_path, scene, ranks=3, name="three")[0].path) == datasets(result.path)
     direct, _ = run_scene(kapitza, tmp_path, scene, "--set", "basin.method=direct", name="direct")
     assert np.array_equal(cells(direct)["attractor"], basin["attractor"])
 
 
-def test_where_names_a_quasi_periodic_motion(kapitza, tmp_path):
+def test_where_names_a_running_state(kapitza, tmp_path):
     (tmp_path / "s.yaml").write_text(LONG.replace("{quality_factor: 20, drive_frequency: 8, drive_amplitude: 0.35}", DRIVEN["torque"][0]))
     found = json.loads(kapitza("where", "s.yaml", "1", "0", "--json", folder=tmp_path).stdout)
-    assert (found["attractor"], found["name"], found["decided"], found["settling_time"]) == (-1, "quasi-periodic", True, None)
-    assert "settles nowhere (quasi-periodic)" in kapitza("where", "s.yaml", "1", "0", folder=tmp_path).stdout
+    assert (found["attractor"], found["name"], found["decided"], found["period"], found["winding"]) == (0, "running +", True, 0, 1)
+    said = kapitza("where", "s.yaml", "1", "0", folder=tmp_path).stdout
+    assert "ends on         running + (attractor 0)\n" in said and "mean velocity   2.273414659\n" in said
+
+
+def test_a_running_state_without_a_band_is_flagged(kapitza, tmp_path):
+    """Next to its birth the curve is too steep for its nodes."""
+    scene = LONG.replace("{quality_factor: 20, drive_frequency: 8, drive_amplitude: 0.35}", "{k: 1, damping: 0.1, m: 0, torque: 0.1271}")
+    result, said = run_scene(kapitza, tmp_path, scene)
+    basin = cells(result)
+    running = basin["name"].ravel() == "running +"
+    assert np.count_nonzero(running) > 100 and np.array_equal(basin["evidence"].ravel() == AVERAGED, running)
+    assert f"{np.count_nonzero(running)} cells end on a running state that averages along orbits show (evidence 12)" in said
+    (tmp_path / "s.yaml").write_text(scene)
+    found = json.loads(kapitza("where", "s.yaml", "0", "2", "--json", folder=tmp_path).stdout)
+    assert (found["name"], found["decided"], found["precision"]) == ("running +", False, None)
+
+
+def test_a_rotation_without_drive_is_a_running_state_at_any_velocity(kapitza, tmp_path):
+    """At the mean velocity 1 every state of the curve comes back after 2 pi: it was a cycle of the multiplier 1, or nothing."""
+    scene = LONG.replace("{quality_factor: 20, drive_frequency: 8, drive_amplitude: 0.35}", "{k: 0, damping: 0.1, m: 0, torque: 0.1}")
+    rows = run_scene(kapitza, tmp_path, scene)[0].group("attractors")
+    assert rows["name"].values.tolist() == ["running +"] and abs(rows["mean_velocity"].values[0] - 1) < 1e-12

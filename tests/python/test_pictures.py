@@ -68,7 +68,7 @@ def test_colours_are_a_mapping_too(made_file, tmp_path):
 def test_every_name_of_a_motion_may_have_a_colour(made_file, swept):
     """Of attractors of this file or another one, alone or with an id."""
     names = [*kapitza.Result(made_file).names, *map(str, kapitza.Result(swept).group("sweep")["branch_name"].values), "wide 3-nodding",
-             "rotation -7/3", "inverted 3-nodding (12)", "quasi-periodic", "not settled", "down nodding"]
+             "rotation -7/3", "inverted 3-nodding (12)", "running -", "running + (3)", "not settled", "down nodding"]
     assert colours_of(dict.fromkeys(names, "gold")) == dict.fromkeys(names, "gold")
 
 

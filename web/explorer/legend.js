@@ -12,6 +12,8 @@ export const ORDER = [
   "inverted nodding",
   "rotation +",
   "rotation -",
+  "running +",
+  "running -",
   "other",
   "chaotic",
   "not settled",

@@ -25,15 +25,14 @@ export function measureWords(row, push, units) {
 /** What is known of an attractor itself, in words; `share`: of its basin. Measures of other kinds join here as further lines. */
 export function passportWords(row, share, units) {
   const { name, words, period, winding, symmetric, multiplier, strobe } = row;
-  const closes = period === 0 ? "chaotic" : `closes after ${units.time(period)}`;
-  const turns = winding === 0 ? "" : `, ${Math.abs(winding)} turn${Math.abs(winding) === 1 ? "" : "s"} in them`;
+  const closes = period > 0 ? `closes after ${units.time(period)}` : winding === 0 ? "chaotic" : "never closes, as it turns at a pace of its own";
+  const turns = winding === 0 || period === 0 ? "" : `, ${Math.abs(winding)} turn${Math.abs(winding) === 1 ? "" : "s"} in them`;
   const image = symmetric ? "its own mirror image" : "has a mirror image";
   const back = returnTime(row, units) && `, ${returnTime(row, units)}`;
+  const head = `${words}:${share === null ? "" : ` ${shareWords(share)} of this window;`} in files ${name}\n${closes}${turns}; ${image}`;
+  if (period === 0) return head;
   const [theta, velocity] = strobe[0].map((value) => value.toPrecision(5));
-  return (
-    `${words}:${share === null ? "" : ` ${shareWords(share)} of this window;`} in files ${name}\n${closes}${turns}; ${image}\n` +
-    `largest multiplier ${multiplier.toPrecision(4)}${back}; strobe point θ ${units.angle(theta)}, velocity ${units.velocity(velocity)}`
-  );
+  return `${head}\nlargest multiplier ${multiplier.toPrecision(4)}${back}; strobe point θ ${units.angle(theta)}, velocity ${units.velocity(velocity)}`;
 }
 
 /** The strongest lines of a motion's spectrum, in words. */
@@ -57,7 +56,8 @@ export class Passport {
     if (!row) return;
     const { motion, active } = this.basins;
     this.measure(active, row);
-    const own = motion && Number(motion.ending.theta) === row.strobe[0][0] && Number(motion.ending.velocity) === row.strobe[0][1];
+    const [theta, velocity] = row.strobe[0] ?? [];
+    const own = motion && Number(motion.ending.theta) === theta && Number(motion.ending.velocity) === velocity;
     if (own) document.body.dataset.passport = "own"; // it says more than the words on the end of the motion
     const { units } = this.basins;
     const share = row.shares.find((known) => known !== null) ?? null;

@@ -16,8 +16,8 @@ from kapitza.bounded import read_text
 from kapitza.plots.page import LEGENDS, NARROW, Page
 from kapitza.scene import read_yaml
 
-NAMES = (*style.KINDS, "quasi-periodic", "not settled")  # of colours, and those of attractors:
-MOTION = re.compile(r"(rotation [+-]\d+/\d+|(down|inverted|wide) \d+-nodding|down|inverted|flutter|chaotic|quasi-periodic)( \(\d+\))?")
+NAMES = (*style.KINDS, "not settled")  # of colours, and those of attractors:
+MOTION = re.compile(r"(rotation [+-]\d+/\d+|(down|inverted|wide) \d+-nodding|down|inverted|flutter|chaotic|running [+-])( \(\d+\))?")
 UNITS = {"mm": 1 / 25.4, "cm": 1 / 2.54, "in": 1.0, "pt": 1 / 72}
 
 

@@ -89,6 +89,7 @@ kz_status kz_answer_ready(const kz_scene *scene) {
 
 /* As KINDS of the figures' style has them. */
 static const char *kind_of(const kz_attractor *row) {
+  if (kz_is_running(row)) return row->winding > 0 ? "running +" : "running -";
   if (row->period == 0) return "chaotic";
   switch (row->centre) {
     case KZ_ROTATING:

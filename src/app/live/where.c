@@ -45,13 +45,8 @@ static void print_person(const kz_coordinate start[2], const kz_ending *e, doubl
   const bool si = !isnan(omega);
   print_start(start, omega);
   if (e->end.label < 0) {
-    if (e->entry.name[0]) {
-      printf("ends on         no cycle and no chaos: it settles nowhere (%s)\n", e->entry.name);
-      print_decision(e);
-    } else {
-      puts(damped ? "ends on         no known attractor: it has not settled"
-                  : "ends on         nothing: without damping there are no attractors");
-    }
+    puts(damped ? "ends on         no known attractor: it has not settled"
+                : "ends on         nothing: without damping there are no attractors");
     return;
   }
   printf("ends on         %s (attractor %d)\n", e->entry.name, (int)e->end.label);
@@ -60,7 +55,10 @@ static void print_person(const kz_coordinate start[2], const kz_ending *e, doubl
   print_decision(e);
   if (e->end.turns != KZ_NO_TURNS) printf("turns           %d\n", (int)e->end.turns);
   if (e->entry.row.period == 0) {
-    puts("period          none: chaotic");
+    if (kz_is_running(&e->entry.row))
+      printf("period          none: it never closes\nmean velocity   %.10g\n", e->entry.row.mean_velocity);
+    else
+      puts("period          none: chaotic");
     return;
   }
   printf("period          %d\nwinding         %d\nstrobe points   theta, velocity%s\n", (int)e->entry.row.period,
@@ -79,7 +77,7 @@ typedef struct {
   const char *word;   /* TEXT: "" = none; FLAG: "true" or "false" */
   const double *list; /* LIST: a number for each strobe point, of which CSV has the first */
 } member;
-enum { MEMBERS = 20, MEMBERS_SI = 4 /* the last ones, which an SI scene adds */ };
+enum { MEMBERS = 21, MEMBERS_SI = 4 /* the last ones, which an SI scene adds */ };
 
 /* Fills list [MEMBERS] and returns their number. */
 static int list_members(const kz_coordinate start[2], const kz_ending *e, double omega, member *list) {
@@ -102,6 +100,7 @@ static int list_members(const kz_coordinate start[2], const kz_ending *e, double
       {"other_name", TEXT, .word = e->other_name},
       {"near_time", NUMBER, .value = e->near_time >= 0 ? (double)e->near_time : NAN},
       {"turns", NUMBER, .value = has_turns ? e->end.turns : NAN},
+      {"mean_velocity", NUMBER, .value = settled ? e->entry.row.mean_velocity : NAN},
       {"velocity_rad_per_s", NUMBER, .value = start[1].high * omega},
       {"settling_seconds", NUMBER, .value = settled ? (double)e->end.periods * 2 * M_PI / omega : NAN},
       {"near_seconds", NUMBER, .value = e->near_time >= 0 ? (double)e->near_time * 2 * M_PI / omega : NAN},

@@ -5,9 +5,10 @@ module kz_api_attractors
   use kz_attractors_catalogue, only: order_of, packed, packed_cycle_size, packed_chaos_size, unpack
   use kz_attractors_chaos, only: find_chaos
   use kz_attractors_cycle_search, only: append, find_cycle
-  use kz_attractors_quasiperiodic, only: find_quasiperiodic
-  use kz_cycles_cycles, only: attractor_t, enter_points
+  use kz_attractors_running, only: find_running
+  use kz_cycles_cycles, only: attractor_t, enter_points, RUNNING
   use kz_cycles_described, only: attractor_row_t
+  use kz_grown_bands, only: has_band
   use kz_vector_map, only: PI
   implicit none
   private
@@ -66,7 +67,7 @@ contains
     call take_new(d, n_known, found)
   end subroutine search_chaos
 
-  subroutine search_quasiperiodic(handle, n, state, age, found) bind(C, name='kz_dynamics_find_quasiperiodic')
+  subroutine search_running(handle, n, state, age, found) bind(C, name='kz_dynamics_find_running')
     type(c_ptr), value :: handle
     integer(c_int64_t), value :: n
     real(dp), intent(in) :: state(2, n)
@@ -77,9 +78,9 @@ contains
 
     d => of_handle(handle)
     n_known = size(d%attractors)
-    call find_quasiperiodic(d%search, d%regions, state, real(age, dp), d%attractors)
+    call find_running(d%search, d%regions, state, real(age, dp), d%attractors)
     call take_new(d, n_known, found)
-  end subroutine search_quasiperiodic
+  end subroutine search_running
 
   !> Takes the attractors beyond the first n_known out of the catalogue, packed.
   subroutine take_new(d, n_known, flat)
@@ -147,6 +148,17 @@ contains
     end do
   end subroutine append_known
 
+  !> 1 if it is known of an attractor only by averages along orbits that it is one, else 0.
+  function is_averaged(handle, number) bind(C, name='kz_dynamics_is_averaged') result(averaged)
+    type(c_ptr), value :: handle
+    integer(c_int64_t), value :: number
+    integer(c_int32_t) :: averaged
+    type(dynamics_t), pointer :: d
+
+    d => of_handle(handle)
+    averaged = merge(1, 0, d%attractors(number)%period == RUNNING .and. .not. has_band(d%attractors(number)))
+  end function is_averaged
+
   function attractor_count(handle) bind(C, name='kz_dynamics_count') result(n)
     type(c_ptr), value :: handle
     integer(c_int64_t) :: n
@@ -171,7 +183,7 @@ contains
     type(attractor_t), intent(in) :: a !< its angles are half-turns
     type(attractor_row_t) :: row
 
-    row = attractor_row_t(PI*a%mean, a%mean_velocity, a%period, a%winding, a%centre, merge(1, 0, a%symmetric), a%mirror, PI*a%mean, &
+    row = attractor_row_t(PI*a%mean, a%mean_velocity, max(a%period, 0), a%winding, a%centre, merge(1, 0, a%symmetric), a%mirror, PI*a%mean, &
                           a%mean_velocity, a%amplitude, real(a%multiplier, dp), aimag(a%multiplier), a%lyapunov, a%lyapunov_error)
     if (a%period <= 0) return
     row%theta = half_open(a%u(1))

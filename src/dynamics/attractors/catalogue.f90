@@ -3,7 +3,8 @@ module kz_attractors_catalogue
   use, intrinsic :: iso_c_binding, only: dp => c_double
   use, intrinsic :: iso_fortran_env, only: int64
   use kz_vector_map, only: PI
-  use kz_cycles_cycles, only: numbers_t, attractor_t
+  use kz_cycles_cycles, only: numbers_t, attractor_t, RUNNING
+  use kz_grown_curves, only: NODES
   use kz_grown_grid, only: COVER
   use kz_maps_states, only: rounded
   implicit none
@@ -77,6 +78,7 @@ contains
         else
           bits = as_bits(a%cover) ! not on the stack
           flat = [flat, bits]
+          if (a%period == RUNNING) flat = [flat, real(size(a%band, 2), dp), reshape(a%band, [size(a%band)])]
         end if
       end associate
     end do
@@ -90,11 +92,11 @@ contains
     n = 1 + 2*(HEAD + 5*max_period)
   end function packed_cycle_size
 
-  !> The largest number of doubles of a catalogue with one chaotic attractor and its mirror image.
+  !> The largest number of doubles of a catalogue with one attractor without a period and its mirror image.
   pure function packed_chaos_size() result(n)
     integer :: n
 
-    n = 1 + 2*(HEAD + COVER_SIZE)
+    n = 1 + 2*(HEAD + COVER_SIZE + 1 + 2*NODES)
   end function packed_chaos_size
 
   !> A list of cells as a bit for each cell of the cover.
@@ -150,6 +152,10 @@ contains
         if (n > 0) cycle
         a%cover = of_bits(flat(p + 1:p + COVER_SIZE))
         p = p + COVER_SIZE
+        if (a%period /= RUNNING) cycle
+        n = nint(flat(p + 1))
+        a%band = reshape(flat(p + 2:p + 1 + 2*n), [2, n])
+        p = p + 1 + 2*n
       end associate
     end do
   end subroutine unpack

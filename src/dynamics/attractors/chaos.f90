@@ -3,15 +3,17 @@
 module kz_attractors_chaos
   use, intrinsic :: iso_c_binding, only: dp => c_double
   use kz_vector_map, only: flow_t, WIDTH, PI
-  use kz_cycles_cycles, only: attractor_t, half_period_images
+  use kz_cycles_cycles, only: attractor_t, half_period_images, RUNNING
   use kz_cycles_features, only: find_features
+  use kz_grown_bands, only: find_band, mirrored_band
+  use kz_grown_curves, only: curve_t
   use kz_grown_grid, only: regions_t, find_regions, cover_cell, COVER
   use kz_attractors_cycle_search, only: search_t, append_with_image
-  use kz_maps_states, only: states_to_physical
+  use kz_maps_states, only: states_to_map, states_to_physical
   use kz_model_pendulum, only: pendulum_t, pairing_symmetry, MIRROR
   implicit none
   private
-  public :: find_chaos, carry_chaos, set_cover, append_cover, is_damped
+  public :: find_chaos, carry_chaos, set_cover, append_cover, is_damped, widen
 
   !> Periods before the cover is taken, while it is taken, and of each lane's exponent.
   integer, parameter :: TRANSIENT = 20000, VISITS = 40000, EXPONENT_PERIODS = 400, FEATURE_PERIODS = 500
@@ -22,7 +24,7 @@ module kz_attractors_chaos
   integer, parameter :: CARRIED_VISITS = 1500, CARRIED_TRANSIENT = 100
   !> An exponent counts as positive if it exceeds so many standard errors.
   real(dp), parameter :: CONFIDENCE = 5
-  !> A small one is measured again over so many periods: tangents of quasi-periodic motions grow too, by a factor that has a limit.
+  !> A small one is measured again over so many periods: tangents of running states grow too, by a factor that has a limit.
   integer, parameter :: SLOW_PERIODS = 8000
   !> Orbits are examined only where damping shrinks areas by at least exp(-SHRUNK) meanwhile: else conservative chaos looks the
   !> same.
@@ -70,7 +72,7 @@ contains
     is_damped = 2*PI*pendulum%beta*(TRANSIENT + VISITS) >= SHRUNK
   end function is_damped
 
-  !> Carries a chaotic or quasi-periodic attractor to a pendulum nearby. Its cover is what a bundle of orbits from the old one visits, and the cells beside, which
+  !> Carries a chaotic attractor or a running state to a pendulum nearby. Its cover is what a bundle of orbits from the old one visits, and the cells beside, which
   !> longer orbits would visit: right enough for pictures that move. It appends nothing where a trapping region holds one of the orbits.
   subroutine carry_chaos(search, regions, old, attractors)
     type(search_t), intent(inout) :: search !< the flows of the pendulum
@@ -78,6 +80,7 @@ contains
     type(attractor_t), intent(in) :: old !< the attractor
     type(attractor_t), allocatable, intent(inout) :: attractors(:) !< the catalogue, which gains it and its image
     type(attractor_t) :: attractor
+    type(curve_t) :: curve
     logical, allocatable :: visited(:), image(:)
     integer, allocatable :: inner(:)
     logical :: trapped
@@ -91,6 +94,10 @@ contains
     call visit(search%flow, regions, attractors, CARRIED_TRANSIENT, CARRIED_VISITS, visited, trapped)
     if (trapped .or. .not. any(visited)) return
     attractor = old
+    if (attractor%period == RUNNING) then
+      attractor%mean_velocity = search%flow%turns(1)/real(CARRIED_TRANSIENT + CARRIED_VISITS, dp)
+      call find_band(search%flow, search%pendulum%beta, search%flow%u(:WIDTH), search%flow%v(:WIDTH), attractors, attractor%band, curve)
+    end if
     call widen(visited)
     call set_cover(search, regions, [(lane, lane=1, WIDTH)], CARRIED_VISITS, .true., attractor, visited, image)
     call append_cover(search, image, attractor, attractors)
@@ -111,7 +118,7 @@ contains
 
   !> Marks the four neighbours of every marked cell. (The first and last columns are neighbours across the circle.)
   pure subroutine widen(marked)
-    logical, intent(inout) :: marked(COVER, COVER)
+    logical, intent(inout) :: marked(COVER, COVER) !< cells of a cover
     logical, allocatable :: before(:, :)
 
     allocate (before, source=marked)
@@ -128,8 +135,33 @@ contains
     type(attractor_t), allocatable, intent(inout) :: attractors(:) !< the catalogue
 
     call append_with_image(search, attractor, attractors)
-    if (attractor%symmetry /= 0 .and. .not. attractor%symmetric) attractors(size(attractors))%cover = cells_of(image)
+    if (attractor%symmetry == 0 .or. attractor%symmetric) return
+    attractors(size(attractors))%cover = cells_of(image)
+    if (attractor%period == RUNNING) call set_image_band(search, attractors(:size(attractors) - 1), attractors(size(attractors)))
   end subroutine append_cover
+
+  !> Sets the band of an image, which has that of its original.
+  subroutine set_image_band(search, others, image)
+    type(search_t), intent(inout) :: search
+    type(attractor_t), intent(in) :: others(:)
+    type(attractor_t), intent(inout) :: image
+    type(curve_t) :: curve
+    real(dp) :: u(WIDTH), v(WIDTH)
+    integer :: n, i, j(WIDTH)
+
+    n = size(image%band, 2)
+    if (image%symmetry == MIRROR) then
+      image%band = mirrored_band(image%band)
+    else if (n > 0) then
+      j = [(1 + (n*i)/WIDTH, i=0, WIDTH - 1)]
+      u = 2*(j - 1)/real(n, dp) - 1
+      v = 0.5_dp*sum(image%band(:, j), 1)
+      call states_to_physical(search%flow, u, v)
+      call half_period_images(search%sampling_flow, u, v)
+      call states_to_map(search%flow, u, v)
+      call find_band(search%flow, search%pendulum%beta, u, v, others, image%band, curve)
+    end if
+  end subroutine set_image_band
 
   !> The numbers of the marked cells.
   pure function cells_of(marked) result(cells)

@@ -3,7 +3,7 @@ module kz_attractors_cycle_search
   use, intrinsic :: iso_c_binding, only: dp => c_double
   use kz_vector_map, only: flow_t, WIDTH, PI
   use kz_attractors_centres, only: find_centre, CENTRED
-  use kz_model_pendulum, only: pendulum_t, pairing_symmetry, HALF_PERIOD
+  use kz_model_pendulum, only: pendulum_t, is_driven, pairing_symmetry, HALF_PERIOD
   use kz_cycles_cycles, only: attractor_t, close_cycle, complete_attractor, enter_points, image_of, listed_from_lowest, SLOW
   use kz_grown_ellipses, only: rings_t, find_ellipses
   use kz_cycles_newton, only: newton, n_periods
@@ -114,6 +114,7 @@ contains
       call close_cycle(search%fine, search%pendulum%beta, period, x(1), x(2), farthest, candidate, found, blurred)
       candidate%symmetry = pairing_symmetry(search%pendulum)
       if (found) call complete_attractor(search%sampling_flow, candidate, found)
+      if (found) found = candidate%winding == 0 .or. is_driven(search%pendulum) ! else a running state that comes by at the strobes
       if (blurred) n_blurred(period) = n_blurred(period) + 1
       if (.not. found) return
       if (.not. known(attractors, candidate%period, candidate%u, candidate%v)) call add_with_image(search, candidate, attractors)

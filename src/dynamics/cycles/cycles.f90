@@ -11,8 +11,8 @@ module kz_cycles_cycles
   public :: numbers_t, attractor_t, close_cycle, complete_attractor, enter_points, is_slow, symmetrise, image_of, half_period_images, &
             listed_from_lowest
 
-  !> In the place of a period: the attractor is a closed curve that a motion fills.
-  integer, parameter, public :: QUASIPERIODIC = -1
+  !> In the place of a period: the attractor is a running state, a closed curve round the cylinder that a motion fills.
+  integer, parameter, public :: RUNNING = -1
 
   !> 1/drive period: motions that spiral into a cycle at a lower rate do so long before they come near it.
   real(dp), parameter, public :: SLOW = 1.0_dp/64
@@ -22,8 +22,8 @@ module kz_cycles_cycles
 
   !> What is known of an attractor in numbers, without a gap in the memory. Angles are half-turns in [-1, 1].
   type :: numbers_t
-    integer :: period = 0          !< drive periods; 0 = chaotic, QUASIPERIODIC
-    integer :: winding = 0         !< net turns per `period` drive periods
+    integer :: period = 0          !< drive periods; 0 = chaotic, RUNNING
+    integer :: winding = 0         !< net turns per `period` drive periods; of a running state 1 or -1, the sign of its mean velocity
     integer :: symmetry = MIRROR   !< by which attractors have images: pairing_symmetry of the pendulum
     logical :: symmetric = .false. !< the orbit is its own image
     integer :: mirror = 0          !< number of the image in the catalogue, from 1
@@ -47,6 +47,8 @@ module kz_cycles_cycles
     real(dp), allocatable :: form(:, :)
     !> Cells of the cover of an attractor without a period
     integer, allocatable :: cover(:)
+    !> Of a running state: its trapping region, what find_band makes
+    real(dp), allocatable :: band(:, :)
   end type attractor_t
 
 contains

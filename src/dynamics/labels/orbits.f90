@@ -2,7 +2,7 @@
 !> too large for that, the orbit is doubtful, or goes on in the next cheaper precision.
 module kz_labels_orbits
   use, intrinsic :: iso_c_binding, only: dp => c_double, c_int64_t, c_int32_t, c_int16_t, c_int8_t
-  use kz_cycles_cycles, only: attractor_t, QUASIPERIODIC
+  use kz_cycles_cycles, only: attractor_t, RUNNING
   use kz_grown_grid, only: regions_t, find_regions, chaos_region, cell_holds
   use kz_labels_nonlinear, only: measure_nonlinear, SAFETY
   use kz_maps_lanes, only: queued_lanes_t, list_flagged
@@ -205,7 +205,7 @@ contains
       if (.not. self%doubted(lane)) trapped = is_held(self, lane)
     else if (size(self%regions%covered) > 0) then
       owner = chaos_region(self%regions, self%carrier%flow%u(lane), self%carrier%flow%v(lane))
-      if (owner > 0) owner = merge(owner, 0, self%attractors(owner)%period /= QUASIPERIODIC .or. &
+      if (owner > 0) owner = merge(owner, 0, self%attractors(owner)%period /= RUNNING .or. &
                                  (self%trace(lane) < LINEAR**2 .and. .not. self%doubted(lane)))
       trapped = self%is_captured(lane, owner)
     end if

@@ -136,10 +136,7 @@ static void print_settled(const kz_scene *scene, const kz_window_summary *labels
     fprintf(summary, "%lld of %lld cells did not settle within ", unsettled, cells);
   kz_periods_print(scene->basin->max_periods, scene->parameters.pivot_frequency, summary);
   fputs(".\n", summary);
-  if (labels->counts.evidence[KZ_NOWHERE] > 0)
-    fprintf(summary, "%lld of them settle nowhere (evidence 12): their motions are quasi-periodic.\n",
-            (long long)labels->counts.evidence[KZ_NOWHERE]);
-  if (unsettled > labels->counts.evidence[KZ_NOWHERE] && attracts)
+  if (unsettled > 0 && attracts)
     fprintf(summary,
             "Here a motion takes some %.0f periods to come e times closer to its attractor: a larger basin.max_periods or "
             "basin.attractors.max_period may settle more cells.\n",
@@ -147,11 +144,15 @@ static void print_settled(const kz_scene *scene, const kz_window_summary *labels
 }
 
 static void print_decided(const kz_window_summary *labels, FILE *summary) {
-  const long long undecided = labels->counts.evidence[KZ_UNDECIDED];
-  if (undecided == 0)
+  const long long undecided = labels->counts.evidence[KZ_UNDECIDED], averaged = labels->counts.evidence[KZ_AVERAGED];
+  if (averaged > 0)
+    fprintf(summary,
+            "%lld cells end on a running state that averages along orbits show (evidence 12); no band round it was found that "
+            "traps motions.\n",
+            averaged);
+  else if (undecided == 0)
     fputs("All cells are decided.\n", summary);
-  else
-    fprintf(summary, "%lld cells are undecided (evidence 3): %s\n", undecided, labels->advice);
+  if (undecided > 0) fprintf(summary, "%lld cells are undecided (evidence 3): %s\n", undecided, labels->advice);
 }
 
 kz_status kz_basin_write(const kz_scene *scene, const kz_catalogue *catalogue, const kz_window_summary *labels, kz_store *store,

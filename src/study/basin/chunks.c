@@ -71,13 +71,13 @@ static int16_t id_of(const kz_chunks *c, int16_t label, bool mirrored) {
 /* Own cells that the scene's own numerics do not decide. */
 static void count_doubtful(kz_chunks *c, int64_t tile) {
   for (int64_t i = 0; i < kz_tile_own(&c->labelling->tiles, tile); i++)
-    c->counts.doubtful += c->labelling->cell[i].evidence >= KZ_UNDECIDED;
+    c->counts.doubtful += c->labelling->cell[i].evidence >= KZ_UNDECIDED && c->labelling->cell[i].evidence != KZ_AVERAGED;
 }
 
-/* The file's evidence of a cell with an id. An attractor without an id is a quasi-periodic motion. */
+/* The file's evidence of a cell with an id. */
 static uint8_t evidence_of(const kz_label *cell, int16_t id) {
   if (cell->evidence == KZ_UNDECIDED) return KZ_UNDECIDED;
-  if (id < 0) return cell->label > 0 && cell->evidence != KZ_LEFT ? KZ_NOWHERE : KZ_UNSETTLED;
+  if (id < 0) return KZ_UNSETTLED;
   return cell->evidence == KZ_FOLLOWED && cell->periods == 0 ? KZ_INSIDE : cell->evidence;
 }
 

@@ -6,7 +6,7 @@
   "unsettled", "started_inside_a_trapping_region", "followed_into_a_trapping_region", "undecided",                    \
       "decided_in_quad_precision", "decided_in_pairs_of_doubles", "proved_in_doubles",                                \
       "decided_in_double_precision_with_more_steps", "decided_in_as_many_digits_as_it_took", "followed_but_doubtful", \
-      "proved_in_pairs_of_doubles", "proved_in_triples_of_doubles", "settles_nowhere"
+      "proved_in_pairs_of_doubles", "proved_in_triples_of_doubles", "running_by_averages"
 
 /* clang-format off */
 const kz_variable kz_basin_variables[] = {

@@ -36,7 +36,7 @@ void kz_catalogue_make(const kz_dynamics *dynamics, const int64_t *reached, kz_c
   for (int64_t i = 0; i < known; i++) {
     kz_entry entry = {.fraction = NAN};
     fill(&entry, dynamics, order[i]);
-    if (entry.row.period < 0 || (reached && reached[order[i]] == 0 && reached[entry.row.mirror] == 0)) {
+    if (reached && reached[order[i]] == 0 && reached[entry.row.mirror] == 0) {
       free(entry.theta);
       free(entry.velocity);
       continue;
@@ -92,6 +92,7 @@ static kz_status write_columns(const kz_catalogue *catalogue, bool with_fraction
   const kz_entry *e = catalogue->entries;
   COLUMN(int32_t, "mirror", e[i].mirror == (int32_t)i && !e[i].row.symmetric ? -1 : e[i].mirror);
   COLUMN(double, "amplitude", e[i].row.amplitude);
+  COLUMN(double, "mean_velocity", e[i].row.mean_velocity);
   COLUMN(double, "lyapunov", e[i].row.lyapunov);
   COLUMN(double, "lyapunov_error", e[i].row.lyapunov_error);
   if (with_fraction) COLUMN(double, "fraction", e[i].fraction);
@@ -151,18 +152,19 @@ typedef char table_row[COLUMNS][CELL_BYTES];
 /* What is said of an attractor beside its id and name. */
 static void fill_row(const kz_entry *e, table_row row) {
   snprintf(row[0], CELL_BYTES, "%d", e->row.period);
-  snprintf(row[1], CELL_BYTES, "%d", e->row.winding);
+  snprintf(row[1], CELL_BYTES, kz_is_running(&e->row) ? "-" : "%d", e->row.winding);
   snprintf(row[2], CELL_BYTES, isnan(e->row.amplitude) ? "-" : "%.2f deg", e->row.amplitude * 180 / M_PI);
   snprintf(row[3], CELL_BYTES, e->row.period == 0 ? "-" : "%.6f", hypot(e->row.multiplier_re[0], e->row.multiplier_im[0]));
   snprintf(row[4], CELL_BYTES, "%.5f", e->row.lyapunov);
   snprintf(row[5], CELL_BYTES, "%.3f %%", 100 * e->fraction);
 }
 
-/* The exponents of attractors that never close. */
-static void print_exponents(const kz_catalogue *catalogue, const kz_parameters *parameters, FILE *summary) {
+/* The exponents of attractors that never close, and the mean velocities of running states. */
+static void print_open(const kz_catalogue *catalogue, const kz_parameters *parameters, FILE *summary) {
   for (int64_t i = 0; i < catalogue->count; i++) {
     const kz_attractor *row = &catalogue->entries[i].row;
     if (row->period > 0 || isnan(row->lyapunov_error)) continue;
+    if (kz_is_running(row)) fprintf(summary, "      mean velocity of %" PRId64 ": %.10g\n", i, row->mean_velocity);
     fprintf(summary, "      exponent of %" PRId64 ": ", i);
     kz_rate_print(parameters, row->lyapunov, row->lyapunov_error, summary);
     fputc('\n', summary);
@@ -193,5 +195,5 @@ void kz_catalogue_print(const kz_catalogue *catalogue, const kz_parameters *para
   }
   for (int c = 0; c < columns; c++)
     if (!differs[c]) fprintf(summary, "      %s of each: %s\n", titles[c], rows[0][c]);
-  print_exponents(catalogue, parameters, summary);
+  print_open(catalogue, parameters, summary);
 }

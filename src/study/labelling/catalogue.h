@@ -26,7 +26,7 @@ kz_status kz_catalogue_write_motions(const kz_catalogue *catalogue, const char *
 #define KZ_MOTION_VARIABLES(dimension)                                                                                     \
   {"phase", KZ_INT32, {"phase"}, NONE, "place of the strobe point along the orbit"},                                       \
       {"pair", KZ_INT32, {"pair"}, NONE, "place of the Floquet multiplier, larger modulus first"},                         \
-      {"winding", KZ_INT32, {dimension}, NONE, "net turns in one period of the orbit, + counterclockwise"},                \
+      {"winding", KZ_INT32, {dimension}, NONE, "net turns in one period, + counterclockwise; of a running state 1 or -1"}, \
       {"centre", KZ_INT8, {dimension}, NONE, "what the orbit moves about", {CENTRES}},                                     \
       {"symmetric", KZ_INT8, {dimension}, NONE, "whether the orbit is its own mirror image", {"no", "yes"}},               \
       {"mirror", KZ_INT32, {dimension}, NONE, "id of the mirror image under (theta, velocity) -> -(theta, velocity)"},     \

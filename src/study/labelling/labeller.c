@@ -108,6 +108,7 @@ static kz_status decide_batch(const kz_labeller *l, int32_t level, int32_t befor
 }
 
 static uint8_t evidence_of(const kz_labeller *l, int32_t level, const kz_decision *decision) {
+  if (decision->end.label > 0 && kz_dynamics_is_averaged(l->dynamics, decision->end.label)) return KZ_AVERAGED;
   if (l->way == KZ_BY_MARKS && decision->level == KZ_LEVELS) return KZ_LEFT;
   return kz_level_rows[level < 0 ? KZ_LEVEL_DOUBLE : level].evidence;
 }

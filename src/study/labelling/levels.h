@@ -6,8 +6,9 @@
 
 #include "kapitza/dynamics.h"
 
-/* How a label was found: the values of the file's variable `evidence`. From KZ_UNDECIDED on the scene's own numerics did not decide it.
- * KZ_NOWHERE, the motion is quasi-periodic, and the values that are missing here, which are those of powers, occur in the file only. KZ_LEFT is a doubtful label of method direct. */
+/* How a label was found: the values of the file's variable `evidence`. From KZ_UNDECIDED on the scene's own numerics did not decide it. The
+ * values that are missing here, which are those of powers, occur in the file only. KZ_LEFT is a doubtful label of method direct; KZ_AVERAGED is that of
+ * a running state without a trapping region. */
 enum {
   KZ_UNSETTLED = 0,
   KZ_INSIDE = 1,
@@ -18,7 +19,7 @@ enum {
   KZ_IN_FINE = 7,
   KZ_IN_ARBITRARY = 8,
   KZ_LEFT = 9,
-  KZ_NOWHERE = 12
+  KZ_AVERAGED = 12
 };
 
 /* A level: a row of the table. Its code is its place (dynamics.h); what carries its orbits is in dynamics/labels/levels.f90. */

@@ -25,9 +25,9 @@ enum {
   STRETCHES = 64,     /* of a round, about */
   TABLE_ROWS = 4,     /* of a map table, per tile */
   COVER_TRIES = 4,
-  MOST_SOUGHT = 1024,        /* starts that a round looks for cycles from */
-  QUASIPERIODIC_STARTS = 16, /* among which a quasi-periodic motion is looked for */
-  COVER_PERIODS = 512        /* to see which pending starts an attractor's cover captures */
+  MOST_SOUGHT = 1024,  /* starts that a round looks for cycles from */
+  RUNNING_STARTS = 16, /* among which a running state is looked for */
+  COVER_PERIODS = 512  /* to see which pending starts an attractor's cover captures */
 };
 
 /* rad: how near an orbit must come back to itself to be tried, and in the last round, where slow spirals remain. */
@@ -90,7 +90,7 @@ static kz_status follow_pending(const kz_run *run, following *f, int64_t periods
 
 typedef struct {
   kz_dynamics *dynamics;
-  enum { CYCLE, QUASIPERIODIC, CHAOS } kind;
+  enum { CYCLE, RUNNING, CHAOS } kind;
   int64_t n, age;          /* states; periods after their starts */
   double state[2 * CHUNK]; /* of the starts; of chaos the first alone counts */
   double closeness;        /* rad; of cycles */
@@ -104,8 +104,8 @@ static kz_status seek_tile(void *context, int64_t tile, void *record) {
   memcpy(record, s->found, (size_t)s->size * sizeof(double));
   if (s->kind == CYCLE)
     kz_dynamics_find_cycle(s->dynamics, s->n, s->state, s->closeness, record);
-  else if (s->kind == QUASIPERIODIC)
-    kz_dynamics_find_quasiperiodic(s->dynamics, s->n, s->state, s->age, record);
+  else if (s->kind == RUNNING)
+    kz_dynamics_find_running(s->dynamics, s->n, s->state, s->age, record);
   else
     kz_dynamics_find_chaos(s->dynamics, s->state, record);
   return KZ_OK;
@@ -113,7 +113,7 @@ static kz_status seek_tile(void *context, int64_t tile, void *record) {
 
 /* One search by one rank; what it finds joins the catalogue of every rank. `record` [size]: a buffer. */
 static kz_status seek(const kz_run *run, seeking *s, double *record) {
-  static const char *const name[] = {"cycles", "quasi-periodic", "chaos"};
+  static const char *const name[] = {"cycles", "running", "chaos"};
   const kz_stage stage = kz_stage_for_all(name[s->kind], 1, (size_t)s->size * sizeof(double), seek_tile, s);
   KZ_TRY(kz_stage_run(run, &stage, record));
   memcpy(s->found, record, (size_t)s->size * sizeof(double));
@@ -134,14 +134,14 @@ static kz_status find_cycles(const kz_run *run, const following *f, double close
   return KZ_OK;
 }
 
-/* Starts that end on no cycle: attractors with covers are found one by one, a chaotic one from one pending start, a quasi-periodic one among
+/* Starts that end on no cycle: attractors with covers are found one by one, a chaotic one from one pending start, a running state among
  * some of them. */
 static kz_status find_covered(const kz_run *run, following *f, int kind) {
   seeking s = {.dynamics = f->dynamics, .kind = kind, .age = f->age, .size = kz_dynamics_chaos_size()};
   KZ_FREED double *found = s.found = kz_calloc(2 * (size_t)s.size, sizeof(double));
   for (int attempt = 0; attempt < COVER_TRIES && f->n > 0 && !f->cycles_alone; attempt++) {
     const int64_t known = kz_dynamics_count(f->dynamics);
-    s.n = kind == CHAOS ? 1 : f->n < QUASIPERIODIC_STARTS ? f->n : QUASIPERIODIC_STARTS;
+    s.n = kind == CHAOS ? 1 : f->n < RUNNING_STARTS ? f->n : RUNNING_STARTS;
     for (int64_t i = 0; i < s.n; i++)
       memcpy(s.state + 2 * i, f->state + 2 * f->pending[kind == CHAOS ? (attempt * 7) % f->n : i * f->n / s.n],
              2 * sizeof(double));
@@ -150,7 +150,7 @@ static kz_status find_covered(const kz_run *run, following *f, int kind) {
     if (kz_dynamics_count(f->dynamics) > known) {
       kz_dynamics_update(f->dynamics);
       KZ_TRY(follow_pending(run, f, COVER_PERIODS));
-    } else if (kind == QUASIPERIODIC) {
+    } else if (kind == RUNNING) {
       break;
     }
   }
@@ -168,7 +168,7 @@ static kz_status search_discover(const kz_run *run, following *f, int64_t max_pe
     const int64_t known = kz_dynamics_count(f->dynamics);
     KZ_TRY(find_cycles(run, f, done >= max_periods ? LAST_CLOSENESS : CLOSENESS));
     if (kz_dynamics_count(f->dynamics) > known) continue;
-    KZ_TRY(find_covered(run, f, QUASIPERIODIC));
+    KZ_TRY(find_covered(run, f, RUNNING));
     if (done >= max_periods || f->n == 0) break;
     length = 2 * length < max_periods - done ? 2 * length : max_periods - done;
   }

@@ -42,7 +42,7 @@ static kz_status write_attractors(const kz_measured *m, kz_store *store) {
   COLUMN(int32_t, "period", e[i].row.period);
   COLUMN(int32_t, "winding", e[i].row.winding);
   COLUMN(int8_t, "centre", e[i].row.centre);
-  COLUMN(double, "theta", e[i].row.period > 0 ? e[i].theta[0] : e[i].row.mean);
+  COLUMN(double, "theta", e[i].row.period > 0 ? e[i].theta[0] : kz_is_running(&e[i].row) ? NAN : e[i].row.mean);
   COLUMN(double, "velocity", e[i].row.period > 0 ? e[i].velocity[0] : e[i].row.mean_velocity);
   return KZ_OK;
 }

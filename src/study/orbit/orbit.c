@@ -113,8 +113,7 @@ static kz_status recall(const kz_listed *known, int64_t id, kz_cycle *cycle) {
   cycle->state = (kz_state){known->theta[id * known->phases], known->velocity[id * known->phases]};
   cycle->period = (int64_t)known->period[id];
   if (cycle->period > 0) return KZ_OK;
-  return kz_fail(KZ_REFUSED, "orbit.attractor: %lld is chaotic and never closes; choose another id, or give a start",
-                 (long long)id);
+  return kz_fail(KZ_REFUSED, "orbit.attractor: %lld never closes; choose another id, or give a start", (long long)id);
 }
 
 /* Where the motion starts, on every rank; its period if it is a listed attractor. Collective. */

@@ -192,14 +192,14 @@ static kz_status walk_all(walking *w, const kz_run *run) {
   return KZ_OK;
 }
 
-/* Chaotic attractors have no cycle that continuation could carry: each joins the nearest one of the next value. */
-static void join_chaotic(kz_sweep_branches *b) {
+/* Motions that never close have no cycle that continuation could carry: each joins the nearest one of its kind at the next value. */
+static void join_open(kz_sweep_branches *b) {
   for (int64_t i = 0; i < b->n_nodes; i++) {
     int64_t best = -1;
     for (int64_t j = 0; b->nodes[i].entry.point.period == 0 && j < b->n_nodes; j++) {
       const kz_sweep_node *other = b->nodes + j;
-      if (other->entry.point.period != 0 || other->value != b->nodes[i].value + 1 || other->previous >= 0) continue;
       const kz_attractor *own = &b->nodes[i].entry.point;
+      if (!kz_branch_alike(own, &other->entry.point) || other->value != b->nodes[i].value + 1 || other->previous >= 0) continue;
       if (best < 0 ||
           kz_branch_points_apart(own, &other->entry.point) < kz_branch_points_apart(own, &b->nodes[best].entry.point))
         best = j;
@@ -254,7 +254,7 @@ kz_status kz_sweep_branches_make(const kz_scene *scene, const kz_run *run, const
   for (int64_t i = 0; i < scene->sweep->values.count; i++)
     for (int64_t j = 0; j < catalogue[i].count; j++) add_node(branches, catalogue[i].entries + j, i, true);
   KZ_TRY(walk_all(&w, run));
-  join_chaotic(branches);
+  join_open(branches);
   set_known_ends(scene, branches);
   list_branches(branches);
   return KZ_OK;

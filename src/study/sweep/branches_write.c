@@ -34,7 +34,8 @@ static void name_of(const kz_sweep_branches *b, int64_t branch, char *text) {
 static bool mirrors(const writing *w, const kz_pendulum *pendulum, const kz_sweep_node *node, const kz_attractor *image) {
   const kz_attractor *point = &node->entry.point;
   if (image->period == 0)
-    return point->period == 0 && fabs(point->velocity - image->velocity) < 1e-3 && fabs(point->theta - image->theta) < 1e-3;
+    return kz_branch_alike(point, image) && fabs(point->velocity - image->velocity) < 1e-3 &&
+           fabs(point->theta - image->theta) < 1e-3;
   return kz_branch_same(w->branches->maps, pendulum, point, image);
 }
 
@@ -104,7 +105,7 @@ static kz_status write_matrices(const writing *w) {
   MATRIX("branch_amplitude", at[i]->point.centre > 1 ? NAN : at[i]->point.amplitude);
   MATRIX("branch_multiplier",
          at[i]->point.period == 0 ? NAN : hypot(at[i]->point.multiplier_re[0], at[i]->point.multiplier_im[0]));
-  MATRIX("branch_theta", at[i]->point.theta);
+  MATRIX("branch_theta", kz_is_running(&at[i]->point) ? NAN : at[i]->point.theta);
   MATRIX("branch_velocity", at[i]->point.velocity);
   if (kz_sweep_measures(plan, KZ_SWEEP_BASIN_FRACTIONS)) {
     SHARED("fraction", SHARE.share);

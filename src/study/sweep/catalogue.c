@@ -152,7 +152,7 @@ static int64_t count_hits(const searching *s) {
   return total;
 }
 
-/* The attractors that something ended on, and their mirror images, in the order of the file; not quasi-periodic ones. */
+/* The attractors that something ended on, and their mirror images, in the order of the file. */
 static kz_status collect(const searching *s, kz_sweep_catalogue *catalogue) {
   const int64_t known = kz_dynamics_count(s->dynamics);
   KZ_FREED int64_t *order = kz_malloc((size_t)(known + 1) * sizeof *order);
@@ -160,7 +160,7 @@ static kz_status collect(const searching *s, kz_sweep_catalogue *catalogue) {
   for (int64_t i = 0; i < known; i++) {
     kz_sweep_entry entry = {.hits = s->hits[order[i]], .shock = {NAN, NAN, NAN}};
     kz_dynamics_attractor(s->dynamics, order[i], &entry.point);
-    if (entry.point.period < 0 || entry.hits + s->hits[entry.point.mirror] == 0) continue;
+    if (entry.hits + s->hits[entry.point.mirror] == 0) continue;
     if (catalogue->count == KZ_SWEEP_MOST)
       return kz_fail(KZ_REFUSED, "sweep: more than %d attractors at one value; use more damping or a smaller window",
                      KZ_SWEEP_MOST);

@@ -34,8 +34,7 @@ static int8_t carry(const step *s, const kz_attractor *cycle, const kz_measured_
   kz_pendulum pendulum;
   int32_t kind;
   bool possible = false;
-  for (int64_t i = 0; i < there->count; i++)
-    possible = possible || (there->attractor[i].period == cycle->period && there->attractor[i].winding == cycle->winding);
+  for (int64_t i = 0; i < there->count; i++) possible = possible || kz_branch_alike(there->attractor + i, cycle);
   if (!possible || !kz_points_pendulum(s->points, s->to, s->to, 0, &pendulum)) return -1;
   if (!(kz_walk(&path, 0, 1, &point, &kind) == 1)) return -1;
   for (int64_t i = 0; i < there->count; i++)
@@ -43,12 +42,12 @@ static int8_t carry(const step *s, const kz_attractor *cycle, const kz_measured_
   return -1;
 }
 
-/* The chaotic attractor of `there` nearest to one; -1 = none. */
-static int8_t nearest(const kz_attractor *chaotic, const kz_measured_point *there) {
+/* The attractor of `there` nearest to one that never closes, of its kind; -1 = none. */
+static int8_t nearest(const kz_attractor *one, const kz_measured_point *there) {
   int8_t best = -1;
   for (int64_t i = 0; i < there->count; i++)
-    if (there->attractor[i].period == 0 && (best < 0 || kz_branch_points_apart(chaotic, there->attractor + i) <
-                                                            kz_branch_points_apart(chaotic, there->attractor + best)))
+    if (kz_branch_alike(one, there->attractor + i) &&
+        (best < 0 || kz_branch_points_apart(one, there->attractor + i) < kz_branch_points_apart(one, there->attractor + best)))
       best = (int8_t)i;
   return best;
 }

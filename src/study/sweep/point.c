@@ -12,6 +12,10 @@ kz_path kz_sweep_path(const kz_scene *scene, kz_fine_maps *maps) {
   return (kz_path){pendulum_of_scene, scene, maps};
 }
 
+bool kz_branch_alike(const kz_attractor *a, const kz_attractor *b) {
+  return a->period == b->period && a->winding == b->winding;
+}
+
 double kz_branch_points_apart(const kz_attractor *a, const kz_attractor *b) {
   return fabs(remainder(a->theta - b->theta, 2 * M_PI)) + fabs(a->velocity - b->velocity);
 }

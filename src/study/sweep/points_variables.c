@@ -9,12 +9,12 @@
   OF(word, unit, name, __VA_ARGS__){#word "_low", KZ_REAL, {__VA_ARGS__}, unit, "lower end of its 95 % interval"}, \
       {#word "_high", KZ_REAL, {__VA_ARGS__}, unit, "upper end of its 95 % interval"},
 #define NONE_OF(word, needs, unit, name) /* for one pendulum alone */
-#define CLASSES                                                                                               \
-  {"attractor", KZ_INT32, {"attractor"}, NONE, "number of the attractor"},                                    \
-      {"name", KZ_TEXT, {"attractor"}, NONE, "name of the attractor where it is seen first"},                 \
-      {"period", KZ_INT32, {"attractor"}, PERIODS, "period of the orbit; 0 = aperiodic (chaotic)"},           \
-      {"winding", KZ_INT32, {"attractor"}, NONE, "net turns in one period of the orbit, + counterclockwise"}, \
-      {"centre", KZ_INT8, {"attractor"}, NONE, "what the orbit moves about", {CENTRES}},                      \
+#define CLASSES                                                                                                              \
+  {"attractor", KZ_INT32, {"attractor"}, NONE, "number of the attractor"},                                                   \
+      {"name", KZ_TEXT, {"attractor"}, NONE, "name of the attractor where it is seen first"},                                \
+      {"period", KZ_INT32, {"attractor"}, PERIODS, "period of the orbit; 0 = it never closes"},                              \
+      {"winding", KZ_INT32, {"attractor"}, NONE, "net turns in one period, + counterclockwise; of a running state 1 or -1"}, \
+      {"centre", KZ_INT8, {"attractor"}, NONE, "what the orbit moves about", {CENTRES}},                                     \
       {"points", KZ_INT32, {"attractor"}, NONE, "number of pendulums that have the attractor"},
 #define PLANE(word, needs, unit, name) OF(word, unit, name, "attractor", "y", "x")
 #define PLANE_INTERVAL(word, needs, unit, name) INTERVAL_OF(word, unit, name, "attractor", "y", "x")

@@ -58,11 +58,13 @@ void kz_sweep_follow(const kz_path *path, double from, double to, int64_t max_pe
  * In and out: *point, the cycle at that value. */
 double kz_walk(const kz_path *path, double from, double to, kz_attractor *point, int32_t *end_kind);
 
-/* A cycle with a strobe point, or of a chaotic attractor its means; its image. */
+/* A cycle with a strobe point, or of a motion that never closes its means; its image. */
 kz_attractor kz_branch_point_image(const kz_pendulum *pendulum, kz_attractor point);
-/* The distance between two chaotic attractors, by their means. */
+/* Whether two motions have the same period and winding. */
+bool kz_branch_alike(const kz_attractor *a, const kz_attractor *b);
+/* The distance between two motions that never close, by their means. */
 double kz_branch_points_apart(const kz_attractor *a, const kz_attractor *b);
-/* By centre, period (chaotic last), |winding|/period, + first: below 0 where p comes first, 0 where these are equal. */
+/* By centre, period (0 last), |winding|/period, + first: below 0 where p comes first, 0 where these are equal. */
 int kz_branch_points_order(const kz_attractor *p, const kz_attractor *q);
 
 /* ---- catalogues: what attracts at each value ---- */
@@ -70,7 +72,7 @@ int kz_branch_points_order(const kz_attractor *p, const kz_attractor *q);
 enum { KZ_SWEEP_MOST = 128 }; /* attractors at one value */
 
 typedef struct {
-  kz_attractor point; /* period 0 = chaotic: theta, velocity are its mean angle and mean velocity */
+  kz_attractor point; /* period 0: theta, velocity are its mean angle and mean velocity */
   int64_t hits;       /* number of starts or cells that ended on it */
   double shock[3];    /* smallest shocks that leave its basin: of angle, velocity, both; NaN = none, or not measured */
 } kz_sweep_entry;

@@ -65,10 +65,6 @@ static void describe(const kz_label *d, double error, const kz_catalogue *catalo
   ending->end = *d;
   ending->end.label = (int16_t)catalogue->id_of[d->label];
   ending->end.other = -1;
-  if (ending->end.label < 0) {
-    kz_orbit_name(-1, 0, 0, ending->entry.name);
-    return;
-  }
   kz_entry *entry = &ending->entry;
   *entry = catalogue->entries[ending->end.label];
   const size_t bytes = (size_t)entry->row.period * sizeof(double);

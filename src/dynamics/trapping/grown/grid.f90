@@ -3,6 +3,7 @@
 module kz_grown_grid
   use, intrinsic :: iso_c_binding, only: dp => c_double, int32 => c_int32_t
   use kz_cycles_cycles, only: attractor_t
+  use kz_grown_bands, only: has_band, in_band, band_holds, band_meets
   use kz_grown_ellipses, only: in_ellipse
   use kz_grown_places, only: grid_t, look_up, side, from_down, wrapped_midperiod_angle, WORD
   use kz_vector_map, only: WIDTH
@@ -11,22 +12,22 @@ module kz_grown_grid
   private
   public :: regions_t, make_regions, draw_attractors, find_regions, note_closed, ellipse_at, cover_cell, chaos_region, cell_holds
 
-  !> An ellipse that overlaps a cell, and the next one of that cell.
-  type :: ellipse_overlap_t
+  !> An ellipse or a band that overlaps a cell, and the next one of that cell.
+  type :: overlap_t
     integer :: attractor
-    integer :: point
+    integer :: point !< strobe point of the ellipse; 0 = the band
     integer :: next
-  end type ellipse_overlap_t
+  end type overlap_t
 
   type, extends(grid_t) :: regions_t
     integer, allocatable :: label(:, :) !< (0 : n_theta - 1, 0 : n_velocity - 1): attractor, from 1; -overlap; 0 open
     integer(int32), allocatable :: closed(:) !< a bit for each cell and one for the outside, in this order: may a region be there?
-    integer, allocatable :: drawn(:, :) !< the same by ellipses alone: what has grown since does not hide them
-    type(ellipse_overlap_t), allocatable :: overlaps(:)
+    integer, allocatable :: drawn(:, :) !< the same by ellipses and bands alone: what has grown since does not hide them
+    type(overlap_t), allocatable :: overlaps(:)
     integer :: n_overlaps = 0
     integer :: n_drawn = 0    !< attractors that have been drawn
     integer, allocatable :: mirror(:) !< of each of them, the number of its mirror image
-    integer, allocatable :: covered(:) !< cells of COVER x COVER: the chaotic attractor (from 1) that visits it; empty: none
+    integer, allocatable :: covered(:) !< cells of COVER x COVER: the attractor (from 1) without a period or band that visits it; empty: none
   end type regions_t
 
   !> Cells of a chaotic attractor's cover along an axis.
@@ -69,6 +70,10 @@ contains
         end do
       end do
       if (attractors(a)%period > 0) cycle
+      if (has_band(attractors(a))) then
+        call draw_band(regions, attractors(a), a)
+        cycle
+      end if
       if (size(regions%covered) == 0) then
         deallocate (regions%covered)
         allocate (regions%covered(COVER**2), source=0)
@@ -148,12 +153,35 @@ contains
         if (within(form, [i/per_u - u, (i + 1)/per_u - u], [l/per_v - regions%top - v, (l + 1)/per_v - regions%top - v])) then
           regions%drawn(i, l) = a
         else if (regions%drawn(i, l) <= 0) then
-          call add_overlap(regions, ellipse_overlap_t(a, j, -regions%drawn(i, l)))
+          call add_overlap(regions, overlap_t(a, j, -regions%drawn(i, l)))
           regions%drawn(i, l) = -regions%n_overlaps
         end if
       end do
     end do
   end subroutine draw
+
+  !> Draws the band of a running state.
+  subroutine draw_band(regions, attractor, a)
+    type(regions_t), intent(inout) :: regions
+    type(attractor_t), intent(in) :: attractor
+    integer, intent(in) :: a
+    real(dp) :: u(2), v(2)
+    integer :: i, l
+
+    do l = 0, regions%n_velocity - 1
+      v = [l, l + 1]/regions%per_v - regions%top
+      do i = 0, regions%n_theta - 1
+        u = [i, i + 1]/regions%per_u - midperiod_angle(0.0_dp, v(2:1:-1))
+        if (.not. band_meets(attractor, u, v)) cycle
+        if (band_holds(attractor, u, v)) then
+          regions%drawn(i, l) = a
+        else if (regions%drawn(i, l) <= 0) then
+          call add_overlap(regions, overlap_t(a, 0, -regions%drawn(i, l)))
+          regions%drawn(i, l) = -regions%n_overlaps
+        end if
+      end do
+    end do
+  end subroutine draw_band
 
   !> Whether all four corners of a cell lie in the ellipse.
   pure function within(form, du, dv) result(inside)
@@ -171,7 +199,7 @@ contains
 
   subroutine add_overlap(regions, overlap)
     type(regions_t), intent(inout) :: regions
-    type(ellipse_overlap_t), intent(in) :: overlap
+    type(overlap_t), intent(in) :: overlap
 
     if (regions%n_overlaps == size(regions%overlaps)) regions%overlaps = [regions%overlaps, regions%overlaps] ! place for as many more
     regions%n_overlaps = regions%n_overlaps + 1
@@ -239,7 +267,7 @@ contains
     inside = regions%label(int(x), int(y)) > 0
   end function cell_holds
 
-  !> The attractor of the first ellipse that holds (u, v), in the list that begins with overlap `first`; 0 = none.
+  !> The attractor of the first ellipse or band that holds (u, v), in the list that begins with overlap `first`; 0 = none.
   function overlap_at(regions, attractors, first, u, v) result(a)
     type(regions_t), intent(in) :: regions
     type(attractor_t), intent(in) :: attractors(:)
@@ -250,13 +278,17 @@ contains
     t = first
     do while (t > 0)
       a = regions%overlaps(t)%attractor
-      if (in_ellipse(attractors(a), regions%overlaps(t)%point, u, v)) return
+      if (regions%overlaps(t)%point == 0) then
+        if (in_band(attractors(a), u, v)) return
+      else
+        if (in_ellipse(attractors(a), regions%overlaps(t)%point, u, v)) return
+      end if
       t = regions%overlaps(t)%next
     end do
     a = 0
   end function overlap_at
 
-  !> The attractor that has an ellipse around (u, v); 0 = none. It tests every ellipse.
+  !> The attractor that has an ellipse or a band around (u, v); 0 = none. It tests every one.
   pure function ellipse_at(attractors, u, v) result(a)
     type(attractor_t), intent(in) :: attractors(:) !< the catalogue, numbered from 1
     real(dp), intent(in) :: u, v !< half-turns in [-1, 1], rad per drive radian
@@ -266,6 +298,7 @@ contains
       do j = 1, attractors(a)%period
         if (in_ellipse(attractors(a), j, u, v)) return
       end do
+      if (in_band(attractors(a), u, v)) return
     end do
     a = 0
   end function ellipse_at

@@ -6,6 +6,7 @@
 module kz_grown_growth
   use, intrinsic :: iso_c_binding, only: dp => c_double, int8 => c_int8_t
   use kz_cycles_cycles, only: attractor_t
+  use kz_grown_bands, only: band_holds
   use kz_grown_ellipses, only: in_ellipse
   use kz_grown_cell_images, only: images_t, corners_t, PERIODS, corners_of, extent
   use kz_grown_grid, only: regions_t, note_closed
@@ -121,7 +122,8 @@ contains
     a = 0
   end function ellipse_around
 
-  !> Whether four corners with their slack, and so their hull, or its mirror image, lie in the ellipse of strobe point j.
+  !> Whether four corners with their slack, and so their hull, or its mirror image, lie in the ellipse of strobe point j; j = 0: whether the box
+  !> around them lies in the band.
   pure function holds(regions, attractor, j, corners, mirrored) result(inside)
     type(regions_t), intent(in) :: regions
     type(attractor_t), intent(in) :: attractor
@@ -129,10 +131,12 @@ contains
     type(corners_t), intent(in) :: corners
     logical, intent(in) :: mirrored
     logical :: inside
-    real(dp) :: u, v
+    real(dp) :: u, v, box_u(2), box_v(2)
     integer :: a, b, corner
 
     inside = .true.
+    box_u = [huge(u), -huge(u)]
+    box_v = box_u
     do corner = 1, 4
       do b = -1, 1, 2
         do a = -1, 1, 2
@@ -140,10 +144,14 @@ contains
           v = (corners%y(corner) + b*corners%slack_y)*(2*regions%top/regions%n_velocity) - regions%top
           if (mirrored) u = -u
           if (mirrored) v = -v
-          inside = inside .and. in_ellipse(attractor, j, u - midperiod_angle(0.0_dp, v), v)
+          u = u - midperiod_angle(0.0_dp, v)
+          if (j > 0) inside = inside .and. in_ellipse(attractor, j, u, v)
+          box_u = [min(box_u(1), u), max(box_u(2), u)]
+          box_v = [min(box_v(1), v), max(box_v(2), v)]
         end do
       end do
     end do
+    if (j == 0) inside = band_holds(attractor, box_u, box_v)
   end function holds
 
   !> Tests every open cell; an image with an open cell is put on the waiting list of that cell.
