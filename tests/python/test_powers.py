@@ -8,7 +8,8 @@ from importlib.machinery import SourceFileLoader
 from importlib.util import module_from_spec, spec_from_loader
 from pathlib import Path
 
-from conftest import PROGRAM, ROOT
+import pytest
+from conftest import PROGRAM, ROOT, datasets, with_extensive
 from test_structure import SOURCES, edges, source_of
 
 SPEC = spec_from_loader("ledger", SourceFileLoader("ledger", str(ROOT / "scripts" / "ledger")))
@@ -62,6 +63,44 @@ def test_the_core_calls_no_power():
     assert len(place) > 1000
     assert not trespasses((path, place[name]) for path, name, kind in symbols()
                           if kind == "U" and name in place and name not in registered)
+
+
+@pytest.fixture(scope="session")
+def core():
+    """The program without powers; scripts/test has built it."""
+    done = subprocess.run(["ninja", "-C", PROGRAM.parent, "trial_core"], capture_output=True, text=True)
+    assert done.returncode == 0, done.stdout[-4000:]
+    return PROGRAM.parent / "trial_core"
+
+
+@pytest.mark.parametrize("scene", with_extensive(["small", "blackburn-fig05", "blackburn-fig08"],
+                                                 ["blackburn-fig12", "butikov-fig01", "blackburn-walk", "tradeoff-fig12"]))
+def test_the_core_models_the_papers(core, tmp_path, scene):
+    """Datasets are those of the whole program; what a clock says differs."""
+    found = []
+    for program in (core, PROGRAM):
+        done = subprocess.run([program, "run", ROOT / "scenes" / f"{scene}.yaml", "-o", tmp_path / f"{program.name}.h5"],
+                              capture_output=True, text=True)
+        assert done.returncode == 0, done.stderr
+        found.append({name: data for name, data in datasets(tmp_path / f"{program.name}.h5").items() if "seconds" not in name})
+    assert found[0] == found[1]
+
+
+def test_the_core_holds_no_symbol_of_a_power(core):
+    known = {name for path, name, kind in symbols() if kind in "TDRBV" and power_of(path)}
+    done = subprocess.run(["nm", "-P", core], capture_output=True, text=True, check=True)
+    there = {line.split()[0] for line in done.stdout.splitlines()}
+    assert len(known) > 300 and "kz_app_run" in there and not known & there
+
+
+@pytest.mark.parametrize(("words", "told"), [
+    (["check", "small", "--set", "wada={}"], "wada: needs the power saddles, which this build leaves out"),
+    (["check", "small", "--set", "basin.proof=true"], "basin.proof: needs the power proof, which this build leaves out"),
+    (["where", "small", "0", "0"], "where: needs the power live, which this build leaves out")])
+def test_what_is_missing_is_refused_by_the_name_of_its_power(core, words, told):
+    words = [str(ROOT / "scenes" / "small.yaml") if word == "small" else word for word in words]
+    done = subprocess.run([core, *words], capture_output=True, text=True)
+    assert done.returncode == 2 and told in done.stderr
 
 
 def test_the_table_of_budgets_is_kept():
