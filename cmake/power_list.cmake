@@ -21,3 +21,5 @@ kapitza_power(live FOLDERS study/live study/where app/live FILES include/kapitza
     tests/python/test_client.py tests/python/test_protocol.py tests/python/test_where.py
     python/kapitza/explorer python/kapitza/client.py python/kapitza/engine.py web/explorer
     docs/reference/explorer.md docs/reference/serve.md docs/howto/stories.md)
+kapitza_power(measures FOLDERS study/boundary PARTS boundary
+  BESIDE tests/python/test_boundary.py)

@@ -37,6 +37,7 @@ enum { KZ_AUTO = 0 };
   STUDY(sweep)            \
   STUDY(measures)         \
   STUDY(tradeoff)         \
+  STUDY(shocks)           \
   KZ_POWER_STUDIES(STUDY)
 
 #define KZ_STUDY_PLAN(name) typedef struct kz_##name##_plan kz_##name##_plan;

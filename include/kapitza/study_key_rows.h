@@ -70,11 +70,12 @@
 #define STUDY(help, ...) ROW(STRING_OF(KEYS_OF), KZ_KEY_MAPPING, "", OF_SCENE(STORED(KEYS_OF)), help, .unit = "", __VA_ARGS__)
 #define KZ_STUDY_ROW(...) KZ_STUDY_ROW_OF(KEYS_OF, __VA_ARGS__)
 #define KZ_STUDY_ROW_OF(name, ...) KZ_STUDY_ROW_NAMED(name, __VA_ARGS__)
-/* The row of a part of the study basin, whose run does its work; has: the field of the scene that says whether it is asked for. */
-#define KZ_PART_ROW(has, ...) KZ_PART_ROW_OF(KEYS_OF, has, __VA_ARGS__)
-#define KZ_PART_ROW_OF(name, has, ...) KZ_PART_ROW_NAMED(name, has, __VA_ARGS__)
-#define KZ_PART_ROW_NAMED(name_, has, ...)                                      \
-  const kz_study kz_##name_##_study = {.name = "basin",                         \
+/* The row of a part of another study, whose run does its work; of: that study, or the mapping that has its keys; has: the field of the scene that
+ * says whether it is asked for. */
+#define KZ_PART_ROW(of, has, ...) KZ_PART_ROW_OF(KEYS_OF, of, has, __VA_ARGS__)
+#define KZ_PART_ROW_OF(name, of, has, ...) KZ_PART_ROW_NAMED(name, of, has, __VA_ARGS__)
+#define KZ_PART_ROW_NAMED(name_, of, has, ...)                                  \
+  const kz_study kz_##name_##_study = {.name = of,                              \
                                        .wanted = offsetof(kz_scene, has),       \
                                        .plan = offsetof(kz_scene, name_),       \
                                        .plan_bytes = sizeof(kz_##name_##_plan), \

@@ -30,7 +30,6 @@ ASKS(tradeoff, s->has_tradeoff)
 ASKS(rk4, s->asked.scheme == kz_scheme_find("rk4"))
 ASKS(no_basin, !s->has_basin)
 ASKS(accuracy, s->has_basin && !isnan(s->basin->accuracy))
-ASKS(boundary, s->has_basin && s->basin->has_boundary)
 ASKS(orbit_on_ramp, s->has_orbit && s->parameters.has_ramp)
 /* A sweep over a ramp: its values differ in their cells alone. */
 static bool asks_more_than_cells(const kz_scene *s) {
@@ -67,7 +66,6 @@ static const struct {
     {asks_no_basin, KZ_NEEDS_STROBE, "needs the study basin; add it to the scene"},
     {asks_table, KZ_NEEDS_STROBE, "basin.method icm follows whole drive periods from phase 0 only; choose exact or direct"},
     {asks_accuracy, KZ_NEEDS_STROBE, "basin.accuracy needs starts at phase 0 and no ramp; leave one of them out"},
-    {asks_boundary, KZ_NEEDS_STROBE, "basin.boundary needs starts at phase 0 and no ramp; leave one of them out"},
     {asks_tradeoff, KZ_NEEDS_STROBE, "study tradeoff needs starts at phase 0 and no ramp; leave one of them out"},
     {asks_orbit_on_ramp, KZ_NEEDS_STROBE, "study orbit does not follow a ramp; leave one of them out"},
 };

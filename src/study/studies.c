@@ -15,8 +15,6 @@ const int kz_study_count = sizeof kz_studies / sizeof kz_studies[0];
 const kz_group kz_groups[] = {
     {"pendulum", kz_pendulum_variables},
     {"phases", kz_phases_variables},
-    {"boundary", kz_boundary_variables},
-    {"shocks", kz_shocks_variables},
     {"plane", kz_plane_variables},
     {"line", kz_line_variables},
     KZ_STUDIES(GROUP)

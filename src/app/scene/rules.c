@@ -49,12 +49,6 @@ static void lack_rule(kz_reading *reading, const char *lack, const char *study) 
   kz_complain(reading, kz_key_in(study, key).text, "%s", lack + strlen(key) + 2);
 }
 
-/* The sizes of shocks must increase. */
-static void shocks_rules(kz_reading *reading, kz_scene *scene) {
-  if (scene->has_basin && scene->basin->has_shocks)
-    lack_rule(reading, kz_sizes_lack(&scene->basin->shocks.sizes), "basin.shocks");
-}
-
 /* The studies beside which another one needs to stand, at the key `path` that needs them. */
 static void need_rule(kz_reading *reading, const kz_study_need *need, const char *path) {
   char studies[64] = "";
@@ -280,9 +274,9 @@ static void settling_rules(kz_reading *reading, kz_scene *scene) {
 }
 
 typedef void (*rule)(kz_reading *reading, kz_scene *scene);
-static const rule rules[] = {basin_rules,   table_rules,     shocks_rules,      attractors_rules,
-                             orbit_rules,   stability_rules, kz_pendulum_rules, symmetry_rules,
-                             studies_rules, sweep_rules,     orbit_range_rules, settling_rules};
+static const rule rules[] = {basin_rules,     table_rules,       attractors_rules, orbit_rules,
+                             stability_rules, kz_pendulum_rules, symmetry_rules,   studies_rules,
+                             sweep_rules,     orbit_range_rules, settling_rules};
 
 void kz_reading_rules(kz_reading *reading) {
   for (size_t i = 0; i < sizeof rules / sizeof rules[0]; i++) rules[i](reading, reading->scene);

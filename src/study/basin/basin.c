@@ -81,13 +81,15 @@ static kz_status make_parts(const kz_scene *scene, kz_window_labels *labelling) 
     if (!wanted_part(scene, i)) continue;
     kz_part *p = labelling->parts + labelling->n_parts++;
     p->part = wanted_part(scene, i);
-    KZ_TRY(p->part->make(scene, &p->own));
+    p->own = (void *)scene;
+    if (p->part->make) KZ_TRY(p->part->make(scene, &p->own));
   }
   return KZ_OK;
 }
 
 static void free_parts(kz_window_labels *labelling) {
-  for (const kz_part *p = labelling->parts; p < labelling->parts + labelling->n_parts; p++) p->part->free(p->own);
+  for (const kz_part *p = labelling->parts; p < labelling->parts + labelling->n_parts; p++)
+    if (p->part->free) p->part->free(p->own);
 }
 
 /* Of FILE and FILE.checkpoint. Measured with Fig. 12's scene on 10^6 to 4 10^8 cells: finer grids have longer runs of equal labels. */
@@ -175,9 +177,9 @@ static kz_status write_window(const kz_scene *scene, kz_chunks *chunks, FILE *su
   KZ_TRY(kz_ranks_agree(run->ranks, store ? kz_basin_declare(scene, &labelling->tiles, store) : KZ_OK));
   KZ_TRY(kz_cells_write(chunks));
   KZ_TRY(kz_ranks_agree(run->ranks, store ? write_results(scene, chunks, summary) : KZ_OK));
-  KZ_TRY(kz_boundary_find(scene, labelling, chunks->catalogue, store, summary));
-  KZ_TRY(find_phases(scene, labelling, chunks->catalogue, store, summary));
-  return kz_shocks_find_all(scene, labelling, chunks->catalogue, store, summary);
+  for (const kz_part *p = labelling->parts; p < labelling->parts + labelling->n_parts; p++)
+    if (p->part->find) KZ_TRY(p->part->find(p->own, chunks, store, summary));
+  return find_phases(scene, labelling, chunks->catalogue, store, summary);
 }
 
 static kz_status run_damped(const kz_scene *scene, const kz_run *run, kz_store *store, FILE *summary) {
@@ -266,7 +268,6 @@ kz_status kz_basin_check(const kz_scene *scene) {
   const kz_step_motions motions = kz_motions_of_basin(scene);
   kz_numerics reference;
   if (!(motions.pendulum.beta > 0)) return KZ_OK;
-  KZ_TRY(kz_pairs_check(scene->basin));
   if (isnan(scene->basin->accuracy)) return kz_motions_check(&motions);
   return kz_reference_labels_numerics(scene->basin, &motions.pendulum, &reference);
 }

@@ -6,14 +6,13 @@
 #include "kapitza/study.h"
 #include "label.h"
 #include "labelling/doubt.h"
-#include "measures/counts.h"
-#include "resilience/resilience.h"
+#include "numerics/counts.h"
 #include "plan.h"
 
 enum { KZ_TILE_CELLS = 16384 }; /* cells of a tile, about: enough to keep all lanes busy while a few cells take long */
 
 /* What the study writes besides kz_basin_variables. */
-extern const kz_variable kz_phases_variables[], kz_boundary_variables[], kz_shocks_variables[];
+extern const kz_variable kz_phases_variables[];
 
 /* ---- transients: how long they last, from the cells of every few rows that are not mirror images ---- */
 
@@ -75,24 +74,3 @@ kz_status kz_basin_declare(const kz_scene *scene, const kz_tiles *tiles, kz_stor
 /* Writes group /attractors, the attributes of /basin, and the summary. */
 kz_status kz_basin_write(const kz_scene *scene, const kz_catalogue *catalogue, const kz_window_summary *labels, kz_store *store,
                          FILE *summary);
-
-/* Follows the pairs of starts and counts the boxes of cells that the key basin.boundary asks for; writes group /boundary and the summary.
- * The cells must be in the store. This and the next two do nothing without their key. Collective. */
-kz_status kz_boundary_find(const kz_scene *scene, const kz_window_labels *labelling, const kz_catalogue *catalogue,
-                           kz_store *store, FILE *summary);
-/* Finds how far the motions of the catalogue are from the edges of their basins (basin.shocks), and writes group /shocks. */
-kz_status kz_shocks_find_all(const kz_scene *scene, const kz_window_labels *labelling, const kz_catalogue *catalogue,
-                             kz_store *store, FILE *summary);
-
-/* ---- pairs of starts beside each other: how many of them end differently, by their distance ---- */
-
-enum { KZ_PAIR_DISTANCES = KZ_BOUNDARY_MOST_DECADES + 1 };
-
-/* How many distances the plan asks for. */
-int kz_distances_of(const kz_basin_plan *plan);
-
-/* KZ_OK where the numbers behind the labels distinguish the nearest pairs. */
-kz_status kz_pairs_check(const kz_basin_plan *plan);
-
-/* uncertain [kz_distances_of]: of evenly spread starts of the window, each with a partner at every distance. Collective. */
-kz_status kz_pairs_count(const kz_basin_plan *plan, const kz_window_labels *labelling, kz_uncertain *uncertain);

@@ -42,27 +42,10 @@ static const kz_key keys[] = {
          "Share of right labels, instead of method, icm and numerics: the program takes the cheapest setting whose labels "
          "agree with a sample in quad precision to this share (95 % bound), or method exact if there is none."),
 
-    PART("basin.boundary", "", has_boundary,
-         "How fractal the boundaries are: uncertainty exponents decade by decade, box-counting dimension, basins that share "
-         "their boundary."),
-    INTEGER("basin.boundary.pairs", 100, 1e8, "50000", boundary.pairs,
-            "Starts of the window, each with a partner at `farthest`, a tenth of that, ... rad."),
-    REAL("basin.boundary.farthest", "rad", 1e-300, 1, "0.01", boundary.farthest,
-         "Distance of the first partner. With method exact it may be any share of the width of a deep window."),
-    INTEGER("basin.boundary.decades", KZ_BOUNDARY_FEWEST_DECADES, KZ_BOUNDARY_MOST_DECADES, "10", boundary.decades,
-            "Decades of these distances: 10 go from 0.01 down to 1e-12 rad; nearer partners need basin.method exact, because "
-            "doubles cannot distinguish such starts."),
     INTEGER("basin.phases", 2, 64, "", phases,
             "Number of phases of the drive, spread evenly over a period from 0 on, at which every cell is released as well; "
             "the result "
             "has the share of the window that ends alike at all of them."),
-    PART("basin.shocks", "", has_shocks,
-         "The smallest shocks (a sudden change of angle, of velocity, of both) that push each attractor out of its basin."),
-    REAL("basin.shocks.scale", KZ_VELOCITY_UNIT, 1e-6, 1e6, "1", shocks.scale,
-         "Change of the velocity that counts as much as 1 rad; the size of a shock is hypot(dtheta, dv/scale)."),
-    ROW("basin.shocks.sizes", KZ_KEY_REALS, "[0.1, 0.3, 1]", AT(shocks.sizes),
-        "Sizes, ascending, for which the share of harmless shocks is computed.", .unit = "rad", .low = KZ_ABOVE_ZERO,
-        .high = 1e3),
     {.path = NULL},
 };
 

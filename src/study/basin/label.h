@@ -1,7 +1,7 @@
 /* Labels of the cells of a window, tile by tile; the rank that labels a tile keeps it, packed. */
 #pragma once
 
-#include "measures/counts.h"
+#include "numerics/counts.h"
 #include "labelling/search.h"
 #include "labelling/cell_starts.h"
 #include "numerics/cells.h"
@@ -32,9 +32,9 @@ typedef struct kz_window_labels kz_window_labels;
 
 typedef struct kz_chunks kz_chunks;
 struct kz_basin_part {
-  /* Bytes of memory that it takes on a rank. Every function but make and free may be NULL. */
+  /* Bytes of memory that it takes on a rank. Every function may be NULL. */
   double (*bytes)(const kz_scene *scene);
-  /* *own = what it needs until `free`. */
+  /* *own = what it needs until `free`; without them the scene. */
   kz_status (*make)(const kz_scene *scene, void **own);
   void (*free)(void *own);
   /* After the attractors of the window are found: may change labelling->labeller, that of its cells. Collective. */
@@ -51,6 +51,8 @@ struct kz_basin_part {
   kz_status (*take)(void *own, int64_t tile, kz_label *cell);
   /* Attributes, variables and lines of the summary. Rank 0. */
   kz_status (*write)(void *own, const kz_chunks *chunks, FILE *summary);
+  /* What follows from the labels in the store, with its own variables; store and summary are NULL on all ranks but rank 0. Collective. */
+  kz_status (*find)(void *own, const kz_chunks *chunks, kz_store *store, FILE *summary);
 };
 enum { KZ_MOST_PARTS = 8 };
 /* A part of this run. */

@@ -1,4 +1,4 @@
-/* Variables of the groups basin, phases, boundary and shocks of the result file. */
+/* Variables of the groups basin and phases of the result file. */
 #include "kapitza/store_variables.h"
 #include "basin.h"
 
@@ -30,43 +30,6 @@ const kz_variable kz_phases_variables[] = {
     {"fraction", KZ_REAL, {"phase", "attractor"}, NONE, "share of the cells that end there"},
     {"common", KZ_INT16, {"velocity", "theta"}, NONE, "id of the attractor that is reached at all phases; -1 = none"},
     {"ends", KZ_UINT8, {"velocity", "theta"}, NONE, "number of different ends; not settled counts as one"},
-    {0},
-};
-
-const kz_variable kz_boundary_variables[] = {
-    {"distance", KZ_REAL, {"distance"}, ANGLE, "distance of the pairs"},
-    {"uncertain_share", KZ_REAL, {"distance"}, NONE, "share of the pairs that end differently"},
-    {"uncertain_low", KZ_REAL, {"distance"}, NONE, "lower end of its 95 % interval (Wilson)"},
-    {"uncertain_high", KZ_REAL, {"distance"}, NONE, "upper end of its 95 % interval (Wilson)"},
-    {"slope", KZ_REAL, {"distance"}, NONE, "uncertainty exponent between this distance and the next"},
-    {"slope_low", KZ_REAL, {"distance"}, NONE, "lower end of its 95 % interval"},
-    {"slope_high", KZ_REAL, {"distance"}, NONE, "upper end of its 95 % interval"},
-    {"box", KZ_INT32, {"box"}, NONE, "level of the boxes"},
-    {"basin", KZ_INT32, {"basin"}, NONE, "id of the attractor; 63 stands for all larger ids too"},
-    {"box_cells", KZ_INT32, {"box"}, NONE, "cells along an edge of a box"},
-    {"boxes", KZ_INT32, {"box"}, NONE, "boxes that hold more than one label"},
-    {"dimension", KZ_REAL, {"box"}, NONE, "box-counting dimension between this size and the next"},
-    {"shared", KZ_REAL, {"box", "basin"}, NONE, "share of these boxes that hold the basin"},
-    {0},
-};
-
-const kz_variable kz_shocks_variables[] = {
-    {"point", KZ_INT32, {"point"}, NONE, "place of the strobe point in the list"},
-    {"size", KZ_REAL, {"size"}, ANGLE, "largest size of the shocks: hypot(dtheta, dv / scale)"},
-    {"attractor", KZ_INT32, {"point"}, NONE, "id of the attractor"},
-    {"phase", KZ_INT32, {"point"}, NONE, "place of the strobe point along the orbit"},
-    {"strobe_theta", KZ_REAL, {"point"}, ANGLE, "angle of the strobe point from down"},
-    {"strobe_velocity", KZ_REAL, {"point"}, VELOCITY, "angular velocity of the strobe point"},
-    {"angle", KZ_REAL, {"point"}, ANGLE, "smallest change of the angle alone that leaves the basin; NaN = none does"},
-    {"angle_end", KZ_INT32, {"point"}, NONE, "id of the attractor where it leads; -1 = none"},
-    {"kick", KZ_REAL, {"point"}, VELOCITY, "smallest change of the velocity alone that leaves the basin; NaN = none"},
-    {"kick_end", KZ_INT32, {"point"}, NONE, "id of the attractor where it leads; -1 = none"},
-    {"shock_theta", KZ_REAL, {"point"}, ANGLE, "change of the angle of the smallest shock that leaves the basin"},
-    {"shock_velocity", KZ_REAL, {"point"}, VELOCITY, "change of the velocity of the smallest shock"},
-    {"shock_size", KZ_REAL, {"point"}, ANGLE, "size of the smallest shock: hypot(dtheta, dv / scale)"},
-    {"shock_end", KZ_INT32, {"point"}, NONE, "id of the attractor where it leads; -1 = none"},
-    {"harmless", KZ_REAL, {"point", "size"}, NONE, "share of the shocks up to a size that stay in the basin"},
-    {"return_time", KZ_REAL, {"point", "size"}, PERIODS, "mean time until a harmless shock is trapped again"},
     {0},
 };
 /* clang-format on */

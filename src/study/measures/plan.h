@@ -29,8 +29,6 @@ struct kz_measures_plan {
 
 /* Whether a list has something twice. */
 bool kz_words_repeat(const kz_integers *words);
-/* NULL, or what is wrong with the sizes of shocks, as below. */
-const char *kz_sizes_lack(const kz_reals *sizes);
 /* NULL, or what the options lack for these measures, as "KEY: what is wrong" where KEY is a key of kz_measure_options. */
 const char *kz_measures_lack(const kz_integers *names, const kz_measure_options *options);
 const char *kz_measures_plan_lack(const kz_scene *scene);

@@ -47,14 +47,6 @@ bool kz_words_repeat(const kz_integers *words) {
   return false;
 }
 
-const char *kz_sizes_lack(const kz_reals *sizes) {
-  if (sizes->count < 1 || sizes->count > KZ_MOST_SHOCK_SIZES) return "sizes: must be a list of 1 to 16 sizes";
-  for (int64_t i = 1; i < sizes->count; i++)
-    if (!(sizes->values[i] > sizes->values[i - 1]))
-      return "sizes: has a size that is not above the one before it; give sizes in rising order";
-  return NULL;
-}
-
 const char *kz_measures_lack(const kz_integers *list, const kz_measure_options *options) {
   if (kz_words_repeat(list)) return "names: has a word twice; name each measure once";
   if (names(list, kz_measure_weighted_share) && !options->has_weight)

@@ -6,6 +6,14 @@
 
 #include "labelling/labeller.h"
 
+const char *kz_sizes_lack(const kz_reals *sizes) {
+  if (sizes->count < 1 || sizes->count > KZ_MOST_SHOCK_SIZES) return "sizes: must be a list of 1 to 16 sizes";
+  for (int64_t i = 1; i < sizes->count; i++)
+    if (!(sizes->values[i] > sizes->values[i - 1]))
+      return "sizes: has a size that is not above the one before it; give sizes in rising order";
+  return NULL;
+}
+
 typedef struct {
   kz_dynamics *dynamics;
   const kz_resilience_plan *plan;

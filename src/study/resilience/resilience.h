@@ -2,11 +2,17 @@
  * motion is from the edge of its basin, at every strobe point. */
 #pragma once
 
-#include "basin/plan.h"
+#include "basin/label.h"
 #include "labelling/catalogue.h"
 #include "labelling/labeller.h"
 #include "kapitza/parallel.h"
 #include "kapitza/study.h"
+#include "plan.h"
+
+extern const kz_basin_part kz_shocks_part;
+
+/* NULL, or what is wrong with the sizes of shocks, as "sizes: what is wrong". */
+const char *kz_sizes_lack(const kz_reals *sizes);
 
 /* Labels n starts, start [n][2] (rad, rad per drive radian): end [n]. */
 typedef void (*kz_ends_fn)(void *context, int64_t n, const double *start, kz_label *end);

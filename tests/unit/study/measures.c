@@ -6,7 +6,7 @@
 
 #include "../../tools/test.h"
 
-#include "measures/counts.h"
+#include "numerics/counts.h"
 #include "measures/measures.h"
 #include "measures/picture.h"
 

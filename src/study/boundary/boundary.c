@@ -1,7 +1,7 @@
 /* Measures of how fractal the boundaries of a basin are: pairs of starts, boxes of cells. */
 #include <math.h>
 
-#include "basin.h"
+#include "boundary.h"
 #include "numerics/share.h"
 
 enum {
@@ -79,18 +79,18 @@ static kz_status write_boxes(const kz_box_counts *b, int64_t count, kz_store *st
   return KZ_OK;
 }
 
-kz_status kz_boundary_find(const kz_scene *scene, const kz_window_labels *labelling, const kz_catalogue *catalogue,
-                           kz_store *store, FILE *summary) {
-  const kz_basin_plan *plan = scene->basin;
+static kz_status boundary_find(void *own, const kz_chunks *chunks, kz_store *store, FILE *summary) {
+  const kz_scene *scene = own;
   kz_uncertain uncertain[KZ_PAIR_DISTANCES];
   kz_box_counts counts = {0};
-  if (!plan->has_boundary) return KZ_OK;
-  KZ_TRY(kz_pairs_count(plan, labelling, uncertain));
+  KZ_TRY(kz_pairs_count(scene->boundary, chunks->labelling, uncertain));
   kz_status status = KZ_OK;
   if (store) {
-    status = write_pairs(kz_distances_of(plan), uncertain, store, summary);
-    if (status == KZ_OK) status = count_boxes(plan, store, &counts);
-    if (status == KZ_OK) status = write_boxes(&counts, catalogue->count, store, summary);
+    status = write_pairs(kz_distances_of(scene->boundary), uncertain, store, summary);
+    if (status == KZ_OK) status = count_boxes(scene->basin, store, &counts);
+    if (status == KZ_OK) status = write_boxes(&counts, chunks->catalogue->count, store, summary);
   }
-  return kz_ranks_agree(labelling->run->ranks, status);
+  return kz_ranks_agree(chunks->labelling->run->ranks, status);
 }
+
+const kz_basin_part kz_boundary_part = {.find = boundary_find};

@@ -2,7 +2,9 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "basin.h"
+#include "basin/basin.h"
+#include "plan.h"
+#include "resilience.h"
 
 enum { KINDS = 3 };
 
@@ -73,19 +75,19 @@ static kz_status write_shocks(const kz_resilience_plan *plan, const kz_catalogue
   return KZ_OK;
 }
 
-kz_status kz_shocks_find_all(const kz_scene *scene, const kz_window_labels *labelling, const kz_catalogue *catalogue,
-                             kz_store *store, FILE *summary) {
-  const kz_basin_plan *plan = scene->basin;
-  const kz_resilience_plan asked = {.scale = plan->shocks.scale,
-                                    .farthest = 2 * kz_axis_fastest(&plan->velocity),
-                                    .sizes = plan->shocks.sizes,
-                                    .max_periods = plan->max_periods};
+static kz_status shocks_find(void *own, const kz_chunks *chunks, kz_store *store, FILE *summary) {
+  const kz_scene *scene = own;
+  const kz_window_labels *labelling = chunks->labelling;
+  const kz_resilience_plan asked = {.scale = scene->shocks->scale,
+                                    .farthest = 2 * kz_axis_fastest(&scene->basin->velocity),
+                                    .sizes = scene->shocks->sizes,
+                                    .max_periods = scene->basin->max_periods};
   int64_t n;
-  if (!plan->has_shocks) return KZ_OK;
-  kz_resilience *point = kz_resilience_list(labelling->dynamics, catalogue, &n);
+  KZ_FREED kz_resilience *point = kz_resilience_list(labelling->dynamics, chunks->catalogue, &n);
   kz_status status = kz_resilience_run(labelling->run, labelling->dynamics, &asked, n, point);
   if (status == KZ_OK && store)
-    status = write_shocks(&asked, catalogue, n, point, scene->parameters.pivot_frequency, store, summary);
-  free(point);
+    status = write_shocks(&asked, chunks->catalogue, n, point, scene->parameters.pivot_frequency, store, summary);
   return kz_ranks_agree(labelling->run->ranks, status);
 }
+
+const kz_basin_part kz_shocks_part = {.find = shocks_find};

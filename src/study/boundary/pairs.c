@@ -3,8 +3,8 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "boundary.h"
 #include "numerics/share.h"
-#include "basin.h"
 
 enum {
   STARTS = 64, /* of a tile, each with a partner at every distance */
@@ -15,6 +15,7 @@ enum {
 static const double nearest_of_doubles = 1e-12, nearest_of_pairs = 1e-25, nearest_of_images = 1e-18;
 
 typedef struct {
+  const kz_boundary_plan *pairs;
   const kz_basin_plan *plan;
   kz_dynamics *dynamics;
   const kz_part *deep; /* which makes the starts, where the partners lie in a deep window or about it too; else NULL */
@@ -37,13 +38,13 @@ typedef struct {
   kz_label end[POINTS];
 } pair_tile;
 
-int kz_distances_of(const kz_basin_plan *plan) {
-  return (int)plan->boundary.decades + 1;
+int kz_distances_of(const kz_boundary_plan *plan) {
+  return (int)plan->decades + 1;
 }
 
 /* Distance d, rad. */
-static double distance_of(const kz_basin_plan *plan, int d) {
-  return pow(10, log10(plan->boundary.farthest) - d);
+static double distance_of(const kz_boundary_plan *plan, int d) {
+  return pow(10, log10(plan->farthest) - d);
 }
 
 static double narrower_side(const kz_basin_plan *plan) {
@@ -55,20 +56,22 @@ static bool is_exact(const kz_basin_plan *plan) {
 }
 
 /* Whether doubles do not distinguish the window's cells and partners are as near as it is wide, so that its images serve them. */
-static bool is_within(const kz_basin_plan *plan) {
+static bool is_within(const kz_basin_plan *plan, double farthest) {
   const bool is_deep = kz_axis_is_deep(&plan->theta) || kz_axis_is_deep(&plan->velocity);
-  return is_exact(plan) && is_deep && plan->boundary.farthest <= narrower_side(plan);
+  return is_exact(plan) && is_deep && farthest <= narrower_side(plan);
 }
 
-kz_status kz_pairs_check(const kz_basin_plan *plan) {
+kz_status kz_boundary_check(const kz_scene *scene) {
   static const double rounding = 1.01;
-  const bool exact = is_exact(plan), within = is_within(plan);
+  const kz_boundary_plan *pairs = scene->boundary;
+  const kz_basin_plan *plan = scene->basin;
+  const bool exact = is_exact(plan), within = is_within(plan, pairs->farthest);
   const double least = within  ? fmax(nearest_of_images * narrower_side(plan), DBL_MIN)
                        : exact ? nearest_of_pairs
                                : nearest_of_doubles,
-               nearest = distance_of(plan, (int)plan->boundary.decades);
-  const int most = (int)floor(log10(rounding * plan->boundary.farthest / least));
-  if (!plan->has_boundary || rounding * nearest >= least) return KZ_OK;
+               nearest = distance_of(pairs, (int)pairs->decades);
+  const int most = (int)floor(log10(rounding * pairs->farthest / least));
+  if (!(scene->parameters.pendulum.beta > 0) || rounding * nearest >= least) return KZ_OK;
   const char *what = within  ? "the images of this window do"
                      : exact ? "a pair of doubles does"
                              : "double precision does",
@@ -80,14 +83,14 @@ kz_status kz_pairs_check(const kz_basin_plan *plan) {
         KZ_REFUSED,
         "basin.boundary.farthest: %g rad is too near: %s not distinguish starts that are nearer than %.0e rad; it must be "
         "%.0e at least%s",
-        plan->boundary.farthest, what, least, least * pow(10, KZ_BOUNDARY_FEWEST_DECADES), or);
+        pairs->farthest, what, least, least * pow(10, KZ_BOUNDARY_FEWEST_DECADES), or);
   return kz_fail(KZ_REFUSED,
                  "basin.boundary.decades: %lld go down to %.0e rad, which %s not distinguish; it must be %d at most%s",
-                 (long long)plan->boundary.decades, nearest, what, most, or);
+                 (long long)pairs->decades, nearest, what, most, or);
 }
 
 /* Start i of an evenly spread sequence and its partners, in directions that spread evenly too. */
-static void spread(const kz_basin_plan *plan, int64_t i, point *p) {
+static void spread(const kz_boundary_plan *plan, int64_t i, point *p) {
   const double angle = 2 * M_PI * fmod((double)i * 0.61803398874989484820, 1);
   *p = (point){.share = {0}};
   kz_even_share(i, p->share);
@@ -131,9 +134,9 @@ static kz_status count_some(void *context, int64_t first, int64_t n, void *recor
   const pairing *p = context;
   pair_record *out = record;
   KZ_FREED pair_tile *t = kz_malloc(sizeof *t);
-  const int distances = kz_distances_of(p->plan), stride = 1 + distances;
+  const int distances = kz_distances_of(p->pairs), stride = 1 + distances;
   t->pairing = p;
-  for (int64_t i = 0; i < n; i++) spread(p->plan, first + i, t->point + stride * i);
+  for (int64_t i = 0; i < n; i++) spread(p->pairs, first + i, t->point + stride * i);
   const kz_labeller labeller = labeller_of(p, t);
   KZ_TRY(kz_label_items(&labeller, 1, n * stride, NULL, t->end));
   for (int64_t i = 0; i < n; i++)
@@ -145,19 +148,19 @@ static kz_status count_some(void *context, int64_t first, int64_t n, void *recor
   return KZ_OK;
 }
 
-static pairing pairing_of(const kz_basin_plan *plan, const kz_window_labels *labelling) {
-  pairing p = {.plan = plan, .dynamics = labelling->dynamics};
-  const double reach = 0.5 + plan->boundary.farthest / narrower_side(plan);
-  for (int i = 0; is_within(plan) && i < labelling->n_parts && !p.starts; i++) {
+static pairing pairing_of(const kz_boundary_plan *plan, const kz_window_labels *labelling) {
+  pairing p = {.pairs = plan, .plan = labelling->plan, .dynamics = labelling->dynamics};
+  const double reach = 0.5 + plan->farthest / narrower_side(p.plan);
+  for (int i = 0; is_within(p.plan, plan->farthest) && i < labelling->n_parts && !p.starts; i++) {
     p.deep = labelling->parts + i;
     if (p.deep->part->starts) p.starts = p.deep->part->starts(p.deep->own, reach);
   }
   return p;
 }
 
-kz_status kz_pairs_count(const kz_basin_plan *plan, const kz_window_labels *labelling, kz_uncertain *uncertain) {
+kz_status kz_pairs_count(const kz_boundary_plan *plan, const kz_window_labels *labelling, kz_uncertain *uncertain) {
   pairing p = pairing_of(plan, labelling);
-  const int64_t starts = (plan->boundary.pairs + STARTS - 1) / STARTS * STARTS; /* the last tile is whole */
+  const int64_t starts = (plan->pairs + STARTS - 1) / STARTS * STARTS; /* the last tile is whole */
   const kz_stage stage = kz_stage_of_items("pairs", starts, STARTS, sizeof(pair_record), count_some, &p);
   KZ_FREED pair_record *records = kz_malloc((size_t)stage.n_tiles * sizeof *records);
   kz_status status = kz_stage_run(labelling->run, &stage, records);
