@@ -49,6 +49,8 @@ int32_t kz_symmetries(const kz_pendulum *pendulum);
 int32_t kz_pairing_symmetry(const kz_pendulum *pendulum);
 /* 1 if the mirror image (-theta, -velocity) of every motion is a motion too, which needs no torque and no horizontal drive; else 0. */
 int32_t kz_is_mirrored(const kz_pendulum *pendulum);
+/* 1 if anything of the equation depends on time, else 0. */
+int32_t kz_is_driven(const kz_pendulum *pendulum);
 
 /* 1 if the drive is k - m cos t, without further harmonics and torque; else 0. */
 int32_t kz_is_sine(const kz_pendulum *pendulum);

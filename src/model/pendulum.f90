@@ -107,14 +107,15 @@ contains
     if (.not. (vertical(0) .or. horizontal(0) .or. abs(pendulum%torque_amplitude) > 0)) sum_of = sum_of + HALF_TURN
   end function symmetries
 
-  !> Whether anything of the equation depends on time.
-  pure function is_driven(pendulum) result(driven)
+  !> 1 if anything of the equation depends on time, else 0.
+  pure function is_driven(pendulum) bind(C, name='kz_is_driven') result(driven)
     type(pendulum_t), intent(in) :: pendulum !< the pendulum
-    logical :: driven
+    integer(c_int32_t) :: driven
 
-    driven = abs(pendulum%m) > 0 .or. abs(pendulum%torque_amplitude) > 0
-    if (pendulum%harmonics > 0) driven = driven .or. any(abs(pendulum%vertical(:, :pendulum%harmonics)) > 0) .or. &
-                                       any(abs(pendulum%horizontal(:, :pendulum%harmonics)) > 0)
+    associate (n => pendulum%harmonics)
+      driven = merge(1, 0, abs(pendulum%m) > 0 .or. abs(pendulum%torque_amplitude) > 0 .or. &
+                     any(abs(pendulum%vertical(:, :n)) > 0) .or. any(abs(pendulum%horizontal(:, :n)) > 0))
+    end associate
   end function is_driven
 
   !> The symmetry by which attractors and cycles have images: MIRROR, else HALF_PERIOD, else 0.

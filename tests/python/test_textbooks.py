@@ -225,6 +225,26 @@ def test_basin_stability_of_the_running_state(kapitza, tmp_path):
     assert np.abs(rows["lyapunov"].values[1]) <= rows["lyapunov_error"].values[1] < 1e-6
 
 
+def test_the_running_state_is_born_on_the_homoclinic_orbit(kapitza, tmp_path):
+    sweep = {"parameter": "torque", "min": 0.1, "max": 0.2, "count": 3, "measure": ["attractors"], "starts": 64}
+    pendulum = scene_of("running-state")["pendulum"]
+    result, said = run_scene(kapitza, tmp_path, {"pendulum": pendulum, "sweep": sweep | {"velocity": {"min": 0, "max": 4}}})
+    with h5py.File(result.path) as file:
+        row = file["sweep/branch_name"].asstr()[:].tolist().index("running +")
+        assert abs(file["sweep/branch_start"][row] - 0.127008860) < 1e-9 and file["sweep/branch_start_kind"][row] == 6
+        assert (file["sweep/fraction_unsettled"][:] == 0).all()
+    assert "homoclinic" in said and "nothing known" not in said
+
+
+def test_a_sweep_says_what_ends_on_nothing_known(kapitza, tmp_path):
+    """The rotations of two periods are longer than the search looks for."""
+    sweep = {"parameter": "torque_ratio", "min": 1.449, "max": 1.45, "count": 2, "measure": ["attractors"], "starts": 32, "max_period": 1}
+    result, said = run_scene(kapitza, tmp_path, {"pendulum": scene_of("baker-gollub")["pendulum"], "sweep": sweep})
+    with h5py.File(result.path) as file:
+        assert (file["sweep/fraction_unsettled"][:] == 1).all()
+    assert "at 2 values 100.00 to 100.00 % of the starts or cells end on nothing known" in said
+
+
 def test_landau_and_lifshitz(kapitza):
     assert math.isclose(
         limit_of_rest(kapitza, "landau-lifshitz", "upside down: stable .for drive_amplitude from"), math.sqrt(2) / 100, rel_tol=1e-3

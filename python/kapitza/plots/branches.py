@@ -15,7 +15,8 @@ from kapitza.plots.plane_axes import key_text
 NAMED = 0.02  # branches whose share is smaller everywhere are drawn as one band
 SHORTEST = 1 / 400  # of the range: shorter branches cannot be seen
 # Code of what happens at an end of a branch -> its mark and name.
-ENDS = {1: ("|", "fold"), 2: ("D", "period doubling"), 3: ("*", "Neimark-Sacker"), 4: ("s", "symmetry breaking"), 5: ("x", "not located")}
+ENDS = {1: ("|", "fold"), 2: ("D", "period doubling"), 3: ("*", "Neimark-Sacker"), 4: ("s", "symmetry breaking"), 5: ("x", "not located"),
+        6: ("o", "homoclinic")}
 SYMBOLS = {"quality_factor": "Q", "drive_frequency": r"$\Omega$", "drive_amplitude": r"$\epsilon$", "damping": r"$\beta$"}
 
 

@@ -114,7 +114,7 @@ contains
       call close_cycle(search%fine, search%pendulum%beta, period, x(1), x(2), farthest, candidate, found, blurred)
       candidate%symmetry = pairing_symmetry(search%pendulum)
       if (found) call complete_attractor(search%sampling_flow, candidate, found)
-      if (found) found = candidate%winding == 0 .or. is_driven(search%pendulum) ! else a running state that comes by at the strobes
+      if (found) found = candidate%winding == 0 .or. is_driven(search%pendulum) /= 0 ! else a running state that comes by at the strobes
       if (blurred) n_blurred(period) = n_blurred(period) + 1
       if (.not. found) return
       if (.not. known(attractors, candidate%period, candidate%u, candidate%v)) call add_with_image(search, candidate, attractors)

@@ -87,7 +87,7 @@ contains
     settled = abs(attractor%mean_velocity - before(TURNS, lane(1))) < SETTLED_WITHIN
     call find_band(search%flow, search%pendulum%beta, search%flow%u(lane), search%flow%v(lane), attractors, attractor%band, curve)
     if (has_band(attractor)) then
-      if (is_driven(search%pendulum)) then
+      if (is_driven(search%pendulum) /= 0) then
         if (is_locked(curve, search%max_period)) return
         if (.not. settled) attractor%mean_velocity = mean_turns(curve)
       else if (.not. settled) then

@@ -230,6 +230,22 @@ static void list_branches(kz_sweep_branches *b) {
   }
 }
 
+/* The births of running states, where nothing oscillates. */
+static void locate_births(const kz_scene *scene, kz_sweep_branches *b) {
+  const kz_path path = kz_sweep_path(scene, b->maps);
+  for (int64_t i = 0; i < b->n_nodes; i++) {
+    kz_sweep_node *node = b->nodes + i;
+    for (int forward = 0; forward < 2; forward++) {
+      const int64_t there = node->value + (forward ? 1 : -1);
+      if (!kz_is_running(&node->entry.point) || is_known(node, forward) || there < 0 || there >= scene->sweep->values.count)
+        continue;
+      const double birth = kz_running_birth(&path, kz_sweep_value(scene->sweep, node->value),
+                                            kz_sweep_value(scene->sweep, there), node->entry.point.winding);
+      if (!isnan(birth)) set_end(node, forward, birth, KZ_END_HOMOCLINIC);
+    }
+  }
+}
+
 /* Where no walk has found its ends, a branch begins and ends at the first and the last value at which it was found; at the edges it leaves the range. */
 static void set_known_ends(const kz_scene *scene, kz_sweep_branches *b) {
   for (int64_t i = 0; i < b->n_nodes; i++) {
@@ -255,6 +271,7 @@ kz_status kz_sweep_branches_make(const kz_scene *scene, const kz_run *run, const
     for (int64_t j = 0; j < catalogue[i].count; j++) add_node(branches, catalogue[i].entries + j, i, true);
   KZ_TRY(walk_all(&w, run));
   join_open(branches);
+  locate_births(scene, branches);
   set_known_ends(scene, branches);
   list_branches(branches);
   return KZ_OK;

@@ -6,8 +6,8 @@
 #include "kapitza/analysis.h"
 #include "sweep.h"
 
-static const char *const END_NAMES[] = {"end of range",      "fold",       "period doubling", "Neimark-Sacker",
-                                        "symmetry breaking", "not located"};
+static const char *const END_NAMES[] = {"end of range",      "fold",        "period doubling", "Neimark-Sacker",
+                                        "symmetry breaking", "not located", "homoclinic"};
 
 typedef struct {
   const kz_scene *scene;
@@ -121,6 +121,7 @@ static kz_status write_matrices(const writing *w) {
 
 #define OF_VALUE(name, expression) \
   KZ_COLUMN(w->store, "sweep", name, plan->values.count, double, w->catalogue[i].samples > 0 ? (expression) : NAN)
+#define UNSETTLED ((double)w->catalogue[i].unsettled / (double)w->catalogue[i].samples)
 #define ALIKE kz_share_of(w->catalogue[i].alike, w->catalogue[i].samples)
 
 /* Measures of the values themselves: lifetimes, and shares that end alike at all phases. */
@@ -133,6 +134,7 @@ static kz_status write_values(const writing *w) {
     OF_VALUE("lifetime_after", w->catalogue[i].lifetime.from);
     OF_VALUE("lifetime_open", w->catalogue[i].lifetime.open);
   }
+  OF_VALUE("fraction_unsettled", UNSETTLED);
   if (!kz_sweep_measures(plan, KZ_SWEEP_PHASES)) return KZ_OK;
   OF_VALUE("alike", ALIKE.share);
   OF_VALUE("alike_low", ALIKE.low);
@@ -150,6 +152,22 @@ static void print_share(const writing *w, int64_t branch, FILE *summary) {
     high = fmax(high, share);
   }
   fprintf(summary, "  %6.2f to %6.2f %%", 100 * low, 100 * high);
+}
+
+/* The share of what ends on no branch, at the values where there is any. */
+static void print_unsettled(const writing *w, FILE *summary) {
+  double low = 1, high = 0;
+  int64_t values = 0;
+  for (int64_t i = 0; i < w->scene->sweep->values.count; i++) {
+    if (w->catalogue[i].unsettled == 0) continue;
+    values++;
+    low = fmin(low, UNSETTLED);
+    high = fmax(high, UNSETTLED);
+  }
+  if (values > 0)
+    fprintf(summary,
+            "at %lld values %.2f to %.2f %% of the starts or cells end on nothing known (fraction_unsettled in the file)\n",
+            (long long)values, 100 * low, 100 * high);
 }
 
 static void print_table(const writing *w, FILE *summary) {
@@ -190,5 +208,6 @@ kz_status kz_sweep_branches_write(const kz_scene *scene, const kz_sweep_catalogu
   KZ_TRY(write_columns(&w));
   KZ_TRY(write_matrices(&w));
   print_table(&w, summary);
+  print_unsettled(&w, summary);
   return write_values(&w);
 }

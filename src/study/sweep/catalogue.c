@@ -207,6 +207,7 @@ static kz_status search(searching *s, const kz_pendulum *pendulum, const kz_rele
   if (s->n_cells > 0) KZ_TRY(label_grid(s));
   s->hits = kz_calloc((size_t)kz_dynamics_count(s->dynamics) + 1, sizeof *s->hits);
   catalogue->samples = count_hits(s);
+  catalogue->unsettled = s->hits[0];
   KZ_TRY(kz_ranks_agree(s->run->ranks, collect(s, catalogue)));
   if (kz_sweep_measures(plan, KZ_SWEEP_LIFETIME))
     KZ_TRY(measure_lifetime(plan, s->run, s->dynamics, s->max_periods, &catalogue->lifetime));

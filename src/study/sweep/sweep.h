@@ -18,7 +18,8 @@ enum {
   KZ_END_PERIOD_DOUBLING,
   KZ_END_NEIMARK_SACKER,
   KZ_END_SYMMETRY_BREAKING,
-  KZ_END_NOT_LOCATED
+  KZ_END_NOT_LOCATED,
+  KZ_END_HOMOCLINIC
 };
 
 /* Gives the pendulum at a value of one parameter; false if there is none. A walk goes along such a path. */
@@ -58,6 +59,10 @@ void kz_sweep_follow(const kz_path *path, double from, double to, int64_t max_pe
  * In and out: *point, the cycle at that value. */
 double kz_walk(const kz_path *path, double from, double to, kz_attractor *point, int32_t *end_kind);
 
+/* The value between two, to rounding, at which a running state of this winding is born that the pendulum at `with` has and the one at `without` has
+ * not; NaN if that is not so, or if anything but a constant torque drives them. */
+double kz_running_birth(const kz_path *path, double with, double without, int32_t winding);
+
 /* A cycle with a strobe point, or of a motion that never closes its means; its image. */
 kz_attractor kz_branch_point_image(const kz_pendulum *pendulum, kz_attractor point);
 /* Whether two motions have the same period and winding. */
@@ -78,9 +83,9 @@ typedef struct {
 } kz_sweep_entry;
 
 typedef struct {
-  int64_t count, samples; /* attractors; starts or cells that were followed */
-  kz_lifetime lifetime;   /* of the starts, if it is measured */
-  int64_t alike;          /* samples that end alike at all phases, if it is measured */
+  int64_t count, samples, unsettled; /* attractors; starts or cells that were followed; those that ended on nothing known */
+  kz_lifetime lifetime;              /* of the starts, if it is measured */
+  int64_t alike;                     /* samples that end alike at all phases, if it is measured */
   kz_sweep_entry entries[KZ_SWEEP_MOST];
 } kz_sweep_catalogue;
 

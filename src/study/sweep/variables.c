@@ -3,7 +3,8 @@
 #include "sweep.h"
 
 #define OWN "@parameter_units" /* of the swept key */
-#define END_KINDS "left_the_range", "fold", "period_doubling", "neimark_sacker", "symmetry_breaking", "not_located"
+#define END_KINDS \
+  "left_the_range", "fold", "period_doubling", "neimark_sacker", "symmetry_breaking", "not_located", "homoclinic"
 
 /* clang-format off */
 const kz_variable kz_sweep_variables[] = {
@@ -38,6 +39,7 @@ const kz_variable kz_sweep_variables[] = {
     {"fraction", KZ_REAL, {"value", "branch"}, NONE, "share of the cells or starts; NaN = not there"},
     {"fraction_low", KZ_REAL, {"value", "branch"}, NONE, "lower end of the 95 % interval of the share (Wilson)"},
     {"fraction_high", KZ_REAL, {"value", "branch"}, NONE, "upper end of the 95 % interval of the share (Wilson)"},
+    {"fraction_unsettled", KZ_REAL, {"value"}, NONE, "share of the cells or starts that ended on nothing known"},
     {"release_angle", KZ_REAL, {"value"}, ANGLE, "angle from inverted at which a release from rest first fails"},
     {"release_angle_scan", KZ_REAL, {"value"}, ANGLE, "the same by a scan in whole degrees, refined by bisection"},
     {"release_angle_largest", KZ_REAL, {"value"}, ANGLE, "end of the last interval of releases that stay"},
