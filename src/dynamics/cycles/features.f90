@@ -7,7 +7,7 @@ module kz_cycles_features
   use kz_maps_states, only: angle_difference
   implicit none
   private
-  public :: find_features, sample_orbit, centre_of, SAMPLES
+  public :: find_features, centre_of, SAMPLES
 
   !> Samples per drive period.
   integer, parameter :: SAMPLES = 96
@@ -37,10 +37,10 @@ contains
 
   !> The samples of an orbit in pieces, one behind the other; angles are not wrapped.
   subroutine sample_orbit(flow, u, v, periods, angle, velocity)
-    class(flow_t), intent(inout) :: flow !< a fine flow whose steps are not fused
-    real(dp), intent(in) :: u(:), v(:) !< starts: half-turns, rad per drive radian
-    integer, intent(in) :: periods !< drive periods of a piece
-    real(dp), allocatable, intent(out) :: angle(:), velocity(:) !< (0:) SAMPLES a period: half-turns, rad per drive radian
+    class(flow_t), intent(inout) :: flow
+    real(dp), intent(in) :: u(:), v(:)
+    integer, intent(in) :: periods
+    real(dp), allocatable, intent(out) :: angle(:), velocity(:) !< (0:)
     real(dp) :: shown_u(SAMPLES, size(u)), shown_v(SAMPLES, size(u))
     integer(c_int64_t) :: turns(size(u))
     integer :: period, piece, last

@@ -2,7 +2,7 @@
 module kz_labels_turns
   use, intrinsic :: iso_c_binding, only: dp => c_double, c_int32_t, c_int64_t
   use kz_cycles_cycles, only: attractor_t
-  use kz_cycles_features, only: sample_orbit, SAMPLES, DOWN, INVERTED
+  use kz_cycles_features, only: SAMPLES, DOWN, INVERTED
   use kz_grown_ellipses, only: ellipse_square
   use kz_labels_orbits, only: decision_t
   use kz_maps_lanes, only: lanes_t
@@ -67,14 +67,20 @@ contains
     class(flow_t), intent(inout) :: sampling_flow
     type(attractor_t), intent(in) :: cycle
     real(dp), allocatable, intent(out) :: from(:)
-    real(dp), allocatable :: angle(:), velocity(:)
-    real(dp) :: mean
+    real(dp) :: mean, u(SAMPLES, 1), v(SAMPLES, 1), lifted(cycle%period)
+    integer(c_int64_t) :: turns
     integer :: j
 
-    call sample_orbit(sampling_flow, cycle%u(:1), cycle%v(:1), cycle%period, angle, velocity)
-    mean = sum(angle(1:))/ubound(angle, 1)
+    mean = 0
+    call sampling_flow%put(1, cycle%u(1), cycle%v(1))
+    do j = 1, cycle%period
+      turns = sampling_flow%turns(1)
+      lifted(j) = sampling_flow%u(1) + 2*turns
+      call sampling_flow%sample(SAMPLES, u, v)
+      mean = mean + (sum(u)/SAMPLES + 2*turns)/cycle%period
+    end do
     if (cycle%centre == DOWN .or. cycle%centre == INVERTED) mean = anint(mean)
-    from = [(mean - 2*anint(0.5_dp*(angle((j - 1)*SAMPLES) - cycle%kernel_u(j))), j=1, cycle%period)]
+    from = mean - 2*anint(0.5_dp*(lifted - cycle%kernel_u))
   end subroutine find_middle
 
   function fill(self, lane) result(yes)
