@@ -79,14 +79,16 @@ def test_a_torque_stays_the_same_in_a_sweep_of_the_frequency(kapitza, tmp_path, 
         assert np.nanmin(np.abs(cycle - strobe).sum(axis=-1)) < 1e-9
 
 
-def test_miles_loses_symmetry_where_he_says(kapitza, tmp_path):
-    """delta = 1/8, epsilon = 1/2: the multiplier of the symmetric cycle reaches 1 at the frequency .595017791."""
-    frequency, left = np.array([0.59503, 0.5951]), []
-    for value in frequency:
-        pendulum = {"quality_factor": 4, "drive_frequency": float(value), "drive_amplitude": 0, "torque_ratio": 0.5}
-        rows = run_scene(kapitza, tmp_path, {"pendulum": pendulum, "attractors": WINDOW})[0].group("attractors")
-        left.append(1 - rows["multiplier_re"].values[:, 0].max())
-    assert abs(frequency[0] - left[0] * (frequency[1] - frequency[0]) / (left[1] - left[0]) - 0.595017791) < 2e-8
+@pytest.mark.parametrize("count", [7, 13])
+def test_miles_loses_symmetry_where_he_says(kapitza, tmp_path, count):
+    """delta = 1/8, epsilon = 1/2: at the frequency .595017791, in one sweep with values close to it. Both twins go there in one piece."""
+    sweep = {"parameter": "drive_frequency", "min": 0.58, "max": 0.61, "count": count, "measure": ["attractors"], **WINDOW}
+    result, _ = run_scene(kapitza, tmp_path, {"pendulum": OWN | {"quality_factor": 4, "drive_frequency": 1, "gamma": 0.5}, "sweep": sweep})
+    with h5py.File(result.path) as file:
+        names = ("stable", "symmetric", "mirror", "start", "end")
+        rows = [row for row in zip(*(file[f"sweep/branch_{name}"][:].tolist() for name in names), strict=True) if row[0]]
+    breaking = pytest.approx(0.595017791, abs=5e-10)
+    assert rows == [(1, 1, 0, 0.58, 0.61), (1, 0, 2, 0.58, breaking), (1, 0, 1, 0.58, breaking), (1, 1, 3, breaking, 0.61)]
 
 
 @pytest.mark.parametrize(("word", "meant"), [("F_D", "torque_ratio"), ("current", "i_dc"), ("omega_D", "drive_frequency")])

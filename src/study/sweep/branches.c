@@ -80,12 +80,29 @@ static bool is_known(const kz_sweep_node *node, bool forward) {
   return (forward ? node->next : node->previous) >= 0 || !isnan(forward ? node->last : node->first);
 }
 
+/* Whether it is known otherwise than by a walk that was lost. */
+static bool is_certain(const kz_sweep_node *node, bool forward) {
+  return is_known(node, forward) &&
+         ((forward ? node->next : node->previous) >= 0 || (forward ? node->last_kind : node->first_kind) != KZ_END_NOT_LOCATED);
+}
+
+/* Whether a cycle that a piece does not take for its own image is: a step over a symmetry breaking has arrived at the wrong one. */
+static bool is_astray(const walking *w, int64_t value, const kz_attractor *point) {
+  kz_pendulum pendulum;
+  if (point->symmetric || !kz_sweep_pendulum(w->scene, kz_sweep_value(w->scene->sweep, value), &pendulum) ||
+      !kz_pairing_symmetry(&pendulum))
+    return false;
+  const kz_attractor image = kz_branch_point_image(&pendulum, *point);
+  return kz_branch_same(w->branches->maps, &pendulum, point, &image);
+}
+
 /* The node where a piece arrives; -1 = nowhere, or there are too many. */
 static int64_t arrival(const walking *w, const task *t, const kz_sweep_piece *piece, const kz_attractor *point) {
   kz_sweep_branches *b = w->branches;
   if (piece->reached < 0) return -1;
   const int64_t value = piece->reached ? aim(w, t) : b->nodes[t->node].value;
   const int64_t known = find_node(w, value, point);
+  if (known < 0 && is_astray(w, value, point)) return -1;
   int64_t here = 0;
   for (int64_t i = 0; i < b->n_nodes && known < 0; i++) here += b->nodes[i].value == value;
   if (known >= 0 || here >= 2 * KZ_SWEEP_MOST) return known;
@@ -120,8 +137,8 @@ static void join(const walking *w, const task *t, const kz_sweep_piece *piece, c
   const bool side = piece->reached == 1 ? !t->forward : t->forward; /* on which the piece arrives */
   if (from >= 0 && there >= 0 && piece->reached == 1) {
     kz_sweep_node *a = b->nodes + from, *c = b->nodes + there;
-    if (is_known(a, t->forward) || a->attracts != c->attracts) return;
-    if (is_known(c, side)) return; /* another cycle has arrived there before */
+    if (is_certain(a, t->forward) || a->attracts != c->attracts) return;
+    if (is_certain(c, side)) return; /* another cycle has arrived there before */
     *(t->forward ? &a->next : &a->previous) = there;
     *(side ? &c->next : &c->previous) = from;
     return;
@@ -137,16 +154,46 @@ static void join(const walking *w, const task *t, const kz_sweep_piece *piece, c
   if (from < 0 && piece->reached < 0 && piece->end_kind != KZ_END_NOT_LOCATED) add_between(b, value, piece);
 }
 
+/* The node whose cycle is the image of a task's own, where the pendulum keeps its symmetry to the task's end; -1 where there is none. */
+static int64_t image_node(const walking *w, const task *t) {
+  const kz_sweep_node *node = w->branches->nodes + t->node;
+  kz_pendulum pendulum, last;
+  if (node->entry.point.symmetric || !kz_sweep_pendulum(w->scene, kz_sweep_value(w->scene->sweep, node->value), &pendulum) ||
+      !kz_sweep_pendulum(w->scene, kz_sweep_value(w->scene->sweep, aim(w, t)), &last) || !kz_pairing_symmetry(&pendulum) ||
+      kz_pairing_symmetry(&pendulum) != kz_pairing_symmetry(&last))
+    return -1;
+  const kz_attractor image = kz_branch_point_image(&pendulum, node->entry.point);
+  const int64_t found = find_node(w, node->value, &image);
+  return found == t->node ? -1 : found;
+}
+
+/* Joins a piece by the image of where it ends. */
+static void join_image(const walking *w, const task *t, const kz_sweep_piece *piece) {
+  const int64_t value = piece->reached == 1 ? aim(w, t) : w->branches->nodes[t->node].value;
+  kz_pendulum pendulum;
+  if (piece->reached < 0 || !kz_sweep_pendulum(w->scene, kz_sweep_value(w->scene->sweep, value), &pendulum)) return;
+  const kz_attractor image = kz_branch_point_image(&pendulum, piece->point);
+  join(w, t, piece, &image);
+}
+
 static void join_walk(const walking *w, const task *t, const kz_sweep_walk *walk) {
   for (int64_t i = 0; i < walk->count; i++) {
-    const kz_sweep_piece *piece = walk->piece + i;
-    const int64_t value = piece->reached == 1 ? aim(w, t) : w->branches->nodes[t->node].value;
-    kz_pendulum pendulum;
-    join(w, t, piece, &piece->point);
-    if (!piece->twice || piece->reached < 0 || !kz_sweep_pendulum(w->scene, kz_sweep_value(w->scene->sweep, value), &pendulum))
-      continue;
-    const kz_attractor image = kz_branch_point_image(&pendulum, piece->point);
-    join(w, t, piece, &image);
+    join(w, t, walk->piece + i, &walk->piece[i].point);
+    if (walk->piece[i].twice) join_image(w, t, walk->piece + i);
+  }
+}
+
+/* The image of a cycle, if its own walk was lost, goes where the image of the cycle's way leads: a step over a symmetry breaking may arrive at
+ * the wrong cycle. */
+static void join_lost_image(const walking *w, const task *t, const kz_sweep_walk *walk) {
+  const task image = {image_node(w, t), t->forward};
+  if (image.node < 0 || is_certain(w->branches->nodes + image.node, t->forward)) return;
+  for (int64_t i = 0; i < walk->count; i++) {
+    if (!walk->piece[i].from_start) continue;
+    if (walk->piece[i].reached < 0)
+      join(w, &image, walk->piece + i, &walk->piece[i].point);
+    else
+      join_image(w, &image, walk->piece + i);
   }
 }
 
@@ -177,6 +224,7 @@ static kz_status walk_round(walking *w, const kz_run *run, bool forward, int64_t
     if (!is_known(node, forward)) /* what lies there has been reached by another cycle */
       set_end(node, forward, kz_sweep_value(w->scene->sweep, node->value), KZ_END_NOT_LOCATED);
   }
+  for (int64_t i = 0; i < *n; i++) join_lost_image(w, tasks + i, walks + i);
   return KZ_OK;
 }
 
