@@ -6,7 +6,7 @@
 #include "app.h"
 #include "json.h"
 #include "kapitza/version.h"
-#include "../study/basin/plan.h"
+#include "kapitza/study_basin.h"
 #include "../study/numerics/cells.h"
 
 /* ---- the variables of the result file ---- */

@@ -4,8 +4,8 @@
 #include "kapitza/study.h"
 #include "stability/stability.h"
 #include "sweep/sweep.h"
-#include "basin/plan.h"
-#include "orbit/plan.h"
+#include "kapitza/study_basin.h"
+#include "kapitza/study_orbit.h"
 #include "sweep/plan.h"
 
 /* Whether a key of the scene's sweep is such a one. */

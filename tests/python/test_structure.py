@@ -171,6 +171,15 @@ def test_no_circle(node_of, pairs):
         pytest.fail(" <- ".join(map(str, circle.args[1])))
 
 
+def test_the_labeller_knows_no_study():
+    """It takes starts from a function of its caller. It included the plan of the basin, as 25 other files did."""
+    names = {path.parent.name for path in SOURCES.glob("study/*/keys.c")} | {"cells"}
+    includes = [(path.name, line) for path in SOURCES.glob("study/labelling/*.[ch]")
+                for line in re.findall(r'^#include "(.+)"$', path.read_text(), re.MULTILINE)]
+    found = [pair for pair in includes if names & {pair[1].split("/")[0], pair[1].removesuffix(".h").removeprefix("kapitza/study_")}]
+    assert found == []
+
+
 # ---- no saved state ----
 
 

@@ -7,12 +7,12 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "labelling/search.h"
+#include "cells/scene_search.h"
 #include "labelling/labeller.h"
 #include "numerics/cells.h"
 #include "window/window.h"
 #include "scene/scene.h"
-#include "../../src/study/basin/plan.h"
+#include "kapitza/study_basin.h"
 
 #define K01 "pendulum: {k: 0.1, damping: 0.1, m: 0.4}"
 #define FIG12 "pendulum: {quality_factor: 5, drive_frequency: 11, drive_amplitude: 0.3}"

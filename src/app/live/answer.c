@@ -11,8 +11,8 @@
 #include "where.h"
 #include "../json.h"
 #include "kapitza/version.h"
-#include "../../study/basin/plan.h"
-#include "../../study/orbit/plan.h"
+#include "kapitza/study_basin.h"
+#include "kapitza/study_orbit.h"
 
 /* A header with the members that all have. */
 static kz_json *begin(const char *answer, int64_t sequence, bool final) {

@@ -5,7 +5,7 @@
 
 #include "answer.h"
 #include "kapitza/common_threads.h"
-#include "../../study/orbit/plan.h"
+#include "kapitza/study_orbit.h"
 
 enum { STACK_BYTES = 8 << 20 };
 static const double PAUSE = 0.01; /* s between two calls of `meanwhile` */

@@ -5,7 +5,7 @@
 #include <string.h>
 
 #include "../json.h"
-#include "../../study/orbit/plan.h"
+#include "kapitza/study_orbit.h"
 
 enum { MOST_CELLS = 1 << 24 /* of a frame, or samples of an orbit */ };
 static const char SOURCE[] = "request";

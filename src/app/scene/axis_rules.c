@@ -3,7 +3,7 @@
 #include <stdio.h>
 
 #include "rules.h"
-#include "../../study/basin/plan.h"
+#include "kapitza/study_basin.h"
 
 kz_short_text kz_key_in(const char *mapping, const char *name) {
   kz_short_text path;

@@ -4,9 +4,9 @@
 #include <string.h>
 
 #include "rules.h"
-#include "../../study/basin/plan.h"
-#include "../../study/orbit/plan.h"
-#include "../../study/stability/plan.h"
+#include "kapitza/study_basin.h"
+#include "kapitza/study_orbit.h"
+#include "kapitza/study_stability.h"
 #include "../../study/sweep/plan.h"
 
 /* Complains about a key where it is given. */

@@ -4,7 +4,7 @@
 
 #include "numerics/cells.h"
 #include "numerics/share.h"
-#include "basin/plan.h"
+#include "kapitza/study_basin.h"
 
 /* Samples, in multiples of the fewest that can prove an accuracy: then some labels may be wrong. */
 static const double MARGIN = 3;

@@ -7,7 +7,7 @@
 #include <unistd.h>
 
 #include "reference.h"
-#include "basin/plan.h"
+#include "kapitza/study_basin.h"
 
 enum { KEY_LENGTH = 512 + 4 * KZ_DECIMAL_LENGTH };
 

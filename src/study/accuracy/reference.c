@@ -5,12 +5,12 @@
 #include <string.h>
 
 #include "numerics/cells.h"
-#include "labelling/labeller.h"
-#include "labelling/search.h"
+#include "cells/cell_starts.h"
+#include "cells/scene_search.h"
 #include "numerics/share.h"
 #include "numerics/steps.h"
 #include "kapitza/kernel.h"
-#include "basin/plan.h"
+#include "kapitza/study_basin.h"
 
 enum {
   STEPS = 48,    /* of split6 a period, for a gentle drive */

@@ -5,10 +5,10 @@
 
 #include "accuracy.h"
 #include "labelling/search.h"
-#include "labelling/labeller.h"
+#include "cells/cell_starts.h"
 #include "numerics/cells.h"
 #include "numerics/resolve.h"
-#include "basin/plan.h"
+#include "kapitza/study_basin.h"
 
 enum { MANY = 1 << 19 };       /* cells that are timed by method exact, where they do not take longer than LONG */
 static const double LONG = 20; /* s */

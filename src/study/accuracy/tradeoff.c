@@ -9,7 +9,7 @@
 
 #include "numerics/cells.h"
 #include "numerics/share.h"
-#include "basin/plan.h"
+#include "kapitza/study_basin.h"
 #include "numerics/steps.h"
 #include "kapitza/kernel.h"
 

@@ -1,7 +1,7 @@
 /* Variables of the group tradeoff of the result file. */
 #include "kapitza/store_variables.h"
 #include "accuracy.h"
-#include "basin/plan.h"
+#include "kapitza/study_basin.h"
 
 /* clang-format off */
 const kz_variable kz_tradeoff_variables[] = {

@@ -1,7 +1,7 @@
 /* Study `attractors`: the catalogue of a window of starts, without a grid. */
 
 #include "labelling/catalogue.h"
-#include "labelling/search.h"
+#include "cells/scene_search.h"
 #include "numerics/cells.h"
 #include "numerics/step_check.h"
 #include "plan.h"

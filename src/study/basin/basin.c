@@ -7,6 +7,7 @@
 
 #include "accuracy/accuracy.h"
 #include "basin.h"
+#include "cells/scene_search.h"
 #include "numerics/resolve.h"
 #include "labelling/phases.h"
 

@@ -5,9 +5,9 @@
 #include "kapitza/analysis.h"
 #include "kapitza/study.h"
 #include "label.h"
-#include "labelling/doubt.h"
+#include "doubt.h"
 #include "numerics/counts.h"
-#include "plan.h"
+#include "kapitza/study_basin.h"
 
 enum { KZ_TILE_CELLS = 16384 }; /* cells of a tile, about: enough to keep all lanes busy while a few cells take long */
 

@@ -2,7 +2,7 @@
 #define KEYS_OF basin
 
 #include "kapitza/study_key_rows.h"
-#include "plan.h"
+#include "kapitza/study_basin.h"
 
 static const kz_key keys[] = {
     STUDY("Study: the attractors, then a label for every cell of a window.", .former = "flag_undecided=basin.method exact"),

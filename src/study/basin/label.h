@@ -3,7 +3,7 @@
 
 #include "numerics/counts.h"
 #include "labelling/search.h"
-#include "labelling/cell_starts.h"
+#include "cells/cell_starts.h"
 #include "numerics/cells.h"
 
 /* A tile is a number of whole rows of cells, or a part of one row, so its cells are consecutive. If the window is its own mirror image,

@@ -2,7 +2,7 @@
 #include <stdlib.h>
 
 #include "label.h"
-#include "plan.h"
+#include "kapitza/study_basin.h"
 
 /* A packed tile. After it: the numbers of the attractors that it reaches (int32_t), its cells as kz_squeeze has them. */
 typedef struct {

@@ -5,7 +5,7 @@
 
 #include "numerics/step_check.h"
 #include "label.h"
-#include "plan.h"
+#include "kapitza/study_basin.h"
 
 /* ---- pending cells, unsettled or doubtful: counted, picked and labelled again, a bounded number at a time ---- */
 

@@ -1,5 +1,5 @@
 #include "label.h"
-#include "plan.h"
+#include "kapitza/study_basin.h"
 
 enum { MOST_CELLS = 1 << 19 }; /* of a tile: few MB */
 

@@ -8,7 +8,7 @@
 
 #include "labelling/labeller.h"
 #include "labelling/listed.h"
-#include "labelling/search.h"
+#include "cells/scene_search.h"
 
 /* ---- J. D. Skufca, J. A. Yorke, B. Eckhardt, Phys. Rev. Lett. 96 (2006) 174101: edge tracking ---- */
 

@@ -4,27 +4,12 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-#include "numerics/cells.h"
 #include "search.h"
-#include "basin/plan.h"
 
 enum {
   BATCH = 16384, /* items that are followed together */
   FEW = 24       /* are followed in quad precision for less than the tables of the pairs of doubles take */
 };
-
-/* A kz_start_fn: the items are cells of a plan. */
-static kz_status start_of_cell(void *context, int64_t item, int32_t level, kz_start *start) {
-  double centre[2];
-  (void)level;
-  kz_cell_start(context, item, centre);
-  *start = kz_start_at(centre[0], centre[1]);
-  return KZ_OK;
-}
-
-kz_labeller kz_cell_labeller(const kz_basin_plan *plan, kz_dynamics *dynamics) {
-  return (kz_labeller){dynamics, plan->max_periods, KZ_BY_LEVELS, .start = start_of_cell, .context = (void *)plan};
-}
 
 /* A kz_start_fn: the items are places in an array of angles and velocities. */
 static kz_status start_of_pair(void *context, int64_t item, int32_t level, kz_start *start) {
@@ -36,11 +21,6 @@ static kz_status start_of_pair(void *context, int64_t item, int32_t level, kz_st
 
 kz_labeller kz_pair_labeller(const double *start, int64_t max_periods, int32_t way, kz_dynamics *dynamics) {
   return (kz_labeller){dynamics, max_periods, way, KZ_OPEN_BY_STATES, true, start_of_pair, .context = (void *)start};
-}
-
-int32_t kz_way_of(int32_t method, int32_t interpolation) {
-  if (method == KZ_METHOD_ICM) return kz_stencil(interpolation);
-  return method == KZ_METHOD_EXACT ? KZ_BY_LEVELS : KZ_BY_MARKS;
 }
 
 static int64_t item_at(const int64_t *item, int64_t i) {

@@ -47,10 +47,6 @@ typedef struct {
   bool turns;        /* count the net turns of each item too */
 } kz_labeller;
 
-/* The way of a method (KZ_METHOD_EXACT, ...) with an interpolation (KZ_LINEAR, ...). */
-int32_t kz_way_of(int32_t method, int32_t interpolation);
-/* The labeller, by levels, of cells whose centres are doubles; the items are their numbers. */
-kz_labeller kz_cell_labeller(const kz_basin_plan *plan, kz_dynamics *dynamics);
 /* The labeller of starts at a strobe in an array, start [n][2] (rad, rad per drive radian); the items are their places. */
 kz_labeller kz_pair_labeller(const double *start, int64_t max_periods, int32_t way, kz_dynamics *dynamics);
 /* The exact start (theta in rad, velocity in rad per drive radian). */

@@ -1,5 +1,4 @@
 #include "levels.h"
-#include "basin/plan.h"
 #include "kapitza/study_catalogue.h"
 
 #include <stddef.h>

@@ -34,10 +34,3 @@ kz_status kz_discover(const kz_run *run, kz_dynamics *dynamics, int64_t max_peri
 /* Builds the table of n_theta x n_velocity nodes up to velocity `max_velocity` on every rank. Collective; `run` NULL = this
  * rank alone. */
 kz_status kz_map_table_make(const kz_run *run, kz_dynamics *dynamics, int64_t n_theta, int64_t n_velocity, double max_velocity);
-
-/* The search of a basin, of the study attractors, and of the scene's study basin or attractors (without a map table). */
-kz_search kz_search_of_basin(const kz_basin_plan *plan);
-kz_search kz_search_of_attractors(const kz_attractors_plan *plan, int64_t max_periods);
-kz_search kz_search_of(const kz_scene *scene);
-/* The dynamics of the scene's pendulum, for that search. */
-kz_dynamics *kz_search_dynamics(const kz_scene *scene);

@@ -5,7 +5,7 @@
 
 #include "labelling/labeller.h"
 #include "numerics/cells.h"
-#include "basin/plan.h"
+#include "kapitza/study_basin.h"
 
 /* Periods after which a cell is late: most cells of a whole circle take fewer. */
 enum { SOON = 24 };

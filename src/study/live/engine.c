@@ -6,7 +6,7 @@
 
 #include "numerics/cells.h"
 #include "where/where.h"
-#include "basin/plan.h"
+#include "kapitza/study_basin.h"
 
 kz_engine *kz_engine_create(void) {
   kz_engine *engine = kz_calloc(1, sizeof *engine);

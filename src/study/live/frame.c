@@ -4,7 +4,7 @@
 
 #include "live.h"
 #include "numerics/cells.h"
-#include "basin/plan.h"
+#include "kapitza/study_basin.h"
 
 enum {
   MOST_STARTS = 64,        /* of the search among cells that do not settle */

@@ -1,5 +1,5 @@
 /* Attractors that an atlas lists at the pendulum of a frame: they are carried from its curves, and nothing is searched. */
-#include "basin/plan.h"
+#include "kapitza/study_basin.h"
 #include "kapitza/study_atlas.h"
 #include "live.h"
 

@@ -1,5 +1,5 @@
 #include "cells.h"
-#include "basin/plan.h"
+#include "kapitza/study_basin.h"
 
 #include <float.h>
 #include <math.h>

@@ -3,9 +3,9 @@
 #include <math.h>
 
 #include "cells.h"
-#include "basin/plan.h"
+#include "kapitza/study_basin.h"
 #include "attractors/plan.h"
-#include "orbit/plan.h"
+#include "kapitza/study_orbit.h"
 #include "sweep/plan.h"
 #include "measures/plan.h"
 

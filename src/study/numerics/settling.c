@@ -3,7 +3,7 @@
 #include <math.h>
 
 #include "kapitza/study.h"
-#include "basin/plan.h"
+#include "kapitza/study_basin.h"
 #include "sweep/plan.h"
 
 /* Mean number of lifetimes until a motion is trapped: that times the logarithm of the lifetime. Measured at Q = 5, 20, 50, 200,

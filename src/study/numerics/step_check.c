@@ -4,7 +4,7 @@
 #include <math.h>
 
 #include "cells.h"
-#include "basin/plan.h"
+#include "kapitza/study_basin.h"
 
 enum {
   DOUBLINGS = 8,       /* of the steps that are tried as advice */

@@ -2,7 +2,7 @@
 #define KEYS_OF orbit
 
 #include "kapitza/study_key_rows.h"
-#include "plan.h"
+#include "kapitza/study_orbit.h"
 
 static const kz_key keys[] = {
     STUDY("Study: one motion, its strobe points, turning points and spectrum."),

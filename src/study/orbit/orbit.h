@@ -4,7 +4,7 @@
 #include "kapitza/analysis.h"
 #include "kapitza/dynamics.h"
 #include "kapitza/study.h"
-#include "plan.h"
+#include "kapitza/study_orbit.h"
 
 /* ---- the motion ---- */
 

@@ -3,7 +3,7 @@
 
 #include "kapitza/analysis.h"
 #include "kapitza/study_key_rows.h"
-#include "plan.h"
+#include "kapitza/study_stability.h"
 
 #define STABILITY_AXIS(form_, axis, fallback, help)                                            \
   ROW("stability." #axis, KZ_KEY_MAPPING, fallback, NOWHERE, help, .unit = "", .form = form_), \

@@ -3,7 +3,7 @@
 
 #include "kapitza/analysis.h"
 #include "kapitza/study.h"
-#include "plan.h"
+#include "kapitza/study_stability.h"
 
 /* Whether a chart asks for a curve whose name begins so, and for one that only a sine has. */
 bool kz_stability_has_curve(const kz_stability_plan *plan, const char *begin);

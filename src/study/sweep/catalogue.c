@@ -7,10 +7,10 @@
 #include "labelling/catalogue.h"
 #include "numerics/cells.h"
 #include "resilience/resilience.h"
-#include "labelling/search.h"
-#include "labelling/labeller.h"
+#include "cells/scene_search.h"
+#include "cells/cell_starts.h"
 #include "sweep.h"
-#include "basin/plan.h"
+#include "kapitza/study_basin.h"
 #include "labelling/phases.h"
 
 /* ---- measure phases: how much ends alike at whatever phase of the drive it is released ---- */

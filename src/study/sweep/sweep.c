@@ -1,7 +1,7 @@
 /* Study `sweep`: quantities along one key of the pendulum mapping. */
 #include "measures/table.h"
 #include "sweep.h"
-#include "basin/plan.h"
+#include "kapitza/study_basin.h"
 
 #define BARRED(code, word, run) "|" word
 #define BARRED_WORD(word, ...) "|" #word

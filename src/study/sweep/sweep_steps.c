@@ -4,7 +4,7 @@
 #include "numerics/cells.h"
 #include "numerics/step_check.h"
 #include "sweep.h"
-#include "basin/plan.h"
+#include "kapitza/study_basin.h"
 
 enum {
   VALUES = 17,  /* that are tried, fewer where they take many steps */

@@ -5,7 +5,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "labelling/search.h"
+#include "cells/scene_search.h"
 #include "saddles/saddles.h"
 #include "labelling/labeller.h"
 #include "labelling/listed.h"

@@ -4,9 +4,9 @@
 #include <string.h>
 
 #include "numerics/cells.h"
-#include "labelling/search.h"
+#include "cells/scene_search.h"
 #include "where.h"
-#include "basin/plan.h"
+#include "kapitza/study_basin.h"
 #include "window/window.h"
 
 /* A kz_start_fn: a pair of doubles, and what it leaves out of a longer number. */

@@ -4,7 +4,7 @@
 #include <stdlib.h>
 
 #include "numerics/cells.h"
-#include "basin/plan.h"
+#include "kapitza/study_basin.h"
 
 enum { PER_CELL = 16 };
 static const double thin = 0.1; /* steps: the width of what counts as a curve */

@@ -2,7 +2,7 @@
 
 #include <stdlib.h>
 
-#include "basin/plan.h"
+#include "kapitza/study_basin.h"
 #include "numerics/cells.h"
 #include "plan.h"
 

@@ -3,7 +3,7 @@
 
 #include <math.h>
 
-#include "basin/plan.h"
+#include "kapitza/study_basin.h"
 #include "deep.h"
 #include "kapitza/study_key_rows.h"
 #include "plan.h"

@@ -3,7 +3,7 @@
 #include <stdlib.h>
 
 #include "numerics/cells.h"
-#include "basin/plan.h"
+#include "kapitza/study_basin.h"
 
 /* Places of the cells of an axis. */
 static __float128 *places(const kz_axis *axis, const kz_view *view, int i) {

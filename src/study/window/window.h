@@ -3,7 +3,7 @@
 
 #include "kapitza/study.h"
 #include "kapitza/kernel_digits.h"
-#include "labelling/cell_starts.h"
+#include "cells/cell_starts.h"
 
 /* ---- images: all cells of a small window move together at first. The program follows one orbit, that of the centre, in as many digits as the
  * depth needs, and beside it the window as a polynomial of degree 3. After n periods this gives the start of every cell. ---- */

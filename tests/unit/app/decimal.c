@@ -5,7 +5,7 @@
 #include "../../tools/test.h"
 
 #include "scene/scene.h"
-#include "../../../src/study/basin/plan.h"
+#include "kapitza/study_basin.h"
 
 static const char text[] =
     "pendulum: {quality_factor: 5, drive_frequency: 11, drive_amplitude: 0.3}\nbasin:\n  method: exact\n";

@@ -6,7 +6,7 @@
 
 #include "kapitza/study.h"
 #include "scene/scene.h"
-#include "../../../src/study/basin/plan.h"
+#include "kapitza/study_basin.h"
 
 static const char TEXT[] = "pendulum: {k: 0, damping: 0.05, m: 0.5}\nbasin: {velocity: {min: -1, max: 1}}\n";
 

@@ -3,7 +3,7 @@
 
 #include "../../tools/resolved.h"
 #include "scene/scene.h"
-#include "../../../src/study/basin/plan.h"
+#include "kapitza/study_basin.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -5,7 +5,7 @@
 #include "../../tools/test.h"
 
 #include "numerics/cells.h"
-#include "basin/plan.h"
+#include "kapitza/study_basin.h"
 
 static kz_axis window(const char *centre, double high, double low, double width, int64_t count) {
   kz_axis axis = {.min = high - width / 2, .max = high + width / 2, .count = count, .width = {"", width, 0}};

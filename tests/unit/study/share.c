@@ -7,7 +7,7 @@
 
 #include "accuracy/accuracy.h"
 #include "numerics/share.h"
-#include "basin/plan.h"
+#include "kapitza/study_basin.h"
 
 /* Wilson's limits solve (share - p)^2 = z^2 p (1 - p)/n. */
 TEST(test_wilson_solves_its_equation) {

@@ -2,7 +2,7 @@
 
 #include <stdlib.h>
 
-#include "basin/plan.h"
+#include "kapitza/study_basin.h"
 #include "numerics/cells.h"
 
 static double *centres(const kz_axis *axis) {
@@ -33,4 +33,22 @@ kz_status kz_cell_starts_at(void *starts, int64_t cell, int32_t level, kz_start 
 kz_labeller kz_cell_starts_labeller(const kz_cell_starts *starts, kz_dynamics *dynamics) {
   return (kz_labeller){dynamics,           starts->plan->max_periods,  KZ_BY_LEVELS,
                        KZ_OPEN_CANDIDATES, .start = kz_cell_starts_at, .context = (void *)starts};
+}
+
+/* A kz_start_fn: the items are cells of a plan. */
+static kz_status start_of_cell(void *context, int64_t item, int32_t level, kz_start *start) {
+  double centre[2];
+  (void)level;
+  kz_cell_start(context, item, centre);
+  *start = kz_start_at(centre[0], centre[1]);
+  return KZ_OK;
+}
+
+kz_labeller kz_cell_labeller(const kz_basin_plan *plan, kz_dynamics *dynamics) {
+  return (kz_labeller){dynamics, plan->max_periods, KZ_BY_LEVELS, .start = start_of_cell, .context = (void *)plan};
+}
+
+int32_t kz_way_of(int32_t method, int32_t interpolation) {
+  if (method == KZ_METHOD_ICM) return kz_stencil(interpolation);
+  return method == KZ_METHOD_EXACT ? KZ_BY_LEVELS : KZ_BY_MARKS;
 }

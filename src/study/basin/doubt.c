@@ -2,9 +2,9 @@
 
 #include <stdlib.h>
 
-#include "labeller.h"
+#include "cells/cell_starts.h"
 #include "numerics/cells.h"
-#include "basin/plan.h"
+#include "kapitza/study_basin.h"
 
 enum { SAMPLE = 7300, TILE = 256 }; /* cells: a share of 5 % is known to +-0.5 points */
 
