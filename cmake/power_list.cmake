@@ -1,5 +1,6 @@
 # Every power, those that another needs first.
 kapitza_power(saddles FOLDERS study/saddles study/manifolds study/wada study/tangency study/edge dynamics/saddles
+  FILES include/kapitza/dynamics_saddles.h
   STUDIES saddles manifolds wada tangency edge
   BESIDE tests/python/test_saddles.py tests/python/test_manifolds.py tests/python/test_wada.py tests/python/test_tangency.py
     python/kapitza/plots/skeleton.py docs/explanation/boundaries.md)
@@ -14,7 +15,7 @@ kapitza_power(proof FOLDERS study/proof dynamics/trapping/proved kernel/enclosur
 kapitza_power(atlas FOLDERS study/atlas FILES include/kapitza/study_atlas.h STUDIES atlas NEEDS saddles
   BESIDE tests/unit/study/atlas_cycles.c tests/unit/study/bands.c tests/python/test_atlas*.py python/kapitza/plots/atlas*.py
     docs/explanation/atlas.md docs/tutorials/map.md)
-kapitza_power(live FOLDERS study/live study/where app/live FILES include/kapitza/study_live.h include/kapitza/study_where.h
+kapitza_power(live FOLDERS study/live study/where app/live dynamics/live FILES include/kapitza/dynamics_live.h include/kapitza/study_live.h include/kapitza/study_where.h
   COMMANDS where view serve NEEDS atlas deep
   BESIDE tests/unit/study/rasters.c tests/tools/fake_serve.py tests/tools/explored.h tests/tools/page_access.py
     tests/python/test_explorer*.py tests/python/explorer_page.py tests/python/serving.py tests/python/test_serve.py

@@ -26,12 +26,6 @@ static inline void kz_dynamics_freed(kz_dynamics **dynamics) {
   kz_dynamics_free(*dynamics);
 }
 
-/* The dynamics of a nearby pendulum, made from `dynamics`; free it too. `error`: that its map may have beside that of its steps, rad, > 0. Newton's method continues the cycles; a chaotic attractor stays where no orbit on it is trapped. The trapping regions are
- * the old ones without their outermost cells, so it is only likely that they trap: they are for moving pictures, until
- * kz_dynamics_fine_regions makes new ones. *lost = number of attractors that could not be continued, mirror images not counted. */
-kz_dynamics *kz_dynamics_continue(const kz_dynamics *dynamics, const kz_pendulum *pendulum, const kz_numerics *numerics,
-                                  double error, int64_t *lost);
-
 /* n starts spread evenly over the window: state [n][2]. Another seed gives other starts. */
 void kz_dynamics_starts(const kz_window *window, int64_t seed, int64_t n, double *state);
 
@@ -48,10 +42,6 @@ void kz_dynamics_coarse_regions(kz_dynamics *dynamics, double max_velocity);
 void kz_dynamics_fine_regions(kz_dynamics *dynamics, int64_t cells, double max_velocity);
 /* Adds the ellipses and covers of new attractors to the regions; on a fine grid the regions then grow. */
 void kz_dynamics_update(kz_dynamics *dynamics);
-/* Extends the regions by n orbits: state [n][2] physical starts, each followed until it is trapped, for `most` periods at most,
- * all together for `budget`. A cell joins an attractor if all orbits that visited it end there, and visited only such cells from then on. It
- * is only likely that such cells trap: they are for moving pictures of weakly damped pendulums, whose regions do not grow. */
-void kz_dynamics_learn_regions(kz_dynamics *dynamics, int64_t n, const double *state, int64_t most, int64_t budget);
 
 /* Ways to follow a start: by the scene's map, or by interpolation of the map table with 2 or 6 nodes an axis. SPARSE: by the scene's map, with a
  * look at the trapping regions every few periods only, so that `periods` may be larger by less than that. SINGLE: the same, with the processed
@@ -63,8 +53,6 @@ enum { KZ_FOLLOW_DIRECT = 0, KZ_FOLLOW_SPARSE = 1, KZ_FOLLOW_SINGLE = 3, KZ_FOLL
  * angle on the line is more than that of the state; NULL = not needed. */
 void kz_dynamics_follow(kz_dynamics *dynamics, int32_t stepping, int64_t n, int64_t max_periods, double *state, int32_t *label,
                         int64_t *periods, int64_t *turns);
-/* Moves n physical states, state [n][2] = half-turns in [-1, 1] and velocity, by one period of the scene's map. Not for several threads. */
-void kz_dynamics_advance(kz_dynamics *dynamics, int64_t n, double *state);
 
 /* kz_dynamics_follow in quad precision, by Taylor series (kernel.h) with n_steps steps a period. A start is start [i] + low [i], in rad and
  * rad per drive radian; low [n][2] holds digits below the last places of start [n][2]; NULL = zeros. The sums count as exact. */
@@ -72,11 +60,6 @@ void kz_dynamics_follow_reference(kz_dynamics *dynamics, int32_t n_steps, int64_
                                   const double *low, int32_t *label, int64_t *periods);
 
 /* ---- labels with errors ---- */
-
-/* Settling times that vary smoothly with the start, for pictures: time [n], in drive periods, at which the motions come into the trapping ellipse
- * of a strobe point of their attractor, interpolated by its exponent. Motions have label [n] and are at state [n][2], as kz_dynamics_follow
- * leaves them, after time [n] periods, in and out. The time stays as it is where no ellipse of an attractor holds a motion after 200 more. */
-void kz_dynamics_smooth_times(kz_dynamics *dynamics, int64_t n, const int32_t *label, const double *state, double *time);
 
 /* Where an orbit begins. */
 typedef struct {
@@ -158,29 +141,11 @@ int64_t kz_dynamics_chaos_size(void);
 void kz_dynamics_find_running(kz_dynamics *dynamics, int64_t n, const double *state, int64_t age, double *found);
 /* Adds the attractors in `found`, of one of the calls above, to the catalogue. */
 void kz_dynamics_adopt(kz_dynamics *dynamics, const double *found);
-/* Adds the cycle of `period` <= max_period drive periods within 0.2 rad of a strobe point (rad, rad per drive radian), and its mirror image,
- * to the catalogue, if it attracts and is not there. */
-void kz_dynamics_add_cycle(kz_dynamics *dynamics, int64_t period, double theta, double velocity);
 
 /* The catalogue as doubles, flat [n], for messages between ranks; n = kz_dynamics_packed_size. */
 int64_t kz_dynamics_packed_size(const kz_dynamics *dynamics);
 void kz_dynamics_pack(const kz_dynamics *dynamics, int64_t n, double *flat);
 void kz_dynamics_unpack(kz_dynamics *dynamics, int64_t n, const double *flat);
-
-/* Searches cycles of up to max_period <= 64 periods, attracting or not, along a line through n_nodes states node [n_nodes][2] (rad, rad per
- * drive radian). Wherever an image of the line passes near the line, multiple shooting begins. window = least and largest angle,
- * least and largest velocity; a cycle counts if it has a point there. steepest: largest trace of the cycles, of the map that
- * closes them (for symmetric ones half of their period), in that of a multiplier of 1; no piece shorter than 0.1 rad / steepest is halved. INFINITY: cycles
- * of any trace. found [most][2 + 2 max_period]: period, largest speed, and each
- * point as half-turns and velocity, right to about 1e-8; a cycle may occur twice. work [2]: number of starts followed, number of orbits
- * that shooting tried to close. Returns the number of cycles. Ends early with more than most_starts starts, or more than `most` cycles. */
-int64_t kz_dynamics_search_line(const kz_pendulum *pendulum, int64_t max_period, int64_t n_nodes, const double *node,
-                                const double window[4], double steepest, int64_t most_starts, int64_t most, double *found,
-                                int64_t work[2]);
-/* Adds n cycles from such searches, in the order of periods and speeds, and their mirror images to an empty catalogue. They become cycles
- * of the map of published values, whose points are right to rounding. The catalogue then serves for reading and ordering; it has no
- * trapping regions. */
-void kz_dynamics_add_cycles(kz_dynamics *dynamics, int64_t max_period, int64_t n, const double *found);
 
 /* Makes an empty map table: n_theta nodes around the circle, n_velocity rows from -top to top, with `top` a little above `max_velocity`. */
 void kz_dynamics_table_create(kz_dynamics *dynamics, int64_t n_theta, int64_t n_velocity, double max_velocity);
@@ -262,21 +227,6 @@ typedef struct {
  * attract, the motion is followed on; a start exactly on such a cycle does not settle. max_periods [n]: 0 = do not follow this one. */
 void kz_ends_follow(int32_t steps, int64_t n, const kz_pendulum *pendulum, const double start[2], int32_t max_period,
                     const int64_t *max_periods, kz_plane_ending *endings);
-
-/* ---- manifolds ---- */
-
-/* One branch of the stable or unstable manifold of a saddle of the map of published values. */
-typedef struct {
-  double theta, velocity;       /* a point of the saddle: rad, rad per drive radian */
-  int32_t period, stable, side; /* stable: 0 or 1; side: 1 or -1, along the eigenvector or against it */
-  double spacing;               /* largest distance of neighbouring points, rad */
-  double length;                /* of the branch, rad and rad per drive radian together */
-  double fastest;               /* rad per drive radian: parts at larger speeds are left out and do not count to the length */
-} kz_branch;
-
-/* Computes the branch from the saddle on. point [most][4]: theta in [-pi, pi), velocity, arc length, number of the unbroken part. Returns
- * the number of points; the branch ends if `most` is reached. */
-int64_t kz_manifold_grow(const kz_pendulum *pendulum, const kz_branch *branch, int64_t most, double *point);
 
 /* ---- step error ---- */
 

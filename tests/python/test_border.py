@@ -89,7 +89,7 @@ def test_c_structures_are_the_fortran_types(entries):
                 agrees(one, other, met)
     members = {name for fortran, _ in met for name in types if re.search(rf"\b{name} ", types[fortran])}
     assert types.keys() == {fortran for fortran, _ in met} | members
-    program = ["#include <stddef.h>", '#include "kapitza/dynamics.h"', '#include "kapitza/dynamics_curves.h"', '#include "vector/vector.h"',
+    program = ["#include <stddef.h>", *(f'#include "kapitza/{path.name}"' for path in sorted(HEADERS.glob("dynamics*.h"))), '#include "vector/vector.h"',
                "typedef _Float128 float128;", *(f"typedef struct {{{types[name]}}} {name};" for name in sorted(members))]
     for path, text in sources.items():  # structures that only one C file needs
         if path.suffix == ".c" and any(f"}} {c};" in text for _, c in met):

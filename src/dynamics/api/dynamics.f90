@@ -1,13 +1,11 @@
-!> The C interface of dynamics: the handle, and what is known of a pendulum carried to one nearby (include/kapitza/dynamics.h).
+!> The C interface of dynamics: the handle (include/kapitza/dynamics.h).
 module kz_api_dynamics
   use, intrinsic :: iso_c_binding, only: dp => c_double, c_int64_t, c_ptr, c_f_pointer, c_loc, c_null_ptr
-  use kz_attractors_chaos, only: carry_chaos
-  use kz_attractors_cycle_search, only: search_t, add_with_image, known
-  use kz_cycles_cycles, only: attractor_t, close_cycle, complete_attractor
+  use kz_attractors_cycle_search, only: search_t
+  use kz_cycles_cycles, only: attractor_t
   use kz_grown_ellipses, only: rings_t
-  use kz_grown_moving, only: aged_regions
   use kz_grown_cell_images, only: images_t
-  use kz_grown_grid, only: regions_t, draw_attractors
+  use kz_grown_grid, only: regions_t
   use kz_kernel_flows, only: make_flow, fine_numerics
   use kz_vector_locks, only: create_lock, free_lock, take_lock, leave_lock
   use kz_labels_levels, only: levels_t
@@ -15,17 +13,15 @@ module kz_api_dynamics
   use kz_vector_map, only: flow_t, PI, WIDTH
   use kz_vector_step_table, only: numerics_t
   use kz_maps_map_table, only: table_t
-  use kz_model_pendulum, only: pendulum_t, pairing_symmetry
+  use kz_model_pendulum, only: pendulum_t
   use kz_model_release, only: release_t
   implicit none
   private
-  public :: dynamics_t, of_handle, borrow_flow, return_flow
+  public :: dynamics_t, of_handle, make_dynamics, borrow_flow, return_flow
 
   !> Of the fine steps, what places the cycles of a pendulum that a slider moves: to 1e-9 rad.
   integer, parameter :: MOVING_PART = 4
   type(rings_t), parameter :: MOVING_RINGS = rings_t(points=WIDTH/4, growth=4, halvings=4, between=4) !< of its trapping ellipses
-  !> rad: an attractor that moved farther counts as lost.
-  real(dp), parameter :: FARTHEST = 0.2_dp
 
   !> Most idle copies of the scene's map that are kept.
   integer, parameter :: MOST_IDLE = 16
@@ -131,71 +127,5 @@ contains
     call free_lock(d%lock)
     deallocate (d)
   end subroutine destroy
-
-  function continued(handle, pendulum, numerics, error, lost) bind(C, name='kz_dynamics_continue') result(moved)
-    type(c_ptr), value :: handle
-    type(pendulum_t), intent(in) :: pendulum
-    type(numerics_t), intent(in) :: numerics
-    real(dp), value :: error
-    integer(c_int64_t), intent(out) :: lost !< attractors that are there no more, their images not counted
-    type(c_ptr) :: moved
-    type(dynamics_t), pointer :: from, d
-    integer, allocatable :: number(:)
-    integer :: a, n_known
-
-    from => of_handle(handle)
-    d => make_dynamics(pendulum, numerics, from%search%max_period, error)
-    allocate (number(size(from%attractors)), source=0)
-    lost = 0
-    do a = 1, size(from%attractors)
-      if (from%attractors(a)%mirror < a .or. from%attractors(a)%period <= 0) cycle
-      associate (old => from%attractors(a))
-        call carry(d%search, old%period, old%u(1), old%v(1), d%attractors, number(a))
-      end associate
-      if (number(a) == 0) lost = lost + 1
-      if (number(a) > 0) number(from%attractors(a)%mirror) = d%attractors(number(a))%mirror
-    end do
-    d%regions = aged_regions(from%regions, number)
-    call draw_attractors(d%regions, d%attractors)
-    do a = 1, size(from%attractors)
-      if (from%attractors(a)%mirror < a .or. from%attractors(a)%period > 0) cycle
-      n_known = size(d%attractors)
-      call carry_chaos(d%search, d%regions, from%attractors(a), d%attractors)
-      if (size(d%attractors) == n_known) lost = lost + 1
-    end do
-    call draw_attractors(d%regions, d%attractors)
-    moved = c_loc(d)
-  end function continued
-
-  subroutine add_cycle(handle, period, theta, velocity) bind(C, name='kz_dynamics_add_cycle')
-    type(c_ptr), value :: handle
-    integer(c_int64_t), value :: period
-    real(dp), value :: theta, velocity
-    type(dynamics_t), pointer :: d
-    integer :: number
-
-    d => of_handle(handle)
-    call carry(d%search, int(period), theta/PI, velocity, d%attractors, number)
-  end subroutine add_cycle
-
-  !> Appends the cycle near a strobe point, and its image; number = 0 where none attracts, or none that is new.
-  subroutine carry(search, period, u, v, attractors, number)
-    type(search_t), intent(inout) :: search
-    integer, intent(in) :: period
-    real(dp), intent(in) :: u, v !< half-turns, rad per drive radian
-    type(attractor_t), allocatable, intent(inout) :: attractors(:)
-    integer, intent(out) :: number
-    type(attractor_t) :: new
-    logical :: found, blurred
-
-    number = 0
-    call close_cycle(search%fine, search%pendulum%beta, period, u, v, FARTHEST, new, found, blurred)
-    new%symmetry = pairing_symmetry(search%pendulum)
-    if (found) call complete_attractor(search%sampling_flow, new, found)
-    if (.not. found) return
-    if (known(attractors, new%period, new%u, new%v)) return
-    number = size(attractors) + 1
-    call add_with_image(search, new, attractors)
-  end subroutine carry
 
 end module kz_api_dynamics

@@ -7,7 +7,6 @@ module kz_api_follow
   use kz_cycles_cycles, only: attractor_t
   use kz_labels_label, only: follow
   use kz_labels_orbits, only: decision_t
-  use kz_labels_smooth, only: smooth_times
   use kz_labels_turns, only: count_turns
   use kz_maps_map_table, only: table_map_t, make_table_map
   implicit none
@@ -82,40 +81,6 @@ contains
     state(1, open) = u
     state(2, open) = v
   end subroutine leave_open
-
-  subroutine advance_states(handle, n, state) bind(C, name='kz_dynamics_advance')
-    type(c_ptr), value :: handle
-    integer(c_int64_t), value :: n
-    real(dp), intent(inout) :: state(2, n)
-    type(dynamics_t), pointer :: d
-    integer :: first, lanes
-
-    d => of_handle(handle)
-    associate (flow => d%search%flow)
-      do first = 0, int(n) - 1, WIDTH
-        lanes = min(WIDTH, int(n) - first)
-        call flow%put_all(state(1, first + 1:first + lanes), state(2, first + 1:first + lanes))
-        call flow%advance_physical(lanes)
-        state(1, first + 1:first + lanes) = flow%u(:lanes)
-        state(2, first + 1:first + lanes) = flow%v(:lanes)
-      end do
-    end associate
-  end subroutine advance_states
-
-  subroutine smooth_settling(handle, n, label, state, time) bind(C, name='kz_dynamics_smooth_times')
-    type(c_ptr), value :: handle
-    integer(c_int64_t), value :: n
-    integer(c_int32_t), intent(in) :: label(n)
-    real(dp), intent(in) :: state(2, n)
-    real(dp), intent(inout) :: time(n)
-    type(dynamics_t), pointer :: d
-    class(flow_t), allocatable :: flow
-
-    d => of_handle(handle)
-    call borrow_flow(d, flow)
-    call smooth_times(flow, d%attractors, label, state, time)
-    call return_flow(d, flow)
-  end subroutine smooth_settling
 
   subroutine count_all_turns(handle, n, max_periods, decision) bind(C, name='kz_dynamics_count_turns')
     type(c_ptr), value :: handle

@@ -5,7 +5,6 @@ module kz_api_regions
   use kz_grown_cell_images, only: PERIODS, make_images
   use kz_grown_grid, only: make_regions, draw_attractors
   use kz_grown_growth, only: grow_regions
-  use kz_grown_moving, only: learn_regions
   use kz_model_pendulum, only: is_mirrored
   implicit none
   private
@@ -48,17 +47,6 @@ contains
     call draw_attractors(d%regions, d%attractors)
     if (allocated(d%images)) call grow_regions(d%regions, d%attractors, d%images)
   end subroutine update_regions
-
-  subroutine learn(handle, n, state, most, budget) bind(C, name='kz_dynamics_learn_regions')
-    type(c_ptr), value :: handle
-    integer(c_int64_t), value :: n
-    real(dp), intent(in) :: state(2, n)
-    integer(c_int64_t), value :: most, budget
-    type(dynamics_t), pointer :: d
-
-    d => of_handle(handle)
-    call learn_regions(d%regions, d%attractors, d%search%flow, state, int(most), int(budget))
-  end subroutine learn
 
   function trapped_share(handle) bind(C, name='kz_dynamics_trapped_share') result(share)
     type(c_ptr), value :: handle

@@ -2,7 +2,7 @@
 module kz_cycles_corrector
   use, intrinsic :: iso_c_binding, only: dp => c_double
   use kz_cycles_curves, only: system_t, linearise, inner, metric, moved, POINTS, UNKNOWNS, COARSE, FINE
-  use kz_cycles_shooting, only: solve
+  use kz_maps_matrices, only: solve
   use kz_splitting_jets, only: TERMS
   implicit none
   private

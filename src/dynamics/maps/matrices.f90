@@ -1,11 +1,14 @@
-!> Matrices of 2 rows and columns: derivatives of the map, axes of ellipses.
+!> Matrices of 2 rows and columns: derivatives of the map, axes of ellipses; larger systems of equations.
 module kz_maps_matrices
   use, intrinsic :: iso_c_binding, only: dp => c_double
   implicit none
   private
-  public :: inverse_of, solved, eigenvalues, eigenvector, axes_of
+  public :: inverse_of, solved, eigenvalues, eigenvector, axes_of, solve
 
   real(dp), parameter, public :: IDENTITY(2, 2) = reshape([1.0_dp, 0.0_dp, 0.0_dp, 1.0_dp], [2, 2])
+
+  !> The equations' pivots are of order 1 unless they are singular.
+  real(dp), parameter :: SINGULAR = 1e-12_dp
 
 contains
 
@@ -74,5 +77,38 @@ contains
     axes(2) = merge(p(2)/axes(1), 0.0_dp, axes(1) > 0)
     axes(3) = sqrt(max(0.0_dp, p(3) - axes(2)**2))
   end function axes_of
+
+  !> Solves matrix x = side by elimination with row pivots; x takes the place of side where the matrix is regular.
+  pure subroutine solve(matrix, side, regular)
+    real(dp), intent(inout) :: matrix(:, :) !< the equations; comes back in use
+    real(dp), intent(inout) :: side(:, :) !< their right-hand sides, then the solutions
+    logical, intent(out) :: regular !< whether all pivots are above SINGULAR
+    integer :: n, i, j, pivot
+
+    n = size(matrix, 1)
+    regular = .true.
+    do i = 1, n
+      pivot = i - 1 + maxloc(abs(matrix(i:, i)), 1)
+      regular = abs(matrix(pivot, i)) > SINGULAR
+      if (.not. regular) return
+      if (pivot /= i) then
+        matrix([i, pivot], i:) = matrix([pivot, i], i:)
+        side([i, pivot], :) = side([pivot, i], :)
+      end if
+      matrix(i + 1:, i) = matrix(i + 1:, i)/matrix(i, i)
+      do j = i + 1, n
+        matrix(i + 1:, j) = matrix(i + 1:, j) - matrix(i, j)*matrix(i + 1:, i)
+      end do
+      do j = 1, size(side, 2)
+        side(i + 1:, j) = side(i + 1:, j) - side(i, j)*matrix(i + 1:, i)
+      end do
+    end do
+    do i = n, 1, -1
+      side(i, :) = side(i, :)/matrix(i, i)
+      do j = 1, size(side, 2)
+        side(:i - 1, j) = side(:i - 1, j) - side(i, j)*matrix(:i - 1, i)
+      end do
+    end do
+  end subroutine solve
 
 end module kz_maps_matrices

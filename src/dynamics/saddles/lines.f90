@@ -7,7 +7,7 @@ module kz_saddles_lines
   use kz_kernel_flows, only: make_flow, fine_numerics
   use kz_vector_map, only: flow_t, WIDTH, PI
   use kz_vector_step_table, only: numerics_t
-  use kz_cycles_shooting, only: shoot, smallest_period, closed_orbit_t
+  use kz_saddles_shooting, only: shoot, smallest_period, closed_orbit_t
   use kz_maps_states, only: separation, wrapped
   use kz_model_pendulum, only: pendulum_t, is_mirrored
   implicit none

@@ -1,4 +1,5 @@
 /* Attractors that an atlas lists at the pendulum of a frame: they are carried from its curves, and nothing is searched. */
+#include "kapitza/dynamics_saddles.h"
 #include "kapitza/study_basin.h"
 #include "kapitza/study_atlas.h"
 #include "live.h"

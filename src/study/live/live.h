@@ -5,6 +5,7 @@
 
 #include "labelling/catalogue.h"
 #include "labelling/search.h"
+#include "kapitza/dynamics_live.h"
 #include "kapitza/study_live.h"
 #include "window/window.h"
 

@@ -2,7 +2,7 @@
  * period, attracting or not, and their index sums. */
 #pragma once
 
-#include "kapitza/dynamics.h"
+#include "kapitza/dynamics_saddles.h"
 #include "kapitza/study.h"
 #include "labelling/catalogue.h"
 #include "labelling/listed.h"

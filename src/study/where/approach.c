@@ -1,4 +1,5 @@
 /* When a motion looks like its end: from which drive period on its angle stays within one degree of its attractor, at the strobe. */
+#include "kapitza/dynamics_live.h"
 #include <float.h>
 #include <math.h>
 #include <stdlib.h>

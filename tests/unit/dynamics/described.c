@@ -5,7 +5,7 @@
 #include <math.h>
 
 #include "../../tools/part.h"
-#include "kapitza/dynamics.h"
+#include "kapitza/dynamics_live.h"
 #include "kapitza/dynamics_curves.h"
 
 static const double PI = 3.14159265358979323846;

@@ -1,5 +1,5 @@
 !> Settling times that vary smoothly with the start, for pictures: whole numbers of periods would show as steps.
-module kz_labels_smooth
+module kz_live_smooth
   use, intrinsic :: iso_c_binding, only: dp => c_double, c_int32_t
   use kz_cycles_cycles, only: attractor_t
   use kz_grown_ellipses, only: ellipse_square
@@ -76,4 +76,4 @@ contains
     end do
   end function least_square
 
-end module kz_labels_smooth
+end module kz_live_smooth

@@ -1,7 +1,7 @@
 !> Trapping regions for pictures that move; it is likely, not certain, that they trap. Those of a pendulum nearby serve for another one. And
 !> where damping is weak, images of cells shrink too slowly for regions to grow; but orbits that have been followed to their ends show where
 !> motions go: a cell joins an attractor if all orbits that visited it end there, and visited only such cells from then on.
-module kz_grown_moving
+module kz_live_moving
   use, intrinsic :: iso_c_binding, only: dp => c_double, int32 => c_int32_t
   use kz_cycles_cycles, only: attractor_t
   use kz_grown_grid, only: regions_t, make_regions, chaos_region, find_regions, note_closed
@@ -240,4 +240,4 @@ contains
     where (leaks(1:)) label = MIXED
   end subroutine drop_leaks
 
-end module kz_grown_moving
+end module kz_live_moving

@@ -1,12 +1,13 @@
 !> Multiple shooting: Newton's method for a closed orbit with all its points unknown. Errors do not grow along the orbit, so that
 !> points that are right to some 0.1 rad lead to it, however strongly it repels.
-module kz_cycles_shooting
+module kz_saddles_shooting
   use, intrinsic :: iso_c_binding, only: dp => c_double
   use kz_vector_map, only: flow_t, WIDTH, PI
+  use kz_maps_matrices, only: solve
   use kz_maps_states, only: angle_difference, separation
   implicit none
   private
-  public :: shoot, solve, smallest_period, closed_orbit_t
+  public :: shoot, smallest_period, closed_orbit_t
 
   !> Results of the iteration beside the points of the orbit.
   type :: closed_orbit_t
@@ -21,8 +22,6 @@ module kz_cycles_shooting
   real(dp), parameter :: SHORT = 0.05_dp, LONGEST = 0.3_dp
   !> rad: steps below it that shrink no more are due to rounding; the error of the map by rounding.
   real(dp), parameter :: SMALL = 1e-9_dp, ROUNDING = 4e-15_dp
-  !> The equations' pivots are of order 1 unless they are singular.
-  real(dp), parameter :: SINGULAR = 1e-12_dp
 
 contains
 
@@ -86,39 +85,6 @@ contains
     closed%winding = nint(0.5_dp*flight)
   end subroutine linearise
 
-  !> Solves matrix x = side by elimination with row pivots; x takes the place of side where the matrix is regular.
-  pure subroutine solve(matrix, side, regular)
-    real(dp), intent(inout) :: matrix(:, :) !< the equations; comes back in use
-    real(dp), intent(inout) :: side(:, :) !< their right-hand sides, then the solutions
-    logical, intent(out) :: regular !< whether all pivots are above SINGULAR
-    integer :: n, i, j, pivot
-
-    n = size(matrix, 1)
-    regular = .true.
-    do i = 1, n
-      pivot = i - 1 + maxloc(abs(matrix(i:, i)), 1)
-      regular = abs(matrix(pivot, i)) > SINGULAR
-      if (.not. regular) return
-      if (pivot /= i) then
-        matrix([i, pivot], i:) = matrix([pivot, i], i:)
-        side([i, pivot], :) = side([pivot, i], :)
-      end if
-      matrix(i + 1:, i) = matrix(i + 1:, i)/matrix(i, i)
-      do j = i + 1, n
-        matrix(i + 1:, j) = matrix(i + 1:, j) - matrix(i, j)*matrix(i + 1:, i)
-      end do
-      do j = 1, size(side, 2)
-        side(i + 1:, j) = side(i + 1:, j) - side(i, j)*matrix(i + 1:, i)
-      end do
-    end do
-    do i = n, 1, -1
-      side(i, :) = side(i, :)/matrix(i, i)
-      do j = 1, size(side, 2)
-        side(:i - 1, j) = side(:i - 1, j) - side(i, j)*matrix(:i - 1, i)
-      end do
-    end do
-  end subroutine solve
-
   !> The longest step of a point.
   pure function longest_of(steps) result(longest)
     real(dp), intent(in) :: steps(:) !< angle and velocity of each point, rad
@@ -140,4 +106,4 @@ contains
     period = size(x, 2)
   end function smallest_period
 
-end module kz_cycles_shooting
+end module kz_saddles_shooting
