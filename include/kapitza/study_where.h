@@ -4,6 +4,7 @@
 #include <stdint.h>
 
 #include "kapitza/study_catalogue.h"
+#include "kapitza/dynamics_labels.h"
 
 /* Where a start ends, as users see it. */
 typedef struct {

@@ -5,7 +5,8 @@
 #include <stdlib.h>
 
 #include "../tools/find.h"
-#include "kapitza/dynamics.h"
+#include "kapitza/dynamics_labels.h"
+#include "kapitza/dynamics_cycles.h"
 
 enum { SPLIT6 = 1, RK4 = 0, STATES = 64, MOST = 64 };
 

@@ -5,7 +5,7 @@
 #include <float.h>
 #include <math.h>
 
-#include "kapitza/dynamics.h"
+#include "kapitza/dynamics_steps.h"
 #include "kapitza/kernel.h"
 
 enum { RK4 = 0, SPLIT6 = 1, PROCESSED = 2, N = 8 }; /* rows of the schemes */

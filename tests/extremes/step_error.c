@@ -5,7 +5,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "kapitza/dynamics.h"
+#include "kapitza/dynamics_steps.h"
 
 enum { ANGLES = 128, SPEEDS = 64, N = ANGLES * SPEEDS, CLASSES = 4, PENDULUMS = 5, MORE = 150, FINE = 192 };
 

@@ -7,6 +7,7 @@
 
 #include "find.h"
 #include "kapitza/kernel.h"
+#include "kapitza/dynamics_labels.h"
 #include "part.h"
 
 static inline const kz_numerics *numerics(void) {

@@ -1,4 +1,4 @@
-!> The C interface of dynamics: the cycle near a state (include/kapitza/dynamics.h).
+!> The C interface of dynamics: the cycle near a state (include/kapitza/dynamics_cycles.h).
 module kz_api_cycles
   use, intrinsic :: iso_c_binding, only: dp => c_double, c_int64_t, c_ptr
   use kz_vector_map, only: flow_t, PI

@@ -1,4 +1,4 @@
-!> The C interface of dynamics: starts followed until they are trapped (include/kapitza/dynamics.h).
+!> The C interface of dynamics: starts followed until they are trapped (include/kapitza/dynamics_labels.h).
 module kz_api_follow
   use, intrinsic :: iso_c_binding, only: dp => c_double, c_int32_t, c_int64_t, c_ptr
   use kz_maps_states, only: states_to_physical
@@ -12,7 +12,7 @@ module kz_api_follow
   implicit none
   private
 
-  !> Ways of dynamics.h; those that remain are the nodes of the table's stencil.
+  !> Ways of dynamics_labels.h; those that remain are the nodes of the table's stencil.
   integer(c_int32_t), parameter :: DIRECT = 0, SPARSE = 1, SINGLE = 3
   !> Periods between two looks at the regions of starts that take hundreds of them.
   integer, parameter :: PRIMES(6) = [5, 7, 11, 13, 17, 19]

@@ -1,5 +1,5 @@
 !> The C interface of dynamics: labels with errors, and starts from their release to the first strobe of the final drive
-!> (include/kapitza/dynamics.h).
+!> (include/kapitza/dynamics_labels.h).
 module kz_api_label
   use, intrinsic :: iso_c_binding, only: dp => c_double, c_int8_t, c_int32_t, c_int64_t, c_ptr
   use kz_api_dynamics, only: dynamics_t, of_handle
@@ -17,12 +17,12 @@ module kz_api_label
   implicit none
   private
 
-  !> Of dynamics.h: the scene's numerics, where doubtful orbits are followed on.
+  !> Of dynamics_labels.h: the scene's numerics, where doubtful orbits are followed on.
   integer, parameter :: LEVEL_GUESS = -1
   !> An orbit is followed at the next cheaper level once its error is so many times what that adds in a period.
   real(dp), parameter :: RATIO = 30
 
-  !> kz_start of dynamics.h.
+  !> kz_start of dynamics_labels.h.
   type, bind(C) :: start_t
     real(dp) :: theta(2)
     real(dp) :: velocity(2)

@@ -1,4 +1,4 @@
-!> A cycle of one pendulum as branches of a sweep hold it: include/kapitza/dynamics.h.
+!> A cycle of one pendulum as branches of a sweep hold it: include/kapitza/dynamics_cycles.h.
 module kz_cycles_described
   use, intrinsic :: iso_c_binding, only: dp => c_double, c_int32_t, c_int64_t, c_ptr, c_associated, c_f_pointer, c_loc
   use kz_vector_map, only: flow_t, WIDTH, PI
@@ -29,7 +29,7 @@ module kz_cycles_described
     class(flow_t), allocatable :: flow !< whose steps are not fused
   end type fine_map_t
 
-  !> What kz_fine_maps of dynamics.h points at.
+  !> What kz_fine_maps of dynamics_cycles.h points at.
   type :: fine_maps_t
     type(fine_map_t), allocatable :: map(:)
     integer :: oldest = 1 !< the next map that is made takes its place

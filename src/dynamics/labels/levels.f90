@@ -18,10 +18,10 @@ module kz_labels_levels
   private
   public :: levels_t, carrier_of, prepare_level, is_useful, outlook_from
 
-  !> Levels of dynamics.h.
+  !> Levels of dynamics_labels.h.
   integer, parameter, public :: LEVEL_DOUBLE = 0
   integer, parameter, public :: LEVEL_FINE = 1, LEVEL_PAIRS_16 = 2, LEVEL_PAIRS_28 = 5, LEVEL_QUAD = 6
-  !> KZ_LEVELS of dynamics.h.
+  !> KZ_LEVELS of dynamics_labels.h.
   integer, parameter, public :: NO_LEVEL = 8
   !> rad: of a period in double precision with more steps; with most steps of all.
   real(dp), parameter :: FINE_ERROR = 1e-14_dp

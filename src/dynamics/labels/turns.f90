@@ -11,7 +11,7 @@ module kz_labels_turns
   private
   public :: count_turns
 
-  !> KZ_NO_TURNS of dynamics.h.
+  !> KZ_NO_TURNS of dynamics_labels.h.
   integer(c_int32_t), parameter :: NO_TURNS = -huge(0_c_int32_t) - 1
 
   !> The middle of a cycle, half-turns, as seen from each strobe point.

@@ -3,7 +3,7 @@
  * compared with these. */
 #pragma once
 
-#include "kapitza/dynamics.h"
+#include "kapitza/dynamics_labels.h"
 #include "kapitza/study.h"
 
 enum {

@@ -10,6 +10,7 @@
 #include "cells/scene_search.h"
 #include "numerics/resolve.h"
 #include "labelling/phases.h"
+#include "kapitza/dynamics_steps.h"
 
 /* ---- the file's group /phases: the share of a window that ends alike whatever the phase of release ---- */
 

@@ -6,6 +6,7 @@
 #include "numerics/step_check.h"
 #include "label.h"
 #include "kapitza/study_basin.h"
+#include "kapitza/dynamics_steps.h"
 
 /* ---- pending cells, unsettled or doubtful: counted, picked and labelled again, a bounded number at a time ---- */
 

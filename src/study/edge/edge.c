@@ -9,6 +9,7 @@
 #include "labelling/labeller.h"
 #include "labelling/listed.h"
 #include "cells/scene_search.h"
+#include "kapitza/dynamics_cycles.h"
 
 /* ---- J. D. Skufca, J. A. Yorke, B. Eckhardt, Phys. Rev. Lett. 96 (2006) 174101: edge tracking ---- */
 

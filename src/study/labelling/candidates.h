@@ -3,7 +3,7 @@
 
 #include <stdint.h>
 
-#include "kapitza/dynamics.h"
+#include "kapitza/dynamics_labels.h"
 
 /* What items get that no level decides: KZ_DOUBTFUL; the label of the state without its error, in doubles or in quad precision; in doubles
  * and, as second candidate, the attractor of the nearest start that ends elsewhere. */

@@ -4,7 +4,7 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-#include "kapitza/dynamics.h"
+#include "kapitza/dynamics_labels.h"
 
 /* How a label was found: the values of the file's variable `evidence`. From KZ_UNDECIDED on the scene's own numerics did not decide it. The
  * values that are missing here, which are those of powers, occur in the file only. KZ_LEFT is a doubtful label of method direct; KZ_AVERAGED is that of

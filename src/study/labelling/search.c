@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "numerics/cells.h"
+#include "kapitza/dynamics_labels.h"
 
 enum {
   FIRST_LENGTH = 128,   /* periods of the first round; a round that finds nothing doubles it */

@@ -1,5 +1,6 @@
 #include "cells.h"
 #include "kapitza/study_basin.h"
+#include "kapitza/dynamics_labels.h"
 
 #include <float.h>
 #include <math.h>

@@ -2,7 +2,7 @@
 
 #include <math.h>
 
-#include "kapitza/dynamics.h"
+#include "kapitza/dynamics_steps.h"
 
 static const double ROUNDING = 1e-13; /* rad: an error of a period below this is hardly more than rounding */
 

@@ -1,7 +1,7 @@
 /* Features of an orbit: centre, period, winding, lines, turning points. */
 #include <math.h>
 
-#include "kapitza/dynamics.h"
+#include "kapitza/dynamics_cycles.h"
 #include "orbit.h"
 
 /* Lines up to this many drive frequencies. */

@@ -7,7 +7,7 @@
 
 #include "labelling/listed.h"
 #include "numerics/step_check.h"
-#include "kapitza/dynamics.h"
+#include "kapitza/dynamics_cycles.h"
 
 /* ---- closed orbits: their period and their exact place ---- */
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "kapitza/dynamics.h"
+#include "kapitza/dynamics_ends.h"
 #include "kapitza/study.h"
 #include "plan.h"
 

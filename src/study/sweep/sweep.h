@@ -1,7 +1,7 @@
 /* Inside of the study `sweep`: its parts. Values are those of the swept key of the pendulum mapping. */
 #pragma once
 
-#include "kapitza/dynamics.h"
+#include "kapitza/dynamics_cycles.h"
 #include "kapitza/study.h"
 #include "plan.h"
 

@@ -4,6 +4,7 @@
 
 #include "search.h"
 #include "arm.h"
+#include "kapitza/dynamics_cycles.h"
 
 /* ---- two branches: where they cross, and where they run along each other ---- */
 

@@ -7,6 +7,9 @@
 #include "../../tools/part.h"
 #include "kapitza/dynamics_live.h"
 #include "kapitza/dynamics_curves.h"
+#include "kapitza/dynamics_labels.h"
+#include "kapitza/dynamics_cycles.h"
+#include "kapitza/dynamics_steps.h"
 
 static const double PI = 3.14159265358979323846;
 

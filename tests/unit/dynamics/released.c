@@ -5,7 +5,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "kapitza/dynamics.h"
+#include "kapitza/dynamics_labels.h"
 #include "kapitza/kernel_digits.h"
 
 enum { BITS = 200, STARTS = 3 };

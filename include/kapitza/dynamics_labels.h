@@ -1,0 +1,86 @@
+/* dynamics, labels: where starts end, at every level of precision, with the errors of their orbits (Fortran; layer 1). */
+#pragma once
+
+#include "kapitza/dynamics.h"
+
+/* Ways to follow a start: by the scene's map, or by interpolation of the map table with 2 or 6 nodes an axis. SPARSE: by the scene's map, with a
+ * look at the trapping regions every few periods only, so that `periods` may be larger by less than that. SINGLE: the same, with the processed
+ * splitting in single precision, to some 1e-6 rad a period. */
+enum { KZ_FOLLOW_DIRECT = 0, KZ_FOLLOW_SPARSE = 1, KZ_FOLLOW_SINGLE = 3, KZ_FOLLOW_LINEAR = 2, KZ_FOLLOW_QUINTIC = 6 };
+/* Follows n starts, state [n][2], until a trapping region holds them, at most max_periods. label [n] = number of the attractor,
+ * 0 = not settled. periods [n] = first period inside a trapping region, or max_periods. State [i] of a start that has not settled
+ * becomes its last state, that of another one where it was left, in the map's own coordinates. turns [n] = net turns by which the
+ * angle on the line is more than that of the state; NULL = not needed. */
+void kz_dynamics_follow(kz_dynamics *dynamics, int32_t stepping, int64_t n, int64_t max_periods, double *state, int32_t *label,
+                        int64_t *periods, int64_t *turns);
+
+/* kz_dynamics_follow in quad precision, by Taylor series (kernel.h) with n_steps steps a period. A start is start [i] + low [i], in rad and
+ * rad per drive radian; low [n][2] holds digits below the last places of start [n][2]; NULL = zeros. The sums count as exact. */
+void kz_dynamics_follow_reference(kz_dynamics *dynamics, int32_t n_steps, int64_t n, int64_t max_periods, const double *start,
+                                  const double *low, int32_t *label, int64_t *periods);
+
+/* Where an orbit begins. */
+typedef struct {
+  double theta[2], velocity[2]; /* rad, rad per drive radian: the sum of two doubles, high and low */
+  int64_t periods;              /* drive periods before this start; the settling time includes them */
+  double error[3]; /* ellipse of the start's own error: entries theta theta, theta velocity, velocity velocity of its matrix */
+  double from;     /* rad: angle of the release, where periods > 0; else it is theta */
+  int64_t turns;   /* net turns by which the angle on the line from there is more than theta */
+} kz_start;
+
+/* Precision levels at which orbits are followed with their errors, from the cheapest to the finest: the scene's numerics; doubles with
+ * more steps (error of a period some 3e-15 rad); pairs of doubles (1e-16, 1e-20, 1e-24, 3e-29); quad precision, by Taylor series; and as
+ * many digits as needed. */
+enum {
+  KZ_LEVEL_GUESS =
+      -1, /* as KZ_LEVEL_DOUBLE, but a doubtful orbit is followed on and gets the label of its state without its error */
+  KZ_LEVEL_DOUBLE = 0,
+  KZ_LEVEL_FINE = 1,
+  KZ_LEVEL_PAIRS_16 = 2,
+  KZ_LEVEL_PAIRS_20 = 3,
+  KZ_LEVEL_PAIRS_24 = 4,
+  KZ_LEVEL_PAIRS_28 = 5,
+  KZ_LEVEL_QUAD = 6,
+  KZ_LEVEL_ARBITRARY = 7,
+  KZ_LEVELS = 8
+};
+/* The label of an orbit whose error has become too large for a label. Any other label, also 0, is decided: the errors cannot change it. */
+enum { KZ_DOUBTFUL = -1 };
+
+/* Where a start ends, and how that is known: what studies keep of it. */
+typedef struct {
+  int64_t periods;  /* drive periods from the start until a trapping region holds the orbit, or for which it was followed */
+  int16_t label;    /* number of an attractor, 0 = not settled, KZ_DOUBTFUL */
+  int16_t other;    /* of a start that no level decides: the second candidate, 0 = none */
+  uint8_t evidence; /* 0 = not labelled yet; else how it is known (study/labelling/levels.h), which dynamics does not say */
+  uint8_t next;     /* of a doubtful orbit: the lowest level that may decide it, by the growth of its error */
+  int32_t turns;    /* of kz_dynamics_count_turns */
+} kz_label;
+
+/* A label with the orbit behind it. */
+typedef struct {
+  kz_label end;
+  int32_t level;   /* the level that decided; KZ_LEVELS = none */
+  double error;    /* rad: bound of the orbit's error when it was trapped; meaningless for chaotic or undecided orbits */
+  int64_t age;     /* drive periods after which the orbit was left */
+  double state[2]; /* where it was then, as kz_dynamics_follow leaves states */
+  int64_t turns;   /* net turns by which its angle on the line was then more than state[0] */
+  double from;     /* rad: angle of its release */
+} kz_decision;
+
+/* Labels n starts at one level: decision [n]. `before` is the level at which they were doubtful. Each orbit carries its error. It uses the
+ * precision of `level` until its error has reached what level `before` would add, then that of `before`, and so on downwards. A trapped
+ * orbit is decided. The others get KZ_DOUBTFUL (at KZ_LEVEL_GUESS the label of the state without its error) and level KZ_LEVELS. */
+void kz_dynamics_label(kz_dynamics *dynamics, int32_t level, int32_t before, int64_t n, const kz_start *start,
+                       int64_t max_periods, kz_decision *decision);
+
+/* Fills decision [n].end.turns: net turns from the angle of the release to the middle of the cycle (down or inverted, else its mean),
+ * rounded. KZ_NO_TURNS of other ends, and if no ellipse of the cycle holds the orbit after max_periods more. */
+enum { KZ_NO_TURNS = INT32_MIN };
+void kz_dynamics_count_turns(kz_dynamics *dynamics, int64_t n, int64_t max_periods, kz_decision *decision);
+
+/* Sets how starts are released. The errors of a release are measured at its first use, which must come after the trapping regions are made. */
+void kz_dynamics_set_release(kz_dynamics *dynamics, const kz_release *release);
+/* Moves those of n starts that have spent no periods, with their errors, from their release to the strobe from which on the drive has its
+ * final form, in the precision of `level`. An orbit whose error exceeds 1e-4 rad gets a very large error, so that no level decides it. */
+void kz_dynamics_release(kz_dynamics *dynamics, int32_t level, int64_t n, kz_start *start);
