@@ -42,6 +42,17 @@ def test_distances_below_the_last_place_of_a_double(kapitza, tmp_path):
     assert group["slope_low"].values[-2] < 1 < group["slope_high"].values[-2]
 
 
+def test_doubles_and_more_digits_count_alike(kapitza, tmp_path):
+    """The boundary of the pendulum of C. Grebogi, E. Ott and J. A. Yorke: one power law from distances in doubles to nearer ones."""
+    window = {"theta": {"count": 40}, "velocity": {"min": -2, "max": 4, "count": 40}, "boundary": {"pairs": 1500, "decades": 12}}
+    forced = {"k": 1, "damping": 0.1, "m": 0, "torque_amplitude": 2.1}
+    group = run_scene(kapitza, tmp_path, {"pendulum": forced, "basin": window})[0].group("boundary")
+    share, low, high = (group[f"uncertain_{name}"].values for name in ("share", "low", "high"))
+    exponent, level = np.polyfit(np.log(group["distance"].values[:11]), np.log(share[:11]), 1)
+    foreseen = np.exp(level + exponent * np.log(group["distance"].values[11:]))
+    assert abs(exponent - 0.0558) < 0.01 and np.all((0.9 * low[11:] < foreseen) & (foreseen < 1.1 * high[11:]))
+
+
 @pytest.mark.parametrize("keys, message", [
     (["method=direct", "boundary.decades=11"], "basin.boundary.decades: 11 go down to 1e-13 rad"),
     (["boundary.farthest=1e-24"], "it must be 1e-23 at least, or farthest at most the width of a window whose cells")])

@@ -89,13 +89,13 @@ kz_status kz_boundary_check(const kz_scene *scene) {
                  (long long)pairs->decades, nearest, what, most, or);
 }
 
-/* Start i of an evenly spread sequence and its partners, in directions that spread evenly too. */
-static void spread(const kz_boundary_plan *plan, int64_t i, point *p) {
+/* Start i of an evenly spread sequence and its partners at n distances from `first` on, in directions that spread evenly too. */
+static void spread(const kz_boundary_plan *plan, int64_t i, int first, int n, point *p) {
   const double angle = 2 * M_PI * fmod((double)i * 0.61803398874989484820, 1);
   *p = (point){.share = {0}};
   kz_even_share(i, p->share);
-  for (int d = 0; d < kz_distances_of(plan); d++) {
-    const double distance = distance_of(plan, d);
+  for (int d = 0; d < n; d++) {
+    const double distance = distance_of(plan, first + d);
     p[1 + d] = (point){{p->share[0], p->share[1]}, {distance * cos(angle), distance * sin(angle)}};
   }
 }
@@ -120,8 +120,7 @@ static kz_status start_at(void *context, int64_t i, int32_t level, kz_start *sta
   return KZ_OK;
 }
 
-static kz_labeller labeller_of(const pairing *p, pair_tile *t) {
-  const bool exact = p->plan->method == KZ_METHOD_EXACT;
+static kz_labeller labeller_of(const pairing *p, pair_tile *t, bool exact) {
   return (kz_labeller){.dynamics = p->dynamics,
                        .max_periods = p->plan->max_periods,
                        .way = exact ? KZ_BY_LEVELS : KZ_BY_STATES,
@@ -130,22 +129,40 @@ static kz_labeller labeller_of(const pairing *p, pair_tile *t) {
                        .context = t};
 }
 
-static kz_status count_some(void *context, int64_t first, int64_t n, void *record) {
-  const pairing *p = context;
-  pair_record *out = record;
-  KZ_FREED pair_tile *t = kz_malloc(sizeof *t);
-  const int distances = kz_distances_of(p->pairs), stride = 1 + distances;
-  t->pairing = p;
-  for (int64_t i = 0; i < n; i++) spread(p->pairs, first + i, t->point + stride * i);
-  const kz_labeller labeller = labeller_of(p, t);
+/* How many of the distances, the farthest first, doubles serve. Their map is one that is off by the error of a step, for both starts of a pair
+ * alike, and rounding moves the starts by less than a hundredth of these distances: the shares are right, whatever the labels of single starts are.
+ * In a window that is hardly wider than that error the boundary itself would be moved. */
+static int distances_of_doubles(const pairing *p) {
+  static const double narrowest = 1e-9;
+  int n = 0;
+  if (p->plan->method == KZ_METHOD_EXACT && narrower_side(p->plan) < narrowest) return 0;
+  while (n < kz_distances_of(p->pairs) && 1.01 * distance_of(p->pairs, n) >= nearest_of_doubles) n++;
+  return n;
+}
+
+/* The pairs of n starts at distances first .. last - 1. */
+static kz_status count_distances(pair_tile *t, int64_t from, int64_t n, int first, int last, bool exact, pair_record *out) {
+  const int stride = 1 + last - first;
+  const kz_labeller labeller = labeller_of(t->pairing, t, exact);
+  if (first == last) return KZ_OK;
+  for (int64_t i = 0; i < n; i++) spread(t->pairing->pairs, from + i, first, last - first, t->point + stride * i);
   KZ_TRY(kz_label_items(&labeller, 1, n * stride, NULL, t->end));
   for (int64_t i = 0; i < n; i++)
-    for (int d = 0; d < distances; d++) {
-      const int32_t own = t->end[stride * i].label, other = t->end[stride * i + 1 + d].label;
+    for (int d = first; d < last; d++) {
+      const int32_t own = t->end[stride * i].label, other = t->end[stride * i + 1 + d - first].label;
       out->pairs[d] += own > 0 && other > 0;
       out->uncertain[d] += own > 0 && other > 0 && own != other;
     }
   return KZ_OK;
+}
+
+static kz_status count_some(void *context, int64_t first, int64_t n, void *record) {
+  const pairing *p = context;
+  KZ_FREED pair_tile *t = kz_malloc(sizeof *t);
+  const int doubles = distances_of_doubles(p);
+  t->pairing = p;
+  KZ_TRY(count_distances(t, first, n, 0, doubles, false, record));
+  return count_distances(t, first, n, doubles, kz_distances_of(p->pairs), p->plan->method == KZ_METHOD_EXACT, record);
 }
 
 static pairing pairing_of(const kz_boundary_plan *plan, const kz_window_labels *labelling) {
