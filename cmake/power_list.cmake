@@ -15,8 +15,10 @@ kapitza_power(proof FOLDERS study/proof dynamics/trapping/proved kernel/enclosur
 kapitza_power(atlas FOLDERS study/atlas FILES include/kapitza/study_atlas.h STUDIES atlas NEEDS saddles
   BESIDE tests/unit/study/atlas_cycles.c tests/unit/study/bands.c tests/python/test_atlas*.py python/kapitza/plots/atlas*.py
     docs/explanation/atlas.md docs/tutorials/map.md)
+kapitza_power(tools FOLDERS app/tools COMMANDS plot info fit needs
+  BESIDE tests/python/test_needs.py tests/python/test_fit.py)
 kapitza_power(live FOLDERS study/live study/where app/live dynamics/live FILES include/kapitza/dynamics_live.h include/kapitza/study_live.h include/kapitza/study_where.h
-  COMMANDS where view serve NEEDS atlas deep
+  COMMANDS where view serve NEEDS atlas deep tools
   BESIDE tests/unit/study/rasters.c tests/tools/fake_serve.py tests/tools/explored.h tests/tools/page_access.py
     tests/python/test_explorer*.py tests/python/explorer_page.py tests/python/serving.py tests/python/test_serve.py
     tests/python/test_client.py tests/python/test_protocol.py tests/python/test_where.py

@@ -46,13 +46,11 @@ typedef struct {
   int n_sets;
   char **joined; /* words of the command line that were made of a number and its unit; n_joined of them */
   int n_joined;
-  bool resume, force, all, json, json_schema, layout, degrees;
-  void *own;                           /* what the command's own options set; NULL = it has none */
-  bool compared;                       /* the command lines of all ranks were compared, or are by the command */
-  bool answered;                       /* --help or the like was printed: nothing is left to do */
-  const char *frequency;               /* of fit and needs, as written; NULL = not given */
-  const char *length, *quality_factor; /* of needs, likewise */
-  double time_limit;                   /* seconds; 0 = none */
+  bool resume, force, all, json, json_schema, layout;
+  void *own;         /* what the command's own options set; NULL = it has none */
+  bool compared;     /* the command lines of all ranks were compared, or are by the command */
+  bool answered;     /* --help or the like was printed: nothing is left to do */
+  double time_limit; /* seconds; 0 = none */
   kz_progress progress;
   const char *log;   /* FILE of JSON lines; NULL = none */
   bool timings;      /* print where the time went */
@@ -72,20 +70,11 @@ kz_status kz_app_run(const kz_options *options);
 /* What a stage does, for progress: "labels in quad precision (1)" for "quad 1". */
 void kz_stage_words(const char *name, char *words, size_t bytes);
 kz_status kz_app_check(const kz_options *options);
-kz_status kz_app_fit(const kz_options *options); /* replaces the process by a command of the package; so do the next two */
-kz_status kz_app_plot(const kz_options *options);
-kz_status kz_app_info(const kz_options *options);
-kz_status kz_app_needs(const kz_options *options);
 kz_status kz_app_keys(const kz_options *options);
 void kz_app_version(FILE *out);
 
 /* Calls `answer` with the scene of the command line, on the process that prints; a message about a key is given its place in the scene. */
 kz_status kz_scene_answer(const kz_options *options, kz_status (*answer)(const kz_options *, const kz_scene *));
-
-/* This process becomes `module` of the Python package, whose file in the package is `entry`, with words [n] behind it. Returns only after a
- * failure. kz_program_path: the path of this executable, which the caller frees; NULL after a failure. */
-kz_status kz_package_become(const char *entry, const char *module, int n, const char *const *words);
-char *kz_program_path(void);
 
 /* Writes the name of the result to path [bytes]. KZ_REFUSED if the name is too long. */
 kz_status kz_output_name(const kz_options *options, char *path, size_t bytes);

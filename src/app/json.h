@@ -27,9 +27,5 @@ void kz_json_add_boolean(kz_json *object, const char *name, bool value);
 /* Prints `value` on one line, with a newline, and frees it. */
 void kz_json_print(kz_json *value, FILE *out);
 
-/* Reads a line of JSON [length] into a tree as of a scene; numbers keep their digits. `source` begins its messages. The caller frees *root.
- * KZ_REFUSED: the line is not JSON. */
-kz_status kz_json_read(const char *line, size_t length, const char *source, kz_node **root);
-
 /* Writes the keys as a JSON schema. It does not have the rules that connect keys of different mappings; the command check tests them. */
 void kz_scene_schema(const kz_key *keys, FILE *out);

@@ -11,26 +11,15 @@ static const kz_command commands[] = {
      "output|set|resume|force|time-limit|progress|timings|log" HELP},
     {"check", " SCENE", 1, 1, kz_app_check,
      "check SCENE; print what a run would model, and the memory and disk that it would take", "set|json|all" HELP},
-    {"plot", " [KIND] FILE", 1, 1, kz_app_plot,
-     "draw the result FILE as a picture; kapitza plot KIND --help lists the options of a kind, kapitza plot alone the kinds",
-     "help", .passes_words = true},
-    {"info", " FILE", 1, 1, kz_app_info, "say what the result FILE holds: pendulum, studies and attractors", "help"},
-    {"fit", " TRACK", 1, 1, kz_app_fit,
-     "find the pendulum of a recorded track: CSV with the columns time (s) and theta (rad) or theta_deg",
-     "frequency|degrees" HELP, .joins_units = true},
-    {"needs", " --length L --frequency F", 0, 0, kz_app_needs,
-     "say between which amplitudes of the pivot a pendulum of --length stands upside down and flutters at --frequency",
-     "json|length|frequency|quality-factor" HELP, .joins_units = true},
     {"keys", "", 0, 0, kz_app_keys, "print the reference of all keys of a scene (docs/reference/scene.md)",
      "json-schema|layout" HELP},
 };
-_Static_assert(sizeof commands / sizeof *commands == 7, "the commands of the core below");
+_Static_assert(sizeof commands / sizeof *commands == 3, "the commands of the core below");
 #define DECLARE(name) extern const kz_command kz_##name##_command;
 #define REFER(name) &kz_##name##_command,
 KZ_POWER_COMMANDS(DECLARE)
 /* clang-format off */
-const kz_command *const kz_commands[] = {commands, commands + 1, commands + 2, commands + 3, commands + 4, commands + 5, commands + 6,
-                                         KZ_POWER_COMMANDS(REFER) NULL};
+const kz_command *const kz_commands[] = {commands, commands + 1, commands + 2, KZ_POWER_COMMANDS(REFER) NULL};
 /* clang-format on */
 const kz_command kz_program = {"",
                                " COMMAND",
@@ -145,11 +134,6 @@ const kz_option kz_option_rows[] = {
     {"json-schema", 0, NULL, kz_option_flag, OF(json_schema), "print the keys as a JSON schema, for editors", NULL},
     {"layout", 0, NULL, kz_option_flag, OF(layout),
      "print the variables of the result file, with their group, dimensions, type and units, as JSON lines", NULL},
-    {"length", 0, "L", kz_option_text, OF(length), "length of a point mass on a light rod, such as 20 cm; needed", NULL},
-    {"frequency", 0, "F", kz_option_text, OF(frequency),
-     "frequency of the drive: Hz, or with a unit such as 3000 rpm; without it a track of fit is a free decay", NULL},
-    {"quality-factor", 0, "Q", kz_option_text, OF(quality_factor), "quality factor of small swings; default: 20", NULL},
-    {"degrees", 0, NULL, kz_option_flag, OF(degrees), "the angles of the track are in degrees", NULL},
     {"completion", 0, "SHELL", set_completion, 0, "print the completion script for bash, zsh or fish", "bash|zsh|fish"},
     {"complete", 0, "LINE", set_complete, 0,
      "print the words that may end LINE, a command line, with their descriptions: what these scripts ask for", NULL},

@@ -4,7 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "../json.h"
+#include "json_read.h"
 #include "kapitza/study_orbit.h"
 
 enum { MOST_CELLS = 1 << 24 /* of a frame, or samples of an orbit */ };

@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "commands.h"
+#include "tools/package.h"
 
 enum { MOST_ORIGINS = 64 };
 typedef struct {

@@ -6,7 +6,8 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "app.h"
+#include "commands.h"
+#include "package.h"
 
 typedef struct {
   char program[PATH_MAX];         /* this executable */
@@ -89,19 +90,53 @@ static kz_status call_package(const kz_options *options, const char *command, in
   return kz_package_become("__main__.py", "kapitza", n + 1, all);
 }
 
-kz_status kz_app_fit(const kz_options *options) {
+static kz_status plot(const kz_options *options) {
+  return call_package(options, "plot", options->n_words, (const char *const *)options->plot_words);
+}
+const kz_command kz_plot_command = {
+    "plot",
+    " [KIND] FILE",
+    1,
+    1,
+    plot,
+    "draw the result FILE as a picture; kapitza plot KIND --help lists the options of a kind, kapitza plot alone the kinds",
+    "help",
+    .passes_words = true};
+
+static kz_status info(const kz_options *options) {
+  return call_package(options, "info", 1, &options->scene);
+}
+const kz_command kz_info_command = {
+    "info", " FILE", 1, 1, info, "say what the result FILE holds: pendulum, studies and attractors", "help"};
+
+typedef struct {
+  const char *frequency; /* as written; NULL = not given */
+  bool degrees;
+} fit_options;
+
+static kz_status fit(const kz_options *options) {
+  const fit_options *own = options->own;
   const char *words[5];
   int n = 0;
-  if (options->degrees) words[n++] = "--degrees";
-  if (options->frequency) words[n++] = "--frequency", words[n++] = options->frequency;
+  if (own->degrees) words[n++] = "--degrees";
+  if (own->frequency) words[n++] = "--frequency", words[n++] = own->frequency;
   words[n++] = "--", words[n++] = options->scene;
   return call_package(options, "fit", n, words);
 }
-
-kz_status kz_app_plot(const kz_options *options) {
-  return call_package(options, "plot", options->n_words, (const char *const *)options->plot_words);
-}
-
-kz_status kz_app_info(const kz_options *options) {
-  return call_package(options, "info", 1, &options->scene);
-}
+static const kz_option rows[] = {
+    {"frequency", 0, "F", kz_option_text, offsetof(fit_options, frequency),
+     "frequency of the drive: Hz, or with a unit such as 3000 rpm; without it the track is a free decay", NULL},
+    {"degrees", 0, NULL, kz_option_flag, offsetof(fit_options, degrees), "the angles of the track are in degrees", NULL},
+    {.name = NULL},
+};
+const kz_command kz_fit_command = {
+    "fit",
+    " TRACK",
+    1,
+    1,
+    fit,
+    "find the pendulum of a recorded track: CSV with the columns time (s) and theta (rad) or theta_deg",
+    "frequency|degrees|help",
+    rows,
+    sizeof(fit_options),
+    .joins_units = true};

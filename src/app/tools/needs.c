@@ -2,7 +2,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "app.h"
+#include "commands.h"
 #include "json.h"
 
 static const double USUAL_QUALITY = 20;
@@ -33,7 +33,12 @@ static kz_status read_quantity(const char *option, const char *path, const char 
   return kz_fail(KZ_REFUSED, "--%s: \"%.40s\" %s; give %s", option, text, wrong, accepts);
 }
 
-static kz_status read_rig(const kz_options *options, rig *r) {
+/* As written; NULL = not given. */
+typedef struct {
+  const char *length, *frequency, *quality_factor;
+} own_options;
+
+static kz_status read_rig(const own_options *options, rig *r) {
   *r = (rig){.quality_factor = USUAL_QUALITY};
   if (!options->length || !options->frequency)
     return kz_fail(KZ_REFUSED, "needs: --%s is missing; kapitza needs --length 20 cm --frequency 50 Hz",
@@ -96,12 +101,32 @@ static void print_json(const rig *r, const amplitudes *found) {
   kz_json_print(object, stdout);
 }
 
-kz_status kz_app_needs(const kz_options *options) {
+static kz_status needs(const kz_options *options) {
   rig r;
   amplitudes found[2];
   if (!options->prints) return KZ_OK;
-  KZ_TRY(read_rig(options, &r));
+  KZ_TRY(read_rig(options->own, &r));
   KZ_TRY(find_amplitudes(&r, found));
   (options->json ? print_json : print_person)(&r, found);
   return KZ_OK;
 }
+
+#define OF(member) offsetof(own_options, member)
+static const kz_option rows[] = {
+    {"length", 0, "L", kz_option_text, OF(length), "length of a point mass on a light rod, such as 20 cm; needed", NULL},
+    {"frequency", 0, "F", kz_option_text, OF(frequency), "frequency of the drive: Hz, or with a unit such as 3000 rpm; needed",
+     NULL},
+    {"quality-factor", 0, "Q", kz_option_text, OF(quality_factor), "quality factor of small swings; default: 20", NULL},
+    {.name = NULL},
+};
+const kz_command kz_needs_command = {
+    "needs",
+    " --length L --frequency F",
+    0,
+    0,
+    needs,
+    "say between which amplitudes of the pivot a pendulum of --length stands upside down and flutters at --frequency",
+    "json|length|frequency|quality-factor|help",
+    rows,
+    sizeof(own_options),
+    .joins_units = true};
