@@ -177,6 +177,29 @@ def test_a_chaotic_attractor_is_carried_along_a_slider(server):
         assert len(chaotic) == 1 and 0.4 < np.mean(labels == chaotic[0]) < 0.55 and np.mean(labels == 255) < 0.01
 
 
+def test_a_running_state_is_born_along_a_slider(server):
+    """At the torque .127; the frame that follows shows it."""
+    for torque, kinds in ((0.125, {"down"}), (0.13, {"down"}), (0.14, {"down", "running +"})):
+        catalogue, frames = server.frame(40, 60, pendulum={"k": 1, "damping": 0.1, "m": 0, "torque": torque}, quality="moving")
+        assert {attractor["kind"] for attractor in catalogue["attractors"]} == kinds
+        assert np.any(frames[-1][1]["labels"] == 255) == (torque == 0.13)
+
+
+def test_a_running_state_is_carried_along_a_slider(server):
+    """Its band is found anew at each value, with numerics for its speed; it keeps its colour, and every start has its end."""
+    tracks = set()
+    for torque in (0.5, 0.501, 0.502, 0.55):
+        catalogue, frames = server.frame(40, 60, pendulum={"k": 1, "damping": 0.1, "m": 0, "torque": torque}, quality="moving")
+        found = {attractor["kind"]: attractor for attractor in catalogue["attractors"]}
+        labels = frames[-1][1]["labels"]
+        assert set(found) == {"down", "running +"} and not np.any(labels == 255)
+        assert found["running +"]["mean_velocity"] == pytest.approx(10 * torque, abs=0.02)
+        tracks.add(found["running +"]["track"])
+    assert len(tracks) == 1
+    exact = server.frame(40, 60, pendulum={"k": 1, "damping": 0.1, "m": 0, "torque": torque}, quality="exact")[1][-1][1]["labels"]
+    assert np.mean(exact != labels) < 0.01
+
+
 def test_weaker_damping_gets_more_periods_than_the_scene_has(server):
     """And not as many as its motions take to settle, 900 on average: orbits have told regions that trap earlier."""
     _, frames = server.frame(20, 30, ("labels", "settling_time"), pendulum={**OTHER, "quality_factor": 60}, quality="moving")

@@ -24,8 +24,8 @@ export function measureWords(row, push, units) {
 
 /** What is known of an attractor itself, in words; `share`: of its basin. Measures of other kinds join here as further lines. */
 export function passportWords(row, share, units) {
-  const { name, words, period, winding, symmetric, multiplier, strobe } = row;
-  const closes = period > 0 ? `closes after ${units.time(period)}` : winding === 0 ? "chaotic" : "never closes, as it turns at a pace of its own";
+  const { name, words, period, winding, symmetric, multiplier, strobe, mean_velocity } = row;
+  const closes = period > 0 ? `closes after ${units.time(period)}` : winding === 0 ? "chaotic" : `never closes, mean velocity ${units.velocity(mean_velocity.toPrecision(5))}`;
   const turns = winding === 0 || period === 0 ? "" : `, ${Math.abs(winding)} turn${Math.abs(winding) === 1 ? "" : "s"} in them`;
   const image = symmetric ? "its own mirror image" : "has a mirror image";
   const back = returnTime(row, units) && `, ${returnTime(row, units)}`;

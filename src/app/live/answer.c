@@ -124,6 +124,7 @@ static kz_json *attractor_of(const kz_entry *entry, int64_t id, int64_t track) {
   kz_json_add_text(object, "centre", CENTRES[row->centre]);
   kz_json_add_boolean(object, "symmetric", row->symmetric);
   kz_json_add_integer(object, "mirror", entry->mirror);
+  kz_json_add_real(object, "mean_velocity", row->mean_velocity);
   kz_json_add_real(object, "multiplier", row->period > 0 ? hypot(row->multiplier_re[0], row->multiplier_im[0]) : NAN);
   kz_json_add(object, "strobe", strobe_of(row->period, entry->theta, entry->velocity));
   return object;

@@ -5,7 +5,7 @@ module kz_attractors_chaos
   use kz_vector_map, only: flow_t, WIDTH, PI
   use kz_cycles_cycles, only: attractor_t, half_period_images, RUNNING
   use kz_cycles_features, only: find_features
-  use kz_grown_bands, only: find_band, mirrored_band
+  use kz_grown_bands, only: find_band, has_band, mirrored_band, states_in_band
   use kz_grown_curves, only: curve_t
   use kz_grown_grid, only: regions_t, find_regions, cover_cell, COVER
   use kz_attractors_cycle_search, only: search_t, append_with_image
@@ -82,26 +82,43 @@ contains
     type(attractor_t) :: attractor
     type(curve_t) :: curve
     logical, allocatable :: visited(:), image(:)
-    integer, allocatable :: inner(:)
     logical :: trapped
-    integer :: lane, cell
+    integer :: lane
 
-    call find_inner(old%cover, inner)
-    do lane = 1, WIDTH
-      cell = inner(1 + (lane - 1)*size(inner)/WIDTH) - 1
-      call search%flow%put(lane, 2*(mod(cell, COVER) + 0.5_dp)/COVER - 1, regions%top*(2*(cell/COVER + 0.5_dp)/COVER - 1))
-    end do
+    call put_on(search%flow, regions, old)
     call visit(search%flow, regions, attractors, CARRIED_TRANSIENT, CARRIED_VISITS, visited, trapped)
-    if (trapped .or. .not. any(visited)) return
+    if (trapped) return
     attractor = old
     if (attractor%period == RUNNING) then
       attractor%mean_velocity = search%flow%turns(1)/real(CARRIED_TRANSIENT + CARRIED_VISITS, dp)
       call find_band(search%flow, search%pendulum%beta, search%flow%u(:WIDTH), search%flow%v(:WIDTH), attractors, attractor%band, curve)
     end if
+    if (.not. (any(visited) .or. has_band(attractor))) return
     call widen(visited)
     call set_cover(search, regions, [(lane, lane=1, WIDTH)], CARRIED_VISITS, .true., attractor, visited, image)
     call append_cover(search, image, attractor, attractors)
   end subroutine carry_chaos
+
+  !> Puts states near an attractor into the lanes: in its band, or in cells of its cover.
+  subroutine put_on(flow, regions, attractor)
+    class(flow_t), intent(inout) :: flow
+    type(regions_t), intent(in) :: regions
+    type(attractor_t), intent(in) :: attractor
+    integer, allocatable :: inner(:)
+    real(dp) :: u(WIDTH), v(WIDTH)
+    integer :: lane, cell
+
+    if (has_band(attractor)) then
+      call states_in_band(attractor%band, u, v)
+      call flow%put_all(u, v)
+      return
+    end if
+    call find_inner(attractor%cover, inner)
+    do lane = 1, WIDTH
+      cell = inner(1 + (lane - 1)*size(inner)/WIDTH) - 1
+      call flow%put(lane, 2*(mod(cell, COVER) + 0.5_dp)/COVER - 1, regions%top*(2*(cell/COVER + 0.5_dp)/COVER - 1))
+    end do
+  end subroutine put_on
 
   !> The cells of a cover whose four neighbours belong to it too; all, where there are none.
   pure subroutine find_inner(cover_cells, inner)
@@ -147,15 +164,11 @@ contains
     type(attractor_t), intent(inout) :: image
     type(curve_t) :: curve
     real(dp) :: u(WIDTH), v(WIDTH)
-    integer :: n, i, j(WIDTH)
 
-    n = size(image%band, 2)
     if (image%symmetry == MIRROR) then
       image%band = mirrored_band(image%band)
-    else if (n > 0) then
-      j = [(1 + (n*i)/WIDTH, i=0, WIDTH - 1)]
-      u = 2*(j - 1)/real(n, dp) - 1
-      v = 0.5_dp*sum(image%band(:, j), 1)
+    else if (has_band(image)) then
+      call states_in_band(image%band, u, v)
       call states_to_physical(search%flow, u, v)
       call half_period_images(search%sampling_flow, u, v)
       call states_to_map(search%flow, u, v)

@@ -99,9 +99,9 @@ contains
       if (size(lane) == 0) return
       lane = pack(lane, [(all(abs(record%average(:, lane(i)) - record%average(:, lane(1))) < SAME), i=1, size(lane))])
       call visit_cells(search%flow, regions, n, lane, visited)
+      if (.not. any(visited)) return ! it does not come to all angles, or is faster than the cover reaches
     end if
     if (any(attractors%period == RUNNING .and. abs(attractors%mean_velocity - attractor%mean_velocity) < SAME)) return ! its cover is known
-    if (.not. any(visited)) return ! it does not come to all angles, or is faster than the cover reaches
     attractor%period = RUNNING
     attractor%centre = ROTATING
     attractor%winding = nint(sign(1.0_dp, attractor%mean_velocity))

@@ -25,6 +25,8 @@ static const double NEAR = 0.5;
  * regions are grown anew. (Regions that are carried lose their rim. On drags along a line, a circle and a wavy curve over the plane of Fig. 12, and in
  * steps of 1 % from epsilon = 0.30 to 0.55, at most 12 of 100,000 labels of a frame differ from those by regions that are grown anew for each.) */
 static const double FARTHEST = 0.3, RECHOSEN = 0.1, REGROWN = 0.012, REDAMPED = 0.1;
+/* Factor by which a torque may drive motions faster than those for which the numerics were chosen. */
+static const double FASTER = 1.01;
 /* Share of the cells that must not settle before attractors are looked for between moving frames: following fewer costs less than a search,
  * whose cycles of many periods are often lost at the next pendulum. */
 static const double MISSED = 0.01;
@@ -76,10 +78,12 @@ static void choose_numerics(kz_prepared *r) {
 
 /* Whether an attractor has a cover: a motion counts as captured there only after many periods. */
 static bool has_cover(const kz_prepared *r) {
-  kz_attractor attractor = {.period = 1};
-  for (int64_t a = 1; a <= kz_dynamics_count(r->dynamics) && attractor.period > 0; a++)
+  for (int64_t a = 1; a <= kz_dynamics_count(r->dynamics); a++) {
+    kz_attractor attractor;
     kz_dynamics_attractor(r->dynamics, a, &attractor);
-  return attractor.period <= 0;
+    if (attractor.period == 0 && (!kz_is_running(&attractor) || kz_dynamics_is_averaged(r->dynamics, a))) return true;
+  }
+  return false;
 }
 
 /* Extends the trapping regions of moving frames by orbits, where damping is so weak that this saves time. */
@@ -151,14 +155,15 @@ bool kz_prepared_misses(const kz_prepared *r) {
 bool kz_prepared_discover(kz_prepared *r) {
   const int64_t known = kz_dynamics_count(r->dynamics);
   KZ_FREED double *found = kz_calloc((size_t)kz_dynamics_cycle_size(r->dynamics), sizeof *found);
-  KZ_FREED double *chaos = kz_calloc((size_t)kz_dynamics_chaos_size(), sizeof *chaos);
+  KZ_FREED double *covered = kz_calloc((size_t)kz_dynamics_chaos_size(), sizeof *covered);
   while ((int)found[0] < r->n_unsettled) {
     kz_dynamics_find_cycle(r->dynamics, r->n_unsettled, r->unsettled, CLOSENESS, found);
     kz_dynamics_adopt(r->dynamics, found + 1);
   }
   if (kz_dynamics_count(r->dynamics) == known && r->n_unsettled == KZ_MOST_UNSETTLED) {
-    kz_dynamics_find_chaos(r->dynamics, r->unsettled, chaos);
-    kz_dynamics_adopt(r->dynamics, chaos);
+    kz_dynamics_find_running(r->dynamics, r->n_unsettled, r->unsettled, r->periods, covered);
+    if (covered[0] == 0) kz_dynamics_find_chaos(r->dynamics, r->unsettled, covered);
+    kz_dynamics_adopt(r->dynamics, covered);
   }
   r->ended = r->left = r->n_unsettled = 0;
   if (kz_dynamics_count(r->dynamics) == known) return false;
@@ -194,7 +199,8 @@ kz_status kz_prepared_move(kz_prepared *r, const kz_scene *scene, const kz_frame
   r->scene.basin->max_periods = scene->basin->max_periods;
   r->search.max_periods = scene->basin->max_periods;
   r->periods = periods_of(scene, true);
-  if (kz_pendulums_parted(&r->chosen, pendulum) > RECHOSEN || tolerance != r->tolerance) {
+  const bool faster = fabs(pendulum->torque) * r->chosen.beta > FASTER * fabs(r->chosen.torque) * pendulum->beta;
+  if (faster || kz_pendulums_parted(&r->chosen, pendulum) > RECHOSEN || tolerance != r->tolerance) {
     r->tolerance = tolerance;
     choose_numerics(r);
     r->chosen = *pendulum;
@@ -205,7 +211,8 @@ kz_status kz_prepared_move(kz_prepared *r, const kz_scene *scene, const kz_frame
   r->ended = r->left = r->n_unsettled = 0;
   kz_dynamics_set_release(moved, &scene->parameters.release);
   if (frame->atlas) KZ_TRY(kz_prepared_take_listed(r, frame));
-  const bool far = kz_pendulums_parted(&r->grown, pendulum) > REGROWN || damped_apart(&r->grown, pendulum) > REDAMPED;
+  if (faster) r->search.max_velocity = kz_dynamics_max_velocity(moved, &r->search.window);
+  const bool far = faster || kz_pendulums_parted(&r->grown, pendulum) > REGROWN || damped_apart(&r->grown, pendulum) > REDAMPED;
   if (lost > 0 || far || ++r->age >= OLDEST) {
     kz_dynamics_fine_regions(moved, MOVING_CELLS, r->search.max_velocity);
     learn(r);

@@ -70,7 +70,7 @@ static void describe(const kz_label *d, double error, const kz_catalogue *catalo
   const size_t bytes = (size_t)entry->row.period * sizeof(double);
   entry->theta = memcpy(kz_malloc(bytes + 1), entry->theta, bytes);
   entry->velocity = memcpy(kz_malloc(bytes + 1), entry->velocity, bytes);
-  if (kz_evidence_word(d->evidence) && entry->row.period > 0) ending->error = error;
+  if (kz_evidence_word(d->evidence) && (entry->row.period > 0 || kz_is_running(&entry->row))) ending->error = error;
   if (d->other > 0) ending->end.other = (int16_t)catalogue->id_of[d->other];
   if (ending->end.other < 0) return;
   memcpy(ending->other_name, catalogue->entries[ending->end.other].name, sizeof ending->other_name);

@@ -11,7 +11,7 @@ module kz_grown_bands
   use kz_grown_curves, only: curve_t, find_curve, carry_curve, resample, node, NODES
   implicit none
   private
-  public :: find_band, mirrored_band, has_band, in_band, band_holds, band_meets
+  public :: find_band, mirrored_band, states_in_band, has_band, in_band, band_holds, band_meets
 
   !> Distances that are tried, rad per drive radian at the mean density; where none up to LATEST is carried inside, none is tried beyond.
   real(dp), parameter :: SMALLEST = 1e-7_dp, LATEST = 1e-2_dp, LARGEST = 8, GROWTH = 2
@@ -182,6 +182,19 @@ contains
       inside = v > band(LOW, i) + x*(band(LOW, j) - band(LOW, i)) .and. v < band(HIGH, i) + x*(band(HIGH, j) - band(HIGH, i))
     end associate
   end function in_band
+
+  !> States in the middle of a band, evenly round the circle.
+  pure subroutine states_in_band(band, u, v)
+    real(dp), intent(in) :: band(:, :) !< what find_band has made
+    real(dp), intent(out) :: u(:), v(:) !< half-turns in [-1, 1], rad per drive radian
+    integer :: i, j
+
+    do i = 1, size(u)
+      j = 1 + size(band, 2)*(i - 1)/size(u)
+      u(i) = node(j)
+      v(i) = 0.5_dp*sum(band(:, j))
+    end do
+  end subroutine states_in_band
 
   !> True if an attractor has a band.
   pure function has_band(attractor) result(has)

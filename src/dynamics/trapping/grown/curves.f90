@@ -49,29 +49,31 @@ contains
     u = 2*(j - 1)/real(NODES, dp) - 1
   end function node
 
-  !> A curve through states that some orbits visit.
+  !> A curve through states that some orbits visit, between each two nodes that nearest to the middle: of two near each other rounding would
+  !> tell the slope.
   subroutine first_curve(flow, u, v, at_nodes, found)
     class(flow_t), intent(inout) :: flow
     real(dp), intent(in) :: u(:), v(:)
     real(dp), intent(out) :: at_nodes(NODES)
     logical, intent(out) :: found
-    real(dp) :: visit(2, NODES)
+    real(dp) :: visit(2, NODES), least(NODES), away
     logical :: visited(NODES)
     integer :: period, i, j
 
-    visited = .false.
+    least = huge(least)
     call flow%put_all(u, v)
     do period = 1, 2*VISITS
       call flow%advance(size(u))
       if (period <= VISITS) cycle
       do i = 1, size(u)
         j = 1 + min(int((flow%u(i) + 1)*(NODES/2)), NODES - 1)
-        visited(j) = .true.
-        visit(:, j) = [flow%u(i), flow%v(i)]
+        away = abs(flow%u(i) - node(j) - 1.0_dp/NODES)
+        if (away < least(j)) visit(:, j) = [flow%u(i), flow%v(i)]
+        least(j) = min(away, least(j))
       end do
     end do
-    j = count(visited)
-    found = j >= FEWEST
+    visited = least < 1
+    found = count(visited) >= FEWEST
     if (found) call resample(pack(visit(1, :), visited), pack(visit(2, :), visited), at_nodes, found)
   end subroutine first_curve
 
