@@ -18,7 +18,7 @@ if(NOT KAPITZA_SANITIZE) # they take room of their own
 endif()
 # A pendulum is often {k, beta, m} alone: what is left out is 0. Vectors are not passed between object files, so their ABI is free.
 # KAPITZA_FUSED tells a source what its flags say of products: sources that need one of the two refuse the other (src/kernel).
-set(KAPITZA_FLAGS_C ${KAPITZA_WARNINGS} -Wno-missing-field-initializers -Wno-psabi -Wshadow -Wstrict-prototypes -Wvla
+set(KAPITZA_FLAGS_C ${KAPITZA_WARNINGS} -Wno-missing-field-initializers -Wno-psabi -Wshadow -Wstrict-prototypes -Wswitch-enum -Wvla
     -ffp-contract=off -DKAPITZA_FUSED=0)
 set(KAPITZA_FLAGS_FORTRAN ${KAPITZA_WARNINGS} -Wimplicit-interface -fimplicit-none -ffree-line-length-none
     -ffp-contract=fast -fno-trapping-math -fno-math-errno)

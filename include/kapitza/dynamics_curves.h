@@ -32,7 +32,15 @@ typedef struct {
 
 /* How a trace ends: outside of the plane, at its own start, at its longest, where a cycle meets its parent (at a degenerate flip or symmetry
  * breaking), where no step is short enough, without a start, where the band of attractors beside it is narrower than 1e-10 sides of the plane. */
-enum { KZ_TRACE_LEFT, KZ_TRACE_CLOSED, KZ_TRACE_LONG, KZ_TRACE_MERGED, KZ_TRACE_STUCK, KZ_TRACE_NO_SEED, KZ_TRACE_THIN };
+typedef enum {
+  KZ_TRACE_LEFT,
+  KZ_TRACE_CLOSED,
+  KZ_TRACE_LONG,
+  KZ_TRACE_MERGED,
+  KZ_TRACE_STUCK,
+  KZ_TRACE_NO_SEED,
+  KZ_TRACE_THIN
+} kz_trace_ending;
 
 /* Follows the curve through `seed` to both ends of a direction (1 or -1), in steps of at most `longest`. rows [most][8 + 2 points]: place,
  * tangent's part of the place, normal form, its side (a gradient by the place), distance from the nearest parent (rad), points of the cycle;
@@ -45,7 +53,7 @@ int64_t kz_curve_trace(const kz_plane *plane, const kz_curve_kind *kind, const d
                        int64_t most, double *rows, int64_t most_special, double *special, int64_t *n_special, int32_t *ending);
 
 /* What happens on a branch: a multiplier of its map is 1 or -1; it meets the cycle of half its period, its image, or rest, and ends. */
-enum { KZ_EVENT_FOLD = 1, KZ_EVENT_FLIP = 2, KZ_EVENT_HALVES = 3, KZ_EVENT_MIRROR = 4, KZ_EVENT_REST = 5 };
+typedef enum { KZ_EVENT_FOLD = 1, KZ_EVENT_FLIP = 2, KZ_EVENT_HALVES = 3, KZ_EVENT_MIRROR = 4, KZ_EVENT_REST = 5 } kz_event;
 /* Follows the cycle near `start` along a line, first in the direction `along` (a unit vector), attracting or not, through folds; side 1 or -1:
  * one of the two branches of the fold at `start`. *step: the first step, 0 = short; then the one that would follow; NULL = not asked for. rows
  * [most][4 + 2 points]: place, trace and determinant of the map's derivative, points. events [most_events][3 + 2 points]: what, place,

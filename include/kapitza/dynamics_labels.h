@@ -6,13 +6,13 @@
 /* Ways to follow a start: by the scene's map, or by interpolation of the map table with 2 or 6 nodes an axis. SPARSE: by the scene's map, with a
  * look at the trapping regions every few periods only, so that `periods` may be larger by less than that. SINGLE: the same, with the processed
  * splitting in single precision, to some 1e-6 rad a period. */
-enum { KZ_FOLLOW_DIRECT = 0, KZ_FOLLOW_SPARSE = 1, KZ_FOLLOW_SINGLE = 3, KZ_FOLLOW_LINEAR = 2, KZ_FOLLOW_QUINTIC = 6 };
+typedef enum { KZ_FOLLOW_DIRECT, KZ_FOLLOW_SPARSE, KZ_FOLLOW_SINGLE, KZ_FOLLOW_LINEAR, KZ_FOLLOW_QUINTIC } kz_stepper;
 /* Follows n starts, state [n][2], until a trapping region holds them, at most max_periods. label [n] = number of the attractor,
  * 0 = not settled. periods [n] = first period inside a trapping region, or max_periods. State [i] of a start that has not settled
  * becomes its last state, that of another one where it was left, in the map's own coordinates. turns [n] = net turns by which the
  * angle on the line is more than that of the state; NULL = not needed. */
-void kz_dynamics_follow(kz_dynamics *dynamics, int32_t stepping, int64_t n, int64_t max_periods, double *state, int32_t *label,
-                        int64_t *periods, int64_t *turns);
+void kz_dynamics_follow(kz_dynamics *dynamics, kz_stepper stepper, int64_t n, int64_t max_periods, double *state,
+                        int32_t *label, int64_t *periods, int64_t *turns);
 
 /* kz_dynamics_follow in quad precision, by Taylor series (kernel.h) with n_steps steps a period. A start is start [i] + low [i], in rad and
  * rad per drive radian; low [n][2] holds digits below the last places of start [n][2]; NULL = zeros. The sums count as exact. */
@@ -31,7 +31,7 @@ typedef struct {
 /* Precision levels at which orbits are followed with their errors, from the cheapest to the finest: the scene's numerics; doubles with
  * more steps (error of a period some 3e-15 rad); pairs of doubles (1e-16, 1e-20, 1e-24, 3e-29); quad precision, by Taylor series; and as
  * many digits as needed. */
-enum {
+typedef enum {
   KZ_LEVEL_GUESS =
       -1, /* as KZ_LEVEL_DOUBLE, but a doubtful orbit is followed on and gets the label of its state without its error */
   KZ_LEVEL_DOUBLE = 0,
@@ -43,7 +43,7 @@ enum {
   KZ_LEVEL_QUAD = 6,
   KZ_LEVEL_ARBITRARY = 7,
   KZ_LEVELS = 8
-};
+} kz_precision;
 /* The label of an orbit whose error has become too large for a label. Any other label, also 0, is decided: the errors cannot change it. */
 enum { KZ_DOUBTFUL = -1 };
 

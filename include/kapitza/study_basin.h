@@ -3,8 +3,8 @@
 
 #include "kapitza/study.h"
 
-enum { KZ_METHOD_ICM = 0, KZ_METHOD_DIRECT = 1, KZ_METHOD_EXACT = 2 };
-enum { KZ_LINEAR = 0, KZ_QUINTIC = 1 };
+typedef enum { KZ_METHOD_ICM = 0, KZ_METHOD_DIRECT = 1, KZ_METHOD_EXACT = 2 } kz_method;
+typedef enum { KZ_LINEAR = 0, KZ_QUINTIC = 1 } kz_interpolation;
 
 struct kz_basin_plan {
   kz_axis theta;    /* rad; the whole circle is [-pi, pi) */

@@ -75,9 +75,13 @@ static kz_json *value_of(const kz_key *key) {
       return number_of(key, "number");
     case KZ_KEY_HARMONICS:
       return json_tokener_parse(HARMONIC);
-    default:
-      return number_of(key, "integer");
+    case KZ_KEY_MAPPING:
+    case KZ_KEY_INTEGER:
+    case KZ_KEY_COUNT:
+    case KZ_KEY_INTEGERS:
+      break;
   }
+  return number_of(key, "integer");
 }
 
 /* A number, or a word such as "auto". */

@@ -12,7 +12,7 @@ FORTRAN = sorted(SOURCES.rglob("*.f90"))
 
 # The same number, by its name in C and by the one that gfortran takes.
 KINDS = {"int32_t": "int", "int64_t": "long", "uint64_t": "long", "uint8_t": "signed char", "int16_t": "short", "__float128": "float128",
-         "kz_status": "int"}
+         "kz_status": "int", "kz_stepper": "int"}
 
 
 def without_comments(text):

@@ -12,16 +12,16 @@ module kz_api_follow
   implicit none
   private
 
-  !> Ways of dynamics_labels.h; those that remain are the nodes of the table's stencil.
-  integer(c_int32_t), parameter :: DIRECT = 0, SPARSE = 1, SINGLE = 3
+  !> kz_stepper of dynamics_labels.h.
+  integer(c_int32_t), parameter :: DIRECT = 0, SPARSE = 1, SINGLE = 2, LINEAR = 3
   !> Periods between two looks at the regions of starts that take hundreds of them.
   integer, parameter :: PRIMES(6) = [5, 7, 11, 13, 17, 19]
 
 contains
 
-  subroutine follow_starts(handle, stepping, n, max_periods, state, label, periods, turns) bind(C, name='kz_dynamics_follow')
+  subroutine follow_starts(handle, stepper, n, max_periods, state, label, periods, turns) bind(C, name='kz_dynamics_follow')
     type(c_ptr), value :: handle
-    integer(c_int32_t), value :: stepping
+    integer(c_int32_t), value :: stepper
     integer(c_int64_t), value :: n, max_periods
     real(dp), intent(inout) :: state(2, n)
     integer(c_int32_t), intent(out) :: label(n)
@@ -34,15 +34,15 @@ contains
     d => of_handle(handle)
     periods = max_periods
     call borrow_flow(d, flow)
-    select case (stepping)
+    select case (stepper)
     case (DIRECT)
       call follow(flow, d%regions, d%attractors, state, label, periods, 1, turns)
     case (SPARSE, SINGLE)
-      flow%single = stepping == SINGLE
+      flow%single = stepper == SINGLE
       call follow(flow, d%regions, d%attractors, state, label, periods, apart(d%attractors), turns)
       flow%single = .false.
     case default
-      allocate (map, source=make_table_map(d%table, int(stepping), flow))
+      allocate (map, source=make_table_map(d%table, merge(2, 6, stepper == LINEAR), flow))
       call follow(map, d%regions, d%attractors, state, label, periods, 1, turns)
     end select
     call leave_open(flow, state, label)

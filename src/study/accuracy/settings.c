@@ -98,7 +98,8 @@ static kz_status label_cells(const measurement *g, int64_t n, int32_t *label) {
   kz_labeller labeller = kz_cell_labeller(g->reference->plan, g->dynamics);
   KZ_FREED int64_t *cell = kz_malloc((size_t)n * sizeof *cell + 1);
   KZ_FREED kz_label *found = kz_malloc((size_t)n * sizeof *found + 1);
-  if (s->method != KZ_METHOD_EXACT) labeller.way = kz_stepping(s->method, s->interpolation);
+  if (s->method != KZ_METHOD_EXACT) labeller.way = KZ_BY_STATES;
+  labeller.stepper = kz_stepper_of(s->method, s->interpolation);
   for (int64_t i = 0; i < n; i++) cell[i] = kz_reference_labels_cell(g->reference, i);
   KZ_TRY(kz_label_items(&labeller, 1, n, cell, found));
   for (int64_t i = 0; i < n; i++) label[i] = found[i].label;

@@ -15,7 +15,8 @@ kz_status kz_window_labels_start(kz_window_labels *l) {
   l->labeller = kz_cell_starts_labeller(&l->starts, l->dynamics);
   for (const kz_part *p = l->parts; p < l->parts + l->n_parts; p++)
     if (p->part->label) KZ_TRY(p->part->label(p->own, l));
-  l->labeller.way = kz_way_of(l->plan->method, l->plan->interpolation);
+  l->labeller.way = kz_way_of(l->plan->method);
+  l->labeller.stepper = kz_stepper_of(l->plan->method, l->plan->interpolation);
   l->labeller.run = l->run;
   l->labeller.tile = l->tile;
   l->labeller.turns = l->plan->turns;

@@ -48,7 +48,12 @@ kz_labeller kz_cell_labeller(const kz_basin_plan *plan, kz_dynamics *dynamics) {
   return (kz_labeller){dynamics, plan->max_periods, KZ_BY_LEVELS, .start = start_of_cell, .context = (void *)plan};
 }
 
-int32_t kz_way_of(int32_t method, int32_t interpolation) {
-  if (method == KZ_METHOD_ICM) return kz_stencil(interpolation);
+kz_way kz_way_of(kz_method method) {
+  if (method == KZ_METHOD_ICM) return KZ_BY_STATES;
   return method == KZ_METHOD_EXACT ? KZ_BY_LEVELS : KZ_BY_MARKS;
+}
+
+kz_stepper kz_stepper_of(kz_method method, kz_interpolation interpolation) {
+  if (method != KZ_METHOD_ICM) return KZ_FOLLOW_DIRECT;
+  return interpolation == KZ_LINEAR ? KZ_FOLLOW_LINEAR : KZ_FOLLOW_QUINTIC;
 }

@@ -1,6 +1,7 @@
 /* The cells of a window as starts for a labeller; items are the numbers of cells, theta fastest. */
 #pragma once
 
+#include "kapitza/study_basin.h"
 #include "labelling/labeller.h"
 
 typedef struct {
@@ -17,5 +18,7 @@ kz_status kz_cell_starts_at(void *starts, int64_t cell, int32_t level, kz_start 
 kz_labeller kz_cell_starts_labeller(const kz_cell_starts *starts, kz_dynamics *dynamics);
 /* The same with centres that are computed anew for each start. */
 kz_labeller kz_cell_labeller(const kz_basin_plan *plan, kz_dynamics *dynamics);
-/* The way of a method (KZ_METHOD_EXACT, ...) with an interpolation (KZ_LINEAR, ...) to follow starts. */
-int32_t kz_way_of(int32_t method, int32_t interpolation);
+/* The way of a method. */
+kz_way kz_way_of(kz_method method);
+/* How kz_dynamics_follow moves starts by a method. */
+kz_stepper kz_stepper_of(kz_method method, kz_interpolation interpolation);

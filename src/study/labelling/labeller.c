@@ -19,7 +19,7 @@ static kz_status start_of_pair(void *context, int64_t item, int32_t level, kz_st
   return KZ_OK;
 }
 
-kz_labeller kz_pair_labeller(const double *start, int64_t max_periods, int32_t way, kz_dynamics *dynamics) {
+kz_labeller kz_pair_labeller(const double *start, int64_t max_periods, kz_way way, kz_dynamics *dynamics) {
   return (kz_labeller){dynamics, max_periods, way, KZ_OPEN_BY_STATES, true, start_of_pair, .context = (void *)start};
 }
 
@@ -60,21 +60,21 @@ typedef struct {
 } batch;
 
 /* By the states alone. */
-static kz_status follow_states(const kz_labeller *l, int32_t stepping, const batch *b) {
+static kz_status follow_states(const kz_labeller *l, const batch *b) {
   KZ_FREED double *state = kz_malloc(2 * (size_t)b->n * sizeof *state);
   KZ_FREED int32_t *label = kz_malloc((size_t)b->n * sizeof *label);
   KZ_FREED int64_t *periods = kz_malloc((size_t)b->n * sizeof *periods);
   KZ_FREED int64_t *turns = kz_malloc((size_t)b->n * sizeof *turns);
   KZ_TRY(starts_of(l, KZ_LEVEL_DOUBLE, b->n, b->item, b->first, b->start));
   kz_states_of(b->n, b->start, state);
-  kz_dynamics_follow(l->dynamics, stepping, b->n, l->max_periods, state, label, periods, turns);
+  kz_dynamics_follow(l->dynamics, l->stepper, b->n, l->max_periods, state, label, periods, turns);
   for (int64_t i = 0; i < b->n; i++)
     b->decision[i] = kz_decision_by_state(b->start + i, label[i], periods[i], state + 2 * i, turns[i]);
   return KZ_OK;
 }
 
 static kz_status decide_batch(const kz_labeller *l, int32_t level, int32_t before, const batch *b) {
-  if (l->way < KZ_BY_MARKS) return follow_states(l, l->way, b);
+  if (l->way == KZ_BY_STATES) return follow_states(l, b);
   if (level == KZ_LEVEL_ARBITRARY) {
     for (int64_t i = 0; i < b->n; i++) KZ_TRY(l->decide(l->context, item_at(b->item, b->first + i), b->decision + i));
     return KZ_OK;

@@ -24,14 +24,14 @@ typedef void (*kz_note_fn)(void *context, int64_t item, const kz_decision *decis
 /* Labels n items at a level of a table that the labeller brings along; KZ_DOUBTFUL leaves an item to the next level. */
 typedef kz_status (*kz_level_fn)(void *context, int32_t level, int64_t n, const int64_t *item, kz_label *label);
 
-/* Ways to label: by the states alone, as kz_dynamics_follow does (KZ_FOLLOW_DIRECT, ..); by one level, whose doubtful orbits are followed on
- * and marked (method direct); by one level after the other until each item is decided (method exact). */
-enum { KZ_BY_STATES = 0, KZ_BY_MARKS = 16, KZ_BY_LEVELS = 17 };
+/* Ways to label: by the states alone, as kz_dynamics_follow does; by one level, whose doubtful orbits are followed on and marked (method
+ * direct); by one level after the other until each item is decided (method exact). */
+typedef enum { KZ_BY_STATES, KZ_BY_MARKS, KZ_BY_LEVELS } kz_way;
 
 typedef struct {
   kz_dynamics *dynamics;
   int64_t max_periods;
-  int32_t way;    /* KZ_BY_LEVELS, ... */
+  kz_way way;
   int32_t open;   /* KZ_OPEN_DOUBTFUL, ... */
   bool at_strobe; /* the starts lie at a strobe of the final drive; else they are released as kz_dynamics_set_release says */
   kz_start_fn start;
@@ -41,14 +41,15 @@ typedef struct {
   kz_level_fn at;      /* labels at `n_levels` levels of its own, rows of `levels`; NULL = the levels below */
   const kz_level *levels;
   int32_t n_levels;
-  const kz_run *run; /* its ranks share the items, in kept stages; NULL = this process does all */
-  const char *stage; /* name of the first stage; NULL = that of the level */
-  int64_t tile;      /* most items that are followed together; 0 = as many as the level takes */
-  bool turns;        /* count the net turns of each item too */
+  const kz_run *run;  /* its ranks share the items, in kept stages; NULL = this process does all */
+  const char *stage;  /* name of the first stage; NULL = that of the level */
+  int64_t tile;       /* most items that are followed together; 0 = as many as the level takes */
+  bool turns;         /* count the net turns of each item too */
+  kz_stepper stepper; /* of KZ_BY_STATES */
 } kz_labeller;
 
 /* The labeller of starts at a strobe in an array, start [n][2] (rad, rad per drive radian); the items are their places. */
-kz_labeller kz_pair_labeller(const double *start, int64_t max_periods, int32_t way, kz_dynamics *dynamics);
+kz_labeller kz_pair_labeller(const double *start, int64_t max_periods, kz_way way, kz_dynamics *dynamics);
 /* The exact start (theta in rad, velocity in rad per drive radian). */
 static inline kz_start kz_start_at(double theta, double velocity) {
   return (kz_start){.theta = {theta, 0}, .velocity = {velocity, 0}};

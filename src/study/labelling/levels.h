@@ -9,7 +9,7 @@
 /* How a label was found: the values of the file's variable `evidence`. From KZ_UNDECIDED on the scene's own numerics did not decide it. The
  * values that are missing here, which are those of powers, occur in the file only. KZ_LEFT is a doubtful label of method direct; KZ_AVERAGED is that of
  * a running state without a trapping region. */
-enum {
+typedef enum {
   KZ_UNSETTLED = 0,
   KZ_INSIDE = 1,
   KZ_FOLLOWED = 2,
@@ -20,7 +20,7 @@ enum {
   KZ_IN_ARBITRARY = 8,
   KZ_LEFT = 9,
   KZ_AVERAGED = 12
-};
+} kz_evidence;
 
 /* A level: a row of the table. Its code is its place (dynamics.h); what carries its orbits is in dynamics/labels/levels.f90. */
 typedef struct {

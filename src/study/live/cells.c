@@ -29,8 +29,8 @@ static void follow(kz_prepared *r, int64_t most, kz_travellers *from, kz_travell
   int32_t label[2 * KZ_FRAME_TILE];
   int64_t periods[2 * KZ_FRAME_TILE];
   double time[2 * KZ_FRAME_TILE], *state = from->state;
-  const int32_t way = late ? KZ_FOLLOW_DIRECT : kz_prepared_late_way(r);
-  kz_dynamics_follow(r->dynamics, way, from->n, most, state, label, periods, NULL);
+  const kz_stepper stepper = late ? KZ_FOLLOW_DIRECT : kz_prepared_late_stepper(r);
+  kz_dynamics_follow(r->dynamics, stepper, from->n, most, state, label, periods, NULL);
   for (int64_t i = 0; i < from->n; i++) {
     const int64_t number = from->number[i], spent = from->spent[i] + periods[i];
     time[i] = (double)spent;

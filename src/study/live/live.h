@@ -55,8 +55,8 @@ static inline bool kz_prepared_moves(const kz_prepared *prepared) {
   return prepared->tolerance > 0;
 }
 
-/* The way (KZ_FOLLOW_...) in which cells of moving frames that take long are followed. */
-int32_t kz_prepared_late_way(const kz_prepared *prepared);
+/* How cells of moving frames that take long are moved. */
+kz_stepper kz_prepared_late_stepper(const kz_prepared *prepared);
 
 /* The tolerance of moving frames of the scene's window, rad: much smaller than a cell. */
 double kz_moving_tolerance(const kz_scene *scene);

@@ -54,7 +54,7 @@ static bool is_weak(const kz_prepared *r) {
   return kz_settling_mean(r->scene.parameters.pendulum.beta) >= WEAK;
 }
 
-int32_t kz_prepared_late_way(const kz_prepared *prepared) {
+kz_stepper kz_prepared_late_stepper(const kz_prepared *prepared) {
   if (!is_weak(prepared)) return KZ_FOLLOW_DIRECT;
   return prepared->tolerance < COARSEST ? KZ_FOLLOW_SPARSE : KZ_FOLLOW_SINGLE;
 }

@@ -78,7 +78,7 @@ static void make_catalogue(int64_t n, const kz_label *label, const int32_t *foun
   }
 }
 
-static kz_status label_all(int32_t way, int32_t needs, int64_t max_periods, const kz_run *run, kz_measured *m) {
+static kz_status label_all(kz_way way, int32_t needs, int64_t max_periods, const kz_run *run, kz_measured *m) {
   const kz_measures_plan *plan = m->plan;
   const int64_t n = lay_out(needs, m), pilots = plan->starts < PILOTS ? plan->starts : PILOTS;
   const kz_search search = {
@@ -126,7 +126,7 @@ static kz_status find_shocks(int32_t needs, int64_t max_periods, const kz_run *r
   return kz_resilience_run(run, m->dynamics, &plan, m->n_points, m->point);
 }
 
-kz_status kz_measured_make(const kz_pendulum *pendulum, const kz_numerics *numerics, const kz_measures_plan *plan, int32_t way,
+kz_status kz_measured_make(const kz_pendulum *pendulum, const kz_numerics *numerics, const kz_measures_plan *plan, kz_way way,
                            int32_t needs, const kz_run *run, kz_measured *measured) {
   const int64_t max_periods = kz_settling_periods(pendulum->beta);
   *measured = (kz_measured){.plan = plan, .dynamics = kz_dynamics_create(pendulum, numerics, plan->max_period)};

@@ -101,7 +101,7 @@ static kz_status publish(const kz_measured *m, double omega, kz_store *store, FI
 kz_status kz_measures_run(const kz_scene *scene, const kz_run *run, kz_store *store, FILE *summary) {
   const kz_measures_plan *plan = scene->measures;
   KZ_FREED_BY(kz_measured_free) kz_measured measured = {0};
-  const int32_t way = plan->method == KZ_MEASURES_EXACT ? KZ_BY_LEVELS : KZ_BY_STATES;
+  const kz_way way = plan->method == KZ_MEASURES_EXACT ? KZ_BY_LEVELS : KZ_BY_STATES;
   KZ_TRY(kz_measured_make(&scene->parameters.pendulum, &scene->numerics, plan, way, kz_measures_need(&plan->names), run,
                           &measured));
   return kz_ranks_agree(run->ranks, store ? publish(&measured, scene->parameters.pivot_frequency, store, summary) : KZ_OK);

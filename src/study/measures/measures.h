@@ -55,7 +55,7 @@ int64_t kz_measure_length(const kz_measure *measure, const kz_measured *measured
 int32_t kz_measures_need(const kz_integers *names);
 /* Looks for the attractors and computes what is needed, in the way KZ_BY_LEVELS or KZ_BY_STATES. The plan must outlive it; freed by
  * kz_measured_free in every case. Collective. */
-kz_status kz_measured_make(const kz_pendulum *pendulum, const kz_numerics *numerics, const kz_measures_plan *plan, int32_t way,
+kz_status kz_measured_make(const kz_pendulum *pendulum, const kz_numerics *numerics, const kz_measures_plan *plan, kz_way way,
                            int32_t needs, const kz_run *run, kz_measured *measured);
 void kz_measured_free(kz_measured *measured);
 

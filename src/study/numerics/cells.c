@@ -147,16 +147,12 @@ void kz_cell_start(const kz_basin_plan *plan, int64_t f, double start[2]) {
   start[1] = kz_axis_centre(&plan->velocity, f / plan->theta.count);
 }
 
-int32_t kz_stencil(int32_t interpolation) {
-  return interpolation == KZ_LINEAR ? KZ_FOLLOW_LINEAR : KZ_FOLLOW_QUINTIC;
+int32_t kz_stencil(kz_interpolation interpolation) {
+  return interpolation == KZ_LINEAR ? 2 : 6;
 }
 
 const char *const kz_method_names[] = {KZ_METHOD_WORDS};
 const char *const kz_interpolation_names[] = {KZ_INTERPOLATION_WORDS};
-
-int32_t kz_stepping(int32_t method, int32_t interpolation) {
-  return method == KZ_METHOD_ICM ? kz_stencil(interpolation) : KZ_FOLLOW_DIRECT;
-}
 
 int64_t kz_tile_cells(const kz_scene *scene, int64_t most) {
   static const double tile_kicks = 4e9; /* some seconds, where all cells take max_periods */

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "kapitza/dynamics.h"
-#include "kapitza/study.h"
+#include "kapitza/study_basin.h"
 
 /* Centre of cell i, exactly mirrored in a symmetric window; the nearest double for a window by centre and width. */
 double kz_axis_centre(const kz_axis *axis, int64_t i);
@@ -50,11 +50,8 @@ void kz_start_state(double theta, double velocity, double state[2]);
 /* Centre of cell f, velocity-major, in rad and rad per drive radian. */
 void kz_cell_start(const kz_basin_plan *plan, int64_t f, double start[2]);
 
-/* Number of nodes an axis that an interpolation (KZ_LINEAR, ...) uses. */
-int32_t kz_stencil(int32_t interpolation);
+/* Number of nodes an axis that an interpolation uses. */
+int32_t kz_stencil(kz_interpolation interpolation);
 
 /* The words of the file for KZ_METHOD_ICM, ..., KZ_LINEAR, ... */
 extern const char *const kz_method_names[], *const kz_interpolation_names[];
-
-/* The `stepping` of kz_dynamics_follow for a method (KZ_METHOD_ICM, ...). */
-int32_t kz_stepping(int32_t method, int32_t interpolation);

@@ -51,7 +51,7 @@ double kz_kind_determinant(const kz_curve_kind *kind, double beta) {
   return exp(-M_PI * beta * (2 * kind->points * (kind->stride > 1 ? kind->stride : 1) - kind->half));
 }
 
-bool kz_parent_of(const kz_plane *plane, int event, const kz_plane_cycle *cycle, kz_plane_cycle *parent) {
+bool kz_parent_of(const kz_plane *plane, kz_event event, const kz_plane_cycle *cycle, kz_plane_cycle *parent) {
   const int n = cycle->kind.of.points;
   const bool half = event == KZ_EVENT_MIRROR && plane->half_period;
   const bool at_rest = event == KZ_EVENT_REST || (event == KZ_EVENT_MIRROR && n == 1 && !half);

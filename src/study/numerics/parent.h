@@ -26,7 +26,7 @@ kz_curve_kind kz_kind_of(const kz_plane *plane, int side, int points, int stride
 
 /* What a cycle near its end merges with at an event of its branch (KZ_EVENT_HALVES, _MIRROR or _REST): that cycle, with the multiplier -1 of its own
  * map, to `parent`. False where there is none. */
-bool kz_parent_of(const kz_plane *plane, int event, const kz_plane_cycle *cycle, kz_plane_cycle *parent);
+bool kz_parent_of(const kz_plane *plane, kz_event event, const kz_plane_cycle *cycle, kz_plane_cycle *parent);
 
 /* What the cycle of a curve with multiplier -1 turns into. */
 kz_cycle_kind kz_child_kind(const kz_cycle_kind *kind);

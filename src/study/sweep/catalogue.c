@@ -129,7 +129,8 @@ static kz_status label_grid(searching *s) {
   const kz_basin_plan *basin = s->scene->basin;
   const kz_search_on search = {ROUNDS, s->n_starts, NULL};
   kz_labeller labeller = kz_cell_labeller(basin, s->dynamics);
-  labeller.way = kz_stepping(basin->method, basin->interpolation);
+  labeller.way = KZ_BY_STATES;
+  labeller.stepper = kz_stepper_of(basin->method, basin->interpolation);
   labeller.run = s->run;
   labeller.stage = "sweep cells";
   labeller.tile = kz_tile_cells(s->scene, CHUNK);
