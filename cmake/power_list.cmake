@@ -12,7 +12,7 @@ kapitza_power(proof FOLDERS study/proof dynamics/trapping/proved kernel/enclosur
   BESIDE tests/unit/kernel/enclosure.c tests/unit/kernel/sums.c tests/unit/kernel/rounding.c tests/unit/dynamics/proof.c
     tests/tools/enclosed.h tests/tools/enclosed_orbit.h tests/python/test_proof.py
     docs/explanation/proof.md docs/explanation/bounds.md docs/validation/proofs.md)
-kapitza_power(atlas FOLDERS study/atlas FILES include/kapitza/study_atlas.h STUDIES atlas NEEDS saddles
+kapitza_power(atlas FOLDERS study/atlas dynamics/curves FILES include/kapitza/study_atlas.h include/kapitza/dynamics_trace.h STUDIES atlas NEEDS saddles
   BESIDE tests/unit/study/atlas_cycles.c tests/unit/study/bands.c tests/python/test_atlas*.py python/kapitza/plots/atlas*.py
     docs/explanation/atlas.md docs/tutorials/map.md)
 kapitza_power(tools FOLDERS app/tools COMMANDS plot info fit needs

@@ -42,16 +42,6 @@ typedef enum {
   KZ_TRACE_THIN
 } kz_trace_ending;
 
-/* Follows the curve through `seed` to both ends of a direction (1 or -1), in steps of at most `longest`. rows [most][8 + 2 points]: place,
- * tangent's part of the place, normal form, its side (a gradient by the place), distance from the nearest parent (rad), points of the cycle;
- * places are right to about 1e-12. special [most_special][3 + 2 points]: zeros of the normal form: 1 cusp or 2 degenerate flip or symmetry
- * breaking, place, points. Returns the number of rows.
- *
- * Normal form: multiplier 1: half the second derivative along the eigenvector; a pair of cycles exists on the side. Multiplier -1: the cubic
- * coefficient; the cycle attracts on the side; > 0: beyond the curve its child attracts. */
-int64_t kz_curve_trace(const kz_plane *plane, const kz_curve_kind *kind, const double *seed, int32_t direction, double longest,
-                       int64_t most, double *rows, int64_t most_special, double *special, int64_t *n_special, int32_t *ending);
-
 /* What happens on a branch: a multiplier of its map is 1 or -1; it meets the cycle of half its period, its image, or rest, and ends. */
 typedef enum { KZ_EVENT_FOLD = 1, KZ_EVENT_FLIP = 2, KZ_EVENT_HALVES = 3, KZ_EVENT_MIRROR = 4, KZ_EVENT_REST = 5 } kz_event;
 /* Follows the cycle near `start` along a line, first in the direction `along` (a unit vector), attracting or not, through folds; side 1 or -1:
@@ -66,8 +56,6 @@ int64_t kz_curve_branch(const kz_plane *plane, const kz_curve_kind *kind, const 
 int32_t kz_curve_solve(const kz_plane *plane, const kz_curve_kind *kind, double *y, double numbers[2]);
 /* Moves y along a line to where the kind's multiplier is that of the curve. 1 if Newton's method converges, else 0. */
 int32_t kz_curve_locate(const kz_plane *plane, const kz_curve_kind *kind, double *y, const double along[2]);
-/* Whether the cycle near y has the kind's multiplier at the place of y; y becomes that cycle. 1 = yes, else 0. */
-int32_t kz_curve_is_on(const kz_plane *plane, const kz_curve_kind *kind, double *y);
 /* The normal form at a point of a curve, its side, and the eigenvector at the first point. 0 if there is no pendulum. */
 int32_t kz_curve_form(const kz_plane *plane, const kz_curve_kind *kind, const double *y, double *coefficient, double side[2],
                       double eigenvector[2]);

@@ -1,5 +1,5 @@
 kapitza_test(dynamics/described LABEL unit LAYER dynamics POWER live)
-kapitza_test(dynamics/curves LABEL unit LAYER dynamics)
+kapitza_test(dynamics/curves LABEL unit LAYER dynamics POWER atlas)
 kapitza_test(dynamics/released LABEL unit LAYER dynamics POWER deep)
 kapitza_test(dynamics/proof LABEL unit LAYER dynamics POWER proof)
 kapitza_test(dynamics/dynamics LABEL unit LAYER dynamics SECONDS 600 COST 8)

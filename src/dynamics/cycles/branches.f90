@@ -4,7 +4,7 @@ module kz_cycles_branches
   use kz_cycles_curves, only: plane_t, curve_kind_t, system_t, make_system, linearise, wrapped, UNKNOWNS, COARSE
   use kz_cycles_corrector, only: newton, tangent_at
   use kz_cycles_normal_forms, only: normal_form
-  use kz_cycles_tracing, only: on_line, outside, LEFT, CLOSED, LONG, MERGED, STUCK, NO_SEED
+  use kz_cycles_placed, only: on_line, outside, LEFT, CLOSED, LONG, MERGED, STUCK, NO_SEED
   use kz_cycles_walker, only: walker_t, parents_t, advance, distance, set_parents, meets, becomes, find_zero, FOLD, FLIP
   use kz_splitting_jets, only: DX, DY
   implicit none

@@ -7,8 +7,8 @@ module kz_cycles_walker
   use kz_splitting_jets, only: TERMS
   implicit none
   private
-  public :: walker_t, parents_t, advance, begin, distance, passes, set_parents, meets, becomes, find_zero, thinness, &
-            OF_FORM, OF_WIDTH, FOLD, FLIP, HALVES, MIRROR, REST
+  public :: walker_t, parents_t, advance, distance, set_parents, meets, becomes, find_zero, thinness, &
+            OF_FORM, OF_WIDTH, CLOSE, FAR, FOLD, FLIP, HALVES, MIRROR, REST
 
   !> Steps of Newton's method end below it, which square them, and below this part of a short step along a branch; steps longer than that are shortened:
   !> rad.
@@ -154,75 +154,6 @@ contains
     step = moved(system, a, b)
     length = sqrt(inner(system, step, step))
   end function distance
-
-  !> Begins on a curve near the seed.
-  subroutine begin(walker, seed, longest, found)
-    type(walker_t), intent(inout) :: walker !< with the equations of a curve
-    real(dp), intent(in) :: seed(:) !< unknowns near the curve
-    real(dp), intent(in) :: longest !< step
-    logical, intent(out) :: found !< whether Newton's method finds the curve beside the seed
-    real(dp), parameter :: NEAR = 0.1_dp
-    real(dp) :: normals(4, 4), guess(UNKNOWNS)
-    integer :: n, try, iterations
-
-    n = 2*walker%system%n
-    normals = reshape([0.0_dp, 0.0_dp, 1.0_dp, 0.0_dp, 0.0_dp, 0.0_dp, 0.0_dp, 1.0_dp, &
-                       0.0_dp, 0.0_dp, 0.7_dp, -0.7_dp, 1.0_dp, 0.3_dp, 0.0_dp, 0.0_dp], [4, 4])
-    do try = 1, 4
-      guess = 0
-      guess(:2) = normals(:2, try)
-      guess(n + 1:n + 2) = normals(3:, try)
-      walker%y(:n + 2) = seed(:n + 2)
-      call newton(walker%system, 12, FAR, CLOSE, walker%y, iterations, guess)
-      found = iterations > 0 .and. maxval(abs(walker%y(:n + 2) - seed(:n + 2))) < NEAR
-      if (found) call tangent_at(walker%system, walker%y, guess, walker%tangent, found, walker%sharp)
-      if (found) exit
-    end do
-    walker%longest = longest
-    walker%step = longest/8
-  end subroutine begin
-
-  !> Whether the step from one point to the next passes the start of a closed curve, perhaps with other points first, or as mirror image.
-  function passes(system, from, to, start) result(closed_now)
-    type(system_t), intent(in) :: system !< the equations
-    real(dp), intent(in) :: from(:) !< unknowns before the step
-    real(dp), intent(in) :: to(:) !< and after it
-    real(dp), intent(in) :: start(:) !< those where the curve began
-    logical :: closed_now
-    real(dp) :: step(2), aside(2), share, least, length
-    integer :: n, first, mirror_sign
-
-    n = system%n
-    closed_now = .false.
-    step = to(2*n + 1:2*n + 2) - from(2*n + 1:2*n + 2)
-    share = dot_product(start(2*n + 1:2*n + 2) - from(2*n + 1:2*n + 2), step)/sum(step**2)
-    if (share < -0.001_dp .or. share > 1.001_dp) return
-    aside = start(2*n + 1:2*n + 2) - from(2*n + 1:2*n + 2) - share*step
-    if (norm2(aside) > 0.05_dp*norm2(step) + 1e-9_dp) return
-    least = huge(least)
-    length = sum(abs(to(:2*n) - from(:2*n)))
-    do first = 0, n - 1
-      do mirror_sign = 1 - 2*int(system%plane%mirrored), 1, 2
-        least = min(least, apart(first, mirror_sign))
-      end do
-    end do
-    closed_now = least < 0.1_dp*length + 1e-6_dp
-  contains
-    real(dp) function apart(first, mirror_sign)
-      integer, intent(in) :: first, mirror_sign
-      real(dp) :: x(2)
-      integer :: i, k, sign_of
-
-      apart = 0
-      do i = 1, n
-        k = mod(i - 1 + first, n) + 1
-        sign_of = mirror_sign
-        if (i + first > n) sign_of = sign_of*system%kind%side
-        x = sign_of*(from(2*k - 1:2*k) + share*(to(2*k - 1:2*k) - from(2*k - 1:2*k)))
-        apart = apart + abs(wrapped(start(2*i - 1) - x(1))) + abs(start(2*i) - x(2))
-      end do
-    end function apart
-  end function passes
 
   !> Sets how a cycle differs from its parents.
   subroutine set_parents(system, y, parents)

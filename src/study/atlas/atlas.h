@@ -6,7 +6,7 @@
 #include <math.h>
 
 #include "kapitza/dynamics.h"
-#include "kapitza/dynamics_curves.h"
+#include "kapitza/dynamics_trace.h"
 #include "kapitza/study.h"
 #include "kapitza/study_atlas.h"
 #include "numerics/parent.h"

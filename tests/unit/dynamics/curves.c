@@ -4,7 +4,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "kapitza/dynamics_curves.h"
+#include "kapitza/dynamics_trace.h"
 #include "kapitza/kernel.h"
 
 static const double PI = 3.14159265358979323846;

@@ -1,19 +1,17 @@
-!> Curves of bifurcations followed by pseudo-arclength, and cycles at a place or on a line: include/kapitza/dynamics_curves.h.
-module kz_cycles_tracing
+!> Curves of bifurcations followed by pseudo-arclength: include/kapitza/dynamics_curves.h.
+module kz_curves_trace
   use, intrinsic :: iso_c_binding, only: dp => c_double, c_int32_t, c_int64_t
-  use kz_vector_map, only: PI
-  use kz_cycles_curves, only: plane_t, curve_kind_t, system_t, make_system, linearise, images, POINTS, UNKNOWNS, COARSE, FINE
-  use kz_splitting_jets, only: TERMS
-  use kz_cycles_corrector, only: newton
+  use kz_cycles_corrector, only: newton, tangent_at
+  use kz_cycles_curves, only: plane_t, curve_kind_t, system_t, make_system, images, wrapped, POINTS, UNKNOWNS, COARSE
   use kz_cycles_normal_forms, only: normal_form
-  use kz_cycles_walker, only: walker_t, parents_t, advance, begin, distance, passes, set_parents, meets, find_zero, thinness, &
-                             OF_FORM, OF_WIDTH, HALVES, MIRROR, REST
+  use kz_cycles_placed, only: at_place, on_line, outside, LEFT, CLOSED, LONG, MERGED, STUCK, NO_SEED, THIN
+  use kz_cycles_walker, only: walker_t, parents_t, advance, distance, set_parents, meets, find_zero, thinness, &
+                              OF_FORM, OF_WIDTH, CLOSE, FAR, HALVES, MIRROR, REST
+  use kz_splitting_jets, only: TERMS
+  use kz_vector_map, only: PI
   implicit none
   private
-  public :: at_place, on_line, outside, LEFT, CLOSED, LONG, MERGED, STUCK, NO_SEED
 
-  !> KZ_TRACE_... of dynamics_curves.h.
-  integer, parameter :: LEFT = 0, CLOSED = 1, LONG = 2, MERGED = 3, STUCK = 4, NO_SEED = 5, THIN = 6
   !> KZ_SPECIAL_...
   integer, parameter :: CUSP = 1, DEGENERATE = 2
 
@@ -125,6 +123,75 @@ contains
     end subroutine put_turning
   end function trace
 
+  !> Begins on a curve near the seed.
+  subroutine begin(walker, seed, longest, found)
+    type(walker_t), intent(inout) :: walker !< with the equations of a curve
+    real(dp), intent(in) :: seed(:) !< unknowns near the curve
+    real(dp), intent(in) :: longest !< step
+    logical, intent(out) :: found !< whether Newton's method finds the curve beside the seed
+    real(dp), parameter :: NEAR = 0.1_dp
+    real(dp) :: normals(4, 4), guess(UNKNOWNS)
+    integer :: n, try, iterations
+
+    n = 2*walker%system%n
+    normals = reshape([0.0_dp, 0.0_dp, 1.0_dp, 0.0_dp, 0.0_dp, 0.0_dp, 0.0_dp, 1.0_dp, &
+                       0.0_dp, 0.0_dp, 0.7_dp, -0.7_dp, 1.0_dp, 0.3_dp, 0.0_dp, 0.0_dp], [4, 4])
+    do try = 1, 4
+      guess = 0
+      guess(:2) = normals(:2, try)
+      guess(n + 1:n + 2) = normals(3:, try)
+      walker%y(:n + 2) = seed(:n + 2)
+      call newton(walker%system, 12, FAR, CLOSE, walker%y, iterations, guess)
+      found = iterations > 0 .and. maxval(abs(walker%y(:n + 2) - seed(:n + 2))) < NEAR
+      if (found) call tangent_at(walker%system, walker%y, guess, walker%tangent, found, walker%sharp)
+      if (found) exit
+    end do
+    walker%longest = longest
+    walker%step = longest/8
+  end subroutine begin
+
+  !> Whether the step from one point to the next passes the start of a closed curve, perhaps with other points first, or as mirror image.
+  function passes(system, from, to, start) result(closed_now)
+    type(system_t), intent(in) :: system !< the equations
+    real(dp), intent(in) :: from(:) !< unknowns before the step
+    real(dp), intent(in) :: to(:) !< and after it
+    real(dp), intent(in) :: start(:) !< those where the curve began
+    logical :: closed_now
+    real(dp) :: step(2), aside(2), share, least, length
+    integer :: n, first, mirror_sign
+
+    n = system%n
+    closed_now = .false.
+    step = to(2*n + 1:2*n + 2) - from(2*n + 1:2*n + 2)
+    share = dot_product(start(2*n + 1:2*n + 2) - from(2*n + 1:2*n + 2), step)/sum(step**2)
+    if (share < -0.001_dp .or. share > 1.001_dp) return
+    aside = start(2*n + 1:2*n + 2) - from(2*n + 1:2*n + 2) - share*step
+    if (norm2(aside) > 0.05_dp*norm2(step) + 1e-9_dp) return
+    least = huge(least)
+    length = sum(abs(to(:2*n) - from(:2*n)))
+    do first = 0, n - 1
+      do mirror_sign = 1 - 2*int(system%plane%mirrored), 1, 2
+        least = min(least, apart(first, mirror_sign))
+      end do
+    end do
+    closed_now = least < 0.1_dp*length + 1e-6_dp
+  contains
+    real(dp) function apart(first, mirror_sign)
+      integer, intent(in) :: first, mirror_sign
+      real(dp) :: x(2)
+      integer :: i, k, sign_of
+
+      apart = 0
+      do i = 1, n
+        k = mod(i - 1 + first, n) + 1
+        sign_of = mirror_sign
+        if (i + first > n) sign_of = sign_of*system%kind%side
+        x = sign_of*(from(2*k - 1:2*k) + share*(to(2*k - 1:2*k) - from(2*k - 1:2*k)))
+        apart = apart + abs(wrapped(start(2*i - 1) - x(1))) + abs(start(2*i) - x(2))
+      end do
+    end function apart
+  end function passes
+
   !> Whether a fold comes so near to a parent that this one's own multiplier is -1: their distance alone does not show it, since it is small all along
   !> folds of strongly unstable cycles.
   function on_parents_curve(system, y, was, is) result(on)
@@ -160,14 +227,6 @@ contains
     end do
   end function on_parents_curve
 
-  !> Whether a place lies outside of the plane.
-  pure logical function outside(plane, at)
-    type(plane_t), intent(in) :: plane !< with its limits
-    real(dp), intent(in) :: at(2) !< the place
-
-    outside = any(at < plane%low .or. at > plane%high)
-  end function outside
-
   !> Where the normal form changes its sign between two points of a curve.
   subroutine locate_special(walker, from, heading, at_low, at_high, special, n_special, found)
     type(walker_t), intent(inout) :: walker !< at the second point, then at the special one
@@ -191,45 +250,6 @@ contains
     special(2:3, n_special) = walker%sharp(n + 1:n + 2)
     special(4:, n_special) = walker%sharp(:n)
   end subroutine locate_special
-
-  function at_place(plane, kind, y, numbers) bind(C, name='kz_curve_solve') result(found)
-    type(plane_t), intent(in) :: plane
-    type(curve_kind_t), intent(in) :: kind
-    real(dp), intent(inout) :: y(2*kind%points + 2)
-    real(dp), intent(out), optional :: numbers(2)
-    integer(c_int32_t) :: found
-    real(dp), parameter :: LONGEST = 0.5_dp
-    real(dp) :: residual(UNKNOWNS), matrix(UNKNOWNS, UNKNOWNS)
-    type(system_t) :: system
-    integer :: iterations
-    logical :: exists
-
-    call make_system(plane, kind, 0, .false., system)
-    call newton(system, 25, LONGEST, 1e-12_dp, y, iterations)
-    found = merge(1, 0, iterations > 0)
-    if (.not. present(numbers)) return
-    numbers = 0
-    if (found == 0) return
-    call linearise(system, FINE, 1, y, residual, matrix, exists)
-    numbers = [system%trace, system%determinant]
-    if (.not. exists) found = 0
-  end function at_place
-
-  function on_line(plane, kind, y, along) bind(C, name='kz_curve_locate') result(found)
-    type(plane_t), intent(in) :: plane
-    type(curve_kind_t), intent(in) :: kind
-    real(dp), intent(inout) :: y(2*kind%points + 2)
-    real(dp), intent(in) :: along(2)
-    integer(c_int32_t) :: found
-    real(dp), parameter :: LONGEST = 0.3_dp
-    type(system_t) :: system
-    integer :: iterations
-
-    call make_system(plane, kind, 1, .true., system)
-    system%basis(:, 1) = along
-    call newton(system, 20, LONGEST, 1e-12_dp, y, iterations)
-    found = merge(1, 0, iterations > 0)
-  end function on_line
 
   !> By the trace, and where that changes by more than its limit within the error of a place, by where the multiplier is reached.
   function is_on(plane, kind, y) bind(C, name='kz_curve_is_on') result(on)
@@ -255,4 +275,4 @@ contains
     if (on /= 0) y = found
   end function is_on
 
-end module kz_cycles_tracing
+end module kz_curves_trace
