@@ -6,7 +6,7 @@ set_property(GLOBAL PROPERTY kapitza_powers "")
 # kapitza_power(name FOLDERS folder of src ... [FILES file of src or include ...] [SCRIPT file] [STUDIES study ...] [PARTS part ...] [KEYS key ...] [COMMANDS command ...] [NEEDS power ...] [BESIDE file or folder ...]):
 # with its folders left out, its studies and commands are refused by the name of the power. The order of the studies is that in which they
 # run, after those of the core. PARTS are parts of the study basin, with a row as a study has; KEYS are
-# the keys that they add. FILES are of the power too, and stand in folders of the core: its headers in include/kapitza. SCRIPT finds a library that
+# the keys that they add, or add words to. FILES are of the power too, and stand in folders of the core: its headers in include/kapitza. SCRIPT finds a library that
 # it needs. BESIDE are its tests, its part of the package and of the explorer and its pages, which scripts/ledger counts.
 set(KAPITZA_KINDS STUDIES PARTS KEYS COMMANDS)
 function(kapitza_power name)

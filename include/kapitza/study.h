@@ -35,9 +35,7 @@ enum { KZ_AUTO = 0 };
   STUDY(stability)        \
   STUDY(potential)        \
   STUDY(sweep)            \
-  STUDY(measures)         \
   STUDY(tradeoff)         \
-  STUDY(shocks)           \
   KZ_POWER_STUDIES(STUDY)
 
 #define KZ_STUDY_PLAN(name) typedef struct kz_##name##_plan kz_##name##_plan;
@@ -136,6 +134,7 @@ typedef struct {
 } kz_cost;
 
 typedef struct kz_basin_part kz_basin_part;
+typedef struct kz_sweep_part kz_sweep_part;
 /* A key of a scene (study_keys.h). */
 typedef struct kz_key kz_key;
 
@@ -164,6 +163,9 @@ typedef struct {
   kz_study_need needs[2];
   /* It is a part of the study basin, whose run does its work (src/study/basin/label.h); NULL = it is not. */
   const kz_basin_part *of_basin;
+  const kz_sweep_part *of_sweep; /* the same of the study sweep (src/study/sweep/part.h) */
+  /* The window of its starts: theta and velocity, if it follows them by the scene's own pendulum and numerics; no function = it does not. */
+  void (*window)(const kz_scene *scene, const kz_axis *axis[2]);
   /* The complaint if the scene asks for what needs this of drive or release; NULL = it does not, or no function. */
   const char *(*limit)(const kz_scene *scene, kz_drive_need need);
   bool damped;  /* it has no meaning without damping */
@@ -171,6 +173,10 @@ typedef struct {
 } kz_study;
 static inline bool kz_study_is_wanted(const kz_study *study, const kz_scene *scene) {
   return *(const bool *)((const char *)scene + study->wanted);
+}
+/* True if the run of another study does its work. */
+static inline bool kz_study_is_part(const kz_study *study) {
+  return study->of_basin || study->of_sweep;
 }
 extern const kz_study *const kz_studies[];
 extern const int kz_study_count;

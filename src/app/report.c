@@ -68,7 +68,7 @@ void kz_warnings_print(const kz_scene *scene, FILE *out) {
 static void print_studies(const kz_scene *scene, FILE *out) {
   const char *before = "studies          ";
   for (int i = 0; i < kz_study_count; i++) {
-    if (kz_studies[i]->of_basin || !kz_study_is_wanted(kz_studies[i], scene)) continue;
+    if (kz_study_is_part(kz_studies[i]) || !kz_study_is_wanted(kz_studies[i], scene)) continue;
     fprintf(out, "%s%s", before, kz_studies[i]->name);
     if (kz_studies[i] == &kz_basin_study)
       fprintf(out, " (%s)", isnan(scene->basin->accuracy) ? kz_method_names[scene->basin->method] : "method by basin.accuracy");
@@ -100,7 +100,7 @@ static void print_check(const kz_options *options, const kz_scene *scene, const 
 static kz_json *studies_of(const kz_scene *scene) {
   kz_json *list = json_object_new_array();
   for (int i = 0; i < kz_study_count; i++)
-    if (!kz_studies[i]->of_basin && kz_study_is_wanted(kz_studies[i], scene))
+    if (!kz_study_is_part(kz_studies[i]) && kz_study_is_wanted(kz_studies[i], scene))
       json_object_array_add(list, kz_json_text(kz_studies[i]->name));
   return list;
 }

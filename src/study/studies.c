@@ -16,7 +16,6 @@ const kz_group kz_groups[] = {
     {"pendulum", kz_pendulum_variables},
     {"phases", kz_phases_variables},
     {"plane", kz_plane_variables},
-    {"line", kz_line_variables},
     KZ_STUDIES(GROUP)
     {NULL, NULL},
 };
@@ -24,9 +23,9 @@ const kz_group kz_groups[] = {
 
 kz_status kz_studies_check(const kz_scene *scene) {
   KZ_TRY(kz_drive_check(scene));
-  for (int pass = 0; pass < 2; pass++) /* parts of the basin come before it */
+  for (int pass = 0; pass < 2; pass++) /* parts come before what they are of */
     for (int i = 0; i < kz_study_count; i++)
-      if ((pass == 0) == (kz_studies[i]->of_basin != NULL) && kz_studies[i]->check && kz_study_is_wanted(kz_studies[i], scene))
+      if ((pass == 0) == kz_study_is_part(kz_studies[i]) && kz_studies[i]->check && kz_study_is_wanted(kz_studies[i], scene))
         KZ_TRY(kz_studies[i]->check(scene));
   return KZ_OK;
 }

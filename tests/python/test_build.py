@@ -34,6 +34,10 @@ def test_the_program_builds_without_powers(tmp_path):
     build = configured(tmp_path / "core", "-DKAPITZA_POWERS=", "-DCMAKE_BUILD_TYPE=Release", "-DKAPITZA_WERROR=ON", "-DBUILD_TESTING=OFF")
     assert call("ninja", "-j2", "kapitza", folder=build).returncode == 0
     assert "flint" not in call("ldd", build / "kapitza").stdout
+    for study in ("basin: {velocity: {min: -1, max: 1}, shocks: {}}", "sweep: {parameter: m, min: 0, max: 1, count: 2, measure: [share]}"):
+        (tmp_path / "more.yaml").write_text(f"pendulum: {{k: 0.1, damping: 0.1, m: 0.4}}\n{study}\n")
+        done = call(build / "kapitza", "check", tmp_path / "more.yaml")
+        assert done.returncode == 2 and "the power measures, which this build leaves out" in done.stderr and done.stderr.count("\n") == 1
     known = [line.split()[0] for line in (ROOT / "cmake" / "power_list.cmake").read_text().split("kapitza_power(")[1:]]
     build = configured(tmp_path / "trials", f"-DKAPITZA_TRIALS={';'.join(known)}", "-DCMAKE_BUILD_TYPE=Release", "-DKAPITZA_WERROR=ON")
     small = ROOT / "scenes" / "small.yaml"

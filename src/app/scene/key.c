@@ -204,8 +204,7 @@ static bool was_a_study(const kz_key *keys, const char *name, char *now, size_t 
   return false;
 }
 
-/* The power that a key needs and that this build leaves out; NULL = none. */
-static const char *missing_power(const char *path) {
+const char *kz_key_missing_power(const char *path) {
   static const char *const missing[][2] = {
 #define MISSING(name, power) {#name, #power},
       KZ_MISSING_STUDIES(MISSING){NULL, NULL}};
@@ -217,7 +216,7 @@ static const char *missing_power(const char *path) {
 void kz_key_unknown(const kz_key *keys, const char *parent, const char *name, const char *prefix, char *text, size_t bytes) {
   char path[256];
   snprintf(path, sizeof path, "%s%s%s", parent, parent[0] ? "." : "", name);
-  const char *power = missing_power(path);
+  const char *power = kz_key_missing_power(path);
   if (power) {
     snprintf(text, bytes, KZ_MISSING_POWER, power);
     return;

@@ -139,10 +139,36 @@ static bool is_beside(const kz_key *row, const char *path) {
   return dot && strncmp(row->path, path, length) == 0 && (row->path[length] == '.' || row->path[length] == '\0');
 }
 
+static const char *join_text(const char *before, const char *between, const char *after) {
+  const size_t bytes = strlen(before) + strlen(between) + strlen(after) + 1;
+  char *joined = kz_malloc(bytes);
+  snprintf(joined, bytes, "%s%s%s", before, between, after);
+  return joined;
+}
+
+/* Adds the words and the help of a part's row to the same key of its study. */
+static void extend(kz_key *row, const kz_key *part) {
+  row->words = join_text(kz_key_words(row), "|", kz_key_words(part));
+  row->words_from = NULL;
+  row->help = join_text(row->help, " ", part->help);
+}
+
+static kz_key *find_row(kz_key *joined, int64_t n, const char *path) {
+  for (kz_key *row = joined; row < joined + n; row++)
+    if (strcmp(row->path, path) == 0) return row;
+  return NULL;
+}
+
 /* Puts each of `keys` among the `n` first ones of `joined`, behind those of its mapping, or at their end; returns their number. */
 static int64_t add(kz_key *joined, int64_t n, const kz_key *keys) {
   for (; keys->path; keys++, n++) {
     int64_t at = n;
+    kz_key *same = find_row(joined, n, keys->path);
+    if (same) {
+      extend(same, keys);
+      n--;
+      continue;
+    }
     while (at > 0 && !is_beside(joined + at - 1, keys->path)) at--;
     if (at == 0) at = n;
     memmove(joined + at + 1, joined + at, (size_t)(n - at) * sizeof *keys);

@@ -73,6 +73,9 @@ static void complain_value(kz_reading *reading, const kz_key *key, const kz_node
     snprintf(hint, sizeof hint, " (it was removed: use %s)", nearest);
   else if (node->kind == KZ_SCALAR && kz_scalar_with_a_point(node->text, nearest, sizeof nearest))
     snprintf(hint, sizeof hint, " (with a decimal point: %s)", nearest);
+  else if (kz_key_missing_power(key->path))
+    snprintf(hint, sizeof hint, " (other words need the power %s, which this build leaves out)",
+             kz_key_missing_power(key->path));
   else if (node->kind == KZ_SCALAR && kz_key_suggest(node->text, kz_key_words(key), nearest, sizeof nearest))
     snprintf(hint, sizeof hint, strcmp(wrong, "is not a list") == 0 ? " (did you mean [%s]?)" : " (did you mean %s?)", nearest);
   if (node->kind == KZ_SCALAR && node->text[0])

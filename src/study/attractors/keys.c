@@ -15,4 +15,8 @@ static const kz_key keys[] = {
     {.path = NULL},
 };
 
-KZ_STUDY_ROW(.check = kz_attractors_check, .follows = true);
+static void window_of(const kz_scene *scene, const kz_axis *axis[2]) {
+  axis[0] = &scene->attractors->theta, axis[1] = &scene->attractors->velocity;
+}
+
+KZ_STUDY_ROW(.check = kz_attractors_check, .follows = true, .window = window_of);

@@ -1,4 +1,4 @@
-/* What a scene says of the study `measures`, and of the measures of a sweep. */
+/* What a scene says of the study `measures`, and for measures of its table in a sweep. */
 #pragma once
 
 #include "kapitza/study.h"
@@ -27,8 +27,10 @@ struct kz_measures_plan {
   kz_measure_options options;
 };
 
-/* Whether a list has something twice. */
-bool kz_words_repeat(const kz_integers *words);
 /* NULL, or what the options lack for these measures, as "KEY: what is wrong" where KEY is a key of kz_measure_options. */
 const char *kz_measures_lack(const kz_integers *names, const kz_measure_options *options);
-const char *kz_measures_plan_lack(const kz_scene *scene);
+
+/* In a sweep; window, starts and words are those of the sweep. */
+struct kz_swept_plan {
+  kz_measure_options options;
+};

@@ -3,6 +3,7 @@
 
 #include "measures.h"
 #include "kapitza/study_keys.h"
+#include "sweep/plan.h"
 
 #define ROW(word, unit, shape, needs) {#word, unit, shape, needs, kz_measure_##word},
 #define NUMBER(word, needs, unit, name) ROW(word, unit, KZ_PER_ATTRACTOR, needs)
@@ -40,13 +41,6 @@ static bool names(const kz_integers *list, kz_measure_fn measure) {
   return false;
 }
 
-bool kz_words_repeat(const kz_integers *words) {
-  for (int64_t i = 1; i < words->count; i++)
-    for (int64_t j = 0; j < i; j++)
-      if (words->values[i] == words->values[j]) return true;
-  return false;
-}
-
 const char *kz_measures_lack(const kz_integers *list, const kz_measure_options *options) {
   if (kz_words_repeat(list)) return "names: has a word twice; name each measure once";
   if (names(list, kz_measure_weighted_share) && !options->has_weight)
@@ -54,8 +48,4 @@ const char *kz_measures_lack(const kz_integers *list, const kz_measure_options *
   if (names(list, kz_measure_share_within) && options->within == KZ_UNSET_INTEGER)
     return "within: is missing, which share_within needs; give a number of drive periods";
   return kz_sizes_lack(&options->sizes);
-}
-
-const char *kz_measures_plan_lack(const kz_scene *scene) {
-  return kz_measures_lack(&scene->measures->names, &scene->measures->options);
 }

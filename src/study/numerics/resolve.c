@@ -7,7 +7,6 @@
 #include "attractors/plan.h"
 #include "kapitza/study_orbit.h"
 #include "sweep/plan.h"
-#include "measures/plan.h"
 
 enum {
   SWEEP_VALUES = 9,  /* of a sweep that are tried, both ends included */
@@ -54,11 +53,18 @@ static void add_basin(demand *d, const kz_basin_plan *plan) {
 }
 
 static void add_pendulum(demand *d, const kz_scene *scene) {
-  if (!(scene->parameters.pendulum.beta > 0) || !(scene->has_basin || scene->has_attractors || scene->has_measures)) return;
+  bool follows = scene->has_basin;
+  for (int i = 0; i < kz_study_count; i++)
+    follows = follows || (kz_studies[i]->window && kz_study_is_wanted(kz_studies[i], scene));
+  if (!(scene->parameters.pendulum.beta > 0) || !follows) return;
   d->pendulum[d->count++] = scene->parameters.pendulum;
   if (scene->has_basin) add_basin(d, scene->basin);
-  if (scene->has_attractors) add_window(d, &scene->attractors->theta, &scene->attractors->velocity, 0);
-  if (scene->has_measures) add_window(d, &scene->measures->theta, &scene->measures->velocity, 0);
+  for (int i = 0; i < kz_study_count; i++) {
+    if (!kz_studies[i]->window || !kz_study_is_wanted(kz_studies[i], scene)) continue;
+    const kz_axis *axis[2];
+    kz_studies[i]->window(scene, axis);
+    add_window(d, axis[0], axis[1], 0);
+  }
 }
 
 /* The edges of a plane where measures follow motions; ends has steps of its own. */
@@ -76,7 +82,7 @@ static void add_plane(demand *d, const kz_sweep_plan *plan, const kz_scene *scen
 static void add_sweep(demand *d, const kz_scene *scene) {
   const kz_sweep_plan *plan = scene->sweep;
   if (kz_sweep_is_plane(plan)) {
-    if (kz_sweep_has_table(plan)) add_plane(d, plan, scene);
+    if (kz_sweep_has_points(plan)) add_plane(d, plan, scene);
     return;
   }
   const int64_t n = plan->values.count < SWEEP_VALUES - 1 ? plan->values.count : SWEEP_VALUES - 1;

@@ -106,7 +106,7 @@ static int64_t arrival(const walking *w, const task *t, const kz_sweep_piece *pi
   int64_t here = 0;
   for (int64_t i = 0; i < b->n_nodes && known < 0; i++) here += b->nodes[i].value == value;
   if (known >= 0 || here >= 2 * KZ_SWEEP_MOST) return known;
-  return add_node(b, &(kz_sweep_entry){.point = *point, .shock = {NAN, NAN, NAN}}, value, piece->attracts);
+  return add_node(b, &(kz_sweep_entry){.point = *point, .number = {NAN, NAN, NAN}}, value, piece->attracts);
 }
 
 /* A piece that reaches neither value: one for a motion and its image. */
@@ -122,7 +122,7 @@ static void add_between(kz_sweep_branches *b, int64_t value, const kz_sweep_piec
       return;
   }
   const int64_t number =
-      add_node(b, &(kz_sweep_entry){.point = piece->point, .shock = {NAN, NAN, NAN}}, value, piece->attracts);
+      add_node(b, &(kz_sweep_entry){.point = piece->point, .number = {NAN, NAN, NAN}}, value, piece->attracts);
   kz_sweep_node *node = b->nodes + number;
   node->between = 1;
   set_end(node, false, low, turned ? piece->end_kind : piece->begin_kind);

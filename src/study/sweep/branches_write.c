@@ -112,10 +112,9 @@ static kz_status write_matrices(const writing *w) {
     SHARED("fraction_low", SHARE.low);
     SHARED("fraction_high", SHARE.high);
   }
-  if (!kz_sweep_measures(plan, KZ_SWEEP_RESILIENCE)) return KZ_OK;
-  MATRIX("shock_angle", at[i]->shock[0]);
-  MATRIX("shock_kick", at[i]->shock[1]);
-  MATRIX("shock_size", at[i]->shock[2]);
+  const kz_sweep_part *part;
+  for (int p = 0; (part = kz_sweep_part_next(plan, true, &p)); p++)
+    for (int k = 0; part->numbers[k]; k++) MATRIX(part->numbers[k], at[i]->number[k]);
   return KZ_OK;
 }
 

@@ -6,7 +6,6 @@
 
 #include "labelling/catalogue.h"
 #include "numerics/cells.h"
-#include "resilience/resilience.h"
 #include "cells/scene_search.h"
 #include "cells/cell_starts.h"
 #include "sweep.h"
@@ -159,7 +158,7 @@ static kz_status collect(const searching *s, kz_sweep_catalogue *catalogue) {
   KZ_FREED int64_t *order = kz_malloc((size_t)(known + 1) * sizeof *order);
   kz_dynamics_order(s->dynamics, order);
   for (int64_t i = 0; i < known; i++) {
-    kz_sweep_entry entry = {.hits = s->hits[order[i]], .shock = {NAN, NAN, NAN}};
+    kz_sweep_entry entry = {.hits = s->hits[order[i]], .number = {NAN, NAN, NAN}};
     kz_dynamics_attractor(s->dynamics, order[i], &entry.point);
     if (entry.hits + s->hits[entry.point.mirror] == 0) continue;
     if (catalogue->count == KZ_SWEEP_MOST)
@@ -181,26 +180,6 @@ static kz_status sweep_catalogue_discover(searching *s) {
   return kz_search_window(s->run, s->dynamics, &search, s->label);
 }
 
-/* The smallest shocks over the strobe points of each attractor. Catalogues of a sweep and of a file are in the same order. */
-static kz_status find_shocks(searching *s, kz_sweep_catalogue *catalogue) {
-  const kz_sweep_plan *sweep = s->scene->sweep;
-  const kz_resilience_plan plan = {
-      .scale = sweep->options.shock_scale,
-      .farthest = 2 * kz_axis_fastest(s->n_cells > 0 ? &s->scene->basin->velocity : &sweep->velocity),
-      .max_periods = s->max_periods};
-  KZ_FREED_BY(kz_catalogue_free) kz_catalogue listed = {0};
-  int64_t n;
-  kz_catalogue_make(s->dynamics, s->hits, &listed);
-  KZ_FREED kz_resilience *point = kz_resilience_list(s->dynamics, &listed, &n);
-  KZ_TRY(kz_resilience_run(s->run, s->dynamics, &plan, n, point));
-  for (int64_t i = 0; i < n; i++)
-    for (int kind = 0; kind < 3; kind++) {
-      double *least = &catalogue->entries[listed.id_of[point[i].number]].shock[kind];
-      *least = fmin(*least, point[i].shock[kind].size); /* of a number and NaN the number */
-    }
-  return KZ_OK;
-}
-
 static kz_status search(searching *s, const kz_pendulum *pendulum, const kz_release *release, kz_sweep_catalogue *catalogue) {
   const kz_sweep_plan *plan = s->scene->sweep;
   const int64_t periods = s->n_cells > 0 ? s->scene->basin->max_periods : s->max_periods;
@@ -214,7 +193,11 @@ static kz_status search(searching *s, const kz_pendulum *pendulum, const kz_rele
     KZ_TRY(measure_lifetime(plan, s->run, s->dynamics, s->max_periods, &catalogue->lifetime));
   if (kz_sweep_measures(plan, KZ_SWEEP_PHASES))
     KZ_TRY(measure_phases(s->scene, s->run, pendulum, s->dynamics, release, s->n_cells, periods, &catalogue->alike));
-  return kz_sweep_measures(plan, KZ_SWEEP_RESILIENCE) ? find_shocks(s, catalogue) : KZ_OK;
+  const kz_axis *velocity = s->n_cells > 0 ? &s->scene->basin->velocity : &plan->velocity;
+  const kz_sweep_value_at at = {s->run, s->dynamics, s->hits, velocity, s->max_periods};
+  const kz_sweep_part *part;
+  for (int i = 0; (part = kz_sweep_part_next(plan, true, &i)); i++) KZ_TRY(part->value(s->scene, &at, catalogue));
+  return KZ_OK;
 }
 
 typedef struct {

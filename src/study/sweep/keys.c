@@ -1,7 +1,7 @@
 /* The study `sweep`: its row, and the table of its keys. */
 #define KEYS_OF sweep
 
-#include "measures/option_keys.h"
+#include "kapitza/study_key_rows.h"
 #include "plan.h"
 
 /* An axis of a plane, whose mapping belongs to form c. */
@@ -29,10 +29,10 @@ static const kz_key keys[] = {
     PLANE_OF(y, "The key along the vertical axis."),
     ROW("sweep.measure", KZ_KEY_WORDS, NULL, AT(measure),
         "attractors: branches joined by continuation, with their ends; basin_fractions: their shares of the cells of basin, or "
-        "of the starts; lifetime: mean settling time of long transients; resilience: smallest shocks that leave the basins; "
+        "of the starts; lifetime: mean settling time of long transients; "
         "phases: share of cells or starts that ends alike at all phases of release; release_angle: from rest; strobe: "
         "bifurcations. "
-        "Over a plane: ends of the starts of sweep.ends. Both ways: the words of measures.names.",
+        "Over a plane: ends of the starts of sweep.ends.",
         .unit = "", .words_from = kz_sweep_measure_words, .former = "flutter_amplitude=attractors|flutter_zone=attractors"),
     THETA_WINDOW(sweep, "Angles of the starts; left out: the whole circle [-pi, pi)."),
     VELOCITY_WINDOW(sweep, KZ_MOST_SPEED, "", "-2", "2", "Velocities of the starts; a grid of basin has its own window."),
@@ -43,7 +43,6 @@ static const kz_key keys[] = {
     REAL("sweep.start.theta", "rad", -1e6, 1e6, "3.1", start_theta, "Angle from down."),
     REAL("sweep.start.velocity", KZ_VELOCITY_UNIT, -KZ_MOST_SPEED, KZ_MOST_SPEED, "0", start_velocity, "Velocity."),
     INTEGER("sweep.transient", 0, 1e7, "400", transient, "Drive periods of strobe at each value before the record."),
-    MEASURE_OPTIONS(sweep, "64"),
     INTEGER("sweep.phases", 2, 64, "8", phases, "Phases of release for the measure phases, evenly over a period."),
     MAPPING("sweep.ends", "", "The measure ends: where the same starts end, at t = 0; each has a picture of its own."),
     ROW("sweep.ends.theta", KZ_KEY_REALS, NULL, AT(ends.theta), "Angles from down.", .unit = "rad", .low = -1e6, .high = 1e6),

@@ -2,21 +2,19 @@
 #pragma once
 
 #include "kapitza/study.h"
-#include "../measures/plan.h"
 
-/* The measures of a sweep: code, word in the scene, the function that runs it. The first five come from the branches and have no functions of
- * their own; ends is over a plane, all others along one key. Further words are those of the table of measures (src/study/measures). */
+/* The measures of a sweep: code, word in the scene, the function that runs it. The first four come from the branches and have no functions of
+ * their own; ends is over a plane, all others along one key. Further words are those of parts (kz_sweep_part). */
 #define KZ_SWEEP_MEASURES(MEASURE)                                   \
   MEASURE(KZ_SWEEP_ATTRACTORS, "attractors", NULL)                   \
   MEASURE(KZ_SWEEP_BASIN_FRACTIONS, "basin_fractions", NULL)         \
   MEASURE(KZ_SWEEP_LIFETIME, "lifetime", NULL)                       \
-  MEASURE(KZ_SWEEP_RESILIENCE, "resilience", NULL)                   \
   MEASURE(KZ_SWEEP_PHASES, "phases", NULL)                           \
   MEASURE(KZ_SWEEP_RELEASE_ANGLE, "release_angle", kz_sweep_release) \
   MEASURE(KZ_SWEEP_STROBE, "strobe", kz_sweep_strobe)                \
   MEASURE(KZ_SWEEP_ENDS, "ends", kz_ends_run)
 #define KZ_MEASURE_CODE(code, word, run) code,
-enum { KZ_SWEEP_MEASURES(KZ_MEASURE_CODE) KZ_SWEEP_TABLE /* from here on the rows of kz_measures */ };
+enum { KZ_SWEEP_MEASURES(KZ_MEASURE_CODE) KZ_SWEEP_OWN /* number of them: words of parts follow */ };
 
 /* The measure ends: starts that are the same at every point of a plane. */
 enum { KZ_ENDS_MOST_PERIOD = 64 };
@@ -36,18 +34,35 @@ struct kz_sweep_plan {
   int64_t starts, max_period, seed;
   double start_theta, start_velocity; /* of the bifurcation diagram */
   int64_t transient, samples;         /* drive periods at each value: before the record, and recorded */
-  kz_measure_options options;         /* for resilience too: see kz_shocks_plan */
   kz_ends_plan ends;
   int64_t phases; /* number of phases of release, for the measure phases */
 };
 
-/* The rows of kz_measures that the sweep names; whether there are any. */
-kz_integers kz_sweep_table_names(const kz_sweep_plan *plan);
-static inline bool kz_sweep_has_table(const kz_sweep_plan *plan) {
-  bool has = false;
-  for (int64_t i = 0; i < plan->measure.count; i++) has = has || plan->measure.values[i] >= KZ_SWEEP_TABLE;
-  return has;
-}
+/* Whether a list has something twice. */
+bool kz_words_repeat(const kz_integers *words);
+/* A part of the study sweep that another folder adds: the row of kz_studies with `of_sweep`. */
+typedef struct kz_sweep_catalogue kz_sweep_catalogue;
+typedef struct kz_sweep_value_at kz_sweep_value_at;
+struct kz_sweep_part {
+  /* Words of sweep.measure that it adds, joined by '|', as its row of that key has them too. The first `of_branches` are of the branches, all others
+   * of single points. */
+  const char *words;
+  int64_t of_branches;
+  /* Names of the variables over value and branch that `value` gives, KZ_SWEEP_NUMBERS at most, then NULL. */
+  const char *const *numbers;
+  /* Fills numbers of the entries of a value, if a word of the branches is named. Collective. */
+  kz_status (*value)(const kz_scene *scene, const kz_sweep_value_at *at, kz_sweep_catalogue *catalogue);
+  /* What single points cost, and all of them. Collective. */
+  kz_cost (*cost)(const kz_scene *scene);
+  kz_status (*run)(const kz_scene *scene, const kz_run *run, kz_store *store, FILE *summary);
+};
+
+/* The words of a part that the sweep names, by their places in its list; those of the branches, or of points. */
+kz_integers kz_sweep_part_words(const kz_sweep_plan *plan, const kz_sweep_part *part, bool of_branches);
+/* The next part of which the sweep names such words, from number *i of kz_studies on; NULL = none. */
+const kz_sweep_part *kz_sweep_part_next(const kz_sweep_plan *plan, bool of_branches, int *i);
+/* Whether it names measures of single points, which go over a plane too. */
+bool kz_sweep_has_points(const kz_sweep_plan *plan);
 /* NULL, or what is wrong with the measures of a sweep, as "KEY: what is wrong" where KEY is a key of it. */
 const char *kz_sweep_lack(const kz_scene *scene);
 

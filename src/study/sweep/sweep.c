@@ -1,25 +1,18 @@
 /* Study `sweep`: quantities along one key of the pendulum mapping. */
-#include "measures/table.h"
 #include "sweep.h"
 #include "kapitza/study_basin.h"
 
-#define BARRED(code, word, run) "|" word
-#define BARRED_WORD(word, ...) "|" #word
-const char *kz_sweep_measure_words(void) {
-  static const char words[] =
-      KZ_SWEEP_MEASURES(BARRED) KZ_MEASURES(BARRED_WORD, BARRED_WORD, BARRED_WORD, BARRED_WORD, BARRED_WORD);
-  return words + 1;
-}
-
-/* Of the measures of the table, and of ends. */
+/* Of measures of single points, and of ends. */
 static kz_cost points_cost(const kz_scene *scene) {
   kz_cost cost = kz_sweep_measures(scene->sweep, KZ_SWEEP_ENDS) ? kz_ends_cost(scene) : (kz_cost){0};
-  if (!kz_sweep_has_table(scene->sweep)) return cost;
-  const kz_cost of_points = kz_points_cost(scene);
-  cost.cells += of_points.cells;
-  cost.disk_bytes += of_points.disk_bytes;
-  cost.memory_bytes += of_points.memory_bytes;
-  cost.rank0_bytes += of_points.rank0_bytes;
+  const kz_sweep_part *part;
+  for (int i = 0; (part = kz_sweep_part_next(scene->sweep, false, &i)); i++) {
+    const kz_cost of_points = part->cost(scene);
+    cost.cells += of_points.cells;
+    cost.disk_bytes += of_points.disk_bytes;
+    cost.memory_bytes += of_points.memory_bytes;
+    cost.rank0_bytes += of_points.rank0_bytes;
+  }
   return cost;
 }
 
@@ -39,7 +32,7 @@ kz_cost kz_sweep_cost(const kz_scene *scene) {
 }
 
 static bool has_branches(const kz_sweep_plan *plan) {
-  bool wanted = false;
+  bool wanted = kz_sweep_part_next(plan, true, &(int){0});
   for (int64_t measure = 0; measure <= KZ_SWEEP_PHASES; measure++) wanted = wanted || kz_sweep_measures(plan, measure);
   return wanted;
 }
@@ -55,11 +48,23 @@ static kz_status run_branches(const kz_scene *scene, const kz_run *run, kz_store
   return kz_ranks_agree(run->ranks, store ? kz_sweep_branches_write(scene, catalogue, &branches, store, summary) : KZ_OK);
 }
 
+/* One axis with its scale, its key and that key's unit. */
+static kz_status write_axis(const char *name, const kz_plane_axis *axis, kz_store *store) {
+  KZ_TRY(kz_axis_describe(&axis->values, axis->parameter, name, "plane", store));
+  KZ_SCALE(store, "plane", name, axis->values.count, kz_axis_value(&axis->values, i));
+  return KZ_OK;
+}
+
+kz_status kz_sweep_write_axes(const kz_sweep_plan *plan, kz_store *store) {
+  KZ_TRY(write_axis("y", &plan->y, store));
+  return write_axis("x", &plan->x, store);
+}
+
 static kz_status write_values(const kz_scene *scene, kz_store *store, FILE *summary) {
   const kz_sweep_plan *plan = scene->sweep;
   if (kz_sweep_is_plane(plan)) {
-    if (kz_sweep_has_table(plan)) kz_sweep_warn_steps(scene, summary);
-    return kz_points_write_axes(plan, store);
+    if (kz_sweep_has_points(plan)) kz_sweep_warn_steps(scene, summary);
+    return kz_sweep_write_axes(plan, store);
   }
   KZ_TRY(kz_axis_describe(&plan->values, plan->parameter, "", "sweep", store));
   KZ_SCALE(store, "sweep", "value", plan->values.count, kz_sweep_value(plan, i));
@@ -77,7 +82,8 @@ kz_status kz_sweep_run(const kz_scene *scene, const kz_run *run, kz_store *store
   static const run_fn runs[] = {KZ_SWEEP_MEASURES(RUN)};
   KZ_TRY(kz_ranks_agree(run->ranks, store ? write_values(scene, store, summary) : KZ_OK));
   KZ_TRY(run_branches(scene, run, store, summary));
-  if (kz_sweep_has_table(scene->sweep)) KZ_TRY(kz_points_run(scene, run, store, summary));
+  const kz_sweep_part *part;
+  for (int i = 0; (part = kz_sweep_part_next(scene->sweep, false, &i)); i++) KZ_TRY(part->run(scene, run, store, summary));
   for (int64_t i = 0; i < (int64_t)(sizeof runs / sizeof runs[0]); i++)
     if (runs[i] && kz_sweep_measures(scene->sweep, i)) KZ_TRY(runs[i](scene, run, store, summary));
   return KZ_OK;

@@ -74,20 +74,29 @@ int kz_branch_points_order(const kz_attractor *p, const kz_attractor *q);
 
 /* ---- catalogues: what attracts at each value ---- */
 
-enum { KZ_SWEEP_MOST = 128 }; /* attractors at one value */
+enum { KZ_SWEEP_MOST = 128 /* attractors at one value */, KZ_SWEEP_NUMBERS = 3 /* of an entry, by a part */ };
 
 typedef struct {
-  kz_attractor point; /* period 0: theta, velocity are its mean angle and mean velocity */
-  int64_t hits;       /* number of starts or cells that ended on it */
-  double shock[3];    /* smallest shocks that leave its basin: of angle, velocity, both; NaN = none, or not measured */
+  kz_attractor point;              /* period 0: theta, velocity are its mean angle and mean velocity */
+  int64_t hits;                    /* number of starts or cells that ended on it */
+  double number[KZ_SWEEP_NUMBERS]; /* of a part (kz_sweep_part); NaN = none */
 } kz_sweep_entry;
 
-typedef struct {
+struct kz_sweep_catalogue {
   int64_t count, samples, unsettled; /* attractors; starts or cells that were followed; those that ended on nothing known */
   kz_lifetime lifetime;              /* of the starts, if it is measured */
   int64_t alike;                     /* samples that end alike at all phases, if it is measured */
   kz_sweep_entry entries[KZ_SWEEP_MOST];
-} kz_sweep_catalogue;
+};
+
+/* A value where parts measure: what attracts, how many samples ended on each, the speeds of the samples. */
+struct kz_sweep_value_at {
+  const kz_run *run;
+  kz_dynamics *dynamics;
+  const int64_t *hits;     /* [numbers from 1] */
+  const kz_axis *velocity; /* of the window of samples */
+  int64_t max_periods;
+};
 
 /* Fills catalogue [values.count] on every rank. Collective. */
 kz_status kz_sweep_catalogues(const kz_scene *scene, const kz_run *run, kz_sweep_catalogue *catalogue);
@@ -128,14 +137,11 @@ kz_status kz_sweep_strobe(const kz_scene *scene, const kz_run *run, kz_store *st
 kz_status kz_ends_run(const kz_scene *scene, const kz_run *run, kz_store *store, FILE *summary);
 kz_cost kz_ends_cost(const kz_scene *scene);
 
-/* Measures of the table (src/study/measures) at every point of a line or plane of pendulums: what they cost, and all of them. Collective. */
-kz_cost kz_points_cost(const kz_scene *scene);
-kz_status kz_points_run(const kz_scene *scene, const kz_run *run, kz_store *store, FILE *summary);
 /* Writes the axes of a plane, their keys and those keys' units. Rank 0. */
-kz_status kz_points_write_axes(const kz_sweep_plan *plan, kz_store *store);
+kz_status kz_sweep_write_axes(const kz_sweep_plan *plan, kz_store *store);
 
-/* What a sweep writes besides kz_sweep_variables: over a plane, and measures of the table along a line. */
-extern const kz_variable kz_plane_variables[], kz_line_variables[];
+/* What a sweep writes over a plane, besides kz_sweep_variables. */
+extern const kz_variable kz_plane_variables[];
 
 /* Writes the records of such a measure, on rank 0. */
 typedef kz_status (*kz_records_fn)(const kz_scene *scene, const void *records, kz_store *store, FILE *summary);

@@ -34,7 +34,7 @@ static bool motions_at_corner(const kz_scene *scene, int64_t i, kz_step_motions 
   kz_axis_print(&plan->x.values, plan->x.parameter, 6, value[0], text[0], sizeof text[0]);
   kz_axis_print(&plan->y.values, plan->y.parameter, 6, value[1], text[1], sizeof text[1]);
   snprintf(motions->where, sizeof motions->where, "at %s, %s, ", text[0], text[1]);
-  return kz_sweep_has_table(plan) && kz_pendulum_at(scene, 2, parameter, value, &motions->pendulum) &&
+  return kz_sweep_has_points(plan) && kz_pendulum_at(scene, 2, parameter, value, &motions->pendulum) &&
          motions->pendulum.beta > 0;
 }
 

@@ -1,7 +1,8 @@
-/* Variables of the group sweep of the result file. */
+/* Variables of the groups sweep and plane of the result file. */
 #include "kapitza/store_variables.h"
 #include "sweep.h"
 
+#define ENDS {"start", "y", "x"}
 #define OWN "@parameter_units" /* of the swept key */
 #define END_KINDS \
   "left_the_range", "fold", "period_doubling", "neimark_sacker", "symmetry_breaking", "not_located", "homoclinic"
@@ -33,9 +34,6 @@ const kz_variable kz_sweep_variables[] = {
     {"alike", KZ_REAL, {"value"}, NONE, "share of the cells or starts that end alike at all phases of release"},
     {"alike_low", KZ_REAL, {"value"}, NONE, "lower end of its 95 % interval (Wilson)"},
     {"alike_high", KZ_REAL, {"value"}, NONE, "upper end of its 95 % interval (Wilson)"},
-    {"shock_angle", KZ_REAL, {"value", "branch"}, ANGLE, "smallest change of the angle that leaves the basin"},
-    {"shock_kick", KZ_REAL, {"value", "branch"}, VELOCITY, "smallest change of the velocity that leaves the basin"},
-    {"shock_size", KZ_REAL, {"value", "branch"}, ANGLE, "size of the smallest shock that leaves the basin"},
     {"fraction", KZ_REAL, {"value", "branch"}, NONE, "share of the cells or starts; NaN = not there"},
     {"fraction_low", KZ_REAL, {"value", "branch"}, NONE, "lower end of the 95 % interval of the share (Wilson)"},
     {"fraction_high", KZ_REAL, {"value", "branch"}, NONE, "upper end of the 95 % interval of the share (Wilson)"},
@@ -49,6 +47,21 @@ const kz_variable kz_sweep_variables[] = {
     {"sample_walk", KZ_INT8, {"sample"}, NONE, "direction of the walk along the values", {"up", "down"}},
     {"strobe_theta", KZ_REAL, {"value", "sample"}, ANGLE, "angle of the strobe point from down"},
     {"strobe_velocity", KZ_REAL, {"value", "sample"}, VELOCITY, "angular velocity of the strobe point"},
+    {0},
+};
+
+const kz_variable kz_plane_variables[] = {
+    {"x", KZ_REAL, {"x"}, "@x_units", "value of the key x_parameter of the pendulum"},
+    {"y", KZ_REAL, {"y"}, "@y_units", "value of the key y_parameter of the pendulum"},
+    {"start", KZ_INT32, {"start"}, NONE, "place of the start in the list"},
+    {"start_theta", KZ_REAL, {"start"}, ANGLE, "angle of the start from down"},
+    {"start_velocity", KZ_REAL, {"start"}, VELOCITY, "angular velocity of the start"},
+    {"end_period", KZ_INT16, ENDS, PERIODS, "period of the cycle in which the motion ends; 0 = none"},
+    {"end", KZ_INT8, ENDS, NONE, "kind of the end of the motion", {"cycle", "chaotic", "not_settled", "no_damped_pendulum"}},
+    {"end_winding", KZ_INT32, ENDS, NONE, "net turns in one period of the cycle, + counterclockwise"},
+    {"end_centre", KZ_INT8, ENDS, NONE, "what the cycle moves about", {CENTRES}},
+    {"exponent", KZ_REAL, ENDS, RATE, "largest Lyapunov exponent of the end"},
+    {"settling_time", KZ_INT32, ENDS, PERIODS, "time until the motion is within 1e-5 rad of its state one period of the cycle before"},
     {0},
 };
 /* clang-format on */

@@ -17,18 +17,6 @@ typedef struct {
   const char *group;
 } writing;
 
-/* One axis with its scale, its key and that key's unit. */
-static kz_status write_axis(const char *name, const kz_plane_axis *axis, kz_store *store) {
-  KZ_TRY(kz_axis_describe(&axis->values, axis->parameter, name, "plane", store));
-  KZ_SCALE(store, "plane", name, axis->values.count, kz_axis_value(&axis->values, i));
-  return KZ_OK;
-}
-
-kz_status kz_points_write_axes(const kz_sweep_plan *plan, kz_store *store) {
-  KZ_TRY(write_axis("y", &plan->y, store));
-  return write_axis("x", &plan->x, store);
-}
-
 static kz_status write_line(const writing *w) {
   const kz_sweep_plan *plan = w->points->scene->sweep;
   KZ_TRY(kz_axis_describe(&plan->values, plan->parameter, "", "line", w->store));
@@ -121,10 +109,9 @@ static kz_status write_points(const kz_points *points, const void *records, cons
   return write_measures(&w);
 }
 
-kz_cost kz_points_cost(const kz_scene *scene) {
-  const kz_points points = kz_points_of(scene);
-  const double n = (double)(points.columns * points.rows), bytes = n * (double)kz_point_bytes(&points);
-  return (kz_cost){.cells = (int64_t)n * points.plan.starts,
+kz_cost kz_points_cost(const kz_points *points) {
+  const double n = (double)(points->columns * points->rows), bytes = n * (double)kz_point_bytes(points);
+  return (kz_cost){.cells = (int64_t)n * points->plan.starts,
                    .disk_bytes = 1.5 * bytes,
                    .memory_bytes = bytes,
                    .rank0_bytes = bytes + n * KZ_POINT_MOST * 40};
@@ -168,13 +155,12 @@ static kz_status measure_point(void *context, int64_t tile, void *record) {
   return KZ_OK;
 }
 
-kz_status kz_points_run(const kz_scene *scene, const kz_run *run, kz_store *store, FILE *summary) {
-  const kz_points points = kz_points_of(scene);
+kz_status kz_points_run(const kz_points *points, const kz_run *run, kz_store *store, FILE *summary) {
   const kz_stage stage =
-      kz_stage_for_all("points", points.columns * points.rows, kz_point_bytes(&points), measure_point, (void *)&points);
+      kz_stage_for_all("points", points->columns * points->rows, kz_point_bytes(points), measure_point, (void *)points);
   KZ_FREED void *records = kz_malloc((size_t)stage.n_tiles * stage.record_bytes);
   KZ_FREED_BY(kz_classes_free) kz_classes classes = {0};
   KZ_TRY(kz_stage_run(run, &stage, records));
-  KZ_TRY(kz_classes_make(&points, run, records, &classes));
-  return kz_ranks_agree(run->ranks, store ? write_points(&points, records, &classes, store, summary) : KZ_OK);
+  KZ_TRY(kz_classes_make(points, run, records, &classes));
+  return kz_ranks_agree(run->ranks, store ? write_points(points, records, &classes, store, summary) : KZ_OK);
 }

@@ -1,8 +1,8 @@
 /* Measures of the table (src/study/measures) at every point of a line or plane of pendulums, and the same attractor from point to point. */
 #pragma once
 
-#include "measures/measures.h"
-#include "sweep.h"
+#include "measures.h"
+#include "sweep/sweep.h"
 
 enum { KZ_POINT_MOST = 32 }; /* attractors at one point */
 
@@ -14,7 +14,11 @@ typedef struct {
   int64_t numbers;     /* values of an attractor: each measure has 1, or 3 with its interval */
   int64_t of_pendulum; /* of the pendulum */
 } kz_points;
-kz_points kz_points_of(const kz_scene *scene);
+/* names: rows of kz_measures. */
+kz_points kz_points_of(const kz_scene *scene, const kz_integers *names);
+/* What they cost, and the run of all. Collective. */
+kz_cost kz_points_cost(const kz_points *points);
+kz_status kz_points_run(const kz_points *points, const kz_run *run, kz_store *store, FILE *summary);
 /* The pendulum between two points, at `share` of the way from one to the other; false if there is none. */
 bool kz_points_pendulum(const kz_points *points, int64_t from, int64_t to, double share, kz_pendulum *pendulum);
 

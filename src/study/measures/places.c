@@ -1,7 +1,7 @@
 /* Where the points of a line or plane lie, and the pendulums between them. */
 #include "points.h"
 
-kz_points kz_points_of(const kz_scene *scene) {
+kz_points kz_points_of(const kz_scene *scene, const kz_integers *names) {
   const kz_sweep_plan *sweep = scene->sweep;
   const bool plane = kz_sweep_is_plane(sweep);
   kz_points points = {.scene = scene,
@@ -10,10 +10,10 @@ kz_points kz_points_of(const kz_scene *scene) {
                                .starts = sweep->starts,
                                .max_period = sweep->max_period,
                                .seed = sweep->seed,
-                               .options = sweep->options},
+                               .options = scene->swept->options},
                       .columns = plane ? sweep->x.values.count : sweep->values.count,
                       .rows = plane ? sweep->y.values.count : 1};
-  points.plan.names = kz_sweep_table_names(sweep);
+  points.plan.names = *names;
   for (int64_t i = 0; i < points.plan.names.count; i++) {
     const kz_measure_shape shape = kz_measures[points.plan.names.values[i]].shape;
     points.numbers += shape == KZ_PER_INTERVAL ? 3 : shape != KZ_PER_PENDULUM;
