@@ -21,7 +21,15 @@ typedef struct {
   int64_t *track; /* [count]: a number that stays with an attractor while the pendulum changes */
 } kz_live_catalogue;
 
-enum { KZ_PLANE_LABELS, KZ_PLANE_SETTLING_TIME, KZ_PLANE_SMOOTH_TIME, KZ_PLANE_DOUBT, KZ_PLANE_OTHER, KZ_PLANES };
+enum {
+  KZ_PLANE_LABELS,
+  KZ_PLANE_SETTLING_TIME,
+  KZ_PLANE_SMOOTH_TIME,
+  KZ_PLANE_DOUBT,
+  KZ_PLANE_OTHER,
+  KZ_PLANE_TURNS,
+  KZ_PLANES
+};
 enum { KZ_NO_LABEL = 255 }; /* not settled, or no attractor */
 enum { KZ_DOUBT_NONE = 0, KZ_DOUBT_OPEN = 1, KZ_DOUBT_UNSEEN = 2 };
 

@@ -305,3 +305,15 @@ def test_releases_of_a_table_are_compared(page):
     assert len(shares) > 1 and sum(shares) == pytest.approx(100, abs=2)
     page.run("$('releases-gone').click()")
     assert page.run("$('agreement').textContent") == ""
+
+
+def test_turns_shade_the_labels(page, webgl):
+    """Of eight stripes of turns neighbours differ, also where their label is the same; four shades in all."""
+    page.choose("shade", "none")
+    page.choose("quality", "exact")
+    page.wait()
+    plain = len(np.unique(np.array(page.pixels()), axis=0))
+    page.choose("shade", "turns")
+    page.wait()
+    assert len(np.unique(np.array(page.pixels()), axis=0)) > plain
+    assert page.module("heights.js", "[-5, -4, 0, 1, 2, 3, NaN].map(its.shadeOfTurns)") == pytest.approx([1, 0, 0, 1 / 3, 2 / 3, 1, 0])

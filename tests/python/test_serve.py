@@ -98,6 +98,18 @@ def test_samples_of_a_deep_window_stand_for_its_cells(server):
     assert np.array_equal(moving[0][1]["labels"], moving[1][1]["labels"][np.ix_(places(4, 40), places(4, 60))])
 
 
+def test_frames_have_turns(server):
+    """As `where` has them; mirrored cells the other way round; none of quick frames."""
+    _, [(_, exact)] = server.frame(20, 30, ("turns", "labels"), quality="exact")
+    _, [(_, moving)] = server.frame(20, 30, ("labels", "turns"), quality="moving")
+    turns = exact["turns"]
+    assert np.array_equal(turns, -turns[::-1, ::-1], equal_nan=True) and np.nanmax(turns) > 1 and np.all(np.isnan(moving["turns"]))
+    for row, column in ((3, 4), (10, 15), (12, 3)):
+        theta, velocity = -np.pi + (2 * column + 1) * np.pi / 30, -2 + (2 * row + 1) * 2 / 20
+        header, _ = server.ask("where", theta=theta, velocity=velocity)[0]
+        assert header["turns"] == (None if np.isnan(turns[row, column]) else turns[row, column])
+
+
 def shared(process):
     """Ticks that threads of a process have taken beside its first one, those that have ended too; and its children."""
     def taken(path):

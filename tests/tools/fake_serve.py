@@ -66,7 +66,8 @@ def frame(request):
         planes = request.get("planes", ["labels"])
         parts = {"labels": line, "settling_time": struct.pack(f"<{columns}f", *(9.0 * x for x in line)),
                  "smooth_time": struct.pack(f"<{columns}f", *(9.0 * x + 0.5 for x in line)),
-                 "doubt": bytes(x == 2 for x in line), "other": bytes(0 if x == 2 else 255 for x in line)}
+                 "doubt": bytes(x == 2 for x in line), "other": bytes(0 if x == 2 else 255 for x in line),
+                 "turns": struct.pack(f"<{columns}f", *(8 * j // columns for j in range(columns)))}
         answer("frame", sequence, b"".join(parts[name] * rows for name in planes), level == levels[-1], level=level, rows=rows,
                columns=columns, planes=planes, catalogue=int(1000 * pendulum["m"]), quality=request.get("quality", "exact"))
 

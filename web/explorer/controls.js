@@ -16,7 +16,7 @@ import { Stories } from "./stories.js";
 const CHOICES = {
   quality: ["Labels", { exact: "exact", moving: "quick" }],
   samples: ["Samples", { 1: "1", 2: "2", 3: "3" }],
-  shade: ["Shade", { relief: "relief", none: "none", settling: "certain late" }],
+  shade: ["Shade", { relief: "relief", none: "none", settling: "certain late", turns: "turns" }],
   units: ["Axes", { pi: "rad", degrees: "degrees", si: "SI" }],
   theme: ["Theme", { auto: "auto", light: "light", dark: "dark" }],
   letters: ["Letters", { usual: "usual", large: "large" }, "large letters, for a projector"],

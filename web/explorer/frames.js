@@ -14,7 +14,8 @@ export function requestOf(window, pendulum, canvas, { quality, levels, samples, 
   const most = allowed ?? (quality === "moving" && samples === 1 ? MOST_MOVING : MOST_RESTING);
   const scale = Math.min(samples, Math.sqrt(most / (canvas.width * canvas.height)), largest / canvas.width, largest / canvas.height);
   const times = [...(quality === "exact" ? ["settling_time"] : []), ...(shade === "settling" ? ["smooth_time"] : [])];
-  const planes = ["labels", ...times, ...(quality === "exact" ? ["doubt", "other"] : [])];
+  const sure = quality === "exact" ? ["doubt", "other", ...(shade === "turns" ? ["turns"] : [])] : [];
+  const planes = ["labels", ...times, ...sure];
   return {
     request: "frame",
     window: window.toRequest(),
@@ -40,7 +41,7 @@ export function decoded(header, bytes) {
   const planes = {};
   let at = 0;
   for (const name of header.planes) {
-    const size = name.endsWith("_time") ? 4 : 1;
+    const size = name.endsWith("_time") || name === "turns" ? 4 : 1;
     const part = bytes.slice(at, at + size * cells);
     planes[name] = size === 4 ? new Float32Array(part.buffer) : part;
     at += size * cells;

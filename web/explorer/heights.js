@@ -4,9 +4,10 @@ import { TURN } from "./window.js";
 
 /** By the word of the state: how much darker late ends are drawn (`depth`, 0 to 1), and whether early and late are those of the frame itself: the
  * times of a picture differ by few periods, which would be one shade of the whole scale. */
-const SHADINGS = { relief: { depth: 0.5, own: true }, settling: { depth: 0.8, own: false } };
+const SHADINGS = { relief: { depth: 0.5, own: true }, settling: { depth: 0.8, own: false }, turns: { depth: 0.8, own: false } };
 const FLAT = { depth: 0, own: false };
 export const shadingOf = (shade) => SHADINGS[shade] ?? FLAT;
+const LAKES = 4; // numbers of turns that have shades of their own
 export const DOUBLINGS = 10; // of the time after which the end is certain, until it is as dark as it gets
 const LIGHT = [-0.45, 0.45, 0.77]; // where light comes from: left, above, in front
 const STEEP = 0.13; // slope of ground that falls from the lightest to the darkest shade across a picture
@@ -14,6 +15,9 @@ const WHOLE = 1e-6; // rad by which a whole turn may differ
 const REACH = 2; // cells about one that smooth it
 const LATENESS = 0.45; // part that the time has in a shade; light has the rest
 const [EARLY, LATE] = [0.02, 0.9]; // shares of a frame's cells that are as light, or darker than all but these
+
+/** The shade of a number of turns, 0 (light) to 1: neighbours differ; where there is no number, light. */
+export const shadeOfTurns = (turns) => (((turns % LAKES) + LAKES) % LAKES || 0) / (LAKES - 1);
 
 /** Times, of 0 to 1 as `cells` has them, from which on cells get darker, and at which they are darkest. */
 export function heightsOf(frame, { own }) {

@@ -1,7 +1,7 @@
 // Labels as a texture, colours as a palette: the basins are drawn, moved and scaled by the graphics card.
 
 import { HATCHING } from "./frames.js";
-import { DOUBLINGS, heightsOf } from "./heights.js";
+import { DOUBLINGS, heightsOf, shadeOfTurns } from "./heights.js";
 import { Painter2d } from "./painter2d.js";
 import { placementOf } from "./placement.js";
 
@@ -55,12 +55,13 @@ void main() {
 export function frameOf(header, planes, window, palette) {
   const { rows, columns } = header;
   const cells = new Uint8Array(4 * rows * columns);
-  const { labels, settling_time: times, doubt, other } = planes;
+  const { labels, settling_time: times, doubt, other, turns } = planes;
   const shades = planes.smooth_time ?? times; // whole periods are terraces, which are gentle enough for a relief
   let doubtful = 0;
   for (let i = 0; i < labels.length; i++) {
     cells[4 * i] = labels[i];
-    if (shades) cells[4 * i + 1] = Math.min(255, (255 / DOUBLINGS) * Math.log2(1 + (shades[i] || 0)));
+    if (turns) cells[4 * i + 1] = 255 * shadeOfTurns(turns[i]);
+    else if (shades) cells[4 * i + 1] = Math.min(255, (255 / DOUBLINGS) * Math.log2(1 + (shades[i] || 0)));
     if (doubt && doubt[i] === 1) cells[4 * i + 2] = 255;
     doubtful += cells[4 * i + 2] === 255;
     if (other) cells[4 * i + 3] = other[i];

@@ -38,7 +38,7 @@ static void follow(kz_prepared *r, int64_t most, kz_travellers *from, kz_travell
       add_late(late, number, spent, state + 2 * i);
       continue;
     }
-    cells[number].end = (kz_label){.label = (int16_t)label[i], .periods = spent, .evidence = KZ_LEFT};
+    cells[number].end = (kz_label){.label = (int16_t)label[i], .periods = spent, .evidence = KZ_LEFT, .turns = KZ_NO_TURNS};
     r->ended++;
     r->left += label[i] == 0;
     if (label[i] == 0 && r->n_unsettled < KZ_MOST_UNSETTLED)
@@ -94,6 +94,7 @@ static kz_status decide(const kz_prepared *r, const kz_window_starts *starts, in
   kz_labeller labeller = d->labeller;
   labeller.start = start_cell;
   labeller.note = note;
+  labeller.turns = r->turns;
   labeller.context = d;
   KZ_TRY(kz_label_items(&labeller, 1, n, NULL, label));
   for (int64_t i = 0; i < n; i++) cells[number[i]].end = label[i];

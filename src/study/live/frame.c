@@ -28,7 +28,7 @@ typedef struct {
 } making;
 
 size_t kz_plane_bytes(int plane) {
-  return plane == KZ_PLANE_SETTLING_TIME || plane == KZ_PLANE_SMOOTH_TIME ? sizeof(float) : 1;
+  return plane == KZ_PLANE_SETTLING_TIME || plane == KZ_PLANE_SMOOTH_TIME || plane == KZ_PLANE_TURNS ? sizeof(float) : 1;
 }
 
 /* Bytes of a cell in all planes of a frame. */
@@ -107,7 +107,7 @@ static uint8_t doubt_of(const kz_label *end) {
 static void put(const making *m, int plane, const kz_frame_cell *cell, bool mirrored, int64_t at, void *values) {
   const kz_label *end = &cell->end;
   uint8_t *codes = values;
-  float *times = values;
+  float *numbers = values;
   if (plane == KZ_PLANE_LABELS)
     codes[at] = id_of(m, end->label, mirrored);
   else if (plane == KZ_PLANE_OTHER)
@@ -115,9 +115,11 @@ static void put(const making *m, int plane, const kz_frame_cell *cell, bool mirr
   else if (plane == KZ_PLANE_DOUBT)
     codes[at] = doubt_of(end);
   else if (end->label <= 0)
-    times[at] = (float)NAN;
+    numbers[at] = (float)NAN;
+  else if (plane == KZ_PLANE_TURNS)
+    numbers[at] = end->turns == KZ_NO_TURNS ? (float)NAN : (float)(mirrored ? -end->turns : end->turns);
   else
-    times[at] = plane == KZ_PLANE_SETTLING_TIME ? (float)end->periods : cell->smooth;
+    numbers[at] = plane == KZ_PLANE_SETTLING_TIME ? (float)end->periods : cell->smooth;
 }
 
 /* A plane of a raster. */
@@ -141,8 +143,12 @@ static kz_status show(making *m, int64_t coarseness) {
                           .columns = kz_raster_size(coarseness, columns),
                           .catalogue = &m->prepared->catalogue};
   size_t end = 0;
-  static const int order[KZ_PLANES] = {/* floats first: aligned */ KZ_PLANE_SETTLING_TIME, KZ_PLANE_SMOOTH_TIME,
-                                       KZ_PLANE_LABELS, KZ_PLANE_DOUBT, KZ_PLANE_OTHER};
+  static const int order[KZ_PLANES] = {/* floats first: aligned */ KZ_PLANE_SETTLING_TIME,
+                                       KZ_PLANE_SMOOTH_TIME,
+                                       KZ_PLANE_TURNS,
+                                       KZ_PLANE_LABELS,
+                                       KZ_PLANE_DOUBT,
+                                       KZ_PLANE_OTHER};
   for (int p = 0; p < KZ_PLANES; p++) {
     if (!m->frame->plane[order[p]]) continue;
     void *values = (char *)m->buffer + end;
@@ -184,6 +190,7 @@ kz_status kz_engine_frame(kz_engine *engine, const kz_scene *scene, const kz_fra
   const bool was_busy = m.prepared->busy;
   m.prepared->busy = true;
   m.prepared->smooth = frame->plane[KZ_PLANE_SMOOTH_TIME];
+  m.prepared->turns = frame->plane[KZ_PLANE_TURNS];
   const kz_status status = make(&m);
   m.prepared->busy = was_busy;
   kz_samples_free(&m.samples);

@@ -37,6 +37,7 @@ typedef struct {
   double tolerance; /* rad: error of a period for moving frames; 0 = labels are decided */
   bool busy;        /* a frame of it is being made */
   bool smooth;      /* its cells get smooth settling times */
+  bool turns;       /* their net turns are counted */
   int64_t used;     /* counter of its last use: larger = later */
   int64_t periods;  /* largest number of drive periods for which cells are followed */
   kz_dynamics *dynamics;
