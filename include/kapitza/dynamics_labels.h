@@ -54,7 +54,9 @@ typedef struct {
   int16_t other;    /* of a start that no level decides: the second candidate, 0 = none */
   uint8_t evidence; /* 0 = not labelled yet; else how it is known (study/labelling/levels.h), which dynamics does not say */
   uint8_t next;     /* of a doubtful orbit: the lowest level that may decide it, by the growth of its error */
+  int16_t zero;     /* it and `zeros` are 0: tiles are squeezed, and bytes between members would be anything */
   int32_t turns;    /* of kz_dynamics_count_turns */
+  int32_t zeros;
 } kz_label;
 
 /* A label with the orbit behind it. */

@@ -32,7 +32,9 @@ module kz_labels_orbits
     integer(c_int16_t) :: other = 0
     integer(c_int8_t) :: evidence = 0
     integer(c_int8_t) :: next = 0           !< the level that may decide a doubtful orbit
+    integer(c_int16_t) :: zero = 0          !< nothing, as the last one
     integer(c_int32_t) :: turns = 0         !< net turns until its end (count_turns)
+    integer(c_int32_t) :: zeros = 0
   end type label_t
 
   !> kz_decision of dynamics_labels.h: a label with the orbit behind it.
