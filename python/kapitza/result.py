@@ -74,7 +74,8 @@ class Result(File):
         :param theta: angles in rad from down, or texts such as "175 deg" and "pi/2"; whole turns are taken off
         :param velocity: velocities in rad per drive radian, or, for a scene in SI units, texts such as "3 rad/s"
         :return: for numbers a Series with theta and velocity (of the start; theta within the window), attractor (id; -1 = not settled),
-            name, settling_time (drive periods) and evidence; for arrays, which are broadcast, a DataFrame with a row each
+            name, settling_time (drive periods), evidence and, where the file has them, turns; for arrays, which are broadcast, a DataFrame
+            with a row each
         :raises ValueError: if a start lies outside the window
         """
         return starts_table(self.group("basin"), self.names, theta, velocity, self.pivot_frequency)

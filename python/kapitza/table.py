@@ -126,4 +126,6 @@ def starts_table(basin: xarray.Dataset, names: list[str], theta: Any, velocity: 
     table = pandas.DataFrame({"theta": angles, "velocity": speeds, "attractor": labels, "name": [named[int(label)] for label in labels],
                               "settling_time": basin["settling_time"].values[rows, columns],
                               "evidence": [flag_word(basin["evidence"], code) for code in basin["evidence"].values[rows, columns]]})
+    if "turns" in basin:
+        table["turns"] = pandas.array(basin["turns"].values[rows, columns], dtype="Int64")
     return table if pairs.shape else table.iloc[0]

@@ -203,6 +203,8 @@ def test_every_method_counts_turns(kapitza, tmp_path, method):
     agree = same["attractor"].values == basin["attractor"].values
     assert np.mean(agree) > 0.97 and np.mean((same["turns"].values == turns)[agree & ~np.isnan(turns)]) > 0.97
     assert np.array_equal(turns, -turns[::-1, ::-1], equal_nan=True) and np.nanmax(turns) > 5
+    told = exact.at(np.repeat(basin["theta"].values[::20], 3), np.tile(basin["velocity"].values[::20], 3))["turns"]
+    assert np.array_equal(told.to_numpy(dtype=float, na_value=np.nan), turns[::20, ::20].T.ravel(), equal_nan=True)
     assert np.array_equal(np.isnan(turns), exact.group("attractors")["winding"].values[basin["attractor"].values] != 0)
 
 
