@@ -74,7 +74,6 @@ struct kz_atlas {
   int swapped; /* 1: the axes of the scene are exchanged, so that axis i here is 1 - i there; else 0 */
   kz_scene own_scene;
   kz_atlas_plan own_plan;
-  int64_t max_period; /* of the cycles whose curves are sought: the scene's */
   kz_plane plane;
   double longest; /* step along curves */
   bool undriven;  /* no drive at the lowest y: rest alone attracts */
@@ -171,10 +170,9 @@ static inline int64_t kz_atlas_width(const kz_atlas_kind *kind) {
 
 /* ---- exploration: seeds of other curves ---- */
 
-/* From a cycle along both axes; from a curve's degenerate points, its images and, if `middle`, its middle along both axes; along the
- * line where the other coordinate than `axis` is `value`, from all crossings of curves `first` and later. Not NULL: the branches join `drawn`. */
-void kz_atlas_explore_cycle(const kz_atlas *atlas, const kz_atlas_seed *cycle, kz_atlas_seeds *seeds);
-/* From the first curve alone that a cycle meets along the vertical axis, else along the other one. */
+/* From the first curve that a cycle meets along the vertical axis, else along the other one; from a curve's degenerate points, its images and, if
+ * `middle`, its middle along both axes; along the line where the other coordinate than `axis` is `value`, from all crossings of curves `first` and
+ * later. Not NULL: the branches join `drawn`. */
 void kz_atlas_explore_first(const kz_atlas *atlas, const kz_atlas_seed *cycle, kz_atlas_seeds *seeds);
 void kz_atlas_explore_curve(const kz_atlas *atlas, const kz_atlas_curve *curve, bool middle, kz_atlas_seeds *seeds);
 void kz_atlas_explore_line(kz_atlas *atlas, int axis, double value, int64_t first, kz_atlas_seeds *seeds,
@@ -224,6 +222,8 @@ void kz_atlas_crossings_of(kz_atlas *atlas, int axis, double value, bool classes
 /* The width of the band of attractors at a point of a curve with this normal form, in sides of the plane, if it is narrow: along the direction in
  * which the gradient of the form's side was taken. d: determinant of the cycle's map. */
 double kz_atlas_band(const kz_atlas_kind *kind, double d, double form, double gradient);
+/* The width at a point of a curve, across it. */
+double kz_atlas_band_at(const kz_atlas *atlas, const kz_atlas_seed *at);
 /* The widest band of attractors beside a curve within the plane, across the curve; 1 at most. */
 double kz_atlas_widest(const kz_atlas *atlas, const kz_atlas_curve *curve);
 /* Takes edges of narrow bands that lack the other edge out of the crossings of a line. */
@@ -279,13 +279,13 @@ kz_atlas_curve kz_atlas_curve_in(const char *record);
 
 /* ---- the run ---- */
 
-/* Follows cycles, and then traces and explores every curve that comes of them, until nothing is left. Collective. */
-kz_status kz_atlas_drain(kz_atlas *atlas, const kz_run *run, int64_t n_cycles, const kz_atlas_seed *cycle);
+/* Traces and explores every curve that comes of the seeds that wait, until nothing is left. Collective. */
+kz_status kz_atlas_drain(kz_atlas *atlas, const kz_run *run);
 /* A seed waits to be traced unless it lies on a known curve. */
 void kz_atlas_await(kz_atlas *atlas, const kz_atlas_seed *seed);
-/* Finds all cycles of n places, follows each to the first curve that it meets, and traces and explores the curves that come of them. *wide: how many
- * new curves have a band of 1e-4 sides or more; NULL: the places are not random, and count for no estimate. Collective. */
-kz_status kz_atlas_census(kz_atlas *atlas, const kz_run *run, int64_t n, const double (*place)[2], int64_t *wide);
+/* Finds all cycles of n places, beside those found there, follows each to the first curve that it meets, and traces and explores the curves that come
+ * of them. *wide: how many new curves have a band of 1e-4 sides or more; NULL: the places are not random, and count for no estimate. Collective. */
+kz_status kz_atlas_census(kz_atlas *atlas, const kz_run *run, int64_t n, const kz_atlas_probe *probe, int64_t *wide);
 /* Runs all stages. Collective. */
 kz_status kz_atlas_search(kz_atlas *atlas, const kz_run *run);
 

@@ -22,7 +22,7 @@ enum { TILES = 8, CYCLES_OF_A_TILE = 16 };
 /* A place, or a tile of cycles of it. */
 typedef struct {
   const kz_atlas *atlas;
-  const double (*place)[2];
+  const kz_atlas_probe *probe;
   int64_t n, capacity, place_capacity;
   kz_atlas_seeds *tile; /* [n]: the cycles of tiles, and the place of each */
   int64_t *place_of;
@@ -31,8 +31,9 @@ typedef struct {
 /* The window of the search at a place: no cycle of this pendulum is faster. */
 static kz_saddles_plan window_of(const kz_atlas *atlas, const kz_pendulum *pendulum) {
   const double fastest = fmax(FASTEST, 1 + 2 * sqrt(kz_stiffness(pendulum)));
-  return (kz_saddles_plan){
-      .theta = {.min = -M_PI, .max = M_PI}, .velocity = {.min = -fastest, .max = fastest}, .max_period = atlas->max_period};
+  return (kz_saddles_plan){.theta = {.min = -M_PI, .max = M_PI},
+                           .velocity = {.min = -fastest, .max = fastest},
+                           .max_period = atlas->scene->atlas->max_period};
 }
 
 static bool has_cycle(const kz_atlas *atlas, const double place[2], const kz_atlas_seeds *cycles, int32_t period,
@@ -66,7 +67,7 @@ static void search_line(const kz_atlas *atlas, const double place[2], const kz_l
 
 static kz_status cycles_tile(void *context, int64_t tile, void *record) {
   const census *c = context;
-  const double *place = c->place[tile / TILES];
+  const double *place = c->probe[tile / TILES].place;
   KZ_FREED_BY(kz_atlas_seeds_free) kz_atlas_seeds cycles = {0};
   kz_pendulum pendulum;
   const bool exists = kz_atlas_pendulum(c->atlas->scene, place, &pendulum);
@@ -91,11 +92,12 @@ static void census_free(census *c) {
 static void list_cycles(census *c, const kz_atlas_bag *found, int64_t *dropped) {
   for (int64_t place = 0; place < found->n / TILES; place++) {
     KZ_FREED_BY(kz_atlas_seeds_free) kz_atlas_seeds all = {0};
+    for (int64_t i = 0; i < c->probe[place].found.count; i++) kz_atlas_put(&all, c->probe[place].found.list + i);
     for (int64_t tile = place * TILES; tile < (place + 1) * TILES; tile++) {
       const kz_atlas_seeds some = kz_atlas_seeds_in(found->record[tile]);
       *dropped += some.dropped;
       for (int64_t i = 0; i < some.count; i++)
-        if (!has_cycle(c->atlas, c->place[place], &all, kz_kind_period(&some.list[i].kind), some.list[i].y))
+        if (!has_cycle(c->atlas, c->probe[place].place, &all, kz_kind_period(&some.list[i].kind), some.list[i].y))
           kz_atlas_put(&all, some.list + i);
     }
     for (int64_t i = 0; i < all.count; i++) {
@@ -122,16 +124,16 @@ static kz_status births_tile(void *context, int64_t tile, void *record) {
   for (int64_t i = 0; i < c->tile[tile].count; i++) {
     const kz_atlas_seed *found = c->tile[tile].list + i;
     const int n = found->kind.of.points;
-    kz_atlas_seed cycle;
-    if (kz_atlas_identify(c->atlas, found->y + 2 * n, found->y, n, STEEPEST[0], &cycle))
+    const bool is_raw = found->kind.of.side > 0 && found->kind.rest < 0; /* the search does not look at symmetries */
+    kz_atlas_seed cycle = *found;
+    if (!is_raw || kz_atlas_identify(c->atlas, found->y + 2 * n, found->y, n, STEEPEST[0], &cycle))
       kz_atlas_explore_first(c->atlas, &cycle, &births);
   }
   kz_atlas_put_seeds(&births, record);
   return KZ_OK;
 }
 
-/* The width of the band of attractors at a point of a curve, across it, in sides of the plane. */
-static double band_at(const kz_atlas *atlas, const kz_atlas_seed *at) {
+double kz_atlas_band_at(const kz_atlas *atlas, const kz_atlas_seed *at) {
   double form, side[2], vector[2];
   kz_pendulum pendulum;
   if (!kz_atlas_pendulum(atlas->scene, at->y + 2 * at->kind.of.points, &pendulum) ||
@@ -177,11 +179,13 @@ void kz_atlas_count_sightings(const kz_atlas *atlas, int64_t *places) {
   }
 }
 
-static kz_status take_census(kz_atlas *atlas, const kz_run *run, int64_t n, const double (*place)[2], int64_t *wide) {
+kz_status kz_atlas_census(kz_atlas *atlas, const kz_run *run, int64_t n, const kz_atlas_probe *probe, int64_t *wide) {
+  if (wide) *wide = 0;
+  if (n == 0) return KZ_OK;
   const int64_t before = atlas->n_curves;
   KZ_FREED_BY(kz_atlas_bag_free) kz_atlas_bag found = {0};
   KZ_FREED_BY(kz_atlas_bag_free) kz_atlas_bag births = {0};
-  KZ_FREED_BY(census_free) census c = {.atlas = atlas, .place = place};
+  KZ_FREED_BY(census_free) census c = {.atlas = atlas, .probe = probe};
   KZ_TRY(kz_atlas_gather(run, "atlas cycles", n * TILES, KZ_ATLAS_SEEDS_BYTES, cycles_tile, &c, &found));
   list_cycles(&c, &found, &atlas->dropped);
   KZ_TRY(kz_atlas_gather(run, "atlas births", c.n, KZ_ATLAS_SEEDS_BYTES, births_tile, &c, &births));
@@ -189,19 +193,13 @@ static kz_status take_census(kz_atlas *atlas, const kz_run *run, int64_t n, cons
     const kz_atlas_seeds seeds = kz_atlas_seeds_in(births.record[tile]);
     atlas->dropped += seeds.dropped;
     for (int64_t i = 0; i < seeds.count; i++)
-      if (band_at(atlas, seeds.list + i) > LEAST_BAND) kz_atlas_await(atlas, seeds.list + i);
+      if (kz_atlas_band_at(atlas, seeds.list + i) > LEAST_BAND) kz_atlas_await(atlas, seeds.list + i);
   }
-  KZ_TRY(kz_atlas_drain(atlas, run, 0, NULL));
+  KZ_TRY(kz_atlas_drain(atlas, run));
   if (!wide) return KZ_OK;
   keep_sightings(atlas, &c, &births);
   atlas->places += n;
   atlas->cycles += count_cycles(&c);
   for (int64_t i = before; i < atlas->n_curves; i++) *wide += kz_atlas_widest(atlas, atlas->curve + i) >= WIDE_BAND;
-  return KZ_OK;
-}
-
-kz_status kz_atlas_census(kz_atlas *atlas, const kz_run *run, int64_t n, const double (*place)[2], int64_t *wide) {
-  if (wide) *wide = 0;
-  if (n > 0) KZ_TRY(take_census(atlas, run, n, place, wide));
   return KZ_OK;
 }

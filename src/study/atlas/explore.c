@@ -60,7 +60,7 @@ static void follow_to(const kz_atlas *atlas, const line *l, const kz_atlas_kind 
   KZ_FREED double *event = kz_malloc(MOST_EVENTS * (size_t)(3 + n) * sizeof *event);
   int64_t events = 0;
   int32_t ending;
-  if (kz_kind_period(kind) > atlas->max_period) return;
+  if (kz_kind_period(kind) > atlas->scene->atlas->max_period) return;
   const int64_t rows = kz_curve_branch(&atlas->plane, &kind->of, start, along, side, LONGEST, NULL, MOST_ROWS, row, most, event,
                                        &events, &ending);
   if (l && l->drawn) kz_atlas_draw(atlas, l->axis, kind, rows, row, events, event, l->drawn);
@@ -89,14 +89,6 @@ static void direction(int i, double along[2]) {
   along[0] = x[i], along[1] = y[i];
 }
 
-void kz_atlas_explore_cycle(const kz_atlas *atlas, const kz_atlas_seed *cycle, kz_atlas_seeds *seeds) {
-  for (int i = 0; i < 4; i++) {
-    double along[2];
-    direction(i, along);
-    follow(atlas, NULL, &cycle->kind, cycle->y, along, 0, seeds);
-  }
-}
-
 void kz_atlas_explore_first(const kz_atlas *atlas, const kz_atlas_seed *cycle, kz_atlas_seeds *seeds) {
   const int64_t before = seeds->count;
   for (int i = 3; i >= 0 && seeds->count == before; i--) {
@@ -115,7 +107,7 @@ static void explore_fold(const kz_atlas *atlas, const line *l, const kz_atlas_ki
 
 bool kz_atlas_grown(const kz_atlas *atlas, const kz_atlas_seed *flip, int axis, kz_atlas_seed *child, double along[2]) {
   const kz_atlas_kind kind = kz_child_kind(&flip->kind);
-  return kz_kind_period(&kind) <= atlas->max_period && kz_child_of(&atlas->plane, flip, axis, child, along);
+  return kz_kind_period(&kind) <= atlas->scene->atlas->max_period && kz_child_of(&atlas->plane, flip, axis, child, along);
 }
 
 /* The cycle to both sides along an axis, if `itself`, and what branches off, if `grown`. */

@@ -73,11 +73,10 @@ static kz_status trace_pending(kz_atlas *atlas, const kz_run *run) {
 
 /* ---- exploration ---- */
 
-/* Lines through the plane, new curves, cycles: a tile each. */
+/* Lines through the plane, new curves: a tile each. */
 typedef struct {
   kz_atlas *atlas;
-  int64_t first, lines, n_cycles; /* the first new curve; lines along each axis that are followed now */
-  const kz_atlas_seed *cycle;
+  int64_t first, lines; /* the first new curve; lines along each axis that are followed now */
 } exploring;
 
 static int64_t lines_of(const kz_atlas *atlas) {
@@ -106,30 +105,26 @@ static bool crosses_lines(const kz_atlas *atlas, const kz_atlas_curve *curve) {
 static kz_status explore_tile(void *context, int64_t tile, void *record) {
   const exploring *e = context;
   KZ_FREED_BY(kz_atlas_seeds_free) kz_atlas_seeds seeds = {0};
-  const int64_t curves = 2 * e->lines, cycles = curves + e->atlas->n_curves - e->first;
+  const int64_t curves = 2 * e->lines;
   const kz_atlas_curve *curve = e->atlas->curve + e->first + tile - curves;
   if (tile < curves)
     kz_atlas_explore_line(e->atlas, (int)(tile % 2), line_at(e->atlas, tile / 2), e->first, &seeds, NULL);
-  else if (tile < cycles)
-    kz_atlas_explore_curve(e->atlas, curve, !crosses_lines(e->atlas, curve), &seeds);
   else
-    kz_atlas_explore_cycle(e->atlas, e->cycle + (tile - cycles), &seeds);
+    kz_atlas_explore_curve(e->atlas, curve, !crosses_lines(e->atlas, curve), &seeds);
   kz_atlas_put_seeds(&seeds, record);
   return KZ_OK;
 }
 
 void kz_atlas_await(kz_atlas *atlas, const kz_atlas_seed *seed) {
-  if (kz_kind_period(&seed->kind) <= atlas->max_period && kz_atlas_known(atlas, seed) < 0)
-    kz_atlas_add(atlas, seed->kind, seed->y, &atlas->pending);
+  if (kz_atlas_known(atlas, seed) < 0) kz_atlas_add(atlas, seed->kind, seed->y, &atlas->pending);
 }
 
-static kz_status explore(kz_atlas *atlas, const kz_run *run, int64_t n_cycles, const kz_atlas_seed *cycle) {
+static kz_status explore(kz_atlas *atlas, const kz_run *run) {
   KZ_FREED_BY(kz_atlas_bag_free) kz_atlas_bag found = {0};
   const int64_t curves = atlas->n_curves - atlas->n_explored;
-  exploring e = {atlas, atlas->n_explored, curves > 0 ? lines_of(atlas) : 0, n_cycles, cycle};
-  const int64_t n = 2 * e.lines + curves + n_cycles;
-  if (n == 0) return KZ_OK;
-  KZ_TRY(kz_atlas_gather(run, "atlas branches", n, KZ_ATLAS_SEEDS_BYTES, explore_tile, &e, &found));
+  exploring e = {atlas, atlas->n_explored, lines_of(atlas)};
+  if (curves == 0) return KZ_OK;
+  KZ_TRY(kz_atlas_gather(run, "atlas branches", 2 * e.lines + curves, KZ_ATLAS_SEEDS_BYTES, explore_tile, &e, &found));
   atlas->n_explored = atlas->n_curves;
   for (int64_t i = 0; i < found.n; i++) {
     const kz_atlas_seeds seeds = kz_atlas_seeds_in(found.record[i]);
@@ -139,11 +134,10 @@ static kz_status explore(kz_atlas *atlas, const kz_run *run, int64_t n_cycles, c
   return KZ_OK;
 }
 
-kz_status kz_atlas_drain(kz_atlas *atlas, const kz_run *run, int64_t n_cycles, const kz_atlas_seed *cycle) {
-  KZ_TRY(explore(atlas, run, n_cycles, cycle));
+kz_status kz_atlas_drain(kz_atlas *atlas, const kz_run *run) {
   while (atlas->pending.count > 0 || atlas->n_explored < atlas->n_curves) {
     KZ_TRY(trace_pending(atlas, run));
-    KZ_TRY(explore(atlas, run, 0, NULL));
+    KZ_TRY(explore(atlas, run));
   }
   return KZ_OK;
 }

@@ -147,8 +147,7 @@ static bool is_swapped(const kz_scene *scene) {
 }
 
 kz_status kz_atlas_begin(const kz_scene *scene, kz_atlas *atlas) {
-  *atlas =
-      (kz_atlas){.scene = scene, .longest = LONGEST, .max_period = scene->atlas->max_period, .reference = {0.0123, 0.0071}};
+  *atlas = (kz_atlas){.scene = scene, .longest = LONGEST, .reference = {0.0123, 0.0071}};
   atlas->swapped = is_swapped(scene);
   if (atlas->swapped) {
     atlas->own_scene = *scene;

@@ -47,60 +47,16 @@ static void probes_free(int64_t n, kz_atlas_probe *probe) {
   free(probe);
 }
 
-/* How many more attractors of the class of cycle j were found than the curves explain. */
-static int32_t unexplained(kz_atlas *atlas, const kz_atlas_probe *probe, int64_t j, const int32_t *counts) {
-  const kz_atlas_class class = kz_atlas_class_of(&probe->found.list[j].kind);
-  int32_t found = 0;
-  for (int64_t i = 0; i < probe->found.count; i++) found += kz_atlas_is_of(&probe->found.list[i].kind, &class);
-  return found - counts[kz_atlas_class_number(atlas, &class)];
-}
-
-/* The first cycle of a probe that the curves do not explain; -1 = none. */
-static int64_t first_unexplained(kz_atlas *atlas, const kz_atlas_probe *probe) {
+/* Whether the curves do not explain what was found at a place, or contradict each other. */
+static bool is_wrong(kz_atlas *atlas, const kz_atlas_probe *probe) {
   KZ_FREED int32_t *counts = kz_malloc(KZ_ATLAS_MOST_CLASSES * sizeof *counts);
   kz_atlas_count(atlas, probe->place, counts);
-  for (int64_t j = 0; j < probe->found.count; j++)
-    if (kz_kind_period(&probe->found.list[j].kind) <= atlas->max_period && unexplained(atlas, probe, j, counts) > 0) return j;
-  return -1;
-}
-
-/* All cycles of the class of cycle j of a probe. */
-static void add_class(const kz_atlas_probe *probe, int64_t j, kz_atlas_seeds *cycles) {
-  const kz_atlas_class class = kz_atlas_class_of(&probe->found.list[j].kind);
-  for (int64_t i = 0; i < probe->found.count; i++)
-    if (kz_atlas_is_of(&probe->found.list[i].kind, &class)) kz_atlas_put(cycles, probe->found.list + i);
-}
-
-/* Curves from the attractors of places that the curves do not explain, one class of attractors at a time. */
-static kz_status explain(kz_atlas *atlas, const kz_run *run, int64_t n, kz_atlas_probe *probe) {
-  KZ_FREED bool *done = kz_calloc((size_t)n + 1, sizeof *done);
-  KZ_FREED bool *was_wrong = kz_calloc((size_t)n + 1, sizeof *was_wrong);
-  for (bool more = true; more;) {
-    kz_atlas_class taken[KZ_ATLAS_MOST_CLASSES];
-    int n_taken = 0;
-    kz_atlas_seeds cycles = {0};
-    more = false;
-    for (int64_t i = 0; i < n; i++) {
-      const int64_t j = done[i] ? -1 : first_unexplained(atlas, probe + i);
-      if (j < 0) {
-        done[i] = true;
-        continue;
-      }
-      bool waits = n_taken == KZ_ATLAS_MOST_CLASSES;
-      const kz_atlas_class class = kz_atlas_class_of(&probe[i].found.list[j].kind);
-      for (int k = 0; k < n_taken && !waits; k++) waits = !memcmp(taken + k, &class, sizeof class);
-      more = true;
-      if (waits) continue;
-      taken[n_taken++] = class;
-      done[i] = was_wrong[i]; /* tried twice, a place stays unexplained */
-      was_wrong[i] = true;
-      add_class(probe + i, j, &cycles);
-    }
-    const kz_status status = kz_atlas_drain(atlas, run, cycles.count, cycles.list);
-    kz_atlas_seeds_free(&cycles);
-    KZ_TRY(status);
+  if (!kz_atlas_plausible(atlas, counts)) return true;
+  for (int64_t i = 0; i < probe->found.count; i++) {
+    const kz_atlas_class class = kz_atlas_class_of(&probe->found.list[i].kind);
+    if (--counts[kz_atlas_class_number(atlas, &class)] < 0) return true;
   }
-  return KZ_OK;
+  return false;
 }
 
 /* Without an undriven edge: what attracts at the reference. */
@@ -118,33 +74,25 @@ static kz_status search_reference(kz_atlas *atlas, const kz_run *run) {
   probing p = {atlas, 1, 8 * MANY, 0, probe};
   kz_status status = probe_all(run, "atlas reference", &p);
   if (status == KZ_OK) set_reference(atlas, probe);
-  if (status == KZ_OK) status = kz_atlas_drain(atlas, run, probe->found.count, probe->found.list);
+  if (status == KZ_OK) status = kz_atlas_census(atlas, run, 1, probe, NULL);
   probes_free(1, probe);
   return status;
 }
 
 /* The census of the next places of the sequence; *wide: as in kz_atlas_census. */
 static kz_status search_next(kz_atlas *atlas, const kz_run *run, int64_t first, int64_t n, int64_t *wide) {
-  KZ_FREED double (*place)[2] = kz_malloc((size_t)(n + 1) * sizeof *place);
-  for (int64_t i = 0; i < n; i++) kz_even_share(first + i + 1, place[i]);
-  return kz_atlas_census(atlas, run, n, place, wide);
+  KZ_FREED kz_atlas_probe *probe = kz_calloc((size_t)n + 1, sizeof *probe);
+  for (int64_t i = 0; i < n; i++) kz_even_share(first + i + 1, probe[i].place);
+  return kz_atlas_census(atlas, run, n, probe, wide);
 }
 
-/* Whether the curves do not explain what was found, or contradict each other. */
-static bool is_wrong(kz_atlas *atlas, const kz_atlas_probe *probe) {
-  KZ_FREED int32_t *counts = kz_malloc(KZ_ATLAS_MOST_CLASSES * sizeof *counts);
-  kz_atlas_count(atlas, probe->place, counts);
-  return first_unexplained(atlas, probe) >= 0 || !kz_atlas_plausible(atlas, counts);
-}
-
-/* Curves from what is wrong at places whose attractors were searched; *wrong = at how many of them something had no explanation. */
-static kz_status mend(kz_atlas *atlas, const kz_run *run, int64_t n, kz_atlas_probe *probe, int64_t *wrong) {
-  KZ_FREED double (*place)[2] = kz_malloc((size_t)(n + 1) * sizeof *place);
+/* Curves from the cycles of places where something has no explanation; *wrong = how many. */
+static kz_status mend(kz_atlas *atlas, const kz_run *run, int64_t n, const kz_atlas_probe *probe, int64_t *wrong) {
+  KZ_FREED kz_atlas_probe *at = kz_malloc((size_t)(n + 1) * sizeof *at);
   *wrong = 0;
   for (int64_t i = 0; i < n; i++)
-    if (is_wrong(atlas, probe + i)) memcpy(place[(*wrong)++], probe[i].place, sizeof *place);
-  KZ_TRY(kz_atlas_census(atlas, run, *wrong, place, NULL));
-  return explain(atlas, run, n, probe);
+    if (is_wrong(atlas, probe + i)) at[(*wrong)++] = probe[i];
+  return kz_atlas_census(atlas, run, *wrong, at, NULL);
 }
 
 /* A round: the census of further places and then, if that finds no curve with a wide band, the attractors of random ones. *quiet: neither finds
@@ -154,7 +102,7 @@ static kz_status check(kz_atlas *atlas, const kz_run *run, int round, bool *quie
   int64_t wide;
   KZ_TRY(search_next(atlas, run, atlas->scene->atlas->seeds + round * FURTHER, FURTHER, &wide));
   kz_atlas_compare_images(atlas);
-  KZ_TRY(kz_atlas_drain(atlas, run, 0, NULL));
+  KZ_TRY(kz_atlas_drain(atlas, run));
   *quiet = wide == 0;
   if (!*quiet && round + 1 < ROUNDS) return KZ_OK;
   probes_free(p->n, p->probe);
