@@ -28,7 +28,11 @@ void kz_atlas_complete(const kz_atlas *atlas, kz_atlas_curve *curve, int64_t row
   const int n = curve->kind.of.points;
   double state[2 * KZ_CURVE_POINTS + 2], *at = curve->row + row * kz_atlas_width(&curve->kind);
   memcpy(state, at + KZ_ROW_POINTS, 2 * sizeof *state);
-  if (kz_curve_orbit(&atlas->plane, at, 2, n - 1, state)) memcpy(at + KZ_ROW_POINTS, state, 2 * (size_t)n * sizeof *state);
+  if (!kz_curve_orbit(&atlas->plane, at, 2, n - 1, state)) return;
+  memcpy(state + 2 * n, at, 2 * sizeof *state);
+  const kz_curve_kind of = kz_kind_of(&atlas->plane, curve->kind.of.side, n, curve->kind.of.stride, 1, state);
+  const double lift = of.side < 0 ? M_PI * (curve->kind.of.turns - of.turns) : 0; /* a file has angles from -pi to pi */
+  for (int i = 0; i < 2 * n; i++) at[KZ_ROW_POINTS + i] = state[i] + (i % 2 ? 0 : lift);
 }
 
 void kz_atlas_between(const kz_atlas_curve *curve, int64_t row, double share, double *y) {

@@ -51,6 +51,25 @@ TEST(test_a_third_of_a_symmetric_cycle) {
   assert_true(kind.of.points == 1 && kind.of.side == -1 && kind.of.multiplier == -1 && kind.of.turns == 1);
 }
 
+/* A row of a file has the first point of a cycle alone, with an angle from -pi to pi. The others follow, with angles that close as those of its kind. */
+TEST(test_a_row_of_a_file_is_completed) {
+  const kz_atlas atlas = {.plane = PLANE};
+  const kz_curve_kind swings = {1, 1, -1, 0, 0}, symmetric = {-1, 1, -1, 1, 0};
+  double y[4] = {M_PI, 0, -0.05, 0.5}, vector[2], form, side[2], row[KZ_ROW_POINTS + 2] = {0};
+  assert_int_equal(kz_curve_locate(&PLANE, &swings, y, UP), 1);
+  assert_int_equal(kz_curve_form(&PLANE, &swings, y, &form, side, vector), 1);
+  for (int i = 0; i < 2; i++) y[i] += 0.6 * vector[i];
+  y[3] += 0.09;
+  assert_int_equal(kz_curve_locate(&PLANE, &symmetric, y, UP), 1);
+  if (y[0] < M_PI) y[0] = 2 * M_PI - y[0], y[1] = -y[1]; /* its image */
+  kz_atlas_curve curve = {.kind = {symmetric, -1}, .n = 1, .row = row};
+  row[0] = y[2], row[1] = y[3];
+  row[KZ_ROW_POINTS] = remainder(y[0], 2 * M_PI), row[KZ_ROW_POINTS + 1] = y[1];
+  assert_true(row[KZ_ROW_POINTS] < 0);
+  kz_atlas_complete(&atlas, &curve, 0);
+  assert_true(fabs(row[KZ_ROW_POINTS] - y[0]) < 1e-12 && row[KZ_ROW_POINTS + 1] == y[1]);
+}
+
 /* A cycle of three periods at its fold or its doubling in a band 3e-8 wide, told twice round, beside the place where it is by the error of one. At the
  * fold no such cycle may exist there; at the doubling its trace differs by 1e-3. */
 TEST(test_twice_round_in_a_narrow_band) {
