@@ -17,8 +17,10 @@ kapitza_power(atlas FOLDERS study/atlas dynamics/curves FILES include/kapitza/st
     docs/explanation/atlas.md docs/tutorials/map.md)
 kapitza_power(tools FOLDERS app/tools COMMANDS plot info fit needs
   BESIDE tests/python/test_needs.py tests/python/test_fit.py)
+kapitza_power(ends FOLDERS study/ends dynamics/plane FILES include/kapitza/dynamics_ends.h PARTS ends KEYS sweep.ends
+  BESIDE tests/python/test_chart.py)
 kapitza_power(live FOLDERS study/live study/where app/live dynamics/live FILES include/kapitza/dynamics_live.h include/kapitza/study_live.h include/kapitza/study_where.h
-  COMMANDS where view serve NEEDS atlas deep tools
+  COMMANDS where view serve NEEDS atlas deep tools ends
   BESIDE tests/unit/study/rasters.c tests/tools/fake_serve.py tests/tools/explored.h tests/tools/page_access.py
     tests/python/test_explorer*.py tests/python/explorer_page.py tests/python/serving.py tests/python/test_serve.py
     tests/python/test_client.py tests/python/test_protocol.py tests/python/test_where.py

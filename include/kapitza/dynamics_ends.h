@@ -3,6 +3,9 @@
 
 #include "kapitza/model.h"
 
+/* What is said of other drives. */
+#define KZ_ENDS_NEED_SINE "sweep.measure ends needs a pivot that moves up and down as a sine; leave one of them out"
+
 /* Where a motion of one of many pendulums ends. */
 typedef struct {
   int32_t period;        /* 0 = chaotic: not settled, and neighbours separate; -1 = not settled */

@@ -202,8 +202,8 @@ extern const kz_group kz_groups[];
 
 /* KZ_REFUSED if the scene asks for what does not take its drive or its release (src/study/drive_limits.c). */
 kz_status kz_drive_check(const kz_scene *scene);
-/* The same for ends over a plane only. */
-kz_status kz_drive_check_ends(const kz_scene *scene);
+/* KZ_REFUSED with this complaint where the drive is not a sine, or a swept key makes another one. */
+kz_status kz_drive_check_sine(const kz_scene *scene, const char *complaint);
 /* KZ_REFUSED, with the message of the first study of the scene that does not pass its check. */
 kz_status kz_studies_check(const kz_scene *scene);
 

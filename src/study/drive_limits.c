@@ -20,7 +20,6 @@ static bool is_swept(const kz_scene *scene, bool (*is_such)(int32_t parameter)) 
   static bool asks_##name(const kz_scene *s) { \
     return what;                               \
   }
-ASKS(ends, s->has_sweep &&kz_sweep_measures(s->sweep, KZ_SWEEP_ENDS))
 ASKS(curves_of_sine, s->has_stability && !kz_is_sine(&s->parameters.pendulum) && kz_stability_needs_sine(s->stability))
 ASKS(potential, s->has_potential)
 ASKS(other_models, s->has_orbit && s->orbit->model != KZ_PENDULUM)
@@ -48,7 +47,6 @@ static const struct {
   kz_drive_need needs;
   const char *complaint;
 } limits[] = {
-    {asks_ends, KZ_NEEDS_SINE, "sweep.measure ends needs a pivot that moves up and down as a sine; leave one of them out"},
     {asks_curves_of_sine, KZ_NEEDS_SINE,
      "stability.curves over k and subharmonics are those of the sine; leave them out, or ask for hill_1 to hill_5"},
     {asks_potential, KZ_NEEDS_SINE, "study potential needs a pivot that moves up and down as a sine; leave one of them out"},
@@ -144,7 +142,7 @@ kz_status kz_drive_check(const kz_scene *scene) {
   return check_release(scene);
 }
 
-kz_status kz_drive_check_ends(const kz_scene *scene) {
+kz_status kz_drive_check_sine(const kz_scene *scene, const char *complaint) {
   if (kz_is_sine(&scene->parameters.pendulum) && !is_swept(scene, kz_sweep_is_of_drive)) return KZ_OK;
-  return kz_fail(KZ_REFUSED, "%s: %s", kz_drive_made_by(&scene->parameters.written), limits[0].complaint); /* of ends */
+  return kz_fail(KZ_REFUSED, "%s: %s", kz_drive_made_by(&scene->parameters.written), complaint);
 }

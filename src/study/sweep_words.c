@@ -32,5 +32,8 @@ const kz_sweep_part *kz_sweep_part_next(const kz_sweep_plan *plan, bool of_branc
 }
 
 bool kz_sweep_has_points(const kz_sweep_plan *plan) {
-  return kz_sweep_part_next(plan, false, &(int){0});
+  const kz_sweep_part *part;
+  for (int i = 0; (part = kz_sweep_part_next(plan, false, &i)); i++)
+    if (!part->own_steps) return true;
+  return false;
 }

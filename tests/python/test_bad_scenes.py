@@ -69,11 +69,13 @@ SCENES = {
         "max: 1, count: 2}, measure: [ends], ends: {theta: [1]}}\n", "9:24", "sweep.x.parameter: k is not given in the pendulum"),
     "plane with velocities for other angles": (GOOD + "sweep: {x: {parameter: drive_frequency, min: 2, max: 3, count: 2}, "
         "y: {parameter: drive_amplitude, min: 0, max: 1, count: 2}, measure: [ends], ends: {theta: [1, 2, 3], velocity: [0, 1]}}\n",
-        "", "sweep.ends.velocity: has 2 values for 3 angles"),
+        "", "sweep.ends.velocity: has another number of values than theta"),
     "the study that is a measure now": (GOOD + "chart: {x: {parameter: drive_frequency, min: 2, max: 3}}\n",
         "9:1", "chart: is no longer a key; use sweep.measure ends"),
     "plane of what goes along a line": (GOOD + "sweep: {x: {parameter: drive_frequency, min: 2, max: 3, count: 2}, "
         "y: {parameter: drive_amplitude, min: 0, max: 1, count: 2}, measure: [strobe]}\n", "", "give parameter, min, max and count"),
+    "plane of an unknown word": (GOOD + "sweep: {x: {parameter: drive_frequency, min: 2, max: 3, count: 2}, "
+        "y: {parameter: drive_amplitude, min: 0, max: 1, count: 2}, measure: [endings]}\n", "", 'sweep.measure: "endings" is unknown'),
     "line of ends": (GOOD + "sweep: {parameter: drive_frequency, min: 2, max: 3, count: 2, measure: [ends], ends: {theta: [1]}}\n", "",
         "give x and y"),
     "plane without ends": (GOOD + "sweep: {x: {parameter: drive_frequency, min: 2, max: 3, count: 2}, "

@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "commands.h"
+#include "kapitza/dynamics_ends.h"
 #include "answer.h"
 #include "inbox.h"
 #include "map.h"
@@ -216,7 +217,7 @@ static kz_status check_size(const kz_scene *scene) {
 
 static kz_status draw(server *s, kz_request *request) {
   if (request->kind == KZ_REQUEST_CHART) {
-    KZ_TRY(kz_drive_check_ends(&request->scene));
+    KZ_TRY(kz_drive_check_sine(&request->scene, KZ_ENDS_NEED_SINE));
     KZ_TRY(check_size(&request->scene));
     return kz_plane_draw(&request->scene, &request->coarseness, pause_drawing, show_plane, s);
   }

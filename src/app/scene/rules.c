@@ -209,9 +209,6 @@ static void sweep_rules(kz_reading *reading, kz_scene *scene) {
   else if (!kz_sweep_is_plane(sweep))
     parameter_values(reading, scene, sweep->parameter, &sweep->range, "sweep");
   if (sweep->listed.count == 0) sweep->values = sweep->range;
-  if (sweep->ends.theta.count > 0 && sweep->ends.velocity.count != 1 && sweep->ends.velocity.count != sweep->ends.theta.count)
-    kz_complain(reading, "sweep.ends.velocity", "has %lld values for %lld angles; give one for each angle, or one for all",
-                (long long)sweep->ends.velocity.count, (long long)sweep->ends.theta.count);
 }
 
 /* The range that a mapping gives; returns the axis of a parameter. `other` is that of the mapping before, NULL = none. */

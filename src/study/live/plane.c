@@ -1,5 +1,5 @@
 /* Ends of one start over a plane of two keys, raster by raster, as frames are: the request chart of `kapitza serve`. */
-#include "sweep/ends.h"
+#include "ends/ends.h"
 #include "live.h"
 #include "sweep/plan.h"
 

@@ -31,8 +31,7 @@ static const kz_key keys[] = {
         "attractors: branches joined by continuation, with their ends; basin_fractions: their shares of the cells of basin, or "
         "of the starts; lifetime: mean settling time of long transients; "
         "phases: share of cells or starts that ends alike at all phases of release; release_angle: from rest; strobe: "
-        "bifurcations. "
-        "Over a plane: ends of the starts of sweep.ends.",
+        "bifurcations.",
         .unit = "", .words_from = kz_sweep_measure_words, .former = "flutter_amplitude=attractors|flutter_zone=attractors"),
     THETA_WINDOW(sweep, "Angles of the starts; left out: the whole circle [-pi, pi)."),
     VELOCITY_WINDOW(sweep, KZ_MOST_SPEED, "", "-2", "2", "Velocities of the starts; a grid of basin has its own window."),
@@ -44,15 +43,6 @@ static const kz_key keys[] = {
     REAL("sweep.start.velocity", KZ_VELOCITY_UNIT, -KZ_MOST_SPEED, KZ_MOST_SPEED, "0", start_velocity, "Velocity."),
     INTEGER("sweep.transient", 0, 1e7, "400", transient, "Drive periods of strobe at each value before the record."),
     INTEGER("sweep.phases", 2, 64, "8", phases, "Phases of release for the measure phases, evenly over a period."),
-    MAPPING("sweep.ends", "", "The measure ends: where the same starts end, at t = 0; each has a picture of its own."),
-    ROW("sweep.ends.theta", KZ_KEY_REALS, NULL, AT(ends.theta), "Angles from down.", .unit = "rad", .low = -1e6, .high = 1e6),
-    ROW("sweep.ends.velocity", KZ_KEY_REALS, "[0]", AT(ends.velocity), "Velocities: one for each angle, or one for all.",
-        .unit = KZ_VELOCITY_UNIT, .low = -1e3, .high = 1e3),
-    INTEGER("sweep.ends.max_period", 1, KZ_ENDS_MOST_PERIOD, "16", ends.max_period,
-            "Longest period of a cycle that is recognised."),
-    INTEGER("sweep.ends.max_periods", 1, 1e8, "", ends.max_periods,
-            "Drive periods after which a motion counts as not settled; left out: the number that the damping needs, at least "
-            "2000."),
     INTEGER("sweep.samples", 1, 1e5, "64", samples, "Strobe points of each walk at each value."),
     {.path = NULL},
 };

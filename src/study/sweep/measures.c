@@ -35,16 +35,10 @@ const char *kz_sweep_lack(const kz_scene *scene) {
   const kz_sweep_plan *plan = scene->sweep;
   const bool plane = kz_sweep_is_plane(plan), branches = kz_sweep_part_next(plan, true, &(int){0});
   if (kz_words_repeat(&plan->measure)) return "measure: has a word twice; name each measure once";
-  for (int64_t i = 0; i < plan->measure.count; i++) {
-    const int64_t measure = plan->measure.values[i];
-    if (plane && (measure < KZ_SWEEP_ENDS || branches))
+  for (int64_t i = 0; plane && i < plan->measure.count; i++)
+    if (branches || (plan->measure.values[i] >= 0 && plan->measure.values[i] < KZ_SWEEP_OWN))
       return "measure: has a word that goes along one key; give parameter, min, max and count instead of x and y, or words "
              "that "
-             "go over a plane, such as ends";
-    if (!plane && measure == KZ_SWEEP_ENDS)
-      return "measure: ends is over a plane; give x and y instead of parameter, min, max and count";
-  }
-  if (kz_sweep_measures(plan, KZ_SWEEP_ENDS) && plan->ends.theta.count == 0)
-    return "ends: is missing, which the measure ends needs; give a mapping of theta";
+             "go over a plane";
   return NULL;
 }

@@ -4,24 +4,16 @@
 #include "kapitza/study.h"
 
 /* The measures of a sweep: code, word in the scene, the function that runs it. The first four come from the branches and have no functions of
- * their own; ends is over a plane, all others along one key. Further words are those of parts (kz_sweep_part). */
+ * their own; all go along one key. Further words are those of parts (kz_sweep_part). */
 #define KZ_SWEEP_MEASURES(MEASURE)                                   \
   MEASURE(KZ_SWEEP_ATTRACTORS, "attractors", NULL)                   \
   MEASURE(KZ_SWEEP_BASIN_FRACTIONS, "basin_fractions", NULL)         \
   MEASURE(KZ_SWEEP_LIFETIME, "lifetime", NULL)                       \
   MEASURE(KZ_SWEEP_PHASES, "phases", NULL)                           \
   MEASURE(KZ_SWEEP_RELEASE_ANGLE, "release_angle", kz_sweep_release) \
-  MEASURE(KZ_SWEEP_STROBE, "strobe", kz_sweep_strobe)                \
-  MEASURE(KZ_SWEEP_ENDS, "ends", kz_ends_run)
+  MEASURE(KZ_SWEEP_STROBE, "strobe", kz_sweep_strobe)
 #define KZ_MEASURE_CODE(code, word, run) code,
 enum { KZ_SWEEP_MEASURES(KZ_MEASURE_CODE) KZ_SWEEP_OWN /* number of them: words of parts follow */ };
-
-/* The measure ends: starts that are the same at every point of a plane. */
-enum { KZ_ENDS_MOST_PERIOD = 64 };
-typedef struct {
-  kz_reals theta, velocity;        /* rad, rad per drive radian; a single velocity belongs to all angles */
-  int64_t max_period, max_periods; /* max_periods INT64_MIN = not given */
-} kz_ends_plan;
 
 struct kz_sweep_plan {
   int32_t parameter;       /* row of kz_sweep_parameters; KZ_UNSET_WORD = over a plane */
@@ -34,8 +26,7 @@ struct kz_sweep_plan {
   int64_t starts, max_period, seed;
   double start_theta, start_velocity; /* of the bifurcation diagram */
   int64_t transient, samples;         /* drive periods at each value: before the record, and recorded */
-  kz_ends_plan ends;
-  int64_t phases; /* number of phases of release, for the measure phases */
+  int64_t phases;                     /* number of phases of release, for the measure phases */
 };
 
 /* Whether a list has something twice. */
@@ -52,6 +43,7 @@ struct kz_sweep_part {
   const char *const *numbers;
   /* Fills numbers of the entries of a value, if a word of the branches is named. Collective. */
   kz_status (*value)(const kz_scene *scene, const kz_sweep_value_at *at, kz_sweep_catalogue *catalogue);
+  bool own_steps; /* points have numerics of their own, not the scene's */
   /* What single points cost, and all of them. Collective. */
   kz_cost (*cost)(const kz_scene *scene);
   kz_status (*run)(const kz_scene *scene, const kz_run *run, kz_store *store, FILE *summary);
@@ -61,7 +53,7 @@ struct kz_sweep_part {
 kz_integers kz_sweep_part_words(const kz_sweep_plan *plan, const kz_sweep_part *part, bool of_branches);
 /* The next part of which the sweep names such words, from number *i of kz_studies on; NULL = none. */
 const kz_sweep_part *kz_sweep_part_next(const kz_sweep_plan *plan, bool of_branches, int *i);
-/* Whether it names measures of single points, which go over a plane too. */
+/* Whether it names measures of single points that take the numerics of the scene. */
 bool kz_sweep_has_points(const kz_sweep_plan *plan);
 /* NULL, or what is wrong with the measures of a sweep, as "KEY: what is wrong" where KEY is a key of it. */
 const char *kz_sweep_lack(const kz_scene *scene);

@@ -2,9 +2,9 @@
 #include "sweep.h"
 #include "kapitza/study_basin.h"
 
-/* Of measures of single points, and of ends. */
+/* Of measures of single points. */
 static kz_cost points_cost(const kz_scene *scene) {
-  kz_cost cost = kz_sweep_measures(scene->sweep, KZ_SWEEP_ENDS) ? kz_ends_cost(scene) : (kz_cost){0};
+  kz_cost cost = {0};
   const kz_sweep_part *part;
   for (int i = 0; (part = kz_sweep_part_next(scene->sweep, false, &i)); i++) {
     const kz_cost of_points = part->cost(scene);

@@ -134,8 +134,6 @@ kz_status kz_sweep_branches_write(const kz_scene *scene, const kz_sweep_catalogu
 
 kz_status kz_sweep_release(const kz_scene *scene, const kz_run *run, kz_store *store, FILE *summary);
 kz_status kz_sweep_strobe(const kz_scene *scene, const kz_run *run, kz_store *store, FILE *summary);
-kz_status kz_ends_run(const kz_scene *scene, const kz_run *run, kz_store *store, FILE *summary);
-kz_cost kz_ends_cost(const kz_scene *scene);
 
 /* Writes the axes of a plane, their keys and those keys' units. Rank 0. */
 kz_status kz_sweep_write_axes(const kz_sweep_plan *plan, kz_store *store);

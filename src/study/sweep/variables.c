@@ -2,7 +2,6 @@
 #include "kapitza/store_variables.h"
 #include "sweep.h"
 
-#define ENDS {"start", "y", "x"}
 #define OWN "@parameter_units" /* of the swept key */
 #define END_KINDS \
   "left_the_range", "fold", "period_doubling", "neimark_sacker", "symmetry_breaking", "not_located", "homoclinic"
@@ -53,15 +52,6 @@ const kz_variable kz_sweep_variables[] = {
 const kz_variable kz_plane_variables[] = {
     {"x", KZ_REAL, {"x"}, "@x_units", "value of the key x_parameter of the pendulum"},
     {"y", KZ_REAL, {"y"}, "@y_units", "value of the key y_parameter of the pendulum"},
-    {"start", KZ_INT32, {"start"}, NONE, "place of the start in the list"},
-    {"start_theta", KZ_REAL, {"start"}, ANGLE, "angle of the start from down"},
-    {"start_velocity", KZ_REAL, {"start"}, VELOCITY, "angular velocity of the start"},
-    {"end_period", KZ_INT16, ENDS, PERIODS, "period of the cycle in which the motion ends; 0 = none"},
-    {"end", KZ_INT8, ENDS, NONE, "kind of the end of the motion", {"cycle", "chaotic", "not_settled", "no_damped_pendulum"}},
-    {"end_winding", KZ_INT32, ENDS, NONE, "net turns in one period of the cycle, + counterclockwise"},
-    {"end_centre", KZ_INT8, ENDS, NONE, "what the cycle moves about", {CENTRES}},
-    {"exponent", KZ_REAL, ENDS, RATE, "largest Lyapunov exponent of the end"},
-    {"settling_time", KZ_INT32, ENDS, PERIODS, "time until the motion is within 1e-5 rad of its state one period of the cycle before"},
     {0},
 };
 /* clang-format on */
