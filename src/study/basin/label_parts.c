@@ -5,7 +5,8 @@
 #include "kapitza/study_basin.h"
 
 /* Bytes between members would be anything, and packed as such: it took a tenth of the time of a window. */
-_Static_assert(sizeof(kz_label) == sizeof(int64_t) + 3 * sizeof(int16_t) + 2 * sizeof(uint8_t) + 2 * sizeof(int32_t), "no gaps");
+_Static_assert(sizeof(kz_label) == sizeof(int64_t) + 3 * sizeof(int16_t) + 2 * sizeof(uint8_t) + 2 * sizeof(int32_t),
+               "no gaps");
 
 /* A packed tile. After it: the numbers of the attractors that it reaches (int32_t), its cells as kz_squeeze has them. */
 typedef struct {
