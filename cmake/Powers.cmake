@@ -3,11 +3,16 @@
 set(KAPITZA_POWERS all CACHE STRING "powers that are built, separated by semicolons; all, or empty for none")
 set_property(GLOBAL PROPERTY kapitza_powers "")
 
-# kapitza_power(name FOLDERS folder of src ... [FILES file of src or include ...] [SCRIPT file] [STUDIES study ...] [PARTS part ...] [KEYS key ...] [COMMANDS command ...] [NEEDS power ...] [BESIDE file or folder ...]):
-# with its folders left out, its studies and commands are refused by the name of the power. The order of the studies is that in which they
-# run, after those of the core. PARTS are parts of the study basin, with a row as a study has; KEYS are
-# the keys that they add, or add words to. FILES are of the power too, and stand in folders of the core: its headers in include/kapitza. SCRIPT finds a library that
-# it needs. BESIDE are its tests, its part of the package and of the explorer and its pages, which scripts/ledger counts.
+# kapitza_power(name
+#   FOLDERS  its folders of src, which are left out with it
+#   FILES    files of folders of the core that are its own: headers in include/kapitza
+#   SCRIPT   a file that finds a library which it needs
+#   STUDIES, COMMANDS  in the order in which they run and are listed, behind those of the core
+#   PARTS    parts of the study basin, each with a row as a study has
+#   KEYS     the keys that its parts add, or add words to
+#   NEEDS    powers that it uses
+#   BESIDE   its tests, pages and parts of the package and the explorer, which scripts/ledger counts)
+# Studies, commands and keys of a power that is left out are refused by its name.
 set(KAPITZA_KINDS STUDIES PARTS KEYS COMMANDS)
 function(kapitza_power name)
   cmake_parse_arguments(arg "" "" "FOLDERS;FILES;SCRIPT;NEEDS;BESIDE;${KAPITZA_KINDS}" ${ARGN})
