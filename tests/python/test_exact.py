@@ -136,3 +136,10 @@ def test_a_rotation_without_drive_is_a_running_state_at_any_velocity(kapitza, tm
     scene = LONG.replace("{quality_factor: 20, drive_frequency: 8, drive_amplitude: 0.35}", "{k: 0, damping: 0.1, m: 0, torque: 0.1}")
     rows = run_scene(kapitza, tmp_path, scene)[0].group("attractors")
     assert rows["name"].values.tolist() == ["running +"] and abs(rows["mean_velocity"].values[0] - 1) < 1e-12
+
+
+def test_a_circle_of_oscillations_is_no_running_state(kapitza, tmp_path):
+    """Without gravity every angle keeps its own forced oscillation."""
+    own = "{k: 0, damping: 0.3, m: 0, torque_amplitude: 1}"
+    scene = LONG.replace("{quality_factor: 20, drive_frequency: 8, drive_amplitude: 0.35}", own)
+    assert len(run_scene(kapitza, tmp_path, scene)[0].group("attractors")["name"]) == 0

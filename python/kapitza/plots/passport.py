@@ -50,9 +50,11 @@ def chosen_row(result: Result, wanted: str) -> tuple[str, int]:
 
 
 def start_of(result: Result, group: str, number: int) -> tuple[float, float]:
-    """The first strobe point of an attractor."""
+    """The first strobe point of an attractor; of chaos in the group measures its means."""
     table, words = result.group(group), ("strobe_theta", "strobe_velocity") if group == "attractors" else ("theta", "velocity")
     theta, velocity = (float(np.ravel(table[word].values[number])[0]) for word in words)
+    if not np.isfinite(theta):
+        raise BadFile(f"{style.name_text(table['name'].values[number])} never closes, and the file holds no state of it to start from")
     return theta, velocity
 
 

@@ -101,6 +101,7 @@ contains
       call visit_cells(search%flow, regions, n, lane, visited)
       if (.not. any(visited)) return ! it does not come to all angles, or is faster than the cover reaches
     end if
+    if (abs(attractor%mean_velocity) < SAME) return ! all states of it are at rest but for the drive
     if (any(attractors%period == RUNNING .and. abs(attractors%mean_velocity - attractor%mean_velocity) < SAME)) return ! its cover is known
     attractor%period = RUNNING
     attractor%centre = ROTATING

@@ -14,6 +14,8 @@ module kz_grown_curves
   !> have, which rounding leaves near fast motions, and the time that this may take; periods beside them.
   real(dp), parameter :: CLOSED = 1e-12_dp, PRECISE = 5e-9_dp, LIFETIMES = 40
   integer, parameter :: MORE_PERIODS = 64
+  !> Half-turns: angles by which states turn in some periods that differ by less are one.
+  real(dp), parameter :: NEUTRAL = 1e-9_dp
   !> Periods over which turns are averaged along a curve.
   integer, parameter :: TURN_PERIODS = 100000
 
@@ -197,7 +199,7 @@ contains
     found = minval(curve%density) > 0
   end subroutine find_density
 
-  !> True if a cycle of up to max_period periods lies on a curve: then motions along it end there.
+  !> True if a cycle of up to max_period periods lies on a curve: then motions along it end there. Where all of it comes back, nothing does.
   pure logical function is_locked(curve, max_period)
     type(curve_t), intent(in) :: curve !< of find_band
     integer, intent(in) :: max_period !< drive periods
@@ -209,7 +211,7 @@ contains
     is_locked = .false.
     do n = 1, max_period
       turned = turned + [(shift_at(shift, node(j) + turned(j)), j=1, NODES)]
-      is_locked = floor(maxval(turned)/2) >= ceiling(minval(turned)/2)
+      is_locked = floor(maxval(turned)/2) >= ceiling(minval(turned)/2) .and. maxval(turned) - minval(turned) > NEUTRAL
       if (is_locked) return
     end do
   end function is_locked
