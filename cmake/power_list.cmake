@@ -17,7 +17,7 @@ kapitza_power(atlas FOLDERS study/atlas dynamics/curves FILES include/kapitza/st
     docs/explanation/atlas.md docs/tutorials/map.md)
 kapitza_power(tools FOLDERS app/tools COMMANDS plot info fit needs
   BESIDE tests/python/test_needs.py tests/python/test_fit.py)
-kapitza_power(ends FOLDERS study/ends dynamics/plane FILES include/kapitza/dynamics_ends.h PARTS ends KEYS sweep.ends
+kapitza_power(ends FOLDERS study/ends dynamics/plane FILES include/kapitza/dynamics_ends.h PARTS ends KEYS sweep.ends sweep.measure.ends
   BESIDE tests/python/test_chart.py)
 kapitza_power(live FOLDERS study/live study/where app/live dynamics/live FILES include/kapitza/dynamics_live.h include/kapitza/study_live.h include/kapitza/study_where.h
   COMMANDS where view serve NEEDS atlas deep tools ends

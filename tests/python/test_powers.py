@@ -96,6 +96,10 @@ def test_the_core_holds_no_symbol_of_a_power(core):
 @pytest.mark.parametrize(("words", "told"), [
     (["check", "small", "--set", "wada={}"], "wada: needs the power saddles, which this build leaves out"),
     (["check", "small", "--set", "basin.proof=true"], "basin.proof: needs the power proof, which this build leaves out"),
+    (["check", "small", "--set", "sweep={parameter: drive_amplitude, min: 0, max: 1, count: 2, measure: [share]}"],
+     "other words need the power measures, which this build leaves out"),
+    (["check", "small", "--set", "sweep={parameter: drive_amplitude, min: 0, max: 1, count: 2, measure: [ends]}"],
+     "it needs the power ends, which this build leaves out"),
     (["where", "small", "0", "0"], "where: needs the power live, which this build leaves out")])
 def test_what_is_missing_is_refused_by_the_name_of_its_power(core, words, told):
     words = [str(ROOT / "scenes" / "small.yaml") if word == "small" else word for word in words]

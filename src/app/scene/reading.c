@@ -67,15 +67,17 @@ __attribute__((format(printf, 4, 5))) static void complain_key(kz_reading *readi
 
 /* Complains about a value: what is wrong with it, what would be accepted. */
 static void complain_value(kz_reading *reading, const kz_key *key, const kz_node *node, const char *wrong) {
-  char accepted[700], nearest[64], hint[96] = "";
+  char accepted[700], nearest[64], hint[96] = "", path[256];
+  snprintf(path, sizeof path, "%s.%.60s", key->path, node->kind == KZ_SCALAR ? node->text : "");
+  const char *of_word = kz_key_missing_power(path), *power = of_word ? of_word : kz_key_missing_power(key->path);
   kz_key_accepts(reading->keys, key, accepted, sizeof accepted);
   if (node->kind == KZ_SCALAR && kz_key_renamed(key, node->text, nearest, sizeof nearest))
     snprintf(hint, sizeof hint, " (it was removed: use %s)", nearest);
   else if (node->kind == KZ_SCALAR && kz_scalar_with_a_point(node->text, nearest, sizeof nearest))
     snprintf(hint, sizeof hint, " (with a decimal point: %s)", nearest);
-  else if (kz_key_missing_power(key->path))
-    snprintf(hint, sizeof hint, " (other words need the power %s, which this build leaves out)",
-             kz_key_missing_power(key->path));
+  else if (power)
+    snprintf(hint, sizeof hint, " (%s the power %s, which this build leaves out)", of_word ? "it needs" : "other words need",
+             power);
   else if (node->kind == KZ_SCALAR && kz_key_suggest(node->text, kz_key_words(key), nearest, sizeof nearest))
     snprintf(hint, sizeof hint, strcmp(wrong, "is not a list") == 0 ? " (did you mean [%s]?)" : " (did you mean %s?)", nearest);
   if (node->kind == KZ_SCALAR && node->text[0])

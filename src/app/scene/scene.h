@@ -42,7 +42,7 @@ void kz_type_accepts(const kz_key *keys, const kz_key *key, char *text, size_t b
 void kz_types_write(const kz_key *keys, FILE *out);
 /* Copies the replacement of a removed word to `now` [bytes]; false if `word` is not a removed word. */
 bool kz_key_renamed(const kz_key *key, const char *word, char *now, size_t bytes);
-/* The power that a key, or further words of it, needs and that this build leaves out; NULL = none. */
+/* The power that a key, a word of it (KEY.WORD) or further words of it need and that this build leaves out; NULL = none. */
 const char *kz_key_missing_power(const char *path);
 /* Copies the word of `words` ("a|b|c") that is most similar to `word` to `nearest` [bytes]; false if none is similar. */
 bool kz_key_suggest(const char *word, const char *words, char *nearest, size_t bytes);
