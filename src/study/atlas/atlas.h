@@ -281,6 +281,8 @@ kz_atlas_curve kz_atlas_curve_in(const char *record);
 
 /* Traces and explores every curve that comes of the seeds that wait, until nothing is left. Collective. */
 kz_status kz_atlas_drain(kz_atlas *atlas, const kz_run *run);
+/* Follows all branches along n columns, and traces and explores the curves that come of them. Collective. */
+kz_status kz_atlas_explore_columns(kz_atlas *atlas, const kz_run *run, int64_t n, const double *x);
 /* A seed waits to be traced unless it lies on a known curve. */
 void kz_atlas_await(kz_atlas *atlas, const kz_atlas_seed *seed);
 /* Finds all cycles of n places, beside those found there, follows each to the first curve that it meets, and traces and explores the curves that come
@@ -308,6 +310,10 @@ typedef struct {
   kz_atlas_region region[KZ_ATLAS_REGIONS];
   int64_t *hits, *other; /* [region][class], [region]: of the starts at the region's place; NULL = not asked for */
 } kz_atlas_raster;
+/* Counts what attracts in the cells of a column, to `raster` if it is not NULL. Returns how many lists are not known. */
+int64_t kz_atlas_fill_column(kz_atlas *atlas, int64_t column, kz_atlas_raster *raster);
+/* The middle of a row or column of cells. */
+double kz_atlas_middle(int64_t i, int64_t points);
 /* The classes must be in their order (kz_atlas_order). */
 void kz_atlas_raster_make(kz_atlas *atlas, kz_atlas_raster *raster);
 void kz_atlas_raster_free(kz_atlas_raster *raster);

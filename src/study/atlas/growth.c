@@ -119,6 +119,14 @@ void kz_atlas_await(kz_atlas *atlas, const kz_atlas_seed *seed) {
   if (kz_atlas_known(atlas, seed) < 0) kz_atlas_add(atlas, seed->kind, seed->y, &atlas->pending);
 }
 
+static void await_all(kz_atlas *atlas, const kz_atlas_bag *found) {
+  for (int64_t i = 0; i < found->n; i++) {
+    const kz_atlas_seeds seeds = kz_atlas_seeds_in(found->record[i]);
+    atlas->dropped += seeds.dropped;
+    for (int64_t j = 0; j < seeds.count; j++) kz_atlas_await(atlas, seeds.list + j);
+  }
+}
+
 static kz_status explore(kz_atlas *atlas, const kz_run *run) {
   KZ_FREED_BY(kz_atlas_bag_free) kz_atlas_bag found = {0};
   const int64_t curves = atlas->n_curves - atlas->n_explored;
@@ -126,11 +134,7 @@ static kz_status explore(kz_atlas *atlas, const kz_run *run) {
   if (curves == 0) return KZ_OK;
   KZ_TRY(kz_atlas_gather(run, "atlas branches", 2 * e.lines + curves, KZ_ATLAS_SEEDS_BYTES, explore_tile, &e, &found));
   atlas->n_explored = atlas->n_curves;
-  for (int64_t i = 0; i < found.n; i++) {
-    const kz_atlas_seeds seeds = kz_atlas_seeds_in(found.record[i]);
-    atlas->dropped += seeds.dropped;
-    for (int64_t j = 0; j < seeds.count; j++) kz_atlas_await(atlas, seeds.list + j);
-  }
+  await_all(atlas, &found);
   return KZ_OK;
 }
 
@@ -140,4 +144,25 @@ kz_status kz_atlas_drain(kz_atlas *atlas, const kz_run *run) {
     KZ_TRY(explore(atlas, run));
   }
   return KZ_OK;
+}
+
+typedef struct {
+  kz_atlas *atlas;
+  const double *x;
+} columns;
+
+static kz_status column_tile(void *context, int64_t tile, void *record) {
+  const columns *c = context;
+  KZ_FREED_BY(kz_atlas_seeds_free) kz_atlas_seeds seeds = {0};
+  kz_atlas_explore_line(c->atlas, 1, c->x[tile], 0, &seeds, NULL);
+  kz_atlas_put_seeds(&seeds, record);
+  return KZ_OK;
+}
+
+kz_status kz_atlas_explore_columns(kz_atlas *atlas, const kz_run *run, int64_t n, const double *x) {
+  KZ_FREED_BY(kz_atlas_bag_free) kz_atlas_bag found = {0};
+  columns c = {atlas, x};
+  KZ_TRY(kz_atlas_gather(run, "atlas columns", n, KZ_ATLAS_SEEDS_BYTES, column_tile, &c, &found));
+  await_all(atlas, &found);
+  return kz_atlas_drain(atlas, run);
 }

@@ -11,7 +11,7 @@ static int compare_classes(const void *first, const void *second) {
   return a->period != b->period ? a->period - b->period : a->turns - b->turns;
 }
 
-static double middle(int64_t i, int64_t points) {
+double kz_atlas_middle(int64_t i, int64_t points) {
   return ((double)i + 0.5) / (double)points;
 }
 
@@ -26,7 +26,8 @@ void kz_atlas_order(kz_atlas *atlas) {
       kz_atlas_class_number(atlas, &grown);
   }
   const int64_t columns = atlas->undriven ? atlas->scene->atlas->points : 0;
-  for (int64_t i = 0; i < columns; i++) kz_atlas_base(atlas, middle(i, columns), counts); /* rest, which no curve need bound */
+  for (int64_t i = 0; i < columns; i++)
+    kz_atlas_base(atlas, kz_atlas_middle(i, columns), counts); /* rest, which no curve need bound */
   memcpy(reference, atlas->class, sizeof atlas->class);
   memcpy(counts, atlas->at_reference, sizeof atlas->at_reference);
   qsort(atlas->class, (size_t)atlas->n_classes, sizeof *atlas->class, compare_classes);
@@ -35,26 +36,28 @@ void kz_atlas_order(kz_atlas *atlas) {
   free(counts);
 }
 
-static void fill_column(kz_atlas *atlas, int64_t column, kz_atlas_raster *raster) {
-  const int64_t n = raster->points;
-  const double x = kz_atlas_column(atlas, middle(column, n));
+int64_t kz_atlas_fill_column(kz_atlas *atlas, int64_t column, kz_atlas_raster *raster) {
+  const int64_t n = atlas->scene->atlas->points;
+  const double x = kz_atlas_column(atlas, kz_atlas_middle(column, n));
   KZ_FREED_BY(kz_atlas_crossings_free) kz_atlas_crossings crossings = {0};
   KZ_FREED int32_t *counts = kz_malloc(KZ_ATLAS_MOST_CLASSES * sizeof *counts);
   kz_atlas_base(atlas, x, counts);
   kz_atlas_crossings_of(atlas, 0, x, true, &crossings);
   double from = kz_atlas_floor(atlas);
+  int64_t negative = 0;
   for (int64_t row = 0; row < n; row++) {
     int total = 0;
-    kz_atlas_changes(&crossings, from, middle(row, n), counts);
-    from = middle(row, n);
+    kz_atlas_changes(&crossings, from, kz_atlas_middle(row, n), counts);
+    from = kz_atlas_middle(row, n);
     const bool known = kz_atlas_plausible(atlas, counts);
-    for (int64_t c = 0; c < raster->n_classes; c++) {
+    negative += !known;
+    for (int64_t c = 0; raster && c < raster->n_classes; c++) {
       raster->attracting[(c * n + row) * n + column] = (uint8_t)(known ? counts[c] : KZ_ATLAS_NOT_KNOWN);
       total += counts[c] * kz_atlas_images(atlas, atlas->class + c);
     }
-    raster->count[row * n + column] = (int16_t)(known ? total : -1);
-    raster->negative += !known;
+    if (raster) raster->count[row * n + column] = (int16_t)(known ? total : -1);
   }
+  return negative;
 }
 
 /* ---- lists: cells with equal counts have one number ---- */
@@ -155,8 +158,8 @@ static void find_regions(kz_atlas_raster *r) {
 
 void kz_atlas_region_place(const kz_atlas_raster *raster, int64_t region, double place[2]) {
   const int64_t cell = raster->region[region].cell;
-  place[0] = middle(cell % raster->points, raster->points);
-  place[1] = middle(cell / raster->points, raster->points);
+  place[0] = kz_atlas_middle(cell % raster->points, raster->points);
+  place[1] = kz_atlas_middle(cell / raster->points, raster->points);
 }
 
 void kz_atlas_raster_make(kz_atlas *atlas, kz_atlas_raster *raster) {
@@ -165,7 +168,7 @@ void kz_atlas_raster_make(kz_atlas *atlas, kz_atlas_raster *raster) {
   raster->attracting = kz_calloc((size_t)(n * n * atlas->n_classes) + 1, 1);
   raster->count = kz_calloc((size_t)(n * n), sizeof *raster->count);
   raster->list = kz_calloc((size_t)(n * n), sizeof *raster->list);
-  for (int64_t column = 0; column < n; column++) fill_column(atlas, column, raster);
+  for (int64_t column = 0; column < n; column++) raster->negative += kz_atlas_fill_column(atlas, column, raster);
   number_lists(raster);
   find_regions(raster);
 }

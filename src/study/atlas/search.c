@@ -115,6 +115,23 @@ static kz_status check(kz_atlas *atlas, const kz_run *run, int round, bool *quie
   return KZ_OK;
 }
 
+/* Columns in which the curves contradict each other are followed: a curve that is missing there branches off one that crosses them. */
+static kz_status mend_columns(kz_atlas *atlas, const kz_run *run) {
+  enum { LINES = 8, TRIES = 4 };
+  const int64_t points = atlas->scene->atlas->points;
+  KZ_FREED double *x = kz_malloc((size_t)points * sizeof *x);
+  int64_t curves = -1;
+  for (int i = 0; i < TRIES && curves != atlas->n_curves; i++) {
+    int64_t n = 0, lines = 0;
+    for (int64_t column = 0; column < points; column++)
+      if (kz_atlas_fill_column(atlas, column, NULL) > 0) x[n++] = kz_atlas_column(atlas, kz_atlas_middle(column, points));
+    for (int64_t k = 0; k < n; k += (n + LINES - 1) / LINES) x[lines++] = x[k];
+    curves = atlas->n_curves;
+    if (n > 0) KZ_TRY(kz_atlas_explore_columns(atlas, run, lines, x));
+  }
+  return KZ_OK;
+}
+
 /* Rounds, until some in a row find nothing. */
 static kz_status check_all(kz_atlas *atlas, const kz_run *run, probing *last) {
   for (int round = 0, quiet = 0; round < ROUNDS && quiet < QUIET && atlas->scene->atlas->checks > 0; round++) {
@@ -123,6 +140,7 @@ static kz_status check_all(kz_atlas *atlas, const kz_run *run, probing *last) {
     atlas->rounds = round + 1;
     quiet = is_quiet ? quiet + 1 : 0;
   }
+  KZ_TRY(mend_columns(atlas, run));
   kz_atlas_compare_images(atlas);
   return KZ_OK;
 }
