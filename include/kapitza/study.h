@@ -26,7 +26,7 @@ typedef struct {
 } kz_numerics_keys;
 enum { KZ_AUTO = 0 };
 
-/* Studies in the order in which they run, then those of the powers of this build (cmake/power_list.cmake). Everything else about a study
+/* Studies in the order in which they run, then those of the powers of this build (cmake/Powers.cmake). Everything else about a study
  * stands in its folder: plan.h has what a scene says of it, keys.c its keys and its row, variables.c what it writes. */
 #define KZ_STUDIES(STUDY) \
   STUDY(basin)            \

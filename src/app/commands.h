@@ -30,7 +30,7 @@ typedef struct {
 
 extern const kz_command kz_program;
 extern const kz_command kz_program;
-/* The commands, then those of the powers of this build (cmake/power_list.cmake), each kz_NAME_command of its folder; NULL ends the list. */
+/* The commands, then those of the powers of this build (cmake/Powers.cmake), each kz_NAME_command of its folder; NULL ends the list. */
 extern const kz_command *const kz_commands[];
 extern const kz_option kz_option_rows[]; /* options of the core, ended by a row without name */
 static inline const kz_option *kz_option_find(const kz_option *list, const char *name, int length) {

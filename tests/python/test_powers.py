@@ -130,4 +130,4 @@ def test_what_exceeds_its_budget_is_told(monkeypatch):
     monkeypatch.setattr(LEDGER, "budgets", lambda: table | {"atlas": (table["atlas"][0] | {"src": 100}, "Curves are long.")})
     assert not LEDGER.faults()
     monkeypatch.setattr(LEDGER, "budgets", lambda: {part: row for part, row in table.items() if part != "atlas"})
-    assert LEDGER.faults() == ["atlas is in one of power_list.cmake and developer.md"]
+    assert LEDGER.faults() == ["atlas is in one of power.cmake and developer.md"]
