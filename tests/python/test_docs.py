@@ -35,6 +35,12 @@ def test_links_lead_to_files(page):
     assert not [link for link in links if not (page.parent / link).exists()]
 
 
+def test_the_list_of_changes_stays_short():
+    """It had 98 kB, one release 169 entries."""
+    text = (ROOT / "CHANGELOG.md").read_text()
+    assert len(text) <= 12_000 and len(re.findall(r"^## ", text, re.MULTILINE)) == len(re.findall(r"^\*\*Breaks\.", text, re.MULTILINE)) + 1
+
+
 FOLDERS = "tests|scripts|src|include|docs|benchmarks|packaging|python|scenes|web|cmake"
 
 
