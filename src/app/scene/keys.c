@@ -139,18 +139,29 @@ static bool is_beside(const kz_key *row, const char *path) {
   return dot && strncmp(row->path, path, length) == 0 && (row->path[length] == '.' || row->path[length] == '\0');
 }
 
-static const char *join_text(const char *before, const char *between, const char *after) {
+/* Frees `before` if an earlier part has joined it. */
+static const char *join_text(const char *before, bool joined_before, const char *between, const char *after) {
   const size_t bytes = strlen(before) + strlen(between) + strlen(after) + 1;
   char *joined = kz_malloc(bytes);
   snprintf(joined, bytes, "%s%s%s", before, between, after);
+  if (joined_before) free((char *)before);
   return joined;
+}
+
+/* Whether the help of a row is that of a study, to which no part has added. */
+static bool is_as_written(const kz_key *row) {
+  for (int i = 0; i < kz_study_count; i++)
+    for (const kz_key *key = kz_studies[i]->keys; key->path; key++)
+      if (key->help == row->help) return true;
+  return false;
 }
 
 /* Adds the words and the help of a part's row to the same key of its study. */
 static void extend(kz_key *row, const kz_key *part) {
-  row->words = join_text(kz_key_words(row), "|", kz_key_words(part));
+  const bool joined = !is_as_written(row);
+  row->words = join_text(kz_key_words(row), joined, "|", kz_key_words(part));
   row->words_from = NULL;
-  row->help = join_text(row->help, " ", part->help);
+  row->help = join_text(row->help, joined, " ", part->help);
 }
 
 static kz_key *find_row(kz_key *joined, int64_t n, const char *path) {

@@ -66,7 +66,7 @@ kz_status kz_orbit_features_make(kz_orbit *orbit) {
   int64_t span = features->period > 0 ? features->period : record.periods;
   features->winding = llrint(record.rotation * (double)span);
   if (features->period > 0 || features->chaotic)
-    kz_orbit_name(features->period, features->winding, features->centre, features->name);
+    kz_orbit_name(features->period, features->chaotic ? 0 : features->winding, features->centre, features->name);
   make_turning(motion, features);
   return KZ_OK;
 }
