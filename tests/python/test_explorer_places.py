@@ -42,6 +42,16 @@ def test_a_plain_deep_picture_says_where_it_is_and_goes_to_a_boundary(page):
     assert page.window()["theta"]["min"] == pytest.approx(-np.pi) and wait_for(lambda: page.run("document.querySelector('.inset').hidden"))
 
 
+def test_places_without_a_motion_have_a_shade_of_their_own(page):
+    """Where a torque turns the pendulum round for ever, 0 motions had the shade of 1."""
+    kinds = page.module("backdrop.js", """[0, 1].flatMap((least) => its.countPicture({lists: [0, 1, 2].slice(least), cells: 2,
+        countOf: (list) => list + least, list: [0, 1, 1, 0]}, "light").kinds)""")
+    assert [words for words, _ in kinds] == ["0 motions", "2 motions", "1 motion", "2 motions"] and kinds[0][1] == kinds[2][1]
+    shade = page.module("backdrop.js", """[...its.countPicture({lists: [0, 1, 2], countOf: (list) => list, list: [0, 1, 2, 1], cells: 2},
+        "light").canvas.getContext("2d").getImageData(1, 1, 1, 1).data]""")
+    assert shade == [181, 209, 220, 255]
+
+
 def test_the_relief_rises_inside_a_basin(page, webgl):
     """By times that vary smoothly, of fewer cells, and as far as those of the picture itself do."""
     page.wait()

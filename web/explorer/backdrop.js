@@ -29,8 +29,8 @@ export function countPicture(atlas, theme) {
   const [low, high] = SHADES[theme];
   const all = atlas.lists.map((_, list) => atlas.countOf(list));
   const counts = all.filter((count) => count !== null).map((count) => Math.min(MOST, count));
-  const most = Math.max(1, ...counts);
-  const shade = (count) => low.map((from, i) => Math.round(from + ((high[i] - from) * Math.max(0, count - 1)) / Math.max(1, most - 1)));
+  const most = Math.max(1, ...counts), least = Math.min(1, ...counts);
+  const shade = (count) => low.map((from, i) => Math.round(from + ((high[i] - from) * (count - least)) / Math.max(1, most - least)));
   const shades = all.map((count) => (count === null ? UNKNOWN[theme] : shade(Math.min(MOST, count))));
   const canvas = painted(atlas.cells, atlas.cells, (i) => shades[atlas.list[i]]);
   const kinds = [...new Set([Math.min(...counts), most])].map((count) => [`${count} motion${count === 1 ? "" : "s"}`, `rgb(${shade(count)})`]);
