@@ -168,7 +168,10 @@ class Page:
         return sorted((name, share) for name, share in rows if share > 0)
 
     def window(self):
-        return json.loads(self.run("$('where').dataset.window"))
+        """The window that the page says; it is written with the next picture, which a busy machine draws late."""
+        said = "document.getElementById('where').dataset.window"
+        script = f"const done = arguments[0]; requestAnimationFrame(() => setTimeout(() => done({said})))"
+        return json.loads(self.driver.execute_async_script(script))
 
     def wheel(self, x, y, *steps):
         """Wheel events of so many px at a share of the plot."""
