@@ -131,3 +131,41 @@ TEST(test_a_line_has_the_cycles_of_its_pieces) {
   assert_memory_equal(found, found + n * STRIDE, (size_t)(n * STRIDE) * sizeof *found);
   assert_memory_equal(work, all, sizeof all);
 }
+
+enum { TAYLORS = 3, MOST_CYCLES = 300 };
+/* Adds the cycles of Taylor's rotor that lines of starts with so many cells show to (period, largest speed) cycle [MOST_CYCLES]. */
+static int add_cycles(double steepest, int64_t cells, double cycle[][2], int n) {
+  const kz_pendulum pendulum = {.k = 2.25, .beta = 0.375, .torque_amplitude = 2.2, .unmirrored = 1};
+  const kz_saddles_plan plan = {.theta = {.min = -M_PI, .max = M_PI}, .velocity = {.min = -4, .max = 4}, .max_period = TAYLORS};
+  KZ_FREED double *found = kz_malloc(kz_piece_bytes(&plan));
+  kz_lines lines = kz_lines_of(&pendulum, &plan, 0);
+  lines.steepest = steepest;
+  lines.cells = cells;
+  for (int64_t piece = 0; piece < lines.count * lines.pieces; piece++) {
+    int64_t work[2];
+    const double *c = found;
+    for (int64_t left = kz_lines_search(&lines, piece, INT64_MAX, found, work); left > 0; left--, c += 2 + 2 * TAYLORS) {
+      int i = 0;
+      while (i < n && (cycle[i][0] != c[0] || fabs(cycle[i][1] - c[1]) > 1e-5)) i++;
+      assert_true(i < MOST_CYCLES);
+      if (i == n) cycle[n][0] = c[0], cycle[n++][1] = c[1];
+    }
+  }
+  return n;
+}
+
+/* By the image half a period later a limit of 30 is one of some 900 over a period: nine of these cycles are below 30 over a period, twelve half
+ * a period later. */
+TEST(test_symmetric_cycles_close_half_a_period_later) {
+  double cycle[MOST_CYCLES][2];
+  const int limited = add_cycles(30, 8, cycle, 0);
+  assert_int_equal(limited, 12);
+  assert_int_equal(add_cycles(30, 64, cycle, limited), limited);
+  double every[MOST_CYCLES][2];
+  const int all = add_cycles(1000, 64, every, 0);
+  for (int i = 0; i < limited; i++) {
+    int j = 0;
+    while (j < all && (every[j][0] != cycle[i][0] || fabs(every[j][1] - cycle[i][1]) > 1e-5)) j++;
+    assert_true(j < all);
+  }
+}
