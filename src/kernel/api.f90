@@ -27,8 +27,12 @@ contains
   subroutine scheme_row(row, scheme) bind(C, name='kz_scheme_row')
     integer(c_int32_t), value :: row
     type(scheme_row_t), intent(out) :: scheme
+    integer :: i
 
-    scheme%name = transfer(trim(SCHEMES(row + 1)%name)//repeat(c_null_char, size(scheme%name)), scheme%name)
+    scheme%name = c_null_char
+    do i = 1, len_trim(SCHEMES(row + 1)%name)
+      scheme%name(i) = SCHEMES(row + 1)%name(i:i)
+    end do
     scheme%order = SCHEMES(row + 1)%order
     scheme%kicks = SCHEMES(row + 1)%kicks
     scheme%default_steps = SCHEMES(row + 1)%default_steps

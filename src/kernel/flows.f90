@@ -13,19 +13,19 @@ module kz_kernel_flows
   use kz_splitting_batch, only: make_batch
   implicit none
   private
-  public :: make_flow, make_stretch_flow, make_processed_flow, fine_numerics, sampling_numerics, FINE
+  public :: make_flow, make_stretch_flow, make_processed_flow, fine_numerics, sampling_numerics, FINE_STEPS
 
-  !> Numerics of all published values, whatever the scene says: split6, 96 steps.
-  type(numerics_t), parameter :: FINE = numerics_t(SPLIT6_ROW, 96)
+  !> Steps a period of split6 for all published values, whatever the scene says.
+  integer, parameter :: FINE_STEPS = 96
 
 contains
 
-  !> FINE, with more steps where the torque is large.
+  !> split6 with FINE_STEPS, more where the torque is large.
   pure type(numerics_t) function fine_numerics(pendulum) result(numerics)
     type(pendulum_t), intent(in) :: pendulum !< k, beta, m
 
-    numerics = FINE
-    numerics%steps_per_period = FINE%steps_per_period*ceiling(sqrt(max(1.0_c_double, stiffness(pendulum))))
+    numerics%scheme = SPLIT6_ROW
+    numerics%steps_per_period = FINE_STEPS*ceiling(sqrt(max(1.0_c_double, stiffness(pendulum))))
   end function fine_numerics
 
   !> With which numerics motions are shown within a period: the scene's, or fine steps in place of the processed splitting, whose

@@ -2,8 +2,9 @@
 !> effective potential. Both are drifts and kicks like the pendulum itself; only the restoring force differs.
 module kz_kernel_models
   use, intrinsic :: iso_c_binding, only: c_double, c_int32_t, c_int64_t
-  use kz_kernel_flows, only: FINE
+  use kz_kernel_flows, only: FINE_STEPS
   use kz_model_pendulum, only: pendulum_t, stiffness
+  use kz_vector_schemes, only: SPLIT6_ROW
   use kz_vector_step_table, only: numerics_t, period_t, make_period
   implicit none
   private
@@ -67,8 +68,8 @@ contains
 
     speed = sqrt(stiffness(pendulum))
     if (code == EFFECTIVE) speed = sqrt(abs(pendulum%k) + pendulum%m**2) + abs(velocity)
-    numerics = FINE
-    numerics%steps_per_period = samples*ceiling(FINE%steps_per_period*max(1.0_c_double, speed)/samples)
+    numerics%scheme = SPLIT6_ROW
+    numerics%steps_per_period = samples*ceiling(FINE_STEPS*max(1.0_c_double, speed)/samples)
     model%code = code
     model%pendulum = pendulum
     if (code == EFFECTIVE) then

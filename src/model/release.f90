@@ -9,7 +9,7 @@ module kz_model_release
   public :: release_t, stretch_t, whole_period, first_stretch, next_stretch, is_open, strobes_before, damping_series, drive_series, CUBIC
 
   integer, parameter :: qp = real128
-  real(qp), parameter :: TWO_PI = 2*acos(-1.0_qp)
+  real(qp), parameter :: TWO_PI = 6.28318530717958647692528676655900577_qp
   !> Highest power of time in a ramp.
   integer, parameter :: CUBIC = 3
 

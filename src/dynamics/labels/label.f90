@@ -43,8 +43,14 @@ contains
     integer(c_int64_t), intent(out), target, optional :: turns(:) !< net turns by which the angle of a last state is more on the line
     type(starts_t) :: starts
 
-    starts = starts_t(map=map, regions=regions, attractors=attractors, state=state, label=label, periods=periods, apart=apart, &
-                      items=size(label))
+    starts%map => map
+    starts%regions => regions
+    starts%attractors => attractors
+    starts%state => state
+    starts%label => label
+    starts%periods => periods
+    starts%apart = apart
+    starts%items = size(label)
     if (present(turns)) starts%turns => turns
     call starts%run()
   end subroutine follow

@@ -97,8 +97,17 @@ contains
     type(decision_t), intent(inout), target :: decision(:) !< [n] as they are made, in; out
     type(orbits_t) :: orbits
 
-    orbits = orbits_t(carrier=carrier, regions=regions, attractors=attractors, orbit=orbit, decision=decision, most=most, &
-                      handover=handover, guess=guess, level=level, outlook=outlook, items=size(orbit))
+    orbits%carrier => carrier
+    orbits%regions => regions
+    orbits%attractors => attractors
+    orbits%orbit => orbit
+    orbits%decision => decision
+    orbits%most = most
+    orbits%handover = handover
+    orbits%guess = guess
+    orbits%level = level
+    orbits%outlook = outlook
+    orbits%items = size(orbit)
     call orbits%run()
   end subroutine follow_orbits
 

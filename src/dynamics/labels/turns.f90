@@ -58,7 +58,11 @@ contains
       if (reached(i) .and. attractors(i)%period > 0 .and. attractors(i)%winding == 0) &
         call find_middle(sampling_flow, attractors(i), middle(i)%from)
     end do
-    motions = motions_t(flow=flow, attractors=attractors, middle=middle, decision=decision, most=most)
+    motions%flow => flow
+    motions%attractors => attractors
+    motions%middle => middle
+    motions%decision => decision
+    motions%most = most
     call motions%run()
   end subroutine count_turns
 

@@ -109,7 +109,11 @@ contains
     integer, allocatable :: label(:, :), orbits(:, :)
 
     allocate (label, mold=regions%label)
-    visitors = visitors_t(regions=regions, attractors=attractors, flow=flow, state=state, budget=budget)
+    visitors%regions => regions
+    visitors%attractors => attractors
+    visitors%flow => flow
+    visitors%state => state
+    visitors%budget = budget
     allocate (visitors%path(most, WIDTH))
     associate (visits => visitors%visits)
       allocate (visits%cell(budget), visits%last(0:size(state, 2)), visits%ends(size(state, 2)))

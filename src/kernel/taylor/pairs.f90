@@ -140,8 +140,14 @@ contains
     real(c_double) :: error
     integer :: fewest, n
 
-    trial = table_trial_t(ORDER, STRIDE, CAUTION, pendulum, shared%series, tolerance=tolerance, fastest=max(SLOWEST, RATIO*slower%fastest), &
-                          kicks=expected_kicks(tolerance))
+    trial%order = ORDER
+    trial%stride = STRIDE
+    trial%caution = CAUTION
+    trial%pendulum = pendulum
+    trial%series => shared%series
+    trial%tolerance = tolerance
+    trial%fastest = max(SLOWEST, RATIO*slower%fastest)
+    trial%kicks = expected_kicks(tolerance)
     fewest = slower%n_steps
     if (slower%fastest > 0) then
       call make_probes(drive, speeds_of(slower), trial%probes)

@@ -16,7 +16,7 @@ module kz_taylor_taylor
   integer, parameter, public :: TAYLOR_STEPS = 18
   !> The same with which periods are right to 1e-20, beside which doubles are measured: fewer orders take a third of the time.
   integer, parameter, public :: ROUGH_STEPS = 20
-  real(qp), parameter, public :: PI_QUAD = acos(-1.0_qp)
+  real(qp), parameter, public :: PI_QUAD = 3.14159265358979323846264338327950288_qp
   real(qp), parameter :: TWO_PI = 2*PI_QUAD
   !> Quarters of a step a period that each further harmonic takes: with fewer, most steps are halved (measured with 2 to 24 harmonics).
   integer, parameter :: MORE_FOR_HARMONICS = 7

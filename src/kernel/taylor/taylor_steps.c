@@ -50,8 +50,8 @@ typedef struct {
   coefficients w, s, c;
 } series;
 
-/* 1/n to 32 digits, n = 1 .. LAST + 1. */
-#define INVERSE(n) {1.0 / (n), __builtin_fma(-(1.0 / (n)), n, 1.0) / (n)}
+/* 1/n to 32 digits, n = 1 .. LAST + 1: a double times n fits a long double. */
+#define INVERSE(n) {1.0 / (n), (double)(1.0L - (long double)(1.0 / (n)) * (n)) / (n)}
 #define INVERSES(n) \
   INVERSE(n), INVERSE(n + 1), INVERSE(n + 2), INVERSE(n + 3), INVERSE(n + 4), INVERSE(n + 5), INVERSE(n + 6), INVERSE(n + 7)
 static const double inverses[][2] = {INVERSES(1),  INVERSES(9),  INVERSES(17), INVERSES(25),

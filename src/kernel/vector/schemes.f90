@@ -44,9 +44,8 @@ module kz_vector_schemes
     scheme_t('processed', 14, 1, 40, PROCESSED, 0, 0, O, O, &
              'one modified kick a step between two changes of coordinates (docs/explanation/theory.md)')]
 
-  !> Rows by name, counted from 0 as numerics_t%scheme: the one that published values rest on, and the fastest.
-  integer, public, parameter :: SPLIT6_ROW = findloc(SCHEMES%name, 'split6', 1) - 1
-  integer, public, parameter :: PROCESSED_ROW = findloc(SCHEMES%name, 'processed', 1) - 1
+  !> Rows `split6` and `processed`, counted from 0 as numerics_t%scheme: the one that published values rest on, and the fastest.
+  integer, public, parameter :: SPLIT6_ROW = 1, PROCESSED_ROW = 2
 
 contains
 

@@ -230,7 +230,7 @@ static kz_status walk_round(walking *w, const kz_run *run, bool forward, int64_t
 
 static kz_status walk_all(walking *w, const kz_run *run) {
   int64_t n, walked = 1;
-  for (int round = 0; walked > 0; round++) {
+  while (walked > 0) {
     walked = 0;
     for (int forward = 1; forward >= 0; forward--) do {
         KZ_TRY(walk_round(w, run, forward, &n));
