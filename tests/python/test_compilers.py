@@ -10,7 +10,6 @@ import subprocess
 from pathlib import Path
 
 import pytest
-
 from conftest import ROOT
 
 BUILD = ROOT / "build"
@@ -23,11 +22,7 @@ def commands(suffix: str) -> dict[Path, list[str]]:
     """Source file: what its compiler was called with, for files of src."""
     listed = json.loads(subprocess.run(["ninja", "-C", BUILD, "-t", "compdb"], capture_output=True, check=True, text=True).stdout)
     source = (ROOT / "src").as_posix()
-    return {
-        Path(c["file"]): shlex.split(c["command"])
-        for c in listed
-        if c["file"].startswith(source) and c["file"].endswith(suffix)
-    }
+    return {Path(c["file"]): shlex.split(c["command"]) for c in listed if c["file"].startswith(source) and c["file"].endswith(suffix)}
 
 
 @pytest.mark.skipif(not shutil.which(C), reason=f"{C} is not installed")
