@@ -47,8 +47,9 @@ typedef struct {
   /* The numbers of a laboratory's pendulum that have no unit, with the units that they are taken in; "" = none. */
   char bare[400];
   kz_numerics_keys asked;
-  kz_numerics numerics;   /* resolved from `asked` by kz_numerics_resolve */
-  kz_kept_series *series; /* of its pendulums; kz_scene_free frees it, and copies of the scene share it; NULL = none is kept */
+  kz_numerics numerics; /* resolved from `asked` by kz_numerics_resolve */
+  kz_kept_series *
+      series; /* Splitting series of the pendulums; kz_scene_free frees it, copies of the scene share it; NULL = none is kept */
 #define KZ_STUDY_FIELDS(name)                                \
   bool has_##name;        /* the scene asks for the study */ \
   kz_##name##_plan *name; /* never NULL in a scene of kz_plans_create */
@@ -90,7 +91,7 @@ const char *kz_sweep_words(void);
 const char *kz_motion_words(void);
 const char *kz_sweep_measure_words(void);
 
-/* What one of a unit of the drive is in SI: *unit becomes "s" for "drive periods", "rad/s" for "rad per drive radian". 1, and *unit as it is, for
+/* Converts a unit of the drive to SI: *unit becomes "s" for "drive periods", "rad/s" for "rad per drive radian"; returns 1 and leaves *unit for
  * other units and where omega (of the pivot, rad/s) is NaN. kz_periods_print: prints "50 drive periods (1 s)".
  * kz_rate_print: prints a rate per drive period with its standard error, and per unit of the scene's time: s, 1/omega0
  * where the scene has drive_frequency or omega, else drive radian. */
@@ -115,7 +116,7 @@ double kz_sweep_value(const kz_sweep_plan *plan, int64_t i);
  * damping, less inertia than a point mass). */
 bool kz_pendulum_at(const kz_scene *scene, int n, const int32_t *parameter, const double *value, kz_pendulum *pendulum);
 
-/* The same with the swept key at `value`. */
+/* Pendulum of a scene with the swept parameter at `value`. */
 bool kz_sweep_pendulum(const kz_scene *scene, double value, kz_pendulum *pendulum);
 /* How cells are released at this value. */
 kz_release kz_sweep_release_at(const kz_scene *scene, double value);
@@ -138,7 +139,7 @@ typedef struct kz_sweep_part kz_sweep_part;
 /* A key of a scene (study_keys.h). */
 typedef struct kz_key kz_key;
 
-/* What a scene must have beside a study: one of other studies, joined by '|', for what it lacks otherwise. */
+/* Studies of which a scene must have one beside a study, joined by '|', for what it lacks otherwise. */
 typedef struct {
   const char *what, *studies;
 } kz_study_need;
@@ -154,16 +155,16 @@ typedef struct {
   const char *name;
   size_t wanted, plan; /* offsets in kz_scene of has_NAME and of the pointer to the plan */
   size_t plan_bytes;
-  const kz_key *keys; /* that of its mapping first; a key without path ends them */
+  const kz_key *keys; /* Keys of the study, the one of its mapping first; a key without path ends them */
   kz_cost (*cost)(const kz_scene *scene);
   kz_status (*run)(const kz_scene *scene, const kz_run *run, kz_store *store, FILE *summary);
   kz_status (*check)(const kz_scene *scene);
-  /* What the plan lacks, "KEY: what is wrong", where KEY is one of the study; NULL = nothing, or no function. */
+  /* Complaint about the plan, "KEY: what is wrong", where KEY is one of the study; NULL = nothing, or no function. */
   const char *(*lack)(const kz_scene *scene);
   kz_study_need needs[2];
   /* It is a part of the study basin, whose run does its work (src/study/basin/label.h); NULL = it is not. */
   const kz_basin_part *of_basin;
-  const kz_sweep_part *of_sweep; /* the same of the study sweep (src/study/sweep/part.h) */
+  const kz_sweep_part *of_sweep; /* part for the study sweep (src/study/sweep/part.h) */
   /* The window of its starts: theta and velocity, if it follows them by the scene's own pendulum and numerics; no function = it does not. */
   void (*window)(const kz_scene *scene, const kz_axis *axis[2]);
   /* The complaint if the scene asks for what needs this of drive or release; NULL = it does not, or no function. */
@@ -186,7 +187,7 @@ void kz_plans_create(kz_scene *scene);
 void kz_plans_copy(kz_scene *scene);
 void kz_plans_free(kz_scene *scene);
 
-/* What the folder of a study gives: its row, the functions of that row (NAME_check if it has one), and the variables that it writes. */
+/* Declares what the folder of a study defines: its row, the functions of that row (NAME_check if it has one), and the variables that it writes. */
 #define KZ_STUDY_DECLARED(name)                                                                        \
   kz_cost kz_##name##_cost(const kz_scene *scene);                                                     \
   kz_status kz_##name##_check(const kz_scene *scene);                                                  \
@@ -194,7 +195,7 @@ void kz_plans_free(kz_scene *scene);
   extern const kz_study kz_##name##_study;                                                             \
   extern const kz_variable kz_##name##_variables[];
 KZ_STUDIES(KZ_STUDY_DECLARED)
-/* What a result file may hold, for kz_store_create. */
+/* Variables and groups that a result file may hold, for kz_store_create. */
 extern const kz_group kz_groups[];
 
 /* FILE.truth, the reference labels of a window, begins with these words. */

@@ -9,7 +9,7 @@ typedef struct kz_atlas kz_atlas;
 /* The longest period of cycles that an atlas can have, in drive periods. */
 enum { KZ_ATLAS_MOST_PERIOD = 16 };
 
-/* Which motions: what they are called, their period, turns and centre. */
+/* A kind of motion: its name, period, turns and centre. */
 typedef struct {
   char name[KZ_NAME_LENGTH];
   int32_t period, winding, centre, symmetric;

@@ -26,14 +26,14 @@ typedef struct {
   double min, max;
   int64_t count;
   kz_decimal centre, width;
-  kz_written_unit written; /* of values of a key of the pendulum: behind min, or behind max where min has none */
+  kz_written_unit written; /* Unit of the values of a parameter as written behind min, or behind max where min has none */
 } kz_axis;
 
 /* True if doubles cannot distinguish neighbouring cells of the axis, so that only method exact can label them. */
 bool kz_axis_is_deep(const kz_axis *axis);
 /* The number of a decimal text, which may end in " deg"; 0 if the text is not a number. */
 __float128 kz_decimal_quad(const char *text);
-/* The same number with all its digits; the result refers to the text of `decimal`. */
+/* Returns the number with all its digits; the result refers to the text of `decimal`. */
 kz_coordinate kz_decimal_coordinate(const kz_decimal *decimal);
 
 /* The edges of a window as the scene gives them; NaN = not given. */

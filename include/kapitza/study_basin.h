@@ -1,4 +1,4 @@
-/* What a scene says of the study `basin`. */
+/* Plan of the study `basin`. */
 #pragma once
 
 #include "kapitza/study.h"

@@ -24,7 +24,7 @@ typedef enum {
   KZ_KEY_HARMONICS /* kz_harmonics: a list of mappings */
 } kz_key_type;
 
-/* What a mapping with the keys min and max gives, beyond its keys. */
+/* Meaning of a mapping with the keys min and max, beyond its keys. */
 typedef enum {
   KZ_RANGE_NONE,
   KZ_RANGE_ANGLES,     /* kz_axis: both edges or neither, which means the whole circle */
@@ -49,9 +49,9 @@ struct kz_key {
   const char *symbol;              /* its symbol in formulas, which a scene may write instead of its name; NULL = none */
   const char *form;      /* letters; keys of one mapping without a common letter exclude each other; NULL = of no form */
   size_t plan;           /* offset in kz_scene of the pointer to the plan that has the field; 0 = the scene has it */
-  size_t offset;         /* of the field in that plan */
-  kz_range range;        /* of a mapping: what its keys give together */
-  size_t range_offset;   /* of that axis in the plan */
+  size_t offset;         /* Offset of the field in that plan, bytes */
+  kz_range range;        /* Range that the keys of a mapping give together */
+  size_t range_offset;   /* Offset of that axis in the plan, bytes */
   const char *chosen_by; /* path of a number that excludes this key, because the program then chooses it; NULL = none */
   const char *help;      /* one sentence of the scene reference */
 };

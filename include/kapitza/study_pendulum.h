@@ -35,13 +35,13 @@ typedef struct {
   double constant_torque, oscillating_torque;     /* c: N m */
   double beta_c, omega, i_dc, i_ac;               /* d: of a Josephson junction */
   double tilt, ellipse, torque, torque_amplitude; /* rad; ratio of the axes; both in units of I omega^2 */
-  double constant_torque_ratio, torque_ratio;     /* the same torques in units of M g r */
-  double start_phase;                             /* of the scene's basin: phase of the drive at the release, rad */
+  double constant_torque_ratio, torque_ratio;     /* Torques in units of M g r */
+  double start_phase;                             /* Phase of the drive at the release of the basin's starts, rad */
   double ramp_from, ramp_periods;                 /* in the units of its key; drive periods */
   int32_t ramp_key, ramp_shape;                   /* KZ_RAMP_DAMPING, ..; KZ_RAMP_LINEAR, .. */
   int32_t waveform;                               /* KZ_SINE, ... */
   kz_reals samples;                               /* for KZ_SAMPLES: the drive at equal times of a period, in units of m */
-  kz_harmonics harmonics;                         /* those that the scene adds */
+  kz_harmonics harmonics;                         /* Harmonics that the scene adds */
   kz_reals vertical, horizontal; /* cosine and sine of harmonics 1, 2, .. of kz_pendulum, if these are written */
 } kz_pendulum_keys;
 
@@ -81,7 +81,7 @@ void kz_drive_resolve(const kz_parameters *parameters, kz_pendulum *pendulum);
 /* The drive for k = 0 and m = 1, for the linear equation at rest; the cosine of a scene without a pendulum. Coefficients beside m = 0 are left
  * as they are. */
 void kz_drive_form(const kz_parameters *parameters, kz_pendulum *form);
-const char *kz_drive_contradiction(const kz_pendulum_keys *written); /* what contradicts; NULL = nothing */
+const char *kz_drive_contradiction(const kz_pendulum_keys *written); /* Contradiction between the keys; NULL = none */
 void kz_drive_print(const kz_parameters *parameters, FILE *out);     /* a summary line: harmonics in use, and their error */
 void kz_symmetries_print(const kz_pendulum *pendulum, FILE *out);    /* a line: the images that every motion has */
 /* Writes the group `pendulum`: every number that is integrated. Rank 0. */

@@ -36,7 +36,7 @@ extern const char *const kz_instructions[];
 const char *kz_instruction_names(void);
 
 typedef struct {
-  int n_words; /* of plot: the words behind it, which the package reads */
+  int n_words; /* Number of words behind `plot`, which the package reads */
   char *const *plot_words;
   const char *operands[5]; /* SCENE and the operands after it */
   int n_operands;
@@ -47,7 +47,7 @@ typedef struct {
   char **joined; /* words of the command line that were made of a number and its unit; n_joined of them */
   int n_joined;
   bool resume, force, all, json, json_schema, layout;
-  void *own;         /* what the command's own options set; NULL = it has none */
+  void *own;         /* Fields that the command's own options set; NULL = it has none */
   bool compared;     /* the command lines of all ranks were compared, or are by the command */
   bool answered;     /* --help or the like was printed: nothing is left to do */
   double time_limit; /* seconds; 0 = none */
@@ -56,7 +56,7 @@ typedef struct {
   bool timings;      /* print where the time went */
   bool prints;       /* this process prints: the first of those that mpirun started */
   char *line;        /* the command line as typed */
-  const char *words; /* the same behind the name of the program */
+  const char *words; /* Words behind the name of the program */
 } kz_options;
 
 /* Reads the command line and runs its command: the whole program except for its entry. Only one process keeps the message. */
@@ -67,7 +67,7 @@ kz_status kz_message_print(kz_status status);
 
 /* The commands. */
 kz_status kz_app_run(const kz_options *options);
-/* What a stage does, for progress: "labels in quad precision (1)" for "quad 1". */
+/* Description of a stage, for progress: "labels in quad precision (1)" for "quad 1". */
 void kz_stage_words(const char *name, char *words, size_t bytes);
 kz_status kz_app_check(const kz_options *options);
 kz_status kz_app_keys(const kz_options *options);

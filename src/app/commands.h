@@ -7,12 +7,12 @@
 
 typedef struct kz_option {
   const char *name;
-  int letter;                                                                           /* of the short form; 0: none */
+  int letter;                                                                           /* Letter of the short form; 0: none */
   const char *argument;                                                                 /* its name, or NULL */
   kz_status (*apply)(void *members, const struct kz_option *row, const char *argument); /* NULL: --help and --version */
-  size_t member; /* that it sets: of kz_options, or of the command's own */
+  size_t member; /* Offset of the field that it sets, in kz_options or in the command's own, bytes */
   const char *help;
-  const char *words; /* what the argument can be, joined by '|'; NULL = anything */
+  const char *words; /* Words allowed as argument, joined by '|'; NULL = anything */
 } kz_option;
 
 typedef struct {
@@ -22,8 +22,8 @@ typedef struct {
   kz_status (*carry_out)(const kz_options *options);
   const char *help;
   const char *options;  /* names of its options, joined by '|', in the order of its help */
-  const kz_option *own; /* those that no other command has, ended by a row without name; NULL = none */
-  size_t own_bytes;     /* of the members that these set: kz_options.own, zeros before */
+  const kz_option *own; /* Options that no other command has, ended by a row without name; NULL = none */
+  size_t own_bytes;     /* Bytes of the fields that these set: kz_options.own, zeros before */
   bool passes_words;    /* the package reads the words behind it */
   bool joins_units;     /* a number and a unit behind it are one word */
 } kz_command;

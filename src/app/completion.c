@@ -52,7 +52,7 @@ static void print_options(const kz_command *command) {
   for (const kz_option *row; (row = kz_option_next(command, &names));) printf("--%s\t%s\n", row->name, row->help);
 }
 
-/* What the argument of an option can be. */
+/* Words that the argument of an option can be. */
 static void print_arguments(const kz_option *row) {
   const char *words = row->words ? row->words : "", *word;
   int length;

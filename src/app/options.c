@@ -142,7 +142,7 @@ const kz_option kz_option_rows[] = {
     {"version", 'V', NULL, NULL, 0, "print the versions of the program and of its libraries, and exit", NULL},
     {.name = NULL},
 };
-enum { MOST_OPTIONS = 16 /* of a command */, NO_LETTER = 256 };
+enum { MOST_OPTIONS = 16 /* Options of a command at most */, NO_LETTER = 256 };
 
 /* getopt's own description of the options of a command: letter = that of the row, or NO_LETTER + its place in row [MOST_OPTIONS]. */
 static void describe(const kz_command *command, const kz_option **row, struct option *longs, char *shorts) {

@@ -105,7 +105,7 @@ static kz_json *studies_of(const kz_scene *scene) {
   return list;
 }
 
-/* The same for programs, as one object on a line. */
+/* Writes the report for programs, as one object on a line. */
 static void print_check_json(const kz_options *options, const kz_scene *scene, const char *resolved) {
   const kz_cost cost = kz_cost_of(scene);
   const kz_pendulum *p = &scene->parameters.pendulum;

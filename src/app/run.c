@@ -14,14 +14,14 @@ typedef struct {
   const kz_options *options;
   kz_run run;
   bool first; /* rank 0: reads, writes and prints */
-  char *text; /* of the scene, `length` bytes and a NUL */
+  char *text; /* Text of the scene, `length` bytes and a NUL */
   uint64_t length;
   kz_scene scene;
   char *resolved, *fingerprint;
   char path[PATH_MAX];
   kz_store *store; /* NULL but on rank 0 */
   FILE *summary;   /* NULL but on rank 0 */
-  char *words;     /* what the summary holds, n_words bytes */
+  char *words;     /* Text of the summary, n_words bytes */
   size_t n_words;
   FILE *log; /* NULL: none */
 } job;
@@ -111,7 +111,7 @@ static kz_status close_checkpoint(job *j, kz_status status, bool complete) {
   kz_checkpoint *checkpoint = j->run.checkpoint;
   j->run.checkpoint = NULL;
   kz_abandon_run(&j->run, NULL);
-  kz_ranks_set_overdue(j->run.ranks, NULL); /* what is left is short */
+  kz_ranks_set_overdue(j->run.ranks, NULL); /* the remaining work is short */
   const kz_status closed = kz_checkpoint_close(j->run.ranks, checkpoint, complete);
   return status == KZ_OK ? closed : status;
 }
@@ -154,7 +154,7 @@ static kz_status write_root(job *j) {
   return kz_store_integer(j->store, "/", "ranks", kz_ranks_count(j->run.ranks));
 }
 
-/* What is said of the pendulum: before the studies, because a complete file is followed by nothing that can fail. */
+/* Prints the pendulum before the studies, because a complete file is followed by nothing that can fail. */
 static void print_pendulum(const kz_scene *scene, FILE *out) {
   const kz_pendulum *p = &scene->parameters.pendulum;
   kz_rest_print(&scene->parameters, out);

@@ -59,7 +59,7 @@ static const char HARMONIC[] =
     "\"order\": {\"type\": \"integer\", \"minimum\": 1, \"maximum\": " KZ_WRITTEN(KZ_HARMONICS) "}, \"amplitude\": {\"type\": "
     "\"number\"}, \"phase\": {\"anyOf\": [{\"type\": \"number\"}, {\"type\": \"string\", \"pattern\": \"^[-+.0-9eE]+ deg$\"}]}}}";
 
-/* What one value may be. */
+/* Schema of one value. */
 static kz_json *value_of(const kz_key *key) {
   switch (key->type) {
     case KZ_KEY_TEXT:
@@ -89,7 +89,7 @@ static bool takes_a_word(const kz_key *key) {
   return key->type == KZ_KEY_COUNT && key->words;
 }
 
-/* What may stand in place of a number: one with a unit, a part of pi, a word; NULL = nothing. */
+/* Schema of what may stand in place of a number: one with a unit, a part of pi, a word; NULL = nothing. */
 static kz_json *other_of(const kz_key *key) {
   const bool angle = kz_key_is_angle(key), decimal = key->type == KZ_KEY_DECIMAL, own = strcmp(key->unit, KZ_OWN_UNIT) == 0;
   const bool real = key->type == KZ_KEY_REAL || decimal || key->type == KZ_KEY_REALS;
@@ -180,7 +180,7 @@ static kz_json *form_of(const kz_key *keys, const char *parent, char form) {
   return object;
 }
 
-/* What a mapping must have one of: the ways to give its keys; of the scene (""), the studies, which are mappings at the top that have a field. */
+/* Alternatives of which a mapping must have one: the ways to give its keys; of the scene (""), the studies, which are mappings at the top that have a field. */
 static kz_json *choices_of(const kz_key *keys, const char *parent) {
   kz_json *list = json_object_new_array();
   char seen = 0; /* forms come in the order of their letters */

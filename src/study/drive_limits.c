@@ -1,4 +1,4 @@
-/* What does not take every drive and every release: the one table of it, and the refusals by name (docs/reference/commands.md, Drives). */
+/* Table of all that does not take every drive and every release, and the refusals by name (docs/reference/commands.md, Drives). */
 #include <math.h>
 
 #include "kapitza/study.h"
@@ -41,7 +41,7 @@ static bool asks_more_than_cells(const kz_scene *s) {
   return !of_cells;
 }
 
-/* What a scene may ask for that does not take every drive or release, and the complaint. */
+/* Request of a scene that does not take every drive or release, and the complaint. */
 static const struct {
   bool (*is_asked)(const kz_scene *);
   kz_drive_need needs;
@@ -80,7 +80,7 @@ static const char *limit_of(const kz_scene *scene, kz_drive_need needs) {
   return NULL;
 }
 
-/* Of cells that are released at many phases. */
+/* Complaints about cells that are released at many phases. */
 static const char *limit_of_phases(const kz_scene *scene) {
   const char *why = limit_of(scene, KZ_NEEDS_ONE_PHASE);
   return why ? why : limit_of(scene, KZ_NEEDS_STROBE);

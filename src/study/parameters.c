@@ -11,7 +11,7 @@ static kz_pendulum from_quality(const kz_pendulum_keys *written) {
   return (kz_pendulum){.k = 1.0 / (omega * omega), .beta = isnan(q) ? 0.0 : 1.0 / (omega * q), .m = written->drive_amplitude};
 }
 
-/* The same of a Josephson junction, in units of its plasma frequency. */
+/* Parameters of a Josephson junction, in units of its plasma frequency. */
 static kz_pendulum from_junction(const kz_pendulum_keys *written) {
   const double omega = written->omega;
   return (kz_pendulum){.k = 1.0 / (omega * omega), .beta = 1.0 / (omega * sqrt(written->beta_c)), .m = 0};

@@ -197,7 +197,7 @@ static const kz_key *find_elsewhere(const kz_key *keys, const char *name) {
   return n == 1 ? found : NULL;
 }
 
-/* The same for the former name of a study: the row of a study lists its former names. */
+/* Refuses the former name of a study: the row of a study lists its former names. */
 static bool was_a_study(const kz_key *keys, const char *name, char *now, size_t bytes) {
   for (; keys->path; keys++)
     if (keys->type == KZ_KEY_MAPPING && !strchr(keys->path, '.') && kz_key_renamed(keys, name, now, bytes)) return true;

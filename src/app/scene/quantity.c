@@ -93,7 +93,7 @@ const char *kz_scalar_decimal(const kz_node *node, bool is_angle, kz_decimal *va
   return NULL;
 }
 
-/* What stands behind a number. */
+/* Words behind a number. */
 static const char *behind_number(const char *text) {
   const char *rest = text + strspn(text, "+-.0123456789"); /* an exponent belongs to the number */
   if ((*rest == 'e' || *rest == 'E') &&

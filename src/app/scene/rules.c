@@ -41,7 +41,7 @@ static void attractors_rules(kz_reading *reading, kz_scene *scene) {
                 "repeats what basin does, which finds the attractors of its window itself; give one of them");
 }
 
-/* What a study lacks, "KEY: what is wrong", at the key that is to be changed; NULL = nothing. */
+/* Complaint about a study, "KEY: what is wrong", at the key that is to be changed; NULL = nothing. */
 static void lack_rule(kz_reading *reading, const char *lack, const char *study) {
   if (!lack) return;
   char key[16];
@@ -224,7 +224,7 @@ static const kz_plane_axis *range_rule(kz_reading *reading, const kz_key *key, c
   return along;
 }
 
-/* What the row and the keys of a study say of it. */
+/* Rules that the row and the keys of a study give. */
 static void study_rules(kz_reading *reading, const kz_study *study) {
   kz_scene *scene = reading->scene;
   const kz_plane_axis *axis = NULL;

@@ -33,7 +33,7 @@ bool kz_text_is_decimal(const char *text, bool *whole) {
   return *c == '\0';
 }
 
-/* What keeps a node from being an unquoted scalar, or NULL. */
+/* Returns why a node is no unquoted scalar, or NULL. */
 static const char *not_plain(const kz_node *node) {
   if (node->kind == KZ_SEQUENCE) return "is a list";
   if (node->kind == KZ_MAPPING) return "is a mapping";

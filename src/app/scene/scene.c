@@ -119,7 +119,7 @@ static kz_status read_tree(kz_node *root, kz_scene *scene) {
 kz_status kz_scene_of_tree(kz_node *root, kz_scene *scene) {
   *scene = (kz_scene){.series = kz_kept_series_create()};
   kz_plans_create(scene);
-  kz_tree_name_symbols(kz_scene_keys(), root); /* of a request */
+  kz_tree_name_symbols(kz_scene_keys(), root); /* symbols of a request */
   const kz_status status = read_tree(root, scene);
   if (status != KZ_OK) kz_scene_free(scene);
   return status;

@@ -33,7 +33,7 @@ const kz_key *kz_key_find(const kz_key *keys, const char *path);
 void kz_key_list(const char *words, char *text, size_t bytes);
 /* Writes what the key accepts, such as "an integer from 1 to 512", to `text` [bytes]. */
 void kz_key_accepts(const kz_key *keys, const kz_key *key, char *text, size_t bytes);
-/* The same with another noun in front and other words for the unit; kz_key_unit_words: " in m, or with its unit: cm, mm". */
+/* Expectation with another noun in front and other words for the unit; kz_key_unit_words: " in m, or with its unit: cm, mm". */
 void kz_key_accepts_with(const kz_key *keys, const kz_key *key, const char *noun, const char *unit, char *text, size_t bytes);
 void kz_key_unit_words(const kz_key *key, char *text, size_t bytes);
 /* The types of numbers in the reference of keys: accepts = as kz_key_accepts, with the type's name as a link for its units; write = the
@@ -54,7 +54,7 @@ typedef enum { KZ_SCALAR, KZ_SEQUENCE, KZ_MAPPING } kz_node_kind;
 typedef struct kz_node {
   kz_node_kind kind;
   char *name;                 /* its key in the mapping above; "" at the root and in a list */
-  char *text;                 /* of a scalar, else NULL */
+  char *text;                 /* Text of a scalar, else NULL */
   bool plain;                 /* a scalar without quotes */
   const char *source;         /* file name, or the option "--set KEY=VALUE"; not owned */
   int name_line, name_column; /* from 1; 0 in an option */
@@ -144,7 +144,7 @@ typedef struct {
 
 /* Records a complaint about the key `path` at its value; a key that the scene does not give is reported at its mapping. */
 void kz_complain(kz_reading *reading, const char *path, const char *format, ...) __attribute__((format(printf, 3, 4)));
-/* The same at the value of `node`; NULL = a missing key. */
+/* Fails at the value of `node`; NULL = a missing key. */
 void kz_complain_at(kz_reading *reading, const kz_node *node, const char *path, const char *format, ...)
     __attribute__((format(printf, 4, 5)));
 /* Sets every field of `scene` to its default, then reads the tree into it by the table. */

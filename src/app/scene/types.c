@@ -5,7 +5,7 @@
 #include "scene.h"
 
 typedef struct {
-  const char *unit, *path; /* of its keys: their unit, and a part of their path that distinguishes two types of one unit */
+  const char *unit, *path; /* Unit of its keys, and a part of their path that distinguishes two types of one unit */
   const char *article, *name, *note;
 } type;
 

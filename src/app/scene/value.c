@@ -181,7 +181,7 @@ static void print_harmonic(const kz_key *key, const void *value, FILE *out) {
   fputc('}', out);
 }
 
-/* What a field holds that is not given: its first bytes. */
+/* First bytes of a field that is not given. */
 static const bool no_flag = false;
 static char *const no_text = NULL;
 static const int32_t no_word = KZ_UNSET_WORD;
@@ -197,7 +197,7 @@ static const struct {
   void (*print)(const kz_key *key, const void *value, FILE *out);
   const void *unset;
   size_t unset_bytes;
-  size_t first, bytes; /* of a list: offset of the first value, bytes of a value */
+  size_t first, bytes; /* Offset of the first value of a list; bytes of a value */
 } types[] = {
     [KZ_KEY_MAPPING] = {NULL, NULL, &no_flag, sizeof no_flag, 0, 0},
     [KZ_KEY_TEXT] = {read_text, print_text, &no_text, sizeof no_text, 0, 0},

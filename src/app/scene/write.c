@@ -37,7 +37,7 @@ static void indent(int depth, FILE *out) {
 /* Opens the mappings of `path` that `last`, the path written before, was not in; then writes the name of the key. */
 static void write_name(const char *path, const char *last, FILE *out) {
   int depth = 0;
-  bool inside = true; /* so far, the path written before lies in the same mappings */
+  bool inside = true; /* whether the path written before lies in the same mappings so far */
   const char *name = path;
   for (const char *dot; (dot = strchr(name, '.')); name = dot + 1, depth++) {
     inside = inside && strncmp(last, path, (size_t)(dot - path) + 1) == 0;

@@ -12,8 +12,8 @@
 typedef struct {
   char program[PATH_MAX];         /* this executable */
   char package[PATH_MAX + 16];    /* folder of the Python package */
-  char entry[PATH_MAX + 64];      /* of the command, in it */
-  char own_python[PATH_MAX + 32]; /* of the virtual environment that scripts/setup makes */
+  char entry[PATH_MAX + 64];      /* Path of the command in the package */
+  char own_python[PATH_MAX + 32]; /* Python of the virtual environment that scripts/setup makes */
 } places;
 
 static kz_status find_program(char program[PATH_MAX]) {

@@ -49,7 +49,7 @@ static kz_status try_config(void *context, int64_t tile, void *record) {
 /* Tries the settings from the cheapest on, two at a time; the first that meets the accuracy is chosen, else `exact`. */
 static kz_status choose(const kz_reference_labels *reference, const kz_run *run, double accuracy, kz_choice *choice) {
   walk w;
-  const int64_t step = 2; /* the same for any number of ranks: kept stages come in one order */
+  const int64_t step = 2; /* equal for any number of ranks: kept stages come in one order */
   kz_setting_measured measured[2];
   order(reference, &w);
   *choice = (kz_choice){.samples = reference->samples, .flipped = kz_reference_labels_sum(reference).flipped};

@@ -8,11 +8,11 @@
 typedef struct {
   const char *label;
   int32_t method;        /* KZ_METHOD_ICM, ... */
-  const char *scheme;    /* of the kernel's table */
+  const char *scheme;    /* Name of the scheme in the kernel's table */
   int32_t steps;         /* per period; KZ_AUTO = as many as `tolerance` needs, for the processed splitting */
   double tolerance;      /* rad: error of one drive period */
   int32_t interpolation; /* KZ_LINEAR, ...; not used by KZ_METHOD_DIRECT */
-  int64_t nodes;         /* of the map table, an axis; not used by KZ_METHOD_DIRECT */
+  int64_t nodes;         /* Nodes of the map table along an axis; not used by KZ_METHOD_DIRECT */
   bool candidate;        /* true: basin.accuracy may choose it; no other setting is both as fast and as accurate */
 } kz_setting;
 
@@ -47,7 +47,7 @@ typedef struct {
 kz_status kz_setting_measure(const kz_setting *setting, const kz_reference_labels *reference, int64_t timed,
                              kz_setting_measured *measured);
 
-/* What was chosen and why. */
+/* The choice and its reason. */
 typedef struct {
   const kz_setting *setting;
   int64_t samples, wrong, flipped, tried;

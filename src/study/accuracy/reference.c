@@ -13,11 +13,11 @@
 #include "kapitza/study_basin.h"
 
 enum {
-  STEPS = 48,    /* of split6 a period, for a gentle drive */
-  DOUBLINGS = 6, /* of STEPS, at most */
+  STEPS = 48,    /* Steps of split6 a period, for a gentle drive */
+  DOUBLINGS = 6, /* Doublings of STEPS at most */
   MOST_STEPS = 20000,
   PROBES = 8192, /* cells that must settle on known attractors before any is followed in quad precision */
-  ROUNDS = 3,    /* of search among probes that end nowhere known, at most */
+  ROUNDS = 3,    /* Rounds of search among probes that end nowhere known, at most */
   PROBE_TILE = 256,
   TILE = 32,                            /* cells */
   OTHER_STEPS = KZ_REFERENCE_STEPS + 6, /* the other number of steps of the series */

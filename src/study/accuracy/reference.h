@@ -12,8 +12,8 @@ enum {
 
 /* The reference label of one cell; labels are numbers of its attractors from 1, 0 = not settled within max_periods. */
 typedef struct {
-  kz_label end;     /* of the cell's start: label and periods */
-  int16_t flipped;  /* of a start that is larger by one unit in the last place, in angle and velocity */
+  kz_label end;     /* Label and periods of the cell's start */
+  int16_t flipped;  /* Label of a start that is larger by one unit in the last place, in angle and velocity */
   uint8_t distance; /* cells along an axis to a different label, a power of two; KZ_REFERENCE_FAR = none found */
   uint8_t agrees;   /* 1 = another number of steps gave the same label, 0 = it gave another one, 2 = not tried */
 } kz_reference_label;
@@ -21,10 +21,10 @@ typedef struct {
 typedef struct {
   const kz_basin_plan *plan;
   kz_pendulum pendulum;
-  kz_kept_series *series; /* of the scene */
+  kz_kept_series *series; /* Series of the scene */
   int64_t total;          /* cells of the window */
   int64_t samples;        /* number of cells with a reference label: the first ones in the order of kz_shuffled */
-  double max_velocity;    /* of kz_dynamics_max_velocity */
+  double max_velocity;    /* Largest speed, kz_dynamics_max_velocity */
   int64_t packed_size;
   double *packed;             /* the attractors, for kz_dynamics_unpack */
   kz_reference_label *labels; /* [samples] */

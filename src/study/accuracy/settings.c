@@ -68,7 +68,7 @@ void kz_setting_apply(const kz_setting *setting, kz_scene *scene) {
 
 /* Kicks of split6 that a period costs. */
 static double period_kicks(const kz_setting *setting) {
-  /* Of the processed splitting: what a step costs, steps at 1e-4 for a gentle drive, and the order by which they grow. */
+  /* Cost of a step of the processed splitting, its steps at 1e-4 for a gentle drive, and the order by which they grow. */
   static const double step = 0.4, steps = 14, order = 14;
   if (setting->steps == KZ_AUTO) return step * steps * pow(1e-4 / setting->tolerance, 1 / order);
   return (double)kz_scheme_at(kz_scheme_find(setting->scheme)).kicks * setting->steps;

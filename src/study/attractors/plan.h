@@ -1,4 +1,4 @@
-/* What a scene says of the study `attractors`. The counts of the axes are not used. */
+/* Plan of the study `attractors`. The counts of the axes are not used. */
 #pragma once
 
 #include "kapitza/study.h"

@@ -94,7 +94,7 @@ static void free_parts(kz_window_labels *labelling) {
     if (p->part->free) p->part->free(p->own);
 }
 
-/* Of FILE and FILE.checkpoint. Measured with Fig. 12's scene on 10^6 to 4 10^8 cells: finer grids have longer runs of equal labels. */
+/* Disk space of FILE and FILE.checkpoint, measured with Fig. 12's scene on 10^6 to 4 10^8 cells: finer grids have longer runs of equal labels. */
 static double packed_bytes(double cells) {
   return 0.9 * pow(cells, 0.96);
 }
@@ -145,7 +145,7 @@ static void measure_numerics(const kz_scene *scene, kz_dynamics *dynamics, kz_wi
   kz_steps_warn_table(scene->basin, labels->table_error, summary);
 }
 
-/* What is said of undecided cells. */
+/* Advice about undecided cells. */
 static const char *advice_of(const kz_window_labels *labelling) {
   for (const kz_part *p = labelling->parts; p < labelling->parts + labelling->n_parts; p++)
     if (p->part->advice) return p->part->advice(p->own);

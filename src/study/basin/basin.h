@@ -11,7 +11,7 @@
 
 enum { KZ_TILE_CELLS = 16384 }; /* cells of a tile, about: enough to keep all lanes busy while a few cells take long */
 
-/* What the study writes besides kz_basin_variables. */
+/* Results that the study writes besides kz_basin_variables. */
 extern const kz_variable kz_phases_variables[];
 
 /* ---- transients: how long they last, from the cells of every few rows that are not mirror images ---- */
@@ -64,8 +64,8 @@ typedef struct {
   kz_counts counts;
   double trapped_share; /* share of the cells of the trapping regions' grid that are trapped */
   double step_error;    /* rad: the largest error of one drive period in a sample */
-  kz_doubt doubt;       /* of the labels */
-  const char *advice;   /* what is said of cells that stay undecided */
+  kz_doubt doubt;       /* Doubt about the labels */
+  const char *advice;   /* Advice about cells that stay undecided */
   double table_error;   /* rad: the same of the map table; NaN without a table */
 } kz_window_summary;
 

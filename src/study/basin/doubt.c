@@ -10,7 +10,7 @@ enum { SAMPLE = 7300, TILE = 256 }; /* cells: a share of 5 % is known to +-0.5 p
 
 static const double MANY = 0.05; /* share of doubtful labels that is warned of */
 
-/* What the tiles of the stage need: cell i of the sample is one of the kz_unique_cells, by the window, its cells and the seed alone. */
+/* Context of the tiles of the stage: cell i of the sample is one of the kz_unique_cells, by the window, its cells and the seed alone. */
 typedef struct {
   const kz_basin_plan *plan;
   kz_dynamics *dynamics;

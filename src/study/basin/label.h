@@ -9,7 +9,7 @@
 /* A tile is a number of whole rows of cells, or a part of one row, so its cells are consecutive. If the window is its own mirror image,
  * tile t is the mirror image of tile n - 1 - t. */
 typedef struct {
-  int64_t rows, columns; /* of cells in the window */
+  int64_t rows, columns; /* Cells of the window */
   int64_t chunk[2];      /* cells of a tile along velocity and theta; the last ones may reach beyond the window */
   int64_t across;        /* tiles along theta */
   int64_t n, own;        /* tiles of the window; the first `own` of them are labelled, the others are mirror images */
@@ -43,7 +43,7 @@ struct kz_basin_part {
    * start_at; NULL: it did not. The caller frees it. start_at: at these shares of the width, from the middle, for a level. */
   void *(*starts)(void *own, double reach);
   void (*start_at)(const void *starts, int32_t level, __float128 theta, __float128 velocity, kz_start *start);
-  /* What is said of cells that stay undecided; NULL = nothing in particular. */
+  /* Advice about cells that stay undecided; NULL = none. */
   const char *(*advice)(void *own);
   /* After the cells are labelled. Collective. */
   kz_status (*follow)(void *own, kz_window_labels *labelling);
@@ -51,7 +51,7 @@ struct kz_basin_part {
   kz_status (*take)(void *own, int64_t tile, kz_label *cell);
   /* Attributes, variables and lines of the summary. Rank 0. */
   kz_status (*write)(void *own, const kz_chunks *chunks, FILE *summary);
-  /* What follows from the labels in the store, with its own variables; store and summary are NULL on all ranks but rank 0. Collective. */
+  /* Writes what follows from the labels in the store, with its own variables; store and summary are NULL on all ranks but rank 0. Collective. */
   kz_status (*find)(void *own, const kz_chunks *chunks, kz_store *store, FILE *summary);
 };
 enum { KZ_MOST_PARTS = 8 };
@@ -65,12 +65,12 @@ struct kz_window_labels {
   const kz_basin_plan *plan;
   const kz_parameters *parameters;
   kz_dynamics *dynamics;
-  kz_search search; /* of the starts */
+  kz_search search; /* Search from the starts */
   kz_tiles tiles;
-  kz_cell_starts starts; /* of all cells */
+  kz_cell_starts starts; /* Starts of all cells */
   int n_parts;
   kz_part parts[KZ_MOST_PARTS];
-  kz_labeller labeller; /* of the cells, whose items are their numbers */
+  kz_labeller labeller; /* Labeller of the cells, whose items are their numbers */
   int64_t tile;         /* most cells that are followed together */
   const kz_run *run;
   kz_label *cell;           /* [kz_tile_capacity] a tile, unpacked */

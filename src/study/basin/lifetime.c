@@ -6,7 +6,7 @@
 #include "basin.h"
 
 enum {
-  CELLS = 1 << 18, /* that are looked at, about */
+  CELLS = 1 << 18, /* Number of cells that are looked at, about */
   ENOUGH = 30      /* fewer ends give no mean */
 };
 

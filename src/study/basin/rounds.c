@@ -23,7 +23,7 @@ static kz_status count_pending(kz_window_labels *l, int16_t wanted) {
   return KZ_OK;
 }
 
-/* Those of the wanted cells that lie in one tile. */
+/* Wanted cells that lie in one tile. */
 static kz_status pick_from(kz_window_labels *l, const kz_local_record *packed, int64_t from, int64_t of, int64_t n,
                            int64_t *cell, int64_t *level) {
   int64_t number = l->before[packed->tile], i = number > from ? ((number - from) * n + of - 1) / of : 0;
@@ -90,7 +90,7 @@ static kz_status label_pending(kz_window_labels *l, int round) {
   return status;
 }
 
-enum { ROUNDS = 3 /* of search among cells that end nowhere known, at most */ };
+enum { ROUNDS = 3 /* Rounds of search among cells that end nowhere known, at most */ };
 
 /* Finds and counts the attractors that the starts of the window end on. */
 static kz_status find_attractors(kz_window_labels *l) {

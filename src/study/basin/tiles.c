@@ -1,7 +1,7 @@
 #include "label.h"
 #include "kapitza/study_basin.h"
 
-enum { MOST_CELLS = 1 << 19 }; /* of a tile: few MB */
+enum { MOST_CELLS = 1 << 19 }; /* Cells of a tile: few MB */
 
 static int64_t lower(int64_t a, int64_t b) {
   return a < b ? a : b;

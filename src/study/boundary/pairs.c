@@ -7,7 +7,7 @@
 #include "numerics/share.h"
 
 enum {
-  STARTS = 64, /* of a tile, each with a partner at every distance */
+  STARTS = 64, /* Starts of a tile, each with a partner at every distance */
   POINTS = STARTS * (1 + KZ_PAIR_DISTANCES)
 };
 
@@ -18,7 +18,7 @@ typedef struct {
   const kz_boundary_plan *pairs;
   const kz_basin_plan *plan;
   kz_dynamics *dynamics;
-  const kz_part *deep; /* which makes the starts, where the partners lie in a deep window or about it too; else NULL */
+  const kz_part *deep; /* Part that makes the starts where the partners lie in a deep window, or about it too; else NULL */
   void *starts;        /* its own */
 } pairing;
 

@@ -1,4 +1,4 @@
-/* What a scene says of the boundaries of a basin. */
+/* Plan of the boundaries of a basin. */
 #pragma once
 
 #include "kapitza/study.h"

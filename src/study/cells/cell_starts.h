@@ -6,7 +6,7 @@
 
 typedef struct {
   const kz_basin_plan *plan;
-  double *centre[2]; /* of each column and of each row: rad, rad per drive radian */
+  double *centre[2]; /* Centres of the columns (rad) and of the rows (rad per drive radian) */
 } kz_cell_starts;
 
 /* The caller frees them. */
@@ -16,7 +16,7 @@ void kz_cell_starts_free(kz_cell_starts *starts);
 kz_status kz_cell_starts_at(void *starts, int64_t cell, int32_t level, kz_start *start);
 /* The labeller of the cells, by levels. */
 kz_labeller kz_cell_starts_labeller(const kz_cell_starts *starts, kz_dynamics *dynamics);
-/* The same with centres that are computed anew for each start. */
+/* Makes starts with centres that are computed anew for each. */
 kz_labeller kz_cell_labeller(const kz_basin_plan *plan, kz_dynamics *dynamics);
 /* The way of a method. */
 kz_way kz_way_of(kz_method method);

@@ -1,4 +1,4 @@
-/* What a scene says of the measure `ends` of a sweep: starts that are the same at every point of a plane. */
+/* Plan of the measure `ends` of a sweep: starts that are the same at every point of a plane. */
 #pragma once
 
 #include "kapitza/study.h"

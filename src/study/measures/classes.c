@@ -59,7 +59,7 @@ static kz_status join_tile(void *context, int64_t tile, void *record) {
   const kz_measured_point *here = kz_point_at(points, j->records, tile);
   const bool has[] = {tile % points->columns + 1 < points->columns, tile / points->columns + 1 < points->rows};
   const int64_t at[] = {tile + 1, tile + points->columns};
-  kz_fine_maps *maps = kz_fine_maps_create(3); /* of the point and its neighbours */
+  kz_fine_maps *maps = kz_fine_maps_create(3); /* maps of the point and its neighbours */
   for (int way = 0; way < WAYS; way++)
     for (int64_t place = 0; place < KZ_POINT_MOST; place++) {
       out->to[way][place] = -1;

@@ -76,7 +76,7 @@ static int64_t look_into_box(const kz_measured *measured, int64_t left, int64_t 
   return basins;
 }
 
-/* Of the boxes on any boundary, the share that each basin is in. */
+/* Share of the boxes on any boundary that each basin is in. */
 void kz_measure_shared_boundary(const kz_measured *measured, double *value) {
   const int64_t cells = measured->plan->options.cells, n = measured->catalogue.count;
   KZ_FREED bool *seen = kz_malloc((size_t)n * sizeof *seen + 1);

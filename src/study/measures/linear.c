@@ -27,7 +27,7 @@ void kz_measure_return_time(const kz_measured *measured, double *value) {
   }
 }
 
-/* Of a cycle from its turns, to the last digit. */
+/* Measure of a cycle from its turns, to the last digit. */
 void kz_measure_mean_velocity(const kz_measured *measured, double *value) {
   for (int64_t id = 0; id < measured->catalogue.count; id++) {
     const kz_attractor *row = &measured->catalogue.entries[id].row;
@@ -55,7 +55,7 @@ static double later_growth(const kz_tangent *tangent, int32_t period, int32_t ph
     largest = fmax(largest, now);
     if ((step + 1) % period == 0 && now <= 1) return largest;
   }
-  return NAN; /* so slowly that it is not known */
+  return NAN; /* it decays too slowly to be known */
 }
 
 /* The largest over the strobe points; NaN for chaotic attractors. */

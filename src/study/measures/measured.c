@@ -1,4 +1,4 @@
-/* What a pendulum has: attractors, starts and a picture with labels, derivatives of the map, shocks; each only if a measure needs it. */
+/* Properties of a pendulum: attractors, starts and a picture with labels, derivatives of the map, shocks; each only if a measure needs it. */
 #include <math.h>
 #include <stdlib.h>
 
@@ -10,7 +10,7 @@
 
 enum {
   PILOTS = 512, /* starts of the search; others that end nowhere known start another one */
-  ROUNDS = 2    /* of it, at most */
+  ROUNDS = 2    /* Rounds of the search at most */
 };
 
 /* Starts spread evenly over a window, rad and rad per drive radian. */
@@ -19,7 +19,7 @@ static void spread(const kz_window *window, const kz_measures_plan *plan, double
   for (int64_t i = 0; i < plan->starts; i++) start[2 * i] *= M_PI;
 }
 
-/* The same starts carried by the quantiles from the unit square to the Gaussian distribution. */
+/* Starts carried by the quantiles from the unit square to the Gaussian distribution. */
 static void spread_by_weight(const kz_measures_plan *plan, double *start) {
   static const kz_window unit = {0, 1, 0, 1};
   const double least = 0x1p-54;

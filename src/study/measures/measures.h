@@ -26,7 +26,7 @@ typedef struct {
   const kz_measures_plan *plan;
   kz_catalogue catalogue;
   kz_ended starts, weighted, picture;
-  kz_tangent *tangent; /* of all strobe points of all cycles, one attractor after the other; NULL = not needed */
+  kz_tangent *tangent; /* Tangents at all strobe points of all cycles, one attractor after the other; NULL = not needed */
   int64_t n_points;
   kz_resilience *point; /* [n_points] shocks at them */
   kz_dynamics *dynamics;
@@ -51,7 +51,7 @@ const char *kz_measure_words(void);
 /* Number of values that a measure fills. */
 int64_t kz_measure_length(const kz_measure *measure, const kz_measured *measured);
 
-/* What the measures of a plan need together. */
+/* Needs of all measures of a plan together. */
 int32_t kz_measures_need(const kz_integers *names);
 /* Looks for the attractors and computes what is needed, in the way KZ_BY_LEVELS or KZ_BY_STATES. The plan must outlive it; freed by
  * kz_measured_free in every case. Collective. */

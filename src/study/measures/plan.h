@@ -1,19 +1,19 @@
-/* What a scene says of the study `measures`, and for measures of its table in a sweep. */
+/* Plan of the study `measures`, and of measures of its table in a sweep. */
 #pragma once
 
 #include "kapitza/study.h"
 
-/* What single measures need to know; the same keys in `measures` and in `sweep`. */
+/* Parameters of single measures, with equal keys in `measures` and in `sweep`. */
 typedef struct {
   bool has_weight; /* for weighted_share: a Gaussian distribution of starts */
   struct {
     double theta, velocity, theta_spread, velocity_spread; /* mean and standard deviation: rad, rad per drive radian */
   } weight;
   int64_t within;         /* drive periods, for share_within; KZ_UNSET_INTEGER = not given */
-  kz_reals sizes;         /* of shocks, rad, for harmless */
-  int64_t cells;          /* of the picture along each axis */
+  kz_reals sizes;         /* Sizes of shocks for `harmless`, rad */
+  int64_t cells;          /* Cells of the picture along each axis */
   double shock_scale;     /* velocity, rad per drive radian, that counts as much as 1 rad */
-  double shock_tolerance; /* of smallest shocks, relative; 0 = as closely as can be */
+  double shock_tolerance; /* Relative tolerance of smallest shocks; 0 = as close as can be */
 } kz_measure_options;
 
 /* How the study labels its starts: each label decided, or by doubles alone. */

@@ -9,20 +9,20 @@ enum { KZ_POINT_MOST = 32 }; /* attractors at one point */
 /* Where the points lie: x fastest; one row where the sweep is a line. */
 typedef struct {
   const kz_scene *scene;
-  kz_measures_plan plan; /* of the measures at every point */
+  kz_measures_plan plan; /* Plan of the measures at every point */
   int64_t columns, rows;
   int64_t numbers;     /* values of an attractor: each measure has 1, or 3 with its interval */
-  int64_t of_pendulum; /* of the pendulum */
+  int64_t of_pendulum; /* Numbers that belong to the pendulum */
 } kz_points;
 /* names: rows of kz_measures. */
 kz_points kz_points_of(const kz_scene *scene, const kz_integers *names);
-/* What they cost, and the run of all. Collective. */
+/* Estimate the cost of all points; run them. Collective. */
 kz_cost kz_points_cost(const kz_points *points);
 kz_status kz_points_run(const kz_points *points, const kz_run *run, kz_store *store, FILE *summary);
 /* The pendulum between two points, at `share` of the way from one to the other; false if there is none. */
 bool kz_points_pendulum(const kz_points *points, int64_t from, int64_t to, double share, kz_pendulum *pendulum);
 
-/* What is known of a point: value [KZ_POINT_MOST][numbers] of its attractors, then [of_pendulum]. count -1: no pendulum, or one without
+/* Record of a point: value [KZ_POINT_MOST][numbers] of its attractors, then [of_pendulum]. count -1: no pendulum, or one without
  * damping. */
 typedef struct {
   int64_t count;

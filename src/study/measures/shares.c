@@ -53,7 +53,7 @@ void kz_measure_settling_largest(const kz_measured *measured, double *value) {
   for (int64_t id = 0; id < measured->catalogue.count; id++) {
     value[id] = NAN;
     for (int64_t i = 0; i < ended->n; i++)
-      if (ended->id[i] == id) value[id] = fmax(value[id], ended->time[i]); /* of a number and NaN the number */
+      if (ended->id[i] == id) value[id] = fmax(value[id], ended->time[i]); /* fmax of a number and NaN is the number */
   }
 }
 

@@ -9,7 +9,7 @@ static void smallest(const kz_measured *measured, int kind, double *value) {
   for (int64_t id = 0; id < measured->catalogue.count; id++) value[id] = NAN;
   for (int64_t i = 0; i < measured->n_points; i++) {
     double *least = value + measured->catalogue.id_of[measured->point[i].number];
-    *least = fmin(*least, measured->point[i].shock[kind].size); /* of a number and NaN the number */
+    *least = fmin(*least, measured->point[i].shock[kind].size); /* fmin of a number and NaN is the number */
   }
 }
 

@@ -35,7 +35,7 @@ static kz_status find_shocks(const kz_scene *scene, const kz_sweep_value_at *at,
   for (int64_t i = 0; i < n; i++)
     for (int kind = 0; kind < 3; kind++) {
       double *least = &catalogue->entries[listed.id_of[point[i].number]].number[kind];
-      *least = fmin(*least, point[i].shock[kind].size); /* of a number and NaN the number */
+      *least = fmin(*least, point[i].shock[kind].size); /* fmin of a number and NaN is the number */
     }
   return KZ_OK;
 }

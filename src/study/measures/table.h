@@ -4,7 +4,7 @@
 
 #include <stdint.h>
 
-/* What a measure is made of; what no measure of a scene needs is not computed. */
+/* Ingredients of a measure; those that no measure of a scene needs are not computed. */
 enum {
   KZ_NEEDS_STARTS = 1,   /* starts spread evenly over the window, with labels and settling times */
   KZ_NEEDS_WEIGHTED = 2, /* starts from the Gaussian distribution */

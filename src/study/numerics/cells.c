@@ -72,7 +72,8 @@ bool kz_axis_is_deep(const kz_axis *axis) {
 }
 
 double kz_axis_centre(const kz_axis *axis, int64_t i) {
-  const int64_t halves = 2 * i + 1 - axis->count; /* of a cell, from the centre; a quad has more digits than a pair */
+  const int64_t halves =
+      2 * i + 1 - axis->count; /* distance from the centre in half cells; a quad has more digits than a pair */
   if (kz_axis_is_centred(axis))
     return (double)((__float128)halves * (quad_of(&axis->width) / (__float128)(2 * axis->count)) + quad_of(&axis->centre));
   return (double)halves * ((axis->max - axis->min) / (2.0 * (double)axis->count)) + (axis->min + axis->max) / 2;

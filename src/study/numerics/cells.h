@@ -8,7 +8,7 @@
 double kz_axis_centre(const kz_axis *axis, int64_t i);
 /* Place of cell i as a share of the window's width from its centre: a double for a window by centre and width, else the nearest quad. */
 __float128 kz_axis_share(const kz_axis *axis, int64_t i);
-/* The same as a coordinate of any precision, which refers to the texts of the axis. */
+/* Returns the centre as a coordinate of any precision, which refers to the texts of the axis. */
 kz_coordinate kz_axis_coordinate(const kz_axis *axis, int64_t i);
 /* True if the window is given by its centre and width; its cells are then centre + share * width, in all digits. */
 bool kz_axis_is_centred(const kz_axis *axis);
@@ -34,7 +34,7 @@ double kz_cell_size(const kz_basin_plan *plan);
 
 /* The window in which attractors are searched: the window of the axes, or a neighbourhood if an axis is a point for doubles. */
 kz_window kz_window_of(const kz_axis *theta, const kz_axis *velocity);
-/* The same with all velocities that motions from such a point reach: the speeds for which the numerics must be accurate. */
+/* Returns the range with all velocities that motions from such a point reach: the speeds for which the numerics must be accurate. */
 kz_window kz_motions_window(const kz_axis *theta, const kz_axis *velocity);
 
 /* Number of cells of a tile of labels, at most `most`; fewer if a cell may take long, so that a stop loses seconds of work only. */

@@ -3,7 +3,7 @@
 #include <math.h>
 #include <string.h>
 
-/* What branches off begins so far from a curve at most: in sides of the plane; in rad; where the multiplier -1 has changed by so much. */
+/* Largest distance from a curve at which a branch begins: in sides of the plane; in rad; where the multiplier -1 has changed by so much. */
 static const double BESIDE = 3e-5, FARTHEST = 0.05, CHANGED = 0.04;
 /* Loss of area over the cycle at which a child begins as near as rounding allows: where less is lost, it begins no nearer. */
 static const double LEAST_DAMPED = 2e-3;
@@ -96,7 +96,7 @@ bool kz_child_of(const kz_plane *plane, const kz_plane_cycle *flip, int axis, kz
   const double size = sqrt(fabs(gradient / form) * by / other);
   KZ_FREED double *state = kz_malloc(2 * ((size_t)(of.points * stride) + 1) * sizeof *state);
   const double at_rest[2] = {M_PI * flip->kind.rest, 0},
-               *from = flip->kind.rest >= 0 ? at_rest : flip->y; /* of the angle that the child's turns are for */
+               *from = flip->kind.rest >= 0 ? at_rest : flip->y; /* angle that the child's turns are for */
   along[axis] = gradient * form > 0 ? -1 : 1;
   along[1 - axis] = 0;
   for (int i = 0; i < 2; i++) {

@@ -9,7 +9,7 @@
 #include "sweep/plan.h"
 
 enum {
-  SWEEP_VALUES = 9,  /* of a sweep that are tried, both ends included */
+  SWEEP_VALUES = 9,  /* Values of a sweep that are tried, both ends included */
   LEAST_SAMPLES = 96 /* a period, that turning points and spectra need, however few are written */
 };
 

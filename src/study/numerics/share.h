@@ -8,7 +8,7 @@ typedef struct {
   double share, low, high;
 } kz_share;
 kz_share kz_share_of(int64_t hits, int64_t n);
-/* The same for n different items of `total`: the variance is smaller by the factor (total - n)/(total - 1), and 0 for n = total. */
+/* Interval for n different items of `total`: the variance is smaller by the factor (total - n)/(total - 1), and 0 for n = total. */
 kz_share kz_share_of_part(int64_t hits, int64_t n, int64_t total);
 
 /* Number of kinds that no sample has, where `once` and `twice` of them are in one and in two samples: Chao's estimate without its bias, and its

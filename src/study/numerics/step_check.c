@@ -7,14 +7,14 @@
 #include "kapitza/study_basin.h"
 
 enum {
-  DOUBLINGS = 8,       /* of the steps that are tried as advice */
-  MOST_STEPS = 100000, /* that a scene can ask for */
+  DOUBLINGS = 8,       /* Doublings of the steps that are tried as advice */
+  MOST_STEPS = 100000, /* Largest number of steps that a scene can ask for */
   MOST_NODES = 10000   /* an axis, that are advised: 2.5 GB */
 };
 
 /* rad, error of one drive period above which the user is warned. */
 static const double WARN_ABOVE = 1e-4;
-/* The same in cells of a basin, where a hundredth of a cell is less than WARN_ABOVE, and the error above which the scene is refused:
+/* Errors in cells of a basin, where a hundredth of a cell is less than WARN_ABOVE, and the error above which the scene is refused:
  * a picture that is shifted by so much. */
 static const double WARN_ABOVE_CELLS = 0.01, REFUSE_ABOVE_CELLS = 0.1;
 

@@ -18,7 +18,7 @@ typedef struct {
 
 /* Motions with the scene's pendulum and numerics from starts up to speed `fastest` (rad per drive radian). */
 kz_step_motions kz_motions_of(const kz_scene *scene, double fastest, const char *keys);
-/* The same motions, where they label the cells of a basin: the allowed errors are shares of a cell where that is less. */
+/* Checks motions that label the cells of a basin: the allowed errors are shares of a cell where that is less. */
 void kz_motions_label_cells(const kz_basin_plan *plan, kz_step_motions *motions);
 
 /* rad: what one drive period of a basin's window may be off by without a warning: a hundredth of a cell (kz_cell_size), 1e-4 at

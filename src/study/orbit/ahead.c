@@ -31,7 +31,7 @@ static double growth(const kz_model *model, kz_state *x, double *deviation) {
 
 static void exponent_along(const kz_model *model, int64_t periods, kz_state start, double *mean, double *error) {
   double deviation[2] = {1, 0}, block[BLOCKS] = {0}, total = 0, square = 0;
-  const int64_t length = periods / BLOCKS; /* what does not fill the blocks comes first and is left out */
+  const int64_t length = periods / BLOCKS; /* periods that do not fill the blocks come first and are left out */
   for (int64_t i = 0; i < periods - BLOCKS * length; i++) growth(model, &start, deviation);
   for (int64_t i = 0; i < BLOCKS * length; i++) block[i / length] += growth(model, &start, deviation) / (double)length;
   for (int i = 0; i < BLOCKS; i++) total += block[i] / BLOCKS;

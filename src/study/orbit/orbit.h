@@ -8,13 +8,13 @@
 
 /* ---- the motion ---- */
 
-/* What moves the state: a model with its parameters. */
+/* A model with its parameters, which moves the state. */
 typedef struct {
   int32_t kind;
-  kz_pendulum pendulum; /* of the model: signs turned about the inverted position */
+  kz_pendulum pendulum; /* Pendulum of the model: signs turned about the inverted position */
   double origin;        /* rad: the angle that the model counts from, 0 or pi */
-  kz_flow *flow;        /* of the pendulum itself; NULL for the other models */
-  kz_numerics numerics; /* of the flow; a closed orbit is computed in double at least */
+  kz_flow *flow;        /* Map of the pendulum itself; NULL for the other models */
+  kz_numerics numerics; /* Numerics of the flow; a closed orbit is computed in double at least */
   int64_t samples;      /* per period, of every record; a multiple of the scene's */
 } kz_model;
 
@@ -68,7 +68,7 @@ typedef struct {
 typedef struct {
   const kz_scene *scene;
   kz_model model;
-  kz_cycle cycle; /* of a closed orbit; period 0 = open */
+  kz_cycle cycle; /* Cycle of a closed orbit; period 0 = open */
   kz_orbit_motion motion;
   kz_orbit_features features;
   double lyapunov,

@@ -1,4 +1,4 @@
-/* What a scene says of the study `potential`. */
+/* Plan of the study `potential`. */
 #pragma once
 
 #include "kapitza/study.h"

@@ -9,9 +9,9 @@
 #include "numerics/share.h"
 
 enum {
-  MOST_CELLS = 1 << 22, /* of tiles that are taken together */
+  MOST_CELLS = 1 << 22, /* Cells of tiles that are taken together */
   MOST_STARTS = 50000,  /* random ones */
-  TILE = 4096,          /* of them */
+  TILE = 4096,          /* Cells of a tile */
   PERIODS = 2000        /* for which starts are followed at least, whatever basin.max_periods is */
 };
 

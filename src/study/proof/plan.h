@@ -1,4 +1,4 @@
-/* What a scene says of proofs is whether it asks for them: kz_scene.has_proof. */
+/* A scene asks for proofs or does not: kz_scene.has_proof. */
 #pragma once
 
 #include "kapitza/study.h"

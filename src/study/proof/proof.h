@@ -20,7 +20,7 @@ typedef struct {
 } kz_proof_sample;
 #define KZ_PROOF_CONFIDENCE 0.95
 
-/* What is proved of a cell: the attractor on which it ends, 0 = nothing, and the evidence. */
+/* Result of a proof for a cell: the attractor on which it ends, 0 = nothing, and the evidence. */
 typedef struct {
   uint8_t number, evidence;
 } kz_proof_mark;

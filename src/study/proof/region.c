@@ -10,7 +10,7 @@ static const double ROWS = 116;       /* a rad per drive radian */
 static const double SMALLEST = 1e-28; /* rad, rad per drive radian: of a cell, well above the rounding of its centre */
 static const double LOWEST = 1.5,
                     HIGHEST = 3; /* rad per drive radian: as far reaches the grid at least, at most; attractors are slow */
-static const double GAIN = 0.01; /* of the cells: a round that adds less is the last */
+static const double GAIN = 0.01; /* Share of the cells: a round that adds less is the last */
 
 static double top_of(const kz_scene *scene) {
   const kz_pendulum *pendulum = &scene->parameters.pendulum;
@@ -45,7 +45,7 @@ kz_status kz_proof_begin(const kz_scene *scene, kz_proof **proof) {
       fastest);
 }
 
-/* What the tiles of a stage need. */
+/* Context of the tiles of a stage. */
 typedef struct {
   const kz_dynamics *dynamics;
   bool mirrored; /* the pendulum has mirror symmetry */

@@ -1,4 +1,4 @@
-/* What a scene says of the smallest shocks that leave a basin. The size of a shock is hypot(dtheta, dv / scale). */
+/* Plan of the smallest shocks that leave a basin. The size of a shock is hypot(dtheta, dv / scale). */
 #pragma once
 
 #include "kapitza/study.h"

@@ -78,7 +78,7 @@ static int64_t image_of(const kz_resilience *point, int64_t i) {
   return i;
 }
 
-/* What holds for a point from what was found at its mirror image. */
+/* Shock of a point from the one of its mirror image. */
 static void mirror(const kz_dynamics *dynamics, const kz_resilience *found, kz_resilience *point) {
   memcpy(point->harmless, found->harmless, sizeof point->harmless);
   for (int kind = 0; kind < 3; kind++) {

@@ -25,7 +25,7 @@ typedef struct {
   int32_t own;      /* its end without a shock */
   double scale;     /* velocity that counts as much as 1 rad, rad per drive radian */
   double farthest;  /* largest change of the velocity, rad per drive radian */
-  double tolerance; /* of a size, relative; 0 = as closely as can be */
+  double tolerance; /* Relative tolerance of a size; 0 = as close as can be */
 } kz_shock_problem;
 
 /* A shock; end = the end after it; size NaN = none was found. */
@@ -55,7 +55,7 @@ typedef struct {
   double scale, farthest, tolerance; /* as in kz_shock_problem */
   bool
       smallest; /* only the smallest shock of both over all strobe points of an attractor is wanted: it is that of phase 0, all others are NaN */
-  kz_reals sizes; /* of harmless shocks; KZ_MOST_SHOCK_SIZES at most */
+  kz_reals sizes; /* Sizes of harmless shocks; KZ_MOST_SHOCK_SIZES at most */
   int64_t max_periods;
 } kz_resilience_plan;
 
@@ -63,7 +63,7 @@ typedef struct {
 typedef struct {
   int64_t number, phase;
   double theta, velocity;
-  kz_shock shock[3]; /* of the angle, of the velocity, of both */
+  kz_shock shock[3]; /* Shocks of the angle, of the velocity, of both */
   kz_harmless harmless[KZ_MOST_SHOCK_SIZES];
 } kz_resilience;
 

@@ -7,7 +7,7 @@ enum {
   FAN = 24,     /* most rays on each side of the best one */
   PASSES = 12,  /* most grids of a search */
   FINDS = 48,   /* most boundaries along a line, each nearer than the one before */
-  RIMS = 4,     /* of them */
+  RIMS = 4,     /* Closer looks at the last RIM of the way */
   SPREAD = 4096 /* shocks of a size */
 };
 /* Tongues of other basins lie the closer to a boundary the thinner they are: the last RIM of the way is looked at more closely, the last
@@ -17,9 +17,9 @@ static const double RIM = 1.0 / 16;
 /* How closely a search looks. */
 typedef struct {
   int line, rims;        /* points on each side of a line; rims of it that are looked at more closely, RIMS or none */
-  int rings, rays;       /* of a disc */
+  int rings, rays;       /* Rings and rays of a disc */
   int fan;               /* rays on each side of the best one */
-  int pieces;            /* of a bracket, each round */
+  int pieces;            /* Pieces of a bracket, each round */
   double narrow, closed; /* a bracket is narrow enough, and a fan, where it is so small a part of the distance */
 } closeness;
 

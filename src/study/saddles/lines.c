@@ -7,8 +7,8 @@
 
 enum {
   LEAST_LINES = 4,
-  CELLS = 16,             /* of a piece */
-  MOST_STARTS = 20000000, /* of a piece */
+  CELLS = 16,             /* Cells of a piece */
+  MOST_STARTS = 20000000, /* Starts of a piece at most */
 };
 /* rad: between the lines of the first round, between the starts of a line to begin with, between two cycles. */
 static const double SPACING = 0.2, CELL = 0.05, ONE = 1e-5;
@@ -116,7 +116,7 @@ static kz_status search_tile(void *context, int64_t tile, void *record) {
   return KZ_OK;
 }
 
-/* What pieces deliver to. */
+/* Receiver of the cycles of pieces. */
 typedef struct {
   const kz_saddles_plan *plan;
   kz_found *found;

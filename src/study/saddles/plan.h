@@ -1,4 +1,4 @@
-/* What a scene says of the study `saddles`: all cycles of up to max_period with a point in the window. The counts of the axes are not used. */
+/* Plan of the study `saddles`: all cycles of up to max_period with a point in the window. The counts of the axes are not used. */
 #pragma once
 
 #include "kapitza/study.h"

@@ -48,7 +48,7 @@ static void free_cycles(kz_cycle_list *list) {
 static int index_of(const kz_attractor *cycle, int64_t n) {
   double complex factor[2];
   for (int i = 0; i < 2; i++) factor[i] = 1 - cpow(cycle->multiplier_re[i] + I * cycle->multiplier_im[i], (double)n);
-  const double determinant = creal(factor[0] * factor[1]); /* of 1 - DF: the multipliers are real or conjugate */
+  const double determinant = creal(factor[0] * factor[1]); /* determinant of 1 - DF: the multipliers are real or conjugate */
   return (determinant > 0) - (determinant < 0);
 }
 
@@ -88,7 +88,7 @@ static void make_sums(const kz_cycle_list *list, int64_t max_period, kz_index_su
 
 /* ---- the file's group /saddles, and the summary ---- */
 
-enum { MOST_LINES = 40 }; /* of the summary's table */
+enum { MOST_LINES = 40 }; /* Lines of the summary's table */
 
 #define COLUMN(type, name, expression) KZ_COLUMN(store, "saddles", name, n, type, expression)
 
@@ -160,7 +160,7 @@ static void print_saddles(const kz_scene *scene, const kz_cycle_list *cycles, co
 
 enum {
   ROUNDS = 8,       /* at most */
-  USUAL_ROUNDS = 3, /* of most searches */
+  USUAL_ROUNDS = 3, /* Rounds of most searches */
   QUIET = 2         /* rounds without a new cycle, after which the search ends even if the sums are not 0 */
 };
 /* Everything about the cycles that were found. Rank 0. */

@@ -18,7 +18,7 @@ typedef struct {
   bool rows;
   kz_axis along, across;
   int64_t count, pieces, cells; /* cells: of a piece */
-  double steepest;              /* of kz_dynamics_search_line */
+  double steepest;              /* Limit of the trace in kz_dynamics_search_line */
 } kz_lines;
 
 /* Cycles in the form of kz_dynamics_search_line, each once, in the order of periods and speeds. The caller frees `cycle`. */

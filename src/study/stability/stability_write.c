@@ -59,7 +59,7 @@ static kz_status write_damping(const kz_chart *chart, kz_store *store) {
   return has_thresholds(chart) ? write_thresholds(damping->quality_factor, store) : KZ_OK;
 }
 
-/* Of a wave form of several harmonics: 1 if all are odd, so that its second half is its first one with the other sign; else 0. */
+/* Returns 1 if all harmonics of a wave form are odd, so that its second half is its first one with the other sign; else 0. */
 static kz_status write_form(const kz_pendulum *form, kz_store *store) {
   bool odd = true;
   for (int j = 1; j < form->harmonics; j += 2) odd = odd && form->vertical[j][0] == 0 && form->vertical[j][1] == 0;

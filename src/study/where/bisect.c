@@ -160,7 +160,7 @@ typedef struct {
   kz_decimal point[2], width[2];
 } line;
 
-enum { MORE_DIGITS = 20 }; /* of the line, beyond those that are asked for */
+enum { MORE_DIGITS = 20 }; /* Digits of the line beyond those that are asked for */
 
 /* to = from + share * width, with so many digits behind the point; from "" = 0. `to` may be either of them. */
 static kz_status add(const kz_decimal *from, const kz_decimal *width, double share, int64_t digits, kz_decimal *to) {

@@ -6,7 +6,7 @@
 #include "numerics/cells.h"
 #include "plan.h"
 
-/* Of windows of at most so many cells own orbits decide the pending cells even if basin.undecided is flag. */
+/* Largest number of cells of a window whose pending cells own orbits decide even if basin.undecided is flag. */
 enum { MOST_DECIDED = 100000 };
 
 typedef struct {

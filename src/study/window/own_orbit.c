@@ -7,11 +7,11 @@
 
 /* Each further try has a third more bits: twice as many take five times as long, and are seldom needed. */
 enum {
-  FEWEST_BITS = 160,  /* of the first try, */
-  BESIDE_WIDTH = 112, /* and that many beyond the size of the window that the start is in */
+  FEWEST_BITS = 160,  /* Bits of the first try */
+  BESIDE_WIDTH = 112, /* Bits beyond the size of the window that the start is in */
   MOST_BITS = 12288,
-  TRY_EVERY = 8,  /* periods between two looks whether doubles decide the rest, */
-  LOOK_EVERY = 64 /* and whether they end anywhere */
+  TRY_EVERY = 8,  /* Periods between two looks whether doubles decide the rest */
+  LOOK_EVERY = 64 /* Periods between two looks at whether orbits end anywhere */
 };
 
 /* rad: the orbit is followed in many digits as long as its error is below that of a state in quad precision. */

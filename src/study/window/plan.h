@@ -1,4 +1,4 @@
-/* What a scene says of cells that quad precision does not decide. Centre and width of the window are those of the basin. */
+/* Plan for cells that quad precision does not decide. Centre and width of the window are those of the basin. */
 #pragma once
 
 #include "kapitza/study.h"

@@ -22,7 +22,7 @@ typedef struct {
   kz_release release;
   kz_coordinate centre[2]; /* theta, velocity; this struct owns their texts */
   __float128 width[2];
-  int64_t bits;   /* of the orbit in its first periods */
+  int64_t bits;   /* Bits of the orbit in its first periods */
   int64_t before; /* periods before image 0 */
   int64_t digits; /* images of a line: of x, that images need to be marked; 0 = no image is marked any more */
   int64_t marked; /* the last image that is marked */
@@ -49,7 +49,7 @@ void kz_images_free(kz_images *images);
  * or if a trapping region holds all of it. */
 kz_status kz_images_follow(kz_images *images, kz_dynamics *dynamics, int64_t most, int64_t max_periods);
 
-/* The same until the images are finished, in stages that a checkpoint keeps: one rank follows, and every rank gets the same images.
+/* Follows until the images are finished, in stages that a checkpoint keeps: one rank follows, and every rank gets the same images.
  * Collective. */
 kz_status kz_images_run(const kz_run *run, kz_dynamics *dynamics, kz_images *images, int64_t max_periods);
 
@@ -87,7 +87,7 @@ bool kz_image_is_straight(const kz_images *images, int64_t n, int64_t digits);
 void kz_hand_overs_make(const kz_images *images, double reach, kz_hand_over *hand_over);
 /* *start = the start at the shares theta and velocity of the width of the images. */
 void kz_hand_over_start(const kz_hand_over *hand_over, __float128 theta, __float128 velocity, kz_start *start);
-/* The same start as its distance from the image's centre, in doubles: change [2], rad and rad per drive radian. */
+/* Start as its distance from the image's centre, in doubles: change [2], rad and rad per drive radian. */
 void kz_hand_over_change(const kz_hand_over *hand_over, double theta, double velocity, double change[2]);
 
 /* ---- own orbits ---- */
@@ -122,10 +122,10 @@ kz_labeller kz_window_labeller(const kz_window_starts *starts, bool decide);
 
 typedef struct {
   const kz_hand_over *hand_over;
-  double middle[2], along[2]; /* of the window, and the curve's direction (a unit vector): shares of the images' width */
+  double middle[2], along[2]; /* Middle of the window, and the curve's direction (a unit vector): shares of the images' width */
   double step;                /* distance of neighbouring samples */
   int64_t count;              /* number of samples; 0 = the window is not a curve */
-  int64_t columns;            /* of the window */
+  int64_t columns;            /* Columns of the window */
   double *column, *row;       /* column [j] + row [i] = place of cell (i, j), in steps from sample 0 */
 } kz_window_curve;
 
