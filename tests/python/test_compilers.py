@@ -14,7 +14,8 @@ from conftest import ROOT
 
 BUILD = ROOT / "build"
 FORTRAN, C = "flang-new-19", "clang-19"
-# What is right, and no compiler option turns off: flang has no arithmetic of 128 bits while it compiles; Fortran 2018 lets c_f_pointer take any type.
+# Two warnings of right code that no option turns off: flang has no arithmetic of 128 bits while it compiles, and Fortran 2018
+# lets c_f_pointer take any type.
 EXPECTED = re.compile(r"cannot be folded on host|included here|FPTR= argument to C_F_POINTER")
 
 
