@@ -23,7 +23,7 @@ sys.path.insert(0, str(ROOT / "python"))
 
 import reference_check  # noqa: E402
 from kapitza import BadFile, Result  # noqa: E402
-from kapitza.script import run_script  # noqa: E402
+from kapitza.exit_status import run_script  # noqa: E402
 
 PROGRAM = ROOT / "build" / "kapitza"
 LABEL_CACHE = ROOT / "results" / "benchmark-truth"

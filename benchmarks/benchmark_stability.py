@@ -21,7 +21,7 @@ ROOT = Path(__file__).resolve().parents[1]
 sys.path.insert(0, str(ROOT / "python"))
 
 from kapitza import BadFile, Result  # noqa: E402
-from kapitza.script import run_script  # noqa: E402
+from kapitza.exit_status import run_script  # noqa: E402
 
 PROGRAM = ROOT / "build" / "kapitza"
 SCENE = """\

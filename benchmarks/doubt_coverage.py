@@ -23,7 +23,7 @@ import numpy as np
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "python"))
 
-from kapitza.script import run_script  # noqa: E402
+from kapitza.exit_status import run_script  # noqa: E402
 from reference_coverage import FAMILIES, PROGRAM, Kapitza, draw, lively_scene  # noqa: E402
 
 SETTING = "processed-1e-12"  # what direct takes by default

@@ -27,7 +27,7 @@ ROOT = Path(__file__).resolve().parents[1]
 sys.path.insert(0, str(ROOT / "python"))
 
 from kapitza import BadFile, Result  # noqa: E402
-from kapitza.script import run_script  # noqa: E402
+from kapitza.exit_status import run_script  # noqa: E402
 
 PROGRAM = Path(os.environ.get("KAPITZA", ROOT / "build" / "kapitza"))
 SETTINGS = ["icm-linear-1000", "icm-1000", "direct-rk4-100-1992", "direct-24"]

@@ -21,10 +21,10 @@ from PIL import Image
 ROOT = Path(__file__).resolve().parents[1]
 sys.path.insert(0, str(ROOT / "python"))
 from kapitza import BadFile, run  # noqa: E402
+from kapitza.exit_status import run_script  # noqa: E402
 from kapitza.films import film_picture, heading, write_film  # noqa: E402
 from kapitza.program import ask  # noqa: E402
 from kapitza.scene import Scene  # noqa: E402
-from kapitza.script import run_script  # noqa: E402
 
 
 def parse_arguments():

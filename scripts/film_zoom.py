@@ -21,8 +21,8 @@ from PIL import Image, ImageDraw
 ROOT = Path(__file__).resolve().parents[1]
 sys.path.insert(0, str(ROOT / "python"))
 from kapitza import Engine, style  # noqa: E402
+from kapitza.exit_status import run_script  # noqa: E402
 from kapitza.films import write_film  # noqa: E402
-from kapitza.script import run_script  # noqa: E402
 
 UNSETTLED = (255, 255, 255)
 

@@ -5,7 +5,7 @@ import sys
 
 from kapitza.missing import refuse
 
-COMMANDS = {"plot": "kapitza.command", "info": "kapitza.show", "fit": "kapitza.track"}
+COMMANDS = {"plot": "kapitza.command", "info": "kapitza.representation", "fit": "kapitza.track"}
 
 if __name__ == "__main__":
     name, *sys.argv[1:] = sys.argv[1:] or [""]

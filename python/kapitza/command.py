@@ -6,12 +6,12 @@ from collections.abc import Callable
 from functools import partial
 
 from kapitza import recording, vtkhdf
+from kapitza.exit_status import run_apart
 from kapitza.plots import kinds, picture
 from kapitza.program import ERROR
 from kapitza.report import command as report
+from kapitza.representation import main_kind
 from kapitza.result import Result
-from kapitza.script import run_apart
-from kapitza.show import main_kind
 
 # KIND -> a function that takes the other words of the command line.
 _MAINS: dict[str, Callable[[list[str]], None]] = {"film": recording.main, "report": report.main, "vtkhdf": vtkhdf.main}

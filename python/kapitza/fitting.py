@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from kapitza.first_fit import first_fit
+from kapitza.initial_fit import first_fit
 from kapitza.motion_fit import UNITS, Model, fitted
 from kapitza.motion_fit import simulated as simulated
 from kapitza.units import HERTZ, TURN, angle, quantity

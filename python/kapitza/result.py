@@ -17,9 +17,9 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-    from kapitza.chances import Agreement, Largest
     from kapitza.compare import Comparison
     from kapitza.engine import Engine
+    from kapitza.probability import Agreement, Largest
 
 
 class Result(File):
@@ -33,11 +33,11 @@ class Result(File):
     """
 
     def __repr__(self) -> str:
-        from kapitza.show import as_text
+        from kapitza.representation import as_text
         return f"<kapitza.Result {self.path}>\n{as_text(self)}"
 
     def _repr_html_(self) -> str:
-        from kapitza.show import as_html
+        from kapitza.representation import as_html
         return as_html(self)
 
     @cached_property
@@ -129,7 +129,7 @@ class Result(File):
         :param starts: number of fresh random starts, at most 100,000; 0 = take the basin of the file
         :param seed: of the random starts
         """
-        from kapitza.chances import probability
+        from kapitza.probability import probability
         return probability(self, theta, velocity, spread, kind, starts, seed)
 
     def share(self, name: str) -> xarray.DataArray:
@@ -140,7 +140,7 @@ class Result(File):
         :param name: name of branches, or a centre: "down", "inverted", "rotating", "neither"; a plane knows centres only
         :raises KeyError: if there is none
         """
-        from kapitza.chances import share
+        from kapitza.probability import share
         return share(self, name)
 
     def largest(self, name: str, share: float) -> "Largest":
@@ -149,7 +149,7 @@ class Result(File):
         :return: a named tuple `value, low, high`: `low` and `high` are the same of the lower and the upper ends of the shares' 95 %
             intervals
         """
-        from kapitza.chances import largest
+        from kapitza.probability import largest
         return largest(self, name, share)
 
     @cached_property
@@ -215,7 +215,7 @@ class Result(File):
             and end: the name of an attractor, or a centre such as "inverted"
         :raises ValueError: if the table lacks a column, names an unknown end, or has a start outside the window
         """
-        from kapitza.chances import agreement
+        from kapitza.probability import agreement
         return agreement(self, table)
 
     def plot(self, kind: str | None = None, *, ax: "Axes | None" = None, **options: Any) -> "Figure":
@@ -228,7 +228,7 @@ class Result(File):
         :raises ValueError: if the kind does not take an option or its value; the text lists what it takes
         """
         from kapitza.plots.picture import picture
-        from kapitza.show import main_kind
+        from kapitza.representation import main_kind
         return picture(self, kind or main_kind(self), ax, **options)
 
     def report(self, output: str | os.PathLike[str] | None = None) -> Path:

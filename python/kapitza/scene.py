@@ -13,7 +13,7 @@ from typing import Any
 
 import yaml
 
-from kapitza.bounded import read_text
+from kapitza.bounded_reading import read_text
 
 # Symbols that a scene may write instead of these keys of the pendulum and of the study stability.
 SYMBOLS = {"Q": "quality_factor", "Omega": "drive_frequency", "epsilon": "drive_amplitude", "beta": "damping", "gamma": "torque_ratio"}

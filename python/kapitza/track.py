@@ -14,7 +14,7 @@ import numpy as np
 import pandas
 import yaml
 
-from kapitza.bounded import TABLE, read_bytes
+from kapitza.bounded_reading import TABLE, read_bytes
 from kapitza.fitting import Fit, fit
 from kapitza.units import TURN, length_text
 

@@ -17,7 +17,7 @@ import numpy as np
 import pytest
 from kapitza import Result
 from kapitza.command import KINDS
-from kapitza.script import run_script as end_script
+from kapitza.exit_status import run_script as end_script
 from mpi_settings import MPI_SETTINGS
 
 pytest.register_assert_rewrite("explorer_page")  # its fixtures are a plugin of the modules that name it

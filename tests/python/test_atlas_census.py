@@ -28,7 +28,7 @@ def test_the_census_says_how_much_is_missing(atlas):  # noqa: F811
     from kapitza.explorer.atlas import packed
     from kapitza.plots.atlas_classes import missing_text
     from kapitza.reading import arrays_of
-    from kapitza.show import as_text
+    from kapitza.representation import as_text
 
     result, summary, _ = atlas
     group = result.group("atlas")

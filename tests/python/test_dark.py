@@ -2,7 +2,7 @@
 
 import numpy as np
 from kapitza import style
-from kapitza.plots.dark import PAPER, READABLE, darken, turned
+from kapitza.plots.dark_theme import PAPER, READABLE, darken, turned
 from matplotlib.colors import ListedColormap, to_rgba_array
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D

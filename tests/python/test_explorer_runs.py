@@ -9,8 +9,8 @@ import pytest
 import yaml
 from conftest import PROGRAM, ROOT
 from kapitza.explorer import atlas, overlays, stories
-from kapitza.explorer.kept import Kept
 from kapitza.explorer.program import Refused
+from kapitza.explorer.run_cache import RunCache
 from kapitza.explorer.scene import BadRequest, Start
 from kapitza.plots.page_options import colours_of
 from kapitza.result import BadFile
@@ -24,7 +24,7 @@ PLANE = {"x": {"parameter": "drive_frequency", "min": 8, "max": 14}, "y": {"para
 
 @pytest.fixture
 def kept(tmp_path):
-    return Kept(PROGRAM, folder=tmp_path)
+    return RunCache(PROGRAM, folder=tmp_path)
 
 
 def test_a_map_is_computed_once_and_has_the_limits_of_rest(kept, monkeypatch):

@@ -95,7 +95,7 @@ def test_crafted_texts(made_file, tmp_path):
 
 def test_a_crash_of_the_library_is_one_line():
     """What damaged bytes do to HDF5 now and then: the command says so in one line."""
-    code = ("import os, signal, sys\nfrom kapitza.script import run_apart\n"
+    code = ("import os, signal, sys\nfrom kapitza.exit_status import run_apart\n"
             "run_apart(lambda: (print('free(): invalid pointer', file=sys.stderr), os.kill(os.getpid(), signal.SIGABRT)))")
     done = subprocess.run([sys.executable, "-c", code], env={}, capture_output=True, text=True)
     assert done.returncode == 1 and done.stderr == "kapitza: error: the file is damaged: reading it crashed the HDF5 library\n"

@@ -12,8 +12,8 @@ from conftest import plot as plot_kind
 from kapitza import Result, style
 from kapitza.command import KINDS, main
 from kapitza.plots.basin import chosen_ids, draw_one
-from kapitza.plots.plane import Plane
-from kapitza.show import main_kind
+from kapitza.plots.window_axes import Plane
+from kapitza.representation import main_kind
 from matplotlib.colors import to_rgb
 from matplotlib.figure import Figure
 

@@ -8,7 +8,7 @@ import sys
 import numpy as np
 import pytest
 from conftest import ROOT, datasets, refused_scene, run_scene
-from kapitza.plots import line
+from kapitza.plots import measure_lines as line
 
 TOOL = ROOT / "benchmarks" / "tangency_scipy.py"
 SCIPY = 0.058589688430988  # of that tool, for k = 1, beta = 0.02

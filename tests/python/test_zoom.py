@@ -7,7 +7,7 @@ import pytest
 import reference_check
 from conftest import datasets, refused_scene, run_scene, settings
 from kapitza import Result
-from kapitza.plots.plane import Plane
+from kapitza.plots.window_axes import Plane
 
 THETA, VELOCITY = -2.3671728704614576, 17.0
 PENDULUM = {"k": 0.1, "damping": 0.1, "m": 0.4}

@@ -6,7 +6,7 @@ from kapitza import style
 from kapitza.plots.atlas_classes import centre_of, lacking_text, motion_text
 from kapitza.reading import arrays_of
 
-from .kept import CALM
+from .run_cache import CALM
 from .scene import BadRequest
 
 # A map comes soon, as its first stage is computed beside the page's pictures, and then with more: cycles of more periods, gaps between the

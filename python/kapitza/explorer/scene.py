@@ -7,7 +7,7 @@ from pathlib import Path
 
 import yaml
 
-from kapitza.bounded import read_text
+from kapitza.bounded_reading import read_text
 from kapitza.result import BadFile, Result
 from kapitza.scene import flow, put, read_yaml, texts, tree_of
 from kapitza.units import parts_of

@@ -12,8 +12,8 @@ from kapitza.result import BadFile
 from .access import Access
 from .answers import ANSWERS, RUNS, page_folder
 from .connections import Door, Gate
-from .kept import Kept
 from .program import Refused, Views
+from .run_cache import RunCache
 from .scene import BadRequest, Start
 
 MOST_BYTES = 65_536  # of a request
@@ -28,7 +28,7 @@ class Explorer:
     def __init__(self, start: Start, program, port=0, origins=(), frames=()):
         words, descriptors = start.words()
         self.start, self.views = start, Views([str(program), "serve", *words], descriptors)
-        self.kept = Kept(program, start.tree.get("numerics"))
+        self.kept = RunCache(program, start.tree.get("numerics"))
         self.files = {path.name: path.read_bytes() for path in page_folder().iterdir() if path.suffix in KINDS}
         self.access, self.frames = Access(origins), tuple(frames)
         try:

@@ -5,7 +5,7 @@ from pathlib import Path
 
 import yaml
 
-from kapitza.bounded import read_text
+from kapitza.bounded_reading import read_text
 from kapitza.scene import read_yaml, texts
 from kapitza.units import written_frequency
 

@@ -27,7 +27,7 @@ from kapitza.plots.atlas_labels import POINTS, label_regions, mark_points
 from kapitza.plots.atlas_labels import region_text as region_text
 from kapitza.plots.atlas_line import draw_line
 from kapitza.plots.page import BadOption, entitle, new_panels
-from kapitza.plots.plane_axes import key_text
+from kapitza.plots.parameter_axes import key_text
 from kapitza.result import Result
 
 CUSP = 0  # of special_kind

@@ -12,7 +12,7 @@ from matplotlib.text import Text
 from matplotlib.transforms import Bbox
 
 from kapitza import style
-from kapitza.bounded import table_file
+from kapitza.bounded_reading import table_file
 from kapitza.plots.atlas_classes import motion_text
 from kapitza.reading import BadFile
 

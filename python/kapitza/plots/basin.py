@@ -21,12 +21,12 @@ from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 
 from kapitza import style
-from kapitza.plots.dots import mark_strobe_points
 from kapitza.plots.page import BadOption, entitle, lay_out, new_panels
-from kapitza.plots.plane import Plane, label_axes
 from kapitza.plots.skeleton import mark_manifolds, mark_saddles
+from kapitza.plots.strobe_dots import mark_strobe_points
 from kapitza.plots.turns import draw_turns
 from kapitza.plots.units import add_si
+from kapitza.plots.window_axes import Plane, label_axes
 from kapitza.result import BadFile, Result
 from kapitza.units import drive_unit
 

@@ -10,7 +10,7 @@ from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 
 from kapitza import style
-from kapitza.plots.plane_axes import key_text
+from kapitza.plots.parameter_axes import key_text
 
 NAMED = 0.02  # branches whose share is smaller everywhere are drawn as one band
 SHORTEST = 1 / 400  # of the range: shorter branches cannot be seen

@@ -23,7 +23,7 @@ from matplotlib.ticker import MaxNLocator
 from kapitza import style
 from kapitza.plots.curves import curve_names, exact_of, is_branch, whole_curve
 from kapitza.plots.page import BadOption, entitle, new_panels
-from kapitza.plots.plane_axes import label_keys
+from kapitza.plots.parameter_axes import label_keys
 from kapitza.plots.plane_measures import MOST, measure_page
 from kapitza.plots.units import add_si, fixed_si
 from kapitza.result import BadFile, Result

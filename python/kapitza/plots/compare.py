@@ -17,8 +17,8 @@ from kapitza import style
 from kapitza.compare import Comparison
 from kapitza.plots.basin import draw_basins, write_legend
 from kapitza.plots.page import Picture, current, entitle, new_panels, title_text
-from kapitza.plots.plane import Plane, label_axes
 from kapitza.plots.units import add_si
+from kapitza.plots.window_axes import Plane, label_axes
 from kapitza.result import BadFile, Result
 from kapitza.units import in_units
 

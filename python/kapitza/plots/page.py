@@ -18,7 +18,7 @@ from matplotlib.legend import Legend
 from matplotlib.text import Text
 
 from kapitza import style
-from kapitza.plots.strokes import fix_ticks
+from kapitza.plots.line_widths import fix_ticks
 from kapitza.result import Result
 
 NARROW = 6.0  # inches of usual letters: on a narrower page the legend stands below, and panels side by side stand one above the other

@@ -12,7 +12,7 @@ from matplotlib.axes import Axes
 from matplotlib.colors import is_color_like
 
 from kapitza import style
-from kapitza.bounded import read_text
+from kapitza.bounded_reading import read_text
 from kapitza.plots.page import LEGENDS, NARROW, Page
 from kapitza.scene import read_yaml
 

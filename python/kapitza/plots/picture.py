@@ -13,11 +13,11 @@ from matplotlib.figure import Figure
 
 from kapitza import style
 from kapitza.options import Parser, wrong_ending
-from kapitza.plots.dark import darken
+from kapitza.plots.dark_theme import darken
 from kapitza.plots.kinds import KINDS
+from kapitza.plots.line_widths import scale_strokes
 from kapitza.plots.page import BadOption, Page, drawing, lay_out
 from kapitza.plots.page_options import add_page_options, page_of
-from kapitza.plots.strokes import scale_strokes
 from kapitza.result import BadFile, Result
 
 FORMATS = (".png", ".svg", ".pdf")

@@ -16,7 +16,7 @@ from matplotlib.patheffects import withStroke
 from kapitza import style
 from kapitza.plots.atlas_curves import PERIODS, curve_points, mark_curves
 from kapitza.plots.page import entitle, new_panels
-from kapitza.plots.plane_axes import label_keys
+from kapitza.plots.parameter_axes import label_keys
 from kapitza.plots.units import fixed_si, group_beside
 from kapitza.result import BadFile, Result
 from kapitza.scene import tree_of

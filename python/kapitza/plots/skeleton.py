@@ -7,7 +7,7 @@ import xarray
 from matplotlib.axes import Axes
 
 from kapitza import style
-from kapitza.plots.plane import Plane, label_axes
+from kapitza.plots.window_axes import Plane, label_axes
 
 
 def mark_saddles(axes: Axes, basin: xarray.Dataset, saddles: xarray.Dataset, *, colour: str = style.INK, rim: str = "white",

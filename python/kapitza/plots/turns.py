@@ -6,7 +6,7 @@ import xarray
 from matplotlib.axes import Axes
 from matplotlib.colors import BoundaryNorm, Colormap
 
-from kapitza.plots.plane import Plane, label_axes
+from kapitza.plots.window_axes import Plane, label_axes
 
 
 def draw_turns(axes: Axes, basin: xarray.Dataset, *, colours: Colormap | None = None, legend: bool = True,

@@ -12,8 +12,8 @@ import numpy as np
 from kapitza import style
 from kapitza.measures import measures_of, value_text
 from kapitza.report.pictures import pictures
+from kapitza.representation import pendulum_text
 from kapitza.result import Result
-from kapitza.show import pendulum_text
 from kapitza.units import with_unit
 
 STYLE = """

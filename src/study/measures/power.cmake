@@ -2,5 +2,5 @@ kapitza_power(measures FOLDERS study/measures study/resilience study/boundary ST
   KEYS basin.boundary basin.shocks sweep.measure sweep.weight sweep.within sweep.sizes sweep.cells sweep.shock_scale sweep.shock_tolerance
   BESIDE tests/unit/study/measures.c tests/unit/study/shocks.c tests/python/test_boundary.py tests/python/test_shocks.py
     tests/python/test_measures.py tests/python/test_measures_pictures.py tests/python/test_plane.py
-    python/kapitza/measures.py python/kapitza/plots/passport.py python/kapitza/plots/line.py
+    python/kapitza/measures.py python/kapitza/plots/passport.py python/kapitza/plots/measure_lines.py
     python/kapitza/plots/plane_measures.py docs/explanation/measures.md)

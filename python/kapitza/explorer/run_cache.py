@@ -31,7 +31,7 @@ if os.getppid() == int(sys.argv[1]):
 """
 
 
-class Kept:
+class RunCache:
     """Those of one explorer. `program`: the executable; `numerics`: of its scene, or None; `folder`: None = in the user's cache."""
 
     def __init__(self, program, numerics=None, folder=None):

@@ -73,8 +73,8 @@ def as_text(result: "Result") -> str:
 
 def main() -> None:
     """The command `kapitza info`."""
+    from kapitza.exit_status import run_apart
     from kapitza.result import Result
-    from kapitza.script import run_apart
     run_apart(lambda: print(as_text(Result(sys.argv[1]))))
 
 

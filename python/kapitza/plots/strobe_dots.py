@@ -7,7 +7,7 @@ import xarray
 from matplotlib.axes import Axes
 
 from kapitza.plots.page import current
-from kapitza.plots.plane import Plane
+from kapitza.plots.window_axes import Plane
 
 
 def mark_strobe_points(axes: Axes, plane: Plane, basin: xarray.Dataset, attractors: xarray.Dataset, *, colours: Mapping[int, str],

@@ -5,7 +5,7 @@ import numpy as np
 import pandas
 import pytest
 from conftest import ROOT, plot, with_extensive
-from kapitza.chances import wilson
+from kapitza.probability import wilson
 
 SMALL = ROOT / "scenes" / "small.yaml"
 LAB = {"pendulum": {"length": "20 cm", "frequency": "50 Hz", "amplitude": "8 mm", "quality_factor": 5},

@@ -8,7 +8,7 @@ import pandas
 import xarray
 
 from kapitza import units
-from kapitza.bounded import table_file
+from kapitza.bounded_reading import table_file
 from kapitza.scene import tree_of
 from kapitza.table import CENTRES, cells_of, edges_of
 
