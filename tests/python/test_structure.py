@@ -18,7 +18,7 @@ LONGEST, LONGEST_OF_PACKAGE = 350, 250  # lines of a file
 
 # What stands at the top of the repository, one word for each file or folder.
 TOP = """.ci .clang-format .dockerignore .editorconfig .gitignore .pre-commit-config.yaml .proselintrc.json
-CHANGELOG.md CITATION.cff CMakeLists.txt CMakePresets.json CONTRIBUTING.md LICENSE README.md SECURITY.md pyproject.toml
+CHANGELOG.md CITATION.cff CMakeLists.txt CMakePresets.json CONTRIBUTING.md LICENSE LICENSES README.md REUSE.toml SECURITY.md pyproject.toml
 benchmarks cmake docs include packaging python scenes scripts src tests web""".split()
 
 
