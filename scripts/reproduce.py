@@ -74,12 +74,10 @@ def shown():
 
 
 def draw_pages(arguments):
-    """The figures of the pages: those of scenes, of tutorials, the report, the drawings; and one sheet of all."""
+    """The figures of the pages: those of scenes, of tutorials, the drawings; and one sheet of all."""
     draw_figures(arguments)
     for name in TUTORIALS.keys() & set(arguments.names):
         draw_tutorial(name, *TUTORIALS[name])
-    if "report" in arguments.names:
-        draw_report()
     for name in arguments.names:
         if (picture := RESULTS / f"{name}.png").exists():
             shutil.copy(picture, DOCS / "figures")
@@ -98,13 +96,6 @@ def draw_tutorial(name, page, result, kind, options):
         output = RESULTS / f"{name}.png"
         subprocess.run([ROOT / "build" / "kapitza", "plot", kind, Path(folder) / result, "-o", output, *options], cwd=ROOT, check=True)
     shrink(output)
-
-
-def draw_report():
-    """The report on the small scene, as a browser shows it."""
-    if status := run_scene("small", 1) or step("build/kapitza", "plot", "report", "results/small.h5", "-o", "results/report.html"):
-        sys.exit(status)
-    photograph("report", 1140, 1260)
 
 
 def draw_sheet():

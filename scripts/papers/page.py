@@ -16,42 +16,28 @@ HEAD = """\
 
 What the two papers print or draw, beside what this program finds.
 
-`scripts/reproduce --numbers` runs the program and writes this page, and [results.csv](results.csv) with a row for each number:
-paper, place, quantity, printed, reference, ours, bar, agreement, remark. The words stand in `scripts/papers`. `agreement` is one of four:
+`scripts/reproduce --numbers` runs the program and writes this page, and [results.csv](results.csv) with a row for each
+number. `agreement` is one of four:
 
 | word | meaning |
 | --- | --- |
 | `right` | The program's number rounds to the printed number, or it differs from the reference by at most the `bar` of its row. |
-| `approximation` | The paper prints the result of a formula that it calls approximate. The program's number has no such approximation. |
+| `approximation` | The paper prints the result of a formula that it calls approximate. |
 | `erratum` | The paper's own equations do not give the printed number. The remark says what is right. |
 | `FAILED` | The two numbers differ and no remark explains why, or a remark explains a difference that does not exist. |
 
-A place is the paper's number of the figure, the section or, in parentheses, the equation. A reference is a value with 10 to 16
-digits that was computed without this program (`tests/literature/reference.json`): cycles by a Taylor-series integrator in 80-bit
-arithmetic, checked by another of order 8, linear problems by Hill determinants with 30 digits.
+A reference is a value with 10 to 16 digits that was computed without this program (`tests/literature/reference.json`): cycles by
+a Taylor-series integrator in 80-bit arithmetic, checked by another of order 8, linear problems by Hill determinants with 30 digits.
 """
 SYMBOLS = {
     BLACKBURN: """\
-Omega = omega/omega0 is the frequency of the drive, epsilon its amplitude, and Q the quality factor. If a row names neither Q nor
-Omega, they are 5 and 11.
-
-- A position is stable between its lower and its upper boundary, which are values of epsilon. delta is the paper's name for k,
-  which is negative for the inverted position.
-- A release begins at rest. It fails if the pendulum leaves the inverted position. Angles of releases, turning points and rims are
-  measured from the inverted position.
-- A share of the starts counts the starts with velocities of up to 3 rad per drive radian that end in a motion. The reference has
-  1500 random starts; the bar is four standard errors.
-- The motions have the program's [names](../explanation/orbits.md#names). Velocities are in rad per drive radian.
+If a row names neither Q nor Omega, they are 5 and 11. A release begins at rest; it fails if the pendulum leaves the inverted
+position. Angles of releases are measured from there.
 """,
     BUTIKOV: """\
-k and m are those of the [equation of motion](../explanation/theory.md#the-equation-of-motion). n is the order of a subharmonic.
-
-- Curves 1 to 5 bound the zones of stability in the plane of k and m. A pendulum on the curve of order n has an orbit that closes
-  after n drive periods.
-- Line j/n of an orbit is the part of its angle that has j/n of the drive's frequency. Cj and Sj are the cosine and the sine part
-  of line number j. Aj is its amplitude with a sign.
-- Tongue 1 is the zone of parametric resonance at k = 1/4, tongue 2 the one at k = 1; exact tuning is at these two values. The
-  lowest point of a tongue has the smallest m at which the hanging pendulum starts to swing.
+n is the order of a subharmonic; curves 1 to 5 bound the zones of stability. Line j/n of an orbit has j/n of the drive's
+frequency; Cj and Sj are its cosine and sine part, Aj its amplitude with a sign. Tongues 1 and 2 are the zones of parametric
+resonance at k = 1/4 and 1, where they are tuned exactly.
 """,
 }
 
@@ -85,11 +71,10 @@ def write_page(found, path: Path):
     for title, numbers in found:
         differing = [number for number in numbers if number.printed and number.agreement != "right"]
         lines += [
-            f"## {title}: printed numbers that differ\n",
+            f"## {title}\n",
             *([SYMBOLS[title]] if title in SYMBOLS else []),
             *_table(_first_of_each(differing), "place", "quantity", "paper", "ours", "ours - paper", "agreement", "remark"),
-            f"## {title}: numbers of its figures and equations\n",
-            *_summary([number for number in numbers if not number.printed]),
+            _others([number for number in numbers if not number.printed]),
         ]
     lines += [(Path(__file__).parent / "errata.md").read_text()]
     path.write_text("\n".join(lines))
@@ -109,16 +94,11 @@ def _first_of_each(numbers):
     return [replace(group[0], quantity=group[0].quantity + more[key]) for key, group in groups.items()]
 
 
-def _summary(numbers):
-    """A row for each place: what is compared there, and how far it lies from the references at most."""
-    places = {}
-    for number in numbers:
-        places.setdefault(number.place, []).append(number)
-    rows = ["| place | numbers | the first | largest difference, as a part of its bar |", "| --- | --- | --- | --- |"]
-    for place, here in places.items():
-        parts = [abs(number.ours - number.reference) / number.bar for number in here if number.bar]
-        rows.append(f"| {place} | {len(here)} | {here[0].quantity} | {f'{max(parts):.1g}' if parts else 'equal'} |")
-    return [*rows, ""]
+def _others(numbers):
+    """A sentence on the numbers of figures and equations, which the paper does not print."""
+    parts = [abs(number.ours - number.reference) / number.bar for number in numbers if number.bar]
+    return (f"{len(numbers)} numbers of its figures and equations were compared with references; the largest difference is "
+            f"{max(parts, default=0):.1g} of its bar.\n")
 
 
 COLUMNS = {

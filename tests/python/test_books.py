@@ -6,10 +6,10 @@ import subprocess
 import pytest
 from conftest import ROOT
 
-ELSEWHERE = {"cluster", "how-hard", "lesson", "stories"}  # run by test_cluster.py, test_tutorial.py; no commands
-PAGES = [ROOT / "README.md", ROOT / "docs" / "reference" / "python.md",
+ELSEWHERE = {"cluster"}  # run by test_cluster.py
+PAGES = [ROOT / "README.md", ROOT / "docs" / "reference" / "python.md", ROOT / "docs" / "explanation" / "stability.md",
          *sorted((ROOT / "docs").glob("howto/*.md")), *sorted((ROOT / "docs").glob("tutorials/*.md"))]
-LONG = {"first-basin", "ion-trap", "map", "my-pendulum", "python", "questions", "recipes", "shaker", "track", "why-it-stands"}
+LONG = {"first-basin", "map", "my-pendulum", "python", "questions", "shaker", "stability", "track", "why-it-stands"}
 PAGES = [pytest.param(page, marks=[pytest.mark.extensive] * (page.stem in LONG), id=page.stem)
          for page in PAGES if page.stem not in ELSEWHERE]
 

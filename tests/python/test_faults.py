@@ -1,5 +1,5 @@
 """Failures of the whole program's environment: disks that fill or vanish, damaged checkpoints, memory that runs out, ranks that sleep or
-outnumber their tiles, kills. docs/validation/reliability.md says what is promised; tests/tools/kill_loop.py is the long version."""
+outnumber their tiles, kills. docs/validation/extremes.md says what is promised; tests/tools/kill_loop.py is the long version."""
 
 import os
 import random

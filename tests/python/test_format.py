@@ -44,7 +44,7 @@ def test_text_is_held_to_editorconfig(data, found):
 
 
 def test_house_words_are_read_from_the_style_page():
-    pairs = house_words.unwanted((ROOT / "docs" / "develop" / "style.md").read_text())
+    pairs = house_words.unwanted((ROOT / "docs" / "develop" / "conventions.md").read_text())
     assert ("hangs on", "depends on") in pairs and len(pairs) > 10
     page = "It hangs\nwell, and\nHangs on it.\n```\nhangs on\n```\n`hangs on`\n"
     assert house_words.faults(page, pairs) == [(3, "hangs on", "depends on")]

@@ -1,4 +1,4 @@
-"""Holds pages to the words of docs/develop/style.md: what its table "Words" has under "not" stands in no page.
+"""Holds pages to the words of docs/develop/conventions.md: what its table "write, not" has under "not" stands in no page.
 
     house_words.py FILE...      prints each place; status 1 where there is one. Code in back quotes may hold any word.
 """
@@ -7,13 +7,13 @@ import re
 import sys
 from pathlib import Path
 
-STYLE = Path(__file__).resolve().parents[2] / "docs" / "develop" / "style.md"
+STYLE = Path(__file__).resolve().parents[2] / "docs" / "develop" / "conventions.md"
 
 
 def unwanted(style):
-    """(word, what to write) of the table under the heading Words, longest first."""
-    table = style.split("\n## Words\n")[1].split("\n## ")[0]
-    rows = [line.strip("|").split("|") for line in table.splitlines() if line.startswith("| ")][2:]
+    """(word, what to write) of the table with the head "write, not", longest first."""
+    table = style.split("\n| write | not |\n")[1].split("\n\n")[0]
+    rows = [line.strip("|").split("|") for line in table.splitlines()][1:]
     pairs = [(word.strip(), better.strip()) for better, words in rows for word in words.split(",")]
     return sorted(pairs, key=lambda pair: -len(pair[0]))
 

@@ -1,4 +1,4 @@
-// Stories for a lecture: states of the page one after the other, each with a sentence. Where they come from: docs/howto/stories.md.
+// Stories for a lecture: states of the page one after the other, each with a sentence. Where they come from: docs/reference/explorer.md.
 
 import { nearestBoundary } from "./boundary.js";
 import { NEUTRAL } from "./drive.js";

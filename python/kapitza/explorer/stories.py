@@ -1,4 +1,4 @@
-"""Stories of the explorer: files of states of the page and sentences (docs/howto/stories.md)."""
+"""Stories of the explorer: files of states of the page and sentences (docs/reference/explorer.md)."""
 
 import math
 from pathlib import Path

@@ -4,4 +4,4 @@ kapitza_power(live FOLDERS study/live study/where app/live dynamics/live FILES i
     tests/python/test_explorer*.py tests/python/explorer_page.py tests/python/serving.py tests/python/test_serve.py
     tests/python/test_client.py tests/python/test_protocol.py tests/python/test_where.py
     python/kapitza/explorer python/kapitza/client.py python/kapitza/engine.py web/explorer
-    docs/reference/explorer.md docs/reference/serve.md docs/howto/stories.md)
+    docs/reference/explorer.md docs/reference/serve.md)

@@ -2,4 +2,4 @@ kapitza_power(proof FOLDERS study/proof dynamics/trapping/proved kernel/enclosur
   FILES include/kapitza/dynamics_proof.h include/kapitza/kernel_enclosure.h PARTS proof KEYS basin.proof NEEDS deep
   BESIDE tests/unit/kernel/enclosure.c tests/unit/kernel/sums.c tests/unit/kernel/rounding.c tests/unit/dynamics/proof.c
     tests/tools/enclosed.h tests/tools/enclosed_orbit.h tests/python/test_proof.py
-    docs/explanation/proof.md docs/explanation/bounds.md docs/validation/proofs.md)
+    docs/explanation/proof.md docs/explanation/bounds.md)
