@@ -12,7 +12,7 @@
 #include <string.h>
 
 enum { BATCH = 2048, STAGES = 3, DIGITS_BITS = 200 };
-static const int64_t periods[STAGES] = {1, 4, 15}; /* of each stage */
+static const int64_t periods[STAGES] = {1, 4, 15}; /* Periods of each stage */
 
 /* Fig. 12's pendulum on a path that is tilted by 5 degrees, and under the wave of scenes/square-wave.yaml; a Josephson junction. */
 #define FIG12 .k = 1.0 / 121, .beta = 1.0 / 55, .m = 0.3

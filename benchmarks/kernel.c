@@ -19,7 +19,7 @@
 
 enum { PROBES = 64, REPEATS = 3, SLOW_STATES = 16 };
 static const double two_pi = 6.28318530717958647692, fastest = 2;
-/* Of a step besides the terms of drift and kick: the angle reduced (3), squared, times 1 - its square, the velocity changed. */
+/* Operations of a step besides the terms of drift and kick: the angle reduced (3), squared, times 1 - its square, the velocity changed. */
 static const int other_operations = 6;
 
 typedef struct {

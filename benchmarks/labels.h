@@ -1,4 +1,4 @@
-/* What textbook.c and twin.c have in common: RK4 with 100 steps a period, told the attractors, captured once the orbit has
+/* Common part of textbook.c and twin.c: RK4 with 100 steps a period, told the attractors, captured once the orbit has
  * been within 0.01 of one attractor's strobe points, in phase, four times running. */
 #pragma once
 

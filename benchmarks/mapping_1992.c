@@ -10,7 +10,7 @@ enum {
   PERIODS = 300,
   NODES = 500,
   STARTS = 4000,
-  CELLS = 1000000 /* of a picture, among which the table's time is shared */
+  CELLS = 1000000 /* Cells of a picture, among which the table's time is shared */
 };
 static const double K = 1.0 / 121, BETA = 1.0 / 55, M = 0.3, TWO_PI = 6.28318530717958647692, FASTEST = 2;
 

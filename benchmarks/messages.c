@@ -14,7 +14,7 @@ static int by_size(const void *a, const void *b) {
   return (x > y) - (x < y);
 }
 
-/* What one of ten rounds stays below: other work on the machine makes the rest longer. */
+/* Time below which one of ten rounds stays: other work on the machine makes the rest longer. */
 static double decile(double *list, int n) {
   qsort(list, (size_t)n, sizeof *list, by_size);
   return list[n / 10];

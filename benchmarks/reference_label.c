@@ -15,7 +15,7 @@
 
 enum { BATCH = 256 };
 static const double widest_circle = 1e-2; /* rad */
-static const double share_of_gap = 0.2;   /* of the smallest distance between two strobe points */
+static const double share_of_gap = 0.2;   /* Share of the smallest distance between two strobe points */
 static const double shrinking = 0.1;
 static const double at_rest = 1e-8; /* as good as on the attractor */
 

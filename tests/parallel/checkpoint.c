@@ -105,7 +105,7 @@ TEST(resume_without_a_file_starts_anew) {
 }
 
 TEST(a_flipped_bit_is_done_again) {
-  const long offsets[] = {0, 1, 9, 16, 17, 2000, 16 + N_BYTES - 1}; /* of a slot: tile, checksum, record */
+  const long offsets[] = {0, 1, 9, 16, 17, 2000, 16 + N_BYTES - 1}; /* Offsets in a slot: tile, checksum, record */
   for (size_t i = 0; i < sizeof offsets / sizeof *offsets; ++i) {
     leave_partial(-1);
     flip(FIRST_SLOT + 7 * SLOT + offsets[i]);

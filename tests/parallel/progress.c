@@ -1,4 +1,4 @@
-/* What a person sees: a bar on a terminal, lines elsewhere, nothing where nothing is asked for. */
+/* Output that a person sees: a bar on a terminal, lines elsewhere, nothing where nothing is asked for. */
 #define _GNU_SOURCE
 #include <poll.h>
 #include <pty.h>
@@ -87,7 +87,7 @@ TEST(a_terminal_gets_a_bar) {
   show_on_terminal(KZ_PROGRESS_AUTO, 60);
   assert_non_null(strstr(shown, "\rcells"));
   assert_non_null(strstr(shown, "###"));
-  assert_string_equal(shown + strlen(shown) - 4, "\r\033[K"); /* and is clean again */
+  assert_string_equal(shown + strlen(shown) - 4, "\r\033[K"); /* the line is clean again */
 }
 
 TEST(a_file_gets_lines) {
@@ -133,7 +133,7 @@ TEST(a_terminal_of_others_is_left_alone) {
   show(KZ_PROGRESS_AUTO, run_cells, 60, there, here);
   kill(other, SIGKILL);
   waitpid(other, NULL, 0);
-  assert_int_equal(tcsetpgrp(there, getpgrp()), 0); /* of a process in the background: allowed, since SIGTTOU is ignored */
+  assert_int_equal(tcsetpgrp(there, getpgrp()), 0); /* a process in the background may do so, since SIGTTOU is ignored */
   assert_string_equal(shown, "");
 }
 

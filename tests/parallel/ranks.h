@@ -1,4 +1,4 @@
-/* What the tests on several ranks share. An assertion that fails on one rank fails on all, so that none waits for it. */
+/* Common part of the tests on several ranks. An assertion that fails on one rank fails on all, so that none waits for it. */
 #pragma once
 
 #define OWN_MAIN
@@ -52,7 +52,7 @@ static inline int run_ranks(void) {
   return failed;
 }
 
-/* The same with `path` [bytes] in a folder of its own, for a checkpoint. */
+/* Runs with `path` [bytes] in a folder of its own, for a checkpoint. */
 static inline int run_ranks_with_path(char *path, size_t bytes) {
   char folder[] = "/tmp/kapitza-ranks-XXXXXX";
   if (kz_launch_rank() <= 0 && !mkdtemp(folder)) return 1;

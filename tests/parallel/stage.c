@@ -13,7 +13,7 @@ typedef struct {
 typedef struct {
   int64_t done;    /* tiles of this rank */
   int64_t failing; /* tile that fails, -1: none */
-  double seconds;  /* of a tile */
+  double seconds;  /* Seconds of a tile */
   int dirty;       /* records that were not zero at the start */
 } job;
 
@@ -92,7 +92,7 @@ TEST(a_failing_tile_ends_all_ranks) {
     snprintf(expected, sizeof expected, "tile %lld fails", (long long)failing);
     assert_all(status == KZ_FAILED && strcmp(kz_message(), expected) == 0);
   }
-  records_arrive_everywhere(NULL); /* and the ranks work as before */
+  records_arrive_everywhere(NULL); /* the ranks work as before */
 }
 
 TEST(a_missing_array_ends_all_ranks) {

@@ -18,7 +18,7 @@ static inline void place_at(quad x, quad v, const kz_enclosure *set, double z[2]
   z[1] = (double)((A[0][0] * v - A[1][0] * x) / det);
 }
 
-/* The same of a state, but for a whole turn. */
+/* Tells whether a set holds a state, but for a whole turn. */
 static inline void place_of(const quad end[2], const kz_enclosure *set, double z[2]) {
   const quad turn = 2 * 3.14159265358979323846264338327950288419716939937510582Q;
   quad x = end[0] - set->theta[0] - set->theta[1] - set->theta[2];

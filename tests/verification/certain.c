@@ -191,7 +191,7 @@ TEST(test_decided_beside_boundaries_is_right) {
   }
 }
 
-/* What a process has labelled before at coarser levels changes no decision: ranks that met other tiles, and resumed runs, agree. */
+/* Labels that a process gave before at coarser levels change no decision: ranks that met other tiles, and resumed runs, agree. */
 TEST(test_decisions_have_no_history) {
   enum { N = 64 };
   double x[2 * N];
@@ -212,7 +212,7 @@ TEST(test_decisions_have_no_history) {
   }
 }
 
-/* Of some starts, in an extensive run of MOST, none of the decided labels is wrong, and most are decided. */
+/* No decided label of some starts (MOST in an extensive run) is wrong, and most are decided. */
 static void check(const char *name, int which, kz_dynamics *d, const kz_pendulum *p, int some) {
   static double x[2 * MOST];
   static kz_start start[MOST];

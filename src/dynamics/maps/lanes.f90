@@ -30,8 +30,8 @@ module kz_maps_lanes
     integer, private :: waiting = 0        !< states that wait:
     integer, private :: queue(WIDTH) = 0   !< in these lanes, the last first
     integer(c_int64_t) :: items = 0        !< states that are followed in all
-    integer(c_int64_t) :: next = 1         !< that enters next
-    integer(c_int64_t) :: number(CAPACITY) = 0 !< which one is in a lane
+    integer(c_int64_t) :: next = 1         !< number of the item that enters next
+    integer(c_int64_t) :: number(CAPACITY) = 0 !< number of the item in each lane
     integer :: region(CAPACITY) = 0        !< trapping region that holds it, 0 = none
     integer(c_int64_t) :: age(CAPACITY) = 0 !< periods since the release
     integer :: in_cover(CAPACITY) = 0      !< attractor whose cover it is in, 0 = none

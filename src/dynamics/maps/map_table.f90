@@ -37,7 +37,7 @@ module kz_maps_map_table
 
   type, extends(map_t) :: table_map_t
     type(table_t), pointer :: table => null()
-    integer :: points = 6     !< of the stencil along an axis: 2, 6
+    integer :: points = 6     !< points of the stencil along an axis: 2, 6
     class(flow_t), allocatable :: flow !< integrates the periods that begin outside the table
   contains
     procedure :: advance => interpolate

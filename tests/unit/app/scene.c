@@ -139,7 +139,7 @@ TEST(gone_words_name_the_new_one) {
       "s.yaml:4:11: basin.method: \"hybrid\" is unknown; it must be one of icm, direct, exact (it was removed: use direct)");
 }
 
-/* What the processed splitting does not carry is left to split6 with its own number of steps. */
+/* Drives that the processed splitting does not carry are left to split6 with its own number of steps. */
 TEST(numerics_fall_back) {
   kz_scene scene;
   kz_scheme scheme;

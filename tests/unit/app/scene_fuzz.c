@@ -17,7 +17,7 @@ static const char seed[] =
     "  velocity: {min: -2, max: 2, count: 1000}\n  method: icm\n  icm: {theta: 100, velocity: 100, interpolation: quintic}\n"
     "  max_periods: 2000\n  attractors: {starts: 8192, max_period: 48, seed: 1}\n";
 
-/* What a scene may not hold, or holds elsewhere. clang-format would give each a line of its own. */
+/* Texts that a scene may not hold, or holds elsewhere. clang-format would give each a line of its own. */
 /* clang-format off */
 static const char *const pieces[] = {
     "&a ", "*a", "!!int ", "---\n", "...\n", "%YAML 1.1\n", "<<: ", "- ", "? ", "{", "}", "[", "]", ": ", "|\n", ">-\n",
@@ -74,7 +74,7 @@ static void check_fixed_point(kz_scene *scene) {
 
 static void check_input(const char *text, size_t length) {
   kz_scene scene;
-  char *exact = malloc(length + 1); /* of its own, so that the sanitizer sees a read past the end */
+  char *exact = malloc(length + 1); /* a block of its own, so that the sanitizer sees a read past the end */
   memcpy(exact, text, length);
   kz_message_clear();
   const kz_status status = kz_scene_read(exact, length, "f.yaml", 0, NULL, &scene);

@@ -216,7 +216,7 @@ TEST(test_quads_decide_after_pairs_what_they_decide_alone) {
   kz_dynamics_free(d);
 }
 
-/* Of a decided orbit the whole ellipse of its error lies in the region, not its state alone: both ends of the longest diameter, along which the tangents
+/* The whole error ellipse of a decided orbit lies in the region, not its state alone: both ends of the longest diameter, along which the tangents
  * have stretched the error, do. A label shows no difference here, since regions lie within their basins. */
 TEST(test_regions_hold_whole_ellipses) {
   enum { N = 4096 };
@@ -285,7 +285,7 @@ TEST(test_growth_foretells_the_level) {
   kz_dynamics_free(d);
 }
 
-/* Of the motions that end on no rotation: whole turns from the start to the nearer of down and inverted at the end, by the angles of an integrator. */
+/* Turns of the motions that end on no rotation: whole turns from the start to the nearer of down and inverted at the end, by the angles of an integrator. */
 TEST(test_turns_are_those_of_the_angle) {
   enum { N = 512, LEVELS = 4, LATER = 600 };
   static const int32_t levels[LEVELS] = {KZ_LEVEL_DOUBLE, KZ_LEVEL_FINE, KZ_LEVEL_PAIRS_20, KZ_LEVEL_QUAD};

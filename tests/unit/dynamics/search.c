@@ -1,4 +1,4 @@
-/* What the search for cycles costs. */
+/* Cost of the search for cycles. */
 #include "../../tools/part.h"
 #include "../../tools/test.h"
 

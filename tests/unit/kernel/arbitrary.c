@@ -22,7 +22,7 @@ static const kz_pendulum pendulums[] = {{.k = 0.1, .beta = 0.1, .m = 0.4},
                                          .horizontal = {{0.1, 0.07}, {0, 0}, {-0.04, 0.03}},
                                          .harmonics = 4,
                                          .unmirrored = 1}};
-static kz_pendulum strong; /* of the present group of tests */
+static kz_pendulum strong; /* Pendulum of the present group of tests */
 
 static kz_coordinate at(double value) {
   return (kz_coordinate){.high = value};
@@ -71,7 +71,7 @@ static double missed(const kz_pendulum *pendulum, double theta, double velocity)
   return hypot((double)(end[0] - state[0]), (double)(end[1] - state[1]));
 }
 
-/* What is told of the quad reference holds. It was assumed to be 1e-31 of the motion, which it is not where the drive is strong. */
+/* The error told of the quad reference holds. It was assumed to be 1e-31 of the motion, which it is not where the drive is strong. */
 TEST(errors_of_quads_are_not_understated) {
   if (strong.unmirrored) skip();
   static const kz_pendulum strong_drives[] = {{.k = 1, .beta = 0.5, .m = 7.7}, {.k = 1.0 / 121, .beta = 1.0 / 55, .m = 0.46}};
@@ -85,11 +85,11 @@ TEST(errors_of_quads_are_not_understated) {
       largest = fmax(largest, missed(strong_drives + p, starts[i][0], starts[i][1]) / hypot(M_PI, starts[i][1]));
     print_message("m %g: %.1e, told %.1e\n", strong_drives[p].m, largest, told);
     assert_true(largest <= told);
-    assert_true(told < (p == 0 ? 1e-30 : 1e-32)); /* of the second, 1e-31 left half as many cells again undecided */
+    assert_true(told < (p == 0 ? 1e-30 : 1e-32)); /* an error of 1e-31 of the second left half as many cells again undecided */
   }
 }
 
-/* What fewer bits leave out is of the size of the last bit. */
+/* Fewer bits leave out some units of the last bit. */
 TEST(more_digits_agree) {
   kz_arbitrary *orbit = orbit_at(-2.3, 17, 400), *coarse = orbit_at(-2.3, 17, 400);
   advance(orbit, 4, 400, NULL);

@@ -28,7 +28,7 @@ static void pendulums(kz_pendulum pendulum[3]) {
 
 /* Degrees 1 to 3 in the start, without other drives and with, by the Taylor polynomials in many digits. */
 TEST(test_arbitrary) {
-  static const int place[] = {4, 5, 6, 11, 12, 13, 14}; /* of xx, xy, yy, xxx, xxy, xyy, yyy */
+  static const int place[] = {4, 5, 6, 11, 12, 13, 14}; /* Places of xx, xy, yy, xxx, xxy, xyy, yyy */
   static const double factorial[] = {2, 1, 2, 6, 2, 2, 6};
   kz_pendulum pendulum[3] = {{.k = 0.1, .beta = 0.09, .m = 0.6}};
   for (int all = 0; all < 6; all++) {

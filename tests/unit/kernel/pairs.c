@@ -74,7 +74,7 @@ TEST(operations_are_right_to_31_digits) {
     vector even;
     const pair rest = reduce(x, &even);
     assert_true(fmod(even[0], 2) == 0 && fabs(rest.high[0]) <= 1);
-    assert_true(size(value(rest) + even[0] - a) <= UNIT * size(a)); /* of binary digits a quad has 113 */
+    assert_true(size(value(rest) + even[0] - a) <= UNIT * size(a)); /* a quad has 113 binary digits */
   }
 }
 
@@ -249,7 +249,7 @@ TEST(products_of_matrices_are_right_to_31_digits) {
     }
 }
 
-/* So do brackets f_v g_theta - f_theta g_v of polynomials of different degrees in v. */
+/* Brackets f_v g_theta - f_theta g_v of polynomials of different degrees in v. */
 TEST(brackets_are_right_to_31_digits) {
   enum { TOP_F = 2, TOP_G = 4, TOP = TOP_F + TOP_G - 1 };
   static double f[2][TOP_F + 1][2][COLUMNS], g[2][TOP_G + 1][2][COLUMNS], bracket[TOP + 1][2][COLUMNS];

@@ -24,7 +24,7 @@ typedef struct {
 /* The lemmas of docs/explanation/bounds.md, by level, in units of u^(level + 1): a product, a sum, a constant; what a number loses that is taken
  * as one of the level below. */
 static const real product[] = {1, 6, 39}, plus[] = {1, 3, 9}, constant[] = {1, 1, 1.01L}, part[] = {0, 1, 1.03L};
-static const real first_part = 1.01L; /* the same of a triple taken as a double, in u */
+static const real first_part = 1.01L; /* First part of a triple taken as a double, in u */
 
 static real lost_in_sum(int level, int n) {
   if (level == TRIPLES) return 4.1L * n * n * n + 25.0L * n * n + 42 * n + 29;
@@ -35,7 +35,7 @@ static real unit(int level) {
   return powl(0x1p-53L, level + 1);
 }
 
-/* Of coefficient n in a step of that precision. */
+/* Bound of coefficient n in a step of that precision. */
 static int level_of(int precision, int n) {
   if (precision == TRIPLES) return n < KZ_COEFFICIENTS_TRIPLES ? TRIPLES : n < KZ_COEFFICIENTS_FINE ? PAIRS : D;
   return precision == PAIRS && n < KZ_COEFFICIENTS_PAIRS ? PAIRS : D;
@@ -139,7 +139,7 @@ static void finish_doubles(number faster, number farther, real fastest, real dri
   missed[1] = sum_of(faster, (number){u * fastest, 0}, D).error;
 }
 
-/* What the worst machine misses of angle and velocity. */
+/* Largest miss of angle and velocity on the worst machine. */
 static void worst(const kz_step_bounds *b, double fastest, real missed[2]) {
   machine x = {.precision = b->precision, .b = b};
   const int p = x.precision;

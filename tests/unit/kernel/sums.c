@@ -50,7 +50,7 @@ static double sum_is_off(int n, bool cancel) {
   return fabs(off) / (0x1p-106 * size);
 }
 
-/* The same for triples, over u^3. */
+/* Errors of triples over u^3. */
 static double sum_of_triples_is_off(int n, bool cancel) {
   double part[1000] = {0}, size = 0, off = 0;
   int parts = 0;

@@ -135,7 +135,7 @@ TEST(long_text_comes_back) {
   free(scene);
 }
 
-/* What one study reads of another: lengths and single numbers. */
+/* A study reads lengths and single numbers of another. */
 TEST(numbers_and_lengths_are_read_before_the_end) {
   const double velocities[2][3] = {{1, 2, 3}, {4, 5, 6}};
   const int32_t periods[2] = {3, 7};

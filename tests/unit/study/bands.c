@@ -23,7 +23,7 @@ static kz_atlas_crossings line_of(kz_atlas_crossing *list, int64_t n, const doub
   return (kz_atlas_crossings){.count = n, .list = list};
 }
 
-/* Of n edges `kept` are left, with so many attractors below `at` and above all. */
+/* Checks that `kept` of n edges are left, with so many attractors below `at` and above all. */
 static void check(int64_t n, const double (*edge)[3], int64_t kept, double at, int32_t below, int32_t above) {
   kz_atlas_crossing list[MOST];
   kz_atlas_crossings line = line_of(list, n, edge);

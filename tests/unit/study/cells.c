@@ -28,7 +28,7 @@ TEST(cells_below_the_last_place_of_a_double) {
   }
 }
 
-/* Of a window between edges the cell is the double of the file, to all digits. */
+/* A cell of a window between edges is the double of the file, to all digits. */
 TEST(cells_between_edges) {
   const kz_axis axis = {.min = 0.1, .max = 0.7, .count = 7};
   for (int64_t i = 0; i < 7; i++) {

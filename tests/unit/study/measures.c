@@ -178,7 +178,7 @@ TEST(test_riddled) {
   assert_true(fabs(value[0] - 2) < 0.01);
   kz_measure_entropy(&two->measured, value);
   kz_measure_boundary_entropy(&two->measured, value + 1);
-  assert_true(fabs(value[0] - (M_LN2 - 1.0 / 50)) < 0.005 && value[1] == value[0]); /* of 25 cells some 1/(2 25) less */
+  assert_true(fabs(value[0] - (M_LN2 - 1.0 / 50)) < 0.005 && value[1] == value[0]); /* 25 cells give some 1/(2 25) less */
   kz_measure_integrity_factor(&two->measured, value);
   assert_true(value[0] < 5 * STEP);
   kz_measure_wada_on_grid(&two->measured, value);

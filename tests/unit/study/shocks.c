@@ -7,7 +7,7 @@
 
 #include "resilience/resilience.h"
 
-static int64_t labels; /* that were asked for */
+static int64_t labels; /* Number of labels that were asked for */
 
 /* Another end inside of an ellipse about (2, 1), below v = -1.7, in a small disc, and in a thin strip at theta = -2.5. */
 static int16_t end_at(double theta, double velocity, bool small) {
@@ -96,7 +96,7 @@ TEST(test_nothing_to_find) {
   assert_true(fabs(shock[2].size - 2.5) < 1e-10);
 }
 
-/* Of shocks of at most 1.4 the share below v = -1.7 is a circular segment. */
+/* The share of shocks of at most 1.4 that ends below v = -1.7 is a circular segment. */
 TEST(test_share_of_harmless_shocks) {
   bool small = false;
   const kz_shock_problem problem = {.ends = ends, .context = &small, .from = {-0.5, -0.5}, .own = 1, .scale = 1, .farthest = 3};

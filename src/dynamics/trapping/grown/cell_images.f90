@@ -20,9 +20,9 @@ module kz_grown_cell_images
 
   !> Images after one number of periods, in units of cells: columns of the whole circle, not wrapped, and rows.
   type :: images_t
-    real(dp), allocatable :: x(:, :)       !< of the nodes (0 : n_theta, 0 : n_velocity)
+    real(dp), allocatable :: x(:, :)       !< angles of the images of the nodes (0 : n_theta, 0 : n_velocity)
     real(dp), allocatable :: y(:, :)
-    real(dp), allocatable :: slack_x(:, :) !< what is to be added on both sides
+    real(dp), allocatable :: slack_x(:, :) !< angle to be added on both sides
     real(dp), allocatable :: slack_y(:, :)
     !> boxes around the images of the cells (0 : n_theta - 1, 0 : n_velocity - 1), whole cells. left: column on the circle, from 0;
     !> n_columns = 0: the image is too large, or reaches beyond the grid's velocities
@@ -188,8 +188,8 @@ contains
 
   !> Range of x, in cells, of the convex hull of four corners in a row of cells, slack included: from all segments between the corners.
   pure subroutine extent(corners, row, from, to)
-    type(corners_t), intent(in) :: corners !< of a cell
-    integer, intent(in) :: row !< of the grid, from 0
+    type(corners_t), intent(in) :: corners !< corners of a cell
+    integer, intent(in) :: row !< row of the grid, from 0
     real(dp), intent(out) :: from, to !< the range
     real(dp) :: x(4), y(4), low, high, s, t, slope
     integer :: a, b

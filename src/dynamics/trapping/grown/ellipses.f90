@@ -19,7 +19,7 @@ module kz_grown_ellipses
   real(dp), parameter :: SMALLEST = 1e-7_dp, LATEST = 1e-2_dp, LARGEST = 2.0_dp
   !> Effect of rounding on a ring, in units of the rounding of the map: a ring counts as shrinking only if it shrinks by more.
   real(dp), parameter :: ROUNDING = 18
-  !> Of slow spirals: the factor by which an ellipse is widened at once; the time that a ring may take, in units of what the multiplier says;
+  !> Slow spirals: the factor by which an ellipse is widened at once; the time that a ring may take, in units of what the multiplier says;
   !> in radii, how far outside images of its points may lie meanwhile, and how far apart those of neighbours in the end; points of the ring, and
   !> returns between two looks at them.
   real(dp), parameter :: STEP = 1.5_dp, PATIENCE = 4, FAR = 2, APART = 0.5_dp
@@ -27,9 +27,9 @@ module kz_grown_ellipses
 
   !> How closely rings are tried.
   type :: rings_t
-    integer :: points = WIDTH !< of a ring, at most WIDTH
-    real(dp) :: growth = 2    !< of the radius from one ring to the next
-    integer :: halvings = 5   !< of the interval between the last good radius and the next one
+    integer :: points = WIDTH !< points of a ring, at most WIDTH
+    real(dp) :: growth = 2    !< growth of the radius from one ring to the next
+    integer :: halvings = 5   !< halvings of the interval between the last good radius and the next one
     integer :: between = 16   !< parts of the radius in the end, at each of which a ring is tried
   end type rings_t
 
@@ -37,7 +37,7 @@ module kz_grown_ellipses
   type :: site_t
     class(flow_t), pointer :: flow => null() !< the map whose orbits are to be trapped
     type(rings_t) :: rings
-    integer :: period = 0                    !< of the cycle
+    integer :: period = 0                    !< period of the cycle
     real(dp) :: shrinking = 0                !< modulus of the larger multiplier
     real(dp) :: u = 0, v = 0                 !< the point in the coordinates of the flow
     real(dp) :: basis(2, 2) = 0, inverse(2, 2) = 0 !< eigenbasis of the monodromy, rad

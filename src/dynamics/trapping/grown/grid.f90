@@ -22,11 +22,11 @@ module kz_grown_grid
   type, extends(grid_t) :: regions_t
     integer, allocatable :: label(:, :) !< (0 : n_theta - 1, 0 : n_velocity - 1): attractor, from 1; -overlap; 0 open
     integer(int32), allocatable :: closed(:) !< a bit for each cell and one for the outside, in this order: may a region be there?
-    integer, allocatable :: drawn(:, :) !< the same by ellipses and bands alone: what has grown since does not hide them
+    integer, allocatable :: drawn(:, :) !< labels by ellipses and bands alone: cells grown since do not hide them
     type(overlap_t), allocatable :: overlaps(:)
     integer :: n_overlaps = 0
     integer :: n_drawn = 0    !< attractors that have been drawn
-    integer, allocatable :: mirror(:) !< of each of them, the number of its mirror image
+    integer, allocatable :: mirror(:) !< number of the mirror image of each attractor
     integer, allocatable :: covered(:) !< cells of COVER x COVER: the attractor (from 1) without a period or band that visits it; empty: none
   end type regions_t
 
@@ -231,7 +231,7 @@ contains
   !> The attractor whose region holds (u, v), which lies in the cell of that number of look_up.
   function find_region(regions, label, attractors, number, u, v) result(a)
     type(regions_t), intent(in) :: regions
-    integer, intent(in) :: label(*) !< of the regions, in the order of numbers
+    integer, intent(in) :: label(*) !< labels of the regions, in the order of numbers
     type(attractor_t), intent(in) :: attractors(:)
     integer, intent(in) :: number
     real(dp), intent(in) :: u, v

@@ -23,14 +23,14 @@ module kz_grown_growth
   !> The whole circle, twice, one byte a cell: no interval of columns wraps.
   type, extends(grid_t) :: circle_t
     integer(int8), allocatable :: label(:, :) !< (0 : 2 n_circle - 1, 0 : n_velocity - 1): attractor, from 1; 0 = open
-    integer(int8), allocatable :: mirror(:)   !< of each attractor, from 1; 0 = not grown
+    integer(int8), allocatable :: mirror(:)   !< mirror image of each attractor, from 1; 0 = not grown
   end type circle_t
 
   !> Lists of the images that wait for each cell; a waiting image has the number cell + n_cells (k - 1), k as in PERIODS.
   type :: waiting_t
-    integer, allocatable :: first(:) !< of each cell, the image that waits for it
-    integer, allocatable :: next(:)  !< of each image, the next of its list
-    integer, allocatable :: seen(:)  !< of each image, the row below which it is known to belong
+    integer, allocatable :: first(:) !< first image that waits for each cell
+    integer, allocatable :: next(:)  !< next image in the list of each
+    integer, allocatable :: seen(:)  !< row below which each image is known to belong
   end type waiting_t
 
 contains
@@ -213,7 +213,7 @@ contains
     n = images%n_columns(i, l)
     if (n == 0) return
     left = images%left(i, l)
-    column = modulo(floor(images%x(i, l)), circle%n_circle) ! of the image of a corner
+    column = modulo(floor(images%x(i, l)), circle%n_circle) ! column of the image of a corner
     row = int(images%y(i, l))
     a = circle%label(column, row)
     if (a == 0) blocker = stored(circle, column, row)
@@ -233,7 +233,7 @@ contains
     answer = a
   end subroutine ask
 
-  !> The same as first_other of the cells that hold the images of the other corners: it costs less than the rows of the image.
+  !> Returns what first_other tells of the cells that hold the images of the other corners: it costs less than the rows of the image.
   pure function other_corner(circle, images, i, l, a) result(blocker)
     type(circle_t), intent(in) :: circle
     type(images_t), intent(in) :: images

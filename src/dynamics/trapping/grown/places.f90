@@ -26,7 +26,7 @@ contains
 
   !> The numbers of the cells that hold n states, as number_cells has them; 0 if the cell is open. Uses vectors.
   pure subroutine look_up(grid, closed, n, u, v, cell)
-    type(grid_t), intent(in) :: grid !< of the regions
+    type(grid_t), intent(in) :: grid !< grid of the regions
     integer(int32), intent(in) :: closed(0:) !< a bit for each cell, then one for the outside
     integer, intent(in) :: n !< states
     real(dp), intent(in) :: u(n), v(n) !< half-turns in [-1, 1], rad per drive radian
@@ -43,7 +43,7 @@ contains
   !> The numbers (from 1) of the cells that hold n states, negative where the stored half holds the mirror image; outside of the grid the number
   !> behind the last. Uses vectors.
   pure subroutine number_cells(grid, n, u, v, cell)
-    type(grid_t), intent(in) :: grid !< of the regions
+    type(grid_t), intent(in) :: grid !< grid of the regions
     integer, intent(in) :: n !< states
     real(dp), intent(in) :: u(n), v(n) !< half-turns in [-1, 1], rad per drive radian
     integer, intent(out) :: cell(n) !< +- number of the cell

@@ -3,7 +3,8 @@
 
 #include "proof.h"
 
-static const double ROUNDING = 1e-14; /* of the few operations on numbers below 4 that compare with the strobe points */
+static const double ROUNDING =
+    1e-14; /* Rounding of the few operations on numbers below 4 that compare with the strobe points */
 
 /* The ellipse shrinks as long as it traps; false where none does. */
 static bool shrink(const kz_proof *proof, int64_t period, const double centre[2], kz_proof_ellipse *ellipse) {

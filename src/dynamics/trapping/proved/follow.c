@@ -6,7 +6,7 @@
 
 /* Starts and cells under way: many, so that those of a class of speeds fill the lanes; periods of a cell. */
 enum { POOL = 2048, CELLS = 256, CELL_PERIODS = 16 };
-/* Of a set's sides: a wider start does not reach an attractor as a whole, and no larger cell gets small again. */
+/* Largest side of a set: a wider start does not reach an attractor as a whole, and no larger cell gets small again. */
 static const double WIDEST = 0.03, LARGEST = 0.5;
 /* A precision is too coarse for sets whose longer side is shorter than this, rad. */
 static const double SMALLEST[] = {[KZ_ENCLOSE_DOUBLES] = 1e-7, [KZ_ENCLOSE_PAIRS] = 1e-26};
@@ -47,7 +47,7 @@ static kz_enclosure set_of_cell(const kz_proof *proof, int64_t f) {
       .theta = {centre[0]}, .velocity = {centre[1]}, .matrix = {{1, 0}, {0, 1}}, .reach = {half[0] * larger, half[1] * larger}};
 }
 
-/* What is known of an item before it is followed. An angle far from the circle is not compared with the region: a period takes its whole
+/* Result for an item that is known before it is followed. An angle far from the circle is not compared with the region: a period takes its whole
  * turns out. */
 static uint8_t known(const items *by, int64_t item, kz_enclosure *set) {
   if (!by->start) {
