@@ -114,8 +114,8 @@ static const kz_key own[] = {
         "split schemes are exact in the damping; rk4: classical Runge-Kutta.",
         .unit = "", .words_from = scheme_words, .former = "split4=split6|split6-11=split6", CHOSEN),
     COUNT("numerics.steps_per_period", 1, 100000, "auto", asked.steps_per_period,
-          "Steps of the scheme in a drive period. auto: as many as the tolerance and the speeds need (processed); the default "
-          "of the scheme, or more for small cells (others).",
+          "Steps in a drive period. auto: as many as tolerance and speeds need (processed); the default of the scheme, or more "
+          "for small cells (others).",
           .words = "auto", CHOSEN),
     ROW("numerics.tolerance", KZ_KEY_REAL, "1e-12", AT(asked.tolerance),
         "Error of one drive period that auto allows the scheme processed, measured against quad precision; small cells allow "

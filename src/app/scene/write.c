@@ -70,12 +70,37 @@ static const char *default_of(const kz_key *key) {
   return key->fallback[0] ? key->fallback : "-";
 }
 
+enum { LONG_TEXT = 60, /* characters from which a text is printed once in the reference */ TEXT_BYTES = 700 };
+
+/* Writes a text, or the name of the first key of the table that has the same long one: its help, or what it accepts. */
+static void write_text(const kz_key *keys, const kz_key *key, bool help, FILE *out) {
+  char text[TEXT_BYTES], other[TEXT_BYTES];
+  const kz_key *row = keys;
+  snprintf(text, sizeof text, "%s", help ? key->help : "");
+  if (!help) kz_type_accepts(keys, key, text, sizeof text);
+  for (; row != key && strlen(text) >= LONG_TEXT; row++) {
+    snprintf(other, sizeof other, "%s", help ? row->help : "");
+    if (!help) kz_type_accepts(keys, row, other, sizeof other);
+    if (strcmp(text, other) == 0) break;
+  }
+  if (row != key && strlen(text) >= LONG_TEXT)
+    fprintf(out, "as `%s`", row->path);
+  else
+    fputs(text, out);
+}
+
 static void write_row(const kz_key *keys, const kz_key *key, FILE *out) {
-  char accepted[700], symbol[64] = "";
-  kz_type_accepts(keys, key, accepted, sizeof accepted);
-  if (key->symbol) snprintf(symbol, sizeof symbol, " or `%s`", key->symbol);
-  fprintf(out, "| `%s`%s | %s | %s | %s%s%s%s |\n", key->path, symbol, accepted, default_of(key), key->form ? "(" : "",
-          key->form ? key->form : "", key->form ? ") " : "", key->help);
+  fprintf(out, "| `%s`", key->path);
+  if (key->symbol) fprintf(out, " or `%s`", key->symbol);
+  fputs(" | ", out);
+  if (key->type == KZ_KEY_MAPPING)
+    fputs("a mapping", out);
+  else
+    write_text(keys, key, false, out);
+  fprintf(out, " | %s | ", default_of(key));
+  if (key->form) fprintf(out, "(%s) ", key->form);
+  write_text(keys, key, true, out);
+  fputs(" |\n", out);
 }
 
 /* A section for each top-level mapping. */
@@ -85,8 +110,7 @@ void kz_scene_reference(const kz_key *keys, FILE *out) {
       "Every key that a scene can hold: what it accepts, its default, what it means.\n"
       "Written by `kapitza keys` from the program's own table; do not edit. `-` = may be left out and has no default.\n"
       "A letter in parentheses marks one of several ways to give the same. Use the keys of one letter only; `required` then "
-      "holds for "
-      "that letter. Names of types lead to [their definitions](#types-of-numbers).\n\n",
+      "holds for that letter. Names of types lead to [their definitions](#types-of-numbers).\n\n",
       out);
   fputs("| key | accepted | default | meaning |\n| --- | --- | --- | --- |\n", out);
   for (const kz_key *key = keys; key->path; key++) {

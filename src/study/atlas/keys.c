@@ -11,9 +11,8 @@ static const kz_key keys[] = {
     PLANE_AXIS(atlas, y, "The key along the vertical axis."),
     INTEGER("atlas.max_period", 1, KZ_ATLAS_MOST_PERIOD, "6", max_period, "Longest period of the cycles, drive periods."),
     INTEGER("atlas.checks", 0, 1e5, "100", checks,
-            "Random points of a round whose attractors are compared with the lists. Each round first searches the cycles of 20 "
-            "further places; two in a row that find no curve with a band of 1e-4 sides or more and no attractor that is not "
-            "listed end the search, 16 at most. 0: no rounds."),
+            "Random points of a round whose attractors are compared with the lists, after a search of cycles at 20 further "
+            "places. Two rounds in a row that find nothing end the search, 16 at most; 0: no rounds."),
     INTEGER("atlas.seeds", 2, 1000, "40", seeds,
             "Places whose cycles, attracting or not, are searched first: each is followed to the curve on which it is born or "
             "loses its stability or symmetry."),

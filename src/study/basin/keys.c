@@ -16,9 +16,8 @@ static const kz_key keys[] = {
     EDGE("basin.velocity.max", KZ_VELOCITY_UNIT, KZ_MOST_SPEED, NULL, velocity_edges.max, "Upper edge of the window."),
     INTEGER("basin.velocity.count", 1, 1e6, "1000", velocity.count, "Cells along the velocity."),
     WORD("basin.method", KZ_JOINED(KZ_METHOD_WORDS), "exact", method,
-         "exact: the error of each orbit decides its label; undecided cells are followed again in more precision, and flagged "
-         "in evidence if quad precision does not decide them; direct: double precision alone, doubtful labels are marked in "
-         "evidence; icm: interpolated cell mapping, the method of the papers. A sweep uses direct.",
+         "exact: every label is decided, in more precision if needed, or flagged in evidence; direct: double precision alone, "
+         "doubtful labels are marked; icm: interpolated cell mapping, as in the papers. A sweep uses direct.",
          .former = "hybrid=direct", CHOSEN),
     MAPPING("basin.icm", "", "The map table of method icm."),
     INTEGER("basin.icm.theta", 8, 1e5, "1000", table_theta, "Nodes along theta.", CHOSEN),
@@ -39,13 +38,12 @@ static const kz_key keys[] = {
     BOOLEAN("basin.turns", "false", turns,
             "Count the net turns of each cell until an oscillation on which it ends: variable `turns`."),
     REAL("basin.accuracy", "", 0.5, 0.999999, "", accuracy,
-         "Share of right labels, instead of method, icm and numerics: the program takes the cheapest setting whose labels "
-         "agree with a sample in quad precision to this share (95 % bound), or method exact if there is none."),
+         "Share of right labels, instead of method, icm and numerics: the cheapest setting that reaches it (95 % bound) is "
+         "taken."),
 
     INTEGER("basin.phases", 2, 64, "", phases,
-            "Number of phases of the drive, spread evenly over a period from 0 on, at which every cell is released as well; "
-            "the result "
-            "has the share of the window that ends alike at all of them."),
+            "Phases of the drive, spread evenly from 0 on, at which every cell is released as well; the result has the share "
+            "that ends alike at all of them."),
     {.path = NULL},
 };
 

@@ -14,8 +14,7 @@ static const kz_key keys[] = {
     REAL("basin.boundary.farthest", "rad", 1e-300, 1, "0.01", farthest,
          "Distance of the first partner. With method exact it may be any share of the width of a deep window."),
     INTEGER("basin.boundary.decades", KZ_BOUNDARY_FEWEST_DECADES, KZ_BOUNDARY_MOST_DECADES, "10", decades,
-            "Decades of these distances: 10 go from 0.01 down to 1e-12 rad; nearer partners need basin.method exact, because "
-            "doubles cannot distinguish such starts."),
+            "Decades of these distances: 10 go from 0.01 down to 1e-12 rad; nearer partners need basin.method exact."),
     {.path = NULL},
 };
 

@@ -14,8 +14,8 @@ static const kz_key keys[] = {
     INTEGER("measures.seed", 0, 9007199254740992.0, "1", seed,
             "Number that chooses the starts; another seed gives other starts."),
     WORD("measures.method", "exact|direct", "exact", method,
-         "exact: every label of a start is decided, in as many digits as it needs; direct: by double precision alone, for "
-         "motions that stay chaotic for so long that the digits grow without end."),
+         "exact: every label is decided, in as many digits as it needs; direct: double precision alone, for motions that stay "
+         "chaotic for long."),
     MEASURE_OPTIONS(measures, "256"),
     {.path = NULL},
 };

@@ -25,9 +25,8 @@ static const kz_key keys[] = {
     STABILITY_AXIS("cd", a, "", "Instead of k, in the words of ion traps: a = 4 k."),
     STABILITY_AXIS("dc", q, "", "Instead of m, in the words of ion traps: q = 2 m."),
     ROW("stability.curves", KZ_KEY_WORDS, "", AT(curves),
-        "Transition curves to compute: those of the sine over k, where a curve that turns back has a second, upper branch, "
-        "which is "
-        "added; hill_1 to 5 of any wave form over m, without damping; meissner_1 to 5 of the true square wave over m.",
+        "Transition curves: of the sine over k, with the upper branch of curves that turn back; hill_1 to 5 of any wave form "
+        "over m, without damping; meissner_1 to 5 of the true square wave.",
         .unit = "", .words_from = kz_curve_names),
     ROW("stability.subharmonics", KZ_KEY_INTEGERS, "", AT(subharmonics),
         "Periods n of subharmonic solutions. Their curves are computed exactly and by the determinant.", .unit = "", .low = 2,
