@@ -37,40 +37,41 @@ typedef struct {
 
 #define EACH for (int p = 0; p < PARTS; p++)
 
-OPERATION void put_coarse(vector x, int64_t n, int p, coefficients *to) {
+KZ_INLINE void put_coarse(vector x, int64_t n, int p, coefficients *to) {
   to->coarse[n][p] = x;
 }
 
-OPERATION void put_fine(pair x, int64_t n, int p, coefficients *to) {
+KZ_INLINE void put_fine(pair x, int64_t n, int p, coefficients *to) {
   to->fine[n][p] = x;
   to->coarse[n][p] = x.high;
 }
 
-OPERATION vector scaled_coarse(vector x, vector factor) {
+KZ_INLINE vector scaled_coarse(vector x, vector factor) {
   return x * factor;
 }
 
-OPERATION pair scaled_fine(pair x, pair factor) {
-  return multiply(quick_sum(x.high, x.low), factor);
+KZ_INLINE pair scaled_fine(pair x, pair factor) {
+  return multiply_pairs(quick_two_sum(x.high, x.low), factor);
 }
 
-#define CONSTANT(sign, c) OF_LEVEL(made_)(sign(c).high, sign(c).low, 0)
+#define CONSTANT(sign, c) KZ_OF_LEVEL(KZ_CONSTANT_)(sign(c).high, sign(c).low, 0)
 #define FACTOR_along(i) CONSTANT(, speed->along[first + (i)])
 #define FACTOR_across(i) CONSTANT(, speed->across[first + (i)])
 #define FACTOR_w(i) x->w.KZ_LEVEL[i][p]
 #define UNIT_w inverse
 #define UNIT_s step
 #define UNIT_c step
-#define KZ_NEXT OF_LEVEL(next_)
+#define KZ_NEXT KZ_OF_LEVEL(next_)
 #define KZ_ARGUMENTS const kz_speed_class *speed, int32_t first, series *x
-#define KZ_SUM(total) OF_LEVEL(number_) total[PARTS] = {OF_LEVEL(made_)(0, 0, 0), OF_LEVEL(made_)(0, 0, 0)}
+#define KZ_SUM(total) \
+  KZ_OF_LEVEL(number_) total[PARTS] = {KZ_OF_LEVEL(KZ_CONSTANT_)(0, 0, 0), KZ_OF_LEVEL(KZ_CONSTANT_)(0, 0, 0)}
 #define KZ_TERMS for (int64_t i = n; i >= 0; i--)
-#define KZ_GAIN(total, a, b) EACH OF_LEVEL(gain_)(&total[p], x -> b.KZ_LEVEL[n - i][p], FACTOR_##a(i))
-#define KZ_DAMP(total) EACH OF_LEVEL(gain_)(&total[p], x -> w.KZ_LEVEL[n][p], CONSTANT(, speed->damping))
+#define KZ_GAIN(total, a, b) EACH KZ_OF_LEVEL(accumulate_)(&total[p], x -> b.KZ_LEVEL[n - i][p], FACTOR_##a(i))
+#define KZ_DAMP(total) EACH KZ_OF_LEVEL(accumulate_)(&total[p], x -> w.KZ_LEVEL[n][p], CONSTANT(, speed->damping))
 #define KZ_HAS_ACROSS speed->has_across
-#define KZ_PUSH(total) EACH OF_LEVEL(gain_)(&total[p], OF_LEVEL(made_)(-1, 0, 0), CONSTANT(, speed -> push))
+#define KZ_PUSH(total) EACH KZ_OF_LEVEL(accumulate_)(&total[p], KZ_OF_LEVEL(KZ_CONSTANT_)(-1, 0, 0), CONSTANT(, speed -> push))
 #define KZ_SET(name, sign, total) \
-  EACH OF_LEVEL(put_)(OF_LEVEL(scaled_)(total[p], CONSTANT(sign, speed -> UNIT_##name[n])), n + 1, p, &x->name)
+  EACH KZ_OF_LEVEL(put_)(KZ_OF_LEVEL(scaled_)(total[p], CONSTANT(sign, speed -> UNIT_##name[n])), n + 1, p, &x->name)
 
 #define KZ_LEVEL fine
 #include "taylor/motion.inc"
@@ -83,21 +84,21 @@ typedef struct {
 } place;
 
 /* The sum of the orders from 1 on; `integrated`: each times h / (n + 1). */
-OPERATION pair sum_of(const kz_speed_class *speed, shape size, const coefficients *x, int p, bool integrated) {
-  vector small = same(0);
+KZ_INLINE pair sum_of(const kz_speed_class *speed, shape size, const coefficients *x, int p, bool integrated) {
+  vector small = broadcast(0);
   for (int n = size.order - 1; n >= size.pairs; n--)
-    small += x->coarse[n][p] * (integrated ? same(speed->step[n].high) : same(1));
-  pair total = {small, same(0)};
+    small += x->coarse[n][p] * (integrated ? broadcast(speed->step[n].high) : broadcast(1));
+  pair total = {small, broadcast(0)};
   for (int n = size.pairs - 1; n >= 1; n--) {
-    const pair unit = {same(speed->step[n].high), same(speed->step[n].low)};
-    total = loose_sum(total, integrated ? loose_product(x->fine[n][p], unit) : x->fine[n][p]);
+    const pair unit = {broadcast(speed->step[n].high), broadcast(speed->step[n].low)};
+    total = sum_unnormalised(total, integrated ? product_unnormalised(x->fine[n][p], unit) : x->fine[n][p]);
   }
-  return quick_sum(total.high, total.low);
+  return quick_two_sum(total.high, total.low);
 }
 
 static void follow(const kz_speed_class *speed, shape size, int64_t periods, place *at) {
   static _Alignas(64) series x;
-  const pair h = {same(speed->step[0].high), same(speed->step[0].low)};
+  const pair h = {broadcast(speed->step[0].high), broadcast(speed->step[0].low)};
   for (int64_t step = 0; step < periods * size.steps; step++) {
     const int32_t first = (int32_t)(step % size.steps) * speed->order;
     EACH {
@@ -108,10 +109,10 @@ static void follow(const kz_speed_class *speed, shape size, int64_t periods, pla
     for (int n = 0; n + 1 < size.pairs; n++) next_fine(speed, first, &x, n);
     for (int n = size.pairs - 1; n + 1 < size.order; n++) next_coarse(speed, first, &x, n);
     EACH {
-      at->theta[p] = add(add(at->theta[p], multiply(at->w[p], h)), sum_of(speed, size, &x.w, p, true));
-      at->w[p] = add(at->w[p], sum_of(speed, size, &x.w, p, false));
-      at->s[p] = add(at->s[p], sum_of(speed, size, &x.s, p, false));
-      at->c[p] = add(at->c[p], sum_of(speed, size, &x.c, p, false));
+      at->theta[p] = add_pairs(add_pairs(at->theta[p], multiply_pairs(at->w[p], h)), sum_of(speed, size, &x.w, p, true));
+      at->w[p] = add_pairs(at->w[p], sum_of(speed, size, &x.w, p, false));
+      at->s[p] = add_pairs(at->s[p], sum_of(speed, size, &x.s, p, false));
+      at->c[p] = add_pairs(at->c[p], sum_of(speed, size, &x.c, p, false));
     }
   }
 }
@@ -182,14 +183,14 @@ static double error_of(const kz_speed_class *speed, shape size, const probes *p)
 
 /* The constants of so many steps; NULL: no memory. */
 static kz_speed_class *steps_of(const kz_pendulum *pendulum, int n) {
-  kz_speed_class *made = calloc(1, sizeof *made + 2 * (size_t)(n * MOST) * sizeof *made->along);
-  if (!made) return NULL;
-  made->across = made->along + n * MOST;
-  made->has_across = pendulum->unmirrored;
-  made->n_steps = n;
-  made->order = MOST;
-  kz_speed_class_set_constants(pendulum, made);
-  return made;
+  kz_speed_class *created = calloc(1, sizeof *created + 2 * (size_t)(n * MOST) * sizeof *created->along);
+  if (!created) return NULL;
+  created->across = created->along + n * MOST;
+  created->has_across = pendulum->unmirrored;
+  created->n_steps = n;
+  created->order = MOST;
+  kz_speed_class_set_constants(pendulum, created);
+  return created;
 }
 
 static double now(void) {

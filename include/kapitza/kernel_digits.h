@@ -16,10 +16,10 @@ __float128 kz_coordinate_difference(const kz_coordinate *a, const kz_coordinate 
 
 /* The neighbourhood of an orbit: the coefficients of x, y (linear) and of xx, xy, yy, xxx, xxy, xyy, yyy (bent), for the angle [0] and the
  * velocity [1]. `linear` is right to 33 digits, or to 17 if only the first degree is carried; `bent` is right to 17. */
-enum { KZ_BENT = 7 };
+enum { KZ_HIGHER_TERMS = 7 };
 typedef struct {
   __float128 linear[2][2];
-  long double bent[2][KZ_BENT];
+  long double higher_terms[2][KZ_HIGHER_TERMS];
 } kz_jet;
 
 /* A state in many digits. Opaque; free with kz_arbitrary_free. It has at most `bits` bits behind the point, to which the start is rounded. */

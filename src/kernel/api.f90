@@ -64,14 +64,14 @@ contains
     if (associated(flows)) deallocate (flows)
   end subroutine flow_free
 
-  subroutine advance(handle, n, periods, theta, velocity, turns) bind(C, name='kz_advance')
+  subroutine advance_states(handle, n, periods, theta, velocity, turns) bind(C, name='kz_advance')
     type(c_ptr), value :: handle
     integer(c_int64_t), value :: n, periods
     real(c_double), intent(inout) :: theta(n), velocity(n)
     integer(c_int64_t), intent(inout) :: turns(n)
 
     call advance_batches(handle, n, periods, theta, velocity, turns)
-  end subroutine advance
+  end subroutine advance_states
 
   subroutine advance_tangent(handle, n, periods, theta, velocity, turns, matrix) bind(C, name='kz_advance_tangent')
     type(c_ptr), value :: handle
@@ -117,7 +117,7 @@ contains
     end do
   end subroutine advance_batches
 
-  subroutine sample(handle, periods, samples, theta, velocity, theta_out, velocity_out) bind(C, name='kz_sample')
+  subroutine sample_motion(handle, periods, samples, theta, velocity, theta_out, velocity_out) bind(C, name='kz_sample')
     type(c_ptr), value :: handle
     integer(c_int64_t), value :: periods, samples
     real(c_double), value :: theta, velocity
@@ -140,6 +140,6 @@ contains
       theta_out(first:last) = (u(:, 1) + 2*turns)*PI
       velocity_out(first:last) = v(:, 1)
     end do
-  end subroutine sample
+  end subroutine sample_motion
 
 end module kz_kernel_api

@@ -9,7 +9,7 @@ module kz_kernel_flows
   use kz_model_release, only: stretch_t
   use kz_vector_step_table, only: numerics_t, period_t, make_period
   use kz_processed_batch, only: make_processed_batch
-  use kz_processed_slider, only: make_slid_series
+  use kz_processed_series_interpolation, only: interpolate_series
   use kz_splitting_batch, only: make_batch
   implicit none
   private
@@ -45,14 +45,14 @@ contains
 
   !> The map of one drive period. Fused steps (the last entry of a step merged with the first of the next) are faster; sampling
   !> within the period needs separate ones. (A subroutine: gfortran 12 does not free what a polymorphic function returns.)
-  recursive subroutine make_flow(pendulum, numerics, fused, flow, slid, refined, fallback)
+  recursive subroutine make_flow(pendulum, numerics, fused, flow, interpolation_error, refined, fallback)
     type(pendulum_t), intent(in) :: pendulum !< k, beta, m
     type(numerics_t), intent(in) :: numerics !< scheme, steps a period
     !> whether neighbouring entries of neighbouring steps are merged: faster, but no sampling within the period
     logical, intent(in) :: fused
     class(flow_t), allocatable, intent(out) :: flow !< the map of one drive period
     !> rad, where a slider moves the pendulum: its series is interpolated from those of the pendulums before to this error; 0 = it is made
-    real(c_double), intent(in), optional :: slid
+    real(c_double), intent(in), optional :: interpolation_error
     integer, intent(in), optional :: refined !< steps of the flow for fast lanes, in those of fine_numerics; 1, if left out
     class(flow_t), intent(in), optional :: fallback !< that flow, if it is known: fine_numerics, not fused
     type(period_t) :: period
@@ -65,14 +65,14 @@ contains
       return
     end if
     error = 0
-    if (present(slid)) error = slid
+    if (present(interpolation_error)) error = interpolation_error
     allocate (series)
     if (error > 0) then
-      call make_slid_series(pendulum, error, numerics%series, series)
+      call interpolate_series(pendulum, error, numerics%series, series)
     else
       call make_processed_series(pendulum, numerics%series, series)
     end if
-    call make_processed_flow(pendulum, series, numerics, flow, refined=refined, known=fallback)
+    call make_processed_flow(pendulum, series, numerics, flow, refined=refined, made_fallback=fallback)
   end subroutine make_flow
 
   !> The map of a stretch, by fine steps of split6.
@@ -91,14 +91,14 @@ contains
   end subroutine make_stretch_flow
 
   !> The processed splitting from its series. numerics%fastest = huge: no other flow for fast lanes.
-  recursive subroutine make_processed_flow(pendulum, series, numerics, flow, fitted, refined, known)
+  recursive subroutine make_processed_flow(pendulum, series, numerics, flow, fitted, refined, made_fallback)
     type(pendulum_t), intent(in) :: pendulum !< k, beta, m
     type(series_t), intent(in) :: series !< the series of the pendulum
     type(numerics_t), intent(in) :: numerics !< scheme, steps a period
     class(flow_t), allocatable, intent(out) :: flow !< the map of one drive period
     real(c_double), intent(in), optional :: fitted !< the drift is fitted up to this speed; the fastest, if left out
     integer, intent(in), optional :: refined !< steps of the flow for fast lanes, in those of fine_numerics; 1, if left out
-    class(flow_t), intent(in), optional :: known !< that flow, if it is made already
+    class(flow_t), intent(in), optional :: made_fallback !< that flow, if it is made already
     type(numerics_t) :: fine
     type(processed_t) :: table
     class(flow_t), allocatable :: fallback
@@ -112,8 +112,8 @@ contains
     fastest = merge(numerics%fastest, 3.0_c_double, numerics%fastest > 0)
     fit = fastest
     if (present(fitted)) fit = fitted
-    if (present(known)) then
-      allocate (fallback, source=known)
+    if (present(made_fallback)) then
+      allocate (fallback, source=made_fallback)
     else if (fastest < huge(fastest)) then
       fine = fine_numerics(pendulum)
       if (present(refined)) fine%steps_per_period = refined*fine%steps_per_period

@@ -16,9 +16,9 @@ module kz_kernel_linear
   !> Terms of the series, and how far sqrt(|kappa| + |m|) times half a step may go: truncation below 1e-15, rounding
   !> amplified by exp(REACH) at most.
   integer, parameter :: ORDER = 22
-  real(rk), parameter :: REACH = 1.2_rk
+  real(rk), parameter :: MAX_PHASE = 1.2_rk
   !> Numbers beyond 2**LIFT_BITS are scaled down by it.
-  integer, parameter :: LIFT_BITS = 400
+  integer, parameter :: SCALE_BITS = 400
 
   !> w(pi) = c, s and w'(pi) = c_dot, s_dot of the solutions with (w, w') = (1, 0), (0, 1) at t = 0, in units of 2**exponent. Over a whole period of
   !> an even drive trace/2 = 2 c s_dot - 1 = 2 s c_dot + 1.
@@ -30,7 +30,7 @@ module kz_kernel_linear
   !> The two solutions at the current time in units of 2**(LIFT_BITS lifts); derivatives are per half step.
   type :: solutions_t
     real(rk) :: w(WIDTH, 2), w_dot(WIDTH, 2)
-    integer(c_int64_t) :: lifts(WIDTH)
+    integer(c_int64_t) :: scalings(WIDTH)
   end type solutions_t
 
 contains
@@ -84,26 +84,26 @@ contains
       call half_periods(reversed, n, k, beta, m, back)
     end if
     do j = 1, n
-      call classify(half(j), back(j), beta(j), rounding_of(k(j), beta(j), m(j)), log_multiplier(j), angle(j), stable(j))
+      call classify_point(half(j), back(j), beta(j), rounding_of(k(j), beta(j), m(j)), log_multiplier(j), angle(j), stable(j))
     end do
   end subroutine floquet
 
   !> Multiplier, angle and stability of one point, from the halves of its period; `back` is the second half, run backwards in time. With growth
   !> mu of w per period: trace/2 = cosh(mu) or -cosh(mu), thus sinh(mu/2)**2 = plus or minus; between the tongues sin(pi angle)**2 = -plus. A
   !> product of rounding errors alone is on the edge, as at k = n**2/4, m = 0.
-  pure subroutine classify(half, back, beta, rounding, log_multiplier, angle, stable)
+  pure subroutine classify_point(half, back, beta, rounding, log_multiplier, angle, stable)
     type(half_period_t), intent(in) :: half, back
     real(rk), intent(in) :: beta, rounding
     real(rk), intent(out) :: log_multiplier, angle
     integer(c_int8_t), intent(out) :: stable
-    real(rk) :: plus, minus, growth, there(4), here(4)
+    real(rk) :: plus, minus, growth, first_half(4), second_half(4)
     integer(c_int64_t) :: exponent
 
     exponent = max(half%exponent, back%exponent)
-    there = in_units_of(half, exponent)
-    here = in_units_of(back, exponent)*[1, -1, -1, 1] ! the inverse of the second half
-    plus = beyond(minus_determinant(0.5_rk*(there - here)), rounding) ! (trace - 2)/4
-    minus = beyond(minus_determinant(0.5_rk*(there + here)), rounding) ! -(trace + 2)/4
+    first_half = in_units_of(half, exponent)
+    second_half = in_units_of(back, exponent)*[1, -1, -1, 1] ! the inverse of the second half
+    plus = above_rounding(minus_determinant(0.5_rk*(first_half - second_half)), rounding) ! (trace - 2)/4
+    minus = above_rounding(minus_determinant(0.5_rk*(first_half + second_half)), rounding) ! -(trace + 2)/4
     if (plus >= 0) then
       growth = growth_of(plus, exponent)
       angle = 0
@@ -116,7 +116,7 @@ contains
     end if
     log_multiplier = growth - PI*beta
     stable = merge(1_c_int8_t, 0_c_int8_t, log_multiplier < 0 .or. (beta <= 0 .and. plus < 0 .and. minus < 0))
-  end subroutine classify
+  end subroutine classify_point
 
   pure function in_units_of(half, exponent) result(numbers)
     type(half_period_t), intent(in) :: half
@@ -140,11 +140,11 @@ contains
   end function rounding_of
 
   !> The product, or 0 where it is below its rounding error.
-  pure real(rk) function beyond(product, rounding) result(sure)
+  pure real(rk) function above_rounding(product, rounding) result(sure)
     real(rk), intent(in) :: product, rounding
 
     sure = merge(product, 0.0_rk, abs(product) > rounding)
-  end function beyond
+  end function above_rounding
 
   !> mu with sinh(mu/2)**2 = square 4**exponent.
   pure real(rk) function growth_of(square, exponent) result(growth)
@@ -172,18 +172,18 @@ contains
     drive = 0
     kappa(:lanes) = k(:lanes) - 0.25_rk*beta(:lanes)**2
     drive(:lanes) = m(:lanes)
-    n_steps = max(3*highest_harmonic(wave), ceiling(PI*sqrt(maxval(abs(kappa) + stiffness(wave)*abs(drive)))/(2*REACH)))
+    n_steps = max(3*highest_harmonic(wave), ceiling(PI*sqrt(maxval(abs(kappa) + stiffness(wave)*abs(drive)))/(2*MAX_PHASE)))
     h = PI/(2*n_steps)
     y%w = spread([1.0_rk, 0.0_rk], 1, WIDTH)
     y%w_dot = spread([0.0_rk, h], 1, WIDTH)
-    y%lifts = 0
+    y%scalings = 0
     terms = series_terms(highest_harmonic(wave)*h)
     do i = 1, n_steps
       call force_series(wave, (2*i - 1)*h, h, -1.0_rk, series, across)
-      call step(y, -h*h*kappa, h*h*drive, series, terms)
+      call advance_step(y, -h*h*kappa, h*h*drive, series, terms)
     end do
     do i = 1, lanes
-      half(i) = half_period_t(y%w(i, 1), y%w(i, 2), y%w_dot(i, 1)/h, y%w_dot(i, 2)/h, LIFT_BITS*y%lifts(i))
+      half(i) = half_period_t(y%w(i, 1), y%w(i, 2), y%w_dot(i, 1)/h, y%w_dot(i, 2)/h, SCALE_BITS*y%scalings(i))
     end do
   end subroutine half_batch
 
@@ -201,26 +201,26 @@ contains
 
   !> A step of two units of x about its middle: with the middle's two solutions A, B the states at its ends are
   !> W(x) = (A, B; A', B') times the middle's, det W = 1.
-  subroutine step(y, kappa, drive, wave, terms)
+  subroutine advance_step(y, kappa, drive, wave, terms)
     type(solutions_t), intent(inout) :: y
     real(rk), intent(in) :: kappa(WIDTH), drive(WIDTH), wave(0:ORDER + 3)
     integer, intent(in) :: terms
-    real(rk), dimension(WIDTH) :: a_even, a_odd, da_even, da_odd, b_even, b_odd, db_even, db_odd, at, slope
+    real(rk), dimension(WIDTH) :: a_even, a_odd, da_even, da_odd, b_even, b_odd, db_even, db_odd, middle, middle_rate
     integer :: j
 
-    call series_sums(1, kappa, drive, wave, terms, a_even, a_odd, da_even, da_odd)
-    call series_sums(2, kappa, drive, wave, terms, b_even, b_odd, db_even, db_odd)
+    call sum_series(1, kappa, drive, wave, terms, a_even, a_odd, da_even, da_odd)
+    call sum_series(2, kappa, drive, wave, terms, b_even, b_odd, db_even, db_odd)
     do j = 1, 2
-      at = (db_odd - db_even)*y%w(:, j) - (b_even - b_odd)*y%w_dot(:, j)
-      slope = (a_even - a_odd)*y%w_dot(:, j) - (da_odd - da_even)*y%w(:, j)
-      y%w(:, j) = (a_even + a_odd)*at + (b_even + b_odd)*slope
-      y%w_dot(:, j) = (da_odd + da_even)*at + (db_odd + db_even)*slope
+      middle = (db_odd - db_even)*y%w(:, j) - (b_even - b_odd)*y%w_dot(:, j)
+      middle_rate = (a_even - a_odd)*y%w_dot(:, j) - (da_odd - da_even)*y%w(:, j)
+      y%w(:, j) = (a_even + a_odd)*middle + (b_even + b_odd)*middle_rate
+      y%w_dot(:, j) = (da_odd + da_even)*middle + (db_odd + db_even)*middle_rate
     end do
-    call lift(y)
-  end subroutine step
+    call scale_down(y)
+  end subroutine advance_step
 
   !> The solution with first coefficients (1, 0) or (0, 1): sums of its even and odd terms at x = 1 and of their derivatives.
-  subroutine series_sums(which, kappa, drive, wave, terms, even, odd, d_even, d_odd)
+  subroutine sum_series(which, kappa, drive, wave, terms, even, odd, d_even, d_odd)
     integer, intent(in) :: which
     real(rk), intent(in) :: kappa(WIDTH), drive(WIDTH), wave(0:ORDER + 3)
     integer, intent(in) :: terms
@@ -249,22 +249,22 @@ contains
       odd = odd + a(:, n + 1)
       d_odd = d_odd + (n + 1)*a(:, n + 1)
     end do
-  end subroutine series_sums
+  end subroutine sum_series
 
   !> Scales lanes down before they overflow.
-  subroutine lift(y)
+  subroutine scale_down(y)
     type(solutions_t), intent(inout) :: y
     real(rk) :: large(WIDTH), scale(WIDTH)
     integer :: j
 
     large = max(maxval(abs(y%w), 2), maxval(abs(y%w_dot), 2))
-    if (all(large < 2.0_rk**LIFT_BITS)) return
-    scale = merge(2.0_rk**(-LIFT_BITS), 1.0_rk, large >= 2.0_rk**LIFT_BITS)
+    if (all(large < 2.0_rk**SCALE_BITS)) return
+    scale = merge(2.0_rk**(-SCALE_BITS), 1.0_rk, large >= 2.0_rk**SCALE_BITS)
     do j = 1, 2
       y%w(:, j) = y%w(:, j)*scale
       y%w_dot(:, j) = y%w_dot(:, j)*scale
     end do
-    y%lifts = y%lifts + merge(1, 0, large >= 2.0_rk**LIFT_BITS)
-  end subroutine lift
+    y%scalings = y%scalings + merge(1, 0, large >= 2.0_rk**SCALE_BITS)
+  end subroutine scale_down
 
 end module kz_kernel_linear

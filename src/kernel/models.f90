@@ -50,7 +50,7 @@ contains
     velocity_out(0) = x(2)
     do s = 1, periods*samples
       part = int(mod(s - 1, samples))
-      call advance(model, part*stride, (part + 1)*stride, x)
+      call advance_model(model, part*stride, (part + 1)*stride, x)
       theta_out(s) = x(1)
       velocity_out(s) = x(2)
     end do
@@ -80,7 +80,7 @@ contains
   end subroutine make_model
 
   !> x = (theta, velocity) from the end of step `from` to the end of step `to` of a period.
-  subroutine advance(model, from, to, x)
+  subroutine advance_model(model, from, to, x)
     type(model_t), intent(in) :: model
     integer, intent(in) :: from, to
     real(c_double), intent(inout) :: x(2)
@@ -90,17 +90,17 @@ contains
     if (from > 0) first = model%period%step_end(from) + 1
     do s = first, model%period%step_end(to)
       x(1) = x(1) + model%period%drift(s)*x(2)
-      x(2) = model%period%decay(s)*x(2) - model%period%kick(s)*restoring(model, x(1))
+      x(2) = model%period%decay(s)*x(2) - model%period%kick(s)*restoring_force(model, x(1))
     end do
-  end subroutine advance
+  end subroutine advance_model
 
-  pure real(c_double) function restoring(model, theta) result(force)
+  pure real(c_double) function restoring_force(model, theta) result(force)
     type(model_t), intent(in) :: model
     real(c_double), intent(in) :: theta
 
     force = theta
     if (model%code == EFFECTIVE) &
       force = sin(theta)*slow_pull(model%pendulum%k, model%pendulum%beta, model%pendulum%m, cos(theta))
-  end function restoring
+  end function restoring_force
 
 end module kz_kernel_models

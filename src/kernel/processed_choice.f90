@@ -5,7 +5,7 @@ module kz_kernel_processed_choice
   use, intrinsic :: ieee_exceptions, only: ieee_set_halting_mode, ieee_set_flag, ieee_usual
   use kz_vector_map, only: flow_t, WIDTH, PI
   use kz_kernel_flows, only: make_processed_flow
-  use kz_vector_step_search, only: trial_t, search_steps
+  use kz_vector_step_search, only: integrator_t, search_steps
   use kz_processed_tables, only: series_t, make_processed_series, MOST_DRIFTS, MOST_KICKS, MOST_DAMPING, ORDER
   use kz_vector_schemes, only: PROCESSED_ROW
   use kz_model_pendulum, only: pendulum_t, stiffness
@@ -25,30 +25,30 @@ module kz_kernel_processed_choice
   integer, parameter :: OTHER_OPERATIONS = 6
   !> No number of steps up to MOST_STEPS carries more than these: rad that a step turns the pendulum at most, and rad of its fastest
   !> oscillation in a step. Measured: errors of 1e-6 rad a period end at 0.7 and 0.22; of 1e-3 at 2 and 0.4.
-  real(c_double), parameter :: LONGEST_TURN = 3.2_c_double, LONGEST_SWING = 0.8_c_double
+  real(c_double), parameter :: MAX_STEP_ANGLE = 3.2_c_double, MAX_STEP_PHASE = 0.8_c_double
   !> Probes: states with speeds up to the fastest, both ends included, and how much more than their largest error is assumed.
   integer, parameter :: N_PROBES = 2*WIDTH
   real(c_double), parameter :: MARGIN = 1.5_c_double
 
   !> The splitting of a pendulum with so many terms.
-  type, extends(trial_t) :: splitting_t
+  type, extends(integrator_t) :: splitting_t
     type(pendulum_t) :: pendulum
     type(series_t), allocatable :: series
     type(probes_t) :: probes
     type(numerics_t) :: numerics
   contains
-    procedure :: measure => measure_splitting
+    procedure :: measure_error => measure_splitting
   end type splitting_t
 
 contains
 
   !> kz_numerics_choose of kernel.h.
-  integer(c_int32_t) function choose(pendulum, tolerance, fastest, numerics, error) bind(C, name='kz_numerics_choose') result(status)
+  integer(c_int32_t) function choose_numerics(pendulum, tolerance, fastest, numerics, error) bind(C, name='kz_numerics_choose') result(status)
     type(pendulum_t), intent(in) :: pendulum
     real(c_double), value :: tolerance, fastest
     type(numerics_t), intent(inout) :: numerics
     real(c_double), intent(out) :: error
-    type(splitting_t) :: trial
+    type(splitting_t) :: integrator
     type(drive_t) :: drive
     integer :: given, i
 
@@ -56,22 +56,22 @@ contains
     error = huge(error)
     if (pendulum%beta > MOST_DAMPING .or. out_of_reach(pendulum, fastest)) return
     call ieee_set_halting_mode(ieee_usual, .false.) ! too few steps may overflow: that is what is measured; until this procedure returns
-    trial%order = ORDER
-    trial%pendulum = pendulum
-    allocate (trial%series)
-    call make_processed_series(pendulum, numerics%series, trial%series)
+    integrator%order = ORDER
+    integrator%pendulum = pendulum
+    allocate (integrator%series)
+    call make_processed_series(pendulum, numerics%series, integrator%series)
     call make_drive(drive, pendulum, ROUGH_STEPS, rough=.true.)
-    call make_probes(drive, [(fastest*(i - 1)/(N_PROBES - 1), i=1, N_PROBES)], trial%probes)
+    call make_probes(drive, [(fastest*(i - 1)/(N_PROBES - 1), i=1, N_PROBES)], integrator%probes)
     numerics%scheme = PROCESSED_ROW
     numerics%fastest = fastest
     numerics%drift_terms = MOST_DRIFTS
     numerics%kick_terms = MOST_KICKS
-    trial%numerics = numerics
+    integrator%numerics = numerics
     given = numerics%steps_per_period
-    call choose_terms(trial, tolerance, merge(given, FEWEST_STEPS, given > 0), merge(given, MOST_STEPS, given > 0), numerics, error)
+    call choose_terms(integrator, tolerance, merge(given, FEWEST_STEPS, given > 0), merge(given, MOST_STEPS, given > 0), numerics, error)
     if (given > 0 .or. error <= tolerance) status = OK
     call ieee_set_flag(ieee_usual, .false.)
-  end function choose
+  end function choose_numerics
 
   !> Whether a pendulum is too stiff, or a motion too fast, for any number of steps; numbers that are none are.
   pure logical function out_of_reach(pendulum, fastest) result(out)
@@ -79,30 +79,30 @@ contains
     real(c_double), intent(in) :: fastest
     real(c_double), parameter :: STEP = 2*PI/MOST_STEPS
 
-    out = .not. (STEP*fastest <= LONGEST_TURN .and. STEP*sqrt(stiffness(pendulum)) <= LONGEST_SWING)
+    out = .not. (STEP*fastest <= MAX_STEP_ANGLE .and. STEP*sqrt(stiffness(pendulum)) <= MAX_STEP_PHASE)
   end function out_of_reach
 
   !> The largest error of one period of n steps, rad.
-  real(c_double) function measure_splitting(trial, n) result(error)
-    class(splitting_t), intent(inout) :: trial
+  real(c_double) function measure_splitting(integrator, n) result(error)
+    class(splitting_t), intent(inout) :: integrator
     integer, intent(in) :: n
     class(flow_t), allocatable :: flow
     type(numerics_t) :: unbounded
     real(c_double) :: distance
     integer :: first, lane
 
-    trial%numerics%steps_per_period = int(n, c_int32_t)
-    unbounded = trial%numerics
+    integrator%numerics%steps_per_period = int(n, c_int32_t)
+    unbounded = integrator%numerics
     unbounded%fastest = huge(unbounded%fastest)
-    call make_processed_flow(trial%pendulum, trial%series, unbounded, flow, trial%numerics%fastest)
+    call make_processed_flow(integrator%pendulum, integrator%series, unbounded, flow, integrator%numerics%fastest)
     error = 0
     do first = 0, N_PROBES - WIDTH, WIDTH
-      call flow%put_all(real(trial%probes%start(1, first + 1:first + WIDTH), c_double), &
-                        real(trial%probes%start(2, first + 1:first + WIDTH), c_double))
+      call flow%put_all(real(integrator%probes%start(1, first + 1:first + WIDTH), c_double), &
+                        real(integrator%probes%start(2, first + 1:first + WIDTH), c_double))
       call flow%advance_physical(WIDTH)
       do lane = 1, WIDTH
-        distance = hypot(PI*(modulo(flow%u(lane) - real(trial%probes%image(1, first + lane), c_double) + 1, 2.0_c_double) - 1), &
-                         flow%v(lane) - real(trial%probes%image(2, first + lane), c_double))
+        distance = hypot(PI*(modulo(flow%u(lane) - real(integrator%probes%image(1, first + lane), c_double) + 1, 2.0_c_double) - 1), &
+                         flow%v(lane) - real(integrator%probes%image(2, first + lane), c_double))
         if (.not. distance <= error) error = distance ! NaN too
       end do
     end do
@@ -113,28 +113,28 @@ contains
   !> For each number of terms the fewest steps from `fewest` on that reach the tolerance; of these the cheapest. The first, with all terms, gives
   !> the fewest steps that the method can take. A number of steps that is given (`fewest` = `most`) takes as few terms as cost no accuracy that the
   !> tolerance asks for, or that the steps have.
-  subroutine choose_terms(trial, tolerance, fewest, most, numerics, error)
-    type(splitting_t), intent(inout) :: trial
+  subroutine choose_terms(integrator, tolerance, fewest, most, numerics, error)
+    type(splitting_t), intent(inout) :: integrator
     real(c_double), intent(in) :: tolerance
     integer, intent(in) :: fewest, most
     type(numerics_t), intent(out) :: numerics
     real(c_double), intent(out) :: error
-    real(c_double) :: candidate_error, enough
+    real(c_double) :: candidate_error, accepted
     integer :: first, last, drifts, kicks, steps
 
-    call search_steps(trial, tolerance, fewest, most, first, error)
-    numerics = trial%numerics
+    call search_steps(integrator, tolerance, fewest, most, first, error)
+    numerics = integrator%numerics
     last = merge(most, huge(most), fewest == most)
-    enough = merge(max(tolerance, 1.2_c_double*error), tolerance, fewest == most)
-    if (error > enough) return
+    accepted = merge(max(tolerance, 1.2_c_double*error), tolerance, fewest == most)
+    if (error > accepted) return
     do drifts = MOST_DRIFTS, 1, -1
       do kicks = MOST_KICKS, FEWEST_KICKS, -1
-        trial%numerics%drift_terms = drifts
-        trial%numerics%kick_terms = kicks
-        if (cheaper_steps(numerics, trial%numerics) < first) cycle
-        call search_steps(trial, enough, first, min(last, cheaper_steps(numerics, trial%numerics)), steps, candidate_error)
-        if (candidate_error > enough) exit
-        numerics = trial%numerics
+        integrator%numerics%drift_terms = drifts
+        integrator%numerics%kick_terms = kicks
+        if (cheaper_steps(numerics, integrator%numerics) < first) cycle
+        call search_steps(integrator, accepted, first, min(last, cheaper_steps(numerics, integrator%numerics)), steps, candidate_error)
+        if (candidate_error > accepted) exit
+        numerics = integrator%numerics
         error = candidate_error
       end do
     end do
@@ -144,13 +144,13 @@ contains
   pure integer function cheaper_steps(chosen, candidate) result(steps)
     type(numerics_t), intent(in) :: chosen, candidate
 
-    steps = (chosen%steps_per_period*operations(chosen) - 1)/operations(candidate)
+    steps = (chosen%steps_per_period*operations_per_step(chosen) - 1)/operations_per_step(candidate)
   end function cheaper_steps
 
-  pure integer function operations(numerics) result(n)
+  pure integer function operations_per_step(numerics) result(n)
     type(numerics_t), intent(in) :: numerics
 
     n = numerics%drift_terms + numerics%kick_terms + OTHER_OPERATIONS
-  end function operations
+  end function operations_per_step
 
 end module kz_kernel_processed_choice

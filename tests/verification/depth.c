@@ -163,12 +163,12 @@ TEST(deep_windows_are_curves) {
 TEST(folded_images_hand_nothing_over) {
   kz_image image[] = {{.jet = {.linear = {{1e-20, 0}, {0, 1e-20}}}},
                       {.jet = {.linear = {{1e-8, 0}, {0, 1e-8}}}},
-                      {.jet = {.linear = {{1e-9, 0}, {0, 1e-9}}, .bent = {{[3] = 1e-17}}}}};
+                      {.jet = {.linear = {{1e-9, 0}, {0, 1e-9}}, .higher_terms = {{[3] = 1e-17}}}}};
   const kz_images images = {.n = 2, .image = image};
   kz_hand_over hand_over[KZ_LEVELS];
   kz_hand_overs_make(&images, 0.5, hand_over);
   assert_int_equal(hand_over[0].periods, 2);
-  image[2].jet.bent[0][0] = 1e-6L;
+  image[2].jet.higher_terms[0][0] = 1e-6L;
   kz_hand_overs_make(&images, 0.5, hand_over);
   assert_int_equal(hand_over[0].periods, 1);
 }

@@ -92,23 +92,23 @@ contains
   end function create
 
   !> Makes the maps of a pendulum, without attractors and regions.
-  function make_dynamics(pendulum, numerics, max_period, slid) result(d)
+  function make_dynamics(pendulum, numerics, max_period, interpolation_error) result(d)
     type(pendulum_t), intent(in) :: pendulum !< k, beta, m
     type(numerics_t), intent(in) :: numerics !< of the map that labels
     integer, intent(in) :: max_period !< of the cycles that a search looks for
-    real(dp), intent(in) :: slid !< rad: the error that a period may have, beside that of its steps, where a slider moves the pendulum; 0 = none does
+    real(dp), intent(in) :: interpolation_error !< rad: the error that a period may have, beside that of its steps, where a slider moves the pendulum; 0 = none does
     type(dynamics_t), pointer :: d
     type(numerics_t) :: fine
     logical :: moving
 
-    moving = slid > 0
+    moving = interpolation_error > 0
     allocate (d)
     d%lock = create_lock()
     d%levels%pendulum = pendulum
     d%levels%numerics = numerics
     fine = fine_numerics(pendulum)
     call make_flow(pendulum, fine, .false., d%search%sampling_flow)
-    call make_flow(pendulum, numerics, .true., d%flow, slid=slid/2, fallback=d%search%sampling_flow)
+    call make_flow(pendulum, numerics, .true., d%flow, interpolation_error=interpolation_error/2, fallback=d%search%sampling_flow)
     d%search%pendulum = pendulum
     d%search%max_period = max_period
     allocate (d%search%flow, source=d%flow)

@@ -133,10 +133,10 @@ static void add_harmonic(const kz_steps *steps, int64_t j, const double cosine[2
   }
   kz_number_multiply_by(&odd, j, bits);
   for (int64_t n = 0; n <= steps->force_orders; n++) {
-    kz_number *now = derivative[n % 2];
-    kz_number_multiply(&part, steps->scale + n, now, bits);
+    kz_number *current = derivative[n % 2];
+    kz_number_multiply(&part, steps->scale + n, current, bits);
     kz_number_add(series + n, series + n, &part, bits);
-    kz_number_multiply_by(now, -j * j, bits);
+    kz_number_multiply_by(current, -j * j, bits);
   }
 }
 
@@ -171,14 +171,14 @@ static void ramp_left(const kz_steps *steps, int64_t i, int64_t bits, kz_number 
 }
 
 /* series = final + (first - final) left. */
-static void on_ramp(double first, double final, const kz_number *left, int64_t bits, kz_number *series) {
-  KZ_NUMBER(end);
-  KZ_NUMBER(way);
-  kz_number_of_double(final, &end);
-  kz_number_of_double(first, &way);
-  kz_number_subtract(&way, &way, &end, bits);
-  for (int j = 0; j <= KZ_RAMP_POWER; j++) kz_number_multiply(series + j, &way, left + j, bits);
-  kz_number_add(series, series, &end, bits);
+static void interpolate_ramp(double first, double final, const kz_number *left, int64_t bits, kz_number *series) {
+  KZ_NUMBER(last);
+  KZ_NUMBER(change);
+  kz_number_of_double(final, &last);
+  kz_number_of_double(first, &change);
+  kz_number_subtract(&change, &change, &last, bits);
+  for (int j = 0; j <= KZ_RAMP_POWER; j++) kz_number_multiply(series + j, &change, left + j, bits);
+  kz_number_add(series, series, &last, bits);
 }
 
 /* series = series times a polynomial. */
@@ -195,9 +195,9 @@ static void put_on_ramp(kz_series *series, kz_steps *steps, int64_t i, int64_t b
   const kz_release *release = &steps->stretch->release;
   kz_number *const all = kz_numbers_make(2 * (KZ_RAMP_POWER + 1)), *const left = all, *const strength = all + KZ_RAMP_POWER + 1;
   ramp_left(steps, i, bits, left);
-  on_ramp(release->damping, steps->pendulum->beta, left, bits, steps->damping);
+  interpolate_ramp(release->damping, steps->pendulum->beta, left, bits, steps->damping);
   for (int j = 0; j <= KZ_RAMP_POWER; j++) kz_number_multiply(steps->damping + j, steps->damping + j, &steps->h, bits);
-  on_ramp(release->drive, 1, left, bits, strength);
+  interpolate_ramp(release->drive, 1, left, bits, strength);
   multiply_series(steps, strength, bits, series->along);
   if (steps->pendulum->unmirrored) multiply_series(steps, strength, bits, series->across);
   kz_numbers_free(all, 2 * (KZ_RAMP_POWER + 1));

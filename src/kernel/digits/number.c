@@ -46,7 +46,7 @@ void kz_number_sin_cos_of_turns(int64_t i, int64_t n, kz_number *sine, kz_number
 }
 
 /* The text is a decimal number, maybe with " deg" behind it. */
-static void parse(const char *text, kz_number *x, int64_t bits) {
+static void parse_number(const char *text, kz_number *x, int64_t bits) {
   const size_t length = strlen(text), tail = sizeof degrees - 1;
   const bool turned = length > tail && strcmp(text + length - tail, degrees) == 0;
   char *number = kz_strndup(text, turned ? length - tail : length);
@@ -80,7 +80,7 @@ void kz_number_of_quad(__float128 value, kz_number *x) {
 }
 
 /* x = (head [0] + head [1] + ...) 2^exponent with n heads, |sum| < 1. */
-static int64_t split(const kz_number *x, int n, double *head) {
+static int64_t split_number(const kz_number *x, int n, double *head) {
   arf_t rest, part;
   fmpz_t exponent;
   arf_init(rest);
@@ -100,18 +100,18 @@ static int64_t split(const kz_number *x, int n, double *head) {
 }
 
 /* Smaller numbers are 0 to quads and to long doubles. */
-enum { SMALLEST = -16500 };
+enum { MIN_EXPONENT = -16500 };
 
 __float128 kz_number_quad(const kz_number *x) {
   double head[3];
-  const int64_t exponent = split(x, 3, head);
-  return exponent < SMALLEST ? 0 : ldexpf128(((__float128)head[2] + head[1]) + head[0], (int)exponent);
+  const int64_t exponent = split_number(x, 3, head);
+  return exponent < MIN_EXPONENT ? 0 : ldexpf128(((__float128)head[2] + head[1]) + head[0], (int)exponent);
 }
 
 long double kz_number_long(const kz_number *x) {
   double head[2];
-  const int64_t exponent = split(x, 2, head);
-  return exponent < SMALLEST ? 0 : ldexpl((long double)head[1] + head[0], (int)exponent);
+  const int64_t exponent = split_number(x, 2, head);
+  return exponent < MIN_EXPONENT ? 0 : ldexpl((long double)head[1] + head[0], (int)exponent);
 }
 
 bool kz_number_write(const kz_number *x, char *text, size_t size) {
@@ -127,7 +127,7 @@ bool kz_number_read(const char *text, kz_number *x) {
 }
 
 /* So many digits in all. */
-static bool print(const kz_number *x, int64_t digits, char *text, size_t size) {
+static bool print_number(const kz_number *x, int64_t digits, char *text, size_t size) {
   char *whole = arb_get_str(x, digits, ARB_STR_NO_RADIUS);
   const bool fits = whole && strlen(whole) < size;
   if (fits) strcpy(text, whole);
@@ -142,11 +142,11 @@ void kz_number_of(const kz_coordinate *coordinate, kz_number *x, int64_t bits) {
   kz_number_of_double(coordinate->high, &part);
   kz_number_of_double(coordinate->low, &other);
   if (coordinate->centre)
-    parse(coordinate->centre, x, digits);
+    parse_number(coordinate->centre, x, digits);
   else
     kz_number_add(x, &part, &other, digits);
   if (coordinate->width && coordinate->share != 0) {
-    parse(coordinate->width, &part, digits);
+    parse_number(coordinate->width, &part, digits);
     kz_number_of_double(coordinate->share, &other);
     kz_number_multiply(&part, &part, &other, digits);
     kz_number_add(x, x, &part, digits);
@@ -168,6 +168,7 @@ kz_status kz_coordinate_text(const kz_coordinate *coordinate, int64_t digits, ch
   KZ_NUMBER(x);
   kz_number_of(coordinate, &x, bits);
   const int64_t exponent = kz_number_exponent(&x), before = exponent > 0 ? (int64_t)ceil((double)exponent * log10(2)) : 0;
-  return print(&x, digits + before, text, size) ? KZ_OK
-                                                : kz_fail(KZ_FAILED, "a number of %lld digits is too long", (long long)digits);
+  return print_number(&x, digits + before, text, size)
+             ? KZ_OK
+             : kz_fail(KZ_FAILED, "a number of %lld digits is too long", (long long)digits);
 }

@@ -1,7 +1,7 @@
 /* Taylor series of one step of the pendulum's equation (motion.inc) in any number of digits. */
 #include "step.h"
 
-int64_t kz_bits_left(int64_t bits, int64_t size) {
+int64_t kz_bits_needed(int64_t bits, int64_t size) {
   enum { FEWEST = 24, GUARD = 8 };
   const int64_t left = bits + size + GUARD;
   return left < FEWEST ? FEWEST : left > bits + GUARD ? bits + GUARD : left;
@@ -43,15 +43,15 @@ static int64_t end_series(kz_series *series, int64_t orders) {
   return orders;
 }
 
-int64_t kz_series_expand(kz_series *series, kz_steps *steps, int64_t i, const kz_place *place, int64_t bits) {
+int64_t kz_series_expand(kz_series *series, kz_steps *steps, int64_t i, const kz_orbit_state *state, int64_t bits) {
   const int64_t enough = -bits - 4;
   int64_t size[2] = {3, 3};
   kz_drive_expand(series, steps, i, bits + 8);
-  kz_number_multiply(series->w, &place->velocity, &steps->h, bits + 8);
-  kz_number_set(series->s, &place->sine);
-  kz_number_set(series->c, &place->cosine);
+  kz_number_multiply(series->w, &state->velocity, &steps->h, bits + 8);
+  kz_number_set(series->s, &state->sine);
+  kz_number_set(series->c, &state->cosine);
   for (int64_t n = 0; n < series->orders; n++) {
-    next_order(series, steps, kz_bits_left(bits, kz_larger(size[0], size[1])), n);
+    next_order(series, steps, kz_bits_needed(bits, kz_larger(size[0], size[1])), n);
     size[1] = size[0];
     size[0] = kz_larger(kz_number_exponent(series->w + n + 1),
                         kz_larger(kz_number_exponent(series->s + n + 1), kz_number_exponent(series->c + n + 1)));
@@ -61,13 +61,13 @@ int64_t kz_series_expand(kz_series *series, kz_steps *steps, int64_t i, const kz
 }
 
 /* The sum of coefficients first .. last, smallest first. */
-static void sum(const kz_number *series, int64_t first, int64_t last, int64_t bits, kz_number *x) {
+static void sum_coefficients(const kz_number *series, int64_t first, int64_t last, int64_t bits, kz_number *x) {
   kz_number_of_double(0, x);
   for (int64_t j = last; j >= first; j--) kz_number_add(x, x, series + j, bits);
 }
 
 /* The integral of a series over the step. */
-static void integral(const kz_number *series, int64_t last, int64_t bits, kz_number *x) {
+static void integrate_series(const kz_number *series, int64_t last, int64_t bits, kz_number *x) {
   KZ_NUMBER(part);
   kz_number_of_double(0, x);
   for (int64_t j = last; j >= 0; j--) {
@@ -77,18 +77,18 @@ static void integral(const kz_number *series, int64_t last, int64_t bits, kz_num
 }
 
 void kz_series_sum(const kz_series *series, const kz_steps *steps, int64_t orders, int64_t tangent_orders, int64_t bits,
-                   kz_place *place) {
+                   kz_orbit_state *state) {
   KZ_NUMBER(change);
-  integral(series->w, orders, bits + 8, &change);
-  kz_number_add(&place->theta, &place->theta, &change, bits + 8);
-  sum(series->w, 1, orders, bits + 8, &change);
+  integrate_series(series->w, orders, bits + 8, &change);
+  kz_number_add(&state->theta, &state->theta, &change, bits + 8);
+  sum_coefficients(series->w, 1, orders, bits + 8, &change);
   kz_number_divide(&change, &change, &steps->h, bits + 8);
-  kz_number_add(&place->velocity, &place->velocity, &change, bits + 8);
-  sum(series->s, 0, orders, bits + 8, &place->sine);
-  sum(series->c, 0, orders, bits + 8, &place->cosine);
-  for (int axis = 0; axis < place->columns && tangent_orders > 0; axis++) {
-    sum(series->angle[axis], 0, tangent_orders, place->tangent_bits, place->angle + axis);
-    sum(series->rate[axis], 0, tangent_orders, place->tangent_bits, &change);
-    kz_number_divide(place->rate + axis, &change, &steps->h, place->tangent_bits);
+  kz_number_add(&state->velocity, &state->velocity, &change, bits + 8);
+  sum_coefficients(series->s, 0, orders, bits + 8, &state->sine);
+  sum_coefficients(series->c, 0, orders, bits + 8, &state->cosine);
+  for (int axis = 0; axis < state->columns && tangent_orders > 0; axis++) {
+    sum_coefficients(series->angle[axis], 0, tangent_orders, state->tangent_bits, state->angle + axis);
+    sum_coefficients(series->rate[axis], 0, tangent_orders, state->tangent_bits, &change);
+    kz_number_divide(state->rate + axis, &change, &steps->h, state->tangent_bits);
   }
 }

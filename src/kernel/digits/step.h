@@ -4,7 +4,7 @@
 #include "number.h"
 
 /* Bits of the neighbourhood's first degree in a jet, and workspace for the series of its higher ones, which are long doubles. */
-enum { KZ_TANGENT_BITS = 118, KZ_BENT_ORDERS = 120 };
+enum { KZ_TANGENT_BITS = 118, KZ_LONG_ORDERS = 120 };
 
 /* Highest power of time in a ramp. */
 enum { KZ_RAMP_POWER = 3 };
@@ -47,7 +47,7 @@ typedef struct {
   int64_t strobe;              /* drive periods since the strobe at or before the release */
   int64_t turns;               /* net turns that were taken out of theta since the release */
   int columns;                 /* 2, or 1: of x alone */
-} kz_place;
+} kz_orbit_state;
 
 /* The stretch from a strobe on, 0 = from the release, to so many bits. */
 void kz_stretch_begin(kz_stretch *stretch, int64_t strobe, int64_t bits);
@@ -59,7 +59,7 @@ static inline int64_t kz_larger(int64_t a, int64_t b) {
 }
 
 /* Bits that the next coefficient takes, where the last ones were below 2^size. */
-int64_t kz_bits_left(int64_t bits, int64_t size);
+int64_t kz_bits_needed(int64_t bits, int64_t size);
 /* x gains coefficient n of a b, or loses it: of the drive's series only the orders that it has. */
 void kz_series_add_product(const kz_series *series, const kz_steps *steps, bool minus, const kz_number *a, const kz_number *b,
                            int64_t n, int64_t bits, kz_number *x);
@@ -70,14 +70,14 @@ void kz_steps_make(kz_steps *steps, int64_t orders, int64_t bits, int64_t n);
 /* The drive's series in step i of the stretch, and the damping on a ramp. */
 void kz_drive_expand(kz_series *series, kz_steps *steps, int64_t i, int64_t bits);
 /* The series of step i of the stretch, from `place`. Returns its last order, 0 where it does not converge. */
-int64_t kz_series_expand(kz_series *series, kz_steps *steps, int64_t i, const kz_place *place, int64_t bits);
+int64_t kz_series_expand(kz_series *series, kz_steps *steps, int64_t i, const kz_orbit_state *state, int64_t bits);
 /* The tangent's series, after those of the orbit; returns the last order, 0 where it does not converge. */
-int64_t kz_series_expand_tangent(kz_series *series, const kz_steps *steps, const kz_place *place);
+int64_t kz_series_expand_tangent(kz_series *series, const kz_steps *steps, const kz_orbit_state *state);
 /* Moves `place` to the end of the step; with its derivatives where tangent_orders > 0. */
 void kz_series_sum(const kz_series *series, const kz_steps *steps, int64_t orders, int64_t tangent_orders, int64_t bits,
-                   kz_place *place);
+                   kz_orbit_state *state);
 
 /* Moves the first degree alone, in long doubles, with the series of an orbit to so many orders; false where it does not converge. */
 bool kz_tangent_advance(const kz_series *series, const kz_steps *steps, int64_t orders, kz_jet *jet);
 /* Moves the higher degrees of a neighbourhood through the step. */
-void kz_bent_advance(const kz_series *series, const kz_steps *steps, int64_t tangent_orders, int columns, kz_jet *jet);
+void kz_higher_terms_advance(const kz_series *series, const kz_steps *steps, int64_t tangent_orders, int columns, kz_jet *jet);

@@ -6,7 +6,8 @@
 #include "sets.h"
 
 enum { GROUP = KZ_PARTS * LANES, MOST_CLASSES = 64, BATCH = 4096 };
-static const double SLOWEST = 0.7, FASTER = 1.3; /* rad per drive radian: of the first class; of one class after the other */
+static const double FIRST_SPEED = 0.7,
+                    SPEED_RATIO = 1.3; /* rad per drive radian: of the first class; of one class after the other */
 
 typedef struct {
   kz_sets sets[KZ_PARTS];
@@ -15,17 +16,18 @@ typedef struct {
 kz_status kz_enclosure_tables_create(const kz_pendulum *pendulum, int32_t precision, double fastest,
                                      kz_enclosure_tables **tables) {
   *tables = NULL;
-  kz_enclosure_tables *made = *tables = kz_calloc(1, sizeof *made + MOST_CLASSES * sizeof *made->classes);
-  made->precision = precision;
-  made->swing = 1.1 * fabs(pendulum->m) + 2 * fabs(pendulum->k) + 0.03;
-  if (!kz_is_sine(pendulum)) made->swing = 1.5 * kz_stiffness(pendulum) + 0.03;
-  for (double speed = fmin(SLOWEST, fastest); made->n_classes < MOST_CLASSES; speed = fmin(speed * FASTER, fastest)) {
+  kz_enclosure_tables *created = *tables = kz_calloc(1, sizeof *created + MOST_CLASSES * sizeof *created->classes);
+  created->precision = precision;
+  created->speed_margin = 1.1 * fabs(pendulum->m) + 2 * fabs(pendulum->k) + 0.03;
+  if (!kz_is_sine(pendulum)) created->speed_margin = 1.5 * kz_stiffness(pendulum) + 0.03;
+  for (double speed = fmin(FIRST_SPEED, fastest); created->n_classes < MOST_CLASSES;
+       speed = fmin(speed * SPEED_RATIO, fastest)) {
     kz_speed_class *next = kz_speed_class_create(pendulum, precision, speed, 0);
     if (!next) break;
-    made->classes[made->n_classes++] = next;
+    created->classes[created->n_classes++] = next;
     if (speed >= fastest) return KZ_OK;
   }
-  kz_enclosure_tables_free(made);
+  kz_enclosure_tables_free(created);
   *tables = NULL;
   return KZ_REFUSED;
 }
@@ -39,7 +41,7 @@ static void get_set(const kz_sets *x, int lane, kz_enclosure *set) {
   for (int i = 0; i < KZ_SET_NUMBERS; i++) ((double *)set)[i] = ((const vector *)x)[i][lane];
 }
 
-static void lose(kz_enclosure *set) {
+static void mark_lost(kz_enclosure *set) {
   set->reach[0] = set->reach[1] = INFINITY;
 }
 
@@ -82,10 +84,10 @@ static void advance_group(const kz_enclosure_tables *tables, const kz_speed_clas
 
 /* n <= GROUP sets [of]; idle lanes copy the first, and are lost. A set that is too fast stays as it is, and `of` names it afterwards; returns
  * how many these are. */
-static int advance_some(const kz_enclosure_tables *tables, const kz_speed_class *speed, kz_enclosure_frame frame, int n,
-                        int32_t *of, kz_enclosure *set) {
+static int advance_lanes(const kz_enclosure_tables *tables, const kz_speed_class *speed, kz_enclosure_frame frame, int n,
+                         int32_t *of, kz_enclosure *set) {
   group g = {0};
-  int again = 0;
+  int n_again = 0;
   for (int lane = 0; lane < GROUP; lane++) put_set(&set[of[lane < n ? lane : 0]], lane % LANES, &g.sets[lane / LANES]);
   for (int lane = n; lane < GROUP; lane++) g.sets[lane / LANES].lost[lane % LANES] = -1;
   advance_group(tables, speed, frame, &g);
@@ -93,47 +95,47 @@ static int advance_some(const kz_enclosure_tables *tables, const kz_speed_class 
     const kz_sets *x = &g.sets[lane / LANES];
     kz_enclosure *to = &set[of[lane]];
     if (x->too_fast[lane % LANES]) {
-      of[again++] = of[lane];
+      of[n_again++] = of[lane];
       continue;
     }
     get_set(x, lane % LANES, to);
-    if (x->lost[lane % LANES]) lose(to);
+    if (x->lost[lane % LANES]) mark_lost(to);
   }
-  return again;
+  return n_again;
 }
 
 /* Takes the whole turns out of a set whose angle is farther away than (B3) counts on. */
-static void bring_near(int32_t precision, kz_enclosure *set) {
+static void wrap_far_set(int32_t precision, kz_enclosure *set) {
   kz_sets x = {.lost = {0}};
   if (fabs(set->theta[0]) < 4 || is_lost(set)) return;
   for (int lane = 0; lane < LANES; lane++) put_set(set, lane, &x);
   arithmetic_of[precision].wrap(&x);
   get_set(&x, 0, set);
-  if (x.lost[0]) lose(set);
+  if (x.lost[0]) mark_lost(set);
 }
 
 /* n <= BATCH sets. */
 static void advance_batch(const kz_enclosure_tables *tables, kz_enclosure_frame frame, int32_t n, kz_enclosure *set) {
-  for (int32_t i = 0; i < n; i++) bring_near(tables->precision, &set[i]);
+  for (int32_t i = 0; i < n; i++) wrap_far_set(tables->precision, &set[i]);
   int32_t waiting[BATCH + GROUP], n_waiting = 0;
   int8_t first_class[BATCH];
   for (int32_t i = 0; i < n; i++) {
     int c = 0;
-    while (c + 1 < tables->n_classes && !(fabs(set[i].velocity[0]) + tables->swing <= tables->classes[c]->fastest)) c++;
+    while (c + 1 < tables->n_classes && !(fabs(set[i].velocity[0]) + tables->speed_margin <= tables->classes[c]->fastest)) c++;
     first_class[i] = (int8_t)c;
   }
   for (int32_t c = 0; c < tables->n_classes; c++) {
     for (int32_t i = 0; i < n; i++)
       if (first_class[i] == c && !is_lost(&set[i])) waiting[n_waiting++] = i;
-    int32_t again = 0;
+    int32_t n_again = 0;
     for (int32_t i = 0; i < n_waiting; i += GROUP) {
       int32_t *of = waiting + i;
-      const int left = advance_some(tables, tables->classes[c], frame, n_waiting - i < GROUP ? n_waiting - i : GROUP, of, set);
-      for (int j = 0; j < left; j++) waiting[again++] = of[j];
+      const int left = advance_lanes(tables, tables->classes[c], frame, n_waiting - i < GROUP ? n_waiting - i : GROUP, of, set);
+      for (int j = 0; j < left; j++) waiting[n_again++] = of[j];
     }
-    n_waiting = again;
+    n_waiting = n_again;
   }
-  for (int32_t i = 0; i < n_waiting; i++) lose(&set[waiting[i]]);
+  for (int32_t i = 0; i < n_waiting; i++) mark_lost(&set[waiting[i]]);
 }
 
 void kz_enclosures_advance(const kz_enclosure_tables *tables, kz_enclosure_frame frame, int64_t n, kz_enclosure *set) {

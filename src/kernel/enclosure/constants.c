@@ -5,7 +5,7 @@
 enum { BITS = 192 };
 
 /* Off by at most u of the number as a double, u^2 as a sum of two, 1.01 u^3 as one of three. */
-static kz_constant rounded(const kz_number *x) {
+static kz_constant round_constant(const kz_number *x) {
   double part[3];
   KZ_NUMBER(rest);
   KZ_NUMBER(first);
@@ -18,11 +18,11 @@ static kz_constant rounded(const kz_number *x) {
   return (kz_constant){part[0], part[1], part[2]};
 }
 
-static kz_constant times(const arb_t step, double factor) {
+static kz_constant scaled_constant(const arb_t step, double factor) {
   KZ_NUMBER(x);
   arb_set_d(&x, factor);
   arb_mul(&x, &x, step, BITS);
-  return rounded(&x);
+  return round_constant(&x);
 }
 
 /* The powers of s = 0 .. 1 in h a(t + h s), -h b(t + h s) and h times the torque, of all steps: the drive's series of any digits, which scale its powers. */
@@ -45,9 +45,9 @@ static void set_force(const kz_pendulum *pendulum, const arb_t h, kz_speed_class
   for (int64_t i = 0; i < speed->n_steps; i++) {
     kz_drive_expand(&series, &steps, i, BITS);
     for (int64_t n = 0; n < order; n++) {
-      speed->along[i * order + n] = rounded(series.along + n);
-      speed->across[i * order + n] = rounded(series.across + n);
-      speed->torque[i * order + n] = rounded(series.torque + n);
+      speed->along[i * order + n] = round_constant(series.along + n);
+      speed->across[i * order + n] = round_constant(series.across + n);
+      speed->torque[i * order + n] = round_constant(series.torque + n);
     }
   }
   kz_number_clear(&steps.gravity);
@@ -61,13 +61,13 @@ void kz_speed_class_set_constants(const kz_pendulum *pendulum, kz_speed_class *s
   arb_const_pi(&h, BITS);
   arb_mul_2exp_si(&h, &h, 1);
   arb_div_si(&h, &h, speed->n_steps, BITS);
-  speed->damping = times(&h, pendulum->beta);
+  speed->damping = scaled_constant(&h, pendulum->beta);
   for (int32_t n = 0; n < speed->order; n++) {
     arb_div_si(&x, &h, n + 1, BITS);
-    speed->step[n] = rounded(&x);
+    speed->step[n] = round_constant(&x);
     arb_set_si(&x, 1);
     arb_div_si(&x, &x, n + 1, BITS);
-    speed->inverse[n] = rounded(&x);
+    speed->inverse[n] = round_constant(&x);
   }
   set_force(pendulum, &h, speed);
 }

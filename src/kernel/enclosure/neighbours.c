@@ -7,35 +7,35 @@
  * jacobian_error bounds |dz_i/dz0_j - (i == j)| of z as a function of its start, as long as the frame is not renewed. */
 #include "operations.h"
 
-static const double LARGEST = 1e6;   /* of the reach of a set that is followed */
-static const double LEAST = 1e-250;  /* of the determinant of its matrix */
-static const double FLATTEST = 0.25; /* sine of the angle between the columns of a frame that is kept */
+static const double MAX_REACH = 1e6;          /* of the reach of a set that is followed */
+static const double MIN_DETERMINANT = 1e-250; /* of the determinant of its matrix */
+static const double MIN_FRAME_SINE = 0.25;    /* sine of the angle between the columns of a frame that is kept */
 
 /* |A| x. */
-OPERATION void spread(const kz_sets *x, vector first, vector second, vector M[2]) {
-  for (int i = 0; i < 2; i++) M[i] = size_of(x->matrix[i][0]) * first + size_of(x->matrix[i][1]) * second;
+KZ_INLINE void linear_images(const kz_sets *x, vector first, vector second, vector M[2]) {
+  for (int i = 0; i < 2; i++) M[i] = absolute(x->matrix[i][0]) * first + absolute(x->matrix[i][1]) * second;
 }
 
 /* |A^-1| p, with 1 / |det A|. */
-OPERATION void solve(const kz_sets *x, vector inverse, const vector p[2], vector z[2]) {
-  z[0] = inverse * (size_of(x->matrix[1][1]) * p[0] + size_of(x->matrix[0][1]) * p[1]);
-  z[1] = inverse * (size_of(x->matrix[1][0]) * p[0] + size_of(x->matrix[0][0]) * p[1]);
+KZ_INLINE void solve_frame(const kz_sets *x, vector inverse, const vector p[2], vector z[2]) {
+  z[0] = inverse * (absolute(x->matrix[1][1]) * p[0] + absolute(x->matrix[0][1]) * p[1]);
+  z[1] = inverse * (absolute(x->matrix[1][0]) * p[0] + absolute(x->matrix[0][0]) * p[1]);
 }
 
 /* Lower bound of |det A|. */
-OPERATION vector least_determinant(const kz_sets *x) {
+KZ_INLINE vector least_determinant(const kz_sets *x) {
   const vector a = x->matrix[0][0] * x->matrix[1][1], b = x->matrix[0][1] * x->matrix[1][0];
-  return size_of(a - b) - 0x1p-40 * (size_of(a) + size_of(b));
+  return absolute(a - b) - 0x1p-40 * (absolute(a) + absolute(b));
 }
 
-OPERATION bool all(mask x) {
+KZ_INLINE bool all_lanes(mask x) {
   int64_t every = -1;
   for (int lane = 0; lane < LANES; lane++) every &= x[lane];
   return every != 0;
 }
 
 /* A set that is not good any more is lost: a point at rest takes its place, so that nothing overflows. */
-static void lose(mask lost, kz_sets *x) {
+static void mark_lost(mask lost, kz_sets *x) {
   static const kz_enclosure at_rest = {.matrix = {{1, 0}, {0, 1}}};
   for (int lane = 0; lane < LANES; lane++)
     if (lost[lane]) put_set(&at_rest, lane, x);
@@ -43,100 +43,101 @@ static void lose(mask lost, kz_sets *x) {
 }
 
 void kz_sets_check(const kz_speed_class *speed, kz_sets *x) {
-  const mask slow = size_of(x->velocity.high) <= speed->fastest, small = x->reach[0] + x->reach[1] < LARGEST;
-  const mask good = slow & small & (least_determinant(x) > LEAST);
-  if (all(good)) return;
+  const mask slow = absolute(x->velocity.high) <= speed->fastest, small = x->reach[0] + x->reach[1] < MAX_REACH;
+  const mask good = slow & small & (least_determinant(x) > MIN_DETERMINANT);
+  if (all_lanes(good)) return;
   x->too_fast |= ~slow;
-  lose(~good, x);
+  mark_lost(~good, x);
 }
 
 /* An upper bound of 1 / |det A|; sets without area are lost. */
-OPERATION vector largest_inverse(kz_sets *x) {
+KZ_INLINE vector largest_inverse(kz_sets *x) {
   const vector least = least_determinant(x);
-  const mask good = least > LEAST;
-  if (!all(good)) lose(~good, x);
-  return KZ_LARGER / pick(good, least, same(1));
+  const mask good = least > MIN_DETERMINANT;
+  if (!all_lanes(good)) mark_lost(~good, x);
+  return KZ_ROUND_UP / blend(good, least, broadcast(1));
 }
 
 #define KZ_NEXT next_order
 #define KZ_ARGUMENTS const kz_speed_class *speed, const vector *gain, vector *x, vector *y
 #define KZ_SUM(sum) vector sum
-#define KZ_DAMP(sum) sum = same(speed->damping.high) * y[n]
+#define KZ_DAMP(sum) sum = broadcast(speed->damping.high) * y[n]
 #define KZ_PUSH(sum)
 #define KZ_TERMS for (int i = 0; i <= (int)n; i++)
-#define KZ_GAIN(sum) sum = fused(gain[i], x[n - i], sum)
+#define KZ_GAIN(sum) sum = fmadd(gain[i], x[n - i], sum)
 #define KZ_MOVE x[n + 1] = y[n] * speed->step[n].high
 #define KZ_SET(sum) y[n + 1] = sum * -speed->inverse[n].high
 #include "taylor/tangent.inc"
 
 /* The matrix by Taylor series of h (a(t) cos theta + b(t) sin theta) and of its columns. */
-OPERATION void move_matrix(const kz_speed_class *speed, int32_t first, int P, const kz_circle *circle, kz_sets *x) {
+KZ_INLINE void move_matrix(const kz_speed_class *speed, int32_t first, int P, const kz_circle *circle, kz_sets *x) {
   vector stiffness[KZ_ORDER_JACOBIAN];
   for (int n = 0; n + 1 < P; n++) {
-    vector s = same(0);
-    for (int j = 0; j <= n; j++) s = fused(same(speed->along[first + j].high), circle->cosine[n - j], s);
+    vector s = broadcast(0);
+    for (int j = 0; j <= n; j++) s = fmadd(broadcast(speed->along[first + j].high), circle->cosine[n - j], s);
     stiffness[n] = s;
   }
   for (int n = 0; n + 1 < P && speed->has_across; n++)
-    for (int j = 0; j <= n; j++) stiffness[n] = fused(same(-speed->across[first + j].high), circle->sine[n - j], stiffness[n]);
+    for (int j = 0; j <= n; j++)
+      stiffness[n] = fmadd(broadcast(-speed->across[first + j].high), circle->sine[n - j], stiffness[n]);
   for (int column = 0; column < 2; column++) {
     vector a[KZ_ORDER_JACOBIAN], b[KZ_ORDER_JACOBIAN];
     a[0] = x->matrix[0][column];
     b[0] = x->matrix[1][column];
-    vector farther = b[0] * speed->step[0].high, faster = same(0);
+    vector d_theta = b[0] * speed->step[0].high, d_velocity = broadcast(0);
 #pragma GCC unroll 8 /* all of KZ_ORDER_TANGENT: the coefficients then stay in registers */
     for (int n = 0; n + 1 < P; n++) {
       next_order(speed, stiffness, a, b, n);
-      faster += b[n + 1];
-      farther = fused(same(speed->step[n + 1].high), b[n + 1], farther);
+      d_velocity += b[n + 1];
+      d_theta = fmadd(broadcast(speed->step[n + 1].high), b[n + 1], d_theta);
     }
-    x->matrix[0][column] += farther;
-    x->matrix[1][column] += faster;
+    x->matrix[0][column] += d_theta;
+    x->matrix[1][column] += d_velocity;
   }
 }
 
 /* What the step adds to (theta, velocity) of neighbours with |A z| <= M, beside its linear part without errors; torque: of what is not
  * linear. */
-OPERATION void rest_of(const kz_speed_class *speed, bool jacobian, const vector M[2], vector torque, vector p[2]) {
+KZ_INLINE void nonlinear_part(const kz_speed_class *speed, bool jacobian, const vector M[2], vector torque, vector p[2]) {
   const double (*error)[2] = speed->tangent_error[jacobian];
-  for (int i = 0; i < 2; i++) p[i] = (speed->nonlinear[i] * torque + error[i][0] * M[0] + error[i][1] * M[1]) * KZ_LARGER;
+  for (int i = 0; i < 2; i++) p[i] = (speed->nonlinear[i] * torque + error[i][0] * M[0] + error[i][1] * M[1]) * KZ_ROUND_UP;
 }
 
 void kz_neighbours_step(const kz_speed_class *speed, int32_t step, const kz_circle *circle, bool jacobian, kz_sets *x) {
-  const double most_torque = speed->most_torque[step], local[2] = {speed->theta_error, speed->velocity_error};
-  const vector most_sine = x->most_sine + (speed->has_across ? speed->most_across / most_torque : 0);
+  const double max_torque = speed->max_torque[step], local[2] = {speed->theta_error, speed->velocity_error};
+  const vector max_sine = x->max_sine + (speed->has_across ? speed->max_across / max_torque : 0);
   vector M[2], p[2], p_column[2][2], gain[2];
-  spread(x, x->reach[0], x->reach[1], M);
-  const vector d = speed->farthest[0] * M[0] + speed->farthest[1] * M[1];
-  rest_of(speed, jacobian, M, most_torque * (d * d) * (0.5 * most_sine + d * (1.0 / 6)), p);
-  for (int i = 0; i < 2; i++) p[i] = (p[i] + local[i]) * KZ_LARGER;
+  linear_images(x, x->reach[0], x->reach[1], M);
+  const vector d = speed->neighbour_angle[0] * M[0] + speed->neighbour_angle[1] * M[1];
+  nonlinear_part(speed, jacobian, M, max_torque * (d * d) * (0.5 * max_sine + d * (1.0 / 6)), p);
+  for (int i = 0; i < 2; i++) p[i] = (p[i] + local[i]) * KZ_ROUND_UP;
   for (int j = 0; jacobian && j < 2; j++) {
-    spread(x, (j == 0) + x->jacobian_error[0][j], (j == 1) + x->jacobian_error[1][j], M);
-    const vector along = speed->farthest[0] * M[0] + speed->farthest[1] * M[1];
-    rest_of(speed, jacobian, M, most_torque * (d * along) * (most_sine + 0.5 * d), p_column[j]);
+    linear_images(x, (j == 0) + x->jacobian_error[0][j], (j == 1) + x->jacobian_error[1][j], M);
+    const vector along = speed->neighbour_angle[0] * M[0] + speed->neighbour_angle[1] * M[1];
+    nonlinear_part(speed, jacobian, M, max_torque * (d * along) * (max_sine + 0.5 * d), p_column[j]);
   }
   if (jacobian)
     move_matrix(speed, step * speed->order, KZ_ORDER_JACOBIAN, circle, x);
   else
     move_matrix(speed, step * speed->order, KZ_ORDER_TANGENT, circle, x);
   const vector inverse = largest_inverse(x);
-  solve(x, inverse, p, gain);
-  for (int i = 0; i < 2; i++) x->reach[i] = (x->reach[i] + gain[i]) * KZ_LARGER;
+  solve_frame(x, inverse, p, gain);
+  for (int i = 0; i < 2; i++) x->reach[i] = (x->reach[i] + gain[i]) * KZ_ROUND_UP;
   for (int j = 0; jacobian && j < 2; j++) {
-    solve(x, inverse, p_column[j], gain);
-    for (int i = 0; i < 2; i++) x->jacobian_error[i][j] = (x->jacobian_error[i][j] + gain[i]) * KZ_LARGER;
+    solve_frame(x, inverse, p_column[j], gain);
+    for (int i = 0; i < 2; i++) x->jacobian_error[i][j] = (x->jacobian_error[i][j] + gain[i]) * KZ_ROUND_UP;
   }
 }
 
 void kz_sets_widen(const vector p[2], kz_sets *x) {
   vector gain[2];
-  solve(x, largest_inverse(x), p, gain);
-  for (int i = 0; i < 2; i++) x->reach[i] = (x->reach[i] + gain[i]) * KZ_LARGER;
+  solve_frame(x, largest_inverse(x), p, gain);
+  for (int i = 0; i < 2; i++) x->reach[i] = (x->reach[i] + gain[i]) * KZ_ROUND_UP;
 }
 
 void kz_sets_drop_rest(kz_sets *x) {
-  const vector p[2] = {size_of(x->theta_rest), size_of(x->velocity_rest)};
-  x->theta_rest = x->velocity_rest = same(0);
+  const vector p[2] = {absolute(x->theta_rest), absolute(x->velocity_rest)};
+  x->theta_rest = x->velocity_rest = broadcast(0);
   kz_sets_widen(p, x);
 }
 
@@ -145,7 +146,7 @@ void kz_sets_wrap(kz_sets *x) {
   static const double turn[3] = KZ_TWO_PI;
   const vector turns = nearest_integer(x->theta.high * (1 / turn[0]));
   x->theta = less_multiple(x->theta, turns, turn);
-  const vector p[2] = {0x1p-99 + 0x1p-105 * size_of(turns), same(0)};
+  const vector p[2] = {0x1p-99 + 0x1p-105 * absolute(turns), broadcast(0)};
   kz_sets_widen(p, x);
 }
 
@@ -157,22 +158,22 @@ void kz_sets_renew_frame(kz_sets *x) {
     squares[j] = lengths[j] * (x->reach[j] * x->reach[j]);
   }
   const vector area = x->matrix[0][0] * x->matrix[1][1] - x->matrix[0][1] * x->matrix[1][0];
-  const mask first = squares[0] >= squares[1], keep = area * area > FLATTEST * FLATTEST * lengths[0] * lengths[1];
+  const mask first = squares[0] >= squares[1], keep = area * area > MIN_FRAME_SINE * MIN_FRAME_SINE * lengths[0] * lengths[1];
   vector a[2], b[2];
   for (int i = 0; i < 2; i++) {
-    a[i] = pick(first, x->matrix[i][0], x->matrix[i][1]);
-    b[i] = pick(first, x->matrix[i][1], x->matrix[i][0]);
+    a[i] = blend(first, x->matrix[i][0], x->matrix[i][1]);
+    b[i] = blend(first, x->matrix[i][1], x->matrix[i][0]);
   }
-  const vector reach_a = pick(first, x->reach[0], x->reach[1]), reach_b = pick(first, x->reach[1], x->reach[0]);
-  vector length = pick(first, lengths[0], lengths[1]);
+  const vector reach_a = blend(first, x->reach[0], x->reach[1]), reach_b = blend(first, x->reach[1], x->reach[0]);
+  vector length = blend(first, lengths[0], lengths[1]);
   for (int lane = 0; lane < LANES; lane++) length[lane] = sqrt(length[lane]);
   const vector q[2] = {a[0] / length, a[1] / length};
-  const vector slack = 0x1p-44 * (length * reach_a + (size_of(b[0]) + size_of(b[1])) * reach_b);
-  const vector along = (length * reach_a + size_of(b[0] * q[0] + b[1] * q[1]) * reach_b + slack) * KZ_LARGER;
-  const vector across = (size_of(b[1] * q[0] - b[0] * q[1]) * reach_b + slack) * KZ_LARGER;
-  x->reach[0] = pick(keep, x->reach[0], along);
-  x->reach[1] = pick(keep, x->reach[1], across);
-  for (int i = 0; i < 2; i++) x->matrix[i][0] = pick(keep, x->matrix[i][0], q[i]);
-  x->matrix[0][1] = pick(keep, x->matrix[0][1], -q[1]);
-  x->matrix[1][1] = pick(keep, x->matrix[1][1], q[0]);
+  const vector slack = 0x1p-44 * (length * reach_a + (absolute(b[0]) + absolute(b[1])) * reach_b);
+  const vector along = (length * reach_a + absolute(b[0] * q[0] + b[1] * q[1]) * reach_b + slack) * KZ_ROUND_UP;
+  const vector across = (absolute(b[1] * q[0] - b[0] * q[1]) * reach_b + slack) * KZ_ROUND_UP;
+  x->reach[0] = blend(keep, x->reach[0], along);
+  x->reach[1] = blend(keep, x->reach[1], across);
+  for (int i = 0; i < 2; i++) x->matrix[i][0] = blend(keep, x->matrix[i][0], q[i]);
+  x->matrix[0][1] = blend(keep, x->matrix[0][1], -q[1]);
+  x->matrix[1][1] = blend(keep, x->matrix[1][1], q[0]);
 }

@@ -37,7 +37,7 @@ static int level_of(const kz_step_bounds *b, int n) {
 }
 
 /* (B2) Relative to the sizes: what a sum of n products loses, in units of its level. */
-static real lost_in_sum(int level, real n) {
+static real sum_loss(int level, real n) {
   if (level == KZ_ENCLOSE_TRIPLES) return 4.1L * n * n * n + 25 * n * n + 42 * n + 29;
   return level == KZ_ENCLOSE_PAIRS ? n * n + 4 * n + 9 : n;
 }
@@ -54,7 +54,7 @@ int kz_products_of(const kz_step_bounds *b, int n) {
 static real sum_error(const kz_step_bounds *b, int n, int products) {
   const kz_rounding_factors *f = b->factor;
   const int l = level_of(b, n);
-  const real lost = f->sums[l] * lost_in_sum(l, products) + f->times[l] + f->slack[l] * slack_of_sums(l, products);
+  const real lost = f->sums[l] * sum_loss(l, products) + f->times[l] + f->slack[l] * slack_of_sums(l, products);
   return lost * unit_of(l) * f->higher;
 }
 
@@ -67,7 +67,7 @@ static real factor_error(const kz_step_bounds *b, int n) {
 
 /* (B7) An angle of a centre before whole turns are taken out. */
 static real farthest_angle(double fastest) {
-  return 4 + 2 * (real)M_PI * fastest * KZ_CAUTION;
+  return 4 + 2 * (real)M_PI * fastest * KZ_MARGIN;
 }
 
 void kz_set_errors(kz_step_bounds *b, double fastest) {
@@ -77,7 +77,7 @@ void kz_set_errors(kz_step_bounds *b, double fastest) {
   b->velocity_error[0] = b->factor->start[p] * unit_of(p) * fastest;
   b->sine_error[0] = (b->factor->sine[p] + b->factor->angle[p] * (farthest_angle(fastest) + 1)) * unit_of(p);
   for (int n = 0; n + 1 < b->order; n++) {
-    const real damping = b->h * b->pendulum->beta * KZ_CAUTION, constant = factor_error(b, n + 1);
+    const real damping = b->h * b->pendulum->beta * KZ_MARGIN, constant = factor_error(b, n + 1);
     const real summed = sum_error(b, n + 1, kz_products_of(b, n)) + constant;
     real v = damping * (b->velocity_error[n] + summed * (b->velocity[n] + b->velocity_error[n])), s = 0, size[2] = {0};
     for (int i = 0; i <= n; i++) {
@@ -89,8 +89,8 @@ void kz_set_errors(kz_step_bounds *b, double fastest) {
       size[1] += b->h * velocity * sine;
     }
     b->fits = b->fits && size[0] < LARGEST_SUM * b->velocity[n + 1] && size[1] < LARGEST_SUM * b->sine[n + 1];
-    b->velocity_error[n + 1] = v / (n + 1) * KZ_CAUTION + KZ_TINY;
-    b->sine_error[n + 1] = s * b->h / (n + 1) * KZ_CAUTION + KZ_TINY;
+    b->velocity_error[n + 1] = v / (n + 1) * KZ_MARGIN + KZ_TINY;
+    b->sine_error[n + 1] = s * b->h / (n + 1) * KZ_MARGIN + KZ_TINY;
   }
 }
 
@@ -113,61 +113,61 @@ static void add_term(const kz_step_bounds *b, int n, real size, series *of) {
 }
 
 /* (B2) The errors of the coefficients. */
-static void add_errors(const kz_step_bounds *b, real missed[2]) {
+static void add_errors(const kz_step_bounds *b, real error[2]) {
   for (int n = b->order - 1; n >= 1; n--) {
-    missed[1] += b->velocity_error[n];
-    missed[0] += b->velocity_error[n] * b->h / (n + 1);
+    error[1] += b->velocity_error[n];
+    error[0] += b->velocity_error[n] * b->h / (n + 1);
   }
 }
 
 /* (B3) The sums of those coefficients that are doubles beside pairs; those of the angle are times a constant. */
-static void add_coarse(const kz_step_bounds *b, const series *v, const series *angle, real missed[2]) {
+static void add_coarse(const kz_step_bounds *b, const series *v, const series *angle, real error[2]) {
   const int fine = fine_ones(b), coarse = b->order - fine;
   const real plus = b->factor->plus[KZ_ENCLOSE_DOUBLES] * KZ_UNIT * b->factor->higher,
              slack = b->factor->slack[KZ_ENCLOSE_DOUBLES];
-  missed[1] += (coarse + slack * (fine + 2)) * plus * v->in_doubles;
-  missed[0] += (coarse + 1 + slack * (fine + 3)) * plus * angle->in_doubles;
+  error[1] += (coarse + slack * (fine + 2)) * plus * v->in_doubles;
+  error[0] += (coarse + 1 + slack * (fine + 3)) * plus * angle->in_doubles;
 }
 
 /* The sums v = sum nu_n and theta = theta(0) + h sum nu_n / (n + 1), whose first term is h `fastest`: in doubles, */
 static void add_in_doubles(const kz_rounding_factors *f, const series *v, const series *angle, real fastest, real farthest,
-                           real drift, real missed[2]) {
+                           real drift, real error[2]) {
   const real u = KZ_UNIT, plus = f->plus[KZ_ENCLOSE_DOUBLES];
-  missed[1] += f->higher * u * plus * (v->partial + v->sum + u * fastest);
-  missed[0] += f->higher * u * (plus * (angle->partial + 4 * angle->sum) + f->state * u * (drift + farthest));
+  error[1] += f->higher * u * plus * (v->partial + v->sum + u * fastest);
+  error[0] += f->higher * u * (plus * (angle->partial + 4 * angle->sum) + f->state * u * (drift + farthest));
 }
 
 /* in pairs, */
 static void add_in_pairs(const kz_rounding_factors *f, const series *v, const series *angle, real fastest, real farthest,
-                         real drift, real missed[2]) {
+                         real drift, real error[2]) {
   const real u2 = KZ_UNIT * KZ_UNIT, plus = f->plus[KZ_ENCLOSE_PAIRS], times = f->times[KZ_ENCLOSE_PAIRS];
-  missed[1] += plus * u2 * (v->partial + fastest + v->sum);
-  missed[0] += plus * u2 * (angle->partial + angle->sum + drift + farthest) + times * u2 * (angle->sum + drift);
+  error[1] += plus * u2 * (v->partial + fastest + v->sum);
+  error[0] += plus * u2 * (angle->partial + angle->sum + drift + farthest) + times * u2 * (angle->sum + drift);
 }
 
 /* and in triples. */
 static void add_in_triples(const kz_rounding_factors *f, const series *v, const series *angle, real fastest, real farthest,
-                           real drift, real missed[2]) {
+                           real drift, real error[2]) {
   const real u2 = KZ_UNIT * KZ_UNIT, u3 = u2 * KZ_UNIT;
   const real plus = f->plus[KZ_ENCLOSE_TRIPLES], times = f->times[KZ_ENCLOSE_TRIPLES];
   const real plus_pairs = f->plus[KZ_ENCLOSE_PAIRS], times_pairs = f->times[KZ_ENCLOSE_PAIRS];
-  missed[1] += plus_pairs * u2 * v->partial + plus * u3 * f->higher * (v->in_triples + fastest + v->sum);
-  missed[0] +=
+  error[1] += plus_pairs * u2 * v->partial + plus * u3 * f->higher * (v->in_triples + fastest + v->sum);
+  error[0] +=
       plus_pairs * u2 * angle->partial + times_pairs * u2 * angle->in_pairs +
       u3 * f->higher * (plus * (angle->in_triples + 2 * (angle->sum + drift) + farthest) + times * (angle->sum + drift));
 }
 
 /* (B3) */
-void kz_add_rounding(const kz_step_bounds *b, double fastest, real missed[2]) {
+void kz_add_rounding(const kz_step_bounds *b, double fastest, real error[2]) {
   static void (*const add[])(const kz_rounding_factors *, const series *, const series *, real, real, real, real[2]) = {
       add_in_doubles, add_in_pairs, add_in_triples};
   series v = {0}, angle = {0};
-  add_errors(b, missed);
+  add_errors(b, error);
   for (int n = b->order - 1; n >= 1; n--) {
     const real size = b->velocity[n] + b->velocity_error[n];
     add_term(b, n, size, &v);
     add_term(b, n, size * b->h / (n + 1), &angle);
   }
-  add_coarse(b, &v, &angle, missed);
-  add[b->precision](b->factor, &v, &angle, fastest, farthest_angle(fastest), b->h * fastest, missed);
+  add_coarse(b, &v, &angle, error);
+  add[b->precision](b->factor, &v, &angle, fastest, farthest_angle(fastest), b->h * fastest, error);
 }

@@ -45,13 +45,13 @@ typedef struct {
   majorant majorant[MAJORANTS];
 } kz_step_bounds;
 
-static const real KZ_CAUTION = 1 + 1e-9L; /* relative, far above the rounding of the bounds and in the C library's functions */
-static const real KZ_UNIT = 0x1p-53L;     /* u */
-static const real KZ_TINY = 1e-280L;      /* products below the range of doubles */
+static const real KZ_MARGIN = 1 + 1e-9L; /* relative, far above the rounding of the bounds and in the C library's functions */
+static const real KZ_UNIT = 0x1p-53L;    /* u */
+static const real KZ_TINY = 1e-280L;     /* products below the range of doubles */
 
 /* Number of products in the force of coefficient n + 1: the damping's, and those along; those across and the torque. */
 int kz_products_of(const kz_step_bounds *b, int n);
 /* (B2) Sets the errors of the coefficients of a centre of at most `fastest` rad per drive radian, from their sizes. */
 void kz_set_errors(kz_step_bounds *b, double fastest);
 /* (B2), (B3) What rounding adds to the angle (rad) and the velocity: missed[2]. */
-void kz_add_rounding(const kz_step_bounds *b, double fastest, real missed[2]);
+void kz_add_rounding(const kz_step_bounds *b, double fastest, real error[2]);

@@ -18,7 +18,7 @@ enum { KZ_ORDER_DOUBLES = 22, KZ_ORDER_PAIRS = 40, KZ_ORDER_TANGENT = 8, KZ_ORDE
 enum { KZ_COEFFICIENTS_PAIRS = 25, KZ_COEFFICIENTS_TRIPLES = 14, KZ_COEFFICIENTS_FINE = 29 };
 
 /* Relative margin: far above the rounding of the few operations on positive numbers in a bound. */
-#define KZ_LARGER (1 + 0x1p-40)
+#define KZ_ROUND_UP (1 + 0x1p-40)
 
 /* A real number as a sum of three doubles, each at most half a unit in the last place of the one before. */
 typedef struct {
@@ -33,12 +33,12 @@ typedef struct {
   double theta_error, velocity_error; /* (B3) of the centre, a step */
   /* (B4) of (theta, velocity), by a neighbour's (theta, velocity) at the beginning of the step: frame renewed, frame kept. */
   double tangent_error[2][2][2];
-  double turn;                      /* (B5) rad: theta of a centre on a step, beyond h |velocity| */
-  double farthest[2];               /* (B5) theta of a neighbour on the step, by the same */
+  double max_turn;                  /* (B5) rad: theta of a centre on a step, beyond h |velocity| */
+  double neighbour_angle[2];        /* (B5) theta of a neighbour on the step, by the same */
   double nonlinear[2];              /* (B6) (theta, velocity) by a torque that acts for the whole step */
   bool has_across;                  /* whether there is a drive across, or a torque */
-  double most_across;               /* upper bound of |b(t)| */
-  double *most_torque;              /* [n_steps] upper bound of |a(t)| + |b(t)| + |torque(t)| on each step; behind the series */
+  double max_across;                /* upper bound of |b(t)| */
+  double *max_torque;               /* [n_steps] upper bound of |a(t)| + |b(t)| + |torque(t)| on each step; behind the series */
   kz_constant damping;              /* h beta */
   kz_constant step[KZ_ORDER_PAIRS]; /* h / (n + 1) */
   kz_constant inverse[KZ_ORDER_PAIRS]; /* 1 / (n + 1) */
@@ -49,7 +49,7 @@ typedef struct {
 struct kz_enclosure_tables {
   int32_t precision, n_classes;
   double
-      swing; /* rad per drive radian: a centre may use a class if it is slower than `fastest` by this at the beginning of a period */
+      speed_margin; /* rad per drive radian: a centre may use a class if it is slower than `fastest` by this at the beginning of a period */
   kz_speed_class *classes[];
 };
 
@@ -60,14 +60,14 @@ typedef struct {
   pair velocity;
   vector velocity_rest;
   vector matrix[2][2], reach[2], jacobian_error[2][2];
-  vector most_sine; /* upper bound of |sin theta| of the centre on the present step */
+  vector max_sine; /* upper bound of |sin theta| of the centre on the present step */
   mask too_fast, lost;
 } kz_sets;
 enum { KZ_SET_NUMBERS = sizeof(kz_enclosure) / sizeof(double) };
-_Static_assert(offsetof(kz_sets, most_sine) == KZ_SET_NUMBERS * sizeof(vector), "a vector for each number of an enclosure");
+_Static_assert(offsetof(kz_sets, max_sine) == KZ_SET_NUMBERS * sizeof(vector), "a vector for each number of an enclosure");
 
 /* Puts a set into a lane. */
-OPERATION void put_set(const kz_enclosure *set, int lane, kz_sets *x) {
+KZ_INLINE void put_set(const kz_enclosure *set, int lane, kz_sets *x) {
   for (int i = 0; i < KZ_SET_NUMBERS; i++) ((vector *)x)[i][lane] = ((const double *)set)[i];
 }
 
@@ -97,17 +97,17 @@ void kz_sets_renew_frame(kz_sets *sets);
 kz_speed_class *kz_speed_class_create(const kz_pendulum *pendulum, int32_t precision, double fastest, int32_t n_steps);
 /* Sets the constants of a class whose number of steps and order are set. */
 void kz_speed_class_set_constants(const kz_pendulum *pendulum, kz_speed_class *speed);
-OPERATION vector size_of(vector x) {
+KZ_INLINE vector absolute(vector x) {
   return (vector)((mask)x & INT64_MAX);
 }
 
 /* (B5) An upper bound of |sin theta| on a step: the error of `sine` is below 1e-14, and the sine changes by less than the angle. */
-OPERATION vector sine_bound(const kz_speed_class *speed, vector sine, vector velocity) {
-  const vector most = (size_of(sine) + speed->step[0].high * size_of(velocity) + speed->turn + 1e-14) * KZ_LARGER;
-  return pick(most < 1, most, same(1));
+KZ_INLINE vector sine_bound(const kz_speed_class *speed, vector sine, vector velocity) {
+  const vector most = (absolute(sine) + speed->step[0].high * absolute(velocity) + speed->max_turn + 1e-14) * KZ_ROUND_UP;
+  return blend(most < 1, most, broadcast(1));
 }
 
-OPERATION vector nearest_integer(vector x) {
+KZ_INLINE vector nearest_integer(vector x) {
   const double to_integer = 0x1.8p52; /* adding it rounds to an integer */
   return (x + to_integer) - to_integer;
 }

@@ -8,68 +8,68 @@
 enum { KZ_SINE_TERMS_DOUBLES = 12, KZ_SINE_TERMS_PAIRS = 18, KZ_SINE_TERMS_TRIPLES = 24 };
 
 /* Sine and cosine of a pair in doubles, off by at most 8 u (B1). */
-OPERATION void sine_in_doubles(pair theta, vector *sine, vector *cosine) {
+KZ_INLINE void sine_in_doubles(pair theta, vector *sine, vector *cosine) {
   static const double pi[3] = KZ_PI;
   const vector count = nearest_integer(theta.high * (1 / pi[0])), sign = sign_of_parity(count);
-  const vector x = fused(count, same(-pi[0]), theta.high) - count * pi[1], square = x * x;
-  vector s = same(1), c = same(1);
+  const vector x = fmadd(count, broadcast(-pi[0]), theta.high) - count * pi[1], square = x * x;
+  vector s = broadcast(1), c = broadcast(1);
   for (int n = 2 * KZ_SINE_TERMS_DOUBLES; n > 0; n -= 2) {
-    s = fused(same(-1.0 / (n * (n + 1))), square * s, same(1));
-    c = fused(same(-1.0 / ((n - 1) * n)), square * c, same(1));
+    s = fmadd(broadcast(-1.0 / (n * (n + 1))), square * s, broadcast(1));
+    c = fmadd(broadcast(-1.0 / ((n - 1) * n)), square * c, broadcast(1));
   }
   s *= x;
-  *sine = sign * fused(theta.low, c, s);
-  *cosine = sign * fused(-theta.low, s, c);
+  *sine = sign * fmadd(theta.low, c, s);
+  *cosine = sign * fmadd(-theta.low, s, c);
 }
 
-OPERATION pair fine(kz_constant c) {
-  return made_fine(c.high, c.low, c.rest);
+KZ_INLINE pair pair_of_constant(kz_constant c) {
+  return KZ_CONSTANT_fine(c.high, c.low, c.rest);
 }
 
 /* 1 - x y / (n (n + 1)). */
-OPERATION pair nested(pair x, pair y, int n) {
+KZ_INLINE pair nested_pairs(pair x, pair y, int n) {
   const double product = (double)n * (n + 1), high = -1 / product;
   const kz_constant c = {high, -fma(high, product, 1) / product, 0};
-  return plus((pair){same(1), same(0)}, multiply(multiply(x, y), fine(c)));
+  return add_accurate((pair){broadcast(1), broadcast(0)}, multiply_pairs(multiply_pairs(x, y), pair_of_constant(c)));
 }
 
 /* Sine and cosine of a pair, off by at most 48 u^2 (B1). */
-OPERATION void sine_in_pairs(pair theta, pair *sine, pair *cosine) {
+KZ_INLINE void sine_in_pairs(pair theta, pair *sine, pair *cosine) {
   static const double pi[3] = KZ_PI;
   const vector count = nearest_integer(theta.high * (1 / pi[0])), sign = sign_of_parity(count);
-  const pair x = less_multiple(theta, count, pi), square = multiply(x, x);
-  pair s = {same(1), same(0)}, c = s;
+  const pair x = less_multiple(theta, count, pi), square = multiply_pairs(x, x);
+  pair s = {broadcast(1), broadcast(0)}, c = s;
   for (int n = 2 * KZ_SINE_TERMS_PAIRS; n > 0; n -= 2) {
-    s = nested(square, s, n);
-    c = nested(square, c, n - 1);
+    s = nested_pairs(square, s, n);
+    c = nested_pairs(square, c, n - 1);
   }
-  s = multiply(s, x);
+  s = multiply_pairs(s, x);
   *sine = (pair){sign * s.high, sign * s.low};
   *cosine = (pair){sign * c.high, sign * c.low};
 }
 
 /* x less `count` times a number; off by at most 80 u^3 (|x| + |count number|), |count| <= 2^20. */
-OPERATION triple less_multiple_of(triple x, vector count, const double number[3]) {
-  gain_triple(&x, (triple){{count, same(0), same(0)}}, made_deep(-number[0], -number[1], -number[2]));
-  return in_order(x);
+KZ_INLINE triple less_multiple_of(triple x, vector count, const double number[3]) {
+  accumulate_deep(&x, (triple){{count, broadcast(0), broadcast(0)}}, KZ_CONSTANT_deep(-number[0], -number[1], -number[2]));
+  return renormalise(x);
 }
 
 /* 1 - x y / (n (n + 1)) in triples. */
-OPERATION triple nested_triples(triple x, triple y, int n) {
+KZ_INLINE triple nested_triples(triple x, triple y, int n) {
   const double product = (double)n * (n + 1), high = 1 / product, i[2] = {high, fma(-high, product, 1) / product};
-  return add_triples(made_deep(1, 0, 0), multiply_triples(multiply_triples(x, inverse_with(-1, product, i)), y));
+  return add_triples(KZ_CONSTANT_deep(1, 0, 0), multiply_triples(multiply_triples(x, inverse_triple_with(-1, product, i)), y));
 }
 
-OPERATION triple signed_triple(vector sign, triple x) {
+KZ_INLINE triple signed_triple(vector sign, triple x) {
   return (triple){{sign * x.part[0], sign * x.part[1], sign * x.part[2]}};
 }
 
 /* Sine and cosine of |theta| <= farthest, off by at most (500 + 160 (farthest + 1)) u^3 (B1). */
-OPERATION void sine_in_triples(triple theta, triple *sine, triple *cosine) {
+KZ_INLINE void sine_in_triples(triple theta, triple *sine, triple *cosine) {
   static const double pi[3] = KZ_PI;
   const vector count = nearest_integer(theta.part[0] * (1 / pi[0])), sign = sign_of_parity(count);
   const triple x = less_multiple_of(theta, count, pi), square = multiply_triples(x, x);
-  triple s = made_deep(1, 0, 0), c = s;
+  triple s = KZ_CONSTANT_deep(1, 0, 0), c = s;
   for (int n = 2 * KZ_SINE_TERMS_TRIPLES; n > 0; n -= 2) {
     s = nested_triples(square, s, n);
     c = nested_triples(square, c, n - 1);

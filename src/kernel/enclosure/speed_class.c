@@ -6,7 +6,7 @@
 #include "rounding.h"
 #include "sets.h"
 
-static const real MARGIN = 1e-9L; /* relative, far above the rounding of the bounds */
+static const real MAJORANT_MARGIN = 1e-9L; /* relative, far above the rounding of the bounds */
 
 /* (B0) For complex time t + z, |z| <= R, the motion from a real state is compared with the solution of
  *   w' = beta w + a(r) cosh y,  y' = w,  y(0) = 0,  w(0) = fastest
@@ -14,28 +14,28 @@ static const real MARGIN = 1e-9L; /* relative, far above the rounding of the bou
  * Its neighbours likewise with a(r) cosh(y) times their distance. */
 
 /* An Euler step with the slopes at its end, found by repetition and then checked: all of them grow. */
-static bool march(const kz_pendulum *p, real dr, majorant *at) {
-  const real r = at->r + dr, torque = kz_force_majorant(p, r);
-  majorant to = *at;
+static bool step_majorant(const kz_pendulum *p, real dr, majorant *current) {
+  const real r = current->r + dr, torque = kz_force_majorant(p, r);
+  majorant to = *current;
   to.r = r;
   bool holds = false;
   for (int i = 0; i < 60 && !holds && to.y < 25; i++) {
-    const real w = at->w + dr * (p->beta * to.w + torque * coshl(to.y)), y = at->y + dr * to.w;
-    if (w * (1 + MARGIN / 8) <= to.w && y * (1 + MARGIN / 8) <= to.y) {
+    const real w = current->w + dr * (p->beta * to.w + torque * coshl(to.y)), y = current->y + dr * to.w;
+    if (w * (1 + MAJORANT_MARGIN / 8) <= to.w && y * (1 + MAJORANT_MARGIN / 8) <= to.y) {
       holds = true;
     } else {
-      to.w = w * (1 + MARGIN);
-      to.y = (at->y + dr * to.w) * (1 + MARGIN);
+      to.w = w * (1 + MAJORANT_MARGIN);
+      to.y = (current->y + dr * to.w) * (1 + MAJORANT_MARGIN);
     }
   }
   if (!holds) return false;
-  const real stiffness = torque * coshl(to.y), rest = 1 - dr * p->beta - dr * dr * stiffness;
-  if (!(rest > 0.5L)) return false;
+  const real stiffness = torque * coshl(to.y), remainder = 1 - dr * p->beta - dr * dr * stiffness;
+  if (!(remainder > 0.5L)) return false;
   for (int c = 0; c < 2; c++) { /* linear: slope = old + dr (beta slope + stiffness (a + dr slope)) */
-    to.slope[c] = (at->slope[c] + dr * stiffness * at->a[c]) / rest * (1 + MARGIN);
-    to.a[c] = (at->a[c] + dr * to.slope[c]) * (1 + MARGIN);
+    to.slope[c] = (current->slope[c] + dr * stiffness * current->a[c]) / remainder * (1 + MAJORANT_MARGIN);
+    to.a[c] = (current->a[c] + dr * to.slope[c]) * (1 + MAJORANT_MARGIN);
   }
-  *at = to;
+  *current = to;
   return true;
 }
 
@@ -43,56 +43,58 @@ static bool march(const kz_pendulum *p, real dr, majorant *at) {
  * returns their number. */
 static int find_majorants(const kz_pendulum *pendulum, double fastest, majorant *list) {
   const double scale = fmax(fmax(1, fastest), sqrt(kz_stiffness(pendulum)));
-  majorant at = {.w = fastest, .a = {1, 0}, .slope = {0, 1}};
+  majorant current = {.w = fastest, .a = {1, 0}, .slope = {0, 1}};
   int n = 0;
-  while (n < MAJORANTS && march(pendulum, 6.0L / MAJORANTS / scale, &at)) list[n++] = at;
+  while (n < MAJORANTS && step_majorant(pendulum, 6.0L / MAJORANTS / scale, &current)) list[n++] = current;
   return n;
 }
 
-enum { MOST_STEPS = 4096, MOST = KZ_ORDER_JACOBIAN, MOTION = -1 };
+enum { MOST_STEPS = 4096, MAX_ORDERS = KZ_ORDER_JACOBIAN, MOTION_COLUMN = -1 };
 
 static void set_sizes(kz_step_bounds *b) {
   kz_force_sizes(b->pendulum, b->h, b->order, b->torque);
   for (int n = 0; n < b->order; n++) {
-    b->torque[n] *= KZ_CAUTION;
+    b->torque[n] *= KZ_MARGIN;
     b->velocity[n] = b->sine[n] = HUGE_VALL;
   }
   for (int i = 0; i < b->n_majorants; i++) {
-    const majorant *at = &b->majorant[i];
-    const real ratio = b->h / at->r * KZ_CAUTION;
-    real power = KZ_CAUTION;
+    const majorant *current = &b->majorant[i];
+    const real ratio = b->h / current->r * KZ_MARGIN;
+    real power = KZ_MARGIN;
     for (int n = 0; n < b->order; n++, power *= ratio) {
-      b->velocity[n] = fminl(b->velocity[n], at->w * power);
-      b->sine[n] = fminl(b->sine[n], coshl(at->y) * power);
+      b->velocity[n] = fminl(b->velocity[n], current->w * power);
+      b->sine[n] = fminl(b->sine[n], coshl(current->y) * power);
     }
   }
 }
 
 /* (B0) What the terms below `order` leave: of the motion's velocity, or of that of a column of the tangent map. */
-static real rest_of(const kz_step_bounds *b, int order, int column) {
-  real rest = HUGE_VALL;
+static real taylor_remainder(const kz_step_bounds *b, int order, int column) {
+  real remainder = HUGE_VALL;
   for (int i = 0; i < b->n_majorants; i++) {
-    const majorant *at = &b->majorant[i];
-    const real ratio = b->h / at->r * KZ_CAUTION;
-    if (ratio < 0.99L) rest = fminl(rest, (column == MOTION ? at->w : at->slope[column]) * powl(ratio, order) / (1 - ratio));
+    const majorant *current = &b->majorant[i];
+    const real ratio = b->h / current->r * KZ_MARGIN;
+    if (ratio < 0.99L)
+      remainder =
+          fminl(remainder, (column == MOTION_COLUMN ? current->w : current->slope[column]) * powl(ratio, order) / (1 - ratio));
   }
-  return rest;
+  return remainder;
 }
 
 /* (B3) A step of the centre: errors of its coefficients, rounding of their sums, and what the polynomials leave. */
 static void bound_centre(const kz_step_bounds *b, double fastest, kz_speed_class *speed) {
-  real missed[2] = {0};
-  kz_add_rounding(b, fastest, missed);
-  const real rest = rest_of(b, b->order, MOTION);
-  speed->velocity_error = (double)((missed[1] + rest) * KZ_CAUTION + KZ_TINY);
-  speed->theta_error = (double)((missed[0] + rest * b->h / (b->order + 1)) * KZ_CAUTION + KZ_TINY);
+  real error[2] = {0};
+  kz_add_rounding(b, fastest, error);
+  const real remainder = taylor_remainder(b, b->order, MOTION_COLUMN);
+  speed->velocity_error = (double)((error[1] + remainder) * KZ_MARGIN + KZ_TINY);
+  speed->theta_error = (double)((error[0] + remainder * b->h / (b->order + 1)) * KZ_MARGIN + KZ_TINY);
 }
 
 /* Rounding in a column that begins with a = 1 or b = 1, computed in doubles: of its angle and velocity at the step's end. */
-static void column_rounding(const kz_step_bounds *b, int T, const real stiffness[MOST], const real stiffness_error[MOST], int c,
-                            real error[2]) {
-  real a[MOST + 1] = {c == 0}, v[MOST + 1] = {c == 1}, a_error[MOST + 1] = {0}, v_error[MOST + 1] = {0};
-  const real h = b->h * KZ_CAUTION, damping = h * b->pendulum->beta;
+static void column_rounding(const kz_step_bounds *b, int T, const real stiffness[MAX_ORDERS],
+                            const real stiffness_error[MAX_ORDERS], int c, real error[2]) {
+  real a[MAX_ORDERS + 1] = {c == 0}, v[MAX_ORDERS + 1] = {c == 1}, a_error[MAX_ORDERS + 1] = {0}, v_error[MAX_ORDERS + 1] = {0};
+  const real h = b->h * KZ_MARGIN, damping = h * b->pendulum->beta;
   error[0] = 4 * KZ_UNIT * h * v[0];
   error[1] = 0;
   for (int n = 0; n < T; n++) {
@@ -118,7 +120,7 @@ static void column_rounding(const kz_step_bounds *b, int T, const real stiffness
 
 /* (B4) Of the tangent map in doubles, to order T: rounding, and the rest of its polynomials. */
 static void bound_tangent(const kz_step_bounds *b, int T, double tangent_error[2][2]) {
-  real stiffness[MOST], stiffness_error[MOST];
+  real stiffness[MAX_ORDERS], stiffness_error[MAX_ORDERS];
   for (int n = 0; n < T; n++) {
     stiffness[n] = stiffness_error[n] = 0;
     for (int j = 0; j <= n; j++) {
@@ -130,25 +132,25 @@ static void bound_tangent(const kz_step_bounds *b, int T, double tangent_error[2
   for (int c = 0; c < 2; c++) {
     real rounding[2];
     column_rounding(b, T, stiffness, stiffness_error, c, rounding);
-    const real rest = rest_of(b, T, c);
-    tangent_error[0][c] = (double)((rounding[0] + rest * b->h / (T + 1)) * KZ_CAUTION);
-    tangent_error[1][c] = (double)((rounding[1] + rest) * KZ_CAUTION);
+    const real remainder = taylor_remainder(b, T, c);
+    tangent_error[0][c] = (double)((rounding[0] + remainder * b->h / (T + 1)) * KZ_MARGIN);
+    tangent_error[1][c] = (double)((rounding[1] + remainder) * KZ_MARGIN);
   }
 }
 
 /* (B5), (B6) Neighbours against y'' = beta y' + Q y, Q >= |a(t)|, whose solutions grow as exp(rate t) at most. */
 static void bound_neighbours(const kz_step_bounds *b, kz_speed_class *speed) {
-  const real stiffness = kz_stiffness(b->pendulum) * KZ_CAUTION, beta = b->pendulum->beta, h = b->h;
-  const real rate = (beta + sqrtl(beta * beta + 4 * stiffness)) / 2, growth = expl(rate * h) * KZ_CAUTION;
-  speed->farthest[0] = (double)((1 + stiffness * h * h / 2 * growth) * KZ_CAUTION);
-  speed->farthest[1] = (double)(h * growth * KZ_CAUTION);
-  speed->nonlinear[0] = (double)(h * h / 2 * growth * KZ_CAUTION);
-  speed->nonlinear[1] = (double)(h * growth * KZ_CAUTION);
-  speed->turn = (double)(stiffness * h * h / 2 * KZ_CAUTION);
+  const real stiffness = kz_stiffness(b->pendulum) * KZ_MARGIN, beta = b->pendulum->beta, h = b->h;
+  const real rate = (beta + sqrtl(beta * beta + 4 * stiffness)) / 2, growth = expl(rate * h) * KZ_MARGIN;
+  speed->neighbour_angle[0] = (double)((1 + stiffness * h * h / 2 * growth) * KZ_MARGIN);
+  speed->neighbour_angle[1] = (double)(h * growth * KZ_MARGIN);
+  speed->nonlinear[0] = (double)(h * h / 2 * growth * KZ_MARGIN);
+  speed->nonlinear[1] = (double)(h * growth * KZ_MARGIN);
+  speed->max_turn = (double)(stiffness * h * h / 2 * KZ_MARGIN);
   for (int j = 0; j < b->pendulum->harmonics; j++)
-    speed->most_across += hypot(b->pendulum->horizontal[j][0], b->pendulum->horizontal[j][1]) * (double)KZ_CAUTION;
+    speed->max_across += hypot(b->pendulum->horizontal[j][0], b->pendulum->horizontal[j][1]) * (double)KZ_MARGIN;
   for (int32_t i = 0; i < speed->n_steps; i++)
-    speed->most_torque[i] = (double)(kz_force_largest(b->pendulum, i, h) + stiffness * 1e-6L);
+    speed->max_torque[i] = (double)(kz_force_largest(b->pendulum, i, h) + stiffness * 1e-6L);
 }
 
 /* The number of steps for which the last coefficient is small beside rounding, 0 where that takes too many. */
@@ -167,33 +169,33 @@ static int32_t steps_of_frame(const kz_pendulum *pendulum, int32_t n_steps) {
   return frames > 1 ? (int32_t)(n_steps / frames) : n_steps;
 }
 
-static kz_speed_class *create(kz_step_bounds *b, double fastest, int32_t wanted) {
+static kz_speed_class *create_class(kz_step_bounds *b, double fastest, int32_t wanted) {
   b->n_majorants = find_majorants(b->pendulum, fastest, b->majorant);
   const int32_t n_steps = wanted > 0 ? wanted : choose_steps(b);
   if (n_steps == 0) return NULL;
-  kz_speed_class *made = kz_calloc(
-      1, sizeof *made + 3 * (size_t)(n_steps * b->order) * sizeof *made->along + (size_t)n_steps * sizeof *made->most_torque);
-  made->across = made->along + n_steps * b->order;
-  made->torque = made->across + n_steps * b->order;
-  made->most_torque = (double *)(made->torque + n_steps * b->order);
-  made->has_across = b->pendulum->unmirrored;
-  made->n_steps = n_steps;
-  made->order = b->order;
-  made->fastest = fastest;
-  made->frame_steps = steps_of_frame(b->pendulum, n_steps);
-  kz_speed_class_set_constants(b->pendulum, made);
-  b->h = 2 * (real)M_PI / n_steps * KZ_CAUTION;
+  kz_speed_class *created = kz_calloc(1, sizeof *created + 3 * (size_t)(n_steps * b->order) * sizeof *created->along +
+                                             (size_t)n_steps * sizeof *created->max_torque);
+  created->across = created->along + n_steps * b->order;
+  created->torque = created->across + n_steps * b->order;
+  created->max_torque = (double *)(created->torque + n_steps * b->order);
+  created->has_across = b->pendulum->unmirrored;
+  created->n_steps = n_steps;
+  created->order = b->order;
+  created->fastest = fastest;
+  created->frame_steps = steps_of_frame(b->pendulum, n_steps);
+  kz_speed_class_set_constants(b->pendulum, created);
+  b->h = 2 * (real)M_PI / n_steps * KZ_MARGIN;
   set_sizes(b);
   kz_set_errors(b, fastest);
   if (b->precision == KZ_ENCLOSE_TRIPLES && !b->fits) {
-    free(made);
+    free(created);
     return NULL;
   }
-  bound_centre(b, fastest, made);
-  bound_tangent(b, KZ_ORDER_TANGENT, made->tangent_error[false]);
-  bound_tangent(b, KZ_ORDER_JACOBIAN, made->tangent_error[true]);
-  bound_neighbours(b, made);
-  return made;
+  bound_centre(b, fastest, created);
+  bound_tangent(b, KZ_ORDER_TANGENT, created->tangent_error[false]);
+  bound_tangent(b, KZ_ORDER_JACOBIAN, created->tangent_error[true]);
+  bound_neighbours(b, created);
+  return created;
 }
 
 kz_speed_class *kz_speed_class_create(const kz_pendulum *pendulum, int32_t precision, double fastest, int32_t n_steps) {
@@ -203,7 +205,7 @@ kz_speed_class *kz_speed_class_create(const kz_pendulum *pendulum, int32_t preci
   b->precision = precision;
   b->fits = true;
   b->order = precision == KZ_ENCLOSE_DOUBLES ? KZ_ORDER_DOUBLES : KZ_ORDER_PAIRS;
-  kz_speed_class *speed = create(b, fastest, n_steps);
+  kz_speed_class *speed = create_class(b, fastest, n_steps);
   free(b);
   return speed;
 }

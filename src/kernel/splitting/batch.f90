@@ -3,7 +3,7 @@ module kz_splitting_batch
   use, intrinsic :: iso_c_binding, only: c_double, c_int64_t
   use kz_vector_map, only: flow_t, WIDTH
   use kz_vector_step_table, only: period_t
-  use kz_vector_wrap, only: wrap, vectors_of, flush_subnormals, restore_control
+  use kz_vector_wrap, only: wrap_lanes, vectors_of, flush_subnormals, restore_control
   use kz_splitting_stages, only: advance_steps, advance_tangents
   implicit none
   private
@@ -12,9 +12,9 @@ module kz_splitting_batch
   type, extends(flow_t) :: batch_t
     type(period_t) :: period
   contains
-    procedure :: advance
-    procedure :: advance_tangent
-    procedure :: sample
+    procedure :: advance => batch_advance
+    procedure :: advance_tangent => batch_tangent
+    procedure :: sample => batch_sample
   end type batch_t
 
 contains
@@ -30,7 +30,7 @@ contains
     call move_alloc(batch, flow)
   end subroutine make_batch
 
-  subroutine advance(self, n)
+  subroutine batch_advance(self, n)
     class(batch_t), intent(inout) :: self
     integer, intent(in) :: n
     integer(c_int64_t) :: control
@@ -39,13 +39,13 @@ contains
     control = flush_subnormals()
     lanes = vectors_of(n)
     call advance_steps(self%period, 1, self%period%n_steps, lanes, self%u, self%v)
-    call wrap(self, 1, lanes)
+    call wrap_lanes(self, 1, lanes)
     call restore_control(control)
-  end subroutine advance
+  end subroutine batch_advance
 
   !> One period with the tangent map: matrix(:, :, i) = d(theta, v)/d(theta0, v0) of the period times what it was. The states
   !> move as in `advance`. A single lane goes alone.
-  subroutine advance_tangent(self, n, matrix)
+  subroutine batch_tangent(self, n, matrix)
     class(batch_t), intent(inout) :: self
     integer, intent(in) :: n
     real(c_double), intent(inout) :: matrix(2, 2, WIDTH)
@@ -61,16 +61,16 @@ contains
     end do
     c(n + 1:lanes, :, :) = 0
     call advance_tangents(self%period, lanes, self%u, self%v, c)
-    call wrap(self, 1, lanes)
+    call wrap_lanes(self, 1, lanes)
     do i = 1, n
       matrix(:, :, i) = c(i, :, :)
     end do
     call restore_control(control)
-  end subroutine advance_tangent
+  end subroutine batch_tangent
 
   !> Lanes through one period, shown at every (n_steps/n)-th step end; u(n, :) is not yet wrapped. Needs steps that are not fused. A single
   !> lane goes alone.
-  subroutine sample(self, n, u, v)
+  subroutine batch_sample(self, n, u, v)
     class(batch_t), intent(inout) :: self
     integer, intent(in) :: n
     real(c_double), intent(out) :: u(:, :), v(:, :) !< (n, lanes)
@@ -86,8 +86,8 @@ contains
       u(i, :) = self%u(:size(u, 2))
       v(i, :) = self%v(:size(u, 2))
     end do
-    call wrap(self, 1, lanes)
+    call wrap_lanes(self, 1, lanes)
     call restore_control(control)
-  end subroutine sample
+  end subroutine batch_sample
 
 end module kz_splitting_batch

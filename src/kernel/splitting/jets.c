@@ -14,11 +14,11 @@ typedef struct {
   double a[3], b[3], push[3];
 } kz_kick;
 typedef struct {
-  double of_velocity[3], decay[3];
+  double per_velocity[3], decay[3];
 } kz_drift;
 /* An angle (half-turns) or a velocity, and its derivatives in rad. */
 typedef struct {
-  lanes value, of[TERMS];
+  lanes value, derivative[TERMS];
 } jet;
 
 /* sin(pi r)/r in powers of r^2: SINE_COEFFICIENTS of sine.f90, and cos(pi r) by its Taylor series; |r| <= 1/2. */
@@ -38,75 +38,75 @@ static const double COSINE[] = {1,
                                 3.604730797462501117270e-9};
 
 /* Powers of q in pairs: half as many operations wait for each other as by Horner's rule. */
-#define PAIR(list, i) (q * (list)[(i) + 1] + (list)[i])
+#define LINEAR(list, i) (q * (list)[(i) + 1] + (list)[i])
 
-OPERATION void sine_and_cosine(const lanes *angle, lanes *s, lanes *c) {
+KZ_INLINE void sine_and_cosine(const lanes *angle, lanes *s, lanes *c) {
   const double round_to_integer = 0x1.8p52;
   const lanes u = *angle, shifted = u + round_to_integer, r = u - (shifted - round_to_integer), q = r * r;
   const lanes q2 = q * q, q4 = q2 * q2, q8 = q4 * q4;
   const bits sign = (bits)shifted << 63;
-  const lanes odd = (q2 * PAIR(SINE, 2) + PAIR(SINE, 0)) + (q4 * (q2 * PAIR(SINE, 6) + PAIR(SINE, 4)) + q8 * SINE[8]);
-  const lanes even = (q2 * PAIR(COSINE, 2) + PAIR(COSINE, 0)) +
-                     (q4 * (q2 * PAIR(COSINE, 6) + PAIR(COSINE, 4)) + q8 * (q2 * COSINE[10] + PAIR(COSINE, 8)));
+  const lanes odd = (q2 * LINEAR(SINE, 2) + LINEAR(SINE, 0)) + (q4 * (q2 * LINEAR(SINE, 6) + LINEAR(SINE, 4)) + q8 * SINE[8]);
+  const lanes even = (q2 * LINEAR(COSINE, 2) + LINEAR(COSINE, 0)) +
+                     (q4 * (q2 * LINEAR(COSINE, 6) + LINEAR(COSINE, 4)) + q8 * (q2 * COSINE[10] + LINEAR(COSINE, 8)));
   *s = (lanes)((bits)(r * odd) ^ sign);
   *c = (lanes)((bits)even ^ sign);
 }
 
 /* What a derivative by a parameter gains because the damping depends on it. */
-#define GAIN(term, parameter, speed)                                                                                     \
-  do {                                                                                                                   \
-    angle->of[term] +=                                                                                                   \
-        row->of_velocity[parameter] * (speed) - row->of_velocity[0] * (row->decay[parameter] / row->decay[0]) * (speed); \
-    velocity->of[term] += (row->decay[parameter] / row->decay[0]) * (speed);                                             \
+#define ADD_DAMPING_TERM(term, parameter, speed)                                                                           \
+  do {                                                                                                                     \
+    angle->derivative[term] +=                                                                                             \
+        row->per_velocity[parameter] * (speed) - row->per_velocity[0] * (row->decay[parameter] / row->decay[0]) * (speed); \
+    velocity->derivative[term] += (row->decay[parameter] / row->decay[0]) * (speed);                                       \
   } while (0)
 
-#define MOVE(term)                                               \
-  do {                                                           \
-    angle->of[term] += row->of_velocity[0] * velocity->of[term]; \
-    velocity->of[term] *= row->decay[0];                         \
+#define DRIFT_TERM(term)                                                          \
+  do {                                                                            \
+    angle->derivative[term] += row->per_velocity[0] * velocity->derivative[term]; \
+    velocity->derivative[term] *= row->decay[0];                                  \
   } while (0)
 
 /* Written term by term: the compiler then keeps them in registers. */
-OPERATION void drift(int order, bool damped, const kz_drift *row, jet *angle, jet *velocity) {
+KZ_INLINE void drift_jet(int order, bool damped, const kz_drift *row, jet *angle, jet *velocity) {
   if (damped && order >= 1) {
-    GAIN(P, 1, velocity->value);
-    GAIN(Q, 2, velocity->value);
+    ADD_DAMPING_TERM(P, 1, velocity->value);
+    ADD_DAMPING_TERM(Q, 2, velocity->value);
   }
   if (damped && order >= 2) {
-    GAIN(XP, 1, velocity->of[X]);
-    GAIN(YP, 1, velocity->of[Y]);
-    GAIN(XQ, 2, velocity->of[X]);
-    GAIN(YQ, 2, velocity->of[Y]);
+    ADD_DAMPING_TERM(XP, 1, velocity->derivative[X]);
+    ADD_DAMPING_TERM(YP, 1, velocity->derivative[Y]);
+    ADD_DAMPING_TERM(XQ, 2, velocity->derivative[X]);
+    ADD_DAMPING_TERM(YQ, 2, velocity->derivative[Y]);
   }
   if (order >= 1) {
-    MOVE(X);
-    MOVE(Y);
-    MOVE(P);
-    MOVE(Q);
+    DRIFT_TERM(X);
+    DRIFT_TERM(Y);
+    DRIFT_TERM(P);
+    DRIFT_TERM(Q);
   }
   if (order >= 2) {
-    MOVE(XX);
-    MOVE(XY);
-    MOVE(YY);
-    MOVE(XP);
-    MOVE(YP);
-    MOVE(XQ);
-    MOVE(YQ);
+    DRIFT_TERM(XX);
+    DRIFT_TERM(XY);
+    DRIFT_TERM(YY);
+    DRIFT_TERM(XP);
+    DRIFT_TERM(YP);
+    DRIFT_TERM(XQ);
+    DRIFT_TERM(YQ);
   }
   if (order >= 3) {
-    MOVE(X3);
-    MOVE(XXY);
-    MOVE(XYY);
-    MOVE(Y3);
+    DRIFT_TERM(X3);
+    DRIFT_TERM(XXY);
+    DRIFT_TERM(XYY);
+    DRIFT_TERM(Y3);
   }
-  angle->value += (0.318309886183790671537767526745 * row->of_velocity[0]) * velocity->value;
+  angle->value += (0.318309886183790671537767526745 * row->per_velocity[0]) * velocity->value;
   velocity->value *= row->decay[0];
 }
 
-OPERATION void kick(int order, bool mirrored, const kz_kick *row, jet *angle, jet *velocity) {
+KZ_INLINE void kick_jet(int order, bool mirrored, const kz_kick *row, jet *angle, jet *velocity) {
   lanes s, c, force, slope;
-  const lanes *x = angle->of;
-  lanes *v = velocity->of;
+  const lanes *x = angle->derivative;
+  lanes *v = velocity->derivative;
   sine_and_cosine(&angle->value, &s, &c);
   force = row->a[0] * s;
   slope = row->a[0] * c;
@@ -145,22 +145,22 @@ OPERATION void kick(int order, bool mirrored, const kz_kick *row, jet *angle, je
   v[Y3] -= slope * (x[Y3] - x[Y] * x[Y] * x[Y]) - 3 * force * x[Y] * x[YY];
 }
 
-OPERATION void steps(int order, bool damped, bool mirrored, int64_t n, const kz_kick *kicks, const kz_drift *drifts, jet *angle,
-                     jet *velocity) {
+KZ_INLINE void advance_jet(int order, bool damped, bool mirrored, int64_t n, const kz_kick *kicks, const kz_drift *drifts,
+                           jet *angle, jet *velocity) {
   jet a = *angle, v = *velocity;
   for (int64_t step = 0; step < n; step++)
     for (int stage = 0; stage < KICKS; stage++, kicks++) {
-      drift(order, damped, drifts + (stage == 0 && step > 0 ? FUSED - 1 : stage), &a, &v);
-      kick(order, mirrored, kicks, &a, &v);
+      drift_jet(order, damped, drifts + (stage == 0 && step > 0 ? FUSED - 1 : stage), &a, &v);
+      kick_jet(order, mirrored, kicks, &a, &v);
     }
-  drift(order, damped, drifts + KICKS, &a, &v);
+  drift_jet(order, damped, drifts + KICKS, &a, &v);
   *angle = a;
   *velocity = v;
 }
 
-#define CASE(order, damped, mirrored)                                    \
-  case 4 * (order) + 2 * (damped) + (mirrored):                          \
-    steps(order, damped, mirrored, n, kicks, drifts, &angle, &velocity); \
+#define CASE(order, damped, mirrored)                                          \
+  case 4 * (order) + 2 * (damped) + (mirrored):                                \
+    advance_jet(order, damped, mirrored, n, kicks, drifts, &angle, &velocity); \
     break;
 #define CASES(order) CASE(order, 0, 0) CASE(order, 0, 1) CASE(order, 1, 0) CASE(order, 1, 1)
 
@@ -174,11 +174,11 @@ void kz_jets_advance(int32_t order, int32_t damped, int32_t mirrored, int64_t n,
   jet angle, velocity;
   memcpy(&angle.value, u, sizeof angle.value);
   memcpy(&velocity.value, v, sizeof velocity.value);
-  memcpy(angle.of, theta, sizeof angle.of);
-  memcpy(velocity.of, speed, sizeof velocity.of);
+  memcpy(angle.derivative, theta, sizeof angle.derivative);
+  memcpy(velocity.derivative, speed, sizeof velocity.derivative);
   switch (4 * order + 2 * damped + mirrored) { CASES(0) CASES(1) CASES(2) CASES(3) }
   memcpy(u, &angle.value, sizeof angle.value);
   memcpy(v, &velocity.value, sizeof velocity.value);
-  memcpy(theta, angle.of, sizeof angle.of);
-  memcpy(speed, velocity.of, sizeof velocity.of);
+  memcpy(theta, angle.derivative, sizeof angle.derivative);
+  memcpy(speed, velocity.derivative, sizeof velocity.derivative);
 }

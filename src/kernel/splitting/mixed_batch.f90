@@ -5,7 +5,7 @@ module kz_splitting_mixed_batch
   use kz_vector_map, only: map_t, put_state, move_state, WIDTH, PI
   use kz_vector_schemes, only: stage_t, scheme_stages, SCHEMES, SPLIT6_ROW
   use kz_vector_sine, only: SINE_COEFFICIENTS, ROUND_TO_INTEGER, SIGN_SHIFT, INVERSE_PI
-  use kz_vector_wrap, only: wrap, vectors_of
+  use kz_vector_wrap, only: wrap_lanes, vectors_of
   use kz_model_pendulum, only: pendulum_t, force_of_parameters
   implicit none
   private
@@ -23,9 +23,9 @@ module kz_splitting_mixed_batch
     real(rk) :: decay(WIDTH, DRIFTS) = 0
   contains
     procedure :: set_pendulum
-    procedure :: move
-    procedure :: advance
-    procedure :: advance_tangent
+    procedure :: move => mixed_move
+    procedure :: advance => mixed_advance
+    procedure :: advance_tangent => mixed_tangent
   end type mixed_batch_t
 
   !> Angles at the ends of the steps, unwrapped, half-turns.
@@ -74,7 +74,7 @@ contains
     where (abs(half) > 0) self%drift(lane, :) = self%drift(lane, :)*exp(-half)*(sinh(half)/half)
   end subroutine set_pendulum
 
-  subroutine move(self, from, to)
+  subroutine mixed_move(self, from, to)
     class(mixed_batch_t), intent(inout) :: self
     integer, intent(in) :: from, to
 
@@ -83,21 +83,21 @@ contains
     self%m(to) = self%m(from)
     self%drift(to, :) = self%drift(from, :)
     self%decay(to, :) = self%decay(from, :)
-  end subroutine move
+  end subroutine mixed_move
 
-  subroutine advance(self, n)
+  subroutine mixed_advance(self, n)
     class(mixed_batch_t), intent(inout) :: self
     integer, intent(in) :: n
     integer :: lanes, i
 
     lanes = vectors_of(n)
     do i = 1, self%n_steps
-      call one_step(self, i, lanes, self%u, self%v)
+      call advance_step(self, i, lanes, self%u, self%v)
     end do
-    call wrap(self, 1, lanes)
-  end subroutine advance
+    call wrap_lanes(self, 1, lanes)
+  end subroutine mixed_advance
 
-  subroutine one_step(self, step, n, u, v)
+  subroutine advance_step(self, step, n, u, v)
     class(mixed_batch_t), intent(in) :: self
     integer, intent(in) :: step, n
     real(rk), intent(inout) :: u(WIDTH), v(WIDTH)
@@ -114,11 +114,11 @@ contains
     end do
     u(:n) = u(:n) + self%drift(:n, DRIFTS)*v(:n)
     v(:n) = self%decay(:n, DRIFTS)*v(:n)
-  end subroutine one_step
+  end subroutine advance_step
 
   !> One period with the tangent map: matrix(:, :, i) = d(theta, v)/d(theta0, v0) of the period times what it was; the angles on the
   !> way join `track`.
-  subroutine advance_tangent(self, n, matrix, track)
+  subroutine mixed_tangent(self, n, matrix, track)
     class(mixed_batch_t), intent(inout) :: self
     integer, intent(in) :: n
     real(rk), intent(inout) :: matrix(2, 2, WIDTH)
@@ -138,11 +138,11 @@ contains
       track%lowest(:n) = min(track%lowest(:n), angle(:n))
       track%highest(:n) = max(track%highest(:n), angle(:n))
     end do
-    call wrap(self, 1, lanes)
+    call wrap_lanes(self, 1, lanes)
     do j = 1, 2
       matrix(:, j, :n) = transpose(c(:n, :, j))
     end do
-  end subroutine advance_tangent
+  end subroutine mixed_tangent
 
   !> A step, and its derivative c(i, :, j): column j of the tangent map of lane i.
   subroutine tangent_step(self, step, n, u, v, c)

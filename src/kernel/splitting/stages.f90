@@ -26,7 +26,7 @@ contains
     first = 1
     if (from > 1) first = self%step_end(from - 1) + 1
     do s = first, self%step_end(to)
-      call kick(self%drift_u(s), self%decay(s), self%kick(s))
+      call drift_and_kick(self%drift_u(s), self%decay(s), self%kick(s))
     end do
     if (to < self%n_steps) return
     s = size(self%drift)
@@ -34,7 +34,7 @@ contains
     v(:n) = self%decay(s)*v(:n)
   contains
     !> A drift and a kick.
-    subroutine kick(drift, decay, strength)
+    subroutine drift_and_kick(drift, decay, strength)
       real(rk), intent(in) :: drift, decay, strength
       integer :: i
 
@@ -49,7 +49,7 @@ contains
           v(i) = decay*v(i) - strength*sine(u(i) - self%shift(s)) + self%push(s)
         end do
       end if
-    end subroutine kick
+    end subroutine drift_and_kick
 
     subroutine runge_kutta(first, last)
       integer, intent(in) :: first, last

@@ -7,7 +7,7 @@ module kz_taylor_pairs
   use, intrinsic :: iso_fortran_env, only: real128
   use, intrinsic :: ieee_exceptions, only: ieee_set_halting_mode, ieee_set_flag, ieee_usual
   use kz_vector_map, only: WIDTH
-  use kz_vector_step_search, only: trial_t, search_steps, expected_steps
+  use kz_vector_step_search, only: integrator_t, search_steps, expected_steps
   use kz_taylor_pairs_table, only: pairs_table_t, pair_lanes_t, make_pairs_table, advance_pairs_table, pair_of, quad_of
   use kz_processed_tables, only: MOST_DAMPING
   use kz_processed_tables_r128, only: series_t, make_mixed_series, MOST_PAIR_KICKS, ORDER
@@ -21,7 +21,7 @@ module kz_taylor_pairs
   integer, parameter :: qp = real128
   !> Numbers of steps are multiples of STRIDE. With more steps the Taylor series cost no more. CAUTION: tables are dear to make.
   integer, parameter :: STRIDE = 8, FEWEST_STEPS = 48, MOST_STEPS = 1920
-  real(c_double), parameter :: CAUTION = 1.04_c_double
+  real(c_double), parameter :: GROWTH_MARGIN = 1.04_c_double
   !> The speeds of the first table, and how much faster those of the next are.
   real(c_double), parameter :: SLOWEST = 2.5_c_double, RATIO = 2
   integer, parameter :: MOST_TABLES = 8
@@ -49,7 +49,7 @@ module kz_taylor_pairs
   end type pair_series_t
 
   !> A table whose number of steps is searched; each try takes a coefficient of a kick more.
-  type, extends(trial_t) :: table_trial_t
+  type, extends(integrator_t) :: searched_table_t
     type(pendulum_t) :: pendulum
     type(series_t), pointer :: series => null()
     type(probes_t) :: probes
@@ -57,8 +57,8 @@ module kz_taylor_pairs
     integer :: kicks = 0
     type(pairs_table_t) :: table
   contains
-    procedure :: measure => measure_table
-  end type table_trial_t
+    procedure :: measure_error => measure_table
+  end type searched_table_t
 
 contains
 
@@ -89,7 +89,7 @@ contains
         call make_probes(pairs%drive, speeds_of(tables(0)), shared%slow)
       end if
       if (like_steps > 0) &
-        tables(0)%n_steps = multiple(CAUTION*expected_steps(int(like_steps, c_int32_t), like_error, tolerance, int(ORDER, c_int32_t)))
+        tables(0)%n_steps = round_to_stride(GROWTH_MARGIN*expected_steps(int(like_steps, c_int32_t), like_error, tolerance, int(ORDER, c_int32_t)))
       do while (n < MOST_TABLES .and. tables(n)%fastest < fastest)
         call choose_table(pendulum, shared, pairs%drive, tolerance, tables(n), tables(n + 1))
         if (tables(n + 1)%error > tolerance) exit
@@ -104,11 +104,11 @@ contains
     if (pairs%fastest < fastest) pairs%series_error = measure_quad(pairs%drive, fastest)
   end subroutine make_pairs
 
-  pure integer function multiple(steps) result(n)
+  pure integer function round_to_stride(steps) result(n)
     real(c_double), intent(in) :: steps
 
     n = STRIDE*ceiling(steps/STRIDE)
-  end function multiple
+  end function round_to_stride
 
   !> As many coefficients of a kick as a tolerance needs, or some more.
   pure integer function expected_kicks(tolerance) result(n)
@@ -136,51 +136,51 @@ contains
     real(c_double), intent(in) :: tolerance
     type(pairs_table_t), intent(in) :: slower
     type(pairs_table_t), intent(out) :: table
-    type(table_trial_t) :: trial
+    type(searched_table_t) :: integrator
     real(c_double) :: error
     integer :: fewest, n
 
-    trial%order = ORDER
-    trial%stride = STRIDE
-    trial%caution = CAUTION
-    trial%pendulum = pendulum
-    trial%series => shared%series
-    trial%tolerance = tolerance
-    trial%fastest = max(SLOWEST, RATIO*slower%fastest)
-    trial%kicks = expected_kicks(tolerance)
+    integrator%order = ORDER
+    integrator%stride = STRIDE
+    integrator%growth_margin = GROWTH_MARGIN
+    integrator%pendulum = pendulum
+    integrator%series => shared%series
+    integrator%tolerance = tolerance
+    integrator%fastest = max(SLOWEST, RATIO*slower%fastest)
+    integrator%kicks = expected_kicks(tolerance)
     fewest = slower%n_steps
     if (slower%fastest > 0) then
-      call make_probes(drive, speeds_of(slower), trial%probes)
+      call make_probes(drive, speeds_of(slower), integrator%probes)
       fewest = STRIDE*int(1.5_c_double*slower%n_steps/STRIDE) ! twice the speed needs some 1.5 times the steps
     else
-      trial%probes = shared%slow
+      integrator%probes = shared%slow
     end if
-    call search_steps(trial, tolerance, max(FEWEST_STEPS, fewest), MOST_STEPS, n, error)
-    table = trial%table
+    call search_steps(integrator, tolerance, max(FEWEST_STEPS, fewest), MOST_STEPS, n, error)
+    table = integrator%table
     table%error = error
   end subroutine choose_table
 
   !> The largest error of one period of n steps, rad.
-  function measure_table(trial, n) result(error)
-    class(table_trial_t), intent(inout) :: trial
+  function measure_table(integrator, n) result(error)
+    class(searched_table_t), intent(inout) :: integrator
     integer, intent(in) :: n
     real(c_double) :: error, distance, turns(WIDTH)
     real(qp) :: u
     type(pair_lanes_t) :: lanes
     integer :: first, lane
 
-    call make_pairs_table(trial%pendulum, trial%series, n, trial%kicks, trial%fastest, trial%tolerance, trial%table)
-    trial%kicks = min(MOST_PAIR_KICKS, trial%kicks + 1)
+    call make_pairs_table(integrator%pendulum, integrator%series, n, integrator%kicks, integrator%fastest, integrator%tolerance, integrator%table)
+    integrator%kicks = min(MOST_PAIR_KICKS, integrator%kicks + 1)
     error = 0
     do first = 0, N_PROBES - WIDTH, WIDTH
       do lane = 1, WIDTH
-        lanes%u(lane, :) = pair_of(trial%probes%start(1, first + lane))
-        lanes%v(lane, :) = pair_of(trial%probes%start(2, first + lane))
+        lanes%u(lane, :) = pair_of(integrator%probes%start(1, first + lane))
+        lanes%v(lane, :) = pair_of(integrator%probes%start(2, first + lane))
       end do
-      call advance_pairs_table(trial%table, WIDTH, lanes, turns)
+      call advance_pairs_table(integrator%table, WIDTH, lanes, turns)
       do lane = 1, WIDTH
-        u = quad_of(lanes%u(lane, :)) - trial%probes%image(1, first + lane)
-        distance = real(hypot(PI*(u - 2*anint(u/2)), quad_of(lanes%v(lane, :)) - trial%probes%image(2, first + lane)), c_double)
+        u = quad_of(lanes%u(lane, :)) - integrator%probes%image(1, first + lane)
+        distance = real(hypot(PI*(u - 2*anint(u/2)), quad_of(lanes%v(lane, :)) - integrator%probes%image(2, first + lane)), c_double)
         if (.not. distance <= error) error = distance ! NaN too
       end do
     end do
@@ -200,13 +200,13 @@ contains
       of_table(lane) = count(abs(lanes%v(lane, 1)) > pairs%table%fastest) + 1
     end do
     do l = 1, size(pairs%table)
-      if (any(of_table(:n) == l)) call advance_some(pairs%table(l), pack([(lane, lane=1, n)], of_table(:n) == l), lanes, turns)
+      if (any(of_table(:n) == l)) call advance_with_table(pairs%table(l), pack([(lane, lane=1, n)], of_table(:n) == l), lanes, turns)
     end do
     if (any(of_table(:n) > size(pairs%table))) &
-      call advance_fastest(pairs%drive, pack([(lane, lane=1, n)], of_table(:n) > size(pairs%table)), lanes, turns)
+      call advance_by_taylor(pairs%drive, pack([(lane, lane=1, n)], of_table(:n) > size(pairs%table)), lanes, turns)
   end subroutine advance_pairs
 
-  subroutine advance_some(table, lane, lanes, turns)
+  subroutine advance_with_table(table, lane, lanes, turns)
     type(pairs_table_t), intent(in) :: table
     integer, intent(in) :: lane(:)
     type(pair_lanes_t), intent(inout) :: lanes
@@ -223,10 +223,10 @@ contains
     lanes%u(lane, :) = some%u(:n, :)
     lanes%v(lane, :) = some%v(:n, :)
     turns(lane) = turns(lane) + int(gained(:n), c_int64_t)
-  end subroutine advance_some
+  end subroutine advance_with_table
 
   !> By Taylor series.
-  subroutine advance_fastest(drive, lane, lanes, turns)
+  subroutine advance_by_taylor(drive, lane, lanes, turns)
     type(drive_t), intent(in) :: drive
     integer, intent(in) :: lane(:)
     type(pair_lanes_t), intent(inout) :: lanes
@@ -246,6 +246,6 @@ contains
       lanes%v(lane(i), :) = pair_of(velocity(i))
     end do
     turns(lane) = turns(lane) + gained
-  end subroutine advance_fastest
+  end subroutine advance_by_taylor
 
 end module kz_taylor_pairs

@@ -44,17 +44,17 @@ contains
     integer, parameter :: N = 128, MORE_STEPS = 8
     real(c_double), parameter :: PI = real(PI_QUAD, c_double), MARGIN = 4, LEAST = 5e-34_c_double
     type(drive_t) :: other
-    type(probes_t) :: probes, again
+    type(probes_t) :: probes, repeated
     real(c_double) :: speed(N), distance(N)
     real(qp) :: angle(N)
     integer :: i
 
     speed = [(fastest*i/N, i=1, N)]
-    call make_drive(other, drive%pendulum, drive%asked + MORE_STEPS, drive%stretch)
+    call make_drive(other, drive%pendulum, drive%requested + MORE_STEPS, drive%stretch)
     call make_probes(drive, speed, probes)
-    call make_probes(other, speed, again)
-    angle = probes%image(1, :) - again%image(1, :)
-    distance = hypot(PI*real(angle - 2*anint(angle/2), c_double), real(probes%image(2, :) - again%image(2, :), c_double))
+    call make_probes(other, speed, repeated)
+    angle = probes%image(1, :) - repeated%image(1, :)
+    distance = hypot(PI*real(angle - 2*anint(angle/2), c_double), real(probes%image(2, :) - repeated%image(2, :), c_double))
     error = MARGIN*maxval(max(LEAST, distance/hypot(PI, speed)))
   end function measure_quad
 

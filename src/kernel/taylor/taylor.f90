@@ -23,11 +23,11 @@ module kz_taylor_taylor
   !> How often steps may be halved.
   integer, parameter :: FINEST = 24
   !> KZ_TAYLOR_LANES, KZ_TAYLOR_DEEP, KZ_TAYLOR_LAST of taylor_steps.c.
-  integer, parameter :: LANES = 8, DEEP = 4, LAST = 56
+  integer, parameter :: LANES = 8, DEEP_ORDERS = 4, LAST_ORDER = 56
 
   !> kz_taylor_shared of taylor_steps.c.
   type, bind(C) :: shared_t
-    real(dp) :: high(0:LAST - 1), low(0:LAST - 1), rest(0:DEEP - 1)
+    real(dp) :: high(0:LAST_ORDER - 1), low(0:LAST_ORDER - 1), rest(0:DEEP_ORDERS - 1)
   end type shared_t
 
   !> kz_taylor_force of taylor_steps.c.
@@ -46,7 +46,7 @@ module kz_taylor_taylor
   type :: drive_t
     type(pendulum_t) :: pendulum
     integer :: n_steps
-    integer :: asked !< steps a period if the drive were a sine
+    integer :: requested !< steps a period if the drive were a sine
     integer(c_int32_t) :: rough = 0 !< 1: periods are right to 1e-20 only
     type(stretch_t) :: stretch
     type(force_t), allocatable :: force(:)
@@ -55,13 +55,13 @@ module kz_taylor_taylor
 
   interface
     !> taylor_steps.c
-    pure subroutine advance_steps(n, rough, force, state, well) bind(C, name='kz_taylor_steps')
+    pure subroutine advance_steps(n, rough, force, state, converged) bind(C, name='kz_taylor_steps')
       import :: c_int64_t, c_int32_t, force_t, state_t, LANES
       integer(c_int64_t), intent(in), value :: n
       integer(c_int32_t), intent(in), value :: rough
       type(force_t), intent(in) :: force(*)
       type(state_t), intent(inout) :: state
-      integer(c_int32_t), intent(inout) :: well(LANES)
+      integer(c_int32_t), intent(inout) :: converged(LANES)
     end subroutine advance_steps
   end interface
 
@@ -80,7 +80,7 @@ contains
     drive%stretch = whole_period()
     if (present(stretch)) drive%stretch = stretch
     drive%pendulum = pendulum
-    drive%asked = n_steps
+    drive%requested = n_steps
     drive%n_steps = n_steps + (MORE_FOR_HARMONICS*(highest_harmonic(pendulum) - 1))/4
     allocate (drive%force(drive%n_steps), drive%halved(2*drive%n_steps))
     do i = 1, drive%n_steps
@@ -103,7 +103,7 @@ contains
   pure type(force_t) function force_of_step(drive, t0, h) result(force)
     type(drive_t), intent(in) :: drive
     real(qp), intent(in) :: t0, h
-    real(qp), dimension(0:LAST - 1) :: along, across, torque
+    real(qp), dimension(0:LAST_ORDER - 1) :: along, across, torque
     real(qp) :: damping(0:CUBIC)
     integer :: i
 
@@ -122,11 +122,11 @@ contains
   end function force_of_step
 
   pure type(shared_t) function round_series(series) result(rounded)
-    real(qp), intent(in) :: series(0:LAST - 1)
+    real(qp), intent(in) :: series(0:LAST_ORDER - 1)
 
     rounded%high = real(series, dp)
     rounded%low = real(series - rounded%high, dp)
-    rounded%rest = real(series(:DEEP - 1) - rounded%high(:DEEP - 1) - rounded%low(:DEEP - 1), dp)
+    rounded%rest = real(series(:DEEP_ORDERS - 1) - rounded%high(:DEEP_ORDERS - 1) - rounded%low(:DEEP_ORDERS - 1), dp)
   end function round_series
 
   !> A number as a sum of n doubles, the largest first.
@@ -154,14 +154,14 @@ contains
 
     scale = drive_series(drive%stretch, turn, h/TWO_PI)
     along(0) = along(0) - h*h*drive%pendulum%k
-    call multiply(scale, along)
+    call multiply_series(scale, along)
     along(0) = along(0) + h*h*drive%pendulum%k
-    call multiply(scale, across)
+    call multiply_series(scale, across)
     damping = h*damping_series(drive%stretch, drive%pendulum, turn, h/TWO_PI)
   end subroutine put_on_ramp
 
   !> series = series * polynomial.
-  pure subroutine multiply(polynomial, series)
+  pure subroutine multiply_series(polynomial, series)
     real(qp), intent(in) :: polynomial(0:CUBIC)
     real(qp), intent(inout) :: series(0:)
     integer :: n, i
@@ -169,7 +169,7 @@ contains
     do n = ubound(series, 1), 0, -1
       series(n) = sum([(polynomial(i)*series(n - i), i=0, min(n, CUBIC))])
     end do
-  end subroutine multiply
+  end subroutine multiply_series
 
   !> One whole drive period from t = 0, or the stretch. A state that no step is fine enough for becomes NaN.
   pure subroutine advance_period(drive, theta, velocity, turns)
@@ -205,7 +205,7 @@ contains
     logical, intent(inout) :: waiting(:)
     integer, intent(inout) :: first !< Comes back as where to go on.
     real(qp) :: lane_theta(LANES), lane_velocity(LANES)
-    logical :: carried(LANES)
+    logical :: done(LANES)
     integer :: state(LANES), n, i
 
     n = 0
@@ -221,10 +221,10 @@ contains
     lane_velocity = 0
     lane_theta(:n) = theta(state(:n))
     lane_velocity(:n) = velocity(state(:n))
-    carried = [(i <= n, i=1, LANES)]
-    call advance_lanes(drive, halvings, lane_theta, lane_velocity, carried)
+    done = [(i <= n, i=1, LANES)]
+    call advance_lanes(drive, halvings, lane_theta, lane_velocity, done)
     do i = 1, n
-      if (.not. carried(i)) cycle
+      if (.not. done(i)) cycle
       theta(state(i)) = lane_theta(i)
       velocity(state(i)) = lane_velocity(i)
       waiting(state(i)) = .false.
@@ -232,13 +232,13 @@ contains
   end subroutine advance_waiting
 
   !> One period of every lane.
-  pure subroutine advance_lanes(drive, halvings, theta, velocity, carried)
+  pure subroutine advance_lanes(drive, halvings, theta, velocity, done)
     type(drive_t), intent(in) :: drive
     integer, intent(in) :: halvings
     real(qp), intent(inout) :: theta(LANES), velocity(LANES)
-    logical, intent(inout) :: carried(LANES) !< Which lanes are in use; set to false where a series did not converge.
+    logical, intent(inout) :: done(LANES) !< Which lanes are in use; set to false where a series did not converge.
     type(state_t) :: state
-    integer(c_int32_t) :: well(LANES)
+    integer(c_int32_t) :: converged(LANES)
     real(qp) :: h
     integer :: i
 
@@ -249,18 +249,18 @@ contains
       state%s(i, :) = doubles_of(sin(theta(i)), 3)
       state%c(i, :) = doubles_of(cos(theta(i)), 3)
     end do
-    well = merge(1_c_int32_t, 0_c_int32_t, carried)
+    converged = merge(1_c_int32_t, 0_c_int32_t, done)
     if (halvings == 0) then
-      call advance_steps(size(drive%force, kind=c_int64_t), drive%rough, drive%force, state, well)
+      call advance_steps(size(drive%force, kind=c_int64_t), drive%rough, drive%force, state, converged)
     else if (halvings == 1) then
-      call advance_steps(size(drive%halved, kind=c_int64_t), drive%rough, drive%halved, state, well)
+      call advance_steps(size(drive%halved, kind=c_int64_t), drive%rough, drive%halved, state, converged)
     else
       do i = 1, drive%n_steps*2**halvings
-        call advance_steps(1_c_int64_t, drive%rough, [force_of_step(drive, TWO_PI*drive%stretch%begin + (i - 1)*h, h)], state, well)
-        if (all(well == 0)) exit
+        call advance_steps(1_c_int64_t, drive%rough, [force_of_step(drive, TWO_PI*drive%stretch%begin + (i - 1)*h, h)], state, converged)
+        if (all(converged == 0)) exit
       end do
     end if
-    carried = well /= 0
+    done = converged /= 0
     theta = quads_of(state%theta)
     velocity = quads_of(state%w)/h
   end subroutine advance_lanes

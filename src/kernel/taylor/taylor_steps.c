@@ -29,7 +29,7 @@ typedef struct {
   double theta[3][KZ_TAYLOR_LANES], w[3][KZ_TAYLOR_LANES], s[3][KZ_TAYLOR_LANES], c[3][KZ_TAYLOR_LANES];
 } kz_taylor_state;
 
-enum { DEEP = KZ_TAYLOR_DEEP, FINE = KZ_TAYLOR_FINE, LAST = KZ_TAYLOR_LAST, GENTLE = 5 };
+enum { DEEP = KZ_TAYLOR_DEEP, FINE = KZ_TAYLOR_FINE, LAST = KZ_TAYLOR_LAST, SIZE_ORDERS = 5 };
 
 /* Orders as above, and the largest coefficients at `fine` and at `last`, relative to the motion's own size, which the orders below GENTLE determine. */
 typedef struct {
@@ -37,7 +37,7 @@ typedef struct {
   double coarse, tolerance;
 } orders;
 
-static const orders EXACT = {DEEP, FINE, LAST, 1e-16, 1e-33}, ROUGH = {1, 12, 32, 1e-6, 1e-20};
+static const orders FULL_PRECISION = {DEEP, FINE, LAST, 1e-16, 1e-33}, ROUGH = {1, 12, 32, 1e-6, 1e-20};
 
 /* The orders of w, s or c: triples up to DEEP, pairs up to FINE, the high parts alone beyond. */
 typedef struct {
@@ -58,27 +58,27 @@ static const double inverses[][2] = {INVERSES(1),  INVERSES(9),  INVERSES(17), I
                                      INVERSES(33), INVERSES(41), INVERSES(49), INVERSE(57)};
 _Static_assert(sizeof inverses / sizeof *inverses == LAST + 1, "one for each order, and one beyond");
 
-OPERATION triple inverse_triple(double sign, int64_t n) {
-  return inverse_with(sign, (double)n, inverses[n - 1]);
+KZ_INLINE triple inverse_triple(double sign, int64_t n) {
+  return inverse_triple_with(sign, (double)n, inverses[n - 1]);
 }
 
-OPERATION pair inverse(double sign, int64_t n) {
-  return (pair){same(sign * inverses[n - 1][0]), same(sign * inverses[n - 1][1])};
+KZ_INLINE pair inverse_pair(double sign, int64_t n) {
+  return (pair){broadcast(sign * inverses[n - 1][0]), broadcast(sign * inverses[n - 1][1])};
 }
 
 /* Order n is sign total / n. */
-OPERATION void set_coarse(coefficients *x, int64_t n, double sign, vector total) {
-  x->coarse[n] = total * inverse(sign, n).high;
+KZ_INLINE void set_coarse(coefficients *x, int64_t n, double sign, vector total) {
+  x->coarse[n] = total * inverse_pair(sign, n).high;
 }
 
-OPERATION void set_fine(coefficients *x, int64_t n, double sign, pair total) {
-  x->fine[n] = multiply(quick_sum(total.high, total.low), inverse(sign, n));
+KZ_INLINE void set_fine(coefficients *x, int64_t n, double sign, pair total) {
+  x->fine[n] = multiply_pairs(quick_two_sum(total.high, total.low), inverse_pair(sign, n));
   x->coarse[n] = x->fine[n].high;
 }
 
-OPERATION void set_deep(coefficients *x, int64_t n, double sign, triple total) {
-  x->deep[n] = multiply_triples(in_order(total), inverse_triple(sign, n));
-  x->fine[n] = upper(x->deep[n]);
+KZ_INLINE void set_deep(coefficients *x, int64_t n, double sign, triple total) {
+  x->deep[n] = multiply_triples(renormalise(total), inverse_triple(sign, n));
+  x->fine[n] = upper_pair(x->deep[n]);
   x->coarse[n] = x->fine[n].high;
 }
 
@@ -88,25 +88,25 @@ OPERATION void set_deep(coefficients *x, int64_t n, double sign, triple total) {
 #define CHAINS_fine 1
 #define CHAINS_coarse CHAINS
 
-#define EACH _Pragma("GCC unroll 4") for (int64_t j = 0; j < OF_LEVEL(CHAINS_); j++)
+#define EACH _Pragma("GCC unroll 4") for (int64_t j = 0; j < KZ_OF_LEVEL(CHAINS_); j++)
 #define ORDER(name, i) x[j].name.KZ_LEVEL[i]
-#define SHARED(name, i) OF_LEVEL(made_)(force->name.high[i], force->name.low[i], force->name.rest[i])
-#define PLAIN(name, i) OF_LEVEL(made_)(force->name[0] i, force->name[1] i, force->name[2] i)
-#define GAIN_along(total, b) EACH OF_LEVEL(gain_)(&total[j], SHARED(along, i), ORDER(b, n - i))
-#define GAIN_across(total, b) EACH OF_LEVEL(gain_)(&total[j], SHARED(across, i), ORDER(b, n - i))
-#define GAIN_w(total, b) EACH OF_LEVEL(gain_)(&total[j], ORDER(b, i), ORDER(w, n - i))
-#define KZ_NEXT OF_LEVEL(next_)
+#define SHARED(name, i) KZ_OF_LEVEL(KZ_CONSTANT_)(force->name.high[i], force->name.low[i], force->name.rest[i])
+#define PLAIN(name, i) KZ_OF_LEVEL(KZ_CONSTANT_)(force->name[0] i, force->name[1] i, force->name[2] i)
+#define GAIN_along(total, b) EACH KZ_OF_LEVEL(accumulate_)(&total[j], SHARED(along, i), ORDER(b, n - i))
+#define GAIN_across(total, b) EACH KZ_OF_LEVEL(accumulate_)(&total[j], SHARED(across, i), ORDER(b, n - i))
+#define GAIN_w(total, b) EACH KZ_OF_LEVEL(accumulate_)(&total[j], ORDER(b, i), ORDER(w, n - i))
+#define KZ_NEXT KZ_OF_LEVEL(next_)
 #define KZ_ARGUMENTS const kz_taylor_force *force, series *x
-#define KZ_SUM(total) OF_LEVEL(number_) total[OF_LEVEL(CHAINS_)] = {0}
+#define KZ_SUM(total) KZ_OF_LEVEL(number_) total[KZ_OF_LEVEL(CHAINS_)] = {0}
 #define KZ_TERMS for (int64_t i = 0; i <= n; i++)
 #define KZ_GAIN(total, a, b) GAIN_##a(total, b)
 #define KZ_DAMP(total)                                                           \
   for (int64_t i = 0; i <= n && i < (force->has_ramp ? KZ_TAYLOR_RAMP : 1); i++) \
-  EACH OF_LEVEL(gain_)(&total[j], PLAIN(damping, [i]), ORDER(w, n - i))
+  EACH KZ_OF_LEVEL(accumulate_)(&total[j], PLAIN(damping, [i]), ORDER(w, n - i))
 #define KZ_DAMPS_LATER
 #define KZ_HAS_ACROSS force->has_across
-#define KZ_PUSH(total) EACH OF_LEVEL(gain_)(&total[j], SHARED(torque, n), OF_LEVEL(made_)(-1, 0, 0))
-#define KZ_SET(name, sign, total) EACH OF_LEVEL(set_)(&x[j].name, n + 1, sign 1.0, total[j])
+#define KZ_PUSH(total) EACH KZ_OF_LEVEL(accumulate_)(&total[j], SHARED(torque, n), KZ_OF_LEVEL(KZ_CONSTANT_)(-1, 0, 0))
+#define KZ_SET(name, sign, total) EACH KZ_OF_LEVEL(set_)(&x[j].name, n + 1, sign 1.0, total[j])
 
 #define KZ_LEVEL deep
 #include "motion.inc"
@@ -116,86 +116,89 @@ OPERATION void set_deep(coefficients *x, int64_t n, double sign, triple total) {
 #include "motion.inc"
 
 /* The sum of the orders from 1 on, each divided by its number plus 1 where they are `integrated`; smallest terms first. */
-OPERATION triple sum_of(const coefficients *x, orders of, bool integrated) {
-  pair total = {same(0), same(0)};
-  for (int64_t n = of.last; n > of.fine; n--) total.high += x->coarse[n] * (integrated ? inverse(1, n + 1).high : same(1));
+KZ_INLINE triple sum_of(const coefficients *x, orders of, bool integrated) {
+  pair total = {broadcast(0), broadcast(0)};
+  for (int64_t n = of.last; n > of.fine; n--)
+    total.high += x->coarse[n] * (integrated ? inverse_pair(1, n + 1).high : broadcast(1));
   for (int64_t n = of.fine; n > of.deep; n--)
-    total = loose_sum(total, integrated ? multiply(x->fine[n], inverse(1, n + 1)) : x->fine[n]);
-  total = quick_sum(total.high, total.low);
-  triple whole = {{total.high, total.low, same(0)}};
+    total = sum_unnormalised(total, integrated ? multiply_pairs(x->fine[n], inverse_pair(1, n + 1)) : x->fine[n]);
+  total = quick_two_sum(total.high, total.low);
+  triple whole = {{total.high, total.low, broadcast(0)}};
   for (int64_t n = of.deep; n >= 1; n--)
     whole = add_triples(whole, integrated ? multiply_triples(x->deep[n], inverse_triple(1, n + 1)) : x->deep[n]);
   return whole;
 }
 
-OPERATION vector modulus(vector x) {
-  return pick(x < 0, -x, x);
+KZ_INLINE vector absolute_value(vector x) {
+  return blend(x < 0, -x, x);
 }
 
-OPERATION vector larger(vector a, vector b) {
-  return pick(a > b, a, b);
+KZ_INLINE vector larger_of(vector a, vector b) {
+  return blend(a > b, a, b);
 }
 
 /* Whether the coefficients of order n and of its neighbours below are at most a bound: one may vanish by chance or by symmetry. Not where one is
  * no number. */
-OPERATION mask is_small(const series *x, int64_t n, vector bound) {
-  mask small = same(0) == same(0);
+KZ_INLINE mask is_small(const series *x, int64_t n, vector bound) {
+  mask small = broadcast(0) == broadcast(0);
   for (int64_t i = n - 2; i <= n; i++)
-    small &= (modulus(x->w.coarse[i]) <= bound) & (modulus(x->s.coarse[i]) <= bound) & (modulus(x->c.coarse[i]) <= bound);
+    small &= (absolute_value(x->w.coarse[i]) <= bound) & (absolute_value(x->s.coarse[i]) <= bound) &
+             (absolute_value(x->c.coarse[i]) <= bound);
   return small;
 }
 
 /* Whether the series are complete at the last order, and small enough at `fine` for what follows. */
-OPERATION mask is_complete(const series *x, orders of) {
-  vector motion = same(0);
-  for (int64_t i = 0; i < GENTLE; i++) motion = larger(motion, larger(modulus(x->w.coarse[i]), modulus(x->s.coarse[i])));
+KZ_INLINE mask is_complete(const series *x, orders of) {
+  vector motion = broadcast(0);
+  for (int64_t i = 0; i < SIZE_ORDERS; i++)
+    motion = larger_of(motion, larger_of(absolute_value(x->w.coarse[i]), absolute_value(x->s.coarse[i])));
   return is_small(x, of.fine, of.coarse * motion) & is_small(x, of.last, of.tolerance * motion);
 }
 
-OPERATION bool is_any(const mask *where) {
+KZ_INLINE bool is_any(const mask *where) {
   int64_t bits = 0;
   for (int64_t i = 0; i < KZ_TAYLOR_LANES; i++) bits |= where[i / LANES][i % LANES];
   return bits != 0;
 }
 
-OPERATION triple load(double (*x)[KZ_TAYLOR_LANES], int64_t first) {
+KZ_INLINE triple load_triple(double (*x)[KZ_TAYLOR_LANES], int64_t first) {
   return (triple){{*(vector *)(x[0] + first), *(vector *)(x[1] + first), *(vector *)(x[2] + first)}};
 }
 
-OPERATION void save(triple x, double (*to)[KZ_TAYLOR_LANES], int64_t first) {
+KZ_INLINE void save_triple(triple x, double (*to)[KZ_TAYLOR_LANES], int64_t first) {
   for (int i = 0; i < 3; i++) *(vector *)(to[i] + first) = x.part[i];
 }
 
 /* Rest where the mask is not set: what is lost does not overflow. */
-OPERATION triple keep(mask where, triple x) {
-  for (int i = 0; i < 3; i++) x.part[i] = pick(where, x.part[i], same(0));
+KZ_INLINE triple clear_unless(mask where, triple x) {
+  for (int i = 0; i < 3; i++) x.part[i] = blend(where, x.part[i], broadcast(0));
   return x;
 }
 
-OPERATION void begin_with(triple start, coefficients *x) {
+KZ_INLINE void set_order_zero(triple start, coefficients *x) {
   x->deep[0] = start;
-  x->fine[0] = upper(start);
+  x->fine[0] = upper_pair(start);
   x->coarse[0] = start.part[0];
 }
 
-OPERATION void begin(series *x, kz_taylor_state *state, int64_t first) {
-  begin_with(load(state->w, first), &x->w);
-  begin_with(load(state->s, first), &x->s);
-  begin_with(load(state->c, first), &x->c);
+KZ_INLINE void begin_series(series *x, kz_taylor_state *state, int64_t first) {
+  set_order_zero(load_triple(state->w, first), &x->w);
+  set_order_zero(load_triple(state->s, first), &x->s);
+  set_order_zero(load_triple(state->c, first), &x->c);
 }
 
 /* Adds a step to one chain, and clears what is not `well`. */
-OPERATION void end(const series *x, orders of, kz_taylor_state *state, int64_t first, mask *well) {
-  *well &= is_complete(x, of);
-  const triple theta = add_triples(load(state->theta, first), x->w.deep[0]);
-  save(add_triples(theta, sum_of(&x->w, of, true)), state->theta, first);
-  save(keep(*well, add_triples(x->w.deep[0], sum_of(&x->w, of, false))), state->w, first);
-  save(keep(*well, add_triples(x->s.deep[0], sum_of(&x->s, of, false))), state->s, first);
-  save(keep(*well, add_triples(x->c.deep[0], sum_of(&x->c, of, false))), state->c, first);
+KZ_INLINE void end_step(const series *x, orders of, kz_taylor_state *state, int64_t first, mask *converged) {
+  *converged &= is_complete(x, of);
+  const triple theta = add_triples(load_triple(state->theta, first), x->w.deep[0]);
+  save_triple(add_triples(theta, sum_of(&x->w, of, true)), state->theta, first);
+  save_triple(clear_unless(*converged, add_triples(x->w.deep[0], sum_of(&x->w, of, false))), state->w, first);
+  save_triple(clear_unless(*converged, add_triples(x->s.deep[0], sum_of(&x->s, of, false))), state->s, first);
+  save_triple(clear_unless(*converged, add_triples(x->c.deep[0], sum_of(&x->c, of, false))), state->c, first);
 }
 
 /* The orders of all chains. */
-OPERATION void make_series(orders of, const kz_taylor_force *force, series *x) {
+KZ_INLINE void make_series(orders of, const kz_taylor_force *force, series *x) {
   for (int64_t j = 0; j < CHAINS; j++) {
     for (int64_t i = 0; i < of.deep; i++) next_deep(force, x + j, i);
     for (int64_t i = of.deep; i < of.fine; i++) next_fine(force, x + j, i);
@@ -204,24 +207,24 @@ OPERATION void make_series(orders of, const kz_taylor_force *force, series *x) {
 }
 
 /* The steps of all orbits; where their series were complete. */
-OPERATION void advance(int64_t n, orders of, const kz_taylor_force *force, kz_taylor_state *state, mask *well) {
+KZ_INLINE void advance_orbits(int64_t n, orders of, const kz_taylor_force *force, kz_taylor_state *state, mask *converged) {
   _Alignas(64) series x[CHAINS]; /* a vector that crosses lines of the cache takes twice as long */
-  for (int64_t step = 0; step < n && is_any(well); step++) {
-    for (int64_t j = 0; j < CHAINS; j++) begin(&x[j], state, j * LANES);
+  for (int64_t step = 0; step < n && is_any(converged); step++) {
+    for (int64_t j = 0; j < CHAINS; j++) begin_series(&x[j], state, j * LANES);
     make_series(of, force + step, x);
-    for (int64_t j = 0; j < CHAINS; j++) end(x + j, of, state, j * LANES, well + j);
+    for (int64_t j = 0; j < CHAINS; j++) end_step(x + j, of, state, j * LANES, converged + j);
   }
 }
 
 /* Does the steps force [n], one after the other, to 33 digits, or if `rough` to 20. well [KZ_TAYLOR_LANES] becomes 0 for an orbit whose series has
  * not converged at the last order, or is too large at the last order in pairs: it needs shorter steps, and its state is meaningless. Orbits are
  * independent. */
-void kz_taylor_steps(int64_t n, int32_t rough, const kz_taylor_force *force, kz_taylor_state *state, int32_t *well) {
+void kz_taylor_steps(int64_t n, int32_t rough, const kz_taylor_force *force, kz_taylor_state *state, int32_t *converged) {
   mask complete[CHAINS];
-  for (int64_t j = 0; j < CHAINS; j++) complete[j] = same(0) == same(0);
+  for (int64_t j = 0; j < CHAINS; j++) complete[j] = broadcast(0) == broadcast(0);
   if (rough)
-    advance(n, ROUGH, force, state, complete);
+    advance_orbits(n, ROUGH, force, state, complete);
   else
-    advance(n, EXACT, force, state, complete);
-  for (int64_t i = 0; i < KZ_TAYLOR_LANES; i++) well[i] = well[i] && complete[i / LANES][i % LANES];
+    advance_orbits(n, FULL_PRECISION, force, state, complete);
+  for (int64_t i = 0; i < KZ_TAYLOR_LANES; i++) converged[i] = converged[i] && complete[i / LANES][i % LANES];
 }

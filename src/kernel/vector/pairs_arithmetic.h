@@ -23,7 +23,7 @@ typedef struct {
 } pair;
 
 /* a b + c, rounded once. */
-OPERATION vector fused(vector a, vector b, vector c) {
+KZ_INLINE vector fmadd(vector a, vector b, vector c) {
 #if defined __AVX512F__
   return (vector)_mm512_fmadd_pd((__m512d)a, (__m512d)b, (__m512d)c);
 #elif defined __FMA__
@@ -35,7 +35,7 @@ OPERATION vector fused(vector a, vector b, vector c) {
 }
 
 /* x in every lane. (x + {0} would be an addition.) */
-OPERATION vector same(double x) {
+KZ_INLINE vector broadcast(double x) {
 #if defined __AVX512F__
   return (vector)_mm512_set1_pd(x);
 #elif defined __FMA__
@@ -48,90 +48,90 @@ OPERATION vector same(double x) {
 }
 
 /* a where the mask is set, else b. */
-OPERATION vector pick(mask where, vector a, vector b) {
+KZ_INLINE vector blend(mask where, vector a, vector b) {
   return (vector)((where & (mask)a) | (~where & (mask)b));
 }
 
 /* a + b, |a| >= |b| or a = 0. */
-OPERATION pair quick_sum(vector a, vector b) {
+KZ_INLINE pair quick_two_sum(vector a, vector b) {
   const vector s = a + b;
   return (pair){s, b - (s - a)};
 }
 
 /* a + b. */
-OPERATION pair sum(vector a, vector b) {
+KZ_INLINE pair two_sum(vector a, vector b) {
   const vector s = a + b, t = s - a;
   return (pair){s, (a - (s - t)) + (b - t)};
 }
 
 /* x + y as a sum whose parts may overlap by some bits. */
-OPERATION pair loose_sum(pair x, pair y) {
-  const pair s = sum(x.high, y.high);
+KZ_INLINE pair sum_unnormalised(pair x, pair y) {
+  const pair s = two_sum(x.high, y.high);
   return (pair){s.high, s.low + (x.low + y.low)};
 }
 
 /* x + y; the error is at most 2^-104 (|x| + |y|). */
-OPERATION pair add(pair x, pair y) {
-  const pair s = loose_sum(x, y);
-  return quick_sum(s.high, s.low);
+KZ_INLINE pair add_pairs(pair x, pair y) {
+  const pair s = sum_unnormalised(x, y);
+  return quick_two_sum(s.high, s.low);
 }
 
-OPERATION pair negative(pair x) {
+KZ_INLINE pair negate_pair(pair x) {
   return (pair){-x.high, -x.low};
 }
 
-OPERATION pair subtract(pair x, pair y) {
-  return add(x, negative(y));
+KZ_INLINE pair subtract_pairs(pair x, pair y) {
+  return add_pairs(x, negate_pair(y));
 }
 
 /* x y as a sum whose parts may overlap by some bits. */
-OPERATION pair loose_product(pair x, pair y) {
+KZ_INLINE pair product_unnormalised(pair x, pair y) {
   const vector p = x.high * y.high;
-  return (pair){p, fused(x.high, y.low, fused(x.low, y.high, fused(x.high, y.high, -p)))};
+  return (pair){p, fmadd(x.high, y.low, fmadd(x.low, y.high, fmadd(x.high, y.high, -p)))};
 }
 
 /* x y; the error is at most 6.01 u^2 |x y|, u = 2^-53: 2 and 3 from the two roundings, 1 from the product of the low parts. */
-OPERATION pair multiply(pair x, pair y) {
-  const pair p = loose_product(x, y);
-  return quick_sum(p.high, p.low);
+KZ_INLINE pair multiply_pairs(pair x, pair y) {
+  const pair p = product_unnormalised(x, y);
+  return quick_two_sum(p.high, p.low);
 }
 /* total += a b, high parts without error; the low part of the total sums their rounding errors and the low parts of the products, and is not
  * carried up (Ogita, Rump, Oishi, SIAM J. Sci. Comput. 26 (2005) 1955). */
-OPERATION void gain(pair *total, pair a, pair b) {
+KZ_INLINE void accumulate_pair(pair *total, pair a, pair b) {
   const vector p = a.high * b.high;
-  const pair t = sum(total->high, p);
+  const pair t = two_sum(total->high, p);
   total->high = t.high;
-  total->low += t.low + fused(a.high, b.low, fused(a.low, b.high, fused(a.high, b.high, -p)));
+  total->low += t.low + fmadd(a.high, b.low, fmadd(a.low, b.high, fmadd(a.high, b.high, -p)));
 }
 
 /* x y + c, c [2] the same in every lane: a step of Horner's scheme. The parts may overlap by some bits. Terms with x.low come last, because
  * a chain of steps waits only for the high parts. */
-OPERATION pair horner(pair x, pair y, const double *c) {
-  const vector p = x.high * y.high, rest = fused(x.high, y.low, fused(x.high, y.high, -p));
-  const pair s = sum(same(c[0]), p);
-  return (pair){s.high, fused(x.low, y.high, rest + (s.low + c[1]))};
+KZ_INLINE pair horner_step(pair x, pair y, const double *c) {
+  const vector p = x.high * y.high, rest = fmadd(x.high, y.low, fmadd(x.high, y.high, -p));
+  const pair s = two_sum(broadcast(c[0]), p);
+  return (pair){s.high, fmadd(x.low, y.high, rest + (s.low + c[1]))};
 }
 
 /* The same where |c| >= |x y|. */
-OPERATION pair ordered_horner(pair x, pair y, const double *c) {
-  const vector p = x.high * y.high, rest = fused(x.high, y.low, fused(x.high, y.high, -p));
-  const pair s = quick_sum(same(c[0]), p);
-  return (pair){s.high, fused(x.low, y.high, rest + (s.low + c[1]))};
+KZ_INLINE pair ordered_horner_step(pair x, pair y, const double *c) {
+  const vector p = x.high * y.high, rest = fmadd(x.high, y.low, fmadd(x.high, y.high, -p));
+  const pair s = quick_two_sum(broadcast(c[0]), p);
+  return (pair){s.high, fmadd(x.low, y.high, rest + (s.low + c[1]))};
 }
 
 /* c[0] + c[1] x + .. of pairs c [n][2]; of those from n_pairs on, which are small, only the high parts. The parts of the result may
  * overlap by some bits. */
-OPERATION pair polynomial(int64_t n, int64_t n_pairs, const double *c, pair x) {
-  pair p = {same(0), same(0)};
-  for (int64_t j = n - 1; j >= n_pairs; j--) p.high = fused(p.high, x.high, same(c[2 * j]));
-  for (int64_t j = n_pairs - 1; j >= 0; j--) p = horner(p, x, c + 2 * j);
+KZ_INLINE pair evaluate_pairs(int64_t n, int64_t n_pairs, const double *c, pair x) {
+  pair p = {broadcast(0), broadcast(0)};
+  for (int64_t j = n - 1; j >= n_pairs; j--) p.high = fmadd(p.high, x.high, broadcast(c[2 * j]));
+  for (int64_t j = n_pairs - 1; j >= 0; j--) p = horner_step(p, x, c + 2 * j);
   return p;
 }
 
-#define ROUND_TO_EVEN 0x3p52 /* adding it rounds to an even integer */
+#define KZ_ROUND_TO_EVEN 0x3p52 /* adding it rounds to an even integer */
 
 /* An angle in half-turns less the even integer nearest to it, in [-1, 1]; *even = that integer. */
-OPERATION pair reduce(pair u, vector *even) {
-  *even = (u.high + ROUND_TO_EVEN) - ROUND_TO_EVEN;
-  return quick_sum(u.high - *even, u.low);
+KZ_INLINE pair reduce_half_turns(pair u, vector *even) {
+  *even = (u.high + KZ_ROUND_TO_EVEN) - KZ_ROUND_TO_EVEN;
+  return quick_two_sum(u.high - *even, u.low);
 }

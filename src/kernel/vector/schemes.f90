@@ -29,11 +29,11 @@ module kz_vector_schemes
     real(qp) :: share
   end type stage_t
 
-  real(qp), parameter :: O = 0.0_qp
+  real(qp), parameter :: ZERO = 0.0_qp
   character(*), parameter :: BLANES_MOAN = 'Blanes and Moan, J. Comput. Appl. Math. 142 (2002) 313, '
 
   type(scheme_t), parameter :: SCHEMES(*) = [ &
-    scheme_t('rk4', 4, 4, 100, RUNGE_KUTTA, 0, 0, O, O, &
+    scheme_t('rk4', 4, 4, 100, RUNGE_KUTTA, 0, 0, ZERO, ZERO, &
              'classical fourth-order Runge-Kutta, the method of BSG 1992'), &
     scheme_t('split6', 6, 14, 24, SPLIT, 7, 6, &
              [0.0378593198406116_qp, 0.102635633102435_qp, -0.0258678882665587_qp, 0.314241403071447_qp, &
@@ -41,7 +41,7 @@ module kz_vector_schemes
              [0.09171915262446165_qp, 0.183983170005006_qp, -0.05653436583288827_qp, 0.004914688774712854_qp, &
               0.143761127168358_qp, 0.328567693746804_qp], &
              BLANES_MOAN//'SRKN, 14 stages, order 6'), &
-    scheme_t('processed', 14, 1, 40, PROCESSED, 0, 0, O, O, &
+    scheme_t('processed', 14, 1, 40, PROCESSED, 0, 0, ZERO, ZERO, &
              'one modified kick a step between two changes of coordinates (docs/explanation/theory.md)')]
 
   !> Rows `split6` and `processed`, counted from 0 as numerics_t%scheme: the one that published values rest on, and the fastest.

@@ -4,31 +4,31 @@ module kz_vector_step_search
   use, intrinsic :: iso_c_binding, only: c_double, c_int32_t, c_funptr, c_ptr, c_f_procpointer
   implicit none
   private
-  public :: trial_t, search_steps, expected_steps
+  public :: integrator_t, search_steps, expected_steps
 
   !> rad: a larger error says only that there are too few steps; and how much more are tried next at most.
-  real(c_double), parameter :: LARGEST = 1, MOST_GROWTH = 2
+  real(c_double), parameter :: LARGEST_ERROR = 1, MAX_GROWTH = 2
   !> rad: below it an error that falls more slowly than as 1/steps is rounding, which more steps do not mend.
-  real(c_double), parameter :: ROUNDED = 1e-3_c_double
+  real(c_double), parameter :: ROUNDING_ERROR = 1e-3_c_double
 
   !> An integrator whose number of steps is searched.
-  type, abstract :: trial_t
+  type, abstract :: integrator_t
     integer :: order = 1  !< of convergence
     integer :: stride = 2 !< numbers of steps after the first are multiples of it
     !> How many more steps are tried than the order expects: 1 finds the fewest, more finds enough of them sooner.
-    real(c_double) :: caution = 1
+    real(c_double) :: growth_margin = 1
   contains
-    procedure(measure), deferred :: measure
-  end type trial_t
+    procedure(measure_error), deferred :: measure_error
+  end type integrator_t
 
   abstract interface
     !> The error of a period of n steps, rad; huge() where it diverges.
-    function measure(trial, n) result(error)
-      import :: trial_t, c_double
-      class(trial_t), intent(inout) :: trial !< the integrator
+    function measure_error(integrator, n) result(error)
+      import :: integrator_t, c_double
+      class(integrator_t), intent(inout) :: integrator !< the integrator
       integer, intent(in) :: n !< steps
       real(c_double) :: error
-    end function measure
+    end function measure_error
 
     !> kz_step_error of kernel.h.
     function c_measure(n, context) bind(C) result(error)
@@ -40,19 +40,19 @@ module kz_vector_step_search
   end interface
 
   !> An integrator of C.
-  type, extends(trial_t) :: c_trial_t
+  type, extends(integrator_t) :: c_integrator_t
     procedure(c_measure), pointer, nopass :: function => null()
     type(c_ptr) :: context
   contains
-    procedure :: measure => measure_in_c
-  end type c_trial_t
+    procedure :: measure_error => measure_in_c
+  end type c_integrator_t
 
 contains
 
   !> Tries numbers of steps from `fewest` on, each the one that the order expects from the error of the former, until an error is at most
   !> the tolerance. Where `most` steps, or any, do not reach it, the last error is above the tolerance.
-  subroutine search_steps(trial, tolerance, fewest, most, n, error)
-    class(trial_t), intent(inout) :: trial !< the integrator; comes back with n steps
+  subroutine search_steps(integrator, tolerance, fewest, most, n, error)
+    class(integrator_t), intent(inout) :: integrator !< the integrator; comes back with n steps
     real(c_double), intent(in) :: tolerance !< rad, of one drive period
     integer, intent(in) :: fewest, most !< first number of steps; last one allowed
     integer, intent(out) :: n !< the last number tried; 0 where fewest exceeds most
@@ -67,11 +67,11 @@ contains
       former = error
       former_n = n
       n = next
-      error = trial%measure(n)
+      error = integrator%measure_error(n)
       if (error <= tolerance) exit
-      if (former < ROUNDED .and. error*n > former*former_n) exit
-      wanted = trial%caution*expected_steps(int(n, c_int32_t), min(error, LARGEST), tolerance, int(trial%order, c_int32_t))
-      next = max(n + trial%stride, trial%stride*int(min(MOST_GROWTH*n, wanted)/trial%stride))
+      if (former < ROUNDING_ERROR .and. error*n > former*former_n) exit
+      wanted = integrator%growth_margin*expected_steps(int(n, c_int32_t), min(error, LARGEST_ERROR), tolerance, int(integrator%order, c_int32_t))
+      next = max(n + integrator%stride, integrator%stride*int(min(MAX_GROWTH*n, wanted)/integrator%stride))
     end do
   end subroutine search_steps
 
@@ -93,23 +93,23 @@ contains
     real(c_double), value :: tolerance
     integer(c_int32_t), value :: fewest, most
     integer(c_int32_t), intent(out) :: n
-    real(c_double), parameter :: CAUTION = 1.125_c_double !< so few tries that a hopeless case is refused quickly
-    type(c_trial_t) :: trial
+    real(c_double), parameter :: GROWTH_MARGIN = 1.125_c_double !< so few tries that a hopeless case is refused quickly
+    type(c_integrator_t) :: integrator
     integer :: tried
 
-    trial%order = order
-    trial%caution = CAUTION
-    trial%context = context
-    call c_f_procpointer(function, trial%function)
-    call search_steps(trial, tolerance, int(fewest), int(most), tried, error)
+    integrator%order = order
+    integrator%growth_margin = GROWTH_MARGIN
+    integrator%context = context
+    call c_f_procpointer(function, integrator%function)
+    call search_steps(integrator, tolerance, int(fewest), int(most), tried, error)
     n = tried
   end function c_search
 
-  real(c_double) function measure_in_c(trial, n) result(error)
-    class(c_trial_t), intent(inout) :: trial
+  real(c_double) function measure_in_c(integrator, n) result(error)
+    class(c_integrator_t), intent(inout) :: integrator
     integer, intent(in) :: n
 
-    error = trial%function(int(n, c_int32_t), trial%context)
+    error = integrator%function(int(n, c_int32_t), integrator%context)
   end function measure_in_c
 
 end module kz_vector_step_search

@@ -93,33 +93,33 @@ contains
     type(stretch_t), intent(in) :: part
     !> exp(2 pi i t) at the beginning of the part and of the step, of a step, and of each stage counted from the beginning of its step: sums of
     !> angles are products, which cost less than cosines in quad precision
-    complex(qp) :: begin, begin_of_step, of_step, of_stage(size(stages))
-    real(qp) :: time(period%n_steps*size(stages) + 1), at(size(stages)), weight(size(stages)), shift
+    complex(qp) :: clock_at_begin, clock_of_step, step_phasor, stage_phasor(size(stages))
+    real(qp) :: time(period%n_steps*size(stages) + 1), elapsed(size(stages)), weight(size(stages)), shift
     integer :: n, i, s
 
-    at = elapsed(stages)
+    elapsed = elapsed_shares(stages)
     weight = stages%share*step
-    begin = phasor(part%begin)
-    of_step = phasor(part%span/period%n_steps)
+    clock_at_begin = phasor(part%begin)
+    step_phasor = phasor(part%span/period%n_steps)
     do s = 1, size(stages)
-      of_stage(s) = phasor(part%span*(at(s)/period%n_steps))
+      stage_phasor(s) = phasor(part%span*(elapsed(s)/period%n_steps))
     end do
     call allocate_kicks(period, period%n_steps*size(stages) + 1)
     allocate (period%step_end(period%n_steps))
     n = 0
     shift = 0
-    begin_of_step = begin
+    clock_of_step = clock_at_begin
     do i = 0, period%n_steps - 1
       do s = 1, size(stages)
         if (stages(s)%is_kick) then
-          call append(weight(s), at(s), begin_of_step*of_stage(s))
+          call append_kick(weight(s), elapsed(s), clock_of_step*stage_phasor(s))
         else
           shift = shift + stages(s)%share
         end if
       end do
-      if (.not. fused .and. shift > 0) call append(0.0_qp, 0.0_qp, begin)
+      if (.not. fused .and. shift > 0) call append_kick(0.0_qp, 0.0_qp, clock_at_begin)
       period%step_end(i + 1) = n
-      begin_of_step = begin_of_step*of_step
+      clock_of_step = clock_of_step*step_phasor
     end do
     period%kick = period%kick(:n)
     if (.not. period%mirrored) then
@@ -128,13 +128,13 @@ contains
     end if
     time(n + 1) = shift
     if (part%changes) then
-      call damp_along(period, pendulum, part, time(:n + 1)*step)
+      call set_ramp_drifts(period, pendulum, part, time(:n + 1)*step)
     else
-      call damp(period, time(:n + 1), step)
+      call set_damped_drifts(period, time(:n + 1), step)
     end if
   contains
     !> A kick after a share of step i; its own time counts on a ramp alone.
-    subroutine append(weight, share, clock_of_turn)
+    subroutine append_kick(weight, share, clock_of_turn)
       real(qp), intent(in) :: weight, share
       complex(qp), intent(in) :: clock_of_turn
       real(qp) :: turn
@@ -145,11 +145,11 @@ contains
       if (part%changes) turn = turn + part%span*((i + share)/period%n_steps)
       call set_kick(period, pendulum, part, n, weight, turn, clock_of_turn)
       shift = 0
-    end subroutine append
+    end subroutine append_kick
   end subroutine split_tables
 
   !> Shares of a step that have elapsed at each of its stages.
-  pure function elapsed(stages) result(clock)
+  pure function elapsed_shares(stages) result(clock)
     type(stage_t), intent(in) :: stages(:)
     real(qp) :: clock(size(stages))
     integer :: s
@@ -159,7 +159,7 @@ contains
       clock(s) = clock(s - 1)
       if (.not. stages(s - 1)%is_kick) clock(s) = clock(s) + stages(s - 1)%share
     end do
-  end function elapsed
+  end function elapsed_shares
 
   !> exp(2 pi i turn).
   pure complex(qp) function phasor(turn)
@@ -169,55 +169,55 @@ contains
   end function phasor
 
   !> Turns the times of the drifts into shares of the velocity: (1 - exp(-beta t))/beta and exp(-beta t).
-  subroutine damp(period, share, step)
+  subroutine set_damped_drifts(period, share, step)
     type(period_t), intent(inout) :: period
     real(qp), intent(in) :: share(:) !< of a step, that each drift takes
     real(qp), intent(in) :: step !< rad
     !> drifts repeat from step to step
-    integer, parameter :: BACK = 20
+    integer, parameter :: LOOK_BACK = 20
     real(qp) :: beta, time
-    integer :: i, like
+    integer :: i, former
 
     beta = period%beta
     call allocate_drifts(period, size(share))
     do i = 1, size(share)
-      like = findloc(share(max(1, i - BACK):i), share(i), dim=1) + max(0, i - BACK - 1)
-      if (like < i) then
-        period%decay(i) = period%decay(like)
-        period%drift(i) = period%drift(like)
-        period%drift_u(i) = period%drift_u(like)
+      former = findloc(share(max(1, i - LOOK_BACK):i), share(i), dim=1) + max(0, i - LOOK_BACK - 1)
+      if (former < i) then
+        period%decay(i) = period%decay(former)
+        period%drift(i) = period%drift(former)
+        period%drift_u(i) = period%drift_u(former)
       else
         time = share(i)*step
         call set_drift(period, i, exp(-beta*time), time*mean_decay(beta*time))
       end if
     end do
-  end subroutine damp
+  end subroutine set_damped_drifts
 
   !> The same on a ramp of the damping: exp(-B(t)), B the integral of beta, and the integral of that, by series in time.
-  subroutine damp_along(period, pendulum, part, time)
+  subroutine set_ramp_drifts(period, pendulum, part, time)
     type(period_t), intent(inout) :: period
     type(pendulum_t), intent(in) :: pendulum
     type(stretch_t), intent(in) :: part
     real(qp), intent(in) :: time(:)
     integer, parameter :: TERMS = 48
-    real(qp) :: rate(0:CUBIC), left(0:TERMS), turn
+    real(qp) :: rate(0:CUBIC), decay_series(0:TERMS), turn
     integer :: i, n, last
 
     call allocate_drifts(period, size(time))
     turn = part%begin
     do i = 1, size(time)
       rate = time(i)*damping_series(part, pendulum, turn, time(i)/(2*PI))
-      left(0) = 1
+      decay_series(0) = 1
       do n = 0, TERMS - 1
-        left(n + 1) = -sum(rate(:min(n, CUBIC))*left(n:max(0, n - CUBIC):-1))/(n + 1)
+        decay_series(n + 1) = -sum(rate(:min(n, CUBIC))*decay_series(n:max(0, n - CUBIC):-1))/(n + 1)
         if (n <= CUBIC) cycle
-        if (maxval(abs(left(n - CUBIC + 1:n + 1))) < epsilon(turn)**2) exit
+        if (maxval(abs(decay_series(n - CUBIC + 1:n + 1))) < epsilon(turn)**2) exit
       end do
       last = min(n + 1, TERMS)
-      call set_drift(period, i, sum(left(:last)), time(i)*sum([(left(n)/(n + 1), n=0, last)]))
+      call set_drift(period, i, sum(decay_series(:last)), time(i)*sum([(decay_series(n)/(n + 1), n=0, last)]))
       turn = turn + time(i)/(2*PI)
     end do
-  end subroutine damp_along
+  end subroutine set_ramp_drifts
 
   subroutine allocate_drifts(period, n)
     type(period_t), intent(inout) :: period

@@ -15,4 +15,4 @@ enum { VECTOR_BYTES = 16 };
 #endif
 typedef double vector __attribute__((vector_size(VECTOR_BYTES), aligned(sizeof(double)), may_alias));
 
-#define OPERATION static inline __attribute__((always_inline))
+#define KZ_INLINE static inline __attribute__((always_inline))

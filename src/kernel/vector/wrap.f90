@@ -7,7 +7,7 @@ module kz_vector_wrap
   use kz_vector_sine, only: ROUND_TO_INTEGER, VECTOR
   implicit none
   private
-  public :: wrap, vectors_of, flush_subnormals, restore_control
+  public :: wrap_lanes, vectors_of, flush_subnormals, restore_control
 
   !> An angle of so many turns has no fraction left: the state is lost.
   real(rk), parameter :: MOST_TURNS = 1e15_rk
@@ -28,7 +28,7 @@ module kz_vector_wrap
 contains
 
   !> Brings the angles of some lanes back to [-1, 1] and counts the turns. A state that is lost becomes NaN.
-  subroutine wrap(map, first, last)
+  subroutine wrap_lanes(map, first, last)
     class(map_t), intent(inout) :: map !< its lanes
     integer, intent(in) :: first, last !< lanes, from 1
     integer(ik), parameter :: NO_TURNS = transfer(ROUND_TO_INTEGER, 0_ik)
@@ -42,7 +42,7 @@ contains
       map%u(i) = merge(map%u(i) - 2*turn, nan, abs(turn) < MOST_TURNS)
       map%turns(i) = map%turns(i) + merge(transfer(shifted, 0_ik) - NO_TURNS, 0_ik, abs(turn) < MOST_TURNS)
     end do
-  end subroutine wrap
+  end subroutine wrap_lanes
 
   !> The number of lanes n, rounded up to whole vectors.
   pure integer function vectors_of(n) result(lanes)

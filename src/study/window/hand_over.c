@@ -17,8 +17,8 @@ static sizes sizes_of(const kz_jet *jet, double reach) {
   sizes s = {0};
   for (int axis = 0; axis < 2; axis++) {
     for (int i = 0; i < 2; i++) s.linear += fabsl((long double)jet->linear[axis][i]);
-    for (int i = 0; i < 3; i++) s.square += fabsl(jet->bent[axis][i]);
-    for (int i = 3; i < KZ_BENT; i++) s.cube += fabsl(jet->bent[axis][i]);
+    for (int i = 0; i < 3; i++) s.square += fabsl(jet->higher_terms[axis][i]);
+    for (int i = 3; i < KZ_HIGHER_TERMS; i++) s.cube += fabsl(jet->higher_terms[axis][i]);
   }
   s.linear *= reach;
   s.square *= (long double)reach * reach;
@@ -77,7 +77,7 @@ static kz_hand_over hand_over_at(const kz_images *images, const kz_level *level,
                     .error = (double)error_of(images, n, &s)};
   for (int axis = 0; axis < 2; axis++) {
     for (int i = 0; i < 2; i++) h.linear[axis][i] = (double)image->jet.linear[axis][i];
-    for (int i = 0; i < KZ_BENT; i++) h.bent[axis][i] = (double)image->jet.bent[axis][i];
+    for (int i = 0; i < KZ_HIGHER_TERMS; i++) h.higher_terms[axis][i] = (double)image->jet.higher_terms[axis][i];
   }
   return h;
 }
@@ -112,15 +112,15 @@ static void add_quad(const double centre[2], __float128 change, double pair[2]) 
 }
 
 void kz_hand_over_change(const kz_hand_over *h, double theta, double velocity, double change[2]) {
-  for (int axis = 0; axis < 2; axis++) change[axis] = in_doubles(h->linear[axis], h->bent[axis], theta, velocity);
+  for (int axis = 0; axis < 2; axis++) change[axis] = in_doubles(h->linear[axis], h->higher_terms[axis], theta, velocity);
 }
 
 void kz_hand_over_start(const kz_hand_over *h, __float128 theta, __float128 velocity, kz_start *start) {
   const kz_image *image = h->image;
   *start = (kz_start){.periods = h->periods, .error = {h->error * h->error, 0, h->error * h->error}, .turns = image->turns};
   if (h->in_quads) {
-    add_quad(image->theta, in_quads(image->jet.linear[0], image->jet.bent[0], theta, velocity), start->theta);
-    add_quad(image->velocity, in_quads(image->jet.linear[1], image->jet.bent[1], theta, velocity), start->velocity);
+    add_quad(image->theta, in_quads(image->jet.linear[0], image->jet.higher_terms[0], theta, velocity), start->theta);
+    add_quad(image->velocity, in_quads(image->jet.linear[1], image->jet.higher_terms[1], theta, velocity), start->velocity);
   } else {
     double change[2];
     kz_hand_over_change(h, (double)theta, (double)velocity, change);

@@ -73,7 +73,7 @@ typedef struct {
   const kz_image *image;
   int64_t periods;
   bool in_quads; /* starts need more digits than doubles have */
-  double linear[2][2], bent[2][KZ_BENT];
+  double linear[2][2], higher_terms[2][KZ_HIGHER_TERMS];
   double error; /* rad, of a start */
 } kz_hand_over;
 

@@ -83,7 +83,7 @@ TEST(neighbours_follow_the_jet) {
       const double up = (x[0][axis][0] - x[2][axis][0]) + (x[0][axis][1] - x[2][axis][1]),
                    down = (x[1][axis][0] - x[2][axis][0]) + (x[1][axis][1] - x[2][axis][1]);
       const double width = ((0.75 + h) - (0.75 - h)) / 2, first = (double)jet.linear[axis][0],
-                   second = (double)jet.bent[axis][0];
+                   second = (double)jet.higher_terms[axis][0];
       assert_true(fabs((up - down) / (2 * width) - first) < 1e-9 * (1 + fabs(first)));
       assert_true(fabs((up + down) / (2 * width * width) - second) < 1e-6 * (1 + fabs(second)));
       assert_true(fabs((double)(alone.linear[axis][0] - jet.linear[axis][0])) < 1e-14 * (1 + fabs(first)));

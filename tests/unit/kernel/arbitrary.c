@@ -154,7 +154,7 @@ TEST(neighbours_follow_the_jet) {
     for (int axis = 0; axis < 2; axis++) {
       const long double dx = (0.7 + scale) - 0.7, dy = (1.42 - scale) - 1.42;
       const long double moved = (long double)b[axis][0] - a[axis][0] + ((long double)b[axis][1] - a[axis][1]);
-      assert_true(fabsl(moved - value_of(jet.linear[axis], jet.bent[axis], dx, dy)) < bound);
+      assert_true(fabsl(moved - value_of(jet.linear[axis], jet.higher_terms[axis], dx, dy)) < bound);
     }
     kz_arbitrary_free(centre);
     kz_arbitrary_free(beside);
@@ -170,7 +170,7 @@ TEST(areas_shrink_at_any_scale) {
     advance(orbit, 5, 200, &jet);
     const __float128 det = jet.linear[0][0] * jet.linear[1][1] - jet.linear[0][1] * jet.linear[1][0];
     assert_true(fabs((double)(det / scale[i] / scale[i]) / exp(-10 * M_PI * strong.beta) - 1) <= 1e-13);
-    for (int part = 3; part < KZ_BENT; part++) assert_true(jet.bent[0][part] != 0);
+    for (int part = 3; part < KZ_HIGHER_TERMS; part++) assert_true(jet.higher_terms[0][part] != 0);
     kz_arbitrary_free(orbit);
   }
 }

@@ -131,8 +131,10 @@ TEST(taylors_rest_is_needed) {
 static void cut(const kz_enclosure_tables *plan, int lemma, double left) {
   for (int c = 0; c < plan->n_classes; c++) {
     kz_speed_class *speed = plan->classes[c];
-    double *const bound[] = {
-        [3] = &speed->velocity_error, [4] = &speed->tangent_error[0][0][0], [5] = speed->farthest, [6] = speed->nonlinear};
+    double *const bound[] = {[3] = &speed->velocity_error,
+                             [4] = &speed->tangent_error[0][0][0],
+                             [5] = speed->neighbour_angle,
+                             [6] = speed->nonlinear};
     const int count[] = {[3] = 1, [4] = 8, [5] = 2, [6] = 2};
     for (int i = 0; i < count[lemma]; i++) bound[lemma][i] *= left;
     if (lemma == 3) speed->theta_error *= left;

@@ -43,8 +43,8 @@ TEST(test_arbitrary) {
     kz_test_jets(pendulum, STEPS, 3, 0, x, got);
     for (int r = 0; r < 2; r++) {
       for (int c = 0; c < 2; c++) assert_true(fabs(got[c][r] - (double)jet.linear[r][c]) < 1e-10);
-      for (int c = 0; c < KZ_BENT; c++) {
-        const double known = factorial[c] * (double)jet.bent[r][c];
+      for (int c = 0; c < KZ_HIGHER_TERMS; c++) {
+        const double known = factorial[c] * (double)jet.higher_terms[r][c];
         assert_true(fabs(got[place[c]][r] - known) < 1e-10 * (1 + fabs(known)));
       }
     }

@@ -48,7 +48,7 @@ static double size(quad x) {
 /* A random pair in lane 0, of sizes from 2^-8 to 2^8. */
 static pair any(void) {
   const double high = ldexp(number(), rand() % 17 - 8);
-  return (pair){same(high), same(high * 0x1p-53 * number())};
+  return (pair){broadcast(high), broadcast(high * 0x1p-53 * number())};
 }
 
 static quad value(pair x) {
@@ -65,14 +65,15 @@ TEST(operations_are_right_to_31_digits) {
     const pair x = any(), y = any(), z = any();
     const quad a = value(x), b = value(y), c = value(z);
     const double coefficients[2] = {z.high[0], z.low[0]};
-    const pair exact = sum(x.high, y.high), total = add(x, y), product = multiply(x, y), step = horner(x, y, coefficients);
+    const pair exact = two_sum(x.high, y.high), total = add_pairs(x, y), product = multiply_pairs(x, y),
+               step = horner_step(x, y, coefficients);
     assert_true((quad)exact.high[0] + exact.low[0] == (quad)x.high[0] + y.high[0]);
     assert_true(size(value(total) - (a + b)) <= 2 * UNIT * (size(a) + size(b)) && normal(total));
-    assert_true(size(value(subtract(x, y)) - (a - b)) <= 2 * UNIT * (size(a) + size(b)));
+    assert_true(size(value(subtract_pairs(x, y)) - (a - b)) <= 2 * UNIT * (size(a) + size(b)));
     assert_true(size(value(product) - a * b) <= 4 * UNIT * size(a * b) && normal(product));
     assert_true(size(value(step) - (a * b + c)) <= 4 * UNIT * (size(a * b) + size(c)));
     vector even;
-    const pair rest = reduce(x, &even);
+    const pair rest = reduce_half_turns(x, &even);
     assert_true(fmod(even[0], 2) == 0 && fabs(rest.high[0]) <= 1);
     assert_true(size(value(rest) + even[0] - a) <= UNIT * size(a)); /* a quad has 113 binary digits */
   }
@@ -82,12 +83,13 @@ TEST(polynomials_end_in_doubles) {
   for (int i = 0; i < 20000; i++) {
     double c[8][2];
     for (int j = 0; j < 8; j++) c[j][0] = number(), c[j][1] = c[j][0] * 0x1p-54 * number();
-    const pair x = {same(number()), same(0x1p-56 * number())};
+    const pair x = {broadcast(number()), broadcast(0x1p-56 * number())};
     quad all = 0, tail = 0;
     for (int j = 7; j >= 0; j--) all = all * value(x) + ((quad)c[j][0] + (j < 5 ? c[j][1] : 0));
     for (int j = 7; j >= 5; j--) tail = tail * value(x) + c[j][0];
     const quad power = value(x) * value(x) * value(x) * value(x) * value(x);
-    assert_true(size(value(polynomial(8, 5, c[0], x)) - all) <= 64 * UNIT + 4 * DBL_EPSILON * size(power) * (1 + size(tail)));
+    assert_true(size(value(evaluate_pairs(8, 5, c[0], x)) - all) <=
+                64 * UNIT + 4 * DBL_EPSILON * size(power) * (1 + size(tail)));
   }
 }
 

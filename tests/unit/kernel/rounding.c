@@ -26,7 +26,7 @@ typedef struct {
 static const real product[] = {1, 6, 39}, plus[] = {1, 3, 9}, constant[] = {1, 1, 1.01L}, part[] = {0, 1, 1.03L};
 static const real first_part = 1.01L; /* First part of a triple taken as a double, in u */
 
-static real lost_in_sum(int level, int n) {
+static real sum_loss(int level, int n) {
   if (level == TRIPLES) return 4.1L * n * n * n + 25.0L * n * n + 42 * n + 29;
   return level == PAIRS ? n * n + 4 * n + 9 : n;
 }
@@ -80,7 +80,7 @@ static void add_gain(total *of, number a, number b) {
 }
 
 static number scaled(total of, real by, int level) {
-  return product_of(off_by(of.sum, lost_in_sum(level, of.products), level), of_constant(level, by), level);
+  return product_of(off_by(of.sum, sum_loss(level, of.products), level), of_constant(level, by), level);
 }
 
 /* The force's size along, across, and of the torque, where there is one. */
@@ -114,14 +114,14 @@ static number force(const machine *x, int64_t i, int n, real share) {
 #include "taylor/motion.inc"
 
 /* Sums of the series from the last coefficient down to `first`: of the velocity, and times h / (n + 1). */
-static void sum_series(const machine *x, int first, number *faster, number *farther) {
-  *faster = *farther = (number){0, 0};
+static void sum_series(const machine *x, int first, number *d_velocity, number *d_theta) {
+  *d_velocity = *d_theta = (number){0, 0};
   for (int n = x->b->order - 1; n >= first; n--) {
     const int level = level_of(x->precision, n);
     const number step = of_constant(level, x->b->h / (n + 1));
-    *faster = sum_of(*faster, x->w[n], level);
-    *farther =
-        sum_of(*farther, level == D ? exact_product(x->w[n], step) : product_of(x->w[n], step, level), level); /* D: fused */
+    *d_velocity = sum_of(*d_velocity, x->w[n], level);
+    *d_theta =
+        sum_of(*d_theta, level == D ? exact_product(x->w[n], step) : product_of(x->w[n], step, level), level); /* D: fused */
   }
 }
 
@@ -130,13 +130,13 @@ static number sum_to(number x, number y, real size, int level) {
 }
 
 /* centre_doubles.c: the low parts of h v and of the angle, and what is left out of them. */
-static void finish_doubles(number faster, number farther, real fastest, real drift, real farthest, real missed[2]) {
+static void finish_doubles(number d_velocity, number d_theta, real fastest, real drift, real farthest, real missed[2]) {
   const real u = unit(D);
   number rest = off_by((number){2 * u * drift, 2 * u * u * drift}, 1, D);
   rest = off_by((number){rest.size + u * drift, rest.error}, 1, D);
   rest = sum_of(rest, (number){u * farthest, 0}, D);
-  missed[0] = sum_of(sum_of(farther, rest, D), (number){u * farthest, 0}, D).error;
-  missed[1] = sum_of(faster, (number){u * fastest, 0}, D).error;
+  missed[0] = sum_of(sum_of(d_theta, rest, D), (number){u * farthest, 0}, D).error;
+  missed[1] = sum_of(d_velocity, (number){u * fastest, 0}, D).error;
 }
 
 /* Largest miss of angle and velocity on the worst machine. */
@@ -146,19 +146,19 @@ static void worst(const kz_step_bounds *b, double fastest, real missed[2]) {
   const real farthest = 4 + 2 * (real)M_PI * fastest, circle = (p == TRIPLES ? 500 + 160 * (farthest + 1)
                                                                 : p == PAIRS ? 48
                                                                              : 8);
-  number faster, farther;
+  number d_velocity, d_theta;
   x.w[0] = (number){fastest, p == D ? unit(D) * fastest : 0};
   x.s[0] = x.c[0] = (number){1, circle * unit(p)};
   for (int n = 0; n + 1 < b->order; n++) next_order(&x, n);
-  sum_series(&x, 1, &faster, &farther);
+  sum_series(&x, 1, &d_velocity, &d_theta);
   if (p == D) {
-    finish_doubles(faster, farther, fastest, b->h * fastest, farthest, missed);
+    finish_doubles(d_velocity, d_theta, fastest, b->h * fastest, farthest, missed);
     return;
   }
   const number start = {fastest, 0}, angle = {farthest, 0};
-  farther = sum_of(farther, product_of(start, of_constant(p, b->h), p), p);
-  missed[0] = sum_to(angle, farther, p == PAIRS ? farthest : farthest + farther.size, p).error;
-  missed[1] = sum_of(faster, start, p).error;
+  d_theta = sum_of(d_theta, product_of(start, of_constant(p, b->h), p), p);
+  missed[0] = sum_to(angle, d_theta, p == PAIRS ? farthest : farthest + d_theta.size, p).error;
+  missed[1] = sum_of(d_velocity, start, p).error;
 }
 
 /* Sizes of a step: what is left out is 0. */
@@ -184,7 +184,7 @@ static double share(kz_step_bounds *b, const kz_rounding_factors *factor, double
   kz_set_errors(b, fastest);
   kz_add_rounding(b, fastest, of_bound);
   worst(b, fastest, missed);
-  return (double)fmaxl(missed[0] / (of_bound[0] * KZ_CAUTION + KZ_TINY), missed[1] / (of_bound[1] * KZ_CAUTION + KZ_TINY));
+  return (double)fmaxl(missed[0] / (of_bound[0] * KZ_MARGIN + KZ_TINY), missed[1] / (of_bound[1] * KZ_MARGIN + KZ_TINY));
 }
 
 /* The factors that the lemmas need: nothing is rounded up by more than a hundredth, and no slack is left. */

@@ -32,12 +32,12 @@ static int grow_product(int n, double *part, double a, double b) {
 static double sum_is_off(int n, bool cancel) {
   double part[1000] = {0}, size = 0;
   int parts = 0;
-  pair s = {same(0), same(0)};
+  pair s = {broadcast(0), broadcast(0)};
   for (int i = 0; i < n; i++) {
     const double scale = cancel ? (i % 2 ? -1 : 1) * ldexp(1, rand() % 30) : ldexp(1, -i);
     const double a[2] = {scale * uniform(0.5, 1), 0}, b[2] = {uniform(0.5, 1), 0};
     const double low[2] = {a[0] * uniform(-0x1p-54, 0x1p-54), b[0] * uniform(-0x1p-54, 0x1p-54)};
-    gain(&s, (pair){same(a[0]), same(low[0])}, (pair){same(b[0]), same(low[1])});
+    accumulate_pair(&s, (pair){broadcast(a[0]), broadcast(low[0])}, (pair){broadcast(b[0]), broadcast(low[1])});
     parts = grow_product(parts, part, a[0], b[0]);
     parts = grow_product(parts, part, low[0], b[0]);
     parts = grow_product(parts, part, a[0], low[1]);
@@ -54,16 +54,16 @@ static double sum_is_off(int n, bool cancel) {
 static double sum_of_triples_is_off(int n, bool cancel) {
   double part[1000] = {0}, size = 0, off = 0;
   int parts = 0;
-  triple s = made_deep(0, 0, 0);
+  triple s = KZ_CONSTANT_deep(0, 0, 0);
   for (int i = 0; i < n; i++) {
     const double scale = cancel ? (i % 2 ? -1 : 1) * ldexp(1, rand() % 30) : ldexp(1, -i);
     double a[3] = {scale * uniform(0.5, 1)}, b[3] = {uniform(0.5, 1)};
     for (int k = 1; k < 3; k++) a[k] = a[k - 1] * uniform(-0x1p-54, 0x1p-54), b[k] = b[k - 1] * uniform(-0x1p-54, 0x1p-54);
-    gain_triple(&s, made_deep(a[0], a[1], a[2]), made_deep(b[0], b[1], b[2]));
+    accumulate_deep(&s, KZ_CONSTANT_deep(a[0], a[1], a[2]), KZ_CONSTANT_deep(b[0], b[1], b[2]));
     for (int k = 0; k < 9; k++) parts = grow_product(parts, part, a[k / 3], b[k % 3]);
     size += fabs(a[0] * b[0]);
   }
-  s = in_order(s);
+  s = renormalise(s);
   for (int k = 0; k < 3; k++) parts = grow(parts, part, -s.part[k][0]);
   for (int i = 0; i < parts; i++) off += part[i];
   return fabs(off) / (0x1p-159 * size);
@@ -121,7 +121,7 @@ TEST(sines_are_as_good_as_their_bounds) {
     theta[2] = theta[1] * uniform(-0x1p-54, 0x1p-54);
     __float128 exact[2];
     sincosf128((__float128)theta[0] + theta[1], &exact[0], &exact[1]);
-    const pair angle = {same(theta[0]), same(theta[1])};
+    const pair angle = {broadcast(theta[0]), broadcast(theta[1])};
     vector s, c;
     sine_in_doubles(angle, &s, &c);
     worst = fmax(worst, fmax(fabs((double)(s[0] - exact[0])), fabs((double)(c[0] - exact[1]))));
@@ -131,7 +131,7 @@ TEST(sines_are_as_good_as_their_bounds) {
     worst_pair = fmax(worst_pair, sine_is_off(2, theta, (double[]){sines.high[0], sines.low[0]},
                                               (double[]){cosines.high[0], cosines.low[0]}));
     triple sines3, cosines3;
-    sine_in_triples(made_deep(theta[0], theta[1], theta[2]), &sines3, &cosines3);
+    sine_in_triples(KZ_CONSTANT_deep(theta[0], theta[1], theta[2]), &sines3, &cosines3);
     for (int k = 0; k < 3; k++) sine[k] = sines3.part[k][0], cosine[k] = cosines3.part[k][0];
     worst_triple = fmax(worst_triple, sine_is_off(3, theta, sine, cosine) / (500 + 160 * (fabs(theta[0]) + 1)));
   }

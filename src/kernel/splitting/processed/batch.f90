@@ -5,7 +5,7 @@ module kz_processed_batch
   use, intrinsic :: iso_fortran_env, only: rk => real64
   use kz_vector_map, only: flow_t, put_state, move_state, WIDTH, CAPACITY
   use kz_vector_sine, only: INVERSE_PI
-  use kz_vector_wrap, only: wrap, vectors_of, flush_subnormals, restore_control
+  use kz_vector_wrap, only: wrap_lanes, vectors_of, flush_subnormals, restore_control
   use kz_processed_processor, only: change_coordinates, change_derivative
   use kz_processed_stages, only: stages_t, make_stages, advance_stages, single_stages, linear_stages, displaced_stages, tangent_stages, GROUP
   use kz_processed_tables, only: processed_t, processor_t
@@ -123,7 +123,7 @@ contains
     end if
     self%u(:n) = u(:n)
     self%v(:n) = v(:n)
-    call wrap(self, 1, n)
+    call wrap_lanes(self, 1, n)
   end subroutine take_images
 
   !> Lanes in physical coordinates take another flow's image.
@@ -267,7 +267,7 @@ contains
       self%u(lane) = u(lane - from + 1)
       self%v(lane) = v(lane - from + 1)
     end do
-    call wrap(self, from, n)
+    call wrap_lanes(self, from, n)
     call restore_control(control)
     if (.not. to_map) self%physical(from:n) = .true.
   end subroutine change_lanes

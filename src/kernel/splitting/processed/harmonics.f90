@@ -21,7 +21,7 @@ contains
     node = nodes_of(n)
     root = sqrt(node)
     do j = 1, HARMONICS
-      polynomial(j, :) = through(node, sin(PI*j*root)/(root*(1 - node)))
+      polynomial(j, :) = interpolating_polynomial(node, sin(PI*j*root)/(root*(1 - node)))
     end do
   end function sine_polynomials
 
@@ -33,7 +33,7 @@ contains
 
     node = nodes_of(n)
     do j = 0, HARMONICS
-      polynomial(j, :) = through(node, cos(PI*j*sqrt(node)))
+      polynomial(j, :) = interpolating_polynomial(node, cos(PI*j*sqrt(node)))
     end do
   end function cosine_polynomials
 
@@ -47,7 +47,7 @@ contains
   end function nodes_of
 
   !> The polynomial with these values, by divided differences.
-  pure function through(node, value) result(polynomial)
+  pure function interpolating_polynomial(node, value) result(polynomial)
     real(qp), intent(in) :: node(:), value(:)
     real(qp) :: polynomial(size(node)), difference(size(node))
     integer :: k, n
@@ -62,6 +62,6 @@ contains
       polynomial(2:) = polynomial(:n - 1) - node(k)*polynomial(2:)
       polynomial(1) = difference(k) - node(k)*polynomial(1)
     end do
-  end function through
+  end function interpolating_polynomial
 
 end module kz_processed_harmonics

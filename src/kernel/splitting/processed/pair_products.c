@@ -13,7 +13,7 @@ typedef unsigned __int128 bits;
 enum { QUAD_BIAS = 16383, BIAS = 1023, REST = 112 - 52 /* bits of a quad beyond those of a double */ };
 
 /* Quads below 2^-900 count as 0. Those that no double holds, and what is no number, are infinite. */
-enum { LEAST = -900 };
+enum { LEAST_EXPONENT = -900 };
 
 static double of_bits(uint64_t b) {
   double x;
@@ -34,9 +34,9 @@ void kz_pairs_split(int64_t n, const int64_t *x, double *high, double *low) {
     const uint64_t sign = higher >> 63 << 63;
     const int exponent = (int)(higher >> 48 & 0x7fff) - QUAD_BIAS;
     const uint64_t first = (higher & 0xffffffffffff) << 4 | lower >> REST, rest = lower & ((UINT64_C(1) << REST) - 1);
-    high[i] = exponent < LEAST ? 0 : of_bits(sign | UINT64_C(0x7ff) << 52);
+    high[i] = exponent < LEAST_EXPONENT ? 0 : of_bits(sign | UINT64_C(0x7ff) << 52);
     low[i] = 0;
-    if (exponent < LEAST || exponent > BIAS) continue;
+    if (exponent < LEAST_EXPONENT || exponent > BIAS) continue;
     const double top = of_bits(sign | (uint64_t)(exponent + BIAS) << 52 | first);
     const double bottom = (double)(int64_t)rest * of_bits(sign | (uint64_t)(exponent - 112 + BIAS) << 52);
     high[i] = top + bottom;
@@ -70,18 +70,19 @@ void kz_pairs_join(int64_t n, const double *high, const double *low, int64_t *x)
 void kz_pair_product(int64_t rows, int64_t inner, int64_t columns, const double *left, const double *right, double *product) {
   for (int64_t i = 0; i < rows; i++)
     for (int64_t first = 0; first < columns; first += LANES) {
-      pair total = {same(0), same(0)};
+      pair total = {broadcast(0), broadcast(0)};
       for (int64_t k = 0; k < inner; k++) {
         const double *a = left + 2 * i * inner + k, *b = right + 2 * k * columns + first;
-        gain(&total, (pair){same(a[0]), same(a[inner])}, (pair){*(const vector *)b, *(const vector *)(b + columns)});
+        accumulate_pair(&total, (pair){broadcast(a[0]), broadcast(a[inner])},
+                        (pair){*(const vector *)b, *(const vector *)(b + columns)});
       }
-      total = sum(total.high, total.low);
+      total = two_sum(total.high, total.low);
       *(vector *)(product + 2 * i * columns + first) = total.high;
       *(vector *)(product + (2 * i + 1) * columns + first) = total.low;
     }
 }
 
-OPERATION pair at(const double *polynomial, int64_t n, int64_t power, int64_t i) {
+KZ_INLINE pair coefficient_at(const double *polynomial, int64_t n, int64_t power, int64_t i) {
   const double *numbers = polynomial + 2 * n * power + i;
   return (pair){*(const vector *)numbers, *(const vector *)(numbers + n)};
 }
@@ -92,16 +93,17 @@ void kz_pair_bracket(int64_t n, int64_t top_f, int64_t top_g, int64_t top, const
                      const double *g, const double *g_slope, double *bracket) {
   for (int64_t i = 0; i < n; i += LANES)
     for (int64_t c = 0; c <= top; c++) {
-      pair total = {same(0), same(0)};
+      pair total = {broadcast(0), broadcast(0)};
       for (int64_t b = c + 1 < top_f ? 0 : c + 1 - top_f; b <= c + 1 && b <= top_g; b++) {
         const int64_t a = c + 1 - b;
-        const vector by_v = same((double)a), by_w = same(-(double)b);
-        const pair x = at(f, n, a, i), y = at(f_slope, n, a, i);
-        const pair p = loose_product(x, at(g_slope, n, b, i)), q = loose_product(y, at(g, n, b, i));
-        gain(&total, p, (pair){by_v, same(0)});
-        gain(&total, q, (pair){by_w, same(0)});
+        const vector by_v = broadcast((double)a), by_w = broadcast(-(double)b);
+        const pair x = coefficient_at(f, n, a, i), y = coefficient_at(f_slope, n, a, i);
+        const pair p = product_unnormalised(x, coefficient_at(g_slope, n, b, i)),
+                   q = product_unnormalised(y, coefficient_at(g, n, b, i));
+        accumulate_pair(&total, p, (pair){by_v, broadcast(0)});
+        accumulate_pair(&total, q, (pair){by_w, broadcast(0)});
       }
-      total = sum(total.high, total.low);
+      total = two_sum(total.high, total.low);
       *(vector *)(bracket + 2 * n * c + i) = total.high;
       *(vector *)(bracket + (2 * c + 1) * n + i) = total.low;
     }

@@ -70,15 +70,15 @@ contains
   end function pair_of
 
   !> Numbers as sums of two doubles.
-  pure subroutine split(x, high, low)
+  pure subroutine split_quads(x, high, low)
     real(qp), intent(in) :: x(:)
     real(c_double), intent(inout) :: high(:), low(:)
 
     call split_bits(size(x, kind=c_int64_t), reshape(transfer(x, [0_c_int64_t]), [2, size(x)]), high, low)
-  end subroutine split
+  end subroutine split_quads
 
   !> The sums of two doubles each.
-  pure function joined(n, high, low) result(x)
+  pure function join_quads(n, high, low) result(x)
     integer, intent(in) :: n
     real(c_double), intent(in) :: high(:), low(:)
     real(qp) :: x(n)
@@ -86,14 +86,14 @@ contains
 
     call join_bits(int(n, c_int64_t), high, low, bits)
     x = transfer(bits, x)
-  end function joined
+  end function join_quads
 
   !> The next multiple of COLUMNS.
-  pure integer function filled(n)
+  pure integer function padded_columns(n)
     integer, intent(in) :: n
 
-    filled = COLUMNS*((n + COLUMNS - 1)/COLUMNS)
-  end function filled
+    padded_columns = COLUMNS*((n + COLUMNS - 1)/COLUMNS)
+  end function padded_columns
 
   !> Space for a right factor; columns that fill it up are 0.
   pure subroutine right_factor(n_rows, n_columns, factor)
@@ -101,7 +101,7 @@ contains
     type(right_factor_t), intent(out) :: factor !< of zeros
 
     factor%n_columns = n_columns
-    allocate (factor%row(filled(n_columns), 2, n_rows), source=0.0_c_double)
+    allocate (factor%row(padded_columns(n_columns), 2, n_rows), source=0.0_c_double)
   end subroutine right_factor
 
   !> A matrix as a right factor.
@@ -112,7 +112,7 @@ contains
 
     call right_factor(size(matrix, 1), size(matrix, 2), factor)
     do i = 1, size(matrix, 1)
-      call split(matrix(i, :), factor%row(:, 1, i), factor%row(:, 2, i))
+      call split_quads(matrix(i, :), factor%row(:, 1, i), factor%row(:, 2, i))
     end do
   end subroutine set_right_factor
 
@@ -125,12 +125,12 @@ contains
     integer :: i
 
     do i = 1, size(left, 1)
-      call split(left(i, :), pairs(:, 1, i), pairs(:, 2, i))
+      call split_quads(left(i, :), pairs(:, 1, i), pairs(:, 2, i))
     end do
     call multiply_pairs(int(size(left, 1), c_int64_t), int(size(left, 2), c_int64_t), int(size(right%row, 1), c_int64_t), pairs, &
                         right%row, sums)
     do i = 1, size(left, 1)
-      product(i, :) = joined(right%n_columns, sums(:, 1, i), sums(:, 2, i))
+      product(i, :) = join_quads(right%n_columns, sums(:, 1, i), sums(:, 2, i))
     end do
   end function pair_product
 
@@ -143,11 +143,11 @@ contains
 
     factor%n_points = size(value, 1)
     if (allocated(factor%value)) deallocate (factor%value, factor%slope)
-    allocate (factor%value(filled(size(value, 1)), 2, 0:ubound(value, 2)), source=0.0_c_double)
+    allocate (factor%value(padded_columns(size(value, 1)), 2, 0:ubound(value, 2)), source=0.0_c_double)
     allocate (factor%slope, source=factor%value)
     do n = 0, ubound(value, 2)
-      call split(value(:, n), factor%value(:, 1, n), factor%value(:, 2, n))
-      call split(slope(:, n), factor%slope(:, 1, n), factor%slope(:, 2, n))
+      call split_quads(value(:, n), factor%value(:, 1, n), factor%value(:, 2, n))
+      call split_quads(slope(:, n), factor%slope(:, 1, n), factor%slope(:, 2, n))
     end do
   end subroutine set_bracket_factor
 
@@ -164,7 +164,7 @@ contains
     call bracket_pairs(int(size(f%value, 1), c_int64_t), int(ubound(f%value, 3), c_int64_t), int(ubound(g%value, 3), c_int64_t), int(top, c_int64_t), &
                        f%value, f%slope, g%value, g%slope, bracket)
     do n = 0, top
-      coefficient = joined(f%n_points, bracket(:, 1, n), bracket(:, 2, n))
+      coefficient = join_quads(f%n_points, bracket(:, 1, n), bracket(:, 2, n))
       if (weight > 0) total(:, n) = total(:, n) + coefficient
       if (weight < 0) total(:, n) = total(:, n) - coefficient
     end do

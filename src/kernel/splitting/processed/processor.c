@@ -12,7 +12,7 @@ enum { LANES = VECTOR_BYTES / 8, CHAINS = 2, ROW = KZ_HARMONICS_KEPT + 1, PART =
 #define EACH _Pragma("GCC unroll 2") for (int i = 0; i < CHAINS; i++)
 
 /* total += first (even powers of v) + second v (odd powers), to the power `degree`, which is even. */
-OPERATION void add_harmonic(const double *c, int degree, const vector *first, const vector *second, const vector *v,
+KZ_INLINE void add_harmonic(const double *c, int degree, const vector *first, const vector *second, const vector *v,
                             const vector *square, vector *total) {
   vector even[CHAINS], odd[CHAINS];
   EACH even[i] = c[degree * ROW] + (vector){0};
@@ -24,8 +24,8 @@ OPERATION void add_harmonic(const double *c, int degree, const vector *first, co
   EACH total[i] = total[i] + first[i] * even[i] + second[i] * v[i] * odd[i];
 }
 
-static void change(int32_t mirrored, const double *theta, const double *velocity, const vector *sine, const vector *cosine,
-                   vector *u, vector *v) {
+static void change_vectors(int32_t mirrored, const double *theta, const double *velocity, const vector *sine,
+                           const vector *cosine, vector *u, vector *v) {
   vector square[CHAINS], s[CHAINS], c[CHAINS], shift_u[CHAINS], shift_v[CHAINS], speed[CHAINS];
   EACH speed[i] = v[i];
   EACH square[i] = speed[i] * speed[i];
@@ -54,6 +54,6 @@ static void change(int32_t mirrored, const double *theta, const double *velocity
 void kz_processed_change(int32_t mirrored, const double *theta, const double *velocity, int64_t n, const double *sine,
                          const double *cosine, double *u, double *v) {
   for (int64_t i = 0; i < n; i += CHAINS * LANES)
-    change(mirrored, theta, velocity, (const vector *)(sine + i), (const vector *)(cosine + i), (vector *)(u + i),
-           (vector *)(v + i));
+    change_vectors(mirrored, theta, velocity, (const vector *)(sine + i), (const vector *)(cosine + i), (vector *)(u + i),
+                   (vector *)(v + i));
 }

@@ -71,11 +71,11 @@ contains
     by_v = 0
     do j = 0, HARMONICS
       call sine_and_cosine(1, [j*u], s, c)
-      theta = slopes(processor%theta(j, :, 1), j, s(1), c(1), v, 0)
-      velocity = slopes(processor%velocity(j, :, 1), j, s(1), c(1), v, 0)
+      theta = harmonic_slopes(processor%theta(j, :, 1), j, s(1), c(1), v, 0)
+      velocity = harmonic_slopes(processor%velocity(j, :, 1), j, s(1), c(1), v, 0)
       if (.not. processor%mirrored) then
-        theta = theta + slopes(processor%theta(j, :, 2), j, s(1), c(1), v, 1)
-        velocity = velocity + slopes(processor%velocity(j, :, 2), j, s(1), c(1), v, 1)
+        theta = theta + harmonic_slopes(processor%theta(j, :, 2), j, s(1), c(1), v, 1)
+        velocity = velocity + harmonic_slopes(processor%velocity(j, :, 2), j, s(1), c(1), v, 1)
       end if
       by_u = by_u + [theta(1), velocity(1)]
       by_v = by_v + [theta(2), velocity(2)]
@@ -85,7 +85,7 @@ contains
   end function change_derivative
 
   !> Derivatives by u and by v of a harmonic: sin(pi j u) (even powers of v) + cos(pi j u) (odd powers), or the other way round (odd = 1).
-  pure function slopes(coefficient, j, s, c, v, odd) result(slope)
+  pure function harmonic_slopes(coefficient, j, s, c, v, odd) result(slope)
     real(rk), intent(in) :: coefficient(0:)
     integer, intent(in) :: j
     real(rk), intent(in) :: s, c, v
@@ -101,7 +101,7 @@ contains
         slope = slope + coefficient(n)*[-j*s*v**n/INVERSE_PI, n*c*v**max(n - 1, 0)]
       end if
     end do
-  end function slopes
+  end function harmonic_slopes
 
   include 'vector/sine.inc'
 

@@ -42,13 +42,13 @@ module kz_processed_series_r128
     product = pair_product(left, factor)
   end function product_of
 
-  pure subroutine multiply(n, n_columns, matrix, columns, product)
+  pure subroutine multiply_matrix(n, n_columns, matrix, columns, product)
     integer, intent(in) :: n, n_columns
     real(rk), intent(in) :: matrix(n, n), columns(n, n_columns)
     real(rk), intent(out) :: product(n, n_columns)
 
     product = matmul(matrix, columns)
-  end subroutine multiply
+  end subroutine multiply_matrix
 
   subroutine add_time_derivative(grid, n, value, factor, total)
     type(grid_t), intent(in) :: grid

@@ -50,7 +50,7 @@ module kz_processed_series_r64
   end subroutine set_matrix
 
   !> product = matrix*columns: the library's matmul is slow for matrices of this size.
-  pure subroutine multiply(n, n_columns, matrix, columns, product)
+  pure subroutine multiply_matrix(n, n_columns, matrix, columns, product)
     integer, intent(in) :: n, n_columns
     real(rk), intent(in) :: matrix(n, n), columns(n, n_columns)
     real(rk), intent(out) :: product(n, n_columns)
@@ -60,7 +60,7 @@ module kz_processed_series_r64
     do i = 1, n_columns
       call add_columns(n, n, matrix, columns(:, i), product(:, i))
     end do
-  end subroutine multiply
+  end subroutine multiply_matrix
 
   !> total += columns*factors. The sizes of both kinds of grid are known to the compiler: then the sum stays in registers.
   pure subroutine add_columns(n, n_columns, columns, factors, total)

@@ -38,9 +38,9 @@ typedef float floats __attribute__((vector_size(VECTOR_BYTES), aligned(sizeof(fl
 void kz_processed_kicks(int32_t mirrored, int32_t n_drift, int32_t n_kick, int64_t n_stages, const double *row, int64_t n,
                         double *u, double *v, float *kept) {
   if (mirrored)
-    double_run(true, n_drift, n_kick, n_stages, row, n, u, v, kept);
+    double_run_stages(true, n_drift, n_kick, n_stages, row, n, u, v, kept);
   else
-    double_run(false, n_drift, n_kick, n_stages, row, n, u, v, kept);
+    double_run_stages(false, n_drift, n_kick, n_stages, row, n, u, v, kept);
 }
 
 /* The same in single precision, without angles: for motions whose ends no error of some 1e-6 rad keeps. */
@@ -50,9 +50,9 @@ void kz_processed_kicks_single(int32_t mirrored, int32_t n_drift, int32_t n_kick
   for (int i = 0; i < KZ_LANES; i++) a[i] = (float)u[i];
   for (int i = 0; i < KZ_LANES; i++) b[i] = (float)v[i];
   if (mirrored)
-    single_run(true, n_drift, n_kick, n_stages, row, n, a, b, NULL);
+    single_run_stages(true, n_drift, n_kick, n_stages, row, n, a, b, NULL);
   else
-    single_run(false, n_drift, n_kick, n_stages, row, n, a, b, NULL);
+    single_run_stages(false, n_drift, n_kick, n_stages, row, n, a, b, NULL);
   for (int i = 0; i < KZ_LANES; i++) u[i] = a[i];
   for (int i = 0; i < KZ_LANES; i++) v[i] = b[i];
 }

@@ -20,7 +20,7 @@ module kz_processed_stages
     real(c_float), allocatable :: row(:, :)   !< those of the stages in single precision
     real(c_float), allocatable :: slope(:, :) !< (1 + 2*TERMS, steps): a drift, and the slope of a kick
     real(c_float), allocatable :: kept(:, :)  !< (WIDTH, steps): of the last period, stages.c
-    real(c_float), allocatable :: some(:, :)  !< (GROUP, steps): of those lanes whose neighbours are asked for
+    real(c_float), allocatable :: chosen(:, :)  !< (GROUP, steps): of those lanes whose neighbours are asked for
   end type stages_t
 
   interface
@@ -82,8 +82,8 @@ contains
     stages%row = real(table%row, c_float)
     n = table%n_drift + table%n_kick
     allocate (stages%slope(1 + 2*TERMS, table%n_steps), stages%kept(WIDTH, table%n_steps), &
-              stages%some(GROUP, table%n_steps))
-    stages%some = 0
+              stages%chosen(GROUP, table%n_steps))
+    stages%chosen = 0
     stages%slope(TERMS + 2:, :) = 0
     do i = 1, table%n_steps
       stages%slope(1, i) = real(table%row(1, i), c_float)
@@ -150,7 +150,7 @@ contains
     n = size(lane)
     do s = 1, self%table%n_steps
       do i = 1, n
-        self%some(i, s) = self%kept(lane(i), s)
+        self%chosen(i, s) = self%kept(lane(i), s)
       end do
     end do
     do j = 1, size(by, 2), POINTS
@@ -160,7 +160,7 @@ contains
         c(i, 2, :) = real(by(2, j:j + POINTS - 1, i), c_float)
       end do
       call run_displaced(merge(1_c_int32_t, 0_c_int32_t, self%table%mirrored), int(self%table%n_steps, c_int64_t), self%slope, &
-                         real(self%table%last(1), c_float), real(self%table%decay, c_float), int(n, c_int64_t), self%some, c)
+                         real(self%table%last(1), c_float), real(self%table%decay, c_float), int(n, c_int64_t), self%chosen, c)
       do i = 1, n
         by(1, j:j + POINTS - 1, i) = PI*c(i, 1, :)
         by(2, j:j + POINTS - 1, i) = c(i, 2, :)

@@ -31,12 +31,12 @@ module kz_processed_tables_r128
     call make_clock(series%times, table%n_steps, clock)
     polynomial(0, :) = 0
     polynomial(1:, :) = real(sine_polynomials(table%n_kick), rk)
-    table%row(table%n_drift + 1:n, :) = kicks(-1, 1)
+    table%row(table%n_drift + 1:n, :) = kick_rows(-1, 1)
     if (table%mirrored) return
     polynomial = real(cosine_polynomials(table%n_kick), rk)
-    table%row(n + table%n_drift + 1:, :) = kicks(1, 2)
+    table%row(n + table%n_drift + 1:, :) = kick_rows(1, 2)
   contains
-    function kicks(sign, trig) result(row)
+    function kick_rows(sign, trig) result(row)
       integer, intent(in) :: sign, trig
       real(rk) :: row(table%n_kick, table%n_steps), amplitude(0:HARMONICS, table%n_steps)
       type(right_factor_t) :: factor
@@ -44,7 +44,7 @@ module kz_processed_tables_r128
       amplitude = pair_product(kick_amplitudes(series, h, sign, trig), clock)
       call set_right_factor(amplitude*spread(scale, 1, HARMONICS + 1), factor)
       row = pair_product(transpose(polynomial), factor)
-    end function kicks
+    end function kick_rows
   end subroutine set_kicks
 
   !> What cosines and then sines of 0, t, 2 t, .. give to the harmonics of a kick of a step h, all grades together.

@@ -15,11 +15,11 @@ enum { KZ_GROUP = 16, KZ_POINTS = 2 };
 
 typedef float floats __attribute__((vector_size(VECTOR_BYTES), aligned(sizeof(float)), may_alias));
 
-static void store(float *to, const floats *x) {
+static void store_vectors(float *to, const floats *x) {
   EACH *(floats *)(to + i * LANES) = x[i];
 }
 
-OPERATION void move_tangents(bool mirrored, int64_t n_stages, const float *row, float last, float decay, const float *kept,
+KZ_INLINE void move_tangents(bool mirrored, int64_t n_stages, const float *row, float last, float decay, const float *kept,
                              int64_t n, float *c) {
   for (int64_t first = 0; first < n; first += CHAINS * LANES) {
     const float *r = row, *x = kept + first;
@@ -44,10 +44,10 @@ OPERATION void move_tangents(bool mirrored, int64_t n_stages, const float *row, 
     EACH uv[i] += last * vv[i];
     EACH vu[i] *= decay;
     EACH vv[i] *= decay;
-    store(c + first, uu);
-    store(c + KZ_LANES + first, uv);
-    store(c + 2 * KZ_LANES + first, vu);
-    store(c + 3 * KZ_LANES + first, vv);
+    store_vectors(c + first, uu);
+    store_vectors(c + KZ_LANES + first, uv);
+    store_vectors(c + 2 * KZ_LANES + first, vu);
+    store_vectors(c + 3 * KZ_LANES + first, vv);
   }
 }
 
@@ -68,7 +68,7 @@ typedef struct {
   floats value, slope, half_second;
 } expansion;
 
-OPERATION expansion expand(const float *c, floats q) {
+KZ_INLINE expansion expand_slope(const float *c, floats q) {
   expansion p = {c[TERMS - 1] + (floats){0}, {0}, {0}};
   for (int j = TERMS - 2; j >= 0; j--) {
     p.half_second = p.half_second * q + p.slope;
@@ -78,17 +78,17 @@ OPERATION expansion expand(const float *c, floats q) {
   return p;
 }
 
-OPERATION void move_neighbours(bool mirrored, int64_t n_stages, const float *row, float last, float decay, const float *angle,
+KZ_INLINE void move_neighbours(bool mirrored, int64_t n_stages, const float *row, float last, float decay, const float *angle,
                                float *by) {
   floats u[KZ_POINTS], v[KZ_POINTS];
   EACH_POINT u[i] = *(floats *)(by + 2 * i * KZ_GROUP);
   EACH_POINT v[i] = *(floats *)(by + (2 * i + 1) * KZ_GROUP);
   for (int64_t s = 0; s < n_stages; s++, row += 1 + 2 * TERMS, angle += KZ_GROUP) {
     const floats r = *(const floats *)angle, q = r * r;
-    const expansion odd = expand(row + 1, q);
+    const expansion odd = expand_slope(row + 1, q);
     floats first = odd.value, second = r * odd.slope, third = (1 / 3.0f) * (odd.slope + 4 * q * odd.half_second);
     if (!mirrored) {
-      const expansion even = expand(row + 1 + TERMS, q);
+      const expansion even = expand_slope(row + 1 + TERMS, q);
       first += r * even.value;
       second += 0.5f * even.value + q * even.slope;
       third += r * (even.slope + (4 / 3.0f) * q * even.half_second);

@@ -2,7 +2,7 @@
 !> nodes). A coefficient of a series is a polynomial of degree ORDER/2 in all terms of the force, and a rational function of the damping, whose
 !> poles lie at distances l/n from the real axis, l >= 1 and n < ORDER. In units of RADIUS it is therefore analytic about the pendulum that is
 !> wanted, where nodes may lie anywhere: the weights are those that are best for all functions analytic in the unit ball.
-module kz_processed_slider
+module kz_processed_series_interpolation
   use, intrinsic :: iso_c_binding, only: c_ptr, c_associated, c_f_pointer
   use, intrinsic :: iso_fortran_env, only: rk => real64, qp => real128
   use kz_vector_locks, only: take_lock, leave_lock
@@ -10,7 +10,7 @@ module kz_processed_slider
   use kz_processed_tables, only: series_t, kept_series_t, make_processed_series, ORDER, NODES
   implicit none
   private
-  public :: make_slid_series
+  public :: interpolate_series
 
   !> The error of a node, which keeps the weights small.
   real(rk), parameter :: ROUNDING = 1e-13_rk
@@ -19,12 +19,12 @@ module kz_processed_slider
   real(rk), parameter :: RADIUS(2) = [2.0_rk, 1.0_rk/ORDER]
   !> Nodes that are farther, in units of RADIUS, do not count.
   real(rk), parameter :: FARTHEST = 0.5_rk
-  integer, parameter :: N_NUMBERS = 5 + 4*MOST_HARMONICS
+  integer, parameter :: N_PARAMETERS = 5 + 4*MOST_HARMONICS
 
 contains
 
   !> The series of a pendulum: interpolated from the nodes, or made and kept as a node.
-  subroutine make_slid_series(pendulum, error, handle, series)
+  subroutine interpolate_series(pendulum, error, handle, series)
     type(pendulum_t), intent(in) :: pendulum !< k, beta, m
     real(rk), intent(in) :: error !< of the interpolation at most, rad; of a period it may be twice that
     type(c_ptr), intent(in) :: handle !< kz_kept_series of kernel.h, which holds the nodes; null = the series is made
@@ -34,21 +34,21 @@ contains
     if (c_associated(handle)) then
       call c_f_pointer(handle, kept)
       call take_lock(kept%lock)
-      call slide(pendulum, error, handle, kept, series)
+      call interpolate_or_make(pendulum, error, handle, kept, series)
       call leave_lock(kept%lock)
     else
       call make_processed_series(pendulum, handle, series)
     end if
-  end subroutine make_slid_series
+  end subroutine interpolate_series
 
-  subroutine slide(pendulum, error, handle, kept, series)
+  subroutine interpolate_or_make(pendulum, error, handle, kept, series)
     type(pendulum_t), intent(in) :: pendulum
     real(rk), intent(in) :: error
     type(c_ptr), intent(in) :: handle
     type(kept_series_t), intent(inout) :: kept !< what `handle` points at
     type(series_t), intent(out) :: series
     real(rk) :: weight(NODES)
-    logical :: reach
+    logical :: accepted
     integer :: i
 
     if (kept%place(1)%harmonics /= pendulum%harmonics .or. kept%place(1)%unmirrored /= pendulum%unmirrored) kept%n_nodes = 0
@@ -57,51 +57,51 @@ contains
       series = kept%node(i)
       return
     end do
-    call weigh(pendulum, error, kept%place(:kept%n_nodes), weight(:kept%n_nodes), reach)
-    if (reach) then
+    call set_weights(pendulum, error, kept%place(:kept%n_nodes), weight(:kept%n_nodes), accepted)
+    if (accepted) then
       call add_nodes(kept%node(:kept%n_nodes), weight(:kept%n_nodes), series)
     else
       call make_processed_series(pendulum, handle, series)
-      call remember(pendulum, series, kept)
+      call keep_node(pendulum, series, kept)
     end if
-  end subroutine slide
+  end subroutine interpolate_or_make
 
   !> The weights of the nodes with the least error for the pendulum. Functions that are analytic in the unit ball have the kernel 1/(1 - x y) (Drury
   !> and Arveson): of those with norm 1, weights w are wrong by w K w - 2 sum w + 1 at most, squared, which is least where K w = 1. `reach`: that
   !> least error, with the rounding of the nodes, is accepted.
-  subroutine weigh(pendulum, error, place, weight, reach)
+  subroutine set_weights(pendulum, error, place, weight, accepted)
     type(pendulum_t), intent(in) :: pendulum
     real(rk), intent(in) :: error
     type(pendulum_t), intent(in) :: place(:)
     real(rk), intent(out) :: weight(size(place))
-    logical, intent(out) :: reach
-    real(qp) :: at(N_NUMBERS, size(place)), best(size(place))
-    logical :: varies(N_NUMBERS)
-    integer :: near(size(place)), i, n
+    logical, intent(out) :: accepted
+    real(qp) :: offset(N_PARAMETERS, size(place)), best(size(place))
+    logical :: varies(N_PARAMETERS)
+    integer :: near_node(size(place)), i, n
 
     n = 0
     do i = 1, size(place)
-      at(:, n + 1) = parted(place(i), pendulum)
-      if (norm2(real(at(:, n + 1), rk)) > FARTHEST) cycle
+      offset(:, n + 1) = scaled_difference(place(i), pendulum)
+      if (norm2(real(offset(:, n + 1), rk)) > FARTHEST) cycle
       n = n + 1
-      near(n) = i
+      near_node(n) = i
     end do
-    varies = any(abs(at(:, :n)) > 0, 2)
-    best(:n) = solution(reshape(pack(at(:, :n), spread(varies, 2, n)), [count(varies), n]))
+    varies = any(abs(offset(:, :n)) > 0, 2)
+    best(:n) = least_error_weights(reshape(pack(offset(:, :n), spread(varies, 2, n)), [count(varies), n]))
     weight = 0
-    weight(near(:n)) = real(best(:n), rk)
-    reach = 1 - sum(best(:n)) <= error**2
-  end subroutine weigh
+    weight(near_node(:n)) = real(best(:n), rk)
+    accepted = 1 - sum(best(:n)) <= error**2
+  end subroutine set_weights
 
   !> The solution of (K + ROUNDING**2) w = 1 by Cholesky's method, in quad precision because errors are squared in it.
-  pure function solution(at) result(weight)
-    real(qp), intent(in) :: at(:, :) !< nodes, in units of RADIUS from the pendulum that is wanted
-    real(qp) :: weight(size(at, 2)), factor(size(at, 2), size(at, 2))
+  pure function least_error_weights(offset) result(weight)
+    real(qp), intent(in) :: offset(:, :) !< nodes, in units of RADIUS from the pendulum that is wanted
+    real(qp) :: weight(size(offset, 2)), factor(size(offset, 2), size(offset, 2))
     integer :: i, j
 
     do j = 1, size(weight)
       do i = j, size(weight)
-        factor(i, j) = 1/(1 - dot_product(at(:, i), at(:, j))) - dot_product(factor(i, :j - 1), factor(j, :j - 1))
+        factor(i, j) = 1/(1 - dot_product(offset(:, i), offset(:, j))) - dot_product(factor(i, :j - 1), factor(j, :j - 1))
         if (i == j) factor(j, j) = sqrt(factor(j, j) + real(ROUNDING, qp)**2)
         if (i > j) factor(i, j) = factor(i, j)/factor(j, j)
       end do
@@ -110,26 +110,26 @@ contains
     do j = size(weight), 1, -1
       weight(j) = (weight(j) - dot_product(factor(j + 1:, j), weight(j + 1:)))/factor(j, j)
     end do
-  end function solution
+  end function least_error_weights
 
   !> How far one pendulum lies from another, in units of RADIUS.
-  pure function parted(one, other) result(distance)
+  pure function scaled_difference(one, other) result(distance)
     type(pendulum_t), intent(in) :: one, other
-    real(qp) :: distance(N_NUMBERS)
+    real(qp) :: distance(N_PARAMETERS)
 
-    distance = (real(numbers_of(one), qp) - numbers_of(other))/RADIUS(1)
+    distance = (real(parameters_of(one), qp) - parameters_of(other))/RADIUS(1)
     distance(2) = distance(2)*(RADIUS(1)/RADIUS(2))
-  end function parted
+  end function scaled_difference
 
   !> k, the damping, m, and the other numbers of the equation.
-  pure function numbers_of(pendulum) result(numbers)
+  pure function parameters_of(pendulum) result(parameters)
     type(pendulum_t), intent(in) :: pendulum
-    real(rk) :: numbers(N_NUMBERS)
+    real(rk) :: parameters(N_PARAMETERS)
 
-    numbers(:5) = [pendulum%k, pendulum%beta, pendulum%m, pendulum%torque, pendulum%torque_amplitude]
-    numbers(6:5 + 2*MOST_HARMONICS) = reshape(pendulum%vertical, [2*MOST_HARMONICS])
-    numbers(6 + 2*MOST_HARMONICS:) = reshape(pendulum%horizontal, [2*MOST_HARMONICS])
-  end function numbers_of
+    parameters(:5) = [pendulum%k, pendulum%beta, pendulum%m, pendulum%torque, pendulum%torque_amplitude]
+    parameters(6:5 + 2*MOST_HARMONICS) = reshape(pendulum%vertical, [2*MOST_HARMONICS])
+    parameters(6 + 2*MOST_HARMONICS:) = reshape(pendulum%horizontal, [2*MOST_HARMONICS])
+  end function parameters_of
 
   subroutine add_nodes(node, weight, series)
     type(series_t), intent(in) :: node(:)
@@ -152,7 +152,7 @@ contains
   end subroutine add_nodes
 
   !> Keeps a series as a node, in place of the farthest one if all places are taken.
-  subroutine remember(pendulum, series, kept)
+  subroutine keep_node(pendulum, series, kept)
     type(pendulum_t), intent(in) :: pendulum
     type(series_t), intent(in) :: series
     type(kept_series_t), intent(inout) :: kept
@@ -162,12 +162,12 @@ contains
     if (.not. allocated(kept%node)) allocate (kept%node(NODES))
     i = kept%n_nodes + 1
     if (i > NODES) then
-      distance = [(norm2(real(parted(kept%place(i), pendulum), rk)), i=1, NODES)]
+      distance = [(norm2(real(scaled_difference(kept%place(i), pendulum), rk)), i=1, NODES)]
       i = maxloc(distance, 1)
     end if
     kept%place(i) = pendulum
     kept%node(i) = series
     kept%n_nodes = max(kept%n_nodes, i)
-  end subroutine remember
+  end subroutine keep_node
 
-end module kz_processed_slider
+end module kz_processed_series_interpolation
