@@ -8,6 +8,7 @@
 #include <time.h>
 
 #include "kapitza/kernel.h"
+#include "kapitza/model_release.h"
 
 enum { REPEATS = 5, PERIODS = 4, GUARD = 90 /* bits of an orbit below the size of its window */ };
 

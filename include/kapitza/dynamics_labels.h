@@ -81,8 +81,6 @@ void kz_dynamics_label(kz_dynamics *dynamics, int32_t level, int32_t before, int
 enum { KZ_NO_TURNS = INT32_MIN };
 void kz_dynamics_count_turns(kz_dynamics *dynamics, int64_t n, int64_t max_periods, kz_decision *decision);
 
-/* Sets how starts are released. The errors of a release are measured at its first use, which must come after the trapping regions are made. */
-void kz_dynamics_set_release(kz_dynamics *dynamics, const kz_release *release);
-/* Moves those of n starts that have spent no periods, with their errors, from their release to the strobe from which on the drive has its
- * final form, in the precision of `level`. An orbit whose error exceeds 1e-4 rad gets a very large error, so that no level decides it. */
-void kz_dynamics_release(kz_dynamics *dynamics, int32_t level, int64_t n, kz_start *start);
+/* Moves those of n starts that have spent no periods, with their errors, to the strobe from which on the drive has its final form, in the
+ * precision of `level`, where a power lets motions begin before it. An orbit whose error exceeds 1e-4 rad gets a very large error, so that no level decides it. */
+void kz_dynamics_begin(kz_dynamics *dynamics, int32_t level, int64_t n, kz_start *start);

@@ -1,4 +1,4 @@
-/* dynamics: starts that are proved to end on an attractor (C; layer 2). */
+/* dynamics: starts that are proved to end on an attractor (C; layer 1). */
 #pragma once
 
 #include <stdbool.h>

@@ -1,7 +1,8 @@
-/* kernel: orbits in any number of digits (C; layer 1). */
+/* kernel: orbits in any number of digits (C; layer 0). */
 #pragma once
 
 #include "kapitza/kernel.h"
+#include "kapitza/model_release.h"
 
 /* Whole drive periods in any number of digits, by Taylor series. Beside the orbit of a centre they can carry its neighbourhood: the images
  * of the starts centre + (x, y) as polynomials of degree 3 in x and y. The numbers are those of FLINT (Arb). */

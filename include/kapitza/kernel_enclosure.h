@@ -1,4 +1,4 @@
-/* kernel: sets of states through a period, with bounds on every error (C; layer 1). */
+/* kernel: sets of states through a period, with bounds on every error (C; layer 0). */
 #pragma once
 
 #include <stdint.h>

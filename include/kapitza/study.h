@@ -79,14 +79,14 @@ double kz_pendulums_parted(const kz_pendulum *a, const kz_pendulum *b);
 double kz_point_inertia(const kz_pendulum_keys *written);
 bool kz_inertia_is_possible(const kz_pendulum_keys *written);
 
-/* The keys of the mapping `pendulum` that a sweep can change. */
+/* The keys of the mapping `pendulum` that a sweep can change: those that change motions, and those of powers that change how cells begin alone. */
 typedef struct {
   const char *name, *unit;
-  size_t offset; /* in kz_pendulum_keys */
+  size_t offset; /* in kz_pendulum_keys, or in the plan */
+  size_t plan;   /* offset in kz_scene of the pointer to the plan of a power; 0 = none */
 } kz_sweep_parameter;
-extern const kz_sweep_parameter kz_sweep_parameters[];
-/* The names of these keys, of those that change motions and not only how cells are released, and of the measures of a sweep, each list
- * joined by '|'. */
+const kz_sweep_parameter *kz_sweep_parameter_at(int32_t parameter);
+/* The names of those that change motions (kz_sweep_words: for sweeps, to which powers add theirs), and of the measures of a sweep, joined by '|'. */
 const char *kz_sweep_words(void);
 const char *kz_motion_words(void);
 const char *kz_sweep_measure_words(void);
@@ -112,16 +112,12 @@ kz_status kz_axis_describe(const kz_axis *values, int32_t parameter, const char 
 double kz_axis_value(const kz_axis *values, int64_t i);
 double kz_sweep_value(const kz_sweep_plan *plan, int64_t i);
 
-/* The scene's pendulum with n of its keys (rows of kz_sweep_parameters) at other values; false if that is not possible (not finite, negative
+/* The scene's pendulum with n of its keys (numbers of kz_sweep_parameter_at) at other values; false if that is not possible (not finite, negative
  * damping, less inertia than a point mass). */
 bool kz_pendulum_at(const kz_scene *scene, int n, const int32_t *parameter, const double *value, kz_pendulum *pendulum);
 
 /* Pendulum of a scene with the swept parameter at `value`. */
 bool kz_sweep_pendulum(const kz_scene *scene, double value, kz_pendulum *pendulum);
-/* How cells are released at this value. */
-kz_release kz_sweep_release_at(const kz_scene *scene, double value);
-/* True if a key changes only how cells are released. */
-bool kz_sweep_is_of_release(int32_t parameter);
 /* True if other values of a key than 0 make a drive that is not k - m cos t. */
 bool kz_sweep_is_of_drive(int32_t parameter);
 
@@ -136,6 +132,7 @@ typedef struct {
 
 typedef struct kz_basin_part kz_basin_part;
 typedef struct kz_sweep_part kz_sweep_part;
+typedef struct kz_dynamics kz_dynamics;
 /* A key of a scene (study_keys.h). */
 typedef struct kz_key kz_key;
 
@@ -144,9 +141,9 @@ typedef struct {
   const char *what, *studies;
 } kz_study_need;
 
-/* What a scene may ask for needs: a pivot that moves up and down as a sine; mirror symmetry; starts at a strobe of the final drive; one phase of
- * release for all cells; no ramp along its axes. */
-typedef enum { KZ_NEEDS_SINE, KZ_NEEDS_MIRROR, KZ_NEEDS_STROBE, KZ_NEEDS_ONE_PHASE, KZ_NEEDS_NO_RAMP_OVER } kz_drive_need;
+/* What a scene may ask for needs: a pivot that moves up and down as a sine; mirror symmetry; starts at a strobe of the final drive; starts
+ * at one phase. */
+typedef enum { KZ_NEEDS_SINE, KZ_NEEDS_MIRROR, KZ_NEEDS_STROBE, KZ_NEEDS_ONE_PHASE } kz_drive_need;
 
 /* A study. All ranks call `run`; `summary` (text for people) and `store` are NULL on all ranks but rank 0. `check` refuses a scene that the study
  * cannot model, for example because the steps are too coarse (NULL = nothing to refuse); its message begins with the keys that a user could
@@ -167,10 +164,14 @@ typedef struct {
   const kz_sweep_part *of_sweep; /* part for the study sweep (src/study/sweep/part.h) */
   /* The window of its starts: theta and velocity, if it follows them by the scene's own pendulum and numerics; no function = it does not. */
   void (*window)(const kz_scene *scene, const kz_axis *axis[2]);
-  /* The complaint if the scene asks for what needs this of drive or release; NULL = it does not, or no function. */
+  /* The complaint if the scene asks for what needs this of drive or starts; NULL = it does not, or no function. */
   const char *(*limit)(const kz_scene *scene, kz_drive_need need);
-  bool damped;  /* it has no meaning without damping */
-  bool follows; /* it follows motions of the scene's own pendulum */
+  /* Says to dynamics how the scene's cells begin, for this pendulum in place of the scene's; swept: the value of the sweep's key, or NULL. */
+  void (*begin)(const kz_scene *scene, const kz_pendulum *pendulum, const double *swept, kz_dynamics *dynamics);
+  kz_status (*describe)(const kz_scene *scene, kz_store *store); /* adds attributes to a new file. Rank 0. */
+  const kz_sweep_parameter *parameters; /* that a sweep may take beside its own; a row without name ends them */
+  bool damped;                          /* it has no meaning without damping */
+  bool follows;                         /* it follows motions of the scene's own pendulum */
 } kz_study;
 static inline bool kz_study_is_wanted(const kz_study *study, const kz_scene *scene) {
   return *(const bool *)((const char *)scene + study->wanted);
@@ -181,6 +182,10 @@ static inline bool kz_study_is_part(const kz_study *study) {
 }
 extern const kz_study *const kz_studies[];
 extern const int kz_study_count;
+
+/* What all studies of a scene say of these (kz_study). */
+void kz_studies_begin(const kz_scene *scene, const kz_pendulum *pendulum, const double *swept, kz_dynamics *dynamics);
+kz_status kz_studies_describe(const kz_scene *scene, kz_store *store);
 
 /* Gives a scene plans of its own, of zeros; copies of those that it shares with another; frees them. */
 void kz_plans_create(kz_scene *scene);
@@ -201,7 +206,9 @@ extern const kz_group kz_groups[];
 /* FILE.truth, the reference labels of a window, begins with these words. */
 #define KZ_REFERENCE_WORDS "kapitza truth"
 
-/* KZ_REFUSED if the scene asks for what does not take its drive or its release (src/study/drive_limits.c). */
+/* The complaint of the first study of the scene that needs this; NULL = none does. */
+const char *kz_drive_limit(const kz_scene *scene, kz_drive_need need);
+/* KZ_REFUSED if the scene asks for what does not take its drive (src/study/drive_limits.c). */
 kz_status kz_drive_check(const kz_scene *scene);
 /* KZ_REFUSED with this complaint where the drive is not a sine, or a swept key makes another one. */
 kz_status kz_drive_check_sine(const kz_scene *scene, const char *complaint);

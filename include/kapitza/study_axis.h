@@ -43,6 +43,6 @@ typedef struct {
 
 /* An axis of a plane of two keys of the pendulum mapping. */
 typedef struct {
-  int32_t parameter; /* row of kz_sweep_parameters */
+  int32_t parameter; /* number of kz_sweep_parameter_at */
   kz_axis values;    /* both ends included */
 } kz_plane_axis;

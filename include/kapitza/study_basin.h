@@ -21,5 +21,4 @@ struct kz_basin_plan {
   bool turns;      /* count the net turns of each cell */
   bool unmirrored; /* the pendulum has no mirror symmetry */
   double accuracy; /* NaN, or the share of right labels for which the program chooses method, table and numerics */
-  int64_t phases;  /* number of phases of the drive at which the cells are also released; 0 or less = none */
 };

@@ -1,4 +1,4 @@
-/* study: the mapping `pendulum` of a scene as written, and the pendulum, its drive and its release that follow from it. */
+/* study: the mapping `pendulum` of a scene as written, and the pendulum and its drive that follow from it. */
 #pragma once
 
 #include <stdbool.h>
@@ -19,10 +19,6 @@ typedef struct {
   int64_t values[KZ_LIST_MAX];
 } kz_integers;
 
-/* The quantity that a ramp changes, and its form in time. */
-enum { KZ_RAMP_DAMPING = 0, KZ_RAMP_DRIVE = 1 };
-enum { KZ_RAMP_LINEAR = 0, KZ_RAMP_SMOOTH = 1 };
-
 /* The mapping `pendulum` as written, in one of four forms a, b, c, d; NaN = key not given. */
 typedef struct {
   double quality_factor, drive_frequency, drive_amplitude;                           /* a: Q, Omega, epsilon */
@@ -36,9 +32,6 @@ typedef struct {
   double beta_c, omega, i_dc, i_ac;               /* d: of a Josephson junction */
   double tilt, ellipse, torque, torque_amplitude; /* rad; ratio of the axes; both in units of I omega^2 */
   double constant_torque_ratio, torque_ratio;     /* Torques in units of M g r */
-  double start_phase;                             /* Phase of the drive at the release of the basin's starts, rad */
-  double ramp_from, ramp_periods;                 /* in the units of its key; drive periods */
-  int32_t ramp_key, ramp_shape;                   /* KZ_RAMP_DAMPING, ..; KZ_RAMP_LINEAR, .. */
   int32_t waveform;                               /* KZ_SINE, ... */
   kz_reals samples;                               /* for KZ_SAMPLES: the drive at equal times of a period, in units of m */
   kz_harmonics harmonics;                         /* Harmonics that the scene adds */
@@ -59,10 +52,8 @@ const char *kz_drive_made_by(const kz_pendulum_keys *written);
 typedef struct {
   kz_pendulum_keys written;
   kz_pendulum pendulum;
-  bool has_ramp;
   double quality_factor, drive_frequency, drive_amplitude;
   double pivot_frequency; /* rad s-1; NaN without SI */
-  kz_release release;     /* how the cells of a basin are released */
 } kz_parameters;
 
 /* m s-2; CGPM 1901. */
@@ -76,7 +67,7 @@ kz_status kz_parameters_resolve(kz_parameters *parameters);
 #define KZ_MOST_STIFFNESS 1e7
 #define KZ_MOST_SPEED 1e4
 
-/* kz_drive_resolve adds the drive that the keys describe to `pendulum`, which has k, beta and m. kz_release_resolve fills *release. */
+/* kz_drive_resolve adds the drive that the keys describe to `pendulum`, which has k, beta and m. */
 void kz_drive_resolve(const kz_parameters *parameters, kz_pendulum *pendulum);
 /* The drive for k = 0 and m = 1, for the linear equation at rest; the cosine of a scene without a pendulum. Coefficients beside m = 0 are left
  * as they are. */
@@ -89,4 +80,3 @@ extern const kz_variable kz_pendulum_variables[];
 kz_status kz_pendulum_write(const kz_parameters *parameters, kz_store *store);
 /* Place of the pivot at a phase of the drive (rad): {aside, height} in units of I/(M r). */
 void kz_pivot_at(const kz_parameters *parameters, double phase, double place[2]);
-void kz_release_resolve(const kz_parameters *parameters, kz_release *release);

@@ -170,7 +170,8 @@ static kz_status open_outputs(job *j) {
   print_pendulum(&j->scene, j->summary);
   KZ_TRY(kz_store_create(j->path, kz_groups, &j->store));
   KZ_TRY(write_root(j));
-  return kz_pendulum_write(&j->scene.parameters, j->store);
+  KZ_TRY(kz_pendulum_write(&j->scene.parameters, j->store));
+  return kz_studies_describe(&j->scene, j->store);
 }
 
 static kz_status run_studies(job *j) {

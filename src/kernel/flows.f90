@@ -6,14 +6,13 @@ module kz_kernel_flows
                                  MOST_DRIFTS, MOST_KICKS
   use kz_vector_schemes, only: SCHEMES, PROCESSED, SPLIT6_ROW
   use kz_model_pendulum, only: pendulum_t, stiffness
-  use kz_model_release, only: stretch_t
   use kz_vector_step_table, only: numerics_t, period_t, make_period
   use kz_processed_batch, only: make_processed_batch
   use kz_processed_series_interpolation, only: interpolate_series
   use kz_splitting_batch, only: make_batch
   implicit none
   private
-  public :: make_flow, make_stretch_flow, make_processed_flow, fine_numerics, sampling_numerics, FINE_STEPS
+  public :: make_flow, make_processed_flow, fine_numerics, sampling_numerics, FINE_STEPS
 
   !> Steps a period of split6 for all published values, whatever the scene says.
   integer, parameter :: FINE_STEPS = 96
@@ -74,21 +73,6 @@ contains
     end if
     call make_processed_flow(pendulum, series, numerics, flow, refined=refined, made_fallback=fallback)
   end subroutine make_flow
-
-  !> The map of a stretch, by fine steps of split6.
-  subroutine make_stretch_flow(pendulum, stretch, flow)
-    type(pendulum_t), intent(in) :: pendulum !< as it is after a ramp
-    type(stretch_t), intent(in) :: stretch !< a part of a drive period
-    class(flow_t), allocatable, intent(out) :: flow !< from its beginning to its end
-    type(numerics_t) :: numerics
-    type(period_t) :: period
-
-    numerics = fine_numerics(pendulum)
-    numerics%steps_per_period = ceiling(numerics%steps_per_period*real(stretch%span, c_double) &
-                                        *sqrt(max(1.0_c_double, abs(stretch%release%drive))))
-    call make_period(pendulum, numerics, .true., period, stretch)
-    call make_batch(period, flow)
-  end subroutine make_stretch_flow
 
   !> The processed splitting from its series. numerics%fastest = huge: no other flow for fast lanes.
   recursive subroutine make_processed_flow(pendulum, series, numerics, flow, fitted, refined, made_fallback)

@@ -1,4 +1,4 @@
-/* The drive of a pendulum from the keys that describe it: wave form, further harmonics, tilt, ellipse, torque, phase of release. */
+/* The drive of a pendulum from the keys that describe it: wave form, further harmonics, tilt, ellipse, torque. */
 #include <float.h>
 #include <math.h>
 #include <stdio.h>
@@ -211,26 +211,4 @@ void kz_pivot_at(const kz_parameters *parameters, double phase, double place[2])
     place[0] += p->horizontal[j - 1][0] * c + p->horizontal[j - 1][1] * s;
     place[1] += p->vertical[j - 1][0] * c + p->vertical[j - 1][1] * s;
   }
-}
-
-/* A ramp of the drive is in units of m, which it ends at. */
-static void resolve_ramp(const kz_parameters *parameters, kz_release *release) {
-  const kz_pendulum_keys *written = &parameters->written;
-  release->periods = written->ramp_periods;
-  release->smooth = written->ramp_shape == KZ_RAMP_SMOOTH;
-  if (written->ramp_key == KZ_RAMP_DAMPING)
-    release->damping = written->ramp_from;
-  else
-    release->drive = written->ramp_from / parameters->pendulum.m;
-}
-
-/* The phase as written; 0 for whole turns, such as 360 degrees, which no other double is. */
-static double phase_of(double written) {
-  const double turns = rint(written / (2 * M_PI));
-  return !has(written) || fabs(written - turns * (2 * M_PI)) < 1e-24 ? 0 : written;
-}
-
-void kz_release_resolve(const kz_parameters *parameters, kz_release *release) {
-  *release = (kz_release){.phase = phase_of(parameters->written.start_phase), .damping = parameters->pendulum.beta, .drive = 1};
-  if (parameters->has_ramp && has(parameters->written.ramp_periods)) resolve_ramp(parameters, release);
 }

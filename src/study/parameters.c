@@ -133,7 +133,6 @@ kz_status kz_parameters_resolve(kz_parameters *parameters) {
   fill_defined(parameters);
   kz_drive_resolve(parameters, &p);
   parameters->pendulum = p;
-  kz_release_resolve(parameters, &parameters->release);
   return KZ_OK;
 }
 

@@ -27,19 +27,6 @@ static kz_status write_harmonics(const kz_pendulum *p, kz_store *store) {
   return kz_is_mirrored(p) ? KZ_OK : kz_store_variable(store, "/pendulum", "horizontal", p->horizontal);
 }
 
-/* The phase of the release and the ramp, as the scene has them, and the strength of the drive that follows from its amplitude. */
-static kz_status write_release(const kz_parameters *p, kz_store *store) {
-  const kz_release *r = &p->release;
-  const bool of_drive = p->written.ramp_key == KZ_RAMP_DRIVE;
-  if (!isnan(p->written.start_phase)) KZ_TRY(kz_store_real(store, "/pendulum", "start_phase", r->phase));
-  if (!(r->periods > 0)) return KZ_OK;
-  KZ_TRY(kz_store_text(store, "/pendulum", "ramp_key", of_drive ? "drive_amplitude" : "damping"));
-  KZ_TRY(kz_store_text(store, "/pendulum", "ramp_shape", r->smooth ? "smooth" : "linear"));
-  KZ_TRY(kz_store_real(store, "/pendulum", "ramp_periods", r->periods));
-  KZ_TRY(kz_store_real(store, "/pendulum", "ramp_from", p->written.ramp_from));
-  return of_drive ? kz_store_real(store, "/pendulum", "ramp_strength", r->drive) : KZ_OK;
-}
-
 kz_status kz_pendulum_write(const kz_parameters *p, kz_store *store) {
   const kz_pendulum_keys *si = &p->written; /* NaN where the scene has no such key */
   const struct {
@@ -72,6 +59,5 @@ kz_status kz_pendulum_write(const kz_parameters *p, kz_store *store) {
                {"pivot_frequency", p->pivot_frequency}};
   for (size_t i = 0; i < sizeof reals / sizeof reals[0]; i++)
     if (!isnan(reals[i].value)) KZ_TRY(kz_store_real(store, "/pendulum", reals[i].name, reals[i].value));
-  KZ_TRY(write_harmonics(&p->pendulum, store));
-  return write_release(p, store);
+  return write_harmonics(&p->pendulum, store);
 }

@@ -14,7 +14,6 @@ const int kz_study_count = sizeof kz_studies / sizeof kz_studies[0];
 /* clang-format off */
 const kz_group kz_groups[] = {
     {"pendulum", kz_pendulum_variables},
-    {"phases", kz_phases_variables},
     {"plane", kz_plane_variables},
     KZ_STUDIES(GROUP)
     {NULL, NULL},
@@ -27,6 +26,18 @@ kz_status kz_studies_check(const kz_scene *scene) {
     for (int i = 0; i < kz_study_count; i++)
       if ((pass == 0) == kz_study_is_part(kz_studies[i]) && kz_studies[i]->check && kz_study_is_wanted(kz_studies[i], scene))
         KZ_TRY(kz_studies[i]->check(scene));
+  return KZ_OK;
+}
+
+void kz_studies_begin(const kz_scene *scene, const kz_pendulum *pendulum, const double *swept, kz_dynamics *dynamics) {
+  for (int i = 0; i < kz_study_count; i++)
+    if (kz_studies[i]->begin && kz_study_is_wanted(kz_studies[i], scene))
+      kz_studies[i]->begin(scene, pendulum, swept, dynamics);
+}
+
+kz_status kz_studies_describe(const kz_scene *scene, kz_store *store) {
+  for (int i = 0; i < kz_study_count; i++)
+    if (kz_studies[i]->describe && kz_study_is_wanted(kz_studies[i], scene)) KZ_TRY(kz_studies[i]->describe(scene, store));
   return KZ_OK;
 }
 

@@ -6,7 +6,7 @@
 #include "kapitza/study.h"
 #include "sweep/plan.h"
 
-/* Keys that change the motions of a pendulum, and those that change only how cells are released. */
+/* Keys that change the motions of a pendulum. */
 #define MOTION_PARAMETERS(KEY)    \
   KEY(quality_factor, "1")        \
   KEY(drive_frequency, "1")       \
@@ -37,32 +37,31 @@
   KEY(omega, "1")                 \
   KEY(i_dc, "1")                  \
   KEY(i_ac, "1")
-#define RELEASE_PARAMETERS(NAMED)          \
-  NAMED("ramp.periods", ramp_periods, "1") \
-  NAMED("ramp.from", ramp_from, "1")
+#define KEY_ROW(name_, unit_) {#name_, unit_, offsetof(kz_pendulum_keys, name_)},
+static const kz_sweep_parameter own[] = {MOTION_PARAMETERS(KEY_ROW)};
+enum { OWN = sizeof own / sizeof *own };
 
-#define KEY_ROW(name_, unit_) NAMED_ROW(#name_, name_, unit_)
-#define NAMED_ROW(name_, field_, unit_) {name_, unit_, offsetof(kz_pendulum_keys, field_)},
-const kz_sweep_parameter kz_sweep_parameters[] = {MOTION_PARAMETERS(KEY_ROW) RELEASE_PARAMETERS(NAMED_ROW)};
+const kz_sweep_parameter *kz_sweep_parameter_at(int32_t parameter) {
+  if (parameter < OWN) return own + parameter;
+  int32_t n = OWN;
+  for (int i = 0; i < kz_study_count; i++)
+    for (const kz_sweep_parameter *row = kz_studies[i]->parameters; row && row->name; row++)
+      if (n++ == parameter) return row;
+  return NULL;
+}
 
 #define KEY_WORD(name_, unit_) "|" #name_
-#define NAMED_WORD(name_, field_, unit_) "|" name_
 const char *kz_sweep_words(void) {
-  return &(MOTION_PARAMETERS(KEY_WORD) RELEASE_PARAMETERS(NAMED_WORD))[1];
+  return kz_motion_words();
 }
 
 const char *kz_motion_words(void) {
   return &(MOTION_PARAMETERS(KEY_WORD))[1];
 }
 
-bool kz_sweep_is_of_release(int32_t parameter) {
-  return kz_sweep_parameters[parameter].offset == offsetof(kz_pendulum_keys, ramp_periods) ||
-         kz_sweep_parameters[parameter].offset == offsetof(kz_pendulum_keys, ramp_from);
-}
-
 bool kz_sweep_is_of_drive(int32_t parameter) {
   for (const kz_drive_key *key = kz_drive_keys; key->path; key++)
-    if (kz_sweep_parameters[parameter].offset == key->offset) return true;
+    if (parameter < OWN && own[parameter].offset == key->offset) return true;
   return false;
 }
 
@@ -70,16 +69,11 @@ bool kz_sweep_is_of_drive(int32_t parameter) {
 static bool parameters_at(const kz_scene *scene, int n, const int32_t *parameter, const double *value,
                           kz_parameters *parameters) {
   *parameters = scene->parameters;
-  for (int i = 0; i < n; i++) *(double *)((char *)&parameters->written + kz_sweep_parameters[parameter[i]].offset) = value[i];
+  for (int i = 0; i < n; i++)
+    if (parameter[i] < OWN) *(double *)((char *)&parameters->written + own[parameter[i]].offset) = value[i];
   if (kz_parameters_resolve(parameters) == KZ_OK) return true;
   kz_message_clear();
   return false;
-}
-
-kz_release kz_sweep_release_at(const kz_scene *scene, double value) {
-  kz_parameters parameters;
-  return parameters_at(scene, 1, &scene->sweep->parameter, &value, &parameters) ? parameters.release
-                                                                                : scene->parameters.release;
 }
 
 bool kz_pendulum_at(const kz_scene *scene, int n, const int32_t *parameter, const double *value, kz_pendulum *pendulum) {
@@ -107,13 +101,13 @@ double kz_axis_written(const kz_axis *values, double value) {
 }
 
 const char *kz_axis_unit(const kz_axis *values, int32_t parameter) {
-  const char *unit = kz_sweep_parameters[parameter].unit;
+  const char *unit = kz_sweep_parameter_at(parameter)->unit;
   return values->written.name[0] ? values->written.name : strcmp(unit, "1") == 0 ? "" : unit;
 }
 
 void kz_axis_print(const kz_axis *values, int32_t parameter, int digits, double value, char *text, size_t bytes) {
   const char *unit = kz_axis_unit(values, parameter);
-  snprintf(text, bytes, "%s = %.*g%s%s", kz_sweep_parameters[parameter].name, digits, kz_axis_written(values, value),
+  snprintf(text, bytes, "%s = %.*g%s%s", kz_sweep_parameter_at(parameter)->name, digits, kz_axis_written(values, value),
            unit[0] ? " " : "", unit);
 }
 
@@ -121,9 +115,9 @@ kz_status kz_axis_describe(const kz_axis *values, int32_t parameter, const char 
   const char *of = axis[0] ? axis : "parameter";
   char name[32];
   snprintf(name, sizeof name, "%s%sparameter", axis, axis[0] ? "_" : "");
-  KZ_TRY(kz_store_text(store, group, name, kz_sweep_parameters[parameter].name));
+  KZ_TRY(kz_store_text(store, group, name, kz_sweep_parameter_at(parameter)->name));
   snprintf(name, sizeof name, "%s_units", of);
-  KZ_TRY(kz_store_text(store, group, name, kz_sweep_parameters[parameter].unit));
+  KZ_TRY(kz_store_text(store, group, name, kz_sweep_parameter_at(parameter)->unit));
   if (!values->written.name[0]) return KZ_OK;
   snprintf(name, sizeof name, "%s_written_units", of);
   KZ_TRY(kz_store_text(store, group, name, values->written.name));

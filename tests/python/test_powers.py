@@ -100,6 +100,13 @@ def test_the_core_holds_no_symbol_of_a_power(core):
      "other words need the power measures, which this build leaves out"),
     (["check", "small", "--set", "sweep={parameter: drive_amplitude, min: 0, max: 1, count: 2, measure: [ends]}"],
      "it needs the power ends, which this build leaves out"),
+    (["check", "small", "--set", "basin.start_phase=1"], "basin.start_phase: needs the power release, which this build leaves out"),
+    (["check", "small", "--set", "pendulum.ramp={key: damping, from: 1, periods: 2}"],
+     "pendulum.ramp: needs the power release, which this build leaves out"),
+    (["check", "small", "--set", "sweep={parameter: ramp.from, min: 0, max: 1, count: 2, measure: [attractors]}"],
+     "other words need the power release, which this build leaves out"),
+    (["check", "small", "--set", "sweep={parameter: drive_amplitude, min: 0, max: 1, count: 2, measure: [phases]}"],
+     "it needs the power release, which this build leaves out"),
     (["where", "small", "0", "0"], "where: needs the power live, which this build leaves out")])
 def test_what_is_missing_is_refused_by_the_name_of_its_power(core, words, told):
     words = [str(ROOT / "scenes" / "small.yaml") if word == "small" else word for word in words]

@@ -6,6 +6,7 @@
 #include "../tools/test.h"
 
 #include "../tools/explored.h"
+#include "kapitza/dynamics_release.h"
 
 #include <stdbool.h>
 
@@ -73,7 +74,7 @@ static void truth(kz_dynamics *d, const kz_pendulum *p, int n, const kz_start *s
   static int place[MOST];
   int left = n;
   memcpy(released, start, (size_t)n * sizeof *start);
-  kz_dynamics_release(d, KZ_LEVEL_QUAD, n, released);
+  kz_dynamics_begin(d, KZ_LEVEL_QUAD, n, released);
   for (int i = 0; i < n; i++) {
     const double low[2] = {released[i].theta[1], released[i].velocity[1]};
     kz_reference_start(1, released[i].theta, released[i].velocity, low, late + i);
@@ -105,7 +106,7 @@ static void decide(kz_dynamics *d, int n, const kz_start *start, kz_decision *de
   for (int32_t level = KZ_LEVEL_DOUBLE; level < KZ_LEVEL_ARBITRARY && left > 0; level++) {
     int still = 0;
     for (int i = 0; i < left; i++) some[i] = start[place[i]];
-    kz_dynamics_release(d, level, left, some);
+    kz_dynamics_begin(d, level, left, some);
     kz_dynamics_label(d, level, level > 0 ? level - 1 : 0, left, some, MAX_PERIODS, found);
     for (int i = 0; i < left; i++) {
       decision[place[i]] = found[i];
@@ -246,8 +247,8 @@ TEST(test_releases_know_their_errors) {
   for (size_t which = 0; which < sizeof releases / sizeof *releases; which++) {
     kz_start fine = {.theta = {0.7}, .velocity = {-0.4}}, plain = fine;
     kz_dynamics_set_release(d, releases + which);
-    kz_dynamics_release(d, KZ_LEVEL_QUAD, 1, &fine);
-    kz_dynamics_release(d, KZ_LEVEL_DOUBLE, 1, &plain);
+    kz_dynamics_begin(d, KZ_LEVEL_QUAD, 1, &fine);
+    kz_dynamics_begin(d, KZ_LEVEL_DOUBLE, 1, &plain);
     const double error = sqrt(plain.error[0] + plain.error[2]),
                  off = hypot(remainder(fine.theta[0] - plain.theta[0], 2 * M_PI), fine.velocity[0] - plain.velocity[0]);
     assert_int_equal(plain.periods, fine.periods);

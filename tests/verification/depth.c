@@ -56,7 +56,7 @@ static view open_view(const window *w) {
   const kz_basin_plan *plan = v.scene.basin;
   v.dynamics = kz_dynamics_create(&v.scene.parameters.pendulum, &v.scene.numerics, plan->max_period);
   find_attractors(&v);
-  v.images = kz_images_create(&v.scene.parameters, &plan->theta, &plan->velocity);
+  v.images = kz_images_create(v.dynamics, &v.scene.parameters.pendulum, &plan->theta, &plan->velocity);
   assert_int_equal(kz_images_follow(v.images, v.dynamics, plan->max_periods, plan->max_periods), KZ_OK);
   kz_hand_overs_make(v.images, 0.5, v.hand_over);
   return v;
@@ -80,7 +80,7 @@ static void own_label(const view *v, int64_t cell, kz_decision *decision) {
   const kz_basin_plan *plan = v->scene.basin;
   const kz_coordinate start[2] = {kz_axis_coordinate(&plan->theta, cell % COUNT),
                                   kz_axis_coordinate(&plan->velocity, cell / COUNT)};
-  assert_int_equal(kz_own_orbit_decide(v->dynamics, &v->scene.parameters, start, plan->max_periods, decision), KZ_OK);
+  assert_int_equal(kz_own_orbit_decide(v->dynamics, &v->scene.parameters.pendulum, start, plan->max_periods, decision), KZ_OK);
   assert_int_not_equal(decision->end.label, KZ_DOUBTFUL);
 }
 
@@ -149,7 +149,7 @@ TEST(deep_windows_are_curves) {
     view v = open_view(i == 0 ? &deep : &wide);
     kz_window_starts starts;
     kz_window_curve curve;
-    kz_window_starts_make(v.scene.basin, &v.scene.parameters, v.dynamics, v.images, &starts);
+    kz_window_starts_make(v.scene.basin, &v.scene.parameters.pendulum, v.dynamics, v.images, &starts);
     kz_window_curve_make(&starts, &curve);
     assert_true(i == 0 ? curve.count > 16 * COUNT && curve.count <= 2 * 16 * COUNT + 3 : curve.count == 0);
     if (i == 0) compare_samples(&starts, &curve);

@@ -1,4 +1,4 @@
-kapitza_test(certain LABEL verification LAYER dynamics)
+kapitza_test(certain LABEL verification LAYER dynamics POWER release)
 kapitza_test(depth LABEL verification LAYER app)
 target_include_directories(test_verification_depth PRIVATE ${PROJECT_SOURCE_DIR}/src/study)
 kapitza_test(orders LABEL verification LAYER kernel)

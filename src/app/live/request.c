@@ -6,6 +6,7 @@
 
 #include "json_read.h"
 #include "kapitza/study_orbit.h"
+#include "kapitza/study_release.h"
 
 enum { MOST_CELLS = 1 << 24 /* of a frame, or samples of an orbit */ };
 static const char SOURCE[] = "request";
@@ -111,7 +112,8 @@ static kz_status check_frame(const kz_request *request) {
 
 static kz_status check_orbit(const kz_request *request) {
   const kz_orbit_plan *plan = request->scene.orbit;
-  if (kz_release_strobes(&request->scene.parameters.release) > 0)
+  const kz_release release = kz_release_of(&request->scene, &request->scene.parameters.pendulum);
+  if (kz_release_strobes(&release) > 0)
     return kz_fail(KZ_REFUSED,
                    "%s: orbit: a motion begins at phase 0 and without a ramp; leave out basin.start_phase and pendulum.ramp",
                    SOURCE);

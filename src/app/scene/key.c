@@ -8,8 +8,8 @@
 enum { LONGEST_WORD = 63 };
 
 const char *kz_key_words(const kz_key *key) {
-  if (key->words_from) return key->words_from();
-  return key->words ? key->words : "";
+  if (key->words) return key->words;
+  return key->words_from ? key->words_from() : "";
 }
 
 int64_t kz_word_find(const char *words, const char *word) {

@@ -88,15 +88,6 @@ static const kz_key own[] = {
     ROW("pendulum.samples", KZ_KEY_REALS, "", AT(parameters.written.samples),
         "The drive at equal times of a period, the first at t = 0, in units of drive_amplitude; its mean is left out.",
         .unit = "", .low = -1e6, .high = 1e6),
-    PART("pendulum.ramp", "", parameters.has_ramp,
-         "Damping or drive has the value `from` when a cell of a basin is released, and the pendulum's own after `periods`."),
-    WORD("pendulum.ramp.key", "damping|drive_amplitude", NULL, parameters.written.ramp_key,
-         "The quantity that changes: beta, or all of the drive in proportion."),
-    REAL("pendulum.ramp.from", "", -1e6, 1e6, NULL, parameters.written.ramp_from, "beta or m at the beginning, t = 0."),
-    REAL("pendulum.ramp.periods", "", 0, 1e5, NULL, parameters.written.ramp_periods,
-         "Number of drive periods that the change takes."),
-    WORD("pendulum.ramp.shape", "linear|smooth", "linear", parameters.written.ramp_shape,
-         "linear in time; smooth: 3 s^2 - 2 s^3, which begins and ends without a kink."),
     ROW("pendulum.harmonics", KZ_KEY_HARMONICS, "", AT(parameters.written.harmonics),
         "Further harmonics of the drive: m amplitude cos(order t + phase), the phase in rad or degrees.", .unit = ""),
     ROW("pendulum.vertical", KZ_KEY_REALS, "", AT(parameters.written.vertical),
@@ -160,7 +151,6 @@ static bool is_as_written(const kz_key *row) {
 static void extend(kz_key *row, const kz_key *part) {
   const bool joined = !is_as_written(row);
   row->words = join_text(kz_key_words(row), joined, "|", kz_key_words(part));
-  row->words_from = NULL;
   row->help = join_text(row->help, joined, " ", part->help);
 }
 

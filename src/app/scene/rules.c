@@ -127,13 +127,13 @@ static void check_stiffness(kz_reading *reading, const kz_pendulum *pendulum, co
 /* Converts a value that was written with a unit to the unit of the parameter; *written = that unit, unless it has one. */
 static void read_in_unit(kz_reading *reading, int32_t parameter, const kz_node *node, const char *path, double *value,
                          kz_written_unit *written) {
-  const char *unit = kz_sweep_parameters[parameter].unit;
+  const char *unit = kz_sweep_parameter_at(parameter)->unit;
   const char *wrong = !node || isnan(*value)     ? NULL
                       : strcmp(unit, "rad") == 0 ? kz_scalar_angle(node, value)
                                                  : kz_scalar_quantity(node, unit, value);
   if (wrong)
     kz_complain_at(reading, node, path, "\"%.60s\" %s; it must be a number%s%s, as pendulum.%s is", node->text, wrong,
-                   unit[0] == '1' ? "" : " in ", unit[0] == '1' ? "" : unit, kz_sweep_parameters[parameter].name);
+                   unit[0] == '1' ? "" : " in ", unit[0] == '1' ? "" : unit, kz_sweep_parameter_at(parameter)->name);
   else if (node && !written->name[0])
     *written = kz_scalar_unit(node, unit);
 }
@@ -142,7 +142,7 @@ static void read_in_unit(kz_reading *reading, int32_t parameter, const kz_node *
 static void parameter_value(kz_reading *reading, const kz_scene *scene, int32_t parameter, const kz_node *node,
                             const char *path, double value) {
   kz_pendulum pendulum;
-  const kz_short_text key = kz_key_in("pendulum", kz_sweep_parameters[parameter].name);
+  const kz_short_text key = kz_key_in("pendulum", kz_sweep_parameter_at(parameter)->name);
   const double low = kz_key_find(reading->keys, key.text)->low;
   if (isnan(value)) return;
   if (value < low)
@@ -160,7 +160,7 @@ static void parameter_value(kz_reading *reading, const kz_scene *scene, int32_t 
 
 /* The key of the pendulum mapping that `path` walks along. */
 static void parameter_rule(kz_reading *reading, int32_t parameter, const char *path) {
-  const char *name = kz_sweep_parameters[parameter].name;
+  const char *name = kz_sweep_parameter_at(parameter)->name;
   if (!kz_tree_find(reading->root, kz_key_in("pendulum", name).text))
     kz_complain(reading, kz_key_in(path, "parameter").text,
                 "%s is not given in the pendulum mapping; name a key that is written there", name);

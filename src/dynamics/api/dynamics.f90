@@ -9,12 +9,11 @@ module kz_api_dynamics
   use kz_kernel_flows, only: make_flow, fine_numerics
   use kz_vector_locks, only: create_lock, free_lock, take_lock, leave_lock
   use kz_labels_levels, only: levels_t
-  use kz_labels_released, only: released_t
+  use kz_labels_onset, only: onset_t
   use kz_vector_map, only: flow_t, PI, WIDTH
   use kz_vector_step_table, only: numerics_t
   use kz_maps_map_table, only: table_t
   use kz_model_pendulum, only: pendulum_t
-  use kz_model_release, only: release_t
   implicit none
   private
   public :: dynamics_t, of_handle, make_dynamics, borrow_flow, return_flow
@@ -32,7 +31,7 @@ module kz_api_dynamics
 
   !> What a handle points at.
   type :: dynamics_t
-    type(c_ptr) :: lock = c_null_ptr !< held by the thread that makes what is made at its first use: levels, released, and that takes an idle map
+    type(c_ptr) :: lock = c_null_ptr !< held by the thread that makes what is made at its first use: levels, an onset, and that takes an idle map
     type(search_t) :: search
     class(flow_t), allocatable :: flow !< the scene's map
     type(idle_t) :: idle(MOST_IDLE)    !< copies of it, whose lanes hold what threads have left there
@@ -41,8 +40,7 @@ module kz_api_dynamics
     type(regions_t) :: regions
     type(table_t) :: table
     type(levels_t) :: levels           !< what labels with errors need, once it is needed
-    type(release_t), allocatable :: release   !< of starts whose drive has not its final form at once
-    type(released_t), allocatable :: released !< what carries them, once it is needed
+    class(onset_t), allocatable :: onset !< of starts whose drive has not its final form at once
     type(images_t), allocatable :: images(:) !< of the cells of regions that grow
   end type dynamics_t
 

@@ -1,4 +1,4 @@
-!> The C interface of dynamics: labels with errors, and starts from their release to the first strobe of the final drive
+!> The C interface of dynamics: labels with errors, and starts until the first strobe of the final drive
 !> (include/kapitza/dynamics_labels.h).
 module kz_api_label
   use, intrinsic :: iso_c_binding, only: dp => c_double, c_int8_t, c_int32_t, c_int64_t, c_ptr
@@ -9,11 +9,9 @@ module kz_api_label
   use kz_labels_carrier, only: carrier_t, orbit_t, make_exact_carrier
   use kz_labels_levels, only: prepare_level, carrier_of, is_useful, outlook_from, LEVEL_DOUBLE, LEVEL_FINE, LEVEL_QUAD, NO_LEVEL
   use kz_labels_orbits, only: decision_t, outlook_t, follow_orbits, DOUBTFUL, PENDING
-  use kz_labels_released, only: make_released, carry_released
   use kz_labels_spread, only: add_ellipse
   use kz_vector_map, only: PI
   use kz_maps_states, only: wrapped
-  use kz_model_release, only: release_t, strobes_before
   implicit none
   private
 
@@ -208,48 +206,34 @@ contains
     periods = decision%end%periods
   end subroutine follow_reference
 
-  subroutine set_release(handle, release) bind(C, name='kz_dynamics_set_release')
-    type(c_ptr), value :: handle
-    type(release_t), intent(in) :: release
-    type(dynamics_t), pointer :: d
-
-    d => of_handle(handle)
-    if (allocated(d%released)) deallocate (d%released)
-    if (allocated(d%release)) deallocate (d%release)
-    if (strobes_before(release) > 0) allocate (d%release, source=release)
-  end subroutine set_release
-
-  subroutine release_starts(handle, level, n, start) bind(C, name='kz_dynamics_release')
+  subroutine begin_starts(handle, level, n, start) bind(C, name='kz_dynamics_begin')
     type(c_ptr), value :: handle
     integer(c_int32_t), value :: level
     integer(c_int64_t), value :: n
     type(start_t), intent(inout) :: start(n)
     type(dynamics_t), pointer :: d
     type(orbit_t), allocatable :: orbit(:)
-    integer(c_int64_t), allocatable :: at_release(:)
+    integer(c_int64_t), allocatable :: fresh(:)
     integer(c_int64_t) :: i
     logical :: precisely
 
     d => of_handle(handle)
-    if (.not. allocated(d%release)) return
-    at_release = pack([(i, i=1, n)], start%periods == 0)
-    if (size(at_release) == 0) return
+    if (.not. allocated(d%onset)) return
+    fresh = pack([(i, i=1, n)], start%periods == 0)
+    if (size(fresh) == 0) return
     call take_lock(d%lock)
-    if (.not. allocated(d%released)) then
-      allocate (d%released)
-      call make_released(d%released, d%release, d%search%pendulum, d%regions%top)
-    end if
+    call d%onset%prepare(d%search%pendulum, d%regions%top)
     call leave_lock(d%lock)
     precisely = level > LEVEL_FINE
-    allocate (orbit(size(at_release)))
-    do i = 1, size(at_release)
-      call begin_orbit(start(at_release(i)), precisely, orbit(i))
+    allocate (orbit(size(fresh)))
+    do i = 1, size(fresh)
+      call begin_orbit(start(fresh(i)), precisely, orbit(i))
     end do
-    call carry_released(d%released, d%search%pendulum, precisely, orbit)
-    do i = 1, size(at_release)
-      start(at_release(i)) = start_of(orbit(i), start(at_release(i))%theta(1), precisely)
+    call d%onset%carry(d%search%pendulum, precisely, orbit)
+    do i = 1, size(fresh)
+      start(fresh(i)) = start_of(orbit(i), start(fresh(i))%theta(1), precisely)
     end do
-  end subroutine release_starts
+  end subroutine begin_starts
 
   !> Back to rad, which costs a rounding.
   pure function start_of(orbit, from, precisely) result(start)

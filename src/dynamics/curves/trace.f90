@@ -1,4 +1,4 @@
-!> Curves of bifurcations followed by pseudo-arclength: include/kapitza/dynamics_curves.h.
+!> Curves of bifurcations followed by pseudo-arclength: include/kapitza/dynamics_trace.h.
 module kz_curves_trace
   use, intrinsic :: iso_c_binding, only: dp => c_double, c_int32_t, c_int64_t
   use kz_cycles_corrector, only: newton, tangent_at

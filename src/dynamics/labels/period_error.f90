@@ -6,7 +6,7 @@ module kz_labels_period_error
   use kz_taylor_taylor, only: drive_t, make_drive, qp, ROUGH_STEPS
   use kz_vector_map, only: flow_t, WIDTH, PI
   use kz_model_pendulum, only: pendulum_t, stiffness
-  use kz_model_release, only: stretch_t, whole_period
+  use kz_model_stretch, only: stretch_t
   implicit none
   private
   public :: period_error_t, speed_probes_t, make_speed_probes, measure_period, class_of, noise_at
@@ -40,16 +40,13 @@ contains
     real(dp), intent(in) :: fastest !< rad per drive radian
     type(speed_probes_t), intent(out) :: probes !< their starts and images
     type(stretch_t), intent(in), optional :: stretch !< left out: a whole period
-    type(stretch_t) :: followed
     type(drive_t) :: drive
     integer :: n, i
 
-    followed = whole_period()
-    if (present(stretch)) followed = stretch
     probes%fastest = fastest
     if (max(fastest, sqrt(stiffness(pendulum))) > COSTLY) probes%each = EACH_COSTLY
     n = CLASSES*probes%each
-    call make_drive(drive, pendulum, ROUGH_STEPS, followed, rough=.true.)
+    call make_drive(drive, pendulum, ROUGH_STEPS, stretch, rough=.true.)
     call make_probes(drive, [(fastest*(i - 0.5_dp)/n, i=1, n)], probes%probes_t)
   end subroutine make_speed_probes
 

@@ -6,7 +6,7 @@ module kz_taylor_taylor
   use, intrinsic :: ieee_arithmetic, only: ieee_value, ieee_quiet_nan
   use kz_model_pendulum, only: pendulum_t, highest_harmonic
   use kz_model_series_r128, only: force_series
-  use kz_model_release, only: stretch_t, whole_period, damping_series, drive_series, CUBIC
+  use kz_model_stretch, only: stretch_t, CUBIC
   implicit none
   private
   public :: drive_t, make_drive, advance_period, doubles_of, qp
@@ -34,7 +34,7 @@ module kz_taylor_taylor
   type, bind(C) :: force_t
     type(shared_t) :: along, across, torque
     real(dp) :: damping(0:CUBIC, 3)
-    integer(c_int32_t) :: has_across, has_ramp
+    integer(c_int32_t) :: has_across, is_damping_changing
   end type force_t
 
   !> kz_taylor_state of taylor_steps.c.
@@ -77,7 +77,6 @@ contains
     integer :: i
 
     if (present(rough)) drive%rough = merge(1_c_int32_t, 0_c_int32_t, rough)
-    drive%stretch = whole_period()
     if (present(stretch)) drive%stretch = stretch
     drive%pendulum = pendulum
     drive%requested = n_steps
@@ -110,7 +109,7 @@ contains
     damping = 0
     damping(0) = drive%pendulum%beta*h
     call force_series(drive%pendulum, t0, h, h*h, along, across, torque)
-    if (drive%stretch%changes) call put_on_ramp(drive, t0/TWO_PI, h, along, across, damping)
+    if (associated(drive%stretch%changes)) call put_along(drive, t0/TWO_PI, h, along, across, damping)
     force%along = round_series(along)
     force%across = round_series(-across)
     force%torque = round_series(torque)
@@ -118,7 +117,7 @@ contains
       force%damping(i, :) = doubles_of(damping(i), 3)
     end do
     force%has_across = merge(1_c_int32_t, 0_c_int32_t, drive%pendulum%unmirrored /= 0)
-    force%has_ramp = merge(1_c_int32_t, 0_c_int32_t, drive%stretch%changes)
+    force%is_damping_changing = merge(1_c_int32_t, 0_c_int32_t, associated(drive%stretch%changes))
   end function force_of_step
 
   pure type(shared_t) function round_series(series) result(rounded)
@@ -144,21 +143,21 @@ contains
     end do
   end function doubles_of
 
-  !> The damping and the drive as they are on the ramp.
-  pure subroutine put_on_ramp(drive, turn, h, along, across, damping)
+  !> The damping and the drive where they change.
+  pure subroutine put_along(drive, turn, h, along, across, damping)
     type(drive_t), intent(in) :: drive
     real(qp), intent(in) :: turn, h
     real(qp), intent(inout) :: along(0:), across(0:)
     real(qp), intent(out) :: damping(0:CUBIC)
     real(qp) :: scale(0:CUBIC)
 
-    scale = drive_series(drive%stretch, turn, h/TWO_PI)
+    call drive%stretch%changes(drive%stretch%along, drive%pendulum%beta, turn, h/TWO_PI, damping, scale)
     along(0) = along(0) - h*h*drive%pendulum%k
     call multiply_series(scale, along)
     along(0) = along(0) + h*h*drive%pendulum%k
     call multiply_series(scale, across)
-    damping = h*damping_series(drive%stretch, drive%pendulum, turn, h/TWO_PI)
-  end subroutine put_on_ramp
+    damping = h*damping
+  end subroutine put_along
 
   !> series = series * polynomial.
   pure subroutine multiply_series(polynomial, series)

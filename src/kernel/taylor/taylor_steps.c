@@ -10,7 +10,7 @@
 #include "triples.h"
 
 /* Number of orbits at once; highest order in sums of three doubles; in pairs of doubles; highest order; powers of time in a damping that changes. */
-enum { KZ_TAYLOR_LANES = 8, KZ_TAYLOR_DEEP = 4, KZ_TAYLOR_FINE = 28, KZ_TAYLOR_LAST = 56, KZ_TAYLOR_RAMP = 4 };
+enum { KZ_TAYLOR_LANES = 8, KZ_TAYLOR_DEEP = 4, KZ_TAYLOR_FINE = 28, KZ_TAYLOR_LAST = 56, KZ_TAYLOR_DAMPING = 4 };
 
 /* A series in the time of a step, the same for all orbits: sums of two doubles, the first orders of three. */
 typedef struct {
@@ -20,8 +20,8 @@ typedef struct {
 /* The force over a step h, as (h theta')' = -damping h theta' - along sin theta - across cos theta + torque in the time of the step. */
 typedef struct {
   kz_taylor_shared along, across, torque;
-  double damping[3][KZ_TAYLOR_RAMP]; /* the largest parts first */
-  int32_t has_across, has_ramp;      /* 1 if there are `across` and `torque`; 1 if the damping changes */
+  double damping[3][KZ_TAYLOR_DAMPING];    /* the largest parts first */
+  int32_t has_across, is_damping_changing; /* 1 if there are `across` and `torque`; 1 if the damping changes */
 } kz_taylor_force;
 
 /* theta (rad), h theta', sin theta, cos theta of the orbits, as sums of three doubles. */
@@ -100,8 +100,8 @@ KZ_INLINE void set_deep(coefficients *x, int64_t n, double sign, triple total) {
 #define KZ_SUM(total) KZ_OF_LEVEL(number_) total[KZ_OF_LEVEL(CHAINS_)] = {0}
 #define KZ_TERMS for (int64_t i = 0; i <= n; i++)
 #define KZ_GAIN(total, a, b) GAIN_##a(total, b)
-#define KZ_DAMP(total)                                                           \
-  for (int64_t i = 0; i <= n && i < (force->has_ramp ? KZ_TAYLOR_RAMP : 1); i++) \
+#define KZ_DAMP(total)                                                                         \
+  for (int64_t i = 0; i <= n && i < (force->is_damping_changing ? KZ_TAYLOR_DAMPING : 1); i++) \
   EACH KZ_OF_LEVEL(accumulate_)(&total[j], PLAIN(damping, [i]), ORDER(w, n - i))
 #define KZ_DAMPS_LATER
 #define KZ_HAS_ACROSS force->has_across

@@ -3,7 +3,7 @@ module kz_vector_step_table
   use, intrinsic :: iso_c_binding, only: c_double, c_int32_t, c_ptr, c_null_ptr
   use, intrinsic :: iso_fortran_env, only: rk => real64, real128
   use kz_model_pendulum, only: pendulum_t, force_at
-  use kz_model_release, only: stretch_t, whole_period, damping_series, drive_series, CUBIC
+  use kz_model_stretch, only: stretch_t, CUBIC
   use kz_vector_schemes, only: stage_t, scheme_stages, SCHEMES, RUNGE_KUTTA
   implicit none
   private
@@ -49,11 +49,10 @@ contains
     !> whether neighbouring entries of neighbouring steps are merged: faster, but no sampling within the period
     logical, intent(in) :: fused
     type(period_t), intent(out) :: period !< drifts and kicks of one period
-    type(stretch_t), intent(in), optional :: stretch !< whose drive may be on a ramp; left out: a whole period
+    type(stretch_t), intent(in), optional :: stretch !< whose drive may change; left out: a whole period
     type(stretch_t) :: part
     real(qp) :: step
 
-    part = whole_period()
     if (present(stretch)) part = stretch
     period%n_steps = numerics%steps_per_period
     step = 2*PI*part%span/period%n_steps
@@ -127,13 +126,13 @@ contains
       period%push = period%push(:n)
     end if
     time(n + 1) = shift
-    if (part%changes) then
-      call set_ramp_drifts(period, pendulum, part, time(:n + 1)*step)
+    if (associated(part%changes)) then
+      call set_changing_drifts(period, pendulum, part, time(:n + 1)*step)
     else
       call set_damped_drifts(period, time(:n + 1), step)
     end if
   contains
-    !> A kick after a share of step i; its own time counts on a ramp alone.
+    !> A kick after a share of step i; its own time counts where the drive changes alone.
     subroutine append_kick(weight, share, clock_of_turn)
       real(qp), intent(in) :: weight, share
       complex(qp), intent(in) :: clock_of_turn
@@ -142,7 +141,7 @@ contains
       n = n + 1
       time(n) = shift
       turn = part%begin
-      if (part%changes) turn = turn + part%span*((i + share)/period%n_steps)
+      if (associated(part%changes)) turn = turn + part%span*((i + share)/period%n_steps)
       call set_kick(period, pendulum, part, n, weight, turn, clock_of_turn)
       shift = 0
     end subroutine append_kick
@@ -193,20 +192,21 @@ contains
     end do
   end subroutine set_damped_drifts
 
-  !> The same on a ramp of the damping: exp(-B(t)), B the integral of beta, and the integral of that, by series in time.
-  subroutine set_ramp_drifts(period, pendulum, part, time)
+  !> The same where the damping changes: exp(-B(t)), B the integral of beta, and the integral of that, by series in time.
+  subroutine set_changing_drifts(period, pendulum, part, time)
     type(period_t), intent(inout) :: period
     type(pendulum_t), intent(in) :: pendulum
     type(stretch_t), intent(in) :: part
     real(qp), intent(in) :: time(:)
     integer, parameter :: TERMS = 48
-    real(qp) :: rate(0:CUBIC), decay_series(0:TERMS), turn
+    real(qp) :: rate(0:CUBIC), drive(0:CUBIC), decay_series(0:TERMS), turn
     integer :: i, n, last
 
     call allocate_drifts(period, size(time))
     turn = part%begin
     do i = 1, size(time)
-      rate = time(i)*damping_series(part, pendulum, turn, time(i)/(2*PI))
+      call part%changes(part%along, pendulum%beta, turn, time(i)/(2*PI), rate, drive)
+      rate = time(i)*rate
       decay_series(0) = 1
       do n = 0, TERMS - 1
         decay_series(n + 1) = -sum(rate(:min(n, CUBIC))*decay_series(n:max(0, n - CUBIC):-1))/(n + 1)
@@ -217,7 +217,7 @@ contains
       call set_drift(period, i, sum(decay_series(:last)), time(i)*sum([(decay_series(n)/(n + 1), n=0, last)]))
       turn = turn + time(i)/(2*PI)
     end do
-  end subroutine set_ramp_drifts
+  end subroutine set_changing_drifts
 
   subroutine allocate_drifts(period, n)
     type(period_t), intent(inout) :: period
@@ -267,11 +267,11 @@ contains
     integer, intent(in) :: n
     real(qp), intent(in) :: weight, turn
     complex(qp), intent(in) :: clock
-    real(qp) :: a, b, drive(0:CUBIC)
+    real(qp) :: a, b, damping(0:CUBIC), drive(0:CUBIC)
 
     call force_at(pendulum, clock, a, b)
-    if (part%changes) then
-      drive = drive_series(part, turn, 0.0_qp)
+    if (associated(part%changes)) then
+      call part%changes(part%along, pendulum%beta, turn, 0.0_qp, damping, drive)
       a = pendulum%k + drive(0)*(a - pendulum%k)
       b = drive(0)*b
     end if

@@ -227,7 +227,7 @@ static void print(const kz_atlas *atlas, const kz_atlas_raster *r, const listing
   for (int64_t i = 0; i < r->points * r->points; i++)
     if (r->count[i] > most) most = r->count[i];
   fprintf(summary, "atlas: %s x %s, cycles of up to %" PRId64 " periods: %" PRId64 " curves (%" PRId64 " points)\n",
-          kz_sweep_parameters[parameter[atlas->swapped]].name, kz_sweep_parameters[parameter[1 - atlas->swapped]].name,
+          kz_sweep_parameter_at(parameter[atlas->swapped])->name, kz_sweep_parameter_at(parameter[1 - atlas->swapped])->name,
           atlas->scene->atlas->max_period, atlas->n_curves, l->n);
   fprintf(summary, "  folds %" PRId64 ", period doublings %" PRId64 ", symmetry breakings %" PRId64 ", of rest %" PRId64 "\n",
           kinds[KZ_CURVE_FOLD], kinds[KZ_CURVE_PERIOD_DOUBLING], kinds[KZ_CURVE_SYMMETRY_BREAKING],

@@ -9,7 +9,7 @@ kz_status kz_atlas_place(const kz_atlas *atlas, int axis, double value, double *
   const kz_plane_axis *of = kz_atlas_axis(atlas, axis) ? &plan->y : &plan->x;
   if (!(value >= of->values.min && value <= of->values.max))
     return kz_fail(KZ_REFUSED, "%c: %.10g lies outside of the atlas; %s is from %.10g to %.10g there", axis ? 'y' : 'x', value,
-                   kz_sweep_parameters[of->parameter].name, of->values.min, of->values.max);
+                   kz_sweep_parameter_at(of->parameter)->name, of->values.min, of->values.max);
   *place = (value - of->values.min) / (of->values.max - of->values.min);
   return KZ_OK;
 }

@@ -45,7 +45,7 @@ static kz_status check_keys(const kz_atlas *atlas) {
     if (same)
       return kz_fail(KZ_REFUSED, "atlas.%c.parameter: %s changes no motion of this pendulum; name a key that does",
                      kz_atlas_axis(atlas, axis) ? 'y' : 'x',
-                     kz_sweep_parameters[axis ? scene->atlas->y.parameter : scene->atlas->x.parameter].name);
+                     kz_sweep_parameter_at(axis ? scene->atlas->y.parameter : scene->atlas->x.parameter)->name);
   }
   return KZ_OK;
 }
@@ -118,7 +118,7 @@ static bool is_turned(const kz_atlas *atlas) {
 bool kz_atlas_image(const kz_atlas *atlas, const double place[2], double image[2]) {
   const kz_plane_axis *axis[] = {&atlas->scene->atlas->x, &atlas->scene->atlas->y};
   for (int i = 0; i < 2; i++) {
-    const char *name = kz_sweep_parameters[axis[i]->parameter].name;
+    const char *name = kz_sweep_parameter_at(axis[i]->parameter)->name;
     if (strcmp(name, "k") && strcmp(name, "gravity")) continue;
     const double low = axis[i]->values.min, width = axis[i]->values.max - low, value = low + place[i] * width;
     image[1 - i] = place[1 - i];

@@ -9,61 +9,7 @@
 #include "basin.h"
 #include "cells/scene_search.h"
 #include "numerics/resolve.h"
-#include "labelling/phases.h"
 #include "kapitza/dynamics_steps.h"
-
-/* ---- the file's group /phases: the share of a window that ends alike whatever the phase of release ---- */
-
-/* The id in the file; -1 = none. */
-static int32_t id_at(const kz_catalogue *catalogue, int16_t number) {
-  return number > 0 ? catalogue->id_of[number] : -1;
-}
-
-static double share_of(const kz_phases *p, const kz_catalogue *catalogue, int64_t phase, int64_t id) {
-  int64_t count = 0;
-  for (int64_t cell = 0; cell < p->n; cell++) count += id_at(catalogue, kz_phases_at(p, phase, cell)) == id;
-  return (double)count / (double)p->n;
-}
-
-static kz_status write_group(const kz_basin_plan *plan, const kz_phases *p, const kz_catalogue *catalogue, kz_store *store,
-                             FILE *summary) {
-  const int64_t known = catalogue->count;
-  int64_t alike = 0;
-  KZ_SCALE(store, "phases", "phase", p->phases, kz_phase_at(p, i));
-  KZ_SCALE(store, "phases", "velocity", plan->velocity.count, kz_axis_centre(&plan->velocity, i));
-  KZ_SCALE(store, "phases", "theta", plan->theta.count, kz_axis_centre(&plan->theta, i));
-  KZ_TRY(kz_store_dimension(store, "phases", "attractor", known, NULL));
-  KZ_COLUMN(store, "phases", "fraction", p->phases * known, double, share_of(p, catalogue, i / known, i % known));
-  KZ_COLUMN(store, "phases", "common", p->n, int16_t, id_at(catalogue, kz_phases_common(p, i)));
-  KZ_COLUMN(store, "phases", "ends", p->n, uint8_t, kz_phases_ends(p, i));
-  for (int64_t cell = 0; cell < p->n; cell++) alike += kz_phases_common(p, cell) > 0;
-  fprintf(summary, "Released at %lld phases of the drive, %.4g %% of the cells end alike at all of them.\n",
-          (long long)p->phases, 100.0 * (double)alike / (double)p->n);
-  return kz_store_real(store, "phases", "share", (double)alike / (double)p->n);
-}
-
-/* Releases the cells at the number of phases that the key basin.phases gives, and writes group /phases: the share of the window whose starts
- * end on the same attractor at all of them. */
-static kz_status find_phases(const kz_scene *scene, const kz_window_labels *labelling, const kz_catalogue *catalogue,
-                             kz_store *store, FILE *summary) {
-  if (scene->basin->phases <= 0) return KZ_OK;
-  kz_phases p = {.labeller = kz_cell_labeller(scene->basin, labelling->dynamics),
-                 .release = scene->parameters.release,
-                 .phases = scene->basin->phases,
-                 .n = scene->basin->theta.count * scene->basin->velocity.count,
-                 .folded = kz_window_mirrors_itself(scene->basin) &&
-                           kz_phases_fold(&scene->parameters.pendulum, &scene->parameters.release, scene->basin->phases),
-                 .stage = "phases"};
-  kz_status status = kz_phases_label(&p, labelling->run);
-  if (status == KZ_OK && store) status = write_group(scene->basin, &p, catalogue, store, summary);
-  kz_phases_free(&p);
-  return kz_ranks_agree(labelling->run->ranks, status);
-}
-
-/* Bytes of memory of the phases. */
-static double phases_bytes(const kz_basin_plan *plan) {
-  return kz_phases_bytes(plan->phases, plan->theta.count * plan->velocity.count);
-}
 
 /* ---- parts of other folders ---- */
 
@@ -107,8 +53,7 @@ kz_cost kz_basin_cost(const kz_scene *scene) {
   const double regions = pow((double)kz_regions_cells(cells), 2);
   return (kz_cost){.cells = cells,
                    .disk_bytes = 3e5 + 40 * (double)plan->starts + 8.2 * nodes + packed_bytes((double)cells),
-                   .memory_bytes = 14 * nodes + 100 * regions + parts_bytes(scene) + phases_bytes(plan) +
-                                   40 * (double)kz_tile_capacity(&tiles),
+                   .memory_bytes = 14 * nodes + 100 * regions + parts_bytes(scene) + 40 * (double)kz_tile_capacity(&tiles),
                    .rank0_bytes = 4e6,
                    .shared_bytes = 0.2 * (double)cells};
 }
@@ -181,7 +126,7 @@ static kz_status write_window(const kz_scene *scene, kz_chunks *chunks, FILE *su
   KZ_TRY(kz_ranks_agree(run->ranks, store ? write_results(scene, chunks, summary) : KZ_OK));
   for (const kz_part *p = labelling->parts; p < labelling->parts + labelling->n_parts; p++)
     if (p->part->find) KZ_TRY(p->part->find(p->own, chunks, store, summary));
-  return find_phases(scene, labelling, chunks->catalogue, store, summary);
+  return KZ_OK;
 }
 
 static kz_status run_damped(const kz_scene *scene, const kz_run *run, kz_store *store, FILE *summary) {
@@ -197,7 +142,7 @@ static kz_status run_damped(const kz_scene *scene, const kz_run *run, kz_store *
   kz_transients transients = kz_transients_make(plan);
   kz_chunks chunks = {&labelling, &catalogue, store, .sample = &sample, .transients = &transients};
   labelling.dynamics = kz_dynamics_create(&scene->parameters.pendulum, &scene->numerics, plan->max_period);
-  kz_dynamics_set_release(labelling.dynamics, &scene->parameters.release);
+  kz_studies_begin(scene, &scene->parameters.pendulum, NULL, labelling.dynamics);
   kz_status status = kz_ranks_agree(run->ranks, make_parts(scene, &labelling));
   if (status == KZ_OK) {
     const kz_window motions = kz_motions_window(&plan->theta, &plan->velocity);

@@ -1,4 +1,4 @@
-/* The study `basin` and its parts: cells in the file, measures of them, transients, boundaries, phases of release, shocks. */
+/* The study `basin` and its parts: cells in the file, measures of them, transients. */
 #pragma once
 
 #include "labelling/catalogue.h"
@@ -10,9 +10,6 @@
 #include "kapitza/study_basin.h"
 
 enum { KZ_TILE_CELLS = 16384 }; /* cells of a tile, about: enough to keep all lanes busy while a few cells take long */
-
-/* Results that the study writes besides kz_basin_variables. */
-extern const kz_variable kz_phases_variables[];
 
 /* ---- transients: how long they last, from the cells of every few rows that are not mirror images ---- */
 

@@ -27,9 +27,6 @@ static const kz_key keys[] = {
     INTEGER(
         "basin.max_periods", 1, 4e9, "", max_periods,
         "Drive periods after which a cell counts as not settled; left out: the number that the damping needs, at least 2000."),
-    ROW("basin.start_phase", KZ_KEY_REAL, "", OF_SCENE(parameters.written.start_phase),
-        "Phase of the drive at which the cells are released; the strobe points of the file are at phase 0 as always.",
-        .unit = "rad", .low = -1e6, .high = 1e6),
     MAPPING("basin.attractors", "", "The search for attractors before the cells are labelled."),
     INTEGER("basin.attractors.starts", 1, 1e8, "8192", starts, "Starts of the first round."),
     INTEGER("basin.attractors.max_period", 1, 512, "48", max_period, "Longest period of the search."),
@@ -40,10 +37,6 @@ static const kz_key keys[] = {
     REAL("basin.accuracy", "", 0.5, 0.999999, "", accuracy,
          "Share of right labels, instead of method, icm and numerics: the cheapest setting that reaches it (95 % bound) is "
          "taken."),
-
-    INTEGER("basin.phases", 2, 64, "", phases,
-            "Phases of the drive, spread evenly from 0 on, at which every cell is released as well; the result has the share "
-            "that ends alike at all of them."),
     {.path = NULL},
 };
 

@@ -1,4 +1,4 @@
-/* Variables of the groups basin and phases of the result file. */
+/* Variables of the group basin of the result file. */
 #include "kapitza/store_variables.h"
 #include "basin.h"
 
@@ -19,17 +19,6 @@ const kz_variable kz_basin_variables[] = {
     {"evidence", KZ_UINT8, {"velocity", "theta"}, NONE, "how the label is known", {EVIDENCE}},
     {"other_attractor", KZ_INT16, {"velocity", "theta"}, NONE, "id of the second candidate of an undecided cell; -1 = none"},
     {"turns", KZ_INT32, {"velocity", "theta"}, NONE, "net turns until the end, counterclockwise +"},
-    {0},
-};
-
-const kz_variable kz_phases_variables[] = {
-    {"phase", KZ_REAL, {"phase"}, ANGLE, "phase of the drive at which the cells are released"},
-    {"velocity", KZ_REAL, {"velocity"}, VELOCITY, "angular velocity of the cell centre"},
-    {"theta", KZ_REAL, {"theta"}, ANGLE, "angle of the cell centre from down, counterclockwise"},
-    {"attractor", KZ_INT32, {"attractor"}, NONE, "id of the attractor"},
-    {"fraction", KZ_REAL, {"phase", "attractor"}, NONE, "share of the cells that end there"},
-    {"common", KZ_INT16, {"velocity", "theta"}, NONE, "id of the attractor that is reached at all phases; -1 = none"},
-    {"ends", KZ_UINT8, {"velocity", "theta"}, NONE, "number of different ends; not settled counts as one"},
     {0},
 };
 /* clang-format on */

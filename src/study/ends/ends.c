@@ -62,7 +62,7 @@ static kz_status publish_ends(const kz_scene *scene, const kz_plane_ending *endi
   const kz_ends_plan *starts = scene->ends;
   KZ_TRY(write_group(starts, points_of(plan), endings, store));
   fprintf(summary, "ends: %" PRId64 " values of %s x %" PRId64 " of %s, %" PRId64 " start%s\n", plan->x.values.count,
-          kz_sweep_parameters[plan->x.parameter].name, plan->y.values.count, kz_sweep_parameters[plan->y.parameter].name,
+          kz_sweep_parameter_at(plan->x.parameter)->name, plan->y.values.count, kz_sweep_parameter_at(plan->y.parameter)->name,
           starts->theta.count, starts->theta.count == 1 ? "" : "s");
   for (int64_t place = 0; place < starts->theta.count; place++)
     print_start(starts, place, points_of(plan), endings + place * points_of(plan), summary);

@@ -36,7 +36,7 @@ static kz_status starts_of(const kz_labeller *l, int32_t level, int64_t n, const
                            kz_start *start) {
   const int32_t own = level < 0 ? KZ_LEVEL_DOUBLE : level;
   for (int64_t i = 0; i < n; i++) KZ_TRY(l->start(l->context, item_at(item, first + i), own, start + i));
-  if (!l->at_strobe) kz_dynamics_release(l->dynamics, level, n, start);
+  if (!l->at_strobe) kz_dynamics_begin(l->dynamics, level, n, start);
   return KZ_OK;
 }
 

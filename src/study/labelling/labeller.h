@@ -33,7 +33,7 @@ typedef struct {
   int64_t max_periods;
   kz_way way;
   int32_t open;   /* KZ_OPEN_DOUBTFUL, ... */
-  bool at_strobe; /* the starts lie at a strobe of the final drive; else they are released as kz_dynamics_set_release says */
+  bool at_strobe; /* the starts lie at a strobe of the final drive; else kz_dynamics_begin moves them there */
   kz_start_fn start;
   kz_decide_fn decide; /* NULL = items that quad precision does not decide stay undecided */
   kz_note_fn note;     /* NULL = none */

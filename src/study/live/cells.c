@@ -160,11 +160,11 @@ kz_status kz_samples_follow(kz_prepared *prepared, const kz_frame *frame, kz_sam
 
 /* The images that serve the window: those of the last frame, or new ones. */
 static kz_images *find_images(kz_prepared *r, const kz_basin_plan *plan) {
-  const kz_parameters *parameters = &r->scene.parameters;
+  const kz_pendulum *pendulum = &r->scene.parameters.pendulum;
   kz_view view;
-  if (!r->images || !kz_images_serve(r->images, parameters, &plan->theta, &plan->velocity, &view)) {
+  if (!r->images || !kz_images_serve(r->images, r->dynamics, pendulum, &plan->theta, &plan->velocity, &view)) {
     kz_images_free(r->images);
-    r->images = kz_images_create(parameters, &plan->theta, &plan->velocity);
+    r->images = kz_images_create(r->dynamics, pendulum, &plan->theta, &plan->velocity);
   }
   return kz_images_hold(r->images);
 }
@@ -182,7 +182,7 @@ static kz_status follow_images(kz_prepared *r, const kz_basin_plan *plan, const 
 kz_status kz_cells_begin(kz_prepared *prepared, const kz_basin_plan *plan, const kz_frame *frame, kz_window_starts *starts) {
   kz_images *images = kz_plan_is_centred(plan) ? find_images(prepared, plan) : NULL;
   const kz_status status = images ? follow_images(prepared, plan, frame, images) : KZ_OK;
-  if (status == KZ_OK) kz_window_starts_make(plan, &prepared->scene.parameters, prepared->dynamics, images, starts);
+  if (status == KZ_OK) kz_window_starts_make(plan, &prepared->scene.parameters.pendulum, prepared->dynamics, images, starts);
   kz_images_free(images);
   return status;
 }

@@ -6,6 +6,7 @@
 #include "labelling/catalogue.h"
 #include "labelling/search.h"
 #include "kapitza/dynamics_live.h"
+#include "kapitza/study_release.h"
 #include "kapitza/study_live.h"
 #include "window/window.h"
 
@@ -33,13 +34,14 @@ int64_t kz_raster_pending(int64_t coarseness, int64_t rows, int64_t columns, int
 enum { KZ_MOST_UNSETTLED = 16 };
 
 typedef struct {
-  kz_scene scene;   /* pendulum, numerics, and the basin whose window was searched; no title */
-  double tolerance; /* rad: error of a period for moving frames; 0 = labels are decided */
-  bool busy;        /* a frame of it is being made */
-  bool smooth;      /* its cells get smooth settling times */
-  bool turns;       /* their net turns are counted */
-  int64_t used;     /* counter of its last use: larger = later */
-  int64_t periods;  /* largest number of drive periods for which cells are followed */
+  kz_scene scene;     /* pendulum, numerics, and the basin whose window was searched; no title */
+  kz_release release; /* how its cells are released */
+  double tolerance;   /* rad: error of a period for moving frames; 0 = labels are decided */
+  bool busy;          /* a frame of it is being made */
+  bool smooth;        /* its cells get smooth settling times */
+  bool turns;         /* their net turns are counted */
+  int64_t used;       /* counter of its last use: larger = later */
+  int64_t periods;    /* largest number of drive periods for which cells are followed */
   kz_dynamics *dynamics;
   kz_search search;
   kz_images *images;   /* of the last window that needed them; NULL = none yet */

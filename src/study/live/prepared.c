@@ -106,7 +106,7 @@ static kz_status search(kz_prepared *r, const kz_frame *frame) {
   } else {
     KZ_TRY(kz_search_window(NULL, r->dynamics, &r->search, NULL));
   }
-  kz_dynamics_set_release(r->dynamics, &r->scene.parameters.release);
+  kz_dynamics_set_release(r->dynamics, &r->release);
   learn(r);
   return KZ_OK;
 }
@@ -119,6 +119,7 @@ static int64_t periods_of(const kz_scene *scene, bool moving) {
 kz_status kz_prepared_make(const kz_scene *scene, double tolerance, const kz_frame *frame, kz_prepared *prepared) {
   const bool moving = tolerance > 0;
   *prepared = (kz_prepared){.scene = *scene, .tolerance = tolerance};
+  prepared->release = kz_release_of(scene, &scene->parameters.pendulum);
   prepared->chosen = prepared->grown = scene->parameters.pendulum;
   prepared->periods = periods_of(scene, moving);
   prepared->scene.title = NULL;
@@ -196,6 +197,7 @@ kz_status kz_prepared_move(kz_prepared *r, const kz_scene *scene, const kz_frame
   const double tolerance = kz_moving_tolerance(scene);
   int64_t lost;
   r->scene.parameters = scene->parameters;
+  r->release = kz_release_of(scene, &scene->parameters.pendulum);
   r->scene.basin->max_periods = scene->basin->max_periods;
   r->search.max_periods = scene->basin->max_periods;
   r->periods = periods_of(scene, true);
@@ -209,7 +211,7 @@ kz_status kz_prepared_move(kz_prepared *r, const kz_scene *scene, const kz_frame
   kz_dynamics_free(r->dynamics);
   r->dynamics = moved;
   r->ended = r->left = r->n_unsettled = 0;
-  kz_dynamics_set_release(moved, &scene->parameters.release);
+  kz_dynamics_set_release(moved, &r->release);
   if (frame->atlas) KZ_TRY(kz_prepared_take_listed(r, frame));
   if (faster) r->search.max_velocity = kz_dynamics_max_velocity(moved, &r->search.window);
   const bool far = faster || kz_pendulums_parted(&r->grown, pendulum) > REGROWN || damped_apart(&r->grown, pendulum) > REDAMPED;
@@ -225,10 +227,11 @@ kz_status kz_prepared_move(kz_prepared *r, const kz_scene *scene, const kz_frame
 }
 
 bool kz_prepared_serves(const kz_prepared *prepared, const kz_scene *scene, double tolerance) {
+  const kz_release release = kz_release_of(scene, &scene->parameters.pendulum);
   return prepared->used > 0 && prepared->tolerance == tolerance &&
          memcmp(&prepared->scene.parameters.pendulum, &scene->parameters.pendulum, sizeof(kz_pendulum)) == 0 &&
-         kz_release_is_same(&prepared->scene.parameters.release, &scene->parameters.release) &&
-         prepared->scene.basin->max_periods == scene->basin->max_periods && same_search(prepared, scene);
+         kz_release_is_same(&prepared->release, &release) && prepared->scene.basin->max_periods == scene->basin->max_periods &&
+         same_search(prepared, scene);
 }
 
 /* rad: how far the nearest strobe point of `b` lies from the first one of `a`. Chaotic attractors have none. */

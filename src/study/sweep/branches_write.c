@@ -114,14 +114,13 @@ static kz_status write_matrices(const writing *w) {
   }
   const kz_sweep_part *part;
   for (int p = 0; (part = kz_sweep_part_next(plan, true, &p)); p++)
-    for (int k = 0; part->numbers[k]; k++) MATRIX(part->numbers[k], at[i]->number[k]);
+    for (int k = 0; part->numbers && part->numbers[k]; k++) MATRIX(part->numbers[k], at[i]->number[k]);
   return KZ_OK;
 }
 
 #define OF_VALUE(name, expression) \
   KZ_COLUMN(w->store, "sweep", name, plan->values.count, double, w->catalogue[i].samples > 0 ? (expression) : NAN)
 #define UNSETTLED ((double)w->catalogue[i].unsettled / (double)w->catalogue[i].samples)
-#define ALIKE kz_share_of(w->catalogue[i].alike, w->catalogue[i].samples)
 
 /* Measures of the values themselves: lifetimes, and shares that end alike at all phases. */
 static kz_status write_values(const writing *w) {
@@ -134,11 +133,10 @@ static kz_status write_values(const writing *w) {
     OF_VALUE("lifetime_open", w->catalogue[i].lifetime.open);
   }
   OF_VALUE("fraction_unsettled", UNSETTLED);
-  if (!kz_sweep_measures(plan, KZ_SWEEP_PHASES)) return KZ_OK;
-  OF_VALUE("alike", ALIKE.share);
-  OF_VALUE("alike_low", ALIKE.low);
-  OF_VALUE("alike_high", ALIKE.high);
-  return kz_store_integer(w->store, "sweep", "phases", plan->phases);
+  const kz_sweep_part *part;
+  for (int p = 0; (part = kz_sweep_part_next(plan, true, &p)); p++)
+    for (int k = 0; part->of_values && part->of_values[k]; k++) OF_VALUE(part->of_values[k], w->catalogue[i].of_value[k]);
+  return KZ_OK;
 }
 
 /* The lowest and the highest share of a branch along its values. */

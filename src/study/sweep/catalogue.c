@@ -10,44 +10,6 @@
 #include "cells/cell_starts.h"
 #include "sweep.h"
 #include "kapitza/study_basin.h"
-#include "labelling/phases.h"
-
-/* ---- measure phases: how much ends alike at whatever phase of the drive it is released ---- */
-
-/* Items with a common end; a cell of a folded grid counts for its mirror image too. */
-static int64_t count_alike(const kz_phases *p, int64_t total) {
-  int64_t alike = 0;
-  for (int64_t i = 0; i < p->n; i++)
-    if (kz_phases_common(p, i) > 0) alike += total - 1 - i < p->n ? 1 : 2;
-  return alike;
-}
-
-/* How many of the first n_cells of the grid (0: of the starts), with their mirror images, end alike at all phases, by attractors and regions
- * that are known; `release`: that of the value. Collective. */
-static kz_status measure_phases(const kz_scene *scene, const kz_run *run, const kz_pendulum *pendulum, kz_dynamics *dynamics,
-                                const kz_release *release, int64_t n_cells, int64_t max_periods, int64_t *alike) {
-  const kz_sweep_plan *plan = scene->sweep;
-  const int64_t n = n_cells > 0 ? n_cells : plan->starts;
-  const kz_window window = kz_window_of(&plan->theta, &plan->velocity);
-  KZ_FREED double *start = kz_malloc(2 * (size_t)n * sizeof *start);
-  for (int64_t i = 0; i < n_cells; i++) kz_cell_start(scene->basin, i, start + 2 * i);
-  if (n_cells == 0) kz_dynamics_starts(&window, plan->seed, n, start); /* half-turns */
-  for (int64_t i = n_cells; i < n; i++) start[2 * i] *= M_PI;
-  kz_phases p = {
-      .labeller = kz_pair_labeller(start, max_periods, KZ_BY_STATES, dynamics),
-      .release = *release,
-      .phases = plan->phases,
-      .n = n,
-      .folded = n_cells > 0 && kz_window_mirrors_itself(scene->basin) && kz_phases_fold(pendulum, release, plan->phases),
-      .stage = "sweep phases"};
-  p.labeller.at_strobe = false;
-  const kz_status status = kz_phases_label(&p, run);
-  if (status == KZ_OK && p.label)
-    *alike = count_alike(&p, n_cells > 0 ? scene->basin->theta.count * scene->basin->velocity.count : n);
-  kz_phases_free(&p);
-  KZ_TRY(status);
-  return kz_ranks_broadcast(run->ranks, alike, sizeof *alike);
-}
 
 /* ---- measure lifetime: how long the motions take that have not settled soon ---- */
 
@@ -102,14 +64,14 @@ typedef struct {
   int64_t max_periods;       /* after which a start counts as not settled; of the cells the basin's own number */
 } searching;
 
-static void begin(const kz_pendulum *pendulum, const kz_release *release, searching *s) {
+static void begin(const kz_pendulum *pendulum, double value, searching *s) {
   const kz_scene *scene = s->scene;
   s->n_starts = scene->sweep->starts;
   s->max_periods = kz_settling_periods(pendulum->beta);
   if (kz_sweep_has_grid(scene)) s->n_cells = kz_unique_cells(scene->basin);
   const size_t most = (size_t)(s->n_starts > CHUNK ? s->n_starts : CHUNK);
   s->dynamics = kz_dynamics_create(pendulum, &scene->numerics, scene->sweep->max_period);
-  if (s->n_cells > 0) kz_dynamics_set_release(s->dynamics, release);
+  if (s->n_cells > 0) kz_studies_begin(scene, pendulum, &value, s->dynamics);
   s->state = kz_malloc(2 * most * sizeof *s->state);
   s->label = kz_malloc(most * sizeof *s->label);
   s->cell = kz_calloc((size_t)s->n_cells + 1, sizeof *s->cell);
@@ -180,9 +142,8 @@ static kz_status sweep_catalogue_discover(searching *s) {
   return kz_search_window(s->run, s->dynamics, &search, s->label);
 }
 
-static kz_status search(searching *s, const kz_pendulum *pendulum, const kz_release *release, kz_sweep_catalogue *catalogue) {
+static kz_status search(searching *s, const kz_pendulum *pendulum, kz_sweep_catalogue *catalogue) {
   const kz_sweep_plan *plan = s->scene->sweep;
-  const int64_t periods = s->n_cells > 0 ? s->scene->basin->max_periods : s->max_periods;
   KZ_TRY(sweep_catalogue_discover(s));
   if (s->n_cells > 0) KZ_TRY(label_grid(s));
   s->hits = kz_calloc((size_t)kz_dynamics_count(s->dynamics) + 1, sizeof *s->hits);
@@ -191,10 +152,8 @@ static kz_status search(searching *s, const kz_pendulum *pendulum, const kz_rele
   KZ_TRY(kz_ranks_agree(s->run->ranks, collect(s, catalogue)));
   if (kz_sweep_measures(plan, KZ_SWEEP_LIFETIME))
     KZ_TRY(measure_lifetime(plan, s->run, s->dynamics, s->max_periods, &catalogue->lifetime));
-  if (kz_sweep_measures(plan, KZ_SWEEP_PHASES))
-    KZ_TRY(measure_phases(s->scene, s->run, pendulum, s->dynamics, release, s->n_cells, periods, &catalogue->alike));
   const kz_axis *velocity = s->n_cells > 0 ? &s->scene->basin->velocity : &plan->velocity;
-  const kz_sweep_value_at at = {s->run, s->dynamics, s->hits, velocity, s->max_periods};
+  const kz_sweep_value_at at = {s->run, s->dynamics, *pendulum, s->hits, velocity, s->n_cells, s->max_periods};
   const kz_sweep_part *part;
   for (int i = 0; (part = kz_sweep_part_next(plan, true, &i)); i++) KZ_TRY(part->value(s->scene, &at, catalogue));
   return KZ_OK;
@@ -212,9 +171,8 @@ static kz_status sweep_catalogue_tile(void *context, int64_t tile, void *record)
   kz_pendulum pendulum;
   const double value = kz_sweep_value(scene->sweep, tile);
   if (!kz_sweep_pendulum(scene, value, &pendulum) || pendulum.beta <= 0) return KZ_OK;
-  const kz_release release = kz_sweep_release_at(scene, value);
-  begin(&pendulum, &release, &s);
-  return search(&s, &pendulum, &release, record);
+  begin(&pendulum, value, &s);
+  return search(&s, &pendulum, record);
 }
 
 kz_status kz_sweep_catalogues(const kz_scene *scene, const kz_run *run, kz_sweep_catalogue *catalogue) {

@@ -30,7 +30,7 @@ static const kz_key keys[] = {
     ROW("sweep.measure", KZ_KEY_WORDS, NULL, AT(measure),
         "attractors: branches joined by continuation, with their ends; basin_fractions: their shares of the cells of basin, or "
         "of the starts; lifetime: mean settling time of long transients; "
-        "phases: share of cells or starts that ends alike at all phases of release; release_angle: from rest; strobe: "
+        "release_angle: from rest; strobe: "
         "bifurcations.",
         .unit = "", .words_from = kz_sweep_measure_words, .former = "flutter_amplitude=attractors|flutter_zone=attractors"),
     THETA_WINDOW(sweep, "Angles of the starts; left out: the whole circle [-pi, pi)."),
@@ -42,7 +42,6 @@ static const kz_key keys[] = {
     REAL("sweep.start.theta", "rad", -1e6, 1e6, "3.1", start_theta, "Angle from down."),
     REAL("sweep.start.velocity", KZ_VELOCITY_UNIT, -KZ_MOST_SPEED, KZ_MOST_SPEED, "0", start_velocity, "Velocity."),
     INTEGER("sweep.transient", 0, 1e7, "400", transient, "Drive periods of strobe at each value before the record."),
-    INTEGER("sweep.phases", 2, 64, "8", phases, "Phases of release for the measure phases, evenly over a period."),
     INTEGER("sweep.samples", 1, 1e5, "64", samples, "Strobe points of each walk at each value."),
     {.path = NULL},
 };

@@ -9,7 +9,10 @@ bool kz_sweep_measures(const kz_sweep_plan *plan, int64_t measure) {
 
 bool kz_sweep_has_grid(const kz_scene *scene) {
   const kz_sweep_plan *plan = scene->sweep;
-  return scene->has_basin && (kz_sweep_measures(plan, KZ_SWEEP_BASIN_FRACTIONS) || kz_sweep_measures(plan, KZ_SWEEP_PHASES));
+  bool wanted = kz_sweep_measures(plan, KZ_SWEEP_BASIN_FRACTIONS);
+  const kz_sweep_part *part;
+  for (int i = 0; (part = kz_sweep_part_next(plan, true, &i)); i++) wanted = wanted || part->on_grid;
+  return scene->has_basin && wanted;
 }
 
 kz_status kz_sweep_stage(const kz_run *run, const kz_stage *stage, kz_records_fn write, kz_store *store, FILE *summary) {

@@ -21,7 +21,10 @@ kz_cost kz_sweep_cost(const kz_scene *scene) {
   const kz_cost of_points = points_cost(scene);
   const double values = (double)scene->sweep->values.count;
   const bool grid = kz_sweep_has_grid(scene);
-  const double times = kz_sweep_measures(scene->sweep, KZ_SWEEP_PHASES) ? 1 + (double)scene->sweep->phases : 1;
+  double times = 1;
+  const kz_sweep_part *part;
+  for (int i = 0; (part = kz_sweep_part_next(scene->sweep, true, &i)); i++)
+    times += part->times ? (double)part->times(scene) : 0;
   const double nodes = grid ? (double)scene->basin->table_theta * (double)scene->basin->table_velocity : 0;
   const double cells = grid ? (double)scene->basin->theta.count * (double)scene->basin->velocity.count : 0;
   return (kz_cost){.cells = (int64_t)(cells * values * times) + of_points.cells,
@@ -33,7 +36,7 @@ kz_cost kz_sweep_cost(const kz_scene *scene) {
 
 static bool has_branches(const kz_sweep_plan *plan) {
   bool wanted = kz_sweep_part_next(plan, true, &(int){0});
-  for (int64_t measure = 0; measure <= KZ_SWEEP_PHASES; measure++) wanted = wanted || kz_sweep_measures(plan, measure);
+  for (int64_t measure = 0; measure < KZ_SWEEP_RELEASE_ANGLE; measure++) wanted = wanted || kz_sweep_measures(plan, measure);
   return wanted;
 }
 
@@ -69,7 +72,7 @@ static kz_status write_values(const kz_scene *scene, kz_store *store, FILE *summ
   KZ_TRY(kz_axis_describe(&plan->values, plan->parameter, "", "sweep", store));
   KZ_SCALE(store, "sweep", "value", plan->values.count, kz_sweep_value(plan, i));
   const char *unit = kz_axis_unit(&plan->values, plan->parameter);
-  fprintf(summary, "sweep of %s%s%s, %lld values from %.10g to %.10g\n", kz_sweep_parameters[plan->parameter].name,
+  fprintf(summary, "sweep of %s%s%s, %lld values from %.10g to %.10g\n", kz_sweep_parameter_at(plan->parameter)->name,
           unit[0] ? " in " : "", unit, (long long)plan->values.count, kz_axis_written(&plan->values, plan->values.min),
           kz_axis_written(&plan->values, plan->values.max));
   kz_sweep_warn_steps(scene, summary);

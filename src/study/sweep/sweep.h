@@ -5,7 +5,6 @@
 #include "kapitza/study.h"
 #include "plan.h"
 
-bool kz_sweep_measures(const kz_sweep_plan *plan, int64_t measure);
 /* Whether the cells of the scene's basin are labelled at each value, else the starts of the sweep. */
 bool kz_sweep_has_grid(const kz_scene *scene);
 
@@ -85,7 +84,7 @@ typedef struct {
 struct kz_sweep_catalogue {
   int64_t count, samples, unsettled; /* attractors; starts or cells that were followed; those that ended on nothing known */
   kz_lifetime lifetime;              /* of the starts, if it is measured */
-  int64_t alike;                     /* samples that end alike at all phases, if it is measured */
+  double of_value[KZ_SWEEP_NUMBERS]; /* by a part (kz_sweep_part) */
   kz_sweep_entry entries[KZ_SWEEP_MOST];
 };
 
@@ -93,8 +92,10 @@ struct kz_sweep_catalogue {
 struct kz_sweep_value_at {
   const kz_run *run;
   kz_dynamics *dynamics;
+  kz_pendulum pendulum;
   const int64_t *hits;     /* [numbers from 1] */
   const kz_axis *velocity; /* of the window of samples */
+  int64_t n_cells;         /* samples that are cells of the basin, without mirror images; 0 = they are the starts */
   int64_t max_periods;
 };
 

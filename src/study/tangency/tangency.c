@@ -68,7 +68,7 @@ static kz_status write(work *w, const record *r, kz_store *store, FILE *summary)
           "tangency: the unstable manifold of cycle %lld touches the stable one of cycle %lld at %s = %.14g (+- %.1g)%s%s; "
           "they cross "
           "%s it.\n",
-          (long long)w->saddle[0], (long long)w->saddle[1], kz_sweep_parameters[plan->axis.parameter].name,
+          (long long)w->saddle[0], (long long)w->saddle[1], kz_sweep_parameter_at(plan->axis.parameter)->name,
           kz_axis_written(&plan->axis.values, r->found.value), kz_axis_written(&plan->axis.values, r->found.error),
           unit[0] ? " " : "", unit, r->found.above ? "above" : "below");
   return status;
@@ -97,7 +97,7 @@ kz_status kz_tangency_run(const kz_scene *scene, const kz_run *run, kz_store *st
   const kz_tangency_plan *plan = scene->tangency;
   const char *const written = (const char *)&scene->parameters.written;
   work w = {.search = {.scene = scene,
-                       .value = *(const double *)(written + kz_sweep_parameters[plan->axis.parameter].offset),
+                       .value = *(const double *)(written + kz_sweep_parameter_at(plan->axis.parameter)->offset),
                        .nearness = NEARNESS},
             .saddle = {plan->saddle, plan->into == KZ_UNSET_INTEGER ? plan->saddle : plan->into}};
   const kz_stage stage = kz_stage_for_rank0("tangency", 1, sizeof(record), find, &w);

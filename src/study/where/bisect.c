@@ -207,7 +207,7 @@ static double finest_share(long double width) {
 static kz_status narrow_line(const kz_question *q, const line *l, double finest, spot *s, bool *found) {
   const kz_coordinate point[2] = {{.centre = l->point[0].text, .width = l->width[0].text},
                                   {.centre = l->point[1].text, .width = l->width[1].text}};
-  piece p = {.question = q, .images = kz_images_on_line(&q->scene->parameters, point, digits_of(finest))};
+  piece p = {.question = q, .images = kz_images_on_line(q->dynamics, &q->scene->parameters.pendulum, point, digits_of(finest))};
   const kz_status status = narrow(&p, 0, finest, s, found);
   kz_images_free(p.images);
   return status;

@@ -27,7 +27,7 @@ static kz_status decide(void *context, int64_t i, kz_decision *decision) {
   const kz_question *q = context;
   *decision = (kz_decision){.end.label = KZ_DOUBTFUL, .level = KZ_LEVELS, .error = NAN};
   if (!q->start[i][0].centre && !q->start[i][1].centre) return KZ_OK;
-  return kz_own_orbit_decide(q->dynamics, &q->scene->parameters, q->start[i], q->max_periods, decision);
+  return kz_own_orbit_decide(q->dynamics, &q->scene->parameters.pendulum, q->start[i], q->max_periods, decision);
 }
 
 /* A kz_note_fn. */
@@ -109,7 +109,7 @@ static kz_status find_attractors(kz_question *q, kz_search *search, int32_t *lab
       scene->has_basin ? kz_motions_window(&scene->basin->theta, &scene->basin->velocity) : search->window;
   q->max_periods = search->max_periods;
   q->dynamics = kz_search_dynamics(scene);
-  if (scene->has_basin) kz_dynamics_set_release(q->dynamics, &scene->parameters.release);
+  if (scene->has_basin) kz_studies_begin(scene, &scene->parameters.pendulum, NULL, q->dynamics);
   search->max_velocity = kz_dynamics_max_velocity(q->dynamics, &motions);
   search->cells = q->n; /* the window's cells are not labelled */
   return kz_search_window(NULL, q->dynamics, search, label);

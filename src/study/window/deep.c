@@ -32,12 +32,12 @@ static void free_deep(void *own) {
 static kz_status label(void *own, kz_window_labels *l) {
   deep *d = own;
   if (kz_plan_is_centred(l->plan) && l->plan->method == KZ_METHOD_EXACT) {
-    d->images = kz_images_create(l->parameters, &l->plan->theta, &l->plan->velocity);
+    d->images = kz_images_create(l->dynamics, &l->parameters->pendulum, &l->plan->theta, &l->plan->velocity);
     KZ_TRY(kz_images_run(l->run, l->dynamics, d->images, l->plan->max_periods));
   }
   const bool decides = d->decides || (d->images && l->tiles.cells <= MOST_DECIDED);
   if (!d->images && !decides) return KZ_OK;
-  kz_window_starts_make(l->plan, l->parameters, l->dynamics, d->images, &d->starts);
+  kz_window_starts_make(l->plan, &l->parameters->pendulum, l->dynamics, d->images, &d->starts);
   l->labeller = kz_window_labeller(&d->starts, decides);
   return KZ_OK;
 }

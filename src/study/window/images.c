@@ -38,12 +38,11 @@ static int64_t bits_for(long double size, int64_t guard) {
   return bits < KZ_FEWEST_BITS ? KZ_FEWEST_BITS : bits;
 }
 
-static kz_images *allocate_images(const kz_pendulum *pendulum, const kz_release *release) {
+static kz_images *allocate_images(const kz_pendulum *pendulum) {
   enum { FIRST_CAPACITY = 64 };
   kz_images *images = kz_calloc(1, sizeof *images);
   images->holders = 1;
   images->pendulum = *pendulum;
-  images->release = *release;
   images->capacity = FIRST_CAPACITY;
   images->image = kz_calloc(FIRST_CAPACITY, sizeof *images->image);
   return images;
@@ -53,14 +52,15 @@ static int64_t at_most(int64_t bits) {
   return bits < KZ_MOST_BITS ? bits : KZ_MOST_BITS;
 }
 
-kz_images *kz_images_create(const kz_parameters *parameters, const kz_axis *theta, const kz_axis *velocity) {
-  kz_images *images = allocate_images(&parameters->pendulum, &parameters->release);
+kz_images *kz_images_create(kz_dynamics *dynamics, const kz_pendulum *pendulum, const kz_axis *theta, const kz_axis *velocity) {
+  kz_images *images = allocate_images(pendulum);
   kz_image *first = images->image;
   take_axis(theta, &images->centre[0], &images->width[0]);
   take_axis(velocity, &images->centre[1], &images->width[1]);
   for (int i = 0; i < 2; i++) first->jet.linear[i][i] = images->width[i];
   images->bits = at_most(bits_for(size_of(&first->jet), GUARD));
   images->orbit = kz_arbitrary_create(&images->pendulum, images->centre, images->bits);
+  kz_dynamics_get_release(dynamics, &images->release);
   kz_arbitrary_release(images->orbit, &images->release);
   kz_arbitrary_read(images->orbit, first->theta, first->velocity);
   return images;
@@ -77,20 +77,22 @@ static int64_t guard_of(const kz_images *images) {
   return guard > GUARD ? guard : GUARD;
 }
 
-kz_images *kz_images_on_line(const kz_parameters *parameters, const kz_coordinate point[2], int64_t digits) {
-  kz_images *images = allocate_images(&parameters->pendulum, &parameters->release);
+kz_images *kz_images_on_line(kz_dynamics *dynamics, const kz_pendulum *pendulum, const kz_coordinate point[2], int64_t digits) {
+  kz_images *images = allocate_images(pendulum);
   kz_image *first = images->image;
   const long double size = fabsl(strtold(point[0].width, NULL)) + fabsl(strtold(point[1].width, NULL));
   images->digits = digits;
   images->bits = at_most(bits_for(size / 2, guard_of(images)));
   images->orbit = kz_arbitrary_on_line(&images->pendulum, point, images->bits, bits_of(digits, TANGENT_GUARD), &first->jet);
+  kz_dynamics_get_release(dynamics, &images->release);
   kz_arbitrary_release(images->orbit, &images->release);
   kz_arbitrary_read(images->orbit, first->theta, first->velocity);
   return images;
 }
 
 kz_images *kz_images_beside(const kz_images *parent, __float128 share, int exponent, int64_t digits) {
-  kz_images *images = allocate_images(&parent->pendulum, &parent->release);
+  kz_images *images = allocate_images(&parent->pendulum);
+  images->release = parent->release;
   kz_image *first = images->image;
   const kz_jet *jet = &parent->image[parent->marked].jet;
   images->digits = digits;
@@ -179,19 +181,14 @@ static double work_left(const kz_images *images) {
   return (double)log2l(widest / now) / growth * (1 + share + share * share) / 3;
 }
 
-bool kz_release_is_same(const kz_release *a, const kz_release *b) {
-  const int64_t strobes = kz_release_strobes(a);
-  if (strobes == 0 || kz_release_strobes(b) != strobes) return kz_release_strobes(b) == strobes;
-  return a->phase == b->phase && a->periods == b->periods && a->damping == b->damping && a->drive == b->drive &&
-         a->smooth == b->smooth;
-}
-
-bool kz_images_serve(const kz_images *images, const kz_parameters *parameters, const kz_axis *theta, const kz_axis *velocity,
-                     kz_view *view) {
+bool kz_images_serve(const kz_images *images, kz_dynamics *dynamics, const kz_pendulum *pendulum, const kz_axis *theta,
+                     const kz_axis *velocity, kz_view *view) {
   static const double narrowest = 0.1, farthest = 16; /* shares of the images' width, and of the window's */
   const kz_axis *axes[2] = {theta, velocity};
-  bool is_wide = false, is_near = memcmp(&parameters->pendulum, &images->pendulum, sizeof images->pendulum) == 0 &&
-                                  kz_release_is_same(&parameters->release, &images->release);
+  kz_release release;
+  kz_dynamics_get_release(dynamics, &release);
+  bool is_wide = false, is_near = memcmp(pendulum, &images->pendulum, sizeof images->pendulum) == 0 &&
+                                  kz_release_is_same(&release, &images->release);
   *view = (kz_view){.reach = 0};
   for (int i = 0; i < 2; i++) {
     const kz_coordinate centre = centre_of(axes[i]);

@@ -98,15 +98,16 @@ static int64_t first_bits(const kz_coordinate start[2]) {
   return (int64_t)bits;
 }
 
-kz_status kz_own_orbit_decide(kz_dynamics *dynamics, const kz_parameters *parameters, const kz_coordinate start[2],
+kz_status kz_own_orbit_decide(kz_dynamics *dynamics, const kz_pendulum *pendulum, const kz_coordinate start[2],
                               int64_t max_periods, kz_decision *decision) {
   kz_status status = KZ_OK;
+  kz_release release;
+  kz_dynamics_get_release(dynamics, &release);
   *decision = (kz_decision){.end.label = KZ_DOUBTFUL, .level = KZ_LEVELS, .error = NAN};
   for (int64_t bits = first_bits(start); status == KZ_OK && decision->end.label == KZ_DOUBTFUL; bits += bits / 3) {
-    path p = {
-        .bits = bits < MOST_BITS ? bits : MOST_BITS, .released = kz_release_strobes(&parameters->release), .error = {1, 0, 1}};
-    p.orbit = kz_arbitrary_create(&parameters->pendulum, start, p.bits);
-    kz_arbitrary_release(p.orbit, &parameters->release);
+    path p = {.bits = bits < MOST_BITS ? bits : MOST_BITS, .released = kz_release_strobes(&release), .error = {1, 0, 1}};
+    p.orbit = kz_arbitrary_create(pendulum, start, p.bits);
+    kz_arbitrary_release(p.orbit, &release);
     p.from = start_of(&p).theta[0];
     status = follow(&p, dynamics, max_periods, decision);
     kz_arbitrary_free(p.orbit);

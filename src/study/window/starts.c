@@ -12,15 +12,15 @@ static __float128 *places(const kz_axis *axis, const kz_view *view, int i) {
   return place;
 }
 
-void kz_window_starts_make(const kz_basin_plan *plan, const kz_parameters *parameters, kz_dynamics *dynamics, kz_images *images,
+void kz_window_starts_make(const kz_basin_plan *plan, const kz_pendulum *pendulum, kz_dynamics *dynamics, kz_images *images,
                            kz_window_starts *starts) {
   kz_view view;
-  *starts = (kz_window_starts){.plan = plan, .parameters = parameters, .dynamics = dynamics, .images = kz_images_hold(images)};
+  *starts = (kz_window_starts){.plan = plan, .pendulum = pendulum, .dynamics = dynamics, .images = kz_images_hold(images)};
   if (!images) {
     kz_cell_starts_make(plan, &starts->cells);
     return;
   }
-  kz_images_serve(images, parameters, &plan->theta, &plan->velocity, &view);
+  kz_images_serve(images, dynamics, pendulum, &plan->theta, &plan->velocity, &view);
   kz_hand_overs_make(images, view.reach, starts->hand_over);
   starts->place[0] = places(&plan->theta, &view, 0);
   starts->place[1] = places(&plan->velocity, &view, 1);
@@ -49,7 +49,7 @@ static kz_status decide_cell(void *context, int64_t cell, kz_decision *decision)
   const kz_window_starts *s = context;
   const kz_coordinate start[2] = {kz_axis_coordinate(&s->plan->theta, cell % s->plan->theta.count),
                                   kz_axis_coordinate(&s->plan->velocity, cell / s->plan->theta.count)};
-  return kz_own_orbit_decide(s->dynamics, s->parameters, start, s->plan->max_periods, decision);
+  return kz_own_orbit_decide(s->dynamics, s->pendulum, start, s->plan->max_periods, decision);
 }
 
 kz_labeller kz_window_labeller(const kz_window_starts *starts, bool decide) {

@@ -1,7 +1,8 @@
 /* Windows of any depth: their images under the map, their cells as starts. Only kz_images_run is collective. */
 #pragma once
 
-#include "kapitza/study.h"
+#include "kapitza/dynamics_release.h"
+#include "kapitza/study_release.h"
 #include "kapitza/kernel_digits.h"
 #include "cells/cell_starts.h"
 
@@ -33,12 +34,12 @@ typedef struct {
   kz_arbitrary *orbit;
 } kz_images;
 
-/* Makes the images of the window of two axes, with the window itself only. Image 0 is released as the parameters say; image n is that at strobe
+/* Makes the images of the window of two axes, with the window itself only. Image 0 is released as dynamics says; image n is that at strobe
  * n. */
-kz_images *kz_images_create(const kz_parameters *parameters, const kz_axis *theta, const kz_axis *velocity);
+kz_images *kz_images_create(kz_dynamics *dynamics, const kz_pendulum *pendulum, const kz_axis *theta, const kz_axis *velocity);
 /* Makes the images of a line, of the points centre + x * width of two coordinates, for points whose x have so many digits. They are marked as
  * long as the polynomial is right to these digits. y is not used. */
-kz_images *kz_images_on_line(const kz_parameters *parameters, const kz_coordinate point[2], int64_t digits);
+kz_images *kz_images_on_line(kz_dynamics *dynamics, const kz_pendulum *pendulum, const kz_coordinate point[2], int64_t digits);
 /* Makes the images of a piece of that line from the marked image on: x is counted from `share` in units of 2^exponent of the old one. */
 kz_images *kz_images_beside(const kz_images *images, __float128 share, int exponent, int64_t digits);
 /* Adds a holder and returns `images`. kz_images_free removes a holder, and the last one frees them; it accepts NULL. */
@@ -60,13 +61,10 @@ typedef struct {
   double reach;
 } kz_view;
 
-/* Whether motions begin alike. */
-bool kz_release_is_same(const kz_release *a, const kz_release *b);
-
 /* True if the images can be used for the cells of a window, which must have nearly the same centre and may be at most a little narrower
  * than theirs. Fills *view. */
-bool kz_images_serve(const kz_images *images, const kz_parameters *parameters, const kz_axis *theta, const kz_axis *velocity,
-                     kz_view *view);
+bool kz_images_serve(const kz_images *images, kz_dynamics *dynamics, const kz_pendulum *pendulum, const kz_axis *theta,
+                     const kz_axis *velocity, kz_view *view);
 
 /* The image from which the cells of a window are handed over to a precision level, with its polynomial in doubles. */
 typedef struct {
@@ -92,16 +90,16 @@ void kz_hand_over_change(const kz_hand_over *hand_over, double theta, double vel
 
 /* ---- own orbits ---- */
 
-/* Follows the start, released as the parameters say, in more and more digits until double or quad precision decides the rest of its motion. decision->end.label = number of an attractor;
+/* Follows the start, released as dynamics says, in more and more digits until double or quad precision decides the rest of its motion. decision->end.label = number of an attractor;
  * 0 = not settled within max_periods; KZ_DOUBTFUL = undecided even with 10,000 bits, or with the most bits of the build. */
-kz_status kz_own_orbit_decide(kz_dynamics *dynamics, const kz_parameters *parameters, const kz_coordinate start[2],
+kz_status kz_own_orbit_decide(kz_dynamics *dynamics, const kz_pendulum *pendulum, const kz_coordinate start[2],
                               int64_t max_periods, kz_decision *decision);
 
 /* ---- the cells of a basin's window as starts for a labeller, at any depth. Items are the numbers of cells, theta fastest. ---- */
 
 typedef struct {
   const kz_basin_plan *plan;
-  const kz_parameters *parameters;
+  const kz_pendulum *pendulum;
   kz_dynamics *dynamics;
   kz_images *images; /* this struct is a holder; NULL = the cells are doubles */
   kz_hand_over hand_over[KZ_LEVELS];
@@ -110,7 +108,7 @@ typedef struct {
 } kz_window_starts;
 
 /* Makes the starts from finished images that serve the window (kz_images_serve), or without images (NULL). The caller frees them. */
-void kz_window_starts_make(const kz_basin_plan *plan, const kz_parameters *parameters, kz_dynamics *dynamics, kz_images *images,
+void kz_window_starts_make(const kz_basin_plan *plan, const kz_pendulum *pendulum, kz_dynamics *dynamics, kz_images *images,
                            kz_window_starts *starts);
 void kz_window_starts_free(kz_window_starts *starts);
 

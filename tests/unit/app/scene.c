@@ -122,7 +122,7 @@ TEST(errors_name_place_key_and_remedy) {
                  "drive_amplitude, k, damping, m, length, frequency, amplitude, decay_time, gravity, mass, radius, "
                  "inertia, friction, pivot_amplitude, pivot_frequency, constant_torque, oscillating_torque, "
                  "beta_c, omega, i_dc, i_ac, tilt, ellipse, torque, torque_amplitude, constant_torque_ratio, torque_ratio, "
-                 "waveform, samples, ramp, harmonics, vertical, horizontal; also missing: basin.velocity");
+                 "waveform, samples, harmonics, vertical, horizontal, ramp; also missing: basin.velocity");
   expect_refused(GOOD "  theta: {max: 1, min: 2}\n", NULL,
                  "s.yaml:4:16: basin.theta.max: 1 is too small; it must be greater than min = 2");
   expect_refused(GOOD, "basin.theta.cout=2",

@@ -6,6 +6,7 @@
 #include <stdlib.h>
 
 #include "kapitza/dynamics_labels.h"
+#include "kapitza/dynamics_release.h"
 #include "kapitza/kernel_digits.h"
 
 enum { BITS = 200, STARTS = 3 };
@@ -47,7 +48,7 @@ TEST(many_digits_agree_with_quads) {
     kz_arbitrary *orbit[STARTS];
     for (int j = 0; j < STARTS; j++) orbit[j] = released(releases + i, start[j].theta[0], start[j].velocity[0]);
     kz_dynamics_set_release(d, releases + i);
-    kz_dynamics_release(d, KZ_LEVEL_QUAD, STARTS, start);
+    kz_dynamics_begin(d, KZ_LEVEL_QUAD, STARTS, start);
     for (int j = 0; j < STARTS; j++) {
       double theta[2], velocity[2];
       assert_int_equal(start[j].periods, kz_release_strobes(releases + i));
@@ -57,7 +58,7 @@ TEST(many_digits_agree_with_quads) {
       assert_true(fabs((start[j].velocity[0] - velocity[0]) + (start[j].velocity[1] - velocity[1])) < 1e-28);
       kz_arbitrary_free(orbit[j]);
     }
-    kz_dynamics_release(d, KZ_LEVEL_QUAD, STARTS, start); /* they are released only once */
+    kz_dynamics_begin(d, KZ_LEVEL_QUAD, STARTS, start); /* they are released only once */
     assert_int_equal(start[0].periods, kz_release_strobes(releases + i));
   }
   kz_dynamics_free(d);

@@ -1,7 +1,8 @@
 /* Items released at phases of the drive that are spread evenly over a period. Attractors and trapping regions are the same at all of them. */
 #pragma once
 
-#include "labeller.h"
+#include "kapitza/dynamics_release.h"
+#include "labelling/labeller.h"
 
 typedef struct {
   kz_labeller labeller; /* of the items 0 .. n - 1; not of a run */
