@@ -80,7 +80,7 @@ def test_the_gallery_names_every_figure_of_the_papers():
 def test_the_commands_of_the_gallery_are_valid(kapitza, tmp_path):
     """Each is tried as far as the checks before the work: its keys, its values, its steps."""
     commands = re.findall(r"^\| .* \| `(scenes/.*)` \|$", (ROOT / "docs" / "reference" / "gallery.md").read_text(), re.MULTILINE)
-    assert len(commands) > 12
+    assert len(commands) >= 6
     for command in commands:
         scene, *words = shlex.split(command)
         done = kapitza("run", ROOT / scene, *words, "--time-limit", "1e-6", "--force", folder=tmp_path, status=None)
