@@ -33,3 +33,12 @@ void kz_enclosure_tables_free(kz_enclosure_tables *tables);
 /* Advances set [n] through one drive period and removes whole turns. The result of a set does not depend on the other sets. Some hundred
  * sets at once are fastest. */
 void kz_enclosures_advance(const kz_enclosure_tables *tables, kz_enclosure_frame frame, int64_t n, kz_enclosure *set);
+
+/* Bounds of the force for enclosures, right up to rounding in extended precision.
+ * kz_force_sizes: sizes [n] bound the Taylor coefficients of h (a(t) sin - b(t) cos - torque(t)) in t/h, for a step of length h that
+ * begins at any t.
+ * kz_force_majorant: the largest force at complex times with |Im t| <= r.
+ * kz_force_largest: the largest force during step i of length h, counted from t = 0. */
+void kz_force_sizes(const kz_pendulum *pendulum, long double h, int32_t n, long double *sizes);
+long double kz_force_majorant(const kz_pendulum *pendulum, long double r);
+long double kz_force_largest(const kz_pendulum *pendulum, int32_t i, long double h);

@@ -55,15 +55,6 @@ int32_t kz_is_driven(const kz_pendulum *pendulum);
 /* 1 if the drive is k - m cos t, without further harmonics and torque; else 0. */
 int32_t kz_is_sine(const kz_pendulum *pendulum);
 
-/* Bounds of the force for enclosures, right up to rounding in extended precision.
- * kz_force_sizes: sizes [n] bound the Taylor coefficients of h (a(t) sin - b(t) cos - torque(t)) in t/h, for a step of length h that
- * begins at any t.
- * kz_force_majorant: the largest force at complex times with |Im t| <= r.
- * kz_force_largest: the largest force during step i of length h, counted from t = 0. */
-void kz_force_sizes(const kz_pendulum *pendulum, long double h, int32_t n, long double *sizes);
-long double kz_force_majorant(const kz_pendulum *pendulum, long double r);
-long double kz_force_largest(const kz_pendulum *pendulum, int32_t i, long double h);
-
 /* The slow motion under a fast drive (BSG Eq. 10): theta'' + beta theta' + pull sin theta = 0 with
  * pull = k + m^2/2 cos theta u/(u^2 + beta^2), u = 1 - k cos theta. `cosine` is cos theta. kz_slow_fraction returns u/(u^2 + beta^2),
  * kz_slow_pull returns the pull. */

@@ -68,10 +68,6 @@ void kz_rest_print(const kz_parameters *parameters, FILE *out);
 /* The lowest drives m of a sine between which a pendulum with gravity k > 0 stands upside down; NaN = there are none. */
 void kz_standing_drives(const kz_pendulum *pendulum, double *low, double *high);
 
-/* Drives m of a sine at which a damped pendulum that can stand upside down flutters about the inverted position: from where that position loses its
- * stability by the multiplier -1 to where the cycles that follow flutter double their period; NaN = it does not, or the end is not known. */
-void kz_flutter_drives(const kz_pendulum *pendulum, double *onset, double *end);
-
 /* How far two pendulums are apart, of the size of their parameters; INFINITY where only one has mirror symmetry. */
 double kz_pendulums_parted(const kz_pendulum *a, const kz_pendulum *b);
 

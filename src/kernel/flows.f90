@@ -8,7 +8,6 @@ module kz_kernel_flows
   use kz_model_pendulum, only: pendulum_t, stiffness
   use kz_vector_step_table, only: numerics_t, period_t, make_period
   use kz_processed_batch, only: make_processed_batch
-  use kz_processed_series_interpolation, only: interpolate_series
   use kz_splitting_batch, only: make_batch
   implicit none
   private
@@ -44,33 +43,24 @@ contains
 
   !> The map of one drive period. Fused steps (the last entry of a step merged with the first of the next) are faster; sampling
   !> within the period needs separate ones. (A subroutine: gfortran 12 does not free what a polymorphic function returns.)
-  recursive subroutine make_flow(pendulum, numerics, fused, flow, interpolation_error, refined, fallback)
+  recursive subroutine make_flow(pendulum, numerics, fused, flow, refined, fallback)
     type(pendulum_t), intent(in) :: pendulum !< k, beta, m
     type(numerics_t), intent(in) :: numerics !< scheme, steps a period
     !> whether neighbouring entries of neighbouring steps are merged: faster, but no sampling within the period
     logical, intent(in) :: fused
     class(flow_t), allocatable, intent(out) :: flow !< the map of one drive period
-    !> rad, where a slider moves the pendulum: its series is interpolated from those of the pendulums before to this error; 0 = it is made
-    real(c_double), intent(in), optional :: interpolation_error
     integer, intent(in), optional :: refined !< steps of the flow for fast lanes, in those of fine_numerics; 1, if left out
     class(flow_t), intent(in), optional :: fallback !< that flow, if it is known: fine_numerics, not fused
     type(period_t) :: period
     type(series_t), allocatable :: series
-    real(c_double) :: error
 
     if (SCHEMES(numerics%scheme + 1)%form /= PROCESSED) then
       call make_period(pendulum, numerics, fused, period)
       call make_batch(period, flow)
       return
     end if
-    error = 0
-    if (present(interpolation_error)) error = interpolation_error
     allocate (series)
-    if (error > 0) then
-      call interpolate_series(pendulum, error, numerics%series, series)
-    else
-      call make_processed_series(pendulum, numerics%series, series)
-    end if
+    call make_processed_series(pendulum, numerics%series, series)
     call make_processed_flow(pendulum, series, numerics, flow, refined=refined, made_fallback=fallback)
   end subroutine make_flow
 

@@ -2,14 +2,14 @@
 !> a = k - m cos t - sum_j (vertical(1, j) cos j t + vertical(2, j) sin j t), b = sum_j (horizontal(1, j) cos j t + horizontal(2, j) sin j t):
 !> include/kapitza/model.h. Integrators take a and b, their series in time, their symmetry and bounds from here.
 module kz_model_pendulum
-  use, intrinsic :: iso_c_binding, only: c_double, c_int32_t, c_long_double
+  use, intrinsic :: iso_c_binding, only: c_double, c_int32_t
   use, intrinsic :: iso_fortran_env, only: real64, real128
   implicit none
   private
   public :: pendulum_t, is_same, stiffness, exact_stiffness, symmetries, is_driven, pairing_symmetry, is_mirrored, is_sine, &
-            highest_harmonic, acceleration, force_at, force_of_parameters, sine_force, MOST_HARMONICS
+            highest_harmonic, acceleration, force_at, sine_force, MOST_HARMONICS
 
-  integer, parameter :: qp = real128, ld = c_long_double
+  integer, parameter :: qp = real128
   !> KZ_HARMONICS of model.h.
   integer, parameter :: MOST_HARMONICS = 24
   !> KZ_SYMMETRY_... of model.h; 0 = none.
@@ -48,14 +48,6 @@ contains
 
     force = k - m*cosine
   end function sine_force_r128
-
-  !> The derivatives of a(t) by k and by m at t = 2 pi * turn: a = k a_k + m a_m where the drive is m cos t alone.
-  pure function force_of_parameters(turn) result(parts)
-    real(c_double), intent(in) :: turn !< drive periods
-    real(c_double) :: parts(2)
-
-    parts = [1.0_c_double, -cos(2*real(PI, c_double)*turn)]
-  end function force_of_parameters
 
   !> True if two pendulums have the same numbers.
   pure function is_same(one, other) result(same)
@@ -185,68 +177,5 @@ contains
     end do
     if (pendulum%unmirrored /= 0) rate = rate + pendulum%torque + pendulum%torque_amplitude*cos(t)
   end function acceleration
-
-  !> kz_force_sizes of model.h.
-  subroutine force_sizes(pendulum, h, n, sizes) bind(C, name='kz_force_sizes')
-    type(pendulum_t), intent(in) :: pendulum
-    real(c_long_double), value :: h
-    integer(c_int32_t), value :: n
-    real(c_long_double), intent(out) :: sizes(0:n - 1)
-    real(ld) :: size
-    integer :: i, j
-
-    size = (abs(real(pendulum%m, ld)) + abs(real(pendulum%torque_amplitude, ld)))*h
-    do i = 0, n - 1
-      sizes(i) = size
-      size = size*(h/(i + 1))
-    end do
-    do j = 1, pendulum%harmonics
-      size = amplitude(pendulum, j)*h
-      do i = 0, n - 1
-        sizes(i) = sizes(i) + size
-        size = size*(j*h/(i + 1))
-      end do
-    end do
-    sizes(0) = sizes(0) + h*abs(real(pendulum%k, ld)) + h*abs(real(pendulum%torque, ld))
-  end subroutine force_sizes
-
-  !> kz_force_majorant of model.h.
-  pure function force_majorant(pendulum, r) bind(C, name='kz_force_majorant') result(bound)
-    type(pendulum_t), intent(in) :: pendulum
-    real(c_long_double), value :: r
-    real(c_long_double) :: bound
-    integer :: j
-
-    bound = abs(real(pendulum%k, ld)) + (abs(real(pendulum%m, ld)) + abs(real(pendulum%torque_amplitude, ld)))*cosh(r)
-    do j = 1, pendulum%harmonics
-      bound = bound + amplitude(pendulum, j)*cosh(j*r)
-    end do
-    bound = bound + abs(real(pendulum%torque, ld))
-  end function force_majorant
-
-  !> kz_force_largest of model.h: beside its chord a function is by at most h**2/8 times its largest second derivative.
-  pure function force_largest(pendulum, i, h) bind(C, name='kz_force_largest') result(bound)
-    type(pendulum_t), intent(in) :: pendulum
-    integer(c_int32_t), value :: i
-    real(c_long_double), value :: h
-    real(c_long_double) :: bound
-    integer :: j
-
-    bound = max(abs(pendulum%k - pendulum%m*cos(i*h)), abs(pendulum%k - pendulum%m*cos((i + 1)*h))) + abs(real(pendulum%m, ld))*h*h/8
-    do j = 1, pendulum%harmonics
-      bound = bound + amplitude(pendulum, j)
-    end do
-    bound = bound + abs(real(pendulum%torque, ld)) + abs(real(pendulum%torque_amplitude, ld))
-  end function force_largest
-
-  !> A bound of what harmonic j adds to |a(t)| + |b(t)|.
-  pure function amplitude(pendulum, j) result(bound)
-    type(pendulum_t), intent(in) :: pendulum
-    integer, intent(in) :: j
-    real(ld) :: bound
-
-    bound = hypot(real(pendulum%vertical(1, j), ld), real(pendulum%vertical(2, j), ld)) &
-            + hypot(real(pendulum%horizontal(1, j), ld), real(pendulum%horizontal(2, j), ld))
-  end function amplitude
 
 end module kz_model_pendulum

@@ -4,6 +4,7 @@
 
 #include "commands.h"
 #include "json.h"
+#include "kapitza/study_flutter.h"
 
 static const double USUAL_QUALITY = 20;
 

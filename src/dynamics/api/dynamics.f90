@@ -86,32 +86,36 @@ contains
     integer(c_int64_t), value :: max_period
     type(c_ptr) :: handle
 
-    handle = c_loc(make_dynamics(pendulum, numerics, int(max_period), 0.0_dp))
+    handle = c_loc(make_dynamics(pendulum, numerics, int(max_period)))
   end function create
 
   !> Makes the maps of a pendulum, without attractors and regions.
-  function make_dynamics(pendulum, numerics, max_period, interpolation_error) result(d)
+  function make_dynamics(pendulum, numerics, max_period, sampling, moved) result(d)
     type(pendulum_t), intent(in) :: pendulum !< k, beta, m
     type(numerics_t), intent(in) :: numerics !< of the map that labels
     integer, intent(in) :: max_period !< of the cycles that a search looks for
-    real(dp), intent(in) :: interpolation_error !< rad: the error that a period may have, beside that of its steps, where a slider moves the pendulum; 0 = none does
+    !> Maps that are taken over: that of fine_numerics, and that of the numerics, where a slider moves the pendulum; left out: they are made.
+    class(flow_t), allocatable, intent(inout), optional :: sampling, moved
     type(dynamics_t), pointer :: d
     type(numerics_t) :: fine
-    logical :: moving
 
-    moving = interpolation_error > 0
     allocate (d)
     d%lock = create_lock()
     d%levels%pendulum = pendulum
     d%levels%numerics = numerics
     fine = fine_numerics(pendulum)
-    call make_flow(pendulum, fine, .false., d%search%sampling_flow)
-    call make_flow(pendulum, numerics, .true., d%flow, interpolation_error=interpolation_error/2, fallback=d%search%sampling_flow)
+    if (present(moved)) then
+      call move_alloc(sampling, d%search%sampling_flow)
+      call move_alloc(moved, d%flow)
+      d%search%rings = MOVING_RINGS
+      fine%steps_per_period = fine%steps_per_period/MOVING_PART
+    else
+      call make_flow(pendulum, fine, .false., d%search%sampling_flow)
+      call make_flow(pendulum, numerics, .true., d%flow, fallback=d%search%sampling_flow)
+    end if
     d%search%pendulum = pendulum
     d%search%max_period = max_period
     allocate (d%search%flow, source=d%flow)
-    if (moving) d%search%rings = MOVING_RINGS
-    if (moving) fine%steps_per_period = fine%steps_per_period/MOVING_PART
     call make_flow(pendulum, fine, .true., d%search%fine)
     allocate (d%attractors(0))
   end function make_dynamics

@@ -4,11 +4,15 @@ module kz_live_carried
   use kz_api_dynamics, only: dynamics_t, of_handle, make_dynamics, borrow_flow, return_flow
   use kz_attractors_chaos, only: carry_chaos
   use kz_grown_grid, only: draw_attractors
+  use kz_kernel_flows, only: make_flow, make_processed_flow, fine_numerics
   use kz_live_moving, only: aged_regions, learn_regions
+  use kz_live_series_interpolation, only: interpolate_series
   use kz_live_smooth, only: smooth_times
   use kz_model_pendulum, only: pendulum_t
+  use kz_processed_tables, only: series_t
   use kz_saddles_joined, only: join_near
   use kz_vector_map, only: flow_t, WIDTH
+  use kz_vector_schemes, only: SCHEMES, PROCESSED
   use kz_vector_step_table, only: numerics_t
   implicit none
   private
@@ -23,11 +27,14 @@ contains
     integer(c_int64_t), intent(out) :: lost !< attractors that are there no more, their images not counted
     type(c_ptr) :: moved
     type(dynamics_t), pointer :: from, d
+    class(flow_t), allocatable :: sampling, flow
     integer, allocatable :: number(:)
     integer :: a, n_known
 
     from => of_handle(handle)
-    d => make_dynamics(pendulum, numerics, from%search%max_period, error)
+    call make_flow(pendulum, fine_numerics(pendulum), .false., sampling)
+    call make_moved_flow(pendulum, numerics, error/2, sampling, flow)
+    d => make_dynamics(pendulum, numerics, from%search%max_period, sampling, flow)
     allocate (number(size(from%attractors)), source=0)
     lost = 0
     do a = 1, size(from%attractors)
@@ -49,6 +56,24 @@ contains
     call draw_attractors(d%regions, d%attractors)
     moved = c_loc(d)
   end function continued
+
+  !> The scene's map of a pendulum that a slider moves: its series is interpolated from those of the pendulums before.
+  subroutine make_moved_flow(pendulum, numerics, error, sampling, flow)
+    type(pendulum_t), intent(in) :: pendulum
+    type(numerics_t), intent(in) :: numerics
+    real(dp), intent(in) :: error !< of the series at most, rad
+    class(flow_t), intent(in) :: sampling !< map of fine_numerics
+    class(flow_t), allocatable, intent(out) :: flow
+    type(series_t), allocatable :: series
+
+    if (SCHEMES(numerics%scheme + 1)%form /= PROCESSED) then
+      call make_flow(pendulum, numerics, .true., flow, fallback=sampling)
+    else
+      allocate (series)
+      call interpolate_series(pendulum, error, numerics%series, series)
+      call make_processed_flow(pendulum, series, numerics, flow, made_fallback=sampling)
+    end if
+  end subroutine make_moved_flow
 
   subroutine learn(handle, n, state, most, budget) bind(C, name='kz_dynamics_learn_regions')
     type(c_ptr), value :: handle

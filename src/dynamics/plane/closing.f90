@@ -2,7 +2,7 @@
 module kz_plane_closing
   use, intrinsic :: iso_c_binding, only: dp => c_double
   use kz_vector_map, only: WIDTH, PI
-  use kz_splitting_mixed_batch, only: mixed_batch_t, track_t
+  use kz_mixed_mixed_batch, only: mixed_batch_t, track_t
   use kz_cycles_features, only: centre_of, ELSEWHERE
   use kz_maps_matrices, only: eigenvalues, solved, IDENTITY
   use kz_maps_states, only: angle_difference

@@ -4,7 +4,7 @@ module kz_plane_ends
   use, intrinsic :: iso_c_binding, only: dp => c_double, c_int32_t, c_int64_t
   use kz_vector_map, only: WIDTH
   use kz_maps_lanes, only: lanes_t, list_flagged
-  use kz_splitting_mixed_batch, only: mixed_batch_t, track_t, make_mixed_batch
+  use kz_mixed_mixed_batch, only: mixed_batch_t, track_t, make_mixed_batch
   use kz_model_pendulum, only: pendulum_t
   use kz_plane_closing, only: closed_t, close_motions
   use kz_plane_recurrence, only: past_t, make_past

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "basin/basin.h"
+#include "kapitza/analysis_boundary.h"
 #include "plan.h"
 
 extern const kz_basin_part kz_boundary_part;

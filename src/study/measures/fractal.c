@@ -2,6 +2,7 @@
  * dimension (C. Grebogi et al., Phys. Lett. A 99 (1983) 415), boundaries that basins share (A. Daza et al., Sci. Rep. 8 (2018) 9954). */
 #include <math.h>
 
+#include "kapitza/analysis_boundary.h"
 #include "numerics/counts.h"
 #include "measures.h"
 #include "numerics/cells.h"

@@ -1,4 +1,5 @@
-kapitza_power(measures FOLDERS study/measures study/resilience study/boundary STUDIES measures PARTS boundary shocks swept
+kapitza_power(measures FOLDERS study/measures study/resilience study/boundary analysis/boundary FILES include/kapitza/analysis_boundary.h
+  STUDIES measures PARTS boundary shocks swept
   KEYS basin.boundary basin.shocks sweep.measure sweep.weight sweep.within sweep.sizes sweep.cells sweep.shock_scale sweep.shock_tolerance
   BESIDE tests/unit/study/measures.c tests/unit/study/shocks.c tests/python/test_boundary.py tests/python/test_shocks.py
     tests/python/test_measures.py tests/python/test_measures_pictures.py tests/python/test_plane.py

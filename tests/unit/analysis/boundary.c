@@ -6,6 +6,7 @@
 #include "../../tools/test.h"
 
 #include "kapitza/analysis.h"
+#include "kapitza/analysis_boundary.h"
 
 enum { SIDE = 2187 }; /* 3^7 */
 static int16_t label[256 + 1][SIDE];

@@ -1,12 +1,12 @@
 !> A batch of pendulums that differ: one drive period of split6 in double precision, a pendulum a lane. The decay and the drifts of
 !> each lane stand in tables; its kicks are k and m times those of all, since the force is linear in both.
-module kz_splitting_mixed_batch
+module kz_mixed_mixed_batch
   use, intrinsic :: iso_c_binding, only: rk => c_double, ik => c_int64_t
   use kz_vector_map, only: map_t, put_state, move_state, WIDTH, PI
   use kz_vector_schemes, only: stage_t, scheme_stages, SCHEMES, SPLIT6_ROW
   use kz_vector_sine, only: SINE_COEFFICIENTS, ROUND_TO_INTEGER, SIGN_SHIFT, INVERSE_PI
   use kz_vector_wrap, only: wrap_lanes, vectors_of
-  use kz_model_pendulum, only: pendulum_t, force_of_parameters
+  use kz_model_pendulum, only: pendulum_t
   implicit none
   private
   public :: mixed_batch_t, track_t, make_mixed_batch
@@ -37,6 +37,14 @@ module kz_splitting_mixed_batch
 
 contains
 
+  !> The derivatives of a(t) by k and by m at t = 2 pi * turn: a = k a_k + m a_m where the drive is m cos t alone.
+  pure function parts_of_force(turn) result(parts)
+    real(rk), intent(in) :: turn !< drive periods
+    real(rk) :: parts(2)
+
+    parts = [1.0_rk, -cos(2*PI*turn)]
+  end function parts_of_force
+
   !> Makes a batch without pendulums.
   subroutine make_mixed_batch(n_steps, batch)
     integer, intent(in) :: n_steps !< steps of split6 in a drive period
@@ -54,7 +62,7 @@ contains
       clock = i - 1
       do s = 1, KICKS
         clock = clock + real(stages(2*s - 1)%share, rk)
-        batch%weight(:, s, i) = step*real(stages(2*s)%share, rk)*force_of_parameters(clock/n_steps)
+        batch%weight(:, s, i) = step*real(stages(2*s)%share, rk)*parts_of_force(clock/n_steps)
       end do
     end do
   end subroutine make_mixed_batch
@@ -178,4 +186,4 @@ contains
 
   include 'vector/sine.inc'
 
-end module kz_splitting_mixed_batch
+end module kz_mixed_mixed_batch

@@ -1,7 +1,8 @@
 /* Drives of a sine between which flutter attracts: the inverted state followed to stronger drives, with what branches off. */
 #include <math.h>
 
-#include "sweep.h"
+#include "kapitza/study_flutter.h"
+#include "sweep/sweep.h"
 
 /* Strongest drive m to which the inverted state is followed, and the longest cycle that may branch off, in drive periods. */
 static const double TOP = 2;

@@ -2,7 +2,7 @@
 !> nodes). A coefficient of a series is a polynomial of degree ORDER/2 in all terms of the force, and a rational function of the damping, whose
 !> poles lie at distances l/n from the real axis, l >= 1 and n < ORDER. In units of RADIUS it is therefore analytic about the pendulum that is
 !> wanted, where nodes may lie anywhere: the weights are those that are best for all functions analytic in the unit ball.
-module kz_processed_series_interpolation
+module kz_live_series_interpolation
   use, intrinsic :: iso_c_binding, only: c_ptr, c_associated, c_f_pointer
   use, intrinsic :: iso_fortran_env, only: rk => real64, qp => real128
   use kz_vector_locks, only: take_lock, leave_lock
@@ -170,4 +170,4 @@ contains
     kept%n_nodes = max(kept%n_nodes, i)
   end subroutine keep_node
 
-end module kz_processed_series_interpolation
+end module kz_live_series_interpolation

@@ -3,6 +3,7 @@
 #include <stdlib.h>
 
 #include "kapitza/analysis.h"
+#include "kapitza/analysis_boundary.h"
 
 static const double NORMAL = 1.959963984540054; /* of a 95 % interval */
 
