@@ -80,20 +80,9 @@ def boundaries(runs, known):
         reference=0.450 + 2.22 / 121,
         bar=1e-12,
     )
-    yield Number(
-        "Figs 2, 3",
-        "lower boundary of the inverted position, Omega = 11, exact",
-        at(free, -k, "exact_1"),
-        reference=mathieu_m(lambda q: mathieu_a(0, q), -k),
-        bar=1e-9,
-    )
-    yield Number(
-        "Figs 2, 3",
-        "upper boundary of the inverted position, Omega = 11, exact",
-        at(free, -k, "exact_2"),
-        reference=mathieu_m(lambda q: mathieu_b(1, q), -k),
-        bar=1e-9,
-    )
+    for what, curve, value in (("lower", "exact_1", lambda q: mathieu_a(0, q)), ("upper", "exact_2", lambda q: mathieu_b(1, q))):
+        text = f"{what} boundary of the inverted position, Omega = 11, exact"
+        yield Number("Figs 2, 3", text, at(free, -k, curve), reference=mathieu_m(value, -k), bar=1e-9)
     near, _ = curves(runs, 0.25 - 1e-4, 0.25, 2, ["exact_2", "blackburn_tangent"])
     yield Number(
         "Sec. II",

@@ -68,20 +68,9 @@ def flutter_ends(runs, known):
         if row is None:
             continue
         found = grown(runs, omega, 0.44, 0.62, 10)
-        yield Number(
-            "Fig. 4",
-            f"epsilon where flutter begins, Omega = {omega}, Q = 5",
-            found["onset"],
-            reference=row["eps_c"],
-            bar=1e-9,
-        )
-        yield Number(
-            "Fig. 4",
-            f"epsilon where flutter loses its symmetry, Omega = {omega}, Q = 5",
-            found["asymmetry"],
-            reference=row["eps_symmetry_breaking"],
-            bar=1e-6,
-        )
+        for what, name, key, bar in (("begins", "onset", "eps_c", 1e-9),
+                                     ("loses its symmetry", "asymmetry", "eps_symmetry_breaking", 1e-6)):
+            yield Number("Fig. 4", f"epsilon where flutter {what}, Omega = {omega}, Q = 5", found[name], reference=row[key], bar=bar)
         if omega == 11:
             yield Number(
                 "Sec. III",

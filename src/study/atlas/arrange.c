@@ -3,7 +3,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "atlas.h"
+#include "lines.h"
+#include "curves.h"
+#include "cycles.h"
+#include "seeds.h"
 
 /* Tangents shorter than this end at a cusp: steps beside it are straight. */
 static const double AT_CUSP = 0.02;

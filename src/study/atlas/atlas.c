@@ -1,5 +1,8 @@
 /* Study `atlas`: motions of up to max_period periods over a plane of two keys. */
-#include "atlas.h"
+#include "cycles.h"
+#include "growth.h"
+#include "probe.h"
+#include "regions.h"
 
 #include <math.h>
 #include <stdlib.h>

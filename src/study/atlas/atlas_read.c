@@ -3,7 +3,9 @@
 #include <stdlib.h>
 
 #include "kapitza/analysis.h"
-#include "atlas.h"
+#include "curves.h"
+#include "cycles.h"
+#include "regions.h"
 
 static const char *const GROUP = "atlas";
 

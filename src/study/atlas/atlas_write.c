@@ -6,7 +6,10 @@
 
 #include "kapitza/analysis.h"
 #include "numerics/share.h"
-#include "atlas.h"
+#include "curves.h"
+#include "cycles.h"
+#include "growth.h"
+#include "regions.h"
 
 static const char *const GROUP = "atlas";
 

@@ -3,7 +3,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "atlas.h"
+#include "lines.h"
 
 /* Sides of the plane: a band narrower than the first needs both its edges; how far apart they lie, in widths, at most; error of a crossing. */
 static const double NARROW = 1e-5, REACH = 4, BLURRED = 1e-5;

@@ -2,7 +2,8 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "atlas.h"
+#include "cycles.h"
+#include "branch.h"
 
 kz_status kz_atlas_place(const kz_atlas *atlas, int axis, double value, double *place) {
   const kz_atlas_plan *plan = atlas->scene->atlas;

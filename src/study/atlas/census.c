@@ -4,7 +4,13 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "atlas.h"
+#include "lines.h"
+#include "curves.h"
+#include "cycles.h"
+#include "seeds.h"
+#include "growth.h"
+#include "probe.h"
+#include "records.h"
 #include "saddles/saddles.h"
 
 /* rad: two cycles are one. */

@@ -3,7 +3,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "atlas.h"
+#include "curves.h"
+#include "cycles.h"
 
 enum { MOST_ROWS = 1500, MOST_SPECIAL = 32, SAMPLES = 12 };
 /* A point may lie on a curve if it is this near to one of its steps, in lengths of the step; it does if Newton's method finds it from there,

@@ -3,7 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "atlas.h"
+#include "cycles.h"
 
 /* rad: two states nearer than this are one; a cycle this near to rest is rest. */
 static const double ONE = 1e-5, AT_REST = 1e-9;

@@ -3,7 +3,11 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "atlas.h"
+#include "lines.h"
+#include "curves.h"
+#include "cycles.h"
+#include "seeds.h"
+#include "branch.h"
 
 /* IMAGES: of a curve, or of a piece of it. */
 enum { MOST_ROWS = 500, MOST_EVENTS = 100, IMAGES = 5 };

@@ -3,7 +3,11 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "atlas.h"
+#include "curves.h"
+#include "cycles.h"
+#include "seeds.h"
+#include "growth.h"
+#include "records.h"
 
 enum {
   LINES = 5,        /* along each axis on which all branches are followed */

@@ -2,7 +2,9 @@
 #include <math.h>
 #include <string.h>
 
-#include "atlas.h"
+#include "lines.h"
+#include "cycles.h"
+#include "seeds.h"
 
 enum { LINES = 80 };
 /* Sides of the plane: partners lie so near to each other; crossings nearer than this to an edge are left out. */

@@ -1,5 +1,8 @@
 /* One line through an atlas: the branches of all cycles along it, attracting or not. */
-#include "atlas.h"
+#include "curves.h"
+#include "cycles.h"
+#include "seeds.h"
+#include "branch.h"
 
 static void complete(const kz_atlas *atlas, kz_atlas_curve *curve) {
   for (int64_t i = 0; i < curve->n; i++) kz_atlas_complete(atlas, curve, i);

@@ -3,7 +3,12 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "atlas.h"
+#include "lines.h"
+#include "cycles.h"
+#include "seeds.h"
+#include "branch.h"
+#include "motions.h"
+#include "probe.h"
 
 enum { MOST_ROWS = 400, STARTS = 512 };
 /* rad: two cycles nearer than this are one. */

@@ -3,7 +3,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "atlas.h"
+#include "curves.h"
+#include "cycles.h"
 
 /* Curves are followed a little beyond the rectangle; below an undriven edge the plane is its own mirror image. */
 static const double MARGIN = 0.06, BELOW = 0.004, LONGEST = 0.02;

@@ -6,7 +6,8 @@
 #include "labelling/search.h"
 #include "numerics/cells.h"
 #include "numerics/steps.h"
-#include "atlas.h"
+#include "cycles.h"
+#include "probe.h"
 
 /* Starts near rest; steps a period. */
 enum { NEAR_REST = 4, STEPS = 16 };

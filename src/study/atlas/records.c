@@ -2,7 +2,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "atlas.h"
+#include "curves.h"
+#include "records.h"
 
 void kz_atlas_bag_free(kz_atlas_bag *b) {
   for (int64_t i = 0; i < b->n; i++) free(b->record[i]);

@@ -3,7 +3,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "atlas.h"
+#include "lines.h"
+#include "cycles.h"
+#include "regions.h"
 
 static int compare_classes(const void *first, const void *second) {
   const kz_atlas_class *a = first, *b = second;

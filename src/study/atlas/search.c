@@ -4,7 +4,15 @@
 #include <string.h>
 
 #include "numerics/share.h"
-#include "atlas.h"
+#include "lines.h"
+#include "curves.h"
+#include "cycles.h"
+#include "seeds.h"
+#include "growth.h"
+#include "motions.h"
+#include "probe.h"
+#include "records.h"
+#include "regions.h"
 
 enum {
   FURTHER = 20, /* places of a round whose cycles are searched */

@@ -4,7 +4,8 @@
 #include <stdlib.h>
 
 #include "numerics/share.h"
-#include "atlas.h"
+#include "lines.h"
+#include "growth.h"
 
 static const char *const GROUP = "atlas";
 

@@ -1,6 +1,6 @@
 /* Variables of the group atlas of the result file. */
 #include "kapitza/store_variables.h"
-#include "atlas.h"
+#include "types.h"
 
 #define OF_CURVE {"curve"}
 #define OF_DECADE {"decade"}

@@ -4,7 +4,9 @@
 #include <math.h>
 #include <string.h>
 
-#include "atlas/atlas.h"
+#include "atlas/curves.h"
+#include "atlas/cycles.h"
+#include "atlas/records.h"
 #include "saddles/saddles.h"
 
 /* k = x, beta = 0.1, m = y. */

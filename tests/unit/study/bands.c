@@ -4,7 +4,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "atlas/atlas.h"
+#include "atlas/lines.h"
 
 enum { MOST = 8 };
 
