@@ -86,8 +86,10 @@ SCENES = {
         "wada: {length: 3}\n", "3:7", "wada: needs a list of attractors"),
     "wada without damping": ("pendulum: {k: 0, damping: 0, m: 0.3}\nattractors: {velocity: {min: -1, max: 1}}\n"
         "saddles: {velocity: {min: -1, max: 1}}\nwada: {length: 3}\n", "4:7", "wada: needs damping"),
-    "edge without ends": ("pendulum: {k: 0, damping: 0.1, m: 0.3}\nedge: {first: {theta: 0, "
-        "velocity: 0}, second: {theta: 1, velocity: 0}}\n", "2:7", "edge: needs a list of attractors"),
+    "escape without saddles": (GOOD + "escape: {}\n", "9:9", "escape: needs a list of unstable cycles"),
+    "escape without damping": ("pendulum: {k: 0, damping: 0, m: 0.3}\nattractors: {velocity: {min: -1, max: 1}}\n"
+        "saddles: {velocity: {min: -1, max: 1}}\nescape: {}\n", "4:9", "escape: needs damping"),
+    "edge, which escape replaces": (GOOD + "edge: {}\n", "9:1", "edge: is no longer a key; use escape"),
     "shocks whose sizes go down": (GOOD + "  shocks: {sizes: [1, 0.5]}\n", "9:19", "basin.shocks.sizes: has a size that is not above"),
     "sweep without a measure": (GOOD + "sweep: {parameter: drive_amplitude, min: 0, max: 0.5, count: 3, measure: []}\n",
         "9:74", "sweep.measure"),

@@ -1,5 +1,6 @@
 #include "listed.h"
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -35,4 +36,34 @@ kz_status kz_listed_read(const kz_run *run, kz_store *store, const char *group, 
 
 void kz_listed_free(kz_listed *motions) {
   free(motions->period);
+}
+
+/* rad: strobe points of one attractor agree so well; and exponents of one chaotic attractor. */
+static const double SAME = 1e-6;
+
+/* Whether attractor `number` is this row of the file. */
+static bool is_listed(const kz_dynamics *dynamics, int64_t number, const kz_listed *list, int64_t row) {
+  kz_attractor attractor;
+  kz_dynamics_attractor(dynamics, number, &attractor);
+  if (attractor.period != (int32_t)list->period[row]) return false;
+  if (attractor.period == 0) return fabs(attractor.lyapunov - list->lyapunov[row]) < SAME;
+  const size_t period = (size_t)attractor.period;
+  const double first[] = {list->theta[row * list->phases], list->velocity[row * list->phases]};
+  KZ_FREED double *theta = kz_malloc(period * sizeof *theta), *velocity = kz_malloc(period * sizeof *velocity);
+  kz_dynamics_strobe(dynamics, number, theta, velocity);
+  for (size_t i = 0; i < period; i++)
+    if (hypot(remainder(theta[i] - first[0], 2 * M_PI), velocity[i] - first[1]) < SAME) return true;
+  return false;
+}
+
+void kz_listed_match(const kz_dynamics *dynamics, const kz_listed *list, int32_t *id) {
+  const int64_t n = kz_dynamics_count(dynamics);
+  KZ_FREED int64_t *order = kz_malloc((size_t)(n + 1) * sizeof *order);
+  kz_dynamics_order(dynamics, order);
+  for (int64_t i = 0; i <= n; i++) id[i] = -1;
+  for (int64_t row = 0; row < list->count; row++) { /* both lists have one order, which distinguishes chaotic mirror images */
+    int64_t i = 0;
+    while (i < n && (id[order[i]] >= 0 || !is_listed(dynamics, order[i], list, row))) i++;
+    if (i < n) id[order[i]] = (int32_t)row;
+  }
 }

@@ -1,6 +1,7 @@
 /* The motions that an earlier study has written to the group attractors or saddles of the file, read back on every rank. */
 #pragma once
 
+#include "kapitza/dynamics.h"
 #include "kapitza/parallel.h"
 #include "kapitza/store.h"
 
@@ -15,3 +16,5 @@ typedef struct {
 /* Reads them; `dimension` of the group: attractor or saddle. store NULL on all ranks but rank 0. Collective. kz_listed_free in every case. */
 kz_status kz_listed_read(const kz_run *run, kz_store *store, const char *group, const char *dimension, kz_listed *motions);
 void kz_listed_free(kz_listed *motions);
+/* Gives each attractor of `dynamics` its place in a list of attractors: id [count + 1], from number 1 on; -1 = it is not there. */
+void kz_listed_match(const kz_dynamics *dynamics, const kz_listed *list, int32_t *id);

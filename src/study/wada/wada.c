@@ -63,38 +63,6 @@ static kz_status find_basins(const kz_wada_job *job, const kz_branch *branch, kz
 
 /* ---- attractors of kz_dynamics and their ids in the file ---- */
 
-/* rad: strobe points of one attractor agree so well; and exponents of one chaotic attractor. */
-static const double SAME = 1e-6;
-
-/* Whether attractor `number` is this row of the file. */
-static bool is_listed(const kz_dynamics *dynamics, int64_t number, const kz_listed *list, int64_t row) {
-  kz_attractor attractor;
-  kz_dynamics_attractor(dynamics, number, &attractor);
-  if (attractor.period != (int32_t)list->period[row]) return false;
-  if (attractor.period == 0) return fabs(attractor.lyapunov - list->lyapunov[row]) < SAME;
-  const size_t period = (size_t)attractor.period;
-  const double first[] = {list->theta[row * list->phases], list->velocity[row * list->phases]};
-  KZ_FREED double *theta = kz_malloc(period * sizeof *theta), *velocity = kz_malloc(period * sizeof *velocity);
-  kz_dynamics_strobe(dynamics, number, theta, velocity);
-  for (size_t i = 0; i < period; i++)
-    if (hypot(remainder(theta[i] - first[0], 2 * M_PI), velocity[i] - first[1]) < SAME) return true;
-  return false;
-}
-
-/* Both lists have one order, which distinguishes chaotic mirror images. */
-static void set_ids(const kz_dynamics *dynamics, const kz_listed *list, kz_file_attractors *attractors) {
-  const int64_t n = kz_dynamics_count(dynamics);
-  KZ_FREED int64_t *order = kz_malloc((size_t)(n + 1) * sizeof *order);
-  kz_dynamics_order(dynamics, order);
-  for (int64_t i = 0; i <= n; i++) attractors->id[i] = -1;
-  for (int64_t row = 0; row < attractors->count; row++) {
-    int64_t i = 0;
-    attractors->mirror[row] = (int32_t)list->mirror[row];
-    while (i < n && (attractors->id[order[i]] >= 0 || !is_listed(dynamics, order[i], list, row))) i++;
-    if (i < n) attractors->id[order[i]] = (int32_t)row;
-  }
-}
-
 /* Gives every attractor of `dynamics` its id in the group attractors of the file; cycles of the file that it lacks join it. Collective; store NULL on
  * all ranks but rank 0. */
 static kz_status match_attractors(const kz_run *run, kz_store *store, kz_dynamics *dynamics, kz_file_attractors *attractors) {
@@ -105,7 +73,8 @@ static kz_status match_attractors(const kz_run *run, kz_store *store, kz_dynamic
     if (list.period[i] > 0) kz_dynamics_add_cycle(dynamics, (int64_t)list.period[i], list.theta[at], list.velocity[at]);
   if (kz_dynamics_count(dynamics) > known) kz_dynamics_update(dynamics);
   attractors->count = list.count;
-  set_ids(dynamics, &list, attractors);
+  for (int64_t row = 0; row < list.count; row++) attractors->mirror[row] = (int32_t)list.mirror[row];
+  kz_listed_match(dynamics, &list, attractors->id);
   return KZ_OK;
 }
 

@@ -1,0 +1,67 @@
+#include "gates.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+/* rad: a branch begins so far from its saddle. */
+static const double FIRST_DISTANCE = 1e-5;
+
+kz_status kz_escape_label(const kz_escape_labels *labels, int round, int64_t n, const double *start, int32_t *id) {
+  KZ_FREED kz_label *label = kz_calloc((size_t)n + 1, sizeof *label);
+  kz_labeller labeller = kz_pair_labeller(start, labels->max_periods, KZ_BY_LEVELS, labels->dynamics);
+  labeller.run = labels->run;
+  KZ_TRY(kz_label_items(&labeller, round, n, NULL, label));
+  for (int64_t i = 0; i < n; i++) id[i] = label[i].label > 0 ? labels->id[label[i].label] : -1;
+  return KZ_OK;
+}
+
+/* A point of a branch: over a piece that the map of the cycle moves to the next one. */
+static void branch_point(const kz_gate *gate, double growth, int side, int i, double point[2]) {
+  const double distance = FIRST_DISTANCE * pow(fabs(growth), (growth < 0 ? 2.0 : 1.0) * i / KZ_GATE_POINTS);
+  for (int c = 0; c < 2; c++) point[c] = gate->state[c] + (side ? -distance : distance) * gate->away[c];
+}
+
+static int32_t id_of_all(const int32_t *id) {
+  for (int i = 1; i < KZ_GATE_POINTS; i++)
+    if (id[i] != id[0]) return -1;
+  return id[0];
+}
+
+kz_status kz_gates_find(const kz_escape_labels *labels, const kz_escape_flow *flow, const kz_listed *saddles, kz_gate *gate) {
+  const int64_t n = 2 * KZ_GATE_POINTS * saddles->count;
+  KZ_FREED double (*point)[2] = kz_calloc((size_t)n + 1, sizeof *point);
+  KZ_FREED int32_t *id = kz_calloc((size_t)n + 1, sizeof *id);
+  for (int64_t s = 0; s < saddles->count; s++) {
+    kz_path_end end;
+    const int64_t at = s * saddles->phases;
+    gate[s] = (kz_gate){.is_saddle = kz_path_end_find(flow->flow, (int64_t)saddles->period[s], false, saddles->theta[at],
+                                                      saddles->velocity[at], &end),
+                        .alone = {-1, -1}};
+    if (!gate[s].is_saddle) continue;
+    gate[s].period = end.period;
+    gate[s].winding = end.winding;
+    for (int c = 0; c < 2; c++) {
+      gate[s].state[c] = end.state[c];
+      gate[s].away[c] = end.away[c];
+      gate[s].stable[c] = end.plane[c][0];
+    }
+    for (int i = 0; i < 2 * KZ_GATE_POINTS; i++)
+      branch_point(gate + s, end.growth, i / KZ_GATE_POINTS, i % KZ_GATE_POINTS, point[2 * KZ_GATE_POINTS * s + i]);
+  }
+  KZ_TRY(kz_escape_label(labels, 0, n, point[0], id));
+  for (int64_t s = 0; s < saddles->count; s++)
+    for (int side = 0; side < 2 && gate[s].is_saddle; side++) {
+      const int32_t *ids = id + KZ_GATE_POINTS * (2 * s + side);
+      gate[s].alone[side] = id_of_all(ids);
+      for (int i = 0; i < KZ_GATE_POINTS; i++) gate[s].meets |= ids[i] < 0 ? 0 : (uint64_t)1 << ids[i];
+    }
+  return KZ_OK;
+}
+
+uint64_t kz_gates_alone(int64_t saddles, const kz_gate *gate) {
+  uint64_t alone = 0;
+  for (int64_t s = 0; s < saddles; s++)
+    for (int side = 0; side < 2; side++)
+      if (gate[s].alone[side] >= 0 && gate[s].alone[0] != gate[s].alone[1]) alone |= (uint64_t)1 << gate[s].alone[side];
+  return alone;
+}

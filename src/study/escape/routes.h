@@ -1,0 +1,57 @@
+/* Study `escape`: the least torque that takes a motion out of its basin, or into another one. */
+#pragma once
+
+#include <stdbool.h>
+#include <stdint.h>
+
+#include "kapitza/kernel_paths.h"
+#include "kapitza/study.h"
+#include "plan.h"
+
+/* A cycle from which paths lead, or to which: its ends at each strobe, and its angle between them. */
+typedef struct {
+  int64_t period, winding;
+  kz_path_end *end; /* [period] */
+  int64_t *turns;   /* [period] turns by which the angle on the line, counted from strobe 0, is more than that of the end */
+  double *theta;    /* [period][samples] angle from each strobe on, as its end has it */
+} kz_escape_cycle;
+
+/* The numerics of a pendulum's paths. */
+typedef struct {
+  const kz_pendulum *pendulum;
+  kz_hamilton *flow;
+  int32_t samples; /* points a period of the discretised action */
+} kz_escape_flow;
+
+/* The flow, with derivatives of the action by k and m. */
+kz_escape_flow kz_escape_flow_of(const kz_pendulum *pendulum);
+void kz_escape_flow_free(kz_escape_flow *flow);
+
+/* Finds the cycle near strobe points theta, velocity [period]; false where it is not an attractor, or a saddle. kz_escape_cycle_free in
+ * every case. */
+bool kz_escape_cycle_find(const kz_escape_flow *flow, int64_t period, bool attracts, const double *theta,
+                          const double *velocity, kz_escape_cycle *cycle);
+void kz_escape_cycle_free(kz_escape_cycle *cycle);
+
+enum { KZ_ESCAPE_FAMILIES = 8, KZ_ESCAPE_NODES = 1280 };
+
+/* Paths from one cycle to another. Families are local minima of the action, in the order of actions. */
+typedef struct {
+  int64_t count, starts; /* families; starts that led to any */
+  double action[KZ_ESCAPE_FAMILIES];
+  int64_t hits[KZ_ESCAPE_FAMILIES];
+  kz_path least;                    /* action INFINITY = none was found; its node is the one below */
+  double largest_torque;            /* of it */
+  int64_t phase;                    /* strobe of the first cycle where it begins; it ends at strobe 0 of the other */
+  double node[4 * KZ_ESCAPE_NODES]; /* of which least.n + 1 count */
+} kz_escape_route;
+
+/* Searches from `starts` starts of the minimiser, of which `seed` gives the places. */
+void kz_escape_search(const kz_escape_flow *flow, const kz_escape_cycle *from, const kz_escape_cycle *to, int64_t starts,
+                      uint64_t seed, kz_escape_route *route);
+/* Polishes the least path again, with ends so near to the cycles that they change nothing. False where that fails. */
+bool kz_escape_finish(const kz_escape_flow *flow, const kz_escape_cycle *from, const kz_escape_cycle *to,
+                      kz_escape_route *route);
+
+/* Number `i` of stream `seed`, in [0, 1). */
+double kz_escape_random(uint64_t seed, uint64_t i);

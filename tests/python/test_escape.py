@@ -1,0 +1,72 @@
+"""The study escape: barriers at Blackburn's pendulum, islands, mirror images, ranks, what is refused."""
+
+import numpy as np
+import pytest
+from conftest import datasets, refused_scene, run_scene, stopped_and_resumed, with_extensive
+
+SCENE = {"pendulum": {"quality_factor": 5, "drive_frequency": 11, "drive_amplitude": 0.3},
+         "attractors": {"velocity": {"min": -2, "max": 2}},
+         "saddles": {"velocity": {"min": -2, "max": 2}, "max_period": 2}, "escape": {"starts": 8}}
+# epsilon, action of the least torque from inverted to this saddle, its name; the last ones take minutes.
+BARRIERS = [(0.2, 0.0031059836, "unstable wide 1-nodding"), (0.25, 0.0071216163, "unstable wide 1-nodding")]
+MORE_BARRIERS = [(0.15, 0.00035979758, "unstable inverted"), (0.3, 0.0100714374, "unstable wide 1-nodding"),
+                 (0.35, 0.0084429662, "unstable inverted 6-nodding"), (0.4, 0.0043563495, "unstable inverted 4-nodding"),
+                 (0.45, 0.0040390822, "unstable inverted 4-nodding")]
+
+
+def at(epsilon, max_period=2, **escape):
+    return {**SCENE, "pendulum": {**SCENE["pendulum"], "drive_amplitude": epsilon},
+            "saddles": {**SCENE["saddles"], "max_period": max_period}, "escape": {**SCENE["escape"], **escape}}
+
+
+def named(result, group, name):
+    return [i for i, text in enumerate(result.group(group)["name"].values) if text == name]
+
+
+@pytest.mark.parametrize(("epsilon", "barrier", "name"), with_extensive(BARRIERS, MORE_BARRIERS))
+def test_barriers_of_the_inverted_state(kapitza, tmp_path, epsilon, barrier, name):
+    """Each to 1e-8 for its saddle, equal for the mirror image, and on the other side of the saddle another basin."""
+    scene = at(epsilon, 6 if epsilon > 0.3 else 2, starts=40)
+    result, _ = run_scene(kapitza, tmp_path, scene)
+    escape, inverted = result.group("escape"), named(result, "attractors", "inverted")[0]
+    rows = [i for i in range(escape.sizes["route"]) if escape["from"].values[i] == inverted and
+            escape["saddle"].values[i] in named(result, "saddles", name) and escape["is_gate"].values[i]]
+    assert rows and min(abs(escape["barrier"].values[i] / barrier - 1) for i in rows) < 1e-8 + 5e-11 / barrier
+    best = min(rows, key=lambda i: escape["barrier"].values[i])
+    assert escape["before"].values[best] == inverted and escape["into"].values[best] != inverted
+
+
+@pytest.fixture(scope="module")
+def fig12(kapitza, tmp_path_factory):
+    return run_scene(kapitza, tmp_path_factory.mktemp("escape"), at(0.25))
+
+
+def test_a_path_obeys_the_equation_and_costs_its_action(fig12):
+    """The torque of the file, put into the pendulum's equation by differences, leads along the path; its square gives the barrier."""
+    result, summary = fig12
+    escape = result.group("escape")
+    inverted = named(result, "attractors", "inverted")[0]
+    way = int(escape["way_out"].values[inverted])
+    here = escape["path"].values == way
+    time, theta, velocity, torque = (escape[name].values[here] for name in ("time", "theta", "velocity", "torque"))
+    t = 2 * np.pi * time
+    h = t[1] - t[0]
+    k, beta, m = 1 / 121, 1 / 55, 0.25
+    slope = (velocity[:-4] - 8 * velocity[1:-3] + 8 * velocity[3:-1] - velocity[4:]) / (12 * h)
+    inside = slice(2, -2)
+    u = slope + beta * velocity[inside] + (k - m * np.cos(t[inside])) * np.sin(theta[inside])
+    assert np.abs(u - torque[inside]).max() < 0.02 * np.abs(torque).max()
+    assert h * (torque**2).sum() / (4 * beta) == pytest.approx(escape["barrier_out"].values[inverted], rel=1e-3)
+    assert escape["largest_torque"].values[way] == pytest.approx(np.abs(torque).max(), rel=1e-9)
+    assert "Ways out" in summary
+
+
+def test_the_bytes_do_not_depend_on_the_ranks(fig12, kapitza, tmp_path):
+    result, _ = fig12
+    assert datasets(stopped_and_resumed(kapitza, tmp_path, at(0.25), ranks=3).path) == datasets(result.path)
+
+
+def test_incomplete_saddles_and_motions_that_are_no_cycles_are_refused(kapitza, tmp_path):
+    narrow = {**SCENE, "saddles": {"theta": {"min": -1, "max": 1}, "velocity": {"min": -0.2, "max": 0.2}, "max_period": 1}}
+    assert "of the index sums are not 0" in refused_scene(kapitza, tmp_path, narrow, command="run")
+    assert "there is no attractor 99" in refused_scene(kapitza, tmp_path, at(0.25, **{"from": [99]}), command="run")
