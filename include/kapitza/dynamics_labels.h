@@ -14,11 +14,6 @@ typedef enum { KZ_FOLLOW_DIRECT, KZ_FOLLOW_SPARSE, KZ_FOLLOW_SINGLE, KZ_FOLLOW_L
 void kz_dynamics_follow(kz_dynamics *dynamics, kz_stepper stepper, int64_t n, int64_t max_periods, double *state,
                         int32_t *label, int64_t *periods, int64_t *turns);
 
-/* kz_dynamics_follow in quad precision, by Taylor series (kernel.h) with n_steps steps a period. A start is start [i] + low [i], in rad and
- * rad per drive radian; low [n][2] holds digits below the last places of start [n][2]; NULL = zeros. The sums count as exact. */
-void kz_dynamics_follow_reference(kz_dynamics *dynamics, int32_t n_steps, int64_t n, int64_t max_periods, const double *start,
-                                  const double *low, int32_t *label, int64_t *periods);
-
 /* Where an orbit begins. */
 typedef struct {
   double theta[2], velocity[2]; /* rad, rad per drive radian: the sum of two doubles, high and low */
@@ -29,21 +24,17 @@ typedef struct {
 } kz_start;
 
 /* Precision levels at which orbits are followed with their errors, from the cheapest to the finest: the scene's numerics; doubles with
- * more steps (error of a period some 3e-15 rad); pairs of doubles (1e-16, 1e-20, 1e-24, 3e-29); quad precision, by Taylor series; and as
- * many digits as needed. */
+ * more steps (error of a period some 3e-15 rad); pairs of doubles (1e-16, 1e-20, 1e-24, 3e-29); quad precision, by Taylor series. */
 typedef enum {
-  KZ_LEVEL_GUESS =
-      -1, /* as KZ_LEVEL_DOUBLE, but a doubtful orbit is followed on and gets the label of its state without its error */
-  KZ_LEVEL_DOUBLE = 0,
-  KZ_LEVEL_FINE = 1,
-  KZ_LEVEL_PAIRS_16 = 2,
-  KZ_LEVEL_PAIRS_20 = 3,
-  KZ_LEVEL_PAIRS_24 = 4,
-  KZ_LEVEL_PAIRS_28 = 5,
-  KZ_LEVEL_QUAD = 6,
-  KZ_LEVEL_ARBITRARY = 7,
-  KZ_LEVELS = 8
+  KZ_LEVEL_DOUBLE,
+  KZ_LEVEL_FINE,
+  KZ_LEVEL_PAIRS_16,
+  KZ_LEVEL_PAIRS_20,
+  KZ_LEVEL_PAIRS_24,
+  KZ_LEVEL_PAIRS_28,
+  KZ_LEVEL_QUAD
 } kz_precision;
+enum { KZ_LEVELS = KZ_LEVEL_QUAD + 1 };
 /* The label of an orbit whose error has become too large for a label. Any other label, also 0, is decided: the errors cannot change it. */
 enum { KZ_DOUBTFUL = -1 };
 
@@ -53,16 +44,17 @@ typedef struct {
   int16_t label;    /* number of an attractor, 0 = not settled, KZ_DOUBTFUL */
   int16_t other;    /* of a start that no level decides: the second candidate, 0 = none */
   uint8_t evidence; /* 0 = not labelled yet; else how it is known (study/labelling/levels.h), which dynamics does not say */
-  uint8_t next;     /* of a doubtful orbit: the lowest level that may decide it, by the growth of its error */
-  int16_t zero;     /* it and `zeros` are 0: tiles are squeezed, and bytes between members would be anything */
-  int32_t turns;    /* of kz_dynamics_count_turns */
+  uint8_t
+      next; /* of a doubtful orbit: the lowest level that may decide it, by the growth of its error; KZ_LEVELS = none of these */
+  int16_t zero;  /* it and `zeros` are 0: tiles are squeezed, and bytes between members would be anything */
+  int32_t turns; /* of kz_dynamics_count_turns */
   int32_t zeros;
 } kz_label;
 
 /* A label with the orbit behind it. */
 typedef struct {
   kz_label end;
-  int32_t level;   /* the level that decided; KZ_LEVELS = none */
+  bool decided;    /* no error changes the label */
   double error;    /* rad: bound of the orbit's error when it was trapped; meaningless for chaotic or undecided orbits */
   int64_t age;     /* drive periods after which the orbit was left */
   double state[2]; /* where it was then, as kz_dynamics_follow leaves states */
@@ -70,10 +62,15 @@ typedef struct {
   double from;     /* rad: angle of its release */
 } kz_decision;
 
-/* Labels n starts at one level: decision [n]. `before` is the level at which they were doubtful. Each orbit carries its error. It uses the
- * precision of `level` until its error has reached what level `before` would add, then that of `before`, and so on downwards. A trapped
- * orbit is decided. The others get KZ_DOUBTFUL (at KZ_LEVEL_GUESS the label of the state without its error) and level KZ_LEVELS. */
-void kz_dynamics_label(kz_dynamics *dynamics, int32_t level, int32_t before, int64_t n, const kz_start *start,
+/* In what precision orbits are followed with their errors. */
+typedef struct {
+  kz_precision level, before; /* that in which they begin; the one at which they were doubtful */
+  bool guess;           /* a doubtful orbit is followed on and gets the label of its state without its error, not KZ_DOUBTFUL */
+  int32_t series_steps; /* above 0: quad precision throughout, by so many steps a period, as if it had no errors */
+} kz_label_precision;
+/* Labels n starts: decision [n]. Each orbit uses the precision of `level` until its error has reached what level `before` would add, then
+ * that of `before`, and so on downwards. A trapped orbit is decided. */
+void kz_dynamics_label(kz_dynamics *dynamics, const kz_label_precision *precision, int64_t n, const kz_start *start,
                        int64_t max_periods, kz_decision *decision);
 
 /* Fills decision [n].end.turns: net turns from the angle of the release to the middle of the cycle (down or inverted, else its mean),
@@ -83,4 +80,4 @@ void kz_dynamics_count_turns(kz_dynamics *dynamics, int64_t n, int64_t max_perio
 
 /* Moves those of n starts that have spent no periods, with their errors, to the strobe from which on the drive has its final form, in the
  * precision of `level`, where a power lets motions begin before it. An orbit whose error exceeds 1e-4 rad gets a very large error, so that no level decides it. */
-void kz_dynamics_begin(kz_dynamics *dynamics, int32_t level, int64_t n, kz_start *start);
+void kz_dynamics_begin(kz_dynamics *dynamics, kz_precision level, int64_t n, kz_start *start);

@@ -127,6 +127,7 @@ typedef struct {
 } kz_cost;
 
 typedef struct kz_basin_part kz_basin_part;
+typedef struct kz_level kz_level;
 typedef struct kz_sweep_part kz_sweep_part;
 typedef struct kz_dynamics kz_dynamics;
 /* A key of a scene (study_keys.h). */
@@ -158,6 +159,9 @@ typedef struct {
   /* It is a part of the study basin, whose run does its work (src/study/basin/label.h); NULL = it is not. */
   const kz_basin_part *of_basin;
   const kz_sweep_part *of_sweep; /* part for the study sweep (src/study/sweep/part.h) */
+  /* Precision levels that it adds to the core's (src/study/labelling/levels.h), with their evidence. */
+  const kz_level *levels;
+  int32_t n_levels;
   /* The window of its starts: theta and velocity, if it follows them by the scene's own pendulum and numerics; no function = it does not. */
   void (*window)(const kz_scene *scene, const kz_axis *axis[2]);
   /* The complaint if the scene asks for what needs this of drive or starts; NULL = it does not, or no function. */

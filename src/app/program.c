@@ -63,21 +63,19 @@ static kz_status refuse_together(kz_options *options) {
   return kz_fail(KZ_REFUSED, "%s", message);
 }
 
-/* The first word: a command, or an option of the program itself. */
-static kz_status dispatch(int argc, char **argv, kz_options *options) {
+/* The command that the first word names; *command stays NULL where an option of the program itself has been answered. */
+static kz_status find_command(int argc, char **argv, kz_options *options, const kz_command **command) {
   char names[128] = "", nearest[64];
   if (argc < 2) return kz_fail(KZ_REFUSED, "no command; kapitza run SCENE, or kapitza --help");
-  char *asked[] = {argv[0], argc > 2 ? argv[2] : "--help", "--help", NULL}; /* kapitza help [COMMAND] */
-  if (strcmp(argv[1], "help") == 0) return dispatch(argc > 2 ? 3 : 2, asked, options);
   if (argv[1][0] == '-') {
     KZ_TRY(kz_options_read(&kz_program, argc, argv, options));
     return options->answered ? agree_alone(options) : kz_fail(KZ_REFUSED, "no command; kapitza run SCENE, or kapitza --help");
   }
-  const kz_command *command;
-  for (int i = 0; (command = kz_commands[i]); i++) {
-    if (strcmp(argv[1], command->name) == 0) return carry_out(command, argc - 1, argv + 1, options);
-    kz_words_add(names, sizeof names, command->name);
+  for (int i = 0; kz_commands[i]; i++) {
+    if (strcmp(argv[1], kz_commands[i]->name) == 0) *command = kz_commands[i];
+    kz_words_add(names, sizeof names, kz_commands[i]->name);
   }
+  if (*command) return KZ_OK;
 #define MISSING(name, power) \
   if (strcmp(argv[1], #name) == 0) return kz_fail(KZ_REFUSED, "%s: " KZ_MISSING_POWER, #name, #power);
   KZ_MISSING_COMMANDS(MISSING)
@@ -115,7 +113,14 @@ kz_status kz_app(int argc, char **argv) {
   options.words = options.line + strcspn(options.line, " ");
   options.sets = kz_calloc((size_t)argc + 1, sizeof *options.sets);
   options.joined = kz_calloc((size_t)argc + 1, sizeof *options.joined);
-  kz_status status = dispatch(argc, argv, &options);
+  char *asked[] = {argv[0], argc > 2 ? argv[2] : "--help", "--help", NULL}; /* kapitza help [COMMAND] */
+  if (argc > 1 && strcmp(argv[1], "help") == 0) {
+    argc = argc > 2 ? 3 : 2;
+    argv = asked;
+  }
+  const kz_command *command = NULL;
+  kz_status status = find_command(argc, argv, &options, &command);
+  if (command) status = carry_out(command, argc - 1, argv + 1, &options);
   if (status == KZ_REFUSED && !options.compared) status = refuse_together(&options);
   while (options.n_joined > 0) free(options.joined[--options.n_joined]);
   free(options.joined);

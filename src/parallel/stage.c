@@ -95,36 +95,35 @@ static kz_status work_tile(const kz_stage *stage, int64_t tile, void *record) {
   return stage->items(stage->context, tile / tiles * stage->n_items + first, left < stage->batch ? left : stage->batch, record);
 }
 
-static kz_status do_tile(stage_run *run, int64_t tile) {
+/* Where the record of a tile is made. */
+static void *record_of(stage_run *run, int64_t tile) {
   const kz_stage *stage = run->stage;
-  void *record;
-  if (stage->local)
-    record = memset(run->buffer, 0, stage->record_bytes);
-  else if (run->ranks->rank == 0)
-    record = memset(run->records + (size_t)tile * stage->record_bytes, 0, stage->record_bytes);
-  else
-    record = kz_record_buffer_add(&run->buffered, tile);
-  KZ_TRY(work_tile(stage, tile, record));
-  if (stage->local) kz_local_records_add(stage->local, tile, record, *(uint64_t *)record);
-  return run->kept ? kz_section_save(run->checkpoint, &run->section, tile, record) : KZ_OK;
+  if (stage->local) return memset(run->buffer, 0, stage->record_bytes);
+  if (run->ranks->rank != 0) return kz_record_buffer_add(&run->buffered, tile);
+  return memset(run->records + (size_t)tile * stage->record_bytes, 0, stage->record_bytes);
 }
 
 /* Draws and does tiles until none is left; whoever cannot go on halts all ranks. */
 static kz_status do_tiles(stage_run *run) {
+  const kz_stage *stage = run->stage;
   for (;;) {
     int64_t drawn;
     KZ_TRY(kz_dispatch_next(&run->dispatch, &drawn));
     if (drawn < 0) return KZ_OK;
-    kz_meter_show(&run->meter, run->stage->n_tiles - run->n_left + drawn);
+    kz_meter_show(&run->meter, stage->n_tiles - run->n_left + drawn);
     const int64_t tile = run->left ? run->left[drawn] : drawn;
     const kz_stopwatch watch = kz_stopwatch_start();
     kz_status status = kz_ranks_interrupted(run->ranks);
-    if (status == KZ_OK) status = do_tile(run, tile);
-    kz_work_note(&run->work, tile, &watch);
-    if (status != KZ_OK) {
-      KZ_TRY(kz_dispatch_halt(&run->dispatch));
-      return status;
+    if (status == KZ_OK) {
+      void *record = record_of(run, tile);
+      status = work_tile(stage, tile, record);
+      if (status == KZ_OK && stage->local) kz_local_records_add(stage->local, tile, record, *(uint64_t *)record);
+      if (status == KZ_OK && run->kept) status = kz_section_save(run->checkpoint, &run->section, tile, record);
     }
+    kz_work_note(&run->work, tile, &watch);
+    if (status == KZ_OK) continue;
+    KZ_TRY(kz_dispatch_halt(&run->dispatch));
+    return status;
   }
 }
 
@@ -151,35 +150,12 @@ static kz_status work_collectively(stage_run *run) {
   return KZ_OK;
 }
 
-static kz_status dispatch_tiles(stage_run *run) {
-  kz_dispatch_begin(&run->dispatch, run->ranks, run->n_left);
-  const kz_status status = do_tiles(run);
-  const kz_status ended = kz_dispatch_end(&run->dispatch);
-  return kz_ranks_agree(run->ranks, status == KZ_OK ? ended : status);
-}
-
 static kz_status deliver(stage_run *run) {
   const kz_stage *stage = run->stage;
   if (stage->local) return KZ_OK;
   KZ_TRY(kz_record_buffer_deliver(&run->buffered, run->ranks, run->buffer, run->records));
   if (!stage->everywhere) return KZ_OK;
   return kz_ranks_broadcast(run->ranks, run->records, (size_t)stage->n_tiles * stage->record_bytes);
-}
-
-static kz_status run_stage(stage_run *run) {
-  KZ_TRY(kz_ranks_agree(run->ranks, prepare(run)));
-  if (run->kept) KZ_TRY(recall(run));
-  kz_meter_begin(&run->meter, run->ranks, run->stage->name, run->stage->n_tiles, run->stage->n_tiles - run->n_left);
-  double idle = 0;
-  run->work = (kz_work){.ranks = run->ranks, .stage = run->stage->name};
-  const kz_stopwatch watch = kz_stopwatch_start();
-  const bool collective = run->stage->collective;
-  kz_status status = collective ? kz_ranks_agree(run->ranks, work_collectively(run)) : dispatch_tiles(run);
-  kz_work_end(&run->work);
-  if (status == KZ_OK && !collective) status = kz_timing_note(run->ranks, run->n_left, &watch, &run->work, &idle);
-  kz_meter_end(&run->meter, status == KZ_OK, idle);
-  KZ_TRY(status);
-  return deliver(run);
 }
 
 /* This process alone, in order. */
@@ -193,17 +169,40 @@ static kz_status run_alone(const kz_stage *stage, char *records) {
   return KZ_OK;
 }
 
+static void end_run(stage_run *run) {
+  kz_record_buffer_end(&run->buffered);
+  free(run->buffer);
+  free(run->left);
+}
+
 kz_status kz_stage_run(const kz_run *on, const kz_stage *stage, void *records) {
   if (!on || !on->ranks) return run_alone(stage, records);
+  KZ_FREED_BY(end_run)
   stage_run run = {.ranks = on->ranks,
                    .checkpoint = on->checkpoint,
                    .stage = stage,
                    .records = records,
                    .kept = stage->keep && on->checkpoint,
                    .n_left = stage->n_tiles};
-  const kz_status status = run_stage(&run);
-  kz_record_buffer_end(&run.buffered);
-  free(run.buffer);
-  free(run.left);
-  return status;
+  KZ_TRY(kz_ranks_agree(run.ranks, prepare(&run)));
+  if (run.kept) KZ_TRY(recall(&run));
+  kz_meter_begin(&run.meter, run.ranks, stage->name, stage->n_tiles, stage->n_tiles - run.n_left);
+  double idle = 0;
+  run.work = (kz_work){.ranks = run.ranks, .stage = stage->name};
+  const kz_stopwatch watch = kz_stopwatch_start();
+  const bool collective = stage->collective;
+  kz_status status, ended = KZ_OK;
+  if (collective) {
+    status = work_collectively(&run);
+  } else {
+    kz_dispatch_begin(&run.dispatch, run.ranks, run.n_left);
+    status = do_tiles(&run);
+    ended = kz_dispatch_end(&run.dispatch);
+  }
+  status = kz_ranks_agree(run.ranks, status == KZ_OK ? ended : status);
+  kz_work_end(&run.work);
+  if (status == KZ_OK && !collective) status = kz_timing_note(run.ranks, run.n_left, &watch, &run.work, &idle);
+  kz_meter_end(&run.meter, status == KZ_OK, idle);
+  KZ_TRY(status);
+  return deliver(&run);
 }

@@ -12,7 +12,7 @@ FORTRAN = sorted(SOURCES.rglob("*.f90"))
 
 # The same number, by its name in C and by the one that gfortran takes.
 KINDS = {"int32_t": "int", "int64_t": "long", "uint64_t": "long", "uint8_t": "signed char", "int16_t": "short", "__float128": "float128",
-         "kz_status": "int", "kz_stepper": "int"}
+         "kz_status": "int", "kz_stepper": "int", "kz_precision": "int"}
 
 
 def without_comments(text):
@@ -111,7 +111,6 @@ def test_c_structures_are_the_fortran_types(entries):
 # (Fortran module, its name, name in C)
 SHARED = [("kz_vector_map", "WIDTH", "KZ_LANES"),
           *(("kz_labels_levels", f"LEVEL_{name}", f"KZ_LEVEL_{name}") for name in ("FINE", "PAIRS_16", "PAIRS_28", "QUAD")),
-          ("kz_labels_levels", "NO_LEVEL", "KZ_LEVELS"),
           ("kz_taylor_taylor", "TAYLOR_STEPS", "KZ_REFERENCE_STEPS"),
           ("kz_processed_stages", "TERMS", "TERMS"),
           ("kz_model_pendulum", "MOST_HARMONICS", "KZ_HARMONICS")]

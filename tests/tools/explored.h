@@ -78,12 +78,17 @@ static inline void with_table(kz_dynamics *d, int64_t nodes, double max_velocity
   free(rows);
 }
 
-/* Labels of n <= 4096 starts (rad) at a level of precision. */
-static inline void label_starts(kz_dynamics *d, int32_t level, int64_t n, const double *start, int32_t *label) {
+/* A level for orbits that are doubtful at the one before it. */
+static inline kz_label_precision next_cheaper(kz_precision level) {
+  return (kz_label_precision){.level = level, .before = level > 0 ? level - 1 : 0};
+}
+
+/* Labels of n <= 4096 starts (rad). */
+static inline void label_starts(kz_dynamics *d, kz_label_precision precision, int64_t n, const double *start, int32_t *label) {
   static kz_start starts[4096];
   static kz_decision decision[4096];
   for (int64_t i = 0; i < n; i++) starts[i] = (kz_start){.theta = {start[2 * i]}, .velocity = {start[2 * i + 1]}};
-  kz_dynamics_label(d, level, level > 0 ? level - 1 : 0, n, starts, 2000, decision);
+  kz_dynamics_label(d, &precision, n, starts, 2000, decision);
   for (int64_t i = 0; i < n; i++) label[i] = decision[i].end.label;
 }
 

@@ -103,14 +103,15 @@ static void decide(kz_dynamics *d, int n, const kz_start *start, kz_decision *de
   static int place[MOST];
   int left = n;
   for (int i = 0; i < n; i++) place[i] = i;
-  for (int32_t level = KZ_LEVEL_DOUBLE; level < KZ_LEVEL_ARBITRARY && left > 0; level++) {
+  for (int32_t level = KZ_LEVEL_DOUBLE; level < KZ_LEVELS && left > 0; level++) {
+    const kz_label_precision precision = {.level = (kz_precision)level, .before = (kz_precision)(level > 0 ? level - 1 : 0)};
     int still = 0;
     for (int i = 0; i < left; i++) some[i] = start[place[i]];
-    kz_dynamics_begin(d, level, left, some);
-    kz_dynamics_label(d, level, level > 0 ? level - 1 : 0, left, some, MAX_PERIODS, found);
+    kz_dynamics_begin(d, precision.level, left, some);
+    kz_dynamics_label(d, &precision, left, some, MAX_PERIODS, found);
     for (int i = 0; i < left; i++) {
       decision[place[i]] = found[i];
-      decision[place[i]].level = level;
+      decision[place[i]].end.next = (uint8_t)level; /* the one that decides */
       if (found[i].end.label == KZ_DOUBTFUL) place[still++] = place[i];
     }
     left = still;
@@ -130,14 +131,14 @@ static void judge(kz_dynamics *d, const kz_pendulum *p, int n, const kz_start *s
   for (int i = 0; i < n; i++) {
     if (decision[i].end.label <= 0 || (label[i] == 0 && periods < MAX_PERIODS)) continue;
     c->decided++;
-    c->by_level[decision[i].level]++;
+    c->by_level[decision[i].end.next]++;
     c->wrong += decision[i].end.label != label[i];
   }
 }
 
 static void show(const char *name, size_t which, const counts *c) {
   print_message("%s %d: %d of %d decided wrongly; by level", name, (int)which, c->wrong, c->decided);
-  for (int level = 0; level < KZ_LEVEL_ARBITRARY; level++) print_message(" %d", c->by_level[level]);
+  for (int level = 0; level < KZ_LEVELS; level++) print_message(" %d", c->by_level[level]);
   print_message("\n");
 }
 
@@ -203,8 +204,11 @@ TEST(test_decisions_have_no_history) {
   for (int again = 0; again < 2; again++) {
     kz_dynamics *d = explored_pendulum(&pendulums[4], numerics(), 1, 0, 3);
     kz_dynamics_fine_regions(d, 200, 3);
-    if (again) kz_dynamics_label(d, KZ_LEVEL_PAIRS_16, KZ_LEVEL_FINE, N, start, MAX_PERIODS, first);
-    kz_dynamics_label(d, KZ_LEVEL_PAIRS_20, KZ_LEVEL_PAIRS_16, N, start, MAX_PERIODS, decision[again]);
+    if (again)
+      kz_dynamics_label(d, &(kz_label_precision){.level = KZ_LEVEL_PAIRS_16, .before = KZ_LEVEL_FINE}, N, start, MAX_PERIODS,
+                        first);
+    kz_dynamics_label(d, &(kz_label_precision){.level = KZ_LEVEL_PAIRS_20, .before = KZ_LEVEL_PAIRS_16}, N, start, MAX_PERIODS,
+                      decision[again]);
     kz_dynamics_free(d);
   }
   for (int i = 0; i < N; i++) {

@@ -68,7 +68,7 @@ static void close_view(view *v) {
   kz_scene_free(&v->scene);
 }
 
-static kz_status start_cell(void *context, int64_t cell, int32_t level, kz_start *start) {
+static kz_status start_cell(void *context, int64_t cell, kz_precision level, kz_start *start) {
   const view *v = context;
   const kz_basin_plan *plan = v->scene.basin;
   kz_hand_over_start(&v->hand_over[level], kz_axis_share(&plan->theta, cell % COUNT),

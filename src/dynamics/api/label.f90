@@ -1,13 +1,13 @@
 !> The C interface of dynamics: labels with errors, and starts until the first strobe of the final drive
 !> (include/kapitza/dynamics_labels.h).
 module kz_api_label
-  use, intrinsic :: iso_c_binding, only: dp => c_double, c_int8_t, c_int32_t, c_int64_t, c_ptr
+  use, intrinsic :: iso_c_binding, only: dp => c_double, c_bool, c_int8_t, c_int32_t, c_int64_t, c_ptr
   use kz_api_dynamics, only: dynamics_t, of_handle
   use kz_taylor_pairs, only: pair_of, quad_of
   use kz_taylor_taylor, only: drive_t, make_drive, doubles_of, qp, PI_QUAD
   use kz_vector_locks, only: take_lock, leave_lock
   use kz_labels_carrier, only: carrier_t, orbit_t, make_exact_carrier
-  use kz_labels_levels, only: prepare_level, carrier_of, is_useful, outlook_from, LEVEL_DOUBLE, LEVEL_FINE, LEVEL_QUAD, NO_LEVEL
+  use kz_labels_levels, only: prepare_level, carrier_of, is_useful, outlook_from, LEVEL_DOUBLE, LEVEL_FINE, LEVEL_QUAD
   use kz_labels_orbits, only: decision_t, outlook_t, follow_orbits, DOUBTFUL, PENDING
   use kz_labels_spread, only: add_ellipse
   use kz_vector_map, only: PI
@@ -15,8 +15,6 @@ module kz_api_label
   implicit none
   private
 
-  !> Of dynamics_labels.h: the scene's numerics, where doubtful orbits are followed on.
-  integer, parameter :: LEVEL_GUESS = -1
   !> An orbit is followed at the next cheaper level once its error is so many times what that adds in a period.
   real(dp), parameter :: RATIO = 30
 
@@ -30,11 +28,18 @@ module kz_api_label
     integer(c_int64_t) :: turns = 0
   end type start_t
 
+  !> kz_label_precision of dynamics_labels.h.
+  type, bind(C) :: precision_t
+    integer(c_int32_t) :: level, before
+    logical(c_bool) :: guess
+    integer(c_int32_t) :: series_steps
+  end type precision_t
+
 contains
 
-  subroutine label_starts(handle, level, before, n, start, max_periods, decision) bind(C, name='kz_dynamics_label')
+  subroutine label_starts(handle, precision, n, start, max_periods, decision) bind(C, name='kz_dynamics_label')
     type(c_ptr), value :: handle
-    integer(c_int32_t), value :: level, before
+    type(precision_t), intent(in) :: precision
     integer(c_int64_t), value :: n
     type(start_t), intent(in) :: start(n)
     integer(c_int64_t), value :: max_periods
@@ -46,35 +51,17 @@ contains
     logical :: early
 
     d => of_handle(handle)
-    early = level == LEVEL_QUAD .and. before <= LEVEL_FINE
-    call label_some(d, int(level), int(before), early, max_periods, start, decision)
-    if (level /= LEVEL_QUAD) return
+    early = precision%level == LEVEL_QUAD .and. precision%before <= LEVEL_FINE
+    call label_orbits(d, precision, early, max_periods, start, decision)
+    if (precision%level /= LEVEL_QUAD .or. precision%series_steps > 0) return
     ! Quad precision to its last digit: leaving it early, or for pairs of doubles, adds errors.
     place = pack([(i, i=1, n)], decision%end%label == DOUBTFUL .and. (early .or. decision%end%next == LEVEL_QUAD))
     allocate (found(size(place)))
     if (size(place) > 0) &
-      call label_some(d, int(level), min(int(before), LEVEL_FINE), .false., max_periods, start(place), found)
+      call label_orbits(d, precision_t(LEVEL_QUAD, min(precision%before, LEVEL_FINE), .false._c_bool, 0), .false., max_periods, &
+                        start(place), found)
     decision(place) = found
   end subroutine label_starts
-
-  !> Labels starts at a level. `early`: orbits leave it as soon as half of its digits are used up, which decides most of them in half of the time.
-  subroutine label_some(d, level, before, early, most, start, decision)
-    type(dynamics_t), intent(inout), target :: d
-    integer, intent(in) :: level, before
-    logical, intent(in) :: early
-    integer(c_int64_t), intent(in) :: most
-    type(start_t), intent(in) :: start(:)
-    type(decision_t), intent(out) :: decision(:)
-    type(orbit_t), allocatable :: orbit(:)
-    integer :: i
-
-    allocate (orbit(size(start)))
-    do i = 1, size(start)
-      call begin_orbit(start(i), level > LEVEL_DOUBLE, orbit(i))
-      decision(i)%from = angle_of_release(start(i))
-    end do
-    call label_orbits(d, level, before, early, most, orbit, decision)
-  end subroutine label_some
 
   !> The orbit of a start. The start is known to the last place of its double, or, with `precisely`, to the last place of the pair.
   pure subroutine begin_orbit(start, precisely, orbit)
@@ -111,35 +98,45 @@ contains
   end function angle_of_release
 
   !> Orbits begin at a level and go down from level to level as their errors grow.
-  subroutine label_orbits(d, level, before, early, most, orbit, decision)
+  subroutine label_orbits(d, precision, early, most, start, decision)
     type(dynamics_t), intent(inout), target :: d
-    integer, intent(in) :: level, before
-    logical, intent(in) :: early !< of quad precision
+    type(precision_t), intent(in) :: precision
+    logical, intent(in) :: early !< they leave quad precision as soon as half of its digits are used up, which decides most of them in half of the time
     integer(c_int64_t), intent(in) :: most
-    type(orbit_t), intent(inout) :: orbit(:)
-    type(decision_t), intent(inout) :: decision(:)
+    type(start_t), intent(in) :: start(:)
+    type(decision_t), intent(out) :: decision(:)
+    type(drive_t), target :: drive
     type(carrier_t) :: carrier
-    type(orbit_t), allocatable :: some(:)
+    type(orbit_t), allocatable :: orbit(:), some(:)
     type(decision_t), allocatable :: found(:)
     integer, allocatable :: place(:)
     type(outlook_t) :: outlook
     real(dp) :: handover
-    integer(c_int32_t) :: decided
-    integer :: now, next, i
+    integer :: level, now, next, i
 
-    call prepare(d, LEVEL_DOUBLE)
-    now = max(level, LEVEL_DOUBLE)
-    decided = now
-    if (.not. is_useful(d%levels, now)) then
-      decision%end%label = DOUBTFUL
-      decision%level = NO_LEVEL
-      decision%end%next = int(now + 1, c_int8_t)
+    level = precision%level
+    allocate (orbit(size(start)))
+    do i = 1, size(start)
+      call begin_orbit(start(i), level > LEVEL_DOUBLE, orbit(i))
+      decision(i)%from = angle_of_release(start(i))
+    end do
+    if (precision%series_steps > 0) then
+      call make_drive(drive, d%search%pendulum, int(precision%series_steps))
+      call make_exact_carrier(d%search%flow, drive, carrier)
+      call follow_orbits(carrier, d%regions, d%attractors, most, huge(1.0_dp), .false., outlook, orbit, decision)
       return
     end if
-    call prepare(d, now)
-    outlook = outlook_from(d%levels, now)
+    call prepare(d, LEVEL_DOUBLE)
+    if (.not. is_useful(d%levels, level)) then
+      decision%end%label = DOUBTFUL
+      decision%end%next = int(level + 1, c_int8_t)
+      return
+    end if
+    call prepare(d, level)
+    outlook = outlook_from(d%levels, level)
+    now = level
     do
-      next = merge(before, now - 1, now == level)
+      next = merge(int(precision%before), now - 1, now == level)
       if (.not. is_useful(d%levels, next)) next = next - 1
       handover = huge(handover)
       call prepare(d, now)
@@ -150,11 +147,12 @@ contains
       end if
       call carrier_of(d%levels, now, d%flow, carrier)
       if (.not. allocated(place)) then ! most orbits need no more: they are not copied
-        call follow_orbits(carrier, d%regions, d%attractors, most, handover, level == LEVEL_GUESS, decided, outlook, orbit, decision)
+        call follow_orbits(carrier, d%regions, d%attractors, most, handover, logical(precision%guess), outlook, orbit, &
+                           decision)
       else
         some = orbit(place)
         found = decision(place)
-        call follow_orbits(carrier, d%regions, d%attractors, most, handover, .false., decided, outlook, some, found)
+        call follow_orbits(carrier, d%regions, d%attractors, most, handover, .false., outlook, some, found)
         orbit(place) = some
         decision(place) = found
       end if
@@ -174,37 +172,6 @@ contains
     call prepare_level(d%levels, level, d%flow, d%regions%top)
     call leave_lock(d%lock)
   end subroutine prepare
-
-  subroutine follow_reference(handle, n_steps, n, max_periods, start, low, label, periods) &
-    bind(C, name='kz_dynamics_follow_reference')
-    type(c_ptr), value :: handle
-    integer(c_int32_t), value :: n_steps
-    integer(c_int64_t), value :: n, max_periods
-    real(dp), intent(in) :: start(2, n)
-    real(dp), intent(in), optional :: low(2, n)
-    integer(c_int32_t), intent(out) :: label(n)
-    integer(c_int64_t), intent(out) :: periods(n)
-    type(dynamics_t), pointer :: d
-    type(drive_t), target :: drive
-    type(carrier_t) :: carrier
-    type(orbit_t), allocatable :: orbit(:)
-    type(decision_t), allocatable :: decision(:)
-    real(dp) :: rest(2)
-    integer(c_int64_t) :: i
-
-    d => of_handle(handle)
-    call make_drive(drive, d%search%pendulum, int(n_steps))
-    call make_exact_carrier(d%search%flow, drive, carrier)
-    allocate (orbit(n), decision(n))
-    do i = 1, n
-      rest = 0
-      if (present(low)) rest = low(:, i)
-      call begin_orbit(start_t([start(1, i), rest(1)], [start(2, i), rest(2)], 0, 0), .true., orbit(i))
-    end do
-    call follow_orbits(carrier, d%regions, d%attractors, max_periods, huge(1.0_dp), .false., 0_c_int32_t, outlook_t(), orbit, decision)
-    label = decision%end%label
-    periods = decision%end%periods
-  end subroutine follow_reference
 
   subroutine begin_starts(handle, level, n, start) bind(C, name='kz_dynamics_begin')
     type(c_ptr), value :: handle

@@ -13,7 +13,7 @@ module kz_attractors_running
   use kz_cycles_cycles, only: attractor_t, RUNNING
   use kz_cycles_features, only: ROTATING
   use kz_grown_bands, only: find_band, has_band
-  use kz_grown_curves, only: curve_t, is_locked, mean_turns, node, resample, NODES
+  use kz_grown_curves, only: curve_t, is_locked, mean_turns, node, resample, window_weight, NODES
   use kz_grown_grid, only: regions_t, find_regions, cover_cell, COVER
   use kz_maps_states, only: states_to_physical
   use kz_model_pendulum, only: is_driven
@@ -179,7 +179,7 @@ contains
       turns_before = flow%turns(:n)
       call flow%advance_tangent(n, record%tangent)
       call find_regions(regions, attractors, n, flow%u(:n), flow%v(:n), region)
-      weight = exp(-1/(real(period, dp)/(WINDOW + 1)*(1 - real(period, dp)/(WINDOW + 1))))
+      weight = window_weight(period, WINDOW)
       weights = weights + weight
       do i = 1, n
         length = norm2(record%tangent(:, 1, i))

@@ -21,8 +21,6 @@ module kz_labels_levels
   !> Levels of dynamics_labels.h.
   integer, parameter, public :: LEVEL_DOUBLE = 0
   integer, parameter, public :: LEVEL_FINE = 1, LEVEL_PAIRS_16 = 2, LEVEL_PAIRS_28 = 5, LEVEL_QUAD = 6
-  !> KZ_LEVELS of dynamics_labels.h.
-  integer, parameter, public :: NO_LEVEL = 8
   !> rad: of a period in double precision with more steps; with most steps of all.
   real(dp), parameter :: FINE_ERROR = 1e-14_dp
   integer, parameter :: FEWEST_FINE_STEPS = 48, MOST_FINE_STEPS = 320
@@ -142,7 +140,6 @@ contains
     integer, intent(in) :: level !< LEVEL_DOUBLE or a finer one
     type(outlook_t) :: outlook
 
-    outlook%none = NO_LEVEL
     if (level == LEVEL_QUAD) then
       outlook%next = LEVEL_QUAD
       outlook%after = LEVEL_QUAD + 1

@@ -1,7 +1,7 @@
 !> Follows many orbits with the ellipses of their errors. An orbit ends when a trapping region holds its whole ellipse. If the ellipse grows
 !> too large for that, the orbit is doubtful, or goes on in the next cheaper precision.
 module kz_labels_orbits
-  use, intrinsic :: iso_c_binding, only: dp => c_double, c_int64_t, c_int32_t, c_int16_t, c_int8_t
+  use, intrinsic :: iso_c_binding, only: dp => c_double, c_int64_t, c_int32_t, c_int16_t, c_int8_t, c_bool
   use kz_cycles_cycles, only: attractor_t, RUNNING
   use kz_grown_grid, only: regions_t, find_regions, chaos_region, cell_holds
   use kz_labels_nonlinear, only: measure_nonlinear, SAFETY
@@ -40,7 +40,7 @@ module kz_labels_orbits
   !> kz_decision of dynamics_labels.h: a label with the orbit behind it.
   type, bind(C) :: decision_t
     type(label_t) :: end
-    integer(c_int32_t) :: level = 0       !< no error changes the label, at this level
+    logical(c_bool) :: decided = .false.  !< no error changes the label
     real(dp) :: error = 0                 !< how far the orbit may be off then, rad
     integer(c_int64_t) :: age = 0         !< periods after which it was left
     real(dp) :: state(2) = 0              !< where it was then, in the map's coordinates
@@ -52,7 +52,6 @@ module kz_labels_orbits
   !> end or the error is larger than `reach`: then the next level would not decide it either.
   type :: outlook_t
     integer(c_int32_t) :: next = 0, after = 0 !< the level that follows, and the one behind it
-    integer(c_int32_t) :: none = 0            !< stands for the level of an orbit that is not decided
     real(dp) :: reach = TOLERABLE             !< rad
   end type outlook_t
 
@@ -66,8 +65,7 @@ module kz_labels_orbits
     integer(c_int64_t) :: most = 0      !< age up to which orbits are followed
     real(dp) :: handover = 0            !< rad: an orbit with a larger error goes on elsewhere
     logical :: guess = .false.          !< doubtful orbits are followed on without their errors
-    integer(c_int32_t) :: level = 0     !< that decides
-    type(outlook_t) :: outlook          !< from it
+    type(outlook_t) :: outlook          !< from the level that decides
     real(dp) :: ellipse(CAPACITY, 3) = 0 !< of the errors
     real(dp) :: trace(WIDTH) = 0        !< of those of active orbits
     integer :: first(CAPACITY) = 0      !< the first region that held the state alone, 0 = none yet
@@ -84,15 +82,14 @@ contains
 
   !> Follows orbits up to age `most`. decision(i)%end%label = PENDING and the orbit as it is then where its error has reached `handover`, if
   !> that is below TOLERABLE.
-  subroutine follow_orbits(carrier, regions, attractors, most, handover, guess, level, outlook, orbit, decision)
+  subroutine follow_orbits(carrier, regions, attractors, most, handover, guess, outlook, orbit, decision)
     type(carrier_t), intent(inout), target :: carrier !< what moves the orbits by one period
     type(regions_t), intent(in), target :: regions !< the trapping regions
     type(attractor_t), intent(in), target :: attractors(:) !< the catalogue, numbered from 1
     integer(c_int64_t), intent(in) :: most !< periods
     real(dp), intent(in) :: handover !< rad
     logical, intent(in) :: guess !< follow doubtful orbits on, to where the states alone end
-    integer(c_int32_t), intent(in) :: level !< that decides
-    type(outlook_t), intent(in) :: outlook !< from it
+    type(outlook_t), intent(in) :: outlook !< from the level that decides
     type(orbit_t), intent(inout), target :: orbit(:) !< [n] in and out
     type(decision_t), intent(inout), target :: decision(:) !< [n] as they are made, in; out
     type(orbits_t) :: orbits
@@ -105,7 +102,6 @@ contains
     orbits%most = most
     orbits%handover = handover
     orbits%guess = guess
-    orbits%level = level
     orbits%outlook = outlook
     orbits%items = size(orbit)
     call orbits%run()
@@ -293,7 +289,7 @@ contains
     next = 0
     if (label == DOUBTFUL) next = int(merge(self%outlook%after, self%outlook%next, is_beyond(self, lane)), c_int8_t)
     self%decision(self%number(lane)) = decision_t(label_t(periods, int(label, c_int16_t), next=next), &
-                                                  merge(self%level, self%outlook%none, decided), error, self%age(lane), &
+                                                  logical(decided, c_bool), error, self%age(lane), &
                                                   [self%carrier%flow%u(lane), self%carrier%flow%v(lane)], &
                                                   self%carrier%turns_of(lane), self%decision(self%number(lane))%from)
   end subroutine note_end

@@ -78,64 +78,70 @@ typedef struct {
 } reference_job;
 
 /* The distance from each of n cells, along the axes, at which the label differs, in double precision. */
-static void find_distances(const reference_job *h, int64_t n, const int64_t *cell, kz_reference_label *labels) {
+static kz_status find_distances(const reference_job *h, int64_t n, const int64_t *cell, kz_reference_label *labels) {
   const kz_basin_plan *plan = h->reference->plan;
-  double state[8 * TILE];
-  int32_t label[4 * TILE];
-  int64_t periods[4 * TILE];
+  double start[8 * TILE];
+  kz_label end[4 * TILE];
+  const kz_labeller labeller = kz_pair_labeller(start, plan->max_periods, KZ_BY_STATES, h->dynamics);
   for (int64_t i = 0; i < n; i++) labels[i].distance = KZ_REFERENCE_FAR;
   for (int distance = KZ_REFERENCE_FAR / 2; distance > 0; distance /= 2) {
     const int64_t aside[4][2] = {{-distance, 0}, {distance, 0}, {0, -distance}, {0, distance}};
     for (int64_t i = 0; i < 4 * n; i++) {
       const int64_t *by = aside[i % 4], f = cell[i / 4];
-      kz_start_state(kz_axis_centre(&plan->theta, f % plan->theta.count + by[0]),
-                     kz_axis_centre(&plan->velocity, f / plan->theta.count + by[1]), state + 2 * i);
+      start[2 * i] = kz_axis_centre(&plan->theta, f % plan->theta.count + by[0]);
+      start[2 * i + 1] = kz_axis_centre(&plan->velocity, f / plan->theta.count + by[1]);
     }
-    kz_dynamics_follow(h->dynamics, KZ_FOLLOW_DIRECT, 4 * n, plan->max_periods, state, label, periods, NULL);
+    KZ_TRY(kz_label_items(&labeller, 1, 4 * n, NULL, end));
     for (int64_t i = 0; i < 4 * n; i++)
-      if (label[i] != labels[i / 4].end.label) labels[i / 4].distance = (uint8_t)distance;
+      if (end[i].label != labels[i / 4].end.label) labels[i / 4].distance = (uint8_t)distance;
   }
+  return KZ_OK;
 }
 
-static void follow(const reference_job *h, int32_t steps, int64_t n, const double *start, int32_t *label, int64_t *periods) {
-  kz_dynamics_follow_reference(h->dynamics, steps, n, h->reference->plan->max_periods, start, NULL, label, periods);
+static void follow(const reference_job *h, int32_t steps, int64_t n, const kz_start *start, kz_decision *end) {
+  const kz_label_precision quads = {.level = KZ_LEVEL_QUAD, .series_steps = steps};
+  kz_dynamics_label(h->dynamics, &quads, n, start, h->reference->plan->max_periods, end);
 }
 
 /* Whether every ASKED-th cell comes out the same with another number of steps. */
-static void compare_steps(const reference_job *h, int64_t first, int64_t n, const double *start, kz_reference_label *labels) {
-  double asked[2 * TILE];
-  int32_t label[TILE];
-  int64_t periods[TILE], place[TILE], n_asked = 0;
+static void compare_steps(const reference_job *h, int64_t first, int64_t n, const kz_start *start, kz_reference_label *labels) {
+  kz_start asked[TILE] = {0};
+  kz_decision end[TILE];
+  int64_t place[TILE], n_asked = 0;
   for (int64_t i = 0; i < n; i++) {
     labels[i].agrees = 2;
     if ((first + i) % ASKED != 0) continue;
-    memcpy(asked + 2 * n_asked, start + 2 * i, 2 * sizeof(double));
+    asked[n_asked] = start[i];
     place[n_asked++] = i;
   }
-  follow(h, OTHER_STEPS, n_asked, asked, label, periods);
-  for (int64_t i = 0; i < n_asked; i++) labels[place[i]].agrees = label[i] == labels[place[i]].end.label;
+  follow(h, OTHER_STEPS, n_asked, asked, end);
+  for (int64_t i = 0; i < n_asked; i++) labels[place[i]].agrees = end[i].end.label == labels[place[i]].end.label;
 }
 
 static kz_status label_samples(void *context, int64_t first, int64_t n, void *record) {
   const reference_job *h = context;
-  const kz_basin_plan *plan = h->reference->plan;
   kz_reference_label *labels = record;
-  double start[2 * TILE] = {0};
-  int32_t label[TILE];
-  int64_t cell[TILE], periods[TILE];
+  kz_start start[TILE] = {0};
+  kz_decision end[TILE];
+  int64_t cell[TILE];
   memcpy(labels, h->reference->labels + first, (size_t)n * sizeof *labels);
   if (first + n <= h->known) return KZ_OK;
   for (int64_t i = 0; i < n; i++) {
+    double centre[2];
     cell[i] = kz_reference_labels_cell(h->reference, first + i);
-    kz_cell_start(plan, cell[i], start + 2 * i);
+    kz_cell_start(h->reference->plan, cell[i], centre);
+    start[i] = kz_start_at(centre[0], centre[1]);
   }
-  follow(h, KZ_REFERENCE_STEPS, n, start, label, periods);
-  for (int64_t i = 0; i < n; i++) labels[i].end = (kz_label){.periods = periods[i], .label = (int16_t)label[i]};
+  follow(h, KZ_REFERENCE_STEPS, n, start, end);
+  for (int64_t i = 0; i < n; i++) labels[i].end = end[i].end;
   compare_steps(h, first, n, start, labels);
-  find_distances(h, n, cell, labels);
-  for (int64_t i = 0; i < 2 * n; i++) start[i] = nextafter(start[i], copysign(INFINITY, start[i]));
-  follow(h, KZ_REFERENCE_STEPS, n, start, label, periods);
-  for (int64_t i = 0; i < n; i++) labels[i].flipped = (int16_t)label[i];
+  KZ_TRY(find_distances(h, n, cell, labels));
+  for (int64_t i = 0; i < n; i++) {
+    start[i].theta[0] = nextafter(start[i].theta[0], copysign(INFINITY, start[i].theta[0]));
+    start[i].velocity[0] = nextafter(start[i].velocity[0], copysign(INFINITY, start[i].velocity[0]));
+  }
+  follow(h, KZ_REFERENCE_STEPS, n, start, end);
+  for (int64_t i = 0; i < n; i++) labels[i].flipped = end[i].end.label;
   return KZ_OK;
 }
 

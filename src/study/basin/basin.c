@@ -25,6 +25,7 @@ static double parts_bytes(const kz_scene *scene) {
 }
 
 static kz_status make_parts(const kz_scene *scene, kz_window_labels *labelling) {
+  labelling->parts = kz_calloc((size_t)kz_study_count, sizeof *labelling->parts);
   for (int i = 0; i < kz_study_count; i++) {
     if (!wanted_part(scene, i)) continue;
     kz_part *p = labelling->parts + labelling->n_parts++;
@@ -38,6 +39,7 @@ static kz_status make_parts(const kz_scene *scene, kz_window_labels *labelling) 
 static void free_parts(kz_window_labels *labelling) {
   for (const kz_part *p = labelling->parts; p < labelling->parts + labelling->n_parts; p++)
     if (p->part->free) p->part->free(p->own);
+  free(labelling->parts);
 }
 
 /* Disk space of FILE and FILE.checkpoint, measured with Fig. 12's scene on 10^6 to 4 10^8 cells: finer grids have longer runs of equal labels. */
@@ -112,50 +114,51 @@ static kz_status write_results(const kz_scene *scene, const kz_chunks *chunks, F
   return kz_lifetime_write(scene->basin, chunks->transients, chunks->store, summary);
 }
 
-static kz_status write_window(const kz_scene *scene, kz_chunks *chunks, FILE *summary) {
-  kz_window_labels *labelling = chunks->labelling;
-  const kz_run *run = labelling->run;
-  kz_store *store = chunks->store;
-  KZ_TRY(kz_label_window(labelling));
-  for (const kz_part *p = labelling->parts; p < labelling->parts + labelling->n_parts; p++)
-    if (p->part->follow) KZ_TRY(p->part->follow(p->own, labelling));
-  KZ_TRY(kz_doubt_follow(scene->basin, run, labelling->dynamics, chunks->sample));
-  kz_catalogue_make(labelling->dynamics, labelling->reached, chunks->catalogue);
-  KZ_TRY(kz_ranks_agree(run->ranks, store ? kz_basin_declare(scene, &labelling->tiles, store) : KZ_OK));
-  KZ_TRY(kz_cells_write(chunks));
-  KZ_TRY(kz_ranks_agree(run->ranks, store ? write_results(scene, chunks, summary) : KZ_OK));
-  for (const kz_part *p = labelling->parts; p < labelling->parts + labelling->n_parts; p++)
-    if (p->part->find) KZ_TRY(p->part->find(p->own, chunks, store, summary));
-  return KZ_OK;
+/* A window at work. */
+typedef struct {
+  kz_window_labels labels;
+  kz_catalogue catalogue;
+  kz_doubt_sample sample;
+  kz_transients transients;
+} window;
+
+static void free_window(window *w) {
+  kz_dynamics_free(w->labels.dynamics);
+  kz_window_labels_free(&w->labels);
+  free_parts(&w->labels);
+  kz_catalogue_free(&w->catalogue);
+  kz_doubt_free(&w->sample);
+  free(w->transients.time);
 }
 
 static kz_status run_damped(const kz_scene *scene, const kz_run *run, kz_store *store, FILE *summary) {
   const kz_basin_plan *plan = scene->basin;
-  kz_window_labels labelling = {.plan = plan,
-                                .parameters = &scene->parameters,
-                                .run = run,
-                                .tiles = kz_tiles_of(scene, KZ_TILE_CELLS),
-                                .tile = kz_tile_cells(scene, KZ_TILE_CELLS),
-                                .search = kz_search_of_basin(plan)};
-  kz_catalogue catalogue = {0};
-  kz_doubt_sample sample = {0};
-  kz_transients transients = kz_transients_make(plan);
-  kz_chunks chunks = {&labelling, &catalogue, store, .sample = &sample, .transients = &transients};
-  labelling.dynamics = kz_dynamics_create(&scene->parameters.pendulum, &scene->numerics, plan->max_period);
-  kz_studies_begin(scene, &scene->parameters.pendulum, NULL, labelling.dynamics);
-  kz_status status = kz_ranks_agree(run->ranks, make_parts(scene, &labelling));
-  if (status == KZ_OK) {
-    const kz_window motions = kz_motions_window(&plan->theta, &plan->velocity);
-    labelling.search.max_velocity = kz_dynamics_max_velocity(labelling.dynamics, &motions);
-    status = write_window(scene, &chunks, summary);
-  }
-  kz_dynamics_free(labelling.dynamics);
-  kz_window_labels_free(&labelling);
-  free_parts(&labelling);
-  kz_catalogue_free(&catalogue);
-  kz_doubt_free(&sample);
-  free(transients.time);
-  return status;
+  const kz_window motions = kz_motions_window(&plan->theta, &plan->velocity);
+  KZ_FREED_BY(free_window)
+  window w = {.labels = {.plan = plan,
+                         .parameters = &scene->parameters,
+                         .run = run,
+                         .tiles = kz_tiles_of(scene, KZ_TILE_CELLS),
+                         .tile = kz_tile_cells(scene, KZ_TILE_CELLS),
+                         .search = kz_search_of_basin(plan)},
+              .transients = kz_transients_make(plan)};
+  kz_window_labels *labels = &w.labels;
+  kz_chunks chunks = {labels, &w.catalogue, store, .sample = &w.sample, .transients = &w.transients};
+  labels->dynamics = kz_dynamics_create(&scene->parameters.pendulum, &scene->numerics, plan->max_period);
+  kz_studies_begin(scene, &scene->parameters.pendulum, NULL, labels->dynamics);
+  KZ_TRY(kz_ranks_agree(run->ranks, make_parts(scene, labels)));
+  labels->search.max_velocity = kz_dynamics_max_velocity(labels->dynamics, &motions);
+  KZ_TRY(kz_label_window(labels));
+  for (const kz_part *p = labels->parts; p < labels->parts + labels->n_parts; p++)
+    if (p->part->follow) KZ_TRY(p->part->follow(p->own, labels));
+  KZ_TRY(kz_doubt_follow(plan, run, labels->dynamics, &w.sample));
+  kz_catalogue_make(labels->dynamics, labels->reached, &w.catalogue);
+  KZ_TRY(kz_ranks_agree(run->ranks, store ? kz_basin_declare(scene, &labels->tiles, store) : KZ_OK));
+  KZ_TRY(kz_cells_write(&chunks));
+  KZ_TRY(kz_ranks_agree(run->ranks, store ? write_results(scene, &chunks, summary) : KZ_OK));
+  for (const kz_part *p = labels->parts; p < labels->parts + labels->n_parts; p++)
+    if (p->part->find) KZ_TRY(p->part->find(p->own, &chunks, store, summary));
+  return KZ_OK;
 }
 
 /* Packs all tiles of a window in which no cell settles. Rank 0. */

@@ -42,7 +42,7 @@ struct kz_basin_part {
   /* Where that gave the cells starts that doubles do not distinguish: others like them, up to `reach` of the window's width from its middle, for
    * start_at; NULL: it did not. The caller frees it. start_at: at these shares of the width, from the middle, for a level. */
   void *(*starts)(void *own, double reach);
-  void (*start_at)(const void *starts, int32_t level, __float128 theta, __float128 velocity, kz_start *start);
+  void (*start_at)(const void *starts, kz_precision level, __float128 theta, __float128 velocity, kz_start *start);
   /* Advice about cells that stay undecided; NULL = none. */
   const char *(*advice)(void *own);
   /* After the cells are labelled. Collective. */
@@ -54,7 +54,6 @@ struct kz_basin_part {
   /* Writes what follows from the labels in the store, with its own variables; store and summary are NULL on all ranks but rank 0. Collective. */
   kz_status (*find)(void *own, const kz_chunks *chunks, kz_store *store, FILE *summary);
 };
-enum { KZ_MOST_PARTS = 8 };
 /* A part of this run. */
 typedef struct {
   const kz_basin_part *part;
@@ -69,7 +68,7 @@ struct kz_window_labels {
   kz_tiles tiles;
   kz_cell_starts starts; /* Starts of all cells */
   int n_parts;
-  kz_part parts[KZ_MOST_PARTS];
+  kz_part *parts;       /* [n_parts] */
   kz_labeller labeller; /* Labeller of the cells, whose items are their numbers */
   int64_t tile;         /* most cells that are followed together */
   const kz_run *run;

@@ -65,29 +65,25 @@ static kz_status merge(kz_window_labels *l, kz_local_record *packed, int64_t fro
   return kz_tile_labels_replace(l, packed);
 }
 
-/* The n pending cells from `from` on, which are those of whole tiles. */
-static kz_status label_pending_tiles(kz_window_labels *l, int round, int64_t from, int64_t n, int64_t *cell) {
-  KZ_FREED int64_t *level = kz_malloc((size_t)n * sizeof *level);
-  KZ_FREED kz_label *found = kz_malloc((size_t)n * sizeof *found);
-  KZ_TRY(pick_pending(l, from, n, n, cell, level));
-  for (int64_t i = 0; i < n; i++) found[i] = (kz_label){.label = l->wanted, .next = (uint8_t)level[i]};
-  kz_status status = (l->wanted == 0 ? kz_label_items : kz_label_doubtful)(&l->labeller, round, n, cell, found);
-  for (int64_t i = 0; i < l->records.n && status == KZ_OK; i++) status = merge(l, &l->records.list[i], from, n, found);
-  return kz_ranks_agree(l->run->ranks, status);
-}
-
 /* Labels the pending cells of all tiles, a bounded number at a time: the doubtful ones by the further levels, the unsettled ones from the
  * first one on, in stages of round `round`. Collective. */
 static kz_status label_pending(kz_window_labels *l, int round) {
   const int64_t *before = l->before, all = before[l->tiles.own];
   const int64_t most = all < MOST_PENDING ? all : MOST_PENDING;
   KZ_FREED int64_t *cell = kz_malloc((size_t)most * sizeof *cell + 1);
-  kz_status status = KZ_OK;
-  for (int64_t from = 0, to; from < l->tiles.own && status == KZ_OK; from = to) {
+  KZ_FREED int64_t *level = kz_malloc((size_t)most * sizeof *level + 1);
+  KZ_FREED kz_label *found = kz_malloc((size_t)most * sizeof *found + 1);
+  for (int64_t from = 0, to; from < l->tiles.own; from = to) {
     for (to = from + 1; to < l->tiles.own && before[to + 1] - before[from] <= most;) to++;
-    if (before[to] > before[from]) status = label_pending_tiles(l, round, before[from], before[to] - before[from], cell);
+    const int64_t first = before[from], n = before[to] - first; /* pending cells of whole tiles */
+    if (n == 0) continue;
+    KZ_TRY(pick_pending(l, first, n, n, cell, level));
+    for (int64_t i = 0; i < n; i++) found[i] = (kz_label){.label = l->wanted, .next = (uint8_t)level[i]};
+    kz_status status = (l->wanted == 0 ? kz_label_items : kz_label_doubtful)(&l->labeller, round, n, cell, found);
+    for (int64_t i = 0; i < l->records.n && status == KZ_OK; i++) status = merge(l, &l->records.list[i], first, n, found);
+    KZ_TRY(kz_ranks_agree(l->run->ranks, status));
   }
-  return status;
+  return KZ_OK;
 }
 
 enum { ROUNDS = 3 /* Rounds of search among cells that end nowhere known, at most */ };
@@ -149,8 +145,11 @@ static kz_status label_again(void *labels, int round) {
   return label_pending(labels, round);
 }
 
-/* `exact` alone leaves doubtful cells. */
-static kz_status label_all(kz_window_labels *l) {
+/* `exact` alone leaves doubtful cells. The starts' counts of attractors are the same on every rank, those of tiles each rank's own. */
+kz_status kz_label_window(kz_window_labels *l) {
+  l->cell = kz_calloc((size_t)kz_tile_capacity(&l->tiles) + 1, sizeof *l->cell);
+  l->before = kz_calloc((size_t)l->tiles.own + 1, sizeof *l->before);
+  l->reached = kz_calloc(INT16_MAX + 1, sizeof *l->reached);
   const kz_unsettled unsettled = {count_unsettled, pick, label_again, l};
   const kz_search_on search = {ROUNDS, l->plan->starts, l->reached};
   KZ_TRY(find_attractors(l));
@@ -158,15 +157,7 @@ static kz_status label_all(kz_window_labels *l) {
   KZ_TRY(label_all_tiles(l));
   KZ_TRY(count_pending(l, KZ_DOUBTFUL));
   KZ_TRY(label_pending(l, 1));
-  return kz_search_rounds(&l->labeller, &search, &unsettled);
-}
-
-/* The starts' counts of attractors are the same on every rank, those of tiles each rank's own. */
-kz_status kz_label_window(kz_window_labels *l) {
-  l->cell = kz_calloc((size_t)kz_tile_capacity(&l->tiles) + 1, sizeof *l->cell);
-  l->before = kz_calloc((size_t)l->tiles.own + 1, sizeof *l->before);
-  l->reached = kz_calloc(INT16_MAX + 1, sizeof *l->reached);
-  KZ_TRY(label_all(l));
+  KZ_TRY(kz_search_rounds(&l->labeller, &search, &unsettled));
   for (int i = 0; i <= INT16_MAX && kz_rank(l->run->ranks) != 0; i++) l->reached[i] = 0;
   for (int64_t i = 0; i < l->records.n; i++) kz_tile_labels_note_reached(l, &l->records.list[i]);
   return kz_ranks_sum(l->run->ranks, l->reached, INT16_MAX + 1);

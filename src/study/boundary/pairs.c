@@ -102,7 +102,7 @@ static void spread(const kz_boundary_plan *plan, int64_t i, int first, int n, po
 
 /* A kz_start_fn. What quad precision does not decide is labelled in it without its error, which acts like a change of the start that is far
  * below the smallest distance: such pairs would otherwise be missed among the uncertain. */
-static kz_status start_at(void *context, int64_t i, int32_t level, kz_start *start) {
+static kz_status start_at(void *context, int64_t i, kz_precision level, kz_start *start) {
   const pair_tile *t = context;
   const pairing *p = t->pairing;
   const kz_axis *const axes[] = {&p->plan->theta, &p->plan->velocity};

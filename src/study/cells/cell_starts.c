@@ -21,7 +21,7 @@ void kz_cell_starts_free(kz_cell_starts *starts) {
   *starts = (kz_cell_starts){0};
 }
 
-kz_status kz_cell_starts_at(void *starts, int64_t cell, int32_t level, kz_start *start) {
+kz_status kz_cell_starts_at(void *starts, int64_t cell, kz_precision level, kz_start *start) {
   const kz_cell_starts *s = starts;
   (void)level;
   *start = (kz_start){0}; /* in place: a copy of what was just written waits for it */
@@ -36,7 +36,7 @@ kz_labeller kz_cell_starts_labeller(const kz_cell_starts *starts, kz_dynamics *d
 }
 
 /* A kz_start_fn: the items are cells of a plan. */
-static kz_status start_of_cell(void *context, int64_t item, int32_t level, kz_start *start) {
+static kz_status start_of_cell(void *context, int64_t item, kz_precision level, kz_start *start) {
   double centre[2];
   (void)level;
   kz_cell_start(context, item, centre);

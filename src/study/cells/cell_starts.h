@@ -13,7 +13,7 @@ typedef struct {
 void kz_cell_starts_make(const kz_basin_plan *plan, kz_cell_starts *starts);
 void kz_cell_starts_free(kz_cell_starts *starts);
 /* A kz_start_fn, whose context they are. */
-kz_status kz_cell_starts_at(void *starts, int64_t cell, int32_t level, kz_start *start);
+kz_status kz_cell_starts_at(void *starts, int64_t cell, kz_precision level, kz_start *start);
 /* The labeller of the cells, by levels. */
 kz_labeller kz_cell_starts_labeller(const kz_cell_starts *starts, kz_dynamics *dynamics);
 /* Makes starts with centres that are computed anew for each. */

@@ -3,6 +3,7 @@
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "search.h"
 
@@ -12,7 +13,7 @@ enum {
 };
 
 /* A kz_start_fn: the items are places in an array of angles and velocities. */
-static kz_status start_of_pair(void *context, int64_t item, int32_t level, kz_start *start) {
+static kz_status start_of_pair(void *context, int64_t item, kz_precision level, kz_start *start) {
   const double *pair = (const double *)context + 2 * item;
   (void)level;
   *start = kz_start_at(pair[0], pair[1]);
@@ -31,191 +32,167 @@ static int64_t smaller(int64_t a, int64_t b) {
   return a < b ? a : b;
 }
 
-/* The starts of n <= BATCH items for a level, released. */
-static kz_status starts_of(const kz_labeller *l, int32_t level, int64_t n, const int64_t *item, int64_t first,
+/* The starts of n items for a level, released. */
+static kz_status starts_of(const kz_labeller *l, kz_precision level, int64_t n, const int64_t *item, int64_t first,
                            kz_start *start) {
-  const int32_t own = level < 0 ? KZ_LEVEL_DOUBLE : level;
-  for (int64_t i = 0; i < n; i++) KZ_TRY(l->start(l->context, item_at(item, first + i), own, start + i));
+  for (int64_t i = 0; i < n; i++) KZ_TRY(l->start(l->context, item_at(item, first + i), level, start + i));
   if (!l->at_strobe) kz_dynamics_begin(l->dynamics, level, n, start);
   return KZ_OK;
 }
 
 kz_status kz_item_states(const kz_labeller *l, int64_t n, const int64_t *item, double *state, int64_t *periods) {
-  KZ_FREED kz_start *start = kz_malloc((size_t)smaller(n, BATCH) * sizeof *start + 1);
-  for (int64_t done = 0; done < n; done += BATCH) {
-    const int64_t part = smaller(n - done, BATCH);
-    KZ_TRY(starts_of(l, KZ_LEVEL_DOUBLE, part, item, done, start));
-    kz_states_of(part, start, state + 2 * done);
-    for (int64_t i = 0; periods && i < part; i++) periods[done + i] = start[i].periods;
-  }
+  KZ_FREED kz_start *start = kz_malloc((size_t)n * sizeof *start + 1);
+  KZ_TRY(starts_of(l, KZ_LEVEL_DOUBLE, n, item, 0, start));
+  kz_states_of(n, start, state);
+  for (int64_t i = 0; periods && i < n; i++) periods[i] = start[i].periods;
   return KZ_OK;
 }
 
-/* Some items that are labelled together, with buffers. */
+/* What labels the items that are left: a level of dynamics, an added one, what gives undecided items their labels, or nothing. */
 typedef struct {
-  int64_t n, first;
-  const int64_t *item;
-  kz_start *start;
-  kz_decision *decision;
+  enum { LEVEL, ADDED, UNDECIDED, NOTHING } kind;
+  int32_t row; /* of the table of levels */
+} decider;
+
+static decider first_decider(const kz_labeller *l) {
+  return (decider){l->way == KZ_BY_ADDED ? ADDED : LEVEL, 0};
+}
+
+/* What follows if `pending` items are left. A few items go to quad precision at once, because they take less time there than the tables of the pairs
+ * of doubles. */
+static decider next_decider(const kz_labeller *l, decider by, int64_t pending) {
+  const int32_t row = by.kind == ADDED ? by.row + 1 : 0;
+  if (pending == 0 || by.kind == UNDECIDED || l->way == KZ_BY_STATES || l->way == KZ_BY_MARKS) return (decider){NOTHING, 0};
+  if (by.kind == LEVEL && by.row < KZ_LEVEL_QUAD)
+    return (decider){LEVEL, by.row >= KZ_LEVEL_FINE && pending <= FEW ? KZ_LEVEL_QUAD : by.row + 1};
+  if (l->added && row < l->added->n) return (decider){ADDED, row};
+  return (decider){l->open == KZ_OPEN_DOUBTFUL ? NOTHING : UNDECIDED, 0};
+}
+
+static const kz_level *row_of(const kz_labeller *l, decider by) {
+  static const kz_level undecided = {NULL, "candidates", KZ_UNDECIDED, 64, 0, false};
+  return by.kind == LEVEL ? kz_level_rows + by.row : by.kind == ADDED ? l->added->rows + by.row : &undecided;
+}
+
+/* Whether it may decide a doubtful item with this label. */
+static bool may_decide(const kz_labeller *l, decider by, const kz_label *label) {
+  const int32_t below = by.kind == ADDED && l->way != KZ_BY_ADDED ? KZ_LEVELS : 0;
+  return by.kind == UNDECIDED || label->next <= below + by.row;
+}
+
+static uint8_t evidence_of(const kz_labeller *l, decider by, const kz_decision *decision) {
+  if (decision->end.label > 0 && l->dynamics && kz_dynamics_is_averaged(l->dynamics, decision->end.label)) return KZ_AVERAGED;
+  return l->way == KZ_BY_MARKS && !decision->decided ? KZ_LEFT : row_of(l, by)->evidence;
+}
+
+/* Labels n items that wait in a stage. */
+typedef struct {
+  const kz_labeller *labeller;
+  decider by;
+  kz_precision before; /* the level at which they were doubtful */
+  const int64_t *item; /* NULL: 0, 1, ... */
 } batch;
 
 /* By the states alone. */
-static kz_status follow_states(const kz_labeller *l, const batch *b) {
-  KZ_FREED double *state = kz_malloc(2 * (size_t)b->n * sizeof *state);
-  KZ_FREED int32_t *label = kz_malloc((size_t)b->n * sizeof *label);
-  KZ_FREED int64_t *periods = kz_malloc((size_t)b->n * sizeof *periods);
-  KZ_FREED int64_t *turns = kz_malloc((size_t)b->n * sizeof *turns);
-  KZ_TRY(starts_of(l, KZ_LEVEL_DOUBLE, b->n, b->item, b->first, b->start));
-  kz_states_of(b->n, b->start, state);
-  kz_dynamics_follow(l->dynamics, l->stepper, b->n, l->max_periods, state, label, periods, turns);
-  for (int64_t i = 0; i < b->n; i++)
-    b->decision[i] = kz_decision_by_state(b->start + i, label[i], periods[i], state + 2 * i, turns[i]);
+static kz_status follow_states(const batch *b, int64_t first, int64_t n, kz_start *start, kz_decision *decision) {
+  const kz_labeller *l = b->labeller;
+  KZ_FREED double *state = kz_malloc(2 * (size_t)n * sizeof *state);
+  if (!l->state) KZ_TRY(starts_of(l, KZ_LEVEL_DOUBLE, n, b->item, first, start));
+  if (!l->state) kz_states_of(n, start, state);
+  for (int64_t i = 0; l->state && i < n; i++)
+    memcpy(state + 2 * i, l->state + 2 * item_at(b->item, first + i), 2 * sizeof *state);
+  kz_decide_by_states(l->dynamics, l->stepper, l->max_periods, n, l->state ? NULL : start, state, decision);
   return KZ_OK;
 }
 
-static kz_status decide_batch(const kz_labeller *l, int32_t level, int32_t before, const batch *b) {
-  if (l->way == KZ_BY_STATES) return follow_states(l, b);
-  if (level == KZ_LEVEL_ARBITRARY) {
-    for (int64_t i = 0; i < b->n; i++) KZ_TRY(l->decide(l->context, item_at(b->item, b->first + i), b->decision + i));
-    return KZ_OK;
-  }
-  KZ_TRY(starts_of(l, level < KZ_LEVELS ? level : kz_candidates_level(l->open), b->n, b->item, b->first, b->start));
-  if (level == KZ_LEVELS)
-    kz_candidates_find(l->dynamics, l->max_periods, l->open, b->n, b->start, b->decision);
+/* Decisions of the items first .. first + n - 1. `start` [n]: a buffer. */
+static kz_status decide(const batch *b, int64_t first, int64_t n, kz_start *start, kz_decision *decision) {
+  const kz_labeller *l = b->labeller;
+  if (l->way == KZ_BY_STATES) return follow_states(b, first, n, start, decision);
+  if (b->by.kind == ADDED) return l->added->label(l->context, b->by.row, n, b->item + first, decision);
+  const kz_precision level = b->by.kind == LEVEL ? (kz_precision)b->by.row : kz_candidates_level(l->open);
+  const kz_label_precision precision = {.level = level, .before = b->before, .guess = l->way == KZ_BY_MARKS};
+  KZ_TRY(starts_of(l, level, n, b->item, first, start));
+  if (b->by.kind == UNDECIDED)
+    kz_candidates_find(l->dynamics, l->max_periods, l->open, n, start, decision);
   else
-    kz_dynamics_label(l->dynamics, level, before, b->n, b->start, l->max_periods, b->decision);
+    kz_dynamics_label(l->dynamics, &precision, n, start, l->max_periods, decision);
   return KZ_OK;
 }
 
-static uint8_t evidence_of(const kz_labeller *l, int32_t level, const kz_decision *decision) {
-  if (decision->end.label > 0 && kz_dynamics_is_averaged(l->dynamics, decision->end.label)) return KZ_AVERAGED;
-  if (l->way == KZ_BY_MARKS && decision->level == KZ_LEVELS) return KZ_LEFT;
-  return kz_level_rows[level < 0 ? KZ_LEVEL_DOUBLE : level].evidence;
-}
-
-static kz_status label_batch(const kz_labeller *l, int32_t level, int32_t before, const batch *b, kz_label *label) {
-  KZ_TRY(decide_batch(l, level, before, b));
-  if (l->turns) kz_dynamics_count_turns(l->dynamics, b->n, l->max_periods, b->decision);
-  for (int64_t i = 0; i < b->n; i++) {
-    const kz_decision *d = b->decision + i;
-    label[i] = d->end;
-    label[i].evidence = evidence_of(l, level, d);
-    if (l->note) l->note(l->context, item_at(b->item, b->first + i), d);
+/* Labels items as many at a time as the labeller says, by this process alone. */
+static kz_status label_items(const batch *b, int64_t first, int64_t n, kz_label *label) {
+  const kz_labeller *l = b->labeller;
+  const int64_t most = smaller(n, l->tile > 0 ? smaller(l->tile, BATCH) : BATCH);
+  KZ_FREED kz_start *start = kz_malloc((size_t)most * sizeof *start + 1);
+  KZ_FREED kz_decision *decision = kz_malloc((size_t)most * sizeof *decision + 1);
+  for (int64_t done = 0; done < n; done += most) {
+    const int64_t part = smaller(n - done, most);
+    if (l->run) KZ_TRY(kz_ranks_interrupted(l->run->ranks));
+    KZ_TRY(decide(b, first + done, part, start, decision));
+    if (l->turns) kz_dynamics_count_turns(l->dynamics, part, l->max_periods, decision);
+    for (int64_t i = 0; i < part; i++) {
+      label[done + i] = decision[i].end;
+      label[done + i].evidence = evidence_of(l, b->by, decision + i);
+      if (l->note) l->note(l->context, item_at(b->item, first + done + i), decision + i);
+    }
   }
   return KZ_OK;
 }
 
-/* One level for n items, KZ_LEVELS: in the way `open`; `before` is the level at which they were doubtful. Not collective. */
-static kz_status label_at(const kz_labeller *l, int32_t level, int32_t before, int64_t n, const int64_t *item,
-                          kz_label *label) {
-  const int64_t most = l->tile > 0 ? smaller(l->tile, BATCH) : BATCH;
-  if (l->run) KZ_TRY(kz_ranks_interrupted(l->run->ranks));
-  if (l->at) return l->at(l->context, level, n, item, label);
-  KZ_FREED kz_start *start = kz_malloc((size_t)smaller(n, most) * sizeof *start + 1);
-  KZ_FREED kz_decision *decision = kz_malloc((size_t)smaller(n, most) * sizeof *decision + 1);
-  kz_status status = KZ_OK;
-  for (int64_t done = 0; done < n && status == KZ_OK; done += most) {
-    const batch b = {smaller(n - done, most), done, item, start, decision};
-    if (l->run) status = kz_ranks_interrupted(l->run->ranks);
-    if (status == KZ_OK) status = label_batch(l, level, before, &b, label + done);
-  }
-  return status;
+static kz_status label_tile(void *context, int64_t first, int64_t n, void *record) {
+  return label_items(context, first, n, record);
 }
 
-/* The level that follows if `pending` items are left; KZ_LEVELS + 1 = none. A few items go to quad precision at once, because they take less
- * time there than the tables of the pairs of doubles. */
-static int32_t level_after(const kz_labeller *l, int32_t level, int64_t pending) {
-  if (l->at) return pending > 0 && level + 1 < l->n_levels ? level + 1 : KZ_LEVELS + 1;
-  const int32_t last = l->open == KZ_OPEN_DOUBTFUL ? KZ_LEVELS + 1 : KZ_LEVELS;
-  if (pending == 0 || level == KZ_LEVELS || l->way != KZ_BY_LEVELS) return KZ_LEVELS + 1;
-  if (level == KZ_LEVEL_QUAD) return l->decide ? KZ_LEVEL_ARBITRARY : last;
-  if (level == KZ_LEVEL_ARBITRARY) return last;
-  return level >= KZ_LEVEL_FINE && pending <= FEW ? KZ_LEVEL_QUAD : level + 1;
+/* The stage in which n items are labelled. Alone a process takes all lanes can hold; ranks share smaller tiles. */
+static kz_stage stage_of(batch *b, int round, int64_t n, char name[32]) {
+  const kz_labeller *l = b->labeller;
+  const kz_level *row = row_of(l, b->by);
+  const decider first = first_decider(l);
+  const int64_t most = l->run ? row->tile : BATCH, tile = l->tile > 0 ? smaller(l->tile, most) : most;
+  snprintf(name, 32, "%s %d", row->stage, round);
+  if (l->stage && b->by.kind == first.kind && b->by.row == first.row) snprintf(name, 32, "%s", l->stage);
+  return kz_stage_of_items(name, n, tile, (size_t)tile * sizeof(kz_label), label_tile, b);
 }
 
-/* Items that a level labels, in a stage. */
-typedef struct {
-  const kz_labeller *labeller;
-  int32_t level, before;    /* the level; that at which they were doubtful */
-  int64_t tile;             /* items of a tile */
-  int64_t n, *item, *place; /* that are left */
-  int64_t n_now, *now;      /* those that this level may decide */
-} level_job;
-
-static kz_status label_some(void *context, int64_t first, int64_t n, void *record) {
-  const level_job *a = context;
-  return label_at(a->labeller, a->level, a->before, n, a->now + first, record);
-}
-
-static const kz_level *row_of(const level_job *a) {
-  if (a->labeller->at) return a->labeller->levels + a->level;
-  return kz_level_rows + (a->level < 0 ? KZ_LEVEL_DOUBLE : a->level);
-}
-
-/* Alone a process takes all lanes can hold; ranks share smaller tiles. */
-static int64_t tile_of(const level_job *a) {
-  const kz_labeller *l = a->labeller;
-  const int64_t most = l->run ? row_of(a)->tile : BATCH;
-  return l->tile > 0 ? smaller(l->tile, most) : most;
-}
-
-/* Labels at one level the items that it may decide: label [place] of each. The items that are still doubtful, and their places, move to the
- * front. */
-static kz_status label_level(level_job *a, int round, kz_label *label) {
-  const kz_labeller *l = a->labeller;
+/* Labels n items from a decider on, until each is decided or none is left; label [n].next: the first level that may decide each. The places of
+ * items that are still doubtful move to the front. */
+static kz_status climb(const kz_labeller *l, decider by, int round, int64_t n, const int64_t *item, kz_label *label) {
+  KZ_FREED int64_t *place = kz_malloc(2 * (size_t)n * sizeof *place + 1);
+  int64_t *now = place + n;
+  KZ_FREED kz_label *found = NULL;
+  batch b = {.labeller = l, .by = by, .before = KZ_LEVEL_DOUBLE, .item = now};
   char name[32];
-  snprintf(name, sizeof name, "%s %d", row_of(a)->stage, round);
-  a->n_now = 0;
-  for (int64_t i = 0; i < a->n; i++)
-    if (label[a->place[i]].next <= a->level) a->now[a->n_now++] = a->item[i];
-  if (a->n_now == 0) return KZ_OK;
-  a->tile = tile_of(a);
-  const kz_stage stage = kz_stage_of_items(l->stage && a->level <= KZ_LEVEL_DOUBLE ? l->stage : name, a->n_now, a->tile,
-                                           (size_t)a->tile * sizeof(kz_label), label_some, a);
-  KZ_FREED kz_label *found = kz_malloc((size_t)stage.n_tiles * stage.record_bytes + 1);
-  KZ_TRY(kz_stage_run(l->run, &stage, found));
-  int64_t left = 0, now = 0;
-  for (int64_t i = 0; i < a->n; i++) {
-    kz_label *own = label + a->place[i];
-    if (own->next <= a->level) *own = found[now++];
-    if (own->label != KZ_DOUBTFUL) continue;
-    a->item[left] = a->item[i];
-    a->place[left++] = a->place[i];
-  }
-  a->n = left;
-  a->before = a->level;
-  return KZ_OK;
-}
-
-/* Labels n items from `level` on, until each is decided or no level is left; label [n].next: the first level that may decide each. */
-static kz_status climb(const kz_labeller *l, int32_t level, int round, int64_t n, const int64_t *item, kz_label *label) {
-  KZ_FREED int64_t *list = kz_malloc(3 * (size_t)n * sizeof *list + 1);
-  level_job a = {
-      .labeller = l, .level = level, .before = KZ_LEVEL_DOUBLE, .n = n, .item = list, .place = list + n, .now = list + 2 * n};
-  for (int64_t i = 0; i < n; i++) {
-    a.item[i] = item_at(item, i);
-    a.place[i] = i;
-  }
-  while (a.n > 0 && a.level <= KZ_LEVELS) {
-    KZ_TRY(label_level(&a, round, label));
-    a.level = level_after(l, a.level, a.n);
+  for (int64_t i = 0; i < n; i++) place[i] = i;
+  for (; n > 0 && b.by.kind != NOTHING; b.by = next_decider(l, b.by, n)) {
+    int64_t n_now = 0, left = 0, taken = 0;
+    for (int64_t i = 0; i < n; i++)
+      if (may_decide(l, b.by, label + place[i])) now[n_now++] = item_at(item, place[i]);
+    if (n_now == 0) continue;
+    const kz_stage stage = stage_of(&b, round, n_now, name);
+    found = kz_realloc(found, (size_t)stage.n_tiles * stage.record_bytes + 1);
+    KZ_TRY(kz_stage_run(l->run, &stage, found));
+    for (int64_t i = 0; i < n; i++) {
+      kz_label *own = label + place[i];
+      if (may_decide(l, b.by, own)) *own = found[taken++];
+      if (own->label == KZ_DOUBTFUL) place[left++] = place[i];
+    }
+    n = left;
+    if (b.by.kind == LEVEL) b.before = (kz_precision)b.by.row;
   }
   return KZ_OK;
-}
-
-static int32_t first_level(const kz_labeller *l) {
-  return l->way == KZ_BY_MARKS ? KZ_LEVEL_GUESS : KZ_LEVEL_DOUBLE;
 }
 
 kz_status kz_label_first(const kz_labeller *l, int64_t n, const int64_t *item, kz_label *label) {
-  return label_at(l, first_level(l), KZ_LEVEL_DOUBLE, n, item, label);
+  const batch b = {.labeller = l, .by = first_decider(l), .before = KZ_LEVEL_DOUBLE, .item = item};
+  return label_items(&b, 0, n, label);
 }
 
 kz_status kz_label_doubtful(const kz_labeller *l, int round, int64_t n, const int64_t *item, kz_label *label) {
-  return climb(l, level_after(l, KZ_LEVEL_DOUBLE, n), round, n, item, label);
+  return climb(l, next_decider(l, first_decider(l), n), round, n, item, label);
 }
 
 kz_status kz_label_items(const kz_labeller *l, int round, int64_t n, const int64_t *item, kz_label *label) {
   for (int64_t i = 0; i < n; i++) label[i].next = 0;
-  return climb(l, first_level(l), round, n, item, label);
+  return climb(l, first_decider(l), round, n, item, label);
 }

@@ -13,39 +13,40 @@
 #include "levels.h"
 
 /* Makes the start of an item for a level. Finer levels may begin their own arithmetic earlier, after fewer periods. */
-typedef kz_status (*kz_start_fn)(void *context, int64_t item, int32_t level, kz_start *start);
-
-/* Follows one item in as many digits as needed. decision->end.label stays KZ_DOUBTFUL if this does not decide it. */
-typedef kz_status (*kz_decide_fn)(void *context, int64_t item, kz_decision *decision);
+typedef kz_status (*kz_start_fn)(void *context, int64_t item, kz_precision level, kz_start *start);
 
 /* Takes what a label leaves out of the decision behind it: the orbit's error, its last state. Called at each level that is tried. */
 typedef void (*kz_note_fn)(void *context, int64_t item, const kz_decision *decision);
 
-/* Labels n items at a level of a table that the labeller brings along; KZ_DOUBTFUL leaves an item to the next level. */
-typedef kz_status (*kz_level_fn)(void *context, int32_t level, int64_t n, const int64_t *item, kz_label *label);
+/* Levels that a power adds, n of them. `label` labels items at a row of theirs, by what carries its orbits; KZ_DOUBTFUL leaves an item to the
+ * next level. */
+typedef struct {
+  const kz_level *rows;
+  int32_t n;
+  kz_status (*label)(void *context, int32_t row, int64_t n, const int64_t *item, kz_decision *decision);
+} kz_added_levels;
 
 /* Ways to label: by the states alone, as kz_dynamics_follow does; by one level, whose doubtful orbits are followed on and marked (method
- * direct); by one level after the other until each item is decided (method exact). */
-typedef enum { KZ_BY_STATES, KZ_BY_MARKS, KZ_BY_LEVELS } kz_way;
+ * direct); by one level after the other until each item is decided (method exact), those that are added last; by added levels alone. */
+typedef enum { KZ_BY_STATES, KZ_BY_MARKS, KZ_BY_LEVELS, KZ_BY_ADDED } kz_way;
 
 typedef struct {
   kz_dynamics *dynamics;
   int64_t max_periods;
   kz_way way;
-  int32_t open;   /* KZ_OPEN_DOUBTFUL, ... */
+  kz_open open;
   bool at_strobe; /* the starts lie at a strobe of the final drive; else kz_dynamics_begin moves them there */
   kz_start_fn start;
-  kz_decide_fn decide; /* NULL = items that quad precision does not decide stay undecided */
-  kz_note_fn note;     /* NULL = none */
-  void *context;       /* of the functions */
-  kz_level_fn at;      /* labels at `n_levels` levels of its own, rows of `levels`; NULL = the levels below */
-  const kz_level *levels;
-  int32_t n_levels;
-  const kz_run *run;  /* its ranks share the items, in kept stages; NULL = this process does all */
-  const char *stage;  /* name of the first stage; NULL = that of the level */
-  int64_t tile;       /* most items that are followed together; 0 = as many as the level takes */
-  bool turns;         /* count the net turns of each item too */
-  kz_stepper stepper; /* of KZ_BY_STATES */
+  const double *
+      state; /* in place of `start`, of KZ_BY_STATES: items are the places of states [n][2], half-turns and velocity; NULL = none */
+  const kz_added_levels *added; /* NULL = none: items that quad precision does not decide stay undecided */
+  kz_note_fn note;              /* NULL = none */
+  void *context;                /* of the functions */
+  const kz_run *run;            /* its ranks share the items, in kept stages; NULL = this process does all */
+  const char *stage;            /* name of the first stage; NULL = that of the level */
+  int64_t tile;                 /* most items that are followed together; 0 = as many as the level takes */
+  bool turns;                   /* count the net turns of each item too */
+  kz_stepper stepper;           /* of KZ_BY_STATES */
 } kz_labeller;
 
 /* The labeller of starts at a strobe in an array, start [n][2] (rad, rad per drive radian); the items are their places. */

@@ -5,10 +5,11 @@
 #include <stdint.h>
 
 #include "kapitza/dynamics_labels.h"
+#include "kapitza/study.h"
 
-/* How a label was found: the values of the file's variable `evidence`. From KZ_UNDECIDED on the scene's own numerics did not decide it. The
- * values that are missing here, which are those of powers, occur in the file only. KZ_LEFT is a doubtful label of method direct; KZ_AVERAGED is that of
- * a running state without a trapping region. */
+/* How a label was found: the values of the file's variable `evidence` that the core gives; those of powers stand in their folders. From KZ_UNDECIDED on
+ * the scene's own numerics did not decide it. KZ_LEFT is a doubtful label of method direct; KZ_AVERAGED is that of a running state without a
+ * trapping region. */
 typedef enum {
   KZ_UNSETTLED = 0,
   KZ_INSIDE = 1,
@@ -17,21 +18,21 @@ typedef enum {
   KZ_IN_QUAD = 4,
   KZ_IN_PAIRS = 5,
   KZ_IN_FINE = 7,
-  KZ_IN_ARBITRARY = 8,
   KZ_LEFT = 9,
   KZ_AVERAGED = 12
 } kz_evidence;
 
-/* A level: a row of the table. Its code is its place (dynamics.h); what carries its orbits is in dynamics/labels/levels.f90. */
-typedef struct {
+/* A level: a row of a table. The code of the core's is their place (dynamics_labels.h); what carries their orbits is in dynamics/labels/levels.f90. A
+ * power names its own in the row of its study (study.h). */
+struct kz_level {
   const char *word;  /* for people; NULL = undecided */
   const char *stage; /* name of its stages */
   uint8_t evidence;  /* of what it decides */
   int64_t tile;      /* items that are followed together */
   long double error; /* rad: what its arithmetic adds in a period, or less */
   bool in_pairs;     /* its starts need more digits than doubles have */
-} kz_level;
-extern const kz_level kz_level_rows[KZ_LEVELS + 1];
+};
+extern const kz_level kz_level_rows[KZ_LEVELS];
 
 /* Decides where one orbit ends by double precision: *decision has KZ_DOUBTFUL if that does not decide it. `look`: where doubles without regard
  * to errors end nowhere known, the orbit counts as not settled. */

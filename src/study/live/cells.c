@@ -70,7 +70,7 @@ typedef struct {
 } deciding;
 
 /* A kz_start_fn. */
-static kz_status start_cell(void *context, int64_t i, int32_t level, kz_start *start) {
+static kz_status start_cell(void *context, int64_t i, kz_precision level, kz_start *start) {
   const deciding *d = context;
   return d->labeller.start(d->labeller.context, d->number[i], level, start);
 }
@@ -78,9 +78,8 @@ static kz_status start_cell(void *context, int64_t i, int32_t level, kz_start *s
 /* A kz_note_fn. */
 static void note(void *context, int64_t i, const kz_decision *decision) {
   deciding *d = context;
-  const bool is_left = decision->level < KZ_LEVELS;
-  d->label[i] = is_left ? decision->end.label : 0;
-  d->time[i] = (double)(is_left ? decision->age : decision->end.periods);
+  d->label[i] = decision->decided ? decision->end.label : 0;
+  d->time[i] = (double)(decision->decided ? decision->age : decision->end.periods);
   memcpy(d->state + 2 * i, decision->state, sizeof decision->state);
 }
 

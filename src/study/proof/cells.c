@@ -15,8 +15,7 @@ enum {
   PERIODS = 2000        /* for which starts are followed at least, whatever basin.max_periods is */
 };
 
-/* The levels: KZ_ENCLOSE_DOUBLES, ... */
-static const kz_level proof_levels[KZ_ENCLOSURES] = {
+const kz_level kz_proof_levels[KZ_ENCLOSURES] = {
     [KZ_ENCLOSE_DOUBLES] = {.stage = "proof in doubles", .evidence = KZ_PROVED, .tile = 8192},
     [KZ_ENCLOSE_PAIRS] = {.stage = "proof in pairs", .evidence = KZ_PROVED_IN_PAIRS, .tile = 1024},
     [KZ_ENCLOSE_TRIPLES] = {.stage = "proof in triples", .evidence = KZ_PROVED_IN_TRIPLES, .tile = 64},
@@ -63,28 +62,29 @@ static kz_status find_wanted(kz_window_labels *l, part *p) {
 
 /* The labels of n starts at a level: 0 = no proof within the periods. */
 static void prove_starts(const kz_basin_plan *plan, const kz_proof *proof, int32_t level, int64_t n,
-                         const kz_proof_start *start, kz_label *label) {
+                         const kz_proof_start *start, kz_decision *decision) {
   KZ_FREED uint8_t *number = kz_malloc((size_t)n + 1);
   kz_proof_follow(proof, level, n, start, periods_of(plan), number);
   for (int64_t i = 0; i < n; i++)
-    label[i] = (kz_label){.label = number[i] == 0               ? KZ_DOUBTFUL
-                                   : number[i] == KZ_PROOF_LATE ? 0
-                                                                : number[i],
-                          .evidence = proof_levels[level].evidence};
+    decision[i] = (kz_decision){
+        .end.label = number[i] == 0               ? KZ_DOUBTFUL
+                     : number[i] == KZ_PROOF_LATE ? 0
+                                                  : number[i],
+    };
 }
 
-/* A kz_level_fn: the items are cells. */
-static kz_status prove_at(void *context, int32_t level, int64_t n, const int64_t *cell, kz_label *label) {
+/* Of kz_added_levels: the items are cells. */
+static kz_status prove_at(void *context, int32_t level, int64_t n, const int64_t *cell, kz_decision *decision) {
   const part *p = context;
   KZ_FREED kz_proof_start *start = kz_malloc((size_t)n * sizeof *start);
   for (int64_t i = 0; i < n; i++) start[i] = start_of_cell(p->labelling->plan, cell[i]);
-  prove_starts(p->labelling->plan, p->proof, level, n, start, label);
+  prove_starts(p->labelling->plan, p->proof, level, n, start, decision);
   return KZ_OK;
 }
 
 static kz_status prove_left(const kz_run *run, part *p) {
-  const kz_labeller labeller = {
-      .way = KZ_BY_LEVELS, .context = p, .at = prove_at, .levels = proof_levels, .n_levels = KZ_ENCLOSURES, .run = run};
+  static const kz_added_levels levels = {kz_proof_levels, KZ_ENCLOSURES, prove_at};
+  const kz_labeller labeller = {.way = KZ_BY_ADDED, .context = p, .added = &levels, .run = run};
   KZ_FREED kz_label *label = kz_malloc((size_t)p->n_left * sizeof *label + 1);
   KZ_TRY(kz_label_items(&labeller, 1, p->n_left, p->left, label));
   for (int64_t i = 0; i < p->n_left; i++) {
@@ -180,19 +180,19 @@ static int64_t random_starts(const kz_basin_plan *plan) {
   return cells < MOST_STARTS ? cells : MOST_STARTS;
 }
 
-/* A kz_level_fn: the items are random starts. */
-static kz_status prove_random(void *context, int32_t level, int64_t n, const int64_t *item, kz_label *label) {
+/* Of kz_added_levels: the items are random starts. */
+static kz_status prove_random(void *context, int32_t level, int64_t n, const int64_t *item, kz_decision *decision) {
   const job *j = context;
   KZ_FREED kz_proof_start *start = kz_malloc((size_t)n * sizeof *start);
   for (int64_t i = 0; i < n; i++) start[i] = random_start(j->plan, item[i]);
-  prove_starts(j->plan, j->proof, level, n, start, label);
+  prove_starts(j->plan, j->proof, level, n, start, decision);
   return KZ_OK;
 }
 
 /* Record: how many of the tile's starts are not proved; triples are not tried. */
 static kz_status follow_random(void *context, int64_t first, int64_t n, void *record) {
-  const kz_labeller labeller = {
-      .way = KZ_BY_LEVELS, .context = context, .at = prove_random, .levels = proof_levels, .n_levels = KZ_ENCLOSE_TRIPLES};
+  static const kz_added_levels levels = {kz_proof_levels, KZ_ENCLOSE_TRIPLES, prove_random};
+  const kz_labeller labeller = {.way = KZ_BY_ADDED, .context = context, .added = &levels};
   int64_t item[TILE], unproved = 0;
   KZ_FREED kz_label *label = kz_malloc(TILE * sizeof *label);
   for (int64_t i = 0; i < n; i++) item[i] = first + i;

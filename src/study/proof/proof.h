@@ -6,6 +6,8 @@
 
 /* Evidence of the file's cells. */
 enum { KZ_PROVED = 6, KZ_PROVED_IN_PAIRS = 10, KZ_PROVED_IN_TRIPLES = 11 };
+/* The levels KZ_ENCLOSE_DOUBLES, ... */
+extern const kz_level kz_proof_levels[KZ_ENCLOSURES];
 
 /* The attractors that are proved to exist: numbers of kz_dynamics, mirror [0] = 0. */
 typedef struct {

@@ -13,35 +13,26 @@
 
 /* ---- measure lifetime: how long the motions take that have not settled soon ---- */
 
-enum { TILE = 256 };
-
-typedef struct {
-  kz_dynamics *dynamics;
-  double *start; /* [starts][2] */
-  int64_t starts, max_periods;
-} following;
-
-/* Periods until each start of a tile is trapped, or KZ_NOT_ENDED. */
-static kz_status follow_starts(void *context, int64_t first, int64_t n, void *record) {
-  const following *f = context;
-  uint32_t *time = record;
-  int32_t label[TILE];
-  int64_t periods[TILE];
-  kz_dynamics_follow(f->dynamics, KZ_FOLLOW_DIRECT, n, f->max_periods, f->start + 2 * first, label, periods, NULL);
-  for (int64_t i = 0; i < n; i++) time[i] = label[i] > 0 ? (uint32_t)periods[i] : KZ_NOT_ENDED;
-  return KZ_OK;
-}
-
 /* The lifetime of the motions of the sweep's starts at one value. Collective. */
 static kz_status measure_lifetime(const kz_sweep_plan *plan, const kz_run *run, kz_dynamics *dynamics, int64_t max_periods,
                                   kz_lifetime *life) {
+  enum { TILE = 256 };
   const kz_window window = kz_window_of(&plan->theta, &plan->velocity);
-  KZ_FREED double *start = kz_malloc(2 * (size_t)plan->starts * sizeof *start);
-  following f = {dynamics, start, plan->starts, max_periods};
-  const kz_stage stage = kz_stage_of_items("sweep lifetimes", plan->starts, TILE, TILE * sizeof(uint32_t), follow_starts, &f);
-  KZ_FREED uint32_t *time = kz_malloc((size_t)stage.n_tiles * stage.record_bytes);
-  kz_dynamics_starts(&window, plan->seed, plan->starts, start);
-  KZ_TRY(kz_stage_run(run, &stage, time));
+  const size_t n = (size_t)plan->starts;
+  KZ_FREED double *state = kz_malloc(2 * n * sizeof *state);
+  KZ_FREED kz_label *end = kz_malloc(n * sizeof *end);
+  KZ_FREED uint32_t *time = kz_malloc(n * sizeof *time);
+  const kz_labeller labeller = {.dynamics = dynamics,
+                                .max_periods = max_periods,
+                                .way = KZ_BY_STATES,
+                                .at_strobe = true,
+                                .state = state,
+                                .run = run,
+                                .stage = "sweep lifetimes",
+                                .tile = TILE};
+  kz_dynamics_starts(&window, plan->seed, plan->starts, state);
+  KZ_TRY(kz_label_items(&labeller, 1, plan->starts, NULL, end));
+  for (size_t i = 0; i < n; i++) time[i] = end[i].label > 0 ? (uint32_t)end[i].periods : KZ_NOT_ENDED;
   *life = kz_lifetime_tail(plan->starts, time, (double)max_periods);
   return KZ_OK;
 }

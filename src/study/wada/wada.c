@@ -18,7 +18,7 @@ static const double OFF = 1e-11;
 static const double BESIDE = 1e-6;
 
 /* A kz_start_fn: the items are points of a branch, with their error. */
-static kz_status start_of_point(void *context, int64_t item, int32_t level, kz_start *start) {
+static kz_status start_of_point(void *context, int64_t item, kz_precision level, kz_start *start) {
   const double *point = (const double *)context + 4 * item;
   (void)level;
   *start = kz_start_at(point[0], point[1]);

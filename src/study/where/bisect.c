@@ -31,7 +31,7 @@ typedef struct {
   kz_label end[POINTS];
 } piece;
 
-static kz_status start_point(void *context, int64_t i, int32_t level, kz_start *start) {
+static kz_status start_point(void *context, int64_t i, kz_precision level, kz_start *start) {
   const piece *p = context;
   kz_hand_over_start(&p->hand_over[level], p->share[i], 0, start);
   return KZ_OK;

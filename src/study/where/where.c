@@ -10,7 +10,7 @@
 #include "window/window.h"
 
 /* A kz_start_fn: a pair of doubles, and what it leaves out of a longer number. */
-static kz_status start_of(void *context, int64_t i, int32_t level, kz_start *start) {
+static kz_status start_of(void *context, int64_t i, kz_precision level, kz_start *start) {
   static const double pair_error = 4e-32;
   const kz_question *q = context;
   const kz_coordinate *theta = &q->start[i][0], *velocity = &q->start[i][1];
@@ -22,12 +22,17 @@ static kz_status start_of(void *context, int64_t i, int32_t level, kz_start *sta
   return KZ_OK;
 }
 
-/* A kz_decide_fn: of starts with more digits than a pair has. Doubles are labelled as method exact labels the cells of a file. */
-static kz_status decide(void *context, int64_t i, kz_decision *decision) {
+/* Of kz_added_levels: starts with more digits than a pair has. Doubles are labelled as method exact labels the cells of a file. */
+static kz_status decide(void *context, int32_t row, int64_t n, const int64_t *item, kz_decision *decision) {
   const kz_question *q = context;
-  *decision = (kz_decision){.end.label = KZ_DOUBTFUL, .level = KZ_LEVELS, .error = NAN};
-  if (!q->start[i][0].centre && !q->start[i][1].centre) return KZ_OK;
-  return kz_own_orbit_decide(q->dynamics, &q->scene->parameters.pendulum, q->start[i], q->max_periods, decision);
+  (void)row;
+  for (int64_t i = 0; i < n; i++) {
+    const kz_coordinate *start = q->start[item[i]];
+    decision[i] = (kz_decision){.end.label = KZ_DOUBTFUL, .error = NAN};
+    if (start[0].centre || start[1].centre)
+      KZ_TRY(kz_own_orbit_decide(q->dynamics, &q->scene->parameters.pendulum, start, q->max_periods, decision + i));
+  }
+  return KZ_OK;
 }
 
 /* A kz_note_fn. */
@@ -36,13 +41,14 @@ static void note(void *context, int64_t i, const kz_decision *decision) {
 }
 
 static kz_labeller labeller_of(const kz_question *q) {
+  static const kz_added_levels own_orbits = {&kz_own_orbit_level, 1, decide};
   return (kz_labeller){.dynamics = q->dynamics,
                        .max_periods = q->max_periods,
                        .way = KZ_BY_LEVELS,
                        .turns = true,
                        .open = KZ_OPEN_CANDIDATES,
                        .start = start_of,
-                       .decide = decide,
+                       .added = &own_orbits,
                        .note = note,
                        .context = (void *)q};
 }

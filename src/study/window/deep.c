@@ -50,7 +50,7 @@ static void *starts_of(void *own, double reach) {
   return hand_over;
 }
 
-static void start_at(const void *starts, int32_t level, __float128 theta, __float128 velocity, kz_start *start) {
+static void start_at(const void *starts, kz_precision level, __float128 theta, __float128 velocity, kz_start *start) {
   kz_hand_over_start((const kz_hand_over *)starts + level, theta, velocity, start);
 }
 

@@ -45,4 +45,5 @@ static const char *limit(const kz_scene *scene, kz_drive_need need) {
   return "a window by centre and width needs starts at one phase; give min and max";
 }
 
-KZ_PART_ROW("basin", has_basin, .of_basin = &kz_deep_part, .lack = lack, .limit = limit);
+KZ_PART_ROW("basin", has_basin, .of_basin = &kz_deep_part, .lack = lack, .limit = limit, .levels = &kz_own_orbit_level,
+            .n_levels = 1);

@@ -14,6 +14,8 @@ enum {
   LOOK_EVERY = 64 /* Periods between two looks at whether orbits end anywhere */
 };
 
+const kz_level kz_own_orbit_level = {.word = "arbitrary", .stage = "arbitrary", .evidence = 8, .tile = 1, .in_pairs = true};
+
 /* rad: the orbit is followed in many digits as long as its error is below that of a state in quad precision. */
 static const double tolerable = 1e-31;
 
@@ -103,7 +105,7 @@ kz_status kz_own_orbit_decide(kz_dynamics *dynamics, const kz_pendulum *pendulum
   kz_status status = KZ_OK;
   kz_release release;
   kz_dynamics_get_release(dynamics, &release);
-  *decision = (kz_decision){.end.label = KZ_DOUBTFUL, .level = KZ_LEVELS, .error = NAN};
+  *decision = (kz_decision){.end.label = KZ_DOUBTFUL, .error = NAN};
   for (int64_t bits = first_bits(start); status == KZ_OK && decision->end.label == KZ_DOUBTFUL; bits += bits / 3) {
     path p = {.bits = bits < MOST_BITS ? bits : MOST_BITS, .released = kz_release_strobes(&release), .error = {1, 0, 1}};
     p.orbit = kz_arbitrary_create(pendulum, start, p.bits);

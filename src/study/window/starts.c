@@ -35,7 +35,7 @@ void kz_window_starts_free(kz_window_starts *starts) {
 }
 
 /* A kz_start_fn. */
-static kz_status start_cell(void *context, int64_t cell, int32_t level, kz_start *start) {
+static kz_status start_cell(void *context, int64_t cell, kz_precision level, kz_start *start) {
   const kz_window_starts *s = context;
   const int64_t column = cell % s->plan->theta.count, row = cell / s->plan->theta.count;
   if (!s->images) return kz_cell_starts_at((void *)&s->cells, cell, level, start);
@@ -44,20 +44,25 @@ static kz_status start_cell(void *context, int64_t cell, int32_t level, kz_start
   return KZ_OK;
 }
 
-/* A kz_decide_fn. */
-static kz_status decide_cell(void *context, int64_t cell, kz_decision *decision) {
+/* Of kz_added_levels. */
+static kz_status decide_cells(void *context, int32_t row, int64_t n, const int64_t *cell, kz_decision *decision) {
   const kz_window_starts *s = context;
-  const kz_coordinate start[2] = {kz_axis_coordinate(&s->plan->theta, cell % s->plan->theta.count),
-                                  kz_axis_coordinate(&s->plan->velocity, cell / s->plan->theta.count)};
-  return kz_own_orbit_decide(s->dynamics, s->pendulum, start, s->plan->max_periods, decision);
+  (void)row;
+  for (int64_t i = 0; i < n; i++) {
+    const kz_coordinate start[2] = {kz_axis_coordinate(&s->plan->theta, cell[i] % s->plan->theta.count),
+                                    kz_axis_coordinate(&s->plan->velocity, cell[i] / s->plan->theta.count)};
+    KZ_TRY(kz_own_orbit_decide(s->dynamics, s->pendulum, start, s->plan->max_periods, decision + i));
+  }
+  return KZ_OK;
 }
 
 kz_labeller kz_window_labeller(const kz_window_starts *starts, bool decide) {
+  static const kz_added_levels own_orbits = {&kz_own_orbit_level, 1, decide_cells};
   return (kz_labeller){.dynamics = starts->dynamics,
                        .max_periods = starts->plan->max_periods,
                        .way = KZ_BY_LEVELS,
                        .open = KZ_OPEN_CANDIDATES,
                        .start = start_cell,
-                       .decide = decide ? decide_cell : NULL,
+                       .added = decide ? &own_orbits : NULL,
                        .context = (void *)starts};
 }

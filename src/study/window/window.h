@@ -88,7 +88,9 @@ void kz_hand_over_start(const kz_hand_over *hand_over, __float128 theta, __float
 /* Start as its distance from the image's centre, in doubles: change [2], rad and rad per drive radian. */
 void kz_hand_over_change(const kz_hand_over *hand_over, double theta, double velocity, double change[2]);
 
-/* ---- own orbits ---- */
+/* ---- own orbits: a level beyond quad precision ---- */
+
+extern const kz_level kz_own_orbit_level;
 
 /* Follows the start, released as dynamics says, in more and more digits until double or quad precision decides the rest of its motion. decision->end.label = number of an attractor;
  * 0 = not settled within max_periods; KZ_DOUBTFUL = undecided even with 10,000 bits, or with the most bits of the build. */

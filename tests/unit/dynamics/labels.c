@@ -156,8 +156,8 @@ TEST(test_wrong_labels_are_doubtful) {
   for (int i = 0; i < 2 * N; i++) start[i] = i % 2 ? x[i] : x[i] * M_PI;
   memcpy(y, x, sizeof x);
   kz_dynamics_follow(d, KZ_FOLLOW_DIRECT, N, 2000, x, direct, periods, NULL);
-  label_starts(d, KZ_LEVEL_DOUBLE, N, start, followed);
-  kz_dynamics_follow_reference(d, KZ_REFERENCE_STEPS, N, 2000, start, NULL, expected, periods);
+  label_starts(d, next_cheaper(KZ_LEVEL_DOUBLE), N, start, followed);
+  label_starts(d, (kz_label_precision){.level = KZ_LEVEL_QUAD, .series_steps = KZ_REFERENCE_STEPS}, N, start, expected);
   for (int i = 0; i < N; i++) {
     doubtful += followed[i] == KZ_DOUBTFUL;
     wrong += expected[i] != direct[i];
@@ -173,8 +173,8 @@ TEST(test_wrong_labels_are_doubtful) {
     expected[open] = expected[i];
     memmove(start + 2 * open++, start + 2 * i, 2 * sizeof *start);
   }
-  label_starts(d, KZ_LEVEL_PAIRS_28, open, start, direct);
-  label_starts(d, KZ_LEVEL_QUAD, open, start, followed);
+  label_starts(d, next_cheaper(KZ_LEVEL_PAIRS_28), open, start, direct);
+  label_starts(d, next_cheaper(KZ_LEVEL_QUAD), open, start, followed);
   doubtful = 0;
   for (int i = 0; i < open; i++) doubtful += followed[i] == KZ_DOUBTFUL;
   for (int i = 0; i < open; i++) assert_true(followed[i] == expected[i] || followed[i] == KZ_DOUBTFUL);
@@ -198,15 +198,16 @@ TEST(test_quads_decide_after_pairs_what_they_decide_alone) {
   kz_dynamics_fine_regions(d, 400, 3);
   kz_dynamics_starts(&WINDOW, 3, N, x);
   for (int i = 0; i < N; i++) start[i] = (kz_start){.theta = {x[2 * i] * M_PI, 0}, .velocity = {x[2 * i + 1], 0}};
-  for (int32_t level = KZ_LEVEL_DOUBLE; level <= KZ_LEVEL_PAIRS_28; level++) {
+  for (kz_precision level = KZ_LEVEL_DOUBLE; level <= KZ_LEVEL_PAIRS_28; level++) {
     const int64_t n = left;
-    kz_dynamics_label(d, level, level > KZ_LEVEL_DOUBLE ? level - 1 : level, n, start, 2000, decision);
+    const kz_label_precision precision = next_cheaper(level);
+    kz_dynamics_label(d, &precision, n, start, 2000, decision);
     left = 0;
     for (int64_t i = 0; i < n; i++)
       if (decision[i].end.label == KZ_DOUBTFUL) start[left++] = start[i];
   }
-  kz_dynamics_label(d, KZ_LEVEL_QUAD, KZ_LEVEL_FINE, left, start, 2000, alone);
-  kz_dynamics_label(d, KZ_LEVEL_QUAD, KZ_LEVEL_PAIRS_28, left, start, 2000, decision);
+  kz_dynamics_label(d, &(kz_label_precision){.level = KZ_LEVEL_QUAD, .before = KZ_LEVEL_FINE}, left, start, 2000, alone);
+  kz_dynamics_label(d, &(kz_label_precision){.level = KZ_LEVEL_QUAD, .before = KZ_LEVEL_PAIRS_28}, left, start, 2000, decision);
   for (int64_t i = 0; i < left; i++) {
     assert_int_equal(decision[i].end.label, alone[i].end.label);
     decided += alone[i].end.label != KZ_DOUBTFUL;
@@ -232,7 +233,7 @@ TEST(test_regions_hold_whole_ellipses) {
   kz_flow *flow = kz_flow_create(&(kz_pendulum){1.0 / 121, 1.0 / 55, 0.46}, numerics());
   kz_dynamics_starts(&WINDOW, 3, N, x);
   for (int i = 0; i < N; i++) starts[i] = (kz_start){.theta = {x[2 * i] * M_PI}, .velocity = {x[2 * i + 1]}};
-  kz_dynamics_label(d, KZ_LEVEL_DOUBLE, KZ_LEVEL_DOUBLE, N, starts, 2000, decision);
+  kz_dynamics_label(d, &(kz_label_precision){.level = KZ_LEVEL_DOUBLE}, N, starts, 2000, decision);
   for (int i = 0; i < N; i++) {
     if (decision[i].end.label <= 0 || decision[i].error < 1e-4) continue;
     double theta = starts[i].theta[0], velocity = starts[i].velocity[0], j[4];
@@ -267,7 +268,7 @@ TEST(test_growth_foretells_the_level) {
   with_table(d, 400, 3);
   kz_dynamics_starts(&WINDOW, 3, N, x);
   for (int i = 0; i < N; i++) start[i] = (kz_start){.theta = {x[2 * i] * M_PI, 0}, .velocity = {x[2 * i + 1], 0}};
-  kz_dynamics_label(d, KZ_LEVEL_DOUBLE, KZ_LEVEL_DOUBLE, N, start, 2000, decision);
+  kz_dynamics_label(d, &(kz_label_precision){.level = KZ_LEVEL_DOUBLE}, N, start, 2000, decision);
   for (int i = 0; i < N; i++) {
     const int skips = decision[i].end.next == KZ_LEVEL_PAIRS_20;
     if (decision[i].end.label != KZ_DOUBTFUL) continue;
@@ -277,7 +278,7 @@ TEST(test_growth_foretells_the_level) {
   assert_true(n[0] > 20 && n[1] > 20);
   for (int skips = 0; skips < 2; skips++) {
     int64_t decided = 0;
-    kz_dynamics_label(d, KZ_LEVEL_PAIRS_16, KZ_LEVEL_DOUBLE, n[skips], left[skips], 2000, decision);
+    kz_dynamics_label(d, &(kz_label_precision){.level = KZ_LEVEL_PAIRS_16}, n[skips], left[skips], 2000, decision);
     for (int64_t i = 0; i < n[skips]; i++) decided += decision[i].end.label != KZ_DOUBTFUL;
     print_message("%d of %d decided\n", (int)decided, (int)n[skips]);
     assert_true(skips ? 10 * decided <= n[skips] : 2 * decided > n[skips]);
@@ -288,7 +289,7 @@ TEST(test_growth_foretells_the_level) {
 /* Turns of the motions that end on no rotation: whole turns from the start to the nearer of down and inverted at the end, by the angles of an integrator. */
 TEST(test_turns_are_those_of_the_angle) {
   enum { N = 512, LEVELS = 4, LATER = 600 };
-  static const int32_t levels[LEVELS] = {KZ_LEVEL_DOUBLE, KZ_LEVEL_FINE, KZ_LEVEL_PAIRS_20, KZ_LEVEL_QUAD};
+  static const kz_precision levels[LEVELS] = {KZ_LEVEL_DOUBLE, KZ_LEVEL_FINE, KZ_LEVEL_PAIRS_20, KZ_LEVEL_QUAD};
   static double x[2 * N];
   static kz_start start[2 * N];
   static kz_decision decision[LEVELS][2 * N];
@@ -303,7 +304,8 @@ TEST(test_turns_are_those_of_the_angle) {
     start[N + i] = (kz_start){.theta = {-start[i].theta[0]}, .velocity = {-start[i].velocity[0]}};
   }
   for (int l = 0; l < LEVELS; l++) {
-    kz_dynamics_label(d, levels[l], levels[l] > 0 ? levels[l] - 1 : 0, 2 * N, start, 2000, decision[l]);
+    const kz_label_precision precision = next_cheaper(levels[l]);
+    kz_dynamics_label(d, &precision, 2 * N, start, 2000, decision[l]);
     kz_dynamics_count_turns(d, 2 * N, 2000, decision[l]);
   }
   for (int i = 0; i < N; i++) {

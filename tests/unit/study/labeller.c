@@ -24,13 +24,12 @@ static bool is_left_to_last(int64_t item) {
   return decides(item) >= 2 && item % 3 == 0;
 }
 
-static kz_status label_level(void *context, int32_t level, int64_t n, const int64_t *item, kz_label *label) {
+static kz_status label_level(void *context, int32_t level, int64_t n, const int64_t *item, kz_decision *decision) {
   record *r = context;
   for (int64_t i = 0; i < n; i++) {
     r->seen[level][item[i]]++;
-    label[i] = (kz_label){.label = (int16_t)(decides(item[i]) == level ? 1 + item[i] % 1000 : KZ_DOUBTFUL),
-                          .next = is_left_to_last(item[i]) ? 2 : (uint8_t)(level + 1),
-                          .evidence = (uint8_t)(10 + level)};
+    decision[i] = (kz_decision){.end = {.label = (int16_t)(decides(item[i]) == level ? 1 + item[i] % 1000 : KZ_DOUBTFUL),
+                                        .next = is_left_to_last(item[i]) ? 2 : (uint8_t)(level + 1)}};
   }
   return KZ_OK;
 }
@@ -38,9 +37,12 @@ static kz_status label_level(void *context, int32_t level, int64_t n, const int6
 /* Each item is seen once by every level up to the one that decides it, but by none that it was not left to, and its label comes back to its
  * place. */
 TEST(items_climb_until_they_are_decided) {
-  static const kz_level levels[LEVELS] = {{.stage = "a", .tile = 7}, {.stage = "b", .tile = 100}, {.stage = "c", .tile = 1}};
+  static const kz_level rows[LEVELS] = {{.stage = "a", .evidence = 10, .tile = 7},
+                                        {.stage = "b", .evidence = 11, .tile = 100},
+                                        {.stage = "c", .evidence = 12, .tile = 1}};
+  static const kz_added_levels levels = {rows, LEVELS, label_level};
   static record r;
-  const kz_labeller labeller = {.way = KZ_BY_LEVELS, .context = &r, .at = label_level, .levels = levels, .n_levels = LEVELS};
+  const kz_labeller labeller = {.way = KZ_BY_ADDED, .context = &r, .added = &levels};
   KZ_FREED int64_t *item = kz_malloc(ITEMS * sizeof *item);
   KZ_FREED kz_label *label = kz_malloc(ITEMS * sizeof *label);
   for (int64_t i = 0; i < ITEMS; i++) item[i] = (i * 7919) % ITEMS; /* each once */
@@ -86,6 +88,9 @@ TEST(unsettled_items_lead_to_attractors) {
 TEST(evidence_has_the_word_of_its_level) {
   for (int level = 0; level < KZ_LEVELS; level++)
     assert_string_equal(kz_evidence_word(kz_level_rows[level].evidence), kz_level_rows[level].word);
+  for (int i = 0; i < kz_study_count; i++) /* those of powers too */
+    for (int32_t level = 0; level < kz_studies[i]->n_levels; level++)
+      assert_ptr_equal(kz_evidence_word(kz_studies[i]->levels[level].evidence), kz_studies[i]->levels[level].word);
   assert_null(kz_evidence_word(KZ_UNDECIDED));
   assert_null(kz_evidence_word(KZ_LEFT));
 }

@@ -30,7 +30,7 @@ contains
     real(dp), allocatable, intent(out) :: band(:, :)
     type(curve_t), intent(out) :: curve !< the curve itself
     logical :: found
-    integer :: a
+    integer :: a, j
 
     allocate (band(2, 0))
     call find_curve(flow, beta, u, v, curve, found)
@@ -40,7 +40,9 @@ contains
     call widen(flow, curve, HIGH, band)
     found = minval(curve%v - band(LOW, :)) > 0 .and. minval(band(HIGH, :) - curve%v) > 0
     do a = 1, size(others)
-      if (others(a)%period > 0) found = found .and. .not. any(between(band, others(a)%kernel_u, others(a)%kernel_v))
+      do j = 1, others(a)%period
+        found = found .and. .not. is_between(band, others(a)%kernel_u(j), others(a)%kernel_v(j))
+      end do
     end do
     if (.not. found) band = reshape([real(dp) ::], [2, 0])
   end subroutine find_band
@@ -109,7 +111,7 @@ contains
     real(dp), intent(in) :: band(:, :)
     integer, intent(in) :: which
     logical :: inside
-    real(dp) :: u(NODES), v(NODES)
+    real(dp) :: u(NODES), v(NODES), side(2)
     integer :: part, first, n, j
 
     inside = .true.
@@ -121,34 +123,39 @@ contains
         n = min(WIDTH, NODES - first + 1)
         call flow%put_all(u(first:first + n - 1), v(first:first + n - 1))
         call flow%advance(n)
-        inside = inside .and. all(merge(-1, 1, which == LOW)*(flow%v(:n) - polygon(band(which, :), flow%u(:n))) < 0)
+        do j = 1, n
+          side = sides_at(band, flow%u(j))
+          inside = inside .and. merge(-1, 1, which == LOW)*(flow%v(j) - side(which)) < 0
+        end do
       end do
     end do
   end function sides_are_inside
 
-  !> The velocity on straight pieces between nodes.
-  pure function polygon(curve, u) result(v)
-    real(dp), intent(in) :: curve(:), u(:) !< at the nodes; half-turns in [-1, 1]
-    real(dp) :: v(size(u))
+  !> The velocities of both sides of a band at an angle, on straight pieces between nodes.
+  pure function sides_at(band, u) result(v)
+    real(dp), intent(in) :: band(:, :), u !< half-turns in [-1, 1]
+    real(dp) :: v(2)
     real(dp) :: x
-    integer :: i, j
+    integer :: i, j, n
 
-    do i = 1, size(u)
-      x = (u(i) + 1)*0.5_dp*size(curve)
-      j = int(x)
-      x = x - j
-      v(i) = curve(1 + modulo(j, size(curve)))
-      v(i) = v(i) + x*(curve(1 + modulo(j + 1, size(curve))) - v(i))
-    end do
-  end function polygon
+    n = size(band, 2)
+    x = (u + 1)*0.5_dp*n
+    i = int(x)
+    x = x - i
+    j = 1 + modulo(i + 1, n)
+    i = 1 + modulo(i, n)
+    v = band(:, i) + x*(band(:, j) - band(:, i))
+  end function sides_at
 
-  !> Whether states lie in a band.
-  pure function between(band, u, v) result(inside)
-    real(dp), intent(in) :: band(:, :), u(:), v(:) !< half-turns in [-1, 1], rad per drive radian
-    logical :: inside(size(u))
+  !> Whether a state lies in a band.
+  pure function is_between(band, u, v) result(inside)
+    real(dp), intent(in) :: band(:, :), u, v !< half-turns in [-1, 1], rad per drive radian
+    logical :: inside
+    real(dp) :: side(2)
 
-    inside = v > polygon(band(LOW, :), u) .and. v < polygon(band(HIGH, :), u)
-  end function between
+    side = sides_at(band, u)
+    inside = v > side(LOW) .and. v < side(HIGH)
+  end function is_between
 
   !> The band of the mirror image.
   pure function mirrored_band(band) result(image)
@@ -167,20 +174,9 @@ contains
     type(attractor_t), intent(in) :: attractor !< any attractor
     real(dp), intent(in) :: u, v !< half-turns in [-1, 1], rad per drive radian
     logical :: inside
-    real(dp) :: x
-    integer :: i, j, n
 
     inside = .false.
-    if (.not. has_band(attractor)) return
-    n = size(attractor%band, 2)
-    x = (u + 1)*0.5_dp*n
-    i = int(x)
-    x = x - i
-    j = 1 + modulo(i + 1, n)
-    i = 1 + modulo(i, n)
-    associate (band => attractor%band)
-      inside = v > band(LOW, i) + x*(band(LOW, j) - band(LOW, i)) .and. v < band(HIGH, i) + x*(band(HIGH, j) - band(HIGH, i))
-    end associate
+    if (has_band(attractor)) inside = is_between(attractor%band, u, v)
   end function in_band
 
   !> States in the middle of a band, evenly round the circle.

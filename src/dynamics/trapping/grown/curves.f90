@@ -4,7 +4,7 @@ module kz_grown_curves
   use kz_vector_map, only: flow_t, WIDTH, PI
   implicit none
   private
-  public :: curve_t, find_curve, carry_curve, resample, node, is_locked, mean_turns
+  public :: curve_t, find_curve, carry_curve, resample, node, is_locked, mean_turns, window_weight
 
   !> Nodes of a curve round the circle.
   integer, parameter, public :: NODES = 1024
@@ -189,7 +189,7 @@ contains
     now = 1
     curve%density = 0
     do period = 1, periods
-      weight = exp(-1/(real(period, dp)/(periods + 1)*(1 - real(period, dp)/(periods + 1))))
+      weight = window_weight(period, periods)
       curve%density = curve%density + weight*now
       call resample(curve%image(1, :), now/slope, next, found)
       if (.not. found) return
@@ -198,6 +198,15 @@ contains
     curve%density = curve%density/(sum(curve%density)/NODES)
     found = minval(curve%density) > 0
   end subroutine find_density
+
+  !> The weight of a period in averages over a window: smooth, and 0 with all its derivatives beside the window.
+  pure function window_weight(period, periods) result(weight)
+    integer, intent(in) :: period !< from 1
+    integer, intent(in) :: periods !< of the window
+    real(dp) :: weight
+
+    weight = exp(-1/(real(period, dp)/(periods + 1)*(1 - real(period, dp)/(periods + 1))))
+  end function window_weight
 
   !> True if a cycle of up to max_period periods lies on a curve: then motions along it end there. Where all of it comes back, nothing does.
   pure logical function is_locked(curve, max_period)
@@ -230,7 +239,7 @@ contains
     do period = 1, TURN_PERIODS
       step = shift_at(shift, u)
       u = modulo(u + step, 2.0_dp)
-      weight = exp(-1/(real(period, dp)/(TURN_PERIODS + 1)*(1 - real(period, dp)/(TURN_PERIODS + 1))))
+      weight = window_weight(period, TURN_PERIODS)
       weights = weights + weight
       mean = mean + weight*step/2
     end do
