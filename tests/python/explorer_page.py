@@ -217,7 +217,7 @@ class Page:
         self.driver.switch_to.new_window("tab")
         self.driver.get(path.as_uri())
         *others, last = self.driver.find_elements("css selector", "#list button")
-        assert len(others) == 2 and "upright rest" in others[1].text and not last.get_attribute("disabled")
+        assert len(others) == 2 and "inverted" in others[1].text and not last.get_attribute("disabled")
         before, words = self.run("[$('pendulum').toDataURL(), $('words').textContent]")
         last.click()
         assert wait_for(lambda: self.run("$('pendulum').toDataURL()") != before) and self.run("$('words').textContent") != words
@@ -263,7 +263,7 @@ def page(driver, striped, request):
     """A fresh page of stripes, one cell a pixel."""
     plain = "" if "webgl" in request.fixturenames else "&painter=2d&shade=none"
     driver.get("about:blank")
-    fresh = Page(driver, striped.address() + f"#samples=1&quality=moving&middle=hanging&map=off{plain}")
+    fresh = Page(driver, striped.address() + f"#level=measure&samples=1&quality=moving&middle=hanging&map=off&drawn=on{plain}")
     fresh.wait()
     yield fresh
     driver.get("about:blank")  # it asks no more when its server ends

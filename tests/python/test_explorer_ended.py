@@ -73,7 +73,7 @@ def test_numbers_of_another_window_are_not_said_of_this_one(page):
     assert page.run(SHOWN)[::3] == [True, "Cancel"]
     page.run(f"(explorer.state.change({{pendulum: {{...explorer.state.pendulum, m: '7'}}}}), {stop}, {stop})")
     page.wait()
-    assert wait_for(lambda: page.run(SHOWN)[1:] == [None, [], "Resume"])  # no basins of another pendulum
+    assert wait_for(lambda: page.run(SHOWN)[1:] == [1, ["–"] * 3, "Resume"])  # no shares of another pendulum
     page.run("explorer.state.change({pendulum: explorer.state.scene})")
     page.wait()
 
@@ -129,8 +129,8 @@ def test_a_story_of_other_keys_leaves_the_map_as_it_was(page):
     page.run("explorer.state.change({map: 'on'})")
     axes = page.run("explorer.map.axes.map(({name}) => name)")
     page.press("tell")
-    assert wait_for(lambda: page.run("$('stories').querySelectorAll('div button').length") == 6)
-    page.run("$('stories').querySelectorAll('div button')[5].click()")
+    assert wait_for(lambda: page.run("$('stories').querySelectorAll('div button').length") == 7)
+    page.run("$('stories').querySelectorAll('div button')[6].click()")
     assert page.run("explorer.state.pendulum.length") == "20 cm"
     page.key("Escape")
     assert page.run("explorer.map.axes.map(({name}) => name)") == axes

@@ -17,6 +17,7 @@ from kapitza.explorer.picture import scene_in
 
 pytest_plugins = ("explorer_page",)
 TURN = 2 * np.pi
+BLURRED = "document.querySelector('.pane').classList.contains('stale')"
 mpmath.mp.dps = 120
 
 
@@ -215,8 +216,7 @@ def test_the_pendulum_moves_from_the_first_second_and_shows_its_motion_in_other_
 
 def test_a_reload_keeps_the_view_and_the_address_has_no_token(page, striped):
     page.wheel(0.3, 0.6, -900)
-    _ = page.slide("m", 0.4), page.choose("units", "degrees")
-    page.wait()
+    _ = page.slide("m", 0.4), page.choose("units", "degrees"), page.wait()
     window, shares = page.window(), page.shares()
     assert wait_for(lambda: "units=degrees" in page.driver.current_url and "pendulum.m" in page.driver.current_url)
     assert "once" not in page.driver.current_url and page.driver.current_url.startswith(striped.base)
@@ -226,16 +226,16 @@ def test_a_reload_keeps_the_view_and_the_address_has_no_token(page, striped):
     assert float(page.run("$('value-m').value")) == pytest.approx(0.3 * 4**0.4, rel=1e-5)
 
 
-def test_a_refusal_empties_the_picture_and_the_view_lives_on(page, webgl):
-    assert np.any(np.array(page.pixels())[:, 3])
+def test_a_refusal_keeps_the_last_picture_blurred_and_the_view_lives_on(page, webgl):
+    before = page.pixels()
+    assert np.any(np.array(before)[:, 3]) and not page.run(BLURRED)
     page.choose("value-m", "8")
     assert page.wait(state="error") == "pendulum.m: must not be 8" == page.run("document.querySelector('.refusal').textContent")
-    assert not np.any(np.array(page.pixels())[:, 3]) and page.shares() == []
+    assert page.pixels() == before and page.run(BLURRED) and page.shares() == []  # which is not said of what is not computed
     page.choose("value-m", "9")
     assert page.wait(state="error") == "out of memory"
-    page.choose("value-m", "0.3")
-    page.wait()
-    assert np.any(np.array(page.pixels())[:, 3]) and page.run("document.querySelector('.refusal').hidden")
+    _ = page.choose("value-m", "0.3"), page.wait()
+    assert page.pixels() == before and not page.run(BLURRED) and page.run("document.querySelector('.refusal').hidden")
 
 
 def test_a_change_of_the_pendulum_takes_its_motion_away(page):
@@ -296,7 +296,7 @@ def test_both_painters_draw_the_same(page, webgl, driver, striped):
     first = np.array(page.pixels())
     assert page.run("explorer.basins.panes[0].painter.kind") == "webgl"
     driver.get("about:blank")
-    plain = Page(driver, striped.address() + "#samples=1&shade=settling&painter=2d&middle=hanging&map=off")
+    plain = Page(driver, striped.address() + "#level=measure&samples=1&shade=settling&painter=2d&middle=hanging")
     plain.wait()
     second = np.array(plain.pixels())
     assert plain.run("explorer.basins.panes[0].painter.kind") == "2d" and len(np.unique(second, axis=0)) > 2
@@ -318,7 +318,7 @@ def test_pictures_and_tables_are_saved(page, webgl, folder):
     assert wait_for(lambda: not page.run("$('save-csv').disabled"))
     table = np.genfromtxt(page.saved("save-csv", folder / "orbit.csv"), delimiter=",", names=True)
     assert len(table) == 42 * 48 + 1 and table["pivot_height"][0] == 0.3
-    assert table["theta_rad"][0] == pytest.approx(-np.pi + 0.7 * TURN, abs=0.01)
+    assert table["theta_rad"][0] == pytest.approx(-np.pi + 0.7 * TURN, abs=0.02)
     page.run("explorer.state.change({window: explorer.state.window.zoomed(0.3, 0.4, 0.6), jump: true})")
     page.wait()
     window = page.window()
@@ -336,7 +336,7 @@ def test_pictures_and_tables_are_saved(page, webgl, folder):
     page.plays_alone(folder / "view.html")
     drawing = ElementTree.parse(page.saved("save-svg", folder / "view.svg")).getroot()
     words = [item.text for item in drawing.iter("{http://www.w3.org/2000/svg}text")]
-    assert "upright rest" in words and len(list(drawing.iter("{http://www.w3.org/2000/svg}image"))) == 1
+    assert "inverted" in words and len(list(drawing.iter("{http://www.w3.org/2000/svg}image"))) == 1
 
 
 @pytest.mark.extensive

@@ -1,7 +1,6 @@
-"""Where the explorer's page says that a window lies, how it finds boundaries, its map, sliders, stories and tables, in a real browser over
+"""Where the explorer's page says that a window lies, how it finds boundaries, its sliders, stories and tables, in a real browser over
 the double of the program."""
 
-import json
 import re
 
 import numpy as np
@@ -42,31 +41,34 @@ def test_a_plain_deep_picture_says_where_it_is_and_goes_to_a_boundary(page):
     assert page.window()["theta"]["min"] == pytest.approx(-np.pi) and wait_for(lambda: page.run("document.querySelector('.inset').hidden"))
 
 
-def test_places_without_a_motion_have_a_shade_of_their_own(page):
-    """Where a torque turns the pendulum round for ever, 0 motions had the shade of 1."""
-    kinds = page.module("backdrop.js", """[0, 1].flatMap((least) => its.countPicture({lists: [0, 1, 2].slice(least), cells: 2,
-        countOf: (list) => list + least, list: [0, 1, 1, 0]}, "light").kinds)""")
-    assert [words for words, _ in kinds] == ["0 motions", "2 motions", "1 motion", "2 motions"] and kinds[0][1] == kinds[2][1]
-    shade = page.module("backdrop.js", """[...its.countPicture({lists: [0, 1, 2], countOf: (list) => list, list: [0, 1, 2, 1], cells: 2},
-        "light").canvas.getContext("2d").getImageData(1, 1, 1, 1).data]""")
-    assert shade == [181, 209, 220, 255]
-
-
 def test_the_relief_rises_inside_a_basin(page, webgl):
     """By times that vary smoothly, of fewer cells, and as far as those of the picture itself do."""
     page.wait()
     columns, raised, shades = page.run("""(({columns, rows, cells, raised}) => [columns, raised,
         new Set(Array.from({length: columns / 8}, (_, i) => cells[4 * i + 1])).size])(explorer.basins.panes[0].top)""")
     assert raised and shades > columns / 80
-    low, high = page.module("heights.js", """its.heightsOf({cells: Array.from({length: 400}, (_, i) =>
-        [i % 4 ? 0 : i === 0 ? 255 : 0, 50 + (i >> 2), 0, 0][i % 4])}, {own: true})""")
-    assert (low, high) == (pytest.approx(52 / 255, abs=2 / 255), pytest.approx(140 / 255, abs=2 / 255))
     upper_left, lower_right = page.module("heights.js", """(() => { const n = 40, at = (row, column) => row * n + column;
         const smooth = Float32Array.from({length: n * n}, (_, i) => Math.hypot(i % n - 20, Math.floor(i / n) - 20));  // a hill
         const cells = new Uint8Array(4 * n * n).map((_, i) => i % 4 === 1 ? 25.5 * Math.log2(1 + smooth[i >> 2]) : 0);
         const frame = {rows: n, columns: n, labels: new Uint8Array(n * n), cells, smooth}; its.raise(frame, frame);
         return [at(26, 14), at(14, 26)].map((cell) => cells[4 * cell + 1]); })()""")
     assert upper_left < lower_right - 10  # light comes from the upper left
+
+
+def test_a_line_of_the_list_has_the_colour_of_its_basin_with_and_without_relief(page, webgl):
+    """Relief darkened the blue of the picture by a fifth, beside a patch that stayed."""
+    page.choose("shade", "relief")
+    page.wait()
+    assert wait_for(lambda: page.run("Boolean(explorer.basins.panes[0].top.raised)"))
+    raised = np.array(page.pixels())[:, :3]
+    page.choose("shade", "none")
+    page.wait()
+    flat = np.array(page.pixels())[:, :3]
+    plain, counts = np.unique(flat, axis=0, return_counts=True)
+    listed = page.run("explorer.basins.panes[0].engine.catalogue.attractors.map(({colour}) => colour)")
+    for colour in plain[np.argsort(counts)[-len(listed):]]:
+        here = np.all(flat == colour, axis=1)
+        assert "#" + bytes(colour.tolist()).hex() in listed and np.abs(raised[here].mean(axis=0) - colour).max() < 8
 
 
 def test_cells_without_a_label_are_hatched_until_they_are_settled(modules):
@@ -99,7 +101,7 @@ def test_the_list_lights_a_basin_and_keeps_the_one_that_is_clicked(page, webgl):
     assert page.run("[explorer.state.pinned, explorer.state.lit]") == ["inverted 1", "inverted 1"]
     lit = np.unique(np.array(page.pixels()), axis=0).tolist()
     assert sum(colour in plain for colour in lit) == 1 and len(lit) == len(plain) > 1  # one keeps its colour
-    assert wait_for(lambda: page.run("$('passport').textContent").startswith("upright rest: "))
+    assert wait_for(lambda: page.run("$('passport').textContent").startswith("inverted: "))
     assert wait_for(lambda: "smallest push: beyond this window" in page.run("$('passport').textContent"))  # stripes along theta
     assert re.search(r"largest multiplier 0\.\d+, return time [\d.]+ drive periods; strobe", page.run("$('passport').textContent"))
     assert "closes after 1 drive period;" in page.run("$('passport').textContent") and page.run("explorer.state.start.theta") == "0.1"
@@ -108,45 +110,37 @@ def test_the_list_lights_a_basin_and_keeps_the_one_that_is_clicked(page, webgl):
     assert wait_for(lambda: page.run("$('passport').hidden"))
 
 
-def test_the_wheel_goes_to_boundaries_where_it_is_asked_to(page):
-    page.key("w")
-    near = page.module("boundary.js", "its.edgeNear({rows: 4, columns: 100, labels: [...Array(400)].map((_, i) => Number(i % 100 >= 50))}, "
-                                      "0.45, 0.5, 0.15)")
-    assert near[0] == 0.5 and page.run("$('drawn').checked")
-
-    def edge():
-        page.press("home")
-        page.wait()
-        page.wheel(0.3, 0.5, -100)
-        assert wait_for(lambda: page.window()["theta"]["min"] != -np.pi)  # the page takes a turn of the wheel with its next picture
-        return page.window()["theta"]["min"]
-
-    page.key("w")
-    with page.screen(1280, 690):
-        plain = edge()
-        assert plain == pytest.approx(-np.pi + 0.3 * TURN * (1 - np.exp(-0.22)), abs=0.01)
-        page.key("w")
-        assert wait_for(lambda: edge() != plain)  # once the picture's labels are there
-
-
-def test_the_point_of_the_map_is_the_pendulum(page):
-    """The double of the program draws charts, and no atlas."""
-    page.press("map-shown")
-    assert wait_for(lambda: "No curves: wrong: no such key" in page.run("document.querySelector('#map .note').textContent"))
-    listed = page.run("[...document.querySelectorAll('.kinds > span')].map((entry) => entry.textContent)")
-    assert listed == ["inverted", "down nodding", "chaotic"]  # every colour of the chart
-    assert "Motions not computed yet" in page.run("document.querySelector('.kinds').textContent")
-    page.run("explorer.map.go([0.75, 0.5])")
+def test_a_zoom_into_one_colour_goes_on_to_the_nearest_boundary(page):
+    """Unless it is switched off; a zoom that sees a boundary goes where the hand goes."""
+    stripe = """(({labels, columns: n}) => { const line = [...labels.slice(0, n)];
+        const edges = line.flatMap((one, i) => i && one !== line[i - 1] ? [i / n] : []);
+        const [a, b] = edges.slice(1).map((edge, i) => [edges[i], edge]).sort(([a, b], [c, d]) => d - c - b + a)[0];
+        return (a + b) / 2; })(explorer.basins.panes[0].top)"""
+    base = "explorer.state.change({window: explorer.state.home.zoomed(0.05, 0.6, 0.5), jump: true})"
+    page.run(base)
     page.wait()
-    assert page.run("[explorer.state.pendulum.k, explorer.state.pendulum.m]") == ["1", "0.375"]
-    page.run("explorer.map.over.dispatchEvent(new KeyboardEvent('keydown', {key: 'ArrowUp', bubbles: true, cancelable: true}))")
-    assert page.run("[explorer.state.pendulum.m, explorer.map.place[1]]") == ["0.3825", pytest.approx(0.51)]
-    ends = page.run("['#map .over', '.pane .over'].map((name) => document.querySelector(name).getBoundingClientRect().bottom)")
-    assert ends[0] == ends[1]  # map and basins stand on one line
-    refused = [entry["message"] for entry in page.driver.get_log("browser") if entry["level"] == "SEVERE"]
-    assert all("/atlas " in message for message in refused)  # which the module's own look at the log would find, if this test is its last
-    page.press("map-shown")
-    assert page.run("$('map').hidden")
+    middle, wide = page.run(stripe), 0.05 * TURN  # of the widest stripe
+    start = page.window()["theta"]["min"] + middle * wide
+
+    def zoomed(factor):
+        page.run(base)
+        page.wait()
+        page.run("explorer.basins.zoom(arguments[0], arguments[1], 0.5)", factor, middle)
+        page.wait()
+        return page.window()["theta"], len(page.shares())
+
+    window, labels = zoomed(0.04)
+    assert labels > 1 and window["max"] - window["min"] == pytest.approx(0.04 * wide, rel=1e-3)
+    page.key("w")
+    assert not page.run("$('drawn').checked")
+    window, labels = zoomed(0.04)
+    assert labels == 1 and window["min"] < start < window["max"] and not page.run("document.querySelector('.offer').hidden")
+    page.key("w")
+    zoomed(1e-4)  # fewer cells of the picture than are known: the boundary is found by the program
+    assert wait_for(lambda: len(page.shares()) > 1)
+    page.wait()
+    page.press("home")
+    assert page.window()["theta"]["min"] == pytest.approx(-np.pi) and len(page.shares()) > 1
 
 
 def test_basins_move_while_the_point_does_on_a_slow_machine(page):
@@ -161,55 +155,6 @@ def test_basins_move_while_the_point_does_on_a_slow_machine(page):
     assert page.run("((pane) => (pane.most = 1e5, pane.measure(300), pane.measure(15), pane.most))(explorer.basins.panes[0])") == 72000
 
 
-ATLAS = """(() => { const curve = { kind: "period_doubling", period: 1, words: "upright rest", name: "inverted", first: 0, points: 2 };
-    const header = { max_period: 2, mirrored: true, cells: 2, points: 2, file: "f", low: [0, 2],
-        width: [100, 2], curves: [curve], lists: [[[0, 1]], [[2, 1], [1, 1]]],
-        classes: [{ name: "inverted", words: "upright rest", period: 1, symmetric: true },
-                  { name: "flutter", words: "flutter", period: 2, symmetric: true },
-                  { name: "rotation 2/2", words: "rotations 2/2", period: 2 }] };
-    const bytes = new Uint8Array(42);  // a level line at y = 0.5, below which upright attracts
-    new Float32Array(bytes.buffer, 0, 8).set([0, 1, 0.5, 0.5, 0, 0, -1, -1]);
-    new Uint16Array(bytes.buffer, 32, 4).set([0, 0, 1, 1]);
-    bytes.set([1, 1], 40); return [header, bytes]; })()"""
-
-
-def test_crossing_a_curve_says_what_happens_and_sliders_mark_it(page):
-    script = f"""const done = arguments[0]; Promise.all(["atlas", "happenings", "ground", "marks"].map((name) => import(`/${{name}}.js`)))
-        .then(([atlas, happenings, ground, marks]) => {{ const map = new atlas.Atlas(...{ATLAS});
-            const axes = [{{name: "q", unit: "", low: 0, high: 10}}, {{name: "a", unit: "mm", low: 0, high: 0.936}}];
-            const turned = {{...map.curves[0], kind: "fold", words: "rotations 2/2"}};
-            const turning = Object.assign(Object.create(map),
-                {{crossed: (...way) => map.crossed(...way).map((one) => ({{...one, curve: turned}}))}});
-            done([happenings.happening(map, [0.3, 0.2], [0.3, 0.9]), happenings.happening(map, [0.3, 0.9], [0.3, 0.2]),
-                  happenings.happening(turning, [0.3, 0.2], [0.3, 0.9]),
-                  happenings.happening(map, [0.3, 0.2], [0.6, 0.3]), map.motionsAt([0.1, 0.7])[1].words,
-                  map.nearest([0.2, 0.52], [0.1, 0.1]).name,
-                  ground.listedAt({{ atlas: map, axes, others: '{{"q":null,"a":null}}' }}, {{q: "5", a: "0.234 mm"}}),
-                  ground.listedAt({{ atlas: map, axes, others: '{{"q":null,"a":null}}' }}, {{q: "5", a: "1 mm"}}),
-                  marks.marksOf({{ atlas: map, axes }}, "a", {{q: "5", a: "0.3 mm"}}, "0.3 mm")[0].words]); }})"""
-    up, down, turns, along, there, near, listed, outside, mark = page.driver.execute_async_script(script)
-    assert up == "Flutter is born: upright rest loses its stability by period doubling"
-    assert down == "Upright rest is stable again; flutter ends in it" and along == "" and (there, near) == ("flutter", "inverted")
-    assert turns == "Rotations 2/2 end: they meet unstable motions (fold)"
-    assert listed == {"atlas": "f", "x": 50, "y": pytest.approx(2.5)} and outside == {}  # by the numbers of the file
-    assert mark == "0.468 mm: upright rest, period doubling"
-
-
-def test_a_jump_over_several_curves_says_what_lives_at_its_ends(modules):
-    """It named the first of 43 curves: "upright rest is stable again", beside a slider by which it does not stand."""
-    script = f"""import("/happenings.js").then(({{happening}}) => {{ const map = new its.Atlas(...{ATLAS});
-        const leans = {{...map.curves[0], kind: "rest_leans"}}, up = [[0.3, 0.2], [0.3, 0.9]], within = [[0.3, 0.7], [0.3, 0.9]];
-        map.crossed = () => [map.curves[0], leans].map((curve) => ({{curve, point: 0, at: 0.5, into: true}}));
-        const said = [up, up.toReversed(), within].map((way) => happening(map, ...way));
-        map.classes.push({{name: "x", words: "x 5/5", period: 5}}, {{name: "y", words: "y 3/3", period: 3}});
-        map.lists[1] = [3, 4, 2, 1].map((motion) => [motion, 1]);
-        said.push(happening(map, ...up)); map.lists[0] = null; return [...said, happening(map, ...up)]; }})"""
-    up, down, within, many, unknown = modules.module("atlas.js", script)
-    assert up == "New here: rotations 2/2, flutter. Gone: upright rest" and down == "New here: upright rest. Gone: rotations 2/2, flutter"
-    assert within == "" and many == "New here: rotations 2/2, flutter, y 3/3 and 1 more. Gone: upright rest"
-    assert unknown == "What has changed is not known: a curve of the map is missing"
-
-
 def test_sliders_know_their_unit_and_say_what_is_no_number(page):
     words = "[its.typed('9', '8 mm'), its.typed('1e1 cm', '8 mm'), its.typed('.5', '0.3'), its.typed('x', '0.3')]"
     assert page.module("sliders.js", words) == ["9 mm", "10 cm", "0.5", None]
@@ -221,23 +166,22 @@ def test_sliders_know_their_unit_and_say_what_is_no_number(page):
     assert page.run("explorer.state.pendulum.m") == "0.3"
 
 
-@pytest.mark.parametrize("places, words", [
-    ([20, 200], ["a 0.1", "b 2.3"]),
-    ([20, 32], ["a 0.1, b 2.3"]),  # close together: one of two limits
-    ([20, 32, 44], ["b 2.3", "c 4.5"]),
-    ([150, 290], ["a 0.1", "b 2.3"]),
-    ([290, 296, 299], ["a 0.1, b 2.3"]),
-    ([], []),
-])
-def test_words_of_limits_never_touch(modules, places, words):
-    """They lay over each other where upright loses stability and gains it again nearby."""
-    laid = modules.module("marks.js", f"""(() => {{ const names = ["a 0.1", "b 2.3", "c 4.5"], wide = (words) => 7 * words.length;
-        const limits = {json.dumps(places)}.map((x, i) => ({{x, words: names[i], below: i % 2 === 0}}));
-        return its.laidOut(limits, wide, [-8, 308]).map(({{first, last, left, words}}) =>
-            [words, left ? limits[first].x - 4 - wide(words) : limits[last].x + 4, wide(words)]); }})()""")
-    assert [text for text, _, _ in laid] == words
-    edges = [edge for _, left, wide in laid for edge in (left, left + wide)]
-    assert edges == sorted(edges) and all(-8 <= edge <= 308 for edge in edges)
+def test_the_track_of_a_slider_says_what_a_start_does_along_it(page):
+    """The double's chart has three motions in turn; words stand where there is room, and do not touch."""
+    script = """const done = arguments[0]; import("/track.js").then(async (its) => { const engine = explorer.map.engine;
+        const {scene} = explorer.state, stretches = await its.stretchesOf(engine, "m", scene, scene.m);
+        const range = document.createElement("input"), marks = document.createElement("div");
+        marks.className = "marks"; marks.style.cssText = "position: fixed; width: 300px; margin: 0"; document.body.append(marks);
+        its.drawTrack({range, marks}, [["falls", 0, 0, 0.2], ["stands", 0.1294, 0.2, 0.66], ["flutters", 0.468, 0.66, 0.7],
+            ["turns", 0.5, 0.7, 0.71], ["turns", 0.54, 0.71, 1]].map(([words, number, from, to]) => ({words, number, from, to})));
+        const words = [...marks.children].map((mark) => [mark.textContent, mark.offsetLeft]); marks.remove();
+        done([stretches.map(({words, from, to}) => [words, from, to]), words, range.style.getPropertyValue("--track")]); })"""
+    stretches, words, track = page.driver.execute_async_script(script)
+    assert len(stretches) == 14 and {one[0] for one in stretches} == {"stands", "falls"}  # of 20 cells each, two thirds of which fall
+    assert stretches[0][1] == 0 and stretches[-1][2] == 1
+    assert all(one[2] == two[1] for one, two in zip(stretches, stretches[1:], strict=False))
+    assert [text for text, _ in words] == ["falls", "stands 0.13", "flutters"] and words[1][1] == 60 and words[2][1] == 198
+    assert track.startswith("linear-gradient(to right, var(--down) 0% 20%") and "var(--flutter) 66% 70%" in track
 
 
 def test_a_slider_moves_there_and_back_until_it_is_stopped(page):
@@ -285,18 +229,20 @@ def test_a_phone_reaches_every_control(page):
 
 
 def test_stories_are_told_by_keys_and_leave_the_page_as_it_was(page):
-    before = page.run("[explorer.state.pendulum, explorer.state.view]")
+    before = page.run("[explorer.state.pendulum, explorer.state.view, explorer.state.level]")
     page.key("s")
-    assert wait_for(lambda: len(page.run("[...$('stories').querySelectorAll('div button')]")) == 6)
-    page.run("$('stories').querySelector('div button').click()")
-    assert page.run("[$('story-place').textContent, explorer.state.pendulum.quality_factor]") == ["1 / 5", "5"]
+    assert wait_for(lambda: len(page.run("[...$('stories').querySelectorAll('div button')]")) == 7)
+    page.run("$('stories').querySelectorAll('div button')[1].click()")
+    told = "[$('story-place').textContent, explorer.state.pendulum.quality_factor, explorer.state.level]"
+    assert page.run(told) == ["1 / 5", "5", "look"]
     _ = page.key("ArrowRight"), page.key("PageDown")
     assert page.run("[$('story-place').textContent, explorer.state.view]") == ["3 / 5", "trace"]
     assert wait_for(lambda: page.run("explorer.state.pendulum.drive_amplitude") == "0.3")  # it went there in steps
     page.key("PageUp")
     assert page.run("explorer.state.view") == "pendulum"
     page.key("Escape")
-    assert page.run("[explorer.state.pendulum, explorer.state.view]") == before and page.run("document.body.dataset.story ?? null") is None
+    assert page.run("[explorer.state.pendulum, explorer.state.view, explorer.state.level]") == before
+    assert page.run("document.body.dataset.story ?? null") is None
     page.wait()
 
 

@@ -22,7 +22,7 @@ def driver(tmp_path):
 def test_with_the_program(driver, kapitza, tmp_path):
     """The whole circle, a slider, a deep window, a start; labels are those of runs of the saved scenes."""
     running = Server(SMALL)
-    page = Page(driver, running.address() + "#samples=1")
+    page = Page(driver, running.address() + "#samples=1&level=measure&drawn=off")
     assert "every label decided" in page.wait()
     check_saved_scene(page, kapitza, tmp_path)
     page.slide("drive_amplitude", 0.1)
@@ -31,7 +31,7 @@ def test_with_the_program(driver, kapitza, tmp_path):
     page.hand(0.68, 0.36, 0.68, 0.36)
     assert wait_for(lambda: page.run("$('ending').dataset.ending"))
     ending = json.loads(page.run("$('ending').dataset.ending"))
-    assert ending["words"] in page.run("$('ending').textContent").replace("−", "-") and ending["decided"]
+    assert ending["name"] in page.run("$('ending').textContent").replace("−", "-") and ending["decided"]
     page.run("explorer.basins.zoom(1e-20, 0.4, 0.6)")
     page.wait()
     assert page.run("explorer.state.window.theta.width") == pytest.approx(TURN * 1e-20)

@@ -65,6 +65,8 @@ def test_what_cannot_be_computed_is_refused_in_the_programs_words(kept):
     with pytest.raises(Refused, match="damping"):
         list(atlas.maps(kept, {"pendulum": {"k": 0.1, "damping": 0, "m": 0.3},
                                "x": {"parameter": "k", "min": 0, "max": 1}, "y": {"parameter": "m", "min": 0, "max": 1}}))
+    with pytest.raises(BadRequest, match="max_period"):
+        list(atlas.maps(kept, {"pendulum": PENDULUM, **PLANE, "max_period": 0}))
     with pytest.raises(BadRequest, match="pendulum, x and y"):
         list(atlas.maps(kept, {"pendulum": PENDULUM}))
     with pytest.raises(BadRequest, match="fastest"):
@@ -79,8 +81,8 @@ def test_a_boundary_has_saddles_and_lines(kept, monkeypatch):
 
 def test_the_stories_that_come_with_the_page_can_be_told():
     told = stories.written(ROOT / "web" / "explorer" / "stories")
-    assert len(told) == 6 and all(len(story["steps"]) > 3 for story in told)
-    assert told[-1]["pivot_frequency"] == pytest.approx(100 * np.pi) and told[0]["pivot_frequency"] is None
+    assert len(told) == 7 and all(len(story["steps"]) > 3 for story in told)
+    assert told[-1]["pivot_frequency"] == pytest.approx(100 * np.pi) and told[1]["pivot_frequency"] is None
 
 
 @pytest.mark.parametrize(("change", "words"), [

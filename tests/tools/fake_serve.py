@@ -43,9 +43,15 @@ def label(theta, m):
     return int(str(scaled % 1 + 2)[2:60].lstrip(".").lstrip("3")[:1] or 0) % 3
 
 
+def amplitude(request):
+    """Stories have other keys."""
+    pendulum = request.get("pendulum", {})
+    return pendulum.get("m", pendulum.get("drive_amplitude", PENDULUM["m"]))
+
+
 def frame(request):
     sequence, view = request["sequence"], request.get("view", "")
-    pendulum = {"m": PENDULUM["m"]} | request.get("pendulum", PENDULUM)  # stories have other keys
+    pendulum = {"m": amplitude(request)} | request.get("pendulum", PENDULUM)
     if pendulum["m"] == 8:
         return answer("error", sequence, status=2, message="kapitza: error: -:1:418: pendulum.m: must not be 8")
     if pendulum["m"] == 9:
@@ -65,7 +71,7 @@ def frame(request):
         line = bytes(label(low + width * (2 * level * j + level) / (2 * request["columns"]), pendulum["m"]) for j in range(columns))
         planes = request.get("planes", ["labels"])
         parts = {"labels": line, "settling_time": struct.pack(f"<{columns}f", *(9.0 * x for x in line)),
-                 "smooth_time": struct.pack(f"<{columns}f", *(9.0 * x + 0.5 for x in line)),
+                 "smooth_time": struct.pack(f"<{columns}f", *(9.0 * x + 0.5 + j / columns for j, x in enumerate(line))),
                  "doubt": bytes(x == 2 for x in line), "other": bytes(0 if x == 2 else 255 for x in line),
                  "turns": struct.pack(f"<{columns}f", *(8 * j // columns for j in range(columns)))}
         answer("frame", sequence, b"".join(parts[name] * rows for name in planes), level == levels[-1], level=level, rows=rows,
@@ -73,7 +79,7 @@ def frame(request):
 
 
 def other(request):
-    sequence, name, m = request["sequence"], request["request"], (PENDULUM | request.get("pendulum", {}))["m"]
+    sequence, name, m = request["sequence"], request["request"], amplitude(request)
     if name == "catalogue":
         catalogue(sequence, PENDULUM, True)
     elif name == "where":

@@ -1,23 +1,28 @@
 // What lies over the basins of a pane: boundaries, points, the motion, marks, axes, and the place of the pointer.
 
 import { drawReleases } from "./experiment.js";
-import { axesOf, drawAxes, drawLine, drawPlace, drawPoints } from "./plane.js";
+import { imagesOf } from "./placement.js";
+import { axesOf, drawAxes, drawLine, drawPlace, drawPoints, PLAIN } from "./plane.js";
 
 /** On any surface; `plain`: of a pane, `top`: its last frame or null. */
 export function drawOverBasins(surface, plane, plain, state, top) {
-  const { motion, marks, cursor, pointed, overlays, skeleton, releases, spread } = plain;
+  const { motion, bob, marks, cursor, pointed, overlays, skeleton, releases, spread, veil } = plain;
+  const isPlain = state.level === "look";
   const letters = surface.letters ?? 1;
-  const axes = axesOf(state.units, state.pivotFrequency);
+  const axes = isPlain ? PLAIN : axesOf(state.units, state.pivotFrequency);
   surface.clipped(plane.box, () => {
+    const [x, y, wide, high] = plane.box;
+    for (const [left, bottom, width, height] of veil ? imagesOf(veil.frame, plane.window) : [])
+      surface.image(veil.canvas, [x + left * wide, y + (1 - bottom - height) * high, width * wide, height * high]);
     for (const { lines = [], points = [] } of [...overlays, ...(skeleton ?? [])]) {
       for (const line of lines) drawLine(surface, plane, line, "#000000", 1);
       drawPoints(surface, plane, points, "#ffffff", 3.6, "#000000");
     }
-    if (state.points === "on" && top)
+    if (state.points === "on" && top && !isPlain)
       for (const { strobe } of top.catalogue.attractors)
         drawPoints(surface, plane, strobe, "#1c2127", (strobe.length > 2 ? 3.2 : 4.6) * letters);
     drawReleases(surface, plane, releases);
-    if (motion) motion.drawOver(surface, plane);
+    if (motion) motion.drawOver(surface, plane, !isPlain, bob);
     if (spread) surface.line(ellipse(plane, ...spread), "#ffffff", 2);
     drawMarks(surface, plane, marks);
   });

@@ -25,13 +25,6 @@ export class Atlas {
     return box;
   }
 
-  /** How many motions a list has, mirror images too; null where it is not known, as a curve is missing. */
-  countOf(list) {
-    if (!this.lists[list]) return null;
-    const images = ({ symmetric }) => (this.mirrored && !symmetric ? 2 : 1);
-    return this.lists[list].reduce((sum, [motion, count]) => sum + count * images(this.classes[motion]), 0);
-  }
-
   holds([x, y]) {
     return x >= 0 && x <= 1 && y >= 0 && y <= 1;
   }
@@ -41,7 +34,7 @@ export class Atlas {
     return this.list[cell(y) * this.cells + cell(x)];
   }
 
-  /** The motions of a place, of which nobody knows which one comes first: {name, words, period, colour, count}. */
+  /** The motions of a place, of which nobody knows which one comes first: {name, period, colour, count}. */
   motionsAt(place) {
     return (this.lists[this.listAt(place)] ?? []).map(([motion, count]) => ({ ...this.classes[motion], count }));
   }
@@ -63,10 +56,11 @@ export class Atlas {
     return found.sort((one, other) => one.at - other.at);
   }
 
-  /** The curve that comes nearest to a place, within `reach` along each axis; null where there is none. */
-  nearest([x, y], reach) {
+  /** The curve of motions of so many periods at most that comes nearest to a place, within `reach` along each axis; null where there is none. */
+  nearest([x, y], reach, longest = Infinity) {
     let best = { distance: 1, curve: null };
     for (const curve of this.curves) {
+      if (curve.period > longest) continue;
       const { box, first, points } = curve;
       if (box[0] > x + reach[0] || box[2] < x - reach[0] || box[1] > y + reach[1] || box[3] < y - reach[1]) continue;
       for (let i = first; i < first + points - 1; i++) {

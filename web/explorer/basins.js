@@ -1,26 +1,26 @@
 // The panes of basins together: one or two, their hands, their legend, the motion from a start, what the page says of them.
 
-import { endingWords, Motion, settledAfter } from "./motion.js";
-import { edgeNear } from "./boundary.js";
+import { onBoundary } from "./boundary.js";
 import { asScene, sharesOf } from "./frames.js";
 import { listen } from "./gestures.js";
-import { listenLegend, rowsOf, writeLegend } from "./legend.js";
+import { listenLegend, rowsOf, shareWords, writeLegend } from "./legend.js";
+import { endingWords, Motion, plainEnding, settledAfter } from "./motion.js";
 import { Pane } from "./pane.js";
 import { Passport } from "./passport.js";
 import { Stage } from "./stage.js";
-import { placementOf } from "./placement.js";
 import { likelyWords, rowAt, wordsAt } from "./pointed.js";
-import { isOnBoundary, Skeleton } from "./skeleton.js";
+import { Skeleton } from "./skeleton.js";
 import { signed } from "./ticks.js";
 import { Units } from "./units.js";
+import { veilOf } from "./veil.js";
 import { TURN } from "./window.js";
+import { sentenceOf, verdictOf } from "./words.js";
 
 const SECOND = 1.2; // drive periods that a second shows
 const SAMPLES = 48; // of a motion, a drive period
 const RESTS = 400; // ms after which the pointer rests, and the smallest push out of the basin under it is looked for
-const FIRST = { theta: "2.9", velocity: "0", pane: "a" }; // the start that is played until one is chosen: near upright, at rest
+const FIRST = { theta: "3", velocity: "0", pane: "a" }; // the start that is played until one is chosen: near inverted, at rest
 const [LEAST, MOST] = [24, 400]; // drive periods of a motion
-const [REACH, DRAWN] = [0.15, 0.4]; // how far boundaries draw the wheel (of the window), and which part of the way each step goes
 const FRAME_KEYS = ["window", "pendulum", "other", "quality", "samples", "shade"];
 const stillness = matchMedia("(prefers-reduced-motion: reduce)"); // a wish of the reader's system: nothing moves until it is asked to
 const element = (id) => document.getElementById(id);
@@ -81,6 +81,7 @@ export class Basins {
     const pane = new Pane(root, name, this.state, { report: () => this.write(), say: (...words) => this.say(...words) });
     listen(pane.over, this.handsOn(pane));
     pane.offer.onclick = () => element("nearest").click();
+    pane.onPlain = () => this.state.drawn === "on" && this.inward === this.state.window && element("nearest").click();
     pane.plain.overlays = this.overlaysOf(pane);
     return pane;
   }
@@ -105,7 +106,11 @@ export class Basins {
   }
 
   zoom(factor, x = 0.5, y = 0.5) {
-    const window = this.drawn(this.state.window.zoomed(factor, x, y), factor, x, y);
+    const zoomed = this.state.window.zoomed(factor, x, y);
+    const isHeld = this.state.drawn === "on" && factor < 1;
+    const frame = this.active?.top;
+    const window = isHeld && frame && this.active.shows(frame) ? onBoundary(zoomed, frame) : zoomed;
+    this.inward = isHeld ? window : null; // which goes on to a boundary where it turns out to have one colour
     this.state.keep("zoom");
     this.state.change({ window, jump: false });
   }
@@ -131,7 +136,6 @@ export class Basins {
   click(pane, across, up) {
     const start = this.startAt(across, up);
     if (this.onClick) return this.onClick(pane, start);
-    if (isOnBoundary(pane, across, up)) this.skeleton.toggle(pane);
     this.state.change({ start: { ...start, pane: pane.name } });
   }
 
@@ -140,7 +144,8 @@ export class Basins {
     if (FRAME_KEYS.some((key) => keys.has(key))) for (const pane of this.panes) pane.changed();
     if (keys.has("pendulum") || keys.has("other")) this.forgetMotion();
     if (keys.has("start")) this.awaitMotion();
-    if (keys.has("units")) this.writeEnding();
+    if (keys.has("units") || keys.has("level")) this.writeEnding();
+    if (keys.has("window") || keys.has("scene")) this.verdict = null;
     if (keys.has("letters")) for (const pane of this.panes) pane.resized();
     if (keys.has("view") || keys.has("colours")) this.drawStage();
     if (keys.has("start") || keys.has("pendulum") || keys.has("other")) this.followSoon();
@@ -156,7 +161,8 @@ export class Basins {
 
   /** Follows an attractor itself, from one of its strobe points. */
   playAttractor(key) {
-    const row = this.active.top && sharesOf(this.active.top).find((one) => one.key === key);
+    const rows = this.active.top ? sharesOf(this.active.top).filter((one) => one.key === key || one.kind === key) : [];
+    const row = rows.sort((one, other) => other.share - one.share).find(({ strobe }) => strobe?.length);
     if (row) this.state.change({ start: { theta: String(row.strobe[0][0]), velocity: String(row.strobe[0][1]), pane: this.active.name } });
   }
 
@@ -191,7 +197,7 @@ export class Basins {
       const [ending] = await pane.engine.answer({ request: "where", ...request });
       if (order !== this.followed) return;
       Object.assign(ending, start);
-      found = `${signed(endingWords(ending, this.units))}\n`;
+      found = `${signed(this.endingWords(ending))}\n`;
       const wanted = settledAfter(ending) + 4 * (ending.period || 1) + 8;
       const periods = Math.round(Math.max(LEAST, Math.min(MOST, wanted)));
       const orbit = { request: "orbit", ...request, samples_per_period: SAMPLES };
@@ -219,11 +225,16 @@ export class Basins {
     const slower = pivotFrequency ? pivotFrequency / (TURN * SECOND * speed) : null;
     const rows = this.panes.flatMap(({ engine }) => engine.catalogue?.attractors ?? []);
     const bob = rows.find(({ name }) => name === this.motion?.ending.name)?.colour;
+    for (const pane of this.panes) pane.plain.bob = bob;
     this.stage.draw(this.motion, view, bob ? { ...colours, bob } : colours, this.units, slower);
   }
 
   writeEnding() {
-    if (this.motion) element("ending").textContent = signed(endingWords(this.motion.ending, this.units));
+    if (this.motion) element("ending").textContent = signed(this.endingWords(this.motion.ending));
+  }
+
+  endingWords(ending) {
+    return this.state.level === "measure" ? endingWords(ending, this.units) : plainEnding(ending);
   }
 
   /** Thirty pictures a second; the rest of the time is theirs that are computed. */
@@ -278,8 +289,8 @@ export class Basins {
     const words = at ? this.panes.map(wordsOf).join("  |  ") : "";
     const start = at && this.startAt(...at);
     const [angle, speed] = at ? this.units.start(start).map(brief) : [];
-    const place = `θ ${angle}  velocity ${speed}`;
-    element("pointer").textContent = at ? signed(`${place}  ${words}`) : "";
+    const place = this.state.level === "look" ? "A start here" : `θ ${angle}  velocity ${speed} `;
+    element("pointer").textContent = at ? signed(`${place} ${words}`) : "";
   }
 
   say(pane, state, words, progress) {
@@ -298,6 +309,7 @@ export class Basins {
     const isStopped = worst === "done" && this.panes.some((one) => one.isStopped);
     element("cancel").textContent = isStopped ? "Resume" : "Cancel";
     element("cancel").disabled = !isStopped && worst !== "computing" && worst !== "moving";
+    pane.root.querySelector(".wait").textContent = `${Math.round(100 * (this.states.get(pane).progress ?? 0))} % of the new picture`;
     const refusal = pane.root.querySelector(".refusal");
     refusal.hidden = this.states.get(pane).state !== "error";
     refusal.textContent = refusal.hidden ? "" : this.states.get(pane).words;
@@ -314,9 +326,12 @@ export class Basins {
   writeNow() {
     this.writePointed();
     if (!this.state.playing) this.drawStage(); // the catalogue has the bob's colour
-    const rows = rowsOf(this.panes);
+    const rows = rowsOf(this.panes, this.state.level === "look");
     writeLegend(element("legend"), rows);
-    element("legend").classList.toggle("stale", this.panes.some((pane) => pane.top && !pane.shows(pane.top)));
+    element("legend").classList.toggle("stale", this.panes.some((pane) => pane.isStale));
+    this.writeSentence();
+    const [one, other] = this.panes.map((pane) => !pane.isStale && pane.top);
+    for (const pane of this.panes) pane.plain.veil = one && other ? veilOf(one, other) : null;
     this.passport.write(rows);
     const { theta, velocity } = this.state.window;
     const depth = this.state.home.theta.width / theta.width;
@@ -330,6 +345,19 @@ export class Basins {
     element("where").dataset.window = JSON.stringify(this.state.window.toRequest());
     element("where").dataset.depth = depth;
     for (const pane of this.panes) pane.root.querySelector(".caption").textContent = this.captionOf(pane);
+  }
+
+  /** What the ends of the window say of the pendulum, and whether that is new: of the last picture of it alone. */
+  writeSentence() {
+    const { active, state } = this;
+    const top = active.isStale ? null : active.top;
+    if (!top) return void (element("sentence").textContent = "");
+    const found = verdictOf(top);
+    const { key, kind, isNew: was } = this.verdict ?? { key: top.key };
+    const isNew = Boolean(was) || (key !== top.key && kind !== found.kind);
+    this.verdict = { key: top.key, kind: found.kind, isNew };
+    element("sentence").textContent = sentenceOf(found, shareWords, state.window.equals(state.home), isNew);
+    element("sentence").classList.toggle("new", isNew);
   }
 
   /** What tells a pane's pendulum from the other's. */

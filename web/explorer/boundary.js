@@ -2,12 +2,14 @@
 
 import { Decimal } from "./decimal.js";
 import { asScene } from "./frames.js";
+import { placementOf } from "./placement.js";
 import { Range, TURN, Window } from "./window.js";
 
 const LOOK = { width: 120, height: 80 }; // cells of the pictures in which another basin is looked for
 const WIDER = 4; // how much wider each of them is than the one before
 const FASTEST = 40; // rad per drive radian: windows beyond it are not looked at
 const FINE = 1e-3; // of a push, to which it is halved
+const FEWEST = 6; // cells of a side, from which on a part of a frame is known
 const TRIED = 5; // starts with another quick label whose end is asked for
 
 /** Id of the attractor that a start, [theta, velocity] as Decimals, ends on; -1: it settles on none. */
@@ -95,6 +97,28 @@ export async function smallestPush(pane, { id, strobe }) {
   for await (const [, beyond, share] of halvings(pane, [best.theta, best.velocity], other, end))
     if (share < FINE) return beyond[1].minus(best.velocity).toNumber();
   return null;
+}
+
+/** Whether cells of a frame in a part of it, shares [left, bottom, width, height], have several labels; null where it has too few cells. */
+function hasSeveral({ rows, columns, labels }, [left, bottom, width, height]) {
+  const [first, last] = [Math.max(0, Math.floor(left * columns)), Math.min(columns, Math.ceil((left + width) * columns))];
+  const [low, high] = [Math.max(0, Math.floor(bottom * rows)), Math.min(rows, Math.ceil((bottom + height) * rows))];
+  if (last - first < FEWEST || high - low < FEWEST) return null;
+  for (let row = low; row < high; row++)
+    for (let column = first; column < last; column++)
+      if (labels[row * columns + column] !== labels[low * columns + first]) return true;
+  return false;
+}
+
+/** A window that would show one colour of a frame, moved to the boundary of the frame that is nearest; the window itself where there is none. */
+export function onBoundary(window, frame) {
+  const { place, period } = placementOf(frame, window);
+  const [left, bottom, width, height] = place;
+  const across = (0.5 - left) / width;
+  const at = [across - period * Math.floor(across / period), (0.5 - bottom) / height];
+  if (hasSeveral(frame, [at[0] - 0.5 / width, at[1] - 0.5 / height, 1 / width, 1 / height]) !== false) return window;
+  const edge = edgeNear(frame, ...at, 1);
+  return edge ? window.moved(width * (edge[0] - at[0]), height * (edge[1] - at[1])).wrapped() : window;
 }
 
 /** The edge between labels that is nearest to a place of a frame (shares of it), within `reach`; null where there is none. */

@@ -9,6 +9,7 @@ import { listenFiles, openPicture } from "./opened.js";
 import { saveHtml } from "./portable.js";
 import { copyText, savePng, saveScene, saveSvg, saveText } from "./save.js";
 import { Sliders } from "./sliders.js";
+import { LEVELS } from "./state.js";
 import { VIEWS } from "./stage.js";
 import { Stories } from "./stories.js";
 
@@ -32,10 +33,11 @@ const KEYS = { basins: " (f)", motion: " (p)" };
 const SWITCHES = ["points", "drawn"];
 const element = (id) => document.getElementById(id);
 
-/** Returns the map. */
+/** Returns the parts that others see. */
 export function listenControls(state, basins) {
   const { film, map } = listenPendulums(state, basins);
-  listenWindow(state, basins, film);
+  const dive = listenWindow(state, basins, film);
+  listenLevels(state);
   listenChoices(state, basins);
   listenSaving(state, basins);
   listenStage(state, basins);
@@ -46,7 +48,7 @@ export function listenControls(state, basins) {
     [/\.png$/i, (file) => guarded(() => openPicture(state, file))()],
     [/^/, (file) => experiment.read(file)],
   ]);
-  return map;
+  return { map, dive, stories };
 }
 
 /** Tabs of the motion, and buttons that let a part of the page fill it. */
@@ -78,10 +80,25 @@ function listenStage(state, basins) {
   new ResizeObserver(() => basins.drawStage()).observe(element("pendulum"));
 }
 
+/** How much the page shows. */
+function listenLevels(state) {
+  const radios = [...element("levels").querySelectorAll("input")];
+  const show = () => radios.forEach((radio) => (radio.checked = radio.value === state.level));
+  for (const radio of radios)
+    radio.onchange = () => {
+      document.body.dataset.filled = "";
+      state.show(radio.value);
+    };
+  state.listen(show);
+  if (!LEVELS.includes(state.level)) state.show(LEVELS[0]);
+  show();
+}
+
 function fillButton(name) {
   const words = `let ${PARTS[name]} fill the page`;
   const button = Object.assign(document.createElement("button"), { id: `fill-${name}`, title: words + (KEYS[name] ?? ""), textContent: "⤢" });
   button.dataset.fills = name;
+  button.dataset.from = "measure";
   button.setAttribute("aria-label", words);
   return button;
 }
@@ -118,12 +135,14 @@ function listenWindow(state, basins, film) {
   const dive = new Dive(state, basins, (words) => (element("status").textContent = words));
   element("dive").onclick = () => dive.toggle();
   element("nearest").onclick = () => dive.nearest(basins.active);
+  element("saddles").onclick = () => basins.skeleton.toggle(basins.active);
   element("cancel").onclick = () => {
     if (document.body.dataset.state === "done") return basins.resume();
     dive.stop();
     film.stop();
     for (const pane of basins.panes) pane.cancel();
   };
+  return dive;
 }
 
 function listenPendulums(state, basins) {
@@ -135,14 +154,15 @@ function listenPendulums(state, basins) {
     change(values);
   };
   const set = (name, value) => setAll({ [name]: value });
-  const newSliders = () => new Sliders(element("sliders"), state.scene, set, (name) => film.sweep(name));
+  const engine = () => (document.body.dataset.state === "done" ? basins.active.engine : null);
+  const newSliders = () => new Sliders(element("sliders"), state.scene, { change: set, sweep: (name) => film.sweep(name), engine });
   let sliders = newSliders();
   const show = (keys) => {
     if (keys?.has("scene")) {
       sliders = newSliders();
       map.rename(sliders.names);
     }
-    sliders.show(state[key()], state.ground);
+    sliders.show(state[key()]);
     element("map-shown").setAttribute("aria-pressed", String(state.map === "on"));
     element("compare").setAttribute("aria-pressed", String(Boolean(state.other)));
     element("which").hidden = !state.other;
@@ -151,7 +171,7 @@ function listenPendulums(state, basins) {
   for (const button of element("which").children) button.onclick = () => state.change({ pane: button.dataset.pane });
   element("compare").onclick = () => {
     state.keep();
-    state.change(state.other ? { other: null, pane: "a" } : { other: { ...state.pendulum }, pane: "b" });
+    state.change(state.other ? { other: null, pane: "a" } : { other: sliders.besides(state.pendulum), pane: "b" });
   };
   element("map-shown").onclick = () => state.change({ map: state.map === "on" ? "off" : "on" });
   const film = new Film(state, basins, sliders.names, (name, value) => change({ [name]: value }), complain);

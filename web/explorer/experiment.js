@@ -89,7 +89,7 @@ export function likelyEnds(pane, [across, up], [wide, high]) {
       const found = Math.hypot(x, y) < 1 && pane.cellAt(across + x * wide, up + y * high);
       if (!found) continue;
       const label = found.frame.labels[found.cell];
-      const name = label === 255 ? unlabelled(found.frame) : found.frame.catalogue.attractors[label].words;
+      const name = label === 255 ? unlabelled(found.frame) : found.frame.catalogue.attractors[label].name;
       counts.set(name, (counts.get(name) ?? 0) + 1);
       all++;
     }

@@ -51,17 +51,18 @@ export function decoded(header, bytes) {
 
 const palettes = new WeakMap();
 
-/** 256 colours of 4 bytes: colour i of label i of a catalogue; where `lit` is the key of an attractor, those of all others are faded. */
+/** 256 colours of 4 bytes: colour i of label i of a catalogue; where `lit` is the key or the kind of attractors, those of all others are faded. */
 export function paletteOf(catalogue, lit = null) {
   if (!palettes.has(catalogue)) palettes.set(catalogue, new Map());
   const known = palettes.get(catalogue);
   const rows = keyed(catalogue);
-  const key = rows.some((row) => row.key === lit) ? lit : null;
+  const isLit = (row) => row.key === lit || row.kind === lit;
+  const key = rows.some(isLit) ? lit : null;
   if (!known.has(key)) {
     const bytes = new Uint8Array(1024).fill(255);
     bytes.set(bytesOf(UNSETTLED), 4 * 255);
     for (const row of rows) {
-      const faded = key && row.key !== key ? FADED : 1;
+      const faded = key && !isLit(row) ? FADED : 1;
       bytes.set(
         bytesOf(row.colour).map((part) => 235 + faded * (part - 235)),
         4 * row.id,

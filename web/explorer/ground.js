@@ -63,10 +63,10 @@ const asked = (axes) =>
     return { parameter: name, min, max };
   });
 
-/** The atlases of a plane, the better ones later. Throws the program's words. */
-export async function* atlases(axes, pendulum, signal) {
+/** The atlases of a plane, of motions of up to so many periods, the better ones later. Throws the program's words. */
+export async function* atlases(axes, pendulum, longest, signal) {
   const [x, y] = asked(axes);
-  for await (const [header, bytes] of stream("atlas", { pendulum: asScene(pendulum), x, y }, signal)) {
+  for await (const [header, bytes] of stream("atlas", { pendulum: asScene(pendulum), x, y, max_period: longest }, signal)) {
     if (header.answer === "error") throw new Error(header.message);
     if (header.answer === "atlas") yield new Atlas(header, bytes);
   }

@@ -14,7 +14,7 @@ export function happening(atlas, from, to) {
 
 /** What a place has that another has not, and the other way round. */
 function compared(atlas, from, to) {
-  const isKnown = (place) => atlas.countOf(atlas.listAt(place)) !== null;
+  const isKnown = (place) => Boolean(atlas.lists[atlas.listAt(place)]);
   if (!isKnown(from) || !isKnown(to)) return "What has changed is not known: a curve of the map is missing";
   const { born, gone } = changed(atlas, from, to);
   const parts = [["New here", born], ["Gone", gone]].filter(([, motions]) => motions.length);
@@ -22,7 +22,7 @@ function compared(atlas, from, to) {
 }
 
 function listed(motions) {
-  const words = motions.toSorted((one, other) => one.period - other.period).map((motion) => motion.words);
+  const words = motions.toSorted((one, other) => one.period - other.period).map(({ name }) => name);
   return words.slice(0, NAMED).join(", ") + (words.length > NAMED ? ` and ${words.length - NAMED} more` : "");
 }
 
@@ -49,28 +49,19 @@ function isChild({ kind, period, name }, motion) {
   return motion.name !== name && fits && motion.period === (kind === "symmetry_breaking" ? 1 : 2) * period;
 }
 
-/** Forms that follow a motion's name: "rotations 1/2" are two motions, one each way; all other names are one. */
-function grammar(words) {
-  return words.startsWith("rotations")
-    ? { are: "are", lose: "lose their", become: "become", end: "end", they: "they meet unstable motions", them: "them" }
-    : { are: "is", lose: "loses its", become: "becomes", end: "ends", they: "it meets an unstable motion", them: "it" };
-}
-
 function sentence(atlas, { curve, point, into }, { born, gone }) {
-  const { words, kind } = curve;
-  const { are, lose, become, end, they, them } = grammar(words);
-  const child = (into ? gone : born).find((motion) => isChild(curve, motion))?.words;
-  const its = child && grammar(child);
+  const { name, kind } = curve;
+  const child = (into ? gone : born).find((motion) => isChild(curve, motion))?.name;
   const attracts = atlas.supercritical[point] === 1;
-  if (kind === "fold") return into ? `${words} ${are} born: a stable and an unstable motion part (fold)` : `${words} ${end}: ${they} (fold)`;
+  if (kind === "fold") return into ? `${name} is born: a stable and an unstable motion part (fold)` : `${name} ends: it meets an unstable motion (fold)`;
   if (kind === "rest_leans") {
-    if (into) return `${words} ${become} stable`;
-    return `${words} ${are} no longer stable: the pendulum leans to a side${child ? ` (${child})` : ""}`;
+    if (into) return `${name} becomes stable`;
+    return `${name} is no longer stable: the pendulum leans to a side${child ? ` (${child})` : ""}`;
   }
   const way = kind === "symmetry_breaking" ? "by losing symmetry" : "by period doubling";
-  if (into) return attracts ? `${words} ${are} stable again${child ? `; ${child} ${its.end} in ${them}` : ""}` : `${words} ${become} stable`;
-  if (!attracts) return `${words} ${lose} stability ${way}: nothing near ${them} takes over`;
-  return child ? `${child} ${its.are} born: ${words} ${lose} stability ${way}` : `${words} ${lose} stability ${way}`;
+  if (into) return attracts ? `${name} is stable again${child ? `; ${child} ends in it` : ""}` : `${name} becomes stable`;
+  if (!attracts) return `${name} loses its stability ${way}: nothing near it takes over`;
+  return child ? `${child} is born: ${name} loses its stability ${way}` : `${name} loses its stability ${way}`;
 }
 
 const capital = (text) => text.charAt(0).toUpperCase() + text.slice(1);

@@ -2,10 +2,16 @@
 
 import { TURN } from "./window.js";
 
-/** By the word of the state: how much darker late ends are drawn (`depth`, 0 to 1), and whether early and late are those of the frame itself: the
- * times of a picture differ by few periods, which would be one shade of the whole scale. */
-const SHADINGS = { relief: { depth: 0.5, own: true }, settling: { depth: 0.8, own: false }, turns: { depth: 0.8, own: false } };
-const FLAT = { depth: 0, own: false };
+/** By the word of the state: how much darker late ends are drawn (`depth`, 0 to 1), the shade that leaves a colour as it is (`middle`), and whether
+ * shades are those of a raised frame. */
+const MIDDLE = 0.5; // of a relief: the colour of a basin is on the mean that of its line in the list
+const SHADINGS = {
+  relief: { depth: 0.5, middle: MIDDLE, own: true },
+  settling: { depth: 0.8, middle: 0, own: false },
+  turns: { depth: 0.8, middle: 0, own: false },
+};
+const FLAT = { depth: 0, middle: 0, own: false };
+const LEVEL = [MIDDLE - 1e6, MIDDLE + 1e6]; // heights between which all cells have the shade MIDDLE
 export const shadingOf = (shade) => SHADINGS[shade] ?? FLAT;
 const LAKES = 4; // numbers of turns that have shades of their own
 export const DOUBLINGS = 10; // of the time after which the end is certain, until it is as dark as it gets
@@ -20,10 +26,10 @@ const [EARLY, LATE] = [0.02, 0.9]; // shares of a frame's cells that are as ligh
 export const shadeOfTurns = (turns) => (((turns % LAKES) + LAKES) % LAKES || 0) / (LAKES - 1);
 
 /** Times, of 0 to 1 as `cells` has them, from which on cells get darker, and at which they are darkest. */
-export function heightsOf(frame, { own }) {
-  if (!own) return [0, 1];
-  return (frame.heights ??= spreadOf(frame.cells));
-}
+export const heightsOf = (frame, { own }) => (own && !frame.raised ? LEVEL : [0, 1]);
+
+/** How much light a cell of a shade keeps. */
+export const lightOf = ({ depth, middle }, shade) => (1 - depth * shade) / (1 - depth * middle);
 
 /** Gives a frame the shades of a coarser frame of its window, between whose cells they are interpolated. */
 export function raise(frame, coarse) {
@@ -47,7 +53,7 @@ export function raise(frame, coarse) {
       cells[4 * (row * columns + column) + 1] = 255 * (low * (1 - up) + high * up);
     }
   }
-  frame.heights = [0, 1];
+  frame.raised = true;
 }
 
 /** The cell at a row and a column, beyond the edges the nearest one; round the circle, where the frame is a whole turn of it. */
@@ -67,14 +73,17 @@ function litOf(frame) {
     if (labels[from] !== labels[i] || labels[to] !== labels[i]) return 0; // boundaries are no slopes
     return (STEEP * Math.sqrt(rows * columns) * (depth[from] - depth[to])) / (from === i || to === i ? 1 : 2);
   };
-  return depth.map((late, i) => {
+  const shades = depth.map((late, i) => {
     const column = i % columns;
     const row = (i - column) / columns;
     const at = (up, aside) => cellOf(frame, row + up, column + aside);
     const [x, y] = [slope(i, at(0, -1), at(0, 1)), slope(i, at(-1, 0), at(1, 0))];
     const light = (-LIGHT[0] * x - LIGHT[1] * y + LIGHT[2]) / Math.hypot(x, y, 1);
-    return Math.max(0, Math.min(1, LATENESS * late + (1 - LATENESS) * (1 - light)));
+    return LATENESS * late + (1 - LATENESS) * (1 - light);
   });
+  const [sums, counts] = [new Float64Array(256), new Uint32Array(256)];
+  shades.forEach((shade, i) => ((sums[labels[i]] += shade), counts[labels[i]]++));
+  return shades.map((shade, i) => Math.max(0, Math.min(1, MIDDLE + shade - sums[labels[i]] / counts[labels[i]])));
 }
 
 /** Each cell the mean of those of its label about it: slopes of times that vary from cell to cell are no ground. */

@@ -1,12 +1,21 @@
 // Keys: everything that hands do with the mouse, and the list of them.
 
+import { LEVELS } from "./state.js";
+
+const STAYS = ["cancel", "home", "back", "forward", "tell", "nearest", "fill-basins", "fill-motion"]; // keys of these show no more than before
 const STEP = 1 / 8; // of the window
 const ZOOM = 1.6;
 const element = (id) => document.getElementById(id);
-const press = (id) => element(id).click();
 
 /** [keys, what they do in words, what they do]; the first of the keys is listed. */
 function actionsOn(state, basins) {
+  const press = (id) => {
+    const levels = [];
+    for (let part = element(id); part; part = part.parentElement) levels.push(LEVELS.indexOf(part.dataset.from));
+    const level = LEVELS[Math.max(...levels)]; // the first that shows the button
+    if (level && !STAYS.includes(id) && LEVELS.indexOf(state.level) < LEVELS.indexOf(level)) state.show(level);
+    element(id).click();
+  };
   const move = (x, y) => () => {
     state.keep("move");
     state.change({ window: state.window.moved(x, y).wrapped(), jump: false });
@@ -27,8 +36,9 @@ function actionsOn(state, basins) {
     [["Backspace", "Ctrl+z"], "the window or the values before", () => press("back")],
     [["Ctrl+y", "Ctrl+Z"], "undo Back", () => press("forward")],
     [["n"], "go to the nearest boundary", () => press("nearest")],
-    [["w"], "the wheel finds boundaries, or not", () => press("drawn")],
+    [["w"], "zooms stay on boundaries, or not", () => press("drawn")],
     [["d"], "dive between two starts", () => press("dive")],
+    [["b"], "show saddles and what boundaries are made of, or not", () => press("saddles")],
     [["Enter"], "play the start in the middle", () => basins.click(basins.active, 0.5, 0.5)],
     [[" "], "play or pause", () => press("play")],
     [["f"], "the basins fill the page, or not", () => press(document.body.dataset.filled === "motion" ? "fill-motion" : "fill-basins")],

@@ -2,28 +2,13 @@
 
 import { sharesOf } from "./frames.js";
 import { signed } from "./ticks.js";
-
-/** Kinds of motion, as lists of them are ordered. */
-export const ORDER = [
-  "down",
-  "inverted",
-  "down nodding",
-  "flutter",
-  "inverted nodding",
-  "rotation +",
-  "rotation -",
-  "running +",
-  "running -",
-  "other",
-  "chaotic",
-  "not settled",
-];
+import { byKind, EXPLAINED, ORDER } from "./words.js";
 
 const MARKED = 4000; // ms
 
 /** Rows of the last frames of panes: {key, name, colour, shares: [of a, of b]}; null: not known, as a picture was given up before
- * any frame of its window came. */
-export function rowsOf(panes) {
+ * any frame of its window came. `kinds`: one row for each kind of motion. */
+export function rowsOf(panes, kinds = false) {
   const rows = new Map();
   panes.forEach((pane, number) => {
     const isKnown = pane.top && (!pane.isStopped || pane.shows(pane.top));
@@ -32,7 +17,8 @@ export function rowsOf(panes) {
       if (isKnown) rows.get(row.key).shares[number] = row.share;
     }
   });
-  return [...rows.values()].sort(
+  const all = kinds ? byKind([...rows.values()]) : [...rows.values()];
+  return all.sort(
     (one, two) =>
       ORDER.indexOf(one.kind) - ORDER.indexOf(two.kind) || one.period - two.period || one.winding - two.winding || one.id - two.id,
   );
@@ -51,7 +37,7 @@ export function writeLegend(table, rows) {
   const old = new Map([...body.rows].map((line) => [line.dataset.key, line]));
   const lines = rows.map((row) => {
     const line = old.get(row.key) ?? newLine(row, old.size > 0);
-    Object.assign(line.dataset, { id: row.id, name: row.name, share: row.shares[0] });
+    Object.assign(line.dataset, { id: row.id, name: row.name, share: row.shares[0] ?? 0 });
     line.classList.toggle(
       "absent",
       row.shares.every((share) => !share),
@@ -59,10 +45,20 @@ export function writeLegend(table, rows) {
     line.querySelector(".patch").style.background = row.colour;
     line.querySelector(".patch").classList.toggle("hatched", Boolean(row.hatched));
     while (line.cells.length > 2) line.deleteCell(2);
-    for (const share of row.shares) line.insertCell().textContent = shareWords(share);
+    for (const share of row.shares) line.append(newShare(share, row.colour));
     return line;
   });
   body.replaceChildren(...lines);
+}
+
+/** A share as a number beside a bar. */
+function newShare(share, colour) {
+  const [cell, bar] = [document.createElement("td"), document.createElement("span")];
+  cell.className = "share";
+  bar.style.width = `${100 * (share ?? 0)}%`;
+  bar.style.background = colour;
+  cell.append(bar, shareWords(share));
+  return cell;
 }
 
 /** A line; one that comes to others is marked for a moment. */
@@ -76,7 +72,8 @@ function newLine(row, comes) {
   line.insertCell().append(patch);
   if (row.id < 0) line.insertCell().textContent = row.name;
   else {
-    const button = Object.assign(document.createElement("button"), { textContent: signed(row.words) });
+    const button = Object.assign(document.createElement("button"), { textContent: signed(row.name), title: EXPLAINED[row.kind] });
+    button.append(Object.assign(document.createElement("small"), { textContent: ` ${EXPLAINED[row.kind]}` }));
     button.setAttribute("aria-pressed", "false");
     line.insertCell().append(button);
   }

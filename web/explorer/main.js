@@ -7,8 +7,10 @@ import { ask, signIn } from "./engine.js";
 import { listenKeys } from "./keyboard.js";
 import { addressOf, DEFAULTS, readAddress, remember, remembered, State } from "./state.js";
 import { DARK, LIGHT } from "./surface.js";
+import { idOf } from "./track.js";
 import { Window } from "./window.js";
 
+const QUESTION = "Where does the pendulum end?"; // the title of a first look
 const dark = matchMedia("(prefers-color-scheme: dark)");
 
 async function begin() {
@@ -37,8 +39,13 @@ async function begin() {
   Object.assign(state, remembered(), readAddress(location.hash, { pendulum: scene }));
   state.home = state.whole.centred(state.middle);
   state.window ??= state.home;
-  const titleKeys = ["title", "pendulum", "scene"];
-  const showTitle = () => (document.title = document.getElementById("title").textContent = state.shownTitle);
+  for (const [kind, colour] of Object.entries(state.kinds)) document.documentElement.style.setProperty(`--${idOf(kind)}`, colour);
+  const titleKeys = ["title", "pendulum", "scene", "level"];
+  const showTitle = () => {
+    document.title = state.shownTitle;
+    document.getElementById("title").textContent = state.level === "look" ? QUESTION : state.shownTitle;
+    document.body.dataset.level = state.level;
+  };
   showTitle();
   state.listen((keys) => titleKeys.some((key) => keys.has(key)) && showTitle());
   setTheme(state);
@@ -50,12 +57,12 @@ async function begin() {
   keepAddress(state);
   keepMiddle(state);
   const basins = new Basins(state);
-  const map = listenControls(state, basins);
+  const parts = listenControls(state, basins);
   listenKeys(state, basins);
   basins.show();
   // No program stays for a closed page.
-  addEventListener("pagehide", () => [...basins.panes, map].forEach(({ engine }) => engine.close()));
-  window.explorer = { state, basins, map }; // for the browser's console
+  addEventListener("pagehide", () => [...basins.panes, parts.map].forEach(({ engine }) => engine.close()));
+  window.explorer = { state, basins, ...parts }; // for the browser's console
 }
 
 /** Numbers as texts; lists and mappings stay. */

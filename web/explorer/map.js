@@ -1,6 +1,6 @@
 // The map: a plane of two keys of the pendulum, its curves, and the point of the pendulum, which hands move.
 
-import { countPicture, kindPicture } from "./backdrop.js";
+import { chartPicture, regionPicture, regionWords } from "./backdrop.js";
 import { Decimal } from "./decimal.js";
 import { Engine } from "./engine.js";
 import { listen } from "./gestures.js";
@@ -16,7 +16,9 @@ const REST = 900; // ms without a change of other keys, after which the map is m
 const REACH = 7; // px within which a curve is named
 const STEP = 0.01; // of the map that an arrow moves the point
 const DASHES = { fold: [], period_doubling: [6, 3], symmetry_breaking: [2, 2], rest_swings: [6, 3], rest_leans: [2, 2] };
-const PENDING = "Motions not computed yet. One start near upright ends as:";
+const [FEW, MANY] = [2, 4]; // drive periods of motions whose curves are drawn, at most, and where more are asked for
+const CURVE = "#5a646e";
+const PENDING = "One start near inverted:";
 const HATCHES = 9; // px between lines over what is not computed yet
 const element = (id) => document.getElementById(id);
 
@@ -51,6 +53,7 @@ export class MotionMap {
     this.bubble = this.root.querySelector(".bubble");
     this.lists = [...this.root.querySelectorAll("select")];
     for (const list of this.lists) list.onchange = () => this.choose(...this.lists.map(({ value }) => value));
+    element("map-more").onclick = () => state.change({ curves: state.curves === "few" ? "all" : "few" });
     listen(this.over, this.hands());
     this.over.addEventListener("keydown", (event) => this.arrow(event));
     new ResizeObserver(() => this.draw()).observe(this.root);
@@ -86,6 +89,7 @@ export class MotionMap {
 
   show() {
     this.root.hidden = !this.isOpen;
+    element("map-more").setAttribute("aria-pressed", String(this.state.curves === "all"));
     const keys = usualKeys(this.names);
     const known = keys.every((name) => name in this.pendulum); // not between two scenes, whose names come at once
     if (this.isOpen && !this.axes && known) this.choose(...keys);
@@ -107,8 +111,15 @@ export class MotionMap {
     this.askSoon(0);
   }
 
-  note(words) {
-    this.root.querySelector(".note").textContent = words;
+  note(words, isEvidence = false) {
+    const note = this.root.querySelector(".note");
+    note.textContent = words;
+    note.dataset.from = isEvidence ? "measure" : "explore";
+  }
+
+  /** Drive periods of the motions whose curves are wanted. */
+  get longest() {
+    return this.state.curves === "all" ? MANY : FEW;
   }
 
   get others() {
@@ -134,10 +145,10 @@ export class MotionMap {
       this.atlas = found;
       this.from = found.holds(this.place) ? this.place : null;
       this.paint();
-      this.note(`up to ${found.longest} drive period${found.longest === 1 ? "" : "s"}; ${found.certainty}`);
+      this.note(`up to ${found.longest} drive period${found.longest === 1 ? "" : "s"}; ${found.certainty}`, true);
       this.state.change({ ground: { atlas: found, axes: this.axes, others: this.asked } });
     };
-    const curves = taken(atlases(this.axes, this.pendulum, signal), atlas, signal);
+    const curves = taken(atlases(this.axes, this.pendulum, this.longest, signal), atlas, signal);
     await Promise.race([curves, new Promise((resolve) => setTimeout(resolve, CHART))]);
     const others = this.atlas ? null : taken(charts(this.engine, this.axes, this.pendulum, instead.signal), chart, instead.signal);
     const [failure] = await Promise.all([curves, others]);
@@ -145,10 +156,11 @@ export class MotionMap {
   }
 
   changed(keys) {
-    if (keys.has("map")) this.show();
+    if (keys.has("map") || keys.has("curves")) this.show();
+    if (keys.has("curves") && this.axes) this.ask();
     if (!this.isOpen || !this.axes) return;
     if (keys.has("letters")) this.draw();
-    if (keys.has("colours") && (this.chart || this.atlas)) this.paint();
+    if (keys.has("colours") && (this.chart || this.atlas)) this.draw();
     if (!["pendulum", "other", "pane"].some((key) => keys.has(key))) return;
     this.drawPoint();
     if (this.others !== this.asked || !this.isInside) return this.askSoon();
@@ -212,17 +224,15 @@ export class MotionMap {
     if (this.bubble.hidden) return;
     const place = this.plane.sharesOf(...at);
     const [, , width, height] = this.plane.box;
-    const curve = this.atlas.nearest(place, [REACH / width, REACH / height]);
+    const curve = this.atlas.nearest(place, [REACH / width, REACH / height], this.longest);
     const motions = this.atlas.motionsAt(place);
-    const number = this.atlas.countOf(this.atlas.listAt(place));
     const title = document.createElement("strong");
-    const here = number === null ? "not known: a curve is missing" : `${number} motion${number === 1 ? "" : "s"} here`;
-    title.textContent = curve ? `${curve.words}: ${curve.kind.replace("_", " ")}` : here;
-    const lines = motions.map(({ words, colour, count }) => {
+    title.textContent = regionWords(this.atlas, place) + (curve ? ` (${curve.name}: ${curve.kind.replace("_", " ")})` : "");
+    const lines = motions.map(({ name, colour, count }) => {
       const line = document.createElement("span");
       const patch = Object.assign(document.createElement("span"), { className: "patch" });
       patch.style.background = colour;
-      line.append(patch, words + (count > 1 ? ` (${count})` : ""));
+      line.append(patch, name + (count > 1 ? ` (${count})` : ""));
       return line;
     });
     this.bubble.replaceChildren(title, ...lines);
@@ -244,8 +254,8 @@ export class MotionMap {
   /** What changes seldom: shades, curves, axes. */
   paint() {
     this.root.classList.remove("stale");
-    const theme = document.documentElement.dataset.theme;
-    this.picture = this.atlas ? countPicture(this.atlas, theme) : kindPicture(...this.chart, this.state.kinds);
+    const { kinds } = this.state;
+    this.picture = this.atlas ? regionPicture(this.atlas, kinds) : chartPicture(...this.chart, kinds);
     this.root.querySelector(".kinds").replaceChildren(
       this.atlas ? "" : PENDING,
       ...this.picture.kinds.map(([words, colour]) => {
@@ -276,7 +286,7 @@ export class MotionMap {
     surface.clipped(plane.box, () => {
       if (this.picture) surface.image(this.picture.canvas, plane.box);
       if (!this.atlas) hatch(surface, plane.box);
-      for (const curve of this.atlas?.curves ?? []) this.drawCurve(surface, plane, curve);
+      for (const curve of this.atlas?.curves ?? []) if (curve.period <= this.longest) this.drawCurve(surface, plane, curve);
     });
     drawAxes(surface, plane, this.words);
     this.drawPoint();
@@ -288,15 +298,9 @@ export class MotionMap {
     return { theta, velocity };
   }
 
-  drawCurve(surface, plane, { kind, name, first, points }) {
+  drawCurve(surface, plane, { kind, first, points }) {
     const line = Array.from({ length: points }, (_, i) => plane.placeOf(this.atlas.x[first + i], this.atlas.y[first + i]));
-    const rest = kind.startsWith("rest");
-    const colour = rest ? surface.theme.ink : this.colourOf(name, surface);
-    surface.line(line, colour, rest ? 2 : 1.2, DASHES[kind]);
-  }
-
-  colourOf(name, surface) {
-    return this.atlas.classes.find((motion) => motion.name === name)?.colour ?? surface.theme.faint;
+    surface.line(line, CURVE, kind.startsWith("rest") ? 1.4 : 0.8, DASHES[kind]);
   }
 
   drawPoint() {

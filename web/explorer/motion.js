@@ -2,9 +2,11 @@
 
 import { drawLine, drawPoints } from "./plane.js";
 import { TURN } from "./window.js";
+import { EXPLAINED, kindOf } from "./words.js";
 
 const TRACE = 2.5; // drive periods of the bob's and the phase point's traces
 const LONGEST = 32; // drive periods of a spectrum without a cycle
+const START = 8; // px, radius of the ring at the start
 const PAUSE = 1.5; // drive periods that the end is shown, before it begins anew
 
 export class Motion {
@@ -54,10 +56,10 @@ export class Motion {
     return Array.from({ length: Math.floor(this.at) - first + 1 }, (_, i) => first + i);
   }
 
-  /** Strobe points until now, the trace of the phase point, and the point itself. */
-  drawOver(surface, plane) {
+  /** The start, strobe points until now where they are wanted, the trace of the phase point, and the point itself in the colour of its end. */
+  drawOver(surface, plane, isStrobed, bob = "#ffffff") {
     const strobe = [];
-    for (let i = 0; i <= this.at; i += this.perPeriod) strobe.push([this.theta[i], this.velocity[i]]);
+    if (isStrobed) for (let i = 0; i <= this.at; i += this.perPeriod) strobe.push([this.theta[i], this.velocity[i]]);
     drawLine(
       surface,
       plane,
@@ -66,7 +68,9 @@ export class Motion {
       1.2,
     );
     drawPoints(surface, plane, strobe, surface.theme.mark, 3.2);
-    drawPoints(surface, plane, [[this.between(this.theta), this.between(this.velocity)]], "#ffffff", 5.5, "#b3261e");
+    const start = [[this.theta[0], this.velocity[0]]];
+    for (const [radius, colour] of [[START, "#ffffff"], [START + 2, "#1c2127"]]) drawPoints(surface, plane, start, "transparent", radius, colour);
+    drawPoints(surface, plane, [[this.between(this.theta), this.between(this.velocity)]], bob, 6.5, "#1c2127");
   }
 
   /** Numbers of all samples. */
@@ -117,8 +121,8 @@ export class Motion {
     surface.line([[x, y], bob(angle, pivot)], theme.ink, Math.max(3, 0.045 * rod));
     surface.circle(x, y, Math.max(4, 0.05 * rod), theme.ink, theme.ink);
     surface.circle(...bob(angle, pivot), Math.max(8, 0.12 * rod), theme.bob ?? theme.mark, theme.ink);
-    surface.text(units.omega ? units.time(this.period) : `period ${this.period}`, 6, height - 8, "left", { colour: theme.faint });
-    if (slower) surface.text(`${Number(slower.toPrecision(2))} times slower than life`, 6, height - 26, "left", { colour: theme.faint });
+    surface.text(units.omega ? units.time(this.period) : `shake ${this.period}`, 6, height - 8, "left", { colour: theme.faint });
+    if (slower) surface.text(`${Number(slower.toPrecision(2))} times slower than life`, 6, height - 28, "left", { colour: theme.faint });
   }
 
   /** Lines of time (drive radians), theta, velocity, the pivot's height and how far it is aside. */
@@ -133,13 +137,18 @@ export class Motion {
 /** Drive periods after which a start is near its end for good. */
 export const settledAfter = ({ settling_time: certain, near_time: near }) => Math.max(certain ?? 0, Number.isFinite(near) ? near : 0);
 
-/** Where a start ends, in words; `units`: of the page. */
+/** Where a start ends, in plain words. */
+export function plainEnding({ attractor, name }) {
+  return attractor < 0 ? "This one does not settle" : `This one ends ${kindOf(name)}: it ${EXPLAINED[kindOf(name)]}`;
+}
+
+/** Where a start ends, with the evidence; `units`: of the page. */
 export function endingWords(ending, units) {
   const [angle, speed] = units.start(ending);
   const from = `from θ = ${angle}, velocity ${speed}`;
   if (ending.attractor < 0) return `not settled\n${from}`;
   const near = Number.isFinite(ending.near_time) ? `, within 1° after ${units.time(ending.near_time)}` : "";
-  const sure = ending.decided ? "decided: no rounding error can change this end" : `not decided: ${ending.words} or ${ending.other_words ?? "another"}`;
+  const sure = ending.decided ? "decided: no rounding error can change this end" : `not decided: ${ending.name} or ${ending.other_name ?? "another"}`;
   const certain = ending.settling_time > 0 ? `certain after ${units.time(ending.settling_time)}` : "certain at once";
-  return `ends on ${ending.words}: ${certain}${near}\n${from}\n${sure}`;
+  return `ends on ${ending.name}: ${certain}${near}\n${from}\n${sure}`;
 }

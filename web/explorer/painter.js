@@ -1,7 +1,7 @@
 // Labels as a texture, colours as a palette: the basins are drawn, moved and scaled by the graphics card.
 
 import { HATCHING } from "./frames.js";
-import { DOUBLINGS, heightsOf, shadeOfTurns } from "./heights.js";
+import { DOUBLINGS, heightsOf, lightOf, shadeOfTurns } from "./heights.js";
 import { Painter2d } from "./painter2d.js";
 import { placementOf } from "./placement.js";
 
@@ -20,6 +20,7 @@ uniform vec2 canvas;
 uniform vec4 place;
 uniform float period;
 uniform float shading;
+uniform float lightest;
 uniform vec2 heights;
 uniform float hatching;
 out vec4 colour;
@@ -30,7 +31,7 @@ vec3 lightOf(ivec2 cell, bool second) {
   vec3 colour = texelFetch(palette, ivec2(int(label * 255.0 + 0.5), 0), 0).rgb;
   bool dark = mod(floor((gl_FragCoord.x - gl_FragCoord.y) / 4.0), 2.0) == 1.0;
   if (label == 1.0 && dark) colour *= 1.0 - hatching;
-  return colour * colour * (1.0 - shading * clamp((found.g - heights.x) / (heights.y - heights.x), 0.0, 1.0));
+  return colour * colour * lightest * (1.0 - shading * clamp((found.g - heights.x) / (heights.y - heights.x), 0.0, 1.0));
 }
 
 void main() {
@@ -128,6 +129,7 @@ class PainterGl {
     gl.clear(gl.COLOR_BUFFER_BIT);
     gl.uniform2f(this.uniform("canvas"), canvas.width, canvas.height);
     gl.uniform1f(this.uniform("shading"), shading.depth);
+    gl.uniform1f(this.uniform("lightest"), lightOf(shading, 0));
     for (const frame of frames) {
       const { place, period } = placementOf(frame, window);
       this.setPalette(frame.palette);

@@ -1,8 +1,8 @@
 // The painter of browsers without WebGL: each frame becomes a picture of its own, which is drawn where it lies.
 
 import { HATCHING } from "./frames.js";
-import { heightsOf } from "./heights.js";
-import { placementOf } from "./placement.js";
+import { heightsOf, lightOf } from "./heights.js";
+import { imagesOf } from "./placement.js";
 
 const UNDRAWN = -1;
 
@@ -19,18 +19,11 @@ export class Painter2d {
     context.clearRect(0, 0, canvas.width, canvas.height);
     for (const frame of frames) {
       const picture = this.pictureOf(frame, shading);
-      const { place, period } = placementOf(frame, window);
-      const [left, bottom, width, height] = place;
-      context.imageSmoothingEnabled = frame.columns > 1.4 * canvas.width * width;
-      const step = period * width;
-      for (let n = Math.ceil((-left - width) / step); left + n * step < 1; n++)
-        context.drawImage(
-          picture,
-          (left + n * step) * canvas.width,
-          (1 - bottom - height) * canvas.height,
-          width * canvas.width,
-          height * canvas.height,
-        );
+      const across = canvas.width, up = canvas.height;
+      for (const [left, bottom, width, height] of imagesOf(frame, window)) {
+        context.imageSmoothingEnabled = frame.columns > 1.4 * across * width;
+        context.drawImage(picture, left * across, (1 - bottom - height) * up, width * across, height * up);
+      }
     }
   }
 
@@ -58,7 +51,7 @@ export class Painter2d {
         const label = 4 * (second ? cells[cell + 3] : cells[cell]);
         const dark = frame.hatched && label === 4 * 255 && Math.floor((row + column) / 4) % 2 === 1;
         const late = Math.max(0, Math.min(1, (cells[cell + 1] / 255 - low) / (high - low)));
-        const light = (1 - shading.depth * late) ** 0.5 * (dark ? 1 - HATCHING : 1);
+        const light = lightOf(shading, late) ** 0.5 * (dark ? 1 - HATCHING : 1);
         for (let part = 0; part < 3; part++) image.data[pixel + part] = palette[label + part] * light;
         image.data[pixel + 3] = 255;
       }

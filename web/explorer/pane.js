@@ -38,7 +38,7 @@ export class Pane {
     this.version = 0;
     this.most = MOST_MOVING;
     this.lent = 0; // others ask its program for frames, which end its own
-    this.plain = { motion: null, marks: [], cursor: null, pointed: null, overlays: [], skeleton: null, releases: [], spread: null };
+    this.plain = { motion: null, marks: [], cursor: null, pointed: null, overlays: [], skeleton: null, releases: [], spread: null, bob: null, veil: null };
     this.controller = new AbortController();
     new ResizeObserver(() => this.resized()).observe(root);
     new IntersectionObserver(() => this.draw()).observe(root); // what changed out of sight may not have been drawn
@@ -52,9 +52,14 @@ export class Pane {
     return new Plane(this.window, this.over.clientWidth, this.over.clientHeight, lettersOf(document.body));
   }
 
-  /** The last frame that came, which may be coarse, or of the pendulum before; null after a refusal. */
+  /** The last frame that came, which may be coarse, or of the pendulum before. */
   get top() {
     return this.frames.includes(this.latest) ? this.latest : null;
+  }
+
+  /** Whether the picture is not yet, or no longer, the one wanted. */
+  get isStale() {
+    return Boolean(this.top) && !this.shows(this.top);
   }
 
   /** Whether a frame is of the window and the pendulum that are wanted. */
@@ -88,7 +93,7 @@ export class Pane {
   /** The window, the pendulum or the quality that is wanted has changed. */
   changed() {
     this.version++;
-    this.say(this, "moving", ""); // at once: the frame before may still be on its way
+    this.say(this, "moving", "", 0); // at once: the frame before may still be on its way
     this.offer.hidden = true;
     this.giveUp();
     this.move();
@@ -186,7 +191,9 @@ export class Pane {
     if (version !== this.version) return;
     this.complete = version;
     this.say(this, "done", this.words());
-    this.offer.hidden = !(this.top && sharesOf(this.top).filter(({ share }) => share > 0).length === 1);
+    const isPlain = this.top && sharesOf(this.top).filter(({ share }) => share > 0).length === 1;
+    this.offer.hidden = !isPlain;
+    if (isPlain) this.onPlain();
     const key = JSON.stringify(this.pendulum);
     if (!this.inset.wants(this.state.window, key)) return;
     this.inset.frame = Object.assign(await this.glance(this.state.home, this.inset.size), { key });
@@ -204,7 +211,6 @@ export class Pane {
 
   async raise(frame, window, size, engine) {
     raise(frame, await this.glance(window, size, { shade: "settling", most: COARSE, engine }));
-    frame.raised = true;
   }
 
   /** A frame of any window, of that many cells; quick unless `quality` and `shade` say otherwise; of another program where `engine` is given. */
@@ -262,21 +268,14 @@ export class Pane {
     const covered = (old) => old.key !== frame.key || old === coarser || (frame.level === 1 && old.window.equals(frame.window));
     for (const old of this.frames.filter(covered)) this.painter.forget(old);
     this.frames = [...this.frames.filter((old) => !covered(old)), frame].sort((one, two) => cellOf(two) - cellOf(one));
-    while (this.frames.length > MOST_FRAMES) this.painter.forget(this.frames.shift());
+    while (this.frames.length > MOST_FRAMES) this.painter.forget(...this.frames.splice(this.frames[0] === frame ? 1 : 0, 1));
     this.latest = frame;
     this.draw();
     this.report(this);
   }
 
-  /** Nothing stays under axes and values that it does not belong to. */
-  empty() {
-    for (const frame of this.frames) this.painter.forget(frame);
-    this.frames = [];
-  }
-
   refused(error) {
     this.failed = this.version;
-    this.empty();
     this.draw();
     this.report(this);
     this.say(this, "error", error.message);
@@ -300,7 +299,6 @@ export class Pane {
 
   /** What a cancelled picture is. */
   rested() {
-    if (this.top && this.top.key !== JSON.stringify(this.pendulum)) this.empty();
     this.draw();
     this.report(this);
     this.say(this, "done", "Cancelled. The picture is what was computed until then.");
@@ -316,7 +314,8 @@ export class Pane {
 
   /** The frame and the cell of it that lie at a place of the window (shares): {frame, cell}, or null. */
   cellAt(across, up) {
-    for (const frame of this.drawnFrames.toReversed()) {
+    const key = JSON.stringify(this.pendulum);
+    for (const frame of this.drawnFrames.filter((one) => one.key === key).reverse()) {
       const { place, period } = placementOf(frame, this.window);
       const x = ((across - place[0]) / place[2]) % period;
       const [column, row] = [Math.floor((x < 0 ? x + period : x) * frame.columns), Math.floor(((up - place[1]) / place[3]) * frame.rows)];
@@ -345,7 +344,8 @@ export class Pane {
     context.setTransform(ratio, 0, 0, ratio, 0, 0);
     context.clearRect(0, 0, this.over.clientWidth, this.over.clientHeight);
     const surface = new CanvasSurface(context, this.state.colours, lettersOf(document.body));
-    drawOverBasins(surface, this.plane, this.plain, this.state, this.top);
+    this.root.classList.toggle("stale", this.isStale);
+    drawOverBasins(surface, this.plane, this.plain, this.state, this.isStopped && this.isStale ? null : this.top);
   }
 
   /** All that lies over the basins but the pointer, on any surface. */

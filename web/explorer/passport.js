@@ -3,6 +3,7 @@
 import { smallestPush } from "./boundary.js";
 import { shareWords } from "./legend.js";
 import { signed } from "./ticks.js";
+import { EXPLAINED } from "./words.js";
 
 const HIGHEST = 3; // drive frequencies of the spectrum,
 const STRONGEST = 3; // and lines of it that are named
@@ -24,12 +25,12 @@ export function measureWords(row, push, units) {
 
 /** What is known of an attractor itself, in words; `share`: of its basin. Measures of other kinds join here as further lines. */
 export function passportWords(row, share, units) {
-  const { name, words, period, winding, symmetric, multiplier, strobe, mean_velocity } = row;
+  const { name, period, winding, symmetric, multiplier, strobe, mean_velocity } = row;
   const closes = period > 0 ? `closes after ${units.time(period)}` : winding === 0 ? "chaotic" : `never closes, mean velocity ${units.velocity(mean_velocity.toPrecision(5))}`;
   const turns = winding === 0 || period === 0 ? "" : `, ${Math.abs(winding)} turn${Math.abs(winding) === 1 ? "" : "s"} in them`;
   const image = symmetric ? "its own mirror image" : "has a mirror image";
   const back = returnTime(row, units) && `, ${returnTime(row, units)}`;
-  const head = `${words}:${share === null ? "" : ` ${shareWords(share)} of this window;`} in files ${name}\n${closes}${turns}; ${image}`;
+  const head = `${name}:${share === null ? "" : ` ${shareWords(share)} of this window;`} ${EXPLAINED[row.kind]}\n${closes}${turns}; ${image}`;
   if (period === 0) return head;
   const [theta, velocity] = strobe[0].map((value) => value.toPrecision(5));
   return `${head}\nlargest multiplier ${multiplier.toPrecision(4)}${back}; strobe point θ ${units.angle(theta)}, velocity ${units.velocity(velocity)}`;

@@ -13,6 +13,16 @@ export function placementOf(frame, window) {
   return { place: [place.left, place.bottom, place.width * wide, place.height * high], period: bounded / wide };
 }
 
+/** Places, [left, bottom, width, height] as shares of a window, of every image of a frame in it. */
+export function imagesOf(frame, window) {
+  const { place, period } = placementOf(frame, window);
+  const [left, bottom, width, height] = place;
+  const step = period * width;
+  const found = [];
+  for (let n = Math.ceil((-left - width) / step); left + n * step < 1; n++) found.push([left + n * step, bottom, width, height]);
+  return found;
+}
+
 /** Those of the frames, the last on top, that are seen in a window: what lies under one that fills it is not. */
 export function seen(frames, window) {
   const fills = (frame) => {

@@ -6,7 +6,7 @@ import { TURN } from "./window.js";
 
 const MOST_TICKS = 8; // of an axis on which a place is read
 
-export const MARGIN = { left: 78, right: 14, top: 10, bottom: 48 };
+export const MARGIN = { left: 84, right: 16, top: 10, bottom: 52 };
 
 export class Plane {
   /** `letters`: how much larger they are than usual, and with them the room for numbers such as −0.025. */
@@ -45,6 +45,9 @@ export class Plane {
   }
 }
 
+/** Those of a first look: degrees, and turns in a shake. */
+export const PLAIN = { theta: { words: "angle (degrees)", factor: degrees }, velocity: { words: "push (turns in one shake)" } };
+
 /** Factors and names of the units in which axes are marked. `pivotFrequency`: rad/s, or null where the scene does not say. */
 export function axesOf(units, pivotFrequency) {
   const plain = { words: "angle θ from down (rad)", inPi: true };
@@ -78,7 +81,7 @@ export function drawAxes(surface, plane, axes) {
       ink,
       1,
     );
-    surface.text(words, x, bottom + 18, "center");
+    surface.text(words, x, bottom + 20, "center");
   }
   for (const { share, words } of up.ticks) {
     const y = bottom - share * height;
@@ -93,8 +96,8 @@ export function drawAxes(surface, plane, axes) {
     surface.text(words, left - 8, y + 4, "right");
   }
   const label = (axis, origin) => (origin ? `${axis.words} = ${origin}` : axis.words);
-  surface.text(label(axes.theta, along.origin), left + width / 2, bottom + 38, "center");
-  surface.text(label(axes.velocity, up.origin), 14, top + height / 2, "center", { turned: true });
+  surface.text(label(axes.theta, along.origin), left + width / 2, bottom + 42, "center");
+  surface.text(label(axes.velocity, up.origin), 16, top + height / 2, "center", { turned: true });
 }
 
 /** Fine lines through a place (shares of the window), and its values on both axes. */
@@ -106,7 +109,7 @@ export function drawPlace(surface, plane, axes, [across, up]) {
     surface.line(line, "#ffffffc0", 1);
   }
   const [angle, speed] = ["theta", "velocity"].map((name) => ticksOf(plane.window[name], MOST_TICKS, axes[name]));
-  tag(surface, angle.wordsAt(across), x, top + height + 18, "center", [left, left + width]);
+  tag(surface, angle.wordsAt(across), x, top + height + 20, "center", [left, left + width]);
   tag(surface, speed.wordsAt(up), left - 8, y + 4, "right", [0, left]);
 }
 

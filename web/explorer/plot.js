@@ -4,10 +4,10 @@ import { Decimal } from "./decimal.js";
 import { signed, ticksOf } from "./ticks.js";
 import { Range } from "./window.js";
 
-const MARGIN = { left: 60, right: 12, top: 12, bottom: 50 }; // the button Play lies under the numbers of the lower axis
+const MARGIN = { left: 66, right: 14, top: 12, bottom: 54 }; // the button Play lies under the numbers of the lower axis
 const APART = 5; // px between words of an axis
-const LETTERS = 11; // px
-const [ACROSS, UP] = [64, 34]; // px that a tick of an axis has
+const LETTERS = 14; // px
+const [ACROSS, UP] = [72, 36]; // px that a tick of an axis has
 const MOST_PARTS = 12; // of a drive frequency that ticks tell apart
 
 /** Ticks of whole frequencies up to `most`, of their halves, and of the parts that a motion of that period has: {at, words, rank}; words of a

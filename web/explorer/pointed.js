@@ -10,14 +10,15 @@ export function rowAt(pane, across, up) {
   return found && sharesOf(found.frame).find(({ id }) => id === found.frame.labels[found.cell]);
 }
 
-/** The end of a place, and the measures of its basin as far as they are known. */
-export function wordsAt(pane, { passport, units }, across, up) {
+/** The end of a place; from the level measure on the measures of its basin too, as far as they are known. */
+export function wordsAt(pane, { passport, units, state }, across, up) {
   const found = pane.cellAt(across, up);
   const row = rowAt(pane, across, up);
   if (!found) return "not labelled yet";
   const { frame, cell } = found;
-  const name = frame.labels[cell] === 255 ? unlabelled(frame) : frame.catalogue.attractors[frame.labels[cell]].words;
+  const name = frame.labels[cell] === 255 ? unlabelled(frame) : frame.catalogue.attractors[frame.labels[cell]].name;
   const known = row && (pane.shows(frame) ? row : { ...row, share: null, settling: null }); // not those of another window
+  if (state.level === "look") return `ends ${row ? row.kind : name}`;
   const measures = row ? `: ${measureWords(known, passport.pushOf(pane, row), units)}` : "";
   return name + (frame.cells[4 * cell + 2] === 255 ? " (undecided)" : "") + measures;
 }

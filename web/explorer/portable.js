@@ -32,7 +32,7 @@ export async function saveHtml(state, basins) {
 
 /** A row of the list with a motion of it, where its attractor is known. */
 async function recorded(row, { panes, units }) {
-  const known = { name: signed(row.words ?? row.name), colour: row.colour, share: row.shares.map(shareWords).join(" / "), motion: null, words: "" };
+  const known = { name: signed(row.name), colour: row.colour, share: row.shares.map(shareWords).join(" / "), motion: null, words: "" };
   const pane = panes.find(({ top }) => top && sharesOf(top).some(({ key, strobe }) => key === row.key && strobe?.length));
   if (!pane) return known;
   const [theta, velocity] = row.strobe[0];

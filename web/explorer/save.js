@@ -59,7 +59,7 @@ export function pictureSize(basins) {
 export function drawPicture(surface, state, basins, pictures = new Map()) {
   const [width, height] = pictureSize(basins);
   surface.rectangle(0, 0, width, height, LIGHT.paper);
-  surface.text(state.shownTitle, 66, 20, "left", { size: 15 });
+  surface.text(state.shownTitle, 66, 20, "left", { size: 16 });
   let left = 0;
   for (const pane of basins.panes) {
     drawPane(surface, pane, left, basins.captionOf(pane), pictures.get(pane));
@@ -68,7 +68,7 @@ export function drawPicture(surface, state, basins, pictures = new Map()) {
   rowsOf(basins.panes).forEach((row, i) => {
     surface.rectangle(left + 8, HEAD + 12 + 20 * i, 13, 13, LIGHT.ink);
     surface.rectangle(left + 9, HEAD + 13 + 20 * i, 11, 11, row.colour);
-    surface.text(signed(row.words ?? row.name), left + 28, HEAD + 23 + 20 * i, "left");
+    surface.text(signed(row.name), left + 28, HEAD + 23 + 20 * i, "left");
     surface.text(row.shares.map(shareWords).join("  "), left + 240, HEAD + 23 + 20 * i, "right");
   });
 }
@@ -85,7 +85,7 @@ function drawPane(surface, pane, left, caption, picture) {
 
 export function pictureCanvas(state, basins, scale = 2, pictures = new Map()) {
   const [width, height] = pictureSize(basins);
-  const canvas = Object.assign(document.createElement("canvas"), { width: scale * width, height: scale * height });
+  const canvas = Object.assign(document.createElement("canvas"), { width: Math.round(scale * width), height: Math.round(scale * height) });
   const context = canvas.getContext("2d");
   context.scale(scale, scale);
   drawPicture(new CanvasSurface(context, LIGHT), state, basins, pictures);

@@ -1,21 +1,9 @@
-// What a boundary is made of: a click on it shows the saddles and their stable manifolds, another one takes them away.
+// What boundaries are made of: saddles and their stable manifolds, where they are asked for.
 
-import { edgeNear } from "./boundary.js";
 import { stream } from "./engine.js";
 import { asScene } from "./frames.js";
-import { placementOf } from "./placement.js";
 
-const NEAR = 3; // px from a boundary that a click may be
 const DEEPEST = 30; // the curves are drawn in steps that are seen in deeper windows
-
-/** Whether a place of a pane (shares of its window) lies on a boundary. */
-export function isOnBoundary(pane, across, up) {
-  const frame = pane.top;
-  if (!frame) return false;
-  const { place, period } = placementOf(frame, pane.window);
-  const x = (across - place[0]) / place[2];
-  return edgeNear(frame, x - period * Math.floor(x / period), (up - place[1]) / place[3], NEAR / (pane.basins.clientWidth || 1)) !== null;
-}
 
 export class Skeleton {
   constructor(state, basins, say) {
@@ -25,7 +13,7 @@ export class Skeleton {
   /** Shows the skeleton of a pane's pendulum, or takes it away. */
   async toggle(pane) {
     if (pane.plain.skeleton) return this.put(pane, null);
-    if (this.state.home.theta.width / this.state.window.theta.width > DEEPEST) return;
+    if (this.state.home.theta.width / this.state.window.theta.width > DEEPEST) return this.say("The lines of saddles are too coarse for so deep a window.");
     const { pendulum } = pane;
     const { low, high } = this.state.whole.velocity;
     const fastest = Math.max(Math.abs(low.toNumber()), Math.abs(high.toNumber()));
@@ -44,6 +32,7 @@ export class Skeleton {
 
   put(pane, skeleton) {
     pane.plain.skeleton = skeleton;
+    document.getElementById("saddles").setAttribute("aria-pressed", String(Boolean(skeleton)));
     pane.draw();
   }
 }

@@ -1,9 +1,17 @@
-// A slider and a typed value for every number of the pendulum's mapping, with marks where the map has curves.
+// A slider and a typed value for every number of the pendulum's mapping, on a track that shows what the pendulum does.
 
 import { formsOf, isNeutral, isOfDrive } from "./drive.js";
-import { drawMarks, marksOf, stretchOf } from "./marks.js";
+import { usualKeys } from "./ground.js";
+import { drawTrack, stretchesOf } from "./track.js";
 import { keyWords, numberOf, placeOf, valueAt, withUnit } from "./values.js";
 
+const REST = 250; // ms without a change, after which tracks are made anew
+const EXPLAINED = {
+  quality_factor: "how weak friction is: about as many swings as it makes until it is calm",
+  drive_frequency: "how fast it is shaken: shakes in one small swing of the pendulum at rest",
+  drive_amplitude: "how far it is shaken up and down, as a part of the pendulum's length",
+};
+const APART = 0.1; // of a slider, between two pendulums that are compared
 const STEP = 0.01; // of half a slider, that an arrow or a notch of the wheel goes; with shift ten of them
 const SYMBOLS = { // of values without a unit of their own
   quality_factor: "Q",
@@ -36,11 +44,14 @@ export function typed(text, home) {
   return found && withUnit(found.number, found.unit || numberOf(home).unit);
 }
 
-/** Fills `holder`; `change(name, text)` is called for each new value, `sweep(name)` for a press of the button that moves a slider there and back. */
+/** Fills `holder`; `change(name, text)` is called for each new value, `sweep(name)` for a press of the button that moves a slider there and back;
+ * `engine()`: one that has nothing to do, or null. */
 export class Sliders {
-  constructor(holder, scene, change, sweep) {
+  constructor(holder, scene, { change, sweep, engine }) {
     this.scene = scene;
     this.rows = new Map();
+    this.engine = engine;
+    new ResizeObserver(() => this.rows.forEach((row) => row.stretches && drawTrack(row, row.stretches))).observe(holder);
     this.drive = newDrive(scene);
     holder.replaceChildren();
     for (const name of Object.keys(scene).filter((key) => numberOf(scene[key]))) {
@@ -52,6 +63,19 @@ export class Sliders {
     }
     if ("waveform" in scene) this.addForms(change);
     if (this.drive.children.length > 1) holder.append(this.drive);
+    this.main = usualKeys(this.names)[1] ?? this.names[0];
+    this.rows.get(this.main)?.element.classList.add("main");
+  }
+
+  /** Another pendulum, to be compared with one: it does something else, where the track knows that. */
+  besides(pendulum) {
+    const { main, scene } = this;
+    if (!main) return { ...pendulum };
+    const place = (1 + placeOf(pendulum[main], scene[main])) / 2;
+    const stretches = this.rows.get(main).stretches ?? [];
+    const at = stretches.findIndex(({ from, to }) => from <= place && place < to);
+    const other = stretches[at + 1] ?? stretches[at - 1] ?? { from: Math.max(0, place - APART), to: place };
+    return { ...pendulum, [main]: valueAt(other.from + other.to - 1, scene[main]) };
   }
 
   /** The list of wave forms. */
@@ -80,20 +104,42 @@ export class Sliders {
     return [...this.rows.keys()];
   }
 
-  /** Shows the values of a pendulum, and the curves that `ground` (the map's atlas and its axes, or null) has on the way. */
-  show(pendulum, ground) {
-    for (const [name, { range, number, marks, message }] of this.rows) {
+  /** Shows the values of a pendulum. */
+  show(pendulum) {
+    for (const [name, { element, range, number, value, message }] of this.rows) {
       const home = this.scene[name];
       range.value = placeOf(pendulum[name], home);
+      element.style.setProperty("--share", (1 + placeOf(pendulum[name], home)) / 2);
+      value.textContent = pendulum[name];
       range.setAttribute("aria-valuetext", pendulum[name]);
       if (document.activeElement !== number) number.value = pendulum[name];
       if (message.dataset.of !== pendulum[name]) message.textContent = "";
       number.title = range.title = `the scene has ${home}; a double click goes there`;
-      const found = marksOf(ground, name, pendulum, home);
-      drawMarks(marks, found);
-      for (const [property, share] of stretchOf(found)) range.style.setProperty(property, share);
     }
     if (this.forms) this.forms.value = pendulum.waveform;
+    this.pendulum = pendulum;
+    this.trackSoon();
+  }
+
+  trackSoon() {
+    clearTimeout(this.timer);
+    this.timer = setTimeout(() => this.track(), REST);
+  }
+
+  /** Makes the tracks whose other values have changed, of the sliders that are seen. */
+  async track() {
+    const { pendulum } = this;
+    const mine = (this.tracking = {});
+    for (const [name, row] of this.rows) {
+      const others = JSON.stringify({ ...pendulum, [name]: null });
+      if (row.others === others || !row.element.offsetParent) continue;
+      const engine = this.engine();
+      const stretches = engine && (await stretchesOf(engine, name, pendulum, this.scene[name]).catch(() => []));
+      if (mine !== this.tracking) return;
+      if (!stretches) return this.trackSoon();
+      Object.assign(row, { others, stretches });
+      drawTrack(row, stretches);
+    }
   }
 }
 
@@ -133,23 +179,26 @@ function newDrive(scene) {
   return part;
 }
 
+const spanOf = (className, textContent) => Object.assign(document.createElement("span"), { className, textContent });
+
 function newRow(name, home) {
   const [element, label, marks, message] = ["div", "label", "div", "p"].map((kind) => document.createElement(kind));
   const [range, number] = [document.createElement("input"), document.createElement("input")];
   element.className = "slider";
-  label.textContent = keyWords(name);
+  label.append(spanOf("key", keyWords(name)), spanOf("plain", /amplitude|^m$/.test(name) ? "how far it is shaken" : keyWords(name)));
+  label.title = EXPLAINED[name] ?? "";
   label.htmlFor = number.id = `value-${name}`;
-  const symbol = Object.assign(document.createElement("span"), { className: "symbol", textContent: numberOf(home).unit || (SYMBOLS[name] ?? "") });
-  label.append(" ", symbol);
+  label.append(" ", spanOf("symbol", numberOf(home).unit || (SYMBOLS[name] ?? "")));
   Object.assign(range, { type: "range", min: -1, max: 1, step: 0.002, value: 0, id: `slider-${name}` });
   range.setAttribute("aria-label", keyWords(name));
   Object.assign(number, { type: "text", inputMode: "decimal", autocomplete: "off" });
+  const value = Object.assign(document.createElement("output"), { htmlFor: range.id });
   marks.className = "marks";
   Object.assign(message, { className: "message", id: `message-${name}` }).setAttribute("role", "alert");
   number.setAttribute("aria-describedby", message.id);
   const play = Object.assign(document.createElement("button"), { className: "sweep", textContent: "▶", title: `move ${keyWords(name)} there and back` });
   play.setAttribute("aria-label", play.title);
   play.setAttribute("aria-pressed", "false");
-  element.append(label, range, number, play, marks, message);
-  return { element, range, number, play, marks, message };
+  element.append(label, value, range, number, play, marks, message);
+  return { element, range, number, value, play, marks, message };
 }

@@ -12,13 +12,17 @@ export const DEFAULTS = {
   points: "on",
   painter: "auto",
   middle: "upright",
-  drawn: "off",
+  drawn: "on",
   view: "pendulum",
   letters: "usual",
   spread: "0",
-  map: innerWidth >= 1100 ? "on" : "off",
+  level: "look",
+  map: "off",
+  curves: "few",
 };
+export const LEVELS = ["look", "explore", "measure"]; // each shows what the one before does, and more
 
+const SAID = ["level", "map"]; // by every address: what the browser remembers of them may be another page's
 const PAUSE = 1000; // ms
 const NAMED = 2; // values in a title
 
@@ -47,6 +51,12 @@ export class State {
     const names = Object.keys(pendulum).filter((name) => pendulum[name] !== scene[name]);
     const words = names.slice(0, NAMED).map((name) => `${keyWords(name)} ${pendulum[name]} instead of ${scene[name]}`);
     return names.length ? words.join(", ") + (names.length > NAMED ? " …" : "") : title;
+  }
+
+  /** Shows as much as a level does; what it has no control for goes. */
+  show(level) {
+    const plain = level === "look" ? { view: DEFAULTS.view, map: "off", other: null, pane: "a" } : {};
+    this.change({ level, lit: null, pinned: null, ...plain });
   }
 
   /** Goes to another window; the present one is kept for back(). */
@@ -102,7 +112,7 @@ export function addressOf(state) {
   for (const [name, value] of Object.entries(state.pendulum)) if (value !== state.scene[name]) parts.set(`pendulum.${name}`, value);
   if (state.start) parts.set("start", `${state.start.theta}~${state.start.velocity}~${state.start.pane}`);
   if (state.other) for (const [name, value] of Object.entries(state.other)) parts.set(`other.${name}`, value);
-  for (const [name, value] of Object.entries(DEFAULTS)) if (state[name] !== value) parts.set(name, state[name]);
+  for (const [name, value] of Object.entries(DEFAULTS)) if (state[name] !== value || SAID.includes(name)) parts.set(name, state[name]);
   return `#${parts}`;
 }
 
@@ -128,7 +138,7 @@ export function readAddress(hash, start) {
   return found;
 }
 
-const REMEMBERED = ["middle", "theme", "drawn"];
+const REMEMBERED = ["middle", "theme", "drawn", "level", "map"];
 
 /** Choices that hold for every scene. A cookie keeps them: it is the same for all ports of this machine, where other storage is not. */
 export function remember(state, keys) {

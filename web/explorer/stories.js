@@ -9,7 +9,7 @@ import { Window } from "./window.js";
 
 const GLIDE = 1.5; // seconds in which numbers of the pendulum go to their new values
 const PRESENTER = { ArrowRight: 1, PageDown: 1, Enter: 1, " ": 1, ArrowLeft: -1, PageUp: -1, Backspace: -1 };
-const KEPT = ["title", "scene", "pendulum", "other", "pane", "pivotFrequency", "start", "window", "home", "whole", "view", "map", "speed", "lit", "pinned", "past", "undone"];
+const KEPT = ["level", "title", "scene", "pendulum", "other", "pane", "pivotFrequency", "start", "window", "home", "whole", "view", "map", "speed", "lit", "pinned", "past", "undone"];
 const element = (id) => document.getElementById(id);
 const texts = (pendulum) => Object.fromEntries(Object.entries(pendulum).map(([name, value]) => [name, typeof value === "number" ? String(value) : value]));
 
@@ -17,17 +17,22 @@ export class Stories {
   constructor(state, basins) {
     Object.assign(this, { state, basins, story: null, step: 0 });
     element("tell").onclick = () => (this.story ? this.end() : this.offer());
+    element("show-me").onclick = async () => this.begin((await this.all())[0]);
     element("story-next").onclick = () => this.go(1);
     element("story-back").onclick = () => this.go(-1);
     element("story-end").onclick = () => this.end();
     addEventListener("keydown", (event) => this.key(event), true);
   }
 
+  async all() {
+    return (this.known ??= (await ask("stories")).stories);
+  }
+
   /** Lists the stories. */
   async offer() {
-    this.known ??= (await ask("stories")).stories;
+    const known = await this.all();
     element("stories").querySelector("div").replaceChildren(
-      ...this.known.map((story) => {
+      ...known.map((story) => {
         const button = Object.assign(document.createElement("button"), { type: "button", textContent: story.title });
         button.onclick = () => {
           element("stories").close();
@@ -46,7 +51,8 @@ export class Stories {
   }
 
   begin(story) {
-    this.before = Object.fromEntries(KEPT.map((name) => [name, this.state[name]]));
+    this.before ??= Object.fromEntries(KEPT.map((name) => [name, this.state[name]]));
+    this.state.show("look");
     this.story = story;
     document.body.dataset.story = element("story-title").textContent = story.title;
     element("tell").setAttribute("aria-pressed", "true");
@@ -83,6 +89,7 @@ export class Stories {
     element("tell").setAttribute("aria-pressed", "false");
     if (document.fullscreenElement) document.exitFullscreen();
     this.state.change({ ...this.before, jump: true });
+    this.before = null;
   }
 
   key(event) {
@@ -113,7 +120,8 @@ export class Stories {
     document.body.dataset.filled = all.fill;
     const to = boundary ? this.state.window : window ? Window.from(window) : this.state.home;
     this.state.change({ view: all.view, map: all.map, speed: all.speed, start, window: to, jump: false, playing: true, lit: null, pinned: null });
-    this.glide(pendulum, steps.at(-1).glide ?? GLIDE, () => boundary && this.zoomTo(boundary));
+    this.busy = (this.busy ?? 0) + 1; // shows that go on
+    this.glide(pendulum, steps.at(-1).glide ?? GLIDE, () => boundary && this.zoomTo(boundary)).finally(() => this.busy--);
   }
 
   /** Numbers go to their new values in so many seconds; then `after`. */
@@ -129,7 +137,7 @@ export class Stories {
       const between = moving.map((name) => [name, part < 1 ? mixed(from[name], pendulum[name], part) : pendulum[name]]);
       this.state.change({ pendulum: { ...from, ...Object.fromEntries(between) } });
     }
-    after();
+    await after();
   }
 
   /** The nearest boundary, in a window so many times narrower than the first one. */

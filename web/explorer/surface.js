@@ -2,6 +2,8 @@
 
 const FONT = '"DejaVu Sans", "Helvetica Neue", Arial, sans-serif';
 
+const LETTERS = 14; // px
+
 /** Colours of lines and letters. Saved pictures are always on white. */
 export const LIGHT = { paper: "#ffffff", ink: "#1c2127", faint: "#5a646e", trace: "#a9c4df", mark: "#b3261e", shaker: "#dfe4e9", cross: "#1c212770" };
 export const DARK = { paper: "#161b21", ink: "#e4e8ec", faint: "#98a2ad", trace: "#3f5f80", mark: "#ff8a7a", shaker: "#2a323b", cross: "#ffffff70" };
@@ -44,7 +46,7 @@ export class CanvasSurface {
     this.context.fillRect(x, y, width, height);
   }
 
-  text(words, x, y, align, { size = 12, turned = false, colour = this.theme.ink } = {}) {
+  text(words, x, y, align, { size = LETTERS, turned = false, colour = this.theme.ink } = {}) {
     const c = this.context;
     c.save();
     c.translate(x, y);
@@ -57,7 +59,7 @@ export class CanvasSurface {
   }
 
   /** Width of words, px. */
-  width(words, size = 12) {
+  width(words, size = LETTERS) {
     this.context.font = `${size * this.letters}px ${FONT}`;
     return this.context.measureText(words).width;
   }
@@ -101,7 +103,7 @@ export class SvgSurface {
     this.parts.push(`<rect x="${x}" y="${y}" width="${width}" height="${height}" fill="${fill}"/>`);
   }
 
-  text(words, x, y, align, { size = 12, turned = false, colour = this.theme.ink } = {}) {
+  text(words, x, y, align, { size = LETTERS, turned = false, colour = this.theme.ink } = {}) {
     const anchor = { left: "start", center: "middle", right: "end" }[align];
     const turn = turned ? ` transform="rotate(-90 ${x} ${y})"` : "";
     this.parts.push(

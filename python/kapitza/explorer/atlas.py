@@ -3,14 +3,14 @@
 import numpy as np
 
 from kapitza import style
-from kapitza.plots.atlas_classes import centre_of, lacking_text, motion_text
+from kapitza.plots.atlas_classes import centre_of, lacking_text
 from kapitza.reading import arrays_of
 
 from .run_cache import CALM
 from .scene import BadRequest
 
-# A map comes soon, as its first stage is computed beside the page's pictures, and then with more: cycles of more periods, gaps between the
-# curves looked for, finer cells.
+# A map comes soon, as its first stage is computed beside the page's pictures, and then with more periods. Where they are asked for, those
+# of four come too, with gaps between the curves looked for, and finer cells.
 STAGES = ({"max_period": 1, "seeds": 4, "checks": 0, "points": 160}, {"max_period": 2, "seeds": 8, "checks": 0, "points": 160},
           {"max_period": 4, "checks": 60, "points": 400})
 
@@ -20,7 +20,11 @@ def maps(kept, request):
     axes = {axis: request.get(axis) for axis in ("x", "y")}
     if any(not isinstance(value, dict) for value in (*axes.values(), request.get("pendulum"))):
         raise BadRequest("a map needs the mappings pendulum, x and y")
-    scenes = [{"pendulum": request["pendulum"], "atlas": {**axes, **stage}} for stage in STAGES]
+    longest = request.get("max_period", STAGES[-1]["max_period"])
+    stages = [stage for stage in STAGES if stage["max_period"] <= longest] if isinstance(longest, int) else []
+    if not stages:
+        raise BadRequest("max_period of a map must be an integer from 1")
+    scenes = [{"pendulum": request["pendulum"], "atlas": {**axes, **stage}} for stage in stages]
     known = max((number for number, scene in enumerate(scenes) if kept.has(scene)), default=0)
     for number, scene in enumerate(scenes[known:], known):
         yield from kept.answers(scene, lambda result: packed(*arrays_of(result.path, "atlas")), calm=CALM if number else 0, answer="atlas",
@@ -56,11 +60,11 @@ def _edges(middles):
 def _curve(atlas, i):
     name = style.name_text(atlas["curve_name"][i]).rpartition(": ")[0]
     kinds = ("fold", "period_doubling", "symmetry_breaking", "rest_swings", "rest_leans")
-    return {"kind": kinds[int(atlas["curve_kind"][i])], "period": int(atlas["curve_period"][i]), "words": motion_text(name),
+    return {"kind": kinds[int(atlas["curve_kind"][i])], "period": int(atlas["curve_period"][i]),
             "first": int(atlas["curve_first"][i]), "points": int(atlas["curve_points"][i]), "name": name}
 
 
 def _motion(atlas, i):
     name, period = style.name_text(atlas["class_name"][i]), int(atlas["class_period"][i])
     colour = style.motion_colour(period, int(atlas["class_winding"][i]), centre_of(atlas["class_name"][i]))
-    return {"name": name, "words": motion_text(name), "period": period, "symmetric": bool(atlas["class_symmetric"][i]), "colour": colour}
+    return {"name": name, "period": period, "symmetric": bool(atlas["class_symmetric"][i]), "colour": colour}

@@ -3,14 +3,8 @@
 import pandas
 
 from kapitza import style
-from kapitza.plots.atlas_classes import motion_text
 
 CENTRES = {"down": 0, "inverted": 1, "rotating": 2, "neither": 3}
-
-
-def words(name):
-    """What the page calls one attractor of that name."""
-    return motion_text(name).replace("rotations", "rotation")
 
 
 class Colours:
@@ -20,8 +14,7 @@ class Colours:
         self._kept = {}
 
     def added(self, attractors):
-        """The rows of a catalogue, each with its `colour` and its name in `words`; where kept colours would look like new ones, all are
-        chosen anew."""
+        """The rows of a catalogue, each with its `colour`; where kept colours would look like new ones, all are chosen anew."""
         if not attractors:
             return []
         table = pandas.DataFrame(attractors)
@@ -31,4 +24,4 @@ class Colours:
         if len(set(chosen)) < len(set(found)):
             chosen = found
         self._kept |= dict(zip(names, chosen, strict=True))
-        return [row | {"colour": colour, "words": words(row["name"])} for row, colour in zip(attractors, chosen, strict=True)]
+        return [row | {"colour": colour} for row, colour in zip(attractors, chosen, strict=True)]

@@ -8,7 +8,7 @@ from contextlib import suppress
 from kapitza.client import Client, Ended
 from kapitza.program import ERROR, SceneError
 
-from .colours import Colours, words
+from .colours import Colours
 
 MOST_VIEWS = 6       # programs at once; the one that has waited longest ends for a new one
 PATIENCE = 2.0       # seconds until a program must have ended a frame that a newer one, or a person, ends
@@ -83,8 +83,6 @@ class View:
             header, payload = {"answer": answer, "final": True, "bytes": 0, "status": 1, "message": str(end)}, b""
         if header["answer"] == "error":
             header = header | {"message": plain(header["message"])}
-        if header["answer"] == "where":
-            header = header | {key.replace("name", "words"): words(header[key]) for key in ("name", "other_name") if header.get(key)}
         return header, payload
 
     @property
