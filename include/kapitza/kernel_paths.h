@@ -66,3 +66,17 @@ bool kz_path_polish(const kz_hamilton *flow, const kz_path_end *from, const kz_p
 /* Adds `cycles` [2] cycles of each end to the path, along its planes. The node moves to other memory of kz_realloc. */
 void kz_path_lengthen(const kz_hamilton *flow, const kz_path_end *from, const kz_path_end *to, const int64_t cycles[2],
                       kz_path *path);
+
+/* Motions under white noise of intensity 2 beta T, with `steps` steps a period. */
+typedef struct {
+  int32_t steps;
+  double half, decay, noise; /* half a step; of the velocity in a step; standard deviation of what a step adds to it */
+  double (*force)[3];        /* of kz_path_forces at the middle of each step */
+} kz_walker;
+kz_walker *kz_walker_create(const kz_pendulum *pendulum, double temperature, int32_t steps);
+void kz_walker_free(kz_walker *walker);
+/* Advances a state through drive period number `period` of the motion `seed`. theta is not wrapped. */
+void kz_walker_advance(const kz_walker *walker, uint64_t seed, uint64_t period, double *theta, double *velocity);
+/* Random bits, and a number in [0, 1): hashes of a counter. */
+uint64_t kz_path_hash(uint64_t seed, uint64_t counter);
+double kz_path_random(uint64_t seed, uint64_t counter);

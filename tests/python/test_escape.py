@@ -14,6 +14,9 @@ MORE_BARRIERS = [(0.15, 0.00035979758, "unstable inverted"), (0.3, 0.0100714374,
                  (0.45, 0.0040390822, "unstable inverted 4-nodding")]
 
 
+WITH_COUNT = {"temperatures": [0.005], "walkers": 20, "max_periods": 2000}
+
+
 def at(epsilon, max_period=2, **escape):
     return {**SCENE, "pendulum": {**SCENE["pendulum"], "drive_amplitude": epsilon},
             "saddles": {**SCENE["saddles"], "max_period": max_period}, "escape": {**SCENE["escape"], **escape}}
@@ -38,7 +41,7 @@ def test_barriers_of_the_inverted_state(kapitza, tmp_path, epsilon, barrier, nam
 
 @pytest.fixture(scope="module")
 def fig12(kapitza, tmp_path_factory):
-    return run_scene(kapitza, tmp_path_factory.mktemp("escape"), at(0.25))
+    return run_scene(kapitza, tmp_path_factory.mktemp("escape"), at(0.25, **WITH_COUNT))
 
 
 def test_a_path_obeys_the_equation_and_costs_its_action(fig12):
@@ -61,9 +64,22 @@ def test_a_path_obeys_the_equation_and_costs_its_action(fig12):
     assert "Ways out" in summary
 
 
+def test_counted_lives_are_those_of_the_barrier(fig12, kapitza, tmp_path):
+    """Lives end as their barrier says: the slope of ln(life) over 1/T lies between R - T and R, within the error of the count."""
+    inverted = named(fig12[0], "attractors", "inverted")[0]
+    counted = at(0.2, starts=2, temperatures=[0.001, 0.0015], walkers=256, **{"from": [inverted]})
+    escape = run_scene(kapitza, tmp_path, counted, ranks=2)[0].group("escape")
+    life, low, high = (escape[name].values[inverted] for name in ("life", "life_low", "life_high"))
+    assert np.all(escape["life_ended"].values[inverted] == 256) and np.all((low < life) & (life < high))
+    slope = np.log(life[0] / life[1]) / (1 / 0.001 - 1 / 0.0015)
+    error = np.hypot(*(np.log(high / low) / 4)) / (1 / 0.001 - 1 / 0.0015)
+    assert 0.0031 - 0.0015 - 4 * error < slope < 0.0031 + 4 * error
+    assert np.isnan(np.delete(escape["life"].values, inverted, axis=0)).all()
+
+
 def test_the_bytes_do_not_depend_on_the_ranks(fig12, kapitza, tmp_path):
     result, _ = fig12
-    assert datasets(stopped_and_resumed(kapitza, tmp_path, at(0.25), ranks=3).path) == datasets(result.path)
+    assert datasets(stopped_and_resumed(kapitza, tmp_path, at(0.25, **WITH_COUNT), ranks=3).path) == datasets(result.path)
 
 
 def test_incomplete_saddles_and_motions_that_are_no_cycles_are_refused(kapitza, tmp_path):

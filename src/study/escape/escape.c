@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "cells/scene_search.h"
+#include "counted.h"
 #include "gates.h"
 #include "report.h"
 #include "saddles/saddles.h"
@@ -78,12 +79,6 @@ static kz_status check_from(const kz_escape_plan *plan, const kz_listed *attract
   return KZ_OK;
 }
 
-static bool is_left(const kz_escape_plan *plan, const kz_listed *attractors, int64_t id) {
-  bool named = plan->from.count == 0;
-  for (int64_t i = 0; i < plan->from.count; i++) named = named || plan->from.values[i] == id;
-  return named && attractors->period[id] > 0;
-}
-
 /* The tasks; the caller frees them. */
 static kz_escape_task *list_tasks(const kz_escape_plan *plan, bool mirrored, const kz_listed *attractors,
                                   const kz_listed *saddles, const kz_gate *gate, int64_t *n) {
@@ -91,7 +86,7 @@ static kz_escape_task *list_tasks(const kz_escape_plan *plan, bool mirrored, con
   const uint64_t alone = kz_gates_alone(saddles->count, gate);
   *n = 0;
   for (int64_t a = 0; a < attractors->count; a++)
-    for (int64_t s = 0; is_left(plan, attractors, a) && s < saddles->count; s++) {
+    for (int64_t s = 0; kz_escape_is_left(plan, attractors, a) && s < saddles->count; s++) {
       const bool is_gate = kz_gate_is_of(gate + s, (int32_t)a, alone);
       bool is_sought = is_gate;
       for (int32_t b = 0; plan->everywhere && b < (int32_t)attractors->count; b++)
@@ -99,7 +94,7 @@ static kz_escape_task *list_tasks(const kz_escape_plan *plan, bool mirrored, con
       /* Far paths are sought once, and reflected: those through gates, on which lives depend, are compared with their images. */
       const int64_t image_a = (int64_t)attractors->mirror[a], image_s = (int64_t)saddles->mirror[s];
       const bool reflected =
-          !is_gate && mirrored && (image_a != a ? image_a < a : image_s < s) && is_left(plan, attractors, image_a);
+          !is_gate && mirrored && (image_a != a ? image_a < a : image_s < s) && kz_escape_is_left(plan, attractors, image_a);
       if (is_sought)
         task[(*n)++] = (kz_escape_task){
             .from = (int32_t)a, .saddle = (int32_t)s, .is_gate = is_gate, .reflected = reflected, .into = -1, .before = -1};
@@ -134,9 +129,9 @@ static kz_status run_tasks(const kz_scene *scene, const kz_run *run, const kz_es
   KZ_FREED kz_escape_route *route = store ? kz_calloc((size_t)n + 1, sizeof *route) : NULL;
   KZ_TRY(kz_stage_run(run, &stage, route));
   KZ_TRY(release(labels, gate, n, route, task));
-  if (!store) return KZ_OK;
   const kz_escape_report report = {scene, attractors, saddles, gate, n, task, route};
-  return kz_escape_write(&report, store, summary);
+  if (store) KZ_TRY(kz_escape_write(&report, store, summary));
+  return kz_escape_count(scene, run, attractors, store, summary);
 }
 
 kz_status kz_escape_run(const kz_scene *scene, const kz_run *run, kz_store *store, FILE *summary) {

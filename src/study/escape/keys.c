@@ -10,6 +10,13 @@ static const kz_key keys[] = {
         .unit = "", .low = 0, .high = 1e6),
     BOOLEAN("escape.into_every_basin", "false", everywhere, "Look for paths into every basin too, not only out of each."),
     INTEGER("escape.starts", 1, 1e6, "24", starts, "Guesses from each attractor to each saddle."),
+    ROW("escape.temperatures", KZ_KEY_REALS, "", AT(temperatures),
+        "Temperatures T, in units of I omega^2, at which mean lives are counted.", .unit = "", .low = KZ_ABOVE_ZERO,
+        .high = 1e6),
+    INTEGER("escape.walkers", 1, 1e7, "400", walkers, "Motions under noise for each attractor and temperature."),
+    INTEGER("escape.max_periods", 1, 1e12, "1000000", max_periods, "Longest life of such a motion, in drive periods."),
+    REAL("escape.angle", "rad", KZ_ABOVE_ZERO, 1e6, "2.6", angle,
+         "A life has ended when a strobe lies farther from the undisturbed motion."),
     {.path = NULL},
 };
 

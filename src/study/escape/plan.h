@@ -4,7 +4,11 @@
 #include "kapitza/study.h"
 
 struct kz_escape_plan {
-  kz_integers from; /* ids of attractors; empty = all */
-  bool everywhere;  /* paths into every basin, not only out of each */
-  int64_t starts;   /* of the minimiser, for each attractor and saddle */
+  kz_integers from;      /* ids of attractors; empty = all */
+  bool everywhere;       /* paths into every basin, not only out of each */
+  int64_t starts;        /* of the minimiser, for each attractor and saddle */
+  kz_reals temperatures; /* at which lives are counted; empty = none */
+  int64_t walkers;       /* for each attractor and temperature */
+  int64_t max_periods;   /* for which one is followed */
+  double angle;          /* rad from the attractor's motion at a strobe, beyond which a life has ended */
 };

@@ -52,6 +52,3 @@ void kz_escape_search(const kz_escape_flow *flow, const kz_escape_cycle *from, c
 /* Polishes the least path again, with ends so near to the cycles that they change nothing. False where that fails. */
 bool kz_escape_finish(const kz_escape_flow *flow, const kz_escape_cycle *from, const kz_escape_cycle *to,
                       kz_escape_route *route);
-
-/* Number `i` of stream `seed`, in [0, 1). */
-double kz_escape_random(uint64_t seed, uint64_t i);

@@ -13,16 +13,6 @@ static const double APPROACH = 300, LINEAR = 0.05, FINISHED = 1e-7;
 /* Relative difference of actions of one family; those that are worth polishing, beside the least. */
 static const double SAME = 1e-6, WORTH = 1.5;
 
-double kz_escape_random(uint64_t seed, uint64_t i) { /* SplitMix64 (Steele, Lea, Flood 2014) as a hash of the counter */
-  uint64_t z = seed * 0xd1342543de82ef95u + (i + 1) * 0x9e3779b97f4a7c15u;
-  for (int round = 0; round < 2; round++) {
-    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
-    z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
-    z ^= z >> 31;
-  }
-  return (double)(z >> 11) * 0x1p-53;
-}
-
 /* Drive periods in which motions near the cycle change their distance by a factor e, at least; of a saddle in its stable plane. */
 static double slowest(const kz_escape_cycle *cycle) {
   const kz_path_end *end = cycle->end;
@@ -39,7 +29,7 @@ static int64_t clamped(double periods, int64_t low, int64_t high) {
 static kz_guess guess_of(const kz_escape_cycle *from, const kz_escape_cycle *to, uint64_t seed, int64_t start) {
   static const double WIDTHS[] = {2, 4, 8, 16, 30};
   double u[4];
-  for (int i = 0; i < 4; i++) u[i] = kz_escape_random(seed, (uint64_t)(4 * start + i));
+  for (int i = 0; i < 4; i++) u[i] = kz_path_random(seed, (uint64_t)(4 * start + i));
   const double leaves = slowest(from) * log(APPROACH), approaches = slowest(to) * log(APPROACH);
   kz_guess guess = {.periods = clamped(leaves + fmin(approaches, 0.5 * MOST), FEWEST, MOST)};
   const double least = fmin(5, 0.2 * (double)guess.periods), most = fmin(fmax(45, approaches), 0.7 * (double)guess.periods);

@@ -129,3 +129,18 @@ TEST(the_flow_is_right_to_1e12_and_symplectic) {
       }
   }
 }
+
+/* The velocity of a pendulum without a drive has the variance T, whatever the step. */
+TEST(noise_gives_its_temperature) {
+  const kz_pendulum pendulum = {1.0 / 121, 0.5, 0};
+  const double temperature = 1e-3;
+  kz_walker *walker = kz_walker_create(&pendulum, temperature, 24);
+  double theta = 0, velocity = 0, sum = 0;
+  enum { PERIODS = 400000 };
+  for (int64_t t = 0; t < PERIODS; t++) {
+    kz_walker_advance(walker, 7, (uint64_t)t, &theta, &velocity);
+    sum += velocity * velocity;
+  }
+  kz_walker_free(walker);
+  assert_true(fabs(sum / PERIODS / temperature - 1) < 0.008);
+}
