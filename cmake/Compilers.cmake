@@ -19,9 +19,10 @@ endif()
 # A pendulum is often {k, beta, m} alone: what is left out is 0. Vectors are not passed between object files, so their ABI is free.
 # KAPITZA_FUSED tells a source what its flags say of products: sources that need one of the two refuse the other (src/kernel).
 set(KAPITZA_FLAGS_C ${KAPITZA_WARNINGS} -Wno-missing-field-initializers -Wno-psabi -Wshadow -Wstrict-prototypes -Wswitch-enum -Wvla
-    -ffp-contract=off -DKAPITZA_FUSED=0)
+    -ffp-contract=off -fvisibility=hidden -fno-semantic-interposition -DKAPITZA_FUSED=0)
 set(KAPITZA_FLAGS_FORTRAN ${KAPITZA_WARNINGS} -Wimplicit-interface -fimplicit-none -ffree-line-length-none
-    -ffp-contract=fast -fno-trapping-math -fno-math-errno)
+    -ffp-contract=fast -fno-trapping-math -fno-math-errno -fno-semantic-interposition)
+set(CMAKE_POSITION_INDEPENDENT_CODE ON) # the same objects are the program's and the library's
 if(KAPITZA_SANITIZE) # gfortran 12 warns of array descriptors inside derived types there, which nothing reads before they are set
   list(APPEND KAPITZA_FLAGS_FORTRAN -Wno-maybe-uninitialized)
 endif()

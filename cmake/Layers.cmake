@@ -4,10 +4,13 @@
 function(kapitza_layer name)
   cmake_parse_arguments(arg "" "" "LAYERS;LIBRARIES" ${ARGN})
   file(GLOB_RECURSE sources CONFIGURE_DEPENDS src/${name}/*.c src/${name}/*.f90)
-  list(FILTER sources EXCLUDE REGEX "/main\\.c$")
+  list(FILTER sources EXCLUDE REGEX "/(main|entry)\\.c$")
   foreach(folder ${KAPITZA_LEFT_OUT})
     list(FILTER sources EXCLUDE REGEX "/src/${folder}/")
   endforeach()
+  if(NOT sources) # a power that is left out
+    return()
+  endif()
   add_library(kapitza_${name} STATIC ${sources})
   target_include_directories(kapitza_${name} PUBLIC include ${PROJECT_BINARY_DIR}/include PRIVATE src/${name})
   set_target_properties(kapitza_${name} PROPERTIES Fortran_MODULE_DIRECTORY ${PROJECT_BINARY_DIR}/modules
@@ -23,7 +26,11 @@ function(kapitza_layer name)
     target_compile_options(kapitza_${name} PRIVATE $<$<COMPILE_LANGUAGE:C>:-O0;-Wno-maybe-uninitialized;-Wno-format-truncation>)
   endif()
   foreach(layer ${arg_LAYERS})
-    target_link_libraries(kapitza_${name} PUBLIC kapitza_${layer})
+    if(layer STREQUAL parallel) # the library has that without MPI in its place
+      target_link_libraries(kapitza_${name} PUBLIC $<IF:$<BOOL:$<TARGET_PROPERTY:KAPITZA_ALONE>>,kapitza_alone,kapitza_parallel>)
+    else()
+      target_link_libraries(kapitza_${name} PUBLIC kapitza_${layer})
+    endif()
   endforeach()
   target_link_libraries(kapitza_${name} PUBLIC ${arg_LIBRARIES} m)
   kapitza_includes(${name})
@@ -47,14 +54,38 @@ function(kapitza_includes name)
   endforeach()
 endfunction()
 
-# The program: only its entry (the instruction-set check) is compiled for the first instruction set of its processor.
+# Program and library: only their entries (the instruction-set check) are compiled for the first instruction set of the processor.
+set(KAPITZA_FIRST x86-64)
+if(CMAKE_SYSTEM_PROCESSOR STREQUAL "aarch64")
+  set(KAPITZA_FIRST armv8-a)
+endif()
+
+# libkapitza.so: all layers, without MPI. It shows the names of include/kapitza.h alone.
+function(kapitza_shared)
+  get_target_property(sources kapitza_parallel SOURCES)
+  get_target_property(options kapitza_parallel COMPILE_OPTIONS)
+  add_library(kapitza_alone STATIC ${sources})
+  target_include_directories(kapitza_alone PRIVATE src/parallel/alone src/parallel)
+  target_compile_options(kapitza_alone PRIVATE ${options})
+  target_link_libraries(kapitza_alone PUBLIC kapitza_common Threads::Threads)
+  set(names ${PROJECT_SOURCE_DIR}/cmake/library_names.map)
+  add_library(kapitza_shared SHARED src/library/entry.c)
+  target_compile_options(kapitza_shared PRIVATE -march=${KAPITZA_FIRST} ${KAPITZA_FLAGS_C} ${KAPITZA_SANITIZERS})
+  target_link_libraries(kapitza_shared PRIVATE $<LINK_LIBRARY:WHOLE_ARCHIVE,kapitza_library>)
+  target_link_options(kapitza_shared PRIVATE LINKER:--as-needed,--no-undefined,--version-script=${names})
+  target_sources(kapitza_shared PUBLIC FILE_SET HEADERS BASE_DIRS include FILES include/kapitza.h)
+  set_target_properties(kapitza_shared PROPERTIES
+    KAPITZA_ALONE ON LINKER_LANGUAGE C OUTPUT_NAME kapitza EXPORT_NAME kapitza LINK_DEPENDS ${names}
+    LIBRARY_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR} INSTALL_RPATH_USE_LINK_PATH ON)
+  if(NOT SKBUILD) # a wheel has no symbolic links
+    set_target_properties(kapitza_shared PROPERTIES VERSION ${PROJECT_VERSION}
+                                                    SOVERSION ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR})
+  endif()
+endfunction()
+
 function(kapitza_program)
   add_executable(kapitza src/app/main.c)
-  set(first x86-64)
-  if(CMAKE_SYSTEM_PROCESSOR STREQUAL "aarch64")
-    set(first armv8-a)
-  endif()
-  target_compile_options(kapitza PRIVATE -march=${first} ${KAPITZA_FLAGS_C} ${KAPITZA_SANITIZERS})
+  target_compile_options(kapitza PRIVATE -march=${KAPITZA_FIRST} ${KAPITZA_FLAGS_C} ${KAPITZA_SANITIZERS})
   target_link_options(kapitza PRIVATE LINKER:--as-needed) # HDF5 names libraries for parts that are not used
   target_link_libraries(kapitza PRIVATE kapitza_app)
   set_target_properties(kapitza PROPERTIES LINKER_LANGUAGE C)
@@ -62,5 +93,5 @@ endfunction()
 
 # Code that gfortran makes does not look whether malloc gave memory: include/kapitza/common.h.
 function(kapitza_check_memory)
-  target_link_options(kapitza_common INTERFACE LINKER:--wrap=malloc,--wrap=calloc,--wrap=realloc)
+  target_link_options(kapitza_common INTERFACE LINKER:--wrap=malloc,--wrap=calloc,--wrap=realloc,--wrap=free)
 endfunction()

@@ -28,6 +28,7 @@ enum {
   KZ_PLANE_DOUBT,
   KZ_PLANE_OTHER,
   KZ_PLANE_TURNS,
+  KZ_PLANE_EVIDENCE,
   KZ_PLANES
 };
 enum { KZ_NO_LABEL = 255 }; /* not settled, or no attractor */
@@ -60,6 +61,9 @@ typedef struct {
 /* Makes a frame of the scene's study basin, from its pendulum, window, cells and max_periods. The scene's numerics need not be resolved. */
 kz_status kz_engine_frame(kz_engine *engine, const kz_scene *scene, const kz_frame *frame);
 
+/* Centre of cell i of an axis of a frame, as files have it. */
+double kz_frame_centre(const kz_axis *axis, int64_t i);
+
 /* Uses idle time: looks for attractors from cells of the last moving frames that have not settled. Usually takes milliseconds. */
 void kz_engine_rest(kz_engine *engine);
 
@@ -69,6 +73,11 @@ kz_status kz_engine_catalogue(kz_engine *engine, const kz_scene *scene, const kz
 /* kz_where with the attractors that the engine knows; the caller frees endings [n] by kz_where_free. */
 kz_status kz_engine_where(kz_engine *engine, const kz_scene *scene, int64_t n, const kz_coordinate (*start)[2],
                           kz_ending *endings);
+
+/* Labels n starts [n][2] (rad, rad per drive radian) of the scene's pendulum as method exact does, at the velocities of the scene's window: label [n], whose ids are
+ * those of *catalogue (-1 = not settled, no second candidate); error [n]: bound of the orbit's error when it was trapped, rad. */
+kz_status kz_engine_labels(kz_engine *engine, const kz_scene *scene, int64_t n, const double (*start)[2], kz_label *label,
+                           double *error, const kz_live_catalogue **catalogue);
 
 /* The same of a plane of two keys: periods and centres of the ends, with the values of the group /plane, x fastest; period KZ_NO_LABEL = not
  * settled, or no pendulum. */

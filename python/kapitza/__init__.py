@@ -8,6 +8,8 @@
 >>> result.compare(kapitza.run("scenes/small.yaml"))
 >>> kapitza.explore("scenes/small.yaml")                   # in a cell of a notebook: the basins, to be zoomed and dragged
 >>> kapitza.where("scenes/small.yaml", [3.1, 3.0], "0.2")  # where single starts end
+>>> pendulum = kapitza.Pendulum(Q=5, Omega=11, epsilon=0.3)  # in this process: .map, .attractors, .where, .basin, .cycles, .orbit ...
+>>> pendulum.basin(theta=300, velocity=(-2, 2, 300)).kapitza.plot()
 
 A result that is there already: kapitza.Result("blackburn-fig12.h5"). kapitza.plots has the panels of the pictures; each of its draw_*
 functions takes and returns a matplotlib Axes.
@@ -22,19 +24,21 @@ if TYPE_CHECKING:
     from kapitza.explorer.notebook import explore
     from kapitza.films import film
     from kapitza.fitting import fit
+    from kapitza.pendulum import Pendulum
     from kapitza.program import RunError, SceneError
     from kapitza.result import BadFile, Result
     from kapitza.session import check, needs, orbit, run, sweep, where
 
     __version__: str
 
-__all__ = ["BadFile", "Engine", "Result", "RunError", "SceneError", "check", "explore", "film", "fit", "needs", "orbit", "run", "sweep",
-           "where"]
+__all__ = ["BadFile", "Engine", "Pendulum", "Result", "RunError", "SceneError", "check", "explore", "film", "fit", "needs", "orbit", "run",
+           "sweep", "where"]
 
 # The module of each name: modules are loaded when one of their names is first used, because pandas and xarray take most of a second.
 _MODULES = {name: module for module, names in {
-    "engine": "Engine", "explorer.notebook": "explore", "films": "film", "fitting": "fit", "program": "RunError SceneError",
-    "result": "BadFile Result", "session": "check needs orbit run sweep where"}.items() for name in names.split()}
+    "engine": "Engine", "explorer.notebook": "explore", "films": "film", "fitting": "fit", "pendulum": "Pendulum",
+    "program": "RunError SceneError", "result": "BadFile Result", "session": "check needs orbit run sweep where"}.items()
+    for name in names.split()}
 
 
 def __getattr__(name: str) -> Any:
@@ -48,4 +52,4 @@ def __getattr__(name: str) -> Any:
 
 
 def __dir__() -> list[str]:
-    return sorted({*globals(), *__all__, "__version__"})
+    return sorted({*__all__, "plots", "__version__"})

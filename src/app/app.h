@@ -4,34 +4,10 @@
 #include <stdbool.h>
 #include <stdio.h>
 
+#include "kapitza/app_instructions.h"
 #include "kapitza/study.h"
 #include "scene/scene.h"
 
-/* Instruction sets that this build can use beside the processor's first one; the program's entry refuses a CPU that lacks one which it does.
- * kz_instructions: for each of them "1" if the build uses it, then NULL. */
-#ifdef __x86_64__
-#define KZ_FIRST_INSTRUCTIONS "x86-64"
-#define KZ_INSTRUCTION_LIST(X) \
-  X(SSE3, "sse3")              \
-  X(SSSE3, "ssse3")            \
-  X(SSE4_1, "sse4.1")          \
-  X(SSE4_2, "sse4.2")          \
-  X(POPCNT, "popcnt")          \
-  X(AVX, "avx")                \
-  X(AVX2, "avx2")              \
-  X(FMA, "fma")                \
-  X(BMI, "bmi")                \
-  X(BMI2, "bmi2")              \
-  X(AVX512F, "avx512f")        \
-  X(AVX512BW, "avx512bw")      \
-  X(AVX512CD, "avx512cd")      \
-  X(AVX512DQ, "avx512dq")      \
-  X(AVX512VL, "avx512vl")
-#else
-#define KZ_FIRST_INSTRUCTIONS "armv8-a"
-#define KZ_INSTRUCTION_LIST(X)
-#endif
-extern const char *const kz_instructions[];
 /* The names of these sets, "avx2 fma ...", for the summary and the file; the text depends on the build only. */
 const char *kz_instruction_names(void);
 

@@ -6,19 +6,6 @@
 
 #include "app.h"
 
-/* The first instruction set that the build uses and this CPU lacks, or NULL. */
-static const char *missing_instruction(void) {
-#ifdef __x86_64__
-  size_t i = 0;
-  __builtin_cpu_init();
-#define CHECK(name, text) \
-  if (kz_instructions[i++][0] == '1' && !__builtin_cpu_supports(text)) return text;
-  KZ_INSTRUCTION_LIST(CHECK)
-#undef CHECK
-#endif
-  return NULL;
-}
-
 /* Fills closed standard streams with /dev/null, opened so that using them fails: else a file opened later would take the place
  * of one and receive what the program prints. */
 static void fill_streams(void) {
@@ -52,7 +39,7 @@ static bool has_stack(void) {
 
 int main(int argc, char **argv) {
   fill_streams();
-  const char *missing = missing_instruction();
+  const char *missing = kz_missing_instruction();
   if (missing) {
     fprintf(stderr,
             "kapitza: error: this program was built for %s, which this CPU lacks; build it with "

@@ -6,7 +6,7 @@
 #include <sys/stat.h>
 #include <time.h>
 
-#include "kapitza/study.h"
+#include "kapitza/app.h"
 #include "app.h"
 #include "kapitza/version.h"
 
@@ -259,6 +259,41 @@ kz_status kz_app_run(const kz_options *options) {
   kz_ranks_set_overdue(j.run.ranks, NULL);
   kz_abandon_run(&(kz_run){0}, NULL);
   kz_ranks_end(j.run.ranks);
+  free_job(&j);
+  return status;
+}
+
+/* A run without ranks: no signals, no checkpoint, no progress. */
+static kz_status run_alone(job *j, kz_store **store) {
+  const double begin = kz_clock();
+  bool complete = false;
+  KZ_TRY(read_scene(j));
+  KZ_TRY(kz_output_name(j->options, j->path, sizeof j->path));
+  KZ_TRY(kz_output_check(j->options, j->path, j->fingerprint, &complete));
+  const kz_cost cost = kz_cost_of(&j->scene);
+  KZ_TRY(kz_cost_check(&cost, NULL));
+  KZ_TRY(kz_studies_check(&j->scene));
+  kz_status status = open_outputs(j);
+  *store = j->store;
+  for (int i = 0; i < kz_study_count && status == KZ_OK; i++)
+    if (kz_studies[i]->run && kz_study_is_wanted(kz_studies[i], &j->scene))
+      status = kz_studies[i]->run(&j->scene, &j->run, j->store, j->summary);
+  if (status == KZ_OK) status = kz_store_real(j->store, "/", "wall_seconds", kz_clock() - begin);
+  *store = NULL;
+  if (status == KZ_OK) return complete_store(j);
+  if (j->store) kz_store_discard(j->store);
+  return status;
+}
+
+kz_status kz_run_text(const char *text, const char *output, bool force, char **words, kz_store **store) {
+  const kz_options options = {.scene = "scene", .output = output, .force = force, .line = "libkapitza", .words = ""};
+  job j = {.options = &options, .first = true, .text = kz_strdup(text), .length = strlen(text)};
+  *store = NULL;
+  const kz_status status = kz_scene_locate(run_alone(&j, store), j.text, j.length, options.scene, 0, NULL);
+  if (j.summary) fclose(j.summary);
+  j.summary = NULL;
+  *words = j.words;
+  j.words = NULL;
   free_job(&j);
   return status;
 }

@@ -1,4 +1,4 @@
-#include "kapitza/common.h"
+#include "kapitza/common_border.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -16,10 +16,23 @@ void *__real_realloc(void *old, size_t bytes);
 void *__wrap_malloc(size_t bytes);
 void *__wrap_calloc(size_t n, size_t bytes);
 void *__wrap_realloc(void *old, size_t bytes);
+/* In the library alone: what is freed is no longer the border's. */
+void __real_free(void *memory);
+void __wrap_free(void *memory);
 
 static void *checked(void *memory, size_t bytes) {
-  if (!memory && bytes > 0) on_failure();
+  if (!memory && bytes > 0) {
+    kz_border_without_memory();
+    on_failure();
+  }
+  kz_border_keep(memory);
+  kz_look();
   return memory;
+}
+
+void __wrap_free(void *memory) {
+  kz_border_forget(memory);
+  __real_free(memory);
 }
 
 void *__wrap_malloc(size_t bytes) {
@@ -31,7 +44,10 @@ void *__wrap_calloc(size_t n, size_t bytes) {
 }
 
 void *__wrap_realloc(void *old, size_t bytes) {
-  return checked(__real_realloc(old, bytes), bytes);
+  kz_border_forget(old);
+  void *memory = __real_realloc(old, bytes);
+  if (!memory && bytes > 0) kz_border_keep(old);
+  return checked(memory, bytes);
 }
 
 void *kz_malloc(size_t bytes) {
@@ -78,5 +94,6 @@ bool kz_memory_is_there(size_t bytes) {
 
 kz_status kz_memory_ask(const char *key, size_t needed) {
   if (kz_memory_is_there(needed)) return KZ_OK;
+  kz_border_lacks();
   return kz_fail(KZ_FAILED, "request: %s: needs %zu MB of memory, more than there are", key, needed >> 20);
 }

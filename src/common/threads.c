@@ -1,5 +1,7 @@
 #include "kapitza/common_threads.h"
 
+#include "kapitza/common_border.h"
+
 #include <math.h>
 #include <signal.h>
 #include <stdlib.h>
@@ -56,8 +58,10 @@ void kz_lock_free(kz_lock *lock) {
 
 void kz_lock_take(kz_lock *lock) {
   pthread_mutex_lock(&lock->mutex);
+  kz_border_lock(&lock->mutex);
 }
 
 void kz_lock_leave(kz_lock *lock) {
+  kz_border_unlock(&lock->mutex);
   pthread_mutex_unlock(&lock->mutex);
 }

@@ -8,6 +8,7 @@
 #include "ranks.h"
 #include "record_buffer.h"
 #include "watch.h"
+#include "kapitza/common_border.h"
 
 /* Offsets of records and slots must not overflow. */
 static const int64_t TILES_MAX = (int64_t)1 << 44;
@@ -163,6 +164,7 @@ static kz_status run_alone(const kz_stage *stage, char *records) {
   KZ_FREED char *own = stage->local ? kz_malloc(stage->record_bytes + 1) : NULL;
   for (int64_t tile = 0; tile < stage->n_tiles; tile++) {
     char *record = own ? own : records + (size_t)tile * stage->record_bytes;
+    kz_look();
     KZ_TRY(work_tile(stage, tile, memset(record, 0, stage->record_bytes)));
     if (own) kz_local_records_add(stage->local, tile, own, *(uint64_t *)(void *)own);
   }

@@ -34,11 +34,12 @@ static long long number(const char *name, long long fallback) {
 static void read_plan(void) {
   const char *rank = getenv("KZ_FAIL_RANK"), *own = getenv("OMPI_COMM_WORLD_RANK");
   plan.known = true;
-  plan.here = strcmp(program_invocation_short_name, "kapitza") == 0 && (!rank || strcmp(rank, own ? own : "0") == 0);
+  plan.callers = getenv("KZ_FAIL_CALLERS");
+  plan.here =
+      (plan.callers || strcmp(program_invocation_short_name, "kapitza") == 0) && (!rank || strcmp(rank, own ? own : "0") == 0);
   plan.first = number("KZ_FAIL_FIRST", INT64_MAX);
   plan.count = number("KZ_FAIL_COUNT", 1);
   plan.bytes = (size_t)number("KZ_FAIL_BYTES", 0);
-  plan.callers = getenv("KZ_FAIL_CALLERS");
 }
 
 /* Whether the code at `address` belongs to the program or a library that is named. */
@@ -52,6 +53,19 @@ static bool counts(const void *address) {
     name += n + (name[n] == ':');
   }
   return false;
+}
+
+/* Within a process: counts anew, and lets allocation `first` fail; how many there were since then. */
+void kz_fail_at(long long first);
+void kz_fail_at(long long first) {
+  if (!plan.known) read_plan();
+  plan.first = first;
+  counted = 0;
+}
+
+long long kz_fail_count(void);
+long long kz_fail_count(void) {
+  return counted;
 }
 
 static bool fails(size_t bytes, const void *caller) {

@@ -2,7 +2,7 @@
 # without locks (test_advice.py), a stop within a stage (conftest.py).
 foreach(name failing_memory slow_end no_locks stop_at)
   add_library(${name} MODULE tools/${name}.c)
-  target_compile_options(${name} PRIVATE ${KAPITZA_FLAGS_C} -Wno-pedantic -fno-builtin)
+  target_compile_options(${name} PRIVATE ${KAPITZA_FLAGS_C} -Wno-pedantic -fno-builtin -fvisibility=default)
   target_link_libraries(${name} PRIVATE $<$<STREQUAL:${name},slow_end>:MPI::MPI_C> ${CMAKE_DL_LIBS})
   set_target_properties(${name} PROPERTIES LINKER_LANGUAGE C PREFIX "" LIBRARY_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/tests)
 endforeach()

@@ -159,7 +159,7 @@ static void add_raster(kz_json *header, int64_t coarseness, int64_t rows, int64_
 }
 
 kz_status kz_answer_raster(const kz_request *request, bool final, const kz_live_raster *raster) {
-  static const char *const names[] = {"labels", "settling_time", "smooth_time", "doubt", "other", "turns"};
+  static const char *const names[] = {"labels", "settling_time", "smooth_time", "doubt", "other", "turns", "evidence"};
   const size_t cells = (size_t)(raster->rows * raster->columns);
   size_t bytes = 0;
   kz_json *header = begin("frame", request->sequence, final), *planes = json_object_new_array();

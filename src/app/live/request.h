@@ -16,7 +16,7 @@ enum {
   KZ_REQUEST_QUIT
 };
 /* Planes in the order of KZ_PLANE_LABELS ... */
-#define KZ_PLANE_WORDS "labels|settling_time|smooth_time|doubt|other|turns"
+#define KZ_PLANE_WORDS "labels|settling_time|smooth_time|doubt|other|turns|evidence"
 enum { KZ_QUALITY_EXACT, KZ_QUALITY_MOVING };
 
 typedef struct kz_request {

@@ -1,5 +1,6 @@
 /* A scene: file and options -> tree -> kz_scene. */
 #include "scene.h"
+#include "kapitza/app.h"
 
 #include <errno.h>
 #include <limits.h>
@@ -181,4 +182,70 @@ void kz_scene_free(kz_scene *scene) {
   kz_plans_free(scene);
   kz_kept_series_free(scene->series);
   memset(scene, 0, sizeof *scene);
+}
+
+/* ---- scenes of the library ---- */
+
+/* The mappings that a pendulum of the library takes of its scene. */
+static bool is_taken(const char *name) {
+  return strcmp(name, "pendulum") == 0 || strcmp(name, "numerics") == 0 || strcmp(name, "basin") == 0;
+}
+
+static void drop_others(kz_node *root) {
+  for (kz_node *node = root->first, *next; node; node = next) {
+    next = node->next;
+    if (!is_taken(node->name) && kz_key_find(kz_scene_keys(), node->name)) kz_tree_free(kz_tree_take(root, node->name));
+  }
+  kz_tree_free(kz_tree_take(root, "basin.accuracy"));
+}
+
+static kz_status set_flow(kz_node *root, const char *path, const char *text, const char *source) {
+  kz_node *node;
+  KZ_TRY(kz_tree_read(text, strlen(text), source, true, &node));
+  return kz_tree_set(root, path, node);
+}
+
+/* The keys of `window` replace those of the basin. */
+static kz_status take_window(kz_node *root, const char *window) {
+  const size_t bytes = strlen(window) + 3;
+  KZ_FREED char *flow = kz_malloc(bytes);
+  kz_node *keys;
+  snprintf(flow, bytes, "{%s}", window);
+  KZ_TRY(kz_tree_read(flow, strlen(flow), "window", true, &keys));
+  kz_status status =
+      keys->kind == KZ_MAPPING ? KZ_OK : kz_fail(KZ_REFUSED, "window: is not a list of keys of the mapping basin");
+  while (status == KZ_OK && keys->first) {
+    char path[256];
+    snprintf(path, sizeof path, "basin.%.240s", keys->first->name);
+    status = kz_tree_set(root, path, kz_tree_take(keys, keys->first->name));
+  }
+  kz_tree_free(keys);
+  return status;
+}
+
+static kz_status complete_basin(kz_node *root, const char *window) {
+  if (!kz_tree_find(root, "basin"))
+    KZ_TRY(set_flow(root, "basin", "{theta: {count: 400}, velocity: {min: -2, max: 2, count: 400}}", "basin"));
+  if (window) KZ_TRY(take_window(root, window));
+  return set_flow(root, "basin.method", "exact", "basin");
+}
+
+kz_status kz_scene_open(const char *text, const char *window, kz_scene *scene) {
+  kz_scene_tree tree;
+  memset(scene, 0, sizeof *scene);
+  kz_status status = kz_scene_tree_read(text, strlen(text), "scene", 0, NULL, &tree);
+  if (status == KZ_OK && tree.root->kind == KZ_MAPPING) {
+    drop_others(tree.root);
+    status = complete_basin(tree.root, window);
+  }
+  if (status == KZ_OK) status = kz_scene_of_tree(tree.root, scene);
+  kz_scene_tree_free(&tree);
+  return status;
+}
+
+kz_status kz_tables_make(void) {
+  enum { TABLES_BYTES = 1 << 20 };
+  if (!kz_memory_is_there(TABLES_BYTES)) return kz_fail(KZ_FAILED, "memory ran out");
+  kz_scene_keys();
+  return KZ_OK;
 }

@@ -2,6 +2,7 @@
 !> type that extends it.
 module kz_maps_lanes
   use, intrinsic :: iso_c_binding, only: c_int64_t
+  use kz_vector_locks, only: look
   use kz_vector_map, only: WIDTH, CAPACITY
   implicit none
   private
@@ -86,6 +87,7 @@ contains
         self%active = self%active + 1
       end do
       if (self%active == 0) return
+      call look()
       call self%advance(list, n)
       do i = 1, n
         if (.not. self%is_done(list(i))) cycle

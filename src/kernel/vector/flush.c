@@ -1,6 +1,9 @@
 /* Whether the processor takes subnormal numbers for 0. Orbits that decay onto an exact equilibrium end in them, and arithmetic
  * with them is some fifteen times slower on x86. */
 #include <stdint.h>
+
+#include "kapitza/common_border.h"
+
 #ifdef __x86_64__
 #include <immintrin.h>
 
@@ -27,8 +30,9 @@ static void write_control(uint64_t control) {
 #error "the control word of this processor is not known"
 #endif
 
-/* The control word as it was; from now on subnormal numbers are 0. */
+/* The control word as it was; from now on subnormal numbers are 0. Every batch of periods begins with it, so that it looks for a stop request. */
 uint64_t kz_flush_subnormals(void) {
+  kz_look();
   const uint64_t control = read_control();
   write_control(control | FLUSH_TO_ZERO | DENORMALS_ARE_ZERO);
   return control;

@@ -1,9 +1,9 @@
-!> Locks of threads: include/kapitza/common_threads.h.
+!> Locks of threads: include/kapitza/common_threads.h. Stop requests of a caller of the library: common_border.h.
 module kz_vector_locks
   use, intrinsic :: iso_c_binding, only: c_ptr
   implicit none
   private
-  public :: create_lock, free_lock, take_lock, leave_lock
+  public :: create_lock, free_lock, take_lock, leave_lock, look
 
   interface
     !> A lock that nobody holds.
@@ -27,6 +27,9 @@ module kz_vector_locks
       import :: c_ptr
       type(c_ptr), value :: lock
     end subroutine leave_lock
+    !> Leaves the call of the library that this thread works for, if its caller wants that.
+    subroutine look() bind(C, name='kz_look')
+    end subroutine look
   end interface
 
 end module kz_vector_locks

@@ -74,13 +74,6 @@ static void count_doubtful(kz_chunks *c, int64_t tile) {
     c->counts.doubtful += c->labelling->cell[i].evidence >= KZ_UNDECIDED && c->labelling->cell[i].evidence != KZ_AVERAGED;
 }
 
-/* The file's evidence of a cell with an id. */
-static uint8_t evidence_of(const kz_label *cell, int16_t id) {
-  if (cell->evidence == KZ_UNDECIDED) return KZ_UNDECIDED;
-  if (id < 0) return KZ_UNSETTLED;
-  return cell->evidence == KZ_FOLLOWED && cell->periods == 0 ? KZ_INSIDE : cell->evidence;
-}
-
 /* The cells of a tile from its own ones, or those of the tile that mirrors it. The second half of the tile in the middle mirrors the first. */
 static void fill(kz_chunks *c, int64_t tile, bool image) {
   const kz_window_labels *l = c->labelling;
@@ -92,7 +85,7 @@ static void fill(kz_chunks *c, int64_t tile, bool image) {
     const bool mirrored = image || i >= own;
     const kz_label *cell = &l->cell[mirrored ? n - 1 - i : i];
     const int16_t id = id_of(c, cell->label, mirrored);
-    evidence[i] = evidence_of(cell, id);
+    evidence[i] = kz_file_evidence(cell, id >= 0);
     ids[i] = id;
     others[i] = id_of(c, cell->other, mirrored);
     periods[i] = (uint32_t)cell->periods;

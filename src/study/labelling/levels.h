@@ -41,3 +41,10 @@ void kz_decide_in_doubles(kz_dynamics *dynamics, const kz_start *start, int64_t 
 void kz_decide_in_quads(kz_dynamics *dynamics, const kz_start *start, int64_t max_periods, kz_decision *decision);
 /* Whether a trapping region holds a start, with its error, after one period. */
 bool kz_start_is_trapped(kz_dynamics *dynamics, const kz_start *start);
+
+/* The evidence of a label as files have it; settled = it has an id. A start inside a trapping region has a value of its own. */
+static inline uint8_t kz_file_evidence(const kz_label *label, bool settled) {
+  if (label->evidence == KZ_UNDECIDED) return KZ_UNDECIDED;
+  if (!settled) return KZ_UNSETTLED;
+  return label->evidence == KZ_FOLLOWED && label->periods == 0 ? KZ_INSIDE : label->evidence;
+}

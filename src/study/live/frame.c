@@ -114,6 +114,8 @@ static void put(const making *m, int plane, const kz_frame_cell *cell, bool mirr
     codes[at] = id_of(m, end->other, mirrored);
   else if (plane == KZ_PLANE_DOUBT)
     codes[at] = doubt_of(end);
+  else if (plane == KZ_PLANE_EVIDENCE)
+    codes[at] = kz_file_evidence(end, end->label > 0);
   else if (end->label <= 0)
     numbers[at] = (float)NAN;
   else if (plane == KZ_PLANE_TURNS)
@@ -148,7 +150,8 @@ static kz_status show(making *m, int64_t coarseness) {
                                        KZ_PLANE_TURNS,
                                        KZ_PLANE_LABELS,
                                        KZ_PLANE_DOUBT,
-                                       KZ_PLANE_OTHER};
+                                       KZ_PLANE_OTHER,
+                                       KZ_PLANE_EVIDENCE};
   for (int p = 0; p < KZ_PLANES; p++) {
     if (!m->frame->plane[order[p]]) continue;
     void *values = (char *)m->buffer + end;
@@ -200,4 +203,8 @@ kz_status kz_engine_frame(kz_engine *engine, const kz_scene *scene, const kz_fra
   free(m.listed);
   free(m.buffer);
   return status;
+}
+
+double kz_frame_centre(const kz_axis *axis, int64_t i) {
+  return kz_axis_centre(axis, i);
 }

@@ -8,6 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "kapitza/common_border.h"
 #include "live.h"
 
 enum { MOST_HELPERS = 15, STACK_BYTES = 8 << 20 };
@@ -16,6 +17,7 @@ static const double LOOK = 0.01; /* s between two pauses while helpers finish th
 /* What the threads share. */
 typedef struct {
   const kz_frame_task *task;
+  kz_border *border;     /* of the call of the library that they work for, or NULL */
   _Atomic int64_t next;  /* first tile that no thread has taken */
   pthread_mutex_t mutex; /* of what follows */
   pthread_cond_t ended;
@@ -62,9 +64,20 @@ static void stop(sharing *all) {
   all->next = all->task->n;
 }
 
+static kz_status follow_as_helper(void *context) {
+  helper *h = context;
+  return follow_tiles(h->all, &h->prepared, false);
+}
+
+static kz_status follow_as_first(void *context) {
+  sharing *all = context;
+  return follow_tiles(all, all->task->prepared, true);
+}
+
 static void *help(void *context) {
   helper *h = context;
-  const kz_status status = follow_tiles(h->all, &h->prepared, false);
+  kz_border_enter(h->all->border);
+  const kz_status status = kz_border_guard(follow_as_helper, h);
   pthread_mutex_lock(&h->all->mutex);
   if (status != KZ_OK) {
     h->all->status = status;
@@ -106,7 +119,7 @@ static void join(helper *h, kz_prepared *prepared) {
 kz_status kz_frame_follow(const kz_frame_task *task) {
   const int64_t tiles = (task->n + KZ_FRAME_TILE - 1) / KZ_FRAME_TILE;
   const int spare = spare_cores();
-  sharing all = {.task = task, .mutex = PTHREAD_MUTEX_INITIALIZER};
+  sharing all = {.task = task, .border = kz_border_here(), .mutex = PTHREAD_MUTEX_INITIALIZER};
   kz_condition_make(&all.ended);
   KZ_FREED helper *helpers = kz_calloc((size_t)spare + 1, sizeof *helpers);
   int started = 0;
@@ -123,7 +136,8 @@ kz_status kz_frame_follow(const kz_frame_task *task) {
     pthread_mutex_unlock(&all.mutex);
     break;
   }
-  const kz_status status = wait_for_helpers(&all, follow_tiles(&all, task->prepared, true));
+  const kz_status status = wait_for_helpers(&all, kz_border_guard(follow_as_first, &all));
   for (int i = 0; i < started; i++) join(helpers + i, task->prepared);
+  kz_border_leave();
   return status;
 }

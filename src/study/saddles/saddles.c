@@ -1,5 +1,6 @@
 /* Study `saddles`: rounds of ever closer lines of starts, across each other, until one finds nothing new and the index sums are 0. */
 #include "saddles.h"
+#include "kapitza/study_saddles.h"
 
 #include <complex.h>
 #include <math.h>
@@ -207,6 +208,27 @@ kz_status kz_saddles_run(const kz_scene *scene, const kz_run *run, kz_store *sto
   if (kz_rank(run->ranks) != 0) return KZ_OK;
   print_saddles(scene, &cycles, &sums, summary);
   return write_saddles(&cycles, &sums, store);
+}
+
+kz_status kz_saddles_all(const kz_scene *scene, int64_t max_period, const kz_window *window, kz_catalogue *all, int64_t *open) {
+  static const kz_run alone = {NULL, NULL};
+  kz_saddles_plan plan = {.theta = {.min = window->theta_min, .max = window->theta_max, .count = 1},
+                          .velocity = {.min = window->velocity_min, .max = window->velocity_max, .count = 1},
+                          .max_period = max_period};
+  kz_scene asked = *scene;
+  asked.saddles = &plan;
+  KZ_FREED_BY(free_found) kz_found found = {0};
+  KZ_FREED_BY(free_cycles) kz_cycle_list cycles = {0};
+  KZ_FREED_BY(free_sums) kz_index_sums sums = {0};
+  KZ_TRY(run_rounds(&asked, &alone, &found, &cycles, &sums));
+  *all = cycles.all;
+  cycles.all = (kz_catalogue){0};
+  *open = sums.open;
+  return KZ_OK;
+}
+
+void kz_saddles_free(kz_catalogue *all) {
+  kz_catalogue_free(all);
 }
 
 /* Messages and records of pieces that a rank holds; pieces in which a cycle is found; the least that a piece takes in the checkpoint. */

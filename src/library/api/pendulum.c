@@ -1,0 +1,175 @@
+/* Pendulums of the library: made, freed, used by one thread at a time. */
+#include <errno.h>
+#include <stdlib.h>
+#include <string.h>
+#include <time.h>
+#include <unistd.h>
+
+#include "../library.h"
+#include "kapitza/version.h"
+
+enum { WAIT_NANOSECONDS = 50000000 }; /* between two looks while another thread uses the pendulum */
+
+static _Thread_local struct {
+  kapitza_pause ask;
+  void *context;
+} pause_of_thread;
+
+const char *kapitza_message(void) {
+  return kz_message();
+}
+
+const char *kapitza_version(void) {
+  return KZ_VERSION;
+}
+
+void kapitza_free(void *memory) {
+  free(memory);
+}
+
+void kapitza_set_pause(kapitza_pause pause, void *context) {
+  pause_of_thread.ask = pause;
+  pause_of_thread.context = context;
+}
+
+static kz_status ask_caller(void *context) {
+  (void)context;
+  return pause_of_thread.ask(pause_of_thread.context) == 0 ? KZ_OK : kz_fail(KZ_STOPPED, "stopped by the caller");
+}
+
+kz_pause_fn kz_library_pause(void) {
+  return pause_of_thread.ask ? ask_caller : NULL;
+}
+
+kapitza_status kz_library_status(kz_status status, const kz_border *border) {
+  return status == KZ_FAILED && kz_border_lacked_memory(border) ? KAPITZA_NO_MEMORY : (kapitza_status)status;
+}
+
+/* ---- one call at a time ---- */
+
+static kz_status refuse_busy(void) {
+  return kz_fail(KZ_REFUSED, "the pendulum was in use when this process was forked; make a new one here");
+}
+
+/* After a fork no thread of the parent is here that would leave the lock. */
+static kz_status check_process(kapitza_pendulum *p) {
+  if (p->process == getpid()) return KZ_OK;
+  if (p->busy) return refuse_busy();
+  p->process = getpid();
+  return KZ_OK;
+}
+
+/* Waits for other threads, as long as the caller wants to. */
+static kz_status take(kapitza_pendulum *p) {
+  KZ_TRY(check_process(p));
+  for (;;) {
+    struct timespec until;
+    clock_gettime(CLOCK_REALTIME, &until);
+    until.tv_nsec += WAIT_NANOSECONDS;
+    if (until.tv_nsec >= 1000000000) {
+      until.tv_nsec -= 1000000000;
+      until.tv_sec++;
+    }
+    const int error = pthread_mutex_timedlock(&p->mutex, &until);
+    if (error == 0) break;
+    if (error == EDEADLK) return kz_fail(KZ_REFUSED, "the pause of a call uses the pendulum of that call");
+    if (error != ETIMEDOUT) return kz_fail(KZ_FAILED, "%s", strerror(error));
+    if (kz_library_pause()) KZ_TRY(ask_caller(NULL));
+  }
+  p->busy = 1;
+  return KZ_OK;
+}
+
+static void leave(kapitza_pendulum *p) {
+  p->busy = 0;
+  pthread_mutex_unlock(&p->mutex);
+}
+
+typedef struct {
+  kapitza_pendulum *pendulum;
+  kz_work_fn work;
+  void *context;
+} visit;
+
+static kz_status open_pendulum(kapitza_pendulum *p) {
+  if (p->opened) return KZ_OK;
+  KZ_TRY(kz_scene_open(p->text, NULL, &p->scene));
+  p->engine = kz_engine_create();
+  p->flow[0] = p->flow[1] = NULL;
+  p->opened = true;
+  return KZ_OK;
+}
+
+static kz_status carry_out(void *context) {
+  const visit *v = context;
+  KZ_TRY(open_pendulum(v->pendulum));
+  return v->work ? v->work(v->pendulum, v->context) : KZ_OK;
+}
+
+kapitza_status kz_library_call(kapitza_pendulum *p, kz_work_fn work, void *context) {
+  visit v = {p, work, context};
+  bool left = false;
+  kz_message_clear();
+  kz_status status = take(p);
+  if (status != KZ_OK) return (kapitza_status)status;
+  status = kz_border_call(p->border, kz_library_pause(), NULL, carry_out, &v, &left);
+  const kapitza_status told = kz_library_status(status, p->border);
+  if (left) { /* what it has cached may be half made */
+    kz_border_empty(p->border);
+    p->opened = false;
+  }
+  leave(p);
+  return told;
+}
+
+/* ---- made and freed ---- */
+
+static void free_pendulum(kapitza_pendulum *p) {
+  kz_border_free(p->border);
+  pthread_mutex_destroy(&p->mutex);
+  free(p);
+}
+
+kapitza_status kz_library_create(const char *scene, kapitza_pendulum **pendulum) {
+  const size_t bytes = strlen(scene) + 1;
+  *pendulum = NULL;
+  kz_message_clear();
+  if (kz_tables_make() != KZ_OK) return KAPITZA_NO_MEMORY;
+  kapitza_pendulum *p = kz_border_give(sizeof *p + bytes);
+  kz_border *border = p ? kz_border_create() : NULL;
+  if (!border) {
+    free(p);
+    kz_fail(KZ_FAILED, "memory ran out");
+    return KAPITZA_NO_MEMORY;
+  }
+  pthread_mutexattr_t attributes;
+  pthread_mutexattr_init(&attributes);
+  pthread_mutexattr_settype(&attributes, PTHREAD_MUTEX_ERRORCHECK);
+  pthread_mutex_init(&p->mutex, &attributes);
+  pthread_mutexattr_destroy(&attributes);
+  p->border = border;
+  p->process = getpid();
+  memcpy(p->text, scene, bytes);
+  const kapitza_status status = kz_library_call(p, NULL, NULL);
+  if (status == KAPITZA_OK)
+    *pendulum = p;
+  else
+    free_pendulum(p);
+  return status;
+}
+
+void kapitza_pendulum_free(kapitza_pendulum *pendulum) {
+  if (pendulum) free_pendulum(pendulum);
+}
+
+static kz_status tell_parameters(kapitza_pendulum *p, void *context) {
+  const kz_parameters *own = &p->scene.parameters;
+  *(kapitza_parameters *)context =
+      (kapitza_parameters){own->pendulum.k,      own->pendulum.beta,   own->pendulum.m,      own->quality_factor,
+                           own->drive_frequency, own->drive_amplitude, own->pivot_frequency, kz_is_mirrored(&own->pendulum)};
+  return KZ_OK;
+}
+
+kapitza_status kapitza_parameters_of(kapitza_pendulum *pendulum, kapitza_parameters *parameters) {
+  return kz_library_call(pendulum, tell_parameters, parameters);
+}

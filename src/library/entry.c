@@ -1,0 +1,24 @@
+/* Calls that come first, compiled for the first instruction set of the processor: they look at the CPU before anything that was built for a newer one
+ * runs. */
+#include "library.h"
+
+#include "kapitza/app_instructions.h"
+
+static kapitza_status check(void) {
+  const char *missing = kz_missing_instruction();
+  if (!missing) return KAPITZA_OK;
+  kz_message_clear();
+  kz_fail(KZ_REFUSED,
+          "this library was built for %s, which this CPU lacks; build it with -DKAPITZA_ARCH=" KZ_FIRST_INSTRUCTIONS, missing);
+  return KAPITZA_REFUSED;
+}
+
+kapitza_status kapitza_pendulum_create(const char *scene, kapitza_pendulum **pendulum) {
+  const kapitza_status status = check();
+  return status == KAPITZA_OK ? kz_library_create(scene, pendulum) : status;
+}
+
+kapitza_status kapitza_run(const char *scene, const char *output, int32_t overwrite, char **summary) {
+  const kapitza_status status = check();
+  return status == KAPITZA_OK ? kz_library_run(scene, output, overwrite, summary) : status;
+}

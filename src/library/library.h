@@ -1,0 +1,44 @@
+/* The inside of the library: a pendulum, and how calls come in and go out. */
+#pragma once
+
+#include <pthread.h>
+#include <sys/types.h>
+
+#include "kapitza/app.h"
+#include "kapitza/common_border.h"
+#include "kapitza/study_live.h"
+
+#pragma GCC visibility push(default)
+#include "kapitza.h"
+#pragma GCC visibility pop
+
+struct kapitza_pendulum {
+  kz_border *border;     /* around all that follows the text */
+  pthread_mutex_t mutex; /* one call at a time */
+  pid_t process;         /* in which it was used last */
+  _Atomic int busy;      /* a call works */
+  bool opened;           /* what follows has been made */
+  kz_scene scene;
+  kz_engine *engine;
+  kz_flow *flow[2]; /* forwards, backwards; NULL = not made yet */
+  char text[];      /* of the scene */
+};
+
+/* Runs `work` for a pendulum, opened, within its border, alone; its status as the caller gets it. */
+typedef kz_status (*kz_work_fn)(kapitza_pendulum *pendulum, void *context);
+kapitza_status kz_library_call(kapitza_pendulum *pendulum, kz_work_fn work, void *context);
+
+/* The status of the last call within the border, as the caller gets it. */
+kapitza_status kz_library_status(kz_status status, const kz_border *border);
+/* A kz_pause_fn of this thread's kapitza_set_pause; NULL = it has none. */
+kz_pause_fn kz_library_pause(void);
+
+/* Attractors or cycles as one piece of memory for the caller. `attract`: all attract, else the names of unstable ones say so. */
+kapitza_cycles *kz_library_cycles(const kz_catalogue *catalogue, bool attract);
+/* Bytes of such a list, and the list at `place`, for memory that holds more. */
+size_t kz_library_cycles_bytes(const kz_catalogue *catalogue);
+void kz_library_cycles_put(const kz_catalogue *catalogue, bool attract, void *place);
+
+/* kapitza_pendulum_create and kapitza_run, behind the check of the CPU (entry.c). */
+kapitza_status kz_library_create(const char *scene, kapitza_pendulum **pendulum);
+kapitza_status kz_library_run(const char *scene, const char *output, int32_t overwrite, char **summary);
