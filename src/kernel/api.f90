@@ -1,4 +1,4 @@
-!> The C interface of the kernel: include/kapitza/kernel.h. Thin entries of doubles and integers.
+!> The C interface of the kernel, include/kapitza/kernel.h: thin entries of doubles and integers.
 module kz_kernel_api
   use, intrinsic :: iso_c_binding, only: c_double, c_int32_t, c_int64_t, c_ptr, c_char, c_null_char, c_loc, c_f_pointer
   use kz_vector_map, only: flow_t, WIDTH, PI
@@ -91,7 +91,7 @@ contains
     real(c_double), intent(out), optional :: matrix(2, 2, n)
     type(flows_t), pointer :: flows
     class(flow_t), allocatable :: flow
-    real(c_double), allocatable :: tangent(:, :, :) !< unallocated: not asked
+    real(c_double), allocatable :: tangent(:, :, :) !< Unallocated if no matrix is asked for
     integer(c_int64_t) :: first, last, period
     integer :: lanes, i
 
@@ -101,7 +101,8 @@ contains
       last = min(first + WIDTH - 1, n)
       lanes = int(last - first + 1)
       call flow%put_all(theta(first:last)/PI, velocity(first:last))
-      if (present(matrix)) tangent = spread(reshape([1.0_c_double, 0.0_c_double, 0.0_c_double, 1.0_c_double], [2, 2]), 3, WIDTH)
+      if (present(matrix)) tangent = spread(reshape([1.0_c_double, 0.0_c_double, 0.0_c_double, 1.0_c_double], [2, 2]), &
+                                            3, WIDTH)
       call flow%to_map(lanes, tangent)
       do period = 1, periods
         if (present(matrix)) call flow%advance_tangent(lanes, tangent)

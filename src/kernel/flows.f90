@@ -1,9 +1,8 @@
-!> From a pendulum and its numerics to a map of one drive period.
+!> Makes the map of one drive period from a pendulum and its numerics.
 module kz_kernel_flows
   use, intrinsic :: iso_c_binding, only: c_double
   use kz_vector_map, only: flow_t
-  use kz_processed_tables, only: series_t, processed_t, make_processed_series, make_processed, &
-                                 MOST_DRIFTS, MOST_KICKS
+  use kz_processed_tables, only: series_t, processed_t, make_processed_series, make_processed, MOST_DRIFTS, MOST_KICKS
   use kz_vector_schemes, only: SCHEMES, PROCESSED, SPLIT6_ROW
   use kz_model_pendulum, only: pendulum_t, stiffness
   use kz_vector_step_table, only: numerics_t, period_t, make_period
@@ -13,23 +12,23 @@ module kz_kernel_flows
   private
   public :: make_flow, make_processed_flow, fine_numerics, sampling_numerics, FINE_STEPS
 
-  !> Steps a period of split6 for all published values, whatever the scene says.
+  !> Steps of split6 per period for all published values, whatever the scene says.
   integer, parameter :: FINE_STEPS = 96
 
 contains
 
-  !> split6 with FINE_STEPS, more where the torque is large.
+  !> Numerics of split6 with FINE_STEPS, more if the force is large.
   pure type(numerics_t) function fine_numerics(pendulum) result(numerics)
-    type(pendulum_t), intent(in) :: pendulum !< k, beta, m
+    type(pendulum_t), intent(in) :: pendulum !< Pendulum
 
     numerics%scheme = SPLIT6_ROW
     numerics%steps_per_period = FINE_STEPS*ceiling(sqrt(max(1.0_c_double, stiffness(pendulum))))
   end function fine_numerics
 
-  !> With which numerics motions are shown within a period: the scene's, or fine steps in place of the processed splitting, whose
+  !> Numerics that show motions within a period: the scene's, or fine steps in place of the processed splitting, whose
   !> states are physical at the strobe alone. Steps are a multiple of the scene's.
   pure function sampling_numerics(pendulum, numerics) result(sampling)
-    type(pendulum_t), intent(in) :: pendulum !< k, beta, m
+    type(pendulum_t), intent(in) :: pendulum !< Pendulum
     type(numerics_t), intent(in) :: numerics !< scheme, steps a period
     type(numerics_t) :: sampling, fine
 
@@ -41,16 +40,15 @@ contains
                                 *((fine%steps_per_period + numerics%steps_per_period - 1)/numerics%steps_per_period)
   end function sampling_numerics
 
-  !> The map of one drive period. Fused steps (the last entry of a step merged with the first of the next) are faster; sampling
-  !> within the period needs separate ones. (A subroutine: gfortran 12 does not free what a polymorphic function returns.)
+  !> Makes the map of one drive period. (A subroutine: gfortran 12 does not free a polymorphic function's result.)
   recursive subroutine make_flow(pendulum, numerics, fused, flow, refined, fallback)
-    type(pendulum_t), intent(in) :: pendulum !< k, beta, m
+    type(pendulum_t), intent(in) :: pendulum !< Pendulum
     type(numerics_t), intent(in) :: numerics !< scheme, steps a period
-    !> whether neighbouring entries of neighbouring steps are merged: faster, but no sampling within the period
+    !> True: the last entry of a step is merged with the next step's first: faster, but no samples within the period
     logical, intent(in) :: fused
     class(flow_t), allocatable, intent(out) :: flow !< the map of one drive period
-    integer, intent(in), optional :: refined !< steps of the flow for fast lanes, in those of fine_numerics; 1, if left out
-    class(flow_t), intent(in), optional :: fallback !< that flow, if it is known: fine_numerics, not fused
+    integer, intent(in), optional :: refined !< Steps of the flow for fast lanes over those of fine_numerics; default 1
+    class(flow_t), intent(in), optional :: fallback !< Flow for fast lanes, if it exists: fine_numerics, not fused
     type(period_t) :: period
     type(series_t), allocatable :: series
 
@@ -64,15 +62,15 @@ contains
     call make_processed_flow(pendulum, series, numerics, flow, refined=refined, made_fallback=fallback)
   end subroutine make_flow
 
-  !> The processed splitting from its series. numerics%fastest = huge: no other flow for fast lanes.
+  !> Makes the processed splitting from its series. numerics%fastest = huge: no other flow for fast lanes.
   recursive subroutine make_processed_flow(pendulum, series, numerics, flow, fitted, refined, made_fallback)
-    type(pendulum_t), intent(in) :: pendulum !< k, beta, m
+    type(pendulum_t), intent(in) :: pendulum !< Pendulum
     type(series_t), intent(in) :: series !< the series of the pendulum
     type(numerics_t), intent(in) :: numerics !< scheme, steps a period
     class(flow_t), allocatable, intent(out) :: flow !< the map of one drive period
-    real(c_double), intent(in), optional :: fitted !< the drift is fitted up to this speed; the fastest, if left out
-    integer, intent(in), optional :: refined !< steps of the flow for fast lanes, in those of fine_numerics; 1, if left out
-    class(flow_t), intent(in), optional :: made_fallback !< that flow, if it is made already
+    real(c_double), intent(in), optional :: fitted !< Largest speed to which the drift is fitted; default: the fastest
+    integer, intent(in), optional :: refined !< Steps of the flow for fast lanes over those of fine_numerics; default 1
+    class(flow_t), intent(in), optional :: made_fallback !< Flow for fast lanes, if it exists
     type(numerics_t) :: fine
     type(processed_t) :: table
     class(flow_t), allocatable :: fallback

@@ -1,5 +1,5 @@
-!> Hill's damped equation u'' + beta u' + (k - m f(t)) u = 0 over a period, a lane per point (k, beta, m); f is the drive of a pendulum with
-!> k = 0 and m = 1, the cosine if it is left out.
+!> Hill's damped equation u'' + beta u' + (k - m f(t)) u = 0 over a period, one lane per point (k, beta, m); f is the
+!> drive of a pendulum with k = 0 and m = 1, by default the cosine.
 !>
 !> u = exp(-beta t/2) w removes the damping; w'' + (kappa - m f) w = 0, kappa = k - beta**2/4, is integrated over half a
 !> period by Taylor series about the middle of each step. See include/kapitza/kernel.h.
@@ -13,21 +13,20 @@ module kz_kernel_linear
   private
 
   real(rk), parameter :: PI = 3.14159265358979323846_rk
-  !> Terms of the series, and how far sqrt(|kappa| + |m|) times half a step may go: truncation below 1e-15, rounding
-  !> amplified by exp(REACH) at most.
+  !> Order of the series; largest sqrt(|kappa| + |m|) times half a step, for a truncation error below 1e-15.
   integer, parameter :: ORDER = 22
   real(rk), parameter :: MAX_PHASE = 1.2_rk
-  !> Numbers beyond 2**LIFT_BITS are scaled down by it.
+  !> Solutions beyond 2**SCALE_BITS are scaled down by it.
   integer, parameter :: SCALE_BITS = 400
 
-  !> w(pi) = c, s and w'(pi) = c_dot, s_dot of the solutions with (w, w') = (1, 0), (0, 1) at t = 0, in units of 2**exponent. Over a whole period of
-  !> an even drive trace/2 = 2 c s_dot - 1 = 2 s c_dot + 1.
+  !> w(pi) = c, s and w'(pi) = c_dot, s_dot of the solutions with (w, w') = (1, 0), (0, 1) at t = 0, in units of
+  !> 2**exponent. Over a whole period of an even drive trace/2 = 2 c s_dot - 1 = 2 s c_dot + 1.
   type :: half_period_t
     real(rk) :: c, s, c_dot, s_dot
     integer(c_int64_t) :: exponent
   end type half_period_t
 
-  !> The two solutions at the current time in units of 2**(LIFT_BITS lifts); derivatives are per half step.
+  !> The two solutions at the current time in units of 2**(SCALE_BITS scalings); derivatives are per half step.
   type :: solutions_t
     real(rk) :: w(WIDTH, 2), w_dot(WIDTH, 2)
     integer(c_int64_t) :: scalings(WIDTH)
@@ -35,12 +34,12 @@ module kz_kernel_linear
 
 contains
 
-  !> Solutions at t = pi for n points.
+  !> Computes the solutions at t = pi for n points.
   subroutine half_periods(form, n, k, beta, m, half)
     type(pendulum_t), intent(in), optional :: form !< the drive, with k = 0 and m = 1
     integer(c_int64_t), intent(in) :: n
-    real(rk), intent(in) :: k(n), beta(n), m(n) !< stiffness, damping, drive [n]
-    type(half_period_t), intent(out) :: half(n) !< the four numbers [n]
+    real(rk), intent(in) :: k(n), beta(n), m(n) !< Stiffness, damping, drive [n]
+    type(half_period_t), intent(out) :: half(n) !< Solutions [n]
     type(pendulum_t) :: wave
     integer(c_int64_t) :: first
     integer :: lanes
@@ -52,7 +51,7 @@ contains
     end do
   end subroutine half_periods
 
-  !> The drive that is meant: the cosine where none is given.
+  !> The given drive, or the cosine if there is none.
   pure function wave_of(form) result(wave)
     type(pendulum_t), intent(in), optional :: form
     type(pendulum_t) :: wave
@@ -61,7 +60,7 @@ contains
     if (present(form)) wave = form
   end function wave_of
 
-  !> Largest multiplier, its angle and the stability of n points.
+  !> Computes the largest multiplier, its angle and the stability of n points.
   subroutine floquet(form, n, k, beta, m, log_multiplier, angle, stable) bind(C, name='kz_linear_floquet')
     type(pendulum_t), intent(in), optional :: form !< the drive, with k = 0 and m = 1
     integer(c_int64_t), value :: n
@@ -76,7 +75,7 @@ contains
     allocate (half(n))
     call half_periods(form, n, k, beta, m, half)
     reversed = wave_of(form)
-    if (.not. any(abs(reversed%vertical(2, :)) > 0)) then ! even in time: the second half is the first one, reversed
+    if (.not. any(abs(reversed%vertical(2, :)) > 0)) then ! an even drive: the second half is the first one, reversed
       back = half
     else
       reversed%vertical(2, :) = -reversed%vertical(2, :)
@@ -84,13 +83,14 @@ contains
       call half_periods(reversed, n, k, beta, m, back)
     end if
     do j = 1, n
-      call classify_point(half(j), back(j), beta(j), rounding_of(k(j), beta(j), m(j)), log_multiplier(j), angle(j), stable(j))
+      call classify_point(half(j), back(j), beta(j), rounding_of(k(j), beta(j), m(j)), log_multiplier(j), angle(j), &
+                          stable(j))
     end do
   end subroutine floquet
 
-  !> Multiplier, angle and stability of one point, from the halves of its period; `back` is the second half, run backwards in time. With growth
-  !> mu of w per period: trace/2 = cosh(mu) or -cosh(mu), thus sinh(mu/2)**2 = plus or minus; between the tongues sin(pi angle)**2 = -plus. A
-  !> product of rounding errors alone is on the edge, as at k = n**2/4, m = 0.
+  !> Multiplier, angle and stability of one point, from the halves of its period; `back` is the second half, run
+  !> backwards in time. With growth mu of w per period: trace/2 = cosh(mu) or -cosh(mu), thus sinh(mu/2)**2 = plus or
+  !> minus; between the tongues sin(pi angle)**2 = -plus. A product below its rounding error counts as 0.
   pure subroutine classify_point(half, back, beta, rounding, log_multiplier, angle, stable)
     type(half_period_t), intent(in) :: half, back
     real(rk), intent(in) :: beta, rounding
@@ -132,21 +132,21 @@ contains
     value = x(2)*x(3) - x(1)*x(4)
   end function minus_determinant
 
-  !> The rounding error of a product of two solutions near their zeros.
+  !> Rounding error of a product of two solutions near their zeros.
   pure real(rk) function rounding_of(k, beta, m) result(rounding)
     real(rk), intent(in) :: k, beta, m
 
     rounding = (4*epsilon(1.0_rk)*(1 + abs(k) + 0.25_rk*beta**2 + abs(m)))**2
   end function rounding_of
 
-  !> The product, or 0 where it is below its rounding error.
+  !> The product, or 0 if it is below its rounding error.
   pure real(rk) function above_rounding(product, rounding) result(sure)
     real(rk), intent(in) :: product, rounding
 
     sure = merge(product, 0.0_rk, abs(product) > rounding)
   end function above_rounding
 
-  !> mu with sinh(mu/2)**2 = square 4**exponent.
+  !> The growth mu with sinh(mu/2)**2 = square 4**exponent.
   pure real(rk) function growth_of(square, exponent) result(growth)
     real(rk), intent(in) :: square
     integer(c_int64_t), intent(in) :: exponent
@@ -158,7 +158,7 @@ contains
     end if
   end function growth_of
 
-  !> One batch through half a period; its steps suit its hardest lane.
+  !> Advances one batch through half a period; its stiffest lane sets the steps.
   subroutine half_batch(wave, lanes, k, beta, m, half)
     type(pendulum_t), intent(in) :: wave
     integer, intent(in) :: lanes
@@ -172,7 +172,8 @@ contains
     drive = 0
     kappa(:lanes) = k(:lanes) - 0.25_rk*beta(:lanes)**2
     drive(:lanes) = m(:lanes)
-    n_steps = max(3*highest_harmonic(wave), ceiling(PI*sqrt(maxval(abs(kappa) + stiffness(wave)*abs(drive)))/(2*MAX_PHASE)))
+    n_steps = max(3*highest_harmonic(wave), &
+                  ceiling(PI*sqrt(maxval(abs(kappa) + stiffness(wave)*abs(drive)))/(2*MAX_PHASE)))
     h = PI/(2*n_steps)
     y%w = spread([1.0_rk, 0.0_rk], 1, WIDTH)
     y%w_dot = spread([0.0_rk, h], 1, WIDTH)
@@ -187,7 +188,7 @@ contains
     end do
   end subroutine half_batch
 
-  !> Terms of the drive's series that a double can see; h: half a step times the highest harmonic.
+  !> Number of terms of the drive's series above double precision; h: half a step times the highest harmonic.
   pure integer function series_terms(h) result(terms)
     real(rk), intent(in) :: h
     real(rk) :: size
@@ -199,8 +200,8 @@ contains
     end do
   end function series_terms
 
-  !> A step of two units of x about its middle: with the middle's two solutions A, B the states at its ends are
-  !> W(x) = (A, B; A', B') times the middle's, det W = 1.
+  !> Advances by a step of two units of x about its middle: with the solutions A, B that begin in the middle, the states
+  !> at the ends are W(x) = (A, B; A', B') times the middle's, det W = 1.
   subroutine advance_step(y, kappa, drive, wave, terms)
     type(solutions_t), intent(inout) :: y
     real(rk), intent(in) :: kappa(WIDTH), drive(WIDTH), wave(0:ORDER + 3)
@@ -219,7 +220,7 @@ contains
     call scale_down(y)
   end subroutine advance_step
 
-  !> The solution with first coefficients (1, 0) or (0, 1): sums of its even and odd terms at x = 1 and of their derivatives.
+  !> Sums the even and odd terms, and derivatives, at x = 1 of the solution with first coefficients (1, 0) or (0, 1).
   subroutine sum_series(which, kappa, drive, wave, terms, even, odd, d_even, d_odd)
     integer, intent(in) :: which
     real(rk), intent(in) :: kappa(WIDTH), drive(WIDTH), wave(0:ORDER + 3)

@@ -9,7 +9,7 @@ module kz_kernel_models
   implicit none
   private
 
-  !> The codes of kernel.h.
+  !> Codes of the models, KZ_MATHIEU and KZ_EFFECTIVE of kernel.h.
   integer(c_int32_t), parameter :: MATHIEU = 1, EFFECTIVE = 2
 
   !> theta'' + beta theta' + drive(t) * restoring(theta) = 0, the drive tabulated over one period.
@@ -33,11 +33,11 @@ contains
   subroutine sample_model(code, pendulum, periods, samples, theta, velocity, theta_out, velocity_out) &
     bind(C, name='kz_sample_model')
     integer(c_int32_t), value :: code !< MATHIEU or EFFECTIVE
-    type(pendulum_t), intent(in) :: pendulum !< k, beta, m
-    integer(c_int64_t), value :: periods, samples !< drive periods; samples per period
-    real(c_double), value :: theta, velocity !< start, rad, rad per drive radian
-    real(c_double), intent(out) :: theta_out(0:periods*samples) !< angles at t = 2 pi s/samples, s = 0 .. periods*samples
-    real(c_double), intent(out) :: velocity_out(0:periods*samples) !< velocities there
+    type(pendulum_t), intent(in) :: pendulum !< Pendulum
+    integer(c_int64_t), value :: periods, samples !< Drive periods; samples per period
+    real(c_double), value :: theta, velocity !< Start: rad, rad per drive radian
+    real(c_double), intent(out) :: theta_out(0:periods*samples) !< Angles at t = 2 pi s/samples
+    real(c_double), intent(out) :: velocity_out(0:periods*samples) !< Velocities at these times
     type(model_t) :: model
     real(c_double) :: x(2)
     integer(c_int64_t) :: s
@@ -56,7 +56,7 @@ contains
     end do
   end subroutine sample_model
 
-  !> The tables: fine steps, more for fast motions, a multiple of the samples. The slow equation has no drive: its force is 1.
+  !> Makes the tables: fine steps, more for fast motions, a multiple of the samples. The slow equation has the force 1.
   subroutine make_model(code, pendulum, samples, velocity, model)
     integer(c_int32_t), intent(in) :: code
     type(pendulum_t), intent(in) :: pendulum
@@ -79,7 +79,7 @@ contains
     end if
   end subroutine make_model
 
-  !> x = (theta, velocity) from the end of step `from` to the end of step `to` of a period.
+  !> Advances x = (theta, velocity) from the end of step `from` to the end of step `to` of a period.
   subroutine advance_model(model, from, to, x)
     type(model_t), intent(in) :: model
     integer, intent(in) :: from, to

@@ -1,5 +1,4 @@
-!> The cheapest processed splitting that carries a pendulum: the error of one period is measured against quad-precision Taylor
-!> series, never estimated.
+!> Chooses the cheapest processed splitting for a pendulum by measured errors of one period.
 module kz_kernel_processed_choice
   use, intrinsic :: iso_c_binding, only: c_double, c_int32_t
   use, intrinsic :: ieee_exceptions, only: ieee_set_halting_mode, ieee_set_flag, ieee_usual
@@ -15,22 +14,22 @@ module kz_kernel_processed_choice
   implicit none
   private
 
-  !> Codes of common.h.
+  !> Status codes of common.h.
   integer(c_int32_t), parameter :: OK = 0, REFUSED = 2
-  !> KZ_MOST_PROCESSED_STEPS of kernel.h.
+  !> Numbers of steps that are tried; the most are KZ_MOST_PROCESSED_STEPS of kernel.h.
   integer, parameter :: FEWEST_STEPS = 12, MOST_STEPS = 160
-  !> Coefficients of a kick, least of all.
+  !> Least number of coefficients of a kick.
   integer, parameter :: FEWEST_KICKS = 4
-  !> Operations of a step besides the terms of drift and kick.
+  !> Operations per step and lane besides the terms of drift and kick.
   integer, parameter :: OTHER_OPERATIONS = 6
-  !> No number of steps up to MOST_STEPS carries more than these: rad that a step turns the pendulum at most, and rad of its fastest
-  !> oscillation in a step. Measured: errors of 1e-6 rad a period end at 0.7 and 0.22; of 1e-3 at 2 and 0.4.
+  !> Largest angle of a turn, and phase of the fastest oscillation, in a step, rad; beyond them no number of steps is
+  !> tried. Measured: errors per period exceed 1e-6 rad above 0.7 and 0.22, 1e-3 rad above 2 and 0.4.
   real(c_double), parameter :: MAX_STEP_ANGLE = 3.2_c_double, MAX_STEP_PHASE = 0.8_c_double
-  !> Probes: states with speeds up to the fastest, both ends included, and how much more than their largest error is assumed.
+  !> Number of probes, states with speeds from 0 to the fastest, and safety factor on their largest error.
   integer, parameter :: N_PROBES = 2*WIDTH
   real(c_double), parameter :: MARGIN = 1.5_c_double
 
-  !> The splitting of a pendulum with so many terms.
+  !> The splitting of a pendulum whose number of steps is searched.
   type, extends(integrator_t) :: splitting_t
     type(pendulum_t) :: pendulum
     type(series_t), allocatable :: series
@@ -43,7 +42,8 @@ module kz_kernel_processed_choice
 contains
 
   !> kz_numerics_choose of kernel.h.
-  integer(c_int32_t) function choose_numerics(pendulum, tolerance, fastest, numerics, error) bind(C, name='kz_numerics_choose') result(status)
+  integer(c_int32_t) function choose_numerics(pendulum, tolerance, fastest, numerics, error) &
+      bind(C, name='kz_numerics_choose') result(status)
     type(pendulum_t), intent(in) :: pendulum
     real(c_double), value :: tolerance, fastest
     type(numerics_t), intent(inout) :: numerics
@@ -55,7 +55,7 @@ contains
     status = REFUSED
     error = huge(error)
     if (pendulum%beta > MOST_DAMPING .or. out_of_reach(pendulum, fastest)) return
-    call ieee_set_halting_mode(ieee_usual, .false.) ! too few steps may overflow: that is what is measured; until this procedure returns
+    call ieee_set_halting_mode(ieee_usual, .false.) ! too few steps may overflow
     integrator%order = ORDER
     integrator%pendulum = pendulum
     allocate (integrator%series)
@@ -68,12 +68,13 @@ contains
     numerics%kick_terms = MOST_KICKS
     integrator%numerics = numerics
     given = numerics%steps_per_period
-    call choose_terms(integrator, tolerance, merge(given, FEWEST_STEPS, given > 0), merge(given, MOST_STEPS, given > 0), numerics, error)
+    call choose_terms(integrator, tolerance, merge(given, FEWEST_STEPS, given > 0), &
+                      merge(given, MOST_STEPS, given > 0), numerics, error)
     if (given > 0 .or. error <= tolerance) status = OK
     call ieee_set_flag(ieee_usual, .false.)
   end function choose_numerics
 
-  !> Whether a pendulum is too stiff, or a motion too fast, for any number of steps; numbers that are none are.
+  !> Returns .true. if a pendulum is too stiff or a motion too fast for any number of steps, and for NaN.
   pure logical function out_of_reach(pendulum, fastest) result(out)
     type(pendulum_t), intent(in) :: pendulum
     real(c_double), intent(in) :: fastest
@@ -82,7 +83,7 @@ contains
     out = .not. (STEP*fastest <= MAX_STEP_ANGLE .and. STEP*sqrt(stiffness(pendulum)) <= MAX_STEP_PHASE)
   end function out_of_reach
 
-  !> The largest error of one period of n steps, rad.
+  !> Returns the largest error of one period of n steps over the probes, rad.
   real(c_double) function measure_splitting(integrator, n) result(error)
     class(splitting_t), intent(inout) :: integrator
     integer, intent(in) :: n
@@ -101,7 +102,8 @@ contains
                         real(integrator%probes%start(2, first + 1:first + WIDTH), c_double))
       call flow%advance_physical(WIDTH)
       do lane = 1, WIDTH
-        distance = hypot(PI*(modulo(flow%u(lane) - real(integrator%probes%image(1, first + lane), c_double) + 1, 2.0_c_double) - 1), &
+        distance = hypot(PI*(modulo(flow%u(lane) - real(integrator%probes%image(1, first + lane), c_double) + 1, &
+                                    2.0_c_double) - 1), &
                          flow%v(lane) - real(integrator%probes%image(2, first + lane), c_double))
         if (.not. distance <= error) error = distance ! NaN too
       end do
@@ -110,9 +112,9 @@ contains
     if (.not. error <= huge(error)) error = huge(error)
   end function measure_splitting
 
-  !> For each number of terms the fewest steps from `fewest` on that reach the tolerance; of these the cheapest. The first, with all terms, gives
-  !> the fewest steps that the method can take. A number of steps that is given (`fewest` = `most`) takes as few terms as cost no accuracy that the
-  !> tolerance asks for, or that the steps have.
+  !> Finds for each number of terms the fewest steps that reach the tolerance, and takes the cheapest of them; the first
+  !> search, with all terms, bounds the steps from below. With given steps (`fewest` = `most`) it takes the fewest terms
+  !> that lose neither the tolerance nor the accuracy of the steps.
   subroutine choose_terms(integrator, tolerance, fewest, most, numerics, error)
     type(splitting_t), intent(inout) :: integrator
     real(c_double), intent(in) :: tolerance
@@ -132,7 +134,8 @@ contains
         integrator%numerics%drift_terms = drifts
         integrator%numerics%kick_terms = kicks
         if (cheaper_steps(numerics, integrator%numerics) < first) cycle
-        call search_steps(integrator, accepted, first, min(last, cheaper_steps(numerics, integrator%numerics)), steps, candidate_error)
+        call search_steps(integrator, accepted, first, min(last, cheaper_steps(numerics, integrator%numerics)), steps, &
+                          candidate_error)
         if (candidate_error > accepted) exit
         numerics = integrator%numerics
         error = candidate_error
@@ -140,7 +143,7 @@ contains
     end do
   end subroutine choose_terms
 
-  !> How many steps of a candidate cost less than what is chosen.
+  !> Largest number of steps at which a candidate costs less than the chosen numerics.
   pure integer function cheaper_steps(chosen, candidate) result(steps)
     type(numerics_t), intent(in) :: chosen, candidate
 

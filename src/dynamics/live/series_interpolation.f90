@@ -1,7 +1,7 @@
-!> The series of pendulums that a hand moves, along one key or over the plane of two, interpolated from series that were made before (the
-!> nodes). A coefficient of a series is a polynomial of degree ORDER/2 in all terms of the force, and a rational function of the damping, whose
-!> poles lie at distances l/n from the real axis, l >= 1 and n < ORDER. In units of RADIUS it is therefore analytic about the pendulum that is
-!> wanted, where nodes may lie anywhere: the weights are those that are best for all functions analytic in the unit ball.
+!> Interpolates splitting series in one or two parameters, for moving frames, from series made before (the nodes). A
+!> coefficient of a series is a polynomial of degree ORDER/2 in all terms of the force, and a rational function of the
+!> damping with poles at distances l/n from the real axis, l >= 1 and n < ORDER. In units of RADIUS it is thus analytic
+!> about the wanted pendulum; the weights are the best for all functions analytic in the unit ball.
 module kz_live_series_interpolation
   use, intrinsic :: iso_c_binding, only: c_ptr, c_associated, c_f_pointer
   use, intrinsic :: iso_fortran_env, only: rk => real64, qp => real128
@@ -12,23 +12,23 @@ module kz_live_series_interpolation
   private
   public :: interpolate_series
 
-  !> The error of a node, which keeps the weights small.
+  !> Relative error assumed of a node, which keeps the weights small.
   real(rk), parameter :: ROUNDING = 1e-13_rk
-  !> Of the force and of the damping: a step multiplies forces by less than 1/2, and no pole is nearer than 1/ORDER. (On drags over the plane of
-  !> Fig. 12, of lines, circles and leaps, periods were wrong by at most 1.8 times the error that was accepted.)
+  !> Radii of analyticity in the force and in the damping: a step multiplies forces by less than 1/2, and no pole is
+  !> nearer than 1/ORDER. (On paths over the plane of Fig. 12 errors of periods were up to 1.8 times the accepted one.)
   real(rk), parameter :: RADIUS(2) = [2.0_rk, 1.0_rk/ORDER]
-  !> Nodes that are farther, in units of RADIUS, do not count.
+  !> Largest distance of a node that counts, in units of RADIUS.
   real(rk), parameter :: FARTHEST = 0.5_rk
   integer, parameter :: N_PARAMETERS = 5 + 4*MOST_HARMONICS
 
 contains
 
-  !> The series of a pendulum: interpolated from the nodes, or made and kept as a node.
+  !> Interpolates the series of a pendulum from the nodes, or makes it and keeps it as a node.
   subroutine interpolate_series(pendulum, error, handle, series)
-    type(pendulum_t), intent(in) :: pendulum !< k, beta, m
-    real(rk), intent(in) :: error !< of the interpolation at most, rad; of a period it may be twice that
-    type(c_ptr), intent(in) :: handle !< kz_kept_series of kernel.h, which holds the nodes; null = the series is made
-    type(series_t), intent(out) :: series !< what does not depend on the number of steps
+    type(pendulum_t), intent(in) :: pendulum !< Pendulum
+    real(rk), intent(in) :: error !< Largest error of the interpolation, rad; that of a period may be twice as large
+    type(c_ptr), intent(in) :: handle !< kz_kept_series of kernel.h with the nodes; null = the series is made
+    type(series_t), intent(out) :: series !< Series, for any number of steps
     type(kept_series_t), pointer :: kept
 
     if (c_associated(handle)) then
@@ -45,13 +45,14 @@ contains
     type(pendulum_t), intent(in) :: pendulum
     real(rk), intent(in) :: error
     type(c_ptr), intent(in) :: handle
-    type(kept_series_t), intent(inout) :: kept !< what `handle` points at
+    type(kept_series_t), intent(inout) :: kept !< Target of `handle`
     type(series_t), intent(out) :: series
     real(rk) :: weight(NODES)
     logical :: accepted
     integer :: i
 
-    if (kept%place(1)%harmonics /= pendulum%harmonics .or. kept%place(1)%unmirrored /= pendulum%unmirrored) kept%n_nodes = 0
+    if (kept%place(1)%harmonics /= pendulum%harmonics .or. kept%place(1)%unmirrored /= pendulum%unmirrored) &
+      kept%n_nodes = 0
     do i = 1, kept%n_nodes
       if (.not. is_same(kept%place(i), pendulum)) cycle
       series = kept%node(i)
@@ -66,9 +67,9 @@ contains
     end if
   end subroutine interpolate_or_make
 
-  !> The weights of the nodes with the least error for the pendulum. Functions that are analytic in the unit ball have the kernel 1/(1 - x y) (Drury
-  !> and Arveson): of those with norm 1, weights w are wrong by w K w - 2 sum w + 1 at most, squared, which is least where K w = 1. `reach`: that
-  !> least error, with the rounding of the nodes, is accepted.
+  !> Sets the weights of the nodes with the least error for the pendulum. Functions analytic in the unit ball have the
+  !> kernel K = 1/(1 - x y) (Drury and Arveson): for norm 1 the squared error of weights w is at most w K w - 2 sum w +
+  !> 1, which is least at K w = 1. `accepted`: the least error, with the rounding of the nodes, is small enough.
   subroutine set_weights(pendulum, error, place, weight, accepted)
     type(pendulum_t), intent(in) :: pendulum
     real(rk), intent(in) :: error
@@ -93,15 +94,16 @@ contains
     accepted = 1 - sum(best(:n)) <= error**2
   end subroutine set_weights
 
-  !> The solution of (K + ROUNDING**2) w = 1 by Cholesky's method, in quad precision because errors are squared in it.
+  !> Solves (K + ROUNDING**2) w = 1 by Cholesky's method, in quad precision because errors are squared in it.
   pure function least_error_weights(offset) result(weight)
-    real(qp), intent(in) :: offset(:, :) !< nodes, in units of RADIUS from the pendulum that is wanted
+    real(qp), intent(in) :: offset(:, :) !< Nodes less the wanted pendulum, in units of RADIUS
     real(qp) :: weight(size(offset, 2)), factor(size(offset, 2), size(offset, 2))
     integer :: i, j
 
     do j = 1, size(weight)
       do i = j, size(weight)
-        factor(i, j) = 1/(1 - dot_product(offset(:, i), offset(:, j))) - dot_product(factor(i, :j - 1), factor(j, :j - 1))
+        factor(i, j) = 1/(1 - dot_product(offset(:, i), offset(:, j))) &
+                       - dot_product(factor(i, :j - 1), factor(j, :j - 1))
         if (i == j) factor(j, j) = sqrt(factor(j, j) + real(ROUNDING, qp)**2)
         if (i > j) factor(i, j) = factor(i, j)/factor(j, j)
       end do
@@ -112,7 +114,7 @@ contains
     end do
   end function least_error_weights
 
-  !> How far one pendulum lies from another, in units of RADIUS.
+  !> Difference of the parameters of two pendulums, in units of RADIUS.
   pure function scaled_difference(one, other) result(distance)
     type(pendulum_t), intent(in) :: one, other
     real(qp) :: distance(N_PARAMETERS)
@@ -121,7 +123,7 @@ contains
     distance(2) = distance(2)*(RADIUS(1)/RADIUS(2))
   end function scaled_difference
 
-  !> k, the damping, m, and the other numbers of the equation.
+  !> Parameters of the equation: k, the damping, m and the others.
   pure function parameters_of(pendulum) result(parameters)
     type(pendulum_t), intent(in) :: pendulum
     real(rk) :: parameters(N_PARAMETERS)
@@ -147,11 +149,12 @@ contains
       series%slope = series%slope + weight(i)*node(i)%slope
       series%drift = series%drift + weight(i)*node(i)%drift
       series%kick(:, :, ::2, :, :) = series%kick(:, :, ::2, :, :) + weight(i)*node(i)%kick(:, :, ::2, :, :)
-      series%processor(:, :, ::2, :, :, :) = series%processor(:, :, ::2, :, :, :) + weight(i)*node(i)%processor(:, :, ::2, :, :, :)
+      series%processor(:, :, ::2, :, :, :) = series%processor(:, :, ::2, :, :, :) &
+                                             + weight(i)*node(i)%processor(:, :, ::2, :, :, :)
     end do
   end subroutine add_nodes
 
-  !> Keeps a series as a node, in place of the farthest one if all places are taken.
+  !> Keeps a series as a node, in place of the farthest one if there is no space.
   subroutine keep_node(pendulum, series, kept)
     type(pendulum_t), intent(in) :: pendulum
     type(series_t), intent(in) :: series

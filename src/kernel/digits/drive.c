@@ -1,10 +1,9 @@
-/* The drive in any number of digits over the steps of a stretch: its series, which src/model writes in doubles and quads, and the ramp of a
- * release. */
+/* The series of the drive in any number of digits over the steps of a stretch, and the ramp of a release. */
 #include <math.h>
 
 #include "step.h"
 
-/* Up to the next strobe, or to the end of the ramp. */
+/* Sets the span, up to the next strobe or the end of the ramp. */
 static void set_end(kz_stretch *s, int64_t bits) {
   const double strobe = (double)s->strobe + 1, ramp = s->release.periods;
   s->changes = kz_number_is_less(&s->begin, ramp);
@@ -12,7 +11,7 @@ static void set_end(kz_stretch *s, int64_t bits) {
   kz_number_subtract(&s->span, &s->span, &s->begin, bits);
 }
 
-/* Drive periods from the strobe at or before the release. */
+/* Sets the beginning at the release, in drive periods from the strobe at or before it. */
 static void set_release(kz_stretch *s, int64_t bits) {
   KZ_NUMBER(turn);
   kz_number_two_pi(&turn, bits);
@@ -45,7 +44,7 @@ static int64_t highest_harmonic(const kz_pendulum *pendulum) {
   return pendulum->harmonics > 1 ? pendulum->harmonics : 1;
 }
 
-/* a h^2. */
+/* x = a h^2. */
 static void times_square(double a, const kz_number *h, int64_t bits, kz_number *x) {
   kz_number_of_double(a, x);
   kz_number_multiply(x, x, h, bits);
@@ -59,7 +58,7 @@ static double largest_force(const kz_steps *steps) {
 }
 
 static void set_scale(kz_steps *steps, int64_t orders, int64_t bits) {
-  int64_t more = steps->damping_orders; /* a ramp multiplies the drive's series by as many powers */
+  int64_t more = steps->damping_orders; /* powers by which a ramp multiplies the drive's series */
   KZ_NUMBER(size);
   times_square(1, &steps->h, bits, steps->scale);
   kz_number_of_double(largest_force(steps), &size);
@@ -88,7 +87,7 @@ void kz_steps_make(kz_steps *steps, int64_t orders, int64_t bits, int64_t n) {
   set_scale(steps, orders, bits);
 }
 
-/* The drive period at the beginning of step i. */
+/* Time of the beginning of step i in drive periods. */
 static void time_of(const kz_steps *steps, int64_t i, int64_t bits, kz_number *turn) {
   kz_number_set(turn, &steps->stretch->span);
   kz_number_multiply_by(turn, i, bits);
@@ -96,7 +95,7 @@ static void time_of(const kz_steps *steps, int64_t i, int64_t bits, kz_number *t
   kz_number_add(turn, turn, &steps->stretch->begin, bits);
 }
 
-/* Of harmonic j at the beginning of step i. */
+/* Sine and cosine of harmonic j at the beginning of step i. */
 static void sin_cos_at(const kz_steps *steps, int64_t i, int64_t j, int64_t bits, kz_number *sine, kz_number *cosine) {
   if (steps->stretch->is_whole) {
     kz_number_sin_cos_of_turns(i * j, steps->n, sine, cosine, bits);
@@ -111,9 +110,9 @@ static void sin_cos_at(const kz_steps *steps, int64_t i, int64_t j, int64_t bits
   kz_number_sin_cos(&angle, sine, cosine, bits);
 }
 
-/* series += h^2 (cosine cos j t + sine sin j t) about a time with cos j t = c, sin j t = s: derivatives go round in a circle of four. */
-static void add_harmonic(const kz_steps *steps, int64_t j, const double cosine[2], const double sine[2], const kz_number *c,
-                         const kz_number *s, int64_t bits, kz_number *series) {
+/* Adds h^2 (cosine cos j t + sine sin j t), expanded about a time with cos j t = c, sin j t = s, to a series. */
+static void add_harmonic(const kz_steps *steps, int64_t j, const double cosine[2], const double sine[2],
+                         const kz_number *c, const kz_number *s, int64_t bits, kz_number *series) {
   KZ_NUMBER(even);
   KZ_NUMBER(odd);
   KZ_NUMBER(part);
@@ -140,7 +139,7 @@ static void add_harmonic(const kz_steps *steps, int64_t j, const double cosine[2
   }
 }
 
-/* What is left of a ramp in the time x of step i, 1 .. 0, as a polynomial: q = r + u x, or 3 q^2 - 2 q^3 where it is smooth. */
+/* Remaining share of a ramp, 1 .. 0, by powers of the time x of step i: q = r + u x, or 3 q^2 - 2 q^3 if smooth. */
 static void ramp_left(const kz_steps *steps, int64_t i, int64_t bits, kz_number *left) {
   const kz_release *release = &steps->stretch->release;
   KZ_NUMBER(s); /* 1 - r */
@@ -181,7 +180,7 @@ static void interpolate_ramp(double first, double final, const kz_number *left, 
   kz_number_add(series, series, &last, bits);
 }
 
-/* series = series times a polynomial. */
+/* Multiplies a series by a polynomial. */
 static void multiply_series(const kz_steps *steps, const kz_number *polynomial, int64_t bits, kz_number *series) {
   KZ_NUMBER(sum);
   for (int64_t n = steps->force_orders; n >= 0; n--) {
@@ -190,10 +189,11 @@ static void multiply_series(const kz_steps *steps, const kz_number *polynomial, 
   }
 }
 
-/* The damping and the drive as they are on the ramp in step i; `along` is without gravity. */
+/* Applies the ramp to damping and drive in step i; `along` is without gravity. */
 static void put_on_ramp(kz_series *series, kz_steps *steps, int64_t i, int64_t bits) {
   const kz_release *release = &steps->stretch->release;
-  kz_number *const all = kz_numbers_make(2 * (KZ_RAMP_POWER + 1)), *const left = all, *const strength = all + KZ_RAMP_POWER + 1;
+  kz_number *const all = kz_numbers_make(2 * (KZ_RAMP_POWER + 1)), *const left = all,
+                   *const strength = all + KZ_RAMP_POWER + 1;
   ramp_left(steps, i, bits, left);
   interpolate_ramp(release->damping, steps->pendulum->beta, left, bits, steps->damping);
   for (int j = 0; j <= KZ_RAMP_POWER; j++) kz_number_multiply(steps->damping + j, steps->damping + j, &steps->h, bits);

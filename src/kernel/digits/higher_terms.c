@@ -1,7 +1,8 @@
-/* The neighbourhood's second and third degree over one step, in long double, whose exponents hold cubes of the narrowest windows.
+/* The second and third degree of a neighbourhood over one step, in long doubles, whose exponents hold cubes of the
+ * narrowest windows.
  *
- * With P1, P2, P3 the parts of a neighbour's angle by degree, g = along cos theta - across sin theta (series.c), and w = along sin theta +
- * across cos theta, which is the force and its second derivative:
+ * With P1, P2, P3 the parts of a neighbour's angle by degree, g = along cos theta - across sin theta (series.c), and
+ * w = along sin theta + across cos theta, the force, whose second derivative is -w:
  *   P2'' = -beta P2' - g P2 + w P1^2 / 2,   P3'' = -beta P3' - g P3 + w P1 P2 + g P1^3 / 6. */
 #include <math.h>
 #include <string.h>
@@ -14,7 +15,7 @@ static void read_series(const kz_number *from, int64_t last, int64_t n, long_ser
   for (int64_t j = 0; j < n; j++) to[j] = j <= last ? kz_number_long(from + j) : 0;
 }
 
-/* out += factor a b */
+/* out += factor a b. */
 static void add_product(int64_t n, long double factor, const long_series a, const long_series b, long_series out) {
   for (int64_t i = 0; i < n; i++) {
     long double sum = 0;
@@ -23,10 +24,10 @@ static void add_product(int64_t n, long double factor, const long_series a, cons
   }
 }
 
-typedef long double ramp_series[KZ_RAMP_POWER + 1];
+typedef long double ramp[KZ_RAMP_POWER + 1];
 
 #define KZ_NEXT next_order
-#define KZ_ARGUMENTS const ramp_series damping, const long_series gain, const long_series source, long_series x, long_series y
+#define KZ_ARGUMENTS const ramp damping, const long_series gain, const long_series source, long_series x, long_series y
 #define KZ_SUM(sum) long double sum = 0
 #define KZ_DAMP(sum) \
   for (int64_t i = 0; i <= n && i <= KZ_RAMP_POWER; i++) sum += damping[i] * y[n - i]
@@ -37,8 +38,8 @@ typedef long double ramp_series[KZ_RAMP_POWER + 1];
 #define KZ_SET(sum) y[n + 1] = -sum / (long double)(n + 1)
 #include "taylor/tangent.inc"
 
-/* x'' = -damping x' - gain x + source from x[0], *rate on; *rate becomes the rate at the end. */
-static void solve_neighbour(int64_t n, const ramp_series damping, const long_series gain, const long_series source,
+/* Solves x'' = -damping x' - gain x + source from x[0] and *rate; *rate becomes the rate at the end. */
+static void solve_neighbour(int64_t n, const ramp damping, const long_series gain, const long_series source,
                             long_series x, long double *rate) {
   long_series y;
   y[0] = *rate;
@@ -56,17 +57,17 @@ static long double sum_of(int64_t n, const long_series x) {
 
 /* The series from which the polynomials of a step are made. */
 typedef struct {
-  int64_t n;   /* orders */
-  int columns; /* 2, or 1: y is not used */
+  int64_t n;   /* Number of orders */
+  int columns; /* 2, or 1 without y */
   long double h;
-  ramp_series damping;
+  ramp damping;
   long_series gain, force; /* g, w */
-  long_series x[2];        /* P1: of x and of y */
+  long_series x[2];        /* P1 of x and of y */
   long_series square[3];   /* P1^2 / 2: xx, xy, yy */
   long_series second[3];   /* P2 */
 } step_series;
 
-/* Moves coefficient `place` of the jet; `path`, NULL = not asked: its series. */
+/* Advances coefficient `place` of the jet; `path` takes its series unless NULL. */
 static void move_coefficient(const step_series *p, const long_series source, kz_jet *jet, int state,
                              long double *coefficients) {
   long_series x;
@@ -89,7 +90,7 @@ static void move_second(step_series *p, kz_jet *jet) {
   }
 }
 
-/* The third degree: its source is P1 (w P2 + g (P1^2 / 2) / 3); coefficient i has i factors of y. */
+/* Advances the third degree, whose source is P1 (w P2 + g (P1^2 / 2) / 3); coefficient i has i factors of y. */
 static void move_third(const step_series *p, kz_jet *jet) {
   long_series pull[3] = {0};
   const int quadratic = p->columns > 1 ? 3 : 1, cubic = p->columns > 1 ? 4 : 1;
@@ -105,7 +106,7 @@ static void move_third(const step_series *p, kz_jet *jet) {
   }
 }
 
-/* The orders that contribute to long doubles. */
+/* Number of orders above the precision of long doubles. */
 static int64_t orders_of(const kz_series *s, int64_t tangent_orders, int columns) {
   enum { BITS = 72, MORE = 8 };
   int64_t whole[2], n = tangent_orders;
@@ -133,23 +134,23 @@ static void add_force(const kz_series *series, const kz_steps *steps, int64_t or
   add_product(n, sign, force, factor, out);
 }
 
-/* The units of time, and the damping. */
+/* Reads the unit of time and the damping. */
 static void read_steps(const kz_steps *steps, step_series *p) {
   p->h = kz_number_long(&steps->h);
   for (int64_t j = 0; j <= steps->damping_orders; j++) p->damping[j] = kz_number_long(steps->damping + j);
 }
 
-void kz_higher_terms_advance(const kz_series *series, const kz_steps *steps, int64_t tangent_orders, int columns, kz_jet *jet) {
-  step_series p = {.n = orders_of(series, tangent_orders, columns), .columns = columns};
+void kz_higher_terms_advance(const kz_series *series, const kz_steps *steps, int64_t orders, int columns, kz_jet *jet) {
+  step_series p = {.n = orders_of(series, orders, columns), .columns = columns};
   read_steps(steps, &p);
-  read_series(series->gain, tangent_orders - 1, p.n, p.gain);
-  add_force(series, steps, tangent_orders, p.n, 1, series->s, series->c, p.force);
-  for (int axis = 0; axis < columns; axis++) read_series(series->angle[axis], tangent_orders, p.n, p.x[axis]);
+  read_series(series->gain, orders - 1, p.n, p.gain);
+  add_force(series, steps, orders, p.n, 1, series->s, series->c, p.force);
+  for (int axis = 0; axis < columns; axis++) read_series(series->angle[axis], orders, p.n, p.x[axis]);
   move_second(&p, jet);
   move_third(&p, jet);
 }
 
-/* The last order of a series that contributes to long doubles. */
+/* Last order of a series above the precision of long doubles. */
 static int64_t last_order(const kz_number *series, int64_t last) {
   enum { BITS = 76 };
   while (last > 0 && kz_number_exponent(series + last) < -BITS) last--;

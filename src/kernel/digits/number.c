@@ -1,4 +1,4 @@
-/* Numbers of any precision: functions outside the inner loops. */
+/* Functions of numbers of any precision outside the inner loops. */
 #include "number.h"
 
 #include <math.h>
@@ -45,7 +45,7 @@ void kz_number_sin_cos_of_turns(int64_t i, int64_t n, kz_number *sine, kz_number
   forget_radius(cosine);
 }
 
-/* The text is a decimal number, maybe with " deg" behind it. */
+/* Reads a decimal number, maybe with " deg" behind it. */
 static void parse_number(const char *text, kz_number *x, int64_t bits) {
   const size_t length = strlen(text), tail = sizeof degrees - 1;
   const bool turned = length > tail && strcmp(text + length - tail, degrees) == 0;
@@ -79,7 +79,7 @@ void kz_number_of_quad(__float128 value, kz_number *x) {
   fmpz_clear(exponent);
 }
 
-/* x = (head [0] + head [1] + ...) 2^exponent with n heads, |sum| < 1. */
+/* Splits x = (head [0] + head [1] + ...) 2^exponent into n heads, |sum| < 1; returns the exponent. */
 static int64_t split_number(const kz_number *x, int n, double *head) {
   arf_t rest, part;
   fmpz_t exponent;
@@ -99,7 +99,7 @@ static int64_t split_number(const kz_number *x, int n, double *head) {
   return binary;
 }
 
-/* Smaller numbers are 0 to quads and to long doubles. */
+/* Exponent below which a number is 0 in quads and long doubles. */
 enum { MIN_EXPONENT = -16500 };
 
 __float128 kz_number_quad(const kz_number *x) {
@@ -126,7 +126,7 @@ bool kz_number_read(const char *text, kz_number *x) {
   return arb_load_str(x, text) == 0;
 }
 
-/* So many digits in all. */
+/* Prints x with `digits` significant digits. */
 static bool print_number(const kz_number *x, int64_t digits, char *text, size_t size) {
   char *whole = arb_get_str(x, digits, ARB_STR_NO_RADIUS);
   const bool fits = whole && strlen(whole) < size;
@@ -136,7 +136,7 @@ static bool print_number(const kz_number *x, int64_t digits, char *text, size_t 
 }
 
 void kz_number_of(const kz_coordinate *coordinate, kz_number *x, int64_t bits) {
-  const int64_t digits = bits + 64; /* as centres and widths have up to 30 bits before the point */
+  const int64_t digits = bits + 64; /* centres and widths have up to 30 bits before the point */
   KZ_NUMBER(part);
   KZ_NUMBER(other);
   kz_number_of_double(coordinate->high, &part);
@@ -167,7 +167,7 @@ kz_status kz_coordinate_text(const kz_coordinate *coordinate, int64_t digits, ch
   const int64_t bits = (int64_t)((double)(digits + 1) / log10(2)) + 1;
   KZ_NUMBER(x);
   kz_number_of(coordinate, &x, bits);
-  const int64_t exponent = kz_number_exponent(&x), before = exponent > 0 ? (int64_t)ceil((double)exponent * log10(2)) : 0;
+  const int64_t power = kz_number_exponent(&x), before = power > 0 ? (int64_t)ceil((double)power * log10(2)) : 0;
   return print_number(&x, digits + before, text, size)
              ? KZ_OK
              : kz_fail(KZ_FAILED, "a number of %lld digits is too long", (long long)digits);

@@ -1,4 +1,4 @@
-/* Numbers of any precision: those of FLINT (Arb), whose radii are not used. */
+/* Numbers of any precision: FLINT's (Arb), without their radii. */
 #pragma once
 
 #include <stdbool.h>
@@ -16,11 +16,11 @@
 
 typedef arb_struct kz_number;
 
-/* n numbers, all 0. */
+/* Allocates n numbers, all 0. */
 kz_number *kz_numbers_make(int64_t n);
 void kz_numbers_free(kz_number *numbers, int64_t n);
 
-/* The number of a coordinate of a start, right to 2^-bits. */
+/* Converts a coordinate of a start, with an error of at most 2^-bits. */
 void kz_number_of(const kz_coordinate *coordinate, kz_number *x, int64_t bits);
 void kz_number_of_quad(__float128 value, kz_number *x);
 __float128 kz_number_quad(const kz_number *x);
@@ -28,14 +28,14 @@ long double kz_number_long(const kz_number *x);
 
 void kz_number_two_pi(kz_number *x, int64_t bits);
 void kz_number_sin_cos(const kz_number *x, kz_number *sine, kz_number *cosine, int64_t bits);
-/* Of 2 pi i / n. */
+/* Sine and cosine of 2 pi i / n. */
 void kz_number_sin_cos_of_turns(int64_t i, int64_t n, kz_number *sine, kz_number *cosine, int64_t bits);
 
-/* As text that gives the same number again: at most `size` bytes with the last 0; false where that is too little. */
+/* Writes x as text [size] that reads back exactly; false if it does not fit. */
 bool kz_number_write(const kz_number *x, char *text, size_t size);
 bool kz_number_read(const char *text, kz_number *x);
 
-/* Results are rounded to `bits` digits of their own, towards 0, so that mirrored numbers stay mirrored. */
+/* Arithmetic. Results are rounded to `bits` significant bits towards 0, so that mirrored numbers stay mirrored. */
 static inline void kz_number_init(kz_number *x) {
   arb_init(x);
 }
@@ -74,17 +74,17 @@ static inline void kz_number_floor(kz_number *x, const kz_number *a) {
 static inline bool kz_number_is_less(const kz_number *a, double b) {
   return arf_cmp_d(arb_midref(a), b) < 0;
 }
-/* The least e with |x| < 2^e; very small for 0. */
+/* Least e with |x| < 2^e; INT32_MIN for 0. */
 static inline int64_t kz_number_exponent(const kz_number *x) {
   return arf_is_zero(arb_midref(x)) ? INT32_MIN : fmpz_get_si(ARF_EXPREF(arb_midref(x)));
 }
-/* first + sum or first - sum of a[i] b[-i], i = 0 .. n - 1; first NULL = 0. */
-static inline void kz_number_dot(kz_number *x, const kz_number *first, bool minus, const kz_number *a, const kz_number *b,
-                                 int64_t n, int64_t bits) {
+/* x = first + sum, or first - sum if `minus`, of a[i] b[-i], i = 0 .. n - 1; first NULL = 0. */
+static inline void kz_number_dot(kz_number *x, const kz_number *first, bool minus, const kz_number *a,
+                                 const kz_number *b, int64_t n, int64_t bits) {
   arb_approx_dot(x, first, minus, a, 1, b, -1, n, bits);
 }
 
-/* A number, 0 at first, which is freed at the end of the block where it is declared. */
+/* Declares a number, 0 at first, that is freed at the end of its block. */
 #define KZ_NUMBER(x)                                     \
   kz_number x __attribute__((cleanup(kz_number_clear))); \
   kz_number_init(&x)

@@ -1,25 +1,25 @@
-/* Orbits of any precision: memory of the series, steps that are halved until every series converges, whole periods. */
+/* Orbits of any precision: memory of the series, steps halved until every series converges, whole periods. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "step.h"
 
-enum { FEWEST_STEPS = 14, HALVINGS = 10, SERIES = 11, COUNTS = 48 /* characters of two whole numbers */ };
+enum { FEWEST_STEPS = 14, HALVINGS = 10, SERIES = 11, COUNTS = 48 /* Characters of two integers */ };
 
 struct kz_arbitrary {
   kz_pendulum pendulum;
-  int64_t bits; /* the most */
+  int64_t bits; /* Largest number of bits */
   kz_steps steps;
-  kz_stretch stretch; /* the last one that it went through */
+  kz_stretch stretch; /* Last stretch that it went through */
   kz_series series;
-  kz_number *workspace; /* of all series */
-  kz_orbit_state state; /* at the beginning of a period */
-  kz_orbit_state mark;  /* of an orbit on a line: at the beginning of an earlier one */
-  int64_t tangent_bits; /* of an orbit on a line, which keeps its tangent; 0 = jets hold it */
+  kz_number *workspace; /* Memory of all series */
+  kz_orbit_state state; /* State at the beginning of a period */
+  kz_orbit_state mark;  /* State of an orbit on a line at the beginning of an earlier period */
+  int64_t tangent_bits; /* Bits of the tangent that an orbit on a line keeps; 0 = jets hold it */
 };
 
-/* Orders that steps of the first length take where the motion is gentle; steps that take more are halved. */
+/* Number of orders of a step of the first length for a gentle motion; steps that need more are halved. */
 static int64_t orders_for(int64_t bits) {
   return (int64_t)(0.62 * (double)bits) + 20;
 }
@@ -94,7 +94,7 @@ static void copy_state(const kz_orbit_state *from, kz_orbit_state *to) {
   }
 }
 
-/* One stretch in the present steps; false where a series does not converge. */
+/* Advances through one stretch in the present steps; false if a series does not converge. */
 static bool advance_in_steps(kz_arbitrary *o, int64_t bits, int degree, kz_jet *jet) {
   kz_number_sin_cos(&o->state.theta, &o->state.sine, &o->state.cosine, bits + 8);
   for (int64_t i = 0; i < o->steps.n; i++) {
@@ -124,7 +124,7 @@ static void wrap_angle(kz_arbitrary *o, int64_t bits) {
   kz_number_subtract(&o->state.theta, &o->state.theta, &angle, bits + 40);
 }
 
-/* The tangent in the digits of jets, or in those that the orbit keeps as long as it has so many itself. */
+/* Sets the tangent and its bits: those of jets, or those that the orbit keeps, at most its own. */
 static void begin_tangent(kz_arbitrary *o, int64_t bits, const kz_jet *jet) {
   const int64_t kept = o->tangent_bits < bits ? o->tangent_bits : bits;
   o->state.tangent_bits = kept > KZ_TANGENT_BITS ? kept : KZ_TANGENT_BITS;
@@ -143,12 +143,12 @@ static void get_tangent(const kz_orbit_state *state, kz_jet *jet) {
   }
 }
 
-/* As many as a whole period of gentle motion takes. */
+/* Steps of a stretch, at the rate of FEWEST_STEPS per period. */
 static int64_t fewest_steps(const kz_stretch *stretch) {
   return stretch->is_whole ? FEWEST_STEPS : 1 + (int64_t)(FEWEST_STEPS * kz_number_double(&stretch->span));
 }
 
-/* The present stretch: in steps that are halved until every series converges. */
+/* Advances through the present stretch, in steps that are halved until every series converges. */
 static kz_status advance_stretch(kz_arbitrary *o, int64_t fine, int degree, kz_jet *jet) {
   kz_orbit_state before = {0};
   kz_jet higher_terms = {.higher_terms = {{0}}};
@@ -172,7 +172,7 @@ kz_status kz_arbitrary_advance(kz_arbitrary *o, int64_t bits, int degree, kz_jet
   wrap_angle(o, o->bits);
   begin_tangent(o, fine, degree > 1 ? jet : NULL);
   kz_stretch_begin(&o->stretch, o->state.strobe, finest);
-  if (!was_whole) o->steps.n = 0; /* those of another stretch */
+  if (!was_whole) o->steps.n = 0; /* The steps belong to another stretch */
   KZ_TRY(advance_stretch(o, fine, degree, jet));
   while (!o->stretch.is_whole && kz_stretch_next(&o->stretch, finest)) {
     o->steps.n = 0;
@@ -241,7 +241,7 @@ void kz_arbitrary_mark(kz_arbitrary *o) {
   copy_state(&o->state, &o->mark);
 }
 
-/* x += share (slope + share (second + share third)); slope becomes the derivative at `share`, of the line in 2^-exponent times its unit. */
+/* Moves x along its polynomial to `share`; slope becomes the derivative there, in units of 2^exponent. */
 static void move_along(kz_number *x, kz_number *slope, const long double *higher_terms, __float128 share, int exponent,
                        int64_t bits) {
   KZ_NUMBER(part);

@@ -7,8 +7,8 @@ int64_t kz_bits_needed(int64_t bits, int64_t size) {
   return left < FEWEST ? FEWEST : left > bits + GUARD ? bits + GUARD : left;
 }
 
-void kz_series_add_product(const kz_series *series, const kz_steps *steps, bool minus, const kz_number *a, const kz_number *b,
-                           int64_t n, int64_t bits, kz_number *x) {
+void kz_series_add_product(const kz_series *series, const kz_steps *steps, bool minus, const kz_number *a,
+                           const kz_number *b, int64_t n, int64_t bits, kz_number *x) {
   const bool ends = a == series->along || a == series->across;
   const int64_t most = ends && n > steps->force_orders ? steps->force_orders : n;
   kz_number_dot(x, x, minus, b + (n - most), a + most, most + 1, bits);
@@ -34,7 +34,7 @@ void kz_series_damp(const kz_steps *steps, const kz_number *rate, int64_t n, int
 #define KZ_SET(name, sign, of) kz_number_divide_by(x->name + n + 1, &of, sign(n + 1), bits)
 #include "taylor/motion.inc"
 
-/* A motion at rest has a short series, its neighbours a long one. */
+/* Clears the orders behind the last: an equilibrium has a short series, its neighbours a long one. */
 static int64_t end_series(kz_series *series, int64_t orders) {
   for (int64_t n = orders + 1; n <= series->orders; n++) {
     kz_number_of_double(0, series->s + n);
@@ -60,13 +60,13 @@ int64_t kz_series_expand(kz_series *series, kz_steps *steps, int64_t i, const kz
   return 0;
 }
 
-/* The sum of coefficients first .. last, smallest first. */
+/* Sums the coefficients first .. last, smallest first. */
 static void sum_coefficients(const kz_number *series, int64_t first, int64_t last, int64_t bits, kz_number *x) {
   kz_number_of_double(0, x);
   for (int64_t j = last; j >= first; j--) kz_number_add(x, x, series + j, bits);
 }
 
-/* The integral of a series over the step. */
+/* Integrates a series over the step. */
 static void integrate_series(const kz_number *series, int64_t last, int64_t bits, kz_number *x) {
   KZ_NUMBER(part);
   kz_number_of_double(0, x);

@@ -1,5 +1,5 @@
-/* Sets through drive periods: those of one class of speeds go together, each in a lane of its own, so that its result does not depend on
- * the others. A set that turns out too fast for its class begins the period again in the next one. */
+/* Advances sets through drive periods: sets of one class of speeds together, each in a lane of its own, so that its
+ * result does not depend on the others. A set too fast for its class begins the period again in the next class. */
 #include <math.h>
 #include <stdlib.h>
 
@@ -7,7 +7,7 @@
 
 enum { GROUP = KZ_PARTS * LANES, MOST_CLASSES = 64, BATCH = 4096 };
 static const double FIRST_SPEED = 0.7,
-                    SPEED_RATIO = 1.3; /* rad per drive radian: of the first class; of one class after the other */
+                    SPEED_RATIO = 1.3; /* Speed of the first class, rad per drive radian; ratio of classes */
 
 typedef struct {
   kz_sets sets[KZ_PARTS];
@@ -54,11 +54,13 @@ typedef struct {
   kz_centres_step *step;
   void (*wrap)(kz_sets *);
 } arithmetic;
-static const arithmetic arithmetic_of[KZ_ENCLOSURES] = {[KZ_ENCLOSE_DOUBLES] = {kz_centres_step_doubles, kz_sets_wrap},
-                                                        [KZ_ENCLOSE_PAIRS] = {kz_centres_step_pairs, kz_sets_wrap},
-                                                        [KZ_ENCLOSE_TRIPLES] = {kz_centres_step_triples, kz_sets_wrap_triples}};
+static const arithmetic arithmetic_of[KZ_ENCLOSURES] = {
+    [KZ_ENCLOSE_DOUBLES] = {kz_centres_step_doubles, kz_sets_wrap},
+    [KZ_ENCLOSE_PAIRS] = {kz_centres_step_pairs, kz_sets_wrap},
+    [KZ_ENCLOSE_TRIPLES] = {kz_centres_step_triples, kz_sets_wrap_triples}};
 
-static void advance_group(const kz_enclosure_tables *tables, const kz_speed_class *speed, kz_enclosure_frame frame, group *g) {
+static void advance_group(const kz_enclosure_tables *tables, const kz_speed_class *speed, kz_enclosure_frame frame,
+                          group *g) {
   const bool jacobian = frame == KZ_KEEP_FRAME;
   kz_circle circle[KZ_PARTS];
   const arithmetic *centres = &arithmetic_of[tables->precision];
@@ -82,10 +84,10 @@ static void advance_group(const kz_enclosure_tables *tables, const kz_speed_clas
   }
 }
 
-/* n <= GROUP sets [of]; idle lanes copy the first, and are lost. A set that is too fast stays as it is, and `of` names it afterwards; returns
- * how many these are. */
-static int advance_lanes(const kz_enclosure_tables *tables, const kz_speed_class *speed, kz_enclosure_frame frame, int n,
-                         int32_t *of, kz_enclosure *set) {
+/* Advances n <= GROUP sets [of]; idle lanes copy the first, and are lost. A set that is too fast stays as it is, and
+ * `of` names it afterwards; returns the number of these. */
+static int advance_lanes(const kz_enclosure_tables *tables, const kz_speed_class *speed, kz_enclosure_frame frame,
+                         int n, int32_t *of, kz_enclosure *set) {
   group g = {0};
   int n_again = 0;
   for (int lane = 0; lane < GROUP; lane++) put_set(&set[of[lane < n ? lane : 0]], lane % LANES, &g.sets[lane / LANES]);
@@ -104,7 +106,7 @@ static int advance_lanes(const kz_enclosure_tables *tables, const kz_speed_class
   return n_again;
 }
 
-/* Takes the whole turns out of a set whose angle is farther away than (B3) counts on. */
+/* Removes whole turns from a set whose angle is larger than (B3) assumes. */
 static void wrap_far_set(int32_t precision, kz_enclosure *set) {
   kz_sets x = {.lost = {0}};
   if (fabs(set->theta[0]) < 4 || is_lost(set)) return;
@@ -114,14 +116,15 @@ static void wrap_far_set(int32_t precision, kz_enclosure *set) {
   if (x.lost[0]) mark_lost(set);
 }
 
-/* n <= BATCH sets. */
+/* Advances n <= BATCH sets. */
 static void advance_batch(const kz_enclosure_tables *tables, kz_enclosure_frame frame, int32_t n, kz_enclosure *set) {
   for (int32_t i = 0; i < n; i++) wrap_far_set(tables->precision, &set[i]);
   int32_t waiting[BATCH + GROUP], n_waiting = 0;
   int8_t first_class[BATCH];
   for (int32_t i = 0; i < n; i++) {
     int c = 0;
-    while (c + 1 < tables->n_classes && !(fabs(set[i].velocity[0]) + tables->speed_margin <= tables->classes[c]->fastest)) c++;
+    const double needed = fabs(set[i].velocity[0]) + tables->speed_margin;
+    while (c + 1 < tables->n_classes && !(needed <= tables->classes[c]->fastest)) c++;
     first_class[i] = (int8_t)c;
   }
   for (int32_t c = 0; c < tables->n_classes; c++) {
@@ -130,7 +133,8 @@ static void advance_batch(const kz_enclosure_tables *tables, kz_enclosure_frame 
     int32_t n_again = 0;
     for (int32_t i = 0; i < n_waiting; i += GROUP) {
       int32_t *of = waiting + i;
-      const int left = advance_lanes(tables, tables->classes[c], frame, n_waiting - i < GROUP ? n_waiting - i : GROUP, of, set);
+      const int left =
+          advance_lanes(tables, tables->classes[c], frame, n_waiting - i < GROUP ? n_waiting - i : GROUP, of, set);
       for (int j = 0; j < left; j++) waiting[n_again++] = of[j];
     }
     n_waiting = n_again;
@@ -139,5 +143,6 @@ static void advance_batch(const kz_enclosure_tables *tables, kz_enclosure_frame 
 }
 
 void kz_enclosures_advance(const kz_enclosure_tables *tables, kz_enclosure_frame frame, int64_t n, kz_enclosure *set) {
-  for (int64_t i = 0; i < n; i += BATCH) advance_batch(tables, frame, (int32_t)(n - i < BATCH ? n - i : BATCH), set + i);
+  for (int64_t i = 0; i < n; i += BATCH)
+    advance_batch(tables, frame, (int32_t)(n - i < BATCH ? n - i : BATCH), set + i);
 }

@@ -1,9 +1,9 @@
-/* A step of centres in doubles. A centre is high + low, so that what is added to it is rounded, but not the sum. */
+/* A step of centres in doubles. A centre is high + low, so that increments are rounded, but not the sum. */
 #include "sines.h"
 
 enum { P = KZ_ORDER_DOUBLES };
 
-/* Of one order: coefficients of the velocity, of sine and cosine. Those of an order lie together, so that one address serves all three. */
+/* Coefficients of one order of velocity, sine and cosine, together so that one address serves all three. */
 typedef struct {
   vector w[KZ_PARTS], s[KZ_PARTS], c[KZ_PARTS];
 } coefficients;
@@ -43,7 +43,8 @@ KZ_INLINE void end_step(const kz_speed_class *speed, const coefficients *y, int 
   x->velocity = two_sum(x->velocity.high, d_velocity + x->velocity.low);
 }
 
-void kz_centres_step_doubles(const kz_speed_class *speed, int32_t step, kz_sets *sets, int n, kz_circle circle[KZ_PARTS]) {
+void kz_centres_step_doubles(const kz_speed_class *speed, int32_t step, kz_sets *sets, int n,
+                             kz_circle circle[KZ_PARTS]) {
   _Alignas(VECTOR_BYTES) coefficients x[P];
   EACH_PART {
     x[0].w[p] = sets[p].velocity.high;

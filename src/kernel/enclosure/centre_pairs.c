@@ -1,10 +1,11 @@
-/* A step of centres in pairs of doubles or in triples. The first coefficients of a centre in triples are triples. Those that follow, and all of
- * a centre in pairs, are pairs, the later ones doubles. */
+/* A step of centres in pairs of doubles or in triples. The coefficients of a centre in triples begin as triples; then,
+ * as those of a centre in pairs, they are pairs, and at last doubles. */
 #include "sines.h"
 
-enum { P = KZ_ORDER_PAIRS, PAIRS = KZ_COEFFICIENTS_PAIRS, TRIPLES = KZ_COEFFICIENTS_TRIPLES, FINE = KZ_COEFFICIENTS_FINE };
+enum { P = KZ_ORDER_PAIRS, PAIRS = KZ_COEFFICIENTS_PAIRS };
+enum { TRIPLES = KZ_COEFFICIENTS_TRIPLES, FINE = KZ_COEFFICIENTS_FINE };
 
-/* The coefficients of the velocity, of sine or of cosine: of the triples and pairs their first parts too, as pairs and as doubles. */
+/* Coefficients of the velocity, of sine or of cosine; triples and pairs are also kept as pairs and doubles. */
 typedef struct {
   triple deep[TRIPLES];
   pair fine[FINE];
@@ -71,10 +72,9 @@ KZ_INLINE triple scaled_deep(triple s, triple factor) {
 #define KZ_LEVEL coarse
 #include "taylor/motion.inc"
 
-/* *faster = the sum of the coefficients from `first` on, of which `fine_ones` are more than doubles, for the velocity; *farther = the same times
- * h / (n + 1), for the angle. */
-KZ_INLINE void sum_series(const kz_speed_class *speed, int first, int fine_ones, const coefficients *w, pair *d_velocity,
-                          pair *d_theta) {
+/* Sums coefficients from `first` on, `fine_ones` of them fine: *d_velocity, and times h / (n + 1) *d_theta. */
+KZ_INLINE void sum_series(const kz_speed_class *speed, int first, int fine_ones, const coefficients *w,
+                          pair *d_velocity, pair *d_theta) {
   vector d_velocity_small = broadcast(0), d_theta_small = broadcast(0);
   for (int n = P - 1; n >= fine_ones; n--) {
     d_velocity_small += w->coarse[n];
@@ -108,7 +108,8 @@ KZ_INLINE void end_step(const kz_speed_class *speed, const coefficients *w, pair
   x->velocity_rest = v.part[2];
 }
 
-KZ_INLINE void step_one(bool triples, const kz_speed_class *speed, int32_t i, kz_sets *x, int n_circle, kz_circle *circle) {
+KZ_INLINE void step_one(bool triples, const kz_speed_class *speed, int32_t i, kz_sets *x, int n_circle,
+                        kz_circle *circle) {
   _Alignas(VECTOR_BYTES) series y;
   pair d_velocity, d_theta;
   const int32_t first = i * speed->order;
@@ -150,7 +151,7 @@ void kz_centres_step_triples(const kz_speed_class *speed, int32_t i, kz_sets *se
   for (int p = 0; p < KZ_PARTS; p++) step_one(true, speed, i, &sets[p], n, &circle[p]);
 }
 
-/* (B7) */
+/* Removes whole turns in triples, with the error of (B7). */
 void kz_sets_wrap_triples(kz_sets *x) {
   static const double turn[3] = KZ_TWO_PI;
   const vector turns = nearest_integer(x->theta.high * (1 / turn[0]));

@@ -4,7 +4,7 @@
 
 enum { BITS = 192 };
 
-/* Off by at most u of the number as a double, u^2 as a sum of two, 1.01 u^3 as one of three. */
+/* Rounds to three doubles, with a relative error of at most u as one double, u^2 as two, 1.01 u^3 as three. */
 static kz_constant round_constant(const kz_number *x) {
   double part[3];
   KZ_NUMBER(rest);
@@ -25,13 +25,14 @@ static kz_constant scaled_constant(const arb_t step, double factor) {
   return round_constant(&x);
 }
 
-/* The powers of s = 0 .. 1 in h a(t + h s), -h b(t + h s) and h times the torque, of all steps: the drive's series of any digits, which scale its powers. */
+/* Sets the powers of s = 0 .. 1 in h a(t + h s), -h b(t + h s) and h torque(t + h s) of all steps. */
 static void set_force(const kz_pendulum *pendulum, const arb_t h, kz_speed_class *speed) {
   const int64_t order = speed->order;
   const kz_stretch whole = {.is_whole = true};
   kz_number *const numbers = kz_numbers_make(4 * order);
   kz_series series = {.along = numbers + order, .across = numbers + 2 * order, .torque = numbers + 3 * order};
-  kz_steps steps = {.pendulum = pendulum, .stretch = &whole, .n = speed->n_steps, .scale = numbers, .force_orders = order - 1};
+  kz_steps steps = {
+      .pendulum = pendulum, .stretch = &whole, .n = speed->n_steps, .scale = numbers, .force_orders = order - 1};
   KZ_NUMBER(x);
   kz_number_of_double(pendulum->k, &x);
   kz_number_multiply(&steps.gravity, &x, h, BITS);

@@ -47,7 +47,7 @@ contains
     bound = bound + abs(real(pendulum%torque, ld))
   end function force_majorant
 
-  !> kz_force_largest of kernel_enclosure.h: beside its chord a function is by at most h**2/8 times its largest second derivative.
+  !> kz_force_largest of kernel_enclosure.h: a function is off its chord by at most h**2/8 max |second derivative|.
   pure function force_largest(pendulum, i, h) bind(C, name='kz_force_largest') result(bound)
     type(pendulum_t), intent(in) :: pendulum
     integer(c_int32_t), value :: i
@@ -55,14 +55,15 @@ contains
     real(c_long_double) :: bound
     integer :: j
 
-    bound = max(abs(pendulum%k - pendulum%m*cos(i*h)), abs(pendulum%k - pendulum%m*cos((i + 1)*h))) + abs(real(pendulum%m, ld))*h*h/8
+    bound = max(abs(pendulum%k - pendulum%m*cos(i*h)), abs(pendulum%k - pendulum%m*cos((i + 1)*h))) &
+            + abs(real(pendulum%m, ld))*h*h/8
     do j = 1, pendulum%harmonics
       bound = bound + amplitude(pendulum, j)
     end do
     bound = bound + abs(real(pendulum%torque, ld)) + abs(real(pendulum%torque_amplitude, ld))
   end function force_largest
 
-  !> A bound of what harmonic j adds to |a(t)| + |b(t)|.
+  !> Bound of the share of harmonic j in |a(t)| + |b(t)|.
   pure function amplitude(pendulum, j) result(bound)
     type(pendulum_t), intent(in) :: pendulum
     integer, intent(in) :: j

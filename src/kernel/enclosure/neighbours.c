@@ -1,15 +1,16 @@
 /* A step of the sets around their centres.
  *
- * A set is {c + A z: |z_i| <= Z_i}. Its true image lies in {c' + A' z}, c' and A' the doubles that are kept, where |z| gains at most |A'^-1|
- * times what c', A' and the linear map leave out, p:
- *   M = |A| Z,  d = farthest . M,  p = error + tangent_error M + nonlinear T d^2 (|sin theta| / 2 + d / 6),  T >= |a(t)| + |b(t)|,
- * with |sin theta| + |b| / T in place of |sin theta| where there is a drive across.
- * jacobian_error bounds |dz_i/dz0_j - (i == j)| of z as a function of its start, as long as the frame is not renewed. */
+ * A set is {c + A z: |z_i| <= Z_i}. Its true image lies in {c' + A' z}, c' and A' the kept doubles, where |z| grows by
+ * at most |A'^-1| p, with p the error of c', A' and the linear map:
+ *   M = |A| Z, d = farthest . M, p = error + tangent_error M + nonlinear T d^2 (|sin theta| / 2 + d / 6), T >= |a(t)| +
+ *   |b(t)|,
+ * with |sin theta| + |b| / T in place of |sin theta| if there is a drive across. jacobian_error bounds |dz_i/dz0_j - (i
+ * == j)| of z as a function of its start, as long as the frame is not renewed. */
 #include "operations.h"
 
-static const double MAX_REACH = 1e6;          /* of the reach of a set that is followed */
-static const double MIN_DETERMINANT = 1e-250; /* of the determinant of its matrix */
-static const double MIN_FRAME_SINE = 0.25;    /* sine of the angle between the columns of a frame that is kept */
+static const double MAX_REACH = 1e6;          /* Largest reach of a set that is followed */
+static const double MIN_DETERMINANT = 1e-250; /* Least determinant of its matrix */
+static const double MIN_SINE = 0.25;          /* Least sine of the angle between the columns of a kept frame */
 
 /* |A| x. */
 KZ_INLINE void linear_images(const kz_sets *x, vector first, vector second, vector M[2]) {
@@ -34,7 +35,7 @@ KZ_INLINE bool all_lanes(mask x) {
   return every != 0;
 }
 
-/* A set that is not good any more is lost: a point at rest takes its place, so that nothing overflows. */
+/* Marks sets as lost and puts an equilibrium in their place, so that nothing overflows. */
 static void mark_lost(mask lost, kz_sets *x) {
   static const kz_enclosure at_rest = {.matrix = {{1, 0}, {0, 1}}};
   for (int lane = 0; lane < LANES; lane++)
@@ -50,7 +51,7 @@ void kz_sets_check(const kz_speed_class *speed, kz_sets *x) {
   mark_lost(~good, x);
 }
 
-/* An upper bound of 1 / |det A|; sets without area are lost. */
+/* Upper bound of 1 / |det A|; sets without area are lost. */
 KZ_INLINE vector largest_inverse(kz_sets *x) {
   const vector least = least_determinant(x);
   const mask good = least > MIN_DETERMINANT;
@@ -69,7 +70,7 @@ KZ_INLINE vector largest_inverse(kz_sets *x) {
 #define KZ_SET(sum) y[n + 1] = sum * -speed->inverse[n].high
 #include "taylor/tangent.inc"
 
-/* The matrix by Taylor series of h (a(t) cos theta + b(t) sin theta) and of its columns. */
+/* Advances the matrix by Taylor series of h (a(t) cos theta + b(t) sin theta) and of its columns. */
 KZ_INLINE void move_matrix(const kz_speed_class *speed, int32_t first, int P, const kz_circle *circle, kz_sets *x) {
   vector stiffness[KZ_ORDER_JACOBIAN];
   for (int n = 0; n + 1 < P; n++) {
@@ -85,7 +86,7 @@ KZ_INLINE void move_matrix(const kz_speed_class *speed, int32_t first, int P, co
     a[0] = x->matrix[0][column];
     b[0] = x->matrix[1][column];
     vector d_theta = b[0] * speed->step[0].high, d_velocity = broadcast(0);
-#pragma GCC unroll 8 /* all of KZ_ORDER_TANGENT: the coefficients then stay in registers */
+#pragma GCC unroll 8 /* KZ_ORDER_TANGENT, so that the coefficients stay in registers */
     for (int n = 0; n + 1 < P; n++) {
       next_order(speed, stiffness, a, b, n);
       d_velocity += b[n + 1];
@@ -96,11 +97,10 @@ KZ_INLINE void move_matrix(const kz_speed_class *speed, int32_t first, int P, co
   }
 }
 
-/* What the step adds to (theta, velocity) of neighbours with |A z| <= M, beside its linear part without errors; torque: of what is not
- * linear. */
-KZ_INLINE void nonlinear_part(const kz_speed_class *speed, bool jacobian, const vector M[2], vector torque, vector p[2]) {
-  const double (*error)[2] = speed->tangent_error[jacobian];
-  for (int i = 0; i < 2; i++) p[i] = (speed->nonlinear[i] * torque + error[i][0] * M[0] + error[i][1] * M[1]) * KZ_ROUND_UP;
+/* Bounds (theta, velocity) of neighbours, |A z| <= M, less their linear map; torque: bound of nonlinear terms. */
+KZ_INLINE void nonlinear(const kz_speed_class *speed, bool jacobian, const vector M[2], vector torque, vector p[2]) {
+  const double (*e)[2] = speed->tangent_error[jacobian];
+  for (int i = 0; i < 2; i++) p[i] = (speed->nonlinear[i] * torque + e[i][0] * M[0] + e[i][1] * M[1]) * KZ_ROUND_UP;
 }
 
 void kz_neighbours_step(const kz_speed_class *speed, int32_t step, const kz_circle *circle, bool jacobian, kz_sets *x) {
@@ -109,12 +109,12 @@ void kz_neighbours_step(const kz_speed_class *speed, int32_t step, const kz_circ
   vector M[2], p[2], p_column[2][2], gain[2];
   linear_images(x, x->reach[0], x->reach[1], M);
   const vector d = speed->neighbour_angle[0] * M[0] + speed->neighbour_angle[1] * M[1];
-  nonlinear_part(speed, jacobian, M, max_torque * (d * d) * (0.5 * max_sine + d * (1.0 / 6)), p);
+  nonlinear(speed, jacobian, M, max_torque * (d * d) * (0.5 * max_sine + d * (1.0 / 6)), p);
   for (int i = 0; i < 2; i++) p[i] = (p[i] + local[i]) * KZ_ROUND_UP;
   for (int j = 0; jacobian && j < 2; j++) {
     linear_images(x, (j == 0) + x->jacobian_error[0][j], (j == 1) + x->jacobian_error[1][j], M);
     const vector along = speed->neighbour_angle[0] * M[0] + speed->neighbour_angle[1] * M[1];
-    nonlinear_part(speed, jacobian, M, max_torque * (d * along) * (max_sine + 0.5 * d), p_column[j]);
+    nonlinear(speed, jacobian, M, max_torque * (d * along) * (max_sine + 0.5 * d), p_column[j]);
   }
   if (jacobian)
     move_matrix(speed, step * speed->order, KZ_ORDER_JACOBIAN, circle, x);
@@ -141,7 +141,7 @@ void kz_sets_drop_rest(kz_sets *x) {
   kz_sets_widen(p, x);
 }
 
-/* (B7) The angle is off by at most 2^-99 + turns 2^-105 */
+/* Removes whole turns, with an error of the angle of at most 2^-99 + turns 2^-105 (B7). */
 void kz_sets_wrap(kz_sets *x) {
   static const double turn[3] = KZ_TWO_PI;
   const vector turns = nearest_integer(x->theta.high * (1 / turn[0]));
@@ -150,7 +150,7 @@ void kz_sets_wrap(kz_sets *x) {
   kz_sets_widen(p, x);
 }
 
-/* Of A z = Q (Q^-1 A z), Q a rotation but for rounding, which the slack covers. */
+/* Renews the frame by A z = Q (Q^-1 A z), Q a rotation but for rounding, which the slack covers. */
 void kz_sets_renew_frame(kz_sets *x) {
   vector squares[2], lengths[2];
   for (int j = 0; j < 2; j++) {
@@ -158,7 +158,7 @@ void kz_sets_renew_frame(kz_sets *x) {
     squares[j] = lengths[j] * (x->reach[j] * x->reach[j]);
   }
   const vector area = x->matrix[0][0] * x->matrix[1][1] - x->matrix[0][1] * x->matrix[1][0];
-  const mask first = squares[0] >= squares[1], keep = area * area > MIN_FRAME_SINE * MIN_FRAME_SINE * lengths[0] * lengths[1];
+  const mask first = squares[0] >= squares[1], keep = area * area > MIN_SINE * MIN_SINE * lengths[0] * lengths[1];
   vector a[2], b[2];
   for (int i = 0; i < 2; i++) {
     a[i] = blend(first, x->matrix[i][0], x->matrix[i][1]);

@@ -1,4 +1,4 @@
-/* Pairs of doubles with proved errors, u = 2^-53. Sums: Joldes, Muller, Popescu, ACM TOMS 44 (2017) 15res, algorithm 6. */
+/* Pairs of doubles with proved errors, u = 2^-53. Sums: Joldes, Muller, Popescu, ACM TOMS 44 (2017) 15res, alg. 6. */
 #pragma once
 
 #include "sets.h"
@@ -16,7 +16,7 @@ KZ_INLINE pair exact_product(vector a, vector b) {
   return (pair){p, fmadd(a, b, -p)};
 }
 
-/* x less a multiple of a number given by its first three doubles; x.high / number is within 1/2 of the integer `count`, |count| <= 2^20. */
+/* x - count number, for the integer `count` nearest to x.high / number, |count| <= 2^20; number: its first doubles. */
 KZ_INLINE pair less_multiple(pair x, vector count, const double number[3]) {
   const pair first = exact_product(count, broadcast(-number[0])), second = exact_product(count, broadcast(-number[1]));
   return add_accurate(add_accurate(x, first), two_sum(second.high, second.low - count * number[2]));

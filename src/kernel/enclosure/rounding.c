@@ -1,9 +1,9 @@
-/* Recurrences of a step on bounds of the numbers' sizes. */
+/* Recurrences of a step on bounds of the sizes of its numbers. */
 #include "rounding.h"
 
 #include <math.h>
 
-/* Where a lemma gives less, the number is rounded up: 3.01 and 6.01 u^2 of the operations of pairs (operations.h), 1.01 u^3 of a constant. */
+/* Factors of rounding, rounded up from the lemmas: 3.01 and 6.01 u^2 of operations on pairs, 1.01 u^3 of a constant. */
 const kz_rounding_factors kz_rounding = {
     .sine = {8, 48, 500},
     .angle = {0, 0, 160},
@@ -17,11 +17,12 @@ const kz_rounding_factors kz_rounding = {
     .higher = 1.01L,
 };
 
-/* Of the sizes of the products in a coefficient, over its own: then |x_1| and |x_2| of a triple are as small as its operations take them. */
+/* Largest ratio of a coefficient's products to itself for which parts of triples are as small as operations assume. */
 static const real LARGEST_SUM = 1e10L;
 
 static real unit_of(int level) {
-  return level == KZ_ENCLOSE_DOUBLES ? KZ_UNIT : level == KZ_ENCLOSE_PAIRS ? KZ_UNIT * KZ_UNIT : KZ_UNIT * KZ_UNIT * KZ_UNIT;
+  const real u = KZ_UNIT;
+  return level == KZ_ENCLOSE_DOUBLES ? u : level == KZ_ENCLOSE_PAIRS ? u * u : u * u * u;
 }
 
 /* Number of coefficients that are more than doubles. */
@@ -30,13 +31,13 @@ static int fine_ones(const kz_step_bounds *b) {
   return number[b->precision];
 }
 
-/* Of coefficient n. */
+/* Level of coefficient n. */
 static int level_of(const kz_step_bounds *b, int n) {
   if (b->precision == KZ_ENCLOSE_TRIPLES && n < KZ_COEFFICIENTS_TRIPLES) return KZ_ENCLOSE_TRIPLES;
   return n < fine_ones(b) ? KZ_ENCLOSE_PAIRS : KZ_ENCLOSE_DOUBLES;
 }
 
-/* (B2) Relative to the sizes: what a sum of n products loses, in units of its level. */
+/* (B2) Error of a sum of n products, relative to the sizes, in units of its level. */
 static real sum_loss(int level, real n) {
   if (level == KZ_ENCLOSE_TRIPLES) return 4.1L * n * n * n + 25 * n * n + 42 * n + 29;
   return level == KZ_ENCLOSE_PAIRS ? n * n + 4 * n + 9 : n;
@@ -50,7 +51,7 @@ int kz_products_of(const kz_step_bounds *b, int n) {
   return n + 2 + (b->pendulum->unmirrored ? n + 2 : 0);
 }
 
-/* (B2) Relative: of a sum of products for coefficient n, times a constant. */
+/* (B2) Relative error of a sum of products for coefficient n, times a constant. */
 static real sum_error(const kz_step_bounds *b, int n, int products) {
   const kz_rounding_factors *f = b->factor;
   const int l = level_of(b, n);
@@ -58,14 +59,13 @@ static real sum_error(const kz_step_bounds *b, int n, int products) {
   return lost * unit_of(l) * f->higher;
 }
 
-/* (B2) Relative: of the factors of coefficient n that were rounded, to triples, to pairs or, where high parts are multiplied, to doubles. Beside
- * triples, both factors of a product are. */
+/* (B2) Relative error of the factors of coefficient n, rounded to its level; beside triples both factors are. */
 static real factor_error(const kz_step_bounds *b, int n) {
   const int l = level_of(b, n);
   return b->factor->factors[b->precision][l] * unit_of(l) * (l == KZ_ENCLOSE_DOUBLES ? 1 + KZ_UNIT : 1);
 }
 
-/* (B7) An angle of a centre before whole turns are taken out. */
+/* (B7) Largest angle of a centre before whole turns are removed. */
 static real farthest_angle(double fastest) {
   return 4 + 2 * (real)M_PI * fastest * KZ_MARGIN;
 }
@@ -94,12 +94,12 @@ void kz_set_errors(kz_step_bounds *b, double fastest) {
   }
 }
 
-/* The sum of a series from the last coefficient on. Each partial sum is rounded, so that errors are shares of the partial sums. */
+/* The sum of a series from the last coefficient on, whose rounding errors are shares of the partial sums. */
 typedef struct {
-  real sum, partial; /* of the coefficients; of all partial sums of those that are no triples */
-  real in_doubles;   /* of those that are doubles beside pairs */
-  real in_pairs;     /* of those that are no triples */
-  real in_triples;   /* of all partial sums of triples */
+  real sum, partial; /* Sum of the coefficients; of all partial sums that are no triples */
+  real in_doubles;   /* Sum of the doubles beside pairs */
+  real in_pairs;     /* Sum of the pairs and doubles */
+  real in_triples;   /* Sum of all partial sums of triples */
 } series;
 
 static void add_term(const kz_step_bounds *b, int n, real size, series *of) {
@@ -112,7 +112,7 @@ static void add_term(const kz_step_bounds *b, int n, real size, series *of) {
   if (n == fine_ones(b) && n > 0) of->in_doubles = of->sum;
 }
 
-/* (B2) The errors of the coefficients. */
+/* (B2) Adds the errors of the coefficients. */
 static void add_errors(const kz_step_bounds *b, real error[2]) {
   for (int n = b->order - 1; n >= 1; n--) {
     error[1] += b->velocity_error[n];
@@ -120,7 +120,7 @@ static void add_errors(const kz_step_bounds *b, real error[2]) {
   }
 }
 
-/* (B3) The sums of those coefficients that are doubles beside pairs; those of the angle are times a constant. */
+/* (B3) Adds the rounding of sums of coefficients that are doubles beside pairs; of the angle, times a constant. */
 static void add_coarse(const kz_step_bounds *b, const series *v, const series *angle, real error[2]) {
   const int fine = fine_ones(b), coarse = b->order - fine;
   const real plus = b->factor->plus[KZ_ENCLOSE_DOUBLES] * KZ_UNIT * b->factor->higher,
@@ -129,35 +129,34 @@ static void add_coarse(const kz_step_bounds *b, const series *v, const series *a
   error[0] += (coarse + 1 + slack * (fine + 3)) * plus * angle->in_doubles;
 }
 
-/* The sums v = sum nu_n and theta = theta(0) + h sum nu_n / (n + 1), whose first term is h `fastest`: in doubles, */
-static void add_in_doubles(const kz_rounding_factors *f, const series *v, const series *angle, real fastest, real farthest,
-                           real drift, real error[2]) {
+/* Adds the rounding in doubles of v = sum nu_n and theta = theta(0) + h sum nu_n / (n + 1), h `fastest` first. */
+static void add_in_doubles(const kz_rounding_factors *f, const series *v, const series *angle, real fastest,
+                           real farthest, real drift, real error[2]) {
   const real u = KZ_UNIT, plus = f->plus[KZ_ENCLOSE_DOUBLES];
   error[1] += f->higher * u * plus * (v->partial + v->sum + u * fastest);
   error[0] += f->higher * u * (plus * (angle->partial + 4 * angle->sum) + f->state * u * (drift + farthest));
 }
 
-/* in pairs, */
-static void add_in_pairs(const kz_rounding_factors *f, const series *v, const series *angle, real fastest, real farthest,
-                         real drift, real error[2]) {
+/* Adds the rounding of these sums in pairs. */
+static void add_in_pairs(const kz_rounding_factors *f, const series *v, const series *angle, real fastest,
+                         real farthest, real drift, real error[2]) {
   const real u2 = KZ_UNIT * KZ_UNIT, plus = f->plus[KZ_ENCLOSE_PAIRS], times = f->times[KZ_ENCLOSE_PAIRS];
   error[1] += plus * u2 * (v->partial + fastest + v->sum);
   error[0] += plus * u2 * (angle->partial + angle->sum + drift + farthest) + times * u2 * (angle->sum + drift);
 }
 
-/* and in triples. */
-static void add_in_triples(const kz_rounding_factors *f, const series *v, const series *angle, real fastest, real farthest,
-                           real drift, real error[2]) {
+/* Adds the rounding of these sums in triples. */
+static void add_in_triples(const kz_rounding_factors *f, const series *v, const series *angle, real fastest,
+                           real farthest, real drift, real error[2]) {
   const real u2 = KZ_UNIT * KZ_UNIT, u3 = u2 * KZ_UNIT;
   const real plus = f->plus[KZ_ENCLOSE_TRIPLES], times = f->times[KZ_ENCLOSE_TRIPLES];
   const real plus_pairs = f->plus[KZ_ENCLOSE_PAIRS], times_pairs = f->times[KZ_ENCLOSE_PAIRS];
   error[1] += plus_pairs * u2 * v->partial + plus * u3 * f->higher * (v->in_triples + fastest + v->sum);
-  error[0] +=
-      plus_pairs * u2 * angle->partial + times_pairs * u2 * angle->in_pairs +
-      u3 * f->higher * (plus * (angle->in_triples + 2 * (angle->sum + drift) + farthest) + times * (angle->sum + drift));
+  error[0] += plus_pairs * u2 * angle->partial + times_pairs * u2 * angle->in_pairs +
+              u3 * f->higher *
+                  (plus * (angle->in_triples + 2 * (angle->sum + drift) + farthest) + times * (angle->sum + drift));
 }
 
-/* (B3) */
 void kz_add_rounding(const kz_step_bounds *b, double fastest, real error[2]) {
   static void (*const add[])(const kz_rounding_factors *, const series *, const series *, real, real, real, real[2]) = {
       add_in_doubles, add_in_pairs, add_in_triples};

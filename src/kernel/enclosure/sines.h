@@ -1,10 +1,10 @@
-/* Sines and cosines as the steps of centres take them, in doubles, pairs and triples, with proved errors, u = 2^-53. */
+/* Sines and cosines for steps of centres, in doubles, pairs and triples, with proved errors; u = 2^-53. */
 #pragma once
 
 #include "operations.h"
 #include "taylor/triples.h"
 
-/* Terms of the series. */
+/* Numbers of terms of the series. */
 enum { KZ_SINE_TERMS_DOUBLES = 12, KZ_SINE_TERMS_PAIRS = 18, KZ_SINE_TERMS_TRIPLES = 24 };
 
 /* Sine and cosine of a pair in doubles, off by at most 8 u (B1). */
@@ -48,16 +48,18 @@ KZ_INLINE void sine_in_pairs(pair theta, pair *sine, pair *cosine) {
   *cosine = (pair){sign * c.high, sign * c.low};
 }
 
-/* x less `count` times a number; off by at most 80 u^3 (|x| + |count number|), |count| <= 2^20. */
+/* x - count number, |count| <= 2^20, with an error of at most 80 u^3 (|x| + |count number|). */
 KZ_INLINE triple less_multiple_of(triple x, vector count, const double number[3]) {
-  accumulate_deep(&x, (triple){{count, broadcast(0), broadcast(0)}}, KZ_CONSTANT_deep(-number[0], -number[1], -number[2]));
+  accumulate_deep(&x, (triple){{count, broadcast(0), broadcast(0)}},
+                  KZ_CONSTANT_deep(-number[0], -number[1], -number[2]));
   return renormalise(x);
 }
 
 /* 1 - x y / (n (n + 1)) in triples. */
 KZ_INLINE triple nested_triples(triple x, triple y, int n) {
   const double product = (double)n * (n + 1), high = 1 / product, i[2] = {high, fma(-high, product, 1) / product};
-  return add_triples(KZ_CONSTANT_deep(1, 0, 0), multiply_triples(multiply_triples(x, inverse_triple_with(-1, product, i)), y));
+  return add_triples(KZ_CONSTANT_deep(1, 0, 0),
+                     multiply_triples(multiply_triples(x, inverse_triple_with(-1, product, i)), y));
 }
 
 KZ_INLINE triple signed_triple(vector sign, triple x) {

@@ -1,19 +1,19 @@
-/* The step of a class of speeds, and the bounds (B3) .. (B6) of docs/explanation/bounds.md: Taylor's rest by the majorants, rounding of the tangent map by
- * the recurrences of the step on bounds of the numbers' sizes (that of the centre: rounding.c). */
+/* The step of a class of speeds, and its bounds (B3) .. (B6) of docs/explanation/bounds.md: Taylor's remainder by
+ * majorants, rounding of the tangent map by the recurrences on bounds of sizes (centre: rounding.c). */
 #include <math.h>
 #include <stdlib.h>
 
 #include "rounding.h"
 #include "sets.h"
 
-static const real MAJORANT_MARGIN = 1e-9L; /* relative, far above the rounding of the bounds */
+static const real MAJORANT_MARGIN = 1e-9L; /* Relative margin far above the rounding of the bounds */
 
 /* (B0) For complex time t + z, |z| <= R, the motion from a real state is compared with the solution of
- *   w' = beta w + a(r) cosh y,  y' = w,  y(0) = 0,  w(0) = fastest
- * along the ray r = |z|: |theta'| <= w(r), |Im theta| <= y(r), since kz_force_majorant a(r) bounds the force and |sin theta|, |cos theta| <= cosh y.
- * Its neighbours likewise with a(r) cosh(y) times their distance. */
+ *   w' = beta w + a(r) cosh y, y' = w, y(0) = 0, w(0) = fastest
+ * along the ray r = |z|: |theta'| <= w(r), |Im theta| <= y(r), since kz_force_majorant a(r) bounds the force and |sin
+ * theta|, |cos theta| <= cosh y. Its neighbours obey this with a(r) cosh(y) times their distance. */
 
-/* An Euler step with the slopes at its end, found by repetition and then checked: all of them grow. */
+/* Implicit Euler step of the majorant, whose slopes grow, by fixed-point iteration and a check; false if it fails. */
 static bool step_majorant(const kz_pendulum *p, real dr, majorant *current) {
   const real r = current->r + dr, torque = kz_force_majorant(p, r);
   majorant to = *current;
@@ -39,8 +39,7 @@ static bool step_majorant(const kz_pendulum *p, real dr, majorant *current) {
   return true;
 }
 
-/* Writes the majorants of a motion that is at most `fastest` (rad per drive radian) at a real time to list [MAJORANTS], by ascending r;
- * returns their number. */
+/* Lists the majorants of a motion of at most `fastest` at a real time, by ascending r; returns their number. */
 static int find_majorants(const kz_pendulum *pendulum, double fastest, majorant *list) {
   const double scale = fmax(fmax(1, fastest), sqrt(kz_stiffness(pendulum)));
   majorant current = {.w = fastest, .a = {1, 0}, .slope = {0, 1}};
@@ -49,7 +48,7 @@ static int find_majorants(const kz_pendulum *pendulum, double fastest, majorant 
   return n;
 }
 
-enum { MOST_STEPS = 4096, MAX_ORDERS = KZ_ORDER_JACOBIAN, MOTION_COLUMN = -1 };
+enum { MOST_STEPS = 4096, ORDERS = KZ_ORDER_JACOBIAN, MOTION = -1 };
 
 static void set_sizes(kz_step_bounds *b) {
   kz_force_sizes(b->pendulum, b->h, b->order, b->torque);
@@ -68,7 +67,7 @@ static void set_sizes(kz_step_bounds *b) {
   }
 }
 
-/* (B0) What the terms below `order` leave: of the motion's velocity, or of that of a column of the tangent map. */
+/* (B0) Taylor's remainder after `order` terms of the velocity of the motion or of a column of the tangent map. */
 static real taylor_remainder(const kz_step_bounds *b, int order, int column) {
   real remainder = HUGE_VALL;
   for (int i = 0; i < b->n_majorants; i++) {
@@ -76,24 +75,24 @@ static real taylor_remainder(const kz_step_bounds *b, int order, int column) {
     const real ratio = b->h / current->r * KZ_MARGIN;
     if (ratio < 0.99L)
       remainder =
-          fminl(remainder, (column == MOTION_COLUMN ? current->w : current->slope[column]) * powl(ratio, order) / (1 - ratio));
+          fminl(remainder, (column == MOTION ? current->w : current->slope[column]) * powl(ratio, order) / (1 - ratio));
   }
   return remainder;
 }
 
-/* (B3) A step of the centre: errors of its coefficients, rounding of their sums, and what the polynomials leave. */
+/* (B3) Errors of a step of the centre: coefficients, rounding of their sums, Taylor's remainder. */
 static void bound_centre(const kz_step_bounds *b, double fastest, kz_speed_class *speed) {
   real error[2] = {0};
   kz_add_rounding(b, fastest, error);
-  const real remainder = taylor_remainder(b, b->order, MOTION_COLUMN);
+  const real remainder = taylor_remainder(b, b->order, MOTION);
   speed->velocity_error = (double)((error[1] + remainder) * KZ_MARGIN + KZ_TINY);
   speed->theta_error = (double)((error[0] + remainder * b->h / (b->order + 1)) * KZ_MARGIN + KZ_TINY);
 }
 
-/* Rounding in a column that begins with a = 1 or b = 1, computed in doubles: of its angle and velocity at the step's end. */
-static void column_rounding(const kz_step_bounds *b, int T, const real stiffness[MAX_ORDERS],
-                            const real stiffness_error[MAX_ORDERS], int c, real error[2]) {
-  real a[MAX_ORDERS + 1] = {c == 0}, v[MAX_ORDERS + 1] = {c == 1}, a_error[MAX_ORDERS + 1] = {0}, v_error[MAX_ORDERS + 1] = {0};
+/* Rounding in doubles of angle and velocity, at the end of the step, of a column that begins with a = 1 or v = 1. */
+static void column_rounding(const kz_step_bounds *b, int T, const real stiffness[ORDERS],
+                            const real stiffness_error[ORDERS], int c, real error[2]) {
+  real a[ORDERS + 1] = {c == 0}, v[ORDERS + 1] = {c == 1}, a_error[ORDERS + 1] = {0}, v_error[ORDERS + 1] = {0};
   const real h = b->h * KZ_MARGIN, damping = h * b->pendulum->beta;
   error[0] = 4 * KZ_UNIT * h * v[0];
   error[1] = 0;
@@ -103,7 +102,8 @@ static void column_rounding(const kz_step_bounds *b, int T, const real stiffness
     for (int j = 0; j <= n; j++) {
       const real angle = a[n - j] + a_error[n - j];
       size += stiffness[j] * a[n - j];
-      off += stiffness[j] * a_error[n - j] + stiffness_error[j] * angle + summed * (stiffness[j] + stiffness_error[j]) * angle;
+      off += stiffness[j] * a_error[n - j] + stiffness_error[j] * angle +
+             summed * (stiffness[j] + stiffness_error[j]) * angle;
     }
     a[n + 1] = v[n] * h / (n + 1);
     a_error[n + 1] = (v_error[n] + 4 * KZ_UNIT * (v[n] + v_error[n])) * h / (n + 1) + KZ_TINY;
@@ -120,13 +120,14 @@ static void column_rounding(const kz_step_bounds *b, int T, const real stiffness
 
 /* (B4) Of the tangent map in doubles, to order T: rounding, and the rest of its polynomials. */
 static void bound_tangent(const kz_step_bounds *b, int T, double tangent_error[2][2]) {
-  real stiffness[MAX_ORDERS], stiffness_error[MAX_ORDERS];
+  real stiffness[ORDERS], stiffness_error[ORDERS];
   for (int n = 0; n < T; n++) {
     stiffness[n] = stiffness_error[n] = 0;
     for (int j = 0; j <= n; j++) {
       const real cosine = b->sine[n - j], off = b->sine_error[n - j] + KZ_UNIT * (cosine + b->sine_error[n - j]);
       stiffness[n] += b->torque[j] * cosine;
-      stiffness_error[n] += b->torque[j] * (off + (kz_products_of(b, n) + 2) * KZ_UNIT * b->factor->higher * (cosine + off));
+      stiffness_error[n] +=
+          b->torque[j] * (off + (kz_products_of(b, n) + 2) * KZ_UNIT * b->factor->higher * (cosine + off));
     }
   }
   for (int c = 0; c < 2; c++) {
@@ -153,7 +154,7 @@ static void bound_neighbours(const kz_step_bounds *b, kz_speed_class *speed) {
     speed->max_torque[i] = (double)(kz_force_largest(b->pendulum, i, h) + stiffness * 1e-6L);
 }
 
-/* The number of steps for which the last coefficient is small beside rounding, 0 where that takes too many. */
+/* Number of steps at which the last coefficient is small beside rounding; 0 if that takes too many. */
 static int32_t choose_steps(const kz_step_bounds *b) {
   static const real targets[] = {1e-16L, 1e-31L, 1e-46L};
   const real target = targets[b->precision];
@@ -163,7 +164,7 @@ static int32_t choose_steps(const kz_step_bounds *b) {
   return longest * MOST_STEPS > 2 * M_PI ? (int32_t)(2 * M_PI / (double)longest) + 1 : 0;
 }
 
-/* A frame is renewed before damping has made the columns of its matrix alike. */
+/* Number of steps of a frame: it is renewed before damping aligns the columns of its matrix. */
 static int32_t steps_of_frame(const kz_pendulum *pendulum, int32_t n_steps) {
   const double frames = fmin(ceil(2 * M_PI * pendulum->beta), n_steps);
   return frames > 1 ? (int32_t)(n_steps / frames) : n_steps;

@@ -1,5 +1,5 @@
-!> A batch of pendulums that differ: one drive period of split6 in double precision, a pendulum a lane. The decay and the drifts of
-!> each lane stand in tables; its kicks are k and m times those of all, since the force is linear in both.
+!> A batch of different pendulums, one per lane: one drive period of split6 in doubles. Each lane has its own decay and
+!> drifts; its kicks are k and m times common ones, since the force is linear in both.
 module kz_mixed_mixed_batch
   use, intrinsic :: iso_c_binding, only: rk => c_double, ik => c_int64_t
   use kz_vector_map, only: map_t, put_state, move_state, WIDTH, PI
@@ -11,15 +11,15 @@ module kz_mixed_mixed_batch
   private
   public :: mixed_batch_t, track_t, make_mixed_batch
 
-  !> Kicks of a step, each after a drift; a drift more ends it.
+  !> Kicks of a step, and its drifts: one before each kick and one at the end.
   integer, parameter :: KICKS = SCHEMES(SPLIT6_ROW + 1)%kicks, DRIFTS = KICKS + 1
 
   type, extends(map_t) :: mixed_batch_t
     integer :: n_steps = 0
-    real(rk) :: time(DRIFTS) = 0               !< of the drifts of a step, drive radians
-    real(rk), allocatable :: weight(:, :, :)   !< of a kick: of k and of m; kick, step
+    real(rk) :: time(DRIFTS) = 0               !< Length of each drift, drive radians
+    real(rk), allocatable :: weight(:, :, :)   !< (k and m, kick, step): parts of a kick
     real(rk) :: k(WIDTH) = 0, m(WIDTH) = 0
-    real(rk) :: drift(WIDTH, DRIFTS) = 0       !< half-turns per unit of velocity
+    real(rk) :: drift(WIDTH, DRIFTS) = 0       !< Half-turns per unit of velocity
     real(rk) :: decay(WIDTH, DRIFTS) = 0
   contains
     procedure :: set_pendulum
@@ -47,8 +47,8 @@ contains
 
   !> Makes a batch without pendulums.
   subroutine make_mixed_batch(n_steps, batch)
-    integer, intent(in) :: n_steps !< steps of split6 in a drive period
-    type(mixed_batch_t), intent(out) :: batch !< its tables that all pendulums share
+    integer, intent(in) :: n_steps !< Steps of split6 per drive period
+    type(mixed_batch_t), intent(out) :: batch !< Batch with the tables that all pendulums share
     type(stage_t) :: stages(2*KICKS + 1)
     real(rk) :: clock, step
     integer :: i, s
@@ -71,7 +71,7 @@ contains
   subroutine set_pendulum(self, lane, pendulum)
     class(mixed_batch_t), intent(inout) :: self
     integer, intent(in) :: lane
-    type(pendulum_t), intent(in) :: pendulum !< k, beta, m
+    type(pendulum_t), intent(in) :: pendulum !< Pendulum
     real(rk) :: half(DRIFTS)
 
     half = 0.5_rk*pendulum%beta*self%time
@@ -124,8 +124,7 @@ contains
     v(:n) = self%decay(:n, DRIFTS)*v(:n)
   end subroutine advance_step
 
-  !> One period with the tangent map: matrix(:, :, i) = d(theta, v)/d(theta0, v0) of the period times what it was; the angles on the
-  !> way join `track`.
+  !> One period; matrix(:, :, i) is multiplied by d(theta, v)/d(theta0, v0); `track` takes the angles after each step.
   subroutine mixed_tangent(self, n, matrix, track)
     class(mixed_batch_t), intent(inout) :: self
     integer, intent(in) :: n
@@ -152,7 +151,7 @@ contains
     end do
   end subroutine mixed_tangent
 
-  !> A step, and its derivative c(i, :, j): column j of the tangent map of lane i.
+  !> Advances by a step with its derivative; c(i, :, j): column j of the tangent map of lane i.
   subroutine tangent_step(self, step, n, u, v, c)
     class(mixed_batch_t), intent(in) :: self
     integer, intent(in) :: step, n

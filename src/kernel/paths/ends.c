@@ -88,7 +88,8 @@ static void normalise_plane(double (*plane)[2], double (*along)[2]) {
     for (int i = 0; i < 4; i++) plane[i][j] /= r[j][j];
   }
   for (int i = 0; i < 2; i++) { /* R along R^-1 */
-    const double row[2] = {r[i][0] * along[0][0] + r[i][1] * along[1][0], r[i][0] * along[0][1] + r[i][1] * along[1][1]};
+    const double row[2] = {r[i][0] * along[0][0] + r[i][1] * along[1][0],
+                           r[i][0] * along[0][1] + r[i][1] * along[1][1]};
     moved[i][0] = row[0] / r[0][0];
     moved[i][1] = (row[1] - moved[i][0] * r[0][1]) / r[1][1];
   }
@@ -143,7 +144,8 @@ static bool approach_saddle(const double m[4][4], double stable, kz_path_end *en
   return true;
 }
 
-bool kz_path_end_find(const kz_hamilton *flow, int64_t period, bool attracts, double theta, double velocity, kz_path_end *end) {
+bool kz_path_end_find(const kz_hamilton *flow, int64_t period, bool attracts, double theta, double velocity,
+                      kz_path_end *end) {
   double matrix[4][4], value[2];
   *end = (kz_path_end){.period = period, .state = {theta, velocity}};
   if (!close_cycle(flow, end, matrix)) return false;

@@ -67,7 +67,8 @@ static void projection(const shooting *s, int64_t node, block p) {
     for (int j = 0; j < 4; j++) {
       p[i][j] = i == j;
       if (node > 0 && node < s->n) continue;
-      p[i][j] = s->end[side]->plane[i][0] * s->end[side]->plane[j][0] + s->end[side]->plane[i][1] * s->end[side]->plane[j][1];
+      p[i][j] =
+          s->end[side]->plane[i][0] * s->end[side]->plane[j][0] + s->end[side]->plane[i][1] * s->end[side]->plane[j][1];
     }
 }
 

@@ -105,7 +105,8 @@ static void solve(newton *at) {
 }
 
 /* One step that does not raise the action; false where no shift gives one. The new point and its torque are in `next`. */
-static bool descend(const grid *g, newton *at, const double *x, double *shift, double *action, double *next, double *torque) {
+static bool descend(const grid *g, newton *at, const double *x, double *shift, double *action, double *next,
+                    double *torque) {
   for (int attempt = 0; attempt < MAX_SHIFTS; attempt++) {
     if (factorise(at, *shift)) {
       solve(at);
@@ -149,7 +150,8 @@ static void read_nodes(const grid *g, const double *x, const double *u, double *
   }
 }
 
-double kz_path_relax(const kz_pendulum *pendulum, int64_t n, int32_t samples, double most, double *theta, double *node) {
+double kz_path_relax(const kz_pendulum *pendulum, int64_t n, int32_t samples, double most, double *theta,
+                     double *node) {
   const size_t points = (size_t)(n * samples + 1);
   KZ_FREED double (*force)[3] = kz_malloc((size_t)samples * sizeof *force);
   KZ_FREED double *memory = kz_calloc((3 + 2 * (BAND + 1) + 2) * points, sizeof *memory);

@@ -5,7 +5,8 @@
 
 #include "kapitza/kernel_paths.h"
 
-uint64_t kz_path_hash(uint64_t seed, uint64_t counter) { /* SplitMix64 (G. L. Steele, D. Lea, C. H. Flood, OOPSLA 2014) */
+uint64_t kz_path_hash(uint64_t seed,
+                      uint64_t counter) { /* SplitMix64 (G. L. Steele, D. Lea, C. H. Flood, OOPSLA 2014) */
   uint64_t z = seed * 0xd1342543de82ef95u + (counter + 1) * 0x9e3779b97f4a7c15u;
   for (int round = 0; round < 2; round++) {
     z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
@@ -30,7 +31,8 @@ static void normal_pair(uint64_t seed, uint64_t counter, double pair[2]) {
 kz_walker *kz_walker_create(const kz_pendulum *pendulum, double temperature, int32_t steps) {
   kz_walker *walker = kz_malloc(sizeof *walker);
   const double h = 2 * M_PI / steps, decay = exp(-pendulum->beta * h);
-  *walker = (kz_walker){.steps = steps, .half = h / 2, .decay = decay, .noise = sqrt(temperature * (1 - decay * decay))};
+  *walker =
+      (kz_walker){.steps = steps, .half = h / 2, .decay = decay, .noise = sqrt(temperature * (1 - decay * decay))};
   walker->force = kz_malloc((size_t)steps * sizeof *walker->force);
   kz_path_forces(pendulum, steps, 0.5, walker->force[0]);
   return walker;

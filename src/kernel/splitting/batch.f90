@@ -1,4 +1,4 @@
-!> Lanes moved by a split scheme or Runge-Kutta.
+!> A batch of lanes that a split scheme or Runge-Kutta advances.
 module kz_splitting_batch
   use, intrinsic :: iso_c_binding, only: c_double, c_int64_t
   use kz_vector_map, only: flow_t, WIDTH
@@ -43,8 +43,7 @@ contains
     call restore_control(control)
   end subroutine batch_advance
 
-  !> One period with the tangent map: matrix(:, :, i) = d(theta, v)/d(theta0, v0) of the period times what it was. The states
-  !> move as in `advance`. A single lane goes alone.
+  !> One period; matrix(:, :, i) is multiplied by d(theta, v)/d(theta0, v0). A single lane is not padded to a vector.
   subroutine batch_tangent(self, n, matrix)
     class(batch_t), intent(inout) :: self
     integer, intent(in) :: n
@@ -68,8 +67,7 @@ contains
     call restore_control(control)
   end subroutine batch_tangent
 
-  !> Lanes through one period, shown at every (n_steps/n)-th step end; u(n, :) is not yet wrapped. Needs steps that are not fused. A single
-  !> lane goes alone.
+  !> One period sampled at every (n_steps/n)-th step, which must not be fused; u(n, :) is not yet wrapped.
   subroutine batch_sample(self, n, u, v)
     class(batch_t), intent(inout) :: self
     integer, intent(in) :: n

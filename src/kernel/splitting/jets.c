@@ -1,5 +1,5 @@
-/* The inner loop of a period with its derivatives (jets.f90), written with the compilers' vector types: gfortran does not keep the
- * derivatives in registers, and takes six times as long. */
+/* The inner loop of a period with its derivatives (jets.f90), in the compilers' vector types: gfortran does not keep
+ * the derivatives in registers and takes six times as long. */
 #include <string.h>
 
 #include "vector/vector.h"
@@ -9,7 +9,7 @@ enum { X, Y, P, Q, XX, XY, YY, XP, YP, XQ, YQ, X3, XXY, XYY, Y3, TERMS };
 typedef double lanes __attribute__((vector_size(8 * LANES)));
 typedef int64_t bits __attribute__((vector_size(8 * LANES)));
 
-/* kz_kick: a sin theta - b cos theta - push; kz_drift: of the velocity. [0] is the value, [1] and [2] are the derivatives by p and q. */
+/* A kick a sin theta - b cos theta - push, and a drift: [0] is the value, [1], [2] are derivatives by p and q. */
 typedef struct {
   double a[3], b[3], push[3];
 } kz_kick;
@@ -37,7 +37,7 @@ static const double COSINE[] = {1,
                                 -1.387895246221377211449e-7,
                                 3.604730797462501117270e-9};
 
-/* Powers of q in pairs: half as many operations wait for each other as by Horner's rule. */
+/* Two terms of a polynomial in q (Estrin's scheme: half as many dependent operations as by Horner's rule). */
 #define LINEAR(list, i) (q * (list)[(i) + 1] + (list)[i])
 
 KZ_INLINE void sine_and_cosine(const lanes *angle, lanes *s, lanes *c) {
@@ -45,19 +45,20 @@ KZ_INLINE void sine_and_cosine(const lanes *angle, lanes *s, lanes *c) {
   const lanes u = *angle, shifted = u + round_to_integer, r = u - (shifted - round_to_integer), q = r * r;
   const lanes q2 = q * q, q4 = q2 * q2, q8 = q4 * q4;
   const bits sign = (bits)shifted << 63;
-  const lanes odd = (q2 * LINEAR(SINE, 2) + LINEAR(SINE, 0)) + (q4 * (q2 * LINEAR(SINE, 6) + LINEAR(SINE, 4)) + q8 * SINE[8]);
+  const lanes odd =
+      (q2 * LINEAR(SINE, 2) + LINEAR(SINE, 0)) + (q4 * (q2 * LINEAR(SINE, 6) + LINEAR(SINE, 4)) + q8 * SINE[8]);
   const lanes even = (q2 * LINEAR(COSINE, 2) + LINEAR(COSINE, 0)) +
                      (q4 * (q2 * LINEAR(COSINE, 6) + LINEAR(COSINE, 4)) + q8 * (q2 * COSINE[10] + LINEAR(COSINE, 8)));
   *s = (lanes)((bits)(r * odd) ^ sign);
   *c = (lanes)((bits)even ^ sign);
 }
 
-/* What a derivative by a parameter gains because the damping depends on it. */
-#define ADD_DAMPING_TERM(term, parameter, speed)                                                                           \
-  do {                                                                                                                     \
-    angle->derivative[term] +=                                                                                             \
-        row->per_velocity[parameter] * (speed) - row->per_velocity[0] * (row->decay[parameter] / row->decay[0]) * (speed); \
-    velocity->derivative[term] += (row->decay[parameter] / row->decay[0]) * (speed);                                       \
+/* Adds to a derivative by a parameter the part that comes from the parameter's effect on the damping. */
+#define ADD_DAMPING_TERM(term, parameter, speed)                                                         \
+  do {                                                                                                   \
+    angle->derivative[term] += row->per_velocity[parameter] * (speed) -                                  \
+                               row->per_velocity[0] * (row->decay[parameter] / row->decay[0]) * (speed); \
+    velocity->derivative[term] += (row->decay[parameter] / row->decay[0]) * (speed);                     \
   } while (0)
 
 #define DRIFT_TERM(term)                                                          \
@@ -66,7 +67,7 @@ KZ_INLINE void sine_and_cosine(const lanes *angle, lanes *s, lanes *c) {
     velocity->derivative[term] *= row->decay[0];                                  \
   } while (0)
 
-/* Written term by term: the compiler then keeps them in registers. */
+/* Advances through a drift, term by term so that the compiler keeps them in registers. */
 KZ_INLINE void drift_jet(int order, bool damped, const kz_drift *row, jet *angle, jet *velocity) {
   if (damped && order >= 1) {
     ADD_DAMPING_TERM(P, 1, velocity->value);
@@ -145,8 +146,8 @@ KZ_INLINE void kick_jet(int order, bool mirrored, const kz_kick *row, jet *angle
   v[Y3] -= slope * (x[Y3] - x[Y] * x[Y] * x[Y]) - 3 * force * x[Y] * x[YY];
 }
 
-KZ_INLINE void advance_jet(int order, bool damped, bool mirrored, int64_t n, const kz_kick *kicks, const kz_drift *drifts,
-                           jet *angle, jet *velocity) {
+KZ_INLINE void advance_jet(int order, bool damped, bool mirrored, int64_t n, const kz_kick *kicks,
+                           const kz_drift *drifts, jet *angle, jet *velocity) {
   jet a = *angle, v = *velocity;
   for (int64_t step = 0; step < n; step++)
     for (int stage = 0; stage < KICKS; stage++, kicks++) {
@@ -164,9 +165,9 @@ KZ_INLINE void advance_jet(int order, bool damped, bool mirrored, int64_t n, con
     break;
 #define CASES(order) CASE(order, 0, 0) CASE(order, 0, 1) CASE(order, 1, 0) CASE(order, 1, 1)
 
-/* Moves 4 states, u half-turns and v, with their derivatives theta, speed [TERMS][4] up to `order` through n steps of split6. kicks
- * [n][14]; drifts [16]: those of a step, the last one being the last drift of a step and the first of the next together. damped: the
- * damping depends on p or q; mirrored: b and push are 0. */
+/* Advances 4 states, u half-turns and v, with their derivatives theta, speed [TERMS][4] up to `order` through n steps
+ * of split6. kicks [n][14]; drifts [16]: those of a step, and last the sum of the last drift of a step and the first of
+ * the next. damped: the damping depends on p or q; mirrored: b and push are 0. */
 void kz_jets_advance(int32_t order, int32_t damped, int32_t mirrored, int64_t n, const double *kicks_of,
                      const double *drifts_of, double *u, double *v, double *theta, double *speed) {
   const kz_kick *kicks = (const kz_kick *)kicks_of;

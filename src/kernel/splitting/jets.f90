@@ -1,5 +1,5 @@
-!> One drive period of split6 with its derivatives: of third order in the state, of first order in two parameters, and mixed ones of second
-!> order. Kicks and drifts are elementary, so these are the derivatives of the discrete map itself, to rounding.
+!> One drive period of split6 with its derivatives: of third order in the state, of first order in two parameters, and
+!> mixed ones of second order. They are the derivatives of the discrete map itself, to rounding.
 module kz_splitting_jets
   use, intrinsic :: iso_c_binding, only: rk => c_double, c_int32_t, c_int64_t
   use, intrinsic :: iso_fortran_env, only: real128
@@ -11,30 +11,31 @@ module kz_splitting_jets
   public :: jets_t, make_jets, set_pendulum, advance_jets, LANES, TERMS
   public :: DX, DY, DP, DQ, DXX, DXY, DYY, DXP, DYP, DXQ, DYQ, DXXX, DXXY, DXYY, DYYY
 
-  !> States that move together: more of them do not fit into the registers with their derivatives, and take six times as long.
+  !> States advanced at once: more do not fit into the registers with their derivatives, and take six times as long.
   integer, parameter :: LANES = 4
   !> Partial derivatives of a coordinate: by the angle x and the velocity y of the start, and by the parameters p and q.
-  integer, parameter :: DX = 1, DY = 2, DP = 3, DQ = 4, DXX = 5, DXY = 6, DYY = 7, DXP = 8, DYP = 9, DXQ = 10, DYQ = 11, &
-                        DXXX = 12, DXXY = 13, DXYY = 14, DYYY = 15, TERMS = 15
+  integer, parameter :: DX = 1, DY = 2, DP = 3, DQ = 4, DXX = 5, DXY = 6, DYY = 7, DXP = 8, DYP = 9, DXQ = 10, &
+      DYQ = 11, DXXX = 12, DXXY = 13, DXYY = 14, DYYY = 15, TERMS = 15
   integer, parameter :: KICKS = SCHEMES(SPLIT6_ROW + 1)%kicks, FUSED = KICKS + 2
 
   !> The period of a pendulum. Index 0 is the value, 1 and 2 are the derivatives by p and q.
   type :: jets_t
     integer :: n_steps = 0
-    real(rk) :: time(FUSED) = 0                !< of the drifts of a step; the last one is the last and the first of two steps, drive radians
-    real(rk), allocatable :: weight(:)         !< of the kicks, drive radians
-    real(rk), allocatable :: cosine(:)         !< of their drive time
+    real(rk) :: time(FUSED) = 0                !< Length of each drift, drive radians; last: that between two steps
+    real(rk), allocatable :: weight(:)         !< Length of each kick, drive radians
+    real(rk), allocatable :: cosine(:)         !< Cosine and sine of its time
     real(rk), allocatable :: sine(:)
-    real(rk), allocatable :: kicks(:, :, :)    !< a sin theta - b cos theta - push: (0:2, a b push, kick)
-    real(rk) :: drifts(0:2, 2, FUSED) = 0      !< of the velocity, rad; and its decay
-    logical :: damped = .true.                 !< the damping depends on p or q
-    logical :: mirrored = .false.              !< b and push are 0
+    real(rk), allocatable :: kicks(:, :, :)    !< (0:2, a b push, kick) in a sin theta - b cos theta - push
+    real(rk) :: drifts(0:2, 2, FUSED) = 0      !< (0:2, drift rad per velocity; decay of it, FUSED)
+    logical :: damped = .true.                 !< True: the damping depends on p or q
+    logical :: mirrored = .false.              !< True: b and push are 0
     real(rk) :: damping(0:2) = 0
   end type jets_t
 
   interface
-    !> jets.c
-    subroutine advance_lanes(order, damped, mirrored, n, kicks, drifts, u, v, theta, velocity) bind(C, name='kz_jets_advance')
+    !> Steps of LANES states (jets.c)
+    subroutine advance_lanes(order, damped, mirrored, n, kicks, drifts, u, v, theta, velocity) &
+        bind(C, name='kz_jets_advance')
       import :: rk, c_int32_t, c_int64_t, LANES, TERMS
       integer(c_int32_t), value :: order, damped, mirrored
       integer(c_int64_t), value :: n
@@ -47,8 +48,8 @@ contains
 
   !> Makes the tables that all pendulums share.
   subroutine make_jets(n_steps, jets)
-    integer, intent(in) :: n_steps !< of split6 a drive period
-    type(jets_t), intent(out) :: jets !< without a pendulum
+    integer, intent(in) :: n_steps !< Steps of split6 per drive period
+    type(jets_t), intent(out) :: jets !< Tables without a pendulum
     type(stage_t) :: stages(2*KICKS + 1)
     real(rk) :: clock, weight(KICKS)
     real(real128) :: step
@@ -77,8 +78,8 @@ contains
 
   !> Sets the pendulum and its derivatives.
   subroutine set_pendulum(jets, pendulum)
-    type(jets_t), intent(inout) :: jets !< its kicks and drifts
-    type(pendulum_t), intent(in) :: pendulum(0:2) !< the pendulum; what its numbers grow by with p; and with q
+    type(jets_t), intent(inout) :: jets !< Tables, whose kicks and drifts are set
+    type(pendulum_t), intent(in) :: pendulum(0:2) !< Pendulum; its derivatives by p; by q
     real(rk) :: k(0:2), m(0:2), torque(0:2), amplitude(0:2)
     integer :: i, n
 
@@ -114,13 +115,15 @@ contains
         former = c
         c = c*jets%cosine(n) - s*jets%sine(n)
         s = s*jets%cosine(n) + former*jets%sine(n)
-        jets%kicks(:, 1, n) = jets%kicks(:, 1, n) - jets%weight(n)*(pendulum%vertical(1, j)*c + pendulum%vertical(2, j)*s)
-        jets%kicks(:, 2, n) = jets%kicks(:, 2, n) + jets%weight(n)*(pendulum%horizontal(1, j)*c + pendulum%horizontal(2, j)*s)
+        jets%kicks(:, 1, n) = jets%kicks(:, 1, n) &
+                              - jets%weight(n)*(pendulum%vertical(1, j)*c + pendulum%vertical(2, j)*s)
+        jets%kicks(:, 2, n) = jets%kicks(:, 2, n) &
+                              + jets%weight(n)*(pendulum%horizontal(1, j)*c + pendulum%horizontal(2, j)*s)
       end do
     end do
   end subroutine add_harmonics
 
-  !> The drift (1 - exp(-z))/beta and the decay exp(-z), z = beta*time, and their derivatives, by series.
+  !> Sets the drift (1 - exp(-z))/beta and the decay exp(-z), z = beta*time, and their derivatives, by series.
   pure subroutine set_drift(time, beta, drift, decay)
     real(rk), intent(in) :: time, beta(0:2)
     real(rk), intent(out) :: drift(0:2), decay(0:2)
@@ -143,13 +146,13 @@ contains
     decay(1:) = -time*decay(0)*beta(1:)
   end subroutine set_drift
 
-  !> Steps of a period.
+  !> Advances through steps of a period.
   subroutine advance_jets(jets, order, from, to, u, v, theta, velocity)
     type(jets_t), intent(in) :: jets !< the tables of a period with a pendulum
-    integer, intent(in) :: order !< 0 .. 3: which derivatives move
+    integer, intent(in) :: order !< Highest order of derivatives, 0 .. 3
     integer, intent(in) :: from, to !< the first and the last step
     real(rk), intent(inout) :: u(LANES), v(LANES) !< half-turns, not wrapped; rad per drive radian
-    real(rk), intent(inout) :: theta(LANES, TERMS), velocity(LANES, TERMS) !< their derivatives: rad, rad per drive radian
+    real(rk), intent(inout) :: theta(LANES, TERMS), velocity(LANES, TERMS) !< Derivatives: rad, rad per drive radian
 
     call advance_lanes(int(order, c_int32_t), merge(1_c_int32_t, 0_c_int32_t, jets%damped), &
                        merge(1_c_int32_t, 0_c_int32_t, jets%mirrored), int(to - from + 1, c_int64_t), &

@@ -10,7 +10,7 @@ module kz_splitting_stages
 
 contains
 
-  !> Steps of a period. The drift that ends a period belongs to its last step.
+  !> Advances through steps of a period. The drift that ends a period belongs to its last step.
   subroutine advance_steps(self, from, to, n, u, v)
     type(period_t), intent(in) :: self !< tables of a period
     integer, intent(in) :: from !< step, from 1
@@ -33,7 +33,7 @@ contains
     u(:n) = u(:n) + self%drift_u(s)*v(:n)
     v(:n) = self%decay(s)*v(:n)
   contains
-    !> A drift and a kick.
+    !> Advances through a drift and a kick.
     subroutine drift_and_kick(drift, decay, strength)
       real(rk), intent(in) :: drift, decay, strength
       integer :: i
@@ -77,7 +77,7 @@ contains
     end subroutine runge_kutta
   end subroutine advance_steps
 
-  !> Advances a period, and computes the derivative of the scheme itself; c(i, :, j) = column j of the tangent map of lane i.
+  !> Advances a period with the derivative of the scheme itself.
   subroutine advance_tangents(self, n, u, v, c)
     type(period_t), intent(in) :: self !< tables of a period
     integer, intent(in) :: n !< lanes
@@ -130,7 +130,7 @@ contains
       end do
     end subroutine kick_tangents
 
-    !> A step of Runge-Kutta, seen from the states before it.
+    !> Tangents of a step of Runge-Kutta, then the step.
     subroutine rk4_tangents(s)
       integer, intent(in) :: s
       real(rk) :: half, half_u, f0, f1, f2, v2, v3, slope(WIDTH, 4)
@@ -156,7 +156,7 @@ contains
     end subroutine rk4_tangents
   end subroutine advance_tangents
 
-  !> A step of x' = y, y' = -beta y - slope x of each lane, with the slope of each stage.
+  !> Advances x' = y, y' = -beta y - slope x of each lane by a step, with the slope of each stage.
   pure subroutine rk4_column(n, h, beta, slope, x, y)
     integer, intent(in) :: n
     real(rk), intent(in) :: h, beta, slope(WIDTH, 4)

@@ -1,5 +1,5 @@
-/* One drive period of the processed splitting in pairs of doubles: its stages, and its processor, a displacement that is small, so once a period
- * is enough. pairs_table.f90 makes the tables. */
+/* One drive period of the processed splitting in pairs of doubles: its stages, and its processor, a small displacement
+ * once per period. pairs_table.f90 makes the tables. */
 #include "vector/pairs_arithmetic.h"
 
 /* Angles (half-turns) and velocities (rad per drive radian), each high + low. */
@@ -11,9 +11,9 @@ typedef struct {
 /* Half the order of the series, which bounds harmonics and powers of a displacement; number of terms of the sine. */
 enum { KZ_HALF_ORDER = 7, KZ_SINE_TERMS = 15 };
 
-/* A displacement of (u, v): of each variable, for the harmonics j = 0 .. KZ_HALF_ORDER - 1, sin(pi j u) times even powers of v and cos(pi j u)
- * times odd ones, up to 2 (KZ_HALF_ORDER - max(j, 1)); the second of `parts`, which mirrored pendulums have not, cosine with even and
- * sine with odd ones. Coefficients are high and low; the first `pairs` of them need both. */
+/* A displacement of (u, v): of each variable, for the harmonics j = 0 .. KZ_HALF_ORDER - 1, sin(pi j u) times even
+ * powers of v and cos(pi j u) times odd ones, up to 2 (KZ_HALF_ORDER - max(j, 1)); the second of `parts`, absent from
+ * mirrored pendulums, cosines with even and sines with odd ones. The first `pairs` of them need low parts. */
 typedef struct {
   double coefficient[2][2][KZ_HALF_ORDER][2][KZ_HALF_ORDER][2];
   int64_t pairs[2][2][KZ_HALF_ORDER][2];
@@ -22,7 +22,7 @@ typedef struct {
   int64_t sine_pairs;
 } kz_displacement;
 
-/* Vectors at once: they hide the latency of the arithmetic. */
+/* Vectors at once, to hide the latency of the arithmetic. */
 enum { CHAINS = 4 };
 #define EACH _Pragma("GCC unroll 4") for (int i = 0; i < CHAINS; i++)
 
@@ -34,19 +34,20 @@ KZ_INLINE int64_t row_size(shape size) {
   return size.n_drift + 1 + size.n_kick + size.n_pairs;
 }
 
-/* u += v (d1 + d3 v^2 + ..), or where not odd d0 + d2 v^2 + ..: all but the first coefficient are small. */
+/* u += v (d1 + d3 v^2 + ..), or if not odd d0 + d2 v^2 + ..; all but the first coefficient are small. */
 KZ_INLINE void drift_pairs(shape size, bool odd, const double *row, pair *u, const pair *v) {
   EACH {
     const vector square = v[i].high * v[i].high;
     vector small = broadcast(0);
     for (int64_t j = size.n_drift; j >= 2; j--) small = fmadd(small, square, broadcast(row[j]));
-    const pair first = odd ? quick_two_sum(broadcast(row[0]), small * square) : two_sum(broadcast(row[0]), small * square);
+    const pair first =
+        odd ? quick_two_sum(broadcast(row[0]), small * square) : two_sum(broadcast(row[0]), small * square);
     const pair step = {first.high, first.low + row[1]};
     u[i] = add_pairs(u[i], odd ? product_unnormalised(v[i], step) : step);
   }
 }
 
-/* v -= (r - r^3)(c1 + c2 r^2 + ..), r the reduced angle. ordered: every c is at least as large as those after it together. */
+/* v -= (r - r^3)(c1 + c2 r^2 + ..), r the reduced angle. ordered: every |c| is at least the sum of those after it. */
 KZ_INLINE void kick_pairs(shape size, const double *row, bool ordered, const pair *u, pair *v) {
   pair r[CHAINS], q[CHAINS], p[CHAINS];
   vector even;
@@ -54,7 +55,8 @@ KZ_INLINE void kick_pairs(shape size, const double *row, bool ordered, const pai
   EACH r[i] = reduce_half_turns(u[i], &even);
   EACH q[i] = multiply_pairs(r[i], r[i]);
   EACH p[i] = (pair){broadcast(doubles[size.n_kick - 1]), broadcast(0)};
-  for (int64_t j = size.n_kick - 2; j >= size.n_pairs; j--) EACH p[i].high = fmadd(p[i].high, q[i].high, broadcast(doubles[j]));
+  for (int64_t j = size.n_kick - 2; j >= size.n_pairs; j--)
+    EACH p[i].high = fmadd(p[i].high, q[i].high, broadcast(doubles[j]));
   if (ordered)
     for (int64_t j = size.n_pairs - 1; j >= 0; j--) EACH p[i] = ordered_horner_step(p[i], q[i], row + 2 * j);
   else
@@ -111,13 +113,15 @@ KZ_INLINE void run_stages(bool mirrored, int64_t n_stages, shape size, const dou
   }
 }
 
-/* Does the stages of one period and wraps the angles to [-1, 1]; turns [n] = the net number of turns. row [n_stages + 1][n_row]: for each
- * stage the coefficients of the drift (the first one high and low, then n_drift - 1 doubles) and of the kick (n_pairs high and low, then
- * n_kick - n_pairs doubles, because those of high powers are small); in the last row only the drift counts. ordered [n_stages]: 1 if the
- * modulus of every pair among the coefficients of the kick is at least the sum of the moduli after it. decay [2]: factor of the velocity,
- * high and low, from damping. Without mirror symmetry a row goes on with as many coefficients of even polynomials (tables.inc). */
-void kz_pairs_stages(int32_t mirrored, int64_t n_stages, int64_t n_drift, int64_t n_kick, int64_t n_pairs, const double *row,
-                     const int32_t *ordered, const double *decay, int64_t n, kz_pair_lanes *lanes, double *turns) {
+/* Advances through the stages of one period and wraps the angles to [-1, 1]; turns [n]: net turns. row [n_stages +
+ * 1][n_row]: for each stage the coefficients of the drift (the first high and low, then n_drift - 1 doubles) and of the
+ * kick (n_pairs high and low, then n_kick - n_pairs doubles, because those of high powers are small); the last row has
+ * only the drift. ordered [n_stages]: 1 if the modulus of every pair among the coefficients of the kick is at least the
+ * sum of the moduli after it. decay [2]: factor of the velocity by damping, high and low. Without mirror symmetry a row
+ * goes on with as many coefficients of even polynomials (tables.inc). */
+void kz_pairs_stages(int32_t mirrored, int64_t n_stages, int64_t n_drift, int64_t n_kick, int64_t n_pairs,
+                     const double *row, const int32_t *ordered, const double *decay, int64_t n, kz_pair_lanes *lanes,
+                     double *turns) {
   const shape size = {n_drift, n_kick, n_pairs};
   if (mirrored)
     run_stages(true, n_stages, size, row, ordered, decay, n, lanes, turns);
@@ -130,7 +134,7 @@ KZ_INLINE pair sine_of_half(const kz_displacement *d, pair r) {
   return multiply_pairs(r, evaluate_pairs(KZ_SINE_TERMS, d->sine_pairs, d->sine[0], multiply_pairs(r, r)));
 }
 
-/* sin(pi u) and cos(pi u): the mirror image of u has the mirror image's sine and the same cosine, to the bit. */
+/* sin(pi u) and cos(pi u), mirror-symmetric to the bit. */
 KZ_INLINE void sine_and_cosine(const kz_displacement *d, pair u, pair *sine, pair *cosine) {
   vector even;
   const pair r = reduce_half_turns(u, &even);
@@ -143,7 +147,7 @@ KZ_INLINE void sine_and_cosine(const kz_displacement *d, pair u, pair *sine, pai
   *cosine = sine_of_half(d, subtract_pairs((pair){broadcast(0.5), broadcast(0)}, size));
 }
 
-/* Adds factor (c[0] + c[1] square + ..) to a displacement: in pairs where a coefficient is large enough to need them. */
+/* Adds factor (c[0] + c[1] square + ..) to a displacement, in pairs if n_pairs > 0. */
 KZ_INLINE pair add_powers(pair shift, int64_t n, int64_t n_pairs, const double *c, pair factor, pair square) {
   const pair p = evaluate_pairs(n, n_pairs, c, square);
   if (n_pairs > 0) return add_pairs(shift, product_unnormalised(factor, p));

@@ -1,4 +1,4 @@
-!> One drive period in pairs of doubles (some 32 digits): the tables of the processed splitting for one range of speeds.
+!> Tables of the processed splitting in pairs of doubles (some 32 digits) for one range of speeds.
 module kz_taylor_pairs_table
   use, intrinsic :: iso_c_binding, only: c_double, c_int32_t, c_int64_t
   use, intrinsic :: iso_fortran_env, only: real128
@@ -32,7 +32,7 @@ module kz_taylor_pairs_table
 
   !> KZ_HALF_ORDER and KZ_SINE_TERMS of pairs.c.
   integer, parameter :: HALF = ORDER/2, N_SINE = size(SINE_COEFFICIENTS)
-  !> A coefficient needs both its halves if rounding it to a double would change a period by more than this part of the tolerance.
+  !> A coefficient is a pair if rounding it to a double would change a period by more than this share of the tolerance.
   real(c_double), parameter :: NEGLIGIBLE = 0.01_c_double
 
   !> kz_pair_lanes of pairs.c: high and low.
@@ -49,7 +49,7 @@ module kz_taylor_pairs_table
     integer(c_int64_t) :: sine_pairs = 0
   end type displacement_t
 
-  !> The tables of one period for speeds up to `fastest`, as kz_pairs_stages and kz_pairs_displace take them.
+  !> Tables of one period for speeds up to `fastest`, for kz_pairs_stages and kz_pairs_displace.
   type :: pairs_table_t
     real(c_double) :: fastest = 0, error = 0
     integer :: n_steps = 0, n_drift = 0, n_kick = 0, n_pairs = 0
@@ -62,7 +62,8 @@ module kz_taylor_pairs_table
 
   interface
     !> pairs.c
-    subroutine pairs_stages(mirrored, n_stages, n_drift, n_kick, n_pairs, row, ordered, decay, n, lanes, turns) bind(C, name='kz_pairs_stages')
+    subroutine pairs_stages(mirrored, n_stages, n_drift, n_kick, n_pairs, row, ordered, decay, n, lanes, turns) &
+        bind(C, name='kz_pairs_stages')
       import :: c_double, c_int32_t, c_int64_t, pair_lanes_t, WIDTH
       integer(c_int32_t), value :: mirrored
       integer(c_int64_t), value :: n_stages, n_drift, n_kick, n_pairs
@@ -84,7 +85,7 @@ module kz_taylor_pairs_table
 
 contains
 
-  !> The number of a pair.
+  !> Converts a pair to a quad.
   pure real(qp) function quad_of(pair) result(x)
     real(c_double), intent(in) :: pair(2) !< high, low
 
@@ -93,12 +94,12 @@ contains
 
   !> Makes the tables of a period of n_steps steps. Coefficients that are small compared with the tolerance are doubles.
   subroutine make_pairs_table(pendulum, series, n_steps, n_kick, fastest, tolerance, table)
-    type(pendulum_t), intent(in) :: pendulum !< k, beta, m
-    type(series_t), intent(in) :: series !< the series of the pendulum
+    type(pendulum_t), intent(in) :: pendulum !< Pendulum
+    type(series_t), intent(in) :: series !< Series of the pendulum
     integer, intent(in) :: n_steps, n_kick !< steps a period; coefficients of a kick
-    real(c_double), intent(in) :: fastest !< rad per drive radian: the largest speed that the tables shall serve
+    real(c_double), intent(in) :: fastest !< Largest speed that the tables shall serve, rad per drive radian
     real(c_double), intent(in) :: tolerance !< error of a period, rad
-    type(pairs_table_t), intent(out) :: table !< the tables; the error is still to be measured
+    type(pairs_table_t), intent(out) :: table !< Tables, whose error is still to be measured
     type(processed_t) :: exact
     integer :: j, n, half, part
 
@@ -118,7 +119,8 @@ contains
     table%row = 0
     table%ordered = 0
     do part = 0, ubound(exact%row, 1)/n - 1
-      call set_rows(exact%row(part*n + 1:(part + 1)*n, :), exact%last(part*exact%n_drift + 1:(part + 1)*exact%n_drift), part == 0, &
+      call set_rows(exact%row(part*n + 1:(part + 1)*n, :), &
+                    exact%last(part*exact%n_drift + 1:(part + 1)*exact%n_drift), part == 0, &
                     table, table%row(part*half + 1:(part + 1)*half, :))
     end do
     table%decay = pair_of(exact%decay)
@@ -126,7 +128,7 @@ contains
     call set_displacement(exact%from_kernel, fastest, tolerance, table%from_kernel)
   end subroutine make_pairs_table
 
-  !> The odd or the even coefficients of all stages; whether kicks are ordered, of the odd ones.
+  !> Sets the odd or the even coefficients of all stages; with odd ones also whether kicks are ordered.
   subroutine set_rows(exact, last, odd, table, row)
     real(qp), intent(in) :: exact(:, :), last(:)
     logical, intent(in) :: odd
@@ -140,13 +142,14 @@ contains
       do j = 1, table%n_pairs
         row(n + 2*j:n + 2*j + 1, s) = pair_of(exact(n + j, s))
       end do
-      if (odd) table%ordered(s) = merge(1_c_int32_t, 0_c_int32_t, all([(is_ordered(exact(n + j:, s)), j=1, table%n_pairs)]))
+      if (odd) &
+        table%ordered(s) = merge(1_c_int32_t, 0_c_int32_t, all([(is_ordered(exact(n + j:, s)), j=1, table%n_pairs)]))
       row(n + 2*table%n_pairs + 2:, s) = real(exact(n + table%n_pairs + 1:, s), c_double)
     end do
     call set_drift(last, row(:, table%n_steps + 1))
   end subroutine set_rows
 
-  !> Whether the first coefficient is at least as large as the others together, with a margin for their rounding.
+  !> Returns whether the first coefficient is at least as large as the others together, with a margin for rounding.
   pure logical function is_ordered(c)
     real(qp), intent(in) :: c(:)
 
@@ -161,7 +164,7 @@ contains
     row(3:size(drift) + 1) = real(drift(2:), c_double)
   end subroutine set_drift
 
-  !> How many of the first of some contributions to a period need more than double precision.
+  !> Number of the leading contributions to a period that need more than double precision.
   pure integer function number_of_pairs(contribution, tolerance) result(n)
     real(qp), intent(in) :: contribution(:)
     real(c_double), intent(in) :: tolerance
@@ -179,10 +182,10 @@ contains
     displacement%parts = merge(1, 2, processor%mirrored)
     do part = 1, int(displacement%parts)
       do j = 0, HALF - 1
-        call set_harmonic(processor%theta(j, :ORDER - 2*max(j, 1), part), displacement%coefficient(:, :, :, j, 1, part), &
-                          displacement%pairs(:, j, 1, part))
-        call set_harmonic(processor%velocity(j, :ORDER - 2*max(j, 1), part), displacement%coefficient(:, :, :, j, 2, part), &
-                          displacement%pairs(:, j, 2, part))
+        call set_harmonic(processor%theta(j, :ORDER - 2*max(j, 1), part), &
+                          displacement%coefficient(:, :, :, j, 1, part), displacement%pairs(:, j, 1, part))
+        call set_harmonic(processor%velocity(j, :ORDER - 2*max(j, 1), part), &
+                          displacement%coefficient(:, :, :, j, 2, part), displacement%pairs(:, j, 2, part))
       end do
     end do
     largest = sum(abs(displacement%coefficient(1, 0, :, :, :, :)))
@@ -213,8 +216,10 @@ contains
     real(c_double), intent(out) :: turns(WIDTH) !< [n] the net number of turns
 
     call pairs_displace(table%to_kernel, int(n, c_int64_t), lanes)
-    call pairs_stages(merge(1_c_int32_t, 0_c_int32_t, table%mirrored), int(table%n_steps, c_int64_t), int(table%n_drift, c_int64_t), int(table%n_kick, c_int64_t), &
-                      int(table%n_pairs, c_int64_t), table%row, table%ordered, table%decay, int(n, c_int64_t), lanes, turns)
+    call pairs_stages(merge(1_c_int32_t, 0_c_int32_t, table%mirrored), int(table%n_steps, c_int64_t), &
+                      int(table%n_drift, c_int64_t), int(table%n_kick, c_int64_t), &
+                      int(table%n_pairs, c_int64_t), table%row, table%ordered, table%decay, int(n, c_int64_t), lanes, &
+                          turns)
     call pairs_displace(table%from_kernel, int(n, c_int64_t), lanes)
   end subroutine advance_pairs_table
 

@@ -1,5 +1,4 @@
-!> States and what the equation makes of them in a drive period, by Taylor series in quad precision: what the errors of a period of every
-!> other integrator are measured against.
+!> Probes: states and their images by quad-precision Taylor series, against which other integrators are measured.
 module kz_taylor_probes
   use, intrinsic :: iso_c_binding, only: c_double, c_int64_t
   use kz_taylor_taylor, only: drive_t, make_drive, advance_period, qp, PI_QUAD
@@ -9,12 +8,12 @@ module kz_taylor_probes
 
   type :: probes_t
     real(qp), allocatable :: start(:, :) !< (2, n): half-turns, rad per drive radian; doubles
-    real(qp), allocatable :: image(:, :) !< the same
+    real(qp), allocatable :: image(:, :) !< Their images, (2, n)
   end type probes_t
 
 contains
 
-  !> A probe of each speed; angles are spread evenly over the circle.
+  !> Makes a probe of each speed, with angles spread evenly over the circle.
   subroutine make_probes(drive, speed, probes)
     type(drive_t), intent(in) :: drive !< of the pendulum
     real(c_double), intent(in) :: speed(:) !< [n] rad per drive radian
@@ -36,11 +35,11 @@ contains
     probes%image(2, :) = velocity
   end subroutine make_probes
 
-  !> What the Taylor series may miss in a period, of hypot(pi, v): rounding, which a period of a strong drive makes larger. Measured
-  !> between two numbers of steps.
+  !> Measures the error of the Taylor series in a period, relative to hypot(pi, v), by comparing two numbers of steps.
+  !> It is rounding, which a strong drive amplifies.
   real(c_double) function measure_quad(drive, fastest) result(error)
     type(drive_t), intent(in) :: drive !< of the pendulum
-    real(c_double), intent(in) :: fastest !< speeds up to this one, rad per drive radian
+    real(c_double), intent(in) :: fastest !< Largest speed, rad per drive radian
     integer, parameter :: N = 128, MORE_STEPS = 8
     real(c_double), parameter :: PI = real(PI_QUAD, c_double), MARGIN = 4, LEAST = 5e-34_c_double
     type(drive_t) :: other
@@ -54,7 +53,8 @@ contains
     call make_probes(drive, speed, probes)
     call make_probes(other, speed, repeated)
     angle = probes%image(1, :) - repeated%image(1, :)
-    distance = hypot(PI*real(angle - 2*anint(angle/2), c_double), real(probes%image(2, :) - repeated%image(2, :), c_double))
+    distance = hypot(PI*real(angle - 2*anint(angle/2), c_double), &
+                     real(probes%image(2, :) - repeated%image(2, :), c_double))
     error = MARGIN*maxval(max(LEAST, distance/hypot(PI, speed)))
   end function measure_quad
 

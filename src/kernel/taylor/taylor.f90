@@ -1,5 +1,5 @@
-!> The reference: whole periods of the pendulum's equation (kz_model_pendulum) in quad precision (real128), by Taylor
-!> series of fixed order (taylor_steps.c) in steps that are halved until the series of every step is complete.
+!> The reference integrator: whole periods of the pendulum's equation (kz_model_pendulum) in quad precision (real128),
+!> by Taylor series of fixed order (taylor_steps.c) in steps that are halved until every series is complete.
 module kz_taylor_taylor
   use, intrinsic :: iso_c_binding, only: dp => c_double, c_int32_t, c_int64_t
   use, intrinsic :: iso_fortran_env, only: real128, int64
@@ -12,15 +12,15 @@ module kz_taylor_taylor
   public :: drive_t, make_drive, advance_period, doubles_of, qp
 
   integer, parameter :: qp = real128
-  !> Steps a period with which every period is right to some 1e-33: KZ_REFERENCE_STEPS of kernel.h.
+  !> Steps per period for an error of some 1e-33: KZ_REFERENCE_STEPS of kernel.h.
   integer, parameter, public :: TAYLOR_STEPS = 18
-  !> The same with which periods are right to 1e-20, beside which doubles are measured: fewer orders take a third of the time.
+  !> Steps per period for an error of 1e-20, enough to measure doubles: fewer orders take a third of the time.
   integer, parameter, public :: ROUGH_STEPS = 20
   real(qp), parameter, public :: PI_QUAD = 3.14159265358979323846264338327950288_qp
   real(qp), parameter :: TWO_PI = 2*PI_QUAD
-  !> Quarters of a step a period that each further harmonic takes: with fewer, most steps are halved (measured with 2 to 24 harmonics).
+  !> Quarters of a step per period for each further harmonic: with fewer, most steps are halved (measured for 2 to 24).
   integer, parameter :: MORE_FOR_HARMONICS = 7
-  !> How often steps may be halved.
+  !> Largest number of halvings of a step.
   integer, parameter :: FINEST = 24
   !> KZ_TAYLOR_LANES, KZ_TAYLOR_DEEP, KZ_TAYLOR_LAST of taylor_steps.c.
   integer, parameter :: LANES = 8, DEEP_ORDERS = 4, LAST_ORDER = 56
@@ -42,15 +42,15 @@ module kz_taylor_taylor
     real(dp) :: theta(LANES, 3), w(LANES, 3), s(LANES, 3), c(LANES, 3)
   end type state_t
 
-  !> A pendulum with the drive's series at the start of every step of a period, unhalved and halved once.
+  !> A pendulum with the drive's series in every step of a period, and in every half step.
   type :: drive_t
     type(pendulum_t) :: pendulum
     integer :: n_steps
-    integer :: requested !< steps a period if the drive were a sine
-    integer(c_int32_t) :: rough = 0 !< 1: periods are right to 1e-20 only
+    integer :: requested !< Steps per period if the drive were a sine
+    integer(c_int32_t) :: rough = 0 !< 1: errors up to 1e-20
     type(stretch_t) :: stretch
     type(force_t), allocatable :: force(:)
-    type(force_t), allocatable :: halved(:) !< of steps half as long
+    type(force_t), allocatable :: halved(:) !< Series of half steps
   end type drive_t
 
   interface
@@ -67,13 +67,13 @@ module kz_taylor_taylor
 
 contains
 
-  !> The drive of a pendulum for n_steps steps a period, or in a stretch of it.
+  !> Makes the drive of a pendulum for n_steps steps per period, or per stretch of it.
   pure subroutine make_drive(drive, pendulum, n_steps, stretch, rough)
-    type(drive_t), intent(out) :: drive !< the series of the drive for each step
+    type(drive_t), intent(out) :: drive !< Series of the drive for each step
     type(pendulum_t), intent(in) :: pendulum !< the pendulum
-    integer, intent(in) :: n_steps !< steps a period where the motion is gentle and the drive a sine; harmonics take more
-    type(stretch_t), intent(in), optional :: stretch !< left out: a whole period
-    logical, intent(in), optional :: rough !< true: ROUGH_STEPS give 20 digits; left out: 33
+    integer, intent(in) :: n_steps !< Steps for a gentle motion and a sine; harmonics take more
+    type(stretch_t), intent(in), optional :: stretch !< Default: a whole period
+    logical, intent(in), optional :: rough !< True: 20 digits by ROUGH_STEPS; default: 33
     integer :: i
 
     if (present(rough)) drive%rough = merge(1_c_int32_t, 0_c_int32_t, rough)
@@ -83,14 +83,15 @@ contains
     drive%n_steps = n_steps + (MORE_FOR_HARMONICS*(highest_harmonic(pendulum) - 1))/4
     allocate (drive%force(drive%n_steps), drive%halved(2*drive%n_steps))
     do i = 1, drive%n_steps
-      drive%force(i) = force_of_step(drive, TWO_PI*drive%stretch%begin + (i - 1)*(TWO_PI*drive%stretch%span)/drive%n_steps, step_of(drive, 0))
+      drive%force(i) = force_of_step(drive, TWO_PI*drive%stretch%begin &
+                                     + (i - 1)*(TWO_PI*drive%stretch%span)/drive%n_steps, step_of(drive, 0))
     end do
     do i = 1, 2*drive%n_steps
       drive%halved(i) = force_of_step(drive, TWO_PI*drive%stretch%begin + (i - 1)*step_of(drive, 1), step_of(drive, 1))
     end do
   end subroutine make_drive
 
-  !> rad, after a number of halvings.
+  !> Length of a step after a number of halvings, rad.
   pure real(qp) function step_of(drive, halvings) result(h)
     type(drive_t), intent(in) :: drive
     integer, intent(in) :: halvings
@@ -128,7 +129,7 @@ contains
     rounded%rest = real(series(:DEEP_ORDERS - 1) - rounded%high(:DEEP_ORDERS - 1) - rounded%low(:DEEP_ORDERS - 1), dp)
   end function round_series
 
-  !> A number as a sum of n doubles, the largest first.
+  !> Rounds a number to a sum of n doubles, the largest first.
   pure function doubles_of(x, n) result(part)
     real(qp), intent(in) :: x !< a number
     integer, intent(in) :: n !< 3 hold all its digits
@@ -143,7 +144,7 @@ contains
     end do
   end function doubles_of
 
-  !> The damping and the drive where they change.
+  !> Applies the changes of damping and drive in a stretch.
   pure subroutine put_along(drive, turn, h, along, across, damping)
     type(drive_t), intent(in) :: drive
     real(qp), intent(in) :: turn, h
@@ -159,7 +160,7 @@ contains
     damping = h*damping
   end subroutine put_along
 
-  !> series = series * polynomial.
+  !> Multiplies a series by a polynomial.
   pure subroutine multiply_series(polynomial, series)
     real(qp), intent(in) :: polynomial(0:CUBIC)
     real(qp), intent(inout) :: series(0:)
@@ -170,12 +171,12 @@ contains
     end do
   end subroutine multiply_series
 
-  !> One whole drive period from t = 0, or the stretch. A state that no step is fine enough for becomes NaN.
+  !> Advances by a drive period from t = 0, or by the stretch. A state for which no step is short enough becomes NaN.
   pure subroutine advance_period(drive, theta, velocity, turns)
-    type(drive_t), intent(in) :: drive !< what make_drive gave
+    type(drive_t), intent(in) :: drive !< Drive from make_drive
     real(qp), intent(inout) :: theta(:) !< Angles, rad; come back wrapped.
     real(qp), intent(inout) :: velocity(:) !< Velocities, rad per drive radian.
-    integer(int64), intent(inout) :: turns(:) !< Gain the net number of turns.
+    integer(int64), intent(inout) :: turns(:) !< Net turns are added.
     logical :: waiting(size(theta))
     integer :: halvings, first
 
@@ -196,13 +197,13 @@ contains
     end where
   end subroutine advance_period
 
-  !> Advances the next waiting states from `first` on, as many as there are lanes; those carried wait no longer.
+  !> Advances the next waiting states from `first` on, one per lane; successful ones wait no longer.
   pure subroutine advance_waiting(drive, halvings, theta, velocity, waiting, first)
     type(drive_t), intent(in) :: drive
     integer, intent(in) :: halvings
     real(qp), intent(inout) :: theta(:), velocity(:)
     logical, intent(inout) :: waiting(:)
-    integer, intent(inout) :: first !< Comes back as where to go on.
+    integer, intent(inout) :: first !< Becomes the next state to look at.
     real(qp) :: lane_theta(LANES), lane_velocity(LANES)
     logical :: done(LANES)
     integer :: state(LANES), n, i
@@ -230,12 +231,12 @@ contains
     end do
   end subroutine advance_waiting
 
-  !> One period of every lane.
+  !> Advances every lane by one period.
   pure subroutine advance_lanes(drive, halvings, theta, velocity, done)
     type(drive_t), intent(in) :: drive
     integer, intent(in) :: halvings
     real(qp), intent(inout) :: theta(LANES), velocity(LANES)
-    logical, intent(inout) :: done(LANES) !< Which lanes are in use; set to false where a series did not converge.
+    logical, intent(inout) :: done(LANES) !< Lanes in use; becomes false if a series did not converge.
     type(state_t) :: state
     integer(c_int32_t) :: converged(LANES)
     real(qp) :: h
@@ -255,7 +256,8 @@ contains
       call advance_steps(size(drive%halved, kind=c_int64_t), drive%rough, drive%halved, state, converged)
     else
       do i = 1, drive%n_steps*2**halvings
-        call advance_steps(1_c_int64_t, drive%rough, [force_of_step(drive, TWO_PI*drive%stretch%begin + (i - 1)*h, h)], state, converged)
+        call advance_steps(1_c_int64_t, drive%rough, &
+                           [force_of_step(drive, TWO_PI*drive%stretch%begin + (i - 1)*h, h)], state, converged)
         if (all(converged == 0)) exit
       end do
     end if

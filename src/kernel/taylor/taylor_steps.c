@@ -1,27 +1,27 @@
-/* Steps of the Taylor series of the pendulum's equation for a few orbits at once: the inner loops of the quad-precision reference, for
- * which taylor.f90 makes the forces.
+/* Taylor steps of the pendulum's equation for a few orbits at once, the inner loops of the quad-precision reference
+ * (taylor.f90).
  *
  * With w = h theta', s = sin theta, c = cos theta over t = t0 + h x, 0 <= x <= 1, the scaled coefficients obey
  *   (n+1) w_(n+1) = -sum_i (d_i w_(n-i) + f_i s_(n-i) + g_i c_(n-i)) + p_n,
  *   (n+1) s_(n+1) = sum_i c_i w_(n-i),  (n+1) c_(n+1) = -sum_i s_i w_(n-i),
- * where d, f, g and p are damping, along, across and torque. The orders up to KZ_TAYLOR_DEEP are sums of three doubles, those up to KZ_TAYLOR_FINE of
- * two (32 digits); those beyond, smaller than 1e-16 of the motion, need 16 digits and are plain doubles. States are sums of three doubles:
- * steps add up without loss. Images beside which those of doubles are measured need 20 digits, and so fewer orders and shorter steps (ROUGH). */
+ * where d, f, g and p are damping, along, across and torque. Orders up to KZ_TAYLOR_DEEP are sums of three doubles, up
+ * to KZ_TAYLOR_FINE of two (32 digits); higher ones, below 1e-16 of the motion, are doubles. States are sums of three
+ * doubles, so that steps add up without loss. ROUGH: 20 digits, enough to measure doubles. */
 #include "triples.h"
 
-/* Number of orbits at once; highest order in sums of three doubles; in pairs of doubles; highest order; powers of time in a damping that changes. */
+/* Orbits at once; highest order in triples; in pairs; in doubles; coefficients of a damping that changes. */
 enum { KZ_TAYLOR_LANES = 8, KZ_TAYLOR_DEEP = 4, KZ_TAYLOR_FINE = 28, KZ_TAYLOR_LAST = 56, KZ_TAYLOR_DAMPING = 4 };
 
-/* A series in the time of a step, the same for all orbits: sums of two doubles, the first orders of three. */
+/* A series in the time of a step for all orbits: sums of two doubles, the first orders of three. */
 typedef struct {
   double high[KZ_TAYLOR_LAST], low[KZ_TAYLOR_LAST], rest[KZ_TAYLOR_DEEP];
 } kz_taylor_shared;
 
-/* The force over a step h, as (h theta')' = -damping h theta' - along sin theta - across cos theta + torque in the time of the step. */
+/* The force of a step: (h theta')' = -damping h theta' - along sin theta - across cos theta + torque in its time. */
 typedef struct {
   kz_taylor_shared along, across, torque;
-  double damping[3][KZ_TAYLOR_DAMPING];    /* the largest parts first */
-  int32_t has_across, is_damping_changing; /* 1 if there are `across` and `torque`; 1 if the damping changes */
+  double damping[3][KZ_TAYLOR_DAMPING];    /* Largest parts first */
+  int32_t has_across, is_damping_changing; /* 1 with `across` and `torque`; 1 if the damping changes */
 } kz_taylor_force;
 
 /* theta (rad), h theta', sin theta, cos theta of the orbits, as sums of three doubles. */
@@ -31,7 +31,7 @@ typedef struct {
 
 enum { DEEP = KZ_TAYLOR_DEEP, FINE = KZ_TAYLOR_FINE, LAST = KZ_TAYLOR_LAST, SIZE_ORDERS = 5 };
 
-/* Orders as above, and the largest coefficients at `fine` and at `last`, relative to the motion's own size, which the orders below GENTLE determine. */
+/* Highest orders of each level; largest coefficients at `fine` and `last` relative to the orders below SIZE_ORDERS. */
 typedef struct {
   int64_t deep, fine, last;
   double coarse, tolerance;
@@ -39,7 +39,7 @@ typedef struct {
 
 static const orders FULL_PRECISION = {DEEP, FINE, LAST, 1e-16, 1e-33}, ROUGH = {1, 12, 32, 1e-6, 1e-20};
 
-/* The orders of w, s or c: triples up to DEEP, pairs up to FINE, the high parts alone beyond. */
+/* Orders of w, s or c: triples up to DEEP, pairs up to FINE, high parts of all. */
 typedef struct {
   triple deep[DEEP + 1];
   pair fine[FINE + 1];
@@ -52,8 +52,9 @@ typedef struct {
 
 /* 1/n to 32 digits, n = 1 .. LAST + 1: a double times n fits a long double. */
 #define INVERSE(n) {1.0 / (n), (double)(1.0L - (long double)(1.0 / (n)) * (n)) / (n)}
-#define INVERSES(n) \
-  INVERSE(n), INVERSE(n + 1), INVERSE(n + 2), INVERSE(n + 3), INVERSE(n + 4), INVERSE(n + 5), INVERSE(n + 6), INVERSE(n + 7)
+#define INVERSES(n)                                                                                           \
+  INVERSE(n), INVERSE(n + 1), INVERSE(n + 2), INVERSE(n + 3), INVERSE(n + 4), INVERSE(n + 5), INVERSE(n + 6), \
+      INVERSE(n + 7)
 static const double inverses[][2] = {INVERSES(1),  INVERSES(9),  INVERSES(17), INVERSES(25),
                                      INVERSES(33), INVERSES(41), INVERSES(49), INVERSE(57)};
 _Static_assert(sizeof inverses / sizeof *inverses == LAST + 1, "one for each order, and one beyond");
@@ -82,7 +83,7 @@ KZ_INLINE void set_deep(coefficients *x, int64_t n, double sign, triple total) {
   x->coarse[n] = x->fine[n].high;
 }
 
-/* Vectors of orbits beside each other: in doubles all of them, because the sums of one alone wait for each product. */
+/* Vectors advanced at once: in doubles all, to hide the latency of sums. */
 #define CHAINS (KZ_TAYLOR_LANES / LANES)
 #define CHAINS_deep 1
 #define CHAINS_fine 1
@@ -115,7 +116,7 @@ KZ_INLINE void set_deep(coefficients *x, int64_t n, double sign, triple total) {
 #define KZ_LEVEL coarse
 #include "motion.inc"
 
-/* The sum of the orders from 1 on, each divided by its number plus 1 where they are `integrated`; smallest terms first. */
+/* Sums the orders from 1 on, divided by order + 1 if `integrated`, smallest terms first. */
 KZ_INLINE triple sum_of(const coefficients *x, orders of, bool integrated) {
   pair total = {broadcast(0), broadcast(0)};
   for (int64_t n = of.last; n > of.fine; n--)
@@ -137,8 +138,7 @@ KZ_INLINE vector larger_of(vector a, vector b) {
   return blend(a > b, a, b);
 }
 
-/* Whether the coefficients of order n and of its neighbours below are at most a bound: one may vanish by chance or by symmetry. Not where one is
- * no number. */
+/* True where orders n - 2 .. n, one of which may vanish by symmetry, are at most a bound; false for NaN. */
 KZ_INLINE mask is_small(const series *x, int64_t n, vector bound) {
   mask small = broadcast(0) == broadcast(0);
   for (int64_t i = n - 2; i <= n; i++)
@@ -147,7 +147,7 @@ KZ_INLINE mask is_small(const series *x, int64_t n, vector bound) {
   return small;
 }
 
-/* Whether the series are complete at the last order, and small enough at `fine` for what follows. */
+/* True where the series are complete at the last order, and small enough at `fine` for plain doubles. */
 KZ_INLINE mask is_complete(const series *x, orders of) {
   vector motion = broadcast(0);
   for (int64_t i = 0; i < SIZE_ORDERS; i++)
@@ -169,7 +169,7 @@ KZ_INLINE void save_triple(triple x, double (*to)[KZ_TAYLOR_LANES], int64_t firs
   for (int i = 0; i < 3; i++) *(vector *)(to[i] + first) = x.part[i];
 }
 
-/* Rest where the mask is not set: what is lost does not overflow. */
+/* Sets lanes outside of the mask to 0, so that nothing overflows. */
 KZ_INLINE triple clear_unless(mask where, triple x) {
   for (int i = 0; i < 3; i++) x.part[i] = blend(where, x.part[i], broadcast(0));
   return x;
@@ -187,7 +187,7 @@ KZ_INLINE void begin_series(series *x, kz_taylor_state *state, int64_t first) {
   set_order_zero(load_triple(state->c, first), &x->c);
 }
 
-/* Adds a step to one chain, and clears what is not `well`. */
+/* Adds a step to one vector of orbits, and clears those that have not converged. */
 KZ_INLINE void end_step(const series *x, orders of, kz_taylor_state *state, int64_t first, mask *converged) {
   *converged &= is_complete(x, of);
   const triple theta = add_triples(load_triple(state->theta, first), x->w.deep[0]);
@@ -197,7 +197,7 @@ KZ_INLINE void end_step(const series *x, orders of, kz_taylor_state *state, int6
   save_triple(clear_unless(*converged, add_triples(x->c.deep[0], sum_of(&x->c, of, false))), state->c, first);
 }
 
-/* The orders of all chains. */
+/* Computes the orders of all vectors. */
 KZ_INLINE void make_series(orders of, const kz_taylor_force *force, series *x) {
   for (int64_t j = 0; j < CHAINS; j++) {
     for (int64_t i = 0; i < of.deep; i++) next_deep(force, x + j, i);
@@ -206,9 +206,10 @@ KZ_INLINE void make_series(orders of, const kz_taylor_force *force, series *x) {
   for (int64_t i = of.fine; i < of.last; i++) next_coarse(force, x, i);
 }
 
-/* The steps of all orbits; where their series were complete. */
-KZ_INLINE void advance_orbits(int64_t n, orders of, const kz_taylor_force *force, kz_taylor_state *state, mask *converged) {
-  _Alignas(64) series x[CHAINS]; /* a vector that crosses lines of the cache takes twice as long */
+/* Advances all orbits by n steps; `converged` becomes false where a series was not complete. */
+KZ_INLINE void advance_orbits(int64_t n, orders of, const kz_taylor_force *force, kz_taylor_state *state,
+                              mask *converged) {
+  _Alignas(64) series x[CHAINS]; /* vectors across cache lines take twice as long */
   for (int64_t step = 0; step < n && is_any(converged); step++) {
     for (int64_t j = 0; j < CHAINS; j++) begin_series(&x[j], state, j * LANES);
     make_series(of, force + step, x);
@@ -216,10 +217,11 @@ KZ_INLINE void advance_orbits(int64_t n, orders of, const kz_taylor_force *force
   }
 }
 
-/* Does the steps force [n], one after the other, to 33 digits, or if `rough` to 20. well [KZ_TAYLOR_LANES] becomes 0 for an orbit whose series has
- * not converged at the last order, or is too large at the last order in pairs: it needs shorter steps, and its state is meaningless. Orbits are
- * independent. */
-void kz_taylor_steps(int64_t n, int32_t rough, const kz_taylor_force *force, kz_taylor_state *state, int32_t *converged) {
+/* Advances through the steps force [n] to 33 digits, or if `rough` to 20. converged [KZ_TAYLOR_LANES] becomes 0 for an
+ * orbit that needs shorter steps, because a series is too large at its last order or its last in pairs; its state is
+ * void. */
+void kz_taylor_steps(int64_t n, int32_t rough, const kz_taylor_force *force, kz_taylor_state *state,
+                     int32_t *converged) {
   mask complete[CHAINS];
   for (int64_t j = 0; j < CHAINS; j++) complete[j] = broadcast(0) == broadcast(0);
   if (rough)

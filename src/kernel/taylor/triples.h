@@ -1,6 +1,7 @@
-/* Numbers as sums of three doubles, the largest first: some 48 digits, in the lanes of a vector. Every operation takes mirror images to mirror
- * images. With u = 2^-53, and |x_1| <= 1.01 u S, |x_2| <= 1.03 u^2 S for the parts of a number of size S, what each operation gives obeys this
- * with its own size, and its error is a multiple of u^3 times that size: (B2) of docs/explanation/bounds.md. */
+/* Numbers as sums of three doubles, the largest first (some 48 digits), in the lanes of a vector. Every operation takes
+ * mirror images to mirror images. With u = 2^-53, if parts of numbers of size S obey |x_1| <= 1.01 u S, |x_2| <= 1.03
+ * u^2 S, so does the result of an operation with its own size, with an error of a multiple of u^3 times that size: (B2)
+ * of docs/explanation/bounds.md. */
 #pragma once
 
 #include "vector/pairs_arithmetic.h"
@@ -9,7 +10,7 @@ typedef struct {
   vector part[3];
 } triple;
 
-/* The same number: its parts may overlap before, or cancel. */
+/* Renormalises parts that overlap or cancel. */
 KZ_INLINE triple renormalise(triple x) {
   const pair b = two_sum(x.part[1], x.part[2]), a = two_sum(x.part[0], b.high), c = two_sum(a.low, b.low);
   return (triple){{a.high, c.high, c.low}};
@@ -27,7 +28,8 @@ KZ_INLINE void accumulate_deep(triple *total, triple a, triple b) {
   const pair first = two_sum(total->part[0], p), second = two_sum(total->part[1], first.low),
              third = two_sum(second.high, fmadd(x[0], y[0], -p)), fourth = two_sum(third.high, q),
              fifth = two_sum(fourth.high, r);
-  const vector small = fmadd(x[0], y[2], fmadd(x[1], y[1], fmadd(x[2], y[0], fmadd(x[0], y[1], -q) + fmadd(x[1], y[0], -r))));
+  const vector small =
+      fmadd(x[0], y[2], fmadd(x[1], y[1], fmadd(x[2], y[0], fmadd(x[0], y[1], -q) + fmadd(x[1], y[0], -r))));
   total->part[0] = first.high;
   total->part[1] = fifth.high;
   total->part[2] += small + ((second.low + third.low) + (fourth.low + fifth.low));
@@ -40,19 +42,19 @@ KZ_INLINE triple multiply_triples(triple x, triple y) {
   return renormalise(product);
 }
 
-/* The first two of its doubles: to 32 digits. */
+/* Rounds to the first two doubles (32 digits). */
 KZ_INLINE pair upper_pair(triple x) {
   return (pair){x.part[0], x.part[1]};
 }
 
-/* sign / n for an integer n whose inverse has these first two parts: what they leave of 1, over n, is the third. */
+/* sign / n for an integer n whose inverse has the first two parts i. */
 KZ_INLINE triple inverse_triple_with(double sign, double n, const double i[2]) {
   const double left = __builtin_fma(-i[1], n, __builtin_fma(-i[0], n, 1.0));
   return (triple){{broadcast(sign * i[0]), broadcast(sign * i[1]), broadcast(sign * (left / n))}};
 }
 
-/* Series whose first orders are triples ("deep"), the next pairs ("fine"), and the last, which are small, doubles ("coarse"): motion.inc is
- * made once for each KZ_LEVEL. The operations of a level end in its name. */
+/* Levels of a series: its first orders are triples ("deep"), the next pairs ("fine"), the last, which are small,
+ * doubles ("coarse"). motion.inc is compiled once for each KZ_LEVEL, whose operations end in its name. */
 #define KZ_PASTE(a, b) a##b
 #define KZ_JOIN(a, b) KZ_PASTE(a, b)
 #define KZ_OF_LEVEL(name) KZ_JOIN(name, KZ_LEVEL)
@@ -66,7 +68,7 @@ KZ_INLINE void accumulate_fine(pair *total, pair a, pair b) {
 KZ_INLINE void accumulate_coarse(vector *total, vector a, vector b) {
   *total = fmadd(a, b, *total);
 }
-/* The number a + b + c, the same in all lanes; a level takes those that it has. */
+/* The number a + b + c in all lanes; pairs and doubles drop the last parts. */
 #define KZ_CONSTANT_deep(a, b, c) ((triple){{broadcast(a), broadcast(b), broadcast(c)}})
 #define KZ_CONSTANT_fine(a, b, c) ((pair){broadcast(a), broadcast(b)})
 #define KZ_CONSTANT_coarse(a, b, c) broadcast(a)

@@ -1,5 +1,4 @@
-/* Whether the processor takes subnormal numbers for 0. Orbits that decay onto an exact equilibrium end in them, and arithmetic
- * with them is some fifteen times slower on x86. */
+/* Flushing of subnormals, which are fifteen times slower on x86; orbits that decay onto an equilibrium end in them. */
 #include <stdint.h>
 
 #include "kapitza/common_border.h"
@@ -30,7 +29,8 @@ static void write_control(uint64_t control) {
 #error "the control word of this processor is not known"
 #endif
 
-/* The control word as it was; from now on subnormal numbers are 0. Every batch of periods begins with it, so that it looks for a stop request. */
+/* Makes the processor take subnormal numbers for 0; returns the control word for kz_restore_control. Every batch of
+ * periods begins with it, so it also looks for a stop request. */
 uint64_t kz_flush_subnormals(void) {
   kz_look();
   const uint64_t control = read_control();
@@ -38,7 +38,7 @@ uint64_t kz_flush_subnormals(void) {
   return control;
 }
 
-/* Puts a control word back. */
+/* Restores a control word. */
 void kz_restore_control(uint64_t control) {
   write_control(control);
 }

@@ -1,4 +1,4 @@
-!> Errors of a drive period that were measured last, of any integrator: a study asks for them before a run, which may be refused, and after it.
+!> A cache of measured errors of a drive period: a study asks for them before a run, for checks, and after it.
 module kz_vector_kept_errors
   use, intrinsic :: iso_c_binding, only: c_double, c_int64_t, c_ptr, c_null_ptr, c_associated, c_f_pointer
   use kz_vector_locks, only: take_lock, leave_lock
@@ -6,28 +6,28 @@ module kz_vector_kept_errors
   private
   public :: kept_errors_t, recall_errors, keep_errors
 
-  !> How many are kept: a sweep tries 17 values.
+  !> Capacity of the cache: a sweep tries 17 values.
   integer, parameter :: MEASURED = 24
 
-  !> Errors, and all numbers that they depend on.
+  !> Errors, with the bits of all numbers that they depend on.
   type :: errors_t
     integer(c_int64_t), allocatable :: key(:)
     real(c_double), allocatable :: error(:)
   end type errors_t
 
-  !> The first part of what kz_kept_series of kernel.h points at. The thread that holds the lock uses it.
+  !> The first part of the target of kz_kept_series (kernel.h). The thread that holds the lock uses it.
   type :: kept_errors_t
     type(c_ptr) :: lock = c_null_ptr
     type(errors_t), private :: measured(MEASURED)
-    integer, private :: n_measured = 0 !< so far
+    integer, private :: n_measured = 0 !< Number of errors kept so far
   end type kept_errors_t
 
 contains
 
-  !> Errors that were measured before, if they are kept.
+  !> Returns true and the errors if they were measured before.
   logical function recall_errors(handle, key, error) result(known)
-    type(c_ptr), intent(in) :: handle !< kz_kept_series of kernel.h; null = nothing is kept
-    integer(c_int64_t), intent(in) :: key(:) !< the bits of all numbers that the errors depend on
+    type(c_ptr), intent(in) :: handle !< kz_kept_series of kernel.h; null = no cache
+    integer(c_int64_t), intent(in) :: key(:) !< Bits of all numbers that the errors depend on
     real(c_double), intent(inout) :: error(:) !< rad; unchanged where they are not known
     type(kept_errors_t), pointer :: kept
     integer :: i
@@ -47,7 +47,7 @@ contains
 
   !> Keeps errors in place of the oldest.
   subroutine keep_errors(handle, key, error)
-    type(c_ptr), intent(in) :: handle !< as recall_errors takes them
+    type(c_ptr), intent(in) :: handle !< Cache, see recall_errors
     integer(c_int64_t), intent(in) :: key(:)
     real(c_double), intent(in) :: error(:) !< rad
     type(kept_errors_t), pointer :: kept

@@ -1,8 +1,6 @@
-!> A stroboscopic map: one drive period of a batch of trajectories. The kernel extends it for each family of schemes; the map
-!> table of the dynamics extends it by interpolation.
-!>
-!> Inside, angles are in half-turns, u = theta/pi: the wrap to [-1, 1] is exact, and the mirror image (-u, -v) of a state goes
-!> to the mirror image of its image, to the bit.
+!> Stroboscopic maps: one drive period of a batch of trajectories. The kernel extends them for each family of schemes,
+!> the map table of the dynamics by interpolation. Angles are in half-turns, u = theta/pi: the wrap to [-1, 1] is exact,
+!> and mirror images (-u, -v) of states have mirrored images, to the bit.
 module kz_vector_map
   use, intrinsic :: iso_c_binding, only: c_double, c_int64_t
   implicit none
@@ -11,14 +9,14 @@ module kz_vector_map
 
   !> Trajectories per batch; a multiple of every vector width.
   integer, parameter :: WIDTH = 64
-  !> Lanes of a map: those that are advanced, and as many states that wait for a free one.
+  !> Lanes of a map: those that are advanced, and as many waiting states.
   integer, parameter :: CAPACITY = 2*WIDTH
   real(c_double), parameter :: PI = 3.14159265358979323846_c_double
 
   type, abstract :: map_t
-    real(c_double) :: u(CAPACITY) = 0 !< angle in half-turns, wrapped to [-1, 1]
-    real(c_double) :: v(CAPACITY) = 0 !< velocity in rad per drive radian
-    integer(c_int64_t) :: turns(CAPACITY) = 0 !< net turns, counterclockwise +
+    real(c_double) :: u(CAPACITY) = 0 !< Angles in half-turns, wrapped to [-1, 1]
+    real(c_double) :: v(CAPACITY) = 0 !< Velocities in rad per drive radian
+    integer(c_int64_t) :: turns(CAPACITY) = 0 !< Net turns, counterclockwise +
   contains
     !> Puts a state into a lane and sets its turns to 0.
     procedure :: put => put_state
@@ -28,28 +26,28 @@ module kz_vector_map
     procedure :: move => move_state
     !> Advances the lanes 1 .. n (or all) by one period.
     procedure(advance_i), deferred :: advance
-    !> Takes the lanes first .. n (first = 1 if left out; at most WIDTH lanes) from physical coordinates (angle, velocity) to those in which the map
-    !> advances them, and back. The maps in both coordinates are conjugate: same cycles, multipliers, windings and basins.
-    !> matrix(:, :, lane), if present, is multiplied by the derivative of the change; flows alone know it.
+    !> Changes the lanes first .. n (default 1; at most WIDTH lanes) from physical coordinates (angle, velocity) to
+    !> those of the map, and back. The maps in both coordinates are conjugate: same cycles, multipliers, windings and
+    !> basins. matrix(:, :, lane), if present, is multiplied by the derivative of the change (flows only).
     procedure :: to_map => same_coordinates
     procedure :: to_physical => same_coordinates
     !> Advances the lanes 1 .. n by one period, from physical states to physical states.
     procedure :: advance_physical
   end type map_t
 
-  !> A map that is integrated: it also has its derivative, and the states within the period.
+  !> A map by integration, which also has its derivative and the states within the period.
   type, abstract, extends(map_t) :: flow_t
-    logical :: single = .false. !< `advance` may work in single precision
+    logical :: single = .false. !< True: `advance` may work in single precision
   contains
-    !> Advances the lanes 1 .. n by one period; matrix(:, :, lane) is multiplied by the derivative of (theta, v), both in rad.
+    !> Advances the lanes 1 .. n by one period; matrix(:, :, lane) is multiplied by the derivative of (theta, v), rad.
     procedure(advance_tangent_i), deferred :: advance_tangent
-    !> Advances the lanes 1 .. n by one period; tangent(lane, :), if only to three digits: the derivatives of theta by theta and v, of v by
-    !> both, rad.
+    !> Advances the lanes 1 .. n by one period. tangent(lane, :): Jacobian of (theta, v) by rows, rad, about 3 digits.
     procedure :: advance_linear => linear_of_tangent
-    !> Where a period takes neighbours of states, to three digits at least. by(:, j, i), in: neighbour j less state i before the period; out:
-    !> image of the neighbour less image of the state; rad, rad per drive radian. The lanes stay as advance_linear has left them.
+    !> Maps neighbours of states by one period, to three digits or better. by(:, j, i), in: neighbour j less state i
+    !> before the period; out: its image less the image of the state; rad, rad per drive radian. The lanes do not
+    !> change.
     procedure :: displace => displace_by_states
-    !> Advances the lanes 1 .. size(u, 2) by one period, shown at n equal times in physical coordinates; u(n, :) is not yet wrapped.
+    !> Samples one period of the lanes 1 .. size(u, 2) at n equal times in physical coordinates; u(n, :) is not wrapped.
     procedure(sample_i), deferred :: sample
   end type flow_t
 
@@ -88,7 +86,7 @@ contains
     if (present(matrix) .or. present(first)) return
   end subroutine same_coordinates
 
-  !> By advance_tangent.
+  !> Default of advance_linear, by advance_tangent.
   subroutine linear_of_tangent(self, n, tangent)
     class(flow_t), intent(inout) :: self
     integer, intent(in) :: n
@@ -105,7 +103,7 @@ contains
     end do
   end subroutine linear_of_tangent
 
-  !> By the map of the neighbours themselves.
+  !> Default of displace, by the map of the neighbours themselves.
   subroutine displace_by_states(self, lane, u, v, by)
     class(flow_t), intent(inout) :: self
     integer, intent(in) :: lane(:) !< [n] lanes of u and v

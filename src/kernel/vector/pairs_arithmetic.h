@@ -1,5 +1,5 @@
-/* Numbers as sums of two doubles, high + low with |low| at most half a unit in the last place of high: some 32 digits, in the lanes
- * of a vector. Sums by Knuth (two_sum) and Dekker (quick_two_sum), products by the fused operation, whose rounding error is exact. Files
+/* Numbers as sums of two doubles, high + low with |low| at most half a unit in the last place of high (some 32 digits),
+ * in the lanes of a vector. Sums by Knuth (two_sum) and Dekker (quick_two_sum), products by fused multiply-add. Files
  * that include this are compiled without contraction. Every operation takes mirror images to mirror images. */
 #pragma once
 
@@ -90,13 +90,13 @@ KZ_INLINE pair product_unnormalised(pair x, pair y) {
   return (pair){p, fmadd(x.high, y.low, fmadd(x.low, y.high, fmadd(x.high, y.high, -p)))};
 }
 
-/* x y; the error is at most 6.01 u^2 |x y|, u = 2^-53: 2 and 3 from the two roundings, 1 from the product of the low parts. */
+/* x y; the error is at most 6.01 u^2 |x y|, u = 2^-53: 2 and 3 from the roundings, 1 from the product of low parts. */
 KZ_INLINE pair multiply_pairs(pair x, pair y) {
   const pair p = product_unnormalised(x, y);
   return quick_two_sum(p.high, p.low);
 }
-/* total += a b, high parts without error; the low part of the total sums their rounding errors and the low parts of the products, and is not
- * carried up (Ogita, Rump, Oishi, SIAM J. Sci. Comput. 26 (2005) 1955). */
+/* total += a b, high parts without error; the low part of the total sums rounding errors and low parts of the products,
+ * without renormalisation (Ogita, Rump, Oishi, SIAM J. Sci. Comput. 26 (2005) 1955). */
 KZ_INLINE void accumulate_pair(pair *total, pair a, pair b) {
   const vector p = a.high * b.high;
   const pair t = two_sum(total->high, p);
@@ -104,23 +104,22 @@ KZ_INLINE void accumulate_pair(pair *total, pair a, pair b) {
   total->low += t.low + fmadd(a.high, b.low, fmadd(a.low, b.high, fmadd(a.high, b.high, -p)));
 }
 
-/* x y + c, c [2] the same in every lane: a step of Horner's scheme. The parts may overlap by some bits. Terms with x.low come last, because
- * a chain of steps waits only for the high parts. */
+/* x y + c, c [2] for every lane: a step of Horner's scheme. The parts may overlap by some bits. Terms with x.low come
+ * last, because a chain of steps waits only for the high parts. */
 KZ_INLINE pair horner_step(pair x, pair y, const double *c) {
   const vector p = x.high * y.high, rest = fmadd(x.high, y.low, fmadd(x.high, y.high, -p));
   const pair s = two_sum(broadcast(c[0]), p);
   return (pair){s.high, fmadd(x.low, y.high, rest + (s.low + c[1]))};
 }
 
-/* The same where |c| >= |x y|. */
+/* x y + c for |c| >= |x y|. */
 KZ_INLINE pair ordered_horner_step(pair x, pair y, const double *c) {
   const vector p = x.high * y.high, rest = fmadd(x.high, y.low, fmadd(x.high, y.high, -p));
   const pair s = quick_two_sum(broadcast(c[0]), p);
   return (pair){s.high, fmadd(x.low, y.high, rest + (s.low + c[1]))};
 }
 
-/* c[0] + c[1] x + .. of pairs c [n][2]; of those from n_pairs on, which are small, only the high parts. The parts of the result may
- * overlap by some bits. */
+/* c[0] + c[1] x + .. with pairs c [n][2], from n_pairs on as doubles. The parts of the result may overlap. */
 KZ_INLINE pair evaluate_pairs(int64_t n, int64_t n_pairs, const double *c, pair x) {
   pair p = {broadcast(0), broadcast(0)};
   for (int64_t j = n - 1; j >= n_pairs; j--) p.high = fmadd(p.high, x.high, broadcast(c[2 * j]));
@@ -128,7 +127,7 @@ KZ_INLINE pair evaluate_pairs(int64_t n, int64_t n_pairs, const double *c, pair 
   return p;
 }
 
-#define KZ_ROUND_TO_EVEN 0x3p52 /* adding it rounds to an even integer */
+#define KZ_ROUND_TO_EVEN 0x3p52 /* Adding it rounds to an even integer */
 
 /* An angle in half-turns less the even integer nearest to it, in [-1, 1]; *even = that integer. */
 KZ_INLINE pair reduce_half_turns(pair u, vector *even) {

@@ -1,13 +1,13 @@
-!> Constants of sin(pi u) in double precision: the reduction to half a turn, the polynomial, the vectors that compute it (sine.inc).
+!> Constants of sin(pi u) in doubles (sine.inc): reduction to half a turn, polynomial, length of vectors.
 module kz_vector_sine
   use, intrinsic :: iso_fortran_env, only: rk => real64, ik => int64
   implicit none
   private
   public :: SINE_COEFFICIENTS, ROUND_TO_INTEGER, SIGN_SHIFT, INVERSE_PI, VECTOR
 
-  !> Vector loops run over the whole batch.
+  !> Lanes of the longest vector, of which loops run over a multiple.
   integer, parameter :: VECTOR = 16
-  !> Adding it rounds to an integer whose parity is the lowest bit.
+  !> Number whose addition rounds to an integer, with the parity in the lowest bit.
   real(rk), parameter :: ROUND_TO_INTEGER = 1.5_rk*2.0_rk**(digits(1.0_rk) - 1)
   integer, parameter :: SIGN_SHIFT = bit_size(0_ik) - 1
   real(rk), parameter :: INVERSE_PI = 0.318309886183790671537767526745028724_rk

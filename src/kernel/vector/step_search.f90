@@ -1,21 +1,21 @@
-!> How many steps a drive period takes: the fewest found whose measured error is small enough. It serves every integrator whose
-!> error can be measured. Enclosures have a bound instead, and series of any digits test their own convergence.
+!> Searches the fewest steps per drive period whose measured error is small enough, for any integrator whose error can
+!> be measured. (Enclosures have a bound instead, and series of any digits test their own convergence.)
 module kz_vector_step_search
   use, intrinsic :: iso_c_binding, only: c_double, c_int32_t, c_funptr, c_ptr, c_f_procpointer
   implicit none
   private
   public :: integrator_t, search_steps, expected_steps
 
-  !> rad: a larger error says only that there are too few steps; and how much more are tried next at most.
+  !> Error above which the next number of steps cannot be predicted, rad; largest ratio of two tries.
   real(c_double), parameter :: LARGEST_ERROR = 1, MAX_GROWTH = 2
-  !> rad: below it an error that falls more slowly than as 1/steps is rounding, which more steps do not mend.
+  !> Error below which a decrease slower than 1/steps means rounding, which more steps do not reduce, rad.
   real(c_double), parameter :: ROUNDING_ERROR = 1e-3_c_double
 
   !> An integrator whose number of steps is searched.
   type, abstract :: integrator_t
-    integer :: order = 1  !< of convergence
-    integer :: stride = 2 !< numbers of steps after the first are multiples of it
-    !> How many more steps are tried than the order expects: 1 finds the fewest, more finds enough of them sooner.
+    integer :: order = 1  !< Order of convergence
+    integer :: stride = 2 !< Numbers of steps after the first are multiples of it
+    !> Factor on the steps that the order predicts: 1 finds the fewest, more finds enough of them sooner.
     real(c_double) :: growth_margin = 1
   contains
     procedure(measure_error), deferred :: measure_error
@@ -49,13 +49,13 @@ module kz_vector_step_search
 
 contains
 
-  !> Tries numbers of steps from `fewest` on, each the one that the order expects from the error of the former, until an error is at most
-  !> the tolerance. Where `most` steps, or any, do not reach it, the last error is above the tolerance.
+  !> Tries numbers of steps from `fewest` on, each predicted by the order from the last error, until an error is at most
+  !> the tolerance. If no number up to `most` reaches it, the last error is above the tolerance.
   subroutine search_steps(integrator, tolerance, fewest, most, n, error)
-    class(integrator_t), intent(inout) :: integrator !< the integrator; comes back with n steps
-    real(c_double), intent(in) :: tolerance !< rad, of one drive period
+    class(integrator_t), intent(inout) :: integrator !< Integrator; returned with n steps
+    real(c_double), intent(in) :: tolerance !< Largest error of one drive period, rad
     integer, intent(in) :: fewest, most !< first number of steps; last one allowed
-    integer, intent(out) :: n !< the last number tried; 0 where fewest exceeds most
+    integer, intent(out) :: n !< Last number tried; 0 if fewest exceeds most
     real(c_double), intent(out) :: error !< its error, rad
     real(c_double) :: former, wanted
     integer :: next, former_n
@@ -70,30 +70,33 @@ contains
       error = integrator%measure_error(n)
       if (error <= tolerance) exit
       if (former < ROUNDING_ERROR .and. error*n > former*former_n) exit
-      wanted = integrator%growth_margin*expected_steps(int(n, c_int32_t), min(error, LARGEST_ERROR), tolerance, int(integrator%order, c_int32_t))
+      wanted = integrator%growth_margin*expected_steps(int(n, c_int32_t), min(error, LARGEST_ERROR), tolerance, &
+                                                       int(integrator%order, c_int32_t))
       next = max(n + integrator%stride, integrator%stride*int(min(MAX_GROWTH*n, wanted)/integrator%stride))
     end do
   end subroutine search_steps
 
   !> kz_expected_steps of kernel.h.
-  pure real(c_double) function expected_steps(n, error, tolerance, order) bind(C, name='kz_expected_steps') result(steps)
+  pure real(c_double) function expected_steps(n, error, tolerance, order) bind(C, name='kz_expected_steps') &
+      result(steps)
     integer(c_int32_t), value :: n !< a number of steps
     real(c_double), value :: error !< its error, rad
     real(c_double), value :: tolerance !< the error that is asked for, rad
-    integer(c_int32_t), value :: order !< of convergence
+    integer(c_int32_t), value :: order !< Order of convergence
 
     steps = n*(error/tolerance)**(1.0_c_double/order)
   end function expected_steps
 
   !> kz_steps_search of kernel.h.
-  real(c_double) function c_search(function, context, order, tolerance, fewest, most, n) bind(C, name='kz_steps_search') result(error)
+  real(c_double) function c_search(function, context, order, tolerance, fewest, most, n) &
+      bind(C, name='kz_steps_search') result(error)
     type(c_funptr), value :: function
     type(c_ptr), value :: context
     integer(c_int32_t), value :: order
     real(c_double), value :: tolerance
     integer(c_int32_t), value :: fewest, most
     integer(c_int32_t), intent(out) :: n
-    real(c_double), parameter :: GROWTH_MARGIN = 1.125_c_double !< so few tries that a hopeless case is refused quickly
+    real(c_double), parameter :: GROWTH_MARGIN = 1.125_c_double !< Refuses hopeless cases after few tries
     type(c_integrator_t) :: integrator
     integer :: tried
 

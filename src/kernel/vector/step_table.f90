@@ -15,22 +15,23 @@ module kz_vector_step_table
 
   type, bind(C) :: numerics_t
     integer(c_int32_t) :: scheme, steps_per_period
-    !> of the processed splitting: powers of the velocity in a drift and coefficients of a kick; 0 = enough for every step
+    !> Processed splitting: powers of the velocity in a drift and coefficients of a kick; 0 = enough for every step
     integer(c_int32_t) :: drift_terms = 0
     integer(c_int32_t) :: kick_terms = 0
-    real(c_double) :: fastest = 0 !< speed up to which the processed splitting serves, rad per drive radian; 0 = 3
-    type(c_ptr) :: series = c_null_ptr !< of the processed splitting: series that are kept (kz_kept_series of kernel.h); null = none are
+    real(c_double) :: fastest = 0 !< Largest speed of the processed splitting, rad per drive radian; 0 = 3
+    type(c_ptr) :: series = c_null_ptr !< Cache of its series (kz_kept_series of kernel.h); null = none
   end type numerics_t
 
-  !> Split schemes: stage s is u += drift(s) v; v = decay(s) v; v -= kick(s) sin(pi (u - shift(s))) - push(s); after the last one a
-  !> drift more. rk4: kick(2 i + 1 .. 2 i + 3), shift and push at the beginning, middle and end of step i + 1. The force a sin theta - b
-  !> cos theta is one sine, kick = hypot(a, b) shifted by their angle; without b and torque kick = a, and there is neither shift nor push.
+  !> Tables of a period. Split schemes: stage s is u += drift(s) v; v = decay(s) v; v -= kick(s) sin(pi (u - shift(s)))
+  !> - push(s); after the last one another drift. rk4: kick(2 i + 1 .. 2 i + 3), shift and push at the beginning, middle
+  !> and end of step i + 1. The force a sin theta - b cos theta is one sine, kick = hypot(a, b) shifted by their angle;
+  !> without b and torque kick = a, and there is neither shift nor push.
   type :: period_t
     logical :: split
     integer :: n_steps
-    integer, allocatable :: step_end(:) !< the last stage of every step (n_steps); of use where the steps are not fused
-    real(rk), allocatable :: drift(:)   !< rad per unit of velocity
-    real(rk), allocatable :: drift_u(:) !< half-turns per unit of velocity
+    integer, allocatable :: step_end(:) !< (n_steps) Last stage of every step, if steps are not fused
+    real(rk), allocatable :: drift(:)   !< Rad per unit of velocity
+    real(rk), allocatable :: drift_u(:) !< Half-turns per unit of velocity
     real(rk), allocatable :: decay(:), kick(:)
     real(rk), allocatable :: shift(:)   !< half-turns
     real(rk), allocatable :: push(:)
@@ -41,15 +42,14 @@ module kz_vector_step_table
 
 contains
 
-  !> The tables of one period, or of a stretch of it. `fused` merges neighbouring entries of neighbouring steps; without it every step is complete in
-  !> itself.
+  !> Makes the tables of one period, or of a stretch of it.
   subroutine make_period(pendulum, numerics, fused, period, stretch)
-    type(pendulum_t), intent(in) :: pendulum !< k, beta, m
+    type(pendulum_t), intent(in) :: pendulum !< Pendulum
     type(numerics_t), intent(in) :: numerics !< scheme, steps a period
-    !> whether neighbouring entries of neighbouring steps are merged: faster, but no sampling within the period
+    !> True: the last entry of a step is merged with the next step's first: faster, but no samples within the period
     logical, intent(in) :: fused
-    type(period_t), intent(out) :: period !< drifts and kicks of one period
-    type(stretch_t), intent(in), optional :: stretch !< whose drive may change; left out: a whole period
+    type(period_t), intent(out) :: period !< Drifts and kicks of one period
+    type(stretch_t), intent(in), optional :: stretch !< Stretch whose drive may change; default: a whole period
     type(stretch_t) :: part
     real(qp) :: step
 
@@ -81,8 +81,7 @@ contains
     end do
   end subroutine rk4_tables
 
-  !> Walks through all entries of all steps. Fused: the last drift of a step is one with the first of the next; else every step is
-  !> complete in itself.
+  !> Sets all entries of all steps of a split scheme.
   subroutine split_tables(period, pendulum, stages, step, fused, part)
     type(period_t), intent(inout) :: period
     type(pendulum_t), intent(in) :: pendulum
@@ -90,8 +89,8 @@ contains
     real(qp), intent(in) :: step
     logical, intent(in) :: fused
     type(stretch_t), intent(in) :: part
-    !> exp(2 pi i t) at the beginning of the part and of the step, of a step, and of each stage counted from the beginning of its step: sums of
-    !> angles are products, which cost less than cosines in quad precision
+    !> exp(2 pi i t) at the beginning of the part and of the step; of the length of a step; of each stage within its
+    !> step. Products cost less than cosines in quad precision.
     complex(qp) :: clock_at_begin, clock_of_step, step_phasor, stage_phasor(size(stages))
     real(qp) :: time(period%n_steps*size(stages) + 1), elapsed(size(stages)), weight(size(stages)), shift
     integer :: n, i, s
@@ -132,7 +131,7 @@ contains
       call set_damped_drifts(period, time(:n + 1), step)
     end if
   contains
-    !> A kick after a share of step i; its own time counts where the drive changes alone.
+    !> Appends a kick after a share of step i.
     subroutine append_kick(weight, share, clock_of_turn)
       real(qp), intent(in) :: weight, share
       complex(qp), intent(in) :: clock_of_turn
@@ -167,12 +166,12 @@ contains
     phasor = cmplx(cos(2*PI*turn), sin(2*PI*turn), qp)
   end function phasor
 
-  !> Turns the times of the drifts into shares of the velocity: (1 - exp(-beta t))/beta and exp(-beta t).
+  !> Sets the drifts (1 - exp(-beta t))/beta and decays exp(-beta t) from their times.
   subroutine set_damped_drifts(period, share, step)
     type(period_t), intent(inout) :: period
-    real(qp), intent(in) :: share(:) !< of a step, that each drift takes
+    real(qp), intent(in) :: share(:) !< Share of a step of each drift
     real(qp), intent(in) :: step !< rad
-    !> drifts repeat from step to step
+    !> Entries to search for an equal drift, since drifts repeat from step to step
     integer, parameter :: LOOK_BACK = 20
     real(qp) :: beta, time
     integer :: i, former
@@ -192,7 +191,7 @@ contains
     end do
   end subroutine set_damped_drifts
 
-  !> The same where the damping changes: exp(-B(t)), B the integral of beta, and the integral of that, by series in time.
+  !> Sets drifts and decays for a changing damping by series: exp(-B(t)), B the integral of beta, and its integral.
   subroutine set_changing_drifts(period, pendulum, part, time)
     type(period_t), intent(inout) :: period
     type(pendulum_t), intent(in) :: pendulum
@@ -259,7 +258,7 @@ contains
     if (.not. period%mirrored) allocate (period%shift(n), period%push(n))
   end subroutine allocate_kicks
 
-  !> Kick n: the force at t = 2 pi * turn, times a weight; exp(i t) is known.
+  !> Sets kick n: the force at t = 2 pi * turn with exp(i t) = clock, times a weight.
   subroutine set_kick(period, pendulum, part, n, weight, turn, clock)
     type(period_t), intent(inout) :: period
     type(pendulum_t), intent(in) :: pendulum

@@ -1,10 +1,10 @@
-/* What the C loops of the kernel share: lanes of a batch, and vectors of them. */
+/* Lanes of a batch and vectors of them, for the C loops of the kernel. */
 #pragma once
 
 #include <stdbool.h>
 #include <stdint.h>
 
-enum { KZ_LANES = 64 }; /* of a batch: WIDTH of map.f90 */
+enum { KZ_LANES = 64 }; /* Lanes of a batch, WIDTH of map.f90 */
 
 #if defined __AVX512F__
 enum { VECTOR_BYTES = 64 };

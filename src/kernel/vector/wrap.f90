@@ -1,4 +1,4 @@
-!> Lanes after a period: angles brought back to [-1, 1]; and numbers below the normal ones, which are taken for 0 on the way.
+!> Wraps the angles of lanes after a period to [-1, 1]; and flushes subnormal numbers within it.
 module kz_vector_wrap
   use, intrinsic :: iso_c_binding, only: c_int64_t
   use, intrinsic :: iso_fortran_env, only: rk => real64, ik => int64
@@ -9,7 +9,7 @@ module kz_vector_wrap
   private
   public :: wrap_lanes, vectors_of, flush_subnormals, restore_control
 
-  !> An angle of so many turns has no fraction left: the state is lost.
+  !> Largest number of turns with a fraction left; a state beyond it is lost.
   real(rk), parameter :: MOST_TURNS = 1e15_rk
 
   !> src/kernel/vector/flush.c
@@ -27,7 +27,7 @@ module kz_vector_wrap
 
 contains
 
-  !> Brings the angles of some lanes back to [-1, 1] and counts the turns. A state that is lost becomes NaN.
+  !> Wraps the angles of some lanes to [-1, 1] and counts the turns. A lost state becomes NaN.
   subroutine wrap_lanes(map, first, last)
     class(map_t), intent(inout) :: map !< its lanes
     integer, intent(in) :: first, last !< lanes, from 1
@@ -36,7 +36,7 @@ contains
     integer :: i
 
     nan = ieee_value(nan, ieee_quiet_nan)
-    do i = first, last ! over vectors: the turns are read off the bits
+    do i = first, last ! vectorises because the turns are read off the bits
       shifted = 0.5_rk*map%u(i) + ROUND_TO_INTEGER
       turn = shifted - ROUND_TO_INTEGER
       map%u(i) = merge(map%u(i) - 2*turn, nan, abs(turn) < MOST_TURNS)
@@ -44,7 +44,7 @@ contains
     end do
   end subroutine wrap_lanes
 
-  !> The number of lanes n, rounded up to whole vectors.
+  !> Rounds n lanes up to whole vectors.
   pure integer function vectors_of(n) result(lanes)
     integer, intent(in) :: n !< lanes in use
 

@@ -1,5 +1,5 @@
-!> Lanes moved by the processed splitting: states are kernel coordinates, P of the physical ones. Lanes too fast for the tables keep
-!> physical coordinates, and another flow advances them; a state that is put faster than `fastest` is taken for physical.
+!> A batch of lanes that the processed splitting advances. States are kernel coordinates, P of the physical ones. Lanes
+!> too fast for the tables keep physical coordinates, and another flow advances them.
 module kz_processed_batch
   use, intrinsic :: iso_c_binding, only: c_int64_t
   use, intrinsic :: iso_fortran_env, only: rk => real64
@@ -7,7 +7,8 @@ module kz_processed_batch
   use kz_vector_sine, only: INVERSE_PI
   use kz_vector_wrap, only: wrap_lanes, vectors_of, flush_subnormals, restore_control
   use kz_processed_processor, only: change_coordinates, change_derivative
-  use kz_processed_stages, only: stages_t, make_stages, advance_stages, single_stages, linear_stages, displaced_stages, tangent_stages, GROUP
+  use kz_processed_stages, only: stages_t, make_stages, advance_stages, single_stages, linear_stages, &
+                                 displaced_stages, tangent_stages, GROUP
   use kz_processed_tables, only: processed_t, processor_t
   implicit none
   private
@@ -15,9 +16,9 @@ module kz_processed_batch
 
   type, extends(flow_t) :: processed_batch_t
     type(stages_t) :: stages
-    real(rk) :: fastest                  !< rad per drive radian, that the tables serve
-    logical :: physical(CAPACITY) = .false.  !< lanes that are faster
-    logical :: was_physical(WIDTH) = .false. !< before the last period of advance_linear
+    real(rk) :: fastest                  !< Largest speed that the tables serve, rad per drive radian
+    logical :: physical(CAPACITY) = .false.  !< Lanes that are faster
+    logical :: was_physical(WIDTH) = .false. !< `physical` before the last period of advance_linear
     class(flow_t), allocatable :: fallback
   contains
     procedure :: put => processed_put
@@ -35,9 +36,9 @@ contains
 
   !> Makes a batch with the tables of one period. `fallback` advances lanes that are faster than `fastest`.
   subroutine make_processed_batch(table, fastest, fallback, flow)
-    type(processed_t), intent(in) :: table !< its tables
+    type(processed_t), intent(in) :: table !< Tables of one period
     real(rk), intent(in) :: fastest !< rad per drive radian
-    class(flow_t), allocatable, intent(inout) :: fallback !< the flow of faster lanes; it is taken over
+    class(flow_t), allocatable, intent(inout) :: fallback !< Flow of faster lanes, taken over
     class(flow_t), allocatable, intent(out) :: flow !< the map of one drive period
     type(processed_batch_t), allocatable :: batch
 
@@ -63,7 +64,7 @@ contains
     call take_images(self, n, u, v)
   end subroutine processed_advance
 
-  !> The same, and the tangent map in kernel coordinates, in single precision. Numbers below the normal ones are slow.
+  !> One period, and the tangent map in kernel coordinates in single precision, without slow subnormal numbers.
   subroutine processed_linear(self, n, tangent)
     class(processed_batch_t), intent(inout) :: self
     integer, intent(in) :: n
@@ -85,7 +86,7 @@ contains
     call restore_control(control)
   end subroutine processed_linear
 
-  !> By the angles that advance_linear has kept; those of lanes that another flow advances, by that.
+  !> Displaces by the angles that advance_linear has kept, or by the other flow in lanes that it advances.
   subroutine processed_displace(self, lane, u, v, by)
     class(processed_batch_t), intent(inout) :: self
     integer, intent(in) :: lane(:)
@@ -96,11 +97,14 @@ contains
 
     control = flush_subnormals()
     do first = 1, size(lane), GROUP
-      associate (group_lane => lane(first:min(size(lane), first + GROUP - 1)), group_by => by(:, :, first:min(size(lane), first + GROUP - 1)))
+      associate (group_lane => lane(first:min(size(lane), first + GROUP - 1)), &
+                 group_by => by(:, :, first:min(size(lane), first + GROUP - 1)))
         if (any(self%was_physical(group_lane))) then
           do i = 1, size(group_lane)
-            if (self%was_physical(group_lane(i))) call self%fallback%displace(group_lane(i:i), u, v, group_by(:, :, i:i))
-            if (.not. self%was_physical(group_lane(i))) call displaced_stages(self%stages, group_lane(i:i), group_by(:, :, i:i))
+            if (self%was_physical(group_lane(i))) &
+              call self%fallback%displace(group_lane(i:i), u, v, group_by(:, :, i:i))
+            if (.not. self%was_physical(group_lane(i))) &
+              call displaced_stages(self%stages, group_lane(i:i), group_by(:, :, i:i))
           end do
         else
           call displaced_stages(self%stages, group_lane, group_by)
@@ -110,7 +114,7 @@ contains
     call restore_control(control)
   end subroutine processed_displace
 
-  !> The images of n lanes that the tables have advanced.
+  !> Stores the images of n lanes that the tables have advanced.
   subroutine take_images(self, n, u, v)
     class(processed_batch_t), intent(inout) :: self
     integer, intent(in) :: n
@@ -119,21 +123,21 @@ contains
     if (count(abs(v(:n)) > self%fastest .or. self%physical(:n)) > 0) then
       call fall_back(self, n, u, v)
       call change_fast_lanes(self, n, u, v)
-      call change_fast_lanes(self, n, u, v) ! those that would come back at once stay as they were
+      call change_fast_lanes(self, n, u, v) ! lanes within the hysteresis band keep their coordinates
     end if
     self%u(:n) = u(:n)
     self%v(:n) = v(:n)
     call wrap_lanes(self, 1, n)
   end subroutine take_images
 
-  !> Lanes in physical coordinates take another flow's image.
+  !> Replaces the images of lanes in physical coordinates by another flow's.
   subroutine fall_back(self, n, u, v)
     class(processed_batch_t), intent(inout) :: self
     integer, intent(in) :: n
     real(rk), intent(inout) :: u(WIDTH), v(WIDTH)
     integer :: lane(WIDTH), i, fast
 
-    if (.not. allocated(self%fallback)) return ! where errors are measured: a motion that is lost stays lost
+    if (.not. allocated(self%fallback)) return ! errors are being measured: a lost motion stays lost
     fast = 0
     do i = 1, n
       if (.not. self%physical(i)) cycle
@@ -148,7 +152,7 @@ contains
     end do
   end subroutine fall_back
 
-  !> Lanes that have become too fast for the tables go to physical coordinates, those that are no longer so come back.
+  !> Takes lanes that have become too fast for the tables to physical coordinates, and slow ones back.
   subroutine change_fast_lanes(self, n, u, v)
     class(processed_batch_t), intent(inout) :: self
     integer, intent(in) :: n
@@ -165,7 +169,7 @@ contains
     end do
   end subroutine change_fast_lanes
 
-  !> One period with the tangent map in kernel coordinates: the derivative of the very arithmetic, of determinant exp(-2 pi beta).
+  !> One period with the tangent map in kernel coordinates, the derivative of the arithmetic itself.
   subroutine processed_tangent(self, n, matrix)
     class(processed_batch_t), intent(inout) :: self
     integer, intent(in) :: n
@@ -190,7 +194,7 @@ contains
     end do
   end subroutine processed_tangent
 
-  !> A matrix times the tangent map of a lane that another flow advances.
+  !> Multiplies a matrix by the tangent map of a lane that another flow advances.
   function fall_back_tangent(self, lane, matrix) result(product)
     class(processed_batch_t), intent(inout) :: self
     integer, intent(in) :: lane
@@ -238,8 +242,8 @@ contains
     call change_lanes(self, self%stages%table%from_kernel, .false., n, matrix, first)
   end subroutine processed_to_physical
 
-  !> The lanes first .. n (at most WIDTH) that are not in physical coordinates for good. matrix(:, :, lane) = derivative of the change, in rad,
-  !> times what it was.
+  !> Changes the coordinates of the lanes first .. n (at most WIDTH) that the tables serve; matrix(:, :, lane) is
+  !> multiplied by the derivative of the change, in rad.
   subroutine change_lanes(self, processor, to_map, n, matrix, first)
     class(processed_batch_t), intent(inout) :: self
     type(processor_t), intent(in) :: processor
@@ -272,7 +276,7 @@ contains
     if (.not. to_map) self%physical(from:n) = .true.
   end subroutine change_lanes
 
-  !> Within a period the fallback shows the motion.
+  !> Samples the motion within a period by the fallback.
   subroutine processed_sample(self, n, u, v)
     class(processed_batch_t), intent(inout) :: self
     integer, intent(in) :: n

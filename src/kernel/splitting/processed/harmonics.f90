@@ -1,4 +1,4 @@
-!> The harmonics of a kick as polynomials.
+!> Harmonics of a kick as polynomials.
 module kz_processed_harmonics
   use, intrinsic :: iso_fortran_env, only: real128
   use kz_processed_series_r64, only: HARMONICS
@@ -11,8 +11,8 @@ module kz_processed_harmonics
 
 contains
 
-  !> sin(pi j r)/(r (1 - r**2)) as polynomials in r**2 of n coefficients, interpolated at the Chebyshev nodes of [0, 1]: the
-  !> kick is 0 at the two rest positions, exactly.
+  !> sin(pi j r)/(r (1 - r**2)) as polynomials in r**2 of n coefficients, interpolated at the Chebyshev nodes of [0, 1],
+  !> so that the kick is exactly 0 at the two equilibria.
   pure function sine_polynomials(n) result(polynomial)
     integer, intent(in) :: n !< coefficients
     real(qp) :: polynomial(HARMONICS, n), node(n), root(n)
@@ -46,7 +46,7 @@ contains
     node = [(0.5_qp*(1 + cos(PI*(2*i - 1)/(2*n))), i=1, n)]
   end function nodes_of
 
-  !> The polynomial with these values, by divided differences.
+  !> The polynomial with given values at the nodes, by divided differences.
   pure function interpolating_polynomial(node, value) result(polynomial)
     real(qp), intent(in) :: node(:), value(:)
     real(qp) :: polynomial(size(node)), difference(size(node))

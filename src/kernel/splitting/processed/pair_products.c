@@ -7,12 +7,12 @@
 #error "quads are read by their bits, the lower half first"
 #endif
 
-/* The bits of a number in quad precision, 64 lower and 64 higher ones: 1 of sign, 15 of the exponent, 112 after the first of the number. */
+/* The bits of a quad from the highest: 1 of sign, 15 of the exponent, 112 of the number after its first. */
 typedef unsigned __int128 bits;
 
-enum { QUAD_BIAS = 16383, BIAS = 1023, REST = 112 - 52 /* bits of a quad beyond those of a double */ };
+enum { QUAD_BIAS = 16383, BIAS = 1023, REST = 112 - 52 /* Bits of a quad beyond those of a double */ };
 
-/* Quads below 2^-900 count as 0. Those that no double holds, and what is no number, are infinite. */
+/* Exponent below which a quad counts as 0. Quads beyond the range of doubles, and NaN, become infinite. */
 enum { LEAST_EXPONENT = -900 };
 
 static double of_bits(uint64_t b) {
@@ -27,7 +27,7 @@ static uint64_t bits_of(double x) {
   return b;
 }
 
-/* high[i] + low[i] = x[i] with an error of some 2^-106 of it: the first 53 bits, and the rest. */
+/* Splits quads x[i] into high[i] + low[i], the first 53 bits and the rest, with a relative error of some 2^-106. */
 void kz_pairs_split(int64_t n, const int64_t *x, double *high, double *low) {
   for (int64_t i = 0; i < n; i++) {
     const uint64_t lower = (uint64_t)x[2 * i], higher = (uint64_t)x[2 * i + 1];
@@ -44,7 +44,7 @@ void kz_pairs_split(int64_t n, const int64_t *x, double *high, double *low) {
   }
 }
 
-/* x[i] = high[i] + low[i], |low| at most half a unit in the last place of high, without what is beyond 113 bits. */
+/* Joins high[i] + low[i], |low| at most half a unit in the last place of high, to quads x[i], cut after 113 bits. */
 void kz_pairs_join(int64_t n, const double *high, const double *low, int64_t *x) {
   for (int64_t i = 0; i < n; i++) {
     const uint64_t h = bits_of(high[i]), l = bits_of(low[i]), whole = UINT64_C(1) << 52, sign = h >> 63;
@@ -64,10 +64,11 @@ void kz_pairs_join(int64_t n, const double *high, const double *low, int64_t *x)
   }
 }
 
-/* product = left right: left [rows][2][inner], right [inner][2][columns] and product [rows][2][columns], the high parts of a row before its low
- * ones. The number of columns is a multiple of the lanes of every vector (COLUMNS of pair_products.f90). The error
- * of a number is at most some 2^-104 of the sum of the moduli of its terms. */
-void kz_pair_product(int64_t rows, int64_t inner, int64_t columns, const double *left, const double *right, double *product) {
+/* Multiplies matrices: left [rows][2][inner], right [inner][2][columns], product [rows][2][columns], the high parts of
+ * a row before its low ones. The number of columns is a multiple of the lanes of every vector (COLUMNS of
+ * pair_products.f90). Errors are at most some 2^-104 of the sum of the moduli of the terms. */
+void kz_pair_product(int64_t rows, int64_t inner, int64_t columns, const double *left, const double *right,
+                     double *product) {
   for (int64_t i = 0; i < rows; i++)
     for (int64_t first = 0; first < columns; first += LANES) {
       pair total = {broadcast(0), broadcast(0)};
@@ -87,8 +88,8 @@ KZ_INLINE pair coefficient_at(const double *polynomial, int64_t n, int64_t power
   return (pair){*(const vector *)numbers, *(const vector *)(numbers + n)};
 }
 
-/* The brackets f_v g_theta - f_theta g_v of polynomials in v at n points, n a multiple of the lanes of every vector: their coefficients up to
- * v^top. Polynomials, their slopes (derivatives by theta) and brackets [powers][2][n]: high and low parts. */
+/* Computes the brackets f_v g_theta - f_theta g_v of polynomials in v at n points, a multiple of the lanes of every
+ * vector, up to v^top. Polynomials, slopes (derivatives by theta) and brackets [powers][2][n]: high and low parts. */
 void kz_pair_bracket(int64_t n, int64_t top_f, int64_t top_g, int64_t top, const double *f, const double *f_slope,
                      const double *g, const double *g_slope, double *bracket) {
   for (int64_t i = 0; i < n; i += LANES)

@@ -1,17 +1,17 @@
-/* The polynomials of the processor of the processed splitting, in vectors (stages.c says why in C): for every lane the sum over the harmonics
- * j and powers n of c[n][j] v^n times sin(pi j u) where n is even, cos(pi j u) where it is odd, or for the second part the other way round. */
+/* The polynomials of the processor of the processed splitting, in vectors: for every lane the sum over harmonics j and
+ * powers n of c[n][j] v^n times sin(pi j u) for even n and cos(pi j u) for odd n, swapped in the second part. */
 #include "vector/vector.h"
 
 #if !defined KAPITZA_FUSED || KAPITZA_FUSED != 1
 #error "the processed splitting is made for fused operations: -ffp-contract=fast (cmake/Compilers.cmake)"
 #endif
 
-/* The order of the doubles' series and its harmonics: series_r64.f90, series.inc. */
+/* Order of the series in doubles, and its harmonics: series_r64.f90, series.inc. */
 enum { KZ_ORDER = 14, KZ_HARMONICS_KEPT = KZ_ORDER / 2 };
 enum { LANES = VECTOR_BYTES / 8, CHAINS = 2, ROW = KZ_HARMONICS_KEPT + 1, PART = ROW * (KZ_ORDER + 1) };
 #define EACH _Pragma("GCC unroll 2") for (int i = 0; i < CHAINS; i++)
 
-/* total += first (even powers of v) + second v (odd powers), to the power `degree`, which is even. */
+/* Adds first (even powers of v) + second v (odd powers) to total, up to the even power `degree`. */
 KZ_INLINE void add_harmonic(const double *c, int degree, const vector *first, const vector *second, const vector *v,
                             const vector *square, vector *total) {
   vector even[CHAINS], odd[CHAINS];
@@ -49,11 +49,11 @@ static void change_vectors(int32_t mirrored, const double *theta, const double *
   EACH v[i] += shift_v[i];
 }
 
-/* (u, v) + processor(u, v), in whole blocks of lanes like kz_processed_kicks. theta, velocity [2][KZ_ORDER + 1][KZ_HARMONICS_KEPT + 1]: processor_t of
- * tables.inc. sine, cosine: of pi u. */
+/* Adds processor(u, v) to (u, v), in whole blocks of lanes like kz_processed_kicks. theta, velocity [2][KZ_ORDER +
+ * 1][KZ_HARMONICS_KEPT + 1]: processor_t of tables.inc. sine, cosine: sin(pi u), cos(pi u). */
 void kz_processed_change(int32_t mirrored, const double *theta, const double *velocity, int64_t n, const double *sine,
                          const double *cosine, double *u, double *v) {
   for (int64_t i = 0; i < n; i += CHAINS * LANES)
-    change_vectors(mirrored, theta, velocity, (const vector *)(sine + i), (const vector *)(cosine + i), (vector *)(u + i),
-                   (vector *)(v + i));
+    change_vectors(mirrored, theta, velocity, (const vector *)(sine + i), (const vector *)(cosine + i),
+                   (vector *)(u + i), (vector *)(v + i));
 }

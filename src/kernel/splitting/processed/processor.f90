@@ -1,4 +1,4 @@
-!> The processor of the processed splitting: from physical coordinates to those of the kernel and back.
+!> The processor of the processed splitting, the change between physical and kernel coordinates.
 module kz_processed_processor
   use, intrinsic :: iso_c_binding, only: c_double, c_int32_t, c_int64_t
   use, intrinsic :: iso_fortran_env, only: rk => real64, ik => int64
@@ -24,9 +24,9 @@ module kz_processed_processor
 
 contains
 
-  !> (u, v) + processor(u, v) of n states, at most WIDTH.
+  !> Adds processor(u, v) to n states, at most WIDTH.
   subroutine change_coordinates(processor, n, u, v)
-    type(processor_t), intent(in) :: processor !< the change
+    type(processor_t), intent(in) :: processor !< Change of coordinates
     integer, intent(in) :: n !< states
     real(rk), intent(inout) :: u(n), v(n) !< half-turns; rad per drive radian
     real(rk), dimension(WIDTH) :: x, y, s, c
@@ -38,7 +38,8 @@ contains
     y(n + 1:) = 0
     lanes = vectors_of(n)
     call sine_and_cosine(lanes, x, s, c)
-    call change_lanes(merge(1_c_int32_t, 0_c_int32_t, processor%mirrored), processor%theta, processor%velocity, int(lanes, c_int64_t), s, c, x, y)
+    call change_lanes(merge(1_c_int32_t, 0_c_int32_t, processor%mirrored), processor%theta, processor%velocity, &
+                      int(lanes, c_int64_t), s, c, x, y)
     u = x(:n)
     v = y(:n)
   end subroutine change_coordinates
@@ -52,15 +53,15 @@ contains
     integer :: i
 
     do i = 1, n
-      r = abs(u(i) - 2*((0.5_rk*u(i) + ROUND_TO_INTEGER) - ROUND_TO_INTEGER)) ! even turns go, 0 <= r <= 1
+      r = abs(u(i) - 2*((0.5_rk*u(i) + ROUND_TO_INTEGER) - ROUND_TO_INTEGER)) ! without even half-turns, 0 <= r <= 1
       s(i) = sine(u(i))
       c(i) = sine(0.5_rk - r)
     end do
   end subroutine sine_and_cosine
 
-  !> The derivative of (u, v) + processor(u, v) by (theta, v), angles in rad.
+  !> Derivative of (u, v) + processor(u, v) by (theta, v), angles in rad.
   function change_derivative(processor, u, v) result(derivative)
-    type(processor_t), intent(in) :: processor !< the change
+    type(processor_t), intent(in) :: processor !< Change of coordinates
     real(rk), intent(in) :: u, v !< half-turns; rad per drive radian
     real(rk) :: derivative(2, 2)
     real(rk), parameter :: PI = 3.14159265358979323846_rk
@@ -84,7 +85,8 @@ contains
     derivative(2, :) = [by_u(2)/PI, 1 + by_v(2)]
   end function change_derivative
 
-  !> Derivatives by u and by v of a harmonic: sin(pi j u) (even powers of v) + cos(pi j u) (odd powers), or the other way round (odd = 1).
+  !> Derivatives by u and v of a harmonic: sin(pi j u) (even powers of v) + cos(pi j u) (odd powers), swapped if odd =
+  !> 1.
   pure function harmonic_slopes(coefficient, j, s, c, v, odd) result(slope)
     real(rk), intent(in) :: coefficient(0:)
     integer, intent(in) :: j

@@ -1,4 +1,4 @@
-!> The series of the processed splitting in quad precision: the grades that need more than double precision.
+!> The series of the processed splitting in quad precision, for the grades that need more than doubles.
 module kz_processed_series_r128
   use, intrinsic :: iso_fortran_env, only: rk => real128
   use kz_processed_pair_products, only: matrix_t => right_factor_t, set_matrix => set_right_factor, pair_product, &
@@ -10,7 +10,7 @@ module kz_processed_series_r128
 
   integer, parameter :: ORDER = 10, HIGHEST = 14
 
-  !> Of quads by pairs of doubles.
+  !> Products of quads by pairs of doubles.
   interface matmul
     procedure product_of
   end interface matmul
@@ -23,7 +23,7 @@ module kz_processed_series_r128
     call set_bracket_factor(part%value, part%slope, part%factors)
   end subroutine set_factors
 
-  !> total += factor*{f, g}, {f, g} = f_v g_theta - f_theta g_v; powers of v beyond those of total are 0.
+  !> Adds factor*{f, g} to total, {f, g} = f_v g_theta - f_theta g_v; powers of v beyond those of total are 0.
   subroutine add_bracket(f, g, factor, total)
     type(part_t), intent(in) :: f, g
     real(rk), intent(in) :: factor

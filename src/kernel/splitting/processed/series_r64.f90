@@ -13,7 +13,7 @@ module kz_processed_series_r64
     real(rk), allocatable :: entry(:, :)
   end type matrix_t
 
-  !> Products take a part as it is.
+  !> No further form of a part for products.
   type :: factors_t
   end type factors_t
 
@@ -25,7 +25,7 @@ module kz_processed_series_r64
     part%factors = factors_t()
   end subroutine set_factors
 
-  !> total += factor*{f, g}, {f, g} = f_v g_theta - f_theta g_v; powers of v beyond those of total are 0.
+  !> Adds factor*{f, g} to total, {f, g} = f_v g_theta - f_theta g_v; powers of v beyond those of total are 0.
   subroutine add_bracket(f, g, factor, total)
     type(part_t), intent(in) :: f, g
     real(rk), intent(in) :: factor
@@ -49,7 +49,7 @@ module kz_processed_series_r64
     matrix%entry = entry
   end subroutine set_matrix
 
-  !> product = matrix*columns: the library's matmul is slow for matrices of this size.
+  !> Multiplies matrix*columns, because the library's matmul is slow for matrices of this size.
   pure subroutine multiply_matrix(n, n_columns, matrix, columns, product)
     integer, intent(in) :: n, n_columns
     real(rk), intent(in) :: matrix(n, n), columns(n, n_columns)
@@ -62,7 +62,7 @@ module kz_processed_series_r64
     end do
   end subroutine multiply_matrix
 
-  !> total += columns*factors. The sizes of both kinds of grid are known to the compiler: then the sum stays in registers.
+  !> Adds columns*factors to total. For both kinds of grid the compiler knows the size and keeps the sum in registers.
   pure subroutine add_columns(n, n_columns, columns, factors, total)
     integer, intent(in) :: n, n_columns
     real(rk), intent(in) :: columns(n, n_columns), factors(n_columns)

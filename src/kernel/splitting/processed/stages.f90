@@ -7,24 +7,25 @@ module kz_processed_stages
   use kz_processed_tables, only: processed_t
   implicit none
   private
-  public :: stages_t, make_stages, advance_stages, single_stages, linear_stages, displaced_stages, tangent_stages, GROUP, TERMS
+  public :: stages_t, make_stages, advance_stages, single_stages, linear_stages, displaced_stages, tangent_stages, &
+            GROUP, TERMS
 
-  !> Coefficients of the slope of a kick (tangents.c): as a polynomial of the square, right to 1e-4 or better.
+  !> Coefficients of the slope of a kick as a polynomial of the square (tangents.c), exact to 1e-4 or better.
   integer, parameter :: TERMS = 5
-  !> Orbits whose neighbours are moved together, and neighbours of each: tangents.c.
+  !> Orbits whose neighbours are moved together, and neighbours of each (tangents.c).
   integer, parameter :: GROUP = 16, POINTS = 2
 
-  !> The tables of a period, and what its tangents take.
+  !> The tables of a period, and those of its tangents.
   type :: stages_t
     type(processed_t) :: table
-    real(c_float), allocatable :: row(:, :)   !< those of the stages in single precision
-    real(c_float), allocatable :: slope(:, :) !< (1 + 2*TERMS, steps): a drift, and the slope of a kick
-    real(c_float), allocatable :: kept(:, :)  !< (WIDTH, steps): of the last period, stages.c
-    real(c_float), allocatable :: chosen(:, :)  !< (GROUP, steps): of those lanes whose neighbours are asked for
+    real(c_float), allocatable :: row(:, :)   !< Stages in single precision
+    real(c_float), allocatable :: slope(:, :) !< (1 + 2*TERMS, steps): drift, slope of the kick
+    real(c_float), allocatable :: kept(:, :)  !< (WIDTH, steps): angles at the kicks of the last period
+    real(c_float), allocatable :: chosen(:, :)  !< (GROUP, steps): those of the lanes with displaced neighbours
   end type stages_t
 
   interface
-    !> The stages of a period for the lanes 1 .. n, or some more; the reduced angles, if asked (stages.c).
+    !> Stages of a period for the lanes 1 .. n, or some more, with the reduced angles if present (stages.c).
     subroutine run_stages(mirrored, n_drift, n_kick, n_stages, row, n, u, v, kept) bind(C, name='kz_processed_kicks')
       import :: c_double, c_float, c_int32_t, c_int64_t, WIDTH
       integer(c_int32_t), value :: mirrored, n_drift, n_kick
@@ -35,8 +36,9 @@ module kz_processed_stages
       real(c_float), intent(out), optional :: kept(WIDTH, *)
     end subroutine run_stages
 
-    !> The same in single precision.
-    subroutine run_single_stages(mirrored, n_drift, n_kick, n_stages, row, n, u, v) bind(C, name='kz_processed_kicks_single')
+    !> Stages in single precision (stages.c).
+    subroutine run_single_stages(mirrored, n_drift, n_kick, n_stages, row, n, u, v) &
+        bind(C, name='kz_processed_kicks_single')
       import :: c_double, c_float, c_int32_t, c_int64_t, WIDTH
       integer(c_int32_t), value :: mirrored, n_drift, n_kick
       integer(c_int64_t), value :: n_stages
@@ -45,7 +47,7 @@ module kz_processed_stages
       real(c_double), intent(inout) :: u(WIDTH), v(WIDTH)
     end subroutine run_single_stages
 
-    !> The derivative from them (tangents.c).
+    !> Derivative from the reduced angles (tangents.c).
     subroutine run_tangents(mirrored, n_stages, row, last, decay, kept, n, c) bind(C, name='kz_processed_tangents')
       import :: c_float, c_int32_t, c_int64_t, WIDTH
       integer(c_int32_t), value :: mirrored
@@ -72,10 +74,10 @@ module kz_processed_stages
 
 contains
 
-  !> The stages of a period.
+  !> Makes the stages of a period.
   subroutine make_stages(table, stages)
-    type(processed_t), intent(in) :: table !< its tables
-    type(stages_t), intent(out) :: stages !< the stages
+    type(processed_t), intent(in) :: table !< Tables of a period
+    type(stages_t), intent(out) :: stages !< Stages
     integer :: i, n
 
     stages%table = table
@@ -88,12 +90,13 @@ contains
     do i = 1, table%n_steps
       stages%slope(1, i) = real(table%row(1, i), c_float)
       stages%slope(2:TERMS + 1, i) = real(slope_of(table%row(table%n_drift + 1:n, i), .true.), c_float)
-      if (.not. table%mirrored) stages%slope(TERMS + 2:, i) = real(slope_of(table%row(n + table%n_drift + 1:, i), .false.), c_float)
+      if (.not. table%mirrored) &
+        stages%slope(TERMS + 2:, i) = real(slope_of(table%row(n + table%n_drift + 1:, i), .false.), c_float)
     end do
   end subroutine make_stages
 
-  !> The derivative (1 - 3 q) C + 2 q (1 - q) C' of a kick (r - r**3) C(q), q = r**2, interpolated at the Chebyshev nodes of [0, 1]; or 2 C',
-  !> which is that of an even kick C(q) over r.
+  !> The derivative (1 - 3 q) C + 2 q (1 - q) C' of a kick (r - r**3) C(q), q = r**2, interpolated at the Chebyshev
+  !> nodes of [0, 1]; or 2 C', the derivative of an even kick C(q) over r.
   pure function slope_of(kick, odd) result(slope)
     real(rk), intent(in) :: kick(:)
     logical, intent(in) :: odd
@@ -120,18 +123,19 @@ contains
     end do
   end function slope_of
 
-  !> One period of n lanes, and its derivative in single precision: of the angle by angle and velocity, of the velocity by both, rad.
+  !> Advances n lanes by a period, with the derivatives of angle and velocity by both in single precision, rad.
   subroutine linear_stages(self, n, u, v, tangent)
     type(stages_t), intent(inout) :: self !< tables of a period
     integer, intent(in) :: n !< lanes
     real(rk), intent(inout) :: u(WIDTH), v(WIDTH) !< half-turns; rad per drive radian
-    real(rk), intent(inout) :: tangent(WIDTH, 4) !< (WIDTH, 4)
+    real(rk), intent(inout) :: tangent(WIDTH, 4) !< Derivative of each lane
     real(c_float) :: c(WIDTH, 4)
     integer(c_int64_t) :: steps
 
     steps = self%table%n_steps
     call advance_stages(self%table, n, u, v, self%kept)
-    call run_tangents(merge(1_c_int32_t, 0_c_int32_t, self%table%mirrored), steps, self%slope, real(self%table%last(1), c_float), &
+    call run_tangents(merge(1_c_int32_t, 0_c_int32_t, self%table%mirrored), steps, self%slope, &
+                      real(self%table%last(1), c_float), &
                       real(self%table%decay, c_float), self%kept, int(n, c_int64_t), c)
     tangent(:n, 1) = c(:n, 1)
     tangent(:n, 2) = PI*c(:n, 2)
@@ -139,11 +143,11 @@ contains
     tangent(:n, 4) = c(:n, 4)
   end subroutine linear_stages
 
-  !> What neighbours of some lanes, at most GROUP, differ by from their images in the period that linear_stages has moved last.
+  !> Advances displacements of neighbours of some lanes, at most GROUP, through the last period of linear_stages.
   subroutine displaced_stages(self, lane, by)
     type(stages_t), intent(inout) :: self !< tables of a period
     integer, intent(in) :: lane(:) !< [n] lanes
-    real(rk), intent(inout) :: by(:, :, :) !< (2, :, n), in pairs: before it, and after it: rad, velocity times exp(beta t)
+    real(rk), intent(inout) :: by(:, :, :) !< (2, :, n), in pairs: rad, velocity times exp(beta t)
     real(c_float) :: c(GROUP, 2, POINTS)
     integer :: i, j, s, n
 
@@ -159,8 +163,10 @@ contains
         c(i, 1, :) = real((1/PI)*by(1, j:j + POINTS - 1, i), c_float)
         c(i, 2, :) = real(by(2, j:j + POINTS - 1, i), c_float)
       end do
-      call run_displaced(merge(1_c_int32_t, 0_c_int32_t, self%table%mirrored), int(self%table%n_steps, c_int64_t), self%slope, &
-                         real(self%table%last(1), c_float), real(self%table%decay, c_float), int(n, c_int64_t), self%chosen, c)
+      call run_displaced(merge(1_c_int32_t, 0_c_int32_t, self%table%mirrored), int(self%table%n_steps, c_int64_t), &
+                         self%slope, &
+                         real(self%table%last(1), c_float), real(self%table%decay, c_float), int(n, c_int64_t), &
+                             self%chosen, c)
       do i = 1, n
         by(1, j:j + POINTS - 1, i) = PI*c(i, 1, :)
         by(2, j:j + POINTS - 1, i) = c(i, 2, :)
@@ -168,19 +174,20 @@ contains
     end do
   end subroutine displaced_stages
 
-  !> One period of n lanes: the stages, the last drift, and the velocity itself again.
+  !> Advances n lanes by a period: stages, last drift, factor exp(-2 pi beta) of the velocity.
   subroutine advance_stages(table, n, u, v, kept)
-    type(processed_t), intent(in) :: table !< of a period
+    type(processed_t), intent(in) :: table !< Tables of a period
     integer, intent(in) :: n !< lanes
     real(rk), intent(inout) :: u(WIDTH), v(WIDTH) !< half-turns; rad per drive radian
     real(c_float), intent(out), optional :: kept(WIDTH, *) !< stages_t%kept
 
-    call run_stages(merge(1_c_int32_t, 0_c_int32_t, table%mirrored), int(table%n_drift, c_int32_t), int(table%n_kick, c_int32_t), &
+    call run_stages(merge(1_c_int32_t, 0_c_int32_t, table%mirrored), int(table%n_drift, c_int32_t), &
+                    int(table%n_kick, c_int32_t), &
                     int(table%n_steps, c_int64_t), table%row, int(n, c_int64_t), u, v, kept)
     call end_period(table, n, u, v)
   end subroutine advance_stages
 
-  !> The same, with the stages in single precision.
+  !> Advances n lanes by a period with the stages in single precision.
   subroutine single_stages(self, n, u, v)
     type(stages_t), intent(in) :: self !< tables of a period
     integer, intent(in) :: n !< lanes
@@ -188,12 +195,13 @@ contains
 
     associate (table => self%table)
       call run_single_stages(merge(1_c_int32_t, 0_c_int32_t, table%mirrored), int(table%n_drift, c_int32_t), &
-                             int(table%n_kick, c_int32_t), int(table%n_steps, c_int64_t), self%row, int(n, c_int64_t), u, v)
+                             int(table%n_kick, c_int32_t), int(table%n_steps, c_int64_t), self%row, int(n, c_int64_t), &
+                                 u, v)
       call end_period(table, n, u, v)
     end associate
   end subroutine single_stages
 
-  !> The last drift, and the velocity itself again.
+  !> Ends a period: last drift, factor exp(-2 pi beta) of the velocity.
   subroutine end_period(table, n, u, v)
     type(processed_t), intent(in) :: table
     integer, intent(in) :: n
@@ -219,13 +227,13 @@ contains
     end do
   end subroutine end_period
 
-  !> The derivative along the stages from the lanes' present states; c(i, :, j): column j, angles in half-turns.
+  !> Multiplies c by the derivative along the stages from the present states; c(i, :, j): column j, half-turns.
   subroutine tangent_stages(table, n, start_u, start_v, c)
-    type(processed_t), intent(in) :: table !< of a period
+    type(processed_t), intent(in) :: table !< Tables of a period
     integer, intent(in) :: n !< lanes
     real(rk), intent(in) :: start_u(n) !< half-turns
-    real(rk), intent(in) :: start_v(n) !< velocity times exp(beta t)
-    real(rk), intent(inout) :: c(WIDTH, 2, 2) !< columns of the tangent map, lane by lane
+    real(rk), intent(in) :: start_v(n) !< Velocities times exp(beta t)
+    real(rk), intent(inout) :: c(WIDTH, 2, 2) !< Columns of the tangent map, lane by lane
     real(rk), dimension(n) :: u, v, r, q, kick, slope, even, even_slope
     integer :: s, j, m
 
@@ -263,7 +271,7 @@ contains
     c(:n, 2, :) = table%decay*c(:n, 2, :)
   end subroutine tangent_stages
 
-  !> u += v (d(1) + d(2) v**2 + ..), or (odd = 0) d(1) + d(2) v**2 + .., and its derivative.
+  !> Adds v (d(1) + d(2) v**2 + ..), or d(1) + d(2) v**2 + .. if odd = 0, to u, with its derivative.
   subroutine drift_tangent(drift, odd, n, u, v, c)
     real(rk), intent(in) :: drift(:)
     integer, intent(in) :: odd, n

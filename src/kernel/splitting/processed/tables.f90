@@ -1,4 +1,4 @@
-!> The processed splitting in double precision: its tables, and its series, which may be kept.
+!> The processed splitting in double precision: its tables, and its series with their cache.
 module kz_processed_tables
   use, intrinsic :: iso_c_binding, only: c_double, c_ptr, c_associated, c_f_pointer, c_loc
   use, intrinsic :: iso_fortran_env, only: rk => real64
@@ -9,18 +9,19 @@ module kz_processed_tables
   use kz_processed_series_r64, only: series_t, make_series, ORDER, HARMONICS
   implicit none
   private
-  public :: series_t, kept_series_t, processed_t, processor_t, make_processed_series, make_processed, ORDER, HARMONICS, NODES
+  public :: series_t, kept_series_t, processed_t, processor_t, make_processed_series, make_processed, ORDER, &
+            HARMONICS, NODES
 
-  !> Powers of the velocity in a drift (1, 3, 5, ..) and coefficients of a kick that are of use.
+  !> Largest useful numbers of powers of the velocity in a drift (1, 3, 5, ..) and of coefficients of a kick.
   integer, parameter, public :: MOST_DRIFTS = 4, MOST_KICKS = 11
-  !> The velocity is carried as v exp(beta t) through a period: more damping than this would overflow.
+  !> Largest damping: the factor exp(beta t) of the velocity within a period would overflow beyond it.
   real(c_double), parameter, public :: MOST_DAMPING = 16/(2*3.14159265358979323846_c_double)
 
-  !> Pendulums that a hand moved whose series are kept. Over a plane, functions of degree 5 have 21 coefficients.
+  !> Series kept for interpolation between pendulums. Over a plane, functions of degree 5 have 21 coefficients.
   integer, parameter :: NODES = 24
 
-  !> What kz_kept_series of kernel.h points at: the series that was made last, which a scene asks for several times, and series of pendulums that a
-  !> hand moves. The caller owns it; the thread that holds the lock uses it.
+  !> The cache kz_kept_series of kernel.h: the series made last, which a scene asks for several times, and the nodes of
+  !> the interpolation. The thread that holds the lock uses it.
   type, extends(kept_errors_t) :: kept_series_t
     type(pendulum_t) :: pendulum
     type(series_t), allocatable :: made
@@ -51,7 +52,7 @@ module kz_processed_tables
     end do
   end subroutine set_kicks
 
-  !> What a kick at a time takes from the velocity: sum over j of `of_sines` sin(j theta) + `of_cosines` cos(j theta).
+  !> Harmonics of the kick at a time: the velocity loses the sum of `of_sines` sin(j theta) + `of_cosines` cos(j theta).
   pure subroutine kick_harmonics(series, h, time, of_sines, of_cosines)
     type(series_t), intent(in) :: series
     real(rk), intent(in) :: h, time
@@ -80,15 +81,16 @@ module kz_processed_tables
         of_sines(j) = of_sines(j) - h**(q - 1)*j*amplitude(1)
         of_cosines(j) = of_cosines(j) + h**(q - 1)*j*amplitude(2)
       end do
-      of_cosines(0) = of_cosines(0) + h**(q - 1)*(dot_product(cosine(:1), series%slope(:, q, 1)) + sine(1)*series%slope(1, q, 2))
+      of_cosines(0) = of_cosines(0) + h**(q - 1)*(dot_product(cosine(:1), series%slope(:, q, 1)) &
+                                                  + sine(1)*series%slope(1, q, 2))
     end do
   end subroutine kick_harmonics
 
-  !> The series of a pendulum, right to 1e-15 of the force itself.
+  !> Makes the series of a pendulum, or takes it from the cache. Its error is 1e-15 of the force.
   subroutine make_processed_series(pendulum, kept, series)
-    type(pendulum_t), intent(in) :: pendulum !< k, beta, m
-    type(c_ptr), intent(in) :: kept !< series that are kept, kz_kept_series of kernel.h; null = none are
-    type(series_t), intent(out) :: series !< what does not depend on the number of steps
+    type(pendulum_t), intent(in) :: pendulum !< Pendulum
+    type(c_ptr), intent(in) :: kept !< Cache, kz_kept_series of kernel.h; null = none
+    type(series_t), intent(out) :: series !< Series, for any number of steps
     type(kept_series_t), pointer :: last
 
     if (.not. c_associated(kept)) then
@@ -114,7 +116,7 @@ module kz_processed_tables
 
     allocate (kept)
     kept%lock = create_lock()
-    handle = c_loc(kept%kept_errors_t) ! the address of both
+    handle = c_loc(kept%kept_errors_t) ! its address is that of `kept`
   end function series_create
 
   subroutine series_free(handle) bind(C, name='kz_kept_series_free')

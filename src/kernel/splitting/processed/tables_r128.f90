@@ -11,12 +11,12 @@ module kz_processed_tables_r128
   private
   public :: series_t, processed_t, processor_t, make_mixed_series, make_processed, ORDER, HARMONICS
 
-  !> Powers of the velocity in a drift (1, 3, 5, ..) and coefficients of a kick that are of use in pairs of doubles.
+  !> Largest useful numbers of powers of v in a drift (1, 3, 5, ..) and of coefficients of a kick in pairs of doubles.
   integer, parameter, public :: MOST_PAIR_DRIFTS = ORDER/2 - 1, MOST_PAIR_KICKS = 22
 
   include 'tables.inc'
 
-  !> Kicks of all steps at once, as products of matrices: what multiplies cosines and sines of time, these, and the polynomials.
+  !> Sets the kicks of all steps at once, as products of matrices of amplitudes, sines of time, and polynomials.
   subroutine set_kicks(pendulum, series, table)
     type(pendulum_t), intent(in) :: pendulum
     type(series_t), intent(in) :: series
@@ -47,11 +47,11 @@ module kz_processed_tables_r128
     end function kick_rows
   end subroutine set_kicks
 
-  !> What cosines and then sines of 0, t, 2 t, .. give to the harmonics of a kick of a step h, all grades together.
+  !> Amplitudes of cosines and then sines of 0, t, 2 t, .. in the harmonics of a kick of a step h, all grades together.
   pure function kick_amplitudes(series, h, sign, trig) result(amplitude)
     type(series_t), intent(in) :: series
     real(rk), intent(in) :: h
-    integer, intent(in) :: sign, trig !< of the derivative by theta of the trigonometric function, and which it is
+    integer, intent(in) :: sign, trig !< Sign of the derivative by theta of the trigonometric function; its code
     real(rk) :: amplitude(0:HARMONICS, 2*(series%times + 1))
     integer :: q, j
 
@@ -62,12 +62,13 @@ module kz_processed_tables_r128
         amplitude(0, series%times + 3) = amplitude(0, series%times + 3) + h**(q - 1)*series%slope(1, q, 2)
       end if
       do j = 1, q/2
-        amplitude(j, :) = amplitude(j, :) + (sign*j*h**(q - 1))*reshape(series%kick(:, j, q, trig, :), [2*(series%times + 1)])
+        amplitude(j, :) = amplitude(j, :) &
+                          + (sign*j*h**(q - 1))*reshape(series%kick(:, j, q, trig, :), [2*(series%times + 1)])
       end do
     end do
   end function kick_amplitudes
 
-  !> Cosines, and then sines, of 0, t, 2 t, .. in the middles of all steps: of multiples of pi/n_steps.
+  !> Makes the cosines, and then sines, of 0, t, 2 t, .. in the middles of all steps, multiples of pi/n_steps.
   pure subroutine make_clock(times, n_steps, clock)
     integer, intent(in) :: times, n_steps
     type(right_factor_t), intent(out) :: clock
@@ -90,13 +91,13 @@ module kz_processed_tables_r128
     end do
   end subroutine make_clock
 
-  !> The series of a pendulum: its first grades in quad precision, those beyond in double, right to 1e-15 of the force itself. Grade q of a
-  !> step h counts h**q, so little precision is enough for high ones; with further harmonics of the drive, which make them larger, one grade more is
-  !> needed (a square wave's errors of a period would not fall below 5e-25).
+  !> Makes the series of a pendulum: first grades in quad precision, the others in doubles, exact to 1e-15 of the force.
+  !> Grade q of a step h is multiplied by h**q, so that little precision is enough for high ones; further harmonics of
+  !> the drive, which make them larger, need one more even grade in quads.
   subroutine make_mixed_series(pendulum, kept, series)
-    type(pendulum_t), intent(in) :: pendulum !< k, beta, m
-    type(c_ptr), intent(in) :: kept !< series that are kept, kz_kept_series of kernel.h; null = none are
-    type(series_t), intent(out) :: series !< what does not depend on the number of steps
+    type(pendulum_t), intent(in) :: pendulum !< Pendulum
+    type(c_ptr), intent(in) :: kept !< Cache, kz_kept_series of kernel.h; null = none
+    type(series_t), intent(out) :: series !< Series, for any number of steps
     type(series_r64_t), allocatable :: rounded
     type(series_t), allocatable :: leading
     integer :: exact
@@ -114,7 +115,7 @@ module kz_processed_tables_r128
     call put_exact(leading, exact, series)
   end subroutine make_mixed_series
 
-  !> Grades up to `exact`, of a processor up to exact - 2, and nothing beyond what they have.
+  !> Replaces grades up to `exact`, of the processor up to exact - 2, by those of `leading`.
   subroutine put_exact(leading, exact, series)
     type(series_t), intent(in) :: leading
     integer, intent(in) :: exact

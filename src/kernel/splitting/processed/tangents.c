@@ -1,14 +1,14 @@
-/* The derivative of a period of the processed splitting, and the motion of neighbours, in single precision, which is enough for an error: from
- * the reduced angles at every kick, which the loop of the states keeps (stages.c). */
+/* The derivative of a period of the processed splitting, and the motion of neighbours, from the reduced angles at every
+ * kick that stages.c keeps; in single precision, which is enough for errors. */
 #include "vector/vector.h"
 
 #if !defined KAPITZA_FUSED || KAPITZA_FUSED != 1
 #error "the processed splitting is made for fused operations: -ffp-contract=fast (cmake/Compilers.cmake)"
 #endif
 
-/* Coefficients of a slope (stages.f90). Vectors at once, and lanes of one. */
+/* Coefficients of a slope (stages.f90); vectors at once; lanes of a vector. */
 enum { TERMS = 5, CHAINS = VECTOR_BYTES / 16, LANES = VECTOR_BYTES / 4 };
-/* Orbits whose neighbours are moved together, and neighbours of each: GROUP and POINTS of stages.f90. */
+/* GROUP and POINTS of stages.f90: orbits whose neighbours are moved together, and neighbours of each. */
 enum { KZ_GROUP = 16, KZ_POINTS = 2 };
 #define EACH _Pragma("GCC unroll 4") for (int i = 0; i < CHAINS; i++)
 #define EACH_POINT _Pragma("GCC unroll 2") for (int i = 0; i < KZ_POINTS; i++)
@@ -19,8 +19,8 @@ static void store_vectors(float *to, const floats *x) {
   EACH *(floats *)(to + i * LANES) = x[i];
 }
 
-KZ_INLINE void move_tangents(bool mirrored, int64_t n_stages, const float *row, float last, float decay, const float *kept,
-                             int64_t n, float *c) {
+KZ_INLINE void move_tangents(bool mirrored, int64_t n_stages, const float *row, float last, float decay,
+                             const float *kept, int64_t n, float *c) {
   for (int64_t first = 0; first < n; first += CHAINS * LANES) {
     const float *r = row, *x = kept + first;
     floats uu[CHAINS], uv[CHAINS], vu[CHAINS], vv[CHAINS], p[CHAINS], q[CHAINS], e[CHAINS];
@@ -51,19 +51,19 @@ KZ_INLINE void move_tangents(bool mirrored, int64_t n_stages, const float *row, 
   }
 }
 
-/* Computes the derivative of a period in single precision. row [n_stages][1 + 5 + 5]: a drift, the slope of a kick as a polynomial of the
- * square of the angle, and a second polynomial, times the angle, for pendulums without mirror symmetry; last = the last drift. c
- * [4][KZ_LANES] = d(u, v)/d(u0, v0), row by row. */
-void kz_processed_tangents(int32_t mirrored, int64_t n_stages, const float *row, float last, float decay, const float *kept,
-                           int64_t n, float *c) {
+/* Computes the derivative of a period in single precision. row [n_stages][1 + 5 + 5]: a drift, the slope of a kick as a
+ * polynomial of the square of the angle, and a second polynomial, times the angle, for pendulums without mirror
+ * symmetry; last = the last drift. c [4][KZ_LANES] = d(u, v)/d(u0, v0), row by row. */
+void kz_processed_tangents(int32_t mirrored, int64_t n_stages, const float *row, float last, float decay,
+                           const float *kept, int64_t n, float *c) {
   if (mirrored)
     move_tangents(true, n_stages, row, last, decay, kept, n, c);
   else
     move_tangents(false, n_stages, row, last, decay, kept, n, c);
 }
 
-/* Neighbours of orbits, relative to the orbits: the force between them and their orbit is taken to third order in the angle, with the slopes
- * of tangents and their derivatives. A polynomial, its derivative, and half its second one: */
+/* The slope of a kick as a polynomial, its derivative, and half its second derivative: relative to their orbit,
+ * neighbours feel the force to third order in the angle. */
 typedef struct {
   floats value, slope, half_second;
 } expansion;
@@ -78,8 +78,8 @@ KZ_INLINE expansion expand_slope(const float *c, floats q) {
   return p;
 }
 
-KZ_INLINE void move_neighbours(bool mirrored, int64_t n_stages, const float *row, float last, float decay, const float *angle,
-                               float *by) {
+KZ_INLINE void move_neighbours(bool mirrored, int64_t n_stages, const float *row, float last, float decay,
+                               const float *angle, float *by) {
   floats u[KZ_POINTS], v[KZ_POINTS];
   EACH_POINT u[i] = *(floats *)(by + 2 * i * KZ_GROUP);
   EACH_POINT v[i] = *(floats *)(by + (2 * i + 1) * KZ_GROUP);
@@ -100,9 +100,9 @@ KZ_INLINE void move_neighbours(bool mirrored, int64_t n_stages, const float *row
   EACH_POINT *(floats *)(by + (2 * i + 1) * KZ_GROUP) = decay * v[i];
 }
 
-/* How neighbours of n <= KZ_GROUP orbits move in a period, relative to the orbits, in single precision. angle [n_stages][KZ_GROUP]: those of the
- * orbits at the kicks; row, last, decay: as above. by [KZ_POINTS][2][KZ_GROUP], in and out: what the angles (half-turns) and velocities differ
- * by. Further lanes move up to a whole vector. */
+/* Advances neighbours of n <= KZ_GROUP orbits by a period, relative to the orbits, in single precision. angle
+ * [n_stages][KZ_GROUP]: angles of the orbits at the kicks; row, last, decay: as in kz_processed_tangents. by
+ * [KZ_POINTS][2][KZ_GROUP], in and out: differences of angles (half-turns) and velocities. */
 void kz_processed_displaced(int32_t mirrored, int64_t n_stages, const float *row, float last, float decay, int64_t n,
                             const float *angle, float *by) {
   for (int64_t first = 0; first < n; first += LANES)
