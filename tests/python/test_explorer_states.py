@@ -64,8 +64,9 @@ def done(page, action):
         page.press(*what)
     elif kind == "jump":
         page.run("void (location.hash = arguments[0])", *what)
-    elif kind == "slider" and page.run("Boolean($('slider-m'))"):
-        page.slide("m", what[0])
+    elif kind == "slider":  # a story has another
+        page.run("((range, place) => { range.value = place; range.dispatchEvent(new Event('input')); })"
+                 "($('slider-m') ?? $('slider-drive_amplitude'), arguments[0])", what[0])
     elif kind == "level" and not page.run("Boolean(explorer.stories.story)"):  # a story hides them
         page.run("document.querySelector(`#levels [value=${arguments[0]}]`).click()", *what)
 
@@ -87,7 +88,7 @@ def check(said):
     found = [(kind, percent(shares[kind])) for kind in ("inverted", "flutter") if shares.get(kind)]  # names are kinds in the double
     said_of = {"inverted": ("can stand: {} of all starts.", "{} of the starts shown end inverted."),
                "flutter": ("can flutter: {} of all starts.", "{} of the starts shown end in flutter.")}
-    none = ("cannot stand: it falls, whatever the start.", "None of the starts shown ends inverted.")
+    none = ("cannot stand: it falls, or turns.", "None of the starts shown ends inverted.")
     sentence = said_of[found[0][0]][not said["whole"]].format(found[0][1]) if found else none[not said["whole"]]
     assert said["isCompared"] or said["sentence"].removeprefix("Now it ").removeprefix("It ") == sentence
     differing = [name for name in said["pendulum"] if said["pendulum"][name] != said["scene"][name]]

@@ -15,10 +15,13 @@ SCREENS = ((1440, 900, "light"), (1440, 900, "dark"), (390, 844, "light"), (390,
 MENU = "document.querySelectorAll('.menu summary')[{}].click()"
 # name: what brings the state, what ends it
 STATES = {
-    "first": ("0", "0"),
+    "look": ("0", "0"),
+    "explore": ("explorer.state.show('explore')", "0"),
+    "map": ("explorer.state.change({map: 'on'})", "explorer.state.change({map: 'off'})"),
+    "measure": ("explorer.state.show('measure')", "0"),
     "pinned": ("document.querySelector('#legend button').click()", "0"),
     "compare": ("$('compare').click()", "$('compare').click()"),
-    **{f"menu {i}": (MENU.format(i), MENU.format(i)) for i in range(3)},
+    **{f"menu {i}": (MENU.format(i), MENU.format(i)) for i in range(2)},
     "help": ("$('help-shown').click()", "$('help').close()"),
     "values": ("$('values-shown').click()", "$('values-shown').click()"),
     "large letters": ("explorer.state.change({letters: 'large'})", "explorer.state.change({letters: 'usual'})"),
@@ -51,7 +54,7 @@ def main():
             screen = {"width": width, "height": height, "deviceScaleFactor": 1, "mobile": width < 500}
             driver.execute_cdp_cmd("Emulation.setDeviceMetricsOverride", screen)
             driver.get("about:blank")
-            page = Page(driver, server.address() + f"#samples=1&theme={theme}")
+            page = Page(driver, server.address() + f"#level=look&samples=1&theme={theme}")
             page.wait()
             for name in STATES:
                 found = looked_at(page, axe, name)

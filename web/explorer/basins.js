@@ -14,7 +14,7 @@ import { signed } from "./ticks.js";
 import { Units } from "./units.js";
 import { veilOf } from "./veil.js";
 import { TURN } from "./window.js";
-import { sentenceOf, verdictOf } from "./words.js";
+import { kindOf, sentenceOf, verdictOf } from "./words.js";
 
 const SECOND = 1.2; // drive periods that a second shows
 const SAMPLES = 48; // of a motion, a drive period
@@ -223,8 +223,9 @@ export class Basins {
   drawStage() {
     const { pivotFrequency, speed, view, colours } = this.state;
     const slower = pivotFrequency ? pivotFrequency / (TURN * SECOND * speed) : null;
-    const rows = this.panes.flatMap(({ engine }) => engine.catalogue?.attractors ?? []);
-    const bob = rows.find(({ name }) => name === this.motion?.ending.name)?.colour;
+    const rows = this.panes.flatMap(({ top, engine }) => (top?.catalogue ?? engine.catalogue)?.attractors ?? []);
+    const name = this.motion?.ending.name; // whose basin may be too thin for the list
+    const bob = name && (rows.find((row) => row.name === name)?.colour ?? this.state.kinds[kindOf(name)]);
     for (const pane of this.panes) pane.plain.bob = bob;
     this.stage.draw(this.motion, view, bob ? { ...colours, bob } : colours, this.units, slower);
   }

@@ -10,6 +10,12 @@ const EXPLAINED = {
   quality_factor: "how weak friction is: about as many swings as it makes until it is calm",
   drive_frequency: "how fast it is shaken: shakes in one small swing of the pendulum at rest",
   drive_amplitude: "how far it is shaken up and down, as a part of the pendulum's length",
+  m: "how far it is shaken up and down, as a part of the pendulum's length",
+  damping: "how strong friction is",
+  k: "how strong gravity is, beside the shaking",
+  amplitude: "how far it is shaken up and down",
+  frequency: "how many shakes it makes in a second",
+  length: "how long the pendulum is",
 };
 const APART = 0.1; // of a slider, between two pendulums that are compared
 const STEP = 0.01; // of half a slider, that an arrow or a notch of the wheel goes; with shift ten of them

@@ -22,7 +22,7 @@ const FIRST = ["inverted", "flutter"]; // ends that a window is named by, the fi
 const WHOLE = {
   inverted: (share) => `can stand: ${share} of all starts`,
   flutter: (share) => `can flutter: ${share} of all starts`,
-  none: () => "cannot stand: it falls, whatever the start",
+  none: () => "cannot stand: it falls, or turns",
 };
 const PART = {
   inverted: (share) => `${share} of the starts shown end inverted`,
@@ -43,8 +43,10 @@ export function byKind(rows) {
     const { kind } = row;
     const known = kinds.get(kind);
     const shares = known ? row.shares.map((share, i) => (share === null ? null : known.shares[i] + share)) : row.shares;
-    const most = known && (known.most ?? 0) >= (row.shares[0] ?? 0);
-    kinds.set(kind, { ...(most ? known : row), id: row.id, name: row.id < 0 ? row.name : kind, key: row.id < 0 ? row.key : kind, shares, most: Math.max(known?.most ?? 0, row.shares[0] ?? 0) });
+    const own = row.shares[0] ?? 0;
+    const { colour, most } = known && known.most >= own ? known : { colour: row.colour, most: own };
+    const names = row.id < 0 ? {} : { name: kind, key: kind };
+    kinds.set(kind, { ...row, ...names, shares, colour, most });
   }
   return [...kinds.values()];
 }
