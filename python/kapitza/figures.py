@@ -32,6 +32,7 @@ _FREQUENCY: _Row = ("", "stability", ["--view", "frequency"])
 _ERRORS: _Row = ("", "stability", ["--view", "errors"])
 _ENDS: _Row = ("", "plane", [])
 _POTENTIAL: _Row = ("", "potential", [])
+_ESCAPE: _Row = ("", "escape", ["--attractor", "inverted"])
 _TRADE: _Row = ("", "tradeoff", [])
 _PROVED: _Row = ("", "basin", ["--quantity", "evidence"])
 
@@ -85,6 +86,7 @@ _SCENES = {
     "butikov-fig12": [_ORBIT],
     "chart-blackburn": [_ENDS],
     "chart-butikov": [_ENDS],
+    "escape-fig12": [_ESCAPE],
     "formula-errors": [_ERRORS],
     "josephson": [_SWEEP],
     "laboratory": [_LABORATORY],

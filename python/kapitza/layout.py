@@ -33,6 +33,7 @@ NEEDED = {
                    "line_frequency line_amplitude line_phase", "closed centre period winding"),
     "stability": _part("k m log_multiplier angle stable"),
     "potential": _part("theta drive_amplitude rim_exact energy energy_blackburn energy_simple"),
+    "escape": _part("from saddle barrier way_out path time theta velocity torque"),
     "tradeoff": _part("label method scheme interpolation wrong wrong_low wrong_high seconds seconds_per_million_cells pareto",
                       "floor samples"),
     "basin": _part("theta velocity attractor settling_time evidence"),

@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from conftest import datasets, refused_scene, run_scene, stopped_and_resumed, with_extensive
+from conftest import datasets, plot, refused_scene, run_scene, stopped_and_resumed, with_extensive
 
 SCENE = {"pendulum": {"quality_factor": 5, "drive_frequency": 11, "drive_amplitude": 0.3},
          "attractors": {"velocity": {"min": -2, "max": 2}},
@@ -62,6 +62,13 @@ def test_a_path_obeys_the_equation_and_costs_its_action(fig12):
     assert h * (torque**2).sum() / (4 * beta) == pytest.approx(escape["barrier_out"].values[inverted], rel=1e-3)
     assert escape["largest_torque"].values[way] == pytest.approx(np.abs(torque).max(), rel=1e-9)
     assert "Ways out" in summary
+
+
+def test_pictures_and_what_they_refuse(fig12, tmp_path):
+    path = fig12[0].path
+    assert plot("escape", path, "--attractor", "inverted", "-o", tmp_path / "way.png", "--dpi", "60").returncode == 0
+    assert "escape.into_every_basin gives the others" in plot("escape", path, "--into", "down", "-o", tmp_path / "no.png").stderr
+    assert "has no attractor nodding" in plot("escape", path, "--attractor", "nodding", "-o", tmp_path / "no.png").stderr
 
 
 def test_counted_lives_are_those_of_the_barrier(fig12, kapitza, tmp_path):
