@@ -38,7 +38,7 @@ _PROVED: _Row = ("", "basin", ["--quantity", "evidence"])
 
 _ATLAS: _Row = ("", "atlas", [])
 _MOTIONS: _Row = ("-motions", "atlas", ["--view", "motions"])
-_LINE: _Row = ("-line", "atlas", ["--view", "line", "--x", "11"])
+_LINE: _Row = ("-line", "atlas", ["--view", "line", "--x", "11", "--longest", "2"])
 _BLACKBURN: _Row = ("-fig04", "atlas", ["--longest", "2", "--points", "scenes/atlas-blackburn-fig04.csv"])
 _BUTIKOV: _Row = ("-fig01", "atlas", ["--longest", "2", "--points", "scenes/atlas-butikov-fig01.csv"])
 
@@ -123,7 +123,7 @@ _SCENES = {
 }
 
 # Scenes whose results are a few numbers, which no picture shows.
-NUMBERS = {"tangency"}
+NUMBERS = {"tangency", "escape-fig12"}
 
 # Figures that stand side by side on the pages.
 _NARROW = {"blackburn-fig04-dots", "blackburn-fig06-omega11", "square-wave", "tilted", "start-phase",

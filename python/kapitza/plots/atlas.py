@@ -1,6 +1,6 @@
 """Draws an atlas of kapitza: motions over a plane of two keys of the pendulum.
 
-    kapitza plot atlas atlas-blackburn.h5                      the map: the curves, over the number of attractors
+    kapitza plot atlas atlas-blackburn.h5                      the map: the curves, over what lives where
     kapitza plot atlas atlas-blackburn.h5 --view motions       small maps: where each motion attracts
     kapitza plot atlas atlas-blackburn.h5 --view line --x 11   all branches along the line where x is 11; those that repel are dashed
     kapitza plot atlas atlas-blackburn.h5 --longest 2          cycles of up to two periods alone
@@ -15,24 +15,21 @@ from collections.abc import Mapping
 import numpy as np
 import xarray
 from matplotlib.axes import Axes
-from matplotlib.colors import BoundaryNorm, ListedColormap, to_rgb
+from matplotlib.colors import ListedColormap
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
+from matplotlib.patches import Patch
 from matplotlib.ticker import FixedLocator, FuncFormatter, NullLocator
 
 from kapitza import style
 from kapitza.plots.atlas_classes import BREAKING, DOUBLING, FOLD, LEANS, SWINGS, belongs, centre_of, gives_birth, missing_text, motion_text
-from kapitza.plots.atlas_curves import BOLD_UP_TO, DASHES, FAINT, LONGER, PERIODS, curve_points, is_bold, mark_curves
-from kapitza.plots.atlas_labels import POINTS, label_regions, mark_points
-from kapitza.plots.atlas_labels import region_text as region_text
+from kapitza.plots.atlas_curves import DASHES, GREY, curve_points, mark_curves
+from kapitza.plots.atlas_labels import LIVING, kind_colours, label_areas, living, mark_points
 from kapitza.plots.atlas_line import draw_line
 from kapitza.plots.page import BadOption, entitle, new_panels
 from kapitza.plots.parameter_axes import key_text
 from kapitza.result import Result
 
-CUSP = 0  # of special_kind
-MOST_SHADES = 14
-SPECIAL = 6  # zorder of cusps and degenerate points
 NOT_KNOWN, UNKNOWN = 255, "#e7b9c4"  # of `attracting` where a curve is missing, and its colour
 LONGEST = 16  # periods of the cycles whose curves are drawn
 STUDY = "an atlas"
@@ -48,29 +45,6 @@ def add_options(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--points", metavar="CSV", help="points on the map, with the columns x, y and label; points with one label have "
                         "one mark")
     parser.add_argument("--theme", choices=("light", "dark"), help="the paper")
-
-
-def shade_counts(axes: Axes, atlas: xarray.Dataset) -> tuple[ListedColormap, int]:
-    """How many attractors there are, in shades that stay light enough for the curves and tell small numbers apart; the shades, and the
-    largest number."""
-    count = atlas["count"].values
-    most = max(1, min(MOST_SHADES, int(count.max())))
-    light, middle, deep = (np.array(to_rgb(colour)) for colour in ("#fdfbe4", "#c6e2d2", "#6aa3c8"))
-    share = (np.arange(most) / max(1, most - 1)) ** 0.6
-    shades = ListedColormap(["#8d8787", *(tuple(light + 2 * s * (middle - light) if s < 0.5 else middle + (2 * s - 1) * (deep - middle))
-                                          for s in share)])
-    axes.set_facecolor(UNKNOWN if (count < 0).any() else "white")
-    axes.pcolormesh(atlas["column"], atlas["row"], np.ma.masked_where(count < 0, np.clip(count, 0, most)), cmap=shades,
-                    norm=BoundaryNorm(np.arange(-0.5, most + 1), most + 1), shading="nearest", rasterized=True)
-    return shades, most
-
-
-def mark_special(axes: Axes, atlas: xarray.Dataset, longest: int) -> None:
-    period = atlas["curve_period"].values[atlas["special_curve"].values]
-    for cusp, mark in ((True, "^"), (False, "o")):
-        chosen = ((atlas["special_kind"].values == CUSP) == cusp) & (period <= min(longest, BOLD_UP_TO))
-        axes.plot(atlas["special_x"].values[chosen], atlas["special_y"].values[chosen], mark, markersize=3.6, markerfacecolor="white",
-                  markeredgecolor=style.INK, markeredgewidth=0.7, zorder=SPECIAL, clip_on=True)
 
 
 def set_axes(axes: Axes, atlas: xarray.Dataset, *, labels: bool = True) -> None:
@@ -92,63 +66,47 @@ def set_axes(axes: Axes, atlas: xarray.Dataset, *, labels: bool = True) -> None:
             (axes.set_xlabel if which == "x" else axes.set_ylabel)(key_text(atlas, which))
 
 
-def write_legend(axes: Axes, atlas: xarray.Dataset, shades: ListedColormap, most: int, colours: Mapping[int, str], longest: int,
-                 marks: list[Line2D]) -> None:
-    """Beside the map: the numbers, the kinds of curves, the periods, the marks."""
-    kinds = set(atlas["curve_kind"].values.tolist())
-    words = {SWINGS: "rest: swings grow", LEANS: "rest: leans over", FOLD: "a motion is born (fold)", DOUBLING: "its period doubles",
-             BREAKING: "it loses its symmetry"}
-    handles = [Line2D([], [], color=style.INK, linewidth=1.9 if kind in (SWINGS, LEANS) else 1.1, linestyle=DASHES[kind], label=word)
-               for kind, word in words.items() if kind in kinds]
-    for period in sorted(set(atlas["curve_period"].values.tolist())):
-        if period <= min(longest, 6):
-            handles.append(Line2D([], [], color=colours.get(period, LONGER), linewidth=2.2 if period <= BOLD_UP_TO else 1,
-                                  label=f"period {period}"))
-    if atlas["curve_period"].max() > 6 and longest > 6:
-        handles.append(Line2D([], [], color=LONGER, linewidth=1, label="longer periods"))
-    handles.append(Line2D([], [], color=style.INK, linewidth=FAINT, alpha=0.6, label="faint: too thin to see"))
-    for mark, word in (("^", "cusp"), ("o", "degenerate point")):
-        handles.append(Line2D([], [], linestyle="", marker=mark, markersize=4, markerfacecolor="white", markeredgecolor=style.INK,
-                              label=word))
-    if (atlas["count"].values < 0).any():
-        handles.append(Line2D([], [], linestyle="", marker="s", color=UNKNOWN, label="not known: a curve is missing"))
-    axes.legend(handles=handles + marks, loc="lower left", bbox_to_anchor=(1.02, 0), fontsize="small", handlelength=2.6, borderaxespad=0,
-                frameon=False)
-    scale = axes.inset_axes((1.03, 0.56, 0.028, 0.4))
-    scale.pcolormesh([0, 1], np.arange(most + 2), np.arange(most + 1)[:, None], cmap=shades,
-                     norm=BoundaryNorm(np.arange(-0.5, most + 1), most + 1))
-    scale.yaxis.tick_right()
-    scale.set(xticks=[], yticks=np.arange(most + 1) + 0.5)
-    scale.set_yticklabels([f"{i}{'+' if i == most == MOST_SHADES else ''}" for i in range(most + 1)], fontsize="small")
-    scale.tick_params(length=0)
-    scale.set_title("attractors", fontsize="small", loc="left")
+def write_legend(axes: Axes, atlas: xarray.Dataset, kinds: np.ndarray, shades: list[str], marks: list[Line2D]) -> None:
+    """Beside the map: what lives where, the kinds of curves, the marks."""
+    there = np.unique(kinds)
+    handles: list[Patch | Line2D] = [Patch(facecolor=shades[i], edgecolor=style.INK, linewidth=0.4, label=text)
+                                     for i, text in enumerate(LIVING.values()) if i in there]
+    if (kinds < 0).any():
+        handles.append(Patch(facecolor=UNKNOWN, label="not known: a curve is missing"))
+    words = {SWINGS: "rest: period doubling", LEANS: "rest: pitchfork", FOLD: "fold", DOUBLING: "period doubling",
+             BREAKING: "symmetry breaking"}
+    drawn = set(atlas["curve_kind"].values.tolist())
+    handles += [Line2D([], [], color=style.INK if kind in (SWINGS, LEANS) else GREY, linewidth=1.2 if kind in (SWINGS, LEANS) else 0.8,
+                       linestyle=DASHES[kind], label=word) for kind, word in words.items() if kind in drawn]
+    axes.legend(handles=handles + marks, loc="upper left", bbox_to_anchor=(1.02, 1), handlelength=2, borderaxespad=0, frameon=False)
 
 
-def draw_map(axes: Axes, atlas: xarray.Dataset, *, colours: Mapping[int, str] = PERIODS, legend: bool = True,
+def draw_map(axes: Axes, atlas: xarray.Dataset, *, colours: Mapping[str, str] | None = None, legend: bool = True,
              longest: int = LONGEST, points: str | None = None) -> Axes:
-    """The plane with the curves of cycles of up to `longest` periods, in `colours` (period -> colour), over the number of attractors.
+    """The plane with the curves of cycles of up to `longest` periods. Each cell has the colour of the first kind of motion of LIVING that
+    attracts there: `colours` (kind -> colour), else light shades of those of all pictures.
 
     `points`: a CSV file of points on top.
     """
-    shades, most = shade_counts(axes, atlas)
+    kinds, shades = living(atlas), kind_colours(colours or {})
+    axes.set_facecolor(UNKNOWN if (kinds < 0).any() else "white")
+    axes.pcolormesh(atlas["column"], atlas["row"], np.ma.masked_less(kinds, 0), cmap=ListedColormap(shades), vmin=0, vmax=len(LIVING),
+                    shading="nearest", rasterized=True)
     set_axes(axes, atlas)
-    mark_curves(axes, atlas, colours, longest)
-    mark_special(axes, atlas, longest)
+    mark_curves(axes, atlas, longest)
+    label_areas(axes, atlas, kinds)
     marks = mark_points(axes, points) if points else []
     if legend:
-        write_legend(axes, atlas, shades, most, colours, longest, marks)
+        write_legend(axes, atlas, kinds, shades, marks)
     return axes
 
 
 def map_page(result: Result, atlas: xarray.Dataset, longest: int, points: str | None = None) -> Figure:
-    """The plane with its curves, and labels of its regions; `points`: a CSV file of points on top."""
-    figure, (axes,) = new_panels(8.6, 6.2)
+    """The plane with its curves; `points`: a CSV file of points on top."""
+    figure, (axes,) = new_panels(8.6, 5.6)
     draw_map(axes, atlas, longest=longest, points=points)
     longest_sought = int(atlas.attrs["max_period"])
     entitle(figure, result, f"motions of up to {longest_sought} periods: {atlas.sizes['curve']} curves{missing_text(atlas)}")
-    figure.draw_without_rendering()
-    label_regions(axes, atlas, [line for line in axes.lines if is_bold(line)],
-                  [line for line in axes.lines if line.get_zorder() in (SPECIAL, POINTS)])
     return figure
 
 
@@ -184,7 +142,7 @@ def motions_page(result: Result, atlas: xarray.Dataset) -> Figure:
         axes.set_visible(False)
     for axes in panels[max(0, len(chosen) - columns):len(chosen)]:
         axes.tick_params(labelbottom=True)
-        axes.set_xlabel(key_text(atlas, "x"), fontsize="small")
+        axes.set_xlabel(key_text(atlas, "x"))
     entitle(figure, result, "where each motion attracts; deeper shades: two or more of them")
     return figure
 

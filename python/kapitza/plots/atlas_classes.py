@@ -10,16 +10,8 @@ FOLD, DOUBLING, BREAKING, SWINGS, LEANS = range(5)  # codes of curve_kind
 
 
 def motion_text(name: str) -> str:
-    """What a class of attractors is called in a picture."""
-    words = {"down": "hanging rest", "inverted": "upright rest", "down 2-nodding": "nodding in 2"}
-    if name in words:
-        return words[name]
-    if name.startswith("rotation"):
-        return name.replace("rotation", "rotations")
-    for kind, text in (("asymmetric ", "lopsided nodding"), ("down ", "nodding"), ("inverted ", "flutter"), ("", "motion")):
-        if name.startswith(kind) and name.endswith("-nodding"):
-            return f"{text} in {name.removeprefix(kind).removesuffix('-nodding')}"
-    return name
+    """What a class of attractors is called in a picture: its name; of rotations both mirror images are meant."""
+    return name.replace("rotation", "rotations")
 
 
 def missing_text(atlas: xarray.Dataset) -> str:

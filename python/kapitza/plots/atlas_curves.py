@@ -6,17 +6,13 @@ from typing import Any
 import numpy as np
 import xarray
 from matplotlib.axes import Axes
-from matplotlib.lines import Line2D
 
 from kapitza import style
 from kapitza.plots.atlas_classes import BREAKING, DOUBLING, FOLD, LEANS, SWINGS, belongs
 
-# A colour a period, which colour-blind readers can distinguish (Okabe and Ito); a dash a kind.
-PERIODS = {1: style.INK, 2: "#0072b2", 3: "#009e73", 4: "#d55e00", 5: "#cc79a7", 6: "#b8860b"}
-LONGER = "#8a929b"
+GREY = "#59626b"
 DASHES: dict[int, Any] = {FOLD: "-", DOUBLING: (0, (5, 2)), BREAKING: (0, (1.2, 1.4)), SWINGS: (0, (5, 2)), LEANS: (0, (1.2, 1.4))}
 BOLD_UP_TO = 4  # longer cycles live in thin bands: their curves are thin
-FAINT = 0.45  # width of curves of bands that nobody sees
 SEEN = 1 / 110  # of the height of the map: a band that is narrower is not seen
 FIRST = 2  # zorder of the thinnest
 SHORT = 8  # points of a curve: shorter pieces look like the piece before
@@ -59,22 +55,17 @@ def pieces(seen: np.ndarray) -> Iterator[tuple[slice, bool]]:
         yield slice(max(0, first - 1), last), bool(2 * seen[first:last].sum() >= last - first)
 
 
-def mark_curves(axes: Axes, atlas: xarray.Dataset, colours: Mapping[int, str], longest: int) -> None:
-    """All curves of cycles of up to `longest` periods. Those of longer cycles are thin; what bounds bands that nobody sees is faint, and
-    lies below. Limits and scales of the axes must be set."""
+def mark_curves(axes: Axes, atlas: xarray.Dataset, longest: int, colours: Mapping[int, str] | None = None) -> None:
+    """All curves of cycles of up to `longest` periods, grey or in `colours` (of periods); those of rest in ink. What bounds bands that
+    nobody sees is faint, and lies below. Limits and scales of the axes must be set."""
     for number in np.argsort(-atlas["curve_period"].values, kind="stable"):
         period, kind = int(atlas["curve_period"][number]), int(atlas["curve_kind"][number])
         if period > longest:
             continue
         x, y = curve_points(atlas, number)
         rest, bold = kind in (SWINGS, LEANS), period <= BOLD_UP_TO
+        colour = (colours or {}).get(period, style.INK if rest else GREY)
         for piece, seen in [(slice(None), True)] if rest else pieces(is_seen(axes, atlas, number)):
-            width = 1.9 if rest else (1.2 if bold else 0.6) if seen else FAINT if bold else 0.25
-            axes.plot(x[piece], y[piece], linestyle=DASHES[kind], color=colours.get(period, LONGER), linewidth=width,
-                      alpha=1 if seen else 0.5 if bold else 0.4, zorder=4 if rest else FIRST + 0.5 * bold + 0.25 * seen,
+            axes.plot(x[piece], y[piece], linestyle=DASHES[kind], color=colour, linewidth=1.2 if rest else 0.6 if seen and bold else 0.25,
+                      alpha=1 if rest else 0.9 if seen else 0.3, zorder=4 if rest else FIRST + 0.5 * bold + 0.25 * seen,
                       solid_capstyle="round")
-
-
-def is_bold(line: Line2D) -> bool:
-    """Whether a line is a curve of cycles of up to BOLD_UP_TO periods."""
-    return FIRST + 0.5 <= line.get_zorder() <= 4

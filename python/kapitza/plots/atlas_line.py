@@ -40,10 +40,10 @@ def draw_line(axes: Axes, table: pandas.DataFrame, *, colours: Mapping[int, str]
         mark_ends(axes, value, height, multiplier)
     if legend:
         handles = [Line2D([], [], color=colour, linewidth=1.9, label=name) for name, colour in named.items()]
-        axes.legend(handles=handles, loc="center left", bbox_to_anchor=(1.02, 0.5), fontsize="small", frameon=False)
+        axes.legend(handles=handles, loc="center left", bbox_to_anchor=(1.02, 0.5), frameon=False)
     axes.set_ylabel("mean height of the bob at the strobe points")
     axes.set_ylim(-1.06, 1.06)
-    axes.set_yticks([-1, -0.5, 0, 0.5, 1], ["hangs −1", "−0.5", "0", "0.5", "stands 1"])
+    axes.set_yticks([-1, -0.5, 0, 0.5, 1], ["down −1", "−0.5", "0", "0.5", "inverted 1"])
     return axes
 
 

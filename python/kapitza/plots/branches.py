@@ -14,6 +14,7 @@ from kapitza.plots.parameter_axes import key_text
 
 NAMED = 0.02  # branches whose share is smaller everywhere are drawn as one band
 SHORTEST = 1 / 400  # of the range: shorter branches cannot be seen
+INTERVALS = 12  # values, about, at which intervals of shares are drawn
 # Code of what happens at an end of a branch -> its mark and name.
 ENDS = {1: ("|", "fold"), 2: ("D", "period doubling"), 3: ("*", "Neimark-Sacker"), 4: ("s", "symmetry breaking"), 5: ("x", "not located"),
         6: ("o", "homoclinic")}
@@ -93,17 +94,17 @@ def draw_shares(axes: Axes, sweep: xarray.Dataset, *, colours: Sequence[str] | N
         if bands[:, -1].any():
             entries.append(Patch(color=style.FAINT, label=f"{len(small)} smaller ones (≤ {style.share_text(bands[:, -1].max())})"))
         entries += [*_entries(sweep, colours, named[::-1]), *bars]
-        axes.legend(handles=entries, loc="upper left", bbox_to_anchor=(1, 1), borderaxespad=0.4, fontsize="small", labelspacing=0.35)
+        axes.legend(handles=entries, loc="upper left", bbox_to_anchor=(1, 1), borderaxespad=0.4, labelspacing=0.35)
     return axes
 
 
 def _draw_intervals(axes: Axes, sweep: xarray.Dataset, branches: Sequence[int], base: np.ndarray) -> list[ErrorbarContainer]:
     """Where the upper edge of every band could lie: its own share's interval above its lower edge. Returns the legend's entries."""
-    caps, drawn = 1.5 if sweep.sizes["value"] <= 40 else 0, []
+    drawn, some = [], slice(None, None, max(1, sweep.sizes["value"] // INTERVALS))
     for row, branch in enumerate(branches):
-        share, low, high = (sweep[name].values[:, branch] for name in ("fraction", "fraction_low", "fraction_high"))
-        drawn.append(axes.errorbar(sweep["value"].values, base[:, row] + share, [share - low, high - share], fmt="none", ecolor=style.INK,
-                                   elinewidth=0.7, capsize=caps, capthick=0.7, label="95 % interval of a share"))
+        share, low, high = (sweep[name].values[some, branch] for name in ("fraction", "fraction_low", "fraction_high"))
+        drawn.append(axes.errorbar(sweep["value"].values[some], base[some, row] + share, [share - low, high - share], fmt="none",
+                                   ecolor=style.INK, elinewidth=0.7, capsize=1.5, capthick=0.7, label="95 % interval of a share"))
     return drawn[:1]
 
 
@@ -147,10 +148,10 @@ def draw_lives(axes: Axes, sweep: xarray.Dataset, *, colours: Sequence[str] | No
         marks = [Line2D([], [], ls="", marker=ENDS[code][0], color=style.INK, markersize=4, label=ENDS[code][1])
                  for code in sorted(seen & ENDS.keys())]
         marks += [Line2D([], [], color=style.INK, lw=0.9, ls=(0, (3, 2)), label="repels")] * bool(repelling)
-        axes.legend(handles=marks, loc="upper left", bbox_to_anchor=(1, 1), borderaxespad=0.4, fontsize="small")
+        axes.legend(handles=marks, loc="upper left", bbox_to_anchor=(1, 1), borderaxespad=0.4)
     axes.set(xlabel=parameter_text(sweep), ylabel="branches", yticks=[], ylim=(-1, len(order)))
     if names:
-        ids = style.names_with_ids(sweep["branch_name"].values)
-        axes.set_yticks(range(len(order)), [style.name_text(ids[branch]) for branch in order], fontsize="x-small")
+        ids = style.names_with_ids(sweep["branch_name"].values) if only is None else sweep["branch_name"].values
+        axes.set_yticks(range(len(order)), [style.name_text(ids[branch]) for branch in order])
         axes.set_ylabel("")
     return axes

@@ -9,7 +9,7 @@
 
 import argparse
 import math
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from pathlib import Path
 
 import numpy as np
@@ -22,7 +22,7 @@ from matplotlib.ticker import MaxNLocator
 
 from kapitza import style
 from kapitza.plots.curves import curve_names, exact_of, is_branch, whole_curve
-from kapitza.plots.page import BadOption, entitle, new_panels
+from kapitza.plots.page import BadOption, current, entitle, new_panels
 from kapitza.plots.parameter_axes import label_keys
 from kapitza.plots.plane_measures import MOST, measure_page
 from kapitza.plots.units import add_si, fixed_si
@@ -58,15 +58,18 @@ def kinds(chart: xarray.Dataset, colours: Mapping[str, str] | None = None) -> tu
     return palette[place.ravel()].reshape(*chart["end"].shape, 3), sorted(share, key=lambda name: -share[name])
 
 
-def draw_ends(axes: Axes, chart: xarray.Dataset, *, colours: Mapping[str, str] | None = None, legend: bool = True) -> Axes:
-    """Ends of one start, coloured as the motions are in all figures, or by `colours` (kind of motion -> colour)."""
+def draw_ends(axes: Axes, chart: xarray.Dataset, *, colours: Mapping[str, str] | None = None, legend: bool = True,
+              others: Iterable[str] = ()) -> Axes:
+    """Ends of one start, coloured as the motions are in all figures, or by `colours` (kind of motion -> colour); `others`: kinds of motion
+    that the legend has too."""
     image, names = kinds(chart, colours)
+    names = list(dict.fromkeys([*names, *others]))
     axes.pcolormesh(chart["x"], chart["y"], image, shading="nearest", rasterized=True)
     if legend:
         known = style.KINDS | dict(colours or {})
         patches = [Patch(facecolor=known.get(name, style.UNSETTLED), edgecolor=style.FAINT, label=name) for name in names]
-        axes.legend(handles=[*patches, *axes.get_legend_handles_labels()[0]], loc="upper left", bbox_to_anchor=(1.01, 1), fontsize="small",
-                    title="paler: longer periods", title_fontsize="small", alignment="left")
+        axes.legend(handles=[*patches, *axes.get_legend_handles_labels()[0]], loc="upper left", bbox_to_anchor=(1.01, 1),
+                    title="paler: longer periods", alignment="left")
     return axes
 
 
@@ -120,12 +123,12 @@ def linear_curves(result: Result, chart: xarray.Dataset) -> Iterator[tuple[np.nd
             yield 1 / np.sqrt(sign * k[inside]), m[inside]
 
 
-def panel(axes: Axes, result: Result, chart: xarray.Dataset, view: str, *, legend: bool = True) -> Axes:
-    """One start."""
+def panel(axes: Axes, result: Result, chart: xarray.Dataset, view: str, *, legend: bool = True, others: Iterable[str] = ()) -> Axes:
+    """One start; `others`: kinds of motion of panels beside it."""
     for number, (x, y) in enumerate(linear_curves(result, chart)):
         axes.plot(x, y, color=style.INK, linewidth=0.8, label="_" * (number > 0) + LINEAR)
     if view == "ends":
-        draw_ends(axes, chart, legend=legend)
+        draw_ends(axes, chart, legend=legend, others=others)
     else:
         draw_number(axes, chart, view, legend=legend)
     axes.set(xlim=chart["x"].values[[0, -1]], ylim=chart["y"].values[[0, -1]])
@@ -147,9 +150,14 @@ def draw(result: Result, *, view: str | None = None, measure: str | None = None,
         return measure_page(result, chart, measure, attractor, atlas)
     if "end" not in chart:
         raise BadFile(f"{result.path}: the plane has no ends; add ends to sweep.measure")
-    figure, panels = new_panels(8.2, 4.8 * chart.sizes["start"], chart.sizes["start"])
-    for place, axes in enumerate(panels):
-        panel(axes, result, chart.isel(start=place), view or "ends")
+    starts = [chart.isel(start=place) for place in range(chart.sizes["start"])]
+    beside = len(starts) == 2 and not view and not current().narrow  # one legend is for both
+    figure, panels = new_panels(9.4, 4.2, 1, 2, sharey=True) if beside else new_panels(8.2, 4.8 * len(starts), len(starts))
+    for start, axes in zip(starts, panels, strict=True):
+        others = [name for one in starts for name in kinds(one)[1]] if beside else []
+        panel(axes, result, start, view or "ends", legend=not beside or axes is panels[-1], others=others)
+    if beside:
+        panels[1].set_ylabel("")
     swept = {chart.attrs["x_parameter"], chart.attrs["y_parameter"]}
     names = {"beta": "β"} if swept & {"k", "m", "damping"} else {"quality_factor": "Q"}
     kept = [f"{symbol} = {result.pendulum[name]:.6g}" for name, symbol in names.items()

@@ -14,7 +14,7 @@ from matplotlib.figure import Figure
 from matplotlib.patheffects import withStroke
 
 from kapitza import style
-from kapitza.plots.atlas_curves import PERIODS, curve_points, mark_curves
+from kapitza.plots.atlas_curves import curve_points, mark_curves
 from kapitza.plots.page import entitle, new_panels
 from kapitza.plots.parameter_axes import label_keys
 from kapitza.plots.units import fixed_si, group_beside
@@ -106,7 +106,7 @@ def draw_curves(axes: Axes, atlas: xarray.Dataset, name: str | None = None, *, c
         for number in np.flatnonzero(own):
             axes.plot(*curve_points(atlas, int(number)), color=style.INK, linewidth=0.9)
     else:
-        mark_curves(axes, atlas, colours or PERIODS, CURVES)
+        mark_curves(axes, atlas, CURVES, colours)
     for line in axes.lines:
         line.set_path_effects([withStroke(linewidth=line.get_linewidth() + 1.1, foreground="white")])
     if legend:

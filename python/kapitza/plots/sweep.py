@@ -114,7 +114,7 @@ def fractions_figure(sweep: xarray.Dataset) -> Figure:
     figure, (top, bottom) = new_panels(8.6, 8.2, 2, sharex=True, height_ratios=[3, 2])
     colours = branch_colours(sweep, named)
     draw_shares(top, sweep, colours=colours)
-    draw_lives(bottom, sweep, colours=colours, only=named)
+    draw_lives(bottom, sweep, colours=colours, only=named, names=True)
     top.set_xlabel("")
     return figure
 
