@@ -123,7 +123,7 @@ _SCENES = {
 }
 
 # Scenes whose results are a few numbers, which no picture shows.
-NUMBERS = {"tangency", "escape-fig12"}
+NUMBERS = {"tangency"}
 
 # Figures that stand side by side on the pages.
 _NARROW = {"blackburn-fig04-dots", "blackburn-fig06-omega11", "square-wave", "tilted", "start-phase",
