@@ -3,16 +3,22 @@
 
 #include "kapitza/dynamics.h"
 
-/* Searches cycles of up to max_period <= 64 periods, attracting or not, along a line through n_nodes states node [n_nodes][2] (rad, rad per
- * drive radian). Wherever an image of the line passes near the line, multiple shooting begins. window = least and largest angle,
- * least and largest velocity; a cycle counts if it has a point there. steepest: largest trace of the cycles, of the map that
- * closes them (for symmetric ones half of their period), in that of a multiplier of 1; no piece shorter than 0.1 rad / steepest is halved. INFINITY: cycles
- * of any trace. found [most][2 + 2 max_period]: period, largest speed, and each
- * point as half-turns and velocity, right to about 1e-8; a cycle may occur twice. work [2]: number of starts followed, number of orbits
- * that shooting tried to close. Returns the number of cycles. Ends early with more than most_starts starts, or more than `most` cycles. */
-int64_t kz_dynamics_search_line(const kz_pendulum *pendulum, int64_t max_period, int64_t n_nodes, const double *node,
-                                const double window[4], double steepest, int64_t most_starts, int64_t most, double *found,
-                                int64_t work[2]);
+/* What is searched for along a line. */
+typedef struct {
+  int64_t max_period;  /* of the cycles, drive periods, <= 64 */
+  int64_t most_starts; /* the search ends early with more starts than these, */
+  int64_t most;        /* or with more cycles than these */
+  double window[4];    /* least and largest angle, least and largest velocity: a cycle counts if it has a point there */
+  /* Largest trace of the cycles, of the map that closes them (for symmetric ones half of their period), in that of a multiplier of 1; no piece
+   * shorter than 0.1 rad / steepest is halved. INFINITY: cycles of any trace. */
+  double steepest;
+} kz_line_search;
+/* Searches cycles, attracting or not, along a line through n_nodes states node [n_nodes][2] (rad, rad per drive radian). Wherever an image of
+ * the line passes near the line, multiple shooting begins. found [most][2 + 2 max_period]: period, largest speed, and each point as half-turns
+ * and velocity, right to about 1e-8; a cycle may occur twice. work [2]: number of starts followed, number of orbits that shooting tried to
+ * close. Returns the number of cycles. */
+int64_t kz_dynamics_search_line(const kz_pendulum *pendulum, const kz_line_search *search, int64_t n_nodes, const double *node,
+                                double *found, int64_t work[2]);
 /* Adds n cycles from such searches, in the order of periods and speeds, and their mirror images to an empty catalogue. They become cycles
  * of the map of published values, whose points are right to rounding. The catalogue then serves for reading and ordering; it has no
  * trapping regions. */

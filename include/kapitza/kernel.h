@@ -91,8 +91,8 @@ enum { KZ_PENDULUM = 0, KZ_MATHIEU = 1, KZ_EFFECTIVE = 2 };
 /* Samples one motion of a simpler model like kz_sample, with fine steps of its own (split6, at least 96 a period).
  * KZ_MATHIEU: u'' + beta u' + (k - m cos t) u = 0, with (-k, beta, -m) about the inverted position, u = theta - pi.
  * KZ_EFFECTIVE: theta'' + beta theta' + dE/dtheta = 0 with the potential of BSG Eq. (10). */
-void kz_sample_model(int32_t model, const kz_pendulum *pendulum, int64_t periods, int64_t samples, double theta,
-                     double velocity, double *theta_out, double *velocity_out);
+void kz_sample_model(int32_t model, const kz_pendulum *pendulum, int64_t periods, int64_t samples_per_period,
+                     const double start[2], double *theta, double *velocity);
 
 /* ---- linear ---- */
 

@@ -32,6 +32,11 @@ module kz_kernel_linear
     integer(c_int64_t) :: scalings(WIDTH)
   end type solutions_t
 
+  !> Even and odd terms of a series at x = 1, and of its derivative.
+  type :: sums_t
+    real(rk), dimension(WIDTH) :: even = 0, odd = 0, d_even = 0, d_odd = 0
+  end type sums_t
+
 contains
 
   !> Computes the solutions at t = pi for n points.
@@ -206,26 +211,27 @@ contains
     type(solutions_t), intent(inout) :: y
     real(rk), intent(in) :: kappa(WIDTH), drive(WIDTH), wave(0:ORDER + 3)
     integer, intent(in) :: terms
-    real(rk), dimension(WIDTH) :: a_even, a_odd, da_even, da_odd, b_even, b_odd, db_even, db_odd, middle, middle_rate
+    type(sums_t) :: a, b
+    real(rk), dimension(WIDTH) :: middle, middle_rate
     integer :: j
 
-    call sum_series(1, kappa, drive, wave, terms, a_even, a_odd, da_even, da_odd)
-    call sum_series(2, kappa, drive, wave, terms, b_even, b_odd, db_even, db_odd)
+    call sum_series(1, kappa, drive, wave, terms, a)
+    call sum_series(2, kappa, drive, wave, terms, b)
     do j = 1, 2
-      middle = (db_odd - db_even)*y%w(:, j) - (b_even - b_odd)*y%w_dot(:, j)
-      middle_rate = (a_even - a_odd)*y%w_dot(:, j) - (da_odd - da_even)*y%w(:, j)
-      y%w(:, j) = (a_even + a_odd)*middle + (b_even + b_odd)*middle_rate
-      y%w_dot(:, j) = (da_odd + da_even)*middle + (db_odd + db_even)*middle_rate
+      middle = (b%d_odd - b%d_even)*y%w(:, j) - (b%even - b%odd)*y%w_dot(:, j)
+      middle_rate = (a%even - a%odd)*y%w_dot(:, j) - (a%d_odd - a%d_even)*y%w(:, j)
+      y%w(:, j) = (a%even + a%odd)*middle + (b%even + b%odd)*middle_rate
+      y%w_dot(:, j) = (a%d_odd + a%d_even)*middle + (b%d_odd + b%d_even)*middle_rate
     end do
     call scale_down(y)
   end subroutine advance_step
 
   !> Sums the even and odd terms, and derivatives, at x = 1 of the solution with first coefficients (1, 0) or (0, 1).
-  subroutine sum_series(which, kappa, drive, wave, terms, even, odd, d_even, d_odd)
+  subroutine sum_series(which, kappa, drive, wave, terms, sums)
     integer, intent(in) :: which
     real(rk), intent(in) :: kappa(WIDTH), drive(WIDTH), wave(0:ORDER + 3)
     integer, intent(in) :: terms
-    real(rk), dimension(WIDTH), intent(out) :: even, odd, d_even, d_odd
+    type(sums_t), intent(out) :: sums
     real(rk) :: a(WIDTH, -3:ORDER + 1), forced(WIDTH)
     integer :: n, j
 
@@ -240,15 +246,11 @@ contains
       end do
       a(:, n + 2) = (kappa*a(:, n) + drive*forced)*(1.0_rk/((n + 1)*(n + 2)))
     end do
-    even = 0
-    odd = 0
-    d_even = 0
-    d_odd = 0
     do n = ORDER, 0, -2
-      even = even + a(:, n)
-      d_even = d_even + n*a(:, n)
-      odd = odd + a(:, n + 1)
-      d_odd = d_odd + (n + 1)*a(:, n + 1)
+      sums%even = sums%even + a(:, n)
+      sums%d_even = sums%d_even + n*a(:, n)
+      sums%odd = sums%odd + a(:, n + 1)
+      sums%d_odd = sums%d_odd + (n + 1)*a(:, n + 1)
     end do
   end subroutine sum_series
 

@@ -30,29 +30,28 @@ module kz_kernel_models
 
 contains
 
-  subroutine sample_model(code, pendulum, periods, samples, theta, velocity, theta_out, velocity_out) &
-    bind(C, name='kz_sample_model')
+  subroutine sample_model(code, pendulum, periods, samples, start, theta, velocity) bind(C, name='kz_sample_model')
     integer(c_int32_t), value :: code !< MATHIEU or EFFECTIVE
     type(pendulum_t), intent(in) :: pendulum !< Pendulum
     integer(c_int64_t), value :: periods, samples !< Drive periods; samples per period
-    real(c_double), value :: theta, velocity !< Start: rad, rad per drive radian
-    real(c_double), intent(out) :: theta_out(0:periods*samples) !< Angles at t = 2 pi s/samples
-    real(c_double), intent(out) :: velocity_out(0:periods*samples) !< Velocities at these times
+    real(c_double), intent(in) :: start(2) !< Start: rad, rad per drive radian
+    real(c_double), intent(out) :: theta(0:periods*samples) !< Angles at t = 2 pi s/samples
+    real(c_double), intent(out) :: velocity(0:periods*samples) !< Velocities at these times
     type(model_t) :: model
     real(c_double) :: x(2)
     integer(c_int64_t) :: s
     integer :: stride, part
 
-    call make_model(code, pendulum, int(samples), velocity, model)
+    call make_model(code, pendulum, int(samples), start(2), model)
     stride = model%period%n_steps/int(samples)
-    x = [theta, velocity]
-    theta_out(0) = x(1)
-    velocity_out(0) = x(2)
+    x = start
+    theta(0) = x(1)
+    velocity(0) = x(2)
     do s = 1, periods*samples
       part = int(mod(s - 1, samples))
       call advance_model(model, part*stride, (part + 1)*stride, x)
-      theta_out(s) = x(1)
-      velocity_out(s) = x(2)
+      theta(s) = x(1)
+      velocity(s) = x(2)
     end do
   end subroutine sample_model
 

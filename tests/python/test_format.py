@@ -9,6 +9,7 @@ import house_words
 import pytest
 import yaml
 from conftest import ROOT
+from procedures import of_c, of_fortran
 from text_style import faults
 
 HOOKS = {hook["id"]: hook for hook in yaml.safe_load((ROOT / ".pre-commit-config.yaml").read_text())["repos"][0]["hooks"]}
@@ -48,3 +49,69 @@ def test_house_words_are_read_from_the_style_page():
     assert ("hangs on", "depends on") in pairs and len(pairs) > 10
     page = "It hangs\nwell, and\nHangs on it.\n```\nhangs on\n```\n`hangs on`\n"
     assert house_words.faults(page, pairs) == [(3, "hangs on", "depends on")]
+
+
+# ---- size of procedures ----
+
+LONGEST, MOST_ARGUMENTS = 60, 7
+# Procedures that are larger, by file; a kernel and its interface in Fortran count twice.
+LARGER = {
+    "src/dynamics/api/follow.f90": {"follow_starts"}, "src/dynamics/api/label.f90": {"label_orbits"},
+    "src/dynamics/attractors/chaos.f90": {"set_cover"}, "src/dynamics/curves/trace.f90": {"trace", "locate_special"},
+    "src/dynamics/cycles/branches.f90": {"branch"}, "src/dynamics/cycles/corrector.f90": {"newton"},
+    "src/dynamics/cycles/curves.f90": {"images"}, "src/dynamics/cycles/cycles.f90": {"close_cycle"},
+    "src/dynamics/cycles/walker.f90": {"find_zero"}, "src/dynamics/labels/label.f90": {"follow"},
+    "src/dynamics/labels/orbits.f90": {"follow_orbits"}, "src/dynamics/maps/map_table.f90": {"sum_nodes"},
+    "src/dynamics/maps/sum_nodes.c": {"kz_sum_nodes"}, "src/kernel/digits/series.c": {"kz_series_add_product"},
+    "src/kernel/linear.f90": {"floquet"}, "src/kernel/splitting/jets.c": {"advance_jet", "kz_jets_advance"},
+    "src/kernel/splitting/jets.f90": {"advance_lanes", "advance_jets"},
+    "src/kernel/splitting/processed/pair_products.c": {"kz_pair_bracket"},
+    "src/kernel/splitting/processed/pair_products.f90": {"bracket_pairs"},
+    "src/kernel/splitting/processed/processor.c": {"kz_processed_change"},
+    "src/kernel/splitting/processed/processor.f90": {"change_lanes"},
+    "src/kernel/splitting/processed/stages.c": {"kz_processed_kicks", "kz_processed_kicks_single"},
+    "src/kernel/splitting/processed/stages.f90": {"run_stages", "run_single_stages", "run_tangents", "run_displaced"},
+    "src/kernel/splitting/processed/tangents.c": {"move_tangents", "kz_processed_tangents", "kz_processed_displaced"},
+    "src/kernel/taylor/pairs.c": {"run_stages", "kz_pairs_stages"}, "src/kernel/taylor/pairs_table.f90": {"pairs_stages"},
+    "src/library/api/labels.c": {"kapitza_labels"}, "src/library/api/motion.c": {"kapitza_orbit", "kapitza_manifold"},
+    "src/study/live/record.c": {"record_stretch"},
+}
+
+
+def larger(path):
+    procedures = (of_fortran if path.suffix == ".f90" else of_c)(path.read_text())
+    return {name for name, arguments, lines in procedures if arguments > MOST_ARGUMENTS or lines > LONGEST}
+
+
+def test_procedures_are_short():
+    """At most 60 lines with inner procedures, and 7 arguments; one that has become small leaves the list."""
+    sources = [path for path in (ROOT / "src").rglob("*") if path.suffix in {".f90", ".c", ".h"}]
+    found = {str(path.relative_to(ROOT)): larger(path) for path in sources}
+    assert len(found) > 300 and {path: names for path, names in found.items() if names} == LARGER
+
+
+def test_procedures_are_measured():
+    fortran = """\
+  pure integer(c_int64_t) function f(a, &
+    b) result(c) ! end function
+    integer :: end
+    s = 'end subroutine'
+  contains
+    subroutine g
+    end subroutine g
+  end function f
+"""
+    c = """\
+#define M(x) { \\
+  x }
+/* int f(int a) { */
+static const int (*table)[2] = {0};
+static void f(void) { g("}"); }
+
+int g(int (*call)(int, int), const char *b) {
+  if (b) { return '}'; }
+  return 0;
+}
+"""
+    assert list(of_fortran(fortran)) == [("f", 2, 8), ("g", 0, 2)]
+    assert list(of_c(c)) == [("f", 0, 1), ("g", 2, 4)]

@@ -31,115 +31,158 @@ module kz_saddles_lines
   !> rad: when an orbit is closed, when two points of it are one, and how far outside a window its edge still is.
   real(dp), parameter :: CLOSE = 1e-7_dp, ONE = 1e-5_dp, EDGE = 1e-9_dp
 
+  !> kz_line_search of dynamics_saddles.h.
+  type, bind(C) :: line_search_t
+    integer(c_int64_t) :: max_period, most_starts, most
+    real(dp) :: window(4), steepest
+  end type line_search_t
+
+  !> A search at work.
+  type :: search_t
+    type(line_search_t) :: asked
+    class(flow_t), allocatable :: flow
+    real(dp) :: damping
+    integer :: symmetry, least(0:1), last(0:1) !< periods at which images of a piece are looked at: of the map, and of a symmetry
+    real(dp), allocatable :: waiting(:, :, :, :, :)
+    integer :: n_waiting = 0
+    integer(c_int64_t) :: n_found = 0, work(2) = 0
+  end type search_t
+
 contains
 
-  !> kz_dynamics_search_line of dynamics.h.
-  function search_line(pendulum, max_period, n_nodes, node, window, steepest, most_starts, most, found, work) &
-    bind(C, name='kz_dynamics_search_line') result(n_found)
+  !> kz_dynamics_search_line of dynamics_saddles.h.
+  function search_line(pendulum, asked, n_nodes, node, found, work) bind(C, name='kz_dynamics_search_line') result(n_found)
     type(pendulum_t), intent(in) :: pendulum
-    integer(c_int64_t), value :: max_period, n_nodes
-    real(dp), intent(in) :: node(2, n_nodes), window(4)
-    real(dp), value :: steepest
-    integer(c_int64_t), value :: most_starts, most
-    real(dp), intent(out) :: found(2 + 2*max_period, most)
+    type(line_search_t), intent(in) :: asked
+    integer(c_int64_t), value :: n_nodes
+    real(dp), intent(in) :: node(2, n_nodes)
+    real(dp), intent(out) :: found(2 + 2*asked%max_period, asked%most)
     integer(c_int64_t), intent(out) :: work(2)
     integer(c_int64_t) :: n_found
-    class(flow_t), allocatable :: flow
-    type(numerics_t) :: numerics
-    real(dp), allocatable :: waiting(:, :, :, :, :)
-    real(dp) :: piece(2, 0:1, 0:max_period, 2, WIDTH), orbit(2, 0:1, 0:max_period, WIDTH)
-    integer :: symmetry, least(0:1), last(0:1), n_waiting, lanes, first, i
+    type(search_t) :: search
+    real(dp) :: orbit(2, 0:1, 0:asked%max_period, WIDTH)
+    integer :: lanes, first, i
 
-    symmetry = merge(pairing_symmetry(pendulum), 0, steepest < huge(steepest))
-    least = [1, merge(0, 1, symmetry == HALF_PERIOD)]
-    last = [int(max_period), merge(int(max_period - 1 + least(1))/2, -1, symmetry /= 0)]
-    numerics = fine_numerics(pendulum)
-    numerics%steps_per_period = numerics%steps_per_period/FEWER
-    call make_flow(pendulum, numerics, symmetry /= HALF_PERIOD, flow)
-    work = 0
-    allocate (waiting(2, 0:1, 0:max_period, 2, 2*WIDTH*HALVINGS))
-    n_found = 0
+    call make_search(pendulum, asked, search)
     do first = 1, int(n_nodes) - 1, CELLS
-      n_waiting = 0
+      search%n_waiting = 0
       lanes = min(CELLS + 1, int(n_nodes) - first + 1)
       orbit(:, 0, 0, :lanes) = node(:, first:first + lanes - 1)
-      call follow(flow, symmetry, orbit(:, :, :, :lanes))
+      call follow(search%flow, search%symmetry, orbit(:, :, :, :lanes))
       do i = 1, lanes - 1
-        call look_between(orbit(:, :, :, i), orbit(:, :, :, i + 1))
+        call look_between(search, orbit(:, :, :, i), orbit(:, :, :, i + 1), found)
       end do
-      do while (n_waiting > 0 .and. n_found <= most .and. work(1) <= most_starts)
-        lanes = min(n_waiting, WIDTH)
-        n_waiting = n_waiting - lanes
-        piece(:, :, :, :, :lanes) = waiting(:, :, :, :, n_waiting + 1:n_waiting + lanes)
-        orbit(:, 0, 0, :lanes) = 0.5_dp*(piece(:, 0, 0, 1, :lanes) + piece(:, 0, 0, 2, :lanes))
-        call follow(flow, symmetry, orbit(:, :, :, :lanes))
-        work(1) = work(1) + lanes
-        do i = 1, lanes
-          call look_between(piece(:, :, :, 1, i), orbit(:, :, :, i))
-          call look_between(orbit(:, :, :, i), piece(:, :, :, 2, i))
-        end do
+      call halve_pieces(search, found)
+    end do
+    n_found = search%n_found
+    work = search%work
+  end function search_line
+
+  subroutine make_search(pendulum, asked, search)
+    type(pendulum_t), intent(in) :: pendulum
+    type(line_search_t), intent(in) :: asked
+    type(search_t), intent(out) :: search
+    type(numerics_t) :: numerics
+
+    search%asked = asked
+    search%damping = pendulum%beta
+    search%symmetry = merge(pairing_symmetry(pendulum), 0, asked%steepest < huge(asked%steepest))
+    search%least = [1, merge(0, 1, search%symmetry == HALF_PERIOD)]
+    search%last = [int(asked%max_period), merge(int(asked%max_period - 1 + search%least(1))/2, -1, search%symmetry /= 0)]
+    numerics = fine_numerics(pendulum)
+    numerics%steps_per_period = numerics%steps_per_period/FEWER
+    call make_flow(pendulum, numerics, search%symmetry /= HALF_PERIOD, search%flow)
+    allocate (search%waiting(2, 0:1, 0:asked%max_period, 2, 2*WIDTH*HALVINGS))
+  end subroutine make_search
+
+  !> Halves the pieces that wait, the newest first, until none waits or enough is found.
+  subroutine halve_pieces(search, found)
+    type(search_t), intent(inout) :: search
+    real(dp), intent(inout) :: found(:, :)
+    real(dp), dimension(2, 0:1, 0:search%asked%max_period, WIDTH) :: before, after, orbit
+    integer :: lanes, i
+
+    do while (search%n_waiting > 0 .and. search%n_found <= search%asked%most .and. search%work(1) <= search%asked%most_starts)
+      lanes = min(search%n_waiting, WIDTH)
+      search%n_waiting = search%n_waiting - lanes
+      associate (piece => search%waiting(:, :, :, :, search%n_waiting + 1:search%n_waiting + lanes))
+        before(:, :, :, :lanes) = piece(:, :, :, 1, :)
+        after(:, :, :, :lanes) = piece(:, :, :, 2, :)
+      end associate
+      orbit(:, 0, 0, :lanes) = 0.5_dp*(before(:, 0, 0, :lanes) + after(:, 0, 0, :lanes))
+      call follow(search%flow, search%symmetry, orbit(:, :, :, :lanes))
+      search%work(1) = search%work(1) + lanes
+      do i = 1, lanes
+        call look_between(search, before(:, :, :, i), orbit(:, :, :, i), found)
+        call look_between(search, orbit(:, :, :, i), after(:, :, :, i), found)
       end do
     end do
-  contains
-    !> The piece between two starts, given by their orbits, waits to be halved, or shows its cycles. (The newest wait on top: at most
-    !> 2 WIDTH of each length.)
-    subroutine look_between(a, b)
-      real(dp), intent(in) :: a(2, 0:1, 0:max_period), b(2, 0:1, 0:max_period)
-      integer :: n, image
+  end subroutine halve_pieces
 
-      if (is_long(a, b)) then
-        n_waiting = n_waiting + 1
-        waiting(:, :, :, 1, n_waiting) = a
-        waiting(:, :, :, 2, n_waiting) = b
-        return
-      end if
-      do n = 0, int(max_period)
-        do image = 0, 1
-          if (n < least(image) .or. n > last(image)) cycle
-          if (norm2(b(:, image, n) - a(:, image, n)) > SHORT) return
-          call close_pass(a, b, image, n)
-        end do
+  !> The piece between two starts, given by their orbits, waits to be halved, or shows its cycles. (The newest wait on top: at most
+  !> 2 WIDTH of each length.)
+  subroutine look_between(search, a, b, found)
+    type(search_t), intent(inout) :: search
+    real(dp), intent(in) :: a(:, 0:, 0:), b(:, 0:, 0:)
+    real(dp), intent(inout) :: found(:, :)
+    integer :: n, image
+
+    if (is_long(search, a, b)) then
+      search%n_waiting = search%n_waiting + 1
+      search%waiting(:, :, :, 1, search%n_waiting) = a
+      search%waiting(:, :, :, 2, search%n_waiting) = b
+      return
+    end if
+    do n = 0, int(search%asked%max_period)
+      do image = 0, 1
+        if (n < search%least(image) .or. n > search%last(image)) cycle
+        if (norm2(b(:, image, n) - a(:, image, n)) > SHORT) return
+        call close_pass(search, a, b, [image, n], found)
       end do
-    end subroutine look_between
+    end do
+  end subroutine look_between
 
-    !> Whether an image of the piece is too long to decide whether it passes near the piece.
-    pure function is_long(a, b) result(long)
-      real(dp), intent(in) :: a(2, 0:1, 0:max_period), b(2, 0:1, 0:max_period)
-      logical :: long
-      real(dp) :: length
-      integer :: n, image
+  !> Whether an image of the piece is too long to decide whether it passes near the piece.
+  pure function is_long(search, a, b) result(long)
+    type(search_t), intent(in) :: search
+    real(dp), intent(in) :: a(:, 0:, 0:), b(:, 0:, 0:)
+    logical :: long
+    real(dp) :: length
+    integer :: n, image
 
-      long = .false.
-      if (norm2(b(:, 0, 0) - a(:, 0, 0)) < max(SHORTEST, STRETCH/steepest)) return
-      length = 0
-      do n = 0, int(max_period)
-        do image = 0, 1
-          if (n < least(image) .or. n > last(image)) cycle
-          length = max(length, norm2(b(:, image, n) - a(:, image, n)))
-          if (length <= SHORT) cycle
-          long = min(distance(a(:, 0, 0), a(:, image, n)), distance(b(:, 0, 0), b(:, image, n))) < REACH + length
-          if (long) return
-        end do
+    long = .false.
+    if (norm2(b(:, 0, 0) - a(:, 0, 0)) < max(SHORTEST, STRETCH/search%asked%steepest)) return
+    length = 0
+    do n = 0, int(search%asked%max_period)
+      do image = 0, 1
+        if (n < search%least(image) .or. n > search%last(image)) cycle
+        length = max(length, norm2(b(:, image, n) - a(:, image, n)))
+        if (length <= SHORT) cycle
+        long = min(distance(a(:, 0, 0), a(:, image, n)), distance(b(:, 0, 0), b(:, image, n))) < REACH + length
+        if (long) return
       end do
-    end function is_long
+    end do
+  end function is_long
 
-    !> The cycle near the place where an image of a short piece passes near the piece: the second half of a symmetric one is the image of the first.
-    subroutine close_pass(a, b, image, n)
-      real(dp), intent(in) :: a(2, 0:1, 0:max_period), b(2, 0:1, 0:max_period)
-      integer, intent(in) :: image, n
-      real(dp) :: share, points(2, 0:1, 0:n)
-      integer :: period
-      logical :: near
+  !> The cycle near the place where an image of a short piece passes near the piece: the second half of a symmetric one is the image of the first.
+  subroutine close_pass(search, a, b, at, found)
+    type(search_t), intent(inout) :: search
+    real(dp), intent(in) :: a(:, 0:, 0:), b(:, 0:, 0:)
+    integer, intent(in) :: at(2) !< 1 = image under a symmetry, else 0; periods
+    real(dp), intent(inout) :: found(:, :)
+    real(dp) :: share, points(2, 0:1, 0:at(2))
+    integer :: period
+    logical :: near
 
+    associate (image => at(1), n => at(2))
       call find_pass(a(:, 0, 0), b(:, 0, 0), a(:, image, n), b(:, image, n), share, near)
       if (.not. near) return
-      work(2) = work(2) + 1
+      search%work(2) = search%work(2) + 1
       points = a(:, :, :n) + share*(b(:, :, :n) - a(:, :, :n))
-      period = merge(n, 2*n + 1 - least(1), image == 0)
-      call close_orbit(flow, symmetry, window, steepest, pendulum%beta, &
-                       reshape([points(:, 0, :period - 1 - image*n), points(:, image, :n - 1)], [2, period]), n_found, found)
-    end subroutine close_pass
-  end function search_line
+      period = merge(n, 2*n + 1 - search%least(1), image == 0)
+      call close_orbit(search, reshape([points(:, 0, :period - 1 - image*n), points(:, image, :n - 1)], [2, period]), found)
+    end associate
+  end subroutine close_pass
 
   !> Images of the starts orbit(:, 0, 0), rad, turns counted: orbit(:, 0, n) becomes F^n, orbit(:, 1, n) the image of that under a symmetry.
   subroutine follow(flow, symmetry, orbit)
@@ -191,12 +234,9 @@ contains
   end function distance
 
   !> The cycle near an orbit joins those that were found, if there is one that is not too steep and the window has a point of it.
-  subroutine close_orbit(flow, symmetry, window, steepest, damping, orbit, n_found, found)
-    class(flow_t), intent(inout) :: flow !< as `follow` has it
-    integer, intent(in) :: symmetry
-    real(dp), intent(in) :: window(4), steepest, damping
+  subroutine close_orbit(search, orbit, found)
+    type(search_t), intent(inout) :: search
     real(dp), intent(in) :: orbit(:, :) !< rad
-    integer(c_int64_t), intent(inout) :: n_found
     real(dp), intent(inout) :: found(:, :)
     real(dp) :: x(2, size(orbit, 2))
     type(closed_orbit_t) :: closed
@@ -204,18 +244,21 @@ contains
 
     x(1, :) = wrapped(orbit(1, :)/PI)
     x(2, :) = orbit(2, :)
-    call shoot(flow, CLOSE, x, closed)
+    call shoot(search%flow, CLOSE, x, closed)
     if (.not. closed%step < CLOSE) return
     period = smallest_period(x, ONE)
     if (period == size(x, 2)) then
-      if (steepness(closed%matrix, exp(-2*PI*damping*period), is_own_image(flow, symmetry, x)) > steepest) return
+      if (steepness(closed%matrix, exp(-2*PI*search%damping*period), is_own_image(search%flow, search%symmetry, x)) &
+          > search%asked%steepest) return
     end if
-    if (.not. any(inside(window, x(1, :), x(2, :)))) return
-    n_found = n_found + 1
-    if (n_found > size(found, 2)) return
-    found(:, n_found) = 0
-    found(:2, n_found) = [real(period, dp), maxval(abs(x(2, :period)))]
-    found(3:2 + 2*period, n_found) = reshape(x(:, :period), [2*period])
+    if (.not. any(inside(search%asked%window, x(1, :), x(2, :)))) return
+    search%n_found = search%n_found + 1
+    if (search%n_found > size(found, 2)) return
+    associate (row => found(:, search%n_found))
+      row = 0
+      row(:2) = [real(period, dp), maxval(abs(x(2, :period)))]
+      row(3:2 + 2*period) = reshape(x(:, :period), [2*period])
+    end associate
   end subroutine close_orbit
 
   !> Whether the image of a closed orbit under a symmetry is that orbit.

@@ -110,31 +110,32 @@ static void sin_cos_at(const kz_steps *steps, int64_t i, int64_t j, int64_t bits
   kz_number_sin_cos(&angle, sine, cosine, bits);
 }
 
-/* Adds h^2 (cosine cos j t + sine sin j t), expanded about a time with cos j t = c, sin j t = s, to a series. */
-static void add_harmonic(const kz_steps *steps, int64_t j, const double cosine[2], const double sine[2],
-                         const kz_number *c, const kz_number *s, int64_t bits, kz_number *series) {
+/* Adds h^2 (C cos j t + S sin j t), {C, S} the sum of both parts, to a series; clock = {cos j t, sin j t} at the time
+ * about which it is expanded. */
+static void add_harmonic(const kz_steps *steps, int64_t j, const double part[2][2], const kz_number *const clock[2],
+                         int64_t bits, kz_number *series) {
   KZ_NUMBER(even);
   KZ_NUMBER(odd);
-  KZ_NUMBER(part);
+  KZ_NUMBER(product);
   KZ_NUMBER(amplitude);
   kz_number *const derivative[2] = {&even, &odd};
   for (int i = 0; i < 2; i++) {
-    kz_number_of_double(cosine[i], &amplitude);
-    kz_number_multiply(&part, &amplitude, c, bits);
-    kz_number_add(&even, &even, &part, bits);
-    kz_number_multiply(&part, &amplitude, s, bits);
-    kz_number_subtract(&odd, &odd, &part, bits);
-    kz_number_of_double(sine[i], &amplitude);
-    kz_number_multiply(&part, &amplitude, s, bits);
-    kz_number_add(&even, &even, &part, bits);
-    kz_number_multiply(&part, &amplitude, c, bits);
-    kz_number_add(&odd, &odd, &part, bits);
+    kz_number_of_double(part[i][0], &amplitude);
+    kz_number_multiply(&product, &amplitude, clock[0], bits);
+    kz_number_add(&even, &even, &product, bits);
+    kz_number_multiply(&product, &amplitude, clock[1], bits);
+    kz_number_subtract(&odd, &odd, &product, bits);
+    kz_number_of_double(part[i][1], &amplitude);
+    kz_number_multiply(&product, &amplitude, clock[1], bits);
+    kz_number_add(&even, &even, &product, bits);
+    kz_number_multiply(&product, &amplitude, clock[0], bits);
+    kz_number_add(&odd, &odd, &product, bits);
   }
   kz_number_multiply_by(&odd, j, bits);
   for (int64_t n = 0; n <= steps->force_orders; n++) {
     kz_number *current = derivative[n % 2];
-    kz_number_multiply(&part, steps->scale + n, current, bits);
-    kz_number_add(series + n, series + n, &part, bits);
+    kz_number_multiply(&product, steps->scale + n, current, bits);
+    kz_number_add(series + n, series + n, &product, bits);
     kz_number_multiply_by(current, -j * j, bits);
   }
 }
@@ -207,6 +208,7 @@ void kz_drive_expand(kz_series *series, kz_steps *steps, int64_t i, int64_t bits
   const kz_pendulum *p = steps->pendulum;
   KZ_NUMBER(cosine);
   KZ_NUMBER(sine);
+  const kz_number *const clock[2] = {&cosine, &sine};
   for (int64_t n = 0; n <= steps->force_orders; n++) {
     kz_number_of_double(0, series->along + n);
     kz_number_of_double(0, series->across + n);
@@ -216,11 +218,11 @@ void kz_drive_expand(kz_series *series, kz_steps *steps, int64_t i, int64_t bits
     const double *up = p->vertical[j - 1], *right = p->horizontal[j - 1];
     const double sine_of_m = j == 1 ? -p->m : 0;
     sin_cos_at(steps, i, j, bits, &sine, &cosine);
-    add_harmonic(steps, j, (double[]){sine_of_m, -up[0]}, (double[]){0, -up[1]}, &cosine, &sine, bits, series->along);
+    add_harmonic(steps, j, (double[][2]){{sine_of_m, 0}, {-up[0], -up[1]}}, clock, bits, series->along);
     if (!p->unmirrored) continue;
-    add_harmonic(steps, j, (double[]){-right[0], 0}, (double[]){-right[1], 0}, &cosine, &sine, bits, series->across);
+    add_harmonic(steps, j, (double[][2]){{-right[0], -right[1]}, {0, 0}}, clock, bits, series->across);
     if (j > 1) continue;
-    add_harmonic(steps, j, (double[]){p->torque_amplitude, 0}, (double[]){0, 0}, &cosine, &sine, bits, series->torque);
+    add_harmonic(steps, j, (double[][2]){{p->torque_amplitude, 0}, {0, 0}}, clock, bits, series->torque);
   }
   if (steps->stretch->changes) put_on_ramp(series, steps, i, bits);
   kz_number_add(series->along, series->along, &steps->gravity, bits);

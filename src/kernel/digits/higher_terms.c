@@ -121,16 +121,16 @@ static int64_t orders_of(const kz_series *s, int64_t tangent_orders, int columns
   return n + MORE < KZ_LONG_ORDERS ? n + MORE : KZ_LONG_ORDERS;
 }
 
-/* out += along by_along + sign across by_across. */
+/* out += along by[0] + sign across by[1]. */
 static void add_force(const kz_series *series, const kz_steps *steps, int64_t orders, int64_t n, int sign,
-                      const kz_number *by_along, const kz_number *by_across, long_series out) {
+                      const kz_number *const by[2], long_series out) {
   long_series force = {0}, factor = {0};
   read_series(series->along, steps->force_orders, n, force);
-  read_series(by_along, orders, n, factor);
+  read_series(by[0], orders, n, factor);
   add_product(n, 1, force, factor, out);
   if (!steps->pendulum->unmirrored) return;
   read_series(series->across, steps->force_orders, n, force);
-  read_series(by_across, orders, n, factor);
+  read_series(by[1], orders, n, factor);
   add_product(n, sign, force, factor, out);
 }
 
@@ -144,7 +144,7 @@ void kz_higher_terms_advance(const kz_series *series, const kz_steps *steps, int
   step_series p = {.n = orders_of(series, orders, columns), .columns = columns};
   read_steps(steps, &p);
   read_series(series->gain, orders - 1, p.n, p.gain);
-  add_force(series, steps, orders, p.n, 1, series->s, series->c, p.force);
+  add_force(series, steps, orders, p.n, 1, (const kz_number *[]){series->s, series->c}, p.force);
   for (int axis = 0; axis < columns; axis++) read_series(series->angle[axis], orders, p.n, p.x[axis]);
   move_second(&p, jet);
   move_third(&p, jet);
@@ -163,7 +163,7 @@ bool kz_tangent_advance(const kz_series *series, const kz_steps *steps, int64_t 
   step_series p = {.n = n < KZ_LONG_ORDERS ? n : KZ_LONG_ORDERS};
   long_series none = {0}, x;
   read_steps(steps, &p);
-  add_force(series, steps, orders, p.n, -1, series->c, series->s, p.gain);
+  add_force(series, steps, orders, p.n, -1, (const kz_number *[]){series->c, series->s}, p.gain);
   for (int axis = 0; axis < 2; axis++) {
     long double rate = (long double)jet->linear[1][axis] * p.h;
     x[0] = (long double)jet->linear[0][axis];

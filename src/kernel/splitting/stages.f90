@@ -20,7 +20,7 @@ contains
     integer :: first, s
 
     if (.not. self%split) then
-      call runge_kutta(from, to)
+      call rk4_steps(self, from, to, n, u, v)
       return
     end if
     first = 1
@@ -50,32 +50,34 @@ contains
         end do
       end if
     end subroutine drift_and_kick
-
-    subroutine runge_kutta(first, last)
-      integer, intent(in) :: first, last
-      real(rk) :: h, half, f0, f1, f2, a1, a2, a3, a4, v2, v3, v4
-      integer :: s, i
-
-      h = self%step
-      half = 0.5_rk*h
-      do s = first, last
-        f0 = self%kick(2*s - 1)
-        f1 = self%kick(2*s)
-        f2 = self%kick(2*s + 1)
-        do i = 1, n
-          a1 = -self%beta*v(i) - f0*sine(u(i))
-          v2 = v(i) + half*a1
-          a2 = -self%beta*v2 - f1*sine(u(i) + half*INVERSE_PI*v(i))
-          v3 = v(i) + half*a2
-          a3 = -self%beta*v3 - f1*sine(u(i) + half*INVERSE_PI*v2)
-          v4 = v(i) + h*a3
-          a4 = -self%beta*v4 - f2*sine(u(i) + h*INVERSE_PI*v3)
-          u(i) = u(i) + h*INVERSE_PI/6*(v(i) + 2*v2 + 2*v3 + v4)
-          v(i) = v(i) + h/6*(a1 + 2*a2 + 2*a3 + a4)
-        end do
-      end do
-    end subroutine runge_kutta
   end subroutine advance_steps
+
+  subroutine rk4_steps(self, from, to, n, u, v)
+    type(period_t), intent(in) :: self
+    integer, intent(in) :: from, to, n
+    real(rk), intent(inout) :: u(WIDTH), v(WIDTH)
+    real(rk) :: h, half, f0, f1, f2, a1, a2, a3, a4, v2, v3, v4
+    integer :: s, i
+
+    h = self%step
+    half = 0.5_rk*h
+    do s = from, to
+      f0 = self%kick(2*s - 1)
+      f1 = self%kick(2*s)
+      f2 = self%kick(2*s + 1)
+      do i = 1, n
+        a1 = -self%beta*v(i) - f0*sine(u(i))
+        v2 = v(i) + half*a1
+        a2 = -self%beta*v2 - f1*sine(u(i) + half*INVERSE_PI*v(i))
+        v3 = v(i) + half*a2
+        a3 = -self%beta*v3 - f1*sine(u(i) + half*INVERSE_PI*v2)
+        v4 = v(i) + h*a3
+        a4 = -self%beta*v4 - f2*sine(u(i) + h*INVERSE_PI*v3)
+        u(i) = u(i) + h*INVERSE_PI/6*(v(i) + 2*v2 + 2*v3 + v4)
+        v(i) = v(i) + h/6*(a1 + 2*a2 + 2*a3 + a4)
+      end do
+    end do
+  end subroutine rk4_steps
 
   !> Advances a period with the derivative of the scheme itself.
   subroutine advance_tangents(self, n, u, v, c)
@@ -96,7 +98,7 @@ contains
       c(:n, 2, :) = self%decay(s)*c(:n, 2, :)
     else
       do s = 1, self%n_steps
-        call rk4_tangents(s)
+        call rk4_tangents(self, s, n, u, v, c)
       end do
     end if
   contains
@@ -129,32 +131,34 @@ contains
         c(i, 2, 2) = decay*c(i, 2, 2) - slope(i)*c(i, 1, 2)
       end do
     end subroutine kick_tangents
-
-    !> Tangents of a step of Runge-Kutta, then the step.
-    subroutine rk4_tangents(s)
-      integer, intent(in) :: s
-      real(rk) :: half, half_u, f0, f1, f2, v2, v3, slope(WIDTH, 4)
-      integer :: i, j
-
-      half = 0.5_rk*self%step
-      half_u = half*INVERSE_PI
-      f0 = self%kick(2*s - 1)
-      f1 = self%kick(2*s)
-      f2 = self%kick(2*s + 1)
-      do i = 1, n
-        v2 = v(i) - half*(self%beta*v(i) + f0*sine(u(i)))
-        v3 = v(i) - half*(self%beta*v2 + f1*sine(u(i) + half_u*v(i)))
-        slope(i, 1) = f0*sine(u(i) + 0.5_rk)
-        slope(i, 2) = f1*sine(u(i) + half_u*v(i) + 0.5_rk)
-        slope(i, 3) = f1*sine(u(i) + half_u*v2 + 0.5_rk)
-        slope(i, 4) = f2*sine(u(i) + 2*half_u*v3 + 0.5_rk)
-      end do
-      do j = 1, 2
-        call rk4_column(n, self%step, self%beta, slope, c(:, 1, j), c(:, 2, j))
-      end do
-      call advance_steps(self, s, s, n, u, v)
-    end subroutine rk4_tangents
   end subroutine advance_tangents
+
+  !> Tangents of a step of Runge-Kutta, then the step.
+  subroutine rk4_tangents(self, s, n, u, v, c)
+    type(period_t), intent(in) :: self
+    integer, intent(in) :: s, n
+    real(rk), intent(inout) :: u(WIDTH), v(WIDTH), c(WIDTH, 2, 2)
+    real(rk) :: half, half_u, f0, f1, f2, v2, v3, slope(WIDTH, 4)
+    integer :: i, j
+
+    half = 0.5_rk*self%step
+    half_u = half*INVERSE_PI
+    f0 = self%kick(2*s - 1)
+    f1 = self%kick(2*s)
+    f2 = self%kick(2*s + 1)
+    do i = 1, n
+      v2 = v(i) - half*(self%beta*v(i) + f0*sine(u(i)))
+      v3 = v(i) - half*(self%beta*v2 + f1*sine(u(i) + half_u*v(i)))
+      slope(i, 1) = f0*sine(u(i) + 0.5_rk)
+      slope(i, 2) = f1*sine(u(i) + half_u*v(i) + 0.5_rk)
+      slope(i, 3) = f1*sine(u(i) + half_u*v2 + 0.5_rk)
+      slope(i, 4) = f2*sine(u(i) + 2*half_u*v3 + 0.5_rk)
+    end do
+    do j = 1, 2
+      call rk4_column(n, self%step, self%beta, slope, c(:, 1, j), c(:, 2, j))
+    end do
+    call advance_steps(self, s, s, n, u, v)
+  end subroutine rk4_tangents
 
   !> Advances x' = y, y' = -beta y - slope x of each lane by a step, with the slope of each stage.
   pure subroutine rk4_column(n, h, beta, slope, x, y)

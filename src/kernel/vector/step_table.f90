@@ -119,11 +119,7 @@ contains
       period%step_end(i + 1) = n
       clock_of_step = clock_of_step*step_phasor
     end do
-    period%kick = period%kick(:n)
-    if (.not. period%mirrored) then
-      period%shift = period%shift(:n)
-      period%push = period%push(:n)
-    end if
+    call trim_kicks(period, n)
     time(n + 1) = shift
     if (associated(part%changes)) then
       call set_changing_drifts(period, pendulum, part, time(:n + 1)*step)
@@ -257,6 +253,16 @@ contains
     allocate (period%kick(n))
     if (.not. period%mirrored) allocate (period%shift(n), period%push(n))
   end subroutine allocate_kicks
+
+  subroutine trim_kicks(period, n)
+    type(period_t), intent(inout) :: period
+    integer, intent(in) :: n
+
+    period%kick = period%kick(:n)
+    if (period%mirrored) return
+    period%shift = period%shift(:n)
+    period%push = period%push(:n)
+  end subroutine trim_kicks
 
   !> Sets kick n: the force at t = 2 pi * turn with exp(i t) = clock, times a weight.
   subroutine set_kick(period, pendulum, part, n, weight, turn, clock)

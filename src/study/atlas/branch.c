@@ -53,15 +53,15 @@ static bool lies_between(double event, const double *a, const double *b) {
   return event <= KZ_EVENT_FLIP && (1 + a[3] + sign * a[2] > 0) != (1 + b[3] + sign * b[2] > 0);
 }
 
-void kz_atlas_draw(const kz_atlas *atlas, int axis, const kz_atlas_kind *kind, int64_t n, const double *row, int64_t n_events,
-                   const double *event, kz_atlas_branches *line) {
+void kz_atlas_draw(const kz_atlas *atlas, int axis, const kz_atlas_kind *kind, const kz_atlas_branch_rows *rows,
+                   kz_atlas_branches *line) {
   const kz_atlas_class class = kz_atlas_class_of(kind);
   const int points = kind->of.points, width = 4 + 2 * points;
-  const double *last = event + n_events * (3 + 2 * points);
+  const double *row = rows->row, *event = rows->event, *last = event + rows->n_events * (3 + 2 * points);
   kz_atlas_branch branch = {.of = kz_atlas_described(atlas, &class), .first = line->n_points};
-  if (n < 2) return;
-  line->point = kz_realloc(line->point, (size_t)(line->n_points + n + n_events) * sizeof *line->point);
-  for (int64_t i = 0; i < n; i++, row += width) {
+  if (rows->n < 2) return;
+  line->point = kz_realloc(line->point, (size_t)(line->n_points + rows->n + rows->n_events) * sizeof *line->point);
+  for (int64_t i = 0; i < rows->n; i++, row += width) {
     for (; i > 0 && event < last && (event[0] > KZ_EVENT_FLIP || lies_between(event[0], row - width, row));
          event += 3 + 2 * points)
       if (event[0] <= KZ_EVENT_FLIP) put_point(atlas, axis, kind, event + 1, event + 3, 1, line);

@@ -7,6 +7,11 @@
 kz_status kz_atlas_place(const kz_atlas *atlas, int axis, double value, double *place);
 /* Multipliers of the whole period of a cycle from trace and determinant of its own map. */
 void kz_atlas_multipliers(const kz_atlas_kind *kind, const double number[2], double re[2], double im[2]);
-/* Adds a branch of kz_curve_branch to a line along an axis, with a point where it gains or loses its stability, an event. */
-void kz_atlas_draw(const kz_atlas *atlas, int axis, const kz_atlas_kind *kind, int64_t n, const double *row, int64_t n_events,
-                   const double *event, kz_atlas_branches *line);
+/* A branch as kz_curve_branch gives it. */
+typedef struct {
+  int64_t n, n_events;
+  double *row, *event;
+} kz_atlas_branch_rows;
+/* Adds a branch to a line along an axis, with a point where it gains or loses its stability, an event. */
+void kz_atlas_draw(const kz_atlas *atlas, int axis, const kz_atlas_kind *kind, const kz_atlas_branch_rows *rows,
+                   kz_atlas_branches *line);

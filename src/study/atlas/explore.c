@@ -56,25 +56,32 @@ static void add_parent(const kz_atlas *atlas, const line *l, int event, const kz
     take(atlas, l, parent.kind, parent.y, true, seeds);
 }
 
-/* Follows a cycle along a line and adds what it meets, `most` curves; side 1 or -1: one of the branches of a fold. */
-static void follow_to(const kz_atlas *atlas, const line *l, const kz_atlas_kind *kind, const double *start,
-                      const double along[2], int32_t side, int64_t most, kz_atlas_seeds *seeds) {
+/* A way along a line: its direction; side 1 or -1: one of the branches of a fold; how many curves it may meet. */
+typedef struct {
+  double along[2];
+  int32_t side;
+  int64_t most;
+} route;
+
+/* Follows a cycle along a line and adds what it meets. */
+static void follow_to(const kz_atlas *atlas, const line *l, const kz_atlas_kind *kind, const double *start, const route *to,
+                      kz_atlas_seeds *seeds) {
   const int n = 2 * kind->of.points;
   KZ_FREED double *row = kz_malloc(MOST_ROWS * (size_t)(4 + n) * sizeof *row);
   KZ_FREED double *event = kz_malloc(MOST_EVENTS * (size_t)(3 + n) * sizeof *event);
-  int64_t events = 0;
+  kz_atlas_branch_rows rows = {.row = row, .event = event};
   int32_t ending;
   if (kz_kind_period(kind) > atlas->scene->atlas->max_period) return;
-  const int64_t rows = kz_curve_branch(&atlas->plane, &kind->of, start, along, side, LONGEST, NULL, MOST_ROWS, row, most, event,
-                                       &events, &ending);
-  if (l && l->drawn) kz_atlas_draw(atlas, l->axis, kind, rows, row, events, event, l->drawn);
-  for (int64_t i = 0; i < events; i++) {
+  rows.n = kz_curve_branch(&atlas->plane, &kind->of, start, to->along, to->side, LONGEST, NULL, MOST_ROWS, row, to->most, event,
+                           &rows.n_events, &ending);
+  if (l && l->drawn) kz_atlas_draw(atlas, l->axis, kind, &rows, l->drawn);
+  for (int64_t i = 0; i < rows.n_events; i++) {
     const double *e = event + i * (3 + n);
     kz_atlas_seed at = {.kind = *kind};
     memcpy(at.y, e + 3, (size_t)n * sizeof *at.y);
     at.y[n] = e[1], at.y[n + 1] = e[2];
     if (e[0] > KZ_EVENT_FLIP) {
-      add_parent(atlas, l, (int)e[0], &at, along, seeds);
+      add_parent(atlas, l, (int)e[0], &at, to->along, seeds);
       continue;
     }
     at.kind.of.multiplier = e[0] == KZ_EVENT_FOLD ? 1 : -1;
@@ -84,7 +91,7 @@ static void follow_to(const kz_atlas *atlas, const line *l, const kz_atlas_kind 
 
 static void follow(const kz_atlas *atlas, const line *l, const kz_atlas_kind *kind, const double *start, const double along[2],
                    int32_t side, kz_atlas_seeds *seeds) {
-  follow_to(atlas, l, kind, start, along, side, MOST_EVENTS, seeds);
+  follow_to(atlas, l, kind, start, &(route){{along[0], along[1]}, side, MOST_EVENTS}, seeds);
 }
 
 /* To the right, to the left, up, down. */
@@ -96,9 +103,9 @@ static void direction(int i, double along[2]) {
 void kz_atlas_explore_first(const kz_atlas *atlas, const kz_atlas_seed *cycle, kz_atlas_seeds *seeds) {
   const int64_t before = seeds->count;
   for (int i = 3; i >= 0 && seeds->count == before; i--) {
-    double along[2];
-    direction(i, along);
-    follow_to(atlas, NULL, &cycle->kind, cycle->y, along, 0, 1, seeds);
+    route to = {.most = 1};
+    direction(i, to.along);
+    follow_to(atlas, NULL, &cycle->kind, cycle->y, &to, seeds);
   }
 }
 

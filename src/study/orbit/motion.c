@@ -27,7 +27,8 @@ void kz_model_free(kz_model *model) {
 /* Up to CHUNK periods of a simpler model. */
 static void skip_chunk(const kz_model *model, int64_t periods, kz_state *state) {
   double theta[CHUNK + 1], velocity[CHUNK + 1];
-  kz_sample_model(model->kind, &model->pendulum, periods, 1, state->theta - model->origin, state->velocity, theta, velocity);
+  const double start[] = {state->theta - model->origin, state->velocity};
+  kz_sample_model(model->kind, &model->pendulum, periods, 1, start, theta, velocity);
   *state = (kz_state){theta[periods] + model->origin, velocity[periods]};
 }
 
@@ -55,8 +56,8 @@ kz_status kz_model_record(const kz_model *model, int64_t periods, kz_state start
   if (model->flow) {
     kz_sample(model->flow, periods, model->samples, start.theta, start.velocity, motion->theta, motion->velocity);
   } else {
-    kz_sample_model(model->kind, &model->pendulum, periods, model->samples, start.theta - model->origin, start.velocity,
-                    motion->theta, motion->velocity);
+    const double from[] = {start.theta - model->origin, start.velocity};
+    kz_sample_model(model->kind, &model->pendulum, periods, model->samples, from, motion->theta, motion->velocity);
     for (size_t i = 0; i < n; i++) motion->theta[i] += model->origin;
   }
   return check_range(motion);

@@ -44,7 +44,11 @@ size_t kz_piece_bytes(const kz_saddles_plan *plan) {
 
 int64_t kz_lines_search(const kz_lines *lines, int64_t tile, int64_t most_starts, double *found, int64_t work[2]) {
   const kz_saddles_plan *plan = lines->plan;
-  const double window[4] = {plan->theta.min, plan->theta.max, plan->velocity.min, plan->velocity.max};
+  const kz_line_search search = {.max_period = plan->max_period,
+                                 .most_starts = most_starts,
+                                 .most = KZ_CYCLES_OF_A_PIECE,
+                                 .window = {plan->theta.min, plan->theta.max, plan->velocity.min, plan->velocity.max},
+                                 .steepest = lines->steepest};
   const double first = (double)(tile % lines->pieces * lines->cells), cells = (double)(lines->pieces * lines->cells);
   const double line = (double)(tile / lines->pieces) + 0.5;
   KZ_FREED double (*node)[2] = kz_malloc((size_t)(lines->cells + 1) * sizeof *node);
@@ -54,8 +58,7 @@ int64_t kz_lines_search(const kz_lines *lines, int64_t tile, int64_t most_starts
     node[i][0] = lines->rows ? along : across;
     node[i][1] = lines->rows ? across : along;
   }
-  return kz_dynamics_search_line(lines->pendulum, plan->max_period, lines->cells + 1, node[0], window, lines->steepest,
-                                 most_starts, KZ_CYCLES_OF_A_PIECE, found, work);
+  return kz_dynamics_search_line(lines->pendulum, &search, lines->cells + 1, node[0], found, work);
 }
 
 static int compare(const void *first, const void *second) {

@@ -13,7 +13,7 @@ static double theta[ALL], velocity[ALL];
 TEST(linear_without_drive) {
   const kz_pendulum pendulum = {0.09, 0.02, 0};
   const double omega = sqrt(0.09 - 0.0001), phase = atan2(0.01, omega);
-  kz_sample_model(KZ_MATHIEU, &pendulum, PERIODS, SAMPLES, 0.5, 0, theta, velocity);
+  kz_sample_model(KZ_MATHIEU, &pendulum, PERIODS, SAMPLES, (double[]){0.5, 0}, theta, velocity);
   for (int i = 0; i < ALL; i++) {
     double t = 2 * PI * i / SAMPLES;
     assert_true(fabs(theta[i] - 0.5 / cos(phase) * exp(-0.01 * t) * cos(omega * t - phase)) < 1e-12);
@@ -23,7 +23,7 @@ TEST(linear_without_drive) {
 /* On transition curve 2 at k = 0 the sine solution has twice the period of the drive (BUT Eq. 4). */
 TEST(curve_2_is_flutter) {
   const kz_pendulum pendulum = {0, 0, 0.4540231668672888};
-  kz_sample_model(KZ_MATHIEU, &pendulum, PERIODS, SAMPLES, 0, 0.1, theta, velocity);
+  kz_sample_model(KZ_MATHIEU, &pendulum, PERIODS, SAMPLES, (double[]){0, 0.1}, theta, velocity);
   for (int i = 0; i + 2 * SAMPLES < ALL; i++) assert_true(fabs(theta[i] - theta[i + 2 * SAMPLES]) < 1e-12);
   assert_true(fabs(velocity[SAMPLES] + 0.1) < 1e-13);
 }
@@ -38,7 +38,7 @@ static double energy(const kz_pendulum *p, double angle, double v) {
 
 TEST(slow_motion_keeps_its_energy) {
   const kz_pendulum pendulum = {1.0 / 9, 0, 0.6};
-  kz_sample_model(KZ_EFFECTIVE, &pendulum, PERIODS, SAMPLES, 2.0, 0.3, theta, velocity);
+  kz_sample_model(KZ_EFFECTIVE, &pendulum, PERIODS, SAMPLES, (double[]){2.0, 0.3}, theta, velocity);
   const double start = energy(&pendulum, 2.0, 0.3);
   for (int i = 0; i < ALL; i++) assert_true(fabs(energy(&pendulum, theta[i], velocity[i]) - start) < 1e-12);
 }
@@ -46,7 +46,7 @@ TEST(slow_motion_keeps_its_energy) {
 /* Damping takes the power beta v^2, whatever the potential. */
 TEST(slow_motion_loses_what_damping_takes) {
   const kz_pendulum pendulum = {1.0 / 9, 0.05, 0.6};
-  kz_sample_model(KZ_EFFECTIVE, &pendulum, PERIODS, SAMPLES, 2.5, 0, theta, velocity);
+  kz_sample_model(KZ_EFFECTIVE, &pendulum, PERIODS, SAMPLES, (double[]){2.5, 0}, theta, velocity);
   double taken = 0, h = 2 * PI / SAMPLES;
   for (int i = 0; i + 2 < ALL; i += 2)
     taken += pendulum.beta * h / 3 *

@@ -131,8 +131,7 @@ contains
     n = [regions%n_theta, regions%n_velocity]
     allocate (images%left(0:n(1) - 1, 0:n(2) - 1))
     allocate (images%n_columns, images%bottom, images%top, mold=images%left)
-    call boxes(n(1), n(2), real(regions%n_circle, dp), images%x, images%y, images%slack_x, images%slack_y, images%left, &
-               images%n_columns, images%bottom, images%top)
+    call boxes(n(1), n(2), real(regions%n_circle, dp), images)
     do l = 0, n(2) - 1
       where (.not. (straight(:n(1) - 1, l) .and. straight(1:, l) .and. straight(:n(1) - 1, l + 1) .and. straight(1:, l + 1))) &
         images%n_columns(:, l) = 0
@@ -140,30 +139,31 @@ contains
   end subroutine set_boxes
 
   !> In vectors. NaN and numbers beyond integers fall out as too large.
-  pure subroutine boxes(n_theta, n_velocity, circle, x, y, slack_x, slack_y, left, n_columns, bottom, top)
+  pure subroutine boxes(n_theta, n_velocity, circle, images)
     integer, intent(in) :: n_theta, n_velocity
     real(dp), intent(in) :: circle
-    real(dp), dimension(0:n_theta, 0:n_velocity), intent(in) :: x, y, slack_x, slack_y
-    integer(int32), dimension(0:n_theta - 1, 0:n_velocity - 1), intent(out) :: left, n_columns, bottom, top
+    type(images_t), intent(inout) :: images
     real(dp) :: from, to, low, high, slack_max
     logical :: good
     integer :: i, l
 
-    do l = 0, n_velocity - 1
-      do i = 0, n_theta - 1
-        slack_max = max(slack_x(i, l), slack_x(i + 1, l), slack_x(i, l + 1), slack_x(i + 1, l + 1))
-        from = aint_down(min(x(i, l), x(i + 1, l), x(i, l + 1), x(i + 1, l + 1)) - slack_max)
-        to = aint_down(max(x(i, l), x(i + 1, l), x(i, l + 1), x(i + 1, l + 1)) + slack_max)
-        slack_max = max(slack_y(i, l), slack_y(i + 1, l), slack_y(i, l + 1), slack_y(i + 1, l + 1))
-        low = aint_down(min(y(i, l), y(i + 1, l), y(i, l + 1), y(i + 1, l + 1)) - slack_max)
-        high = aint_down(max(y(i, l), y(i + 1, l), y(i, l + 1), y(i + 1, l + 1)) + slack_max)
-        good = low >= 0 .and. high < n_velocity .and. to - from < circle .and. (to - from)*(high - low) < LARGEST_IMAGE
-        left(i, l) = int(merge(from - circle*aint_down(from/circle), 0.0_dp, good), int32)
-        n_columns(i, l) = int(merge(to - from + 1, 0.0_dp, good), int32)
-        bottom(i, l) = int(merge(low, 0.0_dp, good), int32)
-        top(i, l) = int(merge(high, 0.0_dp, good), int32)
+    associate (x => images%x, y => images%y, slack_x => images%slack_x, slack_y => images%slack_y)
+      do l = 0, n_velocity - 1
+        do i = 0, n_theta - 1
+          slack_max = max(slack_x(i, l), slack_x(i + 1, l), slack_x(i, l + 1), slack_x(i + 1, l + 1))
+          from = aint_down(min(x(i, l), x(i + 1, l), x(i, l + 1), x(i + 1, l + 1)) - slack_max)
+          to = aint_down(max(x(i, l), x(i + 1, l), x(i, l + 1), x(i + 1, l + 1)) + slack_max)
+          slack_max = max(slack_y(i, l), slack_y(i + 1, l), slack_y(i, l + 1), slack_y(i + 1, l + 1))
+          low = aint_down(min(y(i, l), y(i + 1, l), y(i, l + 1), y(i + 1, l + 1)) - slack_max)
+          high = aint_down(max(y(i, l), y(i + 1, l), y(i, l + 1), y(i + 1, l + 1)) + slack_max)
+          good = low >= 0 .and. high < n_velocity .and. to - from < circle .and. (to - from)*(high - low) < LARGEST_IMAGE
+          images%left(i, l) = int(merge(from - circle*aint_down(from/circle), 0.0_dp, good), int32)
+          images%n_columns(i, l) = int(merge(to - from + 1, 0.0_dp, good), int32)
+          images%bottom(i, l) = int(merge(low, 0.0_dp, good), int32)
+          images%top(i, l) = int(merge(high, 0.0_dp, good), int32)
+        end do
       end do
-    end do
+    end associate
   contains
     !> The next integer below, as a real number: the intrinsic floor does not go over vectors.
     pure function aint_down(a) result(below)
