@@ -13,6 +13,7 @@ from kapitza import datasets, units
 from kapitza.library import Library, load
 from kapitza.scene import SYMBOLS, Scene, SceneLike, flow, put, texts
 from kapitza.table import attractors_table
+from kapitza.ways_out import WaysOut, scene_of
 
 Reals = NDArray[np.float64]
 
@@ -224,6 +225,13 @@ class Pendulum:
                    self._library.view(points), count)
         table = pandas.DataFrame(points[:count[0]], columns=["theta", "velocity", "arc_length", "polyline"])
         return table.astype({"polyline": int})
+
+    def ways_out(self, *, max_period: int = 6, velocity: tuple[float, float] = (-2, 2), **keys: Any) -> WaysOut:
+        """The least torque out of each basin, or into every one: paths, barriers, lives. Keys are those of the study `escape`.
+
+        >>> kapitza.Pendulum(Q=5, Omega=11, epsilon=0.3).ways_out(starts=12).barriers
+        """
+        return WaysOut(self._library, scene_of(self._tree, max_period, velocity, keys))
 
     def _listed(self, dimension: str, name: str, *arguments: Any, after: tuple[Any, ...] = ()) -> xarray.Dataset:
         given = self._library.ffi.new("kapitza_cycles **")

@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 from conftest import datasets, plot, refused_scene, run_scene, stopped_and_resumed, with_extensive
+from kapitza import Pendulum, SceneError
 
 SCENE = {"pendulum": {"quality_factor": 5, "drive_frequency": 11, "drive_amplitude": 0.3},
          "attractors": {"velocity": {"min": -2, "max": 2}},
@@ -69,6 +70,25 @@ def test_pictures_and_what_they_refuse(fig12, tmp_path):
     assert plot("escape", path, "--attractor", "inverted", "-o", tmp_path / "way.png", "--dpi", "60").returncode == 0
     assert "escape.into_every_basin gives the others" in plot("escape", path, "--into", "down", "-o", tmp_path / "no.png").stderr
     assert "has no attractor nodding" in plot("escape", path, "--attractor", "nodding", "-o", tmp_path / "no.png").stderr
+
+
+def test_ways_out_of_a_pendulum_in_this_process(fig12):
+    """Pendulum.ways_out has the numbers of the file; what was not asked for is refused."""
+    pendulum = Pendulum(quality_factor=5, drive_frequency=11, drive_amplitude=0.25)
+    ways = pendulum.ways_out(max_period=2, starts=8)
+    escape = fig12[0].group("escape")
+    inverted = ways.barriers.loc["inverted"]
+    assert inverted["barrier"] == escape["barrier_out"].values[named(fig12[0], "attractors", "inverted")[0]]
+    path, row = ways.path(int(inverted["route"])), ways.table.loc[int(inverted["route"])]
+    assert path.attrs["action"] == row["barrier"] == inverted["barrier"] and row["from"] == "inverted"
+    assert np.abs(path["torque"]).max() == pytest.approx(row["largest_torque"], rel=1e-9)
+    assert ways.plot("inverted", no_title=True).axes[1].get_ylabel() == "torque (I ω²)"
+    with pytest.raises(ValueError, match="into_every_basin=True"):
+        ways.matrix  # noqa: B018
+    with pytest.raises(ValueError, match="give temperatures"):
+        ways.lives  # noqa: B018
+    with pytest.raises(SceneError, match="escape.starts"):
+        pendulum.ways_out(starts=0)
 
 
 def test_counted_lives_are_those_of_the_barrier(fig12, kapitza, tmp_path):
