@@ -23,8 +23,8 @@ FILM = (640, 400)
 EACH = 150  # ms of a picture of the film
 READY = "document.body.dataset.state === 'done' && document.querySelectorAll('.marks span').length"
 KNOWN = "!$('pendulum').classList.contains('awaits')"  # the motion of the start
-STEPS = (10, 18, 10, 12, 12, 8)  # pictures of each step of the story of one minute
-AMPLITUDES = [0.30 - 0.20 * i / 10 for i in range(11)] + [0.10 + 0.40 * i / 16 for i in range(1, 17)]  # then the slider
+STEPS = (7, 10, 5, 7, 7, 4)  # pictures of each step of the story of one minute
+AMPLITUDES = [0.30 - 0.20 * i / 6 for i in range(7)] + [0.10 + 0.38 * i / 9 for i in range(1, 10)]  # then the slider
 
 
 def opened(driver, server, size, more):
@@ -53,7 +53,7 @@ def film(driver, page):
             page.press("story-next")
         pictures += [shown(driver) for _ in range(count)]
         wait_for(lambda: page.run(f"!explorer.stories.busy && document.body.dataset.state === 'done' && {KNOWN}"), 120)
-        pictures += [shown(driver)] * 6
+        pictures += [shown(driver)] * 8
     page.press("story-end")
     for amplitude in AMPLITUDES:
         page.run("(explorer.basins.panes[0].most = 2.5e5, explorer.state.change({pendulum: {...explorer.state.pendulum, "

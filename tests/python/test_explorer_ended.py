@@ -25,6 +25,16 @@ def test_a_picture_that_is_saved_ends_no_frame(page, webgl, folder):
     assert len(colours & {tuple(pixel[:3]) for pixel in page.pixels()}) >= 2  # it has the colours of the page
 
 
+def test_a_picture_that_is_late_leaves_the_last_one_blurred_with_how_far_it_is(page):
+    """Each level takes 0.9 s. While pictures come at once, none is blurred, however fast a hand moves on."""
+    page.run("explorer.state.change({pendulum: {...explorer.state.pendulum, m: '5.9'}})")
+    seen = "[document.querySelector('.pane').classList.contains('stale'), document.querySelector('.wait').textContent]"
+    assert wait_for(lambda: page.run(seen) == [True, "0 % of the new picture"])
+    assert len(page.shares()) > 1 and page.run("$('legend').classList.contains('stale')")
+    page.wait()
+    assert not page.run(seen)[0] and page.run("explorer.basins.panes[0].pendulum.m") == "5.9"
+
+
 def test_a_picture_that_was_cancelled_is_not_the_one_wanted_since(page):
     """The page said "done" until the next one was asked for."""
     deciding(page)

@@ -21,6 +21,7 @@ const SMOOTH = 30; // ms that a frame may take while things move, which decides 
 const FEWEST = 24_000; // at least
 const EASE = 0.4; // of the way to the window wanted, a picture of the screen
 const LEAP = 30;
+const LATE = 500; // ms without a new picture, after which the last one is blurred
 const COARSE = 40_000; // cells of the times that give a picture its relief
 
 export class Pane {
@@ -95,9 +96,21 @@ export class Pane {
     this.version++;
     this.say(this, "moving", "", 0); // at once: the frame before may still be on its way
     this.offer.hidden = true;
+    this.blurLate();
     this.giveUp();
     this.move();
     this.pursue();
+  }
+
+  /** Whether the last picture is blurred, as the one wanted is late. */
+  blur(isLate = false) {
+    clearTimeout(this.late);
+    this.late = null;
+    this.root.classList.toggle("stale", isLate);
+  }
+
+  blurLate() {
+    if (this.isStale) this.late ??= setTimeout(() => this.blur(this.isStale), LATE);
   }
 
   /** Gives up a frame that is no longer wanted; soon, where its first level is not there. */
@@ -270,12 +283,15 @@ export class Pane {
     this.frames = [...this.frames.filter((old) => !covered(old)), frame].sort((one, two) => cellOf(two) - cellOf(one));
     while (this.frames.length > MOST_FRAMES) this.painter.forget(...this.frames.splice(this.frames[0] === frame ? 1 : 0, 1));
     this.latest = frame;
+    this.blur();
+    this.blurLate();
     this.draw();
     this.report(this);
   }
 
   refused(error) {
     this.failed = this.version;
+    this.blur(this.isStale);
     this.draw();
     this.report(this);
     this.say(this, "error", error.message);
@@ -299,6 +315,7 @@ export class Pane {
 
   /** What a cancelled picture is. */
   rested() {
+    this.blur(this.isStale);
     this.draw();
     this.report(this);
     this.say(this, "done", "Cancelled. The picture is what was computed until then.");
@@ -344,7 +361,7 @@ export class Pane {
     context.setTransform(ratio, 0, 0, ratio, 0, 0);
     context.clearRect(0, 0, this.over.clientWidth, this.over.clientHeight);
     const surface = new CanvasSurface(context, this.state.colours, lettersOf(document.body));
-    this.root.classList.toggle("stale", this.isStale);
+    if (!this.isStale) this.blur();
     drawOverBasins(surface, this.plane, this.plain, this.state, this.isStopped && this.isStale ? null : this.top);
   }
 
