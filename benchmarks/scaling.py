@@ -1,11 +1,11 @@
 """Predicts how long the command for a basin takes on many ranks, from the --log of a run on one rank.
 
     scaling.py predict [--grid N] [--plot FILE] [--ranks R...] NAME=LOG...    seconds and efficiency; --grid: on N x N cells
-    scaling.py page FILE                                                      the figure of docs/validation/scaling.md, from its table
+    scaling.py page FILE                                                      the figure of docs/validation/benchmarks.md, from its table
     scaling.py load [--grid N] LOG                                            seconds of its tiles, for build/benchmarks/uneven
     scaling.py share [--slower X] [--ranks R...] FILE                         what build/benchmarks/uneven FILE X will measure
 
-docs/validation/scaling.md says what is assumed, how the costs of messages were measured (messages.c), and how good it is.
+docs/validation/benchmarks.md says what is assumed, how the costs of messages were measured (messages.c), and how good it is.
 """
 
 import argparse
@@ -27,7 +27,7 @@ TILE_CELLS, BOX = 16384, 5  # of a tile: whole rows, a multiple of five (src/stu
 GRID = ("cells 1", "file")  # stages whose tiles become more with the grid
 WRITING = "file: writing"
 WRITING_CELL = 2.2e-10  # s of rank 0 for the packed bytes of a cell: messages of 10^6 cells against those of 80,000
-PAGE = Path(__file__).resolve().parents[1] / "docs" / "validation" / "scaling.md"
+PAGE = Path(__file__).resolve().parents[1] / "docs" / "validation" / "benchmarks.md"
 COLOURS = ("#2f6db3", "#c2452f", "#12806a")
 
 
