@@ -88,6 +88,13 @@ char *kz_strndup(const char *text, size_t length);
  * known. */
 void *kz_list_reserve(void *list, int64_t *capacity, int64_t n, size_t item);
 
+static inline int64_t kz_smaller(int64_t a, int64_t b) {
+  return a < b ? a : b;
+}
+static inline int64_t kz_larger(int64_t a, int64_t b) {
+  return a > b ? a : b;
+}
+
 /* Before the declaration of a local variable: what it points to, or, by a function of its own, what it holds is freed when the function
  * returns, from whatever place. */
 #define KZ_FREED KZ_FREED_BY(kz_free_local)

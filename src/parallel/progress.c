@@ -78,7 +78,7 @@ void kz_meter_show(kz_meter *meter, int64_t done) {
   meter->due = now + (meter->live ? BAR_PERIOD : meter->last ? LINE_PERIOD_ALWAYS : LINE_PERIOD);
   if (meter->live && !has_terminal(meter->out)) return;
   meter->shown = true;
-  draw(meter, done < meter->total ? done : meter->total, now - meter->begun);
+  draw(meter, kz_smaller(done, meter->total), now - meter->begun);
 }
 
 void kz_meter_end(kz_meter *meter, bool complete, double idle) {

@@ -213,7 +213,7 @@ kz_status kz_ranks_compare(kz_ranks *ranks, const char *text, const char *what) 
 kz_status kz_ranks_broadcast(kz_ranks *ranks, void *data, size_t bytes) {
   for (size_t sent = 0; kz_ranks_several(ranks) && sent < bytes; sent += CHUNK_BYTES) {
     const size_t left = bytes - sent;
-    KZ_MPI(MPI_Bcast((char *)data + sent, (int)(left < CHUNK_BYTES ? left : CHUNK_BYTES), MPI_BYTE, 0, ranks->comm));
+    KZ_MPI(MPI_Bcast((char *)data + sent, (int)kz_smaller(left, CHUNK_BYTES), MPI_BYTE, 0, ranks->comm));
   }
   return KZ_OK;
 }

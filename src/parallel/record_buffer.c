@@ -28,7 +28,7 @@ void *kz_record_buffer_add(kz_record_buffer *buffered, int64_t tile) {
 static kz_status send_slots(const kz_record_buffer *buffered, kz_ranks *ranks) {
   KZ_MPI(MPI_Send(&buffered->n, 1, MPI_INT64_T, 0, TAG, ranks->comm));
   for (int64_t i = 0; i < buffered->n; i += buffered->message_slots) {
-    const int64_t left = buffered->n - i, n = left < buffered->message_slots ? left : buffered->message_slots;
+    const int64_t left = buffered->n - i, n = kz_smaller(left, buffered->message_slots);
     KZ_MPI(MPI_Send(buffered->slots + (size_t)i * buffered->stride, (int)((size_t)n * buffered->stride), MPI_BYTE, 0, TAG,
                     ranks->comm));
   }

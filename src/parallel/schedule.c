@@ -10,7 +10,7 @@
 static const double BATCH_SECONDS = 0.1, SECONDS_A_RANK = 1e-4;
 
 void kz_schedule_begin(kz_schedule *schedule, int64_t n_tiles, int ranks) {
-  *schedule = (kz_schedule){.next = ranks < n_tiles ? ranks : n_tiles, .end = n_tiles, .ranks = ranks, .taking = ranks};
+  *schedule = (kz_schedule){.next = kz_smaller(ranks, n_tiles), .end = n_tiles, .ranks = ranks, .taking = ranks};
   schedule->seconds = kz_calloc((size_t)ranks, sizeof *schedule->seconds);
 }
 

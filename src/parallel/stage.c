@@ -93,7 +93,7 @@ static kz_status work_tile(const kz_stage *stage, int64_t tile, void *record) {
   if (!stage->items) return stage->work(stage->context, tile, record);
   const int64_t tiles = (stage->n_items + stage->batch - 1) / stage->batch; /* of a row */
   const int64_t first = tile % tiles * stage->batch, left = stage->n_items - first;
-  return stage->items(stage->context, tile / tiles * stage->n_items + first, left < stage->batch ? left : stage->batch, record);
+  return stage->items(stage->context, tile / tiles * stage->n_items + first, kz_smaller(left, stage->batch), record);
 }
 
 /* Where the record of a tile is made. */

@@ -160,7 +160,7 @@ static int64_t last_order(const kz_number *series, int64_t last) {
 bool kz_tangent_advance(const kz_series *series, const kz_steps *steps, int64_t orders, kz_jet *jet) {
   enum { FEWEST = 24, MORE = 8 };
   const int64_t n = kz_larger(FEWEST, kz_larger(last_order(series->c, orders), last_order(series->w, orders))) + MORE;
-  step_series p = {.n = n < KZ_LONG_ORDERS ? n : KZ_LONG_ORDERS};
+  step_series p = {.n = kz_smaller(n, KZ_LONG_ORDERS)};
   long_series none = {0}, x;
   read_steps(steps, &p);
   add_force(series, steps, orders, p.n, -1, (const kz_number *[]){series->c, series->s}, p.gain);

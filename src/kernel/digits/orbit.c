@@ -57,7 +57,7 @@ static kz_arbitrary *allocate_orbit(const kz_pendulum *pendulum, int64_t bits) {
   o->pendulum = *pendulum;
   o->steps.pendulum = &o->pendulum;
   o->steps.stretch = &o->stretch;
-  o->bits = bits < KZ_FEWEST_BITS ? KZ_FEWEST_BITS : bits;
+  o->bits = kz_larger(bits, KZ_FEWEST_BITS);
   o->series.orders = orders_for(o->bits);
   o->workspace = kz_numbers_make(numbers_of(o));
   share_memory(o);
@@ -126,8 +126,8 @@ static void wrap_angle(kz_arbitrary *o, int64_t bits) {
 
 /* Sets the tangent and its bits: those of jets, or those that the orbit keeps, at most its own. */
 static void begin_tangent(kz_arbitrary *o, int64_t bits, const kz_jet *jet) {
-  const int64_t kept = o->tangent_bits < bits ? o->tangent_bits : bits;
-  o->state.tangent_bits = kept > KZ_TANGENT_BITS ? kept : KZ_TANGENT_BITS;
+  const int64_t kept = kz_smaller(o->tangent_bits, bits);
+  o->state.tangent_bits = kz_larger(kept, KZ_TANGENT_BITS);
   o->state.columns = o->tangent_bits > 0 ? 1 : 2;
   if (o->tangent_bits > 0) return;
   for (int axis = 0; axis < 2; axis++) {
@@ -167,7 +167,7 @@ static kz_status advance_stretch(kz_arbitrary *o, int64_t fine, int degree, kz_j
 }
 
 kz_status kz_arbitrary_advance(kz_arbitrary *o, int64_t bits, int degree, kz_jet *jet) {
-  const int64_t fine = bits > o->bits ? o->bits : bits, finest = o->bits + 32;
+  const int64_t fine = kz_smaller(bits, o->bits), finest = o->bits + 32;
   const bool was_whole = o->stretch.is_whole;
   wrap_angle(o, o->bits);
   begin_tangent(o, fine, degree > 1 ? jet : NULL);

@@ -10,12 +10,12 @@ int64_t kz_bits_needed(int64_t bits, int64_t size) {
 void kz_series_add_product(const kz_series *series, const kz_steps *steps, bool minus, const kz_number *a,
                            const kz_number *b, int64_t n, int64_t bits, kz_number *x) {
   const bool ends = a == series->along || a == series->across;
-  const int64_t most = ends && n > steps->force_orders ? steps->force_orders : n;
+  const int64_t most = ends ? kz_smaller(n, steps->force_orders) : n;
   kz_number_dot(x, x, minus, b + (n - most), a + most, most + 1, bits);
 }
 
 void kz_series_damp(const kz_steps *steps, const kz_number *rate, int64_t n, int64_t bits, kz_number *x) {
-  const int64_t most = steps->damping_orders < n ? steps->damping_orders : n;
+  const int64_t most = kz_smaller(steps->damping_orders, n);
   if (most == 0)
     kz_number_multiply(x, steps->damping, rate + n, bits);
   else

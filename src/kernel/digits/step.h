@@ -53,10 +53,6 @@ void kz_stretch_begin(kz_stretch *stretch, int64_t strobe, int64_t bits);
 /* Goes on to the next part of the same period; false at the next strobe. */
 bool kz_stretch_next(kz_stretch *stretch, int64_t bits);
 
-static inline int64_t kz_larger(int64_t a, int64_t b) {
-  return a > b ? a : b;
-}
-
 /* Bits that the next coefficient needs after coefficients below 2^size. */
 int64_t kz_bits_needed(int64_t bits, int64_t size);
 /* Adds coefficient n of a b to x, or subtracts it if `minus`; the drive's series end at force_orders. */

@@ -55,7 +55,7 @@ static kz_status choose(const kz_reference_labels *reference, const kz_run *run,
   *choice = (kz_choice){.samples = reference->samples, .flipped = kz_reference_labels_sum(reference).flipped};
   for (w.first = 0; w.first < w.count && !choice->setting; w.first += step) {
     const int64_t left = w.count - w.first;
-    const kz_stage stage = kz_stage_for_all("settings", left < step ? left : step, sizeof *measured, try_config, &w);
+    const kz_stage stage = kz_stage_for_all("settings", kz_smaller(left, step), sizeof *measured, try_config, &w);
     KZ_TRY(kz_stage_run(run, &stage, measured));
     for (int64_t i = 0; i < stage.n_tiles && !choice->setting; i++) {
       choice->tried++;

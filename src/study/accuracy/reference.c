@@ -44,7 +44,7 @@ kz_status kz_reference_labels_numerics(const kz_basin_plan *plan, const kz_pendu
 /* From starts, then from probes that do not settle. */
 static kz_status find_attractors(const kz_reference_labels *reference, const kz_run *run, kz_dynamics *dynamics) {
   const kz_basin_plan *plan = reference->plan;
-  const int64_t probes = reference->total < PROBES ? reference->total : PROBES;
+  const int64_t probes = kz_smaller(reference->total, PROBES);
   const kz_search_on search_on = {ROUNDS, PROBES, NULL};
   kz_search search = kz_search_of_basin(plan);
   kz_labeller labeller = kz_cell_labeller(plan, dynamics);
@@ -166,7 +166,7 @@ kz_status kz_reference_labels_make(const kz_scene *scene, const kz_run *run, int
                                      .pendulum = scene->parameters.pendulum,
                                      .series = scene->series,
                                      .total = plan->theta.count * plan->velocity.count};
-  reference->samples = samples < reference->total ? samples : reference->total;
+  reference->samples = kz_smaller(samples, reference->total);
   kz_numerics numerics;
   KZ_TRY(kz_ranks_agree(run->ranks, kz_reference_labels_numerics(plan, &reference->pendulum, &numerics)));
   KZ_FREED_BY(kz_dynamics_freed)

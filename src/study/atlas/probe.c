@@ -121,7 +121,7 @@ static kz_status discover_images(kz_dynamics *dynamics, int64_t most, const kz_a
   for (int64_t i = 0; i < found->count; i++)
     for (int j = 0; j < found->list[i].kind.of.points; j++, n++)
       kz_start_state(-found->list[i].y[2 * j], -found->list[i].y[2 * j + 1], state + 2 * n);
-  return kz_discover(NULL, dynamics, most, n, state, NULL);
+  return kz_discover(NULL, dynamics, 0, most, n, state, NULL);
 }
 
 kz_status kz_atlas_probe_at(const kz_atlas *atlas, const double place[2], int64_t starts, int64_t seed, kz_atlas_seeds *found) {
@@ -132,7 +132,7 @@ kz_status kz_atlas_probe_at(const kz_atlas *atlas, const double place[2], int64_
   KZ_FREED double *state = kz_malloc(2 * (size_t)starts * sizeof *state);
   const int64_t most = (int64_t)fmin(MOST_PERIODS, fmax(FEWEST_PERIODS, 60 / (M_PI * pendulum.beta)));
   begin(dynamics, &pendulum, starts, seed, state);
-  KZ_TRY(kz_discover(NULL, dynamics, most, starts, state, NULL));
+  KZ_TRY(kz_discover(NULL, dynamics, 0, most, starts, state, NULL));
   add_known(atlas, dynamics, place, found);
   if (kz_atlas_paired(atlas)) return KZ_OK;
   KZ_TRY(discover_images(dynamics, most, found));

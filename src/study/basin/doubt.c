@@ -23,7 +23,7 @@ static int64_t cell_of(const kz_basin_plan *plan, int64_t i) {
 /* Cells of the sample; 0 for all methods but icm, which consider all cells. */
 static int64_t sample_size(const kz_basin_plan *plan) {
   const int64_t own = plan->method == KZ_METHOD_ICM ? kz_unique_cells(plan) : 0;
-  return own < SAMPLE ? own : SAMPLE;
+  return kz_smaller(own, SAMPLE);
 }
 
 static kz_status follow_cells(void *context, int64_t first, int64_t n, void *record) {

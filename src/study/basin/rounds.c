@@ -69,7 +69,7 @@ static kz_status merge(kz_window_labels *l, kz_local_record *packed, int64_t fro
  * first one on, in stages of round `round`. Collective. */
 static kz_status label_pending(kz_window_labels *l, int round) {
   const int64_t *before = l->before, all = before[l->tiles.own];
-  const int64_t most = all < MOST_PENDING ? all : MOST_PENDING;
+  const int64_t most = kz_smaller(all, MOST_PENDING);
   KZ_FREED int64_t *cell = kz_malloc((size_t)most * sizeof *cell + 1);
   KZ_FREED int64_t *level = kz_malloc((size_t)most * sizeof *level + 1);
   KZ_FREED kz_label *found = kz_malloc((size_t)most * sizeof *found + 1);

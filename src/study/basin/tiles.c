@@ -3,15 +3,11 @@
 
 enum { MOST_CELLS = 1 << 19 }; /* Cells of a tile: few MB */
 
-static int64_t lower(int64_t a, int64_t b) {
-  return a < b ? a : b;
-}
-
 /* Length of the pieces of an axis: a multiple of `unit`, at most `target` or little more, and never more than `most`; `divides`:
  * without rest. 0 where there is none. */
 static int64_t piece(int64_t count, int64_t unit, int64_t target, int64_t most, bool divides) {
   int64_t best = 0;
-  for (int64_t length = unit; length <= lower(count, most); length += unit) {
+  for (int64_t length = unit; length <= kz_smaller(count, most); length += unit) {
     if (divides && count % length != 0) continue;
     if (length > target && best > 0 && 4 * best >= target) break;
     best = length;
@@ -38,7 +34,7 @@ kz_tiles kz_tiles_of(const kz_scene *scene, int64_t target) {
   tiles.cells = tiles.rows * tiles.columns;
   const int64_t enough = kz_tile_cells(scene, MOST_CELLS); /* as if no motion settled; nearly all settle long before */
   const bool mirrored = tiles.unique_cells < tiles.cells;
-  choose(&tiles, lower(target, enough), lower(64 * enough, MOST_CELLS), mirrored);
+  choose(&tiles, kz_smaller(target, enough), kz_smaller(64 * enough, MOST_CELLS), mirrored);
   tiles.across = (tiles.columns + tiles.chunk[1] - 1) / tiles.chunk[1];
   tiles.n = tiles.across * ((tiles.rows + tiles.chunk[0] - 1) / tiles.chunk[0]);
   tiles.own = mirrored ? (tiles.n + 1) / 2 : tiles.n;
@@ -52,11 +48,11 @@ int64_t kz_tile_first(const kz_tiles *tiles, int64_t tile) {
 
 int64_t kz_tile_count(const kz_tiles *tiles, int64_t tile) {
   const int64_t row = tile / tiles->across * tiles->chunk[0], column = tile % tiles->across * tiles->chunk[1];
-  return lower(tiles->chunk[0], tiles->rows - row) * lower(tiles->chunk[1], tiles->columns - column);
+  return kz_smaller(tiles->chunk[0], tiles->rows - row) * kz_smaller(tiles->chunk[1], tiles->columns - column);
 }
 
 int64_t kz_tile_own(const kz_tiles *tiles, int64_t tile) {
-  return lower(kz_tile_count(tiles, tile), tiles->unique_cells - kz_tile_first(tiles, tile));
+  return kz_smaller(kz_tile_count(tiles, tile), tiles->unique_cells - kz_tile_first(tiles, tile));
 }
 
 int64_t kz_tile_capacity(const kz_tiles *tiles) {

@@ -67,7 +67,7 @@ static void print_shared(const kz_box_counts *b, int64_t basins, FILE *summary) 
 }
 
 static kz_status write_boxes(const kz_box_counts *b, int64_t count, kz_store *store, FILE *summary) {
-  const int64_t basins = count < KZ_BOX_LABELS ? count : KZ_BOX_LABELS;
+  const int64_t basins = kz_smaller(count, KZ_BOX_LABELS);
   KZ_TRY(kz_store_dimension(store, "boundary", "box", KZ_BOX_SIZES, NULL));
   KZ_TRY(kz_store_dimension(store, "boundary", "basin", basins, NULL));
   KZ_COLUMN(store, "boundary", "box_cells", KZ_BOX_SIZES, int32_t, 1 << i);

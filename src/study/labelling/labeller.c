@@ -28,10 +28,6 @@ static int64_t item_at(const int64_t *item, int64_t i) {
   return item ? item[i] : i;
 }
 
-static int64_t smaller(int64_t a, int64_t b) {
-  return a < b ? a : b;
-}
-
 /* The starts of n items for a level, released. */
 static kz_status starts_of(const kz_labeller *l, kz_precision level, int64_t n, const int64_t *item, int64_t first,
                            kz_start *start) {
@@ -123,11 +119,11 @@ static kz_status decide(const batch *b, int64_t first, int64_t n, kz_start *star
 /* Labels items as many at a time as the labeller says, by this process alone. */
 static kz_status label_items(const batch *b, int64_t first, int64_t n, kz_label *label) {
   const kz_labeller *l = b->labeller;
-  const int64_t most = smaller(n, l->tile > 0 ? smaller(l->tile, BATCH) : BATCH);
+  const int64_t most = kz_smaller(n, l->tile > 0 ? kz_smaller(l->tile, BATCH) : BATCH);
   KZ_FREED kz_start *start = kz_malloc((size_t)most * sizeof *start + 1);
   KZ_FREED kz_decision *decision = kz_malloc((size_t)most * sizeof *decision + 1);
   for (int64_t done = 0; done < n; done += most) {
-    const int64_t part = smaller(n - done, most);
+    const int64_t part = kz_smaller(n - done, most);
     if (l->run) KZ_TRY(kz_ranks_interrupted(l->run->ranks));
     KZ_TRY(decide(b, first + done, part, start, decision));
     if (l->turns) kz_dynamics_count_turns(l->dynamics, part, l->max_periods, decision);
@@ -144,12 +140,12 @@ static kz_status label_tile(void *context, int64_t first, int64_t n, void *recor
   return label_items(context, first, n, record);
 }
 
-/* The stage in which n items are labelled. Alone a process takes all lanes can hold; ranks share smaller tiles. */
+/* The stage in which ranks label n items. */
 static kz_stage stage_of(batch *b, int round, int64_t n, char name[32]) {
   const kz_labeller *l = b->labeller;
   const kz_level *row = row_of(l, b->by);
   const decider first = first_decider(l);
-  const int64_t most = l->run ? row->tile : BATCH, tile = l->tile > 0 ? smaller(l->tile, most) : most;
+  const int64_t tile = l->tile > 0 ? kz_smaller(l->tile, row->tile) : row->tile;
   snprintf(name, 32, "%s %d", row->stage, round);
   if (l->stage && b->by.kind == first.kind && b->by.row == first.row) snprintf(name, 32, "%s", l->stage);
   return kz_stage_of_items(name, n, tile, (size_t)tile * sizeof(kz_label), label_tile, b);
@@ -169,9 +165,14 @@ static kz_status climb(const kz_labeller *l, decider by, int round, int64_t n, c
     for (int64_t i = 0; i < n; i++)
       if (may_decide(l, b.by, label + place[i])) now[n_now++] = item_at(item, place[i]);
     if (n_now == 0) continue;
-    const kz_stage stage = stage_of(&b, round, n_now, name);
-    found = kz_realloc(found, (size_t)stage.n_tiles * stage.record_bytes + 1);
-    KZ_TRY(kz_stage_run(l->run, &stage, found));
+    if (l->run) {
+      const kz_stage stage = stage_of(&b, round, n_now, name);
+      found = kz_realloc(found, (size_t)stage.n_tiles * stage.record_bytes + 1);
+      KZ_TRY(kz_stage_run(l->run, &stage, found));
+    } else {
+      found = kz_realloc(found, (size_t)n_now * sizeof *found);
+      KZ_TRY(label_items(&b, 0, n_now, found));
+    }
     for (int64_t i = 0; i < n; i++) {
       kz_label *own = label + place[i];
       if (may_decide(l, b.by, own)) *own = found[taken++];

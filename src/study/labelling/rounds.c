@@ -10,7 +10,7 @@ static kz_status search_from(const kz_labeller *l, int64_t n, const int64_t *ite
   KZ_FREED double *state = kz_malloc(2 * (size_t)n * sizeof *state + 1);
   KZ_FREED int32_t *label = kz_malloc((size_t)n * sizeof *label + 1);
   KZ_TRY(kz_item_states(l, n, item, state, NULL));
-  KZ_TRY(kz_discover(l->run, l->dynamics, l->max_periods, n, state, label));
+  KZ_TRY(kz_discover(l->run, l->dynamics, 0, l->max_periods, n, state, label));
   for (int64_t i = 0; reached && i < n; i++) reached[label[i]]++;
   *found = kz_dynamics_count(l->dynamics) > known;
   return KZ_OK;
@@ -22,7 +22,7 @@ kz_status kz_search_rounds(const kz_labeller *l, const kz_search_on *search, con
     bool found;
     KZ_TRY(u->count(u->labels, &all));
     if (all == 0) return KZ_OK;
-    const int64_t n = all < search->starts ? all : search->starts;
+    const int64_t n = kz_smaller(all, search->starts);
     KZ_FREED int64_t *item = kz_malloc((size_t)n * sizeof *item);
     KZ_TRY(u->pick(u->labels, all, n, item));
     KZ_TRY(search_from(l, n, item, search->reached, &found));

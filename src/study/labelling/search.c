@@ -63,26 +63,21 @@ static void list_pending(following *f) {
     if (f->label[i] == 0) f->pending[f->n++] = i;
 }
 
-/* Follows the pending starts for f->periods; those that are trapped get their label. */
-static kz_status follow_stretch(const kz_run *run, following *f) {
-  const kz_stage stage = kz_stage_of_items("attractors", f->n, TILE, sizeof(followed), follow_starts, f);
-  KZ_FREED followed *records = kz_malloc((size_t)stage.n_tiles * sizeof(followed) + 1);
-  kz_status status = kz_stage_run(run, &stage, records);
-  for (int64_t i = 0; status == KZ_OK && i < f->n; i++) {
-    const followed *record = records + i / TILE;
-    memcpy(f->state + 2 * f->pending[i], record->state + 2 * (i % TILE), 2 * sizeof(double));
-    f->label[f->pending[i]] = record->label[i % TILE];
-  }
-  if (status == KZ_OK) list_pending(f);
-  return status;
-}
-
-/* The same for any number of periods, in stretches: finished stretches are kept, and a stop request ends the search between two of them. */
+/* Follows the pending starts; those that are trapped get their label. In stretches: finished ones are kept, and a stop request ends the search
+ * between two of them. */
 static kz_status follow_pending(const kz_run *run, following *f, int64_t periods) {
-  const int64_t share = periods / STRETCHES, stretch = share > STRETCH ? share : STRETCH;
+  const int64_t stretch = kz_larger(periods / STRETCHES, STRETCH);
   for (int64_t done = 0; done < periods && f->n > 0; done += f->periods) {
-    f->periods = periods - done < stretch ? periods - done : stretch;
-    KZ_TRY(follow_stretch(run, f));
+    f->periods = kz_smaller(periods - done, stretch);
+    const kz_stage stage = kz_stage_of_items("attractors", f->n, TILE, sizeof(followed), follow_starts, f);
+    KZ_FREED followed *records = kz_malloc((size_t)stage.n_tiles * sizeof(followed) + 1);
+    KZ_TRY(kz_stage_run(run, &stage, records));
+    for (int64_t i = 0; i < f->n; i++) {
+      const followed *record = records + i / TILE;
+      memcpy(f->state + 2 * f->pending[i], record->state + 2 * (i % TILE), 2 * sizeof(double));
+      f->label[f->pending[i]] = record->label[i % TILE];
+    }
+    list_pending(f);
   }
   return KZ_OK;
 }
@@ -140,7 +135,7 @@ static kz_status find_covered(const kz_run *run, following *f, int kind) {
   KZ_FREED double *found = s.found = kz_calloc(2 * (size_t)s.size, sizeof(double));
   for (int attempt = 0; attempt < COVER_TRIES && f->n > 0 && !f->cycles_alone; attempt++) {
     const int64_t known = kz_dynamics_count(f->dynamics);
-    s.n = kind == CHAOS ? 1 : f->n < RUNNING_STARTS ? f->n : RUNNING_STARTS;
+    s.n = kind == CHAOS ? 1 : kz_smaller(f->n, RUNNING_STARTS);
     for (int64_t i = 0; i < s.n; i++)
       memcpy(s.state + 2 * i, f->state + 2 * f->pending[kind == CHAOS ? (attempt * 7) % f->n : i * f->n / s.n],
              2 * sizeof(double));
@@ -156,7 +151,8 @@ static kz_status find_covered(const kz_run *run, following *f, int kind) {
   return KZ_OK;
 }
 
-static kz_status search_discover(const kz_run *run, following *f, int64_t max_periods) {
+/* Rounds until all have settled, or max_periods have passed and nothing more is found. */
+static kz_status search_on(const kz_run *run, following *f, int64_t max_periods) {
   int64_t length = f->cycles_alone ? FIRST_OF_CYCLES : FIRST_LENGTH, done = 0;
   for (;;) {
     kz_dynamics_update(f->dynamics);
@@ -169,36 +165,26 @@ static kz_status search_discover(const kz_run *run, following *f, int64_t max_pe
     if (kz_dynamics_count(f->dynamics) > known) continue;
     KZ_TRY(find_covered(run, f, RUNNING));
     if (done >= max_periods || f->n == 0) break;
-    length = 2 * length < max_periods - done ? 2 * length : max_periods - done;
+    length = kz_smaller(2 * length, max_periods - done);
   }
   return find_covered(run, f, CHAOS);
 }
 
-/* All starts are pending. */
-static void list_all(following *f) {
-  f->pending = kz_malloc((size_t)(f->all + 1) * sizeof *f->pending);
-  memset(f->label, 0, (size_t)f->all * sizeof *f->label);
-  list_pending(f);
-}
-
-static kz_status discover_from(const kz_run *run, kz_dynamics *dynamics, int64_t sought, int64_t max_periods, int64_t n,
-                               double *state, int32_t *label) {
-  KZ_FREED int32_t *own = label ? NULL : kz_malloc((size_t)n * sizeof *own + 1);
+kz_status kz_discover(const kz_run *run, kz_dynamics *dynamics, int64_t sought, int64_t max_periods, int64_t n, double *state,
+                      int32_t *label) {
+  KZ_FREED int32_t *own = kz_calloc((size_t)n + 1, sizeof *own);
+  KZ_FREED int64_t *pending = kz_malloc((size_t)(n + 1) * sizeof *pending);
   following f = {.dynamics = dynamics,
                  .all = n,
                  .sought = sought > 0 ? sought : MOST_SOUGHT,
                  .state = state,
-                 .label = label ? label : own,
+                 .label = label ? memset(label, 0, (size_t)n * sizeof *label) : own,
+                 .pending = pending,
                  .cycles_alone = !label};
-  list_all(&f);
-  const kz_status status = search_discover(run, &f, max_periods);
-  free(f.pending);
-  if (status != KZ_OK || kz_dynamics_count(dynamics) <= INT16_MAX) return status;
+  list_pending(&f);
+  KZ_TRY(search_on(run, &f, max_periods));
+  if (kz_dynamics_count(dynamics) <= INT16_MAX) return KZ_OK;
   return kz_fail(KZ_FAILED, "more than %d attractors", INT16_MAX);
-}
-
-kz_status kz_discover(const kz_run *run, kz_dynamics *dynamics, int64_t max_periods, int64_t n, double *state, int32_t *label) {
-  return discover_from(run, dynamics, 0, max_periods, n, state, label);
 }
 
 int64_t kz_regions_cells(int64_t cells) {
@@ -235,24 +221,19 @@ kz_status kz_map_table_make(const kz_run *run, kz_dynamics *dynamics, int64_t n_
   return status;
 }
 
-static kz_status search_from(const kz_run *run, kz_dynamics *dynamics, const kz_search *search, double *state, int32_t *label) {
+kz_status kz_search_window(const kz_run *run, kz_dynamics *dynamics, const kz_search *search, int32_t *label) {
   const double speed = search->max_velocity > 0 ? search->max_velocity : kz_dynamics_max_velocity(dynamics, &search->window);
-  const int64_t labelled = search->cells > search->starts ? search->cells : search->starts;
+  const int64_t labelled = kz_larger(search->cells, search->starts);
   const bool grows = kz_regions_cells(labelled) > 0 && search->starts > PILOT_STARTS;
   const int64_t pilots = grows ? PILOT_STARTS : search->starts, rest = search->starts - pilots;
+  KZ_FREED double *state = kz_malloc(2 * (size_t)search->starts * sizeof *state);
+  KZ_FREED int32_t *own = kz_malloc((size_t)search->starts * sizeof *own);
+  if (!label) label = own;
   kz_dynamics_starts(&search->window, search->seed, search->starts, state);
   kz_dynamics_coarse_regions(dynamics, speed);
-  KZ_TRY(discover_from(run, dynamics, search->sought, search->max_periods, pilots, state, label));
+  KZ_TRY(kz_discover(run, dynamics, search->sought, search->max_periods, pilots, state, label));
   kz_regions_grow(dynamics, labelled, speed);
   if (search->table_theta > 0) KZ_TRY(kz_map_table_make(run, dynamics, search->table_theta, search->table_velocity, speed));
   if (rest == 0) return KZ_OK;
-  return discover_from(run, dynamics, search->sought, search->max_periods, rest, state + 2 * pilots, label + pilots);
-}
-
-kz_status kz_search_window(const kz_run *run, kz_dynamics *dynamics, const kz_search *search, int32_t *label) {
-  KZ_FREED double *state = kz_malloc(2 * (size_t)search->starts * sizeof *state);
-  int32_t *own = label ? NULL : kz_malloc((size_t)search->starts * sizeof *own);
-  const kz_status status = search_from(run, dynamics, search, state, label ? label : own);
-  free(own);
-  return status;
+  return kz_discover(run, dynamics, search->sought, search->max_periods, rest, state + 2 * pilots, label + pilots);
 }

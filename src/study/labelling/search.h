@@ -28,8 +28,9 @@ void kz_regions_grow(kz_dynamics *dynamics, int64_t cells, double max_velocity);
 
 /* Follows n starts (state [n][2], half-turns and velocity; in and out) up to about max_periods periods, and finds the attractors
  * they end on; those join the catalogue and the regions (coarse or fine) of `dynamics` on every rank. label [n] =
- * attractor from 1, 0 where the start has not settled on any; NULL = cycles alone are looked for. Collective; `run` NULL = this rank alone. */
-kz_status kz_discover(const kz_run *run, kz_dynamics *dynamics, int64_t max_periods, int64_t n, double *state, int32_t *label);
+ * attractor from 1, 0 where the start has not settled on any; NULL = cycles alone are looked for. sought: as in kz_search. Collective; `run` NULL = this rank alone. */
+kz_status kz_discover(const kz_run *run, kz_dynamics *dynamics, int64_t sought, int64_t max_periods, int64_t n, double *state,
+                      int32_t *label);
 
 /* Builds the table of n_theta x n_velocity nodes up to velocity `max_velocity` on every rank. Collective; `run` NULL = this
  * rank alone. */

@@ -36,7 +36,7 @@ kz_status kz_orbit_record(const kz_scene *scene, kz_status (*pause)(void *contex
   double turns = 0;
   KZ_FREED_BY(kz_model_free) kz_model model;
   kz_model_make(scene, &model);
-  const int64_t fit = PAUSE_STEPS / model.numerics.steps_per_period, most = fit > 1 ? fit : 1;
+  const int64_t fit = PAUSE_STEPS / model.numerics.steps_per_period, most = kz_larger(fit, 1);
   for (int64_t done = 0; done < plan->transient; done += most) {
     KZ_TRY(pause(context));
     kz_model_skip(&model, plan->transient - done < most ? plan->transient - done : most, &state);

@@ -99,7 +99,7 @@ static bool meet(const forest *f, int64_t i, int64_t j) {
 /* Joins the classes of two places unless a point would have both. */
 static void join(forest *f, int64_t a, int64_t b) {
   int64_t i = root(f->parent, a), j = root(f->parent, b), *link = NULL;
-  const int64_t head = i < j ? i : j, tail = i < j ? j : i;
+  const int64_t head = kz_smaller(i, j), tail = kz_larger(i, j);
   if (i == j) return;
   if (tail > f->last[head]) { /* as nearly always: the next point */
     if (tail / KZ_POINT_MOST == f->last[head] / KZ_POINT_MOST) return;

@@ -69,7 +69,7 @@ static int64_t lay_out(int32_t needs, kz_measured *m) {
 /* The attractors that the labels name, and those of the search if nothing has labels. */
 static void make_catalogue(int64_t n, const kz_label *label, const int32_t *found, int64_t pilots, kz_measured *m) {
   KZ_FREED int64_t *reached = kz_calloc((size_t)kz_dynamics_count(m->dynamics) + 1, sizeof *reached);
-  for (int64_t i = 0; i < pilots; i++) reached[found[i] > 0 ? found[i] : 0]++;
+  for (int64_t i = 0; i < pilots; i++) reached[kz_larger(found[i], 0)]++;
   for (int64_t i = 0; i < n; i++) reached[label[i].label > 0 ? label[i].label : 0]++;
   kz_catalogue_make(m->dynamics, reached, &m->catalogue);
   for (int64_t i = 0; i < n; i++) {
@@ -80,7 +80,7 @@ static void make_catalogue(int64_t n, const kz_label *label, const int32_t *foun
 
 static kz_status label_all(kz_way way, int32_t needs, int64_t max_periods, const kz_run *run, kz_measured *m) {
   const kz_measures_plan *plan = m->plan;
-  const int64_t n = lay_out(needs, m), pilots = plan->starts < PILOTS ? plan->starts : PILOTS;
+  const int64_t n = lay_out(needs, m), pilots = kz_smaller(plan->starts, PILOTS);
   const kz_search search = {
       .window = kz_window_of(&plan->theta, &plan->velocity), /* without grown regions: times count to the ellipses */
       .starts = pilots,

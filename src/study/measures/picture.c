@@ -65,7 +65,7 @@ static double end_distance(int64_t i, int64_t n, double step) {
 }
 
 void kz_picture_distances(const kz_picture *picture, int16_t id, double *distance) {
-  const int64_t columns = picture->columns, rows = picture->rows, longest = columns > rows ? columns : rows;
+  const int64_t columns = picture->columns, rows = picture->rows, longest = kz_larger(columns, rows);
   const double half = fmin(picture->across, picture->up) / 2;
   KZ_FREED_BY(release) line l;
   make(3 * longest, &l);

@@ -24,7 +24,7 @@ static void count_box(int64_t columns, int64_t across, int64_t up, const int16_t
 }
 
 static int64_t side_of(int64_t cells) {
-  return cells < KZ_BOX ? cells : KZ_BOX;
+  return kz_smaller(cells, KZ_BOX);
 }
 
 void kz_count_boxes(int64_t columns, int64_t rows, const int16_t *label, kz_counts *counts) {

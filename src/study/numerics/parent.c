@@ -33,7 +33,7 @@ static bool take_image_means(const kz_plane *plane, int n, const double *cycle, 
 }
 
 kz_curve_kind kz_kind_of(const kz_plane *plane, int side, int points, int stride, int multiplier, const double *y) {
-  const int half = side < 0 && plane->half_period, periods = (stride > 1 ? stride : 1) - half;
+  const int half = side < 0 && plane->half_period, periods = kz_larger(stride, 1) - half;
   KZ_FREED double *next = kz_malloc(2 * ((size_t)periods + 2) * sizeof *next);
   memcpy(next, y + 2 * points - 2, 2 * sizeof *next);
   if (!kz_curve_orbit(plane, y + 2 * points, 2, periods, next)) return (kz_curve_kind){0};
@@ -48,7 +48,7 @@ int32_t kz_kind_period(const kz_cycle_kind *kind) {
 }
 
 double kz_kind_determinant(const kz_curve_kind *kind, double beta) {
-  return exp(-M_PI * beta * (2 * kind->points * (kind->stride > 1 ? kind->stride : 1) - kind->half));
+  return exp(-M_PI * beta * (2 * kind->points * kz_larger(kind->stride, 1) - kind->half));
 }
 
 bool kz_parent_of(const kz_plane *plane, kz_event event, const kz_plane_cycle *cycle, kz_plane_cycle *parent) {
@@ -84,7 +84,7 @@ bool kz_child_of(const kz_plane *plane, const kz_plane_cycle *flip, int axis, kz
   const int n = 2 * kind->points;
   *child = (kz_plane_cycle){.kind = kz_child_kind(&flip->kind)};
   const kz_curve_kind of = child->kind.of;
-  const int m = 2 * of.points, stride = of.stride > 1 ? of.stride : 1;
+  const int m = 2 * of.points, stride = kz_larger(of.stride, 1);
   double form, side[2], vector[2];
   kz_pendulum pendulum;
   if (of.points > KZ_CURVE_POINTS || !plane->pendulum(plane->context, flip->y + n, &pendulum) ||

@@ -96,10 +96,6 @@ static void add_sweep(demand *d, const kz_scene *scene) {
   d->fastest = fmax(d->fastest, fabs(plan->start_velocity));
 }
 
-static int32_t larger(int32_t a, int32_t b) {
-  return a > b ? a : b;
-}
-
 /* One numerics for all pendulums: it has the most steps and terms that any of them needs. */
 static bool serve(const demand *d, kz_numerics *numerics) {
   const kz_numerics asked = *numerics;
@@ -107,9 +103,9 @@ static bool serve(const demand *d, kz_numerics *numerics) {
   for (int i = 0; i < d->count; i++) {
     kz_numerics one = asked;
     if (kz_numerics_choose(d->pendulum + i, d->tolerance, d->fastest, &one, &error) != KZ_OK) return false;
-    one.steps_per_period = larger(one.steps_per_period, numerics->steps_per_period);
-    one.drift_terms = larger(one.drift_terms, numerics->drift_terms);
-    one.kick_terms = larger(one.kick_terms, numerics->kick_terms);
+    one.steps_per_period = (int32_t)kz_larger(one.steps_per_period, numerics->steps_per_period);
+    one.drift_terms = (int32_t)kz_larger(one.drift_terms, numerics->drift_terms);
+    one.kick_terms = (int32_t)kz_larger(one.kick_terms, numerics->kick_terms);
     *numerics = one;
   }
   return d->count > 0;

@@ -93,7 +93,7 @@ void kz_motions_warn(const kz_step_motions *m, const kz_speed_errors *classes, F
 kz_status kz_steps_check_table(const kz_basin_plan *plan, double table_error) {
   const double cell = kz_cell_size(plan);
   if (!(table_error > cell)) return KZ_OK;
-  const int64_t most = plan->table_theta > plan->table_velocity ? plan->table_theta : plan->table_velocity;
+  const int64_t most = kz_larger(plan->table_theta, plan->table_velocity);
   const double nodes = (double)most * pow(table_error / cell, 1.0 / kz_stencil(plan->interpolation));
   char more[64] = "";
   if (nodes <= MOST_NODES) snprintf(more, sizeof more, ", or some %.0f nodes an axis", 100 * ceil(nodes / 100));

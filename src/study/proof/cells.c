@@ -41,7 +41,7 @@ static kz_proof_start start_of_cell(const kz_basin_plan *plan, int64_t cell) {
 }
 
 static int64_t periods_of(const kz_basin_plan *plan) {
-  return plan->max_periods > PERIODS ? plan->max_periods : PERIODS;
+  return kz_larger(plan->max_periods, PERIODS);
 }
 
 /* Each rank knows the labels of its own tiles: all then know which cells are wanted. */
@@ -141,7 +141,7 @@ static kz_status prove_part(kz_window_labels *l, part *p, kz_proof_work *kept) {
 static kz_status prove_cells(kz_window_labels *l, kz_proof_work *run, const kz_proved *proved) {
   const kz_tiles *tiles = &l->tiles;
   const int64_t capacity = kz_tile_capacity(tiles), at_once = capacity < MOST_CELLS ? MOST_CELLS / capacity : 1;
-  const int64_t most = capacity * (at_once < tiles->own ? at_once : tiles->own);
+  const int64_t most = capacity * kz_smaller(at_once, tiles->own);
   run->tile = kz_calloc((size_t)tiles->own, sizeof *run->tile);
   KZ_FREED uint64_t *wanted = kz_malloc((size_t)(most / 64 + 1) * sizeof *wanted);
   KZ_FREED kz_proof_mark *mark = kz_malloc((size_t)most * sizeof *mark);
@@ -177,7 +177,7 @@ static kz_proof_start random_start(const kz_basin_plan *plan, int64_t i) {
 
 static int64_t random_starts(const kz_basin_plan *plan) {
   const int64_t cells = plan->theta.count * plan->velocity.count;
-  return cells < MOST_STARTS ? cells : MOST_STARTS;
+  return kz_smaller(cells, MOST_STARTS);
 }
 
 /* Of kz_added_levels: the items are random starts. */

@@ -87,7 +87,7 @@ static kz_status find_seed(void *context, int64_t tile, void *record) {
 }
 
 static kz_status find_ellipses(const kz_run *run, job *j) {
-  const int64_t count = kz_dynamics_count(j->dynamics), n = count < KZ_PROOF_MOST ? count : KZ_PROOF_MOST;
+  const int64_t count = kz_dynamics_count(j->dynamics), n = kz_smaller(count, KZ_PROOF_MOST);
   seed seeds[KZ_PROOF_MOST];
   kz_stage stage = kz_stage_for_all("proved ellipses", n, sizeof *seeds, find_seed, j);
   KZ_TRY(kz_stage_run(run, &stage, seeds));

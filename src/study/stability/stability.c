@@ -123,7 +123,7 @@ static kz_status curve_points(void *context, int64_t item, int64_t most, void *r
   const int64_t first = item % kz_chart_row(&chart->axes);
   const kz_curve_task *task = &chart->tasks[item / kz_chart_row(&chart->axes)];
   const kz_curve *curve = task->row < 0 ? NULL : &kz_curves[task->row];
-  const int64_t left = values_of(chart, task) - first, n = left < most ? left : most;
+  const int64_t left = values_of(chart, task) - first, n = kz_smaller(left, most);
   if (!curve)
     kz_subharmonic_values(task->order, n, chart->k + first, m[0], m[1]);
   else if (!curve->edge)

@@ -60,7 +60,7 @@ static void begin(const kz_pendulum *pendulum, double value, searching *s) {
   s->n_starts = scene->sweep->starts;
   s->max_periods = kz_settling_periods(pendulum->beta);
   if (kz_sweep_has_grid(scene)) s->n_cells = kz_unique_cells(scene->basin);
-  const size_t most = (size_t)(s->n_starts > CHUNK ? s->n_starts : CHUNK);
+  const size_t most = (size_t)kz_larger(s->n_starts, CHUNK);
   s->dynamics = kz_dynamics_create(pendulum, &scene->numerics, scene->sweep->max_period);
   if (s->n_cells > 0) kz_studies_begin(scene, pendulum, &value, s->dynamics);
   s->state = kz_malloc(2 * most * sizeof *s->state);

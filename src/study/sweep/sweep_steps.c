@@ -20,7 +20,7 @@ static double fastest_of_sweep(const kz_scene *scene) {
 static int64_t tried_values(const kz_scene *scene) {
   if (kz_sweep_is_plane(scene->sweep)) return 4;
   const int64_t affordable = STEPS / scene->numerics.steps_per_period;
-  const int64_t n = affordable < 2 ? 2 : affordable < VALUES ? affordable : VALUES;
+  const int64_t n = affordable < 2 ? 2 : kz_smaller(affordable, VALUES);
   return n < scene->sweep->values.count ? n : scene->sweep->values.count;
 }
 

@@ -65,7 +65,7 @@ static void close_in(piece *p, int i) {
 static int64_t periods_of(const piece *p, int i) {
   const kz_label *a = p->end + i, *b = a + 1;
   if (a->label <= 0 || b->label <= 0 || a->label == b->label) return INT64_MAX;
-  return a->periods > b->periods ? a->periods : b->periods;
+  return kz_larger(a->periods, b->periods);
 }
 
 /* The neighbours between which the labels change: those that settle soonest, because the boundary between them takes the shortest orbit, and of

@@ -35,7 +35,7 @@ static long double size_of(const kz_jet *jet) {
 /* Bits behind the point for an image of this size. */
 static int64_t bits_for(long double size, int64_t guard) {
   const int64_t bits = (int64_t)ceill(-log2l(size)) + guard;
-  return bits < KZ_FEWEST_BITS ? KZ_FEWEST_BITS : bits;
+  return kz_larger(bits, KZ_FEWEST_BITS);
 }
 
 static kz_images *allocate_images(const kz_pendulum *pendulum) {
@@ -49,7 +49,7 @@ static kz_images *allocate_images(const kz_pendulum *pendulum) {
 }
 
 static int64_t at_most(int64_t bits) {
-  return bits < KZ_MOST_BITS ? bits : KZ_MOST_BITS;
+  return kz_smaller(bits, KZ_MOST_BITS);
 }
 
 kz_images *kz_images_create(kz_dynamics *dynamics, const kz_pendulum *pendulum, const kz_axis *theta, const kz_axis *velocity) {
@@ -74,7 +74,7 @@ static int64_t bits_of(int64_t digits, int64_t more) {
 /* Bits that the orbit keeps below the size of an image: of a line that is marked still, the digits of x too. */
 static int64_t guard_of(const kz_images *images) {
   const int64_t guard = bits_of(images->digits, MARK_GUARD);
-  return guard > GUARD ? guard : GUARD;
+  return kz_larger(guard, GUARD);
 }
 
 kz_images *kz_images_on_line(kz_dynamics *dynamics, const kz_pendulum *pendulum, const kz_coordinate point[2], int64_t digits) {
@@ -149,7 +149,7 @@ static kz_status add_image(kz_images *images) {
   reserve(images, images->n + 1);
   const kz_image *last = images->image + images->n;
   kz_image *next = images->image + images->n + 1;
-  const int64_t needed = bits_for(size_of(&last->jet), guard_of(images)), bits = needed < images->bits ? needed : images->bits;
+  const int64_t needed = bits_for(size_of(&last->jet), guard_of(images)), bits = kz_smaller(needed, images->bits);
   memset(next, 0, sizeof *next);
   next->jet = last->jet;
   KZ_TRY(kz_arbitrary_advance(images->orbit, bits, 3, &next->jet));

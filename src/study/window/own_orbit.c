@@ -56,7 +56,7 @@ static kz_status advance(path *p) {
   enum { FINER = 10 }; /* bits below the error */
   const int64_t spent = (int64_t)floorl(log2l(p->error.xx + p->error.yy) / 2) - FINER;
   const int64_t bits = p->bits - spent < KZ_FEWEST_BITS ? KZ_FEWEST_BITS : p->bits - spent;
-  const int64_t taken = bits < p->bits ? bits : p->bits;
+  const int64_t taken = kz_smaller(bits, p->bits);
   kz_jet tangent = {.linear = {{1, 0}, {0, 1}}};
   KZ_TRY(kz_arbitrary_advance(p->orbit, taken, 1, &tangent));
   carry(&tangent, exp2l((long double)(p->bits - taken)), &p->error);
@@ -107,7 +107,7 @@ kz_status kz_own_orbit_decide(kz_dynamics *dynamics, const kz_pendulum *pendulum
   kz_dynamics_get_release(dynamics, &release);
   *decision = (kz_decision){.end.label = KZ_DOUBTFUL, .error = NAN};
   for (int64_t bits = first_bits(start); status == KZ_OK && decision->end.label == KZ_DOUBTFUL; bits += bits / 3) {
-    path p = {.bits = bits < MOST_BITS ? bits : MOST_BITS, .released = kz_release_strobes(&release), .error = {1, 0, 1}};
+    path p = {.bits = kz_smaller(bits, MOST_BITS), .released = kz_release_strobes(&release), .error = {1, 0, 1}};
     p.orbit = kz_arbitrary_create(pendulum, start, p.bits);
     kz_arbitrary_release(p.orbit, &release);
     p.from = start_of(&p).theta[0];
