@@ -104,7 +104,7 @@ def test_the_list_lights_a_basin_and_keeps_the_one_that_is_clicked(page, webgl):
     assert wait_for(lambda: page.run("$('passport').textContent").startswith("inverted: "))
     assert wait_for(lambda: "smallest push: beyond this window" in page.run("$('passport').textContent"))  # stripes along theta
     assert re.search(r"largest multiplier 0\.\d+, return time [\d.]+ drive periods; strobe", page.run("$('passport').textContent"))
-    assert "closes after 1 drive period;" in page.run("$('passport').textContent") and page.run("explorer.state.start.theta") == "0.1"
+    assert "closes after 1 drive period;" in page.run("$('passport').textContent") and page.run("explorer.state.start.theta") == "0.135"
     page.run("document.querySelector('#legend tr:nth-child(2) button').click()")
     assert page.run("explorer.state.lit") is None and np.unique(np.array(page.pixels()), axis=0).tolist() == plain
     assert wait_for(lambda: page.run("$('passport').hidden"))

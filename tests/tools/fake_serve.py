@@ -14,6 +14,7 @@ from decimal import Decimal, getcontext
 
 getcontext().prec = 150
 ROWS = [("down", "down", 1, 0, "down"), ("inverted", "inverted", 1, 0, "inverted"), ("flutter", "flutter", 2, 0, "inverted")]
+STROBE = (0.0, 0.135, 0.165)  # in their own stripes, whatever the cells
 PENDULUM = {"k": 0.1, "damping": 0.05, "m": 0.3}
 out, newest = threading.Lock(), {}
 
@@ -27,7 +28,7 @@ def answer(kind, sequence, payload=b"", final=True, **more):
 
 def catalogue(sequence, pendulum, final):
     rows = [{"id": i, "track": i, "name": name, "kind": kind, "period": period, "winding": winding, "centre": centre, "symmetric": True,
-             "mirror": i, "multiplier": 0.5, "strobe": [[0.1 * i, 0.0]]} for i, (name, kind, period, winding, centre) in enumerate(ROWS)]
+             "mirror": i, "multiplier": 0.5, "strobe": [[STROBE[i], 0.0]]} for i, (name, kind, period, winding, centre) in enumerate(ROWS)]
     answer("catalogue", sequence, final=final, version=int(1000 * pendulum["m"]), pendulum=pendulum, attractors=rows)
 
 
