@@ -199,10 +199,10 @@ kz_status kz_stage_run(const kz_run *run, const kz_stage *stage, void *records);
 
 /* A chain of stages of one tile, each of which needs the one before, shows its progress as one stage, by an estimate of the seconds left.
  * Returns NULL without ranks; the other calls accept NULL. */
-typedef struct kz_chain kz_chain;
-kz_chain *kz_chain_begin(const kz_run *run, const char *name);
-void kz_chain_show(kz_chain *chain, double seconds_left);
-void kz_chain_end(kz_chain *chain, bool complete);
+typedef struct kz_serial_progress kz_serial_progress;
+kz_serial_progress *kz_serial_progress_begin(const kz_run *run, const char *name);
+void kz_serial_progress_show(kz_serial_progress *chain, double seconds_left);
+void kz_serial_progress_end(kz_serial_progress *chain, bool complete);
 
 /* How local records are delivered: each rank makes a message of each of its records, and rank 0 takes all messages, in any order. Both
  * functions may return KZ_FAILED. `make` fills message [message_bytes], at most 1 GiB; *bytes = the number of bytes in use, more than 0. */

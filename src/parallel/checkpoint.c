@@ -12,7 +12,7 @@
 
 /* ---- the header: whose run it is ---- */
 
-enum { FORMAT = 2 };
+enum { FORMAT_VERSION = 2 };
 static const int64_t TEXT_MAX = (int64_t)1 << 28;
 
 typedef struct {
@@ -25,12 +25,12 @@ typedef struct {
 
 static const char MAGIC[8] = "kzcheck";
 
-static uint64_t checksum(const kz_header *header, const char *text) {
+static uint64_t header_checksum(const kz_header *header, const char *text) {
   const uint64_t sum = kz_bytes_checksum(0, &header->format, offsetof(kz_header, checksum) - offsetof(kz_header, format));
   return kz_bytes_checksum(sum, text, (size_t)header->text_bytes);
 }
 
-static void adopt(kz_checkpoint *checkpoint, const kz_header *header) {
+static void adopt_header(kz_checkpoint *checkpoint, const kz_header *header) {
   checkpoint->ours = true;
   checkpoint->seed = header->checksum;
   checkpoint->end = kz_whole_pages((int64_t)sizeof *header + header->text_bytes);
@@ -38,9 +38,9 @@ static void adopt(kz_checkpoint *checkpoint, const kz_header *header) {
 
 /* Writes the header of a run with this fingerprint. */
 static kz_status write_header(kz_checkpoint *checkpoint, const char *fingerprint) {
-  kz_header header = {.format = FORMAT, .text_bytes = (int64_t)strlen(fingerprint)};
-  header.checksum = checksum(&header, fingerprint);
-  adopt(checkpoint, &header);
+  kz_header header = {.format = FORMAT_VERSION, .text_bytes = (int64_t)strlen(fingerprint)};
+  header.checksum = header_checksum(&header, fingerprint);
+  adopt_header(checkpoint, &header);
   const int file = checkpoint->file;
   if (ftruncate(file, 0) != 0 || kz_bytes_write(file, fingerprint, (size_t)header.text_bytes, sizeof header) != 0 ||
       kz_bytes_write(file, &header, sizeof header, 0) != 0 || kz_bytes_write(file, MAGIC, sizeof MAGIC, 0) != 0)
@@ -48,7 +48,7 @@ static kz_status write_header(kz_checkpoint *checkpoint, const char *fingerprint
   return KZ_OK;
 }
 
-static kz_status damaged(const kz_checkpoint *checkpoint) {
+static kz_status refuse_damaged(const kz_checkpoint *checkpoint) {
   return kz_fail(KZ_REFUSED, "%s: is damaged or no checkpoint of this program; use --force to discard it", checkpoint->path);
 }
 
@@ -68,11 +68,12 @@ kz_status kz_fingerprint_compare(const char *path, const char *there, const char
 
 static kz_status read_text(kz_checkpoint *checkpoint, const kz_header *header, const char *fingerprint, char *text) {
   const int64_t n = header->text_bytes;
-  if (kz_bytes_read(checkpoint->file, text, (size_t)n, sizeof *header) != n || checksum(header, text) != header->checksum)
-    return damaged(checkpoint);
+  if (kz_bytes_read(checkpoint->file, text, (size_t)n, sizeof *header) != n ||
+      header_checksum(header, text) != header->checksum)
+    return refuse_damaged(checkpoint);
   text[n] = '\0';
   KZ_TRY(kz_fingerprint_compare(checkpoint->path, text, fingerprint));
-  adopt(checkpoint, header);
+  adopt_header(checkpoint, header);
   return KZ_OK;
 }
 
@@ -97,9 +98,9 @@ static kz_status read_header(kz_checkpoint *checkpoint, const char *fingerprint,
   if (n < 0) return kz_fail(KZ_REFUSED, "%s: cannot be read: %s", checkpoint->path, strerror(errno));
   *unfinished = memcmp(header.magic, (char[sizeof MAGIC]){0}, sizeof MAGIC) == 0;
   if (*unfinished) return KZ_OK;
-  if (n < (int64_t)sizeof header || memcmp(header.magic, MAGIC, sizeof MAGIC) != 0 || header.format != FORMAT ||
+  if (n < (int64_t)sizeof header || memcmp(header.magic, MAGIC, sizeof MAGIC) != 0 || header.format != FORMAT_VERSION ||
       header.text_bytes < 0 || header.text_bytes > TEXT_MAX)
-    return damaged(checkpoint);
+    return refuse_damaged(checkpoint);
   char *text = kz_malloc((size_t)header.text_bytes + 1);
   const kz_status status = read_text(checkpoint, &header, fingerprint, text);
   free(text);
@@ -125,7 +126,7 @@ kz_status kz_checkpoint_stopped(const kz_checkpoint *checkpoint) {
 }
 
 /* Rank 0 decides whether the file is gone on from or begun anew. */
-static kz_status begin(kz_checkpoint *checkpoint, const kz_checkpoint_plan *plan) {
+static kz_status begin_file(kz_checkpoint *checkpoint, const kz_checkpoint_plan *plan) {
   kz_file_lock file_lock = {.file = -1};
   KZ_TRY(kz_file_lock_take(plan->path, plan->resume || plan->force, &file_lock));
   checkpoint->file = file_lock.file;
@@ -136,7 +137,7 @@ static kz_status begin(kz_checkpoint *checkpoint, const kz_checkpoint_plan *plan
 }
 
 /* A file that holds no work of this run or an earlier one is not left behind. Closing the file gives its locks back. */
-static void release(kz_checkpoint *checkpoint, int rank) {
+static void release_checkpoint(kz_checkpoint *checkpoint, int rank) {
   if (checkpoint->file >= 0) {
     if (rank == 0) kz_checkpoint_forget(checkpoint);
     close(checkpoint->file);
@@ -146,7 +147,7 @@ static void release(kz_checkpoint *checkpoint, int rank) {
 }
 
 static kz_status open_together(kz_ranks *ranks, const kz_checkpoint_plan *plan, kz_checkpoint *checkpoint) {
-  KZ_TRY(kz_ranks_agree(ranks, ranks->rank == 0 ? begin(checkpoint, plan) : KZ_OK));
+  KZ_TRY(kz_ranks_agree(ranks, ranks->rank == 0 ? begin_file(checkpoint, plan) : KZ_OK));
   KZ_TRY(kz_ranks_agree(ranks, ranks->rank != 0 ? kz_file_lock_join(plan->path, &checkpoint->file) : KZ_OK));
   return kz_ranks_broadcast(ranks, &checkpoint->ours, sizeof checkpoint->ours);
 }
@@ -156,7 +157,7 @@ kz_status kz_checkpoint_open(kz_ranks *ranks, const kz_checkpoint_plan *plan, kz
   *opened = (kz_checkpoint){.file = -1, .path = kz_strdup(plan->path)};
   const kz_status status = open_together(ranks, plan, opened);
   *checkpoint = status == KZ_OK ? opened : NULL;
-  if (status != KZ_OK) release(opened, ranks->rank);
+  if (status != KZ_OK) release_checkpoint(opened, ranks->rank);
   return status;
 }
 
@@ -189,6 +190,6 @@ kz_status kz_checkpoint_close(kz_ranks *ranks, kz_checkpoint *checkpoint, bool c
   } else if (kz_checkpoint_saved(checkpoint))
     status = keep_file(checkpoint);
   status = kz_ranks_agree(ranks, status);
-  release(checkpoint, ranks->rank);
+  release_checkpoint(checkpoint, ranks->rank);
   return status;
 }

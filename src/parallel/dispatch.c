@@ -13,14 +13,14 @@ typedef struct {
 } kz_ask;
 
 /* Between two looks for messages rank 0 sleeps for a sixteenth of the time in which none came. */
-static const double QUIET_SHARE = 1.0 / 16, SHORTEST = 1e-5, LONGEST = 1e-3; /* s */
+static const double SLEEP_SHARE = 1.0 / 16, SHORTEST_SLEEP = 1e-5, LONGEST_SLEEP = 1e-3; /* s */
 
 static double seconds_a_tile(const kz_dispatch *dispatch) {
   return dispatch->n_done > 0 ? dispatch->busy / (double)dispatch->n_done : 0;
 }
 
 /* Rank 0: the answer to one request; nothing goes back to a rank that cannot go on. */
-static int answer(kz_dispatch *dispatch, int rank, const kz_ask *ask) {
+static int answer_request(kz_dispatch *dispatch, int rank, const kz_ask *ask) {
   kz_grant grant = {0};
   kz_schedule *schedule = &dispatch->schedule;
   if (ask->state == FAILED) dispatch->halted = true;
@@ -33,23 +33,23 @@ static int answer(kz_dispatch *dispatch, int rank, const kz_ask *ask) {
 }
 
 /* Looks for one request; *found: there was one. */
-static int look(kz_dispatch *dispatch, kz_ask *ask, MPI_Request *request, int *found) {
+static int poll_request(kz_dispatch *dispatch, kz_ask *ask, MPI_Request *request, int *found) {
   MPI_Status from;
   int code = MPI_SUCCESS;
   if (*request == MPI_REQUEST_NULL)
     code = MPI_Irecv(ask, sizeof *ask, MPI_BYTE, MPI_ANY_SOURCE, ASK_TAG, dispatch->ranks->comm, request);
   if (code == MPI_SUCCESS) code = MPI_Test(request, found, &from);
-  return code == MPI_SUCCESS && *found ? answer(dispatch, from.MPI_SOURCE, ask) : code;
+  return code == MPI_SUCCESS && *found ? answer_request(dispatch, from.MPI_SOURCE, ask) : code;
 }
 
-static void rest(double quiet) {
-  const double share = QUIET_SHARE * quiet;
-  const double seconds = share < SHORTEST ? SHORTEST : share > LONGEST ? LONGEST : share;
+static void sleep_between_polls(double idle) {
+  const double share = SLEEP_SHARE * idle;
+  const double seconds = share < SHORTEST_SLEEP ? SHORTEST_SLEEP : share > LONGEST_SLEEP ? LONGEST_SLEEP : share;
   nanosleep(&(struct timespec){.tv_nsec = (long)(1e9 * seconds)}, NULL);
 }
 
 /* Rank 0 answers until every other rank knows that nothing is left. */
-static void *serve(void *context) {
+static void *serve_requests(void *context) {
   kz_dispatch *dispatch = context;
   kz_ask ask;
   MPI_Request request = MPI_REQUEST_NULL;
@@ -57,19 +57,19 @@ static void *serve(void *context) {
   for (bool more = dispatch->will_ask > 0; more;) {
     int found = 0;
     pthread_mutex_lock(&dispatch->ranks->mutex);
-    dispatch->mpi_error = look(dispatch, &ask, &request, &found);
+    dispatch->mpi_error = poll_request(dispatch, &ask, &request, &found);
     if (dispatch->mpi_error != MPI_SUCCESS) dispatch->halted = true;
     more = dispatch->will_ask > 0 && dispatch->mpi_error == MPI_SUCCESS;
     pthread_mutex_unlock(&dispatch->ranks->mutex);
     if (found)
       received = kz_clock();
     else
-      rest(kz_clock() - received);
+      sleep_between_polls(kz_clock() - received);
   }
   return NULL;
 }
 
-static void prepare(kz_dispatch *dispatch, kz_ranks *ranks, int64_t n_tiles) {
+static void prepare_dispatch(kz_dispatch *dispatch, kz_ranks *ranks, int64_t n_tiles) {
   *dispatch = (kz_dispatch){.ranks = ranks, .answer = MPI_REQUEST_NULL, .mpi_error = MPI_SUCCESS};
   dispatch->grant = (kz_grant){.first = ranks->rank, .n = ranks->rank < n_tiles, .more = ranks->size < n_tiles};
   if (ranks->rank != 0) return;
@@ -78,14 +78,15 @@ static void prepare(kz_dispatch *dispatch, kz_ranks *ranks, int64_t n_tiles) {
 }
 
 void kz_dispatch_begin(kz_dispatch *dispatch, kz_ranks *ranks, int64_t n_tiles) {
-  prepare(dispatch, ranks, n_tiles);
+  prepare_dispatch(dispatch, ranks, n_tiles);
   if (ranks->rank != 0 || dispatch->will_ask == 0) return;
   dispatch->threaded =
-      ranks->thread_level >= MPI_THREAD_SERIALIZED && kz_thread_start(&dispatch->thread, STACK_BYTES, serve, dispatch);
-  if (!dispatch->threaded) serve(dispatch); /* then the others do the work: rank 0 has time for its own once they are done */
+      ranks->thread_level >= MPI_THREAD_SERIALIZED && kz_thread_start(&dispatch->thread, STACK_BYTES, serve_requests, dispatch);
+  if (!dispatch->threaded)
+    serve_requests(dispatch); /* then the others do the work: rank 0 has time for its own once they are done */
 }
 
-static kz_status ask(kz_dispatch *dispatch, int64_t state) {
+static kz_status send_request(kz_dispatch *dispatch, int64_t state) {
   const kz_ask ask = {.seconds = seconds_a_tile(dispatch), .state = state};
   kz_ranks *ranks = dispatch->ranks;
   if (state != FAILED)
@@ -103,17 +104,17 @@ static kz_status take_answer(kz_dispatch *dispatch) {
 static kz_status next_by_message(kz_dispatch *dispatch, int64_t *tile) {
   kz_grant *grant = &dispatch->grant;
   while (grant->n == 0 && grant->more) {
-    if (dispatch->answer == MPI_REQUEST_NULL) KZ_TRY(ask(dispatch, IDLE));
+    if (dispatch->answer == MPI_REQUEST_NULL) KZ_TRY(send_request(dispatch, IDLE));
     KZ_TRY(take_answer(dispatch));
   }
   if (grant->n == 0) return KZ_OK;
   *tile = grant->first++;
-  if (--grant->n == 0 && grant->more && dispatch->n_done > 0) return ask(dispatch, WORKING);
+  if (--grant->n == 0 && grant->more && dispatch->n_done > 0) return send_request(dispatch, WORKING);
   return KZ_OK;
 }
 
 /* Rank 0 takes its tiles one by one: they cost no message. */
-static int64_t take_here(kz_dispatch *dispatch) {
+static int64_t take_own_tile(kz_dispatch *dispatch) {
   kz_schedule_note(&dispatch->schedule, 0, seconds_a_tile(dispatch));
   if (dispatch->halted) return -1;
   if (dispatch->grant.n == 0) return kz_schedule_take(&dispatch->schedule, 0);
@@ -121,9 +122,9 @@ static int64_t take_here(kz_dispatch *dispatch) {
   return dispatch->grant.first;
 }
 
-static void next_here(kz_dispatch *dispatch, int64_t *tile) {
+static void next_own_tile(kz_dispatch *dispatch, int64_t *tile) {
   pthread_mutex_lock(&dispatch->ranks->mutex);
-  *tile = take_here(dispatch);
+  *tile = take_own_tile(dispatch);
   pthread_mutex_unlock(&dispatch->ranks->mutex);
 }
 
@@ -135,7 +136,7 @@ kz_status kz_dispatch_next(kz_dispatch *dispatch, int64_t *tile) {
   }
   *tile = -1;
   if (dispatch->ranks->rank == 0)
-    next_here(dispatch, tile);
+    next_own_tile(dispatch, tile);
   else
     status = next_by_message(dispatch, tile);
   dispatch->handed = *tile < 0 ? 0 : kz_clock();
@@ -150,7 +151,7 @@ kz_status kz_dispatch_halt(kz_dispatch *dispatch) {
     return KZ_OK;
   }
   if (dispatch->answer != MPI_REQUEST_NULL) KZ_TRY(take_answer(dispatch));
-  return dispatch->grant.more ? ask(dispatch, FAILED) : KZ_OK;
+  return dispatch->grant.more ? send_request(dispatch, FAILED) : KZ_OK;
 }
 
 kz_status kz_dispatch_end(kz_dispatch *dispatch) {

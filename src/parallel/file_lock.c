@@ -12,12 +12,12 @@
 #include "checkpoint.h"
 #include "ranks.h"
 
-static const double WAIT = 15.0; /* s: ranks outlive a killed mpirun by a few seconds */
-static const struct timespec PAUSE = {.tv_nsec = 100000000};
+static const double WAIT_SECONDS = 15.0; /* s: ranks outlive a killed mpirun by a few seconds */
+static const struct timespec RETRY_PAUSE = {.tv_nsec = 100000000};
 
 enum { OWNER = 0, MEMBERS = 1 };
 
-static int lock(int file, short type, off_t first, off_t n) {
+static int lock_bytes(int file, short type, off_t first, off_t n) {
   struct flock range = {.l_type = type, .l_whence = SEEK_SET, .l_start = first, .l_len = n};
   return fcntl(file, F_OFD_SETLK, &range);
 }
@@ -51,18 +51,18 @@ static kz_status open_or_create(const char *path, kz_file_lock *file_lock) {
 }
 
 /* One attempt: KZ_OK with file < 0 where another process holds it, or where it was replaced meanwhile. */
-static kz_status attempt(const char *path, bool may_exist, kz_file_lock *file_lock) {
+static kz_status try_to_lock(const char *path, bool may_exist, kz_file_lock *file_lock) {
   KZ_TRY(open_or_create(path, file_lock));
   if (file_lock->file < 0) return KZ_OK;
   kz_status status = KZ_OK;
   if (file_lock->existed && !may_exist)
-    status = lock(file_lock->file, F_WRLCK, OWNER, 2) != 0 && is_held(errno)
+    status = lock_bytes(file_lock->file, F_WRLCK, OWNER, 2) != 0 && is_held(errno)
                  ? kz_fail(KZ_REFUSED,
                            "%s: another run works on this result; wait until it has ended, or give another name with -o", path)
                  : kz_fail(KZ_REFUSED,
                            "%s: a checkpoint of an earlier run exists; use --resume to go on from it, or --force to discard it",
                            path);
-  else if (lock(file_lock->file, F_WRLCK, OWNER, 2) == 0 && kz_file_lock_names(path, file_lock->file))
+  else if (lock_bytes(file_lock->file, F_WRLCK, OWNER, 2) == 0 && kz_file_lock_names(path, file_lock->file))
     return KZ_OK;
   else if (!is_held(errno) && kz_file_lock_names(path, file_lock->file)) {
     status = kz_fail(KZ_REFUSED, "%s: cannot be locked: %s", path, strerror(errno));
@@ -74,8 +74,8 @@ static kz_status attempt(const char *path, bool may_exist, kz_file_lock *file_lo
 }
 
 kz_status kz_file_lock_take(const char *path, bool may_exist, kz_file_lock *file_lock) {
-  for (const double begun = kz_clock(); kz_clock() - begun < WAIT; nanosleep(&PAUSE, NULL)) {
-    KZ_TRY(attempt(path, may_exist, file_lock));
+  for (const double begun = kz_clock(); kz_clock() - begun < WAIT_SECONDS; nanosleep(&RETRY_PAUSE, NULL)) {
+    KZ_TRY(try_to_lock(path, may_exist, file_lock));
     if (file_lock->file >= 0) return KZ_OK;
     if (kz_signals_caught()) return kz_fail(KZ_STOPPED, "%s: stopped while it was held by another process", path);
   }
@@ -85,20 +85,20 @@ kz_status kz_file_lock_take(const char *path, bool may_exist, kz_file_lock *file
 bool kz_file_lock_try(const char *path, int *file) {
   *file = open(path, O_RDWR | O_NOFOLLOW | O_CLOEXEC);
   if (*file < 0) return false;
-  if (lock(*file, F_WRLCK, OWNER, 2) == 0 && kz_file_lock_names(path, *file)) return true;
+  if (lock_bytes(*file, F_WRLCK, OWNER, 2) == 0 && kz_file_lock_names(path, *file)) return true;
   close(*file);
   *file = -1;
   return false;
 }
 
 kz_status kz_file_lock_share(const char *path, int file) {
-  if (lock(file, F_RDLCK, MEMBERS, 1) == 0) return KZ_OK;
+  if (lock_bytes(file, F_RDLCK, MEMBERS, 1) == 0) return KZ_OK;
   return kz_fail(KZ_FAILED, "%s: cannot be shared: %s", path, strerror(errno));
 }
 
 kz_status kz_file_lock_join(const char *path, int *file) {
   *file = open(path, O_RDWR | O_NOFOLLOW | O_CLOEXEC);
-  if (*file >= 0 && lock(*file, F_RDLCK, MEMBERS, 1) == 0) return KZ_OK;
+  if (*file >= 0 && lock_bytes(*file, F_RDLCK, MEMBERS, 1) == 0) return KZ_OK;
   const int error = errno;
   if (*file >= 0) close(*file);
   *file = -1;

@@ -29,28 +29,28 @@ typedef struct {
   int ended;                        /* ranks that have sent all; the rest for rank 0 too */
   int64_t expected, received;       /* messages of those that have ended, of all */
   int64_t done;
-  char taking_name[40];
-  kz_work making, taking;
+  char take_name[40];
+  kz_work make_work, take_work;
   kz_meter meter;
-} mail;
+} delivery_context;
 
-static kz_status make(mail *m, int64_t i, char *buffer, size_t *bytes) {
+static kz_status make_message(delivery_context *m, int64_t i, char *buffer, size_t *bytes) {
   const kz_stopwatch watch = kz_stopwatch_start();
   const kz_status status = m->delivery->make(m->delivery->context, &m->records->list[i], buffer, bytes);
-  kz_work_note(&m->making, m->records->list[i].tile, &watch);
+  kz_work_note(&m->make_work, m->records->list[i].tile, &watch);
   return status;
 }
 
-static kz_status take(mail *m, const char *buffer, size_t bytes) {
+static kz_status take_message(delivery_context *m, const char *buffer, size_t bytes) {
   const kz_stopwatch watch = kz_stopwatch_start();
   const kz_status status = m->delivery->take(m->delivery->context, buffer, bytes);
-  kz_work_note(&m->taking, m->done, &watch);
+  kz_work_note(&m->take_work, m->done, &watch);
   return status;
 }
 
 /* Messages are made while those before are on their way: without a look at these a transport that needs both ranks would not move
  * them on. */
-static kz_status send_records(mail *m) {
+static kz_status send_records(delivery_context *m) {
   kz_status status = KZ_OK;
   int64_t i = 0;
   for (; i < m->records->n; i++) {
@@ -59,7 +59,7 @@ static kz_status send_records(mail *m) {
     int all;
     KZ_MPI(MPI_Wait(&m->request[slot], MPI_STATUS_IGNORE));
     if ((status = kz_ranks_interrupted(m->ranks)) != KZ_OK) break;
-    if ((status = make(m, i, m->buffer[slot], &bytes)) != KZ_OK) break;
+    if ((status = make_message(m, i, m->buffer[slot], &bytes)) != KZ_OK) break;
     KZ_MPI(MPI_Isend(m->buffer[slot], (int)bytes, MPI_BYTE, 0, TAG, m->ranks->comm, &m->request[slot]));
     KZ_MPI(MPI_Testall(BUFFERS, m->request, &all, MPI_STATUSES_IGNORE));
   }
@@ -69,7 +69,7 @@ static kz_status send_records(mail *m) {
 }
 
 /* Rank 0 has space for the next message, or receives the number that the next rank has sent. */
-static kz_status expect(mail *m, int slot) {
+static kz_status expect_message(delivery_context *m, int slot) {
   MPI_Request *request = &m->request[slot];
   if (slot < BUFFERS)
     KZ_MPI(MPI_Irecv(m->buffer[slot], (int)m->delivery->message_bytes, MPI_BYTE, MPI_ANY_SOURCE, TAG, m->ranks->comm, request));
@@ -79,36 +79,36 @@ static kz_status expect(mail *m, int slot) {
 }
 
 /* What has come. Where a message was not taken, others are let pass. */
-static kz_status receive(mail *m, int slot, const MPI_Status *come, kz_status *status) {
+static kz_status receive_message(delivery_context *m, int slot, const MPI_Status *come, kz_status *status) {
   int bytes;
   if (slot == BUFFERS) {
     m->expected += m->sent;
     m->ended++;
-    return expect(m, slot);
+    return expect_message(m, slot);
   }
   KZ_MPI(MPI_Get_count(come, MPI_BYTE, &bytes));
-  if (*status == KZ_OK) *status = take(m, m->buffer[slot], (size_t)bytes);
+  if (*status == KZ_OK) *status = take_message(m, m->buffer[slot], (size_t)bytes);
   m->received++;
   kz_meter_show(&m->meter, ++m->done);
-  return expect(m, slot);
+  return expect_message(m, slot);
 }
 
-static kz_status receive_waiting(mail *m, kz_status *status) {
+static kz_status receive_waiting(delivery_context *m, kz_status *status) {
   MPI_Status come;
   int slot, is_there;
   for (;;) {
     KZ_MPI(MPI_Testany(BUFFERS + 1, m->request, &slot, &is_there, &come));
     if (!is_there || slot == MPI_UNDEFINED) return KZ_OK;
-    KZ_TRY(receive(m, slot, &come, status));
+    KZ_TRY(receive_message(m, slot, &come, status));
   }
 }
 
-static kz_status receive_rest(mail *m, kz_status *status) {
+static kz_status receive_rest(delivery_context *m, kz_status *status) {
   MPI_Status come;
   int slot;
   while (m->ended < m->ranks->size - 1 || m->received < m->expected) {
     KZ_MPI(MPI_Waitany(BUFFERS + 1, m->request, &slot, &come));
-    KZ_TRY(receive(m, slot, &come, status));
+    KZ_TRY(receive_message(m, slot, &come, status));
   }
   for (slot = 0; slot < BUFFERS; slot++) {
     KZ_MPI(MPI_Cancel(&m->request[slot]));
@@ -118,15 +118,15 @@ static kz_status receive_rest(mail *m, kz_status *status) {
 }
 
 /* Rank 0 takes what has come between two records of its own. */
-static kz_status take_records(mail *m) {
+static kz_status take_records(delivery_context *m) {
   kz_status status = KZ_OK;
   const bool several = kz_ranks_several(m->ranks);
-  for (int slot = 0; several && slot <= BUFFERS; slot++) KZ_TRY(expect(m, slot));
+  for (int slot = 0; several && slot <= BUFFERS; slot++) KZ_TRY(expect_message(m, slot));
   for (int64_t i = 0; i < m->records->n && status == KZ_OK; i++) {
     size_t bytes = 0;
     if ((status = kz_ranks_interrupted(m->ranks)) != KZ_OK) break;
-    status = make(m, i, m->buffer[BUFFERS], &bytes);
-    if (status == KZ_OK) status = take(m, m->buffer[BUFFERS], bytes);
+    status = make_message(m, i, m->buffer[BUFFERS], &bytes);
+    if (status == KZ_OK) status = take_message(m, m->buffer[BUFFERS], bytes);
     kz_meter_show(&m->meter, ++m->done);
     if (several) KZ_TRY(receive_waiting(m, &status));
   }
@@ -134,27 +134,27 @@ static kz_status take_records(mail *m) {
   return status;
 }
 
-static kz_status local_records_allocate(mail *m) {
+static kz_status local_records_allocate(delivery_context *m) {
   const int first = m->ranks->size == 1 ? BUFFERS : 0, end = m->ranks->rank == 0 ? BUFFERS + 1 : BUFFERS;
   for (int i = first; i < end; i++) m->buffer[i] = kz_malloc(m->delivery->message_bytes + 1);
   if (m->delivery->message_bytes <= MESSAGE_MAX) return KZ_OK;
   return kz_fail(KZ_FAILED, "stage %s: messages of %zu bytes are too long", m->delivery->name, m->delivery->message_bytes);
 }
 
-static kz_status deliver(mail *m, int64_t total) {
+static kz_status deliver_records(delivery_context *m, int64_t total) {
   double idle = 0;
   kz_ranks *ranks = m->ranks;
-  snprintf(m->taking_name, sizeof m->taking_name, "%s: writing", m->delivery->name);
-  m->making = (kz_work){.ranks = ranks, .stage = m->delivery->name};
-  m->taking = (kz_work){.ranks = ranks, .stage = m->taking_name};
+  snprintf(m->take_name, sizeof m->take_name, "%s: writing", m->delivery->name);
+  m->make_work = (kz_work){.ranks = ranks, .stage = m->delivery->name};
+  m->take_work = (kz_work){.ranks = ranks, .stage = m->take_name};
   const kz_stopwatch watch = kz_stopwatch_start();
   kz_meter_begin(&m->meter, ranks, m->delivery->name, total, 0);
   kz_status status = kz_ranks_agree(ranks, ranks->rank == 0 ? take_records(m) : send_records(m));
-  kz_work_end(&m->making);
-  kz_work_end(&m->taking);
-  m->making.busy += m->taking.busy;
-  m->making.processor += m->taking.processor;
-  if (status == KZ_OK) status = kz_timing_note(ranks, total, &watch, &m->making, &idle);
+  kz_work_end(&m->make_work);
+  kz_work_end(&m->take_work);
+  m->make_work.busy += m->take_work.busy;
+  m->make_work.processor += m->take_work.processor;
+  if (status == KZ_OK) status = kz_timing_note(ranks, total, &watch, &m->make_work, &idle);
   kz_meter_end(&m->meter, status == KZ_OK, idle);
   return status;
 }
@@ -174,12 +174,12 @@ static kz_status deliver_alone(const kz_local_records *records, const kz_deliver
 kz_status kz_local_records_deliver(const kz_run *run, const kz_local_records *records, const kz_delivery *delivery) {
   if (!run || !run->ranks) return deliver_alone(records, delivery);
   kz_ranks *ranks = run->ranks;
-  mail m = {.ranks = ranks, .delivery = delivery, .records = records};
+  delivery_context m = {.ranks = ranks, .delivery = delivery, .records = records};
   for (int i = 0; i <= BUFFERS; i++) m.request[i] = MPI_REQUEST_NULL;
   int64_t total = records->n;
   kz_status status = kz_ranks_agree(ranks, local_records_allocate(&m));
   if (status == KZ_OK) status = kz_ranks_sum(ranks, &total, 1);
-  if (status == KZ_OK) status = deliver(&m, total);
+  if (status == KZ_OK) status = deliver_records(&m, total);
   for (int i = 0; i <= BUFFERS; i++) free(m.buffer[i]);
   return status;
 }

@@ -46,7 +46,7 @@ static bool has_terminal(FILE *terminal) {
   return foreground > 0 && (foreground == getpgrp() || (kz_launch_rank() >= 0 && foreground == getpgid(getppid())));
 }
 
-static void draw(const kz_meter *meter, int64_t done, double elapsed) {
+static void draw_meter(const kz_meter *meter, int64_t done, double elapsed) {
   char bar[BAR_CELLS + 1] = "", spent[CLOCK_BYTES], left[CLOCK_BYTES] = "?";
   const double share = (double)done / (double)meter->total;
   const int64_t fresh = done - meter->first;
@@ -78,7 +78,7 @@ void kz_meter_show(kz_meter *meter, int64_t done) {
   meter->due = now + (meter->live ? BAR_PERIOD : meter->last ? LINE_PERIOD_ALWAYS : LINE_PERIOD);
   if (meter->live && !has_terminal(meter->out)) return;
   meter->shown = true;
-  draw(meter, kz_smaller(done, meter->total), now - meter->begun);
+  draw_meter(meter, kz_smaller(done, meter->total), now - meter->begun);
 }
 
 void kz_meter_end(kz_meter *meter, bool complete, double idle) {
@@ -91,25 +91,25 @@ void kz_meter_end(kz_meter *meter, bool complete, double idle) {
   fflush(meter->out);
 }
 
-enum { CHAIN_PARTS = 1000000 };
-struct kz_chain {
+enum { SERIAL_PARTS = 1000000 };
+struct kz_serial_progress {
   kz_meter meter;
 };
 
-kz_chain *kz_chain_begin(const kz_run *run, const char *name) {
+kz_serial_progress *kz_serial_progress_begin(const kz_run *run, const char *name) {
   if (!run || !run->ranks) return NULL;
-  kz_chain *chain = kz_calloc(1, sizeof *chain);
-  kz_meter_begin(&chain->meter, run->ranks, name, CHAIN_PARTS, 0);
+  kz_serial_progress *chain = kz_calloc(1, sizeof *chain);
+  kz_meter_begin(&chain->meter, run->ranks, name, SERIAL_PARTS, 0);
   return chain;
 }
 
-void kz_chain_show(kz_chain *chain, double seconds_left) {
+void kz_serial_progress_show(kz_serial_progress *chain, double seconds_left) {
   if (!chain) return;
   const double elapsed = kz_clock() - chain->meter.begun;
-  kz_meter_show(&chain->meter, (int64_t)(CHAIN_PARTS * elapsed / (elapsed + seconds_left + 1e-9)));
+  kz_meter_show(&chain->meter, (int64_t)(SERIAL_PARTS * elapsed / (elapsed + seconds_left + 1e-9)));
 }
 
-void kz_chain_end(kz_chain *chain, bool complete) {
+void kz_serial_progress_end(kz_serial_progress *chain, bool complete) {
   if (!chain) return;
   kz_meter_end(&chain->meter, complete, 1 - 1.0 / chain->meter.ranks->size);
   free(chain);

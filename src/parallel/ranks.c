@@ -33,18 +33,18 @@ static void find_launch(void) {
   launch.count = first_number(counts, sizeof counts / sizeof *counts);
 }
 
-static void look(void) {
+static void read_launch(void) {
   static pthread_once_t once = PTHREAD_ONCE_INIT;
   pthread_once(&once, find_launch);
 }
 
 int kz_launch_rank(void) {
-  look();
+  read_launch();
   return launch.rank;
 }
 
 int kz_launch_count(void) {
-  look();
+  read_launch();
   return launch.count;
 }
 
@@ -140,7 +140,7 @@ void kz_ranks_end(kz_ranks *ranks) {
   if (begun && !ended) MPI_Finalize();
 }
 
-static void give_up(int number) {
+static void exit_failed(int number) {
   (void)number;
   _exit(KZ_FAILED);
 }
@@ -148,7 +148,7 @@ static void give_up(int number) {
 void kz_ranks_abandon(kz_ranks *ranks, kz_status status) {
   int ended = 1;
   if (kz_ranks_several(ranks) && MPI_Finalized(&ended) == MPI_SUCCESS && !ended) {
-    signal(SIGALRM, give_up); /* MPI may also be out of memory */
+    signal(SIGALRM, exit_failed); /* MPI may also be out of memory */
     alarm(ABANDON_SECONDS);
     pthread_mutex_lock(&ranks->mutex);
     MPI_Abort(MPI_COMM_WORLD, status);
@@ -176,7 +176,7 @@ kz_status kz_ranks_node(kz_ranks *ranks, double mine, double *sum, int *count) {
   return KZ_OK;
 }
 
-static int severity(kz_status status) {
+static int severity_of(kz_status status) {
   const kz_status order[] = {KZ_OK, KZ_STOPPED, KZ_REFUSED, KZ_FAILED};
   int place = 3;
   while (place > 0 && order[place] != status) --place;
@@ -187,7 +187,7 @@ kz_status kz_ranks_agree(kz_ranks *ranks, kz_status mine) {
   if (!kz_ranks_several(ranks)) return mine;
   struct {
     int severity, rank;
-  } own = {severity(mine), ranks->rank}, worst;
+  } own = {severity_of(mine), ranks->rank}, worst;
   KZ_MPI(MPI_Allreduce(&own, &worst, 1, MPI_2INT, MPI_MAXLOC, ranks->comm));
   if (worst.severity == 0) return KZ_OK;
   struct {

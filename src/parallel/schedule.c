@@ -34,7 +34,7 @@ static double rate_of_others(const kz_schedule *schedule, double seconds) {
 }
 
 /* Takes a rank out where the others need less time for all that is left, and for the tiles that they have in hand, than it for one. */
-static bool retire(kz_schedule *schedule, int rank) {
+static bool retire_rank(kz_schedule *schedule, int rank) {
   const double seconds = schedule->seconds[rank], others = seconds > 0 ? rate_of_others(schedule, seconds) : 0;
   if (seconds * others <= (double)(schedule->end - schedule->next + schedule->taking - 1)) return false;
   schedule->rate = others;
@@ -44,7 +44,7 @@ static bool retire(kz_schedule *schedule, int rank) {
 }
 
 int64_t kz_schedule_take(kz_schedule *schedule, int rank) {
-  return schedule->next == schedule->end || retire(schedule, rank) ? -1 : schedule->next++;
+  return schedule->next == schedule->end || retire_rank(schedule, rank) ? -1 : schedule->next++;
 }
 
 int64_t kz_schedule_grant(kz_schedule *schedule, int rank, bool early, int64_t *first) {
@@ -52,7 +52,7 @@ int64_t kz_schedule_grant(kz_schedule *schedule, int rank, bool early, int64_t *
   const double seconds = schedule->seconds[rank];
   double tiles = 1;
   *first = schedule->next;
-  if (left == 0 || (!early && retire(schedule, rank))) return 0;
+  if (left == 0 || (!early && retire_rank(schedule, rank))) return 0;
   if (seconds > 0) {
     const double rest = (double)left / fmax(schedule->rate, 1 / seconds); /* s, of all ranks together */
     if (early && rest < 2 * seconds) return 0;

@@ -40,7 +40,7 @@ static uint64_t slot_checksum(const kz_section *section, int64_t tile, const voi
 }
 
 /* The space is allocated at once, so that a full disk fails before the work is done. */
-static kz_status reserve(const kz_checkpoint *checkpoint, const kz_section *section) {
+static kz_status reserve_space(const kz_checkpoint *checkpoint, const kz_section *section) {
   int error;
   do error = posix_fallocate(checkpoint->file, (off_t)checkpoint->end, (off_t)(section->end - checkpoint->end));
   while (error == EINTR);
@@ -71,7 +71,7 @@ kz_status kz_section_open(const kz_checkpoint *checkpoint, const kz_stage *stage
   section->end = section->slots + stage->n_tiles * section->stride;
   *known = kz_bytes_read(checkpoint->file, &found, sizeof found, checkpoint->end) == sizeof found &&
            memcmp(&found, &head, sizeof head) == 0;
-  if (!section->varying) KZ_TRY(reserve(checkpoint, section));
+  if (!section->varying) KZ_TRY(reserve_space(checkpoint, section));
   if (!*known && kz_bytes_write(checkpoint->file, &head, sizeof head, checkpoint->end) != 0)
     return kz_fail(KZ_FAILED, "%s: cannot be written: %s", checkpoint->path, strerror(errno));
   return KZ_OK;

@@ -15,7 +15,7 @@ static const struct {
                     {SIGINT, "stopped by SIGINT"}};
 enum { N_STOP_SIGNALS = sizeof STOP_SIGNALS / sizeof *STOP_SIGNALS };
 
-enum { GRACE = 6, LONGEST = 1 << 30 }; /* s */
+enum { GRACE_SECONDS = 6, LONGEST_ALARM = 1 << 30 }; /* s */
 
 static volatile sig_atomic_t caught;
 static void (*volatile overdue)(const char *reason);
@@ -28,23 +28,23 @@ const char *kz_signals_caught(void) {
 }
 
 /* Sets the alarm to so many seconds, unless it is set to an earlier time. */
-static void wind(unsigned seconds) {
+static void set_alarm(unsigned seconds) {
   const unsigned left = alarm(seconds);
   if (left > 0 && left < seconds) alarm(left);
 }
 
-static void note(int number) {
+static void record_signal(int number) {
   caught = number;
-  if (overdue) wind(GRACE);
+  if (overdue) set_alarm(GRACE_SECONDS);
 }
 
-static void ring(int number) {
+static void end_overdue(int number) {
   (void)number;
   const char *reason = kz_signals_caught();
   if (overdue) overdue(reason ? reason : "stopped by the time limit");
 }
 
-static void handle(int number, void (*handler)(int)) {
+static void set_handler(int number, void (*handler)(int)) {
   struct sigaction action = {.sa_handler = handler, .sa_flags = SA_RESTART};
   sigemptyset(&action.sa_mask);
   sigaction(number, &action, NULL);
@@ -60,16 +60,17 @@ void kz_signals_catch(void) {
   static bool known, ignored[N_STOP_SIGNALS]; /* before MPI, which may have handlers of its own */
   for (int i = 0; !known && i < N_STOP_SIGNALS; ++i) ignored[i] = is_ignored(STOP_SIGNALS[i].number);
   known = true;
-  for (int i = 0; i < N_STOP_SIGNALS; ++i) handle(STOP_SIGNALS[i].number, ignored[i] ? SIG_IGN : note);
-  handle(SIGALRM, ring);
-  handle(SIGXFSZ, SIG_IGN); /* a write beyond the size limit shall return EFBIG */
-  handle(SIGTTOU, SIG_IGN); /* progress is no reason to stop either, where the terminal would (stty tostop) */
-  handle(SIGPIPE, SIG_IGN); /* a closed progress stream is no reason to stop */
+  for (int i = 0; i < N_STOP_SIGNALS; ++i) set_handler(STOP_SIGNALS[i].number, ignored[i] ? SIG_IGN : record_signal);
+  set_handler(SIGALRM, end_overdue);
+  set_handler(SIGXFSZ, SIG_IGN); /* a write beyond the size limit shall return EFBIG */
+  set_handler(SIGTTOU, SIG_IGN); /* progress is no reason to stop either, where the terminal would (stty tostop) */
+  set_handler(SIGPIPE, SIG_IGN); /* a closed progress stream is no reason to stop */
 }
 
 void kz_ranks_set_overdue(kz_ranks *ranks, void (*leave)(const char *reason)) {
   overdue = leave;
   if (!leave) alarm(0);
-  if (leave && caught) wind(GRACE);
-  if (leave && ranks->limit > 0) wind((unsigned)(ranks->limit < LONGEST ? ranks->limit + 1 : LONGEST) + GRACE);
+  if (leave && caught) set_alarm(GRACE_SECONDS);
+  if (leave && ranks->limit > 0)
+    set_alarm((unsigned)(ranks->limit < LONGEST_ALARM ? ranks->limit + 1 : LONGEST_ALARM) + GRACE_SECONDS);
 }

@@ -20,8 +20,8 @@ typedef struct {
   char *records;      /* [n_tiles][record_bytes]: complete on rank 0 */
   bool kept;          /* finished records go to the section */
   kz_section section; /* of the checkpoint */
-  int64_t n_left;
-  int64_t *left; /* [n_left] tiles to do; NULL: all of them in order */
+  int64_t n_unfinished;
+  int64_t *unfinished; /* [n_left] tiles to do; NULL: all of them in order */
   kz_record_buffer buffered;
   void *buffer; /* of the delivery, rank 0; of a local record */
   kz_dispatch dispatch;
@@ -29,7 +29,7 @@ typedef struct {
   kz_meter meter;
 } stage_run;
 
-static kz_status check(const stage_run *run) {
+static kz_status check_stage(const stage_run *run) {
   const kz_stage *stage = run->stage;
   if (stage->n_tiles < 0 || stage->n_tiles > TILES_MAX || stage->record_bytes > KZ_RECORD_MAX)
     return kz_fail(KZ_FAILED, "stage %s: %lld tiles of %zu bytes are too many", stage->name, (long long)stage->n_tiles,
@@ -39,8 +39,8 @@ static kz_status check(const stage_run *run) {
   return KZ_OK;
 }
 
-static kz_status prepare(stage_run *run) {
-  KZ_TRY(check(run));
+static kz_status prepare_run(stage_run *run) {
+  KZ_TRY(check_stage(run));
   kz_ranks *ranks = run->ranks;
   kz_record_buffer_begin(&run->buffered, run->stage->record_bytes);
   const size_t message = ranks->rank == 0 && ranks->size > 1 ? kz_record_buffer_message_bytes(&run->buffered) : 0;
@@ -67,7 +67,7 @@ static void recall_local(stage_run *run, int64_t *done) {
 }
 
 /* Tiles whose records are in the checkpoint are not done again. Collective. */
-static kz_status recall(stage_run *run) {
+static kz_status recall_finished(stage_run *run) {
   kz_ranks *ranks = run->ranks;
   const int64_t n_tiles = run->stage->n_tiles;
   bool known = false;
@@ -75,15 +75,15 @@ static kz_status recall(stage_run *run) {
   KZ_TRY(kz_ranks_agree(ranks, status));
   KZ_TRY(kz_ranks_broadcast(ranks, &run->section, sizeof run->section));
   KZ_TRY(kz_ranks_broadcast(ranks, &known, sizeof known));
-  run->left = kz_calloc((size_t)n_tiles + 1, sizeof *run->left);
+  run->unfinished = kz_calloc((size_t)n_tiles + 1, sizeof *run->unfinished);
   if (known && run->stage->local)
-    recall_local(run, run->left);
+    recall_local(run, run->unfinished);
   else if (known)
-    recall_records(run, run->left);
-  KZ_TRY(kz_ranks_sum(ranks, run->left, n_tiles));
-  run->n_left = 0;
+    recall_records(run, run->unfinished);
+  KZ_TRY(kz_ranks_sum(ranks, run->unfinished, n_tiles));
+  run->n_unfinished = 0;
   for (int64_t tile = 0; tile < n_tiles; ++tile)
-    if (!run->left[tile]) run->left[run->n_left++] = tile;
+    if (!run->unfinished[tile]) run->unfinished[run->n_unfinished++] = tile;
   kz_section_adopt(run->checkpoint, &run->section);
   return KZ_OK;
 }
@@ -111,8 +111,8 @@ static kz_status do_tiles(stage_run *run) {
     int64_t drawn;
     KZ_TRY(kz_dispatch_next(&run->dispatch, &drawn));
     if (drawn < 0) return KZ_OK;
-    kz_meter_show(&run->meter, stage->n_tiles - run->n_left + drawn);
-    const int64_t tile = run->left ? run->left[drawn] : drawn;
+    kz_meter_show(&run->meter, stage->n_tiles - run->n_unfinished + drawn);
+    const int64_t tile = run->unfinished ? run->unfinished[drawn] : drawn;
     const kz_stopwatch watch = kz_stopwatch_start();
     kz_status status = kz_ranks_interrupted(run->ranks);
     if (status == KZ_OK) {
@@ -144,14 +144,14 @@ static kz_status do_collectively(stage_run *run, int64_t tile) {
 }
 
 static kz_status work_collectively(stage_run *run) {
-  for (int64_t i = 0; i < run->n_left; ++i) {
-    kz_meter_show(&run->meter, run->stage->n_tiles - run->n_left + i);
-    KZ_TRY(do_collectively(run, run->left ? run->left[i] : i));
+  for (int64_t i = 0; i < run->n_unfinished; ++i) {
+    kz_meter_show(&run->meter, run->stage->n_tiles - run->n_unfinished + i);
+    KZ_TRY(do_collectively(run, run->unfinished ? run->unfinished[i] : i));
   }
   return KZ_OK;
 }
 
-static kz_status deliver(stage_run *run) {
+static kz_status deliver_records(stage_run *run) {
   const kz_stage *stage = run->stage;
   if (stage->local) return KZ_OK;
   KZ_TRY(kz_record_buffer_deliver(&run->buffered, run->ranks, run->buffer, run->records));
@@ -174,7 +174,7 @@ static kz_status run_alone(const kz_stage *stage, char *records) {
 static void end_run(stage_run *run) {
   kz_record_buffer_end(&run->buffered);
   free(run->buffer);
-  free(run->left);
+  free(run->unfinished);
 }
 
 kz_status kz_stage_run(const kz_run *on, const kz_stage *stage, void *records) {
@@ -185,10 +185,10 @@ kz_status kz_stage_run(const kz_run *on, const kz_stage *stage, void *records) {
                    .stage = stage,
                    .records = records,
                    .kept = stage->keep && on->checkpoint,
-                   .n_left = stage->n_tiles};
-  KZ_TRY(kz_ranks_agree(run.ranks, prepare(&run)));
-  if (run.kept) KZ_TRY(recall(&run));
-  kz_meter_begin(&run.meter, run.ranks, stage->name, stage->n_tiles, stage->n_tiles - run.n_left);
+                   .n_unfinished = stage->n_tiles};
+  KZ_TRY(kz_ranks_agree(run.ranks, prepare_run(&run)));
+  if (run.kept) KZ_TRY(recall_finished(&run));
+  kz_meter_begin(&run.meter, run.ranks, stage->name, stage->n_tiles, stage->n_tiles - run.n_unfinished);
   double idle = 0;
   run.work = (kz_work){.ranks = run.ranks, .stage = stage->name};
   const kz_stopwatch watch = kz_stopwatch_start();
@@ -197,14 +197,14 @@ kz_status kz_stage_run(const kz_run *on, const kz_stage *stage, void *records) {
   if (collective) {
     status = work_collectively(&run);
   } else {
-    kz_dispatch_begin(&run.dispatch, run.ranks, run.n_left);
+    kz_dispatch_begin(&run.dispatch, run.ranks, run.n_unfinished);
     status = do_tiles(&run);
     ended = kz_dispatch_end(&run.dispatch);
   }
   status = kz_ranks_agree(run.ranks, status == KZ_OK ? ended : status);
   kz_work_end(&run.work);
-  if (status == KZ_OK && !collective) status = kz_timing_note(run.ranks, run.n_left, &watch, &run.work, &idle);
+  if (status == KZ_OK && !collective) status = kz_timing_note(run.ranks, run.n_unfinished, &watch, &run.work, &idle);
   kz_meter_end(&run.meter, status == KZ_OK, idle);
   KZ_TRY(status);
-  return deliver(&run);
+  return deliver_records(&run);
 }

@@ -30,7 +30,7 @@ void kz_work_note(kz_work *work, int64_t tile, const kz_stopwatch *watch) {
 }
 
 /* The row of a stage's name, a new one where it comes for the first time. */
-static kz_timing *row_of(kz_ranks *ranks, const char *name) {
+static kz_timing *timing_of(kz_ranks *ranks, const char *name) {
   for (int64_t i = 0; i < ranks->n_timings; ++i)
     if (strncmp(ranks->timings[i].stage, name, sizeof ranks->timings[i].stage - 1) == 0) return &ranks->timings[i];
   ranks->timings = kz_list_reserve(ranks->timings, &ranks->timings_capacity, ranks->n_timings + 1, sizeof *ranks->timings);
@@ -50,7 +50,7 @@ static void log_stage(const kz_ranks *ranks, const char *name, const kz_timing *
   fflush(ranks->log);
 }
 
-static void add(kz_timing *row, const kz_timing *t) {
+static void add_timing(kz_timing *row, const kz_timing *t) {
   ++row->calls;
   row->tiles += t->tiles;
   row->wall += t->wall;
@@ -74,8 +74,8 @@ kz_status kz_timing_note(kz_ranks *ranks, int64_t tiles, const kz_stopwatch *wat
   const double share = wall > 0 ? sum[0] / (wall * ranks->size) : 1;
   *idle = share < 1 ? 1 - share : 0;
   const kz_timing t = {.tiles = tiles, .wall = wall, .processor = sum[1], .most = most, .busy = sum[0]};
-  kz_timing *row = row_of(ranks, work->stage);
-  add(row, &t);
+  kz_timing *row = timing_of(ranks, work->stage);
+  add_timing(row, &t);
   log_stage(ranks, work->stage, &t);
   return KZ_OK;
 }

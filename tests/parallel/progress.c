@@ -39,14 +39,14 @@ static kz_status run_cells(int64_t n_tiles) {
 
 /* Two stages of half a second and more, after which as much is left. */
 static kz_status run_chain(int64_t n_stages) {
-  kz_chain *chain = kz_chain_begin(&(kz_run){.ranks = ranks}, "reference");
+  kz_serial_progress *chain = kz_serial_progress_begin(&(kz_run){.ranks = ranks}, "reference");
   kz_status status = KZ_OK;
   for (int64_t i = 0; status == KZ_OK && i < n_stages; i++) {
     passed += 0.6;
     status = run_cells(1);
-    kz_chain_show(chain, 0.6 * (double)(i + 1));
+    kz_serial_progress_show(chain, 0.6 * (double)(i + 1));
   }
-  kz_chain_end(chain, status == KZ_OK);
+  kz_serial_progress_end(chain, status == KZ_OK);
   return status;
 }
 

@@ -251,15 +251,15 @@ static kz_status run_piece(const kz_run *run, const work *w, piece *record, size
 
 kz_status kz_images_run(const kz_run *run, kz_dynamics *dynamics, kz_images *images, int64_t max_periods) {
   const work w = {.images = images, .dynamics = dynamics, .max_periods = max_periods};
-  kz_chain *chain = kz_chain_begin(run, "reference");
+  kz_serial_progress *chain = kz_serial_progress_begin(run, "reference");
   const size_t bytes = sizeof(piece) + kz_arbitrary_size(images->orbit);
   KZ_FREED piece *record = kz_malloc(bytes);
   kz_status status = KZ_OK;
   while (status == KZ_OK && !images->finished) {
     const double begun = kz_clock();
     status = run_piece(run, &w, record, bytes);
-    kz_chain_show(chain, record->n > 0 ? (kz_clock() - begun) / (double)record->n * work_left(images) : 0);
+    kz_serial_progress_show(chain, record->n > 0 ? (kz_clock() - begun) / (double)record->n * work_left(images) : 0);
   }
-  kz_chain_end(chain, status == KZ_OK);
+  kz_serial_progress_end(chain, status == KZ_OK);
   return status;
 }
