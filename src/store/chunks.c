@@ -42,7 +42,7 @@ kz_status kz_chunks_set(hid_t creation, int rank, const hsize_t *lengths, const 
 }
 
 /* The items of the chunk that begins at (row, column); zeros beyond the array. */
-static void gather(const layout *l, const char *data, hsize_t row, hsize_t column, char *chunk) {
+static void gather_chunk(const layout *l, const char *data, hsize_t row, hsize_t column, char *chunk) {
   const hsize_t rows = l->rows - row < l->chunk_rows ? l->rows - row : l->chunk_rows;
   const hsize_t columns = l->columns - column < l->chunk_columns ? l->columns - column : l->chunk_columns;
   if (rows < l->chunk_rows || columns < l->chunk_columns) memset(chunk, 0, l->chunk_rows * l->chunk_columns * l->item);
@@ -58,8 +58,8 @@ static kz_status write_chunks(hid_t dataset, const layout *l, const char *data) 
   for (hsize_t sheet = 0; sheet < l->sheets; sheet++, data += l->rows * l->columns * l->item)
     for (hsize_t row = 0; row < l->rows; row += l->chunk_rows)
       for (hsize_t column = 0; status == KZ_OK && column < l->columns; column += l->chunk_columns) {
-        const hsize_t at[KZ_MAX_DIMENSIONS] = {sheet, row, column}, *place = at + KZ_MAX_DIMENSIONS - l->rank;
-        gather(l, data, row, column, chunk);
+        const hsize_t offset[KZ_MAX_DIMENSIONS] = {sheet, row, column}, *place = offset + KZ_MAX_DIMENSIONS - l->rank;
+        gather_chunk(l, data, row, column, chunk);
         const size_t bytes = kz_pack_into(chunk, items, l->item, l->item < sizeof(double), packed);
         status = bytes == 0 ? KZ_FAILED : KZ_HDF5_STATUS(H5Dwrite_chunk(dataset, H5P_DEFAULT, 0, place, bytes, packed));
       }

@@ -6,26 +6,26 @@
 
 #include "kapitza/store.h"
 
-enum { MOST_PLANES = 32, RAW = -MAX_WBITS };
+enum { MAX_ITEM_BYTES = 32, RAW = -MAX_WBITS };
 
 /* Byte b of item i goes to place b n + i. */
-static inline __attribute__((always_inline)) void move_bytes(const unsigned char *items, size_t item, size_t n,
-                                                             unsigned char *restrict out) {
+static inline __attribute__((always_inline)) void shuffle_planes(const unsigned char *items, size_t item, size_t n,
+                                                                 unsigned char *restrict out) {
   for (size_t b = 0; b < item; ++b)
     for (size_t i = 0; i < n; ++i) out[b * n + i] = items[i * item + b];
 }
 
 /* The bytes of the items in the order of move_bytes, which the caller frees. Sizes that are known beforehand are moved in vectors. */
-static unsigned char *shuffled(const void *items, size_t item, size_t n) {
+static unsigned char *shuffle_bytes(const void *items, size_t item, size_t n) {
   unsigned char *out = kz_malloc(item * n + 1);
   if (item == 2)
-    move_bytes(items, 2, n, out);
+    shuffle_planes(items, 2, n, out);
   else if (item == 4)
-    move_bytes(items, 4, n, out);
+    shuffle_planes(items, 4, n, out);
   else if (item == 16) /* labelled cells */
-    move_bytes(items, 16, n, out);
+    shuffle_planes(items, 16, n, out);
   else
-    move_bytes(items, item, n, out);
+    shuffle_planes(items, item, n, out);
   return out;
 }
 
@@ -50,7 +50,7 @@ size_t kz_pack_bytes(size_t n, size_t item) {
 
 /* Where bytes come in runs, looking for nothing else takes half the time and packs better. */
 size_t kz_pack_into(const void *numbers, size_t n, size_t item, bool in_runs, void *packed) {
-  unsigned char *bytes = shuffled(numbers, item, n);
+  unsigned char *bytes = shuffle_bytes(numbers, item, n);
   const int strategy = in_runs ? Z_RLE : Z_DEFAULT_STRATEGY;
   const size_t used = deflate_all(bytes, item * n, MAX_WBITS, strategy, packed, kz_pack_bytes(n, item));
   free(bytes);
@@ -59,7 +59,7 @@ size_t kz_pack_into(const void *numbers, size_t n, size_t item, bool in_runs, vo
 }
 
 /* The planes that are not all 0 come to the front; a bit for each of them. */
-static uint32_t gather(unsigned char *planes, size_t item, size_t n) {
+static uint32_t gather_planes(unsigned char *planes, size_t item, size_t n) {
   uint32_t used = 0;
   size_t end = 0;
   for (size_t b = 0; b < item; b++) {
@@ -74,9 +74,9 @@ static uint32_t gather(unsigned char *planes, size_t item, size_t n) {
 
 /* Shuffled, without the planes of bytes that are all 0, deflated without a checksum. */
 size_t kz_squeeze(const void *items, size_t n, size_t item, void *packed) {
-  if (item > MOST_PLANES) return 0;
-  unsigned char *planes = shuffled(items, item, n);
-  const uint32_t used = gather(planes, item, n);
+  if (item > MAX_ITEM_BYTES) return 0;
+  unsigned char *planes = shuffle_bytes(items, item, n);
+  const uint32_t used = gather_planes(planes, item, n);
   const size_t length = (size_t)__builtin_popcount(used) * n, most = kz_pack_bytes(n, item) - sizeof used;
   memcpy(packed, &used, sizeof used);
   const size_t bytes = deflate_all(planes, length, RAW, Z_RLE, (char *)packed + sizeof used, most);
@@ -96,26 +96,26 @@ static bool inflate_all(const void *packed, size_t bytes, unsigned char *planes,
   return whole;
 }
 
-static inline __attribute__((always_inline)) void move_back(const unsigned char *const plane[], size_t n, size_t item,
-                                                            unsigned char *restrict items) {
+static inline __attribute__((always_inline)) void unshuffle_planes(const unsigned char *const plane[], size_t n, size_t item,
+                                                                   unsigned char *restrict items) {
   for (size_t i = 0; i < n; i++)
     for (size_t b = 0; b < item; b++) items[i * item + b] = plane[b][i];
 }
 
 bool kz_unsqueeze(const void *packed, size_t bytes, size_t n, size_t item, void *items) {
   uint32_t used;
-  if (bytes <= sizeof used || item > MOST_PLANES) return false;
+  if (bytes <= sizeof used || item > MAX_ITEM_BYTES) return false;
   memcpy(&used, packed, sizeof used);
   const size_t planes = (size_t)__builtin_popcount(used);
   unsigned char *buffer = kz_calloc((planes + 1) * n + 1, 1); /* the last plane is that of zeros */
-  const unsigned char *plane[MOST_PLANES];
+  const unsigned char *plane[MAX_ITEM_BYTES];
   size_t next = 0;
   for (size_t b = 0; b < item; b++) plane[b] = buffer + n * (used >> b & 1 ? next++ : planes);
   const bool whole = next == planes && inflate_all((const char *)packed + sizeof used, bytes - sizeof used, buffer, planes * n);
   if (whole && item == 16)
-    move_back(plane, n, 16, items); /* labelled cells */
+    unshuffle_planes(plane, n, 16, items); /* labelled cells */
   else if (whole)
-    move_back(plane, n, item, items);
+    unshuffle_planes(plane, n, item, items);
   free(buffer);
   return whole;
 }

@@ -26,7 +26,7 @@ static kz_status create_file(kz_store *store) {
 static const char UNFINISHED[] = KZ_STORE_UNFINISHED, FINISHED[sizeof UNFINISHED] = "a complete result of kapitza";
 
 /* Writes the state of the file to the disk: into the header of the root group, which lies at its beginning. */
-static kz_status mark(const kz_store *store, const char *text) {
+static kz_status mark_state(const kz_store *store, const char *text) {
   const hid_t type = H5Tcopy(H5T_C_S1), space = H5Screate(H5S_SCALAR);
   const bool old = H5Aexists(store->file, "state") > 0;
   hid_t state = H5I_INVALID_HID;
@@ -63,7 +63,7 @@ kz_status kz_store_create(const char *path, const kz_group *groups, kz_store **s
   (*store)->groups = groups;
   kz_status status = try_path(*store, path);
   if (status == KZ_OK) status = create_file(*store);
-  if (status == KZ_OK) status = mark(*store, UNFINISHED);
+  if (status == KZ_OK) status = mark_state(*store, UNFINISHED);
   if (status == KZ_OK) return KZ_OK;
   kz_store_discard(*store);
   *store = NULL;
@@ -81,7 +81,7 @@ static herr_t close_file(kz_store *store) {
   return closed;
 }
 
-static void release(kz_store *store) {
+static void release_store(kz_store *store) {
   close_file(store);
   free(store->path);
   free(store->part);
@@ -91,24 +91,24 @@ static void release(kz_store *store) {
 void kz_store_discard(kz_store *store) {
   if (!store) return;
   if (store->file >= 0 && store->part) unlink(store->part);
-  release(store);
+  release_store(store);
 }
 
-static kz_status cannot(const kz_store *store, const char *what) {
+static kz_status fail_to(const kz_store *store, const char *what) {
   return kz_fail(KZ_FAILED, "%s: cannot be %s: %s", store->path, what, strerror(errno));
 }
 
 /* The bytes of the closed file shall be on the disk before it has its name. */
-static kz_status save(const kz_store *store) {
+static kz_status flush_file(const kz_store *store) {
   const int file = open(store->part, O_WRONLY | O_CLOEXEC | O_NOFOLLOW);
   const bool saved = file >= 0 && fsync(file) == 0;
-  const kz_status status = saved ? KZ_OK : cannot(store, "saved");
+  const kz_status status = saved ? KZ_OK : fail_to(store, "saved");
   if (file >= 0) close(file);
   return status;
 }
 
 /* The new name shall survive a crash of the machine too; a file system that cannot do that is not an error. */
-static void save_folder(const char *path) {
+static void flush_folder(const char *path) {
   char *folder = kz_strdup(path), *slash = strrchr(folder, '/');
   if (slash) slash[1] = '\0';
   const int file = open(slash ? folder : ".", O_RDONLY | O_DIRECTORY | O_CLOEXEC);
@@ -120,15 +120,15 @@ static void save_folder(const char *path) {
 }
 
 kz_status kz_store_complete(kz_store *store) {
-  kz_status status = mark(store, FINISHED);
+  kz_status status = mark_state(store, FINISHED);
   if (close_file(store) < 0 && status == KZ_OK) status = kz_hdf5_fail(__FILE__, __LINE__);
-  if (status == KZ_OK) status = save(store);
-  if (status == KZ_OK && rename(store->part, store->path) != 0) status = cannot(store, "given its name");
+  if (status == KZ_OK) status = flush_file(store);
+  if (status == KZ_OK && rename(store->part, store->path) != 0) status = fail_to(store, "given its name");
   if (status != KZ_OK)
     unlink(store->part);
   else
-    save_folder(store->path);
-  release(store);
+    flush_folder(store->path);
+  release_store(store);
   return status;
 }
 

@@ -44,7 +44,7 @@ static kz_status write_units(hid_t group, hid_t dataset, const char *units) {
   return status;
 }
 
-static kz_status describe(hid_t group, hid_t dataset, const kz_variable *row, hid_t type) {
+static kz_status describe_dataset(hid_t group, hid_t dataset, const kz_variable *row, hid_t type) {
   const char *words = strchr(row->units, '|');
   const size_t bytes = strlen(row->long_name) + strlen(row->units) + sizeof ", in ";
   KZ_FREED char *name = kz_malloc(bytes);
@@ -84,7 +84,7 @@ static kz_status write_dataset(hid_t group, const kz_variable *row, int rank, co
   kz_status status = check_memory(row->name, chunk ? 0 : n * H5Tget_size(type));
   if (status == KZ_OK) status = create_dataset(group, row, type, rank, lengths, chunk, dataset);
   if (status == KZ_OK && !chunk && n > 0) status = kz_chunks_write(*dataset, type, rank, lengths, H5Tget_size(type), data);
-  if (status == KZ_OK) status = describe(group, *dataset, row, type);
+  if (status == KZ_OK) status = describe_dataset(group, *dataset, row, type);
   H5Tclose(type);
   return status;
 }
@@ -97,7 +97,7 @@ static bool is_name(const char *row, const char *name) {
 }
 
 /* The table's row, under the name asked for. */
-static kz_status find(const kz_store *store, const char *group, const char *name, kz_variable *row) {
+static kz_status find_row(const kz_store *store, const char *group, const char *name, kz_variable *row) {
   for (const kz_group *g = store->groups; g->name; g++)
     for (const kz_variable *v = g->variables; v->name; v++)
       if (strcmp(v->group ? v->group : g->name, group + (group[0] == '/')) == 0 && is_name(v->name, name)) {
@@ -119,16 +119,16 @@ static kz_status write_index(hid_t group, const kz_variable *row, hsize_t length
 
 kz_status kz_store_dimension(kz_store *store, const char *group, const char *name, int64_t length, const void *values) {
   kz_variable row;
-  KZ_TRY(find(store, group, name, &row));
+  KZ_TRY(find_row(store, group, name, &row));
   if (!values && row.kind != KZ_INT32) return kz_fail(KZ_FAILED, "the dimension %s/%s needs its values", group, name);
-  hid_t folder, dataset = H5I_INVALID_HID;
-  KZ_TRY(kz_store_group(store, group, &folder));
+  hid_t opened_group, dataset = H5I_INVALID_HID;
+  KZ_TRY(kz_store_group(store, group, &opened_group));
   const hsize_t n = (hsize_t)length;
   kz_status status =
-      values ? write_dataset(folder, &row, 1, &n, NULL, values, &dataset) : write_index(folder, &row, n, &dataset);
+      values ? write_dataset(opened_group, &row, 1, &n, NULL, values, &dataset) : write_index(opened_group, &row, n, &dataset);
   if (status == KZ_OK) status = KZ_HDF5_STATUS(H5DSset_scale(dataset, name));
   if (dataset >= 0) H5Dclose(dataset);
-  H5Gclose(folder);
+  H5Gclose(opened_group);
   return status;
 }
 
@@ -143,7 +143,7 @@ static kz_status dimension_length(hid_t group, const char *name, hsize_t *length
   return status;
 }
 
-static kz_status attach(hid_t group, hid_t dataset, const char *name, int place) {
+static kz_status attach_scale(hid_t group, hid_t dataset, const char *name, int place) {
   hid_t scale;
   KZ_HDF5(scale = H5Dopen2(group, name, H5P_DEFAULT));
   const kz_status status = KZ_HDF5_STATUS(H5DSattach_scale(dataset, scale, (unsigned)place));
@@ -157,18 +157,18 @@ static kz_status write_variable(hid_t group, const kz_variable *row, const hsize
   for (; row->dimensions[rank]; ++rank) KZ_TRY(dimension_length(group, row->dimensions[rank], &lengths[rank]));
   hid_t dataset = H5I_INVALID_HID;
   kz_status status = write_dataset(group, row, rank, lengths, chunk, data, &dataset);
-  for (int d = 0; d < rank && status == KZ_OK; ++d) status = attach(group, dataset, row->dimensions[d], d);
+  for (int d = 0; d < rank && status == KZ_OK; ++d) status = attach_scale(group, dataset, row->dimensions[d], d);
   if (dataset >= 0) H5Dclose(dataset);
   return status;
 }
 
 static kz_status add_variable(kz_store *store, const char *group, const char *name, const hsize_t *chunk, const void *data) {
   kz_variable row;
-  hid_t folder;
-  KZ_TRY(find(store, group, name, &row));
-  KZ_TRY(kz_store_group(store, group, &folder));
-  const kz_status status = write_variable(folder, &row, chunk, data);
-  H5Gclose(folder);
+  hid_t opened_group;
+  KZ_TRY(find_row(store, group, name, &row));
+  KZ_TRY(kz_store_group(store, group, &opened_group));
+  const kz_status status = write_variable(opened_group, &row, chunk, data);
+  H5Gclose(opened_group);
   return status;
 }
 
