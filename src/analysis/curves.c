@@ -6,7 +6,7 @@
 #include "kapitza/analysis.h"
 
 /* NaN outside low <= k <= high. */
-static double within(double k, double low, double high, double m) {
+static double value_within(double k, double low, double high, double m) {
   return k >= low && k <= high ? m : NAN;
 }
 /* A radicand that rounding may push below 0 at the end of its domain. */
@@ -37,52 +37,52 @@ static double half_radical(double k) {
   return root_of((9 - 4 * k) * (13 - 20 * k));
 }
 CURVE(butikov_1) {
-  return within(k, -INFINITY, 0, cosine_cut(k));
+  return value_within(k, -INFINITY, 0, cosine_cut(k));
 }
 CURVE(butikov_2) {
-  return within(k, -INFINITY, 0.25, 0.25 * (half_radical(k) - (9 - 4 * k)));
+  return value_within(k, -INFINITY, 0.25, 0.25 * (half_radical(k) - (9 - 4 * k)));
 }
 CURVE(butikov_3) {
-  return within(k, 0.25, 0.65, 0.25 * (9 - 4 * k - half_radical(k)));
+  return value_within(k, 0.25, 0.65, 0.25 * (9 - 4 * k - half_radical(k)));
 }
 CURVE(butikov_3_upper) {
-  return within(k, -INFINITY, 0.65, 0.25 * (9 - 4 * k + half_radical(k)));
+  return value_within(k, -INFINITY, 0.65, 0.25 * (9 - 4 * k + half_radical(k)));
 }
 CURVE(butikov_4) {
-  return within(k, -INFINITY, 1, root_of(2 * (k - 1) * (k - 4) * (k - 9) / (k - 5)));
+  return value_within(k, -INFINITY, 1, root_of(2 * (k - 1) * (k - 4) * (k - 9) / (k - 5)));
 }
 CURVE(butikov_5) {
-  return within(k, 1, 8.0 / 3, cosine_cut(k));
+  return value_within(k, 1, 8.0 / 3, cosine_cut(k));
 }
 CURVE(butikov_4_refined) {
   double inner = root_of((((5 * k - 162) * k + 2101) * k - 12136) * k + 24592);
-  return within(k, -INFINITY, 1, root_of(2 * ((3 * k - 47) * k + 164 - inner)));
+  return value_within(k, -INFINITY, 1, root_of(2 * ((3 * k - 47) * k + 164 - inner)));
 }
 static double refined_5(double k, double sign) {
   double inner = root_of(648 + k * (k - 9) * (k * k - 13 * k + 68));
   return root_of(4 * k * k - 36 * k + 72 + sign * 2 * sqrt(2) * inner);
 }
 CURVE(butikov_5_refined) {
-  return within(k, 1, 4, refined_5(k, -1));
+  return value_within(k, 1, 4, refined_5(k, -1));
 }
 CURVE(butikov_5_refined_upper) {
-  return within(k, -INFINITY, 4, refined_5(k, 1));
+  return value_within(k, -INFINITY, 4, refined_5(k, 1));
 }
 
 CURVE(blackburn_lower) {
-  return within(k, -INFINITY, 0, sqrt(-2 * k));
+  return value_within(k, -INFINITY, 0, sqrt(-2 * k));
 }
 CURVE(blackburn_upper) {
-  return within(k, -INFINITY, 0, 0.450 - 1.799 * k);
+  return value_within(k, -INFINITY, 0, 0.450 - 1.799 * k);
 }
 CURVE(blackburn_upper_note) {
-  return within(k, -INFINITY, 0, 0.450 - 2.22 * k);
+  return value_within(k, -INFINITY, 0, 0.450 - 2.22 * k);
 }
 CURVE(blackburn_tangent) {
-  return within(k, -INFINITY, 0.25, 2 * (0.25 - k));
+  return value_within(k, -INFINITY, 0.25, 2 * (0.25 - k));
 }
 CURVE(blackburn_down_upper) {
-  return within(k, 0, 0.25, 0.450 - 1.799 * k);
+  return value_within(k, 0, 0.25, 0.450 - 1.799 * k);
 }
 
 CURVE(damped_0) {
@@ -101,13 +101,13 @@ CURVE(damped_2_upper) {
   return kz_tongue_edge(2, k, beta, turn, true);
 }
 CURVE(butikov_damped_1) {
-  return within(k, -INFINITY, 2.25, kz_hill_cut_half(k, beta, false));
+  return value_within(k, -INFINITY, 2.25, kz_hill_cut_half(k, beta, false));
 }
 CURVE(butikov_damped_1_upper) {
-  return within(k, -INFINITY, 2.25, kz_hill_cut_half(k, beta, true));
+  return value_within(k, -INFINITY, 2.25, kz_hill_cut_half(k, beta, true));
 }
 CURVE(butikov_damped_2) {
-  return within(k, -INFINITY, 8.0 / 3, kz_hill_cut_whole(k, beta));
+  return value_within(k, -INFINITY, 8.0 / 3, kz_hill_cut_whole(k, beta));
 }
 
 #define CURVES(ROW, UPPER, EDGES)                                                               \
@@ -170,22 +170,22 @@ void kz_curve_values(const kz_curve *curve, const kz_damping *damping, int64_t n
 
 typedef struct {
   double k, nu;
-} angle_place;
+} angle_point;
 
 /* Zero where a solution has the Floquet angle 2 pi nu. */
 static double angle_residual(double m, void *context) {
-  const angle_place *at = context;
-  double complex up = kz_hill_pivot(at->k, 0, m, 1 + at->nu), down = kz_hill_pivot(at->k, 0, m, 1 - at->nu);
-  return at->k - at->nu * at->nu - 0.25 * m * m * (1 / creal(up) + 1 / creal(down));
+  const angle_point *point = context;
+  double complex up = kz_hill_pivot(point->k, 0, m, 1 + point->nu), down = kz_hill_pivot(point->k, 0, m, 1 - point->nu);
+  return point->k - point->nu * point->nu - 0.25 * m * m * (1 / creal(up) + 1 / creal(down));
 }
 
 /* The Floquet angle increases with m from curve 1 (angle 0) to curve 2 (angle pi). */
 static double angle_curve(double k, double nu) {
   if (k > nu * nu) return NAN;
   if (k == nu * nu) return 0;
-  angle_place at = {k, nu};
+  angle_point point = {k, nu};
   double low = k < 0 ? kz_mathieu_m(1, k, 0, 0) : 0, high = kz_mathieu_m(2, k, 0, 0);
-  double m = kz_root(angle_residual, &at, low, high);
+  double m = kz_root(angle_residual, &point, low, high);
   return isfinite(m) ? m : high;
 }
 

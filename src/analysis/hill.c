@@ -3,15 +3,15 @@
 #include <gsl/gsl_poly.h>
 #include <math.h>
 
-static double complex diagonal(double k, double beta, double w) {
+static double complex diagonal_entry(double k, double beta, double w) {
   return k - w * w + I * beta * w;
 }
 
 double complex kz_hill_pivot(double k, double beta, double m, double w) {
   double x = 0.25 * m * m;
   int rows = 20 + (int)(2 * sqrt(fabs(k) + fabs(m) + beta));
-  double complex pivot = diagonal(k, beta, w + rows);
-  for (int j = rows - 1; j >= 0; j--) pivot = diagonal(k, beta, w + j) - x / pivot;
+  double complex pivot = diagonal_entry(k, beta, w + rows);
+  for (int j = rows - 1; j >= 0; j--) pivot = diagonal_entry(k, beta, w + j) - x / pivot;
   return pivot;
 }
 
@@ -37,14 +37,14 @@ static double drive_of(double a, double b, double c, bool larger) {
 
 /* |a b - x|^2 = x |b|^2 with a, b the first two diagonals. */
 double kz_hill_cut_half(double k, double beta, bool larger) {
-  double complex a = diagonal(k, beta, 0.5), b = diagonal(k, beta, 1.5), ab = a * b;
+  double complex a = diagonal_entry(k, beta, 0.5), b = diagonal_entry(k, beta, 1.5), ab = a * b;
   double size_b = creal(b * conj(b));
   return drive_of(1, -(2 * creal(ab) + size_b), creal(ab * conj(ab)), larger);
 }
 
 /* k |a b - x|^2 = 2 x Re((a b - x) conj b). For k <= 0 its smaller root continues curve 1, not tongue 2. */
 double kz_hill_cut_whole(double k, double beta) {
-  double complex a = diagonal(k, beta, 1), b = diagonal(k, beta, 2), ab = a * b;
+  double complex a = diagonal_entry(k, beta, 1), b = diagonal_entry(k, beta, 2), ab = a * b;
   double size_b = creal(b * conj(b));
   return drive_of(k + 2 * creal(b), -2 * (k * creal(ab) + creal(a) * size_b), k * creal(ab * conj(ab)), k <= 0);
 }

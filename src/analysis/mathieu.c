@@ -21,7 +21,7 @@ static const family families[] = {
 };
 /* Largest q for which GSL is asked. GSL 2.7 loses digits without a message: its relative error is 1e-12 at q = 3e4, 1e-8 at 1e5, and 1 at 1e6; the
  * tridiagonal eigenproblem does not. */
-static const double GSL_REACH = 5000;
+static const double GSL_MAX_Q = 5000;
 
 static double k_by_gsl(int curve, double m) {
   const family *row = &families[curve - 1];
@@ -61,30 +61,30 @@ static double k_by_pivots(int curve, double m) {
 
 /* From GSL up to q = 5000, beyond from the tridiagonal eigenproblem. */
 static double mathieu_k(int curve, double m) {
-  double k = 2 * m <= GSL_REACH ? k_by_gsl(curve, m) : NAN;
+  double k = 2 * m <= GSL_MAX_Q ? k_by_gsl(curve, m) : NAN;
   return isfinite(k) ? k : k_by_pivots(curve, m);
 }
 
 typedef struct {
   int curve;
   double k;
-} place;
+} curve_point;
 
-static double below_axis(double m, void *context) {
-  const place *at = context;
-  return at->k - mathieu_k(at->curve, m);
+static double k_difference(double m, void *context) {
+  const curve_point *point = context;
+  return point->k - mathieu_k(point->curve, m);
 }
 
 double kz_mathieu_turn(int curve) {
-  place at = {curve, 0};
-  return kz_lowest(below_axis, &at, 0.1, 2, 8);
+  curve_point point = {curve, 0};
+  return kz_lowest(k_difference, &point, 0.1, 2, 8);
 }
 
 /* The same zero, well-conditioned next to the axis: Hill's pivots subtract k - w^2 exactly. */
-static double residual(double m, void *context) {
-  const place *at = context;
-  double pivot = creal(kz_hill_pivot(at->k, 0, m, families[at->curve - 1].axis == 0.25 ? 0.5 : 1));
-  switch (at->curve) {
+static double pivot_residual(double m, void *context) {
+  const curve_point *point = context;
+  double pivot = creal(kz_hill_pivot(point->k, 0, m, families[point->curve - 1].axis == 0.25 ? 0.5 : 1));
+  switch (point->curve) {
     case 2:
       return pivot + 0.5 * m;
     case 3:
@@ -92,22 +92,22 @@ static double residual(double m, void *context) {
     case 4:
       return pivot;
     default:
-      return at->k * pivot - 0.5 * m * m;
+      return point->k * pivot - 0.5 * m * m;
   }
 }
 
 /* The root next to `m` of the well-conditioned form; m itself where rounding hides it. */
-static double polish(const place *at, double m) {
-  place copy = *at;
+static double refine_root(const curve_point *point, double m) {
+  curve_point copy = *point;
   for (double part = 1e-12; part < 0.7; part *= 8) {
-    double root = kz_root(residual, &copy, m * (1 - part), m * (1 + part));
+    double root = kz_root(pivot_residual, &copy, m * (1 - part), m * (1 + part));
     if (isfinite(root)) return root;
   }
   return m;
 }
 
 double kz_mathieu_m(int curve, double k, double turn, int upper) {
-  place at = {curve, k};
+  curve_point point = {curve, k};
   double axis = families[curve - 1].axis;
   if (!isfinite(k)) return NAN;
   if (!upper && k == axis) return 0;
@@ -118,6 +118,6 @@ double kz_mathieu_m(int curve, double k, double turn, int upper) {
     high = 2 * turn + fabs(k) + 1;
     while (mathieu_k(curve, high) > k) high *= 2;
   }
-  double m = kz_root(below_axis, &at, low, high);
-  return isfinite(m) ? polish(&at, m) : turn;
+  double m = kz_root(k_difference, &point, low, high);
+  return isfinite(m) ? refine_root(&point, m) : turn;
 }

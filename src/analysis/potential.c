@@ -7,36 +7,36 @@
 
 /* The energy of the slow equation (model.h), the integral of pull sin(theta), is, with u = 1 - k cos(theta),
  * k (1 - cos) + m^2/(2 k^2) (G(u) - G(1 - k)), G(u) = ln(u^2 + beta^2)/2 - u + beta atan(u/beta). */
-static double primitive(double u, double beta) {
+static double drive_primitive(double u, double beta) {
   return 0.5 * log(u * u + beta * beta) - u + (beta > 0 ? beta * atan2(u, beta) : 0);
 }
 
 typedef struct {
   double k, beta;
-} slow;
+} slow_equation;
 
-static double integrand(double cosine, void *context) {
-  const slow *s = context;
+static double drive_integrand(double cosine, void *context) {
+  const slow_equation *s = context;
   return cosine * kz_slow_fraction(s->k, s->beta, cosine);
 }
 
 /* The same integral without the cancellation by k^2; exact to rounding for |k| <= 0.1. */
-static double by_quadrature(const slow *s, double cosine) {
+static double by_quadrature(const slow_equation *s, double cosine) {
   gsl_integration_fixed_workspace *rule = gsl_integration_fixed_alloc(gsl_integration_fixed_legendre, 24, cosine, 1, 0, 0);
   if (!rule) return NAN;
-  gsl_function function = {integrand, (void *)s};
+  gsl_function function = {drive_integrand, (void *)s};
   double sum;
   gsl_integration_fixed(&function, &sum, rule);
   gsl_integration_fixed_free(rule);
   return 0.5 * sum;
 }
 
-static double by_closed_form(const slow *s, double cosine) {
-  return (primitive(1 - s->k * cosine, s->beta) - primitive(1 - s->k, s->beta)) / (2 * s->k * s->k);
+static double by_closed_form(const slow_equation *s, double cosine) {
+  return (drive_primitive(1 - s->k * cosine, s->beta) - drive_primitive(1 - s->k, s->beta)) / (2 * s->k * s->k);
 }
 
 void kz_potential_energy(double k, double beta, double m, double theta, kz_energy *energy) {
-  const slow s = {k, beta};
+  const slow_equation s = {k, beta};
   double cosine = cos(theta), sine = sin(theta), lift = 2 * k * pow(sin(0.5 * theta), 2);
   double drive;
   if (cosine == 1)

@@ -5,22 +5,22 @@
 #include "kapitza/analysis.h"
 
 /* Four-term Blackman-Harris window at sample i of n. */
-static double window(int64_t i, int64_t n) {
+static double window_at(int64_t i, int64_t n) {
   static const double weight[4] = {0.35875, -0.48829, 0.14128, -0.01168};
   double x = 2 * M_PI * (double)i / (double)n, sum = 0;
   for (int j = 0; j < 4; j++) sum += weight[j] * cos(j * x);
   return sum;
 }
 
-static int64_t samples(const kz_record *record) {
+static int64_t sample_count(const kz_record *record) {
   return record->periods * record->samples_per_period;
 }
 
 double kz_spectrum_rotation(const kz_record *record, const double *theta) {
-  int64_t n = samples(record);
+  int64_t n = sample_count(record);
   double moment = 0, spread = 0;
   for (int64_t i = 0; i < n; i++) {
-    double weight = window(i, n), t = (double)i - 0.5 * (double)n;
+    double weight = window_at(i, n), t = (double)i - 0.5 * (double)n;
     moment += weight * t * (theta[i] - theta[n / 2]);
     spread += weight * t * t;
   }
@@ -29,17 +29,17 @@ double kz_spectrum_rotation(const kz_record *record, const double *theta) {
 
 /* The weighted deviation from the steady turn, less its mean. Returns the mean; `total` is the sum of the weights. */
 static double fill_deviation(const kz_record *record, const double *theta, double *deviation, double *total) {
-  int64_t n = samples(record);
+  int64_t n = sample_count(record);
   double turn = 2 * M_PI * record->rotation / (double)record->samples_per_period, mean = 0;
   *total = 0;
   for (int64_t i = 0; i < n; i++) {
-    double weight = record->closed ? 1 : window(i, n);
+    double weight = record->closed ? 1 : window_at(i, n);
     deviation[i] = theta[i] - record->centre - turn * (double)i;
     mean += weight * deviation[i];
     *total += weight;
   }
   mean /= *total;
-  for (int64_t i = 0; i < n; i++) deviation[i] = (deviation[i] - mean) * (record->closed ? 1 : window(i, n));
+  for (int64_t i = 0; i < n; i++) deviation[i] = (deviation[i] - mean) * (record->closed ? 1 : window_at(i, n));
   return mean;
 }
 
@@ -59,7 +59,7 @@ static void read_lines(const fftw_complex *bin, double total, double a0, int64_t
 }
 
 kz_status kz_spectrum_lines(const kz_record *record, const double *theta, int64_t n_lines, double *amplitude, double *phase) {
-  int64_t n = samples(record);
+  int64_t n = sample_count(record);
   if (n < 2 || n > INT32_MAX || 2 * n_lines > n)
     return kz_fail(KZ_REFUSED, "%lld lines cannot be read from %lld samples", (long long)n_lines, (long long)n);
   double *deviation = fftw_alloc_real((size_t)n);
@@ -80,7 +80,7 @@ kz_status kz_spectrum_lines(const kz_record *record, const double *theta, int64_
 /* ---- what follows from the lines ---- */
 
 /* Lines below this share of the largest one are ignored: of closed orbits, of open records. */
-static const double MATTERS_CLOSED = 1e-9, MATTERS_OPEN = 1e-3;
+static const double RELEVANT_CLOSED = 1e-9, RELEVANT_OPEN = 1e-3;
 /* A peak of an open record is trusted to this many bins. */
 static const double PEAK_TOLERANCE = 0.03;
 /* The window spreads a line over eight bins: multiples of 1/n must lie at least so far apart. */
@@ -110,7 +110,7 @@ static int64_t common_divisor(int64_t a, int64_t b) {
 }
 
 static int64_t closed_period(const kz_record *record, int64_t n_lines, const double *amplitude) {
-  double least = least_line(n_lines, amplitude, MATTERS_CLOSED);
+  double least = least_line(n_lines, amplitude, RELEVANT_CLOSED);
   int64_t winding = llrint(record->rotation * (double)record->periods);
   int64_t divisor = common_divisor(record->periods, winding);
   for (int64_t j = 1; j < n_lines; j++) {
@@ -134,7 +134,7 @@ static bool is_multiple(double x, double unit) {
 }
 
 static bool peaks_fit(const kz_record *record, int64_t n_lines, const double *amplitude, int64_t n) {
-  double least = least_line(n_lines, amplitude, MATTERS_OPEN), unit = (double)record->periods / (double)n;
+  double least = least_line(n_lines, amplitude, RELEVANT_OPEN), unit = (double)record->periods / (double)n;
   for (int64_t j = 1; j + 1 < n_lines; j++) {
     if (amplitude[j] <= least || !is_peak(amplitude, j)) continue;
     if (!is_multiple(peak_top(amplitude, j), unit)) return false;
@@ -158,7 +158,7 @@ int64_t kz_spectrum_period(const kz_record *record, int64_t n_lines, const doubl
 bool kz_spectrum_symmetric(const kz_record *record, int64_t n_lines, const double *amplitude) {
   if (record->rotation != 0) return false;
   bool at_rest = kz_spectrum_dominant(n_lines, amplitude) == 0;
-  double least = at_rest ? KZ_LINE_FLOOR : least_line(n_lines, amplitude, MATTERS_CLOSED);
+  double least = at_rest ? KZ_LINE_FLOOR : least_line(n_lines, amplitude, RELEVANT_CLOSED);
   bool centred = fabs(sin(amplitude[0])) <= least;
   if (at_rest || !centred) return at_rest && centred;
   for (int64_t j = 2; j < n_lines; j += 2) {

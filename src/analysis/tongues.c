@@ -11,35 +11,35 @@ enum { PROBES = 64, ROUNDS = 4 };
 typedef struct {
   double k, beta;
   bool half;
-} place;
+} tongue_point;
 
-static double residual(double m, void *context) {
-  const place *at = context;
-  return at->half ? kz_hill_half(at->k, at->beta, m) : kz_hill_whole(at->k, at->beta, m);
+static double tongue_residual(double m, void *context) {
+  const tongue_point *point = context;
+  return point->half ? kz_hill_half(point->k, point->beta, m) : kz_hill_whole(point->k, point->beta, m);
 }
 
 /* Undamped stiffness with the same growth: u = exp(-beta t/2) w. */
-static double undamped(double k, double beta) {
+static double undamped_k(double k, double beta) {
   return k - 0.25 * beta * beta;
 }
 
 double kz_tongue_lower(double k, double beta) {
   if (k > 0) return NAN;
-  double above = kz_mathieu_m(1, undamped(k, beta), 0, false);
+  double above = kz_mathieu_m(1, undamped_k(k, beta), 0, false);
   if (beta == 0 || k == 0) return k == 0 ? 0 : above;
-  place at = {k, beta, false};
-  double m = kz_root(residual, &at, 0, above);
+  tongue_point point = {k, beta, false};
+  double m = kz_root(tongue_residual, &point, 0, above);
   return isfinite(m) ? m : above;
 }
 
 /* Largest growth among equally spaced m between low and high; *best its place. The ends move to its neighbours. */
-static double probe(const place *at, double *low, double *high, double *best) {
+static double probe_growth(const tongue_point *point, double *low, double *high, double *best) {
   double k[PROBES], beta[PROBES], m[PROBES], growth[PROBES], angle[PROBES];
   uint8_t stable[PROBES];
   double step = (*high - *low) / (PROBES + 1);
   for (int i = 0; i < PROBES; i++) {
-    k[i] = at->k;
-    beta[i] = at->beta;
+    k[i] = point->k;
+    beta[i] = point->beta;
     m[i] = *low + (i + 1) * step;
   }
   kz_linear_floquet(NULL, PROBES, k, beta, m, growth, angle, stable);
@@ -56,15 +56,15 @@ static double probe(const place *at, double *low, double *high, double *best) {
  * on both sides of a point of growth. */
 double kz_tongue_edge(int tongue, double k, double beta, double turn, bool upper_edge) {
   int lower = tongue == 1 ? 2 : 4, upper = lower + 1;
-  double kappa = undamped(k, beta), axis = tongue == 1 ? 0.25 : 1;
+  double kappa = undamped_k(k, beta), axis = tongue == 1 ? 0.25 : 1;
   double foot = kappa <= axis ? kz_mathieu_m(lower, kappa, 0, false) : kz_mathieu_m(upper, kappa, turn, false);
   double top = kz_mathieu_m(upper, kappa, turn, true), edge = upper_edge ? top : foot;
   if (beta == 0 || !isfinite(edge)) return edge;
-  place at = {k, beta, tongue == 1};
+  tongue_point point = {k, beta, tongue == 1};
   double low = foot, high = top, inside = NAN;
   for (int round = 0; round < ROUNDS; round++) {
-    if (probe(&at, &low, &high, &inside) > 0) {
-      double m = upper_edge ? kz_root(residual, &at, inside, edge) : kz_root(residual, &at, edge, inside);
+    if (probe_growth(&point, &low, &high, &inside) > 0) {
+      double m = upper_edge ? kz_root(tongue_residual, &point, inside, edge) : kz_root(tongue_residual, &point, edge, inside);
       return isfinite(m) ? m : edge;
     }
   }
@@ -98,15 +98,15 @@ static double slope_at(double x, void *context) {
 static double lowest_from_axis(valley *v) {
   enum { POINTS = 256 };
   double spacing = 2.4 * v->axis / POINTS, lowest = INFINITY;
-  int at = 0;
+  int point = 0;
   for (int i = 1; i < POINTS; i++) {
     double edge = edge_at(i * spacing - v->axis, v);
     if (!(edge < lowest)) continue;
     lowest = edge;
-    at = i;
+    point = i;
   }
-  double best = at * spacing - v->axis;
-  if (at < 1 || !(edge_at(best - spacing, v) > lowest) || !(edge_at(best + spacing, v) > lowest)) return NAN;
+  double best = point * spacing - v->axis;
+  if (point < 1 || !(edge_at(best - spacing, v) > lowest) || !(edge_at(best + spacing, v) > lowest)) return NAN;
   double x = kz_lowest(edge_at, v, best - spacing, best, best + spacing);
   double width = v->tongue == 1 ? edge_at(x, v) : pow(edge_at(x, v), 2);
   v->step = 5e-4 * fmin(width, v->axis + x);

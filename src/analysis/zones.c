@@ -23,7 +23,7 @@ typedef struct {
   const kz_pendulum *form;
   double m, top; /* of |w| */
   int rows, outer, band, below;
-  double complex *rest; /* [rows][band + 1]: what elimination leaves of each row from its diagonal on */
+  double complex *remainder_rows; /* [rows][band + 1]: what elimination leaves of each row from its diagonal on */
 } matrix;
 
 static double harmonic_of_row(const matrix *h, int row) {
@@ -32,7 +32,7 @@ static double harmonic_of_row(const matrix *h, int row) {
 }
 
 /* The coefficient of exp(i l t) in m f(t). */
-static double complex coupling(const matrix *h, int l) {
+static double complex coupling_of(const matrix *h, int l) {
   const int j = abs(l);
   if (j == 0 || (j > 1 && j > h->form->harmonics)) return 0;
   const double cosine = h->form->vertical[j - 1][0] + (j == 1 ? h->form->m : 0), sine = h->form->vertical[j - 1][1];
@@ -41,26 +41,26 @@ static double complex coupling(const matrix *h, int l) {
 
 /* The eigenvalue number `below` of what elimination of the outer harmonics leaves of the matrix less k: it falls with k, with a slope of -1 or steeper,
  * and is 0 at the edge. */
-static double remaining(double k, void *context) {
+static double eigenvalue_less_k(double k, void *context) {
   const matrix *h = context;
   const int width = h->band + 1, inner = h->rows - h->outer;
   for (int row = 0; row < h->rows; row++)
     for (int j = 0; j < width && row + j < h->rows; j++) {
       const double w = harmonic_of_row(h, row);
-      h->rest[row * width + j] = j == 0 ? w * w - k : coupling(h, (int)lrint(w - harmonic_of_row(h, row + j)));
+      h->remainder_rows[row * width + j] = j == 0 ? w * w - k : coupling_of(h, (int)lrint(w - harmonic_of_row(h, row + j)));
     }
   for (int row = 0; row < h->outer; row++) {
-    const double complex *pivot = h->rest + row * width;
+    const double complex *pivot = h->remainder_rows + row * width;
     for (int i = 1; i < width && row + i < h->rows; i++)
       for (int j = i; j < width && row + j < h->rows; j++)
-        h->rest[(row + i) * width + j - i] -= conj(pivot[i]) * pivot[j] / creal(pivot[0]);
+        h->remainder_rows[(row + i) * width + j - i] -= conj(pivot[i]) * pivot[j] / creal(pivot[0]);
   }
   gsl_matrix_complex *left = gsl_matrix_complex_calloc((size_t)inner, (size_t)inner);
   gsl_vector *values = gsl_vector_alloc((size_t)inner);
   gsl_eigen_herm_workspace *work = gsl_eigen_herm_alloc((size_t)inner);
   for (int i = 0; i < inner; i++)
     for (int j = i; j < inner && j - i < width; j++) {
-      const double complex x = h->rest[(h->outer + i) * width + j - i];
+      const double complex x = h->remainder_rows[(h->outer + i) * width + j - i];
       gsl_matrix_complex_set(left, (size_t)i, (size_t)j, gsl_complex_rect(creal(x), cimag(x)));
       gsl_matrix_complex_set(left, (size_t)j, (size_t)i, gsl_complex_rect(creal(x), -cimag(x)));
     }
@@ -85,22 +85,22 @@ double kz_hill_edge(const kz_pendulum *form, int curve, double m) {
   h.top = half ? top - 0.5 : top;
   h.rows = half ? 2 * top : 2 * top + 1;
   h.outer = 2 * (top - most);
-  h.rest = kz_calloc((size_t)h.rows * (size_t)(h.band + 1), sizeof *h.rest);
-  const double k = kz_root(remaining, &h, axis - reach * (1 + 1e-9) - 1e-300, axis + reach * (1 + 1e-9) + 1e-300);
-  free(h.rest);
+  h.remainder_rows = kz_calloc((size_t)h.rows * (size_t)(h.band + 1), sizeof *h.remainder_rows);
+  const double k = kz_root(eigenvalue_less_k, &h, axis - reach * (1 + 1e-9) - 1e-300, axis + reach * (1 + 1e-9) + 1e-300);
+  free(h.remainder_rows);
   return k;
 }
 
 /* The angle whose tangent is `factor` times as large, in the same quarter turn. */
-static double stretched(double angle, double factor) {
-  const double base = M_PI * rint(angle / M_PI), rest = angle - base;
-  return base + atan2(factor * sin(rest), cos(rest));
+static double stretch_angle(double angle, double factor) {
+  const double base = M_PI * rint(angle / M_PI), remainder_rows = angle - base;
+  return base + atan2(factor * sin(remainder_rows), cos(remainder_rows));
 }
 
 /* Pruefer's angle of w'' + x w = 0, w = r sin(angle), w' = r cos(angle), after a quarter of a drive period. */
 static double after_quarter(double angle, double x) {
   const double root = sqrt(fabs(x)), length = M_PI / 2;
-  if (x > 0) return stretched(stretched(angle, root) + root * length, 1 / root);
+  if (x > 0) return stretch_angle(stretch_angle(angle, root) + root * length, 1 / root);
   const double w = sin(angle), slope = cos(angle), grown = tanh(root * length), by_root = root > 0 ? grown / root : length;
   return angle + remainder(atan2(w + by_root * slope, slope + root * grown * w) - angle, 2 * M_PI);
 }
@@ -110,7 +110,7 @@ typedef struct {
   double m, first, last;
 } symmetry;
 
-static double beyond_last(double k, void *context) {
+static double angle_residual(double k, void *context) {
   const symmetry *s = context;
   return after_quarter(after_quarter(s->first, k - s->m), k + s->m) - s->last;
 }
@@ -124,9 +124,9 @@ double kz_meissner_edge(const kz_pendulum *form, int curve, double m) {
   if (size == 0) return axis;
   symmetry s = even[tongue];
   const double low = axis - size * (1 + 1e-9), high = axis + size * (1 + 1e-9);
-  const double cosine = kz_root(beyond_last, &s, low, high);
+  const double cosine = kz_root(angle_residual, &s, low, high);
   if (tongue == 0) return cosine;
   s = odd[tongue - 1];
-  const double sine = kz_root(beyond_last, &s, low, high);
+  const double sine = kz_root(angle_residual, &s, low, high);
   return curve % 2 == 0 ? fmin(cosine, sine) : fmax(cosine, sine);
 }

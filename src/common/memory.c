@@ -20,7 +20,7 @@ void *__wrap_realloc(void *old, size_t bytes);
 void __real_free(void *memory);
 void __wrap_free(void *memory);
 
-static void *checked(void *memory, size_t bytes) {
+static void *checked_memory(void *memory, size_t bytes) {
   if (!memory && bytes > 0) {
     kz_border_without_memory();
     on_failure();
@@ -36,18 +36,18 @@ void __wrap_free(void *memory) {
 }
 
 void *__wrap_malloc(size_t bytes) {
-  return checked(__real_malloc(bytes), bytes);
+  return checked_memory(__real_malloc(bytes), bytes);
 }
 
 void *__wrap_calloc(size_t n, size_t bytes) {
-  return checked(__real_calloc(n, bytes), n > 0 ? bytes : 0);
+  return checked_memory(__real_calloc(n, bytes), n > 0 ? bytes : 0);
 }
 
 void *__wrap_realloc(void *old, size_t bytes) {
   kz_border_forget(old);
   void *memory = __real_realloc(old, bytes);
   if (!memory && bytes > 0) kz_border_keep(old);
-  return checked(memory, bytes);
+  return checked_memory(memory, bytes);
 }
 
 void *kz_malloc(size_t bytes) {

@@ -76,7 +76,7 @@ contains
   end function is_open
 
   !> What is left of the ramp, 1 .. 0, as a polynomial in x, at `turn` + x width drive periods. Smooth ramps go as 1 - 3 s**2 + 2 s**3.
-  pure function rest_of(periods, is_smooth, turn, width) result(series)
+  pure function ramp_left(periods, is_smooth, turn, width) result(series)
     real(c_double), intent(in) :: periods
     logical, intent(in) :: is_smooth
     real(qp), intent(in) :: turn, width
@@ -91,7 +91,7 @@ contains
     else
       series = [1 - s**2*(3 - 2*s), -6*s*(1 - s)*d, -3*(1 - 2*s)*d**2, 2*d**3]
     end if
-  end function rest_of
+  end function ramp_left
 
   !> A `course` of kz_model_stretch; along: periods, damping, drive, 1 = smooth.
   pure subroutine on_ramp(along, beta, turn, width, damping, drive)
@@ -101,7 +101,7 @@ contains
     real(qp), intent(out) :: damping(0:CUBIC), drive(0:CUBIC)
     real(qp) :: rest(0:CUBIC)
 
-    rest = rest_of(along(1), along(4) > 0, turn, width)
+    rest = ramp_left(along(1), along(4) > 0, turn, width)
     damping = (real(along(2), qp) - beta)*rest
     damping(0) = damping(0) + beta
     drive = (real(along(3), qp) - 1)*rest
