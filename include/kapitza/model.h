@@ -1,10 +1,10 @@
-/* model: the pendulum, its drive, its symmetry, and bounds of its forces (Fortran; the layer above common).
+/* The pendulum, its drive, its symmetry, and bounds of its forces (Fortran, above common).
  *
  * theta'' + beta theta' + a(t) sin theta - b(t) cos theta = torque + torque_amplitude cos t
  * a = k - m cos t - sum_j (vertical[j-1][0] cos j t + vertical[j-1][1] sin j t)
  * b = sum_j (horizontal[j-1][0] cos j t + horizontal[j-1][1] sin j t)
- * theta in rad from the DOWN position, t in drive radians; a period is 2 pi. If vertical, horizontal and both torques are 0, the
- * pendulum is {k, beta, m} and the equation is BSG Eq. 2, or BUT Eq. 9 in drive time. */
+ * theta in rad from the DOWN position, t in drive radians; a period is 2 pi. If vertical, horizontal and both torques
+ * are 0, the pendulum is {k, beta, m} and the equation is BSG Eq. 2, or BUT Eq. 9 in drive time. */
 #pragma once
 
 #include <stdint.h>
@@ -15,20 +15,20 @@
 
 typedef struct {
   double k;                           /* 1/Omega^2; 0 = no gravity, < 0 = gravity upward */
-  double beta;                        /* damping, >= 0 */
-  double m;                           /* drive, any sign */
-  double torque;                      /* constant torque, in units of I omega^2 */
-  double torque_amplitude;            /* amplitude of the oscillating torque, in the same units */
-  double vertical[KZ_HARMONICS][2];   /* amplitudes of cosine and sine of harmonics 1, 2, .. */
-  double horizontal[KZ_HARMONICS][2]; /* the same for the horizontal drive */
-  int32_t harmonics;                  /* highest harmonic in use; 0 = none */
+  double beta;                        /* Damping, >= 0 */
+  double m;                           /* Drive, any sign */
+  double torque;                      /* Constant torque, in units of I omega^2 */
+  double torque_amplitude;            /* Amplitude of the oscillating torque, in these units */
+  double vertical[KZ_HARMONICS][2];   /* Amplitudes of cosine and sine of harmonics 1, 2, .. */
+  double horizontal[KZ_HARMONICS][2]; /* Amplitudes of the horizontal drive */
+  int32_t harmonics;                  /* Highest harmonic in use; 0 = none */
   int32_t unmirrored;                 /* 1 if there is a torque or a horizontal drive, else 0 */
 } kz_pendulum;
 
 /* One harmonic of the drive: amplitude cos(order t + phase). */
 typedef struct {
   int64_t order;
-  double amplitude, phase; /* in units of m; rad */
+  double amplitude, phase; /* Units of m; rad */
 } kz_harmonic;
 typedef struct {
   int64_t count;
@@ -38,16 +38,16 @@ typedef struct {
 /* Wave forms of the drive. */
 enum { KZ_SINE = 0, KZ_SQUARE = 1, KZ_TRIANGLE = 2, KZ_SAMPLES = 3 };
 
-/* An upper bound of |a(t)| + |b(t)| + |torque| + |torque_amplitude| over all t. */
+/* Upper bound of |a(t)| + |b(t)| + |torque| + |torque_amplitude| over all t. */
 double kz_stiffness(const kz_pendulum *pendulum);
 
-/* Symmetries: with a motion theta(t), -theta(t) is one too; -theta(t + pi); pi + theta(t + pi). */
+/* Symmetries, by which -theta(t), -theta(t + pi) or pi + theta(t + pi) is a motion if theta(t) is one. */
 enum { KZ_SYMMETRY_MIRROR = 1, KZ_SYMMETRY_HALF_PERIOD = 2, KZ_SYMMETRY_HALF_TURN = 4 };
-/* The sum of those that a pendulum has. */
+/* Returns the sum of the symmetries of a pendulum. */
 int32_t kz_symmetries(const kz_pendulum *pendulum);
-/* The one by which attractors and cycles have images: KZ_SYMMETRY_MIRROR, else KZ_SYMMETRY_HALF_PERIOD, else 0. */
+/* Symmetry by which attractors and cycles have images: KZ_SYMMETRY_MIRROR, else KZ_SYMMETRY_HALF_PERIOD, else 0. */
 int32_t kz_pairing_symmetry(const kz_pendulum *pendulum);
-/* 1 if the mirror image (-theta, -velocity) of every motion is a motion too, which needs no torque and no horizontal drive; else 0. */
+/* 1 if mirror images (-theta, -velocity) of motions are motions, without torque and horizontal drive; else 0. */
 int32_t kz_is_mirrored(const kz_pendulum *pendulum);
 /* 1 if anything of the equation depends on time, else 0. */
 int32_t kz_is_driven(const kz_pendulum *pendulum);
@@ -55,8 +55,7 @@ int32_t kz_is_driven(const kz_pendulum *pendulum);
 /* 1 if the drive is k - m cos t, without further harmonics and torque; else 0. */
 int32_t kz_is_sine(const kz_pendulum *pendulum);
 
-/* The slow motion under a fast drive (BSG Eq. 10): theta'' + beta theta' + pull sin theta = 0 with
- * pull = k + m^2/2 cos theta u/(u^2 + beta^2), u = 1 - k cos theta. `cosine` is cos theta. kz_slow_fraction returns u/(u^2 + beta^2),
- * kz_slow_pull returns the pull. */
+/* The slow motion under a fast drive (BSG Eq. 10), theta'' + beta theta' + pull sin theta = 0 with pull = k + m^2/2 cos
+ * theta u/(u^2 + beta^2), u = 1 - k cos theta. kz_slow_fraction is u/(u^2 + beta^2); `cosine` is cos theta. */
 double kz_slow_fraction(double k, double beta, double cosine);
 double kz_slow_pull(double k, double beta, double m, double cosine);

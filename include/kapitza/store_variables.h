@@ -1,4 +1,4 @@
-/* Words that tables of variables share (kz_variable of store.h). Such a table lies beside the study that writes its group. */
+/* Units and meanings for tables of variables (kz_variable of store.h), which lie beside the study that writes them. */
 #pragma once
 
 #include "kapitza/store.h"
@@ -9,5 +9,5 @@
 #define PERIODS "1|drive periods"
 #define RATE "1|1 per drive period"
 #define NONE "1"
-/* Meanings that several have. */
+/* Meanings of the centre of a motion. */
 #define CENTRES "down", "inverted", "rotating", "none"

@@ -5,16 +5,16 @@
 #include "curves.h"
 #include "kapitza/analysis.h"
 
-/* NaN outside low <= k <= high. */
+/* Returns m for low <= k <= high, else NaN. */
 static double value_within(double k, double low, double high, double m) {
   return k >= low && k <= high ? m : NAN;
 }
-/* A radicand that rounding may push below 0 at the end of its domain. */
+/* Square root of a radicand that rounding may push below 0 at the end of its domain. */
 static double root_of(double x) {
   return x < 0 && x > -1e-12 ? 0 : sqrt(x);
 }
 
-/* A curve takes what it needs of k, the damping there, and m at its turn. */
+/* Head of a curve's function: k, the damping there, and m at its turn. */
 #define UNUSED __attribute__((unused))
 #define CURVE(name) static double name(double k, double beta UNUSED, double turn UNUSED)
 
@@ -110,37 +110,37 @@ CURVE(butikov_damped_2) {
   return value_within(k, -INFINITY, 8.0 / 3, kz_hill_cut_whole(k, beta));
 }
 
-#define CURVES(ROW, UPPER, EDGES)                                                               \
-  ROW(exact_1, 0)              /* k <= 0: 4k = a_0(2m) */                                       \
-  ROW(exact_2, 0)              /* k <= 1/4: 4k = b_1(2m) */                                     \
-  ROW(exact_3, 3)              /* 1/4 <= k <= 0.6304: 4k = a_1(2m) */                           \
-  UPPER(exact_3, 3)            /* k <= 0.6304: 4k = a_1(2m), beyond its turn */                 \
-  ROW(exact_4, 0)              /* k <= 1: 4k = b_2(2m) */                                       \
-  ROW(exact_5, 5)              /* 1 <= k <= 2.0313: 4k = a_2(2m) */                             \
-  UPPER(exact_5, 5)            /* k <= 2.0313: 4k = a_2(2m), beyond its turn */                 \
-  ROW(butikov_1, 0)            /* k <= 0: BUT (3) */                                            \
-  ROW(butikov_2, 0)            /* k <= 1/4: BUT (4) */                                          \
-  ROW(butikov_3, 0)            /* 1/4 <= k <= 13/20: BUT (5), minus */                          \
-  UPPER(butikov_3, 0)          /* k <= 13/20: BUT (5), plus */                                  \
-  ROW(butikov_4, 0)            /* k <= 1: BUT (6) */                                            \
-  ROW(butikov_5, 0)            /* 1 <= k < 8/3: BUT (7) */                                      \
-  ROW(butikov_4_refined, 0)    /* k <= 1: BUT (17) */                                           \
-  ROW(butikov_5_refined, 0)    /* 1 <= k <= 2.042: BUT (19), minus */                           \
-  UPPER(butikov_5_refined, 0)  /* k <= 2.042: BUT (19), plus */                                 \
-  ROW(blackburn_lower, 0)      /* k <= 0: BSG (5) */                                            \
-  ROW(blackburn_upper, 0)      /* k <= 0: BSG (6) */                                            \
-  ROW(blackburn_upper_note, 0) /* k <= 0: BSG, note 13 */                                       \
-  ROW(blackburn_tangent, 0)    /* k <= 1/4: BSG, delta = 1/4 - epsilon/2, tangent to b_1 */     \
-  ROW(blackburn_down_upper, 0) /* 0 <= k <= 1/4: BSG (6), hanging */                            \
-  ROW(damped_0, 0)             /* k <= 0: multiplier 1, continues curve 1 */                    \
-  ROW(damped_1, 3)             /* where tongue 1 is: multiplier -1, continues curves 2 and 3 */ \
-  UPPER(damped_1, 3)           /* the same, beyond its turn */                                  \
-  ROW(damped_2, 5)             /* where tongue 2 is: multiplier 1, continues curves 4 and 5 */  \
-  UPPER(damped_2, 5)           /* the same, beyond its turn */                                  \
-  ROW(butikov_damped_1, 0)     /* k <= 9/4 and a real root: BUT (25), corrected */              \
-  UPPER(butikov_damped_1, 0)   /* the same: its larger root */                                  \
-  ROW(butikov_damped_2, 0)     /* k <= 8/3 and a real root: BUT (26), corrected */              \
-  EDGES(hill, kz_hill_edge)    /* of any wave form */                                           \
+#define CURVES(ROW, UPPER, EDGES)                                                           \
+  ROW(exact_1, 0)              /* k <= 0: 4k = a_0(2m) */                                   \
+  ROW(exact_2, 0)              /* k <= 1/4: 4k = b_1(2m) */                                 \
+  ROW(exact_3, 3)              /* 1/4 <= k <= 0.6304: 4k = a_1(2m) */                       \
+  UPPER(exact_3, 3)            /* k <= 0.6304: 4k = a_1(2m), beyond its turn */             \
+  ROW(exact_4, 0)              /* k <= 1: 4k = b_2(2m) */                                   \
+  ROW(exact_5, 5)              /* 1 <= k <= 2.0313: 4k = a_2(2m) */                         \
+  UPPER(exact_5, 5)            /* k <= 2.0313: 4k = a_2(2m), beyond its turn */             \
+  ROW(butikov_1, 0)            /* k <= 0: BUT (3) */                                        \
+  ROW(butikov_2, 0)            /* k <= 1/4: BUT (4) */                                      \
+  ROW(butikov_3, 0)            /* 1/4 <= k <= 13/20: BUT (5), minus */                      \
+  UPPER(butikov_3, 0)          /* k <= 13/20: BUT (5), plus */                              \
+  ROW(butikov_4, 0)            /* k <= 1: BUT (6) */                                        \
+  ROW(butikov_5, 0)            /* 1 <= k < 8/3: BUT (7) */                                  \
+  ROW(butikov_4_refined, 0)    /* k <= 1: BUT (17) */                                       \
+  ROW(butikov_5_refined, 0)    /* 1 <= k <= 2.042: BUT (19), minus */                       \
+  UPPER(butikov_5_refined, 0)  /* k <= 2.042: BUT (19), plus */                             \
+  ROW(blackburn_lower, 0)      /* k <= 0: BSG (5) */                                        \
+  ROW(blackburn_upper, 0)      /* k <= 0: BSG (6) */                                        \
+  ROW(blackburn_upper_note, 0) /* k <= 0: BSG, note 13 */                                   \
+  ROW(blackburn_tangent, 0)    /* k <= 1/4: BSG, delta = 1/4 - epsilon/2, tangent to b_1 */ \
+  ROW(blackburn_down_upper, 0) /* 0 <= k <= 1/4: BSG (6), hanging */                        \
+  ROW(damped_0, 0)             /* k <= 0: multiplier 1, continues curve 1 */                \
+  ROW(damped_1, 3)             /* tongue 1: multiplier -1, continues curves 2 and 3 */      \
+  UPPER(damped_1, 3)           /* tongue 1 beyond its turn */                               \
+  ROW(damped_2, 5)             /* tongue 2: multiplier 1, continues curves 4 and 5 */       \
+  UPPER(damped_2, 5)           /* tongue 2 beyond its turn */                               \
+  ROW(butikov_damped_1, 0)     /* k <= 9/4 and a real root: BUT (25), corrected */          \
+  UPPER(butikov_damped_1, 0)   /* larger root of BUT (25), corrected */                     \
+  ROW(butikov_damped_2, 0)     /* k <= 8/3 and a real root: BUT (26), corrected */          \
+  EDGES(hill, kz_hill_edge)    /* any wave form */                                          \
   EDGES(meissner, kz_meissner_edge)
 
 #define ROW(name, turning) {#name, #name, name, turning, NULL, 0},
@@ -172,14 +172,14 @@ typedef struct {
   double k, nu;
 } angle_point;
 
-/* Zero where a solution has the Floquet angle 2 pi nu. */
+/* Function that vanishes where a solution has the Floquet angle 2 pi nu. */
 static double angle_residual(double m, void *context) {
   const angle_point *point = context;
   double complex up = kz_hill_pivot(point->k, 0, m, 1 + point->nu), down = kz_hill_pivot(point->k, 0, m, 1 - point->nu);
   return point->k - point->nu * point->nu - 0.25 * m * m * (1 / creal(up) + 1 / creal(down));
 }
 
-/* The Floquet angle increases with m from curve 1 (angle 0) to curve 2 (angle pi). */
+/* Returns m of the curve with angle 2 pi nu, which increases with m from curve 1 (0) to curve 2 (pi). */
 static double angle_curve(double k, double nu) {
   if (k > nu * nu) return NAN;
   if (k == nu * nu) return 0;

@@ -25,7 +25,7 @@ double kz_hill_whole(double k, double beta, double m) {
   return k * cabs(pivot) - 0.5 * m * m * creal(pivot) / cabs(pivot);
 }
 
-/* m = 2 sqrt(x) of a root x >= 0 of a x^2 + b x + c = 0: the smaller one, or the larger one of two. */
+/* Returns m = 2 sqrt(x) of the smaller root x >= 0 of a x^2 + b x + c = 0, or of the larger one. */
 static double drive_of(double a, double b, double c, bool larger) {
   double first, second;
   int roots = gsl_poly_solve_quadratic(a, b, c, &first, &second);

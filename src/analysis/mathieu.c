@@ -19,8 +19,7 @@ static const family families[] = {
     {gsl_sf_mathieu_a_e, 1, 0, 0.5, 0.5, 1.0, 0.25}, {gsl_sf_mathieu_b_e, 2, 0, 1.0, 0.0, 1.0, 1.0},
     {gsl_sf_mathieu_a_e, 2, 1, 0.0, 0.0, 2.0, 1.0},
 };
-/* Largest q for which GSL is asked. GSL 2.7 loses digits without a message: its relative error is 1e-12 at q = 3e4, 1e-8 at 1e5, and 1 at 1e6; the
- * tridiagonal eigenproblem does not. */
+/* Largest q for which GSL is asked. GSL 2.7 loses digits: relative error 1e-12 at q = 3e4, 1e-8 at 1e5, 1 at 1e6. */
 static const double GSL_MAX_Q = 5000;
 
 static double k_by_gsl(int curve, double m) {
@@ -32,7 +31,7 @@ static double k_by_gsl(int curve, double m) {
   return status == GSL_SUCCESS ? 0.25 * result.val : NAN;
 }
 
-/* Eigenvalues below k of the tridiagonal matrix, by the signs of its pivots (Sturm). */
+/* Number of eigenvalues below k of the tridiagonal matrix, by the signs of its pivots (Sturm). */
 static int count_below(const family *row, double m, double k, int rows) {
   int below = 0;
   double pivot = 1;
@@ -59,7 +58,7 @@ static double k_by_pivots(int curve, double m) {
   }
 }
 
-/* From GSL up to q = 5000, beyond from the tridiagonal eigenproblem. */
+/* Returns k of a curve at m, from GSL up to GSL_MAX_Q, beyond from the tridiagonal eigenproblem. */
 static double mathieu_k(int curve, double m) {
   double k = 2 * m <= GSL_MAX_Q ? k_by_gsl(curve, m) : NAN;
   return isfinite(k) ? k : k_by_pivots(curve, m);
@@ -80,7 +79,7 @@ double kz_mathieu_turn(int curve) {
   return kz_lowest(k_difference, &point, 0.1, 2, 8);
 }
 
-/* The same zero, well-conditioned next to the axis: Hill's pivots subtract k - w^2 exactly. */
+/* k_difference in a form that is well-conditioned next to the axis: Hill's pivots subtract k - w^2 exactly. */
 static double pivot_residual(double m, void *context) {
   const curve_point *point = context;
   double pivot = creal(kz_hill_pivot(point->k, 0, m, families[point->curve - 1].axis == 0.25 ? 0.5 : 1));
@@ -96,7 +95,7 @@ static double pivot_residual(double m, void *context) {
   }
 }
 
-/* The root next to `m` of the well-conditioned form; m itself where rounding hides it. */
+/* Returns the root next to `m` of the well-conditioned form; m itself if rounding hides it. */
 static double refine_root(const curve_point *point, double m) {
   curve_point copy = *point;
   for (double part = 1e-12; part < 0.7; part *= 8) {

@@ -16,8 +16,10 @@ static const struct {
     {2, KZ_ABOUT_INVERTED, "flutter"},
 };
 
-static const char *const PLACE[] = {
-    [KZ_ABOUT_DOWN] = "down", [KZ_ABOUT_INVERTED] = "inverted", [KZ_ROTATING] = "rotation", [KZ_ABOUT_NEITHER] = "wide"};
+static const char *const PLACE[] = {[KZ_ABOUT_DOWN] = "down",
+                                    [KZ_ABOUT_INVERTED] = "inverted",
+                                    [KZ_ROTATING] = "rotation",
+                                    [KZ_ABOUT_NEITHER] = "wide"};
 
 void kz_orbit_name(int64_t period, int64_t winding, int centre, char *text) {
   for (size_t i = 0; i < sizeof NAMED / sizeof NAMED[0]; i++) {

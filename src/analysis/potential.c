@@ -5,8 +5,8 @@
 #include "kapitza/analysis.h"
 #include "kapitza/model.h"
 
-/* The energy of the slow equation (model.h), the integral of pull sin(theta), is, with u = 1 - k cos(theta),
- * k (1 - cos) + m^2/(2 k^2) (G(u) - G(1 - k)), G(u) = ln(u^2 + beta^2)/2 - u + beta atan(u/beta). */
+/* The energy of the slow equation (model.h), the integral of pull sin(theta), is, with u = 1 - k cos(theta), k (1 -
+ * cos) + m^2/(2 k^2) (G(u) - G(1 - k)), G(u) = ln(u^2 + beta^2)/2 - u + beta atan(u/beta). */
 static double drive_primitive(double u, double beta) {
   return 0.5 * log(u * u + beta * beta) - u + (beta > 0 ? beta * atan2(u, beta) : 0);
 }
@@ -20,9 +20,10 @@ static double drive_integrand(double cosine, void *context) {
   return cosine * kz_slow_fraction(s->k, s->beta, cosine);
 }
 
-/* The same integral without the cancellation by k^2; exact to rounding for |k| <= 0.1. */
+/* Energy of the drive by quadrature, without cancellation by k^2; exact to rounding for |k| <= 0.1. */
 static double by_quadrature(const slow_equation *s, double cosine) {
-  gsl_integration_fixed_workspace *rule = gsl_integration_fixed_alloc(gsl_integration_fixed_legendre, 24, cosine, 1, 0, 0);
+  gsl_integration_fixed_workspace *rule =
+      gsl_integration_fixed_alloc(gsl_integration_fixed_legendre, 24, cosine, 1, 0, 0);
   if (!rule) return NAN;
   gsl_function function = {drive_integrand, (void *)s};
   double sum;
@@ -48,14 +49,14 @@ void kz_potential_energy(double k, double beta, double m, double theta, kz_energ
   energy->simple = lift + 0.25 * m * m * sine * sine;
 }
 
-/* The lowest cosine at which kz_slow_pull changes its sign, 1 where it does nowhere. pull (u^2 + beta^2) is a quadratic in the cosine,
- * here divided by max(1, k^2) so that nothing overflows. */
+/* Returns the lowest cosine at which kz_slow_pull changes its sign, 1 if there is none. pull (u^2 + beta^2) is a
+ * quadratic in the cosine, here divided by max(1, k^2) so that nothing overflows. */
 static double first_balance(double k, double beta, double m) {
   const double unit = fmax(1, fabs(k));
   const double share = k / unit, drive = 0.5 * (m / unit) * (m / unit);
   double first = 1, second = 1;
-  gsl_poly_solve_quadratic(k * (share * share - drive), drive - 2 * share * share, share * (1 + beta * beta) / unit, &first,
-                           &second);
+  gsl_poly_solve_quadratic(k * (share * share - drive), drive - 2 * share * share, share * (1 + beta * beta) / unit,
+                           &first, &second);
   if (first > -1 && first < 1) return first;
   return second > -1 && second < 1 ? second : 1;
 }

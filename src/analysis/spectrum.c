@@ -1,4 +1,5 @@
-/* Lines of an orbit, and what follows from them: the dominant line, the period, the symmetry. A closed orbit, sampled over exactly its period, needs no window: its lines are exact. */
+/* Lines of an orbit, and from them the dominant line, the period, the symmetry. A closed orbit, sampled over exactly
+ * its period, needs no window. */
 #include <fftw3.h>
 #include <math.h>
 
@@ -27,7 +28,7 @@ double kz_spectrum_rotation(const kz_record *record, const double *theta) {
   return moment / spread * (double)record->samples_per_period / (2 * M_PI);
 }
 
-/* The weighted deviation from the steady turn, less its mean. Returns the mean; `total` is the sum of the weights. */
+/* Fills in the weighted deviation from steady rotation, less its mean, which it returns; `total`: sum of weights. */
 static double fill_deviation(const kz_record *record, const double *theta, double *deviation, double *total) {
   int64_t n = sample_count(record);
   double turn = 2 * M_PI * record->rotation / (double)record->samples_per_period, mean = 0;
@@ -49,7 +50,8 @@ static double line_phase(double amplitude, double re, double im) {
   return phase == -M_PI ? M_PI : phase;
 }
 
-static void read_lines(const fftw_complex *bin, double total, double a0, int64_t n_lines, double *amplitude, double *phase) {
+static void read_lines(const fftw_complex *bin, double total, double a0, int64_t n_lines, double *amplitude,
+                       double *phase) {
   amplitude[0] = fabs(a0);
   phase[0] = line_phase(amplitude[0], a0, 0);
   for (int64_t j = 1; j < n_lines; j++) {
@@ -58,7 +60,8 @@ static void read_lines(const fftw_complex *bin, double total, double a0, int64_t
   }
 }
 
-kz_status kz_spectrum_lines(const kz_record *record, const double *theta, int64_t n_lines, double *amplitude, double *phase) {
+kz_status kz_spectrum_lines(const kz_record *record, const double *theta, int64_t n_lines, double *amplitude,
+                            double *phase) {
   int64_t n = sample_count(record);
   if (n < 2 || n > INT32_MAX || 2 * n_lines > n)
     return kz_fail(KZ_REFUSED, "%lld lines cannot be read from %lld samples", (long long)n_lines, (long long)n);
@@ -77,13 +80,13 @@ kz_status kz_spectrum_lines(const kz_record *record, const double *theta, int64_
   return done ? KZ_OK : kz_fail(KZ_FAILED, "no memory for a spectrum of %lld samples", (long long)n);
 }
 
-/* ---- what follows from the lines ---- */
+/* ---- properties of orbits from their lines ---- */
 
-/* Lines below this share of the largest one are ignored: of closed orbits, of open records. */
+/* Share of the largest line below which lines are ignored, of closed orbits and of open records. */
 static const double RELEVANT_CLOSED = 1e-9, RELEVANT_OPEN = 1e-3;
-/* A peak of an open record is trusted to this many bins. */
+/* Error of the place of a peak of an open record, bins. */
 static const double PEAK_TOLERANCE = 0.03;
-/* The window spreads a line over eight bins: multiples of 1/n must lie at least so far apart. */
+/* Bins over which the window spreads a line, the least distance of multiples of 1/n. */
 static const int64_t WINDOW_BINS = 8;
 
 int64_t kz_spectrum_dominant(int64_t n_lines, const double *amplitude) {
@@ -123,7 +126,7 @@ static bool is_peak(const double *amplitude, int64_t j) {
   return amplitude[j] > amplitude[j - 1] && amplitude[j] >= amplitude[j + 1];
 }
 
-/* Where the top of a peak lies, in bins: a parabola through the logarithms. */
+/* Place of the top of a peak in bins, by a parabola through the logarithms. */
 static double peak_top(const double *amplitude, int64_t j) {
   double a = log(amplitude[j - 1]), b = log(amplitude[j]), c = log(amplitude[j + 1]);
   return (double)j + 0.5 * (a - c) / (a - 2 * b + c);

@@ -1,4 +1,4 @@
-/* Statistics (GSL): straight lines through points, bounds of shares, and how long motions take that have not settled soon. */
+/* Statistics (GSL): straight lines through points, bounds of shares, lifetimes. */
 #include <gsl/gsl_cdf.h>
 #include <gsl/gsl_fit.h>
 #include <gsl/gsl_statistics_uint.h>
@@ -28,15 +28,15 @@ double kz_normal_quantile(double probability) {
   return gsl_cdf_ugaussian_Pinv(probability);
 }
 
-/* Quantile of the chi-squared distribution: GSL's does not converge for many degrees of freedom, where the formula of E. B. Wilson and
- * M. M. Hilferty, Proc. Natl. Acad. Sci. 17 (1931) 684, is right to 1e-5. */
+/* Quantile of the chi-squared distribution: GSL's does not converge for many degrees of freedom, where the formula of
+ * E. B. Wilson and M. M. Hilferty, Proc. Natl. Acad. Sci. 17 (1931) 684, is right to 1e-5. */
 static double chi_squared(double probability, double freedom) {
   if (freedom < 400) return gsl_cdf_chisq_Pinv(probability, freedom);
   const double variance = 2 / (9 * freedom);
   return freedom * pow(1 - variance + gsl_cdf_ugaussian_Pinv(probability) * sqrt(variance), 3);
 }
 
-/* The lifetime if `ended` motions have ended and all motions together have lasted `total`. */
+/* Returns the lifetime if `ended` motions have ended and all motions together have lasted `total`. */
 static kz_lifetime lifetime_of(int64_t ended, double total) {
   kz_lifetime life = {.ended = ended, .mean = NAN, .low = NAN, .high = INFINITY};
   if (!(total > 0)) return life;
@@ -52,8 +52,8 @@ kz_lifetime kz_lifetime_tail(int64_t all, uint32_t *time, double longest) {
   int64_t n = 0;
   for (int64_t i = 0; i < all; i++)
     if (time[i] != KZ_NOT_ENDED) time[n++] = time[i];
-  /* Most motions settle at once; the tail is what is left of them after the nine tenths that settle soonest, or after half of those
-   * that settle at all where more are open. */
+  /* The tail begins after the nine tenths of the motions that settle soonest, or after half of those that settle if
+   * more than a tenth are open. */
   const int64_t open = all - n, soonest = 10 * open < all ? (9 * all) / 10 : n / 2;
   const double from = n > 0 ? gsl_stats_uint_select(time, 1, (size_t)n, (size_t)(soonest < n ? soonest : n - 1)) : 0;
   double total = (double)open * (longest - from);

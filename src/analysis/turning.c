@@ -8,7 +8,7 @@ static int node_of_term(int term) {
   return term / 2;
 }
 
-/* The polynomial with the angles and velocities of four samples: Newton's coefficients on the nodes 0 0 1 1 2 2 3 3. */
+/* Newton's coefficients on the nodes 0 0 1 1 2 2 3 3 of the polynomial with angles and velocities of four samples. */
 static void hermite_coefficients(double step, const double *theta, const double *velocity, double *c) {
   for (int i = 0; i < TERMS; i++) c[i] = theta[node_of_term(i)];
   for (int order = 1; order < TERMS; order++) {
@@ -19,7 +19,7 @@ static void hermite_coefficients(double step, const double *theta, const double 
   }
 }
 
-/* Angle and slope at s steps after the first node. */
+/* Returns the angle, and its slope, s steps after the first node. */
 static double hermite_at(const double *c, double s, double *slope) {
   double value = c[TERMS - 1];
   *slope = 0;
@@ -30,7 +30,7 @@ static double hermite_at(const double *c, double s, double *slope) {
   return value;
 }
 
-/* The root of the slope between two neighbouring nodes, whose slopes differ in sign, by bisection to the last bit. */
+/* Returns the root of the slope between two nodes with slopes of different signs, by bisection to the last bit. */
 static double slope_root(const double *c, double low, double high) {
   double slope, slope_low;
   hermite_at(c, low, &slope_low);
@@ -45,7 +45,8 @@ static double slope_root(const double *c, double low, double high) {
 }
 
 /* The turning point between samples i - 1 and i of n. */
-static kz_turning_point turning_point_between(int64_t i, int64_t n, double step, const double *theta, const double *velocity) {
+static kz_turning_point turning_point_between(int64_t i, int64_t n, double step, const double *theta,
+                                              const double *velocity) {
   int64_t first = i - NODES / 2;
   if (first > n - NODES) first = n - NODES;
   if (first < 0) first = 0;
@@ -55,8 +56,9 @@ static kz_turning_point turning_point_between(int64_t i, int64_t n, double step,
   return (kz_turning_point){((double)first + s) * step, hermite_at(c, s, &slope)};
 }
 
-int64_t kz_turning_points(int64_t n, double step, const double *theta, const double *velocity, kz_turning_point *found) {
-  int64_t count = 0, moving = -1; /* the latest sample with a velocity */
+int64_t kz_turning_points(int64_t n, double step, const double *theta, const double *velocity,
+                          kz_turning_point *found) {
+  int64_t count = 0, moving = -1; /* Latest sample with a velocity */
   if (n < NODES) return 0;
   for (int64_t i = 0; i < n; i++) {
     if (velocity[i] == 0) continue;

@@ -1,4 +1,5 @@
-/* The border of the library. What is left in the middle keeps nothing: the memory of its object is freed as a whole, and locks that it holds are left. */
+/* The border of the library. What is left in the middle keeps nothing: the memory of its object is freed as a whole,
+ * and locks that it holds are left. */
 #include "kapitza/common_border.h"
 
 #include <fenv.h>
@@ -16,16 +17,16 @@ typedef struct {
 } addresses;
 
 struct kz_border {
-  pthread_mutex_t mutex; /* of what follows: threads of one call share it */
+  pthread_mutex_t mutex; /* Lock of the fields below, which threads of one call share */
   addresses memory;
   _Atomic int left; /* why the call is left, a kz_status; 0 = it goes on */
   bool lacked_memory;
 };
 
-/* What a thread is doing within a border. */
+/* State of a thread within a border. */
 typedef struct {
   kz_border *border;
-  jmp_buf *way_out; /* of the innermost guard; NULL: none */
+  jmp_buf *way_out; /* Target of the innermost guard; NULL: none */
   kz_pause_fn pause;
   void *pause_context;
   double due; /* s, when the caller is asked next */
@@ -155,7 +156,8 @@ kz_status kz_border_call(kz_border *border, kz_pause_fn pause, void *pause_conte
   const visit outer = here;
   border->left = 0;
   border->lacked_memory = false;
-  here = (visit){.border = border, .pause = pause, .pause_context = pause_context, .due = pause ? kz_clock() + PAUSE : 0};
+  here =
+      (visit){.border = border, .pause = pause, .pause_context = pause_context, .due = pause ? kz_clock() + PAUSE : 0};
   const kz_status status = kz_border_guard(work, context);
   *left = border->left != 0;
   here = outer;
@@ -218,7 +220,7 @@ void kz_border_forget(void *memory) {
 
 void kz_border_lock(pthread_mutex_t *lock) {
   if (!here.border) return;
-  if (here.border->left || here.n_locks == MOST_LOCKS) { /* what the lock protects may be half changed */
+  if (here.border->left || here.n_locks == MOST_LOCKS) { /* data under the lock may be half changed */
     pthread_mutex_unlock(lock);
     leave(here.border->left ? (kz_status)here.border->left : KZ_FAILED);
   }

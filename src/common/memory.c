@@ -9,7 +9,7 @@ void kz_memory_on_failure(void (*leave)(void)) {
   on_failure = leave;
 }
 
-/* The linker leads every call of malloc to __wrap_malloc, and of __real_malloc to malloc (cmake/Layers.cmake). */
+/* Names by which the linker redirects malloc to __wrap_malloc, and __real_malloc to malloc (cmake/Layers.cmake). */
 void *__real_malloc(size_t bytes);
 void *__real_calloc(size_t n, size_t bytes);
 void *__real_realloc(void *old, size_t bytes);

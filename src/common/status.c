@@ -3,7 +3,7 @@
 #include <stdarg.h>
 #include <stdio.h>
 
-/* Each thread has its own: another one may fail, or speak, at the same moment. */
+/* Message of this thread: another may fail at the same moment. */
 static _Thread_local char message[KZ_MESSAGE_BYTES];
 
 kz_status kz_fail(kz_status status, const char *format, ...) {

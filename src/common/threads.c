@@ -13,8 +13,8 @@ bool kz_thread_start(pthread_t *thread, size_t stack_bytes, void *(*work)(void *
   if (pthread_attr_init(&attributes) != 0) return false;
   sigfillset(&all);
   pthread_sigmask(SIG_SETMASK, &all, &before);
-  const bool started =
-      pthread_attr_setstacksize(&attributes, stack_bytes) == 0 && pthread_create(thread, &attributes, work, context) == 0;
+  const bool started = pthread_attr_setstacksize(&attributes, stack_bytes) == 0 &&
+                       pthread_create(thread, &attributes, work, context) == 0;
   pthread_sigmask(SIG_SETMASK, &before, NULL);
   pthread_attr_destroy(&attributes);
   return started;

@@ -1,13 +1,14 @@
-!> The equation of motion, theta'' + beta theta' + a(t) sin theta - b(t) cos theta = torque + torque_amplitude cos t, with
-!> a = k - m cos t - sum_j (vertical(1, j) cos j t + vertical(2, j) sin j t), b = sum_j (horizontal(1, j) cos j t + horizontal(2, j) sin j t):
-!> include/kapitza/model.h. Integrators take a and b, their series in time, their symmetry and bounds from here.
+!> The pendulum and its equation of motion, theta'' + beta theta' + a(t) sin theta - b(t) cos theta = torque +
+!> torque_amplitude cos t, with a = k - m cos t - sum_j (vertical(1, j) cos j t + vertical(2, j) sin j t), b = sum_j
+!> (horizontal(1, j) cos j t + horizontal(2, j) sin j t): include/kapitza/model.h. Integrators take a, b, their symmetry
+!> and bounds from here.
 module kz_model_pendulum
   use, intrinsic :: iso_c_binding, only: c_double, c_int32_t
   use, intrinsic :: iso_fortran_env, only: real64, real128
   implicit none
   private
-  public :: pendulum_t, is_same, stiffness, exact_stiffness, symmetries, is_driven, pairing_symmetry, is_mirrored, is_sine, &
-            highest_harmonic, acceleration, force_at, sine_force, MOST_HARMONICS
+  public :: pendulum_t, is_same, stiffness, exact_stiffness, symmetries, is_driven, pairing_symmetry, is_mirrored, &
+            is_sine, highest_harmonic, acceleration, force_at, sine_force, MOST_HARMONICS
 
   integer, parameter :: qp = real128
   !> KZ_HARMONICS of model.h.
@@ -49,15 +50,15 @@ contains
     force = k - m*cosine
   end function sine_force_r128
 
-  !> True if two pendulums have the same numbers.
+  !> Returns .true. if two pendulums have the same numbers, to the bit.
   pure function is_same(one, other) result(same)
-    type(pendulum_t), intent(in) :: one, other !< a pendulum
+    type(pendulum_t), intent(in) :: one, other !< Pendulums
     logical :: same
 
     same = all(transfer(one, [0_c_int32_t]) == transfer(other, [0_c_int32_t])) ! to the bit
   end function is_same
 
-  !> An upper bound of |a(t)| + |b(t)| + |torque| + |torque_amplitude| over all t.
+  !> Upper bound of |a(t)| + |b(t)| + |torque| + |torque_amplitude| over all t.
   pure function stiffness(pendulum) bind(C, name='kz_stiffness') result(bound)
     type(pendulum_t), intent(in) :: pendulum !< the pendulum
     real(c_double) :: bound
@@ -65,7 +66,7 @@ contains
     bound = real(exact_stiffness(pendulum), c_double)
   end function stiffness
 
-  !> The same in quad precision.
+  !> kz_stiffness in quad precision.
   pure function exact_stiffness(pendulum) result(bound)
     type(pendulum_t), intent(in) :: pendulum !< the pendulum
     real(qp) :: bound
@@ -79,15 +80,16 @@ contains
     bound = bound + abs(pendulum%torque) + abs(pendulum%torque_amplitude)
   end function exact_stiffness
 
-  !> The symmetries of the equation, a sum of MIRROR, HALF_PERIOD and HALF_TURN. Coefficients count as 0 if they are 0 exactly: half a period later those
-  !> of odd harmonics have changed their signs, upside down a and b have.
+  !> Symmetries of the equation, a sum of MIRROR, HALF_PERIOD and HALF_TURN, by exact zeros: half a period later odd
+  !> harmonics have changed their signs, upside down a and b have.
   pure function symmetries(pendulum) bind(C, name='kz_symmetries') result(sum_of)
     type(pendulum_t), intent(in) :: pendulum !< the pendulum
     integer(c_int32_t) :: sum_of
     logical :: vertical(0:1), horizontal(0:1) ! of even harmonics with gravity, of odd ones
     integer :: j
 
-    vertical = [abs(pendulum%k) > 0, abs(pendulum%m + pendulum%vertical(1, 1)) > 0 .or. abs(pendulum%vertical(2, 1)) > 0]
+    vertical = [abs(pendulum%k) > 0, abs(pendulum%m + pendulum%vertical(1, 1)) > 0 &
+                .or. abs(pendulum%vertical(2, 1)) > 0]
     horizontal = [.false., maxval(abs(pendulum%horizontal(:, 1))) > 0]
     do j = 2, pendulum%harmonics
       vertical(mod(j, 2)) = vertical(mod(j, 2)) .or. maxval(abs(pendulum%vertical(:, j))) > 0
@@ -143,19 +145,19 @@ contains
     highest = max(1_c_int32_t, pendulum%harmonics)
   end function highest_harmonic
 
-  !> a(t) and b(t) at a time t of the drive.
+  !> Computes a(t) and b(t) at a time t of the drive.
   pure subroutine force_at(pendulum, clock, a, b)
     type(pendulum_t), intent(in) :: pendulum !< the pendulum
     complex(qp), intent(in) :: clock !< exp(i t)
-    real(qp), intent(out) :: a !< of sin theta
-    real(qp), intent(out) :: b !< of -cos theta
+    real(qp), intent(out) :: a !< Factor of sin theta
+    real(qp), intent(out) :: b !< Factor of -cos theta
     complex(qp) :: power
     integer :: j
 
     a = pendulum%k - pendulum%m*real(clock, qp)
     b = 0
     power = 1
-    do j = 1, pendulum%harmonics ! exp(i j t) by products: quad precision's own functions are slow
+    do j = 1, pendulum%harmonics ! exp(i j t) by products, because functions of quads are slow
       power = power*clock
       a = a - pendulum%vertical(1, j)*real(power, qp) - pendulum%vertical(2, j)*aimag(power)
       b = b + pendulum%horizontal(1, j)*real(power, qp) + pendulum%horizontal(2, j)*aimag(power)

@@ -32,7 +32,7 @@ static const uint64_t POLYNOMIAL = 0xC96C5795D7870F42u;
 
 enum { SLICES = 8 };
 
-/* table[k][b]: what byte b, with k bytes after it, adds to the sum. */
+/* table[k][b]: contribution of byte b, with k bytes after it, to the sum. */
 static uint64_t table[SLICES][256];
 
 static void fill_table(void) {
@@ -42,7 +42,8 @@ static void fill_table(void) {
     table[0][byte] = value;
   }
   for (int k = 1; k < SLICES; ++k)
-    for (int byte = 0; byte < 256; ++byte) table[k][byte] = table[0][table[k - 1][byte] & 255] ^ table[k - 1][byte] >> 8;
+    for (int byte = 0; byte < 256; ++byte)
+      table[k][byte] = table[0][table[k - 1][byte] & 255] ^ table[k - 1][byte] >> 8;
 }
 
 /* Eight bytes at a time (slicing by 8: Kounavis and Berry, IEEE Trans. Comput. 57 (2008) 1550). */

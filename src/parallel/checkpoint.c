@@ -16,17 +16,18 @@ enum { FORMAT_VERSION = 2 };
 static const int64_t TEXT_MAX = (int64_t)1 << 28;
 
 typedef struct {
-  char magic[8]; /* written last: without it nothing counts */
+  char magic[8]; /* Written last: without it nothing counts */
   int64_t format;
-  int64_t text_bytes; /* of the fingerprint that follows */
-  uint64_t checksum;  /* of format, text_bytes and the text */
+  int64_t text_bytes; /* Bytes of the fingerprint that follows */
+  uint64_t checksum;  /* Checksum of format, text_bytes and the text */
   int64_t marked;     /* 1 once a finished record follows */
 } kz_header;
 
 static const char MAGIC[8] = "kzcheck";
 
 static uint64_t header_checksum(const kz_header *header, const char *text) {
-  const uint64_t sum = kz_bytes_checksum(0, &header->format, offsetof(kz_header, checksum) - offsetof(kz_header, format));
+  const uint64_t sum =
+      kz_bytes_checksum(0, &header->format, offsetof(kz_header, checksum) - offsetof(kz_header, format));
   return kz_bytes_checksum(sum, text, (size_t)header->text_bytes);
 }
 
@@ -49,7 +50,8 @@ static kz_status write_header(kz_checkpoint *checkpoint, const char *fingerprint
 }
 
 static kz_status refuse_damaged(const kz_checkpoint *checkpoint) {
-  return kz_fail(KZ_REFUSED, "%s: is damaged or no checkpoint of this program; use --force to discard it", checkpoint->path);
+  return kz_fail(KZ_REFUSED, "%s: is damaged or no checkpoint of this program; use --force to discard it",
+                 checkpoint->path);
 }
 
 kz_status kz_fingerprint_compare(const char *path, const char *there, const char *here) {
@@ -61,8 +63,9 @@ kz_status kz_fingerprint_compare(const char *path, const char *there, const char
   }
   if (*there == *here && *there == '\0') return KZ_OK;
   const int n_there = (int)strcspn(there, "\n"), n_here = (int)strcspn(here, "\n");
-  return kz_fail(KZ_REFUSED, "%s: belongs to another run: it has \"%.*s\", this run has \"%.*s\"; use --force to discard it",
-                 path, n_there > 0 ? n_there : 7, n_there > 0 ? there : "nothing", n_here > 0 ? n_here : 7,
+  return kz_fail(KZ_REFUSED,
+                 "%s: belongs to another run: it has \"%.*s\", this run has \"%.*s\"; use --force to discard it", path,
+                 n_there > 0 ? n_there : 7, n_there > 0 ? there : "nothing", n_here > 0 ? n_here : 7,
                  n_here > 0 ? here : "nothing");
 }
 
@@ -87,11 +90,12 @@ int kz_header_mark(kz_checkpoint *checkpoint) {
 /* True if the header has this mark. */
 static bool header_is_marked(const kz_checkpoint *checkpoint) {
   int64_t marked;
-  return kz_bytes_read(checkpoint->file, &marked, sizeof marked, offsetof(kz_header, marked)) == sizeof marked && marked == 1;
+  return kz_bytes_read(checkpoint->file, &marked, sizeof marked, offsetof(kz_header, marked)) == sizeof marked &&
+         marked == 1;
 }
 
-/* Reads and checks the header. *unfinished = true if the run that created the file ended before it had written the header. KZ_REFUSED if the
- * header is damaged or has another fingerprint. */
+/* Reads and checks the header. *unfinished = true if the run that created the file ended before it had written the
+ * header. KZ_REFUSED if the header is damaged or has another fingerprint. */
 static kz_status read_header(kz_checkpoint *checkpoint, const char *fingerprint, bool *unfinished) {
   kz_header header = {.magic = ""};
   const int64_t n = kz_bytes_read(checkpoint->file, &header, sizeof header, 0);
@@ -112,7 +116,8 @@ const char *kz_checkpoint_saved(const kz_checkpoint *checkpoint) {
 }
 
 void kz_checkpoint_forget(const kz_checkpoint *checkpoint) {
-  if (checkpoint && checkpoint->ours && !header_is_marked(checkpoint) && kz_file_lock_names(checkpoint->path, checkpoint->file))
+  if (checkpoint && checkpoint->ours && !header_is_marked(checkpoint) &&
+      kz_file_lock_names(checkpoint->path, checkpoint->file))
     unlink(checkpoint->path);
 }
 
@@ -125,7 +130,7 @@ kz_status kz_checkpoint_stopped(const kz_checkpoint *checkpoint) {
   return kz_fail(KZ_STOPPED, "%s; finished work is in %s; --resume goes on from it", reason, saved);
 }
 
-/* Rank 0 decides whether the file is gone on from or begun anew. */
+/* Rank 0: resumes the file or begins it anew. */
 static kz_status begin_file(kz_checkpoint *checkpoint, const kz_checkpoint_plan *plan) {
   kz_file_lock file_lock = {.file = -1};
   KZ_TRY(kz_file_lock_take(plan->path, plan->resume || plan->force, &file_lock));
@@ -136,7 +141,7 @@ static kz_status begin_file(kz_checkpoint *checkpoint, const kz_checkpoint_plan 
   return kz_file_lock_share(plan->path, file_lock.file);
 }
 
-/* A file that holds no work of this run or an earlier one is not left behind. Closing the file gives its locks back. */
+/* Closes the file, which releases its locks, and removes it if it has no finished work. */
 static void release_checkpoint(kz_checkpoint *checkpoint, int rank) {
   if (checkpoint->file >= 0) {
     if (rank == 0) kz_checkpoint_forget(checkpoint);

@@ -14,10 +14,10 @@
 #include "kapitza/parallel.h"
 
 struct kz_checkpoint {
-  int file; /* -1: none is open */
+  int file; /* Open file; -1: none */
   char *path;
-  bool ours;     /* begun by this run, or by one with the same fingerprint */
-  bool marked;   /* this rank has marked in the header that the file has records */
+  bool ours;     /* True: begun by a run with this fingerprint */
+  bool marked;   /* True: this rank has marked in the header that there are records */
   uint64_t seed; /* checksum of the header */
   int64_t end;   /* offset of the next section */
   int64_t n_sections;
@@ -28,8 +28,8 @@ static inline int64_t kz_whole_pages(int64_t bytes) {
   return (bytes + KZ_PAGE - 1) / KZ_PAGE * KZ_PAGE;
 }
 
-/* Opens or creates the file at `path` for rank 0, locks it against every other run, and waits for
- * ranks of an earlier run that are still writing. `existed`: it was there. */
+/* Opens or creates the file at `path` for rank 0, locks it against every other run, and waits for ranks of an earlier
+ * run that are still writing. `existed`: it was there. */
 typedef struct kz_file_lock {
   int file;
   bool existed;
@@ -52,12 +52,12 @@ typedef struct {
   int64_t stride;        /* bytes of a slot */
   int64_t end;           /* offset behind the last slot */
   uint64_t seed;         /* checksum of the head */
-  uint64_t record_bytes; /* at most */
+  uint64_t record_bytes; /* Largest size of a record */
   bool varying;          /* a record begins with its length */
 } kz_section;
 
-/* Opens the next section on rank 0: *known = true if it exists already, else it is begun. Space on the disk is reserved for records of fixed
- * length; records of varying length leave holes in the file. */
+/* Opens the next section on rank 0: *known = true if it exists already, else it is begun. Space on the disk is reserved
+ * for records of fixed length; records of varying length leave holes in the file. */
 kz_status kz_section_open(const kz_checkpoint *checkpoint, const kz_stage *stage, kz_section *section, bool *known);
 /* Reads the record of a tile in a known section; false if there is no valid one. Any rank. */
 bool kz_section_recall(const kz_checkpoint *checkpoint, const kz_section *section, int64_t tile, void *record);

@@ -8,18 +8,18 @@ enum { ASK_TAG = 2, ANSWER_TAG = 3, STACK_BYTES = 1 << 20 };
 
 enum { WORKING, IDLE, FAILED };
 typedef struct {
-  double seconds; /* for a tile, 0 = not known */
+  double seconds; /* Seconds per tile, 0 = not known */
   int64_t state;
 } kz_ask;
 
-/* Between two looks for messages rank 0 sleeps for a sixteenth of the time in which none came. */
+/* Rank 0 polls with back-off: sleep = idle time / 16, within these bounds. */
 static const double SLEEP_SHARE = 1.0 / 16, SHORTEST_SLEEP = 1e-5, LONGEST_SLEEP = 1e-3; /* s */
 
 static double seconds_a_tile(const kz_dispatch *dispatch) {
   return dispatch->n_done > 0 ? dispatch->busy / (double)dispatch->n_done : 0;
 }
 
-/* Rank 0: the answer to one request; nothing goes back to a rank that cannot go on. */
+/* Rank 0: answers one request, except of a rank that cannot go on. */
 static int answer_request(kz_dispatch *dispatch, int rank, const kz_ask *ask) {
   kz_grant grant = {0};
   kz_schedule *schedule = &dispatch->schedule;
@@ -32,7 +32,7 @@ static int answer_request(kz_dispatch *dispatch, int rank, const kz_ask *ask) {
   return MPI_Send(&grant, sizeof grant, MPI_BYTE, rank, ANSWER_TAG, dispatch->ranks->comm);
 }
 
-/* Looks for one request; *found: there was one. */
+/* Polls for one request and answers it; *found: there was one. */
 static int poll_request(kz_dispatch *dispatch, kz_ask *ask, MPI_Request *request, int *found) {
   MPI_Status from;
   int code = MPI_SUCCESS;
@@ -80,8 +80,8 @@ static void prepare_dispatch(kz_dispatch *dispatch, kz_ranks *ranks, int64_t n_t
 void kz_dispatch_begin(kz_dispatch *dispatch, kz_ranks *ranks, int64_t n_tiles) {
   prepare_dispatch(dispatch, ranks, n_tiles);
   if (ranks->rank != 0 || dispatch->will_ask == 0) return;
-  dispatch->threaded =
-      ranks->thread_level >= MPI_THREAD_SERIALIZED && kz_thread_start(&dispatch->thread, STACK_BYTES, serve_requests, dispatch);
+  dispatch->threaded = ranks->thread_level >= MPI_THREAD_SERIALIZED &&
+                       kz_thread_start(&dispatch->thread, STACK_BYTES, serve_requests, dispatch);
   if (!dispatch->threaded)
     serve_requests(dispatch); /* then the others do the work: rank 0 has time for its own once they are done */
 }

@@ -1,10 +1,11 @@
-/* Distribution of tiles by plain messages. Rank 0 grants some tiles at a time, from a thread of its own, so that it answers while it works on
- * its own tiles.
+/* Distribution of tiles by plain messages. Rank 0 grants some tiles at a time, from a thread of its own, so that it
+ * answers while it works on its own tiles.
  *
  *   rank -> 0   ask: seconds it takes for a tile; whether it still works, is idle, or cannot go on
  *   0 -> rank   tiles first .. first + n - 1; whether asking again makes sense
  *
- * A rank begins with the tile of its own number, unasked, and asks for the next tiles before the last tile of the present one. */
+ * A rank begins with the tile of its own number, unasked, and asks for the next tiles before the last tile of the
+ * present one. */
 #pragma once
 
 #include <pthread.h>
@@ -20,21 +21,22 @@ typedef struct {
 typedef struct {
   kz_ranks *ranks;
   int64_t n_done;
-  double busy;        /* s, between a tile and the next request for one */
-  double handed;      /* s, kz_clock: when the present tile was handed out; 0 = there is none */
-  kz_grant grant;     /* in hand */
-  kz_grant next;      /* the answer to a request that is under way */
-  MPI_Request answer; /* MPI_REQUEST_NULL: none is awaited */
-  /* rank 0 alone; under ranks->mutex while the thread runs */
+  double busy;        /* Time spent on tiles, s */
+  double handed;      /* kz_clock when the present tile was handed out, s; 0 = none */
+  kz_grant grant;     /* Tiles in hand */
+  kz_grant next;      /* Answer to the pending request */
+  MPI_Request answer; /* Pending receive; MPI_REQUEST_NULL: none */
+  /* Fields of rank 0, under ranks->mutex while the thread runs */
   kz_schedule schedule;
-  int will_ask; /* ranks that will ask once more */
-  bool halted;  /* no rank gets a further tile */
+  int will_ask; /* Number of ranks that will ask once more */
+  bool halted;  /* True: no rank gets a further tile */
   bool threaded;
   pthread_t thread;
-  int mpi_error; /* of the thread, MPI_SUCCESS */
+  int mpi_error; /* MPI error of the thread */
 } kz_dispatch;
 
-/* Distributes `n_tiles` tiles. Until kz_dispatch_end, which every rank must call, the ranks may use MPI through kz_dispatch only. */
+/* Distributes `n_tiles` tiles. Until kz_dispatch_end, which every rank must call, the ranks may use MPI through
+ * kz_dispatch only. */
 void kz_dispatch_begin(kz_dispatch *dispatch, kz_ranks *ranks, int64_t n_tiles);
 /* *tile = the next tile of this rank; -1 if none is left, or if a rank has halted. */
 kz_status kz_dispatch_next(kz_dispatch *dispatch, int64_t *tile);

@@ -1,4 +1,4 @@
-/* Who may use the checkpoint file. Locks belong to the open file, so they end with the process whatever kills it.
+/* Locks of the checkpoint file. They belong to the open file, so they end with the process whatever kills it.
  *
  * Byte 0 is locked by rank 0, byte 1 is shared by all ranks of the run. A new run must get both alone. */
 #define _GNU_SOURCE /* locks of an open file, not of a process */
@@ -32,7 +32,8 @@ bool kz_file_lock_names(const char *path, int file) {
          named.st_ino == opened.st_ino;
 }
 
-/* KZ_OK with file < 0 where somebody else created it between two looks. A link is refused: it may lead to anybody's file. */
+/* Opens or creates the file; KZ_OK with file < 0 if another process created it meanwhile. Links are refused, since they
+ * may lead anywhere. */
 static kz_status open_or_create(const char *path, kz_file_lock *file_lock) {
   file_lock->existed = true;
   file_lock->file = open(path, O_RDWR | O_NOFOLLOW | O_CLOEXEC);
@@ -46,22 +47,26 @@ static kz_status open_or_create(const char *path, kz_file_lock *file_lock) {
   const char *reason = file_lock->file >= 0 ? "not a regular file" : errno == ELOOP ? "a link" : strerror(errno);
   if (file_lock->file >= 0) close(file_lock->file);
   file_lock->file = -1;
-  return kz_fail(KZ_REFUSED, "%s: cannot be used as checkpoint: %s; move it away, or give the result another name with -o",
-                 path, reason);
+  return kz_fail(KZ_REFUSED,
+                 "%s: cannot be used as checkpoint: %s; move it away, or give the result another name with -o", path,
+                 reason);
 }
 
-/* One attempt: KZ_OK with file < 0 where another process holds it, or where it was replaced meanwhile. */
+/* Tries once to lock the file; KZ_OK with file < 0 if another process holds it, or if it was replaced meanwhile. */
 static kz_status try_to_lock(const char *path, bool may_exist, kz_file_lock *file_lock) {
   KZ_TRY(open_or_create(path, file_lock));
   if (file_lock->file < 0) return KZ_OK;
   kz_status status = KZ_OK;
   if (file_lock->existed && !may_exist)
-    status = lock_bytes(file_lock->file, F_WRLCK, OWNER, 2) != 0 && is_held(errno)
-                 ? kz_fail(KZ_REFUSED,
-                           "%s: another run works on this result; wait until it has ended, or give another name with -o", path)
-                 : kz_fail(KZ_REFUSED,
-                           "%s: a checkpoint of an earlier run exists; use --resume to go on from it, or --force to discard it",
-                           path);
+    status =
+        lock_bytes(file_lock->file, F_WRLCK, OWNER, 2) != 0 && is_held(errno)
+            ? kz_fail(KZ_REFUSED,
+                      "%s: another run works on this result; wait until it has ended, or give another name with -o",
+                      path)
+            : kz_fail(
+                  KZ_REFUSED,
+                  "%s: a checkpoint of an earlier run exists; use --resume to go on from it, or --force to discard it",
+                  path);
   else if (lock_bytes(file_lock->file, F_WRLCK, OWNER, 2) == 0 && kz_file_lock_names(path, file_lock->file))
     return KZ_OK;
   else if (!is_held(errno) && kz_file_lock_names(path, file_lock->file)) {
@@ -102,6 +107,7 @@ kz_status kz_file_lock_join(const char *path, int *file) {
   const int error = errno;
   if (*file >= 0) close(*file);
   *file = -1;
-  return kz_fail(KZ_REFUSED, "%s: cannot be opened by every rank: %s; use a folder that all ranks see under the same name",
-                 path, strerror(error));
+  return kz_fail(KZ_REFUSED,
+                 "%s: cannot be opened by every rank: %s; use a folder that all ranks see under the same name", path,
+                 strerror(error));
 }

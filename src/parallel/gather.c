@@ -1,9 +1,9 @@
-/* Records of varying length, brought to rank 0. */
+/* Delivery of records of varying length to rank 0. */
 #include <string.h>
 
 #include "kapitza/parallel.h"
 
-/* A message: the number of the tile, and its record. */
+/* Receiver of messages, each the number of a tile and its record. */
 typedef struct {
   kz_take_fn take;
   void *context;
@@ -24,7 +24,8 @@ static kz_status take_message(void *context, const void *message, size_t bytes) 
   return g->take(g->context, tile, (const char *)message + sizeof tile, bytes - sizeof tile);
 }
 
-kz_status kz_stage_gather(const kz_run *run, const kz_stage *stage, const char *name, kz_take_fn take_record, void *context) {
+kz_status kz_stage_gather(const kz_run *run, const kz_stage *stage, const char *name, kz_take_fn take_record,
+                          void *context) {
   kz_local_records pieces = {0};
   kz_stage own = *stage;
   gather_context g = {take_record, context};

@@ -1,4 +1,4 @@
-/* Records of varying length: kept by the ranks that made them, later turned into messages for rank 0. */
+/* Records of varying length, which stay on the ranks that made them until they become messages for rank 0. */
 #include <stdlib.h>
 #include <string.h>
 
@@ -23,11 +23,11 @@ typedef struct {
   kz_ranks *ranks;
   const kz_delivery *delivery;
   const kz_local_records *records;
-  char *buffer[BUFFERS + 1];        /* [message_bytes]; the last one is for rank 0's own */
-  MPI_Request request[BUFFERS + 1]; /* messages on their way, rank 0: and the end of a rank's; MPI_REQUEST_NULL: none */
-  int64_t sent;                     /* by the rank that has ended; rank 0 */
-  int ended;                        /* ranks that have sent all; the rest for rank 0 too */
-  int64_t expected, received;       /* messages of those that have ended, of all */
+  char *buffer[BUFFERS + 1];        /* [message_bytes]; the last is for rank 0's own records */
+  MPI_Request request[BUFFERS + 1]; /* Pending messages; last, on rank 0: the end of a rank's messages */
+  int64_t sent;                     /* Number of messages of the rank that has ended; rank 0 */
+  int ended;                        /* Number of ranks that have sent all; rank 0 */
+  int64_t expected, received;       /* Messages of ranks that have ended; of all; rank 0 */
   int64_t done;
   char take_name[40];
   kz_work make_work, take_work;
@@ -48,8 +48,7 @@ static kz_status take_message(delivery_context *m, const char *buffer, size_t by
   return status;
 }
 
-/* Messages are made while those before are on their way: without a look at these a transport that needs both ranks would not move
- * them on. */
+/* Makes and sends messages, and tests pending ones in between, without which some transports would not move them. */
 static kz_status send_records(delivery_context *m) {
   kz_status status = KZ_OK;
   int64_t i = 0;
@@ -68,17 +67,18 @@ static kz_status send_records(delivery_context *m) {
   return status;
 }
 
-/* Rank 0 has space for the next message, or receives the number that the next rank has sent. */
+/* Rank 0: posts the receive of the next message, or of the number that the next rank has sent. */
 static kz_status expect_message(delivery_context *m, int slot) {
   MPI_Request *request = &m->request[slot];
   if (slot < BUFFERS)
-    KZ_MPI(MPI_Irecv(m->buffer[slot], (int)m->delivery->message_bytes, MPI_BYTE, MPI_ANY_SOURCE, TAG, m->ranks->comm, request));
+    KZ_MPI(MPI_Irecv(m->buffer[slot], (int)m->delivery->message_bytes, MPI_BYTE, MPI_ANY_SOURCE, TAG, m->ranks->comm,
+                     request));
   else if (m->ended < m->ranks->size - 1)
     KZ_MPI(MPI_Irecv(&m->sent, 1, MPI_INT64_T, MPI_ANY_SOURCE, END, m->ranks->comm, request));
   return KZ_OK;
 }
 
-/* What has come. Where a message was not taken, others are let pass. */
+/* Takes an arrived message; after a failure further messages are dropped. */
 static kz_status receive_message(delivery_context *m, int slot, const MPI_Status *come, kz_status *status) {
   int bytes;
   if (slot == BUFFERS) {
@@ -117,7 +117,7 @@ static kz_status receive_rest(delivery_context *m, kz_status *status) {
   return KZ_OK;
 }
 
-/* Rank 0 takes what has come between two records of its own. */
+/* Rank 0: takes arrived messages between two records of its own. */
 static kz_status take_records(delivery_context *m) {
   kz_status status = KZ_OK;
   const bool several = kz_ranks_several(m->ranks);
@@ -138,7 +138,8 @@ static kz_status local_records_allocate(delivery_context *m) {
   const int first = m->ranks->size == 1 ? BUFFERS : 0, end = m->ranks->rank == 0 ? BUFFERS + 1 : BUFFERS;
   for (int i = first; i < end; i++) m->buffer[i] = kz_malloc(m->delivery->message_bytes + 1);
   if (m->delivery->message_bytes <= MESSAGE_MAX) return KZ_OK;
-  return kz_fail(KZ_FAILED, "stage %s: messages of %zu bytes are too long", m->delivery->name, m->delivery->message_bytes);
+  return kz_fail(KZ_FAILED, "stage %s: messages of %zu bytes are too long", m->delivery->name,
+                 m->delivery->message_bytes);
 }
 
 static kz_status deliver_records(delivery_context *m, int64_t total) {
@@ -159,7 +160,7 @@ static kz_status deliver_records(delivery_context *m, int64_t total) {
   return status;
 }
 
-/* Without ranks: each record becomes a message that is taken at once. */
+/* Delivers without ranks: each record becomes a message that is taken at once. */
 static kz_status deliver_alone(const kz_local_records *records, const kz_delivery *delivery) {
   KZ_FREED char *message = kz_malloc(delivery->message_bytes + 1);
   kz_status status = KZ_OK;

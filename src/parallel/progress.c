@@ -1,4 +1,4 @@
-/* A live bar where a terminal is there, else a line now and then. */
+/* Progress: a live bar on a terminal, else lines. */
 #include "watch.h"
 
 #include <stdlib.h>
@@ -7,7 +7,7 @@
 static const double BAR_DELAY = 0.5, BAR_PERIOD = 0.2, LINE_PERIOD = 10.0, LINE_PERIOD_ALWAYS = 1.0; /* s */
 enum { BAR_CELLS = 24, CLOCK_BYTES = 24 };
 
-/* Under a launcher neither stderr nor stdout shows whether a person is watching: ask for the terminal itself. */
+/* Finds the terminal; under a launcher stderr is none even if a person is watching. */
 static FILE *find_terminal(kz_ranks *ranks) {
   if (isatty(STDERR_FILENO)) return stderr;
   if (!ranks->terminal && kz_launch_rank() >= 0) ranks->terminal = fopen("/dev/tty", "we");
@@ -39,8 +39,7 @@ static const char *clock_text(double seconds, char text[CLOCK_BYTES]) {
   return text;
 }
 
-/* Only what runs in the foreground of a terminal may draw there: this process, or the launcher that started it in a group of
- * its own. */
+/* True if this process, or the launcher that started it in its own group, is in the foreground of the terminal. */
 static bool has_terminal(FILE *terminal) {
   const pid_t foreground = tcgetpgrp(fileno(terminal));
   return foreground > 0 && (foreground == getpgrp() || (kz_launch_rank() >= 0 && foreground == getpgid(getppid())));
@@ -53,10 +52,11 @@ static void draw_meter(const kz_meter *meter, int64_t done, double elapsed) {
   if (fresh > 0) clock_text(elapsed * (double)(meter->total - done) / (double)fresh, left);
   for (int i = 0; i < BAR_CELLS; ++i) bar[i] = i < share * BAR_CELLS ? '#' : '.';
   if (meter->live)
-    fprintf(meter->out, "\r%-12s [%s] %3.0f %%  %s, %s left \033[K", meter->words, bar, 100 * share, clock_text(elapsed, spent),
-            left);
+    fprintf(meter->out, "\r%-12s [%s] %3.0f %%  %s, %s left \033[K", meter->words, bar, 100 * share,
+            clock_text(elapsed, spent), left);
   else
-    fprintf(meter->out, "kapitza: %s: %.0f %%, %s, %s left\n", meter->words, 100 * share, clock_text(elapsed, spent), left);
+    fprintf(meter->out, "kapitza: %s: %.0f %%, %s, %s left\n", meter->words, 100 * share, clock_text(elapsed, spent),
+            left);
   fflush(meter->out);
 }
 

@@ -11,7 +11,7 @@
 
 /* ---- what is known of the launcher before MPI is started ---- */
 
-/* The first of `names` that the environment holds, as a number; -1 where it holds none. */
+/* Returns the first of `names` in the environment as a number; -1 if there is none. */
 static int first_number(const char *const names[], size_t n) {
   for (size_t i = 0; i < n; ++i) {
     const char *value = getenv(names[i]);
@@ -20,8 +20,8 @@ static int first_number(const char *const names[], size_t n) {
   return -1;
 }
 
-/* MPI_Init writes some of these names by itself where no launcher did: they are looked for once, before it. SLURM_PROCID is no
- * such sign: a batch script and a shell within a job have it too. */
+/* Rank and number of ranks from the launcher, read once before MPI_Init, which sets some of these names itself.
+ * (SLURM_PROCID is no sign of a launcher: batch scripts have it too.) */
 static struct {
   int rank, count;
 } launch;
@@ -48,16 +48,16 @@ int kz_launch_count(void) {
   return launch.count;
 }
 
-/* Beginnings of the variables that launchers set for the processes that they start: one too many costs MPI's start, one too few makes each process run
- * alone. */
-static const char *const launchers[] = {"PMI",      "PMIX_",    "OMPI_COMM_WORLD", "ORTE_",       "SLURM_STEP", "ALPS_APP",
-                                        "PALS_",    "FLUX_",    "MPI_LOCAL",       "MPIRUN_RANK", "MV2_COMM",   "HYDRA",
-                                        "LSB_MCPU", "MP_CHILD", "PBS_TASKNUM",     "JSM_",        "MPIRANK",    "MPT_LRANK"};
+/* Prefixes of variables that launchers set: a superfluous one costs MPI's start, without one processes run alone. */
+static const char *const launchers[] = {"PMI",      "PMIX_",   "OMPI_COMM_WORLD", "ORTE_",     "SLURM_STEP",
+                                        "ALPS_APP", "PALS_",   "FLUX_",           "MPI_LOCAL", "MPIRUN_RANK",
+                                        "MV2_COMM", "HYDRA",   "LSB_MCPU",        "MP_CHILD",  "PBS_TASKNUM",
+                                        "JSM_",     "MPIRANK", "MPT_LRANK"};
 
 extern char **environ;
 
-/* Whether a launcher has started this process. A process of its own does not start MPI, which takes longer than a small run. Processes of
- * a launcher that cannot be recognised run alone; the lock of the checkpoint then lets one of them write. */
+/* True if a launcher has started this process; else MPI, which takes longer than a small run, is not started. Processes
+ * of an unknown launcher run alone, and the lock of the checkpoint lets one of them write. */
 static bool is_launched(void) {
   for (char **variable = environ; *variable; variable++)
     for (size_t i = 0; i < sizeof launchers / sizeof *launchers; i++)
@@ -103,18 +103,19 @@ static kz_status connect_ranks(kz_ranks *ranks) {
   KZ_MPI(MPI_Comm_rank(ranks->comm, &ranks->rank));
   KZ_MPI(MPI_Comm_size(ranks->comm, &ranks->size));
   if (ranks->size == 1 && kz_launch_count() > 1)
-    return kz_fail(
-        KZ_REFUSED,
-        "a launcher of another MPI started %d processes, each of which would run alone; start them by the mpiexec of this "
-        "program's MPI, %s",
-        kz_launch_count(), kz_parallel_library());
+    return kz_fail(KZ_REFUSED,
+                   "a launcher of another MPI started %d processes, each of which would run alone; start them by the "
+                   "mpiexec of this "
+                   "program's MPI, %s",
+                   kz_launch_count(), kz_parallel_library());
   return KZ_OK;
 }
 
 kz_status kz_ranks_start(int *argc, char ***argv, kz_ranks **ranks) {
   kz_signals_catch();
   kz_launch_rank(); /* remembers what the launcher said, before MPI_Init writes the same names */
-  kz_ranks *started = kz_calloc(1, sizeof *started); /* before MPI_Init, so that no rank waits for one that fails here */
+  kz_ranks *started =
+      kz_calloc(1, sizeof *started); /* before MPI_Init, so that no rank waits for one that fails here */
   started->comm = MPI_COMM_NULL;
   started->size = 1;
   started->start = kz_clock();
@@ -204,10 +205,10 @@ kz_status kz_ranks_compare(kz_ranks *ranks, const char *text, const char *what) 
   const uint64_t own = kz_bytes_checksum(0, text, strlen(text));
   uint64_t first = own;
   KZ_TRY(kz_ranks_broadcast(ranks, &first, sizeof first));
-  return kz_ranks_agree(
-      ranks, own == first
-                 ? KZ_OK
-                 : kz_fail(KZ_REFUSED, "rank %d has another %s than rank 0; give every rank the same", ranks->rank, what));
+  return kz_ranks_agree(ranks, own == first
+                                   ? KZ_OK
+                                   : kz_fail(KZ_REFUSED, "rank %d has another %s than rank 0; give every rank the same",
+                                             ranks->rank, what));
 }
 
 kz_status kz_ranks_broadcast(kz_ranks *ranks, void *data, size_t bytes) {

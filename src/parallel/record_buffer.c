@@ -1,4 +1,4 @@
-/* Records on their way to rank 0. */
+/* Buffer of records for rank 0. */
 #include "record_buffer.h"
 
 #include <stdlib.h>
@@ -29,14 +29,15 @@ static kz_status send_slots(const kz_record_buffer *buffered, kz_ranks *ranks) {
   KZ_MPI(MPI_Send(&buffered->n, 1, MPI_INT64_T, 0, TAG, ranks->comm));
   for (int64_t i = 0; i < buffered->n; i += buffered->message_slots) {
     const int64_t left = buffered->n - i, n = kz_smaller(left, buffered->message_slots);
-    KZ_MPI(MPI_Send(buffered->slots + (size_t)i * buffered->stride, (int)((size_t)n * buffered->stride), MPI_BYTE, 0, TAG,
-                    ranks->comm));
+    KZ_MPI(MPI_Send(buffered->slots + (size_t)i * buffered->stride, (int)((size_t)n * buffered->stride), MPI_BYTE, 0,
+                    TAG, ranks->comm));
   }
   return KZ_OK;
 }
 
-/* Takes one message of a rank. */
-static kz_status receive_slots(const kz_record_buffer *buffered, kz_ranks *ranks, int source, char *buffer, char *records) {
+/* Receives one message of a rank. */
+static kz_status receive_slots(const kz_record_buffer *buffered, kz_ranks *ranks, int source, char *buffer,
+                               char *records) {
   MPI_Status arrived;
   int bytes;
   KZ_MPI(MPI_Recv(buffer, (int)kz_record_buffer_message_bytes(buffered), MPI_BYTE, source, TAG, ranks->comm, &arrived));
@@ -54,7 +55,8 @@ kz_status kz_record_buffer_deliver(const kz_record_buffer *buffered, kz_ranks *r
   for (int source = 1; source < ranks->size; ++source) {
     int64_t n;
     KZ_MPI(MPI_Recv(&n, 1, MPI_INT64_T, source, TAG, ranks->comm, MPI_STATUS_IGNORE));
-    for (int64_t i = 0; i < n; i += buffered->message_slots) KZ_TRY(receive_slots(buffered, ranks, source, buffer, records));
+    for (int64_t i = 0; i < n; i += buffered->message_slots)
+      KZ_TRY(receive_slots(buffered, ranks, source, buffer, records));
   }
   return KZ_OK;
 }

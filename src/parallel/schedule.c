@@ -5,8 +5,8 @@
 
 #include "kapitza/common.h"
 
-/* A batch takes much longer than a message, and too little time for a person to notice. Rank 0 answers some 10^5 requests a second: with
- * very many ranks batches last longer, so that they ask no more than a tenth of that. */
+/* Time of a batch, s: much longer than a message, too short to be noticed; and per rank, so that rank 0, which answers
+ * some 10^5 requests a second, gets at most a tenth of them. */
 static const double BATCH_SECONDS = 0.1, SECONDS_A_RANK = 1e-4;
 
 void kz_schedule_begin(kz_schedule *schedule, int64_t n_tiles, int ranks) {
@@ -26,14 +26,14 @@ void kz_schedule_note(kz_schedule *schedule, int rank, double seconds) {
   *known = seconds;
 }
 
-/* Tiles a second of the others; 0 where none is known. */
+/* Tiles per second of the other ranks; 0 if not known. */
 static double rate_of_others(const kz_schedule *schedule, double seconds) {
-  static const double rounding = 1e-9; /* of the sum */
+  static const double rounding = 1e-9; /* Relative rounding of the sum */
   const double rate = schedule->rate - 1 / seconds;
   return rate * seconds > rounding ? rate : 0;
 }
 
-/* Takes a rank out where the others need less time for all that is left, and for the tiles that they have in hand, than it for one. */
+/* Drops a rank whose time per tile exceeds the others' time for all remaining tiles and those in hand. */
 static bool retire_rank(kz_schedule *schedule, int rank) {
   const double seconds = schedule->seconds[rank], others = seconds > 0 ? rate_of_others(schedule, seconds) : 0;
   if (seconds * others <= (double)(schedule->end - schedule->next + schedule->taking - 1)) return false;
@@ -54,7 +54,7 @@ int64_t kz_schedule_grant(kz_schedule *schedule, int rank, bool early, int64_t *
   *first = schedule->next;
   if (left == 0 || (!early && retire_rank(schedule, rank))) return 0;
   if (seconds > 0) {
-    const double rest = (double)left / fmax(schedule->rate, 1 / seconds); /* s, of all ranks together */
+    const double rest = (double)left / fmax(schedule->rate, 1 / seconds); /* Time of all ranks together, s */
     if (early && rest < 2 * seconds) return 0;
     tiles = fmin(rest / 2, fmax(BATCH_SECONDS, SECONDS_A_RANK * schedule->ranks)) / seconds;
   }

@@ -10,20 +10,22 @@
 typedef struct {
   char magic[8];
   char name[32];
-  int64_t number; /* of the section in its file */
+  int64_t number; /* Number of the section in its file */
   int64_t n_tiles;
   uint64_t record_bytes;
-  uint64_t checksum; /* of all above, continued from the header's */
+  uint64_t checksum; /* Checksum of the fields above, continued from the header's */
 } kz_section_head;
 
 typedef struct {
   int64_t tile;
-  uint64_t checksum; /* of tile and record, continued from the section's */
+  uint64_t checksum; /* Checksum of tile and record, continued from the section's */
 } kz_slot_head;
 
 static kz_section_head head_of(const kz_checkpoint *checkpoint, const kz_stage *stage) {
-  kz_section_head head = {
-      .magic = "kzstage", .number = checkpoint->n_sections, .n_tiles = stage->n_tiles, .record_bytes = stage->record_bytes};
+  kz_section_head head = {.magic = "kzstage",
+                          .number = checkpoint->n_sections,
+                          .n_tiles = stage->n_tiles,
+                          .record_bytes = stage->record_bytes};
   memcpy(head.name, stage->name, strnlen(stage->name, sizeof head.name - 1));
   head.checksum = kz_bytes_checksum(checkpoint->seed, &head, sizeof head - sizeof head.checksum);
   return head;
@@ -36,17 +38,18 @@ size_t kz_section_used(const kz_section *section, const void *record) {
 }
 
 static uint64_t slot_checksum(const kz_section *section, int64_t tile, const void *record) {
-  return kz_bytes_checksum(kz_bytes_checksum(section->seed, &tile, sizeof tile), record, kz_section_used(section, record));
+  return kz_bytes_checksum(kz_bytes_checksum(section->seed, &tile, sizeof tile), record,
+                           kz_section_used(section, record));
 }
 
-/* The space is allocated at once, so that a full disk fails before the work is done. */
+/* Allocates the space at once, so that a full disk fails before the work is done. */
 static kz_status reserve_space(const kz_checkpoint *checkpoint, const kz_section *section) {
   int error;
   do error = posix_fallocate(checkpoint->file, (off_t)checkpoint->end, (off_t)(section->end - checkpoint->end));
   while (error == EINTR);
   if (error == 0) return KZ_OK;
-  return kz_fail(KZ_FAILED, "%s: no space for %.3g MB: %s", checkpoint->path, 1e-6 * (double)(section->end - checkpoint->end),
-                 strerror(error));
+  return kz_fail(KZ_FAILED, "%s: no space for %.3g MB: %s", checkpoint->path,
+                 1e-6 * (double)(section->end - checkpoint->end), strerror(error));
 }
 
 bool kz_section_recall(const kz_checkpoint *checkpoint, const kz_section *section, int64_t tile, void *record) {
@@ -82,7 +85,7 @@ void kz_section_adopt(kz_checkpoint *checkpoint, const kz_section *section) {
   ++checkpoint->n_sections;
 }
 
-/* A write into a removed file would succeed and save nothing. */
+/* True if the file was removed: writing into it would succeed and save nothing. */
 static bool is_gone(int file) {
   struct stat facts;
   return fstat(file, &facts) == 0 && facts.st_nlink == 0;

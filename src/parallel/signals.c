@@ -1,5 +1,5 @@
-/* Signals that ask for a stop. The handler notes the signal; the stage asks between two tiles. If a tile lasts too long, an
- * alarm ends the run. */
+/* Signals that ask for a stop. The handler notes the signal; the stage asks between two tiles. If a tile lasts too
+ * long, an alarm ends the run. */
 #include <signal.h>
 #include <unistd.h>
 
@@ -27,7 +27,7 @@ const char *kz_signals_caught(void) {
   return NULL;
 }
 
-/* Sets the alarm to so many seconds, unless it is set to an earlier time. */
+/* Sets the alarm in `seconds`, unless it is set to an earlier time. */
 static void set_alarm(unsigned seconds) {
   const unsigned left = alarm(seconds);
   if (left > 0 && left < seconds) alarm(left);
@@ -50,7 +50,7 @@ static void set_handler(int number, void (*handler)(int)) {
   sigaction(number, &action, NULL);
 }
 
-/* Whoever starts a program with a signal ignored (trap '' INT) wants that: it stays so. */
+/* True if a signal was ignored at the start (trap '' INT), which is kept. */
 static bool is_ignored(int number) {
   struct sigaction present;
   return sigaction(number, NULL, &present) == 0 && present.sa_handler == SIG_IGN;
@@ -63,7 +63,7 @@ void kz_signals_catch(void) {
   for (int i = 0; i < N_STOP_SIGNALS; ++i) set_handler(STOP_SIGNALS[i].number, ignored[i] ? SIG_IGN : record_signal);
   set_handler(SIGALRM, end_overdue);
   set_handler(SIGXFSZ, SIG_IGN); /* a write beyond the size limit shall return EFBIG */
-  set_handler(SIGTTOU, SIG_IGN); /* progress is no reason to stop either, where the terminal would (stty tostop) */
+  set_handler(SIGTTOU, SIG_IGN); /* progress must not stop the program on a terminal with stty tostop */
   set_handler(SIGPIPE, SIG_IGN); /* a closed progress stream is no reason to stop */
 }
 

@@ -1,4 +1,4 @@
-/* A stage: tiles are drawn, worked, kept and delivered. */
+/* A stage: tiles are drawn, done, kept and delivered. */
 #include <stdlib.h>
 #include <string.h>
 
@@ -10,20 +10,20 @@
 #include "watch.h"
 #include "kapitza/common_border.h"
 
-/* Offsets of records and slots must not overflow. */
+/* Largest number of tiles, so that offsets of records and slots do not overflow. */
 static const int64_t TILES_MAX = (int64_t)1 << 44;
 
 typedef struct {
   kz_ranks *ranks;
   kz_checkpoint *checkpoint;
   const kz_stage *stage;
-  char *records;      /* [n_tiles][record_bytes]: complete on rank 0 */
-  bool kept;          /* finished records go to the section */
-  kz_section section; /* of the checkpoint */
+  char *records;      /* [n_tiles][record_bytes], complete on rank 0 */
+  bool kept;          /* True: finished records go to the section */
+  kz_section section; /* Section of the checkpoint */
   int64_t n_unfinished;
   int64_t *unfinished; /* [n_left] tiles to do; NULL: all of them in order */
   kz_record_buffer buffered;
-  void *buffer; /* of the delivery, rank 0; of a local record */
+  void *buffer; /* Buffer of the delivery, rank 0, or of a local record */
   kz_dispatch dispatch;
   kz_work work;
   kz_meter meter;
@@ -49,14 +49,15 @@ static kz_status prepare_run(stage_run *run) {
   return KZ_OK;
 }
 
-/* Rank 0 reads the records found in the checkpoint. Tiles whose `done` [n_tiles] stays 0 are to be done. */
+/* Rank 0: reads the records of the checkpoint and sets `done` [n_tiles] of their tiles. */
 static void recall_records(stage_run *run, int64_t *done) {
   const kz_stage *stage = run->stage;
   for (int64_t tile = 0; run->ranks->rank == 0 && tile < stage->n_tiles; ++tile)
-    done[tile] = kz_section_recall(run->checkpoint, &run->section, tile, run->records + (size_t)tile * stage->record_bytes);
+    done[tile] =
+        kz_section_recall(run->checkpoint, &run->section, tile, run->records + (size_t)tile * stage->record_bytes);
 }
 
-/* Pieces found in the checkpoint are dealt out to the ranks. */
+/* Distributes local records of the checkpoint among the ranks. */
 static void recall_local(stage_run *run, int64_t *done) {
   const kz_ranks *ranks = run->ranks;
   for (int64_t tile = ranks->rank; tile < run->stage->n_tiles; tile += ranks->size) {
@@ -66,7 +67,7 @@ static void recall_local(stage_run *run, int64_t *done) {
   }
 }
 
-/* Tiles whose records are in the checkpoint are not done again. Collective. */
+/* Excludes tiles whose records are in the checkpoint. Collective. */
 static kz_status recall_finished(stage_run *run) {
   kz_ranks *ranks = run->ranks;
   const int64_t n_tiles = run->stage->n_tiles;
@@ -88,10 +89,10 @@ static kz_status recall_finished(stage_run *run) {
   return KZ_OK;
 }
 
-/* The work of a tile, or of the items that it is made of. */
+/* Does the work of a tile, or of its items. */
 static kz_status work_tile(const kz_stage *stage, int64_t tile, void *record) {
   if (!stage->items) return stage->work(stage->context, tile, record);
-  const int64_t tiles = (stage->n_items + stage->batch - 1) / stage->batch; /* of a row */
+  const int64_t tiles = (stage->n_items + stage->batch - 1) / stage->batch; /* tiles of a row */
   const int64_t first = tile % tiles * stage->batch, left = stage->n_items - first;
   return stage->items(stage->context, tile / tiles * stage->n_items + first, kz_smaller(left, stage->batch), record);
 }
@@ -104,7 +105,7 @@ static void *record_of(stage_run *run, int64_t tile) {
   return memset(run->records + (size_t)tile * stage->record_bytes, 0, stage->record_bytes);
 }
 
-/* Draws and does tiles until none is left; whoever cannot go on halts all ranks. */
+/* Draws and does tiles until none is left; a rank that cannot go on halts all. */
 static kz_status do_tiles(stage_run *run) {
   const kz_stage *stage = run->stage;
   for (;;) {
@@ -128,7 +129,7 @@ static kz_status do_tiles(stage_run *run) {
   }
 }
 
-/* A tile by all ranks. Sections of the stages that it runs count for this tile alone; those of the next tile take their place. */
+/* Does a tile by all ranks. Sections of the stages that it runs are valid for this tile alone. */
 static kz_status do_collectively(stage_run *run, int64_t tile) {
   const kz_stage *stage = run->stage;
   kz_checkpoint *checkpoint = run->checkpoint;
@@ -139,7 +140,8 @@ static kz_status do_collectively(stage_run *run, int64_t tile) {
   checkpoint->seed = outside.seed;
   checkpoint->end = outside.end;
   checkpoint->n_sections = outside.n_sections;
-  if (status == KZ_OK && run->kept && run->ranks->rank == 0) status = kz_section_save(checkpoint, &run->section, tile, record);
+  if (status == KZ_OK && run->kept && run->ranks->rank == 0)
+    status = kz_section_save(checkpoint, &run->section, tile, record);
   return kz_ranks_agree(run->ranks, status);
 }
 
@@ -159,7 +161,7 @@ static kz_status deliver_records(stage_run *run) {
   return kz_ranks_broadcast(run->ranks, run->records, (size_t)stage->n_tiles * stage->record_bytes);
 }
 
-/* This process alone, in order. */
+/* Does all tiles in this process, in order. */
 static kz_status run_alone(const kz_stage *stage, char *records) {
   KZ_FREED char *own = stage->local ? kz_malloc(stage->record_bytes + 1) : NULL;
   for (int64_t tile = 0; tile < stage->n_tiles; tile++) {

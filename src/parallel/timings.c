@@ -10,8 +10,8 @@ kz_stopwatch kz_stopwatch_start(void) {
 void kz_work_end(kz_work *work) {
   FILE *log = work->ranks->log;
   if (work->n == 0) return;
-  fprintf(log, "{\"event\": \"tiles\", \"seconds\": %.3f, \"stage\": \"%s\", \"tile\": [", kz_ranks_seconds(work->ranks),
-          work->stage);
+  fprintf(log, "{\"event\": \"tiles\", \"seconds\": %.3f, \"stage\": \"%s\", \"tile\": [",
+          kz_ranks_seconds(work->ranks), work->stage);
   for (int i = 0; i < work->n; ++i) fprintf(log, "%s%lld", i ? ", " : "", (long long)work->tile[i]);
   fputs("], \"processor\": [", log);
   for (int i = 0; i < work->n; ++i) fprintf(log, "%s%.6f", i ? ", " : "", work->seconds[i]);
@@ -29,11 +29,12 @@ void kz_work_note(kz_work *work, int64_t tile, const kz_stopwatch *watch) {
   if (++work->n == KZ_WORK_LINE) kz_work_end(work);
 }
 
-/* The row of a stage's name, a new one where it comes for the first time. */
+/* Returns the row of a stage's name, a new one for a new name. */
 static kz_timing *timing_of(kz_ranks *ranks, const char *name) {
   for (int64_t i = 0; i < ranks->n_timings; ++i)
     if (strncmp(ranks->timings[i].stage, name, sizeof ranks->timings[i].stage - 1) == 0) return &ranks->timings[i];
-  ranks->timings = kz_list_reserve(ranks->timings, &ranks->timings_capacity, ranks->n_timings + 1, sizeof *ranks->timings);
+  ranks->timings =
+      kz_list_reserve(ranks->timings, &ranks->timings_capacity, ranks->n_timings + 1, sizeof *ranks->timings);
   kz_timing *row = &ranks->timings[ranks->n_timings++];
   *row = (kz_timing){0};
   memcpy(row->stage, name, strnlen(name, sizeof row->stage - 1));
@@ -43,7 +44,8 @@ static kz_timing *timing_of(kz_ranks *ranks, const char *name) {
 static void log_stage(const kz_ranks *ranks, const char *name, const kz_timing *t) {
   if (!ranks->log) return;
   fprintf(ranks->log,
-          "{\"event\": \"stage\", \"seconds\": %.3f, \"stage\": \"%s\", \"tiles\": %lld, \"wall\": %.6f, \"processor\": %.6f, "
+          "{\"event\": \"stage\", \"seconds\": %.3f, \"stage\": \"%s\", \"tiles\": %lld, \"wall\": %.6f, "
+          "\"processor\": %.6f, "
           "\"most\": %.6f, \"busy\": %.4f}\n",
           kz_clock() - ranks->start, name, (long long)t->tiles, t->wall, t->processor, t->most,
           t->wall > 0 ? t->busy / (t->wall * ranks->size) : 1);

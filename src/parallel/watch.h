@@ -1,18 +1,18 @@
-/* What rank 0 reports of a stage: its progress, shown to people, and its times. */
+/* Reports of rank 0 on a stage: progress for people, and times. */
 #pragma once
 
 #include "ranks.h"
 
 typedef struct {
   const char *name;
-  char words[64]; /* what progress calls it */
+  char words[64]; /* Description of the stage */
   FILE *out;      /* NULL: silent */
-  bool live;      /* a bar that is redrawn, else lines */
-  bool last;      /* the end of the stage is printed too */
+  bool live;      /* True: a bar that is redrawn, else lines */
+  bool last;      /* True: the end of the stage is printed too */
   bool shown;
-  int64_t total, first; /* tiles; `first` were done before */
-  double begun, due;    /* s, kz_clock; nothing is shown before `due` */
-  double log_due;       /* the same of the log */
+  int64_t total, first; /* Number of tiles; of tiles done before */
+  double begun, due;    /* Begin, and time of the next display, s, kz_clock */
+  double log_due;       /* Next line of the log, s, kz_clock */
   const kz_ranks *ranks;
 } kz_meter;
 
@@ -23,7 +23,7 @@ void kz_meter_show(kz_meter *meter, int64_t done);
 /* Removes the bar, or prints the end with `idle`, the share of their time in which ranks were idle. */
 void kz_meter_end(kz_meter *meter, bool complete, double idle);
 
-/* When something began: kz_clock, and processor seconds of this thread and of this process. */
+/* Start of a measurement: kz_clock, processor seconds of this thread and of this process. */
 typedef struct {
   double wall, thread, process;
 } kz_stopwatch;
@@ -40,11 +40,11 @@ typedef struct {
   double seconds[KZ_WORK_LINE]; /* processor seconds that each of them took */
 } kz_work;
 
-/* A tile that began at `watch` is done. */
+/* Notes that a tile that began at `watch` is done. */
 void kz_work_note(kz_work *work, int64_t tile, const kz_stopwatch *watch);
 /* Writes the tiles that are not in the log yet. */
 void kz_work_end(kz_work *work);
 
-/* Adds a stage that began at `watch` to the timings and the log; `work` has ended. idle: on rank 0, the share of their time that ranks
- * had no work. Collective. */
+/* Adds a stage that began at `watch` to the timings and the log; `work` has ended. idle: on rank 0, the share of their
+ * time that ranks had no work. Collective. */
 kz_status kz_timing_note(kz_ranks *ranks, int64_t tiles, const kz_stopwatch *watch, const kz_work *work, double *idle);

@@ -1,4 +1,4 @@
-/* Datasets in chunks, written chunk by chunk, packed by kz_pack_into. */
+/* Datasets written chunk by chunk, packed by kz_pack_into. */
 #include <stdlib.h>
 #include <string.h>
 
@@ -41,16 +41,17 @@ kz_status kz_chunks_set(hid_t creation, int rank, const hsize_t *lengths, const 
   return KZ_OK;
 }
 
-/* The items of the chunk that begins at (row, column); zeros beyond the array. */
+/* Gathers the items of the chunk that begins at (row, column); zeros beyond the array. */
 static void gather_chunk(const layout *l, const char *data, hsize_t row, hsize_t column, char *chunk) {
   const hsize_t rows = l->rows - row < l->chunk_rows ? l->rows - row : l->chunk_rows;
   const hsize_t columns = l->columns - column < l->chunk_columns ? l->columns - column : l->chunk_columns;
   if (rows < l->chunk_rows || columns < l->chunk_columns) memset(chunk, 0, l->chunk_rows * l->chunk_columns * l->item);
   for (hsize_t r = 0; r < rows; ++r)
-    memcpy(chunk + r * l->chunk_columns * l->item, data + ((row + r) * l->columns + column) * l->item, columns * l->item);
+    memcpy(chunk + r * l->chunk_columns * l->item, data + ((row + r) * l->columns + column) * l->item,
+           columns * l->item);
 }
 
-/* Numbers that are smaller than a double come in runs, as labels do. */
+/* Writes all chunks. Numbers smaller than a double come in runs, as labels do. */
 static kz_status write_chunks(hid_t dataset, const layout *l, const char *data) {
   const size_t items = l->chunk_rows * l->chunk_columns;
   char *chunk = kz_malloc(items * l->item), *packed = kz_malloc(kz_pack_bytes(items, l->item));

@@ -17,12 +17,13 @@ kz_status kz_hdf5_fail(const char *file, int line) {
   int number;
   H5Ewalk2(H5E_DEFAULT, H5E_WALK_DOWNWARD, keep_cause, text);
   const char *base = strrchr(file, '/'), *cause = strstr(text, "errno = ");
-  if (cause && sscanf(cause, "errno = %d", &number) == 1) /* else a line of offsets, clocks and addresses */
+  if (cause &&
+      sscanf(cause, "errno = %d", &number) == 1) /* the text itself is a line of offsets, clocks and addresses */
     snprintf(text, sizeof text, "the result cannot be written: %s", strerror(number));
   return kz_fail(KZ_FAILED, "HDF5: %s (%s:%d)", text, base ? base + 1 : file, line);
 }
 
-/* At the end of the program HDF5 would try once more to write what a full disk did not take, and complain of it. */
+/* Starts HDF5 without its exit handler, which would try again to write to a full disk, and complain. */
 kz_status kz_hdf5_start(void) {
   H5dont_atexit(); /* fails, without harm, where HDF5 has started before */
   if (H5open() >= 0 && H5Eset_auto2(H5E_DEFAULT, NULL, NULL) >= 0) return KZ_OK;

@@ -1,4 +1,4 @@
-/* Arrays packed by zlib: as HDF5's filters shuffle and deflate leave them, and for memory alone. Knows no HDF5. */
+/* Arrays packed by zlib, as by HDF5's filters shuffle and deflate, or for memory only. */
 #include <limits.h>
 #include <stdlib.h>
 #include <string.h>
@@ -8,14 +8,14 @@
 
 enum { MAX_ITEM_BYTES = 32, RAW = -MAX_WBITS };
 
-/* Byte b of item i goes to place b n + i. */
+/* Moves byte b of item i to place b n + i. */
 static inline __attribute__((always_inline)) void shuffle_planes(const unsigned char *items, size_t item, size_t n,
                                                                  unsigned char *restrict out) {
   for (size_t b = 0; b < item; ++b)
     for (size_t i = 0; i < n; ++i) out[b * n + i] = items[i * item + b];
 }
 
-/* The bytes of the items in the order of move_bytes, which the caller frees. Sizes that are known beforehand are moved in vectors. */
+/* Returns the shuffled bytes of the items, to be freed. Constant sizes are moved in vectors. */
 static unsigned char *shuffle_bytes(const void *items, size_t item, size_t n) {
   unsigned char *out = kz_malloc(item * n + 1);
   if (item == 2)
@@ -32,7 +32,8 @@ static unsigned char *shuffle_bytes(const void *items, size_t item, size_t n) {
 /* Deflates n bytes into packed [most]; returns the number of bytes, 0 if zlib has no memory or they do not fit. */
 static size_t deflate_all(unsigned char *in, size_t n, int window_bits, int strategy, void *packed, size_t most) {
   z_stream stream = {.zalloc = Z_NULL, .zfree = Z_NULL, .opaque = Z_NULL};
-  if (n > UINT_MAX / 2 || deflateInit2(&stream, KZ_PACK_LEVEL, Z_DEFLATED, window_bits, MAX_MEM_LEVEL, strategy) != Z_OK)
+  if (n > UINT_MAX / 2 ||
+      deflateInit2(&stream, KZ_PACK_LEVEL, Z_DEFLATED, window_bits, MAX_MEM_LEVEL, strategy) != Z_OK)
     return 0;
   stream.next_in = in;
   stream.avail_in = (uInt)n;
@@ -48,7 +49,7 @@ size_t kz_pack_bytes(size_t n, size_t item) {
   return n * item + n * item / 8 + 128; /* more than deflate's own bound */
 }
 
-/* Where bytes come in runs, looking for nothing else takes half the time and packs better. */
+/* Searching only for runs, where bytes come in runs, takes half the time and packs better. */
 size_t kz_pack_into(const void *numbers, size_t n, size_t item, bool in_runs, void *packed) {
   unsigned char *bytes = shuffle_bytes(numbers, item, n);
   const int strategy = in_runs ? Z_RLE : Z_DEFAULT_STRATEGY;
@@ -58,7 +59,7 @@ size_t kz_pack_into(const void *numbers, size_t n, size_t item, bool in_runs, vo
   return used;
 }
 
-/* The planes that are not all 0 come to the front; a bit for each of them. */
+/* Moves the planes that are not all 0 to the front; returns a bit for each of them. */
 static uint32_t gather_planes(unsigned char *planes, size_t item, size_t n) {
   uint32_t used = 0;
   size_t end = 0;
@@ -72,7 +73,7 @@ static uint32_t gather_planes(unsigned char *planes, size_t item, size_t n) {
   return used;
 }
 
-/* Shuffled, without the planes of bytes that are all 0, deflated without a checksum. */
+/* Shuffles, drops the planes of bytes that are all 0, and deflates without a checksum. */
 size_t kz_squeeze(const void *items, size_t n, size_t item, void *packed) {
   if (item > MAX_ITEM_BYTES) return 0;
   unsigned char *planes = shuffle_bytes(items, item, n);
@@ -96,8 +97,8 @@ static bool inflate_all(const void *packed, size_t bytes, unsigned char *planes,
   return whole;
 }
 
-static inline __attribute__((always_inline)) void unshuffle_planes(const unsigned char *const plane[], size_t n, size_t item,
-                                                                   unsigned char *restrict items) {
+static inline __attribute__((always_inline)) void unshuffle_planes(const unsigned char *const plane[], size_t n,
+                                                                   size_t item, unsigned char *restrict items) {
   for (size_t i = 0; i < n; i++)
     for (size_t b = 0; b < item; b++) items[i * item + b] = plane[b][i];
 }
@@ -111,7 +112,8 @@ bool kz_unsqueeze(const void *packed, size_t bytes, size_t n, size_t item, void 
   const unsigned char *plane[MAX_ITEM_BYTES];
   size_t next = 0;
   for (size_t b = 0; b < item; b++) plane[b] = buffer + n * (used >> b & 1 ? next++ : planes);
-  const bool whole = next == planes && inflate_all((const char *)packed + sizeof used, bytes - sizeof used, buffer, planes * n);
+  const bool whole =
+      next == planes && inflate_all((const char *)packed + sizeof used, bytes - sizeof used, buffer, planes * n);
   if (whole && item == 16)
     unshuffle_planes(plane, n, 16, items); /* labelled cells */
   else if (whole)

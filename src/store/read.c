@@ -1,4 +1,4 @@
-/* Variables that the file has already: numbers and rows of them, their chunks, the meanings of their values. */
+/* Existing variables: numbers, rows, chunks, meanings of values. */
 #include <stdlib.h>
 
 #include "store.h"
@@ -33,7 +33,7 @@ kz_status kz_store_length(kz_store *store, const char *group, const char *dimens
   return status;
 }
 
-/* Reads what is selected of `space`, as many numbers as `count` [rank] says. */
+/* Reads the selection of `space`, of count [rank] numbers. */
 static kz_status read_selected(hid_t dataset, hid_t type, hid_t space, int rank, const hsize_t *count, void *data) {
   const hid_t memory = H5Screate_simple(rank, count, NULL);
   const kz_status status = KZ_HDF5_STATUS(H5Dread(dataset, type, memory, space, H5P_DEFAULT, data));
@@ -91,7 +91,8 @@ kz_status kz_store_numbers(kz_store *store, const char *group, const char *name,
   kz_status status = kz_scale_length(dataset, &there);
   if (status == KZ_OK && there != n)
     status = kz_fail(KZ_FAILED, "the result file's %s/%s does not fit to its other variables", group, name);
-  if (status == KZ_OK) status = KZ_HDF5_STATUS(H5Dread(dataset, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, value));
+  if (status == KZ_OK)
+    status = KZ_HDF5_STATUS(H5Dread(dataset, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, value));
   H5Dclose(dataset);
   return status;
 }
@@ -106,7 +107,7 @@ kz_status kz_store_chunk(kz_store *store, const char *group, const char *name, c
   return status;
 }
 
-/* An attribute of the variable's own type: first, first + 1, ... */
+/* Writes an attribute first, first + 1, ... of the variable's own type. */
 static kz_status write_integers(hid_t dataset, const char *name, int32_t first, int64_t n) {
   const hid_t type = H5Dget_type(dataset);
   int64_t *values = kz_malloc((size_t)n * sizeof *values); /* wide enough for any integer type */
@@ -118,7 +119,8 @@ static kz_status write_integers(hid_t dataset, const char *name, int32_t first, 
   return status;
 }
 
-kz_status kz_store_flags(kz_store *store, const char *group, const char *name, int32_t first, int64_t n, const char *meanings) {
+kz_status kz_store_flags(kz_store *store, const char *group, const char *name, int32_t first, int64_t n,
+                         const char *meanings) {
   hid_t dataset;
   KZ_TRY(open_variable(store, group, name, &dataset));
   kz_status status = write_integers(dataset, "flag_values", first, n);

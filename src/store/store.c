@@ -1,4 +1,4 @@
-/* The life of a result file: PATH.part, filled, renamed to PATH. */
+/* Life of a result file: PATH.part is filled and renamed to PATH. */
 #include "store.h"
 
 #include <errno.h>
@@ -9,14 +9,15 @@
 #include <string.h>
 #include <unistd.h>
 
-/* Variable-length attributes have no limit of 64 KiB in this format. Other readers need not lock a file that has no name yet. */
+/* Creates PATH.part, in a format without a limit of 64 KiB on attributes; no reader needs its lock. */
 static kz_status create_file(kz_store *store) {
   const hid_t access = H5Pcreate(H5P_FILE_ACCESS), creation = H5Pcreate(H5P_FILE_CREATE);
-  const bool made = access >= 0 && creation >= 0 && H5Pset_libver_bounds(access, H5F_LIBVER_EARLIEST, H5F_LIBVER_V18) >= 0 &&
-                    H5Pset_fclose_degree(access, H5F_CLOSE_STRONG) >= 0 && H5Pset_file_locking(access, false, true) >= 0 &&
-                    H5Pset_link_creation_order(creation, H5P_CRT_ORDER_TRACKED | H5P_CRT_ORDER_INDEXED) >= 0 &&
-                    H5Pset_obj_track_times(creation, 0) >= 0 && H5Pset_attr_phase_change(creation, 64, 0) >= 0 &&
-                    (store->file = H5Fcreate(store->part, H5F_ACC_EXCL, creation, access)) >= 0;
+  const bool made =
+      access >= 0 && creation >= 0 && H5Pset_libver_bounds(access, H5F_LIBVER_EARLIEST, H5F_LIBVER_V18) >= 0 &&
+      H5Pset_fclose_degree(access, H5F_CLOSE_STRONG) >= 0 && H5Pset_file_locking(access, false, true) >= 0 &&
+      H5Pset_link_creation_order(creation, H5P_CRT_ORDER_TRACKED | H5P_CRT_ORDER_INDEXED) >= 0 &&
+      H5Pset_obj_track_times(creation, 0) >= 0 && H5Pset_attr_phase_change(creation, 64, 0) >= 0 &&
+      (store->file = H5Fcreate(store->part, H5F_ACC_EXCL, creation, access)) >= 0;
   const kz_status status = made ? KZ_OK : kz_hdf5_fail(__FILE__, __LINE__);
   H5Pclose(access);
   H5Pclose(creation);
@@ -25,7 +26,7 @@ static kz_status create_file(kz_store *store) {
 
 static const char UNFINISHED[] = KZ_STORE_UNFINISHED, FINISHED[sizeof UNFINISHED] = "a complete result of kapitza";
 
-/* Writes the state of the file to the disk: into the header of the root group, which lies at its beginning. */
+/* Writes the state of the file into the header of the root group, at its beginning on the disk. */
 static kz_status mark_state(const kz_store *store, const char *text) {
   const hid_t type = H5Tcopy(H5T_C_S1), space = H5Screate(H5S_SCALAR);
   const bool old = H5Aexists(store->file, "state") > 0;
@@ -47,7 +48,7 @@ static kz_status try_path(kz_store *store, const char *path) {
   store->path = kz_strdup(path);
   store->part = kz_malloc(size);
   snprintf(store->part, size, "%s.part", path);
-  unlink(store->part); /* of a killed run */
+  unlink(store->part); /* left by a killed run */
   const int file = open(store->part, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
   if (file < 0) return kz_fail(KZ_REFUSED, "%s: cannot be created: %s", store->part, strerror(errno));
   close(file);
@@ -74,7 +75,7 @@ const char *kz_store_path(const kz_store *store) {
   return store->path;
 }
 
-/* Closing writes what HDF5 still holds; a negative value where that fails. */
+/* Closes the file, which writes the data that HDF5 still holds; negative if that fails. */
 static herr_t close_file(kz_store *store) {
   const herr_t closed = store->file >= 0 ? H5Fclose(store->file) : 0;
   store->file = H5I_INVALID_HID;
@@ -98,7 +99,7 @@ static kz_status fail_to(const kz_store *store, const char *what) {
   return kz_fail(KZ_FAILED, "%s: cannot be %s: %s", store->path, what, strerror(errno));
 }
 
-/* The bytes of the closed file shall be on the disk before it has its name. */
+/* Flushes the closed file to the disk before it gets its name. */
 static kz_status flush_file(const kz_store *store) {
   const int file = open(store->part, O_WRONLY | O_CLOEXEC | O_NOFOLLOW);
   const bool saved = file >= 0 && fsync(file) == 0;
@@ -107,7 +108,7 @@ static kz_status flush_file(const kz_store *store) {
   return status;
 }
 
-/* The new name shall survive a crash of the machine too; a file system that cannot do that is not an error. */
+/* Flushes the folder, so that the new name survives a crash; failure is no error. */
 static void flush_folder(const char *path) {
   char *folder = kz_strdup(path), *slash = strrchr(folder, '/');
   if (slash) slash[1] = '\0';

@@ -1,4 +1,4 @@
-/* Variables and their dimension scales, as the table has them. */
+/* Variables and their dimension scales, from the table. */
 #include <hdf5_hl.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -6,9 +6,9 @@
 
 #include "store.h"
 
-static const size_t SPARE_BYTES = (size_t)1 << 24; /* what HDF5 may need besides the data */
+static const size_t SPARE_BYTES = (size_t)1 << 24; /* Memory that HDF5 may need besides the data */
 
-/* An HDF5 type of each kind; text is made anew each time. */
+/* Makes the HDF5 type of a kind. */
 static hid_t memory_type(kz_kind kind) {
   const hid_t types[] = {[KZ_REAL] = H5T_NATIVE_DOUBLE, [KZ_INT8] = H5T_NATIVE_INT8,   [KZ_UINT8] = H5T_NATIVE_UINT8,
                          [KZ_INT16] = H5T_NATIVE_INT16, [KZ_INT32] = H5T_NATIVE_INT32, [KZ_UINT32] = H5T_NATIVE_UINT32};
@@ -16,7 +16,7 @@ static hid_t memory_type(kz_kind kind) {
   return kind != KZ_TEXT ? H5Tcopy(types[kind]) : kz_text_type(&type) == KZ_OK ? type : H5I_INVALID_HID;
 }
 
-/* Coded variables are of one byte, so their flag values are too. */
+/* Writes flag values, of one byte as coded variables are, and their meanings. */
 static kz_status write_flags(hid_t dataset, const kz_variable *row, hid_t type) {
   char values[KZ_MAX_FLAGS];
   size_t bytes = 1;
@@ -32,7 +32,7 @@ static kz_status write_flags(hid_t dataset, const kz_variable *row, hid_t type) 
   return kz_attribute_text(dataset, "flag_meanings", meanings);
 }
 
-/* The part before '|', or what the attribute of the group says. */
+/* Writes the units: the part before '|', or the named attribute of the group. */
 static kz_status write_units(hid_t group, hid_t dataset, const char *units) {
   char unit[32];
   snprintf(unit, sizeof unit, "%.*s", (int)strcspn(units, "|"), units);
@@ -54,7 +54,7 @@ static kz_status describe_dataset(hid_t group, hid_t dataset, const kz_variable 
   return write_flags(dataset, row, type);
 }
 
-/* `chunk` NULL: as kz_chunks_set has it. */
+/* Creates a dataset; `chunk` as in kz_chunks_set. */
 static kz_status create_dataset(hid_t group, const kz_variable *row, hid_t type, int rank, const hsize_t *lengths,
                                 const hsize_t *chunk, hid_t *dataset) {
   const hid_t creation = H5Pcreate(H5P_DATASET_CREATE), space = H5Screate_simple(rank, lengths, NULL);
@@ -68,35 +68,37 @@ static kz_status create_dataset(hid_t group, const kz_variable *row, hid_t type,
   return status;
 }
 
-/* HDF5 1.10 spoils the heap where memory runs out: it is asked for beforehand. */
+/* Checks memory beforehand, because HDF5 1.10 corrupts the heap if it runs out. */
 static kz_status check_memory(const char *name, size_t bytes) {
   const bool there = kz_memory_is_there(2 * bytes + SPARE_BYTES);
   return there ? KZ_OK : kz_fail(KZ_FAILED, "out of memory for the variable %s", name);
 }
 
-/* The variable with description and, unless it comes in chunks, data; open, to be closed by the caller. */
-static kz_status write_dataset(hid_t group, const kz_variable *row, int rank, const hsize_t *lengths, const hsize_t *chunk,
-                               const void *data, hid_t *dataset) {
+/* Writes a variable with its description and, unless it comes in chunks, data; the caller closes it. */
+static kz_status write_dataset(hid_t group, const kz_variable *row, int rank, const hsize_t *lengths,
+                               const hsize_t *chunk, const void *data, hid_t *dataset) {
   hid_t type;
   hsize_t n = 1;
   for (int d = 0; d < rank; ++d) n *= lengths[d];
   KZ_HDF5(type = memory_type(row->kind));
   kz_status status = check_memory(row->name, chunk ? 0 : n * H5Tget_size(type));
   if (status == KZ_OK) status = create_dataset(group, row, type, rank, lengths, chunk, dataset);
-  if (status == KZ_OK && !chunk && n > 0) status = kz_chunks_write(*dataset, type, rank, lengths, H5Tget_size(type), data);
+  if (status == KZ_OK && !chunk && n > 0)
+    status = kz_chunks_write(*dataset, type, rank, lengths, H5Tget_size(type), data);
   if (status == KZ_OK) status = describe_dataset(group, *dataset, row, type);
   H5Tclose(type);
   return status;
 }
 
-/* The same name; "#" at the end of a row's name stands for a number. */
+/* Compares names; "#" at the end of a row's name stands for a number. */
 static bool is_name(const char *row, const char *name) {
   const size_t stem = strcspn(row, "#");
   if (row[stem] == '\0') return strcmp(row, name) == 0;
-  return strncmp(row, name, stem) == 0 && name[stem] != '\0' && strspn(name + stem, "0123456789") == strlen(name + stem);
+  return strncmp(row, name, stem) == 0 && name[stem] != '\0' &&
+         strspn(name + stem, "0123456789") == strlen(name + stem);
 }
 
-/* The table's row, under the name asked for. */
+/* Finds the row of a variable, with the requested name. */
 static kz_status find_row(const kz_store *store, const char *group, const char *name, kz_variable *row) {
   for (const kz_group *g = store->groups; g->name; g++)
     for (const kz_variable *v = g->variables; v->name; v++)
@@ -108,7 +110,7 @@ static kz_status find_row(const kz_store *store, const char *group, const char *
   return kz_fail(KZ_FAILED, "the result file has no variable %s/%s", group, name);
 }
 
-/* 0, 1, 2, ... for a dimension without coordinates. */
+/* Writes 0, 1, 2, ... for a dimension without coordinates. */
 static kz_status write_index(hid_t group, const kz_variable *row, hsize_t length, hid_t *dataset) {
   int32_t *index = kz_malloc(length * sizeof *index + 1);
   for (hsize_t i = 0; i < length; ++i) index[i] = (int32_t)i;
@@ -124,8 +126,8 @@ kz_status kz_store_dimension(kz_store *store, const char *group, const char *nam
   hid_t opened_group, dataset = H5I_INVALID_HID;
   KZ_TRY(kz_store_group(store, group, &opened_group));
   const hsize_t n = (hsize_t)length;
-  kz_status status =
-      values ? write_dataset(opened_group, &row, 1, &n, NULL, values, &dataset) : write_index(opened_group, &row, n, &dataset);
+  kz_status status = values ? write_dataset(opened_group, &row, 1, &n, NULL, values, &dataset)
+                            : write_index(opened_group, &row, n, &dataset);
   if (status == KZ_OK) status = KZ_HDF5_STATUS(H5DSset_scale(dataset, name));
   if (dataset >= 0) H5Dclose(dataset);
   H5Gclose(opened_group);
@@ -162,7 +164,8 @@ static kz_status write_variable(hid_t group, const kz_variable *row, const hsize
   return status;
 }
 
-static kz_status add_variable(kz_store *store, const char *group, const char *name, const hsize_t *chunk, const void *data) {
+static kz_status add_variable(kz_store *store, const char *group, const char *name, const hsize_t *chunk,
+                              const void *data) {
   kz_variable row;
   hid_t opened_group;
   KZ_TRY(find_row(store, group, name, &row));

@@ -25,8 +25,8 @@ module kz_test_counted
 
 contains
 
-  !> Periods that Newton's method takes to look for cycles of up to 48 periods from WIDTH orbits that have run for `settle`
-  !> periods; `known` = the attractors that it finds.
+  !> Periods that Newton's method takes to look for cycles of up to 48 periods from WIDTH orbits that have run for
+  !> `settle` periods; `known` = the attractors that it finds.
   function newton_periods(pendulum, settle, closeness, known) bind(C, name='kz_test_newton_periods') result(periods)
     type(pendulum_t), intent(in) :: pendulum
     integer(c_int64_t), value :: settle
@@ -42,8 +42,8 @@ contains
     periods = count_of(search%fine)
   end function newton_periods
 
-  !> How far the rims of the ellipses of those attractors have come from the strobe points after 12 lifetimes, at most, in their norm. `radius`: the
-  !> smallest extent of their ellipses in the angle, rad.
+  !> How far the rims of the ellipses of those attractors have come from the strobe points after 12 lifetimes, at most,
+  !> in their norm. `radius`: the smallest extent of their ellipses in the angle, rad.
   function rims(pendulum, settle, closeness, radius) bind(C, name='kz_test_rims') result(farthest)
     type(pendulum_t), intent(in) :: pendulum
     integer(c_int64_t), value :: settle

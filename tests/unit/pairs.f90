@@ -76,7 +76,8 @@ contains
     end do
   end subroutine pairs_advance
 
-  !> How far images by rough series lie from those by exact ones at most, half-turns and rad per drive radian, of 64 speeds.
+  !> How far images by rough series lie from those by exact ones at most, half-turns and rad per drive radian, of 64
+  !> speeds.
   real(c_double) function rough_error(pendulum, fastest) bind(C, name='kz_test_rough_error') result(error)
     type(pendulum_t), intent(in) :: pendulum
     real(c_double), value :: fastest

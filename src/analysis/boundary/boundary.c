@@ -1,18 +1,18 @@
-/* Boundaries of basins in numbers: uncertain pairs, boxes that hold several labels, which labels share their boundary. */
+/* Boundaries of basins in numbers: uncertain pairs, and boxes that hold several labels. */
 #include <math.h>
 #include <stdlib.h>
 
 #include "kapitza/analysis.h"
 #include "kapitza/analysis_boundary.h"
 
-static const double NORMAL = 1.959963984540054; /* of a 95 % interval */
+static const double NORMAL = 1.959963984540054; /* Quantile of a 95 % interval */
 
 static kz_slope slope_between(const kz_uncertain *far, const kz_uncertain *near) {
   kz_slope s = {far->distance, near->distance, NAN, NAN, NAN};
   const double decades = log(far->distance / near->distance);
   if (far->uncertain == 0 || near->pairs == 0 || far->pairs == 0) return s;
   const double far_share = (double)far->uncertain / (double)far->pairs;
-  /* If no pair was uncertain, the share is below 3 / pairs with 95 % confidence. So only the lower end of the slope is known. */
+  /* With no uncertain pair the share is below 3 / pairs with 95 % confidence, and only the lower end is known. */
   if (near->uncertain == 0) {
     s.low = log(far_share * (double)near->pairs / 3) / decades;
     s.high = INFINITY;
@@ -91,7 +91,8 @@ void kz_boxes_count(int64_t columns, int64_t rows, const int16_t *label, int siz
   for (int64_t r = 0; r < up; r++)
     for (int64_t c = 0; c < across; c++) {
       const int16_t *corner = label + r * columns + c;
-      held[r * across + c] = bit_of(corner[0]) | bit_of(corner[1]) | bit_of(corner[columns]) | bit_of(corner[columns + 1]);
+      held[r * across + c] =
+          bit_of(corner[0]) | bit_of(corner[1]) | bit_of(corner[columns]) | bit_of(corner[columns + 1]);
     }
   for (int size = 0; size < sizes; size++) {
     count_boxes(across * up, held, size, counts);

@@ -1,5 +1,5 @@
-!> How motions begin: the phase of the drive at which the pendulum is released, and a ramp along which its damping or its drive comes from
-!> another value. Time is counted in drive periods from the strobe at or before the release: include/kapitza/model_release.h.
+!> Beginnings of motions: the phase of the drive at the release, and a ramp of damping or drive
+!> (include/kapitza/model_release.h). Time is counted in drive periods from the strobe at or before the release.
 module kz_release_ramps
   use, intrinsic :: iso_c_binding, only: c_double, c_int32_t, c_int64_t
   use, intrinsic :: iso_fortran_env, only: real128
@@ -26,19 +26,19 @@ module kz_release_ramps
 
 contains
 
-  !> Number of the first strobe from which on the drive has its final form; 0 if it has this form from the release.
+  !> Number of the first strobe of the final drive; 0 if the release is on it.
   pure function strobes_before(release) bind(C, name='kz_release_strobes') result(n)
-    type(release_t), intent(in) :: release !< of the motions
+    type(release_t), intent(in) :: release !< Release
     integer(c_int64_t) :: n
 
     n = ceiling(release%periods, c_int64_t)
     if (abs(release%phase) > 0) n = max(1_c_int64_t, n)
   end function strobes_before
 
-  !> The stretch from the release to the next strobe, or to the end of the ramp. Whole turns of the phase are taken out in quad precision, so
-  !> that decided labels are those of exactly this phase.
+  !> The stretch from the release to the next strobe or the end of the ramp. Whole turns of the phase are removed in
+  !> quad precision, so that decided labels are those of exactly this phase.
   pure function first_part(release) result(part)
-    type(release_t), intent(in) :: release !< of the motions
+    type(release_t), intent(in) :: release !< Release
     type(part_t) :: part
     real(qp) :: turns
 
@@ -52,7 +52,7 @@ contains
 
   !> The stretch after this one, up to the next strobe or the end of the ramp.
   pure function next_part(part) result(next)
-    type(part_t), intent(in) :: part !< what has been followed
+    type(part_t), intent(in) :: part !< Last stretch that was followed
     type(part_t) :: next
     real(qp) :: end, ramp
 
@@ -69,13 +69,14 @@ contains
 
   !> True if a stretch begins before the drive has its final form and a strobe is reached.
   pure function is_open(part) result(open)
-    type(part_t), intent(in) :: part !< a stretch
+    type(part_t), intent(in) :: part !< Stretch
     logical :: open
 
     open = part%begin < strobes_before(part%release)
   end function is_open
 
-  !> What is left of the ramp, 1 .. 0, as a polynomial in x, at `turn` + x width drive periods. Smooth ramps go as 1 - 3 s**2 + 2 s**3.
+  !> Remaining share of the ramp, 1 .. 0, as a polynomial in x, at `turn` + x width periods; 1 - 3 s**2 + 2 s**3 if
+  !> smooth.
   pure function ramp_left(periods, is_smooth, turn, width) result(series)
     real(c_double), intent(in) :: periods
     logical, intent(in) :: is_smooth

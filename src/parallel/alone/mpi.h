@@ -1,5 +1,5 @@
-/* MPI for the library, which is one process: this layer compiles without an MPI, and none of these functions is called, because
- * nobody starts it (kz_ranks_several). */
+/* MPI for the library, which is one process: this layer compiles without an MPI, and none of these functions is called,
+ * because nobody starts it (kz_ranks_several). */
 #pragma once
 
 #include <string.h>

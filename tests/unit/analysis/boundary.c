@@ -11,7 +11,8 @@
 enum { SIDE = 2187 }; /* 3^7 */
 static int16_t label[256 + 1][SIDE];
 
-/* The step of Cantor's construction that removes x, counted from 0: its gaps have the Cantor set as their only limit. */
+/* The step of Cantor's construction that removes x, counted from 0: its gaps have the Cantor set as their only
+ * limit. */
 static int gap_of(double x) {
   for (int step = 0; step < 34; step++) {
     x *= 3;
@@ -55,7 +56,8 @@ TEST(test_dimensions) {
   assert_true(fabs(mean - (1 + log(2) / log(3))) < 0.06);
 }
 
-/* Gaps taken in turn by three labels share the whole Cantor set (Wada); each boundary of stripes belongs to two of three. */
+/* Gaps taken in turn by three labels share the whole Cantor set (Wada); each boundary of stripes belongs to two of
+ * three. */
 TEST(test_which_basins_share_their_boundary) {
   kz_box_counts wada = {0}, pairs = {0};
   fill(cantor_3);
@@ -110,7 +112,8 @@ TEST(test_line_through_all_distances) {
   assert_true(fabs(two.slope - 1) < 1e-12 && two.low < 1 && 1 < two.high && isnan(one.slope) && isnan(one.far));
 }
 
-/* Pairs of points on a line whose gaps are coloured by turns: exponent 1 - ln 2/ln 3 over every decade; of one point it is 1. */
+/* Pairs of points on a line whose gaps are coloured by turns: exponent 1 - ln 2/ln 3 over every decade; of one point it
+ * is 1. */
 TEST(test_uncertainty_exponents) {
   enum { DISTANCES = 7, PAIRS = 40000 };
   kz_uncertain cantor[DISTANCES], point[DISTANCES];

@@ -1,4 +1,5 @@
-/* The message of a failure belongs to the thread that failed. Lists grow: the sanitizers of the debug build see a write behind their end. */
+/* The message of a failure belongs to the thread that failed. Lists grow: the sanitizers of the debug build see a write
+ * behind their end. */
 #include <pthread.h>
 #include <stdio.h>
 #include <stdlib.h>

@@ -1,4 +1,5 @@
-/* Orbits of any precision against the quad reference, against themselves in more digits, and their neighbourhoods against neighbours. */
+/* Orbits of any precision against the quad reference, against themselves in more digits, and their neighbourhoods
+ * against neighbours. */
 #define OWN_MAIN
 #include "../../tools/reference.h"
 #include "../../tools/test.h"
@@ -71,7 +72,8 @@ static double missed(const kz_pendulum *pendulum, double theta, double velocity)
   return hypot((double)(end[0] - state[0]), (double)(end[1] - state[1]));
 }
 
-/* The error told of the quad reference holds. It was assumed to be 1e-31 of the motion, which it is not where the drive is strong. */
+/* The error told of the quad reference holds. It was assumed to be 1e-31 of the motion, which it is not where the drive
+ * is strong. */
 TEST(errors_of_quads_are_not_understated) {
   if (strong.unmirrored) skip();
   static const kz_pendulum strong_drives[] = {{.k = 1, .beta = 0.5, .m = 7.7}, {.k = 1.0 / 121, .beta = 1.0 / 55, .m = 0.46}};
@@ -140,7 +142,8 @@ TEST(a_tangent_alone_is_the_same) {
   }
 }
 
-/* A neighbour at 1e-4 is where the cubic says, to the fourth power of the distance; and at 1e-9 to the rounding of long doubles. */
+/* A neighbour at 1e-4 is where the cubic says, to the fourth power of the distance; and at 1e-9 to the rounding of long
+ * doubles. */
 TEST(neighbours_follow_the_jet) {
   for (int i = 0; i < 2; i++) {
     const double scale = i == 0 ? 1e-4 : 1e-9, bound = i == 0 ? 3e-11 : 1e-28;

@@ -1,5 +1,5 @@
-/* Enclosures of drive periods hold the motion in quad precision: random and adversarial starts, every kind of set; and bounds that are made
- * smaller do not. */
+/* Enclosures of drive periods hold the motion in quad precision: random and adversarial starts, every kind of set; and
+ * bounds that are made smaller do not. */
 #include "../../tools/enclosed.h"
 #include "../../tools/enclosed_orbit.h"
 #include "../../tools/part.h"
@@ -40,7 +40,8 @@ static kz_pendulum some_pendulum(int draw) {
   return (kz_pendulum){uniform(-0.05, 0.3), uniform(0, 0.1), uniform(-0.6, 0.6)};
 }
 
-/* Moves n states, at most 2 SETS, through some periods in quad precision: many at once, since each call makes tables and fills lanes. */
+/* Moves n states, at most 2 SETS, through some periods in quad precision: many at once, since each call makes tables
+ * and fills lanes. */
 static void move_truly(const kz_pendulum *pendulum, int n, int64_t periods, quad at[][2]) {
   kz_reference_state state[2 * SETS] = {{.turns = 0}};
   for (int i = 0; i < n; i++) memcpy(state[i].quads, at[i], sizeof state[i].quads);
@@ -104,8 +105,8 @@ TEST(points_hold_the_motion) {
   assert_true(farthest[0] < 1 && farthest[1] < 1 && kept > 0.9 * 2 * DRAWS * SETS * PERIODS);
 }
 
-/* Where steps are long, Taylor's rest is what a step of a centre misses: starts lie inside with it, and outside with the rounding of short steps
- * alone in its place. */
+/* Where steps are long, Taylor's rest is what a step of a centre misses: starts lie inside with it, and outside with
+ * the rounding of short steps alone in its place. */
 TEST(taylors_rest_is_needed) {
   const kz_pendulum pendulum = some_pendulum(0);
   for (int32_t precision = 0; precision < 2; precision++)
@@ -185,7 +186,8 @@ TEST(points_in_triples_hold_the_motion) {
   assert_true(farthest < 1 && farthest > 1e-4 && narrower < 1e-10 && outside > 1);
 }
 
-/* Single starts many turns away, where pairs know the angle to fewer digits than a step adds: |z| / reach after a period. */
+/* Single starts many turns away, where pairs know the angle to fewer digits than a step adds: |z| / reach after a
+ * period. */
 TEST(far_angles_hold_the_motion) {
   const kz_pendulum pendulum = some_pendulum(0);
   srand(7);
@@ -197,7 +199,8 @@ TEST(far_angles_hold_the_motion) {
     }
 }
 
-/* Damping makes the columns of a matrix alike. Once they are, a set is lost at once: it would shrink, and a new frame would hide that. */
+/* Damping makes the columns of a matrix alike. Once they are, a set is lost at once: it would shrink, and a new frame
+ * would hide that. */
 TEST(flat_frames_are_lost) {
   const kz_pendulum pendulum = {.k = 0.1, .beta = 3, .m = 0.3};
   kz_enclosure_tables *plan = plan_for(&pendulum, KZ_ENCLOSE_DOUBLES, 2);
@@ -225,7 +228,8 @@ TEST(boxes_hold_the_motion) {
   assert_true(farthest < 1 && farthest > 0.5 && kept > 0.3 * DRAWS * SETS * PERIODS);
 }
 
-/* The largest share of the growth of a set that a start at a corner takes, over a period; *bent: the same of the difference of two corners. */
+/* The largest share of the growth of a set that a start at a corner takes, over a period; *bent: the same of the
+ * difference of two corners. */
 static double share_of_growth(const kz_pendulum *pendulum, const kz_enclosure_tables *plan, double half, double *bent) {
   static const double corner[2][2] = {{1, 1}, {-1, 1}};
   kz_enclosure begin[SETS], set[SETS];
@@ -253,7 +257,8 @@ static double share_of_growth(const kz_pendulum *pendulum, const kz_enclosure_ta
   return largest;
 }
 
-/* Sets whose frame is kept: all starts lie inside, and outside once the bound of a lemma is cut. Each is seen by sets of a size at which it counts. */
+/* Sets whose frame is kept: all starts lie inside, and outside once the bound of a lemma is cut. Each is seen by sets
+ * of a size at which it counts. */
 TEST(each_bound_is_needed) {
   static const struct {
     int lemma;

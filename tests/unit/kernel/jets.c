@@ -1,4 +1,5 @@
-/* The derivatives of a period: against the neighbourhoods of orbits in many digits, differences, and the published map. */
+/* The derivatives of a period: against the neighbourhoods of orbits in many digits, differences, and the published
+ * map. */
 #include "../../tools/test.h"
 
 #include <math.h>

@@ -72,7 +72,8 @@ TEST(test_sine) {
   }
 }
 
-/* The image of (-theta, -v) is the mirror image of that of (theta, v), to the bit; of a torque and a drive across none is. */
+/* The image of (-theta, -v) is the mirror image of that of (theta, v), to the bit; of a torque and a drive across none
+ * is. */
 TEST(test_mirror) {
   for (int way = 0; way < (DRIVES + 1) * kz_scheme_count(); way++) {
     const int scheme = way / (DRIVES + 1), which = way % (DRIVES + 1);
@@ -132,8 +133,9 @@ TEST(test_tangent_lanes) {
   }
 }
 
-/* The split schemes contract areas by exactly exp(-2 pi beta) a period; rk4 nearly; the processed one in its own coordinates,
- * in the physical ones but for the truncation of the change of coordinates. A period has up to 2100 stages, each with its rounding. */
+/* The split schemes contract areas by exactly exp(-2 pi beta) a period; rk4 nearly; the processed one in its own
+ * coordinates, in the physical ones but for the truncation of the change of coordinates. A period has up to 2100
+ * stages, each with its rounding. */
 TEST(test_determinant) {
   for (int way = 0; way < (DRIVES + 1) * kz_scheme_count(); way++) {
     const int scheme = way / (DRIVES + 1), which = way % (DRIVES + 1);
@@ -168,8 +170,8 @@ TEST(test_rest) {
   }
 }
 
-/* The number of steps that is chosen keeps its promise on other states than those it was measured on, and fast states go by
- * split6. */
+/* The number of steps that is chosen keeps its promise on other states than those it was measured on, and fast states
+ * go by split6. */
 TEST(test_choice) {
   const struct {
     kz_pendulum pendulum;
@@ -239,7 +241,8 @@ static double error_of_sixth_order(int32_t steps, void *context) {
   return s->scale * pow(steps, -6) + s->rounding;
 }
 
-/* Enough steps and hardly more than that, in few tries; none where rounding or the largest number of steps forbids it. */
+/* Enough steps and hardly more than that, in few tries; none where rounding or the largest number of steps forbids
+ * it. */
 TEST(test_search) {
   int32_t steps;
   for (double scale = 1; scale < 1e12; scale *= 7) {
@@ -300,8 +303,8 @@ static bool has_subnormals(void) {
   return smallest / 2 > 0;
 }
 
-/* A motion that decays onto the exact inverted point never gets into subnormal numbers, with which a period takes up to fifteen
- * times as long; the caller's arithmetic is left as it was. */
+/* A motion that decays onto the exact inverted point never gets into subnormal numbers, with which a period takes up to
+ * fifteen times as long; the caller's arithmetic is left as it was. */
 TEST(test_subnormals) {
   for (int scheme = 0; scheme < kz_scheme_count(); scheme++) {
     double theta[] = {M_PI, M_PI}, velocity[] = {4 * DBL_MIN, -4 * DBL_MIN}, matrix[8], series[3], speeds[3];
@@ -325,8 +328,8 @@ TEST(test_subnormals) {
 /* tests/unit/neighbours.f90 */
 double kz_test_neighbour_error(const kz_pendulum *pendulum, int32_t scheme, int32_t steps, double fastest, double distance);
 
-/* Neighbours that are moved beside their orbits go where they go by themselves: with mirror symmetry, without it, in lanes too fast for the
- * tables, and by a scheme that has no tables. */
+/* Neighbours that are moved beside their orbits go where they go by themselves: with mirror symmetry, without it, in
+ * lanes too fast for the tables, and by a scheme that has no tables. */
 TEST(test_neighbours) {
   kz_pendulum turned = {.k = 0.1, .beta = 0.1, .m = 0.4, .unmirrored = 1, .harmonics = 1, .horizontal = {{0.1, 0.07}}};
   turned.torque = 0.1, turned.torque_amplitude = 0.2;

@@ -11,7 +11,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* tests/unit/pairs.f90. Tables whose error of a period is at most `tolerance`, for speeds up to `fastest`; *error: the measured one. */
+/* tests/unit/pairs.f90. Tables whose error of a period is at most `tolerance`, for speeds up to `fastest`; *error: the
+ * measured one. */
 void *kz_test_pairs_create(const kz_pendulum *pendulum, double tolerance, double fastest, double *error);
 /* Steps of the table for slow states; 0 = there is none. */
 int32_t kz_test_pairs_steps(const void *pairs);
@@ -137,8 +138,9 @@ static double error_of(const void *pairs, const kz_pendulum *pendulum, double fa
   return largest;
 }
 
-/* Errors of fresh states stay within the tolerance (times what three periods make of them), and more steps are better: the error
- * is that of the splitting, not of its arithmetic. Starts faster than the tables, and a pendulum without any, too. */
+/* Errors of fresh states stay within the tolerance (times what three periods make of them), and more steps are better:
+ * the error is that of the splitting, not of its arithmetic. Starts faster than the tables, and a pendulum without any,
+ * too. */
 TEST(periods_are_right) {
   static const struct {
     kz_pendulum pendulum;
@@ -192,7 +194,8 @@ TEST(mirror_images_and_lanes) {
   kz_test_pairs_free(pairs);
 }
 
-/* Images beside which doubles are measured are right to 1e-19 at gentle and at fast speeds, and strong drives; they are no exact ones. */
+/* Images beside which doubles are measured are right to 1e-19 at gentle and at fast speeds, and strong drives; they are
+ * no exact ones. */
 TEST(rough_series) {
   const kz_pendulum cases[] = {PENDULUM, {0.1, 0.1, 1.5}, {1, 0.05, 20}};
   const double fastest[] = {2.5, 8, 40};
@@ -202,7 +205,8 @@ TEST(rough_series) {
   }
 }
 
-/* Tables serve a square wave of four harmonics at the finest error, too: with fewer grades in quad precision none did. */
+/* Tables serve a square wave of four harmonics at the finest error, too: with fewer grades in quad precision none
+ * did. */
 TEST(tables_of_a_square_wave) {
   kz_pendulum square = {1.0 / 121, 1.0 / 55, 0.3, .harmonics = 7};
   for (int j = 1; j <= 7; j += 2)
@@ -224,7 +228,8 @@ static void fill(int64_t n, double *numbers) {
   }
 }
 
-/* Products of matrices err by some 2^-104 of the sum of the moduli of their terms, wherever a number stands; half of the terms cancel. */
+/* Products of matrices err by some 2^-104 of the sum of the moduli of their terms, wherever a number stands; half of
+ * the terms cancel. */
 TEST(products_of_matrices_are_right_to_31_digits) {
   static double left[ROWS][2][INNER], right[INNER][2][COLUMNS], product[ROWS][2][COLUMNS];
   for (int i = 0; i < ROWS; i++) fill(INNER, left[i][0]);

@@ -28,7 +28,8 @@ static bool find(const kz_hamilton *flow, const kz_pendulum *pendulum, const kz_
   return isfinite(action) && kz_path_polish(flow, from, to, path);
 }
 
-/* Without a drive the least torque out of the hanging state takes the pendulum over the top along the reversed decay: 2 k, for any damping. */
+/* Without a drive the least torque out of the hanging state takes the pendulum over the top along the reversed decay: 2
+ * k, for any damping. */
 TEST(the_way_over_the_top_costs_twice_the_gravity) {
   static const double BETA[] = {1.0 / 55, 0.1, 0.5};
   for (int i = 0; i < 3; i++) {
@@ -49,8 +50,8 @@ TEST(the_way_over_the_top_costs_twice_the_gravity) {
   }
 }
 
-/* The inverted state at epsilon = 0.3 through the wide 1-nodding: longer paths, and finer grids and steps, give the same action; its derivatives are
- * those of differences. */
+/* The inverted state at epsilon = 0.3 through the wide 1-nodding: longer paths, and finer grids and steps, give the
+ * same action; its derivatives are those of differences. */
 static double driven_barrier(double k, double beta, double m, int64_t n, int32_t samples, int32_t steps, double slope[3]) {
   const kz_pendulum pendulum = {k, beta, m};
   kz_hamilton *flow = flow_of(&pendulum, steps);
@@ -81,7 +82,8 @@ TEST(length_grid_and_steps_do_not_matter) {
   assert_true(fabs(slope[1] - by_m) < 1e-6 && fabs(slope[2] - by_beta) < 1e-4);
 }
 
-/* Near a stable rest, X of the unstable plane is the covariance of weak noise: of a linear oscillator that of Lyapunov's equation, T/k and T. */
+/* Near a stable rest, X of the unstable plane is the covariance of weak noise: of a linear oscillator that of
+ * Lyapunov's equation, T/k and T. */
 TEST(the_unstable_plane_is_the_covariance_of_noise) {
   const kz_pendulum pendulum = {0.3, 0.1, 0};
   kz_hamilton *flow = flow_of(&pendulum, 96);

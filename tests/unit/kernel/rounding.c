@@ -1,6 +1,7 @@
-/* The rounding of a proof's step, (B1) .. (B3), against a machine on which the error of every operation is as large as its lemma allows, all in one
- * direction. It walks the operations of the step (motion.inc, the sums of centre_doubles.c and centre_pairs.c) with sizes and errors in place of
- * numbers. The bound holds for all sizes, and for each factor there are sizes for which it fails once the factor is cut. */
+/* The rounding of a proof's step, (B1) .. (B3), against a machine on which the error of every operation is as large as
+ * its lemma allows, all in one direction. It walks the operations of the step (motion.inc, the sums of centre_doubles.c
+ * and centre_pairs.c) with sizes and errors in place of numbers. The bound holds for all sizes, and for each factor
+ * there are sizes for which it fails once the factor is cut. */
 #include "../../tools/test.h"
 
 #include <math.h>
@@ -21,8 +22,8 @@ typedef struct {
   int products;
 } total;
 
-/* The lemmas of docs/explanation/bounds.md, by level, in units of u^(level + 1): a product, a sum, a constant; what a number loses that is taken
- * as one of the level below. */
+/* The lemmas of docs/explanation/bounds.md, by level, in units of u^(level + 1): a product, a sum, a constant; what a
+ * number loses that is taken as one of the level below. */
 static const real product[] = {1, 6, 39}, plus[] = {1, 3, 9}, constant[] = {1, 1, 1.01L}, part[] = {0, 1, 1.03L};
 static const real first_part = 1.01L; /* First part of a triple taken as a double, in u */
 

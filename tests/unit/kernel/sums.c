@@ -1,4 +1,5 @@
-/* Sums of products of pairs and triples, as enclosures take them, against exact sums; their sines against those in many digits. */
+/* Sums of products of pairs and triples, as enclosures take them, against exact sums; their sines against those in many
+ * digits. */
 #include <math.h>
 #include <stdbool.h>
 #include <stdlib.h>
@@ -28,7 +29,8 @@ static int grow_product(int n, double *part, double a, double b) {
   return grow(grow(n, part, fma(a, b, -p)), part, p);
 }
 
-/* How far a sum of n products of pairs is off, over u^2 times the sum of their sizes; `cancel`: big ones that cancel. */
+/* How far a sum of n products of pairs is off, over u^2 times the sum of their sizes; `cancel`: big ones that
+ * cancel. */
 static double sum_is_off(int n, bool cancel) {
   double part[1000] = {0}, size = 0;
   int parts = 0;

@@ -302,7 +302,8 @@ TEST(what_the_table_lacks_is_an_error) {
   kz_store_discard(store);
 }
 
-/* Items of which some bytes are 0 in all, or all are; what is cut short or belongs to another number of items is refused. */
+/* Items of which some bytes are 0 in all, or all are; what is cut short or belongs to another number of items is
+ * refused. */
 TEST(squeezed_items_come_back) {
   enum { N = 777, MOST = 24 };
   static const size_t items[] = {1, 2, 7, 16, MOST};
