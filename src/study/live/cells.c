@@ -23,29 +23,16 @@ static void add_late(kz_travellers *late, int64_t number, int64_t spent, const d
   memcpy(late->state + 2 * late->n++, state, 2 * sizeof *state);
 }
 
-/* A kz_note_fn: the states where they were left take the place of those where they began. */
-static void note_state(void *context, int64_t i, const kz_decision *decision) {
-  memcpy((double *)context + 2 * i, decision->state, sizeof decision->state);
-}
-
 /* As method direct labels them, for so many periods. What then goes on joins `late`, or has not settled if that is NULL. Late cells
  * of a weakly damped pendulum, which take hundreds of periods, are followed in a cheaper way. */
 static void follow(kz_prepared *r, int64_t most, kz_travellers *from, kz_travellers *late, kz_frame_cell *cells) {
   int32_t label[2 * KZ_FRAME_TILE];
-  kz_label end[2 * KZ_FRAME_TILE];
+  int64_t periods[2 * KZ_FRAME_TILE];
   double time[2 * KZ_FRAME_TILE], *state = from->state;
-  const kz_labeller labeller = {.dynamics = r->dynamics,
-                                .max_periods = most,
-                                .way = KZ_BY_STATES,
-                                .at_strobe = true,
-                                .state = state,
-                                .note = note_state,
-                                .context = state,
-                                .stepper = late ? KZ_FOLLOW_DIRECT : kz_prepared_late_stepper(r)};
-  (void)kz_label_first(&labeller, from->n, NULL, end); /* cannot fail without a run */
+  const kz_stepper stepper = late ? KZ_FOLLOW_DIRECT : kz_prepared_late_stepper(r);
+  kz_dynamics_follow(r->dynamics, stepper, from->n, most, state, label, periods, NULL);
   for (int64_t i = 0; i < from->n; i++) {
-    const int64_t number = from->number[i], spent = from->spent[i] + end[i].periods;
-    label[i] = end[i].label;
+    const int64_t number = from->number[i], spent = from->spent[i] + periods[i];
     time[i] = (double)spent;
     if (label[i] == 0 && late) {
       add_late(late, number, spent, state + 2 * i);
