@@ -6,6 +6,8 @@ import os
 import pickle
 import subprocess
 import sys
+import threading
+import time
 from concurrent.futures import ThreadPoolExecutor
 
 import kapitza
@@ -211,6 +213,29 @@ except KeyboardInterrupt:
     print("interrupted")
 """)
     assert done.stdout.strip() == "interrupted", done
+
+
+def test_a_long_search_looks_for_a_stop_all_the_time():
+    """Ellipses of attractors under weak damping took a second of the processor without a look."""
+    own, seen = kapitza.Pendulum(quality_factor=20000, drive_frequency=11, drive_amplitude=0.3), []
+    library = own._library
+
+    def look(context):
+        seen.append(time.thread_time())
+        return seen[-1] - seen[0] > 4
+
+    pause = library.ffi.callback("kapitza_pause", look)
+
+    def work():
+        library.lib.kapitza_set_pause(pause, library.ffi.NULL)
+        look(None)
+        with pytest.raises(KeyboardInterrupt):
+            own.attractors()
+
+    thread = threading.Thread(target=work)
+    thread.start()
+    thread.join()
+    assert np.diff(seen).max() < 0.1 * (seen[-1] - seen[0])
 
 
 def test_threads(pendulum):

@@ -3,6 +3,7 @@
 module kz_processed_batch
   use, intrinsic :: iso_c_binding, only: c_int64_t
   use, intrinsic :: iso_fortran_env, only: rk => real64
+  use kz_vector_locks, only: look
   use kz_vector_map, only: flow_t, put_state, move_state, WIDTH, CAPACITY
   use kz_vector_sine, only: INVERSE_PI
   use kz_vector_wrap, only: wrap_lanes, vectors_of, flush_subnormals, restore_control
@@ -54,6 +55,7 @@ contains
     integer, intent(in) :: n
     real(rk) :: u(WIDTH), v(WIDTH)
 
+    call look()
     u = self%u(:WIDTH)
     v = self%v(:WIDTH)
     if (self%single) then
