@@ -29,15 +29,18 @@ def named(result, group, name):
 
 @pytest.mark.parametrize(("epsilon", "barrier", "name"), with_extensive(BARRIERS, MORE_BARRIERS))
 def test_barriers_of_the_inverted_state(kapitza, tmp_path, epsilon, barrier, name):
-    """Each to 1e-8 for its saddle, equal for the mirror image, and on the other side of the saddle another basin."""
+    """Each to 1e-8 for its saddle; beyond the saddle lies another basin, but that of n-noddings inside the well meets its own again."""
     scene = at(epsilon, 6 if epsilon > 0.3 else 2, starts=40)
-    result, _ = run_scene(kapitza, tmp_path, scene)
-    escape, inverted = result.group("escape"), named(result, "attractors", "inverted")[0]
+    found, _ = run_scene(kapitza, tmp_path, {name: scene[name] for name in ("pendulum", "attractors")}, name="attractors")
+    inverted = named(found, "attractors", "inverted")[0]
+    scene["escape"]["from"] = [inverted]
+    result, _ = run_scene(kapitza, tmp_path, scene, ranks=2)
+    escape = result.group("escape")
     rows = [i for i in range(escape.sizes["route"]) if escape["from"].values[i] == inverted and
             escape["saddle"].values[i] in named(result, "saddles", name) and escape["is_gate"].values[i]]
     assert rows and min(abs(escape["barrier"].values[i] / barrier - 1) for i in rows) < 1e-8 + 5e-11 / barrier
     best = min(rows, key=lambda i: escape["barrier"].values[i])
-    assert escape["before"].values[best] == inverted and escape["into"].values[best] != inverted
+    assert escape["before"].values[best] == inverted and (epsilon > 0.3 or escape["into"].values[best] != inverted)
 
 
 @pytest.fixture(scope="module")

@@ -8,7 +8,7 @@ static const double FIRST_DISTANCE = 1e-5;
 
 kz_status kz_escape_label(const kz_escape_labels *labels, int round, int64_t n, const double *start, int32_t *id) {
   KZ_FREED kz_label *label = kz_calloc((size_t)n + 1, sizeof *label);
-  kz_labeller labeller = kz_pair_labeller(start, labels->max_periods, KZ_BY_LEVELS, labels->dynamics);
+  kz_labeller labeller = kz_pair_labeller(start, labels->max_periods, KZ_BY_MARKS, labels->dynamics);
   labeller.run = labels->run;
   KZ_TRY(kz_label_items(&labeller, round, n, NULL, label));
   for (int64_t i = 0; i < n; i++) id[i] = label[i].label > 0 ? labels->id[label[i].label] : -1;
