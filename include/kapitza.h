@@ -116,12 +116,13 @@ kapitza_status kapitza_manifold(kapitza_pendulum *pendulum, double theta, double
 /* How a label is known: the values of `evidence` (docs/reference/file.md); 3 = undecided, the start may end on `other` as well. */
 enum { KAPITZA_NO_TURNS = -2147483647 - 1 };
 
-/* Labels n starts as basin.method exact does. Arrays [n], each may be NULL: attractor = id, -1 = not settled; other = the second candidate of an
+/* Labels n starts as basin.method exact does. start_error = bound of the distance of each motion from its start (hypot of rad and rad per drive
+ * radian); 0 = the numbers are exact. Arrays [n], each may be NULL: attractor = id, -1 = not settled; other = the second candidate of an
  * undecided start, else -1; settling_time in drive periods; turns = net turns until the end, KAPITZA_NO_TURNS = not known; error = bound of
  * the orbit's error when it was trapped, rad, NaN = not known. *list = the attractors to which the ids refer; NULL = not wanted. */
 kapitza_status kapitza_labels(kapitza_pendulum *pendulum, int64_t n, const double *theta, const double *velocity,
-                              int16_t *attractor, int16_t *other, uint8_t *evidence, int64_t *settling_time, int32_t *turns,
-                              double *error, kapitza_cycles **list);
+                              double start_error, int16_t *attractor, int16_t *other, uint8_t *evidence, int64_t *settling_time,
+                              int32_t *turns, double *error, kapitza_cycles **list);
 
 /* Labels of the cells of a window; one piece of memory, freed by kapitza_free. */
 typedef struct {

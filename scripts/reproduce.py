@@ -14,7 +14,8 @@ from PIL import Image
 
 ROOT = Path(__file__).resolve().parents[1]
 sys.path.insert(0, str(ROOT / "python"))
-from kapitza.figures import FIGURES, TUTORIALS  # noqa: E402
+from kapitza.figures import ADDED, FIGURES, TUTORIALS  # noqa: E402
+from kapitza.result import Result  # noqa: E402
 from papers.page import find_numbers, write_page  # noqa: E402
 
 RESULTS, DOCS = ROOT / "results", ROOT / "docs"
@@ -61,6 +62,8 @@ def draw_figures(arguments):
     for scene in dict.fromkeys(scene for _, scene, _, _ in arguments.figures):
         if status := run_scene(scene, arguments.ranks):
             sys.exit(status)
+        if scene in ADDED:
+            ADDED[scene](Result(result_of(scene)))
         for name, _, kind, options in (figure for figure in arguments.figures if figure[1] == scene):
             if status := step("build/kapitza", "plot", kind, result_of(scene), "-o", f"results/{name}.png", *options):
                 sys.exit(status)

@@ -75,9 +75,9 @@ kz_status kz_engine_where(kz_engine *engine, const kz_scene *scene, int64_t n, c
                           kz_ending *endings);
 
 /* Labels n starts [n][2] (rad, rad per drive radian) of the scene's pendulum as method exact does, at the velocities of the scene's window: label [n], whose ids are
- * those of *catalogue (-1 = not settled, no second candidate); error [n]: bound of the orbit's error when it was trapped, rad. */
-kz_status kz_engine_labels(kz_engine *engine, const kz_scene *scene, int64_t n, const double (*start)[2], kz_label *label,
-                           double *error, const kz_live_catalogue **catalogue);
+ * those of *catalogue (-1 = not settled, no second candidate); start_error: bound of the starts' own errors, rad; error [n]: bound of the orbit's error when it was trapped, rad. */
+kz_status kz_engine_labels(kz_engine *engine, const kz_scene *scene, int64_t n, const double (*start)[2], double start_error,
+                           kz_label *label, double *error, const kz_live_catalogue **catalogue);
 
 /* The same of a plane of two keys: periods and centres of the ends, with the values of the group /plane, x fastest; period KZ_NO_LABEL = not
  * settled, or no pendulum. */

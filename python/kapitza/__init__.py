@@ -20,6 +20,9 @@ import importlib.util
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
+    from kapitza.boundaries.manifolds import manifolds
+    from kapitza.boundaries.tangency import tangency
+    from kapitza.boundaries.wada import wada
     from kapitza.engine import Engine
     from kapitza.explorer.notebook import explore
     from kapitza.films import film
@@ -31,14 +34,14 @@ if TYPE_CHECKING:
 
     __version__: str
 
-__all__ = ["BadFile", "Engine", "Pendulum", "Result", "RunError", "SceneError", "check", "explore", "film", "fit", "needs", "orbit", "run",
-           "sweep", "where"]
+__all__ = ["BadFile", "Engine", "Pendulum", "Result", "RunError", "SceneError", "check", "explore", "film", "fit", "manifolds", "needs",
+           "orbit", "run", "sweep", "tangency", "wada", "where"]
 
 # The module of each name: modules are loaded when one of their names is first used, because pandas and xarray take most of a second.
 _MODULES = {name: module for module, names in {
-    "engine": "Engine", "explorer.notebook": "explore", "films": "film", "fitting": "fit", "pendulum": "Pendulum",
-    "program": "RunError SceneError", "result": "BadFile Result", "session": "check needs orbit run sweep where"}.items()
-    for name in names.split()}
+    "boundaries.manifolds": "manifolds", "boundaries.tangency": "tangency", "boundaries.wada": "wada", "engine": "Engine",
+    "explorer.notebook": "explore", "films": "film", "fitting": "fit", "pendulum": "Pendulum", "program": "RunError SceneError",
+    "result": "BadFile Result", "session": "check needs orbit run sweep where"}.items() for name in names.split()}
 
 
 def __getattr__(name: str) -> Any:

@@ -4,6 +4,11 @@ A row is a scene of scenes/, named after the paper and its figure (docs/explanat
 kind, options).
 """
 
+from kapitza.boundaries.manifolds import manifolds
+from kapitza.boundaries.tangency import tangency
+from kapitza.pendulum import Pendulum
+from kapitza.result import Result
+
 _Row = tuple[str, str, list[str]]
 _LETTERS = ["--font-size", "8", "--dpi", "300"]
 PAGE, COLUMN = ["--width", "178mm", *_LETTERS], ["--width", "86mm", *_LETTERS]  # two columns of a journal, and one
@@ -122,8 +127,21 @@ _SCENES = {
     "zoom-fig12": [_ZOOM],
 }
 
-# Scenes whose results are a few numbers, which no picture shows.
-NUMBERS = {"tangency"}
+
+
+def _add_boundaries(result: Result) -> Result:
+    """The curves that a figure shows over its result: what no study computes."""
+    pendulum = Pendulum(result.scene)
+    if result.path.stem == "measures-erosion":
+        return result.add("tangency", tangency(pendulum, "m", 0.04, 0.08))
+    cycles = result.group("saddles")
+    if result.path.stem == "wada-forced":
+        return result.add("manifolds", manifolds(pendulum, cycles.isel(saddle=[0]), kind="unstable", length=12, max_speed=10))
+    return result.add("manifolds", manifolds(pendulum, cycles, kind="stable", length=14))
+
+
+# Scene -> what its result gets before it is drawn.
+ADDED = dict.fromkeys(("manifolds-fig12", "measures-erosion", "wada-forced"), _add_boundaries)
 
 # Figures that stand side by side on the pages.
 _NARROW = {"blackburn-fig04-dots", "blackburn-fig06-omega11", "square-wave", "tilted", "start-phase",

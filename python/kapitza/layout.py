@@ -9,7 +9,8 @@ import xarray
 
 # Every variable of the file, (group, name) -> what `kapitza keys --layout` prints of it.
 VARIABLES: dict[tuple[str, str], dict[str, Any]] = {
-    (row["group"], row["name"]): row for row in map(json.loads, (Path(__file__).parent / "layout.jsonl").read_text().splitlines())}
+    (row["group"], row["name"]): row for file in ("layout.jsonl", "boundaries/layout.jsonl")
+    for row in map(json.loads, (Path(__file__).parent / file).read_text().splitlines())}
 
 
 class Part(NamedTuple):
@@ -42,7 +43,7 @@ NEEDED = {
     "manifolds": _part("theta velocity arc_length saddle branch kind polyline"),
     "saddles": _part("period winding name index strobe_theta strobe_velocity multiplier_re multiplier_im"),
     "sweep": _part("value", "parameter"),
-    "tangency": _part("strobe theta velocity", "value error parameter crossing saddle into"),
+    "tangency": _part("strobe theta velocity", "value error parameter crossing"),
     "wada": _part("theta velocity arc_length periods followed basins wada pair_cycles pair_shared"),
 }
 _BRANCHES = "branch_start branch_end branch_start_kind branch_end_kind branch_name branch_period branch_winding branch_centre branch_mirror"
@@ -71,6 +72,20 @@ def axes_of(group: str) -> dict[str, str]:
     """The variables of a group that are values of a swept key -> which one, as its attributes begin: "parameter", "x" or "y"."""
     return {name: row["units"][1:].removesuffix("_units") for (of, name), row in VARIABLES.items()
             if of == group and row["units"].startswith("@")}
+
+
+def described(group: str, dataset: xarray.Dataset) -> xarray.Dataset:
+    """A dataset made in Python with the dimensions' numbers, and the types and attributes that its group has in a file (CF)."""
+    dataset = dataset.assign_coords({name: np.arange(size) for name, size in dataset.sizes.items() if name not in dataset.coords})
+    for name in dataset.variables:
+        row = VARIABLES[group, str(name)]
+        dataset[name] = dataset[name].astype(row["type"])
+        dataset[name].attrs = {"units": row["units"], "long_name": row["long_name"]}
+        if row["flags"]:
+            words = " ".join(flag.replace(" ", "_") for flag in row["flags"])
+            dataset[name].attrs = {"long_name": row["long_name"], "flag_values": np.arange(len(row["flags"]), dtype=row["type"]),
+                                   "flag_meanings": words}
+    return dataset
 
 
 def wrong_shape(dataset: xarray.Dataset, group: str) -> str | None:

@@ -130,25 +130,25 @@ class Pendulum:
         """
         return attractors_table(self._listed("attractor", "kapitza_attractors"))
 
-    def where(self, theta: ArrayLike, velocity: ArrayLike) -> xarray.Dataset:
+    def where(self, theta: ArrayLike, velocity: ArrayLike, *, start_error: float = 0) -> xarray.Dataset:
         """Where starts end: `attractor` (id; -1 = not settled), `evidence`, `settling_time` (drive periods), `turns`, `error` (rad) and
         `other_attractor` of the shape of the starts, labelled as `basin.method: exact` labels cells; and the attractors.
 
         >>> ends = kapitza.Pendulum(Q=5, Omega=11, epsilon=0.3).where(np.linspace(2.9, 3.1, 5), 0.2)
         >>> ends.name[ends.attractor].values
-        """
+
+        :param start_error: bound of the starts' own errors, rad; labels that they could change are undecided"""
         angles, speeds = self._starts(theta, velocity)
-        kinds = {"attractor": "int16", "other_attractor": "int16", "evidence": "uint8", "settling_time": "int64", "turns": "int32",
-                 "error": "float64"}
+        kinds = dict(attractor="int16", other_attractor="int16", evidence="uint8", settling_time="int64", turns="int32", error="float64")
         values = {name: np.empty(angles.shape, kind) for name, kind in kinds.items()}
         given, view = self._library.ffi.new("kapitza_cycles **"), self._library.view
         arrays = (view(values[name], "double *" if kind == "float64" else f"{kind}_t *") for name, kind in kinds.items())
-        self._call("kapitza_labels", angles.size, view(angles), view(speeds), *arrays, given)
+        self._call("kapitza_labels", angles.size, view(angles), view(speeds), start_error, *arrays, given)
         dims = next((value.dims for value in (theta, velocity) if isinstance(value, xarray.DataArray)), None)
         if dims is None or len(dims) != angles.ndim:
-            dims = ("start",)[:angles.ndim] if angles.ndim < 2 else tuple(f"start_{axis}" for axis in range(angles.ndim))
-        labels = {"theta": angles, "velocity": speeds} | values
-        return datasets.labelled({name: (dims, value) for name, value in labels.items()}, self._library.cycles(given[0], "id"))
+            dims = tuple(f"start_{axis}" for axis in range(angles.ndim)) if angles.ndim > 1 else ("start",)[:angles.ndim]
+        labels = ({"theta": angles, "velocity": speeds} | values).items()
+        return datasets.labelled({name: (dims, value) for name, value in labels}, self._library.cycles(given[0], "id"))
 
     def basin(self, theta: Any = 400, velocity: Any = 400) -> xarray.Dataset:
         """The label of every cell of a window, by all cores: variables over velocity and theta as in the group `basin` of a file, and the

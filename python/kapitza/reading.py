@@ -1,9 +1,11 @@
 """What is read of a result file, and checked: its attributes, its pendulum, its groups."""
 
 import os
+import shutil
+import tempfile
 from functools import cached_property
 from pathlib import Path
-from typing import Any
+from typing import Any, Self
 
 import h5py
 import numpy as np
@@ -168,6 +170,26 @@ class File:
         dataset = self._read(name)
         dataset = units.in_units(dataset, self.pivot_frequency if si else None, degrees) if si or degrees else dataset
         return units.in_written_units(dataset, name, layout.axes_of(name)) if written else dataset
+
+    def add(self, group: str, dataset: xarray.Dataset) -> Self:
+        """A result with one more group, or another one of that name: what kapitza.manifolds, wada and tangency return. The file is
+        replaced when it is complete.
+
+        >>> result.add("manifolds", kapitza.manifolds(kapitza.Pendulum(result.scene), result.group("saddles"), kind="stable"))
+        """
+        if not group.isidentifier() or group in ("pendulum", "attractors", "basin"):
+            raise ValueError(f"{group!r} cannot be added; it must be another name than those of the program's own groups")
+        with tempfile.NamedTemporaryFile(dir=self.path.parent, prefix=self.path.name, delete=False) as new:
+            try:
+                shutil.copyfile(self.path, new.name)
+                with h5py.File(new.name, "r+") as file:
+                    file.pop(group, None)
+                dataset.to_netcdf(new.name, mode="a", group=group, engine="h5netcdf")
+                os.replace(new.name, self.path)
+            except BaseException:
+                os.unlink(new.name)
+                raise
+        return type(self)(self.path)
 
     def _read(self, name: str) -> xarray.Dataset:
         """A group as it is in the file, which the caller may change. Of small ones a copy is kept, as xarray takes long to open a group."""

@@ -62,7 +62,7 @@ SCENES = {
     "saddles without velocities": (GOOD + "saddles: {max_period: 3}\n", "9:10", "saddles.velocity: is missing"),
     "saddles of a long period": (GOOD + "saddles: {velocity: {min: -1, max: 1}, max_period: 33}\n", "9:52", "saddles.max_period"),
     "saddles of an empty window": (GOOD + "saddles: {velocity: {min: 1, max: 1}}\n", "9:35", "saddles.velocity.max: 1 is too small"),
-    "manifolds without saddles": (GOOD + "manifolds: {kind: stable}\n", "9:1", "manifolds: needs a list of unstable cycles"),
+    "former study": (GOOD + "manifolds: {kind: stable}\n", "9:1", "is no longer a key; use kapitza.manifolds(...) in Python"),
     "plane of one key": (GOOD + "sweep: {x: {parameter: drive_amplitude, min: 0, max: 1, count: 2}, y: {parameter: drive_amplitude, "
         "min: 0, max: 1, count: 2}, measure: [ends], ends: {theta: [1]}}\n", "9:83", "sweep.y.parameter: is also the parameter of"),
     "plane of a key of another form": (GOOD + "sweep: {x: {parameter: k, min: 0, max: 1, count: 2}, y: {parameter: m, min: 0, "
@@ -81,11 +81,6 @@ SCENES = {
     "plane without ends": (GOOD + "sweep: {x: {parameter: drive_frequency, min: 2, max: 3, count: 2}, "
         "y: {parameter: drive_amplitude, min: 0, max: 1, count: 2}, measure: [ends]}\n", "", "sweep.ends: is missing"),
     "measure twice": (GOOD + "measures: {names: [share, share], velocity: {min: -1, max: 1}}\n", "", "measures.names: has a word twice"),
-    "wada without saddles": (GOOD + "wada: {length: 3}\n", "9:7", "wada: needs a list of unstable cycles"),
-    "wada without attractors": ("pendulum: {k: 0, damping: 0.1, m: 0.3}\nsaddles: {velocity: {min: -1, max: 1}}\n"
-        "wada: {length: 3}\n", "3:7", "wada: needs a list of attractors"),
-    "wada without damping": ("pendulum: {k: 0, damping: 0, m: 0.3}\nattractors: {velocity: {min: -1, max: 1}}\n"
-        "saddles: {velocity: {min: -1, max: 1}}\nwada: {length: 3}\n", "4:7", "wada: needs damping"),
     "escape without saddles": (GOOD + "escape: {}\n", "9:9", "escape: needs a list of unstable cycles"),
     "escape without damping": ("pendulum: {k: 0, damping: 0, m: 0.3}\nattractors: {velocity: {min: -1, max: 1}}\n"
         "saddles: {velocity: {min: -1, max: 1}}\nescape: {}\n", "4:9", "escape: needs damping"),

@@ -17,6 +17,7 @@ import pytest
 import yaml
 from conftest import PROGRAM, ROOT, wait_for, with_extensive
 from explorer_page import Server, children_of
+from kapitza import Pendulum, manifolds
 from kapitza.explorer.access import Access
 from kapitza.result import Result
 
@@ -301,15 +302,16 @@ def attempt(call, *arguments):
 def test_a_result_opens_with_what_lies_over_its_basins(model):
     window = {"velocity": {"min": -2, "max": 2}}
     result = model(PENDULUM, basin={"theta": {"count": 8}, "velocity": window["velocity"] | {"count": 8}, "method": "direct"},
-                   saddles=window, manifolds={"length": 1})
+                   saddles=window)
+    result = result.add("manifolds", manifolds(Pendulum({"pendulum": PENDULUM}), result.group("saddles"), length=1))
     running = Server(result.path)
     state, text = running.request("state", {})[1], running.request("scene", VIEW)[1]["text"]
     assert running.end()[0] == 0
-    saddles, manifolds = result.group("saddles"), result.group("manifolds")
+    saddles, curves = result.group("saddles"), result.group("manifolds")
     assert state["pendulum"]["quality_factor"] == 5 and "max_periods" not in text
     assert state["overlays"]["saddles"]["points"] == np.column_stack([saddles["strobe_theta"], saddles["strobe_velocity"]]).tolist()
     lines = state["overlays"]["manifolds"]["lines"]
-    assert len(lines) >= 16 and lines[0][0] == [manifolds["theta"].values[0], manifolds["velocity"].values[0]]
+    assert len(lines) >= 16 and lines[0][0] == [curves["theta"].values[0], curves["velocity"].values[0]]
     assert all(np.abs(np.diff(line, axis=0)[:, 0]).max() < np.pi for line in lines)  # cut where the angle wraps
 
 

@@ -3,7 +3,6 @@ outnumber their tiles, kills. docs/validation/extremes.md says what is promised;
 
 import os
 import random
-import re
 import shutil
 import signal
 import subprocess
@@ -72,17 +71,6 @@ def test_a_full_disk_fails_clearly_and_leaves_no_half_file(disk, kilobytes):
     _, errors = process.communicate()
     assert process.returncode == 1 and "No space left" in errors and errors.count("\n") == 1, errors
     assert {path.name for path in folder.iterdir()} <= {"small.h5.checkpoint"}
-
-
-def test_a_checkpoint_of_manifolds_holds_what_is_used(disk, kapitza):
-    """16 branches of some hundred points each: once 1 MB was asked for each of them, and `check` told the disk of another number."""
-    folder = disk("size=6m")
-    (folder / "s.yaml").write_text("pendulum: {quality_factor: 5, drive_frequency: 11, drive_amplitude: 0.3}\n"
-                                   "saddles: {velocity: {min: -2, max: 2}, max_period: 1}\nmanifolds: {length: 6, spacing: 0.02}\n")
-    told = re.search(r"([\d.]+) MB on disk", kapitza("check", "s.yaml", folder=folder).stdout, re.MULTILINE)
-    _, errors = (process := start("run", "s.yaml", folder=folder)).communicate()
-    assert process.returncode == 0, errors
-    assert 1e-6 * (folder / "s.h5").stat().st_size < float(told[1]) < 6
 
 
 def test_a_disk_that_was_full_is_resumed_once_there_is_room(disk, undisturbed):

@@ -74,7 +74,7 @@ LARGER = {
     "src/kernel/splitting/processed/tangents.c": {"move_tangents", "kz_processed_tangents", "kz_processed_displaced"},
     "src/kernel/taylor/pairs.c": {"run_stages", "kz_pairs_stages"}, "src/kernel/taylor/pairs_table.f90": {"pairs_stages"},
     "src/library/api/labels.c": {"kapitza_labels"}, "src/library/api/motion.c": {"kapitza_orbit", "kapitza_manifold"},
-    "src/study/live/record.c": {"record_stretch"},
+    "src/study/live/engine.c": {"kz_engine_labels"}, "src/study/live/record.c": {"record_stretch"},
 }
 
 

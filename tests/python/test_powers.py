@@ -94,7 +94,7 @@ def test_the_core_holds_no_symbol_of_a_power(core):
 
 
 @pytest.mark.parametrize(("words", "told"), [
-    (["check", "small", "--set", "wada={}"], "wada: needs the power saddles, which this build leaves out"),
+    (["check", "small", "--set", "saddles={}"], "saddles: needs the power saddles, which this build leaves out"),
     (["check", "small", "--set", "basin.proof=true"], "basin.proof: needs the power proof, which this build leaves out"),
     (["check", "small", "--set", "sweep={parameter: drive_amplitude, min: 0, max: 1, count: 2, measure: [share]}"],
      "other words need the power measures, which this build leaves out"),

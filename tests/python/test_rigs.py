@@ -8,6 +8,7 @@ import kapitza as kapitza_package
 import numpy as np
 import pytest
 from conftest import ROOT, flown, refused_scene, with_extensive
+from kapitza import Pendulum, manifolds
 from rigs import LINEAR, PENDULUM, RIGS, SMOOTH, WINDOW, period, run
 from serving import Server
 
@@ -164,7 +165,7 @@ def test_an_oscillating_torque_is_that_of_the_equation(kapitza, tmp_path, m, tor
 def test_saddles_manifolds_and_orbits_are_of_the_drive(kapitza, tmp_path, name):
     """Unstable cycles obey the equation, manifolds begin at them, an orbit settles on an attractor."""
     keys, force = RIGS[name]
-    studies = {"saddles": {"max_period": 1, "velocity": {"min": -2, "max": 2}}, "manifolds": {"length": 5},
+    studies = {"saddles": {"max_period": 1, "velocity": {"min": -2, "max": 2}},
                "orbit": {"start": {"theta": 0.1, "velocity": 0}, "periods": 20}}
     file = run(kapitza, tmp_path, {"pendulum": {**PENDULUM, **keys}, **studies})
     points = np.column_stack([file["saddles/strobe_theta"][:, 0], file["saddles/strobe_velocity"][:, 0]])
@@ -172,20 +173,11 @@ def test_saddles_manifolds_and_orbits_are_of_the_drive(kapitza, tmp_path, name):
     for point in points:
         theta, velocity = period(force, point)
         assert abs(math.remainder(theta - point[0], 2 * math.pi)) < 1e-9 and abs(velocity - point[1]) < 1e-9
-    where = np.column_stack([file["manifolds/theta"][:], file["manifolds/velocity"][:]])
-    assert len(where) > 100 and np.isfinite(where).all()
+    pendulum = Pendulum({"pendulum": {**PENDULUM, **keys}})
+    curves = manifolds(pendulum, pendulum.saddles(), length=5)
+    assert curves.sizes["point"] > 100 and np.isfinite(curves["theta"]).all()
     assert file["orbit"].attrs["settles_on"] == "down"
 
-
-@pytest.mark.parametrize("keys", [{"tilt": 0.1}, {"waveform": "square"}])
-def test_an_edge_leads_to_a_saddle_of_the_drive(kapitza, tmp_path, keys):
-    """By tracking: one of the cycles that are found from lines of starts, and these obey the equation (above)."""
-    studies = {"attractors": {"velocity": {"min": -1, "max": 1}, "starts": 64}, "saddles": {"velocity": {"min": -1, "max": 1}},
-               "edge": {"first": {"theta": 0.1, "velocity": 0}, "second": {"theta": 3.1, "velocity": 0}, "periods": 40}}
-    file = run(kapitza, tmp_path, {"pendulum": {**PENDULUM, "quality_factor": 0.5, **keys}, **studies})
-    edge = file["edge"].attrs
-    assert (edge["first_end"], edge["second_end"], edge["period"]) == ("down", "inverted", 1) and edge["saddle"] >= 0
-    assert abs(edge["multiplier_1_re"] - file["saddles/multiplier_re"][edge["saddle"], 0]) < 1e-8
 
 
 @pytest.mark.parametrize("keys", with_extensive([{"waveform": "triangle"}], [{"drive_amplitude": 0, "torque_amplitude": 0.5}]))

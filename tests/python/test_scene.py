@@ -69,9 +69,9 @@ def test_symbols_are_spellings_of_keys(tmp_path, by_symbol, by_name, options):
         assert resolved(tmp_path, *changes, scene=by_symbol) == resolved(tmp_path, *changes, scene=by_name)
 
 
-@pytest.mark.parametrize("axis", ["sweep.x.parameter", "sweep.y.parameter", "tangency.parameter", "atlas.x.parameter", "atlas.y.parameter"])
+@pytest.mark.parametrize("axis", ["sweep.x.parameter", "sweep.y.parameter", "atlas.x.parameter", "atlas.y.parameter"])
 def test_a_plane_lists_only_the_keys_that_it_takes(axis):
-    """A ramp changes no motion: planes and tangencies refuse its keys, a sweep along a line takes them."""
+    """A ramp changes no motion: planes refuse its keys, a sweep along a line takes them."""
     rows = [line.split(" | ") for line in (ROOT / "docs" / "reference" / "scene.md").read_text().splitlines()]
     accepted = {row[0].strip("| `"): row[1] for row in rows if len(row) > 2}
     words = accepted[axis]

@@ -2,6 +2,9 @@
 
 import numpy as np
 
+from kapitza.boundaries.manifolds import manifolds
+from kapitza.pendulum import Pendulum
+
 from .scene import BadRequest
 
 OVERLAYS = ("saddles", "manifolds")
@@ -25,9 +28,13 @@ def skeleton(kept, request):
     pendulum, fastest = request.get("pendulum"), request.get("fastest")
     if not isinstance(pendulum, dict) or isinstance(fastest, bool) or not isinstance(fastest, int | float) or not 0 < fastest <= 1000:
         raise BadRequest("a skeleton needs the mapping pendulum, and fastest: a velocity above 0 and up to 1000")
-    scene = {"pendulum": pendulum, "saddles": {"velocity": {"min": -fastest, "max": fastest}, "max_period": 1},
-             "manifolds": {"kind": "stable", "length": LENGTH, "max_speed": fastest}}
-    return kept.answers(scene, lambda result: ({"overlays": overlays(result)}, b""), answer="skeleton", final=True)
+    scene = {"pendulum": pendulum, "saddles": {"velocity": {"min": -fastest, "max": fastest}, "max_period": 1}}
+
+    def boundaries(result):
+        curves = manifolds(Pendulum({"pendulum": pendulum}), result.group("saddles"), kind="stable", length=LENGTH, max_speed=fastest)
+        return {"overlays": overlays(result) | {"manifolds": {"lines": _lines(curves)}}}, b""
+
+    return kept.answers(scene, boundaries, answer="skeleton", final=True)
 
 
 def _points(table):

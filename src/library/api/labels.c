@@ -12,6 +12,7 @@ static const double MOST_ANGLE = 1e6; /* rad, as of the windows of a scene */
 typedef struct {
   int64_t n;
   const double *theta, *velocity;
+  double start_error;
   int16_t *attractor, *other;
   uint8_t *evidence;
   int64_t *settling_time;
@@ -22,6 +23,8 @@ typedef struct {
 
 /* The starts, and the largest speed among them. */
 static kz_status take_starts(const labels_job *j, double (*start)[2], double *fastest) {
+  if (!(j->start_error >= 0 && j->start_error <= 1))
+    return kz_fail(KZ_REFUSED, "start_error: %g: must be from 0 to 1", j->start_error);
   for (int64_t i = 0; i < j->n; i++) {
     const double theta = j->theta[i], velocity = j->velocity[i];
     if (!(fabs(theta) <= MOST_ANGLE) || !(fabs(velocity) <= KZ_MOST_SPEED))
@@ -59,7 +62,8 @@ static kz_status work_labels(kapitza_pendulum *p, void *context) {
   kz_scene scene = p->scene;
   kz_plans_copy(&scene);
   scene.basin->velocity = (kz_axis){.min = -fastest, .max = fastest, .count = own->count};
-  const kz_status status = kz_engine_labels(p->engine, &scene, j->n, (const double (*)[2])start, label, error, &catalogue);
+  const kz_status status =
+      kz_engine_labels(p->engine, &scene, j->n, (const double (*)[2])start, j->start_error, label, error, &catalogue);
   kz_plans_free(&scene);
   KZ_TRY(status);
   if (j->list) *j->list = kz_library_cycles(&catalogue->list, true);
@@ -68,9 +72,9 @@ static kz_status work_labels(kapitza_pendulum *p, void *context) {
 }
 
 kapitza_status kapitza_labels(kapitza_pendulum *pendulum, int64_t n, const double *theta, const double *velocity,
-                              int16_t *attractor, int16_t *other, uint8_t *evidence, int64_t *settling_time, int32_t *turns,
-                              double *error, kapitza_cycles **list) {
-  labels_job job = {n, theta, velocity, attractor, other, evidence, settling_time, turns, error, list};
+                              double start_error, int16_t *attractor, int16_t *other, uint8_t *evidence, int64_t *settling_time,
+                              int32_t *turns, double *error, kapitza_cycles **list) {
+  labels_job job = {n, theta, velocity, start_error, attractor, other, evidence, settling_time, turns, error, list};
   if (list) *list = NULL;
   return kz_library_call(pendulum, work_labels, &job);
 }

@@ -142,28 +142,32 @@ static kz_status label(kz_engine *engine, kz_prepared *r, kz_question *q) {
 }
 
 /* Labels a part of the starts, whose numbers of attractors become ids later. */
-static kz_status label_part(kz_engine *engine, kz_prepared *r, int64_t n, const double (*start)[2], kz_label *found,
-                            double *error) {
+static kz_status label_part(kz_engine *engine, kz_prepared *r, int64_t n, const double (*start)[2], double start_error,
+                            kz_label *found, double *error) {
   KZ_FREED kz_coordinate(*coordinate)[2] = kz_calloc((size_t)n, sizeof *coordinate);
   for (int64_t i = 0; i < 2 * n; i++) coordinate[i / 2][i % 2].high = start[i / 2][i % 2];
   KZ_FREED_BY(kz_question_free)
-  kz_question q = {
-      .scene = &r->scene, .dynamics = r->dynamics, .max_periods = r->search.max_periods, .n = n, .start = coordinate};
+  kz_question q = {.scene = &r->scene,
+                   .dynamics = r->dynamics,
+                   .max_periods = r->search.max_periods,
+                   .n = n,
+                   .start = coordinate,
+                   .start_error = start_error};
   KZ_TRY(label(engine, r, &q));
   memcpy(found, q.label, (size_t)n * sizeof *found);
   memcpy(error, q.error, (size_t)n * sizeof *error);
   return KZ_OK;
 }
 
-kz_status kz_engine_labels(kz_engine *engine, const kz_scene *scene, int64_t n, const double (*start)[2], kz_label *label,
-                           double *error, const kz_live_catalogue **catalogue) {
+kz_status kz_engine_labels(kz_engine *engine, const kz_scene *scene, int64_t n, const double (*start)[2], double start_error,
+                           kz_label *label, double *error, const kz_live_catalogue **catalogue) {
   enum { PART = 1 << 15 }; /* starts that are labelled together */
   kz_prepared *r;
   KZ_TRY(kz_engine_prepared(engine, scene, NULL, &r));
   for (int64_t done = 0; done < n; done += PART) {
     const int64_t part = n - done < PART ? n - done : PART;
     if (r->dynamics)
-      KZ_TRY(label_part(engine, r, part, start + done, label + done, error + done));
+      KZ_TRY(label_part(engine, r, part, start + done, start_error, label + done, error + done));
     else /* without damping nothing attracts */
       for (int64_t i = done; i < done + part; i++) label[i] = (kz_label){.turns = KZ_NO_TURNS};
   }

@@ -113,12 +113,6 @@ static kz_status write_saddles(const kz_cycle_list *cycles, const kz_index_sums 
   return write_sums(sums, store);
 }
 
-kz_status kz_saddle_check(const kz_listed *saddles, const char *keys, int64_t saddle) {
-  if (saddle < saddles->count) return KZ_OK;
-  return kz_fail(KZ_REFUSED, "%s: %lld is not among the %lld unstable cycles; choose an id below that", keys, (long long)saddle,
-                 (long long)saddles->count);
-}
-
 static void print_cycles(const kz_catalogue *unstable, FILE *summary) {
   fprintf(summary, "  id  name                          period  winding  index     multiplier\n");
   for (int64_t i = 0; i < unstable->count && i < MOST_LINES; i++) {

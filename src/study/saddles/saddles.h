@@ -42,6 +42,3 @@ kz_status kz_lines_run(const kz_run *run, const kz_lines *lines, const char *nam
 /* A rough estimate of the number of cycles, which grows exponentially with the period. Fig. 12 has 16, 16 and 24 of up to 3, 4 and 6 periods,
  * epsilon = 1 and 3 have 146 and 888 of up to 3: right to a factor of 4. */
 double kz_saddles_expected(const kz_scene *scene);
-
-/* KZ_REFUSED, at the keys "KEY|KEY", if a file has no unstable cycle with this id. */
-kz_status kz_saddle_check(const kz_listed *saddles, const char *keys, int64_t saddle);

@@ -14,7 +14,8 @@ static kz_status start_of(void *context, int64_t i, kz_precision level, kz_start
   static const double pair_error = 4e-32;
   const kz_question *q = context;
   const kz_coordinate *theta = &q->start[i][0], *velocity = &q->start[i][1];
-  const double error = theta->centre || velocity->centre ? pair_error * hypot(theta->high, velocity->high) : 0;
+  const double rounding = theta->centre || velocity->centre ? pair_error * hypot(theta->high, velocity->high) : 0;
+  const double error = fmax(q->start_error, rounding);
   (void)level;
   *start = (kz_start){.theta = {theta->high, theta->low},
                       .velocity = {velocity->high, velocity->low},

@@ -11,6 +11,7 @@ typedef struct {
   kz_dynamics *dynamics;
   int64_t max_periods, n;
   const kz_coordinate (*start)[2]; /* [n] as of kz_where */
+  double start_error;              /* rad: bound of the distance of each motion from its start; 0 = none */
   kz_label *label;                 /* [n] */
   double *error;                   /* [n] rad: bound of the orbit's error when it was trapped */
 } kz_question;
