@@ -30,7 +30,7 @@ static kz_status open_atlas(const char *path, kz_scene *scene, kz_atlas **atlas)
 }
 
 /* The next cycle of stdin, as one of a place. */
-static bool read_cycle(const kz_atlas *atlas, const double place[2], kz_atlas_seed *cycle, bool *exists) {
+static bool read_cycle(const kz_atlas *atlas, const double place[2], kz_plane_cycle *cycle, bool *exists) {
   double state[2 * KZ_CURVE_POINTS];
   int n;
   if (scanf("%d", &n) != 1 || n < 1 || n > KZ_CURVE_POINTS) return false;
@@ -41,7 +41,7 @@ static bool read_cycle(const kz_atlas *atlas, const double place[2], kz_atlas_se
 }
 
 /* Adds the curve of a seed that the atlas lacks, and tells it. */
-static void tell(kz_atlas *atlas, const kz_atlas_seed *seed) {
+static void tell(kz_atlas *atlas, const kz_plane_cycle *seed) {
   kz_atlas_curve curve;
   double value[2];
   kz_atlas_trace(atlas, seed, &curve);
@@ -60,7 +60,7 @@ int main(int count, char **word) {
   if (count != 4 || open_atlas(word[1], &scene, &atlas) != KZ_OK) return 2;
   for (int i = 0; i < 2; i++)
     if (kz_atlas_place(atlas, i, strtod(word[2 + i], NULL), place + kz_atlas_axis(atlas, i)) != KZ_OK) return 2;
-  kz_atlas_seed cycle;
+  kz_plane_cycle cycle;
   for (bool exists; read_cycle(atlas, place, &cycle, &exists); cycles++) {
     KZ_FREED_BY(kz_atlas_seeds_free) kz_atlas_seeds births = {0};
     if (!exists) continue;

@@ -44,13 +44,20 @@ typedef enum {
 
 /* What happens on a branch: a multiplier of its map is 1 or -1; it meets the cycle of half its period, its image, or rest, and ends. */
 typedef enum { KZ_EVENT_FOLD = 1, KZ_EVENT_FLIP = 2, KZ_EVENT_HALVES = 3, KZ_EVENT_MIRROR = 4, KZ_EVENT_REST = 5 } kz_event;
+/* A cycle on a branch, and an event with the cycle there; y is 0 beyond its 2 points + 2 numbers. */
+typedef struct {
+  double y[2 * KZ_CURVE_POINTS + 2], number[2]; /* number: trace and determinant of the derivative of its map */
+} kz_branch_row;
+typedef struct {
+  double y[2 * KZ_CURVE_POINTS + 2];
+  kz_event what;
+} kz_branch_event;
 /* Follows the cycle near `start` along a line, first in the direction `along` (a unit vector), attracting or not, through folds; side 1 or -1:
  * one of the two branches of the fold at `start`. *step: the first step, 0 = short; then the one that would follow; NULL = not asked for. rows
- * [most][4 + 2 points]: place, trace and determinant of the map's derivative, points. events [most_events][3 + 2 points]: what, place,
- * points; with most_events > 0 it ends there. Returns the number of rows. */
+ * [most]; events [most_events]: it ends where they are full, if most_events > 0. Returns the number of rows. */
 int64_t kz_curve_branch(const kz_plane *plane, const kz_curve_kind *kind, const double *start, const double along[2],
-                        int32_t side, double longest, double *step, int64_t most, double *rows, int64_t most_events,
-                        double *events, int64_t *n_events, int32_t *ending);
+                        int32_t side, double longest, double *step, int64_t most, kz_branch_row *rows, int64_t most_events,
+                        kz_branch_event *events, int64_t *n_events, int32_t *ending);
 
 /* Newton's method at the place of y; numbers = trace and determinant, NULL = not asked for. 1 if it converges, else 0. */
 int32_t kz_curve_solve(const kz_plane *plane, const kz_curve_kind *kind, double *y, double numbers[2]);

@@ -10,6 +10,15 @@ module kz_cycles_branches
   implicit none
   private
 
+  type, bind(C) :: branch_row_t
+    real(dp) :: y(UNKNOWNS), number(2)
+  end type branch_row_t
+
+  type, bind(C) :: branch_event_t
+    real(dp) :: y(UNKNOWNS)
+    integer(c_int32_t) :: what
+  end type branch_event_t
+
 contains
 
   function branch(plane, kind, start, along, side, longest, step, most, rows, most_events, events, n_events, ending) &
@@ -21,7 +30,8 @@ contains
     real(dp), value :: longest
     real(dp), intent(inout), optional :: step
     integer(c_int64_t), value :: most, most_events
-    real(dp), intent(out) :: rows(4 + 2*kind%points, most), events(3 + 2*kind%points, most_events)
+    type(branch_row_t), intent(out) :: rows(most)
+    type(branch_event_t), intent(out) :: events(most_events)
     integer(c_int64_t), intent(out) :: n_events
     integer(c_int32_t), intent(out) :: ending
     integer(c_int64_t) :: n_rows
@@ -79,9 +89,7 @@ contains
     subroutine put()
       n_rows = n_rows + 1
       numbers = 1 + walker%system%determinant + [-1, 1]*walker%system%trace
-      rows(:2, n_rows) = walker%y(n + 1:n + 2)
-      rows(3:4, n_rows) = [walker%system%trace, walker%system%determinant]
-      rows(5:, n_rows) = walker%y(:n)
+      rows(n_rows) = branch_row_t(cycle_of(walker%y), [walker%system%trace, walker%system%determinant])
     end subroutine put
 
     !> The event between the two points: the nearest zero of its own equation, or what the zero of its number leads to.
@@ -119,10 +127,16 @@ contains
 
       if (n_events == most_events) return
       n_events = n_events + 1
-      events(1, n_events) = event
-      events(2:3, n_events) = y(n + 1:n + 2)
-      events(4:, n_events) = y(:n)
+      events(n_events) = branch_event_t(cycle_of(y), int(event, c_int32_t))
     end subroutine add_event
+
+    pure function cycle_of(y)
+      real(dp), intent(in) :: y(:)
+      real(dp) :: cycle_of(UNKNOWNS)
+
+      cycle_of(:n + 2) = y(:n + 2)
+      cycle_of(n + 3:) = 0
+    end function cycle_of
   end function branch
 
   !> The cycle near the start, with a tangent in the direction of growing place; or the fold at the start, with that to one side.

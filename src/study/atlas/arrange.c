@@ -83,7 +83,7 @@ static int roots_of(const double *p, double target, double *root) {
 
 /* Which end of a step determines the side, at a point with this normal form. At a cusp a fold turns back with its side. It goes straight on where its side
  * changes at a place without a drive: from there two folds begin on either side, between which a rotation is held. */
-static const double *side_of(const kz_atlas_kind *kind, const double *a, const double *b, double form) {
+static const double *side_of(const kz_cycle_kind *kind, const double *a, const double *b, double form) {
   const double *ta = a + KZ_ROW_TANGENT, *tb = b + KZ_ROW_TANGENT;
   const bool changes = kind->of.multiplier > 0 && a[KZ_ROW_FORM] * b[KZ_ROW_FORM] < 0 && ta[0] * tb[0] + ta[1] * tb[1] > 0;
   if (changes) return (form > 0) == (a[KZ_ROW_FORM] > 0) ? a : b;
@@ -126,7 +126,7 @@ static void cross(kz_atlas *atlas, int64_t number, int64_t row, int axis, double
                                   .share = s};
     add(crossings, crossing);
     if (curve->kind.of.multiplier > 0 || form <= 0) continue;
-    const kz_atlas_kind child = kz_child_kind(&curve->kind);
+    const kz_cycle_kind child = kz_child_kind(&curve->kind);
     if (kz_kind_period(&child) > atlas->scene->atlas->max_period) continue;
     const kz_atlas_class grown = kz_atlas_class_of(&child);
     crossing.class = kz_atlas_class_number(atlas, &grown);
@@ -154,11 +154,11 @@ void kz_atlas_crossings_of(kz_atlas *atlas, int axis, double target, bool classe
 }
 
 bool kz_atlas_crossing_point(const kz_atlas *atlas, int axis, double value, const kz_atlas_crossing *crossing,
-                             kz_atlas_seed *at) {
+                             kz_plane_cycle *at) {
   kz_atlas_curve *curve = atlas->curve + crossing->curve;
   const int n = 2 * curve->kind.of.points;
   const double along[2] = {axis == 0, axis == 1};
-  *at = (kz_atlas_seed){.kind = curve->kind};
+  *at = (kz_plane_cycle){.kind = curve->kind};
   for (int i = 0; i < 2 && !curve->signature; i++) kz_atlas_complete(atlas, curve, crossing->row + i);
   kz_atlas_between(curve, crossing->row, crossing->share, at->y);
   at->y[n + axis] = crossing->at;

@@ -37,12 +37,12 @@ enum { X, Y, THETA, VELOCITY, FORM, SIDE_X, SIDE_Y, TANGENT_X, TANGENT_Y, POINT_
 static const char *const POINT[POINT_COLUMNS] = {"x",      "y",      "strobe_theta", "strobe_velocity", "normal_form",
                                                  "side_x", "side_y", "tangent_x",    "tangent_y"};
 
-static kz_atlas_kind kind_of(const columns *c, int64_t i) {
+static kz_cycle_kind kind_of(const columns *c, int64_t i) {
   const int kind = (int)c->of[KIND][i], period = (int)c->of[PERIOD][i], inverted = c->of[CENTRE][i] == KZ_ABOUT_INVERTED;
   const bool symmetric = c->of[SYMMETRIC][i] != 0;
-  if (kind == KZ_CURVE_REST_SWINGS) return (kz_atlas_kind){{1, 1, -1, 0, 0}, inverted};
-  if (kind == KZ_CURVE_REST_LEANS) return (kz_atlas_kind){{-1, 1, -1, inverted, 0}, inverted};
-  return (kz_atlas_kind){{symmetric ? -1 : 1, symmetric ? (period + 1) / 2 : period, kind == KZ_CURVE_FOLD ? 1 : -1,
+  if (kind == KZ_CURVE_REST_SWINGS) return (kz_cycle_kind){{1, 1, -1, 0, 0}, inverted};
+  if (kind == KZ_CURVE_REST_LEANS) return (kz_cycle_kind){{-1, 1, -1, inverted, 0}, inverted};
+  return (kz_cycle_kind){{symmetric ? -1 : 1, symmetric ? (period + 1) / 2 : period, kind == KZ_CURVE_FOLD ? 1 : -1,
                           symmetric ? inverted : (int32_t)c->of[WINDING][i], 0, symmetric && period % 2},
                          -1};
 }

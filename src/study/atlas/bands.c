@@ -11,7 +11,7 @@ static const double NARROW = 1e-5, REACH = 4, BLURRED = 1e-5;
 /* In a narrow band the map is Henon's, x' = a - x^2 - D x_before, with the determinant D. A pair of cycles is born with the trace 1 + D, and the trace falls by 2 sqrt(a) to
  * -(1 + D) while a grows by (1 + D)^2. There it falls by 1/(1 + D) for each a, and the fold's coefficient times its gradient is 1/(1 - D)^2. So
  * both edges give the width. */
-double kz_atlas_band(const kz_atlas_kind *kind, double d, double form, double gradient) {
+double kz_atlas_band(const kz_cycle_kind *kind, double d, double form, double gradient) {
   const double ratio = (1 + d) / (1 - d);
   return kind->of.multiplier > 0 ? ratio * ratio / (gradient * fabs(form)) : (1 + d) / gradient;
 }

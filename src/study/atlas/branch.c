@@ -16,7 +16,7 @@ kz_status kz_atlas_place(const kz_atlas *atlas, int axis, double value, double *
 }
 
 /* Those of the half map are squared. */
-void kz_atlas_multipliers(const kz_atlas_kind *kind, const double number[2], double re[2], double im[2]) {
+void kz_atlas_multipliers(const kz_cycle_kind *kind, const double number[2], double re[2], double im[2]) {
   const double half = number[0] / 2, root = half * half - number[1];
   const double large = half + (half < 0 ? -1 : 1) * sqrt(fmax(root, 0)), imaginary = sqrt(fmax(-root, 0));
   const bool squared = kind->of.side < 0 && kind->rest < 0;
@@ -27,45 +27,47 @@ void kz_atlas_multipliers(const kz_atlas_kind *kind, const double number[2], dou
   }
 }
 
-/* The columns of a point of a branch: place, and points of the cycle. */
-static void put_point(const kz_atlas *atlas, int axis, const kz_atlas_kind *kind, const double *place, const double *state,
-                      double multiplier, kz_atlas_branches *line) {
+/* The columns of a point of a branch: points of the cycle, and its place. */
+static void put_point(const kz_atlas *atlas, int axis, const kz_cycle_kind *kind, const double *y, double multiplier,
+                      kz_atlas_branches *line) {
   double *to = line->point[line->n_points++], value[2], cosine = 0, point[4 * KZ_CURVE_POINTS];
-  const int points = kz_atlas_points(atlas, kind, place, state, point);
+  const double *place = y + 2 * kind->of.points;
+  const int points = kz_atlas_points(atlas, kind, place, y, point);
   kz_atlas_values(atlas->scene->atlas, place, value);
   for (int p = 0; p < points; p++) cosine += cos(point[2 * p]);
   to[KZ_LINE_VALUE] = value[axis];
   to[KZ_LINE_HEIGHT] = -cosine / points;
-  to[KZ_LINE_THETA] = remainder(state[0], 2 * M_PI);
-  to[KZ_LINE_VELOCITY] = state[1];
+  to[KZ_LINE_THETA] = remainder(y[0], 2 * M_PI);
+  to[KZ_LINE_VELOCITY] = y[1];
   to[KZ_LINE_MULTIPLIER] = multiplier;
 }
 
-static double largest_multiplier(const kz_atlas_kind *kind, const double number[2]) {
+static double largest_multiplier(const kz_cycle_kind *kind, const double number[2]) {
   double re[2], im[2];
   kz_atlas_multipliers(kind, number, re, im);
   return fmax(hypot(re[0], im[0]), hypot(re[1], im[1]));
 }
 
 /* Whether an event, one with a multiplier of 1 or -1, lies between two rows: by trace and determinant of both. */
-static bool lies_between(double event, const double *a, const double *b) {
+static bool lies_between(kz_event event, const double a[2], const double b[2]) {
   const double sign = event == KZ_EVENT_FOLD ? -1 : 1;
-  return event <= KZ_EVENT_FLIP && (1 + a[3] + sign * a[2] > 0) != (1 + b[3] + sign * b[2] > 0);
+  return event <= KZ_EVENT_FLIP && (1 + a[1] + sign * a[0] > 0) != (1 + b[1] + sign * b[0] > 0);
 }
 
-void kz_atlas_draw(const kz_atlas *atlas, int axis, const kz_atlas_kind *kind, const kz_atlas_branch_rows *rows,
+void kz_atlas_draw(const kz_atlas *atlas, int axis, const kz_cycle_kind *kind, const kz_atlas_branch_rows *rows,
                    kz_atlas_branches *line) {
   const kz_atlas_class class = kz_atlas_class_of(kind);
-  const int points = kind->of.points, width = 4 + 2 * points;
-  const double *row = rows->row, *event = rows->event, *last = event + rows->n_events * (3 + 2 * points);
+  const kz_branch_row *row = rows->row;
+  const kz_branch_event *event = rows->event, *last = event + rows->n_events;
   kz_atlas_branch branch = {.of = kz_atlas_described(atlas, &class), .first = line->n_points};
   if (rows->n < 2) return;
   line->point = kz_realloc(line->point, (size_t)(line->n_points + rows->n + rows->n_events) * sizeof *line->point);
-  for (int64_t i = 0; i < rows->n; i++, row += width) {
-    for (; i > 0 && event < last && (event[0] > KZ_EVENT_FLIP || lies_between(event[0], row - width, row));
-         event += 3 + 2 * points)
-      if (event[0] <= KZ_EVENT_FLIP) put_point(atlas, axis, kind, event + 1, event + 3, 1, line);
-    put_point(atlas, axis, kind, row, row + 4, largest_multiplier(kind, row + 2), line);
+  for (int64_t i = 0; i < rows->n; i++) {
+    for (;
+         i > 0 && event < last && (event->what > KZ_EVENT_FLIP || lies_between(event->what, row[i - 1].number, row[i].number));
+         event++)
+      if (event->what <= KZ_EVENT_FLIP) put_point(atlas, axis, kind, event->y, 1, line);
+    put_point(atlas, axis, kind, row[i].y, largest_multiplier(kind, row[i].number), line);
   }
   branch.points = line->n_points - branch.first;
   line->branch = kz_list_reserve(line->branch, &line->capacity, line->count + 1, sizeof *line->branch);

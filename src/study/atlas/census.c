@@ -54,7 +54,7 @@ static bool has_cycle(const kz_atlas *atlas, const double place[2], const kz_atl
 /* A cycle of kz_dynamics_search_line joins those of a tile, unless it is there already. */
 static void join_cycle(const kz_atlas *atlas, const double place[2], const double *found, kz_atlas_seeds *cycles) {
   const int n = (int)found[0];
-  kz_atlas_seed cycle = {.kind = {{1, n, 0, 0, 0}, -1}};
+  kz_plane_cycle cycle = {.kind = {{1, n, 0, 0, 0}, -1}};
   for (int i = 0; i < n; i++) cycle.y[2 * i] = M_PI * found[2 + 2 * i], cycle.y[2 * i + 1] = found[3 + 2 * i];
   memcpy(cycle.y + 2 * n, place, 2 * sizeof *cycle.y);
   if (!has_cycle(atlas, place, cycles, n, cycle.y)) kz_atlas_put(cycles, &cycle);
@@ -128,10 +128,10 @@ static kz_status births_tile(void *context, int64_t tile, void *record) {
   const census *c = context;
   KZ_FREED_BY(kz_atlas_seeds_free) kz_atlas_seeds births = {0};
   for (int64_t i = 0; i < c->tile[tile].count; i++) {
-    const kz_atlas_seed *found = c->tile[tile].list + i;
+    const kz_plane_cycle *found = c->tile[tile].list + i;
     const int n = found->kind.of.points;
     const bool is_raw = found->kind.of.side > 0 && found->kind.rest < 0; /* the search does not look at symmetries */
-    kz_atlas_seed cycle = *found;
+    kz_plane_cycle cycle = *found;
     if (!is_raw || kz_atlas_identify(c->atlas, found->y + 2 * n, found->y, n, STEEPEST[0], &cycle))
       kz_atlas_explore_first(c->atlas, &cycle, &births);
   }
@@ -139,7 +139,7 @@ static kz_status births_tile(void *context, int64_t tile, void *record) {
   return KZ_OK;
 }
 
-double kz_atlas_band_at(const kz_atlas *atlas, const kz_atlas_seed *at) {
+double kz_atlas_band_at(const kz_atlas *atlas, const kz_plane_cycle *at) {
   double form, side[2], vector[2];
   kz_pendulum pendulum;
   if (!kz_atlas_pendulum(atlas->scene, at->y + 2 * at->kind.of.points, &pendulum) ||

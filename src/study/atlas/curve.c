@@ -49,7 +49,7 @@ void kz_atlas_between(const kz_atlas_curve *curve, int64_t row, double share, do
 }
 
 /* One direction of a curve: its rows, and its special points, of which *n_special are there already. */
-static int64_t trace_side(const kz_atlas *atlas, const kz_atlas_seed *seed, int32_t direction, double *row, double *special,
+static int64_t trace_side(const kz_atlas *atlas, const kz_plane_cycle *seed, int32_t direction, double *row, double *special,
                           int64_t *n_special, int32_t *ending) {
   int64_t more;
   const int64_t n = kz_curve_trace(&atlas->plane, &seed->kind.of, seed->y, direction, atlas->longest, MOST_ROWS, row,
@@ -59,7 +59,7 @@ static int64_t trace_side(const kz_atlas *atlas, const kz_atlas_seed *seed, int3
   return n;
 }
 
-static void trace_both(const kz_atlas *atlas, const kz_atlas_seed *seed, kz_atlas_curve *curve) {
+static void trace_both(const kz_atlas *atlas, const kz_plane_cycle *seed, kz_atlas_curve *curve) {
   const int64_t width = kz_atlas_width(&seed->kind), special_width = KZ_SPECIAL_POINTS + 2 * seed->kind.of.points;
   KZ_FREED double *back = kz_malloc(MOST_ROWS * (size_t)width * sizeof *back);
   KZ_FREED double *on = kz_malloc(MOST_ROWS * (size_t)width * sizeof *on);
@@ -83,11 +83,11 @@ static void trace_both(const kz_atlas *atlas, const kz_atlas_seed *seed, kz_atla
 }
 
 /* The seed may lie beside a curve of shorter cycles: that curve is traced then. As a longer cycle its points have few digits. */
-void kz_atlas_trace(const kz_atlas *atlas, const kz_atlas_seed *seed, kz_atlas_curve *curve) {
+void kz_atlas_trace(const kz_atlas *atlas, const kz_plane_cycle *seed, kz_atlas_curve *curve) {
   kz_atlas_seeds one = {0};
   trace_both(atlas, seed, curve);
   if (curve->n == 0 || seed->kind.rest >= 0) return;
-  kz_atlas_seed middle = {.kind = seed->kind};
+  kz_plane_cycle middle = {.kind = seed->kind};
   kz_atlas_point_of(curve, curve->n / 2, middle.y);
   if (!kz_atlas_reduce(atlas, BLURRED, &middle.kind, middle.y)) return;
   kz_atlas_curve_free(curve);
@@ -103,7 +103,7 @@ void kz_atlas_trace(const kz_atlas *atlas, const kz_atlas_seed *seed, kz_atlas_c
 }
 
 /* A cycle that is not its own image half a period later has other strobe points than this: both count. */
-static void signature_of(const kz_atlas *atlas, const kz_atlas_kind *kind, const double *place, const double *y,
+static void signature_of(const kz_atlas *atlas, const kz_cycle_kind *kind, const double *place, const double *y,
                          double *signature) {
   double cosine = 0, energy = 0, both = 0, point[4 * KZ_CURVE_POINTS];
   int n = atlas->plane.half_period ? kz_atlas_points(atlas, kind, place, y, point) : kind->of.points;
@@ -130,7 +130,7 @@ void kz_atlas_sign(const kz_atlas *atlas, kz_atlas_curve *curve) {
 
 /* Whether a point lies on a step of a curve: Newton's method, begun at the step's own cycle at that place, ends at the point. */
 static bool is_of_step(const kz_atlas *atlas, const kz_atlas_curve *curve, int64_t row, double share,
-                       const kz_atlas_seed *seed) {
+                       const kz_plane_cycle *seed) {
   const int n = 2 * curve->kind.of.points;
   const double *a = curve->row + row * kz_atlas_width(&curve->kind), *b = a + kz_atlas_width(&curve->kind);
   const double step[2] = {b[0] - a[0], b[1] - a[1]};
@@ -138,7 +138,7 @@ static bool is_of_step(const kz_atlas *atlas, const kz_atlas_curve *curve, int64
   double y[KZ_ATLAS_UNKNOWNS], at_image[2];
   kz_atlas_between(curve, row, share, y);
   memcpy(y + n, seed->y + n, 2 * sizeof *y);
-  kz_atlas_seed found = {.kind = curve->kind};
+  kz_plane_cycle found = {.kind = curve->kind};
   if (!kz_curve_locate(&atlas->plane, &curve->kind.of, y, along)) return false;
   memcpy(found.y, y, ((size_t)n + 2) * sizeof *y);
   const double *image = kz_atlas_image_state(atlas, seed->y + n, seed->y, at_image) ? at_image : NULL;
@@ -146,7 +146,7 @@ static bool is_of_step(const kz_atlas *atlas, const kz_atlas_curve *curve, int64
 }
 
 /* Whether a point lies on a curve. */
-static bool is_on(const kz_atlas *atlas, const kz_atlas_curve *curve, const kz_atlas_seed *seed, const double *signature) {
+static bool is_on(const kz_atlas *atlas, const kz_atlas_curve *curve, const kz_plane_cycle *seed, const double *signature) {
   for (int64_t i = 0; i + 1 < curve->n; i++) {
     const double *a = curve->signature[i], *b = curve->signature[i + 1];
     double length = 1e-30, along = 0, off = 0;
@@ -165,11 +165,11 @@ static bool is_on(const kz_atlas *atlas, const kz_atlas_curve *curve, const kz_a
   return false;
 }
 
-static bool is_alike(const kz_atlas_kind *a, const kz_atlas_kind *b) {
+static bool is_alike(const kz_cycle_kind *a, const kz_cycle_kind *b) {
   return !memcmp(a, b, sizeof *a);
 }
 
-int64_t kz_atlas_known(const kz_atlas *atlas, const kz_atlas_seed *seed) {
+int64_t kz_atlas_known(const kz_atlas *atlas, const kz_plane_cycle *seed) {
   double signature[KZ_SIGNATURE];
   signature_of(atlas, &seed->kind, seed->y + 2 * seed->kind.of.points, seed->y, signature);
   for (int64_t i = 0; i < atlas->n_curves; i++)
@@ -180,7 +180,7 @@ int64_t kz_atlas_known(const kz_atlas *atlas, const kz_atlas_seed *seed) {
 /* Of some points of a curve, how many lie on another one. */
 static int64_t common(const kz_atlas *atlas, const kz_atlas_curve *curve, const kz_atlas_curve *other, int64_t *tried) {
   const int64_t step = curve->n > SAMPLES ? curve->n / SAMPLES : 1;
-  kz_atlas_seed at = {.kind = curve->kind};
+  kz_plane_cycle at = {.kind = curve->kind};
   int64_t on = 0;
   *tried = 0;
   for (int64_t row = 0; row < curve->n; row += step, ++*tried) {

@@ -8,7 +8,7 @@
 /* rad: two states nearer than this are one; a cycle this near to rest is rest. */
 static const double ONE = 1e-5, AT_REST = 1e-9;
 
-kz_atlas_class kz_atlas_class_of(const kz_atlas_kind *kind) {
+kz_atlas_class kz_atlas_class_of(const kz_cycle_kind *kind) {
   if (kind->rest >= 0) return (kz_atlas_class){KZ_CLASS_REST, 1, kind->rest};
   return (kz_atlas_class){kind->of.side > 0 ? KZ_CLASS_OTHER : KZ_CLASS_SYMMETRIC, kz_kind_period(kind), kind->of.turns};
 }
@@ -19,7 +19,7 @@ kz_atlas_class kz_atlas_class_with(const kz_atlas *atlas, bool symmetric, int32_
   return (kz_atlas_class){type, period, centre == KZ_ABOUT_INVERTED};
 }
 
-bool kz_atlas_is_of(const kz_atlas_kind *kind, const kz_atlas_class *class) {
+bool kz_atlas_is_of(const kz_cycle_kind *kind, const kz_atlas_class *class) {
   const kz_atlas_class own = kz_atlas_class_of(kind);
   return !memcmp(&own, class, sizeof own);
 }
@@ -68,7 +68,7 @@ bool kz_atlas_image_state(const kz_atlas *atlas, const double place[2], const do
   return true;
 }
 
-int kz_atlas_points(const kz_atlas *atlas, const kz_atlas_kind *kind, const double place[2], const double *y, double *point) {
+int kz_atlas_points(const kz_atlas *atlas, const kz_cycle_kind *kind, const double place[2], const double *y, double *point) {
   const int n = kind->of.points, period = kz_kind_period(kind);
   memcpy(point, y, 2 * (size_t)n * sizeof *point);
   for (int i = n; i < period; i++)
@@ -77,7 +77,7 @@ int kz_atlas_points(const kz_atlas *atlas, const kz_atlas_kind *kind, const doub
 }
 
 /* The points that a symmetric cycle leaves out are images of others. */
-bool kz_atlas_same(const kz_atlas_seed *cycle, const double *state, const double *image, double near) {
+bool kz_atlas_same(const kz_plane_cycle *cycle, const double *state, const double *image, double near) {
   for (int i = 0; i < cycle->kind.of.points; i++)
     if (kz_atlas_apart(cycle->y + 2 * i, state, 1) < near || (image && kz_atlas_apart(cycle->y + 2 * i, image, 1) < near))
       return true;
@@ -85,7 +85,7 @@ bool kz_atlas_same(const kz_atlas_seed *cycle, const double *state, const double
 }
 
 /* Whether the points of a cycle repeat themselves after a shift, as they are or mirrored. */
-static bool repeats(const kz_atlas_kind *kind, const double *y, int shift, double side, double near) {
+static bool repeats(const kz_cycle_kind *kind, const double *y, int shift, double side, double near) {
   const int n = kind->of.points;
   for (int i = 0; i < n; i++)
     if (kz_atlas_apart(y + 2 * i, y + 2 * ((i + shift) % n), i + shift < n ? side : side * kind->of.side) >= near) return false;
@@ -104,19 +104,19 @@ static bool is_on_its_curve(const kz_atlas *atlas, int power, kz_curve_kind *of,
 }
 
 /* Rest has its own kinds: on the map, multiplier -1; on the half map, multiplier -1, which is 1 of the map. */
-static kz_atlas_kind rest_of(const kz_atlas_kind *kind, const double *y) {
-  kz_atlas_kind rest = {kind->of, cos(y[0]) > 0 ? 0 : 1};
+static kz_cycle_kind rest_of(const kz_cycle_kind *kind, const double *y) {
+  kz_cycle_kind rest = {kind->of, cos(y[0]) > 0 ? 0 : 1};
   if (kind->of.multiplier > 0) rest.of.side = -kind->of.side, rest.of.multiplier = -1;
   rest.of.turns = rest.of.side > 0 ? 0 : rest.rest;
   return rest;
 }
 
 /* A point of a curve beside rest is one of rest's own curve where rest has that multiplier: Newton's method ends there beside it. */
-static bool is_rest(const kz_atlas *atlas, double near, const kz_atlas_kind *kind, const double *y) {
+static bool is_rest(const kz_atlas *atlas, double near, const kz_cycle_kind *kind, const double *y) {
   if (!atlas->plane.mirrored || kind->of.points != 1) return false;
   if (kind->rest >= 0) return kind->of.multiplier > 0; /* on the other map */
   if (hypot(sin(y[0]), y[1]) < AT_REST) return true;
-  kz_atlas_kind rest = rest_of(kind, y);
+  kz_cycle_kind rest = rest_of(kind, y);
   double point[4] = {M_PI * rest.rest, 0, y[2], y[3]};
   return kind->of.multiplier != 0 && hypot(sin(y[0]), y[1]) < near && is_on_its_curve(atlas, 1, &rest.of, point) &&
          rest.of.multiplier < 0;
@@ -124,7 +124,7 @@ static bool is_rest(const kz_atlas *atlas, double near, const kz_atlas_kind *kin
 
 /* Images run half a period later: the image of a cycle's first point is the point (q + 1) / 2 further if the cycle is its own image and has the odd
  * period q. */
-static bool reduce_to_image(const kz_atlas *atlas, double near, kz_atlas_kind *kind, double *y) {
+static bool reduce_to_image(const kz_atlas *atlas, double near, kz_cycle_kind *kind, double *y) {
   const int n = kind->of.points, period = kz_kind_period(kind);
   for (int q = 1; q <= period && atlas->plane.half_period; q += 2) {
     const int points = (q + 1) / 2, power = kind->of.side < 0 ? period / q : 2;
@@ -142,7 +142,7 @@ static bool reduce_to_image(const kz_atlas *atlas, double near, kz_atlas_kind *k
   return false;
 }
 
-bool kz_atlas_reduce(const kz_atlas *atlas, double near, kz_atlas_kind *kind, double *y) {
+bool kz_atlas_reduce(const kz_atlas *atlas, double near, kz_cycle_kind *kind, double *y) {
   const int n = kind->of.points;
   if (is_rest(atlas, near, kind, y)) {
     *kind = rest_of(kind, y);
@@ -169,7 +169,7 @@ bool kz_atlas_reduce(const kz_atlas *atlas, double near, kz_atlas_kind *kind, do
 }
 
 /* Angles from a point in [-pi, pi), of images that with positive turns, symmetric cycles about down or inverted. */
-static bool canonical(const kz_atlas *atlas, kz_atlas_kind *kind, double *y) {
+static bool canonical(const kz_atlas *atlas, kz_cycle_kind *kind, double *y) {
   const int n = 2 * kind->of.points;
   double lift = 2 * M_PI * floor(y[0] / (2 * M_PI) + 0.5);
   if (kind->of.side < 0) {
@@ -186,9 +186,9 @@ static bool canonical(const kz_atlas *atlas, kz_atlas_kind *kind, double *y) {
   return true;
 }
 
-bool kz_atlas_add(const kz_atlas *atlas, kz_atlas_kind kind, const double *y, kz_atlas_seeds *seeds) {
+bool kz_atlas_add(const kz_atlas *atlas, kz_cycle_kind kind, const double *y, kz_atlas_seeds *seeds) {
   const int n = 2 * kind.of.points;
-  kz_atlas_seed seed = {.kind = kind};
+  kz_plane_cycle seed = {.kind = kind};
   for (int i = 0; i < n + 2; i++) {
     if (!isfinite(y[i])) return false;
     seed.y[i] = y[i];
@@ -202,7 +202,7 @@ bool kz_atlas_add(const kz_atlas *atlas, kz_atlas_kind kind, const double *y, kz
   return true;
 }
 
-void kz_atlas_put(kz_atlas_seeds *seeds, const kz_atlas_seed *seed) {
+void kz_atlas_put(kz_atlas_seeds *seeds, const kz_plane_cycle *seed) {
   seeds->list = kz_list_reserve(seeds->list, &seeds->capacity, seeds->count + 1, sizeof *seeds->list);
   seeds->list[seeds->count++] = *seed;
 }

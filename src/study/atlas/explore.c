@@ -27,7 +27,7 @@ typedef struct {
 } line;
 
 /* Marks the crossing that a branch has met; what is no crossing becomes a seed. `child`: by the branch that begins there. */
-static void meet(const line *l, const kz_atlas_seed *seed, bool child) {
+static void meet(const line *l, const kz_plane_cycle *seed, bool child) {
   const double at = seed->y[2 * seed->kind.of.points + l->axis];
   const int64_t curve = kz_atlas_known(l->atlas, seed);
   int64_t nearest = -1;
@@ -42,16 +42,16 @@ static void meet(const line *l, const kz_atlas_seed *seed, bool child) {
 }
 
 /* Takes what a branch has met: to a line, or as a seed. */
-static void take(const kz_atlas *atlas, const line *l, kz_atlas_kind kind, const double *y, bool child, kz_atlas_seeds *seeds) {
+static void take(const kz_atlas *atlas, const line *l, kz_cycle_kind kind, const double *y, bool child, kz_atlas_seeds *seeds) {
   KZ_FREED_BY(kz_atlas_seeds_free) kz_atlas_seeds one = {0};
   if (!kz_atlas_add(atlas, kind, y, l ? &one : seeds) || !l) return;
   meet(l, one.list, child);
 }
 
 /* The cycle that a branch grows out of: which one, and the branch's own cycle near it. */
-static void add_parent(const kz_atlas *atlas, const line *l, int event, const kz_atlas_seed *cycle, const double along[2],
+static void add_parent(const kz_atlas *atlas, const line *l, kz_event event, const kz_plane_cycle *cycle, const double along[2],
                        kz_atlas_seeds *seeds) {
-  kz_atlas_seed parent;
+  kz_plane_cycle parent;
   if (kz_parent_of(&atlas->plane, event, cycle, &parent) && kz_curve_locate(&atlas->plane, &parent.kind.of, parent.y, along))
     take(atlas, l, parent.kind, parent.y, true, seeds);
 }
@@ -64,11 +64,10 @@ typedef struct {
 } route;
 
 /* Follows a cycle along a line and adds what it meets. */
-static void follow_to(const kz_atlas *atlas, const line *l, const kz_atlas_kind *kind, const double *start, const route *to,
+static void follow_to(const kz_atlas *atlas, const line *l, const kz_cycle_kind *kind, const double *start, const route *to,
                       kz_atlas_seeds *seeds) {
-  const int n = 2 * kind->of.points;
-  KZ_FREED double *row = kz_malloc(MOST_ROWS * (size_t)(4 + n) * sizeof *row);
-  KZ_FREED double *event = kz_malloc(MOST_EVENTS * (size_t)(3 + n) * sizeof *event);
+  KZ_FREED kz_branch_row *row = kz_malloc(MOST_ROWS * sizeof *row);
+  KZ_FREED kz_branch_event *event = kz_malloc(MOST_EVENTS * sizeof *event);
   kz_atlas_branch_rows rows = {.row = row, .event = event};
   int32_t ending;
   if (kz_kind_period(kind) > atlas->scene->atlas->max_period) return;
@@ -76,20 +75,18 @@ static void follow_to(const kz_atlas *atlas, const line *l, const kz_atlas_kind 
                            &rows.n_events, &ending);
   if (l && l->drawn) kz_atlas_draw(atlas, l->axis, kind, &rows, l->drawn);
   for (int64_t i = 0; i < rows.n_events; i++) {
-    const double *e = event + i * (3 + n);
-    kz_atlas_seed at = {.kind = *kind};
-    memcpy(at.y, e + 3, (size_t)n * sizeof *at.y);
-    at.y[n] = e[1], at.y[n + 1] = e[2];
-    if (e[0] > KZ_EVENT_FLIP) {
-      add_parent(atlas, l, (int)e[0], &at, to->along, seeds);
+    kz_plane_cycle at = {.kind = *kind};
+    memcpy(at.y, event[i].y, sizeof at.y);
+    if (event[i].what > KZ_EVENT_FLIP) {
+      add_parent(atlas, l, event[i].what, &at, to->along, seeds);
       continue;
     }
-    at.kind.of.multiplier = e[0] == KZ_EVENT_FOLD ? 1 : -1;
+    at.kind.of.multiplier = event[i].what == KZ_EVENT_FOLD ? 1 : -1;
     take(atlas, l, at.kind, at.y, false, seeds);
   }
 }
 
-static void follow(const kz_atlas *atlas, const line *l, const kz_atlas_kind *kind, const double *start, const double along[2],
+static void follow(const kz_atlas *atlas, const line *l, const kz_cycle_kind *kind, const double *start, const double along[2],
                    int32_t side, kz_atlas_seeds *seeds) {
   follow_to(atlas, l, kind, start, &(route){{along[0], along[1]}, side, MOST_EVENTS}, seeds);
 }
@@ -100,7 +97,7 @@ static void direction(int i, double along[2]) {
   along[0] = x[i], along[1] = y[i];
 }
 
-void kz_atlas_explore_first(const kz_atlas *atlas, const kz_atlas_seed *cycle, kz_atlas_seeds *seeds) {
+void kz_atlas_explore_first(const kz_atlas *atlas, const kz_plane_cycle *cycle, kz_atlas_seeds *seeds) {
   const int64_t before = seeds->count;
   for (int i = 3; i >= 0 && seeds->count == before; i--) {
     route to = {.most = 1};
@@ -110,22 +107,22 @@ void kz_atlas_explore_first(const kz_atlas *atlas, const kz_atlas_seed *cycle, k
 }
 
 /* Both branches of a fold along an axis. */
-static void explore_fold(const kz_atlas *atlas, const line *l, const kz_atlas_kind *kind, const double *at, int axis,
+static void explore_fold(const kz_atlas *atlas, const line *l, const kz_cycle_kind *kind, const double *at, int axis,
                          kz_atlas_seeds *seeds) {
   const double along[2] = {axis == 0, axis == 1};
   for (int side = -1; side <= 1; side += 2) follow(atlas, l, kind, at, along, side, seeds);
 }
 
-bool kz_atlas_grown(const kz_atlas *atlas, const kz_atlas_seed *flip, int axis, kz_atlas_seed *child, double along[2]) {
-  const kz_atlas_kind kind = kz_child_kind(&flip->kind);
+bool kz_atlas_grown(const kz_atlas *atlas, const kz_plane_cycle *flip, int axis, kz_plane_cycle *child, double along[2]) {
+  const kz_cycle_kind kind = kz_child_kind(&flip->kind);
   return kz_kind_period(&kind) <= atlas->scene->atlas->max_period && kz_child_of(&atlas->plane, flip, axis, child, along);
 }
 
 /* The cycle to both sides along an axis, if `itself`, and what branches off, if `grown`. */
-static void explore_flip(const kz_atlas *atlas, const line *l, const kz_atlas_seed *flip, int axis, bool itself, bool grown,
+static void explore_flip(const kz_atlas *atlas, const line *l, const kz_plane_cycle *flip, int axis, bool itself, bool grown,
                          kz_atlas_seeds *seeds) {
   double along[2] = {0};
-  kz_atlas_seed child;
+  kz_plane_cycle child;
   for (int sign = -1; sign <= 1 && itself; sign += 2) {
     along[axis] = sign;
     follow(atlas, l, &flip->kind, flip->y, along, 0, seeds);
@@ -134,7 +131,7 @@ static void explore_flip(const kz_atlas *atlas, const line *l, const kz_atlas_se
 }
 
 /* Everything that branches off a point of a curve along an axis. */
-static void explore_at(const kz_atlas *atlas, const line *l, const kz_atlas_seed *at, int axis, bool itself, bool grown,
+static void explore_at(const kz_atlas *atlas, const line *l, const kz_plane_cycle *at, int axis, bool itself, bool grown,
                        kz_atlas_seeds *seeds) {
   double form, side[2], vector[2];
   if (!kz_curve_form(&atlas->plane, &at->kind.of, at->y, &form, side, vector) || form == 0 || fabs(side[axis]) < FLAT) return;
@@ -147,7 +144,7 @@ static void explore_at(const kz_atlas *atlas, const line *l, const kz_atlas_seed
 /* A fold of what branches off begins where the normal form of a curve with multiplier -1 is 0: explored beside, where it is < 0. */
 static void explore_degenerate(const kz_atlas *atlas, const kz_atlas_curve *curve, kz_atlas_seeds *seeds) {
   enum { AWAY = 2 };
-  kz_atlas_seed at = {.kind = curve->kind};
+  kz_plane_cycle at = {.kind = curve->kind};
   const int64_t width = kz_atlas_width(&curve->kind);
   for (int64_t row = 0; row + 1 < curve->n && curve->kind.of.multiplier < 0; row++) {
     const double a = curve->row[row * width + KZ_ROW_FORM], b = curve->row[(row + 1) * width + KZ_ROW_FORM];
@@ -183,7 +180,7 @@ static bool has_image(const kz_atlas *atlas, const kz_atlas_curve *curve, int64_
 
 /* The images half a period later of each piece of a curve that has one in the rectangle. */
 static void explore_images(const kz_atlas *atlas, const kz_atlas_curve *curve, kz_atlas_seeds *seeds) {
-  kz_atlas_seed at = {.kind = curve->kind};
+  kz_plane_cycle at = {.kind = curve->kind};
   for (int64_t first = 0, end; first < curve->n && atlas->turned && curve->kind.rest < 0; first = end + 1) {
     for (end = first; end < curve->n && has_image(atlas, curve, end);) end++;
     for (int64_t i = 0; i < IMAGES && end > first; i++) {
@@ -195,7 +192,7 @@ static void explore_images(const kz_atlas *atlas, const kz_atlas_curve *curve, k
 
 /* The mirror images of a curve where the mirror symmetry is broken: elsewhere they are the curve itself. */
 static void explore_mirrored(const kz_atlas *atlas, const kz_atlas_curve *curve, kz_atlas_seeds *seeds) {
-  kz_atlas_seed at = {.kind = curve->kind};
+  kz_plane_cycle at = {.kind = curve->kind};
   for (int64_t i = 0; i < IMAGES && curve->n > 0 && !kz_atlas_paired(atlas); i++) {
     kz_atlas_point_of(curve, (2 * i + 1) * curve->n / (2 * IMAGES), at.y);
     kz_atlas_explore_mirrored(atlas, &at.kind, at.y, seeds);
@@ -203,7 +200,7 @@ static void explore_mirrored(const kz_atlas *atlas, const kz_atlas_curve *curve,
 }
 
 void kz_atlas_explore_curve(const kz_atlas *atlas, const kz_atlas_curve *curve, bool middle, kz_atlas_seeds *seeds) {
-  kz_atlas_seed at = {.kind = curve->kind};
+  kz_plane_cycle at = {.kind = curve->kind};
   kz_atlas_point_of(curve, middle_of(curve), at.y);
   for (int axis = 0; axis < 2 && middle; axis++) explore_at(atlas, NULL, &at, axis, true, true, seeds);
   explore_images(atlas, curve, seeds);
@@ -215,7 +212,7 @@ void kz_atlas_explore_curve(const kz_atlas *atlas, const kz_atlas_curve *curve, 
 static void follow_rest(const line *l, double value) {
   const double along[2] = {l->axis == 0, l->axis == 1};
   for (int32_t rest = 0; rest < 2 && l->atlas->plane.mirrored; rest++) {
-    const kz_atlas_kind kind = {{1, 1, 0, 0, 0}, rest};
+    const kz_cycle_kind kind = {{1, 1, 0, 0, 0}, rest};
     const double start[] = {M_PI * rest, 0, along[1] * value, along[0] * value};
     follow(l->atlas, l, &kind, start, along, 0, l->seeds);
   }
@@ -224,7 +221,7 @@ static void follow_rest(const line *l, double value) {
 void kz_atlas_explore_line(kz_atlas *atlas, int axis, double value, int64_t first, kz_atlas_seeds *seeds,
                            kz_atlas_branches *drawn) {
   line l = {.atlas = atlas, .axis = axis, .seeds = seeds, .drawn = drawn};
-  kz_atlas_seed at;
+  kz_plane_cycle at;
   kz_atlas_crossings_of(atlas, 1 - axis, value, false, &l.crossings);
   KZ_FREED bool *itself = kz_calloc((size_t)l.crossings.count + 1, 1);
   KZ_FREED bool *child = kz_calloc((size_t)l.crossings.count + 1, 1);
@@ -232,7 +229,7 @@ void kz_atlas_explore_line(kz_atlas *atlas, int axis, double value, int64_t firs
   if (drawn) follow_rest(&l, value);
   for (int64_t i = 0; i < l.crossings.count; i++) {
     const kz_atlas_crossing *crossing = l.crossings.list + i;
-    const kz_atlas_kind *kind = &atlas->curve[crossing->curve].kind;
+    const kz_cycle_kind *kind = &atlas->curve[crossing->curve].kind;
     const double share = crossing->at;
     if (crossing->curve < first || share < 0 || share > 1 || (itself[i] && (child[i] || kind->of.multiplier > 0))) continue;
     if (kz_atlas_crossing_point(atlas, axis, value, crossing, &at))

@@ -21,7 +21,7 @@ static const double OFFSET = 0.4142;
 typedef struct {
   kz_atlas *atlas;
   int64_t n;
-  kz_atlas_seed *seed;
+  kz_plane_cycle *seed;
 } tracing;
 
 static kz_status trace_tile(void *context, int64_t tile, void *record) {
@@ -39,7 +39,7 @@ static void next_seeds(kz_atlas *atlas, tracing *t) {
   int64_t left = 0;
   t->n = 0;
   for (int64_t i = 0; i < pending->count; i++) {
-    const kz_atlas_seed seed = pending->list[i];
+    const kz_plane_cycle seed = pending->list[i];
     bool waits = false;
     if (kz_atlas_known(atlas, &seed) >= 0) continue;
     for (int64_t j = 0; j < t->n && !waits; j++) waits = !memcmp(&t->seed[j].kind, &seed.kind, sizeof seed.kind);
@@ -57,7 +57,7 @@ static int refusal_of(int32_t ending) {
 }
 
 static kz_status trace_pending(kz_atlas *atlas, const kz_run *run) {
-  KZ_FREED kz_atlas_seed *seed = kz_malloc((size_t)(atlas->pending.count + 1) * sizeof *seed);
+  KZ_FREED kz_plane_cycle *seed = kz_malloc((size_t)(atlas->pending.count + 1) * sizeof *seed);
   tracing t = {.atlas = atlas, .seed = seed};
   for (next_seeds(atlas, &t); t.n > 0; next_seeds(atlas, &t)) {
     KZ_FREED_BY(kz_atlas_bag_free) kz_atlas_bag traced = {0};
@@ -119,7 +119,7 @@ static kz_status explore_tile(void *context, int64_t tile, void *record) {
   return KZ_OK;
 }
 
-void kz_atlas_await(kz_atlas *atlas, const kz_atlas_seed *seed) {
+void kz_atlas_await(kz_atlas *atlas, const kz_plane_cycle *seed) {
   if (kz_atlas_known(atlas, seed) < 0) kz_atlas_add(atlas, seed->kind, seed->y, &atlas->pending);
 }
 

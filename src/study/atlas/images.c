@@ -11,15 +11,15 @@ enum { LINES = 80 };
 static const double NEAR = 1e-3, EDGE = 1e-6;
 
 /* The kind of the image at -k. */
-static kz_atlas_kind image_of(const kz_atlas_kind *kind) {
-  kz_atlas_kind image = *kind;
+static kz_cycle_kind image_of(const kz_cycle_kind *kind) {
+  kz_cycle_kind image = *kind;
   if (kind->rest >= 0) image.rest = 1 - kind->rest;
   if (kind->of.side < 0) image.of.turns = 1 - kind->of.turns;
   return image;
 }
 
 /* The point of a curve that Newton's method finds along an axis from the cycle `from` at a place becomes a seed. */
-static void add_beside(const kz_atlas *atlas, const kz_atlas_kind *kind, const double *from, const double place[2],
+static void add_beside(const kz_atlas *atlas, const kz_cycle_kind *kind, const double *from, const double place[2],
                        kz_atlas_seeds *seeds) {
   const int n = 2 * kind->of.points;
   for (int axis = 0; axis < 2; axis++) {
@@ -32,9 +32,9 @@ static void add_beside(const kz_atlas *atlas, const kz_atlas_kind *kind, const d
 }
 
 /* Each point of the cycle has its own image: an orbit from one of them would lose the digits by which the cycle repels. */
-void kz_atlas_explore_image(const kz_atlas *atlas, const kz_atlas_kind *kind, const double *at, kz_atlas_seeds *seeds) {
+void kz_atlas_explore_image(const kz_atlas *atlas, const kz_cycle_kind *kind, const double *at, kz_atlas_seeds *seeds) {
   const int n = kind->of.points;
-  const kz_atlas_kind image = image_of(kind);
+  const kz_cycle_kind image = image_of(kind);
   const double half_turn = M_PI * (kind->of.side < 0 ? image.of.turns - kind->of.turns : 1);
   double y[KZ_ATLAS_UNKNOWNS], place[2];
   if (!atlas->turned || kind->rest >= 0 || !kz_atlas_image(atlas, at + 2 * n, place)) return;
@@ -46,9 +46,9 @@ void kz_atlas_explore_image(const kz_atlas *atlas, const kz_atlas_kind *kind, co
   add_beside(atlas, &image, y, place, seeds);
 }
 
-void kz_atlas_explore_mirrored(const kz_atlas *atlas, const kz_atlas_kind *kind, const double *at, kz_atlas_seeds *seeds) {
+void kz_atlas_explore_mirrored(const kz_atlas *atlas, const kz_cycle_kind *kind, const double *at, kz_atlas_seeds *seeds) {
   const int n = 2 * kind->of.points;
-  kz_atlas_kind image = *kind;
+  kz_cycle_kind image = *kind;
   double y[KZ_ATLAS_UNKNOWNS];
   image.of.turns = -kind->of.turns;
   for (int i = 0; i < n; i++) y[i] = -at[i];
@@ -56,7 +56,7 @@ void kz_atlas_explore_mirrored(const kz_atlas *atlas, const kz_atlas_kind *kind,
 }
 
 /* Whether a line has a crossing with a curve of a kind at a value. */
-static bool has(const kz_atlas *atlas, const kz_atlas_crossings *crossings, const kz_atlas_kind *kind, double at) {
+static bool has(const kz_atlas *atlas, const kz_atlas_crossings *crossings, const kz_cycle_kind *kind, double at) {
   for (int64_t i = 0; i < crossings->count; i++) {
     const kz_atlas_crossing *other = crossings->list + i;
     if (!memcmp(&atlas->curve[other->curve].kind, kind, sizeof *kind) && fabs(other->at - at) < NEAR) return true;
@@ -68,8 +68,8 @@ static bool has(const kz_atlas *atlas, const kz_atlas_crossings *crossings, cons
 static void compare(kz_atlas *atlas, int axis, double value, const kz_atlas_crossings *here, const kz_atlas_crossings *there) {
   for (int64_t i = 0; i < here->count; i++) {
     const kz_atlas_crossing *crossing = here->list + i;
-    const kz_atlas_kind *kind = &atlas->curve[crossing->curve].kind, image = image_of(kind);
-    kz_atlas_seed at;
+    const kz_cycle_kind *kind = &atlas->curve[crossing->curve].kind, image = image_of(kind);
+    kz_plane_cycle at;
     if (crossing->at < EDGE || crossing->at > 1 - EDGE) continue;
     atlas->compared++;
     if (has(atlas, there, &image, crossing->at)) continue;

@@ -20,16 +20,16 @@ typedef struct {
   const double *place;
   kz_atlas_class class;
   int32_t wanted, found;
-  kz_atlas_seed *cycle; /* [found] */
-  double (*number)[2];  /* [found]: trace and determinant */
-  int64_t *curve;       /* [found] */
+  kz_plane_cycle *cycle; /* [found] */
+  double (*number)[2];   /* [found]: trace and determinant */
+  int64_t *curve;        /* [found] */
 } hunt;
 
 static bool attracts(const double number[2]) {
   return fabs(number[0]) < 1 + number[1];
 }
 
-static void take(hunt *h, const kz_atlas_seed *cycle, const double number[2], int64_t curve) {
+static void take(hunt *h, const kz_plane_cycle *cycle, const double number[2], int64_t curve) {
   double at_image[2];
   const double *image = kz_atlas_image_state(h->atlas, h->place, cycle->y, at_image) ? at_image : NULL;
   for (int32_t i = 0; i < h->found; i++)
@@ -40,11 +40,11 @@ static void take(hunt *h, const kz_atlas_seed *cycle, const double number[2], in
 }
 
 /* Follows a cycle along an axis to the place; true if it attracts on all of the way. side: 1 or -1: one of the branches of a fold. */
-static bool carry(const hunt *h, int axis, const kz_atlas_seed *from, int32_t side, kz_atlas_seed *to, double number[2]) {
-  const int n = 2 * from->kind.of.points, width = n + 4;
+static bool carry(const hunt *h, int axis, const kz_plane_cycle *from, int32_t side, kz_plane_cycle *to, double number[2]) {
+  const int n = 2 * from->kind.of.points;
   const double target = h->place[axis], sign = target > from->y[n + axis] ? 1 : -1;
   const double along[2] = {axis == 0 ? sign : 0, axis == 1 ? sign : 0};
-  KZ_FREED double *row = kz_malloc((size_t)(MOST_ROWS * width) * sizeof *row);
+  KZ_FREED kz_branch_row *row = kz_malloc(MOST_ROWS * sizeof *row);
   kz_plane plane = h->atlas->plane;
   int64_t events;
   int32_t ending;
@@ -53,12 +53,12 @@ static bool carry(const hunt *h, int axis, const kz_atlas_seed *from, int32_t si
                                        0, NULL, &events, &ending);
   if (rows < 2 || ending != KZ_TRACE_LEFT) return false;
   for (int64_t i = 1; i + 1 < rows; i++)
-    if (!attracts(row + i * width + 2)) return false;
-  const double *a = row + (rows - 2) * width, *b = a + width;
-  const double share = (target - a[axis]) / (b[axis] - a[axis]);
+    if (!attracts(row[i].number)) return false;
+  const double *a = row[rows - 2].y, *b = row[rows - 1].y;
+  const double share = (target - a[n + axis]) / (b[n + axis] - a[n + axis]);
   if (!(share >= 0 && share <= 1)) return false; /* it has left on the other side */
-  *to = (kz_atlas_seed){.kind = from->kind};
-  for (int i = 0; i < n; i++) to->y[i] = a[4 + i] + share * (b[4 + i] - a[4 + i]);
+  *to = (kz_plane_cycle){.kind = from->kind};
+  for (int i = 0; i < n; i++) to->y[i] = a[i] + share * (b[i] - a[i]);
   memcpy(to->y + n, h->place, 2 * sizeof *to->y);
   return kz_curve_solve(&h->atlas->plane, &to->kind.of, to->y, number) && attracts(number);
 }
@@ -67,7 +67,7 @@ static bool carry(const hunt *h, int axis, const kz_atlas_seed *from, int32_t si
 static void carry_from(hunt *h, int axis, const kz_atlas_crossing *crossing) {
   const kz_atlas_curve *curve = h->atlas->curve + crossing->curve;
   const bool is_own = kz_atlas_is_of(&curve->kind, &h->class);
-  kz_atlas_seed from, child, to;
+  kz_plane_cycle from, child, to;
   double number[2], along[2];
   if (!kz_atlas_crossing_point(h->atlas, axis, h->place[1 - axis], crossing, &from)) return;
   if (!is_own && !kz_atlas_grown(h->atlas, &from, axis, &child, along)) return;
@@ -95,7 +95,7 @@ static void hunt_along(hunt *h, int axis) {
 /* Attractors of the place that starts have found. */
 static void hunt_among(hunt *h, const kz_atlas_seeds *known) {
   for (int64_t i = 0; i < known->count && h->found < h->wanted; i++) {
-    kz_atlas_seed cycle = known->list[i];
+    kz_plane_cycle cycle = known->list[i];
     double number[2];
     if (kz_atlas_is_of(&cycle.kind, &h->class) && kz_curve_solve(&h->atlas->plane, &cycle.kind.of, cycle.y, number))
       take(h, &cycle, number, -1);
@@ -109,13 +109,13 @@ static void hunt_by_starts(hunt *h) {
 }
 
 static void hunt_rest(hunt *h) {
-  kz_atlas_seed rest = {{{1, 1, 0, 0, 0}, h->class.turns}, {M_PI * h->class.turns, 0, h->place[0], h->place[1]}};
+  kz_plane_cycle rest = {{{1, 1, 0, 0, 0}, h->class.turns}, {M_PI * h->class.turns, 0, h->place[0], h->place[1]}};
   double number[2];
   if (kz_curve_solve(&h->atlas->plane, &rest.kind.of, rest.y, number) && attracts(number)) take(h, &rest, number, -1);
 }
 
 static void set_state(const hunt *h, int32_t i, kz_motion *motion) {
-  const kz_atlas_seed *cycle = h->cycle + i;
+  const kz_plane_cycle *cycle = h->cycle + i;
   double point[4 * KZ_CURVE_POINTS];
   motion->curve = h->curve[i];
   motion->strobes = kz_atlas_points(h->atlas, &cycle->kind, h->place, cycle->y, point);
@@ -131,7 +131,7 @@ static void set_state(const hunt *h, int32_t i, kz_motion *motion) {
 static int32_t set_states(kz_atlas *atlas, const double place[2], const kz_atlas_class *class, int32_t wanted,
                           const kz_atlas_seeds *known, kz_motion *motion) {
   enum { CARRIED_AT_ONCE = 2 }; /* both branches of a fold may attract where both are carried */
-  KZ_FREED kz_atlas_seed *cycle = kz_malloc((size_t)(wanted + CARRIED_AT_ONCE) * sizeof *cycle);
+  KZ_FREED kz_plane_cycle *cycle = kz_malloc((size_t)(wanted + CARRIED_AT_ONCE) * sizeof *cycle);
   KZ_FREED double (*number)[2] = kz_malloc((size_t)(wanted + CARRIED_AT_ONCE) * sizeof *number);
   KZ_FREED int64_t *curve = kz_malloc((size_t)(wanted + CARRIED_AT_ONCE) * sizeof *curve);
   hunt h = {

@@ -16,8 +16,8 @@ static const double GUESSED = 0.1, ONE = 1e-6;
 static const double FASTEST = 2.5, FEWEST_PERIODS = 600, MOST_PERIODS = 6000;
 
 /* The kind of a cycle of period n whose points are y: rest, symmetric, or neither. */
-static kz_atlas_kind kind_of(const kz_atlas *atlas, int n, const double *y, const double *image) {
-  kz_atlas_kind kind = {{1, n, 0, (int32_t)rint((image[0] - y[0]) / (2 * M_PI)), 0}, -1};
+static kz_cycle_kind kind_of(const kz_atlas *atlas, int n, const double *y, const double *image) {
+  kz_cycle_kind kind = {{1, n, 0, (int32_t)rint((image[0] - y[0]) / (2 * M_PI)), 0}, -1};
   if (atlas->plane.half_period) {
     double point[KZ_ATLAS_UNKNOWNS];
     memcpy(point, y, (2 * (size_t)n + 2) * sizeof *point);
@@ -33,7 +33,7 @@ static kz_atlas_kind kind_of(const kz_atlas *atlas, int n, const double *y, cons
 
 /* The trace of the map of which a cycle is a fixed point, in that of a multiplier of 1: of the half map, whose square F^n is, by trace and
  * determinant of F^n. */
-static double steepness(const kz_atlas_kind *kind, const double numbers[2]) {
+static double steepness(const kz_cycle_kind *kind, const double numbers[2]) {
   if (kind->of.side > 0) return fabs(numbers[0]) / (1 + numbers[1]);
   const double half = sqrt(numbers[1]);
   return sqrt(fmax(0, numbers[0] + 2 * half)) / (1 + half);
@@ -52,7 +52,7 @@ static bool lift(const kz_plane *plane, const double place[2], int n, double *y,
 }
 
 bool kz_atlas_identify(const kz_atlas *atlas, const double place[2], const double *points, int n, double steepest,
-                       kz_atlas_seed *cycle) {
+                       kz_plane_cycle *cycle) {
   kz_curve_kind closed = {1, n, 0, 0, 0};
   double y[2 * KZ_CURVE_POINTS + 2], numbers[2], image[2];
   if (n > KZ_CURVE_POINTS) return false;
@@ -63,13 +63,13 @@ bool kz_atlas_identify(const kz_atlas *atlas, const double place[2], const doubl
   for (int d = 1; d < n; d++)
     if (n % d == 0 && kz_atlas_apart(y + 2 * d, y, 1) < ONE) return kz_atlas_identify(atlas, place, y, d, steepest, cycle);
   image[0] = y[0] + 2 * M_PI * closed.turns, image[1] = y[1];
-  const kz_atlas_kind kind = kind_of(atlas, n, y, image);
+  const kz_cycle_kind kind = kind_of(atlas, n, y, image);
   if (!(steepness(&kind, numbers) < steepest)) return false;
   kz_atlas_seeds one = {0};
   const int m = 2 * kind.of.points;
   y[m] = place[0], y[m + 1] = place[1];
   if (kind.rest >= 0)
-    *cycle = (kz_atlas_seed){kind, {M_PI * kind.rest, 0, place[0], place[1]}};
+    *cycle = (kz_plane_cycle){kind, {M_PI * kind.rest, 0, place[0], place[1]}};
   else if (kz_atlas_add(atlas, kind, y, &one))
     *cycle = one.list[0];
   else
@@ -100,7 +100,7 @@ static void add_known(const kz_atlas *atlas, const kz_dynamics *dynamics, const 
   for (int64_t number = 1; number <= kz_dynamics_count(dynamics); number++) {
     double theta[KZ_CURVE_POINTS], velocity[KZ_CURVE_POINTS], points[2 * KZ_CURVE_POINTS], at_image[2];
     kz_attractor row;
-    kz_atlas_seed cycle;
+    kz_plane_cycle cycle;
     bool known = false;
     kz_dynamics_attractor(dynamics, number, &row);
     if (row.period < 1 || row.period > KZ_CURVE_POINTS) continue;

@@ -11,4 +11,4 @@ kz_status kz_atlas_probe_at(const kz_atlas *atlas, const double place[2], int64_
 /* The cycle of n periods near n points, if the trace of its map, for a symmetric cycle of its half, is below `steepest` times that of a
  * multiplier of 1: 1 = it attracts. */
 bool kz_atlas_identify(const kz_atlas *atlas, const double place[2], const double *points, int n, double steepest,
-                       kz_atlas_seed *cycle);
+                       kz_plane_cycle *cycle);

@@ -61,14 +61,14 @@ void kz_atlas_put_seeds(const kz_atlas_seeds *seeds, void *record) {
 kz_atlas_seeds kz_atlas_seeds_in(const char *record) {
   seeds_head head;
   memcpy(&head, record, sizeof head);
-  return (kz_atlas_seeds){.count = (int64_t)((head.bytes - sizeof head) / sizeof(kz_atlas_seed)),
-                          .list = (kz_atlas_seed *)(void *)(record + sizeof head),
+  return (kz_atlas_seeds){.count = (int64_t)((head.bytes - sizeof head) / sizeof(kz_plane_cycle)),
+                          .list = (kz_plane_cycle *)(void *)(record + sizeof head),
                           .dropped = head.dropped};
 }
 
 typedef struct {
   uint64_t bytes;
-  kz_atlas_kind kind;
+  kz_cycle_kind kind;
   int32_t ending[2], unused;
   int64_t n, n_special;
 } curve_head;

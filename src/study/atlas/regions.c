@@ -21,7 +21,7 @@ void kz_atlas_order(kz_atlas *atlas) {
   kz_atlas_class *reference = kz_malloc(KZ_ATLAS_MOST_CLASSES * sizeof *reference);
   int32_t *counts = kz_malloc(KZ_ATLAS_MOST_CLASSES * sizeof *counts);
   for (int64_t i = 0; i < atlas->n_curves; i++) {
-    const kz_atlas_kind child = kz_child_kind(&atlas->curve[i].kind);
+    const kz_cycle_kind child = kz_child_kind(&atlas->curve[i].kind);
     const kz_atlas_class own = kz_atlas_class_of(&atlas->curve[i].kind), grown = kz_atlas_class_of(&child);
     kz_atlas_class_number(atlas, &own);
     if (atlas->curve[i].kind.of.multiplier < 0 && kz_kind_period(&child) <= atlas->scene->atlas->max_period)

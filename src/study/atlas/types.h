@@ -16,13 +16,10 @@
 #define KZ_ATLAS_BRANCH_STEP 0.03
 enum { KZ_ATLAS_UNKNOWNS = 2 * KZ_CURVE_POINTS + 2, KZ_ATLAS_MOST_CLASSES = 512 };
 
-/* Which cycles a curve is about; a cycle or a point of a curve from which one is traced. */
-typedef kz_cycle_kind kz_atlas_kind;
 typedef struct kz_atlas_plan kz_atlas_plan;
-typedef kz_plane_cycle kz_atlas_seed;
 typedef struct {
   int64_t count;
-  kz_atlas_seed *list;
+  kz_plane_cycle *list;
   int64_t capacity, dropped; /* dropped: those that a record had no room for */
 } kz_atlas_seeds;
 
@@ -38,7 +35,7 @@ enum { KZ_ATLAS_JOINED = KZ_TRACE_THIN + 1 };
 enum { KZ_ROW_PLACE = 0, KZ_ROW_TANGENT = 2, KZ_ROW_FORM = 4, KZ_ROW_SIDE = 5, KZ_ROW_POINTS = 8, KZ_SPECIAL_POINTS = 3 };
 enum { KZ_SIGNATURE = 5 };
 typedef struct {
-  kz_atlas_kind kind;
+  kz_cycle_kind kind;
   int32_t ending[2]; /* of the first row and of the last one: KZ_TRACE_..., KZ_ATLAS_JOINED */
   int64_t n, n_special;
   double *row, *special;

@@ -19,8 +19,6 @@ typedef struct {
   double from, to;
 } way;
 
-typedef kz_plane_cycle cycle;
-
 /* What follows a cycle: where, up to which period, and what it finds. */
 typedef struct {
   const way *way;
@@ -56,12 +54,12 @@ static bool plane_of(const way *w, kz_plane *plane) {
   return true;
 }
 
-static bool is_symmetric(const cycle *c) {
+static bool is_symmetric(const kz_plane_cycle *c) {
   return c->kind.of.side < 0 || c->kind.rest >= 0;
 }
 
 /* The cycle through a strobe point at a place. Long ones have points several periods apart: so few that a pair of them lies half a cycle apart. */
-static bool cycle_of(const kz_plane *plane, const kz_attractor *point, double place, cycle *c) {
+static bool cycle_of(const kz_plane *plane, const kz_attractor *point, double place, kz_plane_cycle *c) {
   const bool half = point->symmetric && plane->half_period, mirrored = point->symmetric && plane->mirrored;
   const bool halved = half || (mirrored && point->period > 1);
   const int side = halved ? -1 : 1;
@@ -82,7 +80,7 @@ static bool cycle_of(const kz_plane *plane, const kz_attractor *point, double pl
 }
 
 /* The point of a branch that a cycle is. */
-static bool describe(const walking *w, const cycle *c, kz_attractor *point) {
+static bool describe(const walking *w, const kz_plane_cycle *c, kz_attractor *point) {
   kz_pendulum pendulum;
   const double *place = c->y + 2 * c->kind.of.points;
   const bool at_end = *place == 0 || *place == 1;
@@ -116,16 +114,17 @@ static bool is_damped(const walking *w, double place) {
 }
 
 /* The cycle at place 0 or 1, between two rows of a branch. */
-static bool solve_at(const walking *w, const cycle *c, const double *before, const double *after, double place, cycle *there) {
+static bool solve_at(const walking *w, const kz_plane_cycle *c, const kz_branch_row *before, const kz_branch_row *after,
+                     double place, kz_plane_cycle *there) {
   const int n = 2 * c->kind.of.points;
-  const double share = (place - before[0]) / (after[0] - before[0]);
+  const double share = (place - before->y[n]) / (after->y[n] - before->y[n]);
   double farthest = 1e-6;
   *there = *c;
   for (int i = 0; i < n; i++) {
-    there->y[i] = before[4 + i] + share * (after[4 + i] - before[4 + i]);
-    farthest = fmax(farthest, fabs(after[4 + i] - before[4 + i]));
+    there->y[i] = before->y[i] + share * (after->y[i] - before->y[i]);
+    farthest = fmax(farthest, fabs(after->y[i] - before->y[i]));
   }
-  cycle guess = *there;
+  kz_plane_cycle guess = *there;
   there->y[n] = place, there->y[n + 1] = 0;
   if (!kz_curve_solve(&w->plane, &c->kind.of, there->y, NULL)) return false;
   for (int i = 0; i < n; i++)
@@ -134,15 +133,14 @@ static bool solve_at(const walking *w, const cycle *c, const double *before, con
 }
 
 /* What happens at an event of a branch, and the cycle that has the multiplier there, refined: multiplier 1, or -1 of its own map. */
-static int kind_of_event(const walking *w, const cycle *c, const double *event, cycle *at) {
-  const int n = 2 * c->kind.of.points, what = (int)event[0];
+static int kind_of_event(const walking *w, const kz_plane_cycle *c, const kz_branch_event *event, kz_plane_cycle *at) {
+  const kz_event what = event->what;
   const double along[2] = {1, 0};
   int kind = KZ_END_FOLD;
-  *at = *c;
-  memcpy(at->y, event + 3, (size_t)n * sizeof *at->y);
-  at->y[n] = event[1], at->y[n + 1] = 0;
+  at->kind = c->kind;
+  memcpy(at->y, event->y, sizeof at->y);
   if (what > KZ_EVENT_FLIP) {
-    const cycle merging = *at;
+    const kz_plane_cycle merging = *at;
     if (!kz_parent_of(&w->plane, what, &merging, at)) return KZ_END_NOT_LOCATED;
     kind = what == KZ_EVENT_MIRROR ? KZ_END_SYMMETRY_BREAKING : KZ_END_PERIOD_DOUBLING;
   } else if (what == KZ_EVENT_FLIP) {
@@ -155,7 +153,7 @@ static int kind_of_event(const walking *w, const cycle *c, const double *event, 
   } else {
     at->kind.of.multiplier = 1;
   }
-  cycle refined = *at;
+  kz_plane_cycle refined = *at;
   const bool found = kz_curve_locate(&w->plane, &at->kind.of, refined.y, along);
   if (!found) return what > KZ_EVENT_FLIP ? KZ_END_NOT_LOCATED : kind;
   const double moved = refined.y[2 * at->kind.of.points] - at->y[2 * at->kind.of.points];
@@ -163,11 +161,11 @@ static int kind_of_event(const walking *w, const cycle *c, const double *event, 
   return kind;
 }
 
-static void follow(const walking *w, const cycle *c, const double along[2], kz_sweep_piece piece, int depth);
+static void follow(const walking *w, const kz_plane_cycle *c, const double along[2], kz_sweep_piece piece, int depth);
 
 /* What branches off at an event, within the way. */
-static void follow_child(const walking *w, const cycle *flip, int kind, int depth) {
-  cycle child;
+static void follow_child(const walking *w, const kz_plane_cycle *flip, int kind, int depth) {
+  kz_plane_cycle child;
   double along[2];
   if (depth == DEEPEST || !kz_child_of(&w->plane, flip, 0, &child, along) || kz_kind_period(&child.kind) > w->max_period)
     return;
@@ -180,10 +178,11 @@ static void follow_child(const walking *w, const cycle *flip, int kind, int dept
 /* A branch that is cut into pieces where something happens. */
 typedef struct {
   const walking *w;
-  const cycle *c;                         /* near its begin */
-  kz_sweep_piece piece;                   /* that has begun */
-  bool sign[2];                           /* whether 1 - trace + determinant and 1 + trace + determinant are positive */
-  double beyond[4 + 2 * KZ_CURVE_POINTS]; /* a row where it ends beyond the second value, which it still reaches; NAN: none */
+  const kz_plane_cycle *c; /* near its begin */
+  kz_sweep_piece piece;    /* that has begun */
+  bool sign[2];            /* whether 1 - trace + determinant and 1 + trace + determinant are positive */
+  bool passes;             /* it ends beyond the second value, which it still reaches, */
+  kz_branch_row beyond;    /* at this cycle */
 } branching;
 
 static void add_piece(const branching *b) {
@@ -192,54 +191,53 @@ static void add_piece(const branching *b) {
 }
 
 /* Ends a piece at an event and begins the next one; false where the branch ends there. */
-static bool pass(branching *b, const double *event, int depth) {
-  const bool merges = event[0] > KZ_EVENT_FLIP;
+static bool pass(branching *b, const kz_branch_event *event, int depth) {
+  const bool merges = event->what > KZ_EVENT_FLIP;
   const int n = 2 * b->c->kind.of.points;
-  cycle at, here = *b->c;
-  if (!merges && !(event[1] >= 0 && event[1] <= 1)) return true;
+  kz_plane_cycle at, here = {.kind = b->c->kind};
+  if (!merges && !(event->y[n] >= 0 && event->y[n] <= 1)) return true;
   const int kind = kind_of_event(b->w, b->c, event, &at);
   const double where = at.y[2 * at.kind.of.points];
   if (merges && !(where >= 0 && where <= 1)) {
-    b->beyond[0] = where;
-    memcpy(b->beyond + 4, event + 3, (size_t)n * sizeof *event);
+    b->passes = true;
+    memcpy(b->beyond.y, event->y, sizeof event->y);
+    b->beyond.y[n] = where;
     return true;
   }
   b->piece.end = value_at(b->w->way, where), b->piece.end_kind = kind, b->piece.attracts = b->sign[0] && b->sign[1];
-  memcpy(here.y, event + 3, (size_t)n * sizeof *here.y);
-  here.y[n] = event[1], here.y[n + 1] = 0;
+  memcpy(here.y, event->y, sizeof here.y);
   if (!describe(b->w, &here, &b->piece.point)) b->piece.point.period = kz_kind_period(&b->c->kind);
   add_piece(b);
   if (merges) return false;
-  b->sign[event[0] == KZ_EVENT_FOLD ? 0 : 1] ^= true;
+  b->sign[event->what == KZ_EVENT_FOLD ? 0 : 1] ^= true;
   b->piece = (kz_sweep_piece){.begin = b->piece.end, .begin_kind = kind, .reached = -1, .step = b->piece.step};
   if (at.kind.of.multiplier < 0 && b->w->max_period > 0) follow_child(b->w, &at, kind, depth);
   return true;
 }
 
 /* Ends the last piece, between the last two rows: at a value that the branch reaches, or where it is lost. */
-static void finish(branching *b, const double *former, const double *last, bool reaches) {
+static void finish(branching *b, const kz_branch_row *former, const kz_branch_row *last, bool reaches) {
   const way *w = b->w->way;
-  const double place = last[0] > 1 ? 1 : 0;
-  cycle there;
+  const double at = last->y[2 * b->c->kind.of.points], place = at > 1 ? 1 : 0;
+  kz_plane_cycle there;
   b->piece.attracts = b->sign[0] && b->sign[1];
   if (reaches && solve_at(b->w, b->c, former, last, place, &there) && describe(b->w, &there, &b->piece.point))
     b->piece.reached = place == 1;
-  else if (b->piece.attracts && fabs(1 - last[0]) < STUCK &&
-           !is_damped(b->w, 1)) /* complex multipliers come to the unit circle */
+  else if (b->piece.attracts && fabs(1 - at) < STUCK && !is_damped(b->w, 1)) /* complex multipliers come to the unit circle */
     b->piece.end = w->to, b->piece.end_kind = KZ_END_NEIMARK_SACKER;
   else
-    b->piece.end = value_at(w, fmin(fmax(last[0], 0), 1)), b->piece.end_kind = KZ_END_NOT_LOCATED;
+    b->piece.end = value_at(w, fmin(fmax(at, 0), 1)), b->piece.end_kind = KZ_END_NOT_LOCATED;
   if (b->piece.reached >= 0 || describe(b->w, b->c, &b->piece.point)) add_piece(b);
 }
 
 /* Follows a cycle along the way, with what branches off, until it leaves the way or ends. `piece`: how it begins. */
-static void follow(const walking *w, const cycle *c, const double along[2], kz_sweep_piece piece, int depth) {
+static void follow(const walking *w, const kz_plane_cycle *c, const double along[2], kz_sweep_piece piece, int depth) {
   const int n = 2 * c->kind.of.points;
-  KZ_FREED double *row = kz_malloc(MOST_ROWS * (size_t)(4 + n) * sizeof *row);
-  KZ_FREED double *event = kz_malloc(MOST_EVENTS * (size_t)(3 + n) * sizeof *event);
+  KZ_FREED kz_branch_row *row = kz_malloc(MOST_ROWS * sizeof *row);
+  KZ_FREED kz_branch_event *event = kz_malloc(MOST_EVENTS * sizeof *event);
   int64_t events = 0;
   int32_t ending = KZ_TRACE_NO_SEED;
-  branching b = {.w = w, .c = c, .piece = piece, .beyond = {NAN}};
+  branching b = {.w = w, .c = c, .piece = piece};
   const int64_t rows = kz_curve_branch(&w->rough, &c->kind.of, c->y, along, 0, LONGEST, &b.piece.step, MOST_ROWS, row,
                                        MOST_EVENTS, event, &events, &ending);
   if (rows == 0) { /* nothing is known beyond its beginning */
@@ -247,12 +245,12 @@ static void follow(const walking *w, const cycle *c, const double along[2], kz_s
     if (b.piece.from_start) add_piece(&b);
     return;
   }
-  b.sign[0] = 1 + row[3] - row[2] > 0, b.sign[1] = 1 + row[3] + row[2] > 0;
+  b.sign[0] = 1 + row->number[1] - row->number[0] > 0, b.sign[1] = 1 + row->number[1] + row->number[0] > 0;
   for (int64_t i = 0; i < events; i++)
-    if (!pass(&b, event + i * (3 + n), depth)) return;
-  const double *last = row + (rows - 1) * (4 + n), *former = rows > 1 ? last - (4 + n) : last;
-  if (!isnan(b.beyond[0]))
-    finish(&b, last, b.beyond, true);
+    if (!pass(&b, event + i, depth)) return;
+  const kz_branch_row *last = row + rows - 1, *former = rows > 1 ? last - 1 : last;
+  if (b.passes)
+    finish(&b, last, &b.beyond, true);
   else
     finish(&b, former, last, ending == KZ_TRACE_LEFT && rows > 1);
 }
@@ -262,7 +260,7 @@ void kz_sweep_follow(const kz_path *path, double from, double to, int64_t max_pe
   const way w = {path, from, to};
   const double along[2] = {1, 0};
   walking walk = {.way = &w, .max_period = max_period, .found = found};
-  cycle c;
+  kz_plane_cycle c;
   found->count = 0;
   if (plane_of(&w, &walk.plane) && cycle_of(&walk.plane, point, 0, &c)) {
     walk.rough = walk.plane;

@@ -29,16 +29,16 @@ static const double FLUTTER[][4] = {{5, 0.521937424, 0.603384245, 0.612281},  {7
 static double next_flip(const kz_curve_kind *kind, double *y) {
   enum { MOST = 400, EVENTS = 8 };
   const int n = 2 * kind->points;
-  double row[MOST * 8], event[EVENTS * 7];
+  static kz_branch_row row[MOST];
+  kz_branch_event event[EVENTS];
   int64_t events;
   int32_t ending;
   assert_true(kz_curve_branch(&PLANE, kind, y, UP, 0, 0.02, NULL, MOST, row, EVENTS, event, &events, &ending) > 3);
   for (int64_t i = 0; i < events; i++) {
-    const double *e = event + i * (3 + n);
-    if (e[0] != KZ_EVENT_FLIP) continue;
-    y[n] = e[1], y[n + 1] = e[2];
-    for (int c = 0; c < n; c++) y[c] = e[3 + c];
-    return 0.8 * e[2];
+    if (event[i].what != KZ_EVENT_FLIP) continue;
+    memcpy(y, event[i].y, (size_t)(n + 2) * sizeof *y);
+    for (int c = n + 2; c < 2 * KZ_CURVE_POINTS + 2; c++) assert_true(event[i].y[c] == 0);
+    return 0.8 * y[n + 1];
   }
   return NAN;
 }
@@ -67,7 +67,9 @@ TEST(test_flutter) {
 TEST(test_branches_of_a_fold) {
   enum { MOST = 400, EVENTS = 20, N = 12 };
   const kz_curve_kind fold = {1, 6, 1, 2, 0};
-  double y[N + 2] = {0.792497560880641, 0.408106903865102}, row[MOST][4 + N], event[EVENTS][3 + N], nearest = 1;
+  double y[N + 2] = {0.792497560880641, 0.408106903865102}, nearest = 1;
+  static kz_branch_row row[MOST];
+  kz_branch_event event[EVENTS];
   const double place[2] = {17.0 / 27, 0.35054538465 / 0.8};
   int64_t events;
   int32_t ending;
@@ -76,9 +78,10 @@ TEST(test_branches_of_a_fold) {
   assert_int_equal(kz_curve_locate(&PLANE, &fold, y, UP), 1);
   assert_true(fabs(0.8 * y[N + 1] - 0.350545384650) < 1e-9);
   for (int side = -1; side <= 1; side += 2) {
-    kz_curve_branch(&PLANE, &fold, y, UP, side, 0.02, NULL, MOST, row[0], EVENTS, event[0], &events, &ending);
+    kz_curve_branch(&PLANE, &fold, y, UP, side, 0.02, NULL, MOST, row, EVENTS, event, &events, &ending);
     for (int64_t i = 0; i < events; i++)
-      if (event[i][0] == KZ_EVENT_FLIP && event[i][2] > y[N + 1]) nearest = fmin(nearest, 0.8 * (event[i][2] - y[N + 1]));
+      if (event[i].what == KZ_EVENT_FLIP && event[i].y[N + 1] > y[N + 1])
+        nearest = fmin(nearest, 0.8 * (event[i].y[N + 1] - y[N + 1]));
   }
   assert_true(1e-5 < nearest && nearest < 3e-5);
 }

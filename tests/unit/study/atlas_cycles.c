@@ -21,7 +21,7 @@ static const double UP[2] = {0, 1};
 /* Beside the place where upright rest leans over Newton's method for a fold ends on rest itself, with few digits. */
 TEST(test_a_fold_beside_rest_is_the_curve_of_rest) {
   const kz_atlas atlas = {.plane = PLANE};
-  kz_atlas_kind kind = {{1, 1, 1, 0, 0}, -1};
+  kz_cycle_kind kind = {{1, 1, 1, 0, 0}, -1};
   double y[4] = {M_PI - 4e-5, 3.6e-7, 0.0047902, 0.09}, elsewhere[4];
   const kz_curve_kind leans = {-1, 1, -1, 1, 0};
   double rest[4] = {M_PI, 0, y[2], y[3]};
@@ -48,7 +48,7 @@ TEST(test_a_third_of_a_symmetric_cycle) {
   assert_true(fabs(y[0] - M_PI) > 0.1);
   y[6] = y[2], y[7] = y[3];
   for (int i = 2; i < 6; i++) y[i] = (i % 2 ? 0 : 2 * M_PI) - y[i - 2];
-  kz_atlas_kind kind = {{-1, 3, -1, 1, 0}, -1};
+  kz_cycle_kind kind = {{-1, 3, -1, 1, 0}, -1};
   assert_true(kz_atlas_reduce(&atlas, 1e-5, &kind, y));
   assert_true(kind.of.points == 1 && kind.of.side == -1 && kind.of.multiplier == -1 && kind.of.turns == 1);
 }
@@ -83,7 +83,7 @@ TEST(test_twice_round_in_a_narrow_band) {
   const kz_atlas atlas = {.plane = PLANE};
   for (int i = 0; i < 4; i++) {
     const kz_curve_kind *of = &of_three[i / 2].of;
-    kz_atlas_kind kind = {{1, 6, 1, 2 * of->turns, 0}, -1};
+    kz_cycle_kind kind = {{1, 6, 1, 2 * of->turns, 0}, -1};
     double once[8], y[14];
     memcpy(once, of_three[i / 2].at, 2 * sizeof *once);
     assert_int_equal(kz_curve_orbit(&PLANE, of_three[i / 2].at + 2, 2, 3, once), 1);
@@ -100,7 +100,7 @@ TEST(test_twice_round_in_a_narrow_band) {
 TEST(test_a_full_record_counts_what_it_drops) {
   KZ_FREED_BY(kz_atlas_seeds_free) kz_atlas_seeds seeds = {0};
   KZ_FREED char *record = kz_malloc(KZ_ATLAS_SEEDS_BYTES);
-  const kz_atlas_seed seed = {.kind = {{1, 1, 0, 0, 0}, -1}};
+  const kz_plane_cycle seed = {.kind = {{1, 1, 0, 0, 0}, -1}};
   const int64_t most = KZ_ATLAS_SEEDS_BYTES / (int64_t)sizeof seed;
   for (int64_t i = 0; i < most + 5; i++) {
     kz_atlas_put(&seeds, &seed);
