@@ -52,12 +52,22 @@ typedef struct {
   double y[2 * KZ_CURVE_POINTS + 2];
   kz_event what;
 } kz_branch_event;
-/* Follows the cycle near `start` along a line, first in the direction `along` (a unit vector), attracting or not, through folds; side 1 or -1:
- * one of the two branches of the fold at `start`. *step: the first step, 0 = short; then the one that would follow; NULL = not asked for. rows
- * [most]; events [most_events]: it ends where they are full, if most_events > 0. Returns the number of rows. */
-int64_t kz_curve_branch(const kz_plane *plane, const kz_curve_kind *kind, const double *start, const double along[2],
-                        int32_t side, double longest, double *step, int64_t most, kz_branch_row *rows, int64_t most_events,
-                        kz_branch_event *events, int64_t *n_events, int32_t *ending);
+/* How a branch is followed: first in the direction `along` (a unit vector); side 1 or -1: one of the two branches of the fold at its start; in
+ * steps of at most `longest`, the first of `step`, 0 = short; up to so many rows, and events, if these are not 0. */
+typedef struct {
+  double along[2], longest, step;
+  int64_t most, most_events;
+  int32_t side;
+} kz_branch_way;
+/* Where it ends: after so many rows and events, with the step that would follow. */
+typedef struct {
+  int64_t rows, events;
+  double step;
+  kz_trace_ending ending;
+} kz_branch_end;
+/* Follows the cycle near `start`, attracting or not, through folds: rows [most], events [most_events]. */
+void kz_curve_branch(const kz_plane *plane, const kz_curve_kind *kind, const double *start, const kz_branch_way *way,
+                     kz_branch_row *rows, kz_branch_event *events, kz_branch_end *end);
 
 /* Newton's method at the place of y; numbers = trace and determinant, NULL = not asked for. 1 if it converges, else 0. */
 int32_t kz_curve_solve(const kz_plane *plane, const kz_curve_kind *kind, double *y, double numbers[2]);

@@ -58,7 +58,7 @@ LONGEST, MOST_ARGUMENTS = 60, 7
 LARGER = {
     "src/dynamics/api/follow.f90": {"follow_starts"}, "src/dynamics/api/label.f90": {"label_orbits"},
     "src/dynamics/attractors/chaos.f90": {"set_cover"}, "src/dynamics/curves/trace.f90": {"trace", "locate_special"},
-    "src/dynamics/cycles/branches.f90": {"branch"}, "src/dynamics/cycles/corrector.f90": {"newton"},
+    "src/dynamics/cycles/corrector.f90": {"newton"},
     "src/dynamics/cycles/curves.f90": {"images"}, "src/dynamics/cycles/cycles.f90": {"close_cycle"},
     "src/dynamics/cycles/walker.f90": {"find_zero"}, "src/dynamics/labels/label.f90": {"follow"},
     "src/dynamics/labels/orbits.f90": {"follow_orbits"}, "src/dynamics/maps/map_table.f90": {"sum_nodes"},

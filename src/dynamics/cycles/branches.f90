@@ -19,125 +19,193 @@ module kz_cycles_branches
     integer(c_int32_t) :: what
   end type branch_event_t
 
+  type, bind(C) :: branch_way_t
+    real(dp) :: along(2), longest, step
+    integer(c_int64_t) :: most, most_events
+    integer(c_int32_t) :: side
+  end type branch_way_t
+
+  type, bind(C) :: branch_end_t
+    integer(c_int64_t) :: rows, events
+    real(dp) :: step
+    integer(c_int32_t) :: ending
+  end type branch_end_t
+
+  !> A branch that is followed: its last point, what was before it, and what was found.
+  type :: branch_t
+    type(branch_way_t) :: way
+    type(branch_end_t) :: reached
+    type(walker_t) :: walker
+    type(parents_t) :: was
+    real(dp), dimension(UNKNOWNS) :: first = 0, before = 0, heading = 0
+    real(dp) :: numbers(2) = 0, last(2) = 0 !< of the last point and of that before: 0 at a fold, at a flip
+    type(branch_row_t), pointer :: rows(:) => null()
+    type(branch_event_t), pointer :: events(:) => null()
+  contains
+    procedure :: follow, put, merges, cross, add_event, is_closed
+  end type branch_t
+
 contains
 
-  function branch(plane, kind, start, along, side, longest, step, most, rows, most_events, events, n_events, ending) &
-    bind(C, name='kz_curve_branch') result(n_rows)
+  subroutine branch(plane, kind, start, way, rows, events, reached) bind(C, name='kz_curve_branch')
     type(plane_t), intent(in) :: plane
     type(curve_kind_t), intent(in) :: kind
-    real(dp), intent(in) :: start(2*kind%points + 2), along(2)
-    integer(c_int32_t), value :: side
-    real(dp), value :: longest
-    real(dp), intent(inout), optional :: step
-    integer(c_int64_t), value :: most, most_events
-    type(branch_row_t), intent(out) :: rows(most)
-    type(branch_event_t), intent(out) :: events(most_events)
-    integer(c_int64_t), intent(out) :: n_events
-    integer(c_int32_t), intent(out) :: ending
-    integer(c_int64_t) :: n_rows
-    type(walker_t) :: walker
-    type(parents_t) :: was, is
-    real(dp) :: numbers(2), last(2), before(UNKNOWNS), heading(UNKNOWNS), share, first(UNKNOWNS)
+    real(dp), intent(in) :: start(2*kind%points + 2)
+    type(branch_way_t), intent(in) :: way
+    type(branch_row_t), intent(out), target :: rows(way%most)
+    type(branch_event_t), intent(out), target :: events(way%most_events)
+    type(branch_end_t), intent(out) :: reached
+    type(branch_t) :: self
     logical :: found
-    integer :: n, met
 
-    n = 2*kind%points
-    n_rows = 0
-    n_events = 0
-    ending = NO_SEED
-    call make_system(plane, kind, 1, .false., walker%system)
-    walker%system%basis(:, 1) = along
-    walker%is_sharp = .false.
-    call begin_branch(walker, start, int(side), longest, found)
-    if (.not. found) return
-    if (present(step)) walker%step = merge(min(step, longest), walker%step, step > 0)
-    first = walker%y
-    call set_parents(walker%system, walker%y, was)
-    call put()
-    if (side /= 0) numbers(FOLD) = 0
-    do while (n_rows < most)
-      last = numbers
-      before = walker%y
-      heading = walker%tangent
-      ending = STUCK
-      if (.not. advance(walker)) return
-      if (present(step)) step = walker%step
-      call set_parents(walker%system, walker%y, is)
-      met = meets(was, is, int(kind%points))
-      if (met == 0) met = becomes(was, is)
-      ending = MERGED
-      if (met > 0) then
-        share = was%distance(met)/(was%distance(met) + is%distance(met))
-        call add_event(met, before + share*(walker%y - before))
-        return
-      end if
-      numbers = 1 + walker%system%determinant + [-1, 1]*walker%system%trace
-      if (last(1)*numbers(1) < 0) call cross(FOLD, 1)
-      if (last(2)*numbers(2) < 0) call cross(FLIP, -1)
+    self%way = way
+    self%rows => rows
+    self%events => events
+    self%reached = branch_end_t(0, 0, way%step, NO_SEED)
+    call make_system(plane, kind, 1, .false., self%walker%system)
+    self%walker%system%basis(:, 1) = way%along
+    self%walker%is_sharp = .false.
+    call begin_branch(self%walker, start, int(way%side), way%longest, found)
+    if (found) call self%follow()
+    reached = self%reached
+  end subroutine branch
+
+  !> From the first point to where the branch ends.
+  subroutine follow(self)
+    class(branch_t), intent(inout) :: self
+    type(parents_t) :: is
+
+    associate (walker => self%walker, ending => self%reached%ending)
+      if (self%way%step > 0) walker%step = min(self%way%step, self%way%longest)
+      self%first = walker%y
+      call set_parents(walker%system, walker%y, self%was)
+      call self%put()
+      if (self%way%side /= 0) self%numbers(FOLD) = 0
+      do while (self%reached%rows < self%way%most)
+        self%last = self%numbers
+        self%before = walker%y
+        self%heading = walker%tangent
+        ending = STUCK
+        if (.not. advance(walker)) return
+        self%reached%step = walker%step
+        call set_parents(walker%system, walker%y, is)
+        ending = MERGED
+        if (self%merges(is)) return
+        self%numbers = numbers_of(walker)
+        if (self%last(FOLD)*self%numbers(FOLD) < 0) call self%cross(FOLD, 1)
+        if (self%last(FLIP)*self%numbers(FLIP) < 0) call self%cross(FLIP, -1)
+        ending = LONG
+        if (self%way%most_events > 0 .and. self%reached%events == self%way%most_events) return
+        self%was = is
+        call self%put()
+        ending = LEFT
+        if (outside(walker%system%plane, place_of(walker))) return
+        ending = CLOSED
+        if (self%is_closed()) return
+      end do
       ending = LONG
-      if (most_events > 0 .and. n_events == most_events) return
-      was = is
-      call put()
-      ending = LEFT
-      if (outside(plane, walker%y(n + 1:n + 2))) return
-      ending = CLOSED
-      if (n_rows > 10 .and. maxval(abs([wrapped(walker%y(1:n:2) - first(1:n:2)), walker%y(2:n:2) - first(2:n:2), &
-                                        walker%y(n + 1:n + 2) - first(n + 1:n + 2)])) < walker%step) return
-    end do
-    ending = LONG
-  contains
-    subroutine put()
-      n_rows = n_rows + 1
-      numbers = 1 + walker%system%determinant + [-1, 1]*walker%system%trace
-      rows(n_rows) = branch_row_t(cycle_of(walker%y), [walker%system%trace, walker%system%determinant])
-    end subroutine put
+    end associate
+  end subroutine follow
 
-    !> The event between the two points: the nearest zero of its own equation, or what the zero of its number leads to.
-    subroutine cross(event, multiplier)
-      integer, intent(in) :: event, multiplier
-      real(dp), parameter :: NEAR = 0.3_dp
-      real(dp) :: y(UNKNOWNS), guess(UNKNOWNS), number, length
-      type(curve_kind_t) :: of_event
-      type(walker_t) :: between
-      logical :: found
+  pure function numbers_of(walker) result(numbers)
+    type(walker_t), intent(in) :: walker
+    real(dp) :: numbers(2)
 
-      of_event = kind
+    numbers = 1 + walker%system%determinant + [-1, 1]*walker%system%trace
+  end function numbers_of
+
+  pure function place_of(walker) result(place)
+    type(walker_t), intent(in) :: walker
+    real(dp) :: place(2)
+
+    place = walker%y(2*walker%system%n + 1:2*walker%system%n + 2)
+  end function place_of
+
+  subroutine put(self)
+    class(branch_t), intent(inout) :: self
+
+    self%reached%rows = self%reached%rows + 1
+    self%numbers = numbers_of(self%walker)
+    associate (system => self%walker%system)
+      self%rows(self%reached%rows) = branch_row_t(cycle_of(system%n, self%walker%y), [system%trace, system%determinant])
+    end associate
+  end subroutine put
+
+  !> Whether the branch meets what it grows out of, an event.
+  logical function merges(self, is)
+    class(branch_t), intent(inout) :: self
+    type(parents_t), intent(in) :: is
+    real(dp) :: share
+    integer :: met
+
+    met = meets(self%was, is, self%walker%system%n)
+    if (met == 0) met = becomes(self%was, is)
+    merges = met > 0
+    if (.not. merges) return
+    share = self%was%distance(met)/(self%was%distance(met) + is%distance(met))
+    call self%add_event(met, self%before + share*(self%walker%y - self%before))
+  end function merges
+
+  !> The event between the two points: the nearest zero of its own equation, or what the zero of its number leads to.
+  subroutine cross(self, event, multiplier)
+    class(branch_t), intent(inout) :: self
+    integer, intent(in) :: event, multiplier
+    real(dp), parameter :: NEAR = 0.3_dp
+    real(dp) :: y(UNKNOWNS), guess(UNKNOWNS), number, length
+    type(curve_kind_t) :: of_event
+    type(walker_t) :: between
+    logical :: found
+
+    associate (system => self%walker%system, was => self%last(event), is => self%numbers(event))
+      of_event = system%kind
       of_event%multiplier = multiplier
-      length = distance(walker%system, walker%y, before)
-      guess = before + last(event)/(last(event) - numbers(event))*(walker%y - before)
+      length = distance(system, self%walker%y, self%before)
+      guess = self%before + was/(was - is)*(self%walker%y - self%before)
       y = guess
-      if (on_line(plane, of_event, y, along) /= 0) then
-        if (distance(walker%system, y, guess) < NEAR*length) then
-          call add_event(event, y)
-          return
-        end if
+      found = on_line(system%plane, of_event, y, self%way%along) /= 0
+      if (found) found = distance(system, y, guess) < NEAR*length
+      if (.not. found) then
+        between = self%walker
+        call find_zero(between, self%before, self%heading, was, is, event, number, found)
+        if (.not. found) return
+        y = between%y
+        if (on_line(system%plane, of_event, y, self%way%along) == 0) y = between%y
+        if (distance(system, y, between%y) > NEAR*length) y = between%y
       end if
-      between = walker
-      call find_zero(between, before, heading, last(event), numbers(event), event, number, found)
-      if (.not. found) return
-      y = between%y
-      if (on_line(plane, of_event, y, along) == 0) y = between%y
-      if (distance(walker%system, y, between%y) > NEAR*length) y = between%y
-      call add_event(event, y)
-    end subroutine cross
+    end associate
+    call self%add_event(event, y)
+  end subroutine cross
 
-    subroutine add_event(event, y)
-      integer, intent(in) :: event
-      real(dp), intent(in) :: y(:)
+  subroutine add_event(self, event, y)
+    class(branch_t), intent(inout) :: self
+    integer, intent(in) :: event
+    real(dp), intent(in) :: y(:)
 
-      if (n_events == most_events) return
-      n_events = n_events + 1
-      events(n_events) = branch_event_t(cycle_of(y), int(event, c_int32_t))
-    end subroutine add_event
+    if (self%reached%events == self%way%most_events) return
+    self%reached%events = self%reached%events + 1
+    self%events(self%reached%events) = branch_event_t(cycle_of(self%walker%system%n, y), int(event, c_int32_t))
+  end subroutine add_event
 
-    pure function cycle_of(y)
-      real(dp), intent(in) :: y(:)
-      real(dp) :: cycle_of(UNKNOWNS)
+  pure function cycle_of(n, y)
+    integer, intent(in) :: n !< points
+    real(dp), intent(in) :: y(:)
+    real(dp) :: cycle_of(UNKNOWNS)
 
-      cycle_of(:n + 2) = y(:n + 2)
-      cycle_of(n + 3:) = 0
-    end function cycle_of
-  end function branch
+    cycle_of(:2*n + 2) = y(:2*n + 2)
+    cycle_of(2*n + 3:) = 0
+  end function cycle_of
+
+  !> Whether the branch is at its first point again.
+  pure logical function is_closed(self)
+    class(branch_t), intent(in) :: self
+    real(dp) :: moved(UNKNOWNS)
+    integer :: n
+
+    n = 2*self%walker%system%n
+    moved = self%walker%y - self%first
+    moved(1:n:2) = wrapped(moved(1:n:2))
+    is_closed = self%reached%rows > 10 .and. maxval(abs(moved(:n + 2))) < self%walker%step
+  end function is_closed
 
   !> The cycle near the start, with a tangent in the direction of growing place; or the fold at the start, with that to one side.
   subroutine begin_branch(walker, start, side, longest, found)

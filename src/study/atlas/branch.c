@@ -54,15 +54,14 @@ static bool lies_between(kz_event event, const double a[2], const double b[2]) {
   return event <= KZ_EVENT_FLIP && (1 + a[1] + sign * a[0] > 0) != (1 + b[1] + sign * b[0] > 0);
 }
 
-void kz_atlas_draw(const kz_atlas *atlas, int axis, const kz_cycle_kind *kind, const kz_atlas_branch_rows *rows,
-                   kz_atlas_branches *line) {
+void kz_atlas_draw(const kz_atlas *atlas, int axis, const kz_cycle_kind *kind, const kz_branch_row *row,
+                   const kz_branch_event *event, const kz_branch_end *end, kz_atlas_branches *line) {
   const kz_atlas_class class = kz_atlas_class_of(kind);
-  const kz_branch_row *row = rows->row;
-  const kz_branch_event *event = rows->event, *last = event + rows->n_events;
+  const kz_branch_event *last = event + end->events;
   kz_atlas_branch branch = {.of = kz_atlas_described(atlas, &class), .first = line->n_points};
-  if (rows->n < 2) return;
-  line->point = kz_realloc(line->point, (size_t)(line->n_points + rows->n + rows->n_events) * sizeof *line->point);
-  for (int64_t i = 0; i < rows->n; i++) {
+  if (end->rows < 2) return;
+  line->point = kz_realloc(line->point, (size_t)(line->n_points + end->rows + end->events) * sizeof *line->point);
+  for (int64_t i = 0; i < end->rows; i++) {
     for (;
          i > 0 && event < last && (event->what > KZ_EVENT_FLIP || lies_between(event->what, row[i - 1].number, row[i].number));
          event++)

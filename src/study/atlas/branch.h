@@ -7,12 +7,7 @@
 kz_status kz_atlas_place(const kz_atlas *atlas, int axis, double value, double *place);
 /* Multipliers of the whole period of a cycle from trace and determinant of its own map. */
 void kz_atlas_multipliers(const kz_cycle_kind *kind, const double number[2], double re[2], double im[2]);
-/* A branch as kz_curve_branch gives it. */
-typedef struct {
-  int64_t n, n_events;
-  const kz_branch_row *row;
-  const kz_branch_event *event;
-} kz_atlas_branch_rows;
-/* Adds a branch to a line along an axis, with a point where it gains or loses its stability, an event. */
-void kz_atlas_draw(const kz_atlas *atlas, int axis, const kz_cycle_kind *kind, const kz_atlas_branch_rows *rows,
-                   kz_atlas_branches *line);
+/* Adds a branch, as kz_curve_branch gives it, to a line along an axis, with a point where it gains or loses its
+ * stability, an event. */
+void kz_atlas_draw(const kz_atlas *atlas, int axis, const kz_cycle_kind *kind, const kz_branch_row *row,
+                   const kz_branch_event *event, const kz_branch_end *end, kz_atlas_branches *line);

@@ -56,29 +56,20 @@ static void add_parent(const kz_atlas *atlas, const line *l, kz_event event, con
     take(atlas, l, parent.kind, parent.y, true, seeds);
 }
 
-/* A way along a line: its direction; side 1 or -1: one of the branches of a fold; how many curves it may meet. */
-typedef struct {
-  double along[2];
-  int32_t side;
-  int64_t most;
-} route;
-
 /* Follows a cycle along a line and adds what it meets. */
-static void follow_to(const kz_atlas *atlas, const line *l, const kz_cycle_kind *kind, const double *start, const route *to,
-                      kz_atlas_seeds *seeds) {
+static void follow_to(const kz_atlas *atlas, const line *l, const kz_cycle_kind *kind, const double *start,
+                      const kz_branch_way *way, kz_atlas_seeds *seeds) {
   KZ_FREED kz_branch_row *row = kz_malloc(MOST_ROWS * sizeof *row);
   KZ_FREED kz_branch_event *event = kz_malloc(MOST_EVENTS * sizeof *event);
-  kz_atlas_branch_rows rows = {.row = row, .event = event};
-  int32_t ending;
+  kz_branch_end end;
   if (kz_kind_period(kind) > atlas->scene->atlas->max_period) return;
-  rows.n = kz_curve_branch(&atlas->plane, &kind->of, start, to->along, to->side, LONGEST, NULL, MOST_ROWS, row, to->most, event,
-                           &rows.n_events, &ending);
-  if (l && l->drawn) kz_atlas_draw(atlas, l->axis, kind, &rows, l->drawn);
-  for (int64_t i = 0; i < rows.n_events; i++) {
+  kz_curve_branch(&atlas->plane, &kind->of, start, way, row, event, &end);
+  if (l && l->drawn) kz_atlas_draw(atlas, l->axis, kind, row, event, &end, l->drawn);
+  for (int64_t i = 0; i < end.events; i++) {
     kz_plane_cycle at = {.kind = *kind};
     memcpy(at.y, event[i].y, sizeof at.y);
     if (event[i].what > KZ_EVENT_FLIP) {
-      add_parent(atlas, l, event[i].what, &at, to->along, seeds);
+      add_parent(atlas, l, event[i].what, &at, way->along, seeds);
       continue;
     }
     at.kind.of.multiplier = event[i].what == KZ_EVENT_FOLD ? 1 : -1;
@@ -88,7 +79,7 @@ static void follow_to(const kz_atlas *atlas, const line *l, const kz_cycle_kind 
 
 static void follow(const kz_atlas *atlas, const line *l, const kz_cycle_kind *kind, const double *start, const double along[2],
                    int32_t side, kz_atlas_seeds *seeds) {
-  follow_to(atlas, l, kind, start, &(route){{along[0], along[1]}, side, MOST_EVENTS}, seeds);
+  follow_to(atlas, l, kind, start, &(kz_branch_way){{along[0], along[1]}, LONGEST, 0, MOST_ROWS, MOST_EVENTS, side}, seeds);
 }
 
 /* To the right, to the left, up, down. */
@@ -100,9 +91,9 @@ static void direction(int i, double along[2]) {
 void kz_atlas_explore_first(const kz_atlas *atlas, const kz_plane_cycle *cycle, kz_atlas_seeds *seeds) {
   const int64_t before = seeds->count;
   for (int i = 3; i >= 0 && seeds->count == before; i--) {
-    route to = {.most = 1};
-    direction(i, to.along);
-    follow_to(atlas, NULL, &cycle->kind, cycle->y, &to, seeds);
+    kz_branch_way way = {.longest = LONGEST, .most = MOST_ROWS, .most_events = 1};
+    direction(i, way.along);
+    follow_to(atlas, NULL, &cycle->kind, cycle->y, &way, seeds);
   }
 }
 

@@ -43,18 +43,16 @@ static void take(hunt *h, const kz_plane_cycle *cycle, const double number[2], i
 static bool carry(const hunt *h, int axis, const kz_plane_cycle *from, int32_t side, kz_plane_cycle *to, double number[2]) {
   const int n = 2 * from->kind.of.points;
   const double target = h->place[axis], sign = target > from->y[n + axis] ? 1 : -1;
-  const double along[2] = {axis == 0 ? sign : 0, axis == 1 ? sign : 0};
+  const kz_branch_way way = {{axis == 0 ? sign : 0, axis == 1 ? sign : 0}, KZ_ATLAS_BRANCH_STEP, 0, MOST_ROWS, 0, side};
   KZ_FREED kz_branch_row *row = kz_malloc(MOST_ROWS * sizeof *row);
   kz_plane plane = h->atlas->plane;
-  int64_t events;
-  int32_t ending;
+  kz_branch_end end;
   *(sign > 0 ? plane.high + axis : plane.low + axis) = target;
-  const int64_t rows = kz_curve_branch(&plane, &from->kind.of, from->y, along, side, KZ_ATLAS_BRANCH_STEP, NULL, MOST_ROWS, row,
-                                       0, NULL, &events, &ending);
-  if (rows < 2 || ending != KZ_TRACE_LEFT) return false;
-  for (int64_t i = 1; i + 1 < rows; i++)
+  kz_curve_branch(&plane, &from->kind.of, from->y, &way, row, NULL, &end);
+  if (end.rows < 2 || end.ending != KZ_TRACE_LEFT) return false;
+  for (int64_t i = 1; i + 1 < end.rows; i++)
     if (!attracts(row[i].number)) return false;
-  const double *a = row[rows - 2].y, *b = row[rows - 1].y;
+  const double *a = row[end.rows - 2].y, *b = row[end.rows - 1].y;
   const double share = (target - a[n + axis]) / (b[n + axis] - a[n + axis]);
   if (!(share >= 0 && share <= 1)) return false; /* it has left on the other side */
   *to = (kz_plane_cycle){.kind = from->kind};

@@ -235,24 +235,24 @@ static void follow(const walking *w, const kz_plane_cycle *c, const double along
   const int n = 2 * c->kind.of.points;
   KZ_FREED kz_branch_row *row = kz_malloc(MOST_ROWS * sizeof *row);
   KZ_FREED kz_branch_event *event = kz_malloc(MOST_EVENTS * sizeof *event);
-  int64_t events = 0;
-  int32_t ending = KZ_TRACE_NO_SEED;
+  const kz_branch_way to = {{along[0], along[1]}, LONGEST, piece.step, MOST_ROWS, MOST_EVENTS, 0};
   branching b = {.w = w, .c = c, .piece = piece};
-  const int64_t rows = kz_curve_branch(&w->rough, &c->kind.of, c->y, along, 0, LONGEST, &b.piece.step, MOST_ROWS, row,
-                                       MOST_EVENTS, event, &events, &ending);
-  if (rows == 0) { /* nothing is known beyond its beginning */
+  kz_branch_end end;
+  kz_curve_branch(&w->rough, &c->kind.of, c->y, &to, row, event, &end);
+  b.piece.step = end.step;
+  if (end.rows == 0) { /* nothing is known beyond its beginning */
     b.piece.end = value_at(w->way, c->y[n]), b.piece.end_kind = KZ_END_NOT_LOCATED;
     if (b.piece.from_start) add_piece(&b);
     return;
   }
   b.sign[0] = 1 + row->number[1] - row->number[0] > 0, b.sign[1] = 1 + row->number[1] + row->number[0] > 0;
-  for (int64_t i = 0; i < events; i++)
+  for (int64_t i = 0; i < end.events; i++)
     if (!pass(&b, event + i, depth)) return;
-  const kz_branch_row *last = row + rows - 1, *former = rows > 1 ? last - 1 : last;
+  const kz_branch_row *last = row + end.rows - 1, *former = end.rows > 1 ? last - 1 : last;
   if (b.passes)
     finish(&b, last, &b.beyond, true);
   else
-    finish(&b, former, last, ending == KZ_TRACE_LEFT && rows > 1);
+    finish(&b, former, last, end.ending == KZ_TRACE_LEFT && end.rows > 1);
 }
 
 void kz_sweep_follow(const kz_path *path, double from, double to, int64_t max_period, const kz_attractor *point, double step,

@@ -31,10 +31,10 @@ static double next_flip(const kz_curve_kind *kind, double *y) {
   const int n = 2 * kind->points;
   static kz_branch_row row[MOST];
   kz_branch_event event[EVENTS];
-  int64_t events;
-  int32_t ending;
-  assert_true(kz_curve_branch(&PLANE, kind, y, UP, 0, 0.02, NULL, MOST, row, EVENTS, event, &events, &ending) > 3);
-  for (int64_t i = 0; i < events; i++) {
+  kz_branch_end end;
+  kz_curve_branch(&PLANE, kind, y, &(kz_branch_way){{0, 1}, 0.02, 0, MOST, EVENTS, 0}, row, event, &end);
+  assert_true(end.rows > 3);
+  for (int64_t i = 0; i < end.events; i++) {
     if (event[i].what != KZ_EVENT_FLIP) continue;
     memcpy(y, event[i].y, (size_t)(n + 2) * sizeof *y);
     for (int c = n + 2; c < 2 * KZ_CURVE_POINTS + 2; c++) assert_true(event[i].y[c] == 0);
@@ -71,15 +71,14 @@ TEST(test_branches_of_a_fold) {
   static kz_branch_row row[MOST];
   kz_branch_event event[EVENTS];
   const double place[2] = {17.0 / 27, 0.35054538465 / 0.8};
-  int64_t events;
-  int32_t ending;
+  kz_branch_end end;
   assert_int_equal(kz_curve_orbit(&PLANE, place, 2, 6, y), 1);
   y[N] = place[0], y[N + 1] = place[1];
   assert_int_equal(kz_curve_locate(&PLANE, &fold, y, UP), 1);
   assert_true(fabs(0.8 * y[N + 1] - 0.350545384650) < 1e-9);
   for (int side = -1; side <= 1; side += 2) {
-    kz_curve_branch(&PLANE, &fold, y, UP, side, 0.02, NULL, MOST, row, EVENTS, event, &events, &ending);
-    for (int64_t i = 0; i < events; i++)
+    kz_curve_branch(&PLANE, &fold, y, &(kz_branch_way){{0, 1}, 0.02, 0, MOST, EVENTS, side}, row, event, &end);
+    for (int64_t i = 0; i < end.events; i++)
       if (event[i].what == KZ_EVENT_FLIP && event[i].y[N + 1] > y[N + 1])
         nearest = fmin(nearest, 0.8 * (event[i].y[N + 1] - y[N + 1]));
   }
