@@ -263,7 +263,8 @@ def test_what_is_computed_in_the_background_ends_with_a_server_that_is_killed(tm
     """The run of a map went on, as a child of process 1. Here it is one that would not end by itself."""
     (tmp_path / "endless").write_text("#!/bin/sh\nexec sleep 3000\n")
     (tmp_path / "endless").chmod(0o755)
-    script = "import sys; from kapitza.explorer.run_cache import Kept; list(Kept(sys.argv[1], folder=sys.argv[2]).answers({}, None))"
+    script = ("import sys; from kapitza.explorer.run_cache import RunCache; "
+              "list(RunCache(sys.argv[1], folder=sys.argv[2]).answers({}, None))")
     owner = subprocess.Popen([sys.executable, "-c", script, tmp_path / "endless", tmp_path])
     assert wait_for(lambda: any(b"sleep" in words_of(process) for process in children_of(owner.pid)))
     (computing,) = children_of(owner.pid)

@@ -57,7 +57,7 @@ def test_the_c_example_links_by_cmake(installed, tmp_path):
     (tmp_path / "example.c").write_text(example("c"))
     (tmp_path / "CMakeLists.txt").write_text("cmake_minimum_required(VERSION 3.24)\nproject(example C)\nfind_package(kapitza REQUIRED)\n"
                                              "add_executable(example example.c)\ntarget_link_libraries(example kapitza::kapitza)\n")
-    done("cmake", "-S", tmp_path, "-B", tmp_path / "build", f"-DCMAKE_PREFIX_PATH={installed}")
+    done("cmake", "-G", "Ninja", "-S", tmp_path, "-B", tmp_path / "build", f"-DCMAKE_PREFIX_PATH={installed}")
     done("cmake", "--build", tmp_path / "build")
     assert "inverted" in done(tmp_path / "build" / "example")
 

@@ -206,6 +206,7 @@ assert p.map(1.0, 0.5, 7).theta == before and p.where(3.1, 0.0).attractor >= 0
 def test_ctrl_c_ends_a_call():
     done = run(f"""
 {SLOW}
+signal.signal(signal.SIGINT, signal.default_int_handler)  # what a shell starts in the background ignores it
 threading.Timer(1.0, lambda: os.kill(os.getpid(), signal.SIGINT)).start()
 try:
     p.where(np.linspace(-3, 3, 10**6), 0.3)

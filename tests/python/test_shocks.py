@@ -1,23 +1,21 @@
-"""Smallest shocks and edges: against brute force on grids, the saddles between basins, ranks, sweeps."""
+"""Smallest shocks: against brute force on grids, ranks, sweeps."""
 
 import re
 
 import numpy as np
 import pytest
-from conftest import EXTENSIVE, datasets, refused_scene, run_scene
+from conftest import EXTENSIVE, datasets, run_scene
 
 FIG11 = {"quality_factor": 5, "drive_frequency": 11, "drive_amplitude": 0.15}
 SCALE = 0.5
-EDGE = {"first": {"theta": 3.1, "velocity": 0}, "second": {"theta": 0.1, "velocity": 0}}
 
 
 @pytest.fixture(scope="module")
 def fig11(kapitza, tmp_path_factory):
-    """Shocks and an edge at Fig. 11, beside its saddles of period 1."""
+    """Shocks at Fig. 11."""
     folder = tmp_path_factory.mktemp("shocks")
     scene = {"pendulum": FIG11, "basin": {"theta": {"count": 60}, "velocity": {"min": -2, "max": 2, "count": 60},
-                                          "shocks": {"scale": SCALE, "sizes": [0.05, 0.5]}},
-             "saddles": {"velocity": {"min": -2, "max": 2}}, "edge": EDGE}
+                                          "shocks": {"scale": SCALE, "sizes": [0.05, 0.5]}}}
     return *run_scene(kapitza, folder, scene), folder / "s.h5"
 
 
@@ -102,36 +100,6 @@ def test_a_thin_tongue_before_the_boundary(kapitza, tmp_path):
     row = int(np.argmin(np.hypot(shocks["strobe_theta"].values - 0.11200798, shocks["strobe_velocity"].values - 0.33217060)))
     assert abs(shocks["kick"].values[row]) == pytest.approx(0.441608, abs=1e-6)
     assert names[shocks["kick_end"].values[row]].startswith("rotation")
-
-
-def test_the_edge_is_a_listed_saddle(fig11):
-    """Between inverted and down lies a saddle of period 1, which the study saddles has too; the orbit stays on the edge."""
-    result, summary, _ = fig11
-    edge, saddles = result.group("edge"), result.group("saddles")
-    row = edge.attrs["saddle"]
-    assert edge.attrs["first_end"] == "inverted" and edge.attrs["name"] == saddles["name"].values[row]
-    assert edge.attrs["period"] == saddles["period"].values[row] and edge.attrs["winding"] == saddles["winding"].values[row]
-    multipliers = [edge.attrs[f"multiplier_{i}_re"] for i in (1, 2)]
-    assert multipliers == pytest.approx(saddles["multiplier_re"].values[row], rel=1e-7)
-    assert multipliers[0] > 1 > multipliers[1] > 0 and edge.attrs["exponent"] == pytest.approx(np.log(multipliers[0]))
-    last = np.array([edge["theta"].values[-1], edge["velocity"].values[-1]])
-    assert np.hypot(wrapped(last[0] - edge["strobe_theta"].values[0]), last[1] - edge["strobe_velocity"].values[0]) < 1e-3
-    assert "Edge between inverted and" in summary
-
-
-def test_an_edge_where_basins_are_fractal(kapitza, tmp_path):
-    """At epsilon = 0.46 starts 1e-10 rad from a boundary are among those that direct integration gets wrong: by its labels the edge came to
-    no cycle in 2000 periods."""
-    attractors = {"velocity": {"min": -2, "max": 2}, "starts": 256}
-    edge = run_scene(kapitza, tmp_path, {"pendulum": {**FIG11, "drive_amplitude": 0.46}, "attractors": attractors,
-                                         "edge": {**EDGE, "periods": 400}})[0].group("edge")
-    assert edge.attrs["period"] == 4 and edge.attrs["multiplier_1_re"] > 1 > abs(edge.attrs["multiplier_2_re"])
-
-
-def test_starts_that_end_alike_have_no_edge(kapitza, tmp_path):
-    scene = {"pendulum": FIG11, "attractors": {"velocity": {"min": -1, "max": 1}, "starts": 256},
-             "edge": {**EDGE, "second": {"theta": 3.11, "velocity": 0}}}
-    assert "edge.second: ends on the same attractor as the other start" in refused_scene(kapitza, tmp_path, scene)
 
 
 @pytest.mark.extensive

@@ -41,10 +41,12 @@ contains
     type(c_ptr), value :: handle
     type(release_t), intent(in) :: release
     type(dynamics_t), pointer :: d
+    type(released_t) :: onset
 
     d => of_handle(handle)
+    onset%release = release
     if (allocated(d%onset)) deallocate (d%onset)
-    if (strobes_before(release) > 0) allocate (d%onset, source=released_t(release=release))
+    if (strobes_before(release) > 0) allocate (d%onset, source=onset)
   end subroutine set_release
 
   subroutine get_release(handle, release) bind(C, name='kz_dynamics_get_release')

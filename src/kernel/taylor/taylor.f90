@@ -68,7 +68,7 @@ module kz_taylor_taylor
 contains
 
   !> Makes the drive of a pendulum for n_steps steps per period, or per stretch of it.
-  pure subroutine make_drive(drive, pendulum, n_steps, stretch, rough)
+  subroutine make_drive(drive, pendulum, n_steps, stretch, rough)
     type(drive_t), intent(out) :: drive !< Series of the drive for each step
     type(pendulum_t), intent(in) :: pendulum !< the pendulum
     integer, intent(in) :: n_steps !< Steps for a gentle motion and a sine; harmonics take more

@@ -37,7 +37,7 @@ contains
 
   !> The stretch from the release to the next strobe or the end of the ramp. Whole turns of the phase are removed in
   !> quad precision, so that decided labels are those of exactly this phase.
-  pure function first_part(release) result(part)
+  function first_part(release) result(part)
     type(release_t), intent(in) :: release !< Release
     type(part_t) :: part
     real(qp) :: turns
@@ -51,7 +51,7 @@ contains
   end function first_part
 
   !> The stretch after this one, up to the next strobe or the end of the ramp.
-  pure function next_part(part) result(next)
+  function next_part(part) result(next)
     type(part_t), intent(in) :: part !< Last stretch that was followed
     type(part_t) :: next
     real(qp) :: end, ramp
