@@ -134,7 +134,7 @@ typedef struct {
   const char *asked; /* Name in a scene: NAME for NAME_upper, else the name itself */
   double (*value)(double k, double beta, double turn);
   int turning; /* Exact curve, 3 or 5, at whose turn m is `turn`; 0 = not needed */
-  double (*edge)(const kz_pendulum *form, int number, double m); /* k over m of curve `number`, in place of `value` */
+  double (*edge)(const kz_pendulum *form, int reading_number, double m); /* k over m of curve `number`, in place of `value` */
   int number;
 } kz_curve;
 extern const kz_curve kz_curves[];
@@ -151,7 +151,7 @@ void kz_curve_values(const kz_curve *curve, const kz_damping *damping, int64_t n
  * the lower one first. f is the drive of `form`, a pendulum with k = 0 and m = 1; kz_meissner_edge takes the square
  * wave f = sign(cos t), and leaves form out. Errors: some 1e-15 of 1 + |m|. */
 enum { KZ_HILL_MOST_M = 1000 }; /* Largest m; beyond it kz_hill_edge returns NaN */
-double kz_hill_edge(const kz_pendulum *form, int number, double m);
+double kz_hill_edge(const kz_pendulum *form, int reading_number, double m);
 double kz_meissner_edge(const kz_pendulum *form, int number, double m);
 
 /* Computes the curve on which an undamped solution repeats after `order` >= 2 drive periods (Floquet angle 2 pi/order):

@@ -47,7 +47,7 @@ double kz_process_clock(void);
 /* Functions of the C library, declared here because its headers hide them from other compilers. */
 __float128 ldexpf128(__float128 x, int exponent);
 __float128 frexpf128(__float128 x, int *exponent);
-__float128 strtof128(const char *text, char **end);
+__float128 strtof128(const char *text, char **orbit_end);
 void sincosf128(__float128 x, __float128 *sine, __float128 *cosine);
 
 /* ---- words ---- */
@@ -65,7 +65,7 @@ void sincosf128(__float128 x, __float128 *sine, __float128 *cosine);
 #define KZ_JOINED_OF(first, second, ...) first "|" second __VA_OPT__("|" __VA_ARGS__)
 
 /* Adds a word to a text of words joined by '|', "" at first, in `words` [bytes]. */
-void kz_words_add(char *words, size_t bytes, const char *word);
+void kz_words_add(char *keys_words, size_t phases_write_bytes, const char *word);
 /* Returns the next word of `rest`, of *length bytes without a zero, and moves `rest` behind it; NULL if none. */
 const char *kz_words_next(const char **rest, int *length);
 
@@ -76,7 +76,7 @@ const char *kz_words_next(const char **rest, int *length);
  * gfortran's own allocations to them (cmake/Layers.cmake), which allocate(stat=) would not catch. */
 
 /* Do what malloc, calloc, realloc, strdup and strndup of C do. */
-void *kz_malloc(size_t bytes);
+void *kz_malloc(size_t phases_write_bytes);
 void *kz_calloc(size_t n, size_t bytes);
 void *kz_realloc(void *old, size_t bytes);
 char *kz_strdup(const char *text);
@@ -104,4 +104,4 @@ bool kz_memory_is_there(size_t bytes);
 kz_status kz_memory_ask(const char *key, size_t needed);
 
 /* Sets the function that is called when memory runs out; `leave` must end the process. Default: abort. */
-void kz_memory_on_failure(void (*leave)(void));
+void kz_memory_on_failure(void (*abandon_leave)(void));

@@ -90,9 +90,9 @@ static inline bool kz_is_running(const kz_attractor *attractor) {
 
 int64_t kz_dynamics_count(const kz_dynamics *dynamics);
 /* Attractor `number`, from 1 to the count. */
-void kz_dynamics_attractor(const kz_dynamics *dynamics, int64_t number, kz_attractor *attractor);
+void kz_dynamics_attractor(const kz_dynamics *dynamics, int64_t classes_number, kz_attractor *attractor);
 /* 1 if averages along orbits alone show that it is an attractor, a running state round which no band was found that traps motions; else 0. */
-int32_t kz_dynamics_is_averaged(const kz_dynamics *dynamics, int64_t number);
+int32_t kz_dynamics_is_averaged(const kz_dynamics *dynamics, int64_t classes_number);
 /* Its strobe points theta [period] in [-pi, pi) and velocity [period], from that with the lowest velocity on; a chaotic one has none. */
 void kz_dynamics_strobe(const kz_dynamics *dynamics, int64_t number, double *theta, double *velocity);
 /* number [count] = the numbers of the attractors in the order of the file. */

@@ -12,7 +12,7 @@ typedef enum { KZ_FOLLOW_DIRECT, KZ_FOLLOW_SPARSE, KZ_FOLLOW_SINGLE, KZ_FOLLOW_L
  * becomes its last state, that of another one where it was left, in the map's own coordinates. turns [n] = net turns by which the
  * angle on the line is more than that of the state; NULL = not needed. */
 void kz_dynamics_follow(kz_dynamics *dynamics, kz_stepper stepper, int64_t n, int64_t max_periods, double *state,
-                        int32_t *label, int64_t *periods, int64_t *turns);
+                        int32_t *frame_label, int64_t *periods, int64_t *turns);
 
 /* Where an orbit begins. */
 typedef struct {

@@ -20,4 +20,4 @@ void kz_dynamics_advance(kz_dynamics *dynamics, int64_t n, double *state);
 /* Settling times that vary smoothly with the start, for pictures: time [n], in drive periods, at which the motions come into the trapping ellipse
  * of a strobe point of their attractor, interpolated by its exponent. Motions have label [n] and are at state [n][2], as kz_dynamics_follow
  * leaves them, after time [n] periods, in and out. The time stays as it is where no ellipse of an attractor holds a motion after 200 more. */
-void kz_dynamics_smooth_times(kz_dynamics *dynamics, int64_t n, const int32_t *label, const double *state, double *time);
+void kz_dynamics_smooth_times(kz_dynamics *dynamics, int64_t n, const int32_t *engine_label, const double *state, double *time);

@@ -10,8 +10,9 @@
  *
  * Normal form: multiplier 1: half the second derivative along the eigenvector; a pair of cycles exists on the side. Multiplier -1: the cubic
  * coefficient; the cycle attracts on the side; > 0: beyond the curve its child attracts. */
-int64_t kz_curve_trace(const kz_plane *plane, const kz_curve_kind *kind, const double *seed, int32_t direction, double longest,
-                       int64_t most, double *rows, int64_t most_special, double *special, int64_t *n_special, int32_t *ending);
+int64_t kz_curve_trace(const kz_plane *plane, const kz_curve_kind *kind, const double *seed, int32_t explore_direction,
+                       double longest, int64_t most, double *rows, int64_t most_special, double *special, int64_t *n_special,
+                       int32_t *ending);
 
 /* Whether the cycle near y has the kind's multiplier at the place of y; y becomes that cycle. 1 = yes, else 0. */
 int32_t kz_curve_is_on(const kz_plane *plane, const kz_curve_kind *kind, double *y);

@@ -58,10 +58,10 @@ typedef double kz_step_error(int32_t steps, void *context);
 /* Searches the number of steps of an integrator: tries `min`, then what the order predicts from the last error, until
  * an error is within `tolerance` (rad) or falls more slowly than 1/steps. Returns the last error and *steps, 0 if
  * none. */
-double kz_steps_search(kz_step_error *error, void *context, int32_t order, double tolerance, int32_t min, int32_t max,
+double kz_steps_search(kz_step_error *error, void *context, int32_t accuracy_order, double tolerance, int32_t min, int32_t max,
                        int32_t *steps);
 /* Returns n (error / tolerance)^(1/order), the steps expected to reach the tolerance if n steps have `error`. */
-double kz_expected_steps(int32_t n, double error, double tolerance, int32_t order);
+double kz_expected_steps(int32_t n, double error, double tolerance, int32_t accuracy_order);
 
 /* The map of one drive period of a pendulum with given numerics. Opaque; free with kz_flow_free. */
 typedef struct kz_flow kz_flow;
@@ -92,7 +92,7 @@ enum { KZ_PENDULUM = 0, KZ_MATHIEU = 1, KZ_EFFECTIVE = 2 };
  * KZ_MATHIEU: u'' + beta u' + (k - m cos t) u = 0, with (-k, beta, -m) about the inverted position, u = theta - pi.
  * KZ_EFFECTIVE: theta'' + beta theta' + dE/dtheta = 0 with the potential of BSG Eq. (10). */
 void kz_sample_model(int32_t model, const kz_pendulum *pendulum, int64_t periods, int64_t samples_per_period,
-                     const double start[2], double *theta, double *velocity);
+                     const double orbit_start[2], double *theta, double *velocity);
 
 /* ---- linear ---- */
 

@@ -36,7 +36,7 @@ int kz_rank(const kz_ranks *ranks);
 int kz_ranks_count(const kz_ranks *ranks);
 
 /* Sums `mine` over the ranks that share this rank's memory; *count = number of these ranks. Collective. */
-kz_status kz_ranks_node(kz_ranks *ranks, double mine, double *sum, int *count);
+kz_status kz_ranks_node(kz_ranks *ranks, double mine, double *sum, int *chunks_count);
 
 /* Returns the worst status of all ranks (failed, refused, stopped, done), with its message. Collective. */
 kz_status kz_ranks_agree(kz_ranks *ranks, kz_status mine);
@@ -57,8 +57,8 @@ kz_status kz_ranks_interrupted(const kz_ranks *ranks);
  * line every second and one at the end of each stage. Stages of one tile are silent. */
 void kz_ranks_set_progress(kz_ranks *ranks, kz_progress progress);
 /* Writes the description of the stage `name`, which progress shows, to words [bytes]. */
-typedef void (*kz_stage_describe)(const char *name, char *words, size_t bytes);
-void kz_ranks_name_stages(kz_ranks *ranks, kz_stage_describe describe);
+typedef void (*kz_stage_describe)(const char *name, char *swept_words, size_t bytes);
+void kz_ranks_name_stages(kz_ranks *ranks, kz_stage_describe options_describe);
 /* Makes rank 0 write JSON lines to `log` (NULL = none): progress {"event": "progress", "seconds", "stage", "done",
  * "total"}, the end of each stage {"event": "stage", "seconds", "stage", "tiles", "wall", "processor", "most", "busy"},
  * and the processor seconds of each tile that rank 0 does {"event": "tiles", "seconds", "stage", "tile",
@@ -87,7 +87,7 @@ void kz_ranks_set_time_limit(kz_ranks *ranks, double seconds);
 /* A stop request takes effect between two tiles. If the present tile takes more than 6 s longer, a signal handler calls
  * `leave`, with a reason such as "stopped by SIGUSR1"; `leave` must end the process. NULL switches this off. Call it
  * after kz_ranks_set_time_limit. */
-void kz_ranks_set_overdue(kz_ranks *ranks, void (*leave)(const char *reason));
+void kz_ranks_set_overdue(kz_ranks *ranks, void (*pendulum_leave)(const char *reason));
 
 /* A checkpoint is one regular file with a lock; if another process has locked it, the program waits up to 15 s.
  * `fingerprint` is a text of lines "name: value" (scene, version, numerics) that a resumed run must match. If it does
@@ -102,7 +102,7 @@ typedef struct kz_checkpoint kz_checkpoint;
 /* Opens or creates it; close it with kz_checkpoint_close. *checkpoint is NULL after a failure. Collective. */
 kz_status kz_checkpoint_open(kz_ranks *ranks, const kz_checkpoint_plan *plan, kz_checkpoint **checkpoint);
 /* Closes and frees it (NULL: KZ_OK). Removes the file if `complete`, or without finished work. Collective. */
-kz_status kz_checkpoint_close(kz_ranks *ranks, kz_checkpoint *checkpoint, bool complete);
+kz_status kz_checkpoint_close(kz_ranks *ranks, kz_checkpoint *checkpoint, bool line_complete);
 /* The path of the checkpoint if it has finished work of any rank; else, and for NULL, NULL. */
 const char *kz_checkpoint_saved(const kz_checkpoint *checkpoint);
 /* Removes the file if it has no finished work; NULL allowed. Safe in a signal handler, as is kz_checkpoint_saved. */
@@ -203,7 +203,7 @@ kz_status kz_stage_run(const kz_run *run, const kz_stage *stage, void *records);
 typedef struct kz_serial_progress kz_serial_progress;
 kz_serial_progress *kz_serial_progress_begin(const kz_run *run, const char *name);
 void kz_serial_progress_show(kz_serial_progress *chain, double seconds_left);
-void kz_serial_progress_end(kz_serial_progress *chain, bool complete);
+void kz_serial_progress_end(kz_serial_progress *chain, bool line_complete);
 
 /* Delivery of local records: each rank makes a message of each of its records, and rank 0 takes all messages, in any
  * order. Both functions may return KZ_FAILED. `make` fills message [message_bytes], at most 1 GiB; *bytes > 0: bytes
@@ -211,7 +211,7 @@ void kz_serial_progress_end(kz_serial_progress *chain, bool complete);
 typedef struct {
   const char *name; /* Name for the progress line */
   size_t message_bytes;
-  kz_status (*make)(void *context, const kz_local_record *piece, void *message, size_t *bytes);
+  kz_status (*make)(void *context, const kz_local_record *tiles_piece, void *message, size_t *bytes);
   kz_status (*take)(void *context, const void *message, size_t bytes);
   void *context;
 } kz_delivery;
@@ -222,4 +222,4 @@ kz_status kz_local_records_deliver(const kz_run *run, const kz_local_records *re
 typedef kz_status (*kz_take_fn)(void *context, int64_t tile, const void *record, size_t bytes);
 /* Runs a stage whose records begin with a uint64_t, the number of bytes in use (a multiple of 8), and gives these bytes
  * of each to rank 0, in any order. `name`: name of the delivery for the progress line. Collective. */
-kz_status kz_stage_gather(const kz_run *run, const kz_stage *stage, const char *name, kz_take_fn take, void *context);
+kz_status kz_stage_gather(const kz_run *run, const kz_stage *stage, const char *name, kz_take_fn serve_take, void *context);

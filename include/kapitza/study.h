@@ -93,7 +93,7 @@ const char *kz_sweep_measure_words(void);
  * where the scene has drive_frequency or omega, else drive radian. */
 double kz_si_factor(double omega, const char **unit);
 void kz_periods_print(int64_t periods, double omega, FILE *out);
-void kz_rate_print(const kz_parameters *parameters, double rate, double error, FILE *out);
+void kz_rate_print(const kz_parameters *parameters, double tradeoff_rate, double error, FILE *out);
 
 /* A value along an axis of values of a key, in the unit that the scene writes; the name of this unit, "" of a pure number. */
 double kz_axis_written(const kz_axis *values, double value);

@@ -87,7 +87,7 @@ typedef struct {
 } kz_plane_raster;
 /* Draws where the first start of the scene's sweep.ends ends over its plane; `pause` as in kz_frame. */
 kz_status kz_plane_draw(const kz_scene *scene, const kz_integers *coarseness, kz_status (*pause)(void *context),
-                        kz_status (*show)(void *context, const kz_plane_raster *raster), void *context);
+                        kz_status (*serve_show)(void *context, const kz_plane_raster *raster), void *context);
 
 /* The motion of the scene's study orbit, by the pendulum itself, after its transient: theta (rad, not wrapped) and velocity (rad per drive radian), each
  * [periods * samples_per_period + 1]. `pause` as in kz_frame, every 0.1 s. KZ_FAILED: it becomes too large for double precision. */

@@ -17,7 +17,7 @@ static struct {
 } here;
 
 /* One rank alone removes the half file and prints the line. */
-static bool prints(void) {
+static bool abandon_prints(void) {
   return !here.part[0] || unlink(here.part) == 0 || errno != ENOENT;
 }
 
@@ -27,7 +27,7 @@ typedef struct {
   size_t length;
 } line;
 
-static void append(line *l, const char *text) {
+static void abandon_append(line *l, const char *text) {
   for (; *text && l->length + 1 < sizeof l->text; text++) l->text[l->length++] = *text;
   l->text[l->length] = '\0';
 }
@@ -37,7 +37,7 @@ static void append_number(line *l, unsigned number) {
   size_t first = sizeof digits - 1;
   do digits[--first] = (char)('0' + number % 10);
   while (number /= 10);
-  append(l, digits + first);
+  abandon_append(l, digits + first);
 }
 
 /* "kapitza: WHAT; finished work is in ...", or OTHERWISE. */
@@ -46,12 +46,12 @@ static void print_line(const char *what, const char *otherwise) {
   const char *saved = kz_checkpoint_saved(here.run.checkpoint);
   here.armed = false;
   kz_checkpoint_forget(here.run.checkpoint);
-  append(&l, "kapitza: ");
-  append(&l, what);
-  append(&l, saved ? "; finished work is in " : otherwise);
-  append(&l, saved ? saved : "");
-  append(&l, saved ? ", --resume goes on from it\n" : "\n");
-  if (!prints())
+  abandon_append(&l, "kapitza: ");
+  abandon_append(&l, what);
+  abandon_append(&l, saved ? "; finished work is in " : otherwise);
+  abandon_append(&l, saved ? saved : "");
+  abandon_append(&l, saved ? ", --resume goes on from it\n" : "\n");
+  if (!abandon_prints())
     sleep(1); /* the end of this rank may end them all, and the line must come first */
   else if (write(STDERR_FILENO, l.text, l.length) < 0)
     return; /* a failed write cannot be reported */
@@ -59,27 +59,27 @@ static void print_line(const char *what, const char *otherwise) {
 
 static void print_error(const char *what) {
   line l = {.length = 0};
-  append(&l, "error: ");
-  append(&l, what);
-  append(&l, " on rank ");
+  abandon_append(&l, "error: ");
+  abandon_append(&l, what);
+  abandon_append(&l, " on rank ");
   append_number(&l, here.rank > 0 ? (unsigned)here.rank : 0);
   print_line(l.text, "");
 }
 
-static void leave(const char *what) {
+static void abandon_leave(const char *what) {
   print_error(what);
   kz_ranks_abandon(here.run.ranks, KZ_FAILED);
 }
 
 static void without_memory(void) {
-  leave("memory ran out");
+  abandon_leave("memory ran out");
 }
 
 /* Libraries print their own words, then exit (gfortran's) or abort (FFTW). */
 static const char LIBRARY_ENDED[] = "a library ended the program, probably because memory ran out,";
 
 static void at_exit(void) {
-  if (here.armed) leave(LIBRARY_ENDED);
+  if (here.armed) abandon_leave(LIBRARY_ENDED);
 }
 
 /* MPI could wait for the allocator that has just aborted: the launcher ends the other ranks. */
@@ -90,7 +90,7 @@ static void at_abort(int number) {
 }
 
 /* All ranks have had the request, or the launcher ends those that have not. */
-static void overdue(const char *reason) {
+static void abandon_overdue(const char *reason) {
   if (!here.part[0] && here.rank > 0) sleep(1); /* no file yet: all ranks come here, rank 0 prints */
   if (here.part[0] || here.rank <= 0) print_line(reason, "; nothing was saved");
   _exit(KZ_STOPPED);
@@ -108,7 +108,7 @@ void kz_abandon_run(const kz_run *run, const char *path) {
   here.run = *run;
   here.part[0] = '\0';
   if (path) snprintf(here.part, sizeof here.part, "%s.part", path);
-  if (run->ranks) kz_ranks_set_overdue(run->ranks, overdue);
+  if (run->ranks) kz_ranks_set_overdue(run->ranks, abandon_overdue);
 }
 
 void kz_abandon_disarm(void) {

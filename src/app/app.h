@@ -50,7 +50,7 @@ kz_status kz_app_keys(const kz_options *options);
 void kz_app_version(FILE *out);
 
 /* Calls `answer` with the scene of the command line, on the process that prints; a message about a key is given its place in the scene. */
-kz_status kz_scene_answer(const kz_options *options, kz_status (*answer)(const kz_options *, const kz_scene *));
+kz_status kz_scene_answer(const kz_options *options, kz_status (*serve_answer)(const kz_options *, const kz_scene *));
 
 /* Writes the name of the result to path [bytes]. KZ_REFUSED if the name is too long. */
 kz_status kz_output_name(const kz_options *options, char *path, size_t bytes);

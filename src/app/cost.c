@@ -36,7 +36,7 @@ static double read_number(const char *path) {
 
 /* The lowest limit of a group and of those that it is in. A container may see its own group as the root: levels that are not
  * there have no limit of their own. */
-static double lowest(const char *mount, char *group, const char *name) {
+static double cost_lowest(const char *mount, char *group, const char *name) {
   double bytes = INFINITY;
   char path[2 * PATH_MAX];
   for (;;) {
@@ -59,9 +59,9 @@ double kz_memory_limit(const char *groups, const char *mount) {
     group[strcspn(group, "\n")] = '\0';
     snprintf(root, sizeof root, "%s/memory", mount);
     if (strcmp(kind + 1, "") == 0)
-      bytes = fmin(bytes, lowest(mount, group, "memory.max"));
+      bytes = fmin(bytes, cost_lowest(mount, group, "memory.max"));
     else if (strcmp(kind + 1, "memory") == 0)
-      bytes = fmin(bytes, lowest(root, group, "memory.limit_in_bytes"));
+      bytes = fmin(bytes, cost_lowest(root, group, "memory.limit_in_bytes"));
   }
   if (file) fclose(file);
   return bytes;

@@ -145,7 +145,7 @@ const kz_option kz_option_rows[] = {
 enum { MOST_OPTIONS = 16 /* Options of a command at most */, NO_LETTER = 256 };
 
 /* getopt's own description of the options of a command: letter = that of the row, or NO_LETTER + its place in row [MOST_OPTIONS]. */
-static void describe(const kz_command *command, const kz_option **row, struct option *longs, char *shorts) {
+static void options_describe(const kz_command *command, const kz_option **row, struct option *longs, char *shorts) {
   shorts = stpcpy(shorts, "+:");
   const char *names = command->options;
   for (int i = 0; (row[i] = kz_option_next(command, &names)); i++) {
@@ -247,7 +247,7 @@ kz_status kz_options_read(const kz_command *command, int argc, char **argv, kz_o
   const kz_option *list[MOST_OPTIONS + 1];
   struct option longs[MOST_OPTIONS + 1];
   char shorts[2 * MOST_OPTIONS + 3];
-  describe(command, list, longs, shorts);
+  options_describe(command, list, longs, shorts);
   opterr = 0;
   optind = 1;
   for (int letter;;) {

@@ -85,7 +85,7 @@ static kz_status find_command(int argc, char **argv, kz_options *options, const 
 }
 
 /* The words of the command line, with a space between. */
-static char *join(int argc, char **argv) {
+static char *program_join(int argc, char **argv) {
   size_t bytes = 1;
   for (int i = 0; i < argc; i++) bytes += strlen(argv[i]) + 1;
   char *line = kz_malloc(bytes), *end = line;
@@ -109,7 +109,7 @@ kz_status kz_app(int argc, char **argv) {
   keep_memory();
   const bool prints = kz_launch_rank() <= 0;
   kz_options options = {.prints = prints, .progress = KZ_PROGRESS_AUTO};
-  options.line = join(argc, argv);
+  options.line = program_join(argc, argv);
   options.words = options.line + strcspn(options.line, " ");
   options.sets = kz_calloc((size_t)argc + 1, sizeof *options.sets);
   options.joined = kz_calloc((size_t)argc + 1, sizeof *options.joined);

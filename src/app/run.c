@@ -61,7 +61,7 @@ static kz_status check_output(job *j, bool *complete) {
 }
 
 /* Makes every check that is possible before modelling, and prints the warnings. */
-static kz_status prepare(job *j, bool *complete) {
+static kz_status run_prepare(job *j, bool *complete) {
   KZ_TRY(agree_on_scene(j));
   KZ_TRY(check_output(j, complete));
   const kz_cost cost = kz_cost_of(&j->scene);
@@ -197,7 +197,7 @@ static kz_status complete_store(job *j) {
   return kz_fail(KZ_FAILED, "%s: another file of that name appeared during the run; move it away and --resume", j->path);
 }
 
-static kz_status finish(job *j, kz_status status) {
+static kz_status run_finish(job *j, kz_status status) {
   if (j->store && status == KZ_OK) status = kz_store_real(j->store, "/", "wall_seconds", kz_ranks_seconds(j->run.ranks));
   if (j->store && status == KZ_OK) {
     status = complete_store(j);
@@ -228,10 +228,10 @@ static kz_status carry_out(job *j) {
   kz_ranks_name_stages(j->run.ranks, kz_stage_words);
   kz_ranks_set_time_limit(j->run.ranks, j->options->time_limit);
   kz_abandon_run(&j->run, NULL); /* the limit holds for what comes before modelling, too */
-  KZ_TRY(prepare(j, &complete));
+  KZ_TRY(run_prepare(j, &complete));
   KZ_TRY(kz_ranks_agree(j->run.ranks, j->first && j->options->log ? open_log(j) : KZ_OK));
   if (!complete) KZ_TRY(open_checkpoint(j, &complete));
-  return complete ? leave_complete(j) : finish(j, run_studies(j));
+  return complete ? leave_complete(j) : run_finish(j, run_studies(j));
 }
 
 static void free_job(job *j) {

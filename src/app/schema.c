@@ -133,7 +133,7 @@ static kz_json *key_of(const kz_key *key) {
 }
 
 /* Whether a key belongs to a form; 0: to none. */
-static bool belongs(const kz_key *key, char form) {
+static bool schema_belongs(const kz_key *key, char form) {
   return form ? key->form && strchr(key->form, form) : !key->form;
 }
 
@@ -141,7 +141,7 @@ static bool belongs(const kz_key *key, char form) {
 static kz_json *required_of(const kz_key *keys, const char *parent, char form) {
   kz_json *list = json_object_new_array();
   for (const kz_key *key = keys; key->path; key++)
-    if (!key->fallback && !key->symbol && belongs(key, form) && stands_in(key, parent))
+    if (!key->fallback && !key->symbol && schema_belongs(key, form) && stands_in(key, parent))
       json_object_array_add(list, kz_json_text(kz_key_name(key)));
   return list;
 }
@@ -155,7 +155,7 @@ static kz_json *with_member(const char *name) {
 static void require_symbols(const kz_key *keys, const char *parent, char form, kz_json *object) {
   kz_json *all = json_object_new_array();
   for (const kz_key *key = keys; key->path; key++) {
-    if (key->fallback || !key->symbol || !belongs(key, form) || !stands_in(key, parent)) continue;
+    if (key->fallback || !key->symbol || !schema_belongs(key, form) || !stands_in(key, parent)) continue;
     kz_json *one = json_object_new_array();
     json_object_array_add(one, with_member(kz_key_name(key)));
     json_object_array_add(one, with_member(key->symbol));
@@ -171,7 +171,7 @@ static void require_symbols(const kz_key *keys, const char *parent, char form, k
 static kz_json *form_of(const kz_key *keys, const char *parent, char form) {
   kz_json *object = object_of("required", required_of(keys, parent, form)), *others = json_object_new_object();
   for (const kz_key *key = keys; key->path; key++) {
-    if (!key->form || belongs(key, form) || !stands_in(key, parent)) continue;
+    if (!key->form || schema_belongs(key, form) || !stands_in(key, parent)) continue;
     kz_json_add_boolean(others, kz_key_name(key), false);
     if (key->symbol) kz_json_add_boolean(others, key->symbol, false);
   }

@@ -46,7 +46,7 @@ static size_t place_of(const addresses *a, const void *memory) {
   return (((uintptr_t)memory >> 4) * 0x9e3779b97f4a7c15U >> 20) & (a->slots - 1);
 }
 
-static void put(addresses *a, void *memory) {
+static void border_put(addresses *a, void *memory) {
   size_t i = place_of(a, memory);
   while (a->slot[i]) i = (i + 1) & (a->slots - 1);
   a->slot[i] = memory;
@@ -54,18 +54,18 @@ static void put(addresses *a, void *memory) {
 }
 
 /* False if there is no memory for more. */
-static bool grow(addresses *a) {
+static bool border_grow(addresses *a) {
   addresses larger = {.slots = 2 * a->slots, .slot = __real_calloc(2 * a->slots, sizeof *larger.slot)};
   if (!larger.slot) return false;
   for (size_t i = 0; i < a->slots; i++)
-    if (a->slot[i]) put(&larger, a->slot[i]);
+    if (a->slot[i]) border_put(&larger, a->slot[i]);
   __real_free(a->slot);
   *a = larger;
   return true;
 }
 
 /* Removes an address, and moves those behind it that its place kept from their own. */
-static void take(addresses *a, const void *memory) {
+static void border_take(addresses *a, const void *memory) {
   size_t i = place_of(a, memory);
   while (a->slot[i] && a->slot[i] != memory) i = (i + 1) & (a->slots - 1);
   if (!a->slot[i]) return;
@@ -122,7 +122,7 @@ void kz_border_enter(kz_border *border) {
 /* ---- leaving ---- */
 
 /* Leaves the work of this thread up to its innermost guard, with the control word of the processor as it was there. */
-static void leave(kz_status why) {
+static void border_leave(kz_status why) {
   here.border->left = why;
   while (here.n_locks > 0) pthread_mutex_unlock(here.lock[--here.n_locks]);
   if (!here.way_out) abort(); /* a thread without a guard */
@@ -148,7 +148,7 @@ kz_status kz_border_guard(kz_status (*work)(void *context), void *context) {
 }
 
 void kz_border_leave(void) {
-  if (here.border && here.border->left) leave((kz_status)here.border->left);
+  if (here.border && here.border->left) border_leave((kz_status)here.border->left);
 }
 
 kz_status kz_border_call(kz_border *border, kz_pause_fn pause, void *pause_context, kz_status (*work)(void *context),
@@ -171,7 +171,7 @@ void kz_border_lacks(void) {
 void kz_border_without_memory(void) {
   if (!here.border) return;
   kz_border_lacks();
-  leave(KZ_FAILED);
+  border_leave(KZ_FAILED);
 }
 
 kz_status kz_border_pause(void) {
@@ -193,7 +193,7 @@ void kz_look(void) {
   if (!here.pause || ++here.calls < CALLS_BETWEEN_CLOCKS) return;
   here.calls = 0;
   const kz_status status = kz_border_pause();
-  if (status != KZ_OK) leave(status);
+  if (status != KZ_OK) border_leave(status);
 }
 
 /* ---- what memory and locks tell ---- */
@@ -202,8 +202,8 @@ void kz_border_keep(void *memory) {
   kz_border *border = here.border;
   if (!border || !memory) return;
   pthread_mutex_lock(&border->mutex);
-  const bool fits = 2 * (border->memory.used + 1) <= border->memory.slots || grow(&border->memory);
-  if (fits) put(&border->memory, memory);
+  const bool fits = 2 * (border->memory.used + 1) <= border->memory.slots || border_grow(&border->memory);
+  if (fits) border_put(&border->memory, memory);
   pthread_mutex_unlock(&border->mutex);
   if (fits) return;
   __real_free(memory);
@@ -214,7 +214,7 @@ void kz_border_forget(void *memory) {
   kz_border *border = here.border;
   if (!border || !memory) return;
   pthread_mutex_lock(&border->mutex);
-  take(&border->memory, memory);
+  border_take(&border->memory, memory);
   pthread_mutex_unlock(&border->mutex);
 }
 
@@ -222,7 +222,7 @@ void kz_border_lock(pthread_mutex_t *lock) {
   if (!here.border) return;
   if (here.border->left || here.n_locks == MOST_LOCKS) { /* data under the lock may be half changed */
     pthread_mutex_unlock(lock);
-    leave(here.border->left ? (kz_status)here.border->left : KZ_FAILED);
+    border_leave(here.border->left ? (kz_status)here.border->left : KZ_FAILED);
   }
   here.lock[here.n_locks++] = lock;
 }

@@ -4,7 +4,7 @@
 
 #include "kapitza/app_instructions.h"
 
-static kapitza_status check(void) {
+static kapitza_status entry_check(void) {
   const char *missing = kz_missing_instruction();
   if (!missing) return KAPITZA_OK;
   kz_message_clear();
@@ -14,11 +14,11 @@ static kapitza_status check(void) {
 }
 
 kapitza_status kapitza_pendulum_create(const char *scene, kapitza_pendulum **pendulum) {
-  const kapitza_status status = check();
+  const kapitza_status status = entry_check();
   return status == KAPITZA_OK ? kz_library_create(scene, pendulum) : status;
 }
 
 kapitza_status kapitza_run(const char *scene, const char *output, int32_t overwrite, char **summary) {
-  const kapitza_status status = check();
+  const kapitza_status status = entry_check();
   return status == KAPITZA_OK ? kz_library_run(scene, output, overwrite, summary) : status;
 }

@@ -8,7 +8,7 @@
 /* Highest harmonics of the Fourier series that stand for a wave form with corners, and for samples. */
 enum { CORNERED = 7, SAMPLED = 16 };
 
-static bool has(double value) {
+static bool drive_has(double value) {
   return !isnan(value) && value != 0;
 }
 
@@ -74,7 +74,7 @@ static int highest_of_samples(const kz_reals *samples) {
 }
 
 /* Harmonic j of the wave form, which is at its top at t = 0 but for samples: cosine and sine. */
-static void fourier(const kz_pendulum_keys *written, int j, double form[2]) {
+static void drive_fourier(const kz_pendulum_keys *written, int j, double form[2]) {
   const bool corners = written->waveform == KZ_SQUARE || written->waveform == KZ_TRIANGLE;
   const double share = 4 / (M_PI * j);
   form[0] = j == 1, form[1] = 0;
@@ -106,7 +106,7 @@ static double distance_from_samples(const kz_reals *samples) {
 
 const char *kz_drive_contradiction(const kz_pendulum_keys *written) {
   const bool shaped =
-      written->waveform > KZ_SINE || written->harmonics.count > 0 || has(written->tilt) || has(written->ellipse);
+      written->waveform > KZ_SINE || written->harmonics.count > 0 || drive_has(written->tilt) || drive_has(written->ellipse);
   if (!has_coefficients(written) || !shaped) return NULL;
   return "vertical and horizontal are the whole drive beside k and m; leave out waveform and the other keys of its form";
 }
@@ -132,9 +132,9 @@ void kz_symmetries_print(const kz_pendulum *p, FILE *out) {
 }
 
 /* The pivot's motion along its line: cosine and sine of harmonic j. */
-static void along(const kz_pendulum_keys *written, double m, int j, double *cosine, double *sine) {
+static void drive_along(const kz_pendulum_keys *written, double m, int j, double *cosine, double *sine) {
   double form[2];
-  fourier(written, j, form);
+  drive_fourier(written, j, form);
   *cosine = m * form[0];
   *sine = m * form[1];
   for (int64_t i = 0; i < written->harmonics.count; i++) {
@@ -151,7 +151,7 @@ static void add_harmonic(const kz_pendulum_keys *written, int j, kz_pendulum *p)
   const double quarter = j * M_PI / 2, aside = sin(tilt);
   const double up = fabs(cos(tilt)) > DBL_EPSILON ? cos(tilt) : 0; /* 90 deg is horizontal, though no double is pi/2 */
   double c, s;
-  along(written, p->m, j, &c, &s);
+  drive_along(written, p->m, j, &c, &s);
   const double across_c = ellipse * (c * cos(quarter) - s * sin(quarter)),
                across_s = ellipse * (c * sin(quarter) + s * cos(quarter));
   p->vertical[j - 1][0] = up * c - aside * across_c - (j == 1 ? p->m : 0);
@@ -169,7 +169,7 @@ static int highest_of(const kz_pendulum_keys *written) {
 }
 
 /* Coefficients as written; harmonics: the highest so far. True if one is not 0. */
-static bool take(const kz_reals *list, double harmonic[KZ_HARMONICS][2], int32_t *harmonics) {
+static bool drive_take(const kz_reals *list, double harmonic[KZ_HARMONICS][2], int32_t *harmonics) {
   bool any = false;
   for (int64_t i = 0; i < list->count && i < 2 * KZ_HARMONICS; i++) {
     harmonic[i / 2][i % 2] = list->values[i];
@@ -181,14 +181,14 @@ static bool take(const kz_reals *list, double harmonic[KZ_HARMONICS][2], int32_t
 
 void kz_drive_resolve(const kz_parameters *parameters, kz_pendulum *p) {
   const kz_pendulum_keys *written = &parameters->written;
-  const bool plane = has(written->tilt) || has(written->ellipse);
-  take(&written->vertical, p->vertical, &p->harmonics);
-  const bool aside = take(&written->horizontal, p->horizontal, &p->harmonics);
+  const bool plane = drive_has(written->tilt) || drive_has(written->ellipse);
+  drive_take(&written->vertical, p->vertical, &p->harmonics);
+  const bool aside = drive_take(&written->horizontal, p->horizontal, &p->harmonics);
   if (plane || written->waveform > KZ_SINE || written->harmonics.count > 0) {
     p->harmonics = highest_of(written);
     for (int j = 1; j <= p->harmonics; j++) add_harmonic(written, j, p);
   }
-  p->unmirrored = plane || aside || has(p->torque) || has(p->torque_amplitude);
+  p->unmirrored = plane || aside || drive_has(p->torque) || drive_has(p->torque_amplitude);
 }
 
 void kz_drive_form(const kz_parameters *parameters, kz_pendulum *form) {
@@ -197,7 +197,7 @@ void kz_drive_form(const kz_parameters *parameters, kz_pendulum *form) {
   if (isnan(parameters->pendulum.k)) return;
   kz_drive_resolve(parameters, form);
   if (!has_coefficients(&parameters->written)) return;
-  form->m = has(unit); /* coefficients are not in units of m */
+  form->m = drive_has(unit); /* coefficients are not in units of m */
   for (int j = 0; j < KZ_HARMONICS && form->m > 0; j++)
     for (int part = 0; part < 2; part++) form->vertical[j][part] /= unit;
 }

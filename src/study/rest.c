@@ -67,7 +67,7 @@ static double next_change(const kz_pendulum *form, const uint8_t *stable, double
 }
 
 /* The position at which gravity counts as k and the drive `form` as m; `most`: the largest drive that is looked at. */
-static rest look(const kz_pendulum *form, double k, double beta, double m, double most) {
+static rest rest_look(const kz_pendulum *form, double k, double beta, double m, double most) {
   KZ_FREED uint8_t *stable = kz_malloc(POINTS);
   const double step = most / (POINTS - 1);
   look_at(form, k, beta, 0, step, POINTS, stable);
@@ -100,7 +100,7 @@ static double most_of(double k, double m) {
 }
 
 void kz_standing_drives(const kz_pendulum *p, double *low, double *high) {
-  const rest inverted = look(NULL, -p->k, p->beta, 0, most_of(p->k, 0));
+  const rest inverted = rest_look(NULL, -p->k, p->beta, 0, most_of(p->k, 0));
   *low = inverted.low;
   *high = inverted.high;
 }
@@ -114,7 +114,7 @@ static drive_words words_of(const kz_parameters *p) {
 }
 
 /* A limit to four digits, on its stable side: at what is printed the position is stable. */
-static double rounded(double value, double (*to_the_side)(double)) {
+static double rest_rounded(double value, double (*to_the_side)(double)) {
   enum { DIGITS = 4 };
   if (!(value > 0)) return value;
   const double unit = pow(10, floor(log10(value)) + 1 - DIGITS);
@@ -123,7 +123,7 @@ static double rounded(double value, double (*to_the_side)(double)) {
 
 /* One position; `sign`: that of the drives, whose limits are counted from 0. */
 static void print_position(const char *name, const rest *r, const drive_words *words, double sign, FILE *out) {
-  const double low = rounded(r->low * words->scale, ceil), high = rounded(r->high * words->scale, floor);
+  const double low = rest_rounded(r->low * words->scale, ceil), high = rest_rounded(r->high * words->scale, floor);
   fprintf(out, "Rest %s: %s", name, r->stable ? "stable" : "unstable");
   if (isnan(low) && isnan(high)) {
     fputs(".", out);
@@ -142,7 +142,7 @@ static void print_position(const char *name, const rest *r, const drive_words *w
 }
 
 /* The drive with the other sign, or as it is. */
-static kz_pendulum times(const kz_pendulum *form, double sign) {
+static kz_pendulum rest_times(const kz_pendulum *form, double sign) {
   kz_pendulum turned = *form;
   turned.m *= sign;
   for (int j = 0; j < form->harmonics; j++)
@@ -164,10 +164,10 @@ void kz_rest_print(const kz_parameters *parameters, FILE *out) {
   kz_pendulum form;
   kz_drive_form(parameters, &form);
   const double m = form.m > 0 ? p->m : 1, sign = m < 0 ? -1 : 1;
-  const kz_pendulum hanging = times(&form, sign), upside = times(&form, -sign);
+  const kz_pendulum hanging = rest_times(&form, sign), upside = rest_times(&form, -sign);
   const double most = most_of(p->k, m);
   const drive_words words = words_of(parameters);
-  rest down = look(&hanging, p->k, p->beta, m, most), inverted = look(&upside, -p->k, p->beta, m, most);
+  rest down = rest_look(&hanging, p->k, p->beta, m, most), inverted = rest_look(&upside, -p->k, p->beta, m, most);
   if (!(form.m > 0)) down.low = down.high = inverted.low = inverted.high = NAN; /* no key scales this drive */
   print_position("hanging down", &down, &words, sign, out);
   fputc(' ', out);

@@ -231,7 +231,7 @@ def test_memory_is_asked_for_where_it_is_checked():
 # POSIX.1-2017, 2.4.3: what a signal handler may call; the last two are of the compiler.
 ASYNC_SAFE = {"_exit", "alarm", "close", "fstat", "lstat", "memchr", "memcmp", "memcpy", "memset", "pread", "read", "sleep", "stat",
               "strchr", "strlen", "unlink", "write", "__errno_location", "__stack_chk_fail"}
-HANDLERS = {"record_signal", "end_overdue", "overdue", "at_abort", "exit_failed"}
+HANDLERS = {"record_signal", "end_overdue", "abandon_overdue", "at_abort", "exit_failed"}
 
 
 def called():

@@ -15,7 +15,7 @@
 #include "kapitza/study_orbit.h"
 
 /* A header with the members that all have. */
-static kz_json *begin(const char *answer, int64_t sequence, bool final) {
+static kz_json *answer_begin(const char *answer, int64_t sequence, bool final) {
   kz_json *header = json_object_new_object();
   kz_json_add_text(header, "answer", answer);
   kz_json_add(header, "sequence", sequence == KZ_UNSET_INTEGER ? NULL : json_object_new_int64(sequence));
@@ -24,21 +24,21 @@ static kz_json *begin(const char *answer, int64_t sequence, bool final) {
 }
 
 /* Prints the header and frees it; the payload's bytes come next. */
-static void print(kz_json *header, size_t bytes) {
+static void answer_print(kz_json *header, size_t bytes) {
   kz_json_add_integer(header, "bytes", (int64_t)bytes);
   kz_json_print(header, stdout);
 }
 
 /* A reader that has gone ends the program as the end of its requests does. */
-static kz_status send(void) {
+static kz_status answer_send(void) {
   if (fflush(stdout) == 0) return KZ_OK;
   return errno == EPIPE ? KZ_STOPPED : kz_fail(KZ_FAILED, "standard output cannot be written: %s", strerror(errno));
 }
 
 /* An answer without payload. */
-static kz_status finish(kz_json *header) {
-  print(header, 0);
-  return send();
+static kz_status answer_finish(kz_json *header) {
+  answer_print(header, 0);
+  return answer_send();
 }
 
 /* The value of a key. All but words are printed as JSON. */
@@ -76,7 +76,7 @@ static kz_json *axis_of(const kz_axis *axis) {
 }
 
 kz_status kz_answer_ready(const kz_scene *scene) {
-  kz_json *header = begin("ready", KZ_UNSET_INTEGER, true), *window = json_object_new_object();
+  kz_json *header = answer_begin("ready", KZ_UNSET_INTEGER, true), *window = json_object_new_object();
   kz_json_add_integer(header, "protocol", 1);
   kz_json_add_text(header, "program", KZ_VERSION);
   kz_json_add_text(header, "title", scene->title);
@@ -84,7 +84,7 @@ kz_status kz_answer_ready(const kz_scene *scene) {
   kz_json_add(window, "theta", axis_of(&scene->basin->theta));
   kz_json_add(window, "velocity", axis_of(&scene->basin->velocity));
   kz_json_add(header, "window", window);
-  return finish(header);
+  return answer_finish(header);
 }
 
 /* As KINDS of the figures' style has them. */
@@ -142,13 +142,13 @@ static kz_json *pendulum_of(const kz_parameters *p) {
 }
 
 kz_status kz_answer_catalogue(int64_t sequence, bool final, const kz_live_catalogue *catalogue) {
-  kz_json *header = begin("catalogue", sequence, final), *list = json_object_new_array();
+  kz_json *header = answer_begin("catalogue", sequence, final), *list = json_object_new_array();
   kz_json_add_integer(header, "version", catalogue->version);
   kz_json_add(header, "pendulum", pendulum_of(&catalogue->parameters));
   for (int64_t i = 0; i < catalogue->list.count; i++)
     json_object_array_add(list, attractor_of(catalogue->list.entries + i, i, catalogue->track[i]));
   kz_json_add(header, "attractors", list);
-  return finish(header);
+  return answer_finish(header);
 }
 
 /* Of a frame or chart: its coarseness and its cells. */
@@ -162,7 +162,7 @@ kz_status kz_answer_raster(const kz_request *request, bool final, const kz_live_
   static const char *const names[] = {"labels", "settling_time", "smooth_time", "doubt", "other", "turns", "evidence"};
   const size_t cells = (size_t)(raster->rows * raster->columns);
   size_t bytes = 0;
-  kz_json *header = begin("frame", request->sequence, final), *planes = json_object_new_array();
+  kz_json *header = answer_begin("frame", request->sequence, final), *planes = json_object_new_array();
   add_raster(header, raster->coarseness, raster->rows, raster->columns);
   kz_json_add_integer(header, "catalogue", raster->catalogue->version);
   kz_json_add_text(header, "quality", request->quality == KZ_QUALITY_MOVING ? "moving" : "exact");
@@ -172,16 +172,16 @@ kz_status kz_answer_raster(const kz_request *request, bool final, const kz_live_
     bytes += cells * kz_plane_bytes((int)request->planes.values[i]);
   }
   kz_json_add(header, "planes", planes);
-  print(header, bytes);
+  answer_print(header, bytes);
   for (int64_t i = 0; i < request->planes.count; i++)
     fwrite(raster->plane[request->planes.values[i]], kz_plane_bytes((int)request->planes.values[i]), cells, stdout);
-  return send();
+  return answer_send();
 }
 
 kz_status kz_answer_where(int64_t sequence, const kz_coordinate start[2], const kz_ending *ending, double omega) {
-  kz_json *header = begin("where", sequence, true);
+  kz_json *header = answer_begin("where", sequence, true);
   kz_ending_add(header, start, ending, omega);
-  return finish(header);
+  return answer_finish(header);
 }
 
 /* The pivot's path over a drive period. */
@@ -198,7 +198,7 @@ static kz_json *pivot_of(const kz_parameters *parameters, int64_t samples) {
 kz_status kz_answer_orbit(const kz_request *request, int64_t samples, const double *theta, const double *velocity) {
   const kz_orbit_plan *plan = request->scene.orbit;
   const kz_pendulum *p = &request->scene.parameters.pendulum;
-  kz_json *header = begin("orbit", request->sequence, true);
+  kz_json *header = answer_begin("orbit", request->sequence, true);
   kz_json_add_integer(header, "samples", samples);
   kz_json_add_integer(header, "samples_per_period", plan->samples_per_period);
   kz_json_add_integer(header, "transient", plan->transient);
@@ -206,21 +206,21 @@ kz_status kz_answer_orbit(const kz_request *request, int64_t samples, const doub
   kz_json_add_real(header, "damping", p->beta);
   kz_json_add_real(header, "m", p->m);
   kz_json_add(header, "pivot", pivot_of(&request->scene.parameters, plan->samples_per_period));
-  print(header, 2 * (size_t)samples * sizeof *theta);
+  answer_print(header, 2 * (size_t)samples * sizeof *theta);
   fwrite(theta, sizeof *theta, (size_t)samples, stdout);
   fwrite(velocity, sizeof *velocity, (size_t)samples, stdout);
-  return send();
+  return answer_send();
 }
 
 kz_status kz_answer_plane(int64_t sequence, bool final, const kz_plane_raster *raster) {
   const size_t cells = (size_t)(raster->rows * raster->columns);
-  kz_json *header = begin("chart", sequence, final);
+  kz_json *header = answer_begin("chart", sequence, final);
   add_raster(header, raster->coarseness, raster->rows, raster->columns);
   kz_json_add(header, "planes", kz_json_texts((const char *const[]){"period", "centre", NULL}));
-  print(header, 2 * cells);
+  answer_print(header, 2 * cells);
   fwrite(raster->period, 1, cells, stdout);
   fwrite(raster->centre, 1, cells, stdout);
-  return send();
+  return answer_send();
 }
 
 /* What motions and branches have in common. */
@@ -245,7 +245,7 @@ static kz_json *motion_of(const kz_motion *motion) {
 }
 
 kz_status kz_answer_motions(int64_t sequence, const kz_motions *motions) {
-  kz_json *header = begin("motions", sequence, true), *list = json_object_new_array();
+  kz_json *header = answer_begin("motions", sequence, true), *list = json_object_new_array();
   kz_json_add_real(header, "x", motions->x);
   kz_json_add_real(header, "y", motions->y);
   kz_json_add_real(header, "k", motions->pendulum.k);
@@ -253,11 +253,11 @@ kz_status kz_answer_motions(int64_t sequence, const kz_motions *motions) {
   kz_json_add_real(header, "m", motions->pendulum.m);
   for (int64_t i = 0; i < motions->count; i++) json_object_array_add(list, motion_of(motions->motion + i));
   kz_json_add(header, "motions", list);
-  return finish(header);
+  return answer_finish(header);
 }
 
 kz_status kz_answer_line(int64_t sequence, const kz_atlas_branches *line) {
-  kz_json *header = begin("line", sequence, true), *list = json_object_new_array();
+  kz_json *header = answer_begin("line", sequence, true), *list = json_object_new_array();
   const size_t values = (size_t)line->n_points * KZ_LINE_COLUMNS;
   for (int64_t i = 0; i < line->count; i++) {
     kz_json *object = json_object_new_object();
@@ -269,28 +269,28 @@ kz_status kz_answer_line(int64_t sequence, const kz_atlas_branches *line) {
   kz_json_add(header, "branches", list);
   kz_json_add(header, "columns",
               kz_json_texts((const char *const[]){"value", "height", "theta", "velocity", "multiplier", NULL}));
-  print(header, values * sizeof(double));
+  answer_print(header, values * sizeof(double));
   if (values > 0) fwrite(line->point, sizeof(double), values, stdout);
-  return send();
+  return answer_send();
 }
 
 kz_status kz_answer_ended(int64_t sequence) {
-  return finish(begin("ended", sequence, true));
+  return answer_finish(answer_begin("ended", sequence, true));
 }
 
 kz_status kz_answer_error(int64_t sequence, kz_status status) {
-  kz_json *header = begin("error", sequence, true);
+  kz_json *header = answer_begin("error", sequence, true);
   kz_json_add_integer(header, "status", status);
   kz_json_add_text(header, "message", kz_message());
   kz_message_clear();
-  return finish(header);
+  return answer_finish(header);
 }
 
 enum { GRACE = 1 /* seconds in which the program ends by itself */ };
 
 /* poll() reports the closed far end of a pipe as POLLERR, an event that is reported without having been requested. A regular file has no far end, and
  * poll() never reports it. */
-static void *watch(void *unused) {
+static void *answer_watch(void *unused) {
   struct pollfd output = {.fd = STDOUT_FILENO};
   (void)unused;
   while (poll(&output, 1, -1) < 0 && errno == EINTR) continue;
@@ -300,7 +300,7 @@ static void *watch(void *unused) {
 
 kz_status kz_answer_watch(void) {
   pthread_t thread;
-  const int error = pthread_create(&thread, NULL, watch, NULL);
+  const int error = pthread_create(&thread, NULL, answer_watch, NULL);
   if (error) return kz_fail(KZ_FAILED, "serve: no thread can be started: %s", strerror(error));
   pthread_detach(thread);
   return KZ_OK;

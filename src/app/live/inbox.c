@@ -16,7 +16,7 @@ void kz_inbox_close(kz_inbox *inbox) {
 }
 
 /* Reads what is there; false where nothing is, or at the end. */
-static bool fill(kz_inbox *inbox, bool waits) {
+static bool inbox_fill(kz_inbox *inbox, bool waits) {
   struct pollfd input = {.fd = STDIN_FILENO, .events = POLLIN};
   if (inbox->first > 0) {
     memmove(inbox->bytes, inbox->bytes + inbox->first, inbox->filled - inbox->first);
@@ -66,7 +66,7 @@ const char *kz_inbox_line(kz_inbox *inbox, bool waits, size_t *length, kz_status
         return NULL;
       }
       if (inbox->ended) return last_line(inbox, length);
-      if (!fill(inbox, waits) && !inbox->ended) return NULL;
+      if (!inbox_fill(inbox, waits) && !inbox->ended) return NULL;
     }
     const char *line = inbox->bytes + inbox->first;
     *length = (size_t)(end - line);

@@ -18,7 +18,7 @@ static size_t lenient_place(const char *line, size_t length) {
   return length;
 }
 
-static kz_status parse(const char *line, size_t length, const char *source, kz_json **json) {
+static kz_status json_read_parse(const char *line, size_t length, const char *source, kz_json **json) {
   const size_t sound = lenient_place(line, length);
   struct json_tokener *tokener = json_tokener_new_ex(MOST_DEPTH);
   if (!tokener) return kz_fail(KZ_FAILED, "%s: out of memory", source);
@@ -78,7 +78,7 @@ static kz_node *node_of(kz_json *json, const char *source) {
 kz_status kz_json_read(const char *line, size_t length, const char *source, kz_node **root) {
   kz_json *json = NULL;
   *root = NULL;
-  KZ_TRY(parse(line, length, source, &json));
+  KZ_TRY(json_read_parse(line, length, source, &json));
   *root = node_of(json, source);
   json_object_put(json);
   return KZ_OK;

@@ -27,7 +27,7 @@ static kz_status pause_job(void *context) {
 }
 
 /* The thread. Its message is kept apart from those of requests that are read meanwhile. */
-static void *compute(void *context) {
+static void *orbit_compute(void *context) {
   job *j = context;
   const kz_status status = kz_orbit_record(j->scene, pause_job, j, j->theta, j->velocity);
   pthread_mutex_lock(&j->mutex);
@@ -50,7 +50,8 @@ static bool wait_job(job *j) {
 }
 
 /* Until the thread has ended; *ended: the request was ended before, and `ended` has been answered. */
-static kz_status follow(job *j, const kz_request *request, kz_status (*meanwhile)(void *context), void *context, bool *ended) {
+static kz_status orbit_follow(job *j, const kz_request *request, kz_status (*meanwhile)(void *context), void *context,
+                              bool *ended) {
   kz_status status = KZ_OK;
   while (!wait_job(j)) {
     if (status == KZ_OK) status = meanwhile(context);
@@ -73,9 +74,9 @@ kz_status kz_orbit_answer(const kz_request *request, kz_status (*meanwhile)(void
   KZ_FREED double *theta = kz_malloc(bytes), *velocity = kz_malloc(bytes);
   job j = {.scene = &request->scene, .theta = theta, .velocity = velocity, .mutex = PTHREAD_MUTEX_INITIALIZER};
   kz_condition_make(&j.changed);
-  if (!kz_thread_start(&thread, STACK_BYTES, compute, &j))
+  if (!kz_thread_start(&thread, STACK_BYTES, orbit_compute, &j))
     return kz_fail(KZ_FAILED, "request: orbit: no thread can be started");
-  kz_status status = follow(&j, request, meanwhile, context, &ended);
+  kz_status status = orbit_follow(&j, request, meanwhile, context, &ended);
   pthread_join(thread, NULL);
   if (status == KZ_OK && !ended && j.status != KZ_OK)
     status = kz_fail(j.status, "%s", j.message[0] ? j.message : "request: orbit: failed");

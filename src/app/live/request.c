@@ -65,7 +65,7 @@ static const struct {
 enum { N_ADDED = sizeof added / sizeof added[0] };
 
 /* `value`: in quotes, or "". */
-static kz_status refuse(const kz_key *key, const char *value, const char *wrong) {
+static kz_status request_refuse(const kz_key *key, const char *value, const char *wrong) {
   char accepted[700];
   kz_key_accepts(rows, key, accepted, sizeof accepted);
   return kz_fail(KZ_REFUSED, "%s: %s: %s%s; it must be %s", SOURCE, key->path, value, wrong, accepted);
@@ -75,11 +75,11 @@ static kz_status read_row(const kz_key *key, kz_node *root, kz_request *request)
   char value[70];
   KZ_TRY(kz_value_default(key, request));
   kz_node *node = kz_tree_take(root, key->path);
-  if (!node) return key->fallback ? KZ_OK : refuse(key, "", "is missing");
+  if (!node) return key->fallback ? KZ_OK : request_refuse(key, "", "is missing");
   const kz_node *culprit;
   const char *wrong = kz_value_read(key, node, request, &culprit);
   snprintf(value, sizeof value, "\"%.60s\" ", wrong && culprit->text ? culprit->text : "...");
-  const kz_status status = wrong ? refuse(key, value, wrong) : KZ_OK;
+  const kz_status status = wrong ? request_refuse(key, value, wrong) : KZ_OK;
   kz_tree_free(node);
   return status;
 }

@@ -67,7 +67,7 @@ static kz_status end_older(server *s, const kz_request *by) {
   return KZ_OK;
 }
 
-static kz_status append(server *s, kz_request *request) {
+static kz_status serve_append(server *s, kz_request *request) {
   kz_request **end = &s->waiting;
   while (*end) end = &(*end)->next;
   *end = request;
@@ -75,9 +75,9 @@ static kz_status append(server *s, kz_request *request) {
 }
 
 /* A request that has been read, which it takes over: cancel and quit take effect, the others wait. */
-static kz_status take(server *s, kz_request *request) {
+static kz_status serve_take(server *s, kz_request *request) {
   if (request->kind == KZ_REQUEST_CANCEL || is_drawn(request)) KZ_TRY(end_older(s, request));
-  if (request->kind != KZ_REQUEST_CANCEL && request->kind != KZ_REQUEST_QUIT) return append(s, request);
+  if (request->kind != KZ_REQUEST_CANCEL && request->kind != KZ_REQUEST_QUIT) return serve_append(s, request);
   const int64_t sequence = request->sequence;
   const bool quits = request->kind == KZ_REQUEST_QUIT && !s->quits;
   kz_request_free(request);
@@ -97,7 +97,7 @@ static kz_status read_next(server *s, bool waits, bool *read) {
   if (!*read) return KZ_OK;
   kz_request *request = NULL;
   if (line) wrong = kz_request_read(s->tree.root, line, length, &request);
-  if (wrong == KZ_OK) return take(s, request);
+  if (wrong == KZ_OK) return serve_take(s, request);
   const kz_status status = kz_answer_error(request ? request->sequence : KZ_UNSET_INTEGER, wrong);
   kz_request_free(request);
   return status;
@@ -157,7 +157,7 @@ static kz_status answer_orbit(server *s, kz_request *request) {
 }
 
 /* Answers a request that is no frame or chart, and frees it. */
-static kz_status answer(server *s, kz_request *request) {
+static kz_status serve_answer(server *s, kz_request *request) {
   kz_status status = request->kind == KZ_REQUEST_WHERE     ? answer_where(s, request)
                      : request->kind == KZ_REQUEST_ORBIT   ? answer_orbit(s, request)
                      : request->kind == KZ_REQUEST_MOTIONS ? answer_motions(s, request)
@@ -179,7 +179,7 @@ static kz_request **find_waiting(server *s, bool drawn) {
 static kz_status catch_up(server *s) {
   bool read = true;
   for (int i = 0; i < MOST_WAITING && read && !s->quits; i++) {
-    for (kz_request **place; !s->quits && *(place = find_waiting(s, false));) KZ_TRY(answer(s, take_out(s, place)));
+    for (kz_request **place; !s->quits && *(place = find_waiting(s, false));) KZ_TRY(serve_answer(s, take_out(s, place)));
     if (!s->quits) KZ_TRY(read_next(s, false, &read));
   }
   return KZ_OK;
@@ -192,7 +192,7 @@ static kz_status pause_drawing(void *context) {
   return s->drawn->ended || s->quits ? KZ_STOPPED : KZ_OK;
 }
 
-static kz_status show(void *context, const kz_live_raster *raster) {
+static kz_status serve_show(void *context, const kz_live_raster *raster) {
   server *s = context;
   const kz_integers *coarseness = &s->drawn->coarseness;
   if (raster->catalogue->version != s->shown) {
@@ -215,7 +215,7 @@ static kz_status check_size(const kz_scene *scene) {
                  (long long)most);
 }
 
-static kz_status draw(server *s, kz_request *request) {
+static kz_status serve_draw(server *s, kz_request *request) {
   if (request->kind == KZ_REQUEST_CHART) {
     KZ_TRY(kz_drive_check_sine(&request->scene, KZ_ENDS_NEED_SINE));
     KZ_TRY(check_size(&request->scene));
@@ -224,7 +224,7 @@ static kz_status draw(server *s, kz_request *request) {
   kz_frame frame = {.moving = request->quality == KZ_QUALITY_MOVING,
                     .coarseness = &request->coarseness,
                     .pause = pause_drawing,
-                    .show = show,
+                    .show = serve_show,
                     .context = s,
                     .x = request->x,
                     .y = request->y};
@@ -239,7 +239,7 @@ static kz_status draw(server *s, kz_request *request) {
 /* Makes the frame or chart that has waited longest. */
 static kz_status draw_next(server *s) {
   kz_request *request = s->drawn = take_out(s, find_waiting(s, true));
-  kz_status status = draw(s, request);
+  kz_status status = serve_draw(s, request);
   if (status == KZ_STOPPED && (request->ended || s->quits))
     status = kz_answer_ended(request->sequence);
   else if (status == KZ_FAILED || status == KZ_REFUSED)
@@ -268,7 +268,7 @@ static kz_status answer_all(server *s) {
   return end_all(s);
 }
 
-static kz_status greet(server *s, const kz_options *options) {
+static kz_status serve_greet(server *s, const kz_options *options) {
   kz_scene scene;
   char *text;
   size_t length;
@@ -284,7 +284,7 @@ static kz_status greet(server *s, const kz_options *options) {
   return status;
 }
 
-static kz_status serve(const kz_options *options) {
+static kz_status serve_serve(const kz_options *options) {
   server s = {0};
   if (!options->prints) return KZ_OK;
   if (strcmp(options->scene, "-") == 0)
@@ -293,7 +293,7 @@ static kz_status serve(const kz_options *options) {
   KZ_TRY(kz_answer_watch());
   kz_inbox_open(&s.inbox);
   s.engine = kz_engine_create();
-  kz_status status = greet(&s, options);
+  kz_status status = serve_greet(&s, options);
   if (status == KZ_OK) status = answer_all(&s);
   while (s.waiting) kz_request_free(take_out(&s, &s.waiting));
   kz_engine_free(s.engine);
@@ -304,7 +304,7 @@ static kz_status serve(const kz_options *options) {
 }
 
 const kz_command kz_serve_command = {
-    "serve",   " SCENE",
-    1,         1,
-    serve,     "answer requests of other programs (JSON lines on standard input) for frames, orbits and ends of starts",
+    "serve",     " SCENE",
+    1,           1,
+    serve_serve, "answer requests of other programs (JSON lines on standard input) for frames, orbits and ends of starts",
     "set|help"};

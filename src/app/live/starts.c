@@ -63,7 +63,7 @@ static kz_status read_start(const char *const text[2], const char *place, kz_sta
 }
 
 /* Cuts blanks from both ends, in place. */
-static char *trimmed(char *text) {
+static char *starts_trimmed(char *text) {
   text += strspn(text, " \t");
   for (size_t n = strlen(text); n > 0 && strchr(" \t\r\n", text[n - 1]); n--) text[n - 1] = '\0';
   return text;
@@ -74,9 +74,9 @@ static kz_status read_row(char *line, int64_t number, kz_starts *starts) {
   snprintf(place, sizeof place, "standard input:%lld", (long long)number);
   char *comma = strchr(line, ',');
   if (!comma || strchr(comma + 1, ','))
-    return kz_fail(KZ_REFUSED, "%s: \"%.60s\" is not a start; write theta,velocity", place, trimmed(line));
+    return kz_fail(KZ_REFUSED, "%s: \"%.60s\" is not a start; write theta,velocity", place, starts_trimmed(line));
   *comma = '\0';
-  const char *const text[2] = {trimmed(line), trimmed(comma + 1)};
+  const char *const text[2] = {starts_trimmed(line), starts_trimmed(comma + 1)};
   return read_start(text, place, starts);
 }
 

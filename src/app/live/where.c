@@ -219,7 +219,7 @@ static kz_status answer_boundary(const kz_options *options, const kz_scene *scen
   return KZ_OK;
 }
 
-static kz_status answer(const kz_options *options, const kz_scene *scene) {
+static kz_status where_answer(const kz_options *options, const kz_scene *scene) {
   kz_starts starts;
   kz_status status = kz_starts_read(options, scene->parameters.pivot_frequency, &starts);
   if (status == KZ_OK) status = kz_studies_check(scene);
@@ -229,8 +229,8 @@ static kz_status answer(const kz_options *options, const kz_scene *scene) {
   return status;
 }
 
-static kz_status where(const kz_options *options) {
-  return kz_scene_answer(options, answer);
+static kz_status where_where(const kz_options *options) {
+  return kz_scene_answer(options, where_answer);
 }
 
 static kz_status set_boundary(void *members, const kz_option *row, const char *argument) {
@@ -253,7 +253,7 @@ const kz_command kz_where_command = {
     " SCENE THETA VELOCITY",
     2,
     5,
-    where,
+    where_where,
     "say on which attractor a start ends; THETA is in rad from down, VELOCITY in rad per drive radian, with any number of "
     "digits, or both with units ('170 deg', of a scene in SI '3 rad/s'); write - in their place to read starts as CSV from "
     "standard input; --boundary takes two starts",

@@ -81,7 +81,7 @@ void kz_key_list(const char *words, char *text, size_t bytes) {
 }
 
 /* The names of the keys of mapping `parent`, joined by '|', written to `text` [bytes]. */
-static void children(const kz_key *keys, const char *parent, char *text, size_t bytes) {
+static void key_children(const kz_key *keys, const char *parent, char *text, size_t bytes) {
   const size_t skip = parent[0] ? strlen(parent) + 1 : 0;
   text[0] = '\0';
   for (; keys->path; keys++)
@@ -98,7 +98,7 @@ void kz_key_unit_words(const kz_key *key, char *text, size_t bytes) {
 void kz_key_accepts_with(const kz_key *keys, const kz_key *key, const char *noun, const char *unit, char *text, size_t bytes) {
   char names[512] = "", detail[512] = "";
   if (key->type == KZ_KEY_MAPPING)
-    children(keys, key->path, names, sizeof names);
+    key_children(keys, key->path, names, sizeof names);
   else
     snprintf(names, sizeof names, "%s", kz_key_words(key));
   kz_key_list(names, detail, sizeof detail);
@@ -127,12 +127,12 @@ void kz_key_accepts(const kz_key *keys, const kz_key *key, char *text, size_t by
   kz_key_accepts_with(keys, key, nouns[key->type], unit, text, bytes);
 }
 
-static size_t least(size_t a, size_t b) {
+static size_t key_least(size_t a, size_t b) {
   return a < b ? a : b;
 }
 
 /* Edit distance with swapped neighbours counted once (Damerau 1964, optimal string alignment). */
-static size_t distance(const char *a, const char *b) {
+static size_t key_distance(const char *a, const char *b) {
   size_t d[LONGEST_WORD + 1][LONGEST_WORD + 1];
   const size_t n = strlen(a), m = strlen(b);
   if (n > LONGEST_WORD || m > LONGEST_WORD) return SIZE_MAX;
@@ -143,8 +143,8 @@ static size_t distance(const char *a, const char *b) {
         continue;
       }
       const size_t change = d[i - 1][j - 1] + (a[i - 1] != b[j - 1]);
-      d[i][j] = least(change, least(d[i - 1][j], d[i][j - 1]) + 1);
-      if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1]) d[i][j] = least(d[i][j], d[i - 2][j - 2] + 1);
+      d[i][j] = key_least(change, key_least(d[i - 1][j], d[i][j - 1]) + 1);
+      if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1]) d[i][j] = key_least(d[i][j], d[i - 2][j - 2] + 1);
     }
   return d[n][m];
 }
@@ -173,7 +173,7 @@ bool kz_key_suggest(const char *word, const char *words, char *nearest, size_t b
   for (const char *next; (next = kz_words_next(&words, &length));) {
     char candidate[LONGEST_WORD + 1];
     snprintf(candidate, sizeof candidate, "%.*s", length, next);
-    const size_t d = distance(word, candidate);
+    const size_t d = key_distance(word, candidate);
     if (d < best || (d == best && !found)) {
       best = d;
       found = true;
@@ -223,7 +223,7 @@ void kz_key_unknown(const kz_key *keys, const char *parent, const char *name, co
   }
   char names[1024], list[1024], nearest[64];
   const kz_key *mapping = kz_key_find(keys, parent), *elsewhere = find_elsewhere(keys, name);
-  children(keys, parent, names, sizeof names);
+  key_children(keys, parent, names, sizeof names);
   kz_key_list(names, list, sizeof list);
   if (mapping ? kz_key_renamed(mapping, name, nearest, sizeof nearest) : was_a_study(keys, name, nearest, sizeof nearest))
     snprintf(text, bytes, "is no longer a key; use %s", nearest);

@@ -148,7 +148,7 @@ static bool is_as_written(const kz_key *row) {
 }
 
 /* Adds the words and the help of a part's row to the same key of its study. */
-static void extend(kz_key *row, const kz_key *part) {
+static void keys_extend(kz_key *row, const kz_key *part) {
   const bool joined = !is_as_written(row);
   row->words = join_text(kz_key_words(row), joined, "|", kz_key_words(part));
   row->help = join_text(row->help, joined, " ", part->help);
@@ -161,12 +161,12 @@ static kz_key *find_row(kz_key *joined, int64_t n, const char *path) {
 }
 
 /* Puts each of `keys` among the `n` first ones of `joined`, behind those of its mapping, or at their end; returns their number. */
-static int64_t add(kz_key *joined, int64_t n, const kz_key *keys) {
+static int64_t keys_add(kz_key *joined, int64_t n, const kz_key *keys) {
   for (; keys->path; keys++, n++) {
     int64_t at = n;
     kz_key *same = find_row(joined, n, keys->path);
     if (same) {
-      extend(same, keys);
+      keys_extend(same, keys);
       n--;
       continue;
     }
@@ -182,8 +182,8 @@ static void join_keys(void) {
   int64_t n = length_of(own);
   for (int i = 0; i < kz_study_count; i++) n += length_of(kz_studies[i]->keys);
   kz_key *joined = kz_calloc((size_t)n + 1, sizeof *joined);
-  n = add(joined, 0, own);
-  for (int i = 0; i < kz_study_count; i++) n = add(joined, n, kz_studies[i]->keys);
+  n = keys_add(joined, 0, own);
+  for (int i = 0; i < kz_study_count; i++) n = keys_add(joined, n, kz_studies[i]->keys);
   table = joined;
 }
 

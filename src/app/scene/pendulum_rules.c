@@ -22,7 +22,7 @@ static bool is_laboratory(const kz_pendulum_keys *w) {
 }
 
 /* Adds one thing that is missing to the list. */
-static void lack(char *list, size_t bytes, bool missing, const char *what) {
+static void pendulum_rules_lack(char *list, size_t bytes, bool missing, const char *what) {
   if (missing) snprintf(list + strlen(list), bytes - strlen(list), "%s%s", list[0] ? "; " : "", what);
 }
 
@@ -32,14 +32,17 @@ static void check_complete(kz_reading *reading, const kz_pendulum_keys *w) {
   const size_t n = sizeof list;
   const bool body = is_given(w->radius) || is_given(w->inertia);
   const bool needs_mass = (is_given(w->friction) || has_moment(w)) && !is_given(w->inertia);
-  if (!body && !is_given(w->length)) lack(list, n, true, "length (of a point mass; of another body mass, radius and inertia)");
-  lack(list, n, (body || needs_mass) && !is_given(w->mass), body ? "mass" : "mass (beside friction or a torque)");
-  lack(list, n, body && !is_given(w->radius), "radius");
-  lack(list, n, body && !is_given(w->inertia), "inertia");
-  lack(list, n, !is_given(w->frequency) && !is_given(w->pivot_frequency), "frequency (in Hz; or pivot_frequency in rad/s)");
-  lack(list, n, !is_given(w->amplitude) && !is_given(w->pivot_amplitude), "amplitude (of the pivot)");
-  lack(list, n, !is_given(w->quality_factor) && !is_given(w->decay_time) && !is_given(w->friction),
-       "quality_factor (or decay_time, or friction)");
+  if (!body && !is_given(w->length))
+    pendulum_rules_lack(list, n, true, "length (of a point mass; of another body mass, radius and inertia)");
+  pendulum_rules_lack(list, n, (body || needs_mass) && !is_given(w->mass),
+                      body ? "mass" : "mass (beside friction or a torque)");
+  pendulum_rules_lack(list, n, body && !is_given(w->radius), "radius");
+  pendulum_rules_lack(list, n, body && !is_given(w->inertia), "inertia");
+  pendulum_rules_lack(list, n, !is_given(w->frequency) && !is_given(w->pivot_frequency),
+                      "frequency (in Hz; or pivot_frequency in rad/s)");
+  pendulum_rules_lack(list, n, !is_given(w->amplitude) && !is_given(w->pivot_amplitude), "amplitude (of the pivot)");
+  pendulum_rules_lack(list, n, !is_given(w->quality_factor) && !is_given(w->decay_time) && !is_given(w->friction),
+                      "quality_factor (or decay_time, or friction)");
   if (list[0]) kz_complain_at(reading, NULL, "pendulum.amplitude", "the pendulum lacks: %s", list);
 }
 

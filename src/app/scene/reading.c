@@ -32,8 +32,8 @@ static const kz_node *nearest_mapping(const kz_node *root, const char *path) {
 }
 
 /* Keeps a complaint at the value of `node`, or at its key; NULL: at the mapping that `path` misses from, after all others. */
-static void complain(kz_reading *reading, const kz_node *node, bool at_name, const char *path, const char *format,
-                     va_list arguments) {
+static void reading_complain(kz_reading *reading, const kz_node *node, bool at_name, const char *path, const char *format,
+                             va_list arguments) {
   const int order = node ? node->order : INT_MAX - 1;
   if (order >= reading->first) return;
   reading->first = order;
@@ -44,12 +44,12 @@ static void complain(kz_reading *reading, const kz_node *node, bool at_name, con
     vsnprintf(reading->message + length, sizeof reading->message - (size_t)length, format, arguments);
 }
 
-#define COMPLAIN(reading, node, at_name, path, format)         \
-  do {                                                         \
-    va_list arguments;                                         \
-    va_start(arguments, format);                               \
-    complain(reading, node, at_name, path, format, arguments); \
-    va_end(arguments);                                         \
+#define COMPLAIN(reading, node, at_name, path, format)                 \
+  do {                                                                 \
+    va_list arguments;                                                 \
+    va_start(arguments, format);                                       \
+    reading_complain(reading, node, at_name, path, format, arguments); \
+    va_end(arguments);                                                 \
   } while (0)
 
 void kz_complain(kz_reading *reading, const char *path, const char *format, ...) {
@@ -164,7 +164,7 @@ static void read_mapping(kz_reading *reading, const kz_node *mapping, const char
 }
 
 /* The mapping that should hold `key`, or NULL where it is not there. */
-static const kz_node *holder(const kz_reading *reading, const kz_key *key, char *parent, size_t bytes) {
+static const kz_node *reading_holder(const kz_reading *reading, const kz_key *key, char *parent, size_t bytes) {
   const char *dot = strrchr(key->path, '.');
   snprintf(parent, bytes, "%.*s", dot ? (int)(dot - key->path) : 0, key->path);
   const kz_node *node = dot ? kz_tree_find(reading->root, parent) : reading->root;
@@ -182,7 +182,7 @@ static bool needs_no_pendulum(const kz_reading *reading) {
 
 static bool is_missing(const kz_reading *reading, const kz_key *key) {
   char parent[256];
-  const kz_node *mapping = holder(reading, key, parent, sizeof parent);
+  const kz_node *mapping = reading_holder(reading, key, parent, sizeof parent);
   if (!mapping || key->fallback || kz_tree_find(reading->root, key->path)) return false;
   if (strcmp(key->path, "pendulum") == 0 && needs_no_pendulum(reading)) return false;
   const kz_key *chooser = key->form ? form_chooser(reading->keys, mapping, parent) : NULL;
@@ -254,7 +254,7 @@ static bool frequency_changes(const kz_node *root) {
   return false;
 }
 
-static void convert(kz_reading *reading, const char *path, kz_node *node) {
+static void reading_convert(kz_reading *reading, const char *path, kz_node *node) {
   double value;
   const char *wrong;
   if (!kz_scalar_per_second(node, pivot_frequency(reading->root), &value, &wrong)) return;
@@ -273,9 +273,9 @@ static void read_velocities(kz_reading *reading) {
   for (const kz_key *key = reading->keys; key->path; key++) {
     kz_node *node = strcmp(key->unit, KZ_VELOCITY_UNIT) == 0 ? kz_tree_find(reading->root, key->path) : NULL;
     if (!node) continue;
-    convert(reading, key->path, node);
+    reading_convert(reading, key->path, node);
     for (kz_node *item = node->kind == KZ_SEQUENCE ? node->first : NULL; item; item = item->next)
-      convert(reading, key->path, item);
+      reading_convert(reading, key->path, item);
   }
 }
 

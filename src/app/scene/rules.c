@@ -10,7 +10,7 @@
 #include "../../study/sweep/plan.h"
 
 /* Complains about a key where it is given. */
-static void refuse(kz_reading *reading, const char *path, const char *why) {
+static void rules_refuse(kz_reading *reading, const char *path, const char *why) {
   if (kz_tree_find(reading->root, path)) kz_complain(reading, path, "%s", why);
 }
 
@@ -66,15 +66,15 @@ static void need_rule(kz_reading *reading, const kz_study_need *need, const char
 /* Refuses keys that contradict orbit.attractor. */
 static void orbit_attractor_rules(kz_reading *reading, kz_scene *scene) {
   need_rule(reading, &(kz_study_need){"a list of attractors", "basin|attractors"}, "orbit.attractor");
-  refuse(reading, "orbit.start", "contradicts attractor; give one of them");
+  rules_refuse(reading, "orbit.start", "contradicts attractor; give one of them");
   if (!scene->orbit->closed)
-    refuse(reading, "orbit.closed",
-           "contradicts attractor, whose orbit is closed; set true, or give a start instead of attractor");
+    rules_refuse(reading, "orbit.closed",
+                 "contradicts attractor, whose orbit is closed; set true, or give a start instead of attractor");
   scene->orbit->closed = true;
-  refuse(reading, "orbit.period", "follows from orbit.attractor; leave it out");
+  rules_refuse(reading, "orbit.period", "follows from orbit.attractor; leave it out");
   if (scene->orbit->model != KZ_PENDULUM)
-    refuse(reading, "orbit.model",
-           "has no attractors; choose the model pendulum, or give orbit.start instead of orbit.attractor");
+    rules_refuse(reading, "orbit.model",
+                 "has no attractors; choose the model pendulum, or give orbit.start instead of orbit.attractor");
 }
 
 static void orbit_rules(kz_reading *reading, kz_scene *scene) {
@@ -85,10 +85,10 @@ static void orbit_rules(kz_reading *reading, kz_scene *scene) {
     orbit_attractor_rules(reading, scene);
   else if (!kz_tree_find(reading->root, "orbit.start"))
     kz_complain(reading, "orbit.start", "is missing; give a mapping of theta and velocity, or an attractor instead");
-  if (!linear) refuse(reading, "orbit.about", "belongs to the model mathieu only; leave it out");
+  if (!linear) rules_refuse(reading, "orbit.about", "belongs to the model mathieu only; leave it out");
   if (orbit->model == KZ_EFFECTIVE && orbit->closed)
-    refuse(reading, "orbit.closed", "cannot be used with the model effective, which has no drive; set false");
-  if (!orbit->closed) refuse(reading, "orbit.period", "belongs to closed orbits only; add closed: true");
+    rules_refuse(reading, "orbit.closed", "cannot be used with the model effective, which has no drive; set false");
+  if (!orbit->closed) rules_refuse(reading, "orbit.period", "belongs to closed orbits only; add closed: true");
   if (linear && orbit->closed && orbit->period == KZ_UNSET_INTEGER)
     kz_complain(reading, "orbit.period",
                 "is missing; give the period of the closed orbit, which cannot be found for the model mathieu");

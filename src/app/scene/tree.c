@@ -32,14 +32,14 @@ kz_node *kz_tree_find(const kz_node *root, const char *path) {
   return path[length] == '.' && child ? kz_tree_find(child, path + length + 1) : child;
 }
 
-static void append(kz_node *mapping, kz_node *child) {
+static void tree_append(kz_node *mapping, kz_node *child) {
   kz_node **end = &mapping->first;
   while (*end) end = &(*end)->next;
   *end = child;
 }
 
 /* Puts the content of `value` in the place of `node`. */
-static void replace(kz_node *node, kz_node *value) {
+static void tree_replace(kz_node *node, kz_node *value) {
   value->next = node->next;
   node->next = NULL;
   const kz_node content = *value;
@@ -62,9 +62,9 @@ static void set_here(kz_node *mapping, const char *name, kz_node *value) {
   value->name = kz_strdup(name);
   kz_node *old = kz_tree_child(mapping, name);
   if (old)
-    replace(old, value);
+    tree_replace(old, value);
   else
-    append(mapping, value);
+    tree_append(mapping, value);
 }
 
 kz_status kz_tree_set(kz_node *root, const char *path, kz_node *value) {
@@ -76,7 +76,7 @@ kz_status kz_tree_set(kz_node *root, const char *path, kz_node *value) {
   kz_node *child = child_named(root, path, length);
   if (!child) {
     child = new_mapping(path, length, value);
-    append(root, child);
+    tree_append(root, child);
   }
   if (child->kind == KZ_MAPPING) return kz_tree_set(child, path + length + 1, value);
   const char *source = value->source;

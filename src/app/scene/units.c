@@ -50,7 +50,7 @@ static const unit units[] = {
 enum { UNITS = sizeof units / sizeof units[0] };
 
 /* The text without ^, with blanks for * and one blank at most in a row. */
-static void normalize(const char *text, char *name, size_t bytes) {
+static void units_normalize(const char *text, char *name, size_t bytes) {
   size_t n = 0;
   for (const char *c = text; *c && n + 1 < bytes; c++) {
     const char letter = *c == '*' ? ' ' : *c;
@@ -69,7 +69,7 @@ bool kz_unit_is_known(const char *of) {
 
 const char *kz_unit_find(const char *text, const char *of, kz_written_unit *found) {
   char name[32];
-  normalize(text, name, sizeof name);
+  units_normalize(text, name, sizeof name);
   const char *other = NULL;
   for (int i = 0; i < UNITS; i++) {
     if (strcmp(units[i].name, name) != 0) continue;

@@ -256,12 +256,12 @@ const char *kz_value_read(const kz_key *key, const kz_node *node, void *scene, c
 }
 
 /* Marks the field as not given. */
-static void clear(const kz_key *key, void *scene) {
+static void value_clear(const kz_key *key, void *scene) {
   if (key->offset != KZ_NO_FIELD) memcpy(field_of(key, scene), types[key->type].unset, types[key->type].unset_bytes);
 }
 
 kz_status kz_value_default(const kz_key *key, void *scene) {
-  clear(key, scene);
+  value_clear(key, scene);
   if (key->type == KZ_KEY_MAPPING || !key->fallback || !key->fallback[0]) return KZ_OK;
   kz_node *node;
   const kz_node *culprit;

@@ -30,7 +30,7 @@ static bool is_idle(const kz_key *keys, const kz_key *key, const void *scene) {
   return false;
 }
 
-static void indent(int depth, FILE *out) {
+static void write_indent(int depth, FILE *out) {
   fprintf(out, "%*s", 2 * depth, "");
 }
 
@@ -42,10 +42,10 @@ static void write_name(const char *path, const char *last, FILE *out) {
   for (const char *dot; (dot = strchr(name, '.')); name = dot + 1, depth++) {
     inside = inside && strncmp(last, path, (size_t)(dot - path) + 1) == 0;
     if (inside) continue;
-    indent(depth, out);
+    write_indent(depth, out);
     fprintf(out, "%.*s:\n", (int)(dot - name), name);
   }
-  indent(depth, out);
+  write_indent(depth, out);
   fprintf(out, "%s: ", name);
 }
 

@@ -29,7 +29,7 @@ static const struct {
     {YAML_BLOCK_SEQUENCE_START_TOKEN, true, "is a block list; write flow text such as [1, 2]"},
 };
 
-static kz_status refuse(const source_text *source, size_t line, size_t column, const char *wrong) {
+static kz_status yaml_refuse(const source_text *source, size_t line, size_t column, const char *wrong) {
   if (source->option) return kz_fail(KZ_REFUSED, "%s: %s", source->source, wrong);
   return kz_fail(KZ_REFUSED, "%s:%zu:%zu: scene: %s", source->source, line + 1, column + 1, wrong);
 }
@@ -54,7 +54,7 @@ static kz_status refuse_problem(const source_text *source, const yaml_parser_t *
              parser->problem ? parser->problem : "malformed", parser->context ? " " : "",
              parser->context ? parser->context : "", tab ? " (a tab stands here)" : "");
   }
-  return refuse(source, line, column, wrong);
+  return yaml_refuse(source, line, column, wrong);
 }
 
 static int depth_change(yaml_token_type_t type) {
@@ -68,8 +68,9 @@ static kz_status check_token(const source_text *source, const yaml_token_t *toke
   const yaml_mark_t *at = &token->start_mark;
   for (size_t i = 0; i < sizeof refused_tokens / sizeof refused_tokens[0]; i++)
     if (token->type == refused_tokens[i].type && (source->option || !refused_tokens[i].in_options_only))
-      return refuse(source, at->line, at->column, refused_tokens[i].wrong);
-  if (depth > MAX_DEPTH) return refuse(source, at->line, at->column, "is nested too deeply; at most 16 levels are possible");
+      return yaml_refuse(source, at->line, at->column, refused_tokens[i].wrong);
+  if (depth > MAX_DEPTH)
+    return yaml_refuse(source, at->line, at->column, "is nested too deeply; at most 16 levels are possible");
   return KZ_OK;
 }
 
@@ -78,7 +79,7 @@ static void start_parser(yaml_parser_t *parser, const source_text *source) {
   yaml_parser_set_input_string(parser, (const unsigned char *)source->text, source->length);
 }
 
-static kz_status scan(const source_text *source) {
+static kz_status yaml_scan(const source_text *source) {
   yaml_parser_t parser;
   if (!yaml_parser_initialize(&parser)) return kz_fail(KZ_FAILED, "%s: out of memory", source->source);
   start_parser(&parser, source);
@@ -99,11 +100,11 @@ static kz_status scan(const source_text *source) {
   return status;
 }
 
-static kz_node *copy(yaml_document_t *document, const source_text *source, const yaml_node_t *from);
+static kz_node *yaml_copy(yaml_document_t *document, const source_text *source, const yaml_node_t *from);
 
 /* Appends a copy of `from` to *end, named by the scalar `key` (NULL in a list). */
 static void copy_child(yaml_document_t *document, const source_text *source, const yaml_node_t *key, int from, kz_node ***end) {
-  kz_node *child = **end = copy(document, source, yaml_document_get_node(document, from));
+  kz_node *child = **end = yaml_copy(document, source, yaml_document_get_node(document, from));
   *end = &child->next;
   if (!key) return;
   free(child->name);
@@ -122,7 +123,7 @@ static void copy_children(yaml_document_t *document, const source_text *source, 
       copy_child(document, source, yaml_document_get_node(document, pair->key), pair->value, &end);
 }
 
-static kz_node *copy(yaml_document_t *document, const source_text *source, const yaml_node_t *from) {
+static kz_node *yaml_copy(yaml_document_t *document, const source_text *source, const yaml_node_t *from) {
   static const kz_node_kind kinds[] = {
       [YAML_SCALAR_NODE] = KZ_SCALAR, [YAML_SEQUENCE_NODE] = KZ_SEQUENCE, [YAML_MAPPING_NODE] = KZ_MAPPING};
   kz_node *node = kz_calloc(1, sizeof *node);
@@ -145,25 +146,25 @@ static kz_status load_next(yaml_parser_t *parser, const source_text *source, kz_
   *root = NULL;
   if (!yaml_parser_load(parser, &document)) return refuse_problem(source, parser);
   const yaml_node_t *top = yaml_document_get_root_node(&document);
-  if (top) *root = copy(&document, source, top);
+  if (top) *root = yaml_copy(&document, source, top);
   yaml_document_delete(&document);
   return KZ_OK;
 }
 
-static kz_status load(const source_text *source, kz_node **root) {
+static kz_status yaml_load(const source_text *source, kz_node **root) {
   yaml_parser_t parser;
   if (!yaml_parser_initialize(&parser)) return kz_fail(KZ_FAILED, "%s: out of memory", source->source);
   start_parser(&parser, source);
   kz_node *second = NULL;
   kz_status status = load_next(&parser, source, root);
   if (status == KZ_OK && !*root)
-    status =
-        refuse(source, 0, 0, source->option ? "has no value; give a value after =" : "is empty; give a pendulum and a study");
+    status = yaml_refuse(source, 0, 0,
+                         source->option ? "has no value; give a value after =" : "is empty; give a pendulum and a study");
   else if (status == KZ_OK)
     status = load_next(&parser, source, &second);
   if (second)
-    status = refuse(source, (size_t)second->line - 1, (size_t)second->column - 1,
-                    "a second YAML document begins here; a scene is a single one");
+    status = yaml_refuse(source, (size_t)second->line - 1, (size_t)second->column - 1,
+                         "a second YAML document begins here; a scene is a single one");
   kz_tree_free(second);
   yaml_parser_delete(&parser);
   if (status == KZ_OK) return KZ_OK;
@@ -176,7 +177,7 @@ kz_status kz_tree_read(const char *text, size_t length, const char *source, bool
   const source_text from = {.text = text, .length = length, .source = source, .option = option};
   *root = NULL;
   if (length >= 3 && memcmp(text, "\xEF\xBB\xBF", 3) == 0)
-    return refuse(&from, 0, 0, "begins with a byte-order mark; save it in UTF-8 without one");
-  KZ_TRY(scan(&from));
-  return load(&from, root);
+    return yaml_refuse(&from, 0, 0, "begins with a byte-order mark; save it in UTF-8 without one");
+  KZ_TRY(yaml_scan(&from));
+  return yaml_load(&from, root);
 }

@@ -66,7 +66,7 @@ static kz_status find_amplitudes(const rig *r, amplitudes *found) {
 }
 
 /* Peak acceleration of the pivot in units of gravity. */
-static double acceleration(const rig *r, double amplitude) {
+static double needs_acceleration(const rig *r, double amplitude) {
   const double omega = 2 * M_PI * r->frequency;
   return amplitude * omega * omega / KZ_STANDARD_GRAVITY;
 }
@@ -77,8 +77,8 @@ static void print_amplitudes(const rig *r, const amplitudes *a) {
     puts("at no amplitude");
     return;
   }
-  printf("from %.4g mm (%.3g g)", 1e3 * a->from, acceleration(r, a->from));
-  isnan(a->to) ? puts(" on; no end was found") : printf(" to %.4g mm (%.3g g)\n", 1e3 * a->to, acceleration(r, a->to));
+  printf("from %.4g mm (%.3g g)", 1e3 * a->from, needs_acceleration(r, a->from));
+  isnan(a->to) ? puts(" on; no end was found") : printf(" to %.4g mm (%.3g g)\n", 1e3 * a->to, needs_acceleration(r, a->to));
 }
 
 static void print_person(const rig *r, const amplitudes *found) {
@@ -97,12 +97,12 @@ static void print_json(const rig *r, const amplitudes *found) {
     char name[32];
     snprintf(name, sizeof name, "%s_g", found[i].name);
     kz_json_add(object, found[i].name, kz_json_pair(found[i].from, found[i].to));
-    kz_json_add(object, name, kz_json_pair(acceleration(r, found[i].from), acceleration(r, found[i].to)));
+    kz_json_add(object, name, kz_json_pair(needs_acceleration(r, found[i].from), needs_acceleration(r, found[i].to)));
   }
   kz_json_print(object, stdout);
 }
 
-static kz_status needs(const kz_options *options) {
+static kz_status needs_needs(const kz_options *options) {
   rig r;
   amplitudes found[2];
   if (!options->prints) return KZ_OK;
@@ -125,7 +125,7 @@ const kz_command kz_needs_command = {
     " --length L --frequency F",
     0,
     0,
-    needs,
+    needs_needs,
     "say between which amplitudes of the pivot a pendulum of --length stands upside down and flutters at --frequency",
     "json|length|frequency|quality-factor|help",
     rows,

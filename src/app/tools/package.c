@@ -90,7 +90,7 @@ static kz_status call_package(const kz_options *options, const char *command, in
   return kz_package_become("__main__.py", "kapitza", n + 1, all);
 }
 
-static kz_status plot(const kz_options *options) {
+static kz_status package_plot(const kz_options *options) {
   return call_package(options, "plot", options->n_words, (const char *const *)options->plot_words);
 }
 const kz_command kz_plot_command = {
@@ -98,23 +98,23 @@ const kz_command kz_plot_command = {
     " [KIND] FILE",
     1,
     1,
-    plot,
+    package_plot,
     "draw the result FILE as a picture; kapitza plot KIND --help lists the options of a kind, kapitza plot alone the kinds",
     "help",
     .passes_words = true};
 
-static kz_status info(const kz_options *options) {
+static kz_status package_info(const kz_options *options) {
   return call_package(options, "info", 1, &options->scene);
 }
 const kz_command kz_info_command = {
-    "info", " FILE", 1, 1, info, "say what the result FILE holds: pendulum, studies and attractors", "help"};
+    "info", " FILE", 1, 1, package_info, "say what the result FILE holds: pendulum, studies and attractors", "help"};
 
 typedef struct {
   const char *frequency; /* as written; NULL = not given */
   bool degrees;
 } fit_options;
 
-static kz_status fit(const kz_options *options) {
+static kz_status package_fit(const kz_options *options) {
   const fit_options *own = options->own;
   const char *words[5];
   int n = 0;
@@ -134,7 +134,7 @@ const kz_command kz_fit_command = {
     " TRACK",
     1,
     1,
-    fit,
+    package_fit,
     "find the pendulum of a recorded track: CSV with the columns time (s) and theta (rad) or theta_deg",
     "frequency|degrees|help",
     rows,

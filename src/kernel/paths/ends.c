@@ -19,7 +19,7 @@ static bool solve_pair(const double m[2][2], const double side[2], double x[2]) 
 }
 
 /* The state after a period of the cycle, and the monodromy. */
-static void follow(const kz_hamilton *flow, int64_t period, double state[4], double matrix[4][4]) {
+static void ends_follow(const kz_hamilton *flow, int64_t period, double state[4], double matrix[4][4]) {
   double tangent[4][4], unused[4], product[4][4];
   for (int i = 0; i < 4; i++)
     for (int j = 0; j < 4; j++) matrix[i][j] = i == j;
@@ -39,7 +39,7 @@ static bool close_cycle(const kz_hamilton *flow, kz_path_end *end, double matrix
   double step[2], before = INFINITY;
   for (int i = 0; i < MAX_ITERATIONS; i++) {
     double state[4] = {end->state[0], end->state[1]};
-    follow(flow, end->period, state, matrix);
+    ends_follow(flow, end->period, state, matrix);
     end->winding = llrint((state[0] - end->state[0]) / (2 * M_PI));
     const double side[2] = {state[0] - 2 * M_PI * (double)end->winding - end->state[0], state[1] - end->state[1]};
     const double equations[2][2] = {{1 - matrix[0][0], -matrix[0][1]}, {-matrix[1][0], 1 - matrix[1][1]}};
@@ -110,7 +110,7 @@ static void leave_attractor(const double m[4][4], kz_path_end *end) {
 }
 
 /* Unit eigenvector of a 2 x 2 matrix. */
-static void eigenvector(const double (*m)[2], double value, double *vector) {
+static void ends_eigenvector(const double (*m)[2], double value, double *vector) {
   const double rows[2][2] = {{m[0][1], value - m[0][0]}, {value - m[1][1], m[1][0]}};
   const int row = hypot(rows[0][0], rows[0][1]) > hypot(rows[1][0], rows[1][1]) ? 0 : 1;
   const double length = hypot(rows[row][0], rows[row][1]);
@@ -118,7 +118,7 @@ static void eigenvector(const double (*m)[2], double value, double *vector) {
 }
 
 /* The two multipliers, that of larger modulus first; false where they are complex. */
-static bool multipliers(const double a[2][2], double value[2]) {
+static bool ends_multipliers(const double a[2][2], double value[2]) {
   const double half = 0.5 * (a[0][0] + a[1][1]), determinant = a[0][0] * a[1][1] - a[0][1] * a[1][0];
   const double square = half * half - determinant;
   value[0] = square > 0 ? half + copysign(sqrt(square), half) : sqrt(determinant);
@@ -129,9 +129,9 @@ static bool multipliers(const double a[2][2], double value[2]) {
 static bool approach_saddle(const double m[4][4], double stable, kz_path_end *end) {
   const double turned[2][2] = {{end->own[0][0], end->own[1][0]}, {end->own[0][1], end->own[1][1]}};
   double own[2], x[2], q[2];
-  eigenvector((const double (*)[2])end->own, end->growth, end->away);
-  eigenvector((const double (*)[2])end->own, stable, own);
-  eigenvector(turned, end->growth, q);
+  ends_eigenvector((const double (*)[2])end->own, end->growth, end->away);
+  ends_eigenvector((const double (*)[2])end->own, stable, own);
+  ends_eigenvector(turned, end->growth, q);
   const double equations[2][2] = {{end->own[0][0] - 1 / end->growth, end->own[0][1]},
                                   {end->own[1][0], end->own[1][1] - 1 / end->growth}};
   const double side[2] = {-(m[0][2] * q[0] + m[0][3] * q[1]), -(m[1][2] * q[0] + m[1][3] * q[1])};
@@ -151,7 +151,7 @@ bool kz_path_end_find(const kz_hamilton *flow, int64_t period, bool attracts, do
   if (!close_cycle(flow, end, matrix)) return false;
   for (int i = 0; i < 2; i++)
     for (int j = 0; j < 2; j++) end->own[i][j] = matrix[i][j];
-  const bool is_real = multipliers((const double (*)[2])end->own, value);
+  const bool is_real = ends_multipliers((const double (*)[2])end->own, value);
   end->growth = value[0];
   if (attracts != (fabs(value[0]) < 1)) return false;
   if (attracts) leave_attractor((const double (*)[4])matrix, end);

@@ -53,7 +53,7 @@ static double largest_of(const shooting *s) {
 }
 
 /* Jumps at all nodes, and tangents; returns the largest jump. */
-static double shoot(const kz_hamilton *flow, const double *node, shooting *s) {
+static double polish_shoot(const kz_hamilton *flow, const double *node, shooting *s) {
   memcpy(s->image, node, (size_t)(4 * s->n) * sizeof *node);
   kz_hamilton_advance(flow, s->n, s->image, 1, s->tangent[0][0], 0, NULL);
   for (int64_t i = 0; i < 4 * s->n; i++) s->jump[i] = s->image[i] - node[i + 4];
@@ -61,7 +61,7 @@ static double shoot(const kz_hamilton *flow, const double *node, shooting *s) {
 }
 
 /* The projection of a node's steps: the first and the last move in a plane. */
-static void projection(const shooting *s, int64_t node, block p) {
+static void polish_projection(const shooting *s, int64_t node, block p) {
   const int side = node == 0 ? 0 : 1;
   for (int i = 0; i < 4; i++)
     for (int j = 0; j < 4; j++) {
@@ -72,7 +72,7 @@ static void projection(const shooting *s, int64_t node, block p) {
     }
 }
 
-static void product(const block a, const block b, bool b_transposed, block c) {
+static void polish_product(const block a, const block b, bool b_transposed, block c) {
   for (int i = 0; i < 4; i++)
     for (int j = 0; j < 4; j++) {
       double sum = 0;
@@ -82,14 +82,14 @@ static void product(const block a, const block b, bool b_transposed, block c) {
 }
 
 /* The blocks of M M^T; returns the largest diagonal element. */
-static double fill(shooting *s) {
+static double polish_fill(shooting *s) {
   double largest = 0;
   for (int64_t i = 0; i < s->n; i++) {
     block here, next, moved;
-    projection(s, i, here);
-    projection(s, i + 1, next);
-    product(s->tangent[i], here, false, moved);
-    product(moved, s->tangent[i], true, s->pivot[i]);
+    polish_projection(s, i, here);
+    polish_projection(s, i + 1, next);
+    polish_product(s->tangent[i], here, false, moved);
+    polish_product(moved, s->tangent[i], true, s->pivot[i]);
     for (int j = 0; j < 4; j++)
       for (int k = 0; k < 4; k++) {
         s->pivot[i][j][k] += next[j][k];
@@ -101,7 +101,7 @@ static double fill(shooting *s) {
 }
 
 /* Cholesky's factor of a block; false where it is not positive. */
-static bool factorise(block a) {
+static bool polish_factorise(block a) {
   for (int i = 0; i < 4; i++)
     for (int j = 0; j <= i; j++) {
       double sum = a[i][j];
@@ -127,7 +127,7 @@ static void solve_upper(const block a, double x[4]) {
 }
 
 /* y from (M M^T + shift) y = -F, in the place of the blocks. */
-static bool solve(shooting *s, double shift) {
+static bool polish_solve(shooting *s, double shift) {
   for (int64_t i = 0; i < s->n; i++) {
     double *y = s->y + 4 * i;
     for (int j = 0; j < 4; j++) {
@@ -140,7 +140,7 @@ static bool solve(shooting *s, double shift) {
         y[j] -= s->below[i][j][k] * y[k - 4];
         for (int l = 0; l < 4; l++) s->pivot[i][j][k] -= s->below[i][j][l] * s->below[i][k][l];
       }
-    if (!factorise(s->pivot[i])) return false;
+    if (!polish_factorise(s->pivot[i])) return false;
     solve_lower(s->pivot[i], y);
   }
   for (int64_t i = s->n - 1; i >= 0; i--) {
@@ -162,7 +162,7 @@ static double find_step(shooting *s) {
       for (int k = 0; i < s->n && k < 4; k++) force[j] += s->tangent[i][k][j] * s->y[4 * i + k];
       if (i > 0) force[j] -= s->y[4 * (i - 1) + j];
     }
-    projection(s, i, p);
+    polish_projection(s, i, p);
     for (int j = 0; j < 4; j++) {
       double sum = 0;
       for (int k = 0; k < 4; k++) sum += p[j][k] * force[k];
@@ -180,50 +180,50 @@ static double sum_of_squares(const double *x, int64_t n) {
 }
 
 /* The step of a shift from the nodes, whose jumps and tangents are known: s->next. Returns its length, INFINITY where there is none. */
-static double propose(const double *node, double shift, shooting *s) {
-  const double scale = fill(s);
-  if (!solve(s, shift * scale)) return INFINITY;
+static double polish_propose(const double *node, double shift, shooting *s) {
+  const double scale = polish_fill(s);
+  if (!polish_solve(s, shift * scale)) return INFINITY;
   const double length = find_step(s), part = length > LONGEST ? LONGEST / length : 1;
   for (int64_t i = 0; i < 4 * (s->n + 1); i++) s->next[i] = node[i] + part * s->step[i];
   return length;
 }
 
-static void accept(double *node, const shooting *s) {
+static void polish_accept(double *node, const shooting *s) {
   memcpy(node, s->next, (size_t)(4 * (s->n + 1)) * sizeof *node);
 }
 
 /* Goes back to the floor of the valley of small jumps by steps that leave the free shift in time out. */
-static void descend(const kz_hamilton *flow, double *node, shooting *s) {
+static void polish_descend(const kz_hamilton *flow, double *node, shooting *s) {
   for (int i = 0; i < MAX_DESCENT; i++) {
     const double before = sum_of_squares(s->jump, 4 * s->n);
-    if (isinf(propose(node, FLOOR_SHIFT, s))) return;
-    shoot(flow, s->next, s);
+    if (isinf(polish_propose(node, FLOOR_SHIFT, s))) return;
+    polish_shoot(flow, s->next, s);
     const double now = sum_of_squares(s->jump, 4 * s->n);
     if (!(now < before)) {
-      shoot(flow, node, s);
+      polish_shoot(flow, node, s);
       return;
     }
-    accept(node, s);
+    polish_accept(node, s);
     if (now > 0.25 * before) return;
   }
 }
 
 /* A step from the nodes, whose jumps and tangents are known, before and after. False where even the largest shift makes the jumps no smaller. A
  * short step along the valley may enlarge them, *along times. */
-static bool improve(const kz_hamilton *flow, double *node, double *shift, int *along, shooting *s) {
+static bool polish_improve(const kz_hamilton *flow, double *node, double *shift, int *along, shooting *s) {
   const double before = sum_of_squares(s->jump, 4 * s->n);
   for (; *shift <= LARGEST_SHIFT; *shift *= 100) {
-    const double length = propose(node, *shift, s);
+    const double length = polish_propose(node, *shift, s);
     if (isinf(length)) continue;
-    shoot(flow, s->next, s);
+    polish_shoot(flow, s->next, s);
     const bool smaller = sum_of_squares(s->jump, 4 * s->n) < before;
     if (smaller || (length < SHORT && before < ON_FLOOR * ON_FLOOR && (*along)-- > 0)) {
-      accept(node, s);
-      if (!smaller) descend(flow, node, s);
+      polish_accept(node, s);
+      if (!smaller) polish_descend(flow, node, s);
       *shift = fmax(*shift * 1e-3, LEAST_SHIFT);
       return true;
     }
-    shoot(flow, node, s);
+    polish_shoot(flow, node, s);
   }
   return false;
 }
@@ -250,7 +250,7 @@ static void put_on_planes(const kz_path_end *end[2], kz_path *path) {
 }
 
 /* Action, its derivatives, and the distances of the ends. */
-static void measure(const kz_hamilton *flow, const kz_path_end *end[2], shooting *s, kz_path *path) {
+static void polish_measure(const kz_hamilton *flow, const kz_path_end *end[2], shooting *s, kz_path *path) {
   double (*integral)[4] = (double (*)[4])s->pivot;
   memcpy(s->image, path->node, (size_t)(4 * s->n) * sizeof *s->image);
   kz_hamilton_advance(flow, s->n, s->image, 0, NULL, 1, integral[0]);
@@ -273,15 +273,15 @@ bool kz_path_polish(const kz_hamilton *flow, const kz_path_end *from, const kz_p
   double shift = FIRST_SHIFT, before = INFINITY;
   int along = MAX_ALONG;
   put_on_planes(s.end, path);
-  path->mismatch = shoot(flow, path->node, &s);
+  path->mismatch = polish_shoot(flow, path->node, &s);
   for (path->iterations = 0; path->iterations < MAX_ITERATIONS && isfinite(path->mismatch); path->iterations++) {
     if (path->mismatch < CLOSED && path->mismatch > 0.25 * before) break;
     before = path->mismatch;
-    if (!improve(flow, path->node, &shift, &along, &s)) break;
+    if (!polish_improve(flow, path->node, &shift, &along, &s)) break;
     path->mismatch = largest_of(&s);
   }
   if (!(path->mismatch < CLOSED)) return false;
-  measure(flow, s.end, &s, path);
+  polish_measure(flow, s.end, &s, path);
   return true;
 }
 

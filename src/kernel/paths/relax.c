@@ -38,7 +38,7 @@ static grid grid_of(const kz_pendulum *pendulum, int64_t n, int32_t samples, con
   return g;
 }
 
-static double difference(const double weights[5], const double *x) {
+static double relax_difference(const double weights[5], const double *x) {
   double sum = 0;
   for (int i = 0; i < 5; i++) sum += weights[i] * x[i - 2];
   return sum;
@@ -50,14 +50,15 @@ static double action_of(const grid *g, const double *x, double *u) {
   for (int64_t i = 2; i <= g->n - 2; i++) {
     const double *f = g->force[i % g->samples];
     const double s = sin(x[i]), c = cos(x[i]);
-    u[i] = difference(g->second, x + i) + g->beta * difference(g->first, x + i) + f[0] * s - f[1] * c - f[2];
+    u[i] =
+        relax_difference(g->second, x + i) + g->beta * relax_difference(g->first, x + i) + f[0] * s - f[1] * c - f[2];
     sum += u[i] * u[i];
   }
   return sum * g->h / (4 * g->beta);
 }
 
 /* Gradient and Hessian of half the sum of u^2. */
-static void linearise(const grid *g, const double *x, const double *u, newton *at) {
+static void relax_linearise(const grid *g, const double *x, const double *u, newton *at) {
   memset(at->hessian, 0, (size_t)at->n * sizeof *at->hessian);
   memset(at->gradient, 0, (size_t)at->n * sizeof *at->gradient);
   for (int64_t i = 2; i <= g->n - 2; i++) {
@@ -78,7 +79,7 @@ static void linearise(const grid *g, const double *x, const double *u, newton *a
 }
 
 /* Cholesky's factor of the Hessian + shift; false where it is not positive. */
-static bool factorise(newton *at, double shift) {
+static bool relax_factorise(newton *at, double shift) {
   for (int64_t a = 0; a < at->n; a++) {
     const int most = a < BAND ? (int)a : BAND;
     for (int w = most; w >= 0; w--) {
@@ -91,7 +92,7 @@ static bool factorise(newton *at, double shift) {
   return true;
 }
 
-static void solve(newton *at) {
+static void relax_solve(newton *at) {
   for (int64_t a = 0; a < at->n; a++) {
     double sum = -at->gradient[a];
     for (int w = 1; w <= BAND && w <= a; w++) sum -= at->factor[a][w] * at->step[a - w];
@@ -105,11 +106,11 @@ static void solve(newton *at) {
 }
 
 /* One step that does not raise the action; false where no shift gives one. The new point and its torque are in `next`. */
-static bool descend(const grid *g, newton *at, const double *x, double *shift, double *action, double *next,
-                    double *torque) {
+static bool relax_descend(const grid *g, newton *at, const double *x, double *shift, double *action, double *next,
+                          double *torque) {
   for (int attempt = 0; attempt < MAX_SHIFTS; attempt++) {
-    if (factorise(at, *shift)) {
-      solve(at);
+    if (relax_factorise(at, *shift)) {
+      relax_solve(at);
       memcpy(next, x, (size_t)(g->n + 1) * sizeof *next);
       for (int64_t a = 0; a < at->n; a++) next[a + FIXED] += at->step[a];
       const double then = action_of(g, next, torque);
@@ -123,12 +124,12 @@ static bool descend(const grid *g, newton *at, const double *x, double *shift, d
   return false;
 }
 
-static double relax(const grid *g, newton *at, double most, double *x, double *u, double *next, double *torque) {
+static double relax_relax(const grid *g, newton *at, double most, double *x, double *u, double *next, double *torque) {
   double shift = FIRST_SHIFT, action = action_of(g, x, u);
   for (int i = 0; i < MAX_ITERATIONS; i++) {
     const double before = action;
-    linearise(g, x, u, at);
-    if (!descend(g, at, x, &shift, &action, next, torque)) return action;
+    relax_linearise(g, x, u, at);
+    if (!relax_descend(g, at, x, &shift, &action, next, torque)) return action;
     memcpy(x, next, (size_t)(g->n + 1) * sizeof *x);
     memcpy(u, torque, (size_t)(g->n + 1) * sizeof *u);
     shift *= 0.15;
@@ -144,9 +145,9 @@ static void read_nodes(const grid *g, const double *x, const double *u, double *
     const int64_t at = i < FIXED ? FIXED : i > g->n - FIXED ? g->n - FIXED : i;
     double *z = node + 4 * (i / g->samples);
     z[0] = x[i];
-    z[1] = difference(g->first, x + (i < 2 ? 2 : i > g->n - 2 ? g->n - 2 : i));
+    z[1] = relax_difference(g->first, x + (i < 2 ? 2 : i > g->n - 2 ? g->n - 2 : i));
     z[3] = u[at] / (2 * g->beta);
-    z[2] = g->beta * z[3] - difference(g->first, u + at) / (2 * g->beta);
+    z[2] = g->beta * z[3] - relax_difference(g->first, u + at) / (2 * g->beta);
   }
 }
 
@@ -164,7 +165,7 @@ double kz_path_relax(const kz_pendulum *pendulum, int64_t n, int32_t samples, do
                .step = gradient + points};
   kz_path_forces(pendulum, samples, 0, force[0]);
   const grid g = grid_of(pendulum, n, samples, (const double (*)[3])force);
-  const double action = relax(&g, &at, most, theta, u, next, torque);
+  const double action = relax_relax(&g, &at, most, theta, u, next, torque);
   read_nodes(&g, theta, u, node);
   return isfinite(action) ? action : INFINITY;
 }

@@ -87,14 +87,14 @@ typedef struct {
   kapitza_basin *basin; /* NULL: not made yet */
 } basin_job;
 
-static size_t rounded(size_t bytes) {
+static size_t labels_rounded(size_t bytes) {
   return (bytes + 15) / 16 * 16;
 }
 
 /* The next `bytes` of a piece of memory. */
 static void *part_of(char **piece, size_t bytes) {
   void *part = *piece;
-  *piece += rounded(bytes);
+  *piece += labels_rounded(bytes);
   return part;
 }
 
@@ -106,9 +106,10 @@ static void put_ids(int64_t cells, const uint8_t *from, int16_t *to) {
 static kz_status take_frame(void *context, const kz_live_raster *r) {
   basin_job *j = context;
   const int64_t cells = r->rows * r->columns;
-  const size_t n = (size_t)cells, sides = rounded((size_t)r->columns * 8) + rounded((size_t)r->rows * 8);
-  const size_t planes = 2 * rounded(n * sizeof(int16_t)) + rounded(n) + 2 * rounded(n * sizeof(float));
-  char *piece = kz_border_give(rounded(sizeof *j->basin) + sides + planes + kz_library_cycles_bytes(&r->catalogue->list));
+  const size_t n = (size_t)cells, sides = labels_rounded((size_t)r->columns * 8) + labels_rounded((size_t)r->rows * 8);
+  const size_t planes = 2 * labels_rounded(n * sizeof(int16_t)) + labels_rounded(n) + 2 * labels_rounded(n * sizeof(float));
+  char *piece =
+      kz_border_give(labels_rounded(sizeof *j->basin) + sides + planes + kz_library_cycles_bytes(&r->catalogue->list));
   kapitza_basin *b = j->basin = part_of(&piece, sizeof *b);
   double *theta = part_of(&piece, (size_t)r->columns * sizeof *theta);
   double *velocity = part_of(&piece, (size_t)r->rows * sizeof *velocity);

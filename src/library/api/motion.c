@@ -20,7 +20,7 @@ typedef struct {
 } map_job;
 
 /* The pendulum in reversed time: with (theta, -velocity) it obeys the equation with -beta and the drive turned back. */
-static kz_pendulum reversed(const kz_pendulum *pendulum) {
+static kz_pendulum motion_reversed(const kz_pendulum *pendulum) {
   kz_pendulum back = *pendulum;
   back.beta = -back.beta;
   for (int i = 0; i < KZ_HARMONICS; i++) {
@@ -33,7 +33,7 @@ static kz_pendulum reversed(const kz_pendulum *pendulum) {
 static const kz_flow *flow_of(kapitza_pendulum *p, bool backwards) {
   if (p->flow[backwards]) return p->flow[backwards];
   kz_pendulum pendulum = p->scene.parameters.pendulum;
-  if (backwards) pendulum = reversed(&pendulum);
+  if (backwards) pendulum = motion_reversed(&pendulum);
   kz_numerics numerics;
   kz_numerics_fine(&pendulum, &numerics);
   return p->flow[backwards] = kz_flow_create(&pendulum, &numerics);
@@ -45,7 +45,7 @@ static void turn_velocities(const map_job *j) {
 }
 
 /* tangent [n][2][2] becomes `later` times it. */
-static void multiply(int64_t n, const double *later, double *tangent) {
+static void motion_multiply(int64_t n, const double *later, double *tangent) {
   for (int64_t i = 0; i < n; i++) {
     const double *a = later + 4 * i, b[4] = {tangent[4 * i], tangent[4 * i + 1], tangent[4 * i + 2], tangent[4 * i + 3]};
     for (int e = 0; e < 4; e++) tangent[4 * i + e] = a[e & 2] * b[e & 1] + a[(e & 2) + 1] * b[2 + (e & 1)];
@@ -60,7 +60,7 @@ static kz_status move_all(const map_job *j, const kz_flow *flow, int64_t periods
       continue;
     }
     kz_advance_tangent(flow, j->n, part, j->theta, j->velocity, turns, later);
-    multiply(j->n, later, j->tangent);
+    motion_multiply(j->n, later, j->tangent);
   }
   return KZ_OK;
 }

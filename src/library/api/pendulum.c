@@ -60,7 +60,7 @@ static kz_status check_process(kapitza_pendulum *p) {
 }
 
 /* Waits for other threads, as long as the caller wants to. */
-static kz_status take(kapitza_pendulum *p) {
+static kz_status pendulum_take(kapitza_pendulum *p) {
   KZ_TRY(check_process(p));
   for (;;) {
     struct timespec until;
@@ -80,7 +80,7 @@ static kz_status take(kapitza_pendulum *p) {
   return KZ_OK;
 }
 
-static void leave(kapitza_pendulum *p) {
+static void pendulum_leave(kapitza_pendulum *p) {
   p->busy = 0;
   pthread_mutex_unlock(&p->mutex);
 }
@@ -110,7 +110,7 @@ kapitza_status kz_library_call(kapitza_pendulum *p, kz_work_fn work, void *conte
   visit v = {p, work, context};
   bool left = false;
   kz_message_clear();
-  kz_status status = take(p);
+  kz_status status = pendulum_take(p);
   if (status != KZ_OK) return (kapitza_status)status;
   status = kz_border_call(p->border, kz_library_pause(), NULL, carry_out, &v, &left);
   const kapitza_status told = kz_library_status(status, p->border);
@@ -118,7 +118,7 @@ kapitza_status kz_library_call(kapitza_pendulum *p, kz_work_fn work, void *conte
     kz_border_empty(p->border);
     p->opened = false;
   }
-  leave(p);
+  pendulum_leave(p);
   return told;
 }
 

@@ -27,7 +27,7 @@ static kz_status run_scene(void *context) {
   return status;
 }
 
-static kz_status discard(void *context) {
+static kz_status run_discard(void *context) {
   kz_store_discard(context);
   return KZ_OK;
 }
@@ -46,7 +46,7 @@ kapitza_status kz_library_run(const char *scene, const char *output, int32_t ove
   pthread_mutex_lock(&one_run);
   const kz_status status = kz_border_call(border, kz_library_pause(), NULL, run_scene, &j, &left);
   const kapitza_status told = kz_library_status(status, border);
-  if (left && j.store) kz_border_call(border, NULL, NULL, discard, j.store, &again);
+  if (left && j.store) kz_border_call(border, NULL, NULL, run_discard, j.store, &again);
   pthread_mutex_unlock(&one_run);
   kz_border_free(border);
   return told;

@@ -47,7 +47,7 @@ static kz_status try_config(void *context, int64_t tile, void *record) {
 }
 
 /* Tries the settings from the cheapest on, two at a time; the first that meets the accuracy is chosen, else `exact`. */
-static kz_status choose(const kz_reference_labels *reference, const kz_run *run, double accuracy, kz_choice *choice) {
+static kz_status accuracy_choose(const kz_reference_labels *reference, const kz_run *run, double accuracy, kz_choice *choice) {
   walk w;
   const int64_t step = 2; /* equal for any number of ranks: kept stages come in one order */
   kz_setting_measured measured[2];
@@ -68,7 +68,7 @@ static kz_status choose(const kz_reference_labels *reference, const kz_run *run,
   return KZ_OK;
 }
 
-static void print(const kz_choice *choice, double accuracy, FILE *summary) {
+static void accuracy_print(const kz_choice *choice, double accuracy, FILE *summary) {
   if (choice->setting == kz_setting_exact) {
     fprintf(summary,
             "accuracy %.10g: method exact is taken, which decides or flags every label. None of the %lld other settings is "
@@ -91,9 +91,9 @@ kz_status kz_accuracy_choose(const kz_scene *scene, const kz_run *run, kz_store 
   KZ_FREED_BY(kz_reference_labels_free) kz_reference_labels reference = {0};
   KZ_FREED char *path = kz_reference_path(store);
   KZ_TRY(kz_reference_labels_make(scene, run, samples_for(accuracy), path, &reference));
-  KZ_TRY(choose(&reference, run, accuracy, choice));
+  KZ_TRY(accuracy_choose(&reference, run, accuracy, choice));
   KZ_TRY(kz_ranks_agree(run->ranks, path ? kz_reference_labels_save(&reference, path) : KZ_OK));
-  if (summary) print(choice, accuracy, summary);
+  if (summary) accuracy_print(choice, accuracy, summary);
   return KZ_OK;
 }
 

@@ -12,7 +12,7 @@
 enum { KEY_LENGTH = 512 + 4 * KZ_DECIMAL_LENGTH };
 
 /* FNV-1a of 64 bits (Fowler, Noll & Vo). */
-static uint64_t checksum(const void *data, size_t bytes, uint64_t sum) {
+static uint64_t cache_checksum(const void *data, size_t bytes, uint64_t sum) {
   for (size_t i = 0; i < bytes; i++) sum = (sum ^ ((const unsigned char *)data)[i]) * 0x100000001b3u;
   return sum;
 }
@@ -20,12 +20,12 @@ static uint64_t checksum(const void *data, size_t bytes, uint64_t sum) {
 /* The key of the cache: everything that the labels depend on, in one line. */
 static void print_key(const kz_reference_labels *reference, char *key, size_t bytes) {
   const kz_basin_plan *p = reference->plan;
-  uint64_t attractors = checksum(reference->packed, (size_t)reference->packed_size * sizeof(double), 0xcbf29ce484222325u);
+  uint64_t attractors = cache_checksum(reference->packed, (size_t)reference->packed_size * sizeof(double), 0xcbf29ce484222325u);
   if (!kz_is_sine(&reference->pendulum)) {
-    attractors = checksum(reference->pendulum.vertical, sizeof reference->pendulum.vertical, attractors);
-    attractors = checksum(reference->pendulum.horizontal, sizeof reference->pendulum.horizontal, attractors);
-    attractors = checksum(&reference->pendulum.torque, sizeof reference->pendulum.torque, attractors);
-    attractors = checksum(&reference->pendulum.torque_amplitude, sizeof reference->pendulum.torque_amplitude, attractors);
+    attractors = cache_checksum(reference->pendulum.vertical, sizeof reference->pendulum.vertical, attractors);
+    attractors = cache_checksum(reference->pendulum.horizontal, sizeof reference->pendulum.horizontal, attractors);
+    attractors = cache_checksum(&reference->pendulum.torque, sizeof reference->pendulum.torque, attractors);
+    attractors = cache_checksum(&reference->pendulum.torque_amplitude, sizeof reference->pendulum.torque_amplitude, attractors);
   }
   snprintf(key, bytes, KZ_REFERENCE_WORDS " 1: %a %a %a; %a %a %lld%s%s; %a %a %lld%s%s; %lld %lld; %016llx\n",
            reference->pendulum.k, reference->pendulum.beta, reference->pendulum.m, p->theta.min, p->theta.max,
@@ -50,17 +50,17 @@ static char *read_all(const char *path) {
 }
 
 /* The lines between the key and the checksum's line, or NULL where either is not what it should be. */
-static char *verified(char *text, const char *key) {
+static char *cache_verified(char *text, const char *key) {
   char *last = strstr(text, "checksum ");
   unsigned long long sum;
   if (strncmp(text, key, strlen(key)) != 0 || !last || sscanf(last, "checksum %16llx", &sum) != 1) return NULL;
-  return checksum(text, (size_t)(last - text), 0xcbf29ce484222325u) == sum ? text + strlen(key) : NULL;
+  return cache_checksum(text, (size_t)(last - text), 0xcbf29ce484222325u) == sum ? text + strlen(key) : NULL;
 }
 
 int64_t kz_reference_labels_recall(const char *path, kz_reference_labels *reference) {
   char key[KEY_LENGTH];
   print_key(reference, key, sizeof key);
-  char *text = read_all(path), *line = text ? verified(text, key) : NULL;
+  char *text = read_all(path), *line = text ? cache_verified(text, key) : NULL;
   int64_t n = 0;
   for (; line && n < reference->samples; n++) {
     kz_reference_label *v = reference->labels + n;
@@ -86,7 +86,7 @@ static kz_status cannot_write(const char *path) {
 }
 
 /* Creates a file of this process alone. It does not write into a link or into a file that a killed run has left. */
-static FILE *create(const char *path) {
+static FILE *cache_create(const char *path) {
   unlink(path);
   const int file = open(path, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
   FILE *out = file < 0 ? NULL : fdopen(file, "w");
@@ -98,7 +98,7 @@ static FILE *create(const char *path) {
 static kz_status write_all(const char *path, const char *text) {
   char part[4200];
   if (snprintf(part, sizeof part, "%s.part", path) >= (int)sizeof part) return cannot_write(path);
-  FILE *out = create(part);
+  FILE *out = cache_create(part);
   if (!out) return cannot_write(path);
   bool written = fputs(text, out) >= 0 && fflush(out) == 0 && fsync(fileno(out)) == 0;
   written = fclose(out) == 0 && written && rename(part, path) == 0;
@@ -120,7 +120,7 @@ kz_status kz_reference_labels_save(const kz_reference_labels *reference, const c
     fprintf(out, "%d %d %d %d %" PRId64 "\n", v->end.label, v->flipped, v->distance, v->agrees, v->end.periods);
   }
   fflush(out);
-  const uint64_t sum = checksum(text, bytes, 0xcbf29ce484222325u);
+  const uint64_t sum = cache_checksum(text, bytes, 0xcbf29ce484222325u);
   fprintf(out, "checksum %016llx\n", (unsigned long long)sum);
   kz_status status = fclose(out) == 0 ? write_all(path, text) : kz_fail(KZ_FAILED, "no memory for %s", path);
   free(text);

@@ -60,7 +60,7 @@ static kz_status find_attractors(const kz_reference_labels *reference, const kz_
   return kz_label_and_search(&labeller, &search_on, probes, cell, label);
 }
 
-static kz_status prepare(kz_reference_labels *reference, const kz_run *run, kz_dynamics *dynamics) {
+static kz_status reference_prepare(kz_reference_labels *reference, const kz_run *run, kz_dynamics *dynamics) {
   const kz_window window = kz_window_of(&reference->plan->theta, &reference->plan->velocity);
   KZ_TRY(kz_ranks_agree(run->ranks, find_attractors(reference, run, dynamics)));
   reference->max_velocity = kz_dynamics_max_velocity(dynamics, &window);
@@ -98,7 +98,7 @@ static kz_status find_distances(const reference_job *h, int64_t n, const int64_t
   return KZ_OK;
 }
 
-static void follow(const reference_job *h, int32_t steps, int64_t n, const kz_start *start, kz_decision *end) {
+static void reference_follow(const reference_job *h, int32_t steps, int64_t n, const kz_start *start, kz_decision *end) {
   const kz_label_precision quads = {.level = KZ_LEVEL_QUAD, .series_steps = steps};
   kz_dynamics_label(h->dynamics, &quads, n, start, h->reference->plan->max_periods, end);
 }
@@ -114,7 +114,7 @@ static void compare_steps(const reference_job *h, int64_t first, int64_t n, cons
     asked[n_asked] = start[i];
     place[n_asked++] = i;
   }
-  follow(h, OTHER_STEPS, n_asked, asked, end);
+  reference_follow(h, OTHER_STEPS, n_asked, asked, end);
   for (int64_t i = 0; i < n_asked; i++) labels[place[i]].agrees = end[i].end.label == labels[place[i]].end.label;
 }
 
@@ -132,7 +132,7 @@ static kz_status label_samples(void *context, int64_t first, int64_t n, void *re
     kz_cell_start(h->reference->plan, cell[i], centre);
     start[i] = kz_start_at(centre[0], centre[1]);
   }
-  follow(h, KZ_REFERENCE_STEPS, n, start, end);
+  reference_follow(h, KZ_REFERENCE_STEPS, n, start, end);
   for (int64_t i = 0; i < n; i++) labels[i].end = end[i].end;
   compare_steps(h, first, n, start, labels);
   KZ_TRY(find_distances(h, n, cell, labels));
@@ -140,7 +140,7 @@ static kz_status label_samples(void *context, int64_t first, int64_t n, void *re
     start[i].theta[0] = nextafter(start[i].theta[0], copysign(INFINITY, start[i].theta[0]));
     start[i].velocity[0] = nextafter(start[i].velocity[0], copysign(INFINITY, start[i].velocity[0]));
   }
-  follow(h, KZ_REFERENCE_STEPS, n, start, end);
+  reference_follow(h, KZ_REFERENCE_STEPS, n, start, end);
   for (int64_t i = 0; i < n; i++) labels[i].flipped = end[i].end.label;
   return KZ_OK;
 }
@@ -171,7 +171,7 @@ kz_status kz_reference_labels_make(const kz_scene *scene, const kz_run *run, int
   KZ_TRY(kz_ranks_agree(run->ranks, kz_reference_labels_numerics(plan, &reference->pendulum, &numerics)));
   KZ_FREED_BY(kz_dynamics_freed)
   kz_dynamics *dynamics = kz_dynamics_create(&reference->pendulum, &numerics, plan->max_period);
-  KZ_TRY(prepare(reference, run, dynamics));
+  KZ_TRY(reference_prepare(reference, run, dynamics));
   return follow_samples(reference, run, path, dynamics);
 }
 

@@ -121,7 +121,7 @@ static int64_t largest_count_error(const kz_reference_labels *reference, const i
   return largest;
 }
 
-static void compare(const kz_reference_labels *reference, const int32_t *label, kz_setting_measured *m) {
+static void settings_compare(const kz_reference_labels *reference, const int32_t *label, kz_setting_measured *m) {
   int64_t at[KZ_REFERENCE_FAR + 1] = {0}, seen = 0;
   for (int64_t i = 0; i < reference->samples; i++) {
     if (label[i] == KZ_DOUBTFUL)
@@ -145,13 +145,13 @@ static kz_status set_up(measurement *g) {
   return KZ_OK;
 }
 
-static kz_status measure(measurement *g, int64_t n, int32_t *label, int64_t *surplus, kz_setting_measured *m) {
+static kz_status settings_measure(measurement *g, int64_t n, int32_t *label, int64_t *surplus, kz_setting_measured *m) {
   const double start = kz_processor_clock();
   KZ_TRY(set_up(g));
   const double ready = kz_processor_clock();
   KZ_TRY(label_cells(g, n, label));
   *m = (kz_setting_measured){.set_up = ready - start, .cell = (kz_processor_clock() - ready) / (double)n};
-  compare(g->reference, label, m);
+  settings_compare(g->reference, label, m);
   m->count_error = largest_count_error(g->reference, label, surplus, kz_dynamics_count(g->dynamics));
   return KZ_OK;
 }
@@ -167,7 +167,7 @@ static kz_status measure_cells(const kz_setting *setting, const kz_reference_lab
   measurement g = {setting, reference, dynamics};
   KZ_FREED int32_t *label = kz_malloc((size_t)n * sizeof *label + 1);
   KZ_FREED int64_t *surplus = kz_calloc(INT16_MAX + 1, sizeof *surplus);
-  return measure(&g, n, label, surplus, measured);
+  return settings_measure(&g, n, label, surplus, measured);
 }
 
 kz_status kz_setting_measure(const kz_setting *setting, const kz_reference_labels *reference, int64_t timed,

@@ -81,7 +81,7 @@ static void print_undecided(const kz_reference_labels *reference, const kz_trade
 }
 
 /* Names the settings whose labels are random here. */
-static void warn(const kz_reference_labels *reference, const kz_trade *trade, FILE *summary) {
+static void tradeoff_warn(const kz_reference_labels *reference, const kz_trade *trade, FILE *summary) {
   const double fastest = kz_axis_fastest(&reference->plan->velocity);
   const char *before = "warning: these settings have too few steps for the speeds of this window: ";
   for (int64_t i = 0; i < trade->count; i++) {
@@ -92,7 +92,7 @@ static void warn(const kz_reference_labels *reference, const kz_trade *trade, FI
   if (before[0] == ',') fprintf(summary, "\n");
 }
 
-static void print(const kz_reference_labels *reference, const kz_trade *trade, FILE *summary) {
+static void tradeoff_print(const kz_reference_labels *reference, const kz_trade *trade, FILE *summary) {
   const kz_reference_labels_summary sum = kz_reference_labels_sum(reference);
   const kz_share flips = kz_share_of(sum.flipped, reference->samples);
   fprintf(summary,
@@ -116,9 +116,9 @@ static kz_status write_tradeoff(const kz_reference_labels *reference, const kz_t
   KZ_TRY(write_configs(trade, store));
   KZ_TRY(write_measures(reference, trade, store));
   KZ_TRY(write_attributes(reference, trade, store));
-  print(reference, trade, summary);
+  tradeoff_print(reference, trade, summary);
   print_undecided(reference, trade, summary);
-  warn(reference, trade, summary);
+  tradeoff_warn(reference, trade, summary);
   return KZ_OK;
 }
 
@@ -187,7 +187,7 @@ static void find_pareto(kz_trade *trade) {
 }
 
 /* Shares, times and the Pareto front from the counts and the measured times. */
-static void rate(const kz_reference_labels *reference, const kz_setting_measured *measured, kz_trade *trade) {
+static void tradeoff_rate(const kz_reference_labels *reference, const kz_setting_measured *measured, kz_trade *trade) {
   const double cells = (double)kz_unique_cells(reference->plan);
   trade->best_wrong = NAN;
   for (int64_t i = 0; i < trade->count; i++) {
@@ -206,7 +206,7 @@ static kz_status run_settings(const kz_reference_labels *reference, kz_trade *tr
   const kz_stage stage = kz_stage_for_all("settings", trade->count, sizeof(kz_setting_measured), measure_tile, &m);
   KZ_FREED kz_setting_measured *measured = kz_malloc((size_t)trade->count * sizeof *measured);
   KZ_TRY(kz_stage_run(run, &stage, measured));
-  rate(reference, measured, trade);
+  tradeoff_rate(reference, measured, trade);
   return KZ_OK;
 }
 

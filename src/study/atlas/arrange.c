@@ -15,7 +15,7 @@ static const double GROWN = 0.5;
 /* No rest attracts without drive where abs(k) is smaller; how far beside such a place a column is counted. */
 static const double NO_GRAVITY = 1e-9, BESIDE = 1e-8;
 
-static void add(kz_atlas_crossings *crossings, kz_atlas_crossing crossing) {
+static void arrange_add(kz_atlas_crossings *crossings, kz_atlas_crossing crossing) {
   crossings->list = kz_list_reserve(crossings->list, &crossings->capacity, crossings->count + 1, sizeof *crossings->list);
   crossings->list[crossings->count++] = crossing;
 }
@@ -29,7 +29,7 @@ static double value(const double *p, double s) {
   return p[0] + s * (p[1] + s * (p[2] + s * p[3]));
 }
 
-static double slope(const double *p, double s) {
+static double arrange_slope(const double *p, double s) {
   return p[1] + s * (2 * p[2] + s * 3 * p[3]);
 }
 
@@ -91,8 +91,8 @@ static const double *side_of(const kz_cycle_kind *kind, const double *a, const d
 }
 
 /* What changes where a step of a curve crosses the line. */
-static void cross(kz_atlas *atlas, int64_t number, int64_t row, int axis, double target, bool classes,
-                  kz_atlas_crossings *crossings) {
+static void arrange_cross(kz_atlas *atlas, int64_t number, int64_t row, int axis, double target, bool classes,
+                          kz_atlas_crossings *crossings) {
   const kz_atlas_curve *curve = atlas->curve + number;
   const double *a = curve->row + row * kz_atlas_width(&curve->kind), *b = a + kz_atlas_width(&curve->kind);
   const int other = 1 - axis;
@@ -101,15 +101,16 @@ static void cross(kz_atlas *atlas, int64_t number, int64_t row, int axis, double
   const int n = roots_of(c.p[axis], target, root);
   for (int i = 0; i < n; i++) {
     if (!classes) {
-      add(crossings, (kz_atlas_crossing){.at = value(c.p[other], root[i]), .curve = number, .row = row, .share = root[i]});
+      arrange_add(crossings,
+                  (kz_atlas_crossing){.at = value(c.p[other], root[i]), .curve = number, .row = row, .share = root[i]});
       continue;
     }
     const double s = root[i], form = a[KZ_ROW_FORM] + s * (b[KZ_ROW_FORM] - a[KZ_ROW_FORM]);
     const double *by = side_of(&curve->kind, a, b, form);
     const double end = by == a ? 0 : 1;
     /* the normal turned from the tangent, with the sign that it has where the side is known */
-    const double known = -slope(c.p[1], end) * by[KZ_ROW_SIDE] + slope(c.p[0], end) * by[KZ_ROW_SIDE + 1];
-    const double normal[2] = {-slope(c.p[1], s), slope(c.p[0], s)};
+    const double known = -arrange_slope(c.p[1], end) * by[KZ_ROW_SIDE] + arrange_slope(c.p[0], end) * by[KZ_ROW_SIDE + 1];
+    const double normal[2] = {-arrange_slope(c.p[1], s), arrange_slope(c.p[0], s)};
     const int change = (normal[other] > 0) == (known > 0) ? 1 : -1;
     const kz_atlas_class own = kz_atlas_class_of(&curve->kind);
     kz_pendulum pendulum;
@@ -124,7 +125,7 @@ static void cross(kz_atlas *atlas, int64_t number, int64_t row, int axis, double
                                   .curve = number,
                                   .row = row,
                                   .share = s};
-    add(crossings, crossing);
+    arrange_add(crossings, crossing);
     if (curve->kind.of.multiplier > 0 || form <= 0) continue;
     const kz_cycle_kind child = kz_child_kind(&curve->kind);
     if (kz_kind_period(&child) > atlas->scene->atlas->max_period) continue;
@@ -132,7 +133,7 @@ static void cross(kz_atlas *atlas, int64_t number, int64_t row, int axis, double
     crossing.class = kz_atlas_class_number(atlas, &grown);
     crossing.change = -change;
     crossing.width *= GROWN;
-    add(crossings, crossing);
+    arrange_add(crossings, crossing);
   }
 }
 
@@ -145,7 +146,7 @@ void kz_atlas_crossings_of(kz_atlas *atlas, int axis, double target, bool classe
       const double a = curve->row[row * width + axis], b = curve->row[(row + 1) * width + axis];
       const double beyond = fabs(b - a) + 1e-3;
       if (fmin(a, b) - beyond <= target && target <= fmax(a, b) + beyond)
-        cross(atlas, i, row, axis, target, classes, crossings);
+        arrange_cross(atlas, i, row, axis, target, classes, crossings);
     }
   }
   if (crossings->count > 0)

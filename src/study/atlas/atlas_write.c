@@ -77,7 +77,7 @@ static void listing_free(listing *l) {
 }
 
 /* The value at a place of the search along an axis of the file. */
-static double at(const kz_atlas *atlas, const double *place, int axis) {
+static double atlas_write_at(const kz_atlas *atlas, const double *place, int axis) {
   double value[2];
   kz_atlas_values(atlas->scene->atlas, place, value);
   return value[kz_atlas_axis(atlas, axis)];
@@ -122,8 +122,8 @@ static kz_status write_curves(const kz_atlas *atlas, const listing *l, kz_store 
 
 static kz_status write_points(const kz_atlas *atlas, const listing *l, kz_store *store) {
   KZ_TRY(kz_store_dimension(store, GROUP, "point", l->n, NULL));
-  COLUMN(double, "x", l->n, at(atlas, l->row[i], 0));
-  COLUMN(double, "y", l->n, at(atlas, l->row[i], 1));
+  COLUMN(double, "x", l->n, atlas_write_at(atlas, l->row[i], 0));
+  COLUMN(double, "y", l->n, atlas_write_at(atlas, l->row[i], 1));
   COLUMN(double, "strobe_theta", l->n, remainder(l->row[i][KZ_ROW_POINTS], 2 * M_PI));
   COLUMN(double, "strobe_velocity", l->n, l->row[i][KZ_ROW_POINTS + 1]);
   COLUMN(double, "normal_form", l->n, l->row[i][KZ_ROW_FORM]);
@@ -133,8 +133,8 @@ static kz_status write_points(const kz_atlas *atlas, const listing *l, kz_store 
   COLUMN(double, "tangent_y", l->n, l->row[i][KZ_ROW_TANGENT + kz_atlas_axis(atlas, 1)]);
   COLUMN(int8_t, "supercritical", l->n, atlas->curve[l->curve[i]].kind.of.multiplier < 0 && l->row[i][KZ_ROW_FORM] > 0);
   KZ_TRY(kz_store_dimension(store, GROUP, "special", l->n_special, NULL));
-  COLUMN(double, "special_x", l->n_special, at(atlas, l->special[i] + 1, 0));
-  COLUMN(double, "special_y", l->n_special, at(atlas, l->special[i] + 1, 1));
+  COLUMN(double, "special_x", l->n_special, atlas_write_at(atlas, l->special[i] + 1, 0));
+  COLUMN(double, "special_y", l->n_special, atlas_write_at(atlas, l->special[i] + 1, 1));
   COLUMN(int8_t, "special_kind", l->n_special,
          l->special[i][0] < 2                                           ? CUSP
          : kind_of(atlas->curve + l->on[i]) == KZ_CURVE_PERIOD_DOUBLING ? DEGENERATE_FLIP
@@ -145,13 +145,13 @@ static kz_status write_points(const kz_atlas *atlas, const listing *l, kz_store 
 
 static double middle_of(const kz_atlas *atlas, int64_t i, int axis) {
   const double share = ((double)i + 0.5) / (double)atlas->scene->atlas->points, place[2] = {share, share};
-  return at(atlas, place, axis);
+  return atlas_write_at(atlas, place, axis);
 }
 
 static double region_middle(const kz_atlas *atlas, const kz_atlas_raster *r, int64_t region, int axis) {
   double place[2];
   kz_atlas_region_place(r, region, place);
-  return at(atlas, place, axis);
+  return atlas_write_at(atlas, place, axis);
 }
 
 /* Writes layers of cells, each [y][x] of the search. */
@@ -223,7 +223,7 @@ static kz_status write_attributes(const kz_atlas *atlas, const kz_atlas_raster *
   return kz_store_real(store, GROUP, "disagreed_high", wrong.high);
 }
 
-static void print(const kz_atlas *atlas, const kz_atlas_raster *r, const listing *l, FILE *summary) {
+static void atlas_write_print(const kz_atlas *atlas, const kz_atlas_raster *r, const listing *l, FILE *summary) {
   const int32_t parameter[] = {atlas->scene->atlas->x.parameter, atlas->scene->atlas->y.parameter};
   int64_t kinds[KZ_CURVE_KINDS] = {0}, most = 0;
   for (int64_t i = 0; i < atlas->n_curves; i++) kinds[kind_of(atlas->curve + i)]++;
@@ -266,6 +266,6 @@ kz_status kz_atlas_write(kz_atlas *atlas, const kz_atlas_raster *raster, kz_stor
   KZ_TRY(write_curves(atlas, &l, store));
   KZ_TRY(write_points(atlas, &l, store));
   KZ_TRY(write_raster(atlas, raster, store));
-  print(atlas, raster, &l, summary);
+  atlas_write_print(atlas, raster, &l, summary);
   return kz_atlas_write_tally(atlas, store, summary);
 }

@@ -178,7 +178,7 @@ int64_t kz_atlas_known(const kz_atlas *atlas, const kz_plane_cycle *seed) {
 }
 
 /* Of some points of a curve, how many lie on another one. */
-static int64_t common(const kz_atlas *atlas, const kz_atlas_curve *curve, const kz_atlas_curve *other, int64_t *tried) {
+static int64_t curve_common(const kz_atlas *atlas, const kz_atlas_curve *curve, const kz_atlas_curve *other, int64_t *tried) {
   const int64_t step = curve->n > SAMPLES ? curve->n / SAMPLES : 1;
   kz_plane_cycle at = {.kind = curve->kind};
   int64_t on = 0;
@@ -195,7 +195,7 @@ bool kz_atlas_keep(kz_atlas *atlas, kz_atlas_curve *curve) {
   for (int64_t i = 0; i < atlas->n_curves; i++) {
     int64_t tried;
     if (!is_alike(&atlas->curve[i].kind, &curve->kind)) continue;
-    if (10 * common(atlas, curve, atlas->curve + i, &tried) <= 6 * tried) continue;
+    if (10 * curve_common(atlas, curve, atlas->curve + i, &tried) <= 6 * tried) continue;
     kz_atlas_curve_free(curve);
     return false;
   }
@@ -219,7 +219,7 @@ static const double *degenerate_near(const kz_atlas *atlas, const double *place)
   return nearest;
 }
 
-static void extend(kz_atlas_curve *curve, bool at_end, const double *place) {
+static void curve_extend(kz_atlas_curve *curve, bool at_end, const double *place) {
   const int64_t width = kz_atlas_width(&curve->kind), bytes = width * (int64_t)sizeof *curve->row;
   curve->row = kz_realloc(curve->row, (size_t)((curve->n + 1) * bytes));
   double *to = curve->row + (at_end ? curve->n * width : 0);
@@ -240,7 +240,7 @@ void kz_atlas_join(kz_atlas *atlas) {
       const double *last = curve->row + (end ? curve->n - 1 : 0) * kz_atlas_width(&curve->kind);
       const double *place = degenerate_near(atlas, last);
       if (!place) continue;
-      extend(curve, end, place);
+      curve_extend(curve, end, place);
       curve->ending[end] = KZ_ATLAS_JOINED;
     }
   }

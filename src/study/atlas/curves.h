@@ -10,7 +10,7 @@ void kz_atlas_point_of(const kz_atlas_curve *curve, int64_t row, double *y);
 /* Sets all points of a row from the first one, which a file has alone. */
 void kz_atlas_complete(const kz_atlas *atlas, kz_atlas_curve *curve, int64_t row);
 /* The cycle at a share of the step from a row, between those of both rows, with the place of the row. */
-void kz_atlas_between(const kz_atlas_curve *curve, int64_t row, double share, double *y);
+void kz_atlas_between(const kz_atlas_curve *curve, int64_t row, double records_share, double *y);
 /* The curve of its kind on which a point lies; -1 = none. */
 int64_t kz_atlas_known(const kz_atlas *atlas, const kz_plane_cycle *seed);
 /* Adds a curve unless most of it lies on a known one; takes its arrays. */

@@ -85,7 +85,7 @@ bool kz_atlas_same(const kz_plane_cycle *cycle, const double *state, const doubl
 }
 
 /* Whether the points of a cycle repeat themselves after a shift, as they are or mirrored. */
-static bool repeats(const kz_cycle_kind *kind, const double *y, int shift, double side, double near) {
+static bool cycles_repeats(const kz_cycle_kind *kind, const double *y, int shift, double side, double near) {
   const int n = kind->of.points;
   for (int i = 0; i < n; i++)
     if (kz_atlas_apart(y + 2 * i, y + 2 * ((i + shift) % n), i + shift < n ? side : side * kind->of.side) >= near) return false;
@@ -156,7 +156,7 @@ bool kz_atlas_reduce(const kz_atlas *atlas, double near, kz_cycle_kind *kind, do
       /* half of a cycle is mirrored, or each odd part of one that is symmetric */
       const bool mirrored = kind->of.side < 0 ? n / shift % 2 == 1 : kind->of.turns == 0 && 2 * shift == n;
       if (side < 0 ? !atlas->plane.mirrored || !mirrored : kind->of.side < 0) continue;
-      if (!repeats(kind, y, shift, side, near)) continue;
+      if (!cycles_repeats(kind, y, shift, side, near)) continue;
       if (side < 0) of.turns = (int32_t)rint((y[2 * shift] + y[0]) / (2 * M_PI));
       memcpy(point, y, 2 * (size_t)shift * sizeof *point);
       memcpy(point + 2 * shift, y + 2 * n, 2 * sizeof *point);
@@ -169,7 +169,7 @@ bool kz_atlas_reduce(const kz_atlas *atlas, double near, kz_cycle_kind *kind, do
 }
 
 /* Angles from a point in [-pi, pi), of images that with positive turns, symmetric cycles about down or inverted. */
-static bool canonical(const kz_atlas *atlas, kz_cycle_kind *kind, double *y) {
+static bool cycles_canonical(const kz_atlas *atlas, kz_cycle_kind *kind, double *y) {
   const int n = 2 * kind->of.points;
   double lift = 2 * M_PI * floor(y[0] / (2 * M_PI) + 0.5);
   if (kind->of.side < 0) {
@@ -197,7 +197,7 @@ bool kz_atlas_add(const kz_atlas *atlas, kz_cycle_kind kind, const double *y, kz
     if (y[n + i] < atlas->plane.low[i] || y[n + i] > atlas->plane.high[i]) return false;
   while (kz_atlas_reduce(atlas, ONE, &seed.kind, seed.y)) continue;
   if (kz_kind_period(&seed.kind) > atlas->scene->atlas->max_period) return false;
-  if (!canonical(atlas, &seed.kind, seed.y)) return false;
+  if (!cycles_canonical(atlas, &seed.kind, seed.y)) return false;
   kz_atlas_put(seeds, &seed);
   return true;
 }

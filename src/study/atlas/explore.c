@@ -27,7 +27,7 @@ typedef struct {
 } line;
 
 /* Marks the crossing that a branch has met; what is no crossing becomes a seed. `child`: by the branch that begins there. */
-static void meet(const line *l, const kz_plane_cycle *seed, bool child) {
+static void explore_meet(const line *l, const kz_plane_cycle *seed, bool child) {
   const double at = seed->y[2 * seed->kind.of.points + l->axis];
   const int64_t curve = kz_atlas_known(l->atlas, seed);
   int64_t nearest = -1;
@@ -42,10 +42,11 @@ static void meet(const line *l, const kz_plane_cycle *seed, bool child) {
 }
 
 /* Takes what a branch has met: to a line, or as a seed. */
-static void take(const kz_atlas *atlas, const line *l, kz_cycle_kind kind, const double *y, bool child, kz_atlas_seeds *seeds) {
+static void explore_take(const kz_atlas *atlas, const line *l, kz_cycle_kind kind, const double *y, bool child,
+                         kz_atlas_seeds *seeds) {
   KZ_FREED_BY(kz_atlas_seeds_free) kz_atlas_seeds one = {0};
   if (!kz_atlas_add(atlas, kind, y, l ? &one : seeds) || !l) return;
-  meet(l, one.list, child);
+  explore_meet(l, one.list, child);
 }
 
 /* The cycle that a branch grows out of: which one, and the branch's own cycle near it. */
@@ -53,7 +54,7 @@ static void add_parent(const kz_atlas *atlas, const line *l, kz_event event, con
                        kz_atlas_seeds *seeds) {
   kz_plane_cycle parent;
   if (kz_parent_of(&atlas->plane, event, cycle, &parent) && kz_curve_locate(&atlas->plane, &parent.kind.of, parent.y, along))
-    take(atlas, l, parent.kind, parent.y, true, seeds);
+    explore_take(atlas, l, parent.kind, parent.y, true, seeds);
 }
 
 /* Follows a cycle along a line and adds what it meets. */
@@ -73,17 +74,17 @@ static void follow_to(const kz_atlas *atlas, const line *l, const kz_cycle_kind 
       continue;
     }
     at.kind.of.multiplier = event[i].what == KZ_EVENT_FOLD ? 1 : -1;
-    take(atlas, l, at.kind, at.y, false, seeds);
+    explore_take(atlas, l, at.kind, at.y, false, seeds);
   }
 }
 
-static void follow(const kz_atlas *atlas, const line *l, const kz_cycle_kind *kind, const double *start, const double along[2],
-                   int32_t side, kz_atlas_seeds *seeds) {
+static void explore_follow(const kz_atlas *atlas, const line *l, const kz_cycle_kind *kind, const double *start,
+                           const double along[2], int32_t side, kz_atlas_seeds *seeds) {
   follow_to(atlas, l, kind, start, &(kz_branch_way){{along[0], along[1]}, LONGEST, 0, MOST_ROWS, MOST_EVENTS, side}, seeds);
 }
 
 /* To the right, to the left, up, down. */
-static void direction(int i, double along[2]) {
+static void explore_direction(int i, double along[2]) {
   const double x[] = {1, -1, 0, 0}, y[] = {0, 0, 1, -1};
   along[0] = x[i], along[1] = y[i];
 }
@@ -92,7 +93,7 @@ void kz_atlas_explore_first(const kz_atlas *atlas, const kz_plane_cycle *cycle, 
   const int64_t before = seeds->count;
   for (int i = 3; i >= 0 && seeds->count == before; i--) {
     kz_branch_way way = {.longest = LONGEST, .most = MOST_ROWS, .most_events = 1};
-    direction(i, way.along);
+    explore_direction(i, way.along);
     follow_to(atlas, NULL, &cycle->kind, cycle->y, &way, seeds);
   }
 }
@@ -101,7 +102,7 @@ void kz_atlas_explore_first(const kz_atlas *atlas, const kz_plane_cycle *cycle, 
 static void explore_fold(const kz_atlas *atlas, const line *l, const kz_cycle_kind *kind, const double *at, int axis,
                          kz_atlas_seeds *seeds) {
   const double along[2] = {axis == 0, axis == 1};
-  for (int side = -1; side <= 1; side += 2) follow(atlas, l, kind, at, along, side, seeds);
+  for (int side = -1; side <= 1; side += 2) explore_follow(atlas, l, kind, at, along, side, seeds);
 }
 
 bool kz_atlas_grown(const kz_atlas *atlas, const kz_plane_cycle *flip, int axis, kz_plane_cycle *child, double along[2]) {
@@ -116,9 +117,10 @@ static void explore_flip(const kz_atlas *atlas, const line *l, const kz_plane_cy
   kz_plane_cycle child;
   for (int sign = -1; sign <= 1 && itself; sign += 2) {
     along[axis] = sign;
-    follow(atlas, l, &flip->kind, flip->y, along, 0, seeds);
+    explore_follow(atlas, l, &flip->kind, flip->y, along, 0, seeds);
   }
-  if (grown && kz_atlas_grown(atlas, flip, axis, &child, along)) follow(atlas, l, &child.kind, child.y, along, 0, seeds);
+  if (grown && kz_atlas_grown(atlas, flip, axis, &child, along))
+    explore_follow(atlas, l, &child.kind, child.y, along, 0, seeds);
 }
 
 /* Everything that branches off a point of a curve along an axis. */
@@ -205,7 +207,7 @@ static void follow_rest(const line *l, double value) {
   for (int32_t rest = 0; rest < 2 && l->atlas->plane.mirrored; rest++) {
     const kz_cycle_kind kind = {{1, 1, 0, 0, 0}, rest};
     const double start[] = {M_PI * rest, 0, along[1] * value, along[0] * value};
-    follow(l->atlas, l, &kind, start, along, 0, l->seeds);
+    explore_follow(l->atlas, l, &kind, start, along, 0, l->seeds);
   }
 }
 

@@ -131,7 +131,7 @@ static void await_all(kz_atlas *atlas, const kz_atlas_bag *found) {
   }
 }
 
-static kz_status explore(kz_atlas *atlas, const kz_run *run) {
+static kz_status growth_explore(kz_atlas *atlas, const kz_run *run) {
   KZ_FREED_BY(kz_atlas_bag_free) kz_atlas_bag found = {0};
   const int64_t curves = atlas->n_curves - atlas->n_explored;
   exploring e = {atlas, atlas->n_explored, lines_of(atlas)};
@@ -145,7 +145,7 @@ static kz_status explore(kz_atlas *atlas, const kz_run *run) {
 kz_status kz_atlas_drain(kz_atlas *atlas, const kz_run *run) {
   while (atlas->pending.count > 0 || atlas->n_explored < atlas->n_curves) {
     KZ_TRY(trace_pending(atlas, run));
-    KZ_TRY(explore(atlas, run));
+    KZ_TRY(growth_explore(atlas, run));
   }
   return KZ_OK;
 }

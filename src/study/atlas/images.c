@@ -56,7 +56,7 @@ void kz_atlas_explore_mirrored(const kz_atlas *atlas, const kz_cycle_kind *kind,
 }
 
 /* Whether a line has a crossing with a curve of a kind at a value. */
-static bool has(const kz_atlas *atlas, const kz_atlas_crossings *crossings, const kz_cycle_kind *kind, double at) {
+static bool images_has(const kz_atlas *atlas, const kz_atlas_crossings *crossings, const kz_cycle_kind *kind, double at) {
   for (int64_t i = 0; i < crossings->count; i++) {
     const kz_atlas_crossing *other = crossings->list + i;
     if (!memcmp(&atlas->curve[other->curve].kind, kind, sizeof *kind) && fabs(other->at - at) < NEAR) return true;
@@ -65,14 +65,15 @@ static bool has(const kz_atlas *atlas, const kz_atlas_crossings *crossings, cons
 }
 
 /* The crossings of a line at a value of k that the line at -k lacks become seeds. */
-static void compare(kz_atlas *atlas, int axis, double value, const kz_atlas_crossings *here, const kz_atlas_crossings *there) {
+static void images_compare(kz_atlas *atlas, int axis, double value, const kz_atlas_crossings *here,
+                           const kz_atlas_crossings *there) {
   for (int64_t i = 0; i < here->count; i++) {
     const kz_atlas_crossing *crossing = here->list + i;
     const kz_cycle_kind *kind = &atlas->curve[crossing->curve].kind, image = image_of(kind);
     kz_plane_cycle at;
     if (crossing->at < EDGE || crossing->at > 1 - EDGE) continue;
     atlas->compared++;
-    if (has(atlas, there, &image, crossing->at)) continue;
+    if (images_has(atlas, there, &image, crossing->at)) continue;
     atlas->alone++;
     if (kz_atlas_crossing_point(atlas, 1 - axis, value, crossing, &at))
       kz_atlas_explore_image(atlas, &at.kind, at.y, &atlas->pending);
@@ -91,6 +92,6 @@ void kz_atlas_compare_images(kz_atlas *atlas) {
     const int axis = image[0] != place[0] ? 0 : 1;
     kz_atlas_crossings_of(atlas, axis, place[axis], false, &here);
     kz_atlas_crossings_of(atlas, axis, image[axis], false, &there);
-    compare(atlas, axis, place[axis], &here, &there);
+    images_compare(atlas, axis, place[axis], &here, &there);
   }
 }

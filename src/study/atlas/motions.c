@@ -25,11 +25,11 @@ typedef struct {
   int64_t *curve;        /* [found] */
 } hunt;
 
-static bool attracts(const double number[2]) {
+static bool motions_attracts(const double number[2]) {
   return fabs(number[0]) < 1 + number[1];
 }
 
-static void take(hunt *h, const kz_plane_cycle *cycle, const double number[2], int64_t curve) {
+static void motions_take(hunt *h, const kz_plane_cycle *cycle, const double number[2], int64_t curve) {
   double at_image[2];
   const double *image = kz_atlas_image_state(h->atlas, h->place, cycle->y, at_image) ? at_image : NULL;
   for (int32_t i = 0; i < h->found; i++)
@@ -40,7 +40,8 @@ static void take(hunt *h, const kz_plane_cycle *cycle, const double number[2], i
 }
 
 /* Follows a cycle along an axis to the place; true if it attracts on all of the way. side: 1 or -1: one of the branches of a fold. */
-static bool carry(const hunt *h, int axis, const kz_plane_cycle *from, int32_t side, kz_plane_cycle *to, double number[2]) {
+static bool motions_carry(const hunt *h, int axis, const kz_plane_cycle *from, int32_t side, kz_plane_cycle *to,
+                          double number[2]) {
   const int n = 2 * from->kind.of.points;
   const double target = h->place[axis], sign = target > from->y[n + axis] ? 1 : -1;
   const kz_branch_way way = {{axis == 0 ? sign : 0, axis == 1 ? sign : 0}, KZ_ATLAS_BRANCH_STEP, 0, MOST_ROWS, 0, side};
@@ -51,14 +52,14 @@ static bool carry(const hunt *h, int axis, const kz_plane_cycle *from, int32_t s
   kz_curve_branch(&plane, &from->kind.of, from->y, &way, row, NULL, &end);
   if (end.rows < 2 || end.ending != KZ_TRACE_LEFT) return false;
   for (int64_t i = 1; i + 1 < end.rows; i++)
-    if (!attracts(row[i].number)) return false;
+    if (!motions_attracts(row[i].number)) return false;
   const double *a = row[end.rows - 2].y, *b = row[end.rows - 1].y;
   const double share = (target - a[n + axis]) / (b[n + axis] - a[n + axis]);
   if (!(share >= 0 && share <= 1)) return false; /* it has left on the other side */
   *to = (kz_plane_cycle){.kind = from->kind};
   for (int i = 0; i < n; i++) to->y[i] = a[i] + share * (b[i] - a[i]);
   memcpy(to->y + n, h->place, 2 * sizeof *to->y);
-  return kz_curve_solve(&h->atlas->plane, &to->kind.of, to->y, number) && attracts(number);
+  return kz_curve_solve(&h->atlas->plane, &to->kind.of, to->y, number) && motions_attracts(number);
 }
 
 /* What a crossing begins on the side of the place: the stable branch of a fold, the curve's own cycle, or what branches off. */
@@ -71,7 +72,7 @@ static void carry_from(hunt *h, int axis, const kz_atlas_crossing *crossing) {
   if (!is_own && !kz_atlas_grown(h->atlas, &from, axis, &child, along)) return;
   const bool is_fold = is_own && curve->kind.of.multiplier > 0;
   for (int32_t side = is_fold ? -1 : 0; side <= (is_fold ? 1 : 0); side += 2)
-    if (carry(h, axis, is_own ? &from : &child, side, &to, number)) take(h, &to, number, crossing->curve);
+    if (motions_carry(h, axis, is_own ? &from : &child, side, &to, number)) motions_take(h, &to, number, crossing->curve);
 }
 
 /* From the crossings of a line through the place, the nearest first, at which the class gains an attractor on the way to the place. */
@@ -96,7 +97,7 @@ static void hunt_among(hunt *h, const kz_atlas_seeds *known) {
     kz_plane_cycle cycle = known->list[i];
     double number[2];
     if (kz_atlas_is_of(&cycle.kind, &h->class) && kz_curve_solve(&h->atlas->plane, &cycle.kind.of, cycle.y, number))
-      take(h, &cycle, number, -1);
+      motions_take(h, &cycle, number, -1);
   }
 }
 
@@ -109,7 +110,8 @@ static void hunt_by_starts(hunt *h) {
 static void hunt_rest(hunt *h) {
   kz_plane_cycle rest = {{{1, 1, 0, 0, 0}, h->class.turns}, {M_PI * h->class.turns, 0, h->place[0], h->place[1]}};
   double number[2];
-  if (kz_curve_solve(&h->atlas->plane, &rest.kind.of, rest.y, number) && attracts(number)) take(h, &rest, number, -1);
+  if (kz_curve_solve(&h->atlas->plane, &rest.kind.of, rest.y, number) && motions_attracts(number))
+    motions_take(h, &rest, number, -1);
 }
 
 static void set_state(const hunt *h, int32_t i, kz_motion *motion) {

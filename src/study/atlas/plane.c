@@ -52,7 +52,7 @@ static kz_status check_keys(const kz_atlas *atlas) {
 }
 
 /* Steps of the stiffest pendulum; what all places have in common. */
-static kz_status survey(kz_atlas *atlas) {
+static kz_status plane_survey(kz_atlas *atlas) {
   const kz_scene *scene = atlas->scene;
   const kz_plane_axis *axis[] = {&scene->atlas->x, &scene->atlas->y};
   double stiffest = -1;
@@ -159,7 +159,7 @@ kz_status kz_atlas_begin(const kz_scene *scene, kz_atlas *atlas) {
   }
   atlas->plane = (kz_plane){
       .pendulum = kz_atlas_pendulum, .context = atlas->scene, .low = {-MARGIN, -MARGIN}, .high = {1 + MARGIN, 1 + MARGIN}};
-  KZ_TRY(survey(atlas));
+  KZ_TRY(plane_survey(atlas));
   KZ_TRY(check_keys(atlas));
   if (atlas->undriven) atlas->plane.low[1] = -BELOW;
   atlas->turned = is_turned(atlas);

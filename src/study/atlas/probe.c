@@ -33,14 +33,14 @@ static kz_cycle_kind kind_of(const kz_atlas *atlas, int n, const double *y, cons
 
 /* The trace of the map of which a cycle is a fixed point, in that of a multiplier of 1: of the half map, whose square F^n is, by trace and
  * determinant of F^n. */
-static double steepness(const kz_cycle_kind *kind, const double numbers[2]) {
+static double probe_steepness(const kz_cycle_kind *kind, const double numbers[2]) {
   if (kind->of.side > 0) return fabs(numbers[0]) / (1 + numbers[1]);
   const double half = sqrt(numbers[1]);
   return sqrt(fmax(0, numbers[0] + 2 * half)) / (1 + half);
 }
 
 /* Lifts the angles of a cycle so that each point follows from the one before; *turns = net turns. */
-static bool lift(const kz_plane *plane, const double place[2], int n, double *y, int32_t *turns) {
+static bool probe_lift(const kz_plane *plane, const double place[2], int n, double *y, int32_t *turns) {
   for (int i = 0; i < n; i++) {
     double step[4] = {y[2 * i], y[2 * i + 1]}, *next = y + 2 * ((i + 1) % n);
     if (!kz_curve_orbit(plane, place, 2, 1, step)) return false;
@@ -57,14 +57,14 @@ bool kz_atlas_identify(const kz_atlas *atlas, const double place[2], const doubl
   double y[2 * KZ_CURVE_POINTS + 2], numbers[2], image[2];
   if (n > KZ_CURVE_POINTS) return false;
   memcpy(y, points, 2 * (size_t)n * sizeof *y);
-  if (!lift(&atlas->plane, place, n, y, &closed.turns)) return false;
+  if (!probe_lift(&atlas->plane, place, n, y, &closed.turns)) return false;
   y[2 * n] = place[0], y[2 * n + 1] = place[1];
   if (!kz_curve_solve(&atlas->plane, &closed, y, numbers) || kz_atlas_apart(y, points, 1) > GUESSED) return false;
   for (int d = 1; d < n; d++)
     if (n % d == 0 && kz_atlas_apart(y + 2 * d, y, 1) < ONE) return kz_atlas_identify(atlas, place, y, d, steepest, cycle);
   image[0] = y[0] + 2 * M_PI * closed.turns, image[1] = y[1];
   const kz_cycle_kind kind = kind_of(atlas, n, y, image);
-  if (!(steepness(&kind, numbers) < steepest)) return false;
+  if (!(probe_steepness(&kind, numbers) < steepest)) return false;
   kz_atlas_seeds one = {0};
   const int m = 2 * kind.of.points;
   y[m] = place[0], y[m + 1] = place[1];
@@ -86,7 +86,7 @@ kz_dynamics *kz_atlas_dynamics(const kz_atlas *atlas, const double place[2], int
 }
 
 /* The starts of a place, in half-turns and velocity: some near rest, the others spread over a window, which is searched for trapping regions. */
-static void begin(kz_dynamics *dynamics, const kz_pendulum *pendulum, int64_t starts, int64_t seed, double *state) {
+static void probe_begin(kz_dynamics *dynamics, const kz_pendulum *pendulum, int64_t starts, int64_t seed, double *state) {
   const double fastest = fmax(FASTEST, 1 + 2 * sqrt(kz_stiffness(pendulum)));
   const kz_window window = {-M_PI, M_PI, -fastest, fastest};
   const double rest[NEAR_REST] = {0.01, M_PI - 0.01, 0.3, M_PI - 0.3};
@@ -131,7 +131,7 @@ kz_status kz_atlas_probe_at(const kz_atlas *atlas, const double place[2], int64_
   if (!dynamics) return KZ_OK;
   KZ_FREED double *state = kz_malloc(2 * (size_t)starts * sizeof *state);
   const int64_t most = (int64_t)fmin(MOST_PERIODS, fmax(FEWEST_PERIODS, 60 / (M_PI * pendulum.beta)));
-  begin(dynamics, &pendulum, starts, seed, state);
+  probe_begin(dynamics, &pendulum, starts, seed, state);
   KZ_TRY(kz_discover(NULL, dynamics, 0, most, starts, state, NULL));
   add_known(atlas, dynamics, place, found);
   if (kz_atlas_paired(atlas)) return KZ_OK;

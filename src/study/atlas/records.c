@@ -16,14 +16,14 @@ static void bag_put(kz_atlas_bag *b, int64_t tile, const void *record) {
   b->record[tile] = memcpy(kz_malloc(bytes), record, bytes);
 }
 
-static kz_status take(void *context, int64_t tile, const void *record, size_t bytes) {
+static kz_status records_take(void *context, int64_t tile, const void *record, size_t bytes) {
   (void)bytes;
   bag_put(context, tile, record);
   return KZ_OK;
 }
 
 /* All ranks get the records of rank 0. Collective. */
-static kz_status share(const kz_run *run, kz_atlas_bag *b) {
+static kz_status records_share(const kz_run *run, kz_atlas_bag *b) {
   KZ_FREED uint64_t *bytes = kz_calloc((size_t)b->n + 1, sizeof *bytes);
   const bool here = kz_rank(run->ranks) == 0;
   for (int64_t i = 0; here && i < b->n; i++) memcpy(bytes + i, b->record[i], sizeof *bytes);
@@ -40,8 +40,8 @@ kz_status kz_atlas_gather(const kz_run *run, const char *name, int64_t n, size_t
                           kz_atlas_bag *b) {
   *b = (kz_atlas_bag){n, kz_calloc((size_t)n + 1, sizeof *b->record)};
   const kz_stage stage = {.name = name, .n_tiles = n, .record_bytes = bytes, .work = work, .context = context, .keep = true};
-  KZ_TRY(kz_stage_gather(run, &stage, name, take, b));
-  return share(run, b);
+  KZ_TRY(kz_stage_gather(run, &stage, name, records_take, b));
+  return records_share(run, b);
 }
 
 typedef struct {

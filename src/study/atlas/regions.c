@@ -99,7 +99,7 @@ static void number_lists(kz_atlas_raster *r) {
 /* ---- regions ---- */
 
 /* Twice the distance of each cell from the edge of its region, in cells: by two passes over neighbours. */
-static int32_t *distances(const kz_atlas_raster *r) {
+static int32_t *regions_distances(const kz_atlas_raster *r) {
   const int64_t n = r->points;
   static const int step[4][3] = {{-1, 0, 2}, {0, -1, 2}, {-1, -1, 3}, {1, -1, 3}};
   int32_t *d = kz_malloc((size_t)(n * n) * sizeof *d);
@@ -118,8 +118,8 @@ static int32_t *distances(const kz_atlas_raster *r) {
 }
 
 /* The connected cells of a list from one cell on; they lose their mark. */
-static kz_atlas_region grow(const kz_atlas_raster *r, const int32_t *distance, uint8_t *free_cell, int64_t first,
-                            int64_t *stack) {
+static kz_atlas_region regions_grow(const kz_atlas_raster *r, const int32_t *distance, uint8_t *free_cell, int64_t first,
+                                    int64_t *stack) {
   const int64_t n = r->points;
   kz_atlas_region region = {.cell = first};
   int64_t top = 0;
@@ -144,13 +144,13 @@ static kz_atlas_region grow(const kz_atlas_raster *r, const int32_t *distance, u
 
 static void find_regions(kz_atlas_raster *r) {
   const size_t cells = (size_t)(r->points * r->points);
-  KZ_FREED int32_t *distance = distances(r);
+  KZ_FREED int32_t *distance = regions_distances(r);
   KZ_FREED uint8_t *free_cell = kz_malloc(cells);
   KZ_FREED int64_t *stack = kz_malloc(cells * sizeof *stack);
   memset(free_cell, 1, cells);
   for (int64_t cell = 0; cell < (int64_t)cells; cell++) {
     if (!free_cell[cell] || r->list[cell] < 0) continue;
-    const kz_atlas_region region = grow(r, distance, free_cell, cell, stack);
+    const kz_atlas_region region = regions_grow(r, distance, free_cell, cell, stack);
     int64_t place = r->n_regions < KZ_ATLAS_REGIONS ? r->n_regions++ : KZ_ATLAS_REGIONS;
     for (; place > 0 && r->region[place - 1].cells < region.cells; place--)
       if (place < KZ_ATLAS_REGIONS) r->region[place] = r->region[place - 1];

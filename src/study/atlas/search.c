@@ -95,7 +95,7 @@ static kz_status search_next(kz_atlas *atlas, const kz_run *run, int64_t first, 
 }
 
 /* Curves from the cycles of places where something has no explanation; *wrong = how many. */
-static kz_status mend(kz_atlas *atlas, const kz_run *run, int64_t n, const kz_atlas_probe *probe, int64_t *wrong) {
+static kz_status search_mend(kz_atlas *atlas, const kz_run *run, int64_t n, const kz_atlas_probe *probe, int64_t *wrong) {
   KZ_FREED kz_atlas_probe *at = kz_malloc((size_t)(n + 1) * sizeof *at);
   *wrong = 0;
   for (int64_t i = 0; i < n; i++)
@@ -105,7 +105,7 @@ static kz_status mend(kz_atlas *atlas, const kz_run *run, int64_t n, const kz_at
 
 /* A round: the census of further places and then, if that finds no curve with a wide band, the attractors of random ones. *quiet: neither finds
  * anything. The probes of the former round go. */
-static kz_status check(kz_atlas *atlas, const kz_run *run, int round, bool *quiet, probing *p) {
+static kz_status search_check(kz_atlas *atlas, const kz_run *run, int round, bool *quiet, probing *p) {
   const int64_t n = atlas->scene->atlas->checks;
   int64_t wide;
   KZ_TRY(search_next(atlas, run, atlas->scene->atlas->seeds + round * FURTHER, FURTHER, &wide));
@@ -117,7 +117,7 @@ static kz_status check(kz_atlas *atlas, const kz_run *run, int round, bool *quie
   *p = (probing){atlas, n, MANY, 2 + round, kz_calloc((size_t)n, sizeof *p->probe)};
   for (int64_t i = 0; i < n; i++) kz_even_share(1001 + round * n + i, p->probe[i].place);
   KZ_TRY(probe_all(run, "atlas checks", p));
-  KZ_TRY(mend(atlas, run, n, p->probe, &atlas->disagreed));
+  KZ_TRY(search_mend(atlas, run, n, p->probe, &atlas->disagreed));
   atlas->checked = n;
   *quiet = *quiet && atlas->disagreed == 0;
   return KZ_OK;
@@ -144,7 +144,7 @@ static kz_status mend_columns(kz_atlas *atlas, const kz_run *run) {
 static kz_status check_all(kz_atlas *atlas, const kz_run *run, probing *last) {
   for (int round = 0, quiet = 0; round < ROUNDS && quiet < QUIET && atlas->scene->atlas->checks > 0; round++) {
     bool is_quiet;
-    KZ_TRY(check(atlas, run, round, &is_quiet, last));
+    KZ_TRY(search_check(atlas, run, round, &is_quiet, last));
     atlas->rounds = round + 1;
     quiet = is_quiet ? quiet + 1 : 0;
   }
@@ -167,7 +167,7 @@ static kz_status confirm_tile(void *context, int64_t tile, void *record) {
 }
 
 /* Solves for every motion of the lists of the places of the last round. */
-static kz_status confirm(kz_atlas *atlas, const kz_run *run, probing *p) {
+static kz_status search_confirm(kz_atlas *atlas, const kz_run *run, probing *p) {
   KZ_FREED answers *of = kz_calloc((size_t)p->n + 1, sizeof *of);
   const kz_stage stage = kz_stage_for_all("atlas motions", p->n, sizeof *of, confirm_tile, p);
   if (p->n == 0) return KZ_OK;
@@ -184,7 +184,7 @@ kz_status kz_atlas_search(kz_atlas *atlas, const kz_run *run) {
   kz_status status = check_all(atlas, run, &last);
   kz_atlas_join(atlas);
   kz_atlas_order(atlas);
-  if (status == KZ_OK) status = confirm(atlas, run, &last);
+  if (status == KZ_OK) status = search_confirm(atlas, run, &last);
   probes_free(last.n, last.probe);
   return status;
 }

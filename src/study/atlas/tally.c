@@ -26,7 +26,7 @@ static void tally_free(tally *t) {
 }
 
 /* What no place sees, less those of it that are known: `unknown` of n decades from the widest on. */
-static void estimate(const tally *t, int first, int n, double *missing, double *low, double *high) {
+static void tally_estimate(const tally *t, int first, int n, double *missing, double *low, double *high) {
   kz_unseen all = {0, 0};
   double known = 0;
   for (int i = first; i < first + n; i++) {
@@ -53,12 +53,12 @@ static void take_tally(const kz_atlas *atlas, tally *t) {
     t->curves[decade]++;
     t->seen[decade] += t->places[i] > 0, t->once[decade] += t->places[i] == 1, t->twice[decade] += t->places[i] == 2;
   }
-  for (int i = 0; i < DECADES; i++) estimate(t, i, 1, t->missing + i, t->low + i, t->high + i);
+  for (int i = 0; i < DECADES; i++) tally_estimate(t, i, 1, t->missing + i, t->low + i, t->high + i);
 }
 
 /* The probability that the list of a random point lacks a motion, at most: the bands of missing curves are as long as a side, and as wide as the widest
  * of their decade. A place within a band sees its curve, so that one that n places do not see counts for at most 1 / (e n). */
-static double lacking(const kz_atlas *atlas, const tally *t) {
+static double tally_lacking(const kz_atlas *atlas, const tally *t) {
   double p = 0;
   for (int i = 0; i < DECADES; i++) p += t->high[i] * 10 * decade_band(i);
   return fmin(1, fmax(p, exp(-1) / (double)atlas->places));
@@ -66,13 +66,13 @@ static double lacking(const kz_atlas *atlas, const tally *t) {
 
 static kz_status write_tally(const kz_atlas *atlas, const tally *t, kz_store *store) {
   double missing, low, high;
-  estimate(t, 0, SUMMARY_DECADES, &missing, &low, &high);
+  tally_estimate(t, 0, SUMMARY_DECADES, &missing, &low, &high);
   KZ_TRY(kz_store_integer(store, GROUP, "places", atlas->places));
   KZ_TRY(kz_store_integer(store, GROUP, "cycles", atlas->cycles));
   KZ_TRY(kz_store_integer(store, GROUP, "dropped", atlas->dropped));
   KZ_TRY(kz_store_real(store, GROUP, "missing_low", low));
   KZ_TRY(kz_store_real(store, GROUP, "missing_high", high));
-  KZ_TRY(kz_store_real(store, GROUP, "lacking_high", lacking(atlas, t)));
+  KZ_TRY(kz_store_real(store, GROUP, "lacking_high", tally_lacking(atlas, t)));
   COLUMN(double, "curve_band", atlas->n_curves, t->band[i]);
   COLUMN(int32_t, "curve_places", atlas->n_curves, t->places[i]);
   KZ_TRY(kz_store_dimension(store, GROUP, "decade", DECADES, NULL));
@@ -90,7 +90,7 @@ static kz_status write_tally(const kz_atlas *atlas, const tally *t, kz_store *st
 static void print_tally(const kz_atlas *atlas, const tally *t, FILE *summary) {
   double missing, low, high;
   int64_t curves = 0;
-  estimate(t, 0, SUMMARY_DECADES, &missing, &low, &high);
+  tally_estimate(t, 0, SUMMARY_DECADES, &missing, &low, &high);
   for (int i = 0; i < SUMMARY_DECADES; i++) curves += t->curves[i];
   fprintf(
       summary,
@@ -98,7 +98,7 @@ static void print_tally(const kz_atlas *atlas, const tally *t, FILE *summary) {
       " random places were followed to their births; an estimated %.0f to %.0f of "
       "%.0f curves with bands above %.0e of the plane are missing; a list lacks a motion with a probability of at most %.1g\n",
       atlas->cycles, atlas->places, floor(low), ceil(high), (double)curves + ceil(high), decade_band(SUMMARY_DECADES - 1),
-      lacking(atlas, t));
+      tally_lacking(atlas, t));
   if (atlas->dropped > 0)
     fprintf(summary,
             "  warning: %" PRId64

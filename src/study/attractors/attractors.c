@@ -24,8 +24,8 @@ static kz_search search_of(const kz_scene *scene) {
 }
 
 /* label [starts]: where they end. */
-static kz_status publish(const kz_scene *scene, const kz_dynamics *dynamics, const int32_t *label, kz_store *store,
-                         FILE *summary) {
+static kz_status attractors_publish(const kz_scene *scene, const kz_dynamics *dynamics, const int32_t *label, kz_store *store,
+                                    FILE *summary) {
   const int64_t starts = scene->attractors->starts;
   KZ_FREED int64_t *reached = kz_calloc((size_t)kz_dynamics_count(dynamics) + 1, sizeof *reached);
   KZ_FREED_BY(kz_catalogue_free) kz_catalogue catalogue = {0};
@@ -48,7 +48,7 @@ static kz_status run_damped(const kz_scene *scene, const kz_run *run, kz_store *
   kz_dynamics *dynamics = kz_dynamics_create(&scene->parameters.pendulum, &scene->numerics, scene->attractors->max_period);
   KZ_FREED int32_t *label = kz_malloc((size_t)search.starts * sizeof *label);
   KZ_TRY(kz_ranks_agree(run->ranks, kz_search_window(run, dynamics, &search, label)));
-  return store ? publish(scene, dynamics, label, store, summary) : KZ_OK;
+  return store ? attractors_publish(scene, dynamics, label, store, summary) : KZ_OK;
 }
 
 kz_status kz_attractors_run(const kz_scene *scene, const kz_run *run, kz_store *store, FILE *summary) {

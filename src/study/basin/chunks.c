@@ -27,7 +27,7 @@ static size_t bytes_of_messages(int64_t cells) {
 }
 
 /* The cells of the tile in c->ids, c->evidence. */
-static void count(kz_chunks *c, int64_t tile) {
+static void chunks_count(kz_chunks *c, int64_t tile) {
   const kz_tiles *tiles = &c->labelling->tiles;
   const int64_t n = kz_tile_count(tiles, tile), rows = n / tiles->columns;
   for (int64_t i = 0; i < n; i++) {
@@ -42,7 +42,7 @@ static void count(kz_chunks *c, int64_t tile) {
   kz_count_pairs(tiles->columns, rows, c->ids, kz_axis_is_circle(&c->labelling->plan->theta), &c->counts);
 }
 
-static kz_status pack(const kz_chunks *c, int64_t tile, char *message, size_t *bytes) {
+static kz_status chunks_pack(const kz_chunks *c, int64_t tile, char *message, size_t *bytes) {
   const kz_tiles *tiles = &c->labelling->tiles;
   const size_t n = (size_t)kz_tile_capacity(tiles);
   const void *const arrays[VARIABLES] = {c->ids, c->periods, c->evidence, c->others, c->turns};
@@ -75,7 +75,7 @@ static void count_doubtful(kz_chunks *c, int64_t tile) {
 }
 
 /* The cells of a tile from its own ones, or those of the tile that mirrors it. The second half of the tile in the middle mirrors the first. */
-static void fill(kz_chunks *c, int64_t tile, bool image) {
+static void chunks_fill(kz_chunks *c, int64_t tile, bool image) {
   const kz_window_labels *l = c->labelling;
   const int64_t n = kz_tile_count(&l->tiles, tile), own = kz_tile_own(&l->tiles, tile);
   int16_t *ids = c->ids, *others = c->others;
@@ -94,10 +94,10 @@ static void fill(kz_chunks *c, int64_t tile, bool image) {
 }
 
 /* Counts and packs a tile: the unpacked one, `from`, or its mirror image. */
-static kz_status add(kz_chunks *c, int64_t from, int64_t tile, char *message, size_t *bytes) {
-  fill(c, from, from != tile);
-  count(c, tile);
-  return pack(c, tile, message, bytes);
+static kz_status chunks_add(kz_chunks *c, int64_t from, int64_t tile, char *message, size_t *bytes) {
+  chunks_fill(c, from, from != tile);
+  chunks_count(c, tile);
+  return chunks_pack(c, tile, message, bytes);
 }
 
 /* Labels of parts of the study replace those of the own cells of a tile. Changed cells are counted with their mirror images. */
@@ -129,7 +129,7 @@ static void note_sample(kz_chunks *c, int64_t tile) {
       c->sample->label[i] = l->cell[c->sample->cell[i] - first].label;
 }
 
-static kz_status make(void *context, const kz_local_record *piece, void *message, size_t *bytes) {
+static kz_status chunks_make(void *context, const kz_local_record *piece, void *message, size_t *bytes) {
   kz_chunks *c = context;
   const kz_tiles *tiles = &c->labelling->tiles;
   const int64_t image = tiles->n - 1 - piece->tile;
@@ -138,8 +138,8 @@ static kz_status make(void *context, const kz_local_record *piece, void *message
   count_doubtful(c, piece->tile);
   KZ_TRY(take_labels(c, piece->tile));
   *bytes = 0;
-  KZ_TRY(add(c, piece->tile, piece->tile, message, bytes));
-  return tiles->own == tiles->n || image == piece->tile ? KZ_OK : add(c, piece->tile, image, message, bytes);
+  KZ_TRY(chunks_add(c, piece->tile, piece->tile, message, bytes));
+  return tiles->own == tiles->n || image == piece->tile ? KZ_OK : chunks_add(c, piece->tile, image, message, bytes);
 }
 
 static kz_status write_chunks(const kz_chunks *c, const head *h, const char *packed) {
@@ -151,7 +151,7 @@ static kz_status write_chunks(const kz_chunks *c, const head *h, const char *pac
   return KZ_OK;
 }
 
-static kz_status take(void *context, const void *message, size_t bytes) {
+static kz_status chunks_take(void *context, const void *message, size_t bytes) {
   const kz_chunks *c = context;
   for (const char *at = message, *end = at + bytes; at < end;) {
     head h;
@@ -186,12 +186,12 @@ static kz_status count_rows(kz_chunks *c) {
   return status;
 }
 
-static kz_status deliver(kz_chunks *c) {
+static kz_status chunks_deliver(kz_chunks *c) {
   kz_window_labels *l = c->labelling;
   const kz_delivery delivery = {.name = "file",
                                 .message_bytes = bytes_of_messages(kz_tile_capacity(&l->tiles)),
-                                .make = make,
-                                .take = take,
+                                .make = chunks_make,
+                                .take = chunks_take,
                                 .context = c};
   KZ_TRY(kz_local_records_deliver(l->run, &l->records, &delivery));
   KZ_TRY(kz_ranks_sum(l->run->ranks, (int64_t *)&c->counts, sizeof c->counts / sizeof(int64_t)));
@@ -209,5 +209,5 @@ kz_status kz_cells_write(kz_chunks *c) {
   KZ_FREED uint8_t *evidence = c->evidence = kz_calloc(n + 1, sizeof *evidence);
   KZ_FREED int32_t *turns = c->turns = kz_calloc(n + 1, sizeof *turns);
   KZ_FREED int64_t *cells_of = c->cells_of = kz_calloc((size_t)c->catalogue->count + 1, sizeof *cells_of);
-  return deliver(c);
+  return chunks_deliver(c);
 }

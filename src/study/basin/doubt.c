@@ -78,7 +78,7 @@ static const char *interval_of(const kz_share *share, char text[64]) {
   return text;
 }
 
-static void print(const kz_doubt *doubt, int32_t method, FILE *summary) {
+static void doubt_print(const kz_doubt *doubt, int32_t method, FILE *summary) {
   const kz_share *share = &doubt->doubtful, *other = &doubt->differing;
   char text[64];
   if (method == KZ_METHOD_EXACT) {
@@ -115,7 +115,7 @@ static kz_status write_share(const char *name, const kz_share *share, kz_store *
 
 kz_status kz_doubt_write(const kz_doubt *doubt, int32_t method, kz_store *store, FILE *summary) {
   if (doubt->cells == 0) return KZ_OK;
-  print(doubt, method, summary);
+  doubt_print(doubt, method, summary);
   KZ_TRY(write_share("doubtful", &doubt->doubtful, store));
   return write_share("differing", &doubt->differing, store);
 }

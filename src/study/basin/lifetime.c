@@ -40,7 +40,7 @@ void kz_transients_add(kz_transients *transients, int64_t n, const void *picked)
 }
 
 /* The note for cases where motions have not settled. */
-static void print(const kz_lifetime *life, int64_t max_periods, FILE *summary) {
+static void lifetime_print(const kz_lifetime *life, int64_t max_periods, FILE *summary) {
   if (life->open == 0) return;
   if (life->ended >= ENOUGH)
     fprintf(summary,
@@ -62,7 +62,7 @@ static void print(const kz_lifetime *life, int64_t max_periods, FILE *summary) {
 
 kz_status kz_lifetime_write(const kz_basin_plan *plan, kz_transients *t, kz_store *store, FILE *summary) {
   const kz_lifetime life = kz_lifetime_tail(t->n, t->time, (double)plan->max_periods);
-  print(&life, plan->max_periods, summary);
+  lifetime_print(&life, plan->max_periods, summary);
   KZ_TRY(kz_store_real(store, "basin", "lifetime", life.mean));
   KZ_TRY(kz_store_real(store, "basin", "lifetime_low", life.low));
   KZ_TRY(kz_store_real(store, "basin", "lifetime_high", life.high));

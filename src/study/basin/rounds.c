@@ -55,7 +55,7 @@ static kz_status pick_pending(kz_window_labels *l, int64_t from, int64_t of, int
 }
 
 /* The new labels of the listed cells, of which the first is pending cell `from`, replace those of a tile of this rank. */
-static kz_status merge(kz_window_labels *l, kz_local_record *packed, int64_t from, int64_t n, const kz_label *found) {
+static kz_status rounds_merge(kz_window_labels *l, kz_local_record *packed, int64_t from, int64_t n, const kz_label *found) {
   int64_t number = l->before[packed->tile] - from;
   const int64_t end = l->before[packed->tile + 1] - from;
   if (number < 0 || number == end || end > n) return KZ_OK;
@@ -80,7 +80,8 @@ static kz_status label_pending(kz_window_labels *l, int round) {
     KZ_TRY(pick_pending(l, first, n, n, cell, level));
     for (int64_t i = 0; i < n; i++) found[i] = (kz_label){.label = l->wanted, .next = (uint8_t)level[i]};
     kz_status status = (l->wanted == 0 ? kz_label_items : kz_label_doubtful)(&l->labeller, round, n, cell, found);
-    for (int64_t i = 0; i < l->records.n && status == KZ_OK; i++) status = merge(l, &l->records.list[i], first, n, found);
+    for (int64_t i = 0; i < l->records.n && status == KZ_OK; i++)
+      status = rounds_merge(l, &l->records.list[i], first, n, found);
     KZ_TRY(kz_ranks_agree(l->run->ranks, status));
   }
   return KZ_OK;
@@ -137,7 +138,7 @@ static kz_status count_unsettled(void *labels, int64_t *n) {
   return KZ_OK;
 }
 
-static kz_status pick(void *labels, int64_t all, int64_t n, int64_t *cell) {
+static kz_status rounds_pick(void *labels, int64_t all, int64_t n, int64_t *cell) {
   return pick_pending(labels, 0, all, n, cell, NULL);
 }
 
@@ -150,7 +151,7 @@ kz_status kz_label_window(kz_window_labels *l) {
   l->cell = kz_calloc((size_t)kz_tile_capacity(&l->tiles) + 1, sizeof *l->cell);
   l->before = kz_calloc((size_t)l->tiles.own + 1, sizeof *l->before);
   l->reached = kz_calloc(INT16_MAX + 1, sizeof *l->reached);
-  const kz_unsettled unsettled = {count_unsettled, pick, label_again, l};
+  const kz_unsettled unsettled = {count_unsettled, rounds_pick, label_again, l};
   const kz_search_on search = {ROUNDS, l->plan->starts, l->reached};
   KZ_TRY(find_attractors(l));
   KZ_TRY(make_starts(l));

@@ -5,7 +5,7 @@ enum { MOST_CELLS = 1 << 19 }; /* Cells of a tile: few MB */
 
 /* Length of the pieces of an axis: a multiple of `unit`, at most `target` or little more, and never more than `most`; `divides`:
  * without rest. 0 where there is none. */
-static int64_t piece(int64_t count, int64_t unit, int64_t target, int64_t most, bool divides) {
+static int64_t tiles_piece(int64_t count, int64_t unit, int64_t target, int64_t most, bool divides) {
   int64_t best = 0;
   for (int64_t length = unit; length <= kz_smaller(count, most); length += unit) {
     if (divides && count % length != 0) continue;
@@ -16,16 +16,16 @@ static int64_t piece(int64_t count, int64_t unit, int64_t target, int64_t most, 
   return best;
 }
 
-static void choose(kz_tiles *tiles, int64_t target, int64_t most, bool mirrored) {
+static void tiles_choose(kz_tiles *tiles, int64_t target, int64_t most, bool mirrored) {
   int64_t *rows = &tiles->chunk[0], *columns = &tiles->chunk[1];
   *rows = tiles->rows;
   *columns = tiles->columns;
   if (tiles->columns <= target && tiles->rows <= target / tiles->columns) return;
-  *rows = piece(tiles->rows, KZ_BOX, target / tiles->columns, most / tiles->columns, mirrored);
-  if (*rows == 0) *rows = piece(tiles->rows, 1, target / tiles->columns, most / tiles->columns, mirrored);
+  *rows = tiles_piece(tiles->rows, KZ_BOX, target / tiles->columns, most / tiles->columns, mirrored);
+  if (*rows == 0) *rows = tiles_piece(tiles->rows, 1, target / tiles->columns, most / tiles->columns, mirrored);
   if (*rows > 0) return;
   *rows = 1;
-  *columns = piece(tiles->columns, 1, target, most, mirrored);
+  *columns = tiles_piece(tiles->columns, 1, target, most, mirrored);
 }
 
 kz_tiles kz_tiles_of(const kz_scene *scene, int64_t target) {
@@ -34,7 +34,7 @@ kz_tiles kz_tiles_of(const kz_scene *scene, int64_t target) {
   tiles.cells = tiles.rows * tiles.columns;
   const int64_t enough = kz_tile_cells(scene, MOST_CELLS); /* as if no motion settled; nearly all settle long before */
   const bool mirrored = tiles.unique_cells < tiles.cells;
-  choose(&tiles, kz_smaller(target, enough), kz_smaller(64 * enough, MOST_CELLS), mirrored);
+  tiles_choose(&tiles, kz_smaller(target, enough), kz_smaller(64 * enough, MOST_CELLS), mirrored);
   tiles.across = (tiles.columns + tiles.chunk[1] - 1) / tiles.chunk[1];
   tiles.n = tiles.across * ((tiles.rows + tiles.chunk[0] - 1) / tiles.chunk[0]);
   tiles.own = mirrored ? (tiles.n + 1) / 2 : tiles.n;

@@ -18,9 +18,9 @@ static const kz_key keys[] = {
     {.path = NULL},
 };
 
-static const char *limit(const kz_scene *scene, kz_drive_need need) {
+static const char *keys_limit(const kz_scene *scene, kz_drive_need need) {
   (void)scene;
   return need == KZ_NEEDS_STROBE ? "basin.boundary needs starts at phase 0 and no ramp; leave one of them out" : NULL;
 }
 
-KZ_PART_ROW("basin", has_boundary, .check = kz_boundary_check, .of_basin = &kz_boundary_part, .limit = limit);
+KZ_PART_ROW("basin", has_boundary, .check = kz_boundary_check, .of_basin = &kz_boundary_part, .limit = keys_limit);

@@ -90,7 +90,7 @@ kz_status kz_boundary_check(const kz_scene *scene) {
 }
 
 /* Start i of an evenly spread sequence and its partners at n distances from `first` on, in directions that spread evenly too. */
-static void spread(const kz_boundary_plan *plan, int64_t i, int first, int n, point *p) {
+static void pairs_spread(const kz_boundary_plan *plan, int64_t i, int first, int n, point *p) {
   const double angle = 2 * M_PI * fmod((double)i * 0.61803398874989484820, 1);
   *p = (point){.share = {0}};
   kz_even_share(i, p->share);
@@ -145,7 +145,7 @@ static kz_status count_distances(pair_tile *t, int64_t from, int64_t n, int firs
   const int stride = 1 + last - first;
   const kz_labeller labeller = labeller_of(t->pairing, t, exact);
   if (first == last) return KZ_OK;
-  for (int64_t i = 0; i < n; i++) spread(t->pairing->pairs, from + i, first, last - first, t->point + stride * i);
+  for (int64_t i = 0; i < n; i++) pairs_spread(t->pairing->pairs, from + i, first, last - first, t->point + stride * i);
   KZ_TRY(kz_label_items(&labeller, 1, n * stride, NULL, t->end));
   for (int64_t i = 0; i < n; i++)
     for (int d = first; d < last; d++) {

@@ -5,14 +5,14 @@
 #include "kapitza/study_basin.h"
 #include "numerics/cells.h"
 
-static double *centres(const kz_axis *axis) {
+static double *cell_starts_centres(const kz_axis *axis) {
   double *centre = kz_malloc((size_t)axis->count * sizeof *centre);
   for (int64_t cell = 0; cell < axis->count; cell++) centre[cell] = kz_axis_centre(axis, cell);
   return centre;
 }
 
 void kz_cell_starts_make(const kz_basin_plan *plan, kz_cell_starts *starts) {
-  *starts = (kz_cell_starts){plan, {centres(&plan->theta), centres(&plan->velocity)}};
+  *starts = (kz_cell_starts){plan, {cell_starts_centres(&plan->theta), cell_starts_centres(&plan->velocity)}};
 }
 
 void kz_cell_starts_free(kz_cell_starts *starts) {

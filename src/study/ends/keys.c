@@ -6,13 +6,13 @@
 #include "sweep/plan.h"
 
 #define WORD_OF_PART "ends"
-static const char *words(void) {
+static const char *keys_words(void) {
   return WORD_OF_PART;
 }
 
 static const kz_key keys[] = {
     ROW("sweep.measure", KZ_KEY_WORDS, NULL, NOWHERE, "Over a plane: ends of the starts of sweep.ends.", .unit = "",
-        .words_from = words),
+        .words_from = keys_words),
     MAPPING("sweep.ends", "", "The measure ends: where the same starts end, at t = 0; each has a picture of its own."),
     ROW("sweep.ends.theta", KZ_KEY_REALS, NULL, AT(theta), "Angles from down.", .unit = "rad", .low = -1e6, .high = 1e6),
     ROW("sweep.ends.velocity", KZ_KEY_REALS, "[0]", AT(velocity), "Velocities: one for each angle, or one for all.",
@@ -30,7 +30,7 @@ static bool is_named(const kz_scene *scene) {
   return kz_sweep_part_words(scene->sweep, &part, false).count > 0;
 }
 
-static const char *lack(const kz_scene *scene) {
+static const char *keys_lack(const kz_scene *scene) {
   const kz_ends_plan *plan = scene->ends;
   if (plan->theta.count > 0 && plan->velocity.count != 1 && plan->velocity.count != plan->theta.count)
     return "ends.velocity: has another number of values than theta; give one for each angle, or one for all";
@@ -40,8 +40,8 @@ static const char *lack(const kz_scene *scene) {
   return plan->theta.count > 0 ? NULL : "ends: is missing, which the measure ends needs; give a mapping of theta";
 }
 
-static const char *limit(const kz_scene *scene, kz_drive_need need) {
+static const char *keys_limit(const kz_scene *scene, kz_drive_need need) {
   return need == KZ_NEEDS_SINE && is_named(scene) ? KZ_ENDS_NEED_SINE : NULL;
 }
 
-KZ_PART_ROW("sweep", has_sweep, .of_sweep = &part, .lack = lack, .limit = limit);
+KZ_PART_ROW("sweep", has_sweep, .of_sweep = &part, .lack = keys_lack, .limit = keys_limit);

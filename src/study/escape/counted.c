@@ -33,7 +33,7 @@ static double distance_of(const kz_listed *list, int64_t id, int64_t winding, in
   return fabs(theta - (list->theta[id * list->phases] + drift * (double)period));
 }
 
-static kz_status live(const work *w, const kz_walker *walker, int64_t id, int64_t winding, uint64_t seed, lives *sum) {
+static kz_status counted_live(const work *w, const kz_walker *walker, int64_t id, int64_t winding, uint64_t seed, lives *sum) {
   const kz_escape_plan *plan = w->scene->escape;
   double theta = w->attractors->theta[id * w->attractors->phases],
          velocity = w->attractors->velocity[id * w->attractors->phases];
@@ -65,7 +65,7 @@ static kz_status count_tile(void *context, int64_t tile, void *record) {
   kz_walker *walker = kz_walker_create(pendulum, plan->temperatures.values[temperature], flow.samples);
   kz_status status = KZ_OK;
   for (int64_t i = batch * BATCH; i < plan->walkers && i < (batch + 1) * BATCH && found && status == KZ_OK; i++)
-    status = live(w, walker, id, cycle.winding, kz_path_hash((uint64_t)row, (uint64_t)i), record);
+    status = counted_live(w, walker, id, cycle.winding, kz_path_hash((uint64_t)row, (uint64_t)i), record);
   kz_walker_free(walker);
   kz_escape_cycle_free(&cycle);
   kz_escape_flow_free(&flow);

@@ -103,8 +103,8 @@ static kz_escape_task *list_tasks(const kz_escape_plan *plan, bool mirrored, con
 }
 
 /* Where each path leads: its last state, moved a little to the other side of the saddle, and to this side. Collective. */
-static kz_status release(const kz_escape_labels *labels, const kz_gate *gate, int64_t n, const kz_escape_route *route,
-                         kz_escape_task *task) {
+static kz_status escape_release(const kz_escape_labels *labels, const kz_gate *gate, int64_t n, const kz_escape_route *route,
+                                kz_escape_task *task) {
   KZ_FREED double (*start)[2] = kz_calloc((size_t)(2 * n) + 1, sizeof *start);
   KZ_FREED int32_t *id = kz_calloc((size_t)(2 * n) + 1, sizeof *id);
   for (int64_t i = 0; route && i < n; i++) kz_escape_beyond(route + i, gate + task[i].saddle, start[2 * i], start[2 * i + 1]);
@@ -128,7 +128,7 @@ static kz_status run_tasks(const kz_scene *scene, const kz_run *run, const kz_es
   const kz_stage stage = kz_stage_for_rank0("escape", n, sizeof(kz_escape_route), search_tile, &w);
   KZ_FREED kz_escape_route *route = store ? kz_calloc((size_t)n + 1, sizeof *route) : NULL;
   KZ_TRY(kz_stage_run(run, &stage, route));
-  KZ_TRY(release(labels, gate, n, route, task));
+  KZ_TRY(escape_release(labels, gate, n, route, task));
   const kz_escape_report report = {scene, attractors, saddles, gate, n, task, route};
   if (store) KZ_TRY(kz_escape_write(&report, store, summary));
   return kz_escape_count(scene, run, attractors, store, summary);

@@ -33,7 +33,7 @@ static int64_t find_task(const kz_escape_report *r, int32_t from, int32_t saddle
 }
 
 /* The route becomes the mirror image of another one. */
-static void reflect(const kz_escape_report *r, int64_t of, int64_t to) {
+static void lives_reflect(const kz_escape_report *r, int64_t of, int64_t to) {
   const kz_escape_route *route = r->route + of;
   kz_escape_route *image = r->route + to;
   *image = *route;
@@ -54,8 +54,8 @@ void kz_escape_pair(const kz_escape_report *r) {
     const double a = r->route[i].least.action, b = r->route[j].least.action;
     task->agrees = r->task[j].agrees =
         task->reflected || r->task[j].reflected || (isinf(a) && isinf(b)) || fabs(a - b) <= AGREES * fabs(a);
-    if (b < a) reflect(r, j, i);
-    if (a < b) reflect(r, i, j);
+    if (b < a) lives_reflect(r, j, i);
+    if (a < b) lives_reflect(r, i, j);
   }
 }
 

@@ -58,7 +58,7 @@ static kz_status write_lives(const kz_escape_report *r, const kz_escape_life *li
   return KZ_OK;
 }
 
-static void show(shown_paths *shown, int64_t route) {
+static void report_show(shown_paths *shown, int64_t route) {
   if (route < 0) return;
   for (int64_t i = 0; i < shown->count; i++)
     if (shown->route[i] == route) return;
@@ -89,9 +89,9 @@ static kz_status write_paths(const kz_escape_report *r, const kz_escape_life *li
   const int64_t n = r->attractors->count;
   KZ_FREED int64_t *route = kz_malloc((size_t)(r->n + 1) * sizeof *route);
   shown_paths shown = {.of = r, .route = route};
-  for (int64_t a = 0; a < n; a++) show(&shown, life[a].way);
+  for (int64_t a = 0; a < n; a++) report_show(&shown, life[a].way);
   for (int64_t i = 0; r->scene->escape->everywhere && i < n * n; i++)
-    if (i / n != i % n) show(&shown, kz_escape_into(r, (int32_t)(i / n), (int32_t)(i % n)));
+    if (i / n != i % n) report_show(&shown, kz_escape_into(r, (int32_t)(i / n), (int32_t)(i % n)));
   kz_escape_flow flow = kz_escape_flow_of(&r->scene->parameters.pendulum);
   int64_t most = 0;
   for (int64_t i = 0; i < shown.count; i++) most += r->route[shown.route[i]].least.n * flow.samples;
@@ -108,7 +108,7 @@ static kz_status write_paths(const kz_escape_report *r, const kz_escape_life *li
   return KZ_OK;
 }
 
-static void print(const kz_escape_report *r, const kz_escape_life *life, FILE *summary) {
+static void report_print(const kz_escape_report *r, const kz_escape_life *life, FILE *summary) {
   int64_t differ = 0, over = 0;
   fprintf(summary,
           "Ways out: the least action that was found, int u^2 / (4 beta) dt of the torque u; a mean life grows as exp(action / "
@@ -143,7 +143,7 @@ kz_status kz_escape_write(const kz_escape_report *r, kz_store *store, FILE *summ
   KZ_FREED kz_escape_life *life = kz_calloc((size_t)r->attractors->count + 1, sizeof *life);
   kz_escape_pair(r);
   kz_escape_lives(r, life);
-  print(r, life, summary);
+  report_print(r, life, summary);
   KZ_TRY(write_routes(r, store));
   KZ_TRY(write_lives(r, life, store));
   return write_paths(r, life, store);

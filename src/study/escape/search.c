@@ -14,7 +14,7 @@ static const double APPROACH = 300, LINEAR = 0.05, FINISHED = 1e-7;
 static const double SAME = 1e-6, WORTH = 1.5;
 
 /* Drive periods in which motions near the cycle change their distance by a factor e, at least; of a saddle in its stable plane. */
-static double slowest(const kz_escape_cycle *cycle) {
+static double search_slowest(const kz_escape_cycle *cycle) {
   const kz_path_end *end = cycle->end;
   const double determinant = fabs(end->own[0][0] * end->own[1][1] - end->own[0][1] * end->own[1][0]),
                growth = fabs(end->growth);
@@ -22,7 +22,7 @@ static double slowest(const kz_escape_cycle *cycle) {
   return -(double)cycle->period / log(factor);
 }
 
-static int64_t clamped(double periods, int64_t low, int64_t high) {
+static int64_t search_clamped(double periods, int64_t low, int64_t high) {
   return periods<(double)low ? low : periods>(double) high ? high : (int64_t)periods;
 }
 
@@ -30,8 +30,8 @@ static kz_guess guess_of(const kz_escape_cycle *from, const kz_escape_cycle *to,
   static const double WIDTHS[] = {2, 4, 8, 16, 30};
   double u[4];
   for (int i = 0; i < 4; i++) u[i] = kz_path_random(seed, (uint64_t)(4 * start + i));
-  const double leaves = slowest(from) * log(APPROACH), approaches = slowest(to) * log(APPROACH);
-  kz_guess guess = {.periods = clamped(leaves + fmin(approaches, 0.5 * MOST), FEWEST, MOST)};
+  const double leaves = search_slowest(from) * log(APPROACH), approaches = search_slowest(to) * log(APPROACH);
+  kz_guess guess = {.periods = search_clamped(leaves + fmin(approaches, 0.5 * MOST), FEWEST, MOST)};
   const double least = fmin(5, 0.2 * (double)guess.periods), most = fmin(fmax(45, approaches), 0.7 * (double)guess.periods);
   guess.phase = (int64_t)(u[0] * (double)from->period);
   guess.change = (double)guess.periods - (least + (most - least) * u[1]);
@@ -76,10 +76,11 @@ static bool polish_to(const kz_escape_flow *flow, const kz_escape_cycle *from, c
   int64_t more[2];
   if (!kz_path_polish(flow->flow, from->end + phase, to->end, path)) return false;
   for (int side = 0; side < 2; side++) {
-    const double periods = slowest(cycle[side]) * log(fmax(1, path->beyond[side] / distance));
-    more[side] = periods > 0
-                     ? clamped(periods, 0, (KZ_ESCAPE_NODES - 1 - path->n) / 2 - cycle[side]->period) / cycle[side]->period + 1
-                     : 0;
+    const double periods = search_slowest(cycle[side]) * log(fmax(1, path->beyond[side] / distance));
+    more[side] =
+        periods > 0
+            ? search_clamped(periods, 0, (KZ_ESCAPE_NODES - 1 - path->n) / 2 - cycle[side]->period) / cycle[side]->period + 1
+            : 0;
   }
   if (more[0] + more[1] == 0) return true;
   kz_path_lengthen(flow->flow, from->end + phase, to->end, more, path);

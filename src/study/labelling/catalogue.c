@@ -17,7 +17,7 @@ void kz_catalogue_free(kz_catalogue *catalogue) {
   *catalogue = (kz_catalogue){0};
 }
 
-static void fill(kz_entry *entry, const kz_dynamics *dynamics, int64_t number) {
+static void catalogue_fill(kz_entry *entry, const kz_dynamics *dynamics, int64_t number) {
   kz_dynamics_attractor(dynamics, number, &entry->row);
   entry->theta = kz_calloc((size_t)(entry->row.period + 1), sizeof(double));
   entry->velocity = kz_calloc((size_t)(entry->row.period + 1), sizeof(double));
@@ -35,7 +35,7 @@ void kz_catalogue_make(const kz_dynamics *dynamics, const int64_t *reached, kz_c
   for (int64_t i = 0; i <= known; i++) catalogue->id_of[i] = -1;
   for (int64_t i = 0; i < known; i++) {
     kz_entry entry = {.fraction = NAN};
-    fill(&entry, dynamics, order[i]);
+    catalogue_fill(&entry, dynamics, order[i]);
     if (reached && reached[order[i]] == 0 && reached[entry.row.mirror] == 0) {
       free(entry.theta);
       free(entry.velocity);

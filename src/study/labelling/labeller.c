@@ -102,7 +102,7 @@ static kz_status follow_states(const batch *b, int64_t first, int64_t n, kz_star
 }
 
 /* Decisions of the items first .. first + n - 1. `start` [n]: a buffer. */
-static kz_status decide(const batch *b, int64_t first, int64_t n, kz_start *start, kz_decision *decision) {
+static kz_status labeller_decide(const batch *b, int64_t first, int64_t n, kz_start *start, kz_decision *decision) {
   const kz_labeller *l = b->labeller;
   if (l->way == KZ_BY_STATES) return follow_states(b, first, n, start, decision);
   if (b->by.kind == ADDED) return l->added->label(l->context, b->by.row, n, b->item + first, decision);
@@ -125,7 +125,7 @@ static kz_status label_items(const batch *b, int64_t first, int64_t n, kz_label 
   for (int64_t done = 0; done < n; done += most) {
     const int64_t part = kz_smaller(n - done, most);
     if (l->run) KZ_TRY(kz_ranks_interrupted(l->run->ranks));
-    KZ_TRY(decide(b, first + done, part, start, decision));
+    KZ_TRY(labeller_decide(b, first + done, part, start, decision));
     if (l->turns) kz_dynamics_count_turns(l->dynamics, part, l->max_periods, decision);
     for (int64_t i = 0; i < part; i++) {
       label[done + i] = decision[i].end;
@@ -153,7 +153,7 @@ static kz_stage stage_of(batch *b, int round, int64_t n, char name[32]) {
 
 /* Labels n items from a decider on, until each is decided or none is left; label [n].next: the first level that may decide each. The places of
  * items that are still doubtful move to the front. */
-static kz_status climb(const kz_labeller *l, decider by, int round, int64_t n, const int64_t *item, kz_label *label) {
+static kz_status labeller_climb(const kz_labeller *l, decider by, int round, int64_t n, const int64_t *item, kz_label *label) {
   KZ_FREED int64_t *place = kz_malloc(2 * (size_t)n * sizeof *place + 1);
   int64_t *now = place + n;
   KZ_FREED kz_label *found = NULL;
@@ -190,10 +190,10 @@ kz_status kz_label_first(const kz_labeller *l, int64_t n, const int64_t *item, k
 }
 
 kz_status kz_label_doubtful(const kz_labeller *l, int round, int64_t n, const int64_t *item, kz_label *label) {
-  return climb(l, next_decider(l, first_decider(l), n), round, n, item, label);
+  return labeller_climb(l, next_decider(l, first_decider(l), n), round, n, item, label);
 }
 
 kz_status kz_label_items(const kz_labeller *l, int round, int64_t n, const int64_t *item, kz_label *label) {
   for (int64_t i = 0; i < n; i++) label[i].next = 0;
-  return climb(l, first_decider(l), round, n, item, label);
+  return labeller_climb(l, first_decider(l), round, n, item, label);
 }

@@ -83,9 +83,9 @@ typedef struct {
 } kz_search_on;
 /* Looks for the attractors that unsettled items lead to, and labels those items again, until all have settled, a search finds nothing or the
  * rounds are over. */
-kz_status kz_search_rounds(const kz_labeller *labeller, const kz_search_on *search, const kz_unsettled *unsettled);
+kz_status kz_search_rounds(const kz_labeller *labeller, const kz_search_on *catalogue_search, const kz_unsettled *unsettled);
 /* Labels n items in an array and searches on from those that do not settle. */
-kz_status kz_label_and_search(const kz_labeller *labeller, const kz_search_on *search, int64_t n, const int64_t *item,
+kz_status kz_label_and_search(const kz_labeller *labeller, const kz_search_on *prepared_search, int64_t n, const int64_t *item,
                               kz_label *label);
 
 /* The states of n items where labels begin to follow them, after their release: state [n][2], half-turns and velocity; periods [n]: drive

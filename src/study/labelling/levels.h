@@ -36,7 +36,8 @@ extern const kz_level kz_level_rows[KZ_LEVELS];
 
 /* Decides where one orbit ends by double precision: *decision has KZ_DOUBTFUL if that does not decide it. `look`: where doubles without regard
  * to errors end nowhere known, the orbit counts as not settled. */
-void kz_decide_in_doubles(kz_dynamics *dynamics, const kz_start *start, int64_t max_periods, bool look, kz_decision *decision);
+void kz_decide_in_doubles(kz_dynamics *dynamics, const kz_start *start, int64_t max_periods, bool approach_look,
+                          kz_decision *decision);
 /* The same by quad precision. */
 void kz_decide_in_quads(kz_dynamics *dynamics, const kz_start *start, int64_t max_periods, kz_decision *decision);
 /* Whether a trapping region holds a start, with its error, after one period. */

@@ -54,7 +54,7 @@ static int64_t item_at(const array *a, int64_t place) {
   return a->item ? a->item[place] : place;
 }
 
-static kz_status pick(void *labels, int64_t all, int64_t n, int64_t *item) {
+static kz_status rounds_pick(void *labels, int64_t all, int64_t n, int64_t *item) {
   const array *a = labels;
   for (int64_t i = 0; i < n; i++) item[i] = item_at(a, a->place[kz_even_place(i, n, all)]);
   return KZ_OK;
@@ -74,7 +74,7 @@ kz_status kz_label_and_search(const kz_labeller *l, const kz_search_on *search, 
                               kz_label *label) {
   KZ_FREED int64_t *place = kz_malloc((size_t)n * sizeof *place + 1);
   array a = {l, item, label, n, 0, place};
-  const kz_unsettled unsettled = {count_open, pick, label_again, &a};
+  const kz_unsettled unsettled = {count_open, rounds_pick, label_again, &a};
   KZ_TRY(kz_label_items(l, 1, n, item, label));
   return kz_search_rounds(l, search, &unsettled);
 }

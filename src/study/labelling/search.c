@@ -106,7 +106,7 @@ static kz_status seek_tile(void *context, int64_t tile, void *record) {
 }
 
 /* One search by one rank; what it finds joins the catalogue of every rank. `record` [size]: a buffer. */
-static kz_status seek(const kz_run *run, seeking *s, double *record) {
+static kz_status search_seek(const kz_run *run, seeking *s, double *record) {
   static const char *const name[] = {"cycles", "running", "chaos"};
   const kz_stage stage = kz_stage_for_all(name[s->kind], 1, (size_t)s->size * sizeof(double), seek_tile, s);
   KZ_TRY(kz_stage_run(run, &stage, record));
@@ -123,7 +123,7 @@ static kz_status find_cycles(const kz_run *run, const following *f, double close
     s.n = f->n - first < CHUNK ? f->n - first : CHUNK;
     for (int64_t i = 0; i < s.n; i++) memcpy(s.state + 2 * i, f->state + 2 * f->pending[first + i], 2 * sizeof(double));
     memset(found, 0, (size_t)s.size * sizeof(double));
-    while ((int64_t)found[0] < s.n) KZ_TRY(seek(run, &s, found + s.size));
+    while ((int64_t)found[0] < s.n) KZ_TRY(search_seek(run, &s, found + s.size));
   }
   return KZ_OK;
 }
@@ -140,7 +140,7 @@ static kz_status find_covered(const kz_run *run, following *f, int kind) {
       memcpy(s.state + 2 * i, f->state + 2 * f->pending[kind == CHAOS ? (attempt * 7) % f->n : i * f->n / s.n],
              2 * sizeof(double));
     memset(found, 0, (size_t)s.size * sizeof(double));
-    KZ_TRY(seek(run, &s, found + s.size));
+    KZ_TRY(search_seek(run, &s, found + s.size));
     if (kz_dynamics_count(f->dynamics) > known) {
       kz_dynamics_update(f->dynamics);
       KZ_TRY(follow_pending(run, f, COVER_PERIODS));

@@ -19,7 +19,7 @@ typedef struct {
 
 /* Finds the attractors that the starts end on. If regions are grown, a few starts come first: regions grow around the attractors of most of
  * the window, and the other starts then settle soon. label [starts] as in kz_discover; NULL = not needed. */
-kz_status kz_search_window(const kz_run *run, kz_dynamics *dynamics, const kz_search *search, int32_t *label);
+kz_status kz_search_window(const kz_run *run, kz_dynamics *dynamics, const kz_search *prepared_search, int32_t *engine_label);
 
 /* Cells an axis of the grid of trapping regions that saves more time than it costs if `cells` cells are labelled; 0 = none does. */
 int64_t kz_regions_cells(int64_t cells);
@@ -30,7 +30,7 @@ void kz_regions_grow(kz_dynamics *dynamics, int64_t cells, double max_velocity);
  * they end on; those join the catalogue and the regions (coarse or fine) of `dynamics` on every rank. label [n] =
  * attractor from 1, 0 where the start has not settled on any; NULL = cycles alone are looked for. sought: as in kz_search. Collective; `run` NULL = this rank alone. */
 kz_status kz_discover(const kz_run *run, kz_dynamics *dynamics, int64_t sought, int64_t max_periods, int64_t n, double *state,
-                      int32_t *label);
+                      int32_t *frame_label);
 
 /* Builds the table of n_theta x n_velocity nodes up to velocity `max_velocity` on every rank. Collective; `run` NULL = this
  * rank alone. */

@@ -11,8 +11,8 @@
 enum { SOON = 24 };
 
 /* The smooth settling times of n cells that were left at these states after these times. */
-static void smooth(const kz_prepared *r, int64_t n, const int32_t *label, const double *state, double *time,
-                   const int64_t *number, kz_frame_cell *cells) {
+static void cells_smooth(const kz_prepared *r, int64_t n, const int32_t *label, const double *state, double *time,
+                         const int64_t *number, kz_frame_cell *cells) {
   kz_dynamics_smooth_times(r->dynamics, n, label, state, time);
   for (int64_t i = 0; i < n; i++) cells[number[i]].smooth = (float)time[i];
 }
@@ -25,7 +25,7 @@ static void add_late(kz_travellers *late, int64_t number, int64_t spent, const d
 
 /* As method direct labels them, for so many periods. What then goes on joins `late`, or has not settled if that is NULL. Late cells
  * of a weakly damped pendulum, which take hundreds of periods, are followed in a cheaper way. */
-static void follow(kz_prepared *r, int64_t most, kz_travellers *from, kz_travellers *late, kz_frame_cell *cells) {
+static void cells_follow(kz_prepared *r, int64_t most, kz_travellers *from, kz_travellers *late, kz_frame_cell *cells) {
   int32_t label[2 * KZ_FRAME_TILE];
   int64_t periods[2 * KZ_FRAME_TILE];
   double time[2 * KZ_FRAME_TILE], *state = from->state;
@@ -44,20 +44,20 @@ static void follow(kz_prepared *r, int64_t most, kz_travellers *from, kz_travell
     if (label[i] == 0 && r->n_unsettled < KZ_MOST_UNSETTLED)
       memcpy(r->unsettled + 2 * r->n_unsettled++, state + 2 * i, 2 * sizeof *state);
   }
-  if (r->smooth) smooth(r, from->n, label, state, time, from->number, cells);
+  if (r->smooth) cells_smooth(r, from->n, label, state, time, from->number, cells);
 }
 
 void kz_cells_finish(kz_prepared *prepared, kz_travellers *late, kz_frame_cell *cells) {
-  if (late->n > 0) follow(prepared, prepared->periods - SOON, late, NULL, cells);
+  if (late->n > 0) cells_follow(prepared, prepared->periods - SOON, late, NULL, cells);
   late->n = 0;
 }
 
 static void follow_moving(kz_prepared *r, kz_travellers *from, kz_travellers *late, kz_frame_cell *cells) {
   if (r->periods <= SOON) {
-    follow(r, r->periods, from, NULL, cells);
+    cells_follow(r, r->periods, from, NULL, cells);
     return;
   }
-  follow(r, SOON, from, late, cells);
+  cells_follow(r, SOON, from, late, cells);
   if (late->n > KZ_FRAME_TILE) kz_cells_finish(r, late, cells);
 }
 
@@ -76,7 +76,7 @@ static kz_status start_cell(void *context, int64_t i, kz_precision level, kz_sta
 }
 
 /* A kz_note_fn. */
-static void note(void *context, int64_t i, const kz_decision *decision) {
+static void cells_note(void *context, int64_t i, const kz_decision *decision) {
   deciding *d = context;
   d->label[i] = decision->decided ? decision->end.label : 0;
   d->time[i] = (double)(decision->decided ? decision->age : decision->end.periods);
@@ -84,26 +84,26 @@ static void note(void *context, int64_t i, const kz_decision *decision) {
 }
 
 /* As method exact labels them. */
-static kz_status decide(const kz_prepared *r, const kz_window_starts *starts, int64_t n, const int64_t *number,
-                        kz_frame_cell *cells) {
+static kz_status cells_decide(const kz_prepared *r, const kz_window_starts *starts, int64_t n, const int64_t *number,
+                              kz_frame_cell *cells) {
   KZ_FREED deciding *d = kz_malloc(sizeof *d);
   kz_label label[KZ_FRAME_TILE];
   d->labeller = kz_window_labeller(starts, false);
   d->number = number;
   kz_labeller labeller = d->labeller;
   labeller.start = start_cell;
-  labeller.note = note;
+  labeller.note = cells_note;
   labeller.turns = r->turns;
   labeller.context = d;
   KZ_TRY(kz_label_items(&labeller, 1, n, NULL, label));
   for (int64_t i = 0; i < n; i++) cells[number[i]].end = label[i];
-  if (r->smooth) smooth(r, n, d->label, d->state, d->time, number, cells);
+  if (r->smooth) cells_smooth(r, n, d->label, d->state, d->time, number, cells);
   return KZ_OK;
 }
 
 kz_status kz_cells_follow(kz_prepared *prepared, const kz_window_starts *starts, int64_t n, const int64_t *number,
                           kz_travellers *late, kz_frame_cell *cells) {
-  if (!kz_prepared_moves(prepared)) return decide(prepared, starts, n, number, cells);
+  if (!kz_prepared_moves(prepared)) return cells_decide(prepared, starts, n, number, cells);
   KZ_FREED kz_travellers *from = kz_malloc(sizeof *from);
   from->n = n;
   memcpy(from->number, number, (size_t)n * sizeof *number);

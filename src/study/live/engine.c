@@ -32,7 +32,7 @@ void kz_engine_free(kz_engine *engine) {
 
 /* The whole circle, and velocities up to the fastest of the window: what is known of a pendulum does not depend on where one looks. The caller frees its
  * plans. */
-static kz_scene searched(const kz_engine *engine, const kz_scene *scene) {
+static kz_scene engine_searched(const kz_engine *engine, const kz_scene *scene) {
   kz_scene wide = *scene;
   wide.series = engine->series;
   kz_plans_copy(&wide);
@@ -42,14 +42,14 @@ static kz_scene searched(const kz_engine *engine, const kz_scene *scene) {
   return wide;
 }
 
-static kz_prepared *find(kz_engine *engine, const kz_scene *scene, double tolerance) {
+static kz_prepared *engine_find(kz_engine *engine, const kz_scene *scene, double tolerance) {
   for (int i = 0; i < KZ_MOST_PREPARED; i++)
     if (kz_prepared_serves(engine->prepared + i, scene, tolerance)) return engine->prepared + i;
   return NULL;
 }
 
 /* Of those for moving frames, the nearest pendulum that can be moved to the scene's. */
-static kz_prepared *nearest(kz_engine *engine, const kz_scene *scene) {
+static kz_prepared *engine_nearest(kz_engine *engine, const kz_scene *scene) {
   kz_prepared *found = NULL;
   double least = INFINITY;
   for (int i = 0; i < KZ_MOST_PREPARED; i++) {
@@ -62,7 +62,7 @@ static kz_prepared *nearest(kz_engine *engine, const kz_scene *scene) {
 }
 
 /* The place of the one that was used least lately, and of none that is busy. */
-static kz_prepared *oldest(kz_engine *engine) {
+static kz_prepared *engine_oldest(kz_engine *engine) {
   kz_prepared *place = NULL;
   for (int i = 0; i < KZ_MOST_PREPARED; i++) {
     kz_prepared *r = engine->prepared + i;
@@ -76,18 +76,19 @@ void kz_engine_list(kz_engine *engine, kz_prepared *prepared) {
   engine->shown = &prepared->catalogue;
 }
 
-static void forget(kz_engine *engine, kz_prepared *place) {
+static void engine_forget(kz_engine *engine, kz_prepared *place) {
   if (engine->shown == &place->catalogue) engine->shown = NULL;
   kz_prepared_free(place);
 }
 
-static kz_status make(kz_engine *engine, const kz_scene *scene, double tolerance, const kz_frame *frame, kz_prepared *place) {
-  kz_scene wide = searched(engine, scene);
+static kz_status engine_make(kz_engine *engine, const kz_scene *scene, double tolerance, const kz_frame *frame,
+                             kz_prepared *place) {
+  kz_scene wide = engine_searched(engine, scene);
   kz_prepared fresh;
   const kz_status status = kz_prepared_make(&wide, tolerance, frame, &fresh);
   kz_plans_free(&wide);
   if (status == KZ_OK) kz_prepared_list(&fresh, ++engine->versions, engine->shown, &engine->tracks);
-  forget(engine, place);
+  engine_forget(engine, place);
   if (status == KZ_OK)
     *place = fresh;
   else
@@ -99,18 +100,18 @@ kz_status kz_engine_prepared(kz_engine *engine, const kz_scene *scene, const kz_
   kz_prepared *near = NULL;
   const bool moving = frame && frame->moving;
   const double tolerance = moving ? kz_moving_tolerance(scene) : 0;
-  *prepared = find(engine, scene, tolerance);
-  if (!*prepared && moving && (near = nearest(engine, scene))) {
+  *prepared = engine_find(engine, scene, tolerance);
+  if (!*prepared && moving && (near = engine_nearest(engine, scene))) {
     const kz_status status = kz_prepared_move(near, scene, frame);
     if (status != KZ_OK) {
-      forget(engine, near);
+      engine_forget(engine, near);
       return status;
     }
     kz_engine_list(engine, near);
     *prepared = near;
   } else if (!*prepared) {
-    *prepared = oldest(engine);
-    KZ_TRY(make(engine, scene, tolerance, frame, *prepared));
+    *prepared = engine_oldest(engine);
+    KZ_TRY(engine_make(engine, scene, tolerance, frame, *prepared));
   }
   (*prepared)->used = ++engine->calls;
   engine->shown = &(*prepared)->catalogue;

@@ -44,14 +44,14 @@ static kz_status ask_for_memory(const making *m) {
   return kz_memory_ask("rows", (size_t)m->total * cell + LABELS_BYTES);
 }
 
-static void allocate(making *m) {
+static void frame_allocate(making *m) {
   m->cell = kz_calloc((size_t)m->total, sizeof *m->cell);
   m->pending = kz_malloc((size_t)m->total * sizeof *m->pending);
   m->listed = kz_calloc((size_t)m->own, sizeof *m->listed);
   m->buffer = kz_malloc((size_t)m->total * planes_bytes(m->frame) + sizeof(float));
 }
 
-static kz_status follow(making *m, int64_t n) {
+static kz_status frame_follow(making *m, int64_t n) {
   if (m->samples.curve.count > 0) return kz_samples_follow(m->prepared, m->frame, &m->samples, n, m->pending, m->cell);
   const kz_frame_task task = {m->prepared, &m->starts, m->frame, &m->engine->changing, n, m->pending, m->cell};
   return kz_frame_follow(&task);
@@ -66,7 +66,7 @@ static kz_status count_unsettled(void *context, int64_t *n) {
   return KZ_OK;
 }
 
-static kz_status pick(void *context, int64_t all, int64_t n, int64_t *cell) {
+static kz_status frame_pick(void *context, int64_t all, int64_t n, int64_t *cell) {
   making *m = context;
   for (int64_t i = 0; i < n; i++) cell[i] = m->pending[kz_even_place(i, n, all)];
   m->searched = true;
@@ -77,16 +77,16 @@ static kz_status follow_again(void *context, int round) {
   making *m = context;
   (void)round;
   kz_engine_list(m->engine, m->prepared);
-  return follow(m, m->n_pending);
+  return frame_follow(m, m->n_pending);
 }
 
 /* Follows n pending cells; where some do not settle, the attractors that they end on are looked for, once a frame. */
 static kz_status label(making *m, int64_t n) {
-  const kz_unsettled unsettled = {count_unsettled, pick, follow_again, m};
+  const kz_unsettled unsettled = {count_unsettled, frame_pick, follow_again, m};
   const kz_search_on search = {1, MOST_STARTS, NULL};
   if (!m->prepared->dynamics) return KZ_OK;
   m->n_pending = n;
-  KZ_TRY(follow(m, n));
+  KZ_TRY(frame_follow(m, n));
   if (m->searched || kz_prepared_moves(m->prepared)) return KZ_OK;
   const kz_labeller labeller = kz_window_labeller(&m->starts, false);
   return kz_search_rounds(&labeller, &search, &unsettled);
@@ -104,7 +104,7 @@ static uint8_t doubt_of(const kz_label *end) {
 }
 
 /* What a plane shows of a cell, or of its mirror image, into place `at`. */
-static void put(const making *m, int plane, const kz_frame_cell *cell, bool mirrored, int64_t at, void *values) {
+static void frame_put(const making *m, int plane, const kz_frame_cell *cell, bool mirrored, int64_t at, void *values) {
   const kz_label *end = &cell->end;
   uint8_t *codes = values;
   float *numbers = values;
@@ -125,7 +125,7 @@ static void put(const making *m, int plane, const kz_frame_cell *cell, bool mirr
 }
 
 /* A plane of a raster. */
-static void fill(const making *m, int64_t coarseness, int plane, void *values) {
+static void frame_fill(const making *m, int64_t coarseness, int plane, void *values) {
   const int64_t columns = m->scene->basin->theta.count, rows = m->scene->basin->velocity.count;
   const int64_t across = kz_raster_size(coarseness, columns), up = kz_raster_size(coarseness, rows);
   for (int64_t i = 0; i < up; i++) {
@@ -133,12 +133,12 @@ static void fill(const making *m, int64_t coarseness, int plane, void *values) {
     for (int64_t j = 0; j < across; j++) {
       const int64_t f = row + kz_raster_place(coarseness, j, columns);
       const bool mirrored = f >= m->own;
-      put(m, plane, m->cell + (mirrored ? m->total - 1 - f : f), mirrored, i * across + j, values);
+      frame_put(m, plane, m->cell + (mirrored ? m->total - 1 - f : f), mirrored, i * across + j, values);
     }
   }
 }
 
-static kz_status show(making *m, int64_t coarseness) {
+static kz_status frame_show(making *m, int64_t coarseness) {
   const int64_t columns = m->scene->basin->theta.count, rows = m->scene->basin->velocity.count;
   kz_live_raster shown = {.coarseness = coarseness,
                           .rows = kz_raster_size(coarseness, rows),
@@ -155,7 +155,7 @@ static kz_status show(making *m, int64_t coarseness) {
   for (int p = 0; p < KZ_PLANES; p++) {
     if (!m->frame->plane[order[p]]) continue;
     void *values = (char *)m->buffer + end;
-    fill(m, coarseness, order[p], values);
+    frame_fill(m, coarseness, order[p], values);
     shown.plane[order[p]] = values;
     end += (size_t)(shown.rows * shown.columns) * kz_plane_bytes(order[p]);
   }
@@ -163,8 +163,8 @@ static kz_status show(making *m, int64_t coarseness) {
   return m->frame->show(m->frame->context, &shown);
 }
 
-static kz_status make(making *m) {
-  allocate(m);
+static kz_status frame_make(making *m) {
+  frame_allocate(m);
   if (m->prepared->dynamics) KZ_TRY(kz_cells_begin(m->prepared, m->scene->basin, m->frame, &m->starts));
   if (kz_prepared_moves(m->prepared) && m->prepared->dynamics) kz_samples_make(&m->starts, &m->samples);
   for (int64_t i = 0; i < m->frame->coarseness->count; i++) {
@@ -176,7 +176,7 @@ static kz_status make(making *m) {
           KZ_REFUSED,
           "basin.attractors.max_period: the pendulum has %lld attractors, but a frame holds at most %d; use a smaller period",
           (long long)m->prepared->catalogue.list.count, KZ_NO_LABEL - 1);
-    KZ_TRY(show(m, coarseness));
+    KZ_TRY(frame_show(m, coarseness));
   }
   return KZ_OK;
 }
@@ -194,7 +194,7 @@ kz_status kz_engine_frame(kz_engine *engine, const kz_scene *scene, const kz_fra
   m.prepared->busy = true;
   m.prepared->smooth = frame->plane[KZ_PLANE_SMOOTH_TIME];
   m.prepared->turns = frame->plane[KZ_PLANE_TURNS];
-  const kz_status status = make(&m);
+  const kz_status status = frame_make(&m);
   m.prepared->busy = was_busy;
   kz_samples_free(&m.samples);
   kz_window_starts_free(&m.starts);

@@ -7,7 +7,7 @@
 /* How far the pendulum of a frame may be from that of the atlas, of the size of its parameters: values that people read are rounded. */
 static const double SAME = 1e-9;
 
-static kz_status check(const kz_prepared *r, const kz_motions *motions) {
+static kz_status listed_check(const kz_prepared *r, const kz_motions *motions) {
   const kz_pendulum *own = &r->scene.parameters.pendulum, *other = &motions->pendulum;
   if (kz_pendulums_parted(own, other) <= SAME) return KZ_OK;
   return kz_fail(
@@ -34,7 +34,7 @@ static bool lacks_some(const kz_prepared *r, const kz_motions *motions) {
 kz_status kz_prepared_take_listed(kz_prepared *r, const kz_frame *frame) {
   KZ_FREED_BY(kz_motions_free) kz_motions list = {0}, motions = {0};
   KZ_TRY(kz_atlas_motions(frame->atlas, frame->x, frame->y, false, &list));
-  KZ_TRY(check(r, &list));
+  KZ_TRY(listed_check(r, &list));
   if (!list.known || !lacks_some(r, &list)) return KZ_OK;
   KZ_TRY(kz_atlas_motions(frame->atlas, frame->x, frame->y, true, &motions));
   for (int64_t i = 0; i < motions.count; i++) {

@@ -13,7 +13,7 @@ typedef struct {
   uint8_t *shown_period, *shown_centre; /* of a raster */
 } drawing;
 
-static kz_status follow(drawing *d, int64_t n) {
+static kz_status plane_follow(drawing *d, int64_t n) {
   kz_plane_ending ending[KZ_ENDS_POINTS];
   for (int64_t done = 0; done < n; done += KZ_ENDS_POINTS) {
     const int64_t part = n - done < KZ_ENDS_POINTS ? n - done : KZ_ENDS_POINTS;
@@ -28,8 +28,9 @@ static kz_status follow(drawing *d, int64_t n) {
 }
 
 /* Follows what is pending of a raster, and gathers it. */
-static kz_status draw(drawing *d, const kz_plane_raster *raster) {
-  KZ_TRY(follow(d, kz_raster_pending(raster->coarseness, d->rows, d->columns, d->rows * d->columns, d->listed, d->pending)));
+static kz_status plane_draw(drawing *d, const kz_plane_raster *raster) {
+  KZ_TRY(
+      plane_follow(d, kz_raster_pending(raster->coarseness, d->rows, d->columns, d->rows * d->columns, d->listed, d->pending)));
   for (int64_t i = 0; i < raster->rows; i++)
     for (int64_t j = 0; j < raster->columns; j++) {
       const int64_t at = i * raster->columns + j, point = kz_raster_place(raster->coarseness, i, d->rows) * d->columns +
@@ -52,7 +53,7 @@ kz_status kz_plane_draw(const kz_scene *scene, const kz_integers *coarseness, kz
     const int64_t step = coarseness->values[i];
     const kz_plane_raster raster = {step, kz_raster_size(step, rows), kz_raster_size(step, columns), d.shown_period,
                                     d.shown_centre};
-    KZ_TRY(draw(&d, &raster));
+    KZ_TRY(plane_draw(&d, &raster));
     KZ_TRY(show(context, &raster));
   }
   return KZ_OK;

@@ -87,7 +87,7 @@ static bool has_cover(const kz_prepared *r) {
 }
 
 /* Extends the trapping regions of moving frames by orbits, where damping is so weak that this saves time. */
-static void learn(kz_prepared *r) {
+static void prepared_learn(kz_prepared *r) {
   const double mean = kz_settling_mean(r->scene.parameters.pendulum.beta);
   if (!kz_prepared_moves(r) || (!is_weak(r) && !has_cover(r))) return;
   const int64_t n = (int64_t)fmin(ORBITS, VISITS / fmax(mean, has_cover(r) ? (double)r->periods : 0));
@@ -107,7 +107,7 @@ static kz_status search(kz_prepared *r, const kz_frame *frame) {
     KZ_TRY(kz_search_window(NULL, r->dynamics, &r->search, NULL));
   }
   kz_dynamics_set_release(r->dynamics, &r->release);
-  learn(r);
+  prepared_learn(r);
   return KZ_OK;
 }
 
@@ -188,8 +188,8 @@ double kz_prepared_distance(const kz_prepared *prepared, const kz_scene *scene) 
   if (prepared->used == 0 || !kz_prepared_moves(prepared) || !prepared->dynamics || prepared->busy) return INFINITY;
   if (!(scene->parameters.pendulum.beta > 0) || !same_search(prepared, scene)) return INFINITY;
   const kz_pendulum *own = &prepared->scene.parameters.pendulum, *other = &scene->parameters.pendulum;
-  const double distance = kz_pendulums_parted(own, other);
-  return distance < FARTHEST && damped_apart(own, other) < FARTHEST ? distance : INFINITY;
+  const double prepared_distance = kz_pendulums_parted(own, other);
+  return prepared_distance < FARTHEST && damped_apart(own, other) < FARTHEST ? prepared_distance : INFINITY;
 }
 
 kz_status kz_prepared_move(kz_prepared *r, const kz_scene *scene, const kz_frame *frame) {
@@ -217,11 +217,11 @@ kz_status kz_prepared_move(kz_prepared *r, const kz_scene *scene, const kz_frame
   const bool far = faster || kz_pendulums_parted(&r->grown, pendulum) > REGROWN || damped_apart(&r->grown, pendulum) > REDAMPED;
   if (lost > 0 || far || ++r->age >= OLDEST) {
     kz_dynamics_fine_regions(moved, MOVING_CELLS, r->search.max_velocity);
-    learn(r);
+    prepared_learn(r);
     r->grown = *pendulum;
     r->age = 0;
   } else if (has_cover(r)) {
-    learn(r);
+    prepared_learn(r);
   }
   return KZ_OK;
 }

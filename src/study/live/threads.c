@@ -60,7 +60,7 @@ static kz_status follow_tiles(sharing *all, kz_prepared *prepared, bool pauses) 
 }
 
 /* No thread takes a further tile. */
-static void stop(sharing *all) {
+static void threads_stop(sharing *all) {
   all->next = all->task->n;
 }
 
@@ -74,7 +74,7 @@ static kz_status follow_as_first(void *context) {
   return follow_tiles(all, all->task->prepared, true);
 }
 
-static void *help(void *context) {
+static void *threads_help(void *context) {
   helper *h = context;
   kz_border_enter(h->all->border);
   const kz_status status = kz_border_guard(follow_as_helper, h);
@@ -82,7 +82,7 @@ static void *help(void *context) {
   if (status != KZ_OK) {
     h->all->status = status;
     snprintf(h->all->message, sizeof h->all->message, "%s", kz_message());
-    stop(h->all);
+    threads_stop(h->all);
   }
   h->all->at_work--;
   pthread_cond_signal(&h->all->ended);
@@ -92,14 +92,14 @@ static void *help(void *context) {
 
 /* Waits until all helpers have ended; a frame that is no longer wanted waits for the tiles that they have begun. */
 static kz_status wait_for_helpers(sharing *all, kz_status status) {
-  if (status != KZ_OK) stop(all);
+  if (status != KZ_OK) threads_stop(all);
   pthread_mutex_lock(&all->mutex);
   while (all->at_work > 0) {
     kz_thread_wait(&all->ended, &all->mutex, LOOK);
     if (all->at_work == 0 || status != KZ_OK) continue;
     pthread_mutex_unlock(&all->mutex);
     status = all->task->frame->pause(all->task->frame->context);
-    if (status != KZ_OK) stop(all);
+    if (status != KZ_OK) threads_stop(all);
     pthread_mutex_lock(&all->mutex);
   }
   pthread_mutex_unlock(&all->mutex);
@@ -108,7 +108,7 @@ static kz_status wait_for_helpers(sharing *all, kz_status status) {
 }
 
 /* Ends a helper, and takes over what it has listed. */
-static void join(helper *h, kz_prepared *prepared) {
+static void threads_join(helper *h, kz_prepared *prepared) {
   pthread_join(h->thread, NULL);
   prepared->ended += h->prepared.ended;
   prepared->left += h->prepared.left;
@@ -130,14 +130,14 @@ kz_status kz_frame_follow(const kz_frame_task *task) {
     pthread_mutex_lock(&all.mutex);
     all.at_work++;
     pthread_mutex_unlock(&all.mutex);
-    if (kz_thread_start(&h->thread, STACK_BYTES, help, h)) continue;
+    if (kz_thread_start(&h->thread, STACK_BYTES, threads_help, h)) continue;
     pthread_mutex_lock(&all.mutex);
     all.at_work--; /* fewer threads, then */
     pthread_mutex_unlock(&all.mutex);
     break;
   }
   const kz_status status = wait_for_helpers(&all, kz_border_guard(follow_as_first, &all));
-  for (int i = 0; i < started; i++) join(helpers + i, task->prepared);
+  for (int i = 0; i < started; i++) threads_join(helpers + i, task->prepared);
   kz_border_leave();
   return status;
 }

@@ -28,7 +28,7 @@ static bool on_the_way(const void *context, double value, kz_pendulum *pendulum)
 }
 
 /* The cycle of `there` in which one of the point `from` arrives; -1 = none. */
-static int8_t carry(const step *s, const kz_attractor *cycle, const kz_measured_point *there) {
+static int8_t classes_carry(const step *s, const kz_attractor *cycle, const kz_measured_point *there) {
   const kz_path path = {.pendulum = on_the_way, .context = s, .maps = s->maps};
   kz_attractor point = *cycle;
   kz_pendulum pendulum;
@@ -43,7 +43,7 @@ static int8_t carry(const step *s, const kz_attractor *cycle, const kz_measured_
 }
 
 /* The attractor of `there` nearest to one that never closes, of its kind; -1 = none. */
-static int8_t nearest(const kz_attractor *one, const kz_measured_point *there) {
+static int8_t classes_nearest(const kz_attractor *one, const kz_measured_point *there) {
   int8_t best = -1;
   for (int64_t i = 0; i < there->count; i++)
     if (kz_branch_alike(one, there->attractor + i) &&
@@ -67,14 +67,14 @@ static kz_status join_tile(void *context, int64_t tile, void *record) {
       const step s = {points, tile, at[way], maps};
       const kz_measured_point *there = kz_point_at(points, j->records, at[way]);
       const kz_attractor *one = here->attractor + place;
-      out->to[way][place] = one->period > 0 ? carry(&s, one, there) : nearest(one, there);
+      out->to[way][place] = one->period > 0 ? classes_carry(&s, one, there) : classes_nearest(one, there);
     }
   kz_fine_maps_free(maps);
   return KZ_OK;
 }
 
 /* The root of a tree of places, whose way becomes shorter. */
-static int64_t root(int64_t *parent, int64_t place) {
+static int64_t classes_root(int64_t *parent, int64_t place) {
   while (parent[place] != place) place = parent[place] = parent[parent[place]];
   return place;
 }
@@ -85,7 +85,7 @@ typedef struct {
 } forest;
 
 /* Whether a point is in both lists. */
-static bool meet(const forest *f, int64_t i, int64_t j) {
+static bool classes_meet(const forest *f, int64_t i, int64_t j) {
   while (i >= 0 && j >= 0) {
     if (i / KZ_POINT_MOST == j / KZ_POINT_MOST) return true;
     if (i < j)
@@ -97,15 +97,15 @@ static bool meet(const forest *f, int64_t i, int64_t j) {
 }
 
 /* Joins the classes of two places unless a point would have both. */
-static void join(forest *f, int64_t a, int64_t b) {
-  int64_t i = root(f->parent, a), j = root(f->parent, b), *link = NULL;
+static void classes_join(forest *f, int64_t a, int64_t b) {
+  int64_t i = classes_root(f->parent, a), j = classes_root(f->parent, b), *link = NULL;
   const int64_t head = kz_smaller(i, j), tail = kz_larger(i, j);
   if (i == j) return;
   if (tail > f->last[head]) { /* as nearly always: the next point */
     if (tail / KZ_POINT_MOST == f->last[head] / KZ_POINT_MOST) return;
     f->next[f->last[head]] = tail;
   } else {
-    if (meet(f, i, j)) return;
+    if (classes_meet(f, i, j)) return;
     while (i >= 0 || j >= 0) {
       int64_t *const from = j < 0 || (i >= 0 && i < j) ? &i : &j;
       if (link) *link = *from;
@@ -144,10 +144,10 @@ static void number(const joining *j, int64_t places, forest *f, kz_classes *clas
 /* Joins the places of a point to those of a neighbour before it that arrive there. */
 static void join_point(forest *f, const kz_measured_point *before_it, int64_t point, int64_t from, const int8_t *to) {
   for (int64_t place = 0; place < before_it->count; place++)
-    if (to[place] >= 0) join(f, from * KZ_POINT_MOST + place, point * KZ_POINT_MOST + to[place]);
+    if (to[place] >= 0) classes_join(f, from * KZ_POINT_MOST + place, point * KZ_POINT_MOST + to[place]);
 }
 
-static void grow(const joining *j, const neighbours *to, kz_classes *classes) {
+static void classes_grow(const joining *j, const neighbours *to, kz_classes *classes) {
   const int64_t columns = j->points->columns, points = columns * j->points->rows, places = points * KZ_POINT_MOST;
   KZ_FREED int64_t *parent = kz_malloc((size_t)places * sizeof *parent), *next = kz_malloc((size_t)places * sizeof *next),
                    *last = kz_malloc((size_t)places * sizeof *last);
@@ -178,6 +178,6 @@ kz_status kz_classes_make(const kz_points *points, const kz_run *run, const void
   const bool here = kz_rank(run->ranks) == 0;
   KZ_FREED neighbours *to = here ? kz_malloc((size_t)stage.n_tiles * sizeof *to) : NULL;
   KZ_TRY(kz_stage_run(run, &stage, to));
-  if (here) grow(&j, to, classes);
+  if (here) classes_grow(&j, to, classes);
   return KZ_OK;
 }

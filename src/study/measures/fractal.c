@@ -10,7 +10,7 @@
 enum { SHARED_BOX = 16 }; /* cells along an edge of a box of shared boundaries */
 static const double ALL = 0.99;
 
-static void entropies(const kz_measured *measured, double *entropy, double *boundary) {
+static void fractal_entropies(const kz_measured *measured, double *entropy, double *boundary) {
   const int64_t cells = measured->plan->options.cells;
   KZ_FREED kz_counts *counts = kz_calloc(1, sizeof *counts);
   kz_count_boxes(cells, cells, measured->picture.id, counts);
@@ -19,12 +19,12 @@ static void entropies(const kz_measured *measured, double *entropy, double *boun
 
 void kz_measure_entropy(const kz_measured *measured, double *value) {
   double boundary;
-  entropies(measured, value, &boundary);
+  fractal_entropies(measured, value, &boundary);
 }
 
 void kz_measure_boundary_entropy(const kz_measured *measured, double *value) {
   double whole;
-  entropies(measured, &whole, value);
+  fractal_entropies(measured, &whole, value);
 }
 
 /* The exponent of the boundary of each basin: of pairs of cells beside each other along theta, how many lie on either side of it. */

@@ -19,7 +19,8 @@ static kz_picture picture_of(const kz_measured *measured) {
 
 /* The radius of the largest circle about a state that holds no centre of a foreign cell, less half of a cell, and no place beyond the picture;
  * NaN if the state lies there. */
-static double clearance(const kz_measured *measured, const kz_picture *picture, int64_t id, double theta, double velocity) {
+static double integrity_clearance(const kz_measured *measured, const kz_picture *picture, int64_t id, double theta,
+                                  double velocity) {
   const kz_measures_plan *plan = measured->plan;
   const double scale = plan->options.shock_scale, half = fmin(picture->across, picture->up) / 2;
   const double x = theta - 2 * M_PI * floor((theta - plan->theta.min) / (2 * M_PI)) - plan->theta.min;
@@ -44,7 +45,7 @@ void kz_measure_integrity_local(const kz_measured *measured, double *value) {
     const kz_entry *entry = measured->catalogue.entries + id;
     value[id] = entry->row.period > 0 ? INFINITY : NAN;
     for (int32_t phase = 0; phase < entry->row.period; phase++) {
-      const double radius = clearance(measured, &picture, id, entry->theta[phase], entry->velocity[phase]);
+      const double radius = integrity_clearance(measured, &picture, id, entry->theta[phase], entry->velocity[phase]);
       value[id] = isnan(radius) || isnan(value[id]) ? NAN : fmin(value[id], radius);
     }
   }

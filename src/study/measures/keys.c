@@ -24,8 +24,8 @@ static void window_of(const kz_scene *scene, const kz_axis *axis[2]) {
   axis[0] = &scene->measures->theta, axis[1] = &scene->measures->velocity;
 }
 
-static const char *lack(const kz_scene *scene) {
+static const char *keys_lack(const kz_scene *scene) {
   return kz_measures_lack(&scene->measures->names, &scene->measures->options);
 }
 
-KZ_STUDY_ROW(.check = kz_measures_check, .follows = true, .lack = lack, .window = window_of);
+KZ_STUDY_ROW(.check = kz_measures_check, .follows = true, .lack = keys_lack, .window = window_of);

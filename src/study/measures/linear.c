@@ -6,13 +6,13 @@
 #include "measures.h"
 
 /* The largest singular value of a matrix of 2 x 2 in that norm. */
-static double growth(const double matrix[4], double scale) {
+static double linear_growth(const double matrix[4], double scale) {
   const double a = matrix[0], b = matrix[1] * scale, c = matrix[2] / scale, d = matrix[3];
   return (hypot(a + d, b - c) + hypot(a - d, b + c)) / 2;
 }
 
 /* product = left * right. */
-static void multiply(const double left[4], const double right[4], double product[4]) {
+static void linear_multiply(const double left[4], const double right[4], double product[4]) {
   const double of[4] = {left[0] * right[0] + left[1] * right[2], left[0] * right[1] + left[1] * right[3],
                         left[2] * right[0] + left[3] * right[2], left[2] * right[1] + left[3] * right[3]};
   memcpy(product, of, sizeof of);
@@ -41,7 +41,7 @@ typedef double (*growth_fn)(const kz_tangent *tangent, int32_t period, int32_t p
 /* In one drive period. */
 static double next_growth(const kz_tangent *tangent, int32_t period, int32_t phase, double scale) {
   (void)period;
-  return growth(tangent[phase].matrix, scale);
+  return linear_growth(tangent[phase].matrix, scale);
 }
 
 /* The largest at any later strobe, at least 1. After whole turns of the orbit that leave no
@@ -50,8 +50,8 @@ static double later_growth(const kz_tangent *tangent, int32_t period, int32_t ph
   enum { MOST = 1000000 };
   double product[4] = {1, 0, 0, 1}, largest = 1;
   for (int step = 0; step < MOST; step++) {
-    multiply(tangent[(phase + step) % period].matrix, product, product);
-    const double now = growth(product, scale);
+    linear_multiply(tangent[(phase + step) % period].matrix, product, product);
+    const double now = linear_growth(product, scale);
     largest = fmax(largest, now);
     if ((step + 1) % period == 0 && now <= 1) return largest;
   }

@@ -14,7 +14,7 @@ enum {
 };
 
 /* Starts spread evenly over a window, rad and rad per drive radian. */
-static void spread(const kz_window *window, const kz_measures_plan *plan, double *start) {
+static void measured_spread(const kz_window *window, const kz_measures_plan *plan, double *start) {
   kz_dynamics_starts(window, plan->seed, plan->starts, start);
   for (int64_t i = 0; i < plan->starts; i++) start[2 * i] *= M_PI;
 }
@@ -23,7 +23,7 @@ static void spread(const kz_window *window, const kz_measures_plan *plan, double
 static void spread_by_weight(const kz_measures_plan *plan, double *start) {
   static const kz_window unit = {0, 1, 0, 1};
   const double least = 0x1p-54;
-  spread(&unit, plan, start);
+  measured_spread(&unit, plan, start);
   for (int64_t i = 0; i < plan->starts; i++) {
     const double p = fmin(fmax(start[2 * i], least), 1 - least), q = fmin(fmax(start[2 * i + 1], least), 1 - least);
     start[2 * i] = plan->options.weight.theta + plan->options.weight.theta_spread * kz_normal_quantile(p);
@@ -60,7 +60,7 @@ static int64_t lay_out(int32_t needs, kz_measured *m) {
     sets[i]->time = m->time + first;
   }
   const kz_window window = kz_window_of(&plan->theta, &plan->velocity);
-  if (m->starts.n > 0) spread(&window, plan, m->start);
+  if (m->starts.n > 0) measured_spread(&window, plan, m->start);
   if (m->weighted.n > 0) spread_by_weight(plan, m->start + 2 * m->starts.n);
   if (m->picture.n > 0) cells_of(plan, m->start + 2 * (m->starts.n + m->weighted.n));
   return n;

@@ -84,7 +84,7 @@ static kz_status write_measure(const kz_measure *measure, const kz_measured *m, 
   return KZ_OK;
 }
 
-static kz_status publish(const kz_measured *m, double omega, kz_store *store, FILE *summary) {
+static kz_status measures_publish(const kz_measured *m, double omega, kz_store *store, FILE *summary) {
   const kz_integers *names = &m->plan->names;
   KZ_TRY(write_attractors(m, store));
   KZ_TRY(kz_store_integer(store, GROUP, "starts", m->plan->starts));
@@ -104,5 +104,6 @@ kz_status kz_measures_run(const kz_scene *scene, const kz_run *run, kz_store *st
   const kz_way way = plan->method == KZ_MEASURES_EXACT ? KZ_BY_LEVELS : KZ_BY_STATES;
   KZ_TRY(kz_measured_make(&scene->parameters.pendulum, &scene->numerics, plan, way, kz_measures_need(&plan->names), run,
                           &measured));
-  return kz_ranks_agree(run->ranks, store ? publish(&measured, scene->parameters.pivot_frequency, store, summary) : KZ_OK);
+  return kz_ranks_agree(run->ranks,
+                        store ? measures_publish(&measured, scene->parameters.pivot_frequency, store, summary) : KZ_OK);
 }

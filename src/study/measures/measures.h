@@ -52,7 +52,7 @@ const char *kz_measure_words(void);
 int64_t kz_measure_length(const kz_measure *measure, const kz_measured *measured);
 
 /* Needs of all measures of a plan together. */
-int32_t kz_measures_need(const kz_integers *names);
+int32_t kz_measures_need(const kz_integers *rows_names);
 /* Looks for the attractors and computes what is needed, in the way KZ_BY_LEVELS or KZ_BY_STATES. The plan must outlive it; freed by
  * kz_measured_free in every case. Collective. */
 kz_status kz_measured_make(const kz_pendulum *pendulum, const kz_numerics *numerics, const kz_measures_plan *plan, kz_way way,

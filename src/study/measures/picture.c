@@ -6,7 +6,7 @@
 
 /* Squares of distances along one line: least over j of f[j] + ((i - j) step)^2, the lower envelope of parabolas. place, border: buffers
  * [n], [n + 1]. */
-static void envelope(int64_t n, double step, const double *f, double *least, int64_t *place, double *border) {
+static void picture_envelope(int64_t n, double step, const double *f, double *least, int64_t *place, double *border) {
   int64_t k = -1;
   for (int64_t j = 0; j < n; j++) {
     if (isinf(f[j])) continue;
@@ -37,14 +37,14 @@ typedef struct {
   int64_t *place;
 } line;
 
-static void make(int64_t n, line *l) {
+static void picture_make(int64_t n, line *l) {
   l->f = kz_malloc((size_t)n * sizeof(double));
   l->least = kz_malloc((size_t)n * sizeof(double));
   l->border = kz_malloc((size_t)n * sizeof(double));
   l->place = kz_malloc((size_t)n * sizeof(int64_t));
 }
 
-static void release(line *l) {
+static void picture_release(line *l) {
   kz_free_local(&l->f);
   kz_free_local(&l->least);
   kz_free_local(&l->border);
@@ -52,10 +52,10 @@ static void release(line *l) {
 }
 
 /* Replaces n values, `stride` apart, by the squares of the distances along the line. */
-static void along(line *l, int64_t n, int64_t stride, double step, bool circle, double *value) {
+static void picture_along(line *l, int64_t n, int64_t stride, double step, bool circle, double *value) {
   const int64_t pad = circle ? n : 0, all = n + 2 * pad;
   for (int64_t i = 0; i < all; i++) l->f[i] = value[i % n * stride];
-  envelope(all, step, l->f, l->least, l->place, l->border);
+  picture_envelope(all, step, l->f, l->least, l->place, l->border);
   for (int64_t i = 0; i < n; i++) value[i * stride] = l->least[i + pad];
 }
 
@@ -67,11 +67,12 @@ static double end_distance(int64_t i, int64_t n, double step) {
 void kz_picture_distances(const kz_picture *picture, int16_t id, double *distance) {
   const int64_t columns = picture->columns, rows = picture->rows, longest = kz_larger(columns, rows);
   const double half = fmin(picture->across, picture->up) / 2;
-  KZ_FREED_BY(release) line l;
-  make(3 * longest, &l);
+  KZ_FREED_BY(picture_release) line l;
+  picture_make(3 * longest, &l);
   for (int64_t i = 0; i < columns * rows; i++) distance[i] = picture->id[i] == id ? INFINITY : 0;
-  for (int64_t column = 0; column < columns; column++) along(&l, rows, columns, picture->up, false, distance + column);
-  for (int64_t row = 0; row < rows; row++) along(&l, columns, 1, picture->across, picture->circle, distance + row * columns);
+  for (int64_t column = 0; column < columns; column++) picture_along(&l, rows, columns, picture->up, false, distance + column);
+  for (int64_t row = 0; row < rows; row++)
+    picture_along(&l, columns, 1, picture->across, picture->circle, distance + row * columns);
   for (int64_t i = 0; i < columns * rows; i++) {
     double edge = end_distance(i / columns, rows, picture->up);
     if (!picture->circle) edge = fmin(edge, end_distance(i % columns, columns, picture->across));

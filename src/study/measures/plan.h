@@ -28,7 +28,7 @@ struct kz_measures_plan {
 };
 
 /* NULL, or what the options lack for these measures, as "KEY: what is wrong" where KEY is a key of kz_measure_options. */
-const char *kz_measures_lack(const kz_integers *names, const kz_measure_options *options);
+const char *kz_measures_lack(const kz_integers *rows_names, const kz_measure_options *options);
 
 /* In a sweep; window, starts and words are those of the sweep. */
 struct kz_swept_plan {

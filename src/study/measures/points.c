@@ -118,7 +118,7 @@ kz_cost kz_points_cost(const kz_points *points) {
 }
 
 /* The values of all measures, side by side for each attractor. */
-static void fill(const kz_points *points, const kz_measured *measured, kz_measured_point *out) {
+static void points_fill(const kz_points *points, const kz_measured *measured, kz_measured_point *out) {
   const int64_t n = measured->catalogue.count;
   KZ_FREED double *value = kz_malloc((size_t)(3 * n + 1) * sizeof *value);
   int64_t number = 0, of_pendulum = 0;
@@ -151,7 +151,7 @@ static kz_status measure_point(void *context, int64_t tile, void *record) {
     const kz_entry *entry = measured.catalogue.entries + id;
     out->attractor[id] = entry->row;
   }
-  fill(points, &measured, out);
+  points_fill(points, &measured, out);
   return KZ_OK;
 }
 

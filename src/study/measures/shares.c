@@ -6,7 +6,7 @@
 #include "numerics/share.h"
 
 /* The share of the starts that end on each attractor after at most `most` periods. */
-static void shares(const kz_measured *measured, const kz_ended *ended, uint32_t most, double *value) {
+static void shares_shares(const kz_measured *measured, const kz_ended *ended, uint32_t most, double *value) {
   const int64_t n = measured->catalogue.count;
   for (int64_t id = 0; id < n; id++) {
     int64_t hits = 0;
@@ -19,18 +19,18 @@ static void shares(const kz_measured *measured, const kz_ended *ended, uint32_t 
 }
 
 void kz_measure_share(const kz_measured *measured, double *value) {
-  shares(measured, &measured->starts, UINT32_MAX, value);
+  shares_shares(measured, &measured->starts, UINT32_MAX, value);
 }
 
 void kz_measure_weighted_share(const kz_measured *measured, double *value) {
-  shares(measured, &measured->weighted, UINT32_MAX, value);
+  shares_shares(measured, &measured->weighted, UINT32_MAX, value);
 }
 
 void kz_measure_share_within(const kz_measured *measured, double *value) {
-  shares(measured, &measured->starts, (uint32_t)measured->plan->options.within, value);
+  shares_shares(measured, &measured->starts, (uint32_t)measured->plan->options.within, value);
 }
 
-static int before(const void *a, const void *b) {
+static int shares_before(const void *a, const void *b) {
   const double x = *(const double *)a, y = *(const double *)b;
   return (x > y) - (x < y);
 }
@@ -43,7 +43,7 @@ void kz_measure_settling_median(const kz_measured *measured, double *value) {
     int64_t hits = 0;
     for (int64_t i = 0; i < ended->n; i++)
       if (ended->id[i] == id) time[hits++] = ended->time[i];
-    qsort(time, (size_t)hits, sizeof *time, before);
+    qsort(time, (size_t)hits, sizeof *time, shares_before);
     value[id] = hits > 0 ? (time[(hits - 1) / 2] + time[hits / 2]) / 2 : NAN;
   }
 }

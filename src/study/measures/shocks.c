@@ -5,7 +5,7 @@
 #include "measures.h"
 
 /* The smallest shock of a kind: 0 of the angle, 1 of the velocity, 2 of both. */
-static void smallest(const kz_measured *measured, int kind, double *value) {
+static void shocks_smallest(const kz_measured *measured, int kind, double *value) {
   for (int64_t id = 0; id < measured->catalogue.count; id++) value[id] = NAN;
   for (int64_t i = 0; i < measured->n_points; i++) {
     double *least = value + measured->catalogue.id_of[measured->point[i].number];
@@ -14,15 +14,15 @@ static void smallest(const kz_measured *measured, int kind, double *value) {
 }
 
 void kz_measure_shock_angle(const kz_measured *measured, double *value) {
-  smallest(measured, 0, value);
+  shocks_smallest(measured, 0, value);
 }
 
 void kz_measure_shock_velocity(const kz_measured *measured, double *value) {
-  smallest(measured, 1, value);
+  shocks_smallest(measured, 1, value);
 }
 
 void kz_measure_shock(const kz_measured *measured, double *value) {
-  smallest(measured, 2, value);
+  shocks_smallest(measured, 2, value);
 }
 
 /* The mean over the strobe points. */

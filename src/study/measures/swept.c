@@ -9,7 +9,7 @@
 
 #define BARRED(word, ...) "|" #word
 static const char WORDS_OF_PART[] = "resilience" KZ_MEASURES(BARRED, BARRED, BARRED, BARRED, BARRED);
-static const char *words(void) {
+static const char *swept_words(void) {
   return WORDS_OF_PART;
 }
 
@@ -17,7 +17,7 @@ static const kz_key keys[] = {
     ROW("sweep.measure", KZ_KEY_WORDS, NULL, NOWHERE,
         "Along one key also resilience: smallest shocks that leave the basins. Along one and over a plane: the words of "
         "measures.names.",
-        .unit = "", .words_from = words),
+        .unit = "", .words_from = swept_words),
     MEASURE_OPTIONS(sweep, "64"),
     {.path = NULL},
 };
@@ -42,7 +42,7 @@ static kz_status find_shocks(const kz_scene *scene, const kz_sweep_value_at *at,
 
 static kz_integers names_of(const kz_sweep_plan *plan);
 
-static kz_cost cost(const kz_scene *scene) {
+static kz_cost swept_cost(const kz_scene *scene) {
   const kz_integers names = names_of(scene->sweep);
   const kz_points points = kz_points_of(scene, &names);
   return kz_points_cost(&points);
@@ -56,7 +56,7 @@ static kz_status run_points(const kz_scene *scene, const kz_run *run, kz_store *
 
 static const char *const SHOCKS[] = {"shock_angle", "shock_kick", "shock_size", NULL};
 static const kz_sweep_part part = {
-    .words = WORDS_OF_PART, .of_branches = 1, .numbers = SHOCKS, .value = find_shocks, .cost = cost, .run = run_points};
+    .words = WORDS_OF_PART, .of_branches = 1, .numbers = SHOCKS, .value = find_shocks, .cost = swept_cost, .run = run_points};
 
 /* The rows of kz_measures that a sweep names. */
 static kz_integers names_of(const kz_sweep_plan *plan) {
@@ -65,7 +65,7 @@ static kz_integers names_of(const kz_sweep_plan *plan) {
   return names;
 }
 
-static const char *lack(const kz_scene *scene) {
+static const char *swept_lack(const kz_scene *scene) {
   const kz_measure_options *options = &scene->swept->options;
   const kz_integers names = names_of(scene->sweep);
   for (int64_t i = 0; i < names.count; i++) {
@@ -77,4 +77,4 @@ static const char *lack(const kz_scene *scene) {
   return kz_measures_lack(&names, options);
 }
 
-KZ_PART_ROW("sweep", has_sweep, .of_sweep = &part, .lack = lack);
+KZ_PART_ROW("sweep", has_sweep, .of_sweep = &part, .lack = swept_lack);

@@ -21,16 +21,16 @@ static __float128 quad_of(const kz_decimal *decimal) {
   return (__float128)decimal->high + decimal->low;
 }
 
-static void split(__float128 value, double pair[2]) {
+static void cells_split(__float128 value, double pair[2]) {
   pair[0] = (double)value;
   pair[1] = (double)(value - pair[0]);
 }
 
 void kz_axis_at(const kz_axis *axis, double share, double offset, double pair[2]) {
   if (kz_axis_is_centred(axis))
-    split((share - 0.5) * quad_of(&axis->width) + quad_of(&axis->centre) + offset, pair);
+    cells_split((share - 0.5) * quad_of(&axis->width) + quad_of(&axis->centre) + offset, pair);
   else
-    split((__float128)(axis->min + share * (axis->max - axis->min)) + offset, pair);
+    cells_split((__float128)(axis->min + share * (axis->max - axis->min)) + offset, pair);
 }
 
 bool kz_axis_is_centred(const kz_axis *axis) {
@@ -52,18 +52,19 @@ __float128 kz_axis_share(const kz_axis *axis, int64_t i) {
 
 double kz_axis_place(const kz_axis *axis, int64_t i, double pair[2]) {
   if (!kz_axis_is_centred(axis)) {
-    split(kz_axis_centre(axis, i), pair);
+    cells_split(kz_axis_centre(axis, i), pair);
     return 0;
   }
-  split(kz_decimal_quad(axis->centre.text) + kz_axis_share(axis, i) * kz_axis_width(axis), pair);
+  cells_split(kz_decimal_quad(axis->centre.text) + kz_axis_share(axis, i) * kz_axis_width(axis), pair);
   return 0x1p-103 * fmax(1, fabs(pair[0]));
 }
 
 double kz_axis_random(const kz_axis *axis, const uint64_t bits[2], double pair[2]) {
-  const __float128 width = kz_axis_width(axis), share = ((__float128)bits[0] + (__float128)bits[1] * 0x1p-53) * 0x1p-53;
-  split((kz_axis_is_centred(axis) ? kz_decimal_quad(axis->centre.text) - width / 2 : (__float128)axis->min) + width * share,
-        pair);
-  return (double)width * 0x1p-105 + 0x1p-103 * fmax(1, fabs(pair[0]));
+  const __float128 cells_width = kz_axis_width(axis), share = ((__float128)bits[0] + (__float128)bits[1] * 0x1p-53) * 0x1p-53;
+  cells_split((kz_axis_is_centred(axis) ? kz_decimal_quad(axis->centre.text) - cells_width / 2 : (__float128)axis->min) +
+                  cells_width * share,
+              pair);
+  return (double)cells_width * 0x1p-105 + 0x1p-103 * fmax(1, fabs(pair[0]));
 }
 
 bool kz_axis_is_deep(const kz_axis *axis) {
@@ -105,7 +106,7 @@ double kz_cell_size(const kz_basin_plan *plan) {
 }
 
 /* Half of the width that is added to a window whose cells doubles cannot distinguish. */
-static double margin(const kz_axis *axis) {
+static double cells_margin(const kz_axis *axis) {
   static const double around = 5e-7;
   return kz_axis_is_deep(axis) ? around : 0;
 }
@@ -120,8 +121,8 @@ kz_window kz_motions_window(const kz_axis *theta, const kz_axis *velocity) {
 }
 
 kz_window kz_window_of(const kz_axis *theta, const kz_axis *velocity) {
-  return (kz_window){theta->min - margin(theta), theta->max + margin(theta), velocity->min - margin(velocity),
-                     velocity->max + margin(velocity)};
+  return (kz_window){theta->min - cells_margin(theta), theta->max + cells_margin(theta), velocity->min - cells_margin(velocity),
+                     velocity->max + cells_margin(velocity)};
 }
 
 static bool is_symmetric(const kz_axis *axis) {

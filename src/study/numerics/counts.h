@@ -24,8 +24,8 @@ typedef struct {
 /* Add boxes of 5 x 5 cells of label [rows][columns], from its first row and column on (smaller ones at the last),
  * and pairs of cells along its rows; circle = theta is periodic. Unsettled cells (-1) are left out, and so are boxes
  * with no other cells. */
-void kz_count_boxes(int64_t columns, int64_t rows, const int16_t *label, kz_counts *counts);
-void kz_count_pairs(int64_t columns, int64_t rows, const int16_t *label, bool circle, kz_counts *counts);
+void kz_count_boxes(int64_t columns, int64_t rows, const int16_t *deep_label, kz_counts *counts);
+void kz_count_pairs(int64_t columns, int64_t rows, const int16_t *deep_label, bool circle, kz_counts *counts);
 
 /* Mean Gibbs entropy (natural logarithm) of all boxes, and of those with more than one label; 0 if there are none. */
 void kz_entropy_of(const kz_counts *counts, double *entropy, double *boundary_entropy);

@@ -97,7 +97,7 @@ static void add_sweep(demand *d, const kz_scene *scene) {
 }
 
 /* One numerics for all pendulums: it has the most steps and terms that any of them needs. */
-static bool serve(const demand *d, kz_numerics *numerics) {
+static bool resolve_serve(const demand *d, kz_numerics *numerics) {
   const kz_numerics asked = *numerics;
   double error;
   for (int i = 0; i < d->count; i++) {
@@ -115,7 +115,7 @@ static bool serve_method(const demand *d, int32_t method, kz_numerics *numerics)
   demand finer = *d;
   kz_numerics fine = *numerics;
   finer.tolerance *= EXACT_PART;
-  if (method != KZ_METHOD_EXACT || !serve(&finer, &fine)) return serve(d, numerics);
+  if (method != KZ_METHOD_EXACT || !resolve_serve(&finer, &fine)) return resolve_serve(d, numerics);
   *numerics = fine;
   return true;
 }
@@ -169,17 +169,18 @@ void kz_numerics_resolve(kz_scene *scene) {
   if (processed || asked->steps_per_period == KZ_AUTO) choose_steps(scene, processed);
 }
 
-static double multiple(double unit, double least) {
+static double resolve_multiple(double unit, double least) {
   return unit * ceil(least / unit);
 }
 
 /* Rad per drive radian: the fastest swing about an equilibrium. */
-static double swing(const kz_pendulum *p) {
+static double resolve_swing(const kz_pendulum *p) {
   return sqrt(kz_stiffness(p));
 }
 
 static double samples_of(const kz_scene *scene) {
-  return multiple((double)scene->orbit->samples_per_period, LEAST_SAMPLES * fmax(1, swing(&scene->parameters.pendulum)));
+  return resolve_multiple((double)scene->orbit->samples_per_period,
+                          LEAST_SAMPLES * fmax(1, resolve_swing(&scene->parameters.pendulum)));
 }
 
 /* Within a period the processed splitting shows nothing. */
@@ -189,10 +190,10 @@ static int32_t orbit_scheme(const kz_scene *scene) {
 
 double kz_orbit_steps(const kz_scene *scene) {
   const double start = isfinite(scene->orbit->velocity) ? fabs(scene->orbit->velocity) : 0;
-  const double speed = 1 + 2 * swing(&scene->parameters.pendulum) + start;
+  const double speed = 1 + 2 * resolve_swing(&scene->parameters.pendulum) + start;
   const int32_t steps = kz_scheme_at(orbit_scheme(scene)).default_steps;
   const double asked = scene->asked.steps_per_period == KZ_AUTO ? steps : scene->asked.steps_per_period;
-  return multiple(samples_of(scene), fmax(asked, steps * speed / 2));
+  return resolve_multiple(samples_of(scene), fmax(asked, steps * speed / 2));
 }
 
 kz_numerics kz_orbit_numerics(const kz_scene *scene) {

@@ -12,16 +12,16 @@
 static const double MEAN_LIFETIMES = 1.9, ALL_LIFETIMES = 40;
 static const double LEAST = 2000, MOST = 1e6;
 
-static double lifetime(double beta) {
+static double settling_lifetime(double beta) {
   return 1 / (2 * M_PI * beta);
 }
 
 double kz_settling_mean(double beta) {
-  return MEAN_LIFETIMES * lifetime(beta) * log(M_E + lifetime(beta));
+  return MEAN_LIFETIMES * settling_lifetime(beta) * log(M_E + settling_lifetime(beta));
 }
 
 int64_t kz_settling_periods(double beta) {
-  const double wanted = beta > 0 ? 100 * ceil(ALL_LIFETIMES / 100 * lifetime(beta)) : 0;
+  const double wanted = beta > 0 ? 100 * ceil(ALL_LIFETIMES / 100 * settling_lifetime(beta)) : 0;
   return (int64_t)(wanted > MOST ? LEAST : fmax(wanted, LEAST));
 }
 
@@ -40,7 +40,7 @@ int64_t kz_settling_scene(const kz_scene *scene) {
   return kz_settling_periods(weakest_damping(scene));
 }
 
-static void warn(const char *key, double beta, int64_t max_periods, FILE *out) {
+static void settling_warn(const char *key, double beta, int64_t max_periods, FILE *out) {
   const double mean = kz_settling_mean(beta);
   const int64_t enough = kz_settling_periods(beta);
   if ((double)max_periods >= mean / 2) return;
@@ -60,6 +60,6 @@ void kz_settling_warn(const kz_scene *scene, FILE *out) {
         "orbit or saddles\n",
         out);
   if (!(beta > 0)) return;
-  if (scene->has_basin) warn("basin.max_periods", beta, scene->basin->max_periods, out);
-  if (scene->has_attractors) warn("pendulum", beta, kz_settling_periods(beta), out);
+  if (scene->has_basin) settling_warn("basin.max_periods", beta, scene->basin->max_periods, out);
+  if (scene->has_attractors) settling_warn("pendulum", beta, kz_settling_periods(beta), out);
 }

@@ -5,7 +5,7 @@
 static const double Z = 1.959963984540054; /* 97.5 % of the normal distribution lie below */
 
 /* Wilson's interval with z^2 = `square`. */
-static kz_share interval(int64_t hits, int64_t n, double square) {
+static kz_share share_interval(int64_t hits, int64_t n, double square) {
   if (n == 0) return (kz_share){NAN, 0, 1};
   const double k = (double)hits, of = (double)n;
   const double centre = (k + square / 2) / (of + square);
@@ -14,12 +14,12 @@ static kz_share interval(int64_t hits, int64_t n, double square) {
 }
 
 kz_share kz_share_of(int64_t hits, int64_t n) {
-  return interval(hits, n, Z * Z);
+  return share_interval(hits, n, Z * Z);
 }
 
 kz_share kz_share_of_part(int64_t hits, int64_t n, int64_t total) {
   if (n > 0 && n == total) return (kz_share){(double)hits / (double)n, (double)hits / (double)n, (double)hits / (double)n};
-  return interval(hits, n, total > 1 ? Z * Z * (double)(total - n) / (double)(total - 1) : Z * Z);
+  return share_interval(hits, n, total > 1 ? Z * Z * (double)(total - n) / (double)(total - 1) : Z * Z);
 }
 
 kz_unseen kz_unseen_of(int64_t once, int64_t twice) {
@@ -44,7 +44,7 @@ int64_t kz_share_sample(double share) {
 
 static const uint64_t GAMMA = 0x9e3779b97f4a7c15u;
 
-static uint64_t mix(uint64_t x) {
+static uint64_t share_mix(uint64_t x) {
   x += GAMMA;
   x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9u;
   x = (x ^ (x >> 27)) * 0x94d049bb133111ebu;
@@ -57,15 +57,15 @@ void kz_even_share(int64_t i, double share[2]) {
 }
 
 uint64_t kz_random_bits(uint64_t index) {
-  return mix((index - 1) * GAMMA);
+  return share_mix((index - 1) * GAMMA);
 }
 
 /* One pass of a Feistel network over 2 * bits bits: a permutation. */
-static uint64_t feistel(uint64_t x, int bits, uint64_t key) {
+static uint64_t share_feistel(uint64_t x, int bits, uint64_t key) {
   const uint64_t mask = ((uint64_t)1 << bits) - 1;
   uint64_t left = x >> bits, right = x & mask;
   for (uint64_t round = 0; round < 6; round++) {
-    const uint64_t next = left ^ (mix(right ^ mix(key + round)) & mask);
+    const uint64_t next = left ^ (share_mix(right ^ share_mix(key + round)) & mask);
     left = right;
     right = next;
   }
@@ -76,7 +76,7 @@ int64_t kz_shuffled(int64_t i, int64_t total, int64_t seed) {
   int bits = 1;
   while ((int64_t)1 << (2 * bits) < total) bits++;
   uint64_t x = (uint64_t)i;
-  do x = feistel(x, bits, mix((uint64_t)seed));
+  do x = share_feistel(x, bits, share_mix((uint64_t)seed));
   while (x >= (uint64_t)total);
   return (int64_t)x;
 }

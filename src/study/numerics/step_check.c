@@ -43,7 +43,7 @@ bool kz_motions_find_steps(const kz_step_motions *m, kz_numerics *numerics) {
 }
 
 /* The advice at the end of a message. */
-static void advice(const kz_step_motions *m, size_t bytes, char *text) {
+static void step_check_advice(const kz_step_motions *m, size_t bytes, char *text) {
   kz_numerics numerics;
   if (kz_motions_find_steps(m, &numerics))
     snprintf(text, bytes, "%d steps or more", (int)numerics.steps_per_period);
@@ -72,7 +72,7 @@ kz_status kz_motions_check(const kz_step_motions *m) {
   if (classes.error[worst] <= m->refuse_above) return KZ_OK;
   char what[120], help[160];
   describe_error(m, classes.error[worst], sizeof what, what);
-  advice(m, sizeof help, help);
+  step_check_advice(m, sizeof help, help);
   return kz_fail(KZ_REFUSED, "%s: %swith numerics.steps_per_period = %d of %s, motions at speeds from %.3g to %.3g %s; %s",
                  m->keys, m->where, (int)m->numerics.steps_per_period, kz_scheme_at(m->numerics.scheme).name,
                  classes.speed[worst], classes.speed[worst + 1], what, help);
@@ -85,7 +85,7 @@ void kz_motions_warn(const kz_step_motions *m, const kz_speed_errors *classes, F
       fprintf(summary, "warning: %sat speeds from %.3g to %.3g the error of one drive period is up to %.2g rad\n", m->where,
               classes->speed[c], classes->speed[c + 1], classes->error[c]);
   if (kz_worst_error(classes) <= m->warn_above) return;
-  advice(m, sizeof help, help);
+  step_check_advice(m, sizeof help, help);
   fprintf(summary, "warning: for an error below %.2g rad per period at every speed: numerics.steps_per_period: %s\n",
           m->warn_above, help);
 }

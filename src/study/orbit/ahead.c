@@ -17,7 +17,7 @@ static const double ESCAPE = 40;
 static const double CONFIDENCE = 5;
 
 /* Carries a unit deviation through one period; returns the logarithm of its growth. */
-static double growth(const kz_model *model, kz_state *x, double *deviation) {
+static double ahead_growth(const kz_model *model, kz_state *x, double *deviation) {
   double matrix[4];
   int64_t turns = 0;
   kz_advance_tangent(model->flow, 1, 1, &x->theta, &x->velocity, &turns, matrix);
@@ -32,8 +32,8 @@ static double growth(const kz_model *model, kz_state *x, double *deviation) {
 static void exponent_along(const kz_model *model, int64_t periods, kz_state start, double *mean, double *error) {
   double deviation[2] = {1, 0}, block[BLOCKS] = {0}, total = 0, square = 0;
   const int64_t length = periods / BLOCKS; /* periods that do not fill the blocks come first and are left out */
-  for (int64_t i = 0; i < periods - BLOCKS * length; i++) growth(model, &start, deviation);
-  for (int64_t i = 0; i < BLOCKS * length; i++) block[i / length] += growth(model, &start, deviation) / (double)length;
+  for (int64_t i = 0; i < periods - BLOCKS * length; i++) ahead_growth(model, &start, deviation);
+  for (int64_t i = 0; i < BLOCKS * length; i++) block[i / length] += ahead_growth(model, &start, deviation) / (double)length;
   for (int i = 0; i < BLOCKS; i++) total += block[i] / BLOCKS;
   for (int i = 0; i < BLOCKS; i++) square += (block[i] - total) * (block[i] - total);
   *mean = length > 0 ? total : NAN;

@@ -50,9 +50,9 @@ static kz_status find_cycle(const kz_model *model, kz_state start, kz_cycle *cyc
 /* The linear model scales: its orbits close or not. */
 static kz_status check_linear(const kz_model *model, int64_t period, kz_state start, kz_cycle *cycle) {
   *cycle = (kz_cycle){start, period, {.multiplier_re = {NAN, NAN}, .multiplier_im = {NAN, NAN}}};
-  kz_state end = start;
-  kz_model_skip(model, period, &end);
-  double gap = hypot(end.theta - start.theta, end.velocity - start.velocity);
+  kz_state orbit_end = start;
+  kz_model_skip(model, period, &orbit_end);
+  double gap = hypot(orbit_end.theta - start.theta, orbit_end.velocity - start.velocity);
   if (gap <= CLOSED * hypot(start.theta - model->origin, start.velocity)) return KZ_OK;
   return kz_fail(KZ_REFUSED,
                  "orbit.closed: the linear motion ends %.3g from its start after %lld periods; choose parameters on a curve of "
@@ -90,19 +90,19 @@ kz_status kz_orbit_check(const kz_scene *scene) {
   return kz_motions_check(&motions);
 }
 
-static int64_t given(int64_t value, int64_t fallback) {
+static int64_t orbit_given(int64_t value, int64_t fallback) {
   return value > 0 ? value : fallback;
 }
 
 kz_cost kz_orbit_cost(const kz_scene *scene) {
   const kz_orbit_plan *plan = scene->orbit;
-  double periods = (double)given(plan->periods, OPEN_PERIODS), rows = periods * (double)plan->samples_per_period;
+  double periods = (double)orbit_given(plan->periods, OPEN_PERIODS), rows = periods * (double)plan->samples_per_period;
   double samples = fmax(96, (double)plan->samples_per_period) * periods;
   return (kz_cost){.cells = 0, .disk_bytes = 32 * rows + 300 * periods, .rank0_bytes = 80 * samples + 32 * rows};
 }
 
 /* The state and the period of an attractor that the study before has written. */
-static kz_status recall(const kz_listed *known, int64_t id, kz_cycle *cycle) {
+static kz_status orbit_recall(const kz_listed *known, int64_t id, kz_cycle *cycle) {
   if (known->count == 0)
     return kz_fail(KZ_REFUSED,
                    "orbit.attractor: no attractor was found; give orbit.start, add damping, or choose another window");
@@ -119,11 +119,11 @@ static kz_status recall(const kz_listed *known, int64_t id, kz_cycle *cycle) {
 /* Where the motion starts, on every rank; its period if it is a listed attractor. Collective. */
 static kz_status start(kz_orbit *orbit, const kz_run *run, kz_store *store) {
   const kz_orbit_plan *plan = orbit->scene->orbit;
-  orbit->cycle = (kz_cycle){.state = {plan->theta, plan->velocity}, .period = given(plan->period, 0)};
+  orbit->cycle = (kz_cycle){.state = {plan->theta, plan->velocity}, .period = orbit_given(plan->period, 0)};
   if (plan->attractor < 0) return KZ_OK;
   KZ_FREED_BY(kz_listed_free) kz_listed known;
   KZ_TRY(kz_listed_read(run, store, "attractors", "attractor", &known));
-  return kz_ranks_agree(run->ranks, recall(&known, plan->attractor, &orbit->cycle));
+  return kz_ranks_agree(run->ranks, orbit_recall(&known, plan->attractor, &orbit->cycle));
 }
 
 typedef struct {
@@ -156,11 +156,11 @@ static kz_status skip_transient(kz_orbit *orbit, const kz_run *run) {
 }
 
 /* The motion after the transient: its record and its features. */
-static kz_status follow(kz_orbit *orbit) {
+static kz_status orbit_follow(kz_orbit *orbit) {
   const kz_orbit_plan *plan = orbit->scene->orbit;
   kz_cycle *cycle = &orbit->cycle;
   if (plan->closed) KZ_TRY(close_cycle(&orbit->model, cycle->period, cycle->state, cycle));
-  int64_t periods = given(plan->periods, plan->closed ? cycle->period : OPEN_PERIODS);
+  int64_t periods = orbit_given(plan->periods, plan->closed ? cycle->period : OPEN_PERIODS);
   if (periods < cycle->period) periods = cycle->period;
   KZ_TRY(kz_model_record(&orbit->model, periods, cycle->state, &orbit->motion));
   if (orbit->model.flow && plan->closed) {
@@ -173,7 +173,7 @@ static kz_status follow(kz_orbit *orbit) {
   return kz_orbit_features_make(orbit);
 }
 
-static kz_orbit begin(const kz_scene *scene) {
+static kz_orbit orbit_begin(const kz_scene *scene) {
   kz_orbit orbit = {.scene = scene, .lyapunov = NAN, .lyapunov_error = NAN};
   kz_model_make(scene, &orbit.model);
   return orbit;
@@ -189,11 +189,11 @@ static void end(kz_orbit *orbit) {
 }
 
 kz_status kz_orbit_run(const kz_scene *scene, const kz_run *run, kz_store *store, FILE *summary) {
-  KZ_FREED_BY(end) kz_orbit orbit = begin(scene);
+  KZ_FREED_BY(end) kz_orbit orbit = orbit_begin(scene);
   KZ_TRY(start(&orbit, run, store));
   KZ_TRY(skip_transient(&orbit, run));
   if (!store) return KZ_OK;
-  KZ_TRY(follow(&orbit));
+  KZ_TRY(orbit_follow(&orbit));
   KZ_TRY(kz_orbit_write(&orbit, store));
   kz_orbit_print(&orbit, summary);
   return KZ_OK;

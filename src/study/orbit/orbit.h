@@ -37,7 +37,7 @@ void kz_model_free(kz_model *model);
 void kz_model_skip(const kz_model *model, int64_t periods, kz_state *state);
 
 /* Records `periods` from a state. KZ_FAILED where the motion left the range of numbers. The caller frees both arrays in every case. */
-kz_status kz_model_record(const kz_model *model, int64_t periods, kz_state start, kz_orbit_motion *motion);
+kz_status kz_model_record(const kz_model *model, int64_t periods, kz_state orbit_start, kz_orbit_motion *motion);
 
 /* A closed orbit. */
 typedef struct {

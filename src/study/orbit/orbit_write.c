@@ -8,7 +8,7 @@
 static const char *const GROUP = "orbit";
 
 /* The pivot's place along an axis, 0 = aside, 1 = height, at a phase of the drive (rad). */
-static double pivot(const kz_parameters *parameters, int axis, double phase) {
+static double orbit_write_pivot(const kz_parameters *parameters, int axis, double phase) {
   double place[2];
   kz_pivot_at(parameters, phase, place);
   return place[axis];
@@ -31,9 +31,9 @@ static kz_status write_series(const kz_orbit *orbit, kz_store *store) {
   SCALE("time", n, 2 * M_PI * (double)i / (double)samples);
   COLUMN("theta", n, motion->theta[i * stride]);
   COLUMN("velocity", n, motion->velocity[i * stride]);
-  COLUMN("pivot", n, pivot(parameters, 1, 2 * M_PI * (double)(i % samples) / (double)samples));
+  COLUMN("pivot", n, orbit_write_pivot(parameters, 1, 2 * M_PI * (double)(i % samples) / (double)samples));
   if (moves_aside(&parameters->pendulum))
-    COLUMN("pivot_aside", n, pivot(parameters, 0, 2 * M_PI * (double)(i % samples) / (double)samples));
+    COLUMN("pivot_aside", n, orbit_write_pivot(parameters, 0, 2 * M_PI * (double)(i % samples) / (double)samples));
   if (orbit->model.kind == KZ_EFFECTIVE)
     COLUMN("xi", n,
            -parameters->pendulum.m * sin(motion->theta[i * stride]) * cos(2 * M_PI * (double)(i % samples) / (double)samples));

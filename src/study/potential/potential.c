@@ -20,7 +20,7 @@ static double angle_of(const kz_potential_plan *plan, int64_t i) {
 #define COLUMN(name, n, type, expression) KZ_COLUMN(store, GROUP, name, n, type, expression)
 
 /* energy [amplitude][theta], rim [amplitude] */
-static kz_status write(const kz_potential_plan *plan, const kz_energy *energy, const kz_rim *rim, kz_store *store) {
+static kz_status potential_write(const kz_potential_plan *plan, const kz_energy *energy, const kz_rim *rim, kz_store *store) {
   const int64_t n = plan->drive_amplitudes.count, points = n * plan->theta_count;
   KZ_SCALE(store, GROUP, "theta", plan->theta_count, angle_of(plan, i));
   KZ_SCALE(store, GROUP, "drive_amplitude", n, plan->drive_amplitudes.values[i]);
@@ -33,7 +33,7 @@ static kz_status write(const kz_potential_plan *plan, const kz_energy *energy, c
   return KZ_OK;
 }
 
-static void summarise(const kz_potential_plan *plan, const kz_rim *rim, FILE *summary) {
+static void potential_summarise(const kz_potential_plan *plan, const kz_rim *rim, FILE *summary) {
   fprintf(summary, "potential: wells about the inverted position\n");
   for (int64_t j = 0; j < plan->drive_amplitudes.count; j++) {
     const double m = plan->drive_amplitudes.values[j];
@@ -57,7 +57,7 @@ kz_status kz_potential_run(const kz_scene *scene, const kz_run *run, kz_store *s
     kz_potential_rim(p->k, p->beta, m, rim + j);
     for (int64_t i = 0; i < columns; i++) kz_potential_energy(p->k, p->beta, m, angle_of(plan, i), energy + j * columns + i);
   }
-  KZ_TRY(write(plan, energy, rim, store));
-  summarise(plan, rim, summary);
+  KZ_TRY(potential_write(plan, energy, rim, store));
+  potential_summarise(plan, rim, summary);
   return KZ_OK;
 }

@@ -95,7 +95,7 @@ static kz_status prove_left(const kz_run *run, part *p) {
 }
 
 /* The marks of the tiles of this rank. */
-static kz_status keep(const kz_window_labels *l, const part *p, kz_proof_work *run) {
+static kz_status cells_keep(const kz_window_labels *l, const part *p, kz_proof_work *run) {
   for (int64_t i = 0; i < l->records.n; i++) {
     const int64_t tile = l->records.list[i].tile;
     if (tile < p->from || tile >= p->to) continue;
@@ -133,7 +133,7 @@ static kz_status prove_part(kz_window_labels *l, part *p, kz_proof_work *kept) {
   for (int64_t i = 0; i < p->n; i++)
     if (p->wanted[i / 64] >> (i % 64) & 1) p->left[p->n_left++] = p->first + i;
   KZ_TRY(prove_left(run, p));
-  return kz_ranks_agree(run->ranks, keep(l, p, kept));
+  return kz_ranks_agree(run->ranks, cells_keep(l, p, kept));
 }
 
 /* Follows the starts of all cells into the region, in kept stages, and keeps their marks. Cells whose label

@@ -13,10 +13,10 @@ static const kz_key keys[] = {
     {.path = NULL},
 };
 
-static const char *limit(const kz_scene *scene, kz_drive_need need) {
+static const char *keys_limit(const kz_scene *scene, kz_drive_need need) {
   (void)scene;
   return need == KZ_NEEDS_STROBE ? "basin.proof needs starts at phase 0 and no ramp; leave one of them out" : NULL;
 }
 
-KZ_PART_ROW("basin", has_proof, .check = kz_proof_check, .of_basin = &kz_proof_part, .limit = limit, .levels = kz_proof_levels,
-            .n_levels = KZ_ENCLOSURES);
+KZ_PART_ROW("basin", has_proof, .check = kz_proof_check, .of_basin = &kz_proof_part, .limit = keys_limit,
+            .levels = kz_proof_levels, .n_levels = KZ_ENCLOSURES);

@@ -18,7 +18,7 @@ static void free_run(void *own) {
   free(run);
 }
 
-static kz_status make(const kz_scene *scene, void **own) {
+static kz_status proof_make(const kz_scene *scene, void **own) {
   kz_proof_work *run = kz_calloc(1, sizeof *run);
   *own = run;
   return kz_proof_begin(scene, &run->proof);
@@ -74,7 +74,7 @@ static void print_sample(const kz_proof_sample *sample, FILE *summary) {
         (long long)sample->starts, (long long)sample->unproved, sample->high, 100 * KZ_PROOF_CONFIDENCE);
 }
 
-static kz_status write(void *own, const kz_chunks *chunks, FILE *summary) {
+static kz_status proof_write(void *own, const kz_chunks *chunks, FILE *summary) {
   const kz_proof_work *run = own;
   const kz_proof_sample *sample = &run->sample;
   const kz_counts *counts = &chunks->counts;
@@ -91,13 +91,17 @@ static kz_status write(void *own, const kz_chunks *chunks, FILE *summary) {
   return write_attractors(chunks->catalogue, run->proof, store);
 }
 
-static kz_status follow(void *own, kz_window_labels *labelling) {
+static kz_status proof_follow(void *own, kz_window_labels *labelling) {
   return kz_prove_window(own, labelling);
 }
 
-static kz_status take(void *own, int64_t tile, kz_label *cell) {
+static kz_status proof_take(void *own, int64_t tile, kz_label *cell) {
   return kz_proof_take(own, tile, cell);
 }
 
-const kz_basin_part kz_proof_part = {
-    .bytes = kz_proof_bytes, .make = make, .free = free_run, .follow = follow, .take = take, .write = write};
+const kz_basin_part kz_proof_part = {.bytes = kz_proof_bytes,
+                                     .make = proof_make,
+                                     .free = free_run,
+                                     .follow = proof_follow,
+                                     .take = proof_take,
+                                     .write = proof_write};

@@ -109,7 +109,7 @@ static kz_status follow_row(void *context, int64_t row, void *record) {
 }
 
 /* Tiles are rows. */
-static kz_status grow(const kz_run *run, const job *j, uint8_t *label) {
+static kz_status region_grow(const kz_run *run, const job *j, uint8_t *label) {
   const int64_t own = kz_proof_own(j->proof);
   for (int round = 1;; round++) {
     char name[32];
@@ -126,5 +126,5 @@ kz_status kz_prove_regions(const kz_window_labels *labelling, kz_proof *proof, k
   KZ_TRY(find_ellipses(run, &j));
   if (!proved->any) return KZ_OK;
   KZ_FREED uint8_t *label = kz_malloc((size_t)kz_proof_own(proof));
-  return grow(run, &j, label);
+  return region_grow(run, &j, label);
 }

@@ -11,14 +11,14 @@
 #include "sweep/sweep.h"
 
 #define WORD_OF_PART "phases"
-static const char *words(void) {
+static const char *alike_words(void) {
   return WORD_OF_PART;
 }
 
 static const kz_key keys[] = {
     ROW("sweep.measure", KZ_KEY_WORDS, NULL, NOWHERE,
         "Along one key also phases: share of cells or starts that ends alike at all phases of release.", .unit = "",
-        .words_from = words),
+        .words_from = alike_words),
     INTEGER("sweep.phases", 2, 64, "8", phases, "Phases of release for the measure phases, evenly over a period."),
     {.path = NULL},
 };
@@ -67,17 +67,17 @@ static kz_status find_alike(const kz_scene *scene, const kz_sweep_value_at *at, 
   return KZ_OK;
 }
 
-static int64_t times(const kz_scene *scene) {
+static int64_t alike_times(const kz_scene *scene) {
   return scene->alike->phases;
 }
 
 static const char *const ALIKE[] = {"alike", "alike_low", "alike_high", NULL};
 const kz_sweep_part kz_alike_part = {
-    .words = WORD_OF_PART, .of_branches = 1, .of_values = ALIKE, .on_grid = true, .times = times, .value = find_alike};
+    .words = WORD_OF_PART, .of_branches = 1, .of_values = ALIKE, .on_grid = true, .times = alike_times, .value = find_alike};
 
-static kz_status describe(const kz_scene *scene, kz_store *store) {
+static kz_status alike_describe(const kz_scene *scene, kz_store *store) {
   if (kz_sweep_part_words(scene->sweep, &kz_alike_part, true).count == 0) return KZ_OK;
   return kz_store_integer(store, "sweep", "phases", scene->alike->phases);
 }
 
-KZ_PART_ROW("sweep", has_sweep, .of_sweep = &kz_alike_part, .check = kz_alike_check, .describe = describe);
+KZ_PART_ROW("sweep", has_sweep, .of_sweep = &kz_alike_part, .check = kz_alike_check, .describe = alike_describe);

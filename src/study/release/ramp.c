@@ -5,7 +5,7 @@
 #include "kapitza/study_key_rows.h"
 
 #define WORDS_OF_PART "ramp.periods|ramp.from"
-static const char *words(void) {
+static const char *ramp_words(void) {
   return WORDS_OF_PART;
 }
 
@@ -20,7 +20,7 @@ static const kz_key keys[] = {
     WORD("pendulum.ramp.shape", "linear|smooth", "linear", shape,
          "linear in time; smooth: 3 s^2 - 2 s^3, which begins and ends without a kink."),
     ROW("sweep.parameter", KZ_KEY_WORD, NULL, NOWHERE, "Of a ramp: its length and its beginning.", .unit = "",
-        .words_from = words),
+        .words_from = ramp_words),
     {.path = NULL},
 };
 

@@ -3,21 +3,21 @@
 
 #include <math.h>
 
-static bool has(double value) {
+static bool release_has(double value) {
   return !isnan(value) && value != 0;
 }
 
 /* The phase as written; 0 for whole turns, such as 360 degrees, which no other double is. */
 static double phase_of(double written) {
   const double turns = rint(written / (2 * M_PI));
-  return !has(written) || fabs(written - turns * (2 * M_PI)) < 1e-24 ? 0 : written;
+  return !release_has(written) || fabs(written - turns * (2 * M_PI)) < 1e-24 ? 0 : written;
 }
 
 /* A ramp of the drive is in units of m, which it ends at. */
 static kz_release release_of(const kz_scene *scene, const kz_ramp_plan *ramp, const kz_pendulum *pendulum) {
   const double phase = scene->has_basin ? phase_of(scene->release->start_phase) : 0;
   kz_release release = {.phase = phase, .damping = pendulum->beta, .drive = 1};
-  if (!scene->has_ramp || !has(ramp->periods)) return release;
+  if (!scene->has_ramp || !release_has(ramp->periods)) return release;
   release.periods = ramp->periods;
   release.smooth = ramp->shape == KZ_RAMP_SMOOTH;
   if (ramp->key == KZ_RAMP_DAMPING)

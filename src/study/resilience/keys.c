@@ -17,8 +17,8 @@ static const kz_key keys[] = {
     {.path = NULL},
 };
 
-static const char *lack(const kz_scene *scene) {
+static const char *keys_lack(const kz_scene *scene) {
   return kz_sizes_lack(&scene->shocks->sizes);
 }
 
-KZ_PART_ROW("basin.shocks", has_shocks, .of_basin = &kz_shocks_part, .lack = lack);
+KZ_PART_ROW("basin.shocks", has_shocks, .of_basin = &kz_shocks_part, .lack = keys_lack);

@@ -42,14 +42,14 @@ kz_resilience *kz_resilience_list(const kz_dynamics *dynamics, const kz_catalogu
 }
 
 /* A kz_ends_fn: by direct integration, which cannot fail. */
-static void follow(void *context, int64_t n, const double *start, kz_label *end) {
+static void resilience_follow(void *context, int64_t n, const double *start, kz_label *end) {
   const searching *s = context;
   const kz_labeller labeller = kz_pair_labeller(start, s->plan->max_periods, KZ_BY_STATES, s->dynamics);
   (void)kz_label_first(&labeller, n, NULL, end);
 }
 
 static kz_shock_problem problem_at(searching *s, const kz_resilience *point) {
-  return (kz_shock_problem){.ends = follow,
+  return (kz_shock_problem){.ends = resilience_follow,
                             .context = s,
                             .from = {point->theta, point->velocity},
                             .own = (int32_t)point->number,
@@ -79,7 +79,7 @@ static int64_t image_of(const kz_resilience *point, int64_t i) {
 }
 
 /* Shock of a point from the one of its mirror image. */
-static void mirror(const kz_dynamics *dynamics, const kz_resilience *found, kz_resilience *point) {
+static void resilience_mirror(const kz_dynamics *dynamics, const kz_resilience *found, kz_resilience *point) {
   memcpy(point->harmless, found->harmless, sizeof point->harmless);
   for (int kind = 0; kind < 3; kind++) {
     const kz_shock *shock = found->shock + kind;
@@ -129,7 +129,7 @@ kz_status kz_resilience_run(const kz_run *run, kz_dynamics *dynamics, const kz_r
     if (plan->smallest && point[i].phase > 0)
       for (int kind = 0; kind < 3; kind++) point[i].shock[kind] = NO_SHOCK;
     else if (image != i)
-      mirror(dynamics, point + from, point + i);
+      resilience_mirror(dynamics, point + from, point + i);
   }
   return KZ_OK;
 }

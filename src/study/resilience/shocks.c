@@ -23,19 +23,19 @@ typedef struct {
   double narrow, closed; /* a bracket is narrow enough, and a fan, where it is so small a part of the distance */
 } closeness;
 
-static int between(double low, double value, double high) {
+static int shocks_between(double low, double value, double high) {
   return (int)fmin(fmax(low, value), high);
 }
 
 /* A disc is a grid of rings, then its outermost ring is: the tolerance is the width of a ring of that. */
 static closeness look_for(double tolerance) {
   const double rings = tolerance > 0 ? 1 / sqrt(tolerance) : 1e9;
-  return (closeness){.line = between(64, rings * rings, 2048),
+  return (closeness){.line = shocks_between(64, rings * rings, 2048),
                      .rims = tolerance < 1e-6 ? RIMS : 0,
-                     .rings = between(8, ceil(rings), 96),
-                     .rays = between(32, ceil(4 * rings), 256),
-                     .fan = between(8, rings / 2, FAN),
-                     .pieces = between(4, rings / 3, 32),
+                     .rings = shocks_between(8, ceil(rings), 96),
+                     .rays = shocks_between(32, ceil(4 * rings), 256),
+                     .fan = shocks_between(8, rings / 2, FAN),
+                     .pieces = shocks_between(4, rings / 3, 32),
                      .narrow = fmax(tolerance, 1e-13),
                      .closed = fmin(fmax(sqrt(tolerance), 1e-6), 0.1)};
 }
@@ -54,21 +54,22 @@ typedef struct {
   int32_t end;
 } ray;
 
-static void put(workspace *r, int64_t i, const double direction[2], double distance) {
+static void shocks_put(workspace *r, int64_t i, const double direction[2], double distance) {
   for (int c = 0; c < 2; c++) r->start[2 * i + c] = r->problem->from[c] + distance * direction[c];
 }
 
-static void follow(workspace *r, int64_t n) {
+static void shocks_follow(workspace *r, int64_t n) {
   r->problem->ends(r->problem->context, n, r->start, r->end);
 }
 
 /* Narrows the bracket of each of n rays to its first change on `points` inner points; false for a ray whose bracket shows none. The
  * far end of a bracket counts as another end only where `sure`. */
-static void narrow(workspace *r, int n, ray *rays, int points, bool sure, bool *crossed) {
+static void shocks_narrow(workspace *r, int n, ray *rays, int points, bool sure, bool *crossed) {
   for (int i = 0; i < n; i++)
     for (int j = 1; j <= points; j++)
-      put(r, (int64_t)i * points + j - 1, rays[i].direction, rays[i].near + (rays[i].far - rays[i].near) * j / (points + sure));
-  follow(r, (int64_t)n * points);
+      shocks_put(r, (int64_t)i * points + j - 1, rays[i].direction,
+                 rays[i].near + (rays[i].far - rays[i].near) * j / (points + sure));
+  shocks_follow(r, (int64_t)n * points);
   for (int i = 0; i < n; i++) {
     const double near = rays[i].near, width = rays[i].far - near;
     const kz_label *end = r->end + (int64_t)i * points;
@@ -84,11 +85,11 @@ static void narrow(workspace *r, int n, ray *rays, int points, bool sure, bool *
 }
 
 /* Bisects the brackets of rays that cross. */
-static void bisect(workspace *r, int n, ray *rays) {
+static void shocks_bisect(workspace *r, int n, ray *rays) {
   bool crossed[2 * FAN + 1];
   bool open = true;
   for (int round = 0; open && round < PASSES; round++) {
-    narrow(r, n, rays, r->look.pieces - 1, true, crossed);
+    shocks_narrow(r, n, rays, r->look.pieces - 1, true, crossed);
     open = false;
     for (int i = 0; i < n; i++) open = open || rays[i].far - rays[i].near > r->look.narrow * rays[i].far;
   }
@@ -99,10 +100,10 @@ static void bisect(workspace *r, int n, ray *rays) {
 static bool nearest_of_line(workspace *r, const double direction[2], double near, int points, double *far, kz_shock *shock) {
   ray rays[2] = {{{direction[0], direction[1]}, near, *far, -1}, {{-direction[0], -direction[1]}, near, *far, -1}};
   bool crossed[2];
-  narrow(r, 2, rays, points, false, crossed);
+  shocks_narrow(r, 2, rays, points, false, crossed);
   const int best = !crossed[0] || (crossed[1] && rays[1].far < rays[0].far);
   if (!crossed[best]) return false;
-  bisect(r, 1, rays + best);
+  shocks_bisect(r, 1, rays + best);
   const ray *found = rays + best;
   if (found->far > *far * (1 - r->look.closed) && shock->end >= 0) return false; /* the one that is known */
   *far = found->far;
@@ -143,9 +144,9 @@ static double nearest_of_rings(workspace *r, double inner, double outer, double 
   for (int i = 0; i < rays; i++) {
     const ray one = ray_at(r->problem, 2 * M_PI * i / rays, 0, 0);
     for (int ring = 0; ring < rings; ring++)
-      put(r, (int64_t)i * rings + ring, one.direction, outer - width * (rings - 1 - ring));
+      shocks_put(r, (int64_t)i * rings + ring, one.direction, outer - width * (rings - 1 - ring));
   }
-  follow(r, (int64_t)rings * rays);
+  shocks_follow(r, (int64_t)rings * rays);
   for (int i = 0; i < rays; i++) {
     const kz_label *end = r->end + (int64_t)i * rings;
     int ring = 0;
@@ -159,7 +160,7 @@ static double nearest_of_rings(workspace *r, double inner, double outer, double 
 }
 
 /* The distance of the boundary near a ray that crosses it, minimised by ever narrower fans of rays. */
-static kz_shock slide(workspace *r, double angle, double far) {
+static kz_shock shocks_slide(workspace *r, double angle, double far) {
   const int fan = r->look.fan;
   double width = 2 * M_PI / r->look.rays;
   kz_shock best = {.size = INFINITY, .end = -1};
@@ -172,14 +173,14 @@ static kz_shock slide(workspace *r, double angle, double far) {
       at[i] = angle + width * (i - fan) / fan;
       rays[i] = ray_at(r->problem, at[i], far * (1 - reach), far * (1 + reach / 16));
     }
-    narrow(r, 2 * fan + 1, rays, 4 * r->look.pieces, false, crossed);
+    shocks_narrow(r, 2 * fan + 1, rays, 4 * r->look.pieces, false, crossed);
     for (int i = 0; i <= 2 * fan; i++) {
       if (!crossed[i]) continue;
       at[n] = at[i];
       rays[n++] = rays[i];
     }
     if (n == 0) break;
-    bisect(r, n, rays);
+    shocks_bisect(r, n, rays);
     for (int i = 0; i < n; i++) {
       if (!(rays[i].far < best.size)) continue;
       best = (kz_shock){rays[i].direction[0] * rays[i].far, rays[i].direction[1] * rays[i].far, rays[i].far, rays[i].end};
@@ -200,7 +201,7 @@ static kz_shock in_disc(workspace *r, const kz_shock *first) {
     double distance = nearest_of_rings(r, 0, radius, &angle);
     if (!isfinite(distance)) distance = nearest_of_rings(r, radius * (1 - 1.0 / r->look.rings), radius, &angle);
     if (!isfinite(distance)) break;
-    const kz_shock found = slide(r, angle, distance);
+    const kz_shock found = shocks_slide(r, angle, distance);
     if (found.size < best.size) best = found;
   }
   return best;
@@ -214,7 +215,7 @@ static kz_shock in_norm(const kz_shock *shock, double scale) {
 }
 
 /* Memory for the grids of a search: the largest of a disc, the rims of a line, a fan, the spread shocks. */
-static void make(const kz_shock_problem *problem, workspace *r) {
+static void shocks_make(const kz_shock_problem *problem, workspace *r) {
   r->problem = problem;
   r->look = look_for(problem->tolerance);
   int most = r->look.rings * r->look.rays;
@@ -225,14 +226,14 @@ static void make(const kz_shock_problem *problem, workspace *r) {
   r->end = kz_malloc((size_t)most * sizeof *r->end);
 }
 
-static void release(workspace *r) {
+static void shocks_release(workspace *r) {
   kz_free_local(&r->start);
   kz_free_local(&r->end);
 }
 
 void kz_shocks_find(const kz_shock_problem *problem, kz_shock shock[3]) {
-  KZ_FREED_BY(release) workspace r;
-  make(problem, &r);
+  KZ_FREED_BY(shocks_release) workspace r;
+  shocks_make(problem, &r);
   shock[0] = along_line(&r, 1, 0, M_PI);
   if (shock[0].end == 0 && !(shock[0].size < M_PI))
     shock[0] = (kz_shock){NAN, NAN, NAN, -1}; /* the other rest, which only this very start stays on */
@@ -241,27 +242,27 @@ void kz_shocks_find(const kz_shock_problem *problem, kz_shock shock[3]) {
   shock[2] = isless(velocity.size, angle.size) || isnan(angle.size) ? velocity : angle;
   if (!isnan(shock[2].size)) {
     const double at = atan2(shock[2].velocity / problem->scale, shock[2].theta);
-    const kz_shock near = slide(&r, at, shock[2].size);
+    const kz_shock near = shocks_slide(&r, at, shock[2].size);
     if (near.size < shock[2].size) shock[2] = near;
     shock[2] = in_disc(&r, shock + 2);
   }
 }
 
 void kz_shocks_nearer(const kz_shock_problem *problem, kz_shock *shock) {
-  KZ_FREED_BY(release) workspace r;
-  make(problem, &r);
+  KZ_FREED_BY(shocks_release) workspace r;
+  shocks_make(problem, &r);
   *shock = in_disc(&r, shock);
 }
 
 void kz_shocks_harmless(const kz_shock_problem *problem, double size, kz_harmless *harmless) {
   static const double GOLDEN = 0.61803398874989484820;
-  KZ_FREED_BY(release) workspace r;
+  KZ_FREED_BY(shocks_release) workspace r;
   double time = 0;
-  make(problem, &r);
+  shocks_make(problem, &r);
   *harmless = (kz_harmless){.shocks = SPREAD};
   for (int i = 0; i < SPREAD; i++)
-    put(&r, i, ray_at(problem, 2 * M_PI * GOLDEN * i, 0, 0).direction, size * sqrt((i + 0.5) / SPREAD));
-  follow(&r, SPREAD);
+    shocks_put(&r, i, ray_at(problem, 2 * M_PI * GOLDEN * i, 0, 0).direction, size * sqrt((i + 0.5) / SPREAD));
+  shocks_follow(&r, SPREAD);
   for (int i = 0; i < SPREAD; i++) {
     if (r.end[i].label != problem->own) continue;
     harmless->harmless++;

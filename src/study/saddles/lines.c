@@ -13,13 +13,14 @@ enum {
 /* rad: between the lines of the first round, between the starts of a line to begin with, between two cycles. */
 static const double SPACING = 0.2, CELL = 0.05, ONE = 1e-5;
 
-static double width(const kz_axis *axis) {
+static double lines_width(const kz_axis *axis) {
   return axis->max - axis->min;
 }
 
 /* A window that is its own mirror image: its upper half shows every cycle or the mirror image of it. */
 static bool is_mirrored(const kz_saddles_plan *plan) {
-  return plan->velocity.min == -plan->velocity.max && (plan->theta.min == -plan->theta.max || width(&plan->theta) == 2 * M_PI);
+  return plan->velocity.min == -plan->velocity.max &&
+         (plan->theta.min == -plan->theta.max || lines_width(&plan->theta) == 2 * M_PI);
 }
 
 kz_lines kz_lines_of(const kz_pendulum *pendulum, const kz_saddles_plan *plan, int round) {
@@ -28,8 +29,8 @@ kz_lines kz_lines_of(const kz_pendulum *pendulum, const kz_saddles_plan *plan, i
   kz_lines lines = {.pendulum = pendulum, .plan = plan, .rows = round % 2 == 0, .steepest = INFINITY};
   lines.along = lines.rows ? plan->theta : velocity;
   lines.across = lines.rows ? velocity : plan->theta;
-  lines.count = (int64_t)fmax(LEAST_LINES, ceil(width(&lines.across) / SPACING * pow(2, round / 2)));
-  lines.pieces = (int64_t)fmax(1, ceil(width(&lines.along) / (CELLS * CELL)));
+  lines.count = (int64_t)fmax(LEAST_LINES, ceil(lines_width(&lines.across) / SPACING * pow(2, round / 2)));
+  lines.pieces = (int64_t)fmax(1, ceil(lines_width(&lines.along) / (CELLS * CELL)));
   lines.cells = CELLS;
   return lines;
 }
@@ -53,15 +54,15 @@ int64_t kz_lines_search(const kz_lines *lines, int64_t tile, int64_t most_starts
   const double line = (double)(tile / lines->pieces) + 0.5;
   KZ_FREED double (*node)[2] = kz_malloc((size_t)(lines->cells + 1) * sizeof *node);
   for (int64_t i = 0; i <= lines->cells; i++) {
-    const double along = lines->along.min + width(&lines->along) * (first + (double)i) / cells;
-    const double across = lines->across.min + width(&lines->across) * line / (double)lines->count;
+    const double along = lines->along.min + lines_width(&lines->along) * (first + (double)i) / cells;
+    const double across = lines->across.min + lines_width(&lines->across) * line / (double)lines->count;
     node[i][0] = lines->rows ? along : across;
     node[i][1] = lines->rows ? across : along;
   }
   return kz_dynamics_search_line(lines->pendulum, &search, lines->cells + 1, node[0], found, work);
 }
 
-static int compare(const void *first, const void *second) {
+static int lines_compare(const void *first, const void *second) {
   const double *a = first, *b = second;
   int i = 0;
   for (const int n = 2 + 2 * (int)a[0]; i < n - 1 && a[i] == b[i]; i++) continue;
@@ -69,7 +70,7 @@ static int compare(const void *first, const void *second) {
 }
 
 /* Whether two cycles of one period are one, or mirror images, when the points of b are taken from `first` on. */
-static bool coincide(const double *a, const double *b, int first, int side) {
+static bool lines_coincide(const double *a, const double *b, int first, int side) {
   const int n = (int)a[0];
   for (int i = 0; i < n; i++) {
     const double *x = a + 2 + 2 * i, *y = b + 2 + 2 * ((first + i) % n);
@@ -80,7 +81,7 @@ static bool coincide(const double *a, const double *b, int first, int side) {
 
 static bool is_same(const double *a, const double *b) {
   for (int first = 0; first < (int)a[0]; first++)
-    if (coincide(a, b, first, 1) || coincide(a, b, first, -1)) return true;
+    if (lines_coincide(a, b, first, 1) || lines_coincide(a, b, first, -1)) return true;
   return false;
 }
 
@@ -88,7 +89,7 @@ static bool is_same(const double *a, const double *b) {
 static int64_t drop_repeats(const kz_saddles_plan *plan, int64_t n, double *cycle) {
   const int64_t stride = 2 + 2 * plan->max_period;
   int64_t kept = 0;
-  qsort(cycle, (size_t)n, kz_cycle_bytes(plan), compare);
+  qsort(cycle, (size_t)n, kz_cycle_bytes(plan), lines_compare);
   for (int64_t i = 0; i < n; i++) {
     const double *mine = cycle + i * stride;
     bool repeated = false;
@@ -125,7 +126,7 @@ typedef struct {
   kz_found *found;
 } collection;
 
-static kz_status take(void *context, int64_t tile, const void *record, size_t bytes) {
+static kz_status lines_take(void *context, int64_t tile, const void *record, size_t bytes) {
   const collection *c = context;
   const size_t one = kz_cycle_bytes(c->plan), before = (size_t)c->found->count * one, more = bytes - sizeof(uint64_t);
   char *longer = kz_realloc(c->found->cycle, before + more);
@@ -144,7 +145,7 @@ kz_status kz_lines_run(const kz_run *run, const kz_lines *lines, const char *nam
                           .context = (kz_lines *)lines,
                           .keep = true};
   collection all = {lines->plan, found};
-  KZ_TRY(kz_stage_gather(run, &stage, "saddles: cycles", take, &all));
+  KZ_TRY(kz_stage_gather(run, &stage, "saddles: cycles", lines_take, &all));
   if (kz_rank(run->ranks) == 0) found->count = drop_repeats(lines->plan, found->count, found->cycle);
   return kz_ranks_agree(run->ranks, found->count > KZ_SADDLES_MOST ? too_many(lines->plan, KZ_SADDLES_MOST, "cycles") : KZ_OK);
 }

@@ -66,7 +66,7 @@ static kz_index_sum *sum_of(kz_index_sums *sums, int64_t n, int64_t winding) {
   return sums->entries + sums->count++;
 }
 
-static int compare(const void *a, const void *b) {
+static int saddles_compare(const void *a, const void *b) {
   const kz_index_sum *x = a, *y = b;
   return x->period != y->period ? x->period - y->period : x->winding - y->winding;
 }
@@ -83,7 +83,7 @@ static void make_sums(const kz_cycle_list *list, int64_t max_period, kz_index_su
       sum->index += row->period * index_of(row, n);
     }
   }
-  qsort(sums->entries, (size_t)sums->count, sizeof *sums->entries, compare);
+  qsort(sums->entries, (size_t)sums->count, sizeof *sums->entries, saddles_compare);
   for (int64_t i = 0; i < sums->count; i++) sums->open += sums->entries[i].index != 0;
 }
 

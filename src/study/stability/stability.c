@@ -9,13 +9,13 @@
 /* Points of a tile of the chart, and values of k of a tile of a curve. */
 enum { POINTS = 2048, PIECE = 64 };
 
-static kz_axis times(const kz_axis *axis, double factor) {
+static kz_axis stability_times(const kz_axis *axis, double factor) {
   return (kz_axis){.min = axis->min * factor, .max = axis->max * factor, .count = axis->count};
 }
 
 kz_chart_axes kz_stability_axes(const kz_stability_plan *plan) {
   if (isnan(plan->a.min)) return (kz_chart_axes){plan->k, plan->m};
-  return (kz_chart_axes){times(&plan->a, 0.25), times(&plan->q, 0.5)};
+  return (kz_chart_axes){stability_times(&plan->a, 0.25), stability_times(&plan->q, 0.5)};
 }
 
 kz_cost kz_stability_cost(const kz_scene *scene) {
@@ -34,7 +34,7 @@ static double *axis_values(const kz_axis *axis) {
   return values;
 }
 
-static bool contains(const kz_integers *list, int64_t count, int64_t value) {
+static bool stability_contains(const kz_integers *list, int64_t count, int64_t value) {
   for (int64_t i = 0; i < count; i++)
     if (list->values[i] == value) return true;
   return false;
@@ -43,14 +43,14 @@ static bool contains(const kz_integers *list, int64_t count, int64_t value) {
 /* Whether the chart asks for a row of kz_curves; `word`: its place in the list of names. */
 static bool is_asked(const kz_stability_plan *plan, int32_t row, int64_t *word) {
   *word += strcmp(kz_curves[row].name, kz_curves[row].asked) == 0;
-  return contains(&plan->curves, plan->curves.count, *word);
+  return stability_contains(&plan->curves, plan->curves.count, *word);
 }
 
-bool kz_stability_has_curve(const kz_stability_plan *plan, const char *begin) {
+bool kz_stability_has_curve(const kz_stability_plan *plan, const char *stability_begin) {
   int64_t word = -1;
   bool has = false;
   for (int32_t row = 0; row < kz_curve_count; row++)
-    has |= is_asked(plan, row, &word) && strncmp(kz_curves[row].name, begin, strlen(begin)) == 0;
+    has |= is_asked(plan, row, &word) && strncmp(kz_curves[row].name, stability_begin, strlen(stability_begin)) == 0;
   return has;
 }
 
@@ -68,7 +68,7 @@ static void make_tasks(kz_chart *chart) {
   for (int32_t row = 0; row < kz_curve_count; row++)
     if (is_asked(chart->plan, row, &word)) chart->tasks[chart->n_tasks++] = (kz_curve_task){row, 0};
   for (int64_t i = 0; i < orders->count; i++)
-    if (!contains(orders, i, orders->values[i]))
+    if (!stability_contains(orders, i, orders->values[i]))
       chart->tasks[chart->n_tasks++] = (kz_curve_task){-1, (int32_t)orders->values[i]};
 }
 
@@ -86,7 +86,7 @@ static kz_chart begin(const kz_scene *scene) {
   return chart;
 }
 
-static void release(kz_chart *chart) {
+static void stability_release(kz_chart *chart) {
   free(chart->k);
   free(chart->m);
   free(chart->tasks);
@@ -142,7 +142,7 @@ static kz_status run_stage(const kz_run *run, const kz_stage *stage, void *recor
 }
 
 kz_status kz_stability_run(const kz_scene *scene, const kz_run *run, kz_store *store, FILE *summary) {
-  KZ_FREED_BY(release) kz_chart chart = begin(scene);
+  KZ_FREED_BY(stability_release) kz_chart chart = begin(scene);
   const int64_t points = chart.axes.k.count * chart.axes.m.count, row = kz_chart_row(&chart.axes);
   kz_stage of_points = kz_stage_of_items("chart", points, POINTS, POINTS * sizeof *chart.points, chart_points, &chart);
   of_points.everywhere = false;

@@ -6,7 +6,7 @@
 #include "kapitza/study_stability.h"
 
 /* Whether a chart asks for a curve whose name begins so, and for one that only a sine has. */
-bool kz_stability_has_curve(const kz_stability_plan *plan, const char *begin);
+bool kz_stability_has_curve(const kz_stability_plan *plan, const char *stability_begin);
 bool kz_stability_needs_sine(const kz_stability_plan *plan);
 
 /* The axes of a chart in k and m, however the scene gives them. */

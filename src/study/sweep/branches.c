@@ -42,7 +42,7 @@ static int64_t add_node(kz_sweep_branches *branches, const kz_sweep_entry *entry
 }
 
 /* The value to which a walk leads. */
-static int64_t aim(const walking *w, const task *t) {
+static int64_t branches_aim(const walking *w, const task *t) {
   return w->branches->nodes[t->node].value + (t->forward ? 1 : -1);
 }
 
@@ -52,7 +52,7 @@ static kz_status walk_tile(void *context, int64_t tile, void *record) {
   const kz_sweep_node *node = w->branches->nodes + t->node;
   const kz_sweep_plan *plan = w->scene->sweep;
   const kz_path path = kz_sweep_path(w->scene, w->branches->maps);
-  kz_sweep_follow(&path, kz_sweep_value(plan, node->value), kz_sweep_value(plan, aim(w, t)), plan->max_period,
+  kz_sweep_follow(&path, kz_sweep_value(plan, node->value), kz_sweep_value(plan, branches_aim(w, t)), plan->max_period,
                   &node->entry.point, node->step, record);
   return KZ_OK;
 }
@@ -97,10 +97,10 @@ static bool is_astray(const walking *w, int64_t value, const kz_attractor *point
 }
 
 /* The node where a piece arrives; -1 = nowhere, or there are too many. */
-static int64_t arrival(const walking *w, const task *t, const kz_sweep_piece *piece, const kz_attractor *point) {
+static int64_t branches_arrival(const walking *w, const task *t, const kz_sweep_piece *piece, const kz_attractor *point) {
   kz_sweep_branches *b = w->branches;
   if (piece->reached < 0) return -1;
-  const int64_t value = piece->reached ? aim(w, t) : b->nodes[t->node].value;
+  const int64_t value = piece->reached ? branches_aim(w, t) : b->nodes[t->node].value;
   const int64_t known = find_node(w, value, point);
   if (known < 0 && is_astray(w, value, point)) return -1;
   int64_t here = 0;
@@ -130,9 +130,9 @@ static void add_between(kz_sweep_branches *b, int64_t value, const kz_sweep_piec
 }
 
 /* Joins both ends of a piece: `point` is its end, or that of its image. */
-static void join(const walking *w, const task *t, const kz_sweep_piece *piece, const kz_attractor *point) {
+static void branches_join(const walking *w, const task *t, const kz_sweep_piece *piece, const kz_attractor *point) {
   kz_sweep_branches *b = w->branches;
-  const int64_t from = piece->from_start ? t->node : -1, there = arrival(w, t, piece, point);
+  const int64_t from = piece->from_start ? t->node : -1, there = branches_arrival(w, t, piece, point);
   if (there >= 0 && b->nodes[there].step == 0) b->nodes[there].step = piece->step;
   const bool side = piece->reached == 1 ? !t->forward : t->forward; /* on which the piece arrives */
   if (from >= 0 && there >= 0 && piece->reached == 1) {
@@ -159,8 +159,8 @@ static int64_t image_node(const walking *w, const task *t) {
   const kz_sweep_node *node = w->branches->nodes + t->node;
   kz_pendulum pendulum, last;
   if (node->entry.point.symmetric || !kz_sweep_pendulum(w->scene, kz_sweep_value(w->scene->sweep, node->value), &pendulum) ||
-      !kz_sweep_pendulum(w->scene, kz_sweep_value(w->scene->sweep, aim(w, t)), &last) || !kz_pairing_symmetry(&pendulum) ||
-      kz_pairing_symmetry(&pendulum) != kz_pairing_symmetry(&last))
+      !kz_sweep_pendulum(w->scene, kz_sweep_value(w->scene->sweep, branches_aim(w, t)), &last) ||
+      !kz_pairing_symmetry(&pendulum) || kz_pairing_symmetry(&pendulum) != kz_pairing_symmetry(&last))
     return -1;
   const kz_attractor image = kz_branch_point_image(&pendulum, node->entry.point);
   const int64_t found = find_node(w, node->value, &image);
@@ -169,16 +169,16 @@ static int64_t image_node(const walking *w, const task *t) {
 
 /* Joins a piece by the image of where it ends. */
 static void join_image(const walking *w, const task *t, const kz_sweep_piece *piece) {
-  const int64_t value = piece->reached == 1 ? aim(w, t) : w->branches->nodes[t->node].value;
+  const int64_t value = piece->reached == 1 ? branches_aim(w, t) : w->branches->nodes[t->node].value;
   kz_pendulum pendulum;
   if (piece->reached < 0 || !kz_sweep_pendulum(w->scene, kz_sweep_value(w->scene->sweep, value), &pendulum)) return;
   const kz_attractor image = kz_branch_point_image(&pendulum, piece->point);
-  join(w, t, piece, &image);
+  branches_join(w, t, piece, &image);
 }
 
 static void join_walk(const walking *w, const task *t, const kz_sweep_walk *walk) {
   for (int64_t i = 0; i < walk->count; i++) {
-    join(w, t, walk->piece + i, &walk->piece[i].point);
+    branches_join(w, t, walk->piece + i, &walk->piece[i].point);
     if (walk->piece[i].twice) join_image(w, t, walk->piece + i);
   }
 }
@@ -191,7 +191,7 @@ static void join_lost_image(const walking *w, const task *t, const kz_sweep_walk
   for (int64_t i = 0; i < walk->count; i++) {
     if (!walk->piece[i].from_start) continue;
     if (walk->piece[i].reached < 0)
-      join(w, &image, walk->piece + i, &walk->piece[i].point);
+      branches_join(w, &image, walk->piece + i, &walk->piece[i].point);
     else
       join_image(w, &image, walk->piece + i);
   }
@@ -259,7 +259,7 @@ static void join_open(kz_sweep_branches *b) {
 }
 
 /* Those that attract first; in the order of points; by the value where it begins, first strobe velocity and angle. */
-static bool before(const kz_sweep_node *a, const kz_sweep_node *b) {
+static bool branches_before(const kz_sweep_node *a, const kz_sweep_node *b) {
   const kz_attractor *p = &a->entry.point, *q = &b->entry.point;
   const double keys[][2] = {{!a->attracts, !b->attracts},         {a->between, b->between},   {kz_branch_points_order(p, q), 0},
                             {(double)a->value, (double)b->value}, {p->velocity, q->velocity}, {p->theta, q->theta}};
@@ -273,7 +273,8 @@ static void list_branches(kz_sweep_branches *b) {
   for (int64_t i = 0; i < b->n_nodes; i++) {
     if (b->nodes[i].previous >= 0) continue;
     int64_t j = b->n_branches++;
-    for (; j > 0 && before(b->nodes + i, b->nodes + b->first_node[j - 1]); j--) b->first_node[j] = b->first_node[j - 1];
+    for (; j > 0 && branches_before(b->nodes + i, b->nodes + b->first_node[j - 1]); j--)
+      b->first_node[j] = b->first_node[j - 1];
     b->first_node[j] = i;
   }
 }

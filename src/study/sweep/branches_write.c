@@ -31,7 +31,8 @@ static void name_of(const kz_sweep_branches *b, int64_t branch, char *text) {
   kz_orbit_name(point->period, point->winding, point->centre, text);
 }
 
-static bool mirrors(const writing *w, const kz_pendulum *pendulum, const kz_sweep_node *node, const kz_attractor *image) {
+static bool branches_write_mirrors(const writing *w, const kz_pendulum *pendulum, const kz_sweep_node *node,
+                                   const kz_attractor *image) {
   const kz_attractor *point = &node->entry.point;
   if (image->period == 0)
     return kz_branch_alike(point, image) && fabs(point->velocity - image->velocity) < 1e-3 &&
@@ -51,7 +52,8 @@ static int32_t mirror_of(const writing *w, int64_t branch) {
   for (int64_t other = 0; other < w->branches->n_branches; other++) {
     const kz_sweep_node *node = first_of(w->branches, other);
     while (node->value < first->value && node->next >= 0) node = w->branches->nodes + node->next;
-    if (node->value == first->value && !node->between && mirrors(w, &pendulum, node, &image)) return (int32_t)other;
+    if (node->value == first->value && !node->between && branches_write_mirrors(w, &pendulum, node, &image))
+      return (int32_t)other;
   }
   return -1;
 }
@@ -82,7 +84,7 @@ static kz_status write_names(const writing *w) {
 }
 
 /* The entry of each branch at each value, [values][branches]; NULL = not there. */
-static const kz_sweep_entry **arrange(const writing *w, int64_t n) {
+static const kz_sweep_entry **branches_write_arrange(const writing *w, int64_t n) {
   const kz_sweep_branches *b = w->branches;
   const kz_sweep_entry **at = kz_calloc((size_t)n + 1, sizeof *at);
   for (int64_t branch = 0; branch < b->n_branches; branch++)
@@ -101,7 +103,7 @@ static kz_status write_matrices(const writing *w) {
   const int64_t n_branches = w->branches->n_branches, n = plan->values.count * n_branches;
   KZ_FREED bool *is_stable = kz_malloc((size_t)n_branches + 1);
   for (int64_t i = 0; i < n_branches; i++) is_stable[i] = first_of(w->branches, i)->attracts;
-  KZ_FREED const kz_sweep_entry **at = arrange(w, n);
+  KZ_FREED const kz_sweep_entry **at = branches_write_arrange(w, n);
   MATRIX("branch_amplitude", at[i]->point.centre > 1 ? NAN : at[i]->point.amplitude);
   MATRIX("branch_multiplier",
          at[i]->point.period == 0 ? NAN : hypot(at[i]->point.multiplier_re[0], at[i]->point.multiplier_im[0]));

@@ -20,7 +20,7 @@ static kz_status measure_lifetime(const kz_sweep_plan *plan, const kz_run *run, 
   const kz_window window = kz_window_of(&plan->theta, &plan->velocity);
   const size_t n = (size_t)plan->starts;
   KZ_FREED double *state = kz_malloc(2 * n * sizeof *state);
-  KZ_FREED kz_label *end = kz_malloc(n * sizeof *end);
+  KZ_FREED kz_label *catalogue_end = kz_malloc(n * sizeof *catalogue_end);
   KZ_FREED uint32_t *time = kz_malloc(n * sizeof *time);
   const kz_labeller labeller = {.dynamics = dynamics,
                                 .max_periods = max_periods,
@@ -31,8 +31,8 @@ static kz_status measure_lifetime(const kz_sweep_plan *plan, const kz_run *run, 
                                 .stage = "sweep lifetimes",
                                 .tile = TILE};
   kz_dynamics_starts(&window, plan->seed, plan->starts, state);
-  KZ_TRY(kz_label_items(&labeller, 1, plan->starts, NULL, end));
-  for (size_t i = 0; i < n; i++) time[i] = end[i].label > 0 ? (uint32_t)end[i].periods : KZ_NOT_ENDED;
+  KZ_TRY(kz_label_items(&labeller, 1, plan->starts, NULL, catalogue_end));
+  for (size_t i = 0; i < n; i++) time[i] = catalogue_end[i].label > 0 ? (uint32_t)catalogue_end[i].periods : KZ_NOT_ENDED;
   *life = kz_lifetime_tail(plan->starts, time, (double)max_periods);
   return KZ_OK;
 }
@@ -55,7 +55,7 @@ typedef struct {
   int64_t max_periods;       /* after which a start counts as not settled; of the cells the basin's own number */
 } searching;
 
-static void begin(const kz_pendulum *pendulum, double value, searching *s) {
+static void catalogue_begin(const kz_pendulum *pendulum, double value, searching *s) {
   const kz_scene *scene = s->scene;
   s->n_starts = scene->sweep->starts;
   s->max_periods = kz_settling_periods(pendulum->beta);
@@ -79,14 +79,14 @@ static void end(searching *s) {
 /* Labels the grid, whatever the basin's method, by states alone. */
 static kz_status label_grid(searching *s) {
   const kz_basin_plan *basin = s->scene->basin;
-  const kz_search_on search = {ROUNDS, s->n_starts, NULL};
+  const kz_search_on catalogue_search = {ROUNDS, s->n_starts, NULL};
   kz_labeller labeller = kz_cell_labeller(basin, s->dynamics);
   labeller.way = KZ_BY_STATES;
   labeller.stepper = kz_stepper_of(basin->method, basin->interpolation);
   labeller.run = s->run;
   labeller.stage = "sweep cells";
   labeller.tile = kz_tile_cells(s->scene, CHUNK);
-  return kz_label_and_search(&labeller, &search, s->n_cells, NULL, s->cell);
+  return kz_label_and_search(&labeller, &catalogue_search, s->n_cells, NULL, s->cell);
 }
 
 /* Hits of the cells followed and of those that mirror them; without a grid of the starts. */
@@ -106,7 +106,7 @@ static int64_t count_hits(const searching *s) {
 }
 
 /* The attractors that something ended on, and their mirror images, in the order of the file. */
-static kz_status collect(const searching *s, kz_sweep_catalogue *catalogue) {
+static kz_status catalogue_collect(const searching *s, kz_sweep_catalogue *catalogue) {
   const int64_t known = kz_dynamics_count(s->dynamics);
   KZ_FREED int64_t *order = kz_malloc((size_t)(known + 1) * sizeof *order);
   kz_dynamics_order(s->dynamics, order);
@@ -140,7 +140,7 @@ static kz_status search(searching *s, const kz_pendulum *pendulum, kz_sweep_cata
   s->hits = kz_calloc((size_t)kz_dynamics_count(s->dynamics) + 1, sizeof *s->hits);
   catalogue->samples = count_hits(s);
   catalogue->unsettled = s->hits[0];
-  KZ_TRY(kz_ranks_agree(s->run->ranks, collect(s, catalogue)));
+  KZ_TRY(kz_ranks_agree(s->run->ranks, catalogue_collect(s, catalogue)));
   if (kz_sweep_measures(plan, KZ_SWEEP_LIFETIME))
     KZ_TRY(measure_lifetime(plan, s->run, s->dynamics, s->max_periods, &catalogue->lifetime));
   const kz_axis *velocity = s->n_cells > 0 ? &s->scene->basin->velocity : &plan->velocity;
@@ -162,7 +162,7 @@ static kz_status sweep_catalogue_tile(void *context, int64_t tile, void *record)
   kz_pendulum pendulum;
   const double value = kz_sweep_value(scene->sweep, tile);
   if (!kz_sweep_pendulum(scene, value, &pendulum) || pendulum.beta <= 0) return KZ_OK;
-  begin(&pendulum, value, &s);
+  catalogue_begin(&pendulum, value, &s);
   return search(&s, &pendulum, record);
 }
 

@@ -28,7 +28,7 @@ struct kz_sweep_plan {
 };
 
 /* Whether a list has something twice. */
-bool kz_words_repeat(const kz_integers *words);
+bool kz_words_repeat(const kz_integers *alike_words);
 /* A part of the study sweep that another folder adds: the row of kz_studies with `of_sweep`. */
 typedef struct kz_sweep_catalogue kz_sweep_catalogue;
 typedef struct kz_sweep_value_at kz_sweep_value_at;

@@ -59,7 +59,8 @@ static double half_degrees(int64_t i) {
 
 /* The edge between a release that stays (inside) and one that fails (outside). Of several edges the one next to inside, or with
  * `outermost` the one next to outside. */
-static double locate(const kz_pendulum *pendulum, const kz_numerics *numerics, double inside, double outside, bool outermost) {
+static double release_locate(const kz_pendulum *pendulum, const kz_numerics *numerics, double inside, double outside,
+                             bool outermost) {
   double angle[BRACKET];
   uint8_t stays[BRACKET];
   while (outside - inside > LOCATED) {
@@ -76,7 +77,7 @@ static double locate(const kz_pendulum *pendulum, const kz_numerics *numerics, d
 }
 
 /* The edge that plain bisection finds between the last whole degree that stays and the first that fails: a paper's scan. */
-static double scan(const kz_pendulum *pendulum, const kz_numerics *numerics, const uint8_t *stays) {
+static double release_scan(const kz_pendulum *pendulum, const kz_numerics *numerics, const uint8_t *stays) {
   int64_t degree = 1;
   while (2 * degree - 1 < HALF_DEGREES && stays[2 * degree - 1]) degree++;
   double inside = (double)(degree - 1) * (M_PI / 180), outside = (double)degree * (M_PI / 180);
@@ -111,7 +112,7 @@ static double find_first(const kz_pendulum *pendulum, const kz_numerics *numeric
     step /= FINER;
     outside = first_failure(pendulum, numerics, step, outside);
   }
-  return locate(pendulum, numerics, outside - step, outside, false);
+  return release_locate(pendulum, numerics, outside - step, outside, false);
 }
 
 static kz_status release_tile(void *context, int64_t tile, void *record) {
@@ -127,8 +128,9 @@ static kz_status release_tile(void *context, int64_t tile, void *record) {
   while (first < HALF_DEGREES && out->stays[first]) first++;
   while (last >= 0 && !out->stays[last]) last--;
   out->first = find_first(&pendulum, &scene->numerics, half_degrees(first));
-  out->scan = scan(&pendulum, &scene->numerics, out->stays);
-  out->largest = last < 0 ? out->first : locate(&pendulum, &scene->numerics, half_degrees(last), half_degrees(last + 1), true);
+  out->scan = release_scan(&pendulum, &scene->numerics, out->stays);
+  out->largest =
+      last < 0 ? out->first : release_locate(&pendulum, &scene->numerics, half_degrees(last), half_degrees(last + 1), true);
   return KZ_OK;
 }
 

@@ -8,7 +8,7 @@ enum { SAMPLES = 96, MOST_PERIODS = 4000, HALVINGS = 100 };
 static const double LEAVES = 1e-6; /* rad: how far from the saddle the motion begins, along the direction in which it leaves */
 
 /* Whether the motion that leaves the saddle with a velocity of this sign passes the next one. */
-static bool passes(const kz_pendulum *p, int sign) {
+static bool running_passes(const kz_pendulum *p, int sign) {
   double theta[SAMPLES + 1], velocity[SAMPLES + 1];
   const double saddle = p->k > 0 ? M_PI - asin(p->torque / p->k) : asin(p->torque / p->k);
   const double rate = (sqrt(p->beta * p->beta - 4 * p->k * cos(saddle)) - p->beta) / 2;
@@ -27,17 +27,17 @@ static bool passes(const kz_pendulum *p, int sign) {
 }
 
 /* 1 if the pendulum at a value has a running state of this sign, 0 if not, -1 where that is not known. */
-static int runs(const kz_path *path, double value, int sign) {
+static int running_runs(const kz_path *path, double value, int sign) {
   kz_pendulum p;
   if (!path->pendulum(path->context, value, &p) || kz_is_driven(&p) || !(p.beta > 0)) return -1;
-  return fabs(p.torque) >= fabs(p.k) ? sign * p.torque > 0 : passes(&p, sign);
+  return fabs(p.torque) >= fabs(p.k) ? sign * p.torque > 0 : running_passes(&p, sign);
 }
 
 double kz_running_birth(const kz_path *path, double with, double without, int32_t winding) {
-  if (runs(path, with, winding) != 1 || runs(path, without, winding) != 0) return NAN;
+  if (running_runs(path, with, winding) != 1 || running_runs(path, without, winding) != 0) return NAN;
   for (int i = 0; i < HALVINGS; i++) {
     const double middle = with + (without - with) / 2;
-    const int here = runs(path, middle, winding);
+    const int here = running_runs(path, middle, winding);
     if (here < 0) return NAN;
     if (middle == with || middle == without) break;
     *(here ? &with : &without) = middle;

@@ -28,8 +28,8 @@ typedef struct {
 } walking;
 
 /* Value of a step of a walk. */
-static int64_t value_at(const kz_sweep_plan *plan, int64_t walk, int64_t step) {
-  return walk == 0 ? step : plan->values.count - 1 - step;
+static int64_t value_at(const kz_sweep_plan *plan, int64_t strobe_walk, int64_t step) {
+  return strobe_walk == 0 ? step : plan->values.count - 1 - step;
 }
 
 /* out: [samples] angles, then velocities. */

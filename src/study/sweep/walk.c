@@ -80,7 +80,7 @@ static bool cycle_of(const kz_plane *plane, const kz_attractor *point, double pl
 }
 
 /* The point of a branch that a cycle is. */
-static bool describe(const walking *w, const kz_plane_cycle *c, kz_attractor *point) {
+static bool walk_describe(const walking *w, const kz_plane_cycle *c, kz_attractor *point) {
   kz_pendulum pendulum;
   const double *place = c->y + 2 * c->kind.of.points;
   const bool at_end = *place == 0 || *place == 1;
@@ -161,7 +161,7 @@ static int kind_of_event(const walking *w, const kz_plane_cycle *c, const kz_bra
   return kind;
 }
 
-static void follow(const walking *w, const kz_plane_cycle *c, const double along[2], kz_sweep_piece piece, int depth);
+static void walk_follow(const walking *w, const kz_plane_cycle *c, const double along[2], kz_sweep_piece piece, int depth);
 
 /* What branches off at an event, within the way. */
 static void follow_child(const walking *w, const kz_plane_cycle *flip, int kind, int depth) {
@@ -172,7 +172,7 @@ static void follow_child(const walking *w, const kz_plane_cycle *flip, int kind,
   const double at = value_at(w->way, flip->y[2 * flip->kind.of.points]);
   const kz_sweep_piece piece = {
       .begin = at, .begin_kind = kind, .reached = -1, .step = FIRST, .twice = is_symmetric(flip) && child.kind.of.side > 0};
-  follow(w, &child, along, piece, depth + 1);
+  walk_follow(w, &child, along, piece, depth + 1);
 }
 
 /* A branch that is cut into pieces where something happens. */
@@ -191,7 +191,7 @@ static void add_piece(const branching *b) {
 }
 
 /* Ends a piece at an event and begins the next one; false where the branch ends there. */
-static bool pass(branching *b, const kz_branch_event *event, int depth) {
+static bool walk_pass(branching *b, const kz_branch_event *event, int depth) {
   const bool merges = event->what > KZ_EVENT_FLIP;
   const int n = 2 * b->c->kind.of.points;
   kz_plane_cycle at, here = {.kind = b->c->kind};
@@ -206,7 +206,7 @@ static bool pass(branching *b, const kz_branch_event *event, int depth) {
   }
   b->piece.end = value_at(b->w->way, where), b->piece.end_kind = kind, b->piece.attracts = b->sign[0] && b->sign[1];
   memcpy(here.y, event->y, sizeof here.y);
-  if (!describe(b->w, &here, &b->piece.point)) b->piece.point.period = kz_kind_period(&b->c->kind);
+  if (!walk_describe(b->w, &here, &b->piece.point)) b->piece.point.period = kz_kind_period(&b->c->kind);
   add_piece(b);
   if (merges) return false;
   b->sign[event->what == KZ_EVENT_FOLD ? 0 : 1] ^= true;
@@ -216,22 +216,22 @@ static bool pass(branching *b, const kz_branch_event *event, int depth) {
 }
 
 /* Ends the last piece, between the last two rows: at a value that the branch reaches, or where it is lost. */
-static void finish(branching *b, const kz_branch_row *former, const kz_branch_row *last, bool reaches) {
+static void walk_finish(branching *b, const kz_branch_row *former, const kz_branch_row *last, bool reaches) {
   const way *w = b->w->way;
   const double at = last->y[2 * b->c->kind.of.points], place = at > 1 ? 1 : 0;
   kz_plane_cycle there;
   b->piece.attracts = b->sign[0] && b->sign[1];
-  if (reaches && solve_at(b->w, b->c, former, last, place, &there) && describe(b->w, &there, &b->piece.point))
+  if (reaches && solve_at(b->w, b->c, former, last, place, &there) && walk_describe(b->w, &there, &b->piece.point))
     b->piece.reached = place == 1;
   else if (b->piece.attracts && fabs(1 - at) < STUCK && !is_damped(b->w, 1)) /* complex multipliers come to the unit circle */
     b->piece.end = w->to, b->piece.end_kind = KZ_END_NEIMARK_SACKER;
   else
     b->piece.end = value_at(w, fmin(fmax(at, 0), 1)), b->piece.end_kind = KZ_END_NOT_LOCATED;
-  if (b->piece.reached >= 0 || describe(b->w, b->c, &b->piece.point)) add_piece(b);
+  if (b->piece.reached >= 0 || walk_describe(b->w, b->c, &b->piece.point)) add_piece(b);
 }
 
 /* Follows a cycle along the way, with what branches off, until it leaves the way or ends. `piece`: how it begins. */
-static void follow(const walking *w, const kz_plane_cycle *c, const double along[2], kz_sweep_piece piece, int depth) {
+static void walk_follow(const walking *w, const kz_plane_cycle *c, const double along[2], kz_sweep_piece piece, int depth) {
   const int n = 2 * c->kind.of.points;
   KZ_FREED kz_branch_row *row = kz_malloc(MOST_ROWS * sizeof *row);
   KZ_FREED kz_branch_event *event = kz_malloc(MOST_EVENTS * sizeof *event);
@@ -247,12 +247,12 @@ static void follow(const walking *w, const kz_plane_cycle *c, const double along
   }
   b.sign[0] = 1 + row->number[1] - row->number[0] > 0, b.sign[1] = 1 + row->number[1] + row->number[0] > 0;
   for (int64_t i = 0; i < end.events; i++)
-    if (!pass(&b, event + i, depth)) return;
+    if (!walk_pass(&b, event + i, depth)) return;
   const kz_branch_row *last = row + end.rows - 1, *former = end.rows > 1 ? last - 1 : last;
   if (b.passes)
-    finish(&b, last, &b.beyond, true);
+    walk_finish(&b, last, &b.beyond, true);
   else
-    finish(&b, former, last, end.ending == KZ_TRACE_LEFT && end.rows > 1);
+    walk_finish(&b, former, last, end.ending == KZ_TRACE_LEFT && end.rows > 1);
 }
 
 void kz_sweep_follow(const kz_path *path, double from, double to, int64_t max_period, const kz_attractor *point, double step,
@@ -265,7 +265,7 @@ void kz_sweep_follow(const kz_path *path, double from, double to, int64_t max_pe
   if (plane_of(&w, &walk.plane) && cycle_of(&walk.plane, point, 0, &c)) {
     walk.rough = walk.plane;
     walk.rough.steps /= 2;
-    follow(&walk, &c, along, (kz_sweep_piece){.from_start = 1, .reached = -1, .step = step > 0 ? step : FIRST}, 0);
+    walk_follow(&walk, &c, along, (kz_sweep_piece){.from_start = 1, .reached = -1, .step = step > 0 ? step : FIRST}, 0);
   }
   if (found->count == 0)
     found->piece[found->count++] =

@@ -23,7 +23,7 @@ typedef struct {
 } approach;
 
 /* `longest`: periods for which it is followed at most. With a multiplier of almost 1 it would take too long otherwise. */
-static approach begin(int64_t certain, const kz_entry *entry, int64_t first, int64_t longest) {
+static approach approach_begin(int64_t certain, const kz_entry *entry, int64_t first, int64_t longest) {
   const kz_attractor *row = &entry->row;
   const double size = fmin(fmax(hypot(row->multiplier_re[0], row->multiplier_im[0]), 1e-3), 1 - DBL_EPSILON);
   const double fold = fmin(row->period / -log(size), (double)longest);
@@ -36,7 +36,7 @@ static approach begin(int64_t certain, const kz_entry *entry, int64_t first, int
 }
 
 /* Takes note of the angle (rad) at strobe `time`. */
-static void look(approach *a, int64_t time, double theta) {
+static void approach_look(approach *a, int64_t time, double theta) {
   const int32_t period = a->entry->row.period;
   for (int32_t phase = 0; phase < period; phase++) {
     const double away = remainder(theta - a->entry->theta[(time + phase) % period], 2 * M_PI);
@@ -49,12 +49,12 @@ static void look(approach *a, int64_t time, double theta) {
 }
 
 /* Follows n <= TOGETHER motions from their states [n][2] at strobes first [n] until all are done. */
-static void follow(kz_dynamics *dynamics, int64_t n, approach *a, const int64_t *first, double *state) {
+static void approach_follow(kz_dynamics *dynamics, int64_t n, approach *a, const int64_t *first, double *state) {
   int64_t open = n;
   for (int64_t step = 0; open > 0; step++) {
     open = 0;
     for (int64_t i = 0; i < n; i++) {
-      if (!a[i].done) look(a + i, first[i] + step, M_PI * state[2 * i]);
+      if (!a[i].done) approach_look(a + i, first[i] + step, M_PI * state[2 * i]);
       open += !a[i].done;
     }
     kz_dynamics_advance(dynamics, n, state);
@@ -70,10 +70,10 @@ void kz_endings_approach(const kz_question *q, const double *state, const int64_
       if (!kz_evidence_word(endings[i].end.evidence) || endings[i].entry.row.period < 1) continue;
       memcpy(now + 2 * n, state + 2 * i, 2 * sizeof *now);
       first[n] = periods[i];
-      a[n] = begin(endings[i].end.periods, &endings[i].entry, first[n], q->max_periods);
+      a[n] = approach_begin(endings[i].end.periods, &endings[i].entry, first[n], q->max_periods);
       of[n++] = i;
     }
-    follow(q->dynamics, n, a, first, now);
+    approach_follow(q->dynamics, n, a, first, now);
     for (int64_t j = 0; j < n; j++) {
       endings[of[j]].near_time = a[j].answer;
       free(a[j].last);

@@ -70,7 +70,7 @@ static int64_t periods_of(const piece *p, int i) {
 
 /* The neighbours between which the labels change: those that settle soonest, because the boundary between them takes the shortest orbit, and of
  * these the ones nearest to the middle. The number of the first; -1: none. */
-static int meeting(const piece *p) {
+static int bisect_meeting(const piece *p) {
   int found = -1;
   int64_t fewest = INT64_MAX;
   for (int j = 0; j + 1 < POINTS; j++) {
@@ -98,7 +98,7 @@ static kz_status search_piece(piece *p, double finest, bool *found) {
   p->share[POINTS - 1] = 0.5;
   KZ_TRY(follow_piece(p));
   KZ_TRY(label_points(p, 0, POINTS - 1));
-  for (int i = meeting(p); i >= 0; i = meeting(p)) {
+  for (int i = bisect_meeting(p); i >= 0; i = bisect_meeting(p)) {
     *found = true;
     close_in(p, i);
     if (!(p->share[POINTS - 1] - p->share[0] > finest)) break;
@@ -107,7 +107,7 @@ static kz_status search_piece(piece *p, double finest, bool *found) {
   return KZ_OK;
 }
 
-static kz_status lost(const kz_question *q) {
+static kz_status bisect_lost(const kz_question *q) {
   return kz_fail(
       KZ_REFUSED,
       "--boundary: beside the boundary no starts on both sides settle within %lld periods (max_periods of the scene); "
@@ -116,9 +116,9 @@ static kz_status lost(const kz_question *q) {
 }
 
 /* Notes where the boundary lies in a piece whose width is 2^exponent of the largest one's. */
-static kz_status note(const piece *p, int exponent, spot *s) {
+static kz_status bisect_note(const piece *p, int exponent, spot *s) {
   const __float128 middle = (p->share[0] + p->share[POINTS - 1]) / 2;
-  if (s->n + 2 > MOST_PARTS) return lost(p->question);
+  if (s->n + 2 > MOST_PARTS) return bisect_lost(p->question);
   s->part[s->n++] = ldexp((double)middle, exponent);
   s->part[s->n++] = ldexp((double)(middle - (double)middle), exponent);
   s->bracket = ldexp((double)(p->share[POINTS - 1] - p->share[0]), exponent);
@@ -130,7 +130,7 @@ static int64_t digits_of(double share) {
   return (int64_t)ceil(-log10(share));
 }
 
-static kz_status narrow(piece *p, int exponent, double finest, spot *s, bool *found);
+static kz_status bisect_narrow(piece *p, int exponent, double finest, spot *s, bool *found);
 
 /* Goes on in a smaller piece about the bracket of this one. A piece without a boundary is made wider. */
 static kz_status narrow_within(const piece *p, int exponent, double finest, spot *s) {
@@ -140,18 +140,18 @@ static kz_status narrow_within(const piece *p, int exponent, double finest, spot
     const double finer = ldexp(finest, -narrower);
     piece smaller = {.question = p->question, .images = kz_images_beside(p->images, middle, narrower, digits_of(finer))};
     bool found;
-    const kz_status status = narrow(&smaller, exponent + narrower, finer, s, &found);
+    const kz_status status = bisect_narrow(&smaller, exponent + narrower, finer, s, &found);
     kz_images_free(smaller.images);
     if (status != KZ_OK || found) return status;
   }
-  return lost(p->question);
+  return bisect_lost(p->question);
 }
 
 /* Finds the boundary in a piece to `finest` of its width. */
-static kz_status narrow(piece *p, int exponent, double finest, spot *s, bool *found) {
+static kz_status bisect_narrow(piece *p, int exponent, double finest, spot *s, bool *found) {
   KZ_TRY(search_piece(p, fmax(nearest, finest), found));
   if (!*found) return KZ_OK;
-  KZ_TRY(note(p, exponent, s));
+  KZ_TRY(bisect_note(p, exponent, s));
   return ldexp(s->bracket, -exponent) > finest ? narrow_within(p, exponent, finest, s) : KZ_OK;
 }
 
@@ -163,7 +163,7 @@ typedef struct {
 enum { MORE_DIGITS = 20 }; /* Digits of the line beyond those that are asked for */
 
 /* to = from + share * width, with so many digits behind the point; from "" = 0. `to` may be either of them. */
-static kz_status add(const kz_decimal *from, const kz_decimal *width, double share, int64_t digits, kz_decimal *to) {
+static kz_status bisect_add(const kz_decimal *from, const kz_decimal *width, double share, int64_t digits, kz_decimal *to) {
   const kz_coordinate sum = {.centre = from->text[0] ? from->text : NULL, .width = width->text, .share = share};
   char text[KZ_DECIMAL_LENGTH];
   KZ_TRY(kz_coordinate_text(&sum, digits + MORE_DIGITS, text, sizeof text));
@@ -171,14 +171,14 @@ static kz_status add(const kz_decimal *from, const kz_decimal *width, double sha
   return KZ_OK;
 }
 
-static kz_status begin(const kz_question *q, int64_t digits, line *l) {
+static kz_status bisect_begin(const kz_question *q, int64_t digits, line *l) {
   for (int i = 0; i < 2; i++) {
     const kz_coordinate *first = &q->start[0][i], *second = &q->start[1][i];
     const __float128 way = kz_coordinate_difference(second, first, 4 * (digits + MORE_DIGITS));
     const kz_coordinate width = {.high = (double)way, .low = (double)(way - (double)way)};
     KZ_TRY(kz_coordinate_text(first, digits + MORE_DIGITS, l->point[i].text, sizeof l->point[i].text));
     KZ_TRY(kz_coordinate_text(&width, digits + MORE_DIGITS, l->width[i].text, sizeof l->width[i].text));
-    KZ_TRY(add(&l->point[i], &l->width[i], 0.5, digits, &l->point[i]));
+    KZ_TRY(bisect_add(&l->point[i], &l->width[i], 0.5, digits, &l->point[i]));
   }
   return KZ_OK;
 }
@@ -187,8 +187,8 @@ static kz_status begin(const kz_question *q, int64_t digits, line *l) {
 static kz_status follow_line(line *l, const spot *s, double narrower, int64_t digits) {
   static const kz_decimal zero = {.text = ""};
   for (int axis = 0; axis < 2; axis++) {
-    for (int i = 0; i < s->n; i++) KZ_TRY(add(&l->point[axis], &l->width[axis], s->part[i], digits, &l->point[axis]));
-    KZ_TRY(add(&zero, &l->width[axis], narrower, digits, &l->width[axis]));
+    for (int i = 0; i < s->n; i++) KZ_TRY(bisect_add(&l->point[axis], &l->width[axis], s->part[i], digits, &l->point[axis]));
+    KZ_TRY(bisect_add(&zero, &l->width[axis], narrower, digits, &l->width[axis]));
   }
   return KZ_OK;
 }
@@ -208,7 +208,7 @@ static kz_status narrow_line(const kz_question *q, const line *l, double finest,
   const kz_coordinate point[2] = {{.centre = l->point[0].text, .width = l->width[0].text},
                                   {.centre = l->point[1].text, .width = l->width[1].text}};
   piece p = {.question = q, .images = kz_images_on_line(q->dynamics, &q->scene->parameters.pendulum, point, digits_of(finest))};
-  const kz_status status = narrow(&p, 0, finest, s, found);
+  const kz_status status = bisect_narrow(&p, 0, finest, s, found);
   kz_images_free(p.images);
   return status;
 }
@@ -220,7 +220,7 @@ static kz_status narrow_all(const kz_question *q, line *l, int64_t digits, kz_bi
     spot s = {.n = 0};
     bool found;
     KZ_TRY(narrow_line(q, l, fmax(finest_share(size / whole), (double)(enough / size) / roomy), &s, &found));
-    if (!found && ++widenings > MOST_WIDENINGS) return lost(q);
+    if (!found && ++widenings > MOST_WIDENINGS) return bisect_lost(q);
     if (found) memcpy(bisection->label, s.label, sizeof s.label);
     KZ_TRY(follow_line(l, &s, found ? roomy * s.bracket : ldexp(1, WIDENING), digits));
   }
@@ -234,7 +234,7 @@ static kz_status round_to(const kz_decimal *point, int64_t digits, char *text) {
 
 kz_status kz_bisect(const kz_question *question, int64_t digits, kz_bisection *bisection) {
   line l;
-  KZ_TRY(begin(question, digits, &l));
+  KZ_TRY(bisect_begin(question, digits, &l));
   KZ_TRY(narrow_all(question, &l, digits, bisection));
   KZ_TRY(round_to(&l.point[0], digits, bisection->theta));
   return round_to(&l.point[1], digits, bisection->velocity);

@@ -24,7 +24,7 @@ static kz_status start_of(void *context, int64_t i, kz_precision level, kz_start
 }
 
 /* Of kz_added_levels: starts with more digits than a pair has. Doubles are labelled as method exact labels the cells of a file. */
-static kz_status decide(void *context, int32_t row, int64_t n, const int64_t *item, kz_decision *decision) {
+static kz_status where_decide(void *context, int32_t row, int64_t n, const int64_t *item, kz_decision *decision) {
   const kz_question *q = context;
   (void)row;
   for (int64_t i = 0; i < n; i++) {
@@ -37,12 +37,12 @@ static kz_status decide(void *context, int32_t row, int64_t n, const int64_t *it
 }
 
 /* A kz_note_fn. */
-static void note(void *context, int64_t i, const kz_decision *decision) {
+static void where_note(void *context, int64_t i, const kz_decision *decision) {
   ((kz_question *)context)->error[i] = decision->error;
 }
 
 static kz_labeller labeller_of(const kz_question *q) {
-  static const kz_added_levels own_orbits = {&kz_own_orbit_level, 1, decide};
+  static const kz_added_levels own_orbits = {&kz_own_orbit_level, 1, where_decide};
   return (kz_labeller){.dynamics = q->dynamics,
                        .max_periods = q->max_periods,
                        .way = KZ_BY_LEVELS,
@@ -50,7 +50,7 @@ static kz_labeller labeller_of(const kz_question *q) {
                        .open = KZ_OPEN_CANDIDATES,
                        .start = start_of,
                        .added = &own_orbits,
-                       .note = note,
+                       .note = where_note,
                        .context = (void *)q};
 }
 
@@ -67,7 +67,7 @@ void kz_question_free(kz_question *q) {
   free(q->error);
 }
 
-static void describe(const kz_label *d, double error, const kz_catalogue *catalogue, kz_ending *ending) {
+static void where_describe(const kz_label *d, double error, const kz_catalogue *catalogue, kz_ending *ending) {
   if (d->label <= 0) return;
   ending->end = *d;
   ending->end.label = (int16_t)catalogue->id_of[d->label];
@@ -86,7 +86,7 @@ static void describe(const kz_label *d, double error, const kz_catalogue *catalo
 kz_status kz_question_answer(const kz_question *q, const kz_catalogue *catalogue, kz_ending *endings) {
   KZ_FREED double *state = kz_malloc(2 * (size_t)q->n * sizeof *state + 1);
   KZ_FREED int64_t *periods = kz_malloc((size_t)q->n * sizeof *periods + 1);
-  for (int64_t i = 0; i < q->n; i++) describe(q->label + i, q->error[i], catalogue, endings + i);
+  for (int64_t i = 0; i < q->n; i++) where_describe(q->label + i, q->error[i], catalogue, endings + i);
   const kz_labeller labeller = labeller_of(q);
   KZ_TRY(kz_item_states(&labeller, q->n, NULL, state, periods));
   kz_endings_approach(q, state, periods, endings);
@@ -122,7 +122,7 @@ static kz_status find_attractors(kz_question *q, kz_search *search, int32_t *lab
   return kz_search_window(NULL, q->dynamics, search, label);
 }
 
-static kz_status answer(where_job *a, kz_ending *endings) {
+static kz_status where_answer(where_job *a, kz_ending *endings) {
   kz_question *q = &a->question;
   kz_search search = kz_search_of(q->scene);
   KZ_FREED_BY(kz_catalogue_free) kz_catalogue catalogue = {0};
@@ -147,7 +147,7 @@ static kz_status where_label(const kz_scene *scene, int64_t n, const kz_coordina
   if (!scene->has_basin && !scene->has_attractors)
     return kz_fail(KZ_REFUSED, "scene: has no window to search for attractors; add a basin or attractors study to it");
   if (n == 0 || scene->parameters.pendulum.beta <= 0) return KZ_OK; /* without damping nothing attracts */
-  return answer(job, endings);
+  return where_answer(job, endings);
 }
 
 static void where_close(where_job *a) {

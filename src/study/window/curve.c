@@ -31,7 +31,7 @@ static double width_at(const kz_window_curve *c, const double half[2], int corne
 }
 
 /* Places of an axis's cells, in steps. */
-static double *places(const kz_axis *axis, double along, double scale, double first) {
+static double *curve_places(const kz_axis *axis, double along, double scale, double first) {
   double *place = kz_malloc((size_t)axis->count * sizeof *place);
   for (int64_t i = 0; i < axis->count; i++) place[i] = along * scale * kz_axis_share(axis, i) - first;
   return place;
@@ -57,8 +57,8 @@ void kz_window_curve_make(const kz_window_starts *starts, kz_window_curve *curve
     if (!(width_at(curve, half, corner) < thin)) return;
   const double farthest = (fabs(curve->along[0]) * half[0] + fabs(curve->along[1]) * half[1]) / curve->step;
   curve->count = 2 * (int64_t)ceil(farthest) + 1;
-  curve->column = places(axes[0], curve->along[0] / curve->step, scale[0], -ceil(farthest));
-  curve->row = places(axes[1], curve->along[1] / curve->step, scale[1], 0);
+  curve->column = curve_places(axes[0], curve->along[0] / curve->step, scale[0], -ceil(farthest));
+  curve->row = curve_places(axes[1], curve->along[1] / curve->step, scale[1], 0);
 }
 
 void kz_window_curve_free(kz_window_curve *curve) {

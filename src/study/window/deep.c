@@ -15,7 +15,7 @@ typedef struct {
   kz_window_starts starts;
 } deep;
 
-static kz_status make(const kz_scene *scene, void **own) {
+static kz_status deep_make(const kz_scene *scene, void **own) {
   deep *d = kz_calloc(1, sizeof *d);
   d->decides = scene->deep->undecided == KZ_UNDECIDED_DECIDE;
   *own = d;
@@ -54,10 +54,10 @@ static void start_at(const void *starts, kz_precision level, __float128 theta, _
   kz_hand_over_start((const kz_hand_over *)starts + level, theta, velocity, start);
 }
 
-static const char *advice(void *own) {
+static const char *deep_advice(void *own) {
   if (((const deep *)own)->decides) return "the largest number of digits that was tried does not decide where they end.";
   return "their orbits need more than quad precision; basin.undecided: decide follows them further.";
 }
 
 const kz_basin_part kz_deep_part = {
-    .make = make, .free = free_deep, .label = label, .starts = starts_of, .start_at = start_at, .advice = advice};
+    .make = deep_make, .free = free_deep, .label = label, .starts = starts_of, .start_at = start_at, .advice = deep_advice};

@@ -99,7 +99,7 @@ static __float128 in_quads(const __float128 *linear, const long double *b, __flo
 }
 
 /* pair = centre + change, where the change is the smaller one. */
-static void add(const double centre[2], double change, double pair[2]) {
+static void hand_over_add(const double centre[2], double change, double pair[2]) {
   const double rest = centre[1] + change;
   pair[0] = centre[0] + rest;
   pair[1] = rest - (pair[0] - centre[0]);
@@ -124,7 +124,7 @@ void kz_hand_over_start(const kz_hand_over *h, __float128 theta, __float128 velo
   } else {
     double change[2];
     kz_hand_over_change(h, (double)theta, (double)velocity, change);
-    add(image->theta, change[0], start->theta);
-    add(image->velocity, change[1], start->velocity);
+    hand_over_add(image->theta, change[0], start->theta);
+    hand_over_add(image->velocity, change[1], start->velocity);
   }
 }

@@ -128,14 +128,14 @@ static bool is_trapped(const kz_images *images, kz_dynamics *dynamics) {
   return kz_start_is_trapped(dynamics, &start);
 }
 
-static void reserve(kz_images *images, int64_t n) {
+static void images_reserve(kz_images *images, int64_t n) {
   if (n < images->capacity) return;
   images->capacity = 2 * images->capacity > n + 1 ? 2 * images->capacity : n + 1;
   images->image = kz_realloc(images->image, (size_t)images->capacity * sizeof *images->image);
 }
 
 /* Marks the last image, from the final drive on; the first one that is too bent for it ends the marking. */
-static void mark(kz_images *images) {
+static void images_mark(kz_images *images) {
   if (!kz_image_is_straight(images, images->n, images->digits)) {
     images->digits = 0;
     return;
@@ -146,7 +146,7 @@ static void mark(kz_images *images) {
 }
 
 static kz_status add_image(kz_images *images) {
-  reserve(images, images->n + 1);
+  images_reserve(images, images->n + 1);
   const kz_image *last = images->image + images->n;
   kz_image *next = images->image + images->n + 1;
   const int64_t needed = bits_for(size_of(&last->jet), guard_of(images)), bits = kz_smaller(needed, images->bits);
@@ -157,7 +157,7 @@ static kz_status add_image(kz_images *images) {
   next->turns = kz_arbitrary_turns(images->orbit);
   next->lost = last->lost + (double)(exp2l((long double)(4 - bits)) / size_of(&next->jet));
   images->n++;
-  if (images->digits > 0) mark(images);
+  if (images->digits > 0) images_mark(images);
   return KZ_OK;
 }
 
@@ -206,8 +206,8 @@ bool kz_images_serve(const kz_images *images, kz_dynamics *dynamics, const kz_pe
 /* ---- the images in pieces of a few periods: each piece needs the one before, and is a stage of one tile. Together they are shown as one. ---- */
 
 /* Replaces all images after image `before` by n images that another rank has made. */
-static void extend(kz_images *images, int64_t before, int64_t n, const kz_image *image, bool finished) {
-  reserve(images, before + n);
+static void images_extend(kz_images *images, int64_t before, int64_t n, const kz_image *image, bool finished) {
+  images_reserve(images, before + n);
   memcpy(images->image + before + 1, image, (size_t)n * sizeof *image);
   images->n = before + n;
   images->finished = finished;
@@ -245,7 +245,7 @@ static kz_status run_piece(const kz_run *run, const work *w, piece *record, size
   const int64_t before = w->images->n;
   const kz_stage stage = kz_stage_for_all("reference", 1, bytes, follow_piece, (void *)w);
   KZ_TRY(kz_stage_run(run, &stage, record));
-  extend(w->images, before, record->n, record->image, record->finished);
+  images_extend(w->images, before, record->n, record->image, record->finished);
   return kz_ranks_agree(run->ranks, kz_arbitrary_restore(w->images->orbit, (const char *)(record + 1)));
 }
 

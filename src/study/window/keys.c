@@ -32,18 +32,18 @@ static const kz_key keys[] = {
     {.path = NULL},
 };
 
-static const char *lack(const kz_scene *scene) {
+static const char *keys_lack(const kz_scene *scene) {
   const bool exact = scene->basin->method == KZ_METHOD_EXACT && isnan(scene->basin->accuracy);
   if (scene->deep->undecided == KZ_UNDECIDED_FLAG || exact) return NULL;
   return "undecided: decide needs basin.method: exact; choose that method, or flag";
 }
 
-static const char *limit(const kz_scene *scene, kz_drive_need need) {
+static const char *keys_limit(const kz_scene *scene, kz_drive_need need) {
   if (need != KZ_NEEDS_ONE_PHASE) return NULL;
   if (scene->deep->undecided == KZ_UNDECIDED_DECIDE) return "basin.undecided decide needs starts at one phase; choose flag";
   if (!scene->basin->theta.centre.text[0] && !scene->basin->velocity.centre.text[0]) return NULL;
   return "a window by centre and width needs starts at one phase; give min and max";
 }
 
-KZ_PART_ROW("basin", has_basin, .of_basin = &kz_deep_part, .lack = lack, .limit = limit, .levels = &kz_own_orbit_level,
-            .n_levels = 1);
+KZ_PART_ROW("basin", has_basin, .of_basin = &kz_deep_part, .lack = keys_lack, .limit = keys_limit,
+            .levels = &kz_own_orbit_level, .n_levels = 1);

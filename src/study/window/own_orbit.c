@@ -26,7 +26,7 @@ typedef struct {
 
 /* Carries the ellipse through a period with the tangent map, and adds that of the period's own error `own`, whatever their directions: the
  * sum holds both (the sum of the axes, not of their squares). */
-static void carry(const kz_jet *tangent, long double own, ellipse *e) {
+static void own_orbit_carry(const kz_jet *tangent, long double own, ellipse *e) {
   const long double a = (long double)tangent->linear[0][0], b = (long double)tangent->linear[0][1],
                     c = (long double)tangent->linear[1][0], d = (long double)tangent->linear[1][1];
   const ellipse s = {a * a * e->xx + 2 * a * b * e->xy + b * b * e->yy, a * c * e->xx + (a * d + b * c) * e->xy + b * d * e->yy,
@@ -52,14 +52,14 @@ static bool is_lost(const path *p) {
 }
 
 /* A period: in no more bits than the error so far leaves of use. */
-static kz_status advance(path *p) {
+static kz_status own_orbit_advance(path *p) {
   enum { FINER = 10 }; /* bits below the error */
   const int64_t spent = (int64_t)floorl(log2l(p->error.xx + p->error.yy) / 2) - FINER;
   const int64_t bits = p->bits - spent < KZ_FEWEST_BITS ? KZ_FEWEST_BITS : p->bits - spent;
   const int64_t taken = kz_smaller(bits, p->bits);
   kz_jet tangent = {.linear = {{1, 0}, {0, 1}}};
   KZ_TRY(kz_arbitrary_advance(p->orbit, taken, 1, &tangent));
-  carry(&tangent, exp2l((long double)(p->bits - taken)), &p->error);
+  own_orbit_carry(&tangent, exp2l((long double)(p->bits - taken)), &p->error);
   return KZ_OK;
 }
 
@@ -77,7 +77,7 @@ static kz_start start_of(const path *p) {
 /* If doubles, without regard to errors, end nowhere known, more digits would not find an attractor that the catalogue lacks.
  * Until it is decided, or quad precision has as many digits as the orbit has left and goes on: decision->end.label is KZ_DOUBTFUL if that does not
  * decide it. */
-static kz_status follow(path *p, kz_dynamics *dynamics, int64_t max_periods, kz_decision *decision) {
+static kz_status own_orbit_follow(path *p, kz_dynamics *dynamics, int64_t max_periods, kz_decision *decision) {
   decision->end.label = KZ_DOUBTFUL;
   for (; !is_lost(p); p->periods++) {
     if (p->periods >= p->released && (p->periods % TRY_EVERY == 0 || p->periods >= max_periods)) {
@@ -85,7 +85,7 @@ static kz_status follow(path *p, kz_dynamics *dynamics, int64_t max_periods, kz_
       kz_decide_in_doubles(dynamics, &start, max_periods, p->periods % LOOK_EVERY == 0, decision);
       if (decision->end.label != KZ_DOUBTFUL || p->periods >= max_periods) return KZ_OK;
     }
-    KZ_TRY(advance(p));
+    KZ_TRY(own_orbit_advance(p));
   }
   if (p->periods < p->released) return KZ_OK;
   const kz_start start = start_of(p);
@@ -111,7 +111,7 @@ kz_status kz_own_orbit_decide(kz_dynamics *dynamics, const kz_pendulum *pendulum
     p.orbit = kz_arbitrary_create(pendulum, start, p.bits);
     kz_arbitrary_release(p.orbit, &release);
     p.from = start_of(&p).theta[0];
-    status = follow(&p, dynamics, max_periods, decision);
+    status = own_orbit_follow(&p, dynamics, max_periods, decision);
     kz_arbitrary_free(p.orbit);
     if (bits >= MOST_BITS) break;
   }

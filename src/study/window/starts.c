@@ -6,7 +6,7 @@
 #include "kapitza/study_basin.h"
 
 /* Places of the cells of an axis. */
-static __float128 *places(const kz_axis *axis, const kz_view *view, int i) {
+static __float128 *starts_places(const kz_axis *axis, const kz_view *view, int i) {
   __float128 *place = kz_malloc((size_t)axis->count * sizeof *place);
   for (int64_t cell = 0; cell < axis->count; cell++) place[cell] = view->offset[i] + view->scale[i] * kz_axis_share(axis, cell);
   return place;
@@ -22,8 +22,8 @@ void kz_window_starts_make(const kz_basin_plan *plan, const kz_pendulum *pendulu
   }
   kz_images_serve(images, dynamics, pendulum, &plan->theta, &plan->velocity, &view);
   kz_hand_overs_make(images, view.reach, starts->hand_over);
-  starts->place[0] = places(&plan->theta, &view, 0);
-  starts->place[1] = places(&plan->velocity, &view, 1);
+  starts->place[0] = starts_places(&plan->theta, &view, 0);
+  starts->place[1] = starts_places(&plan->velocity, &view, 1);
 }
 
 void kz_window_starts_free(kz_window_starts *starts) {

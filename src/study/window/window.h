@@ -115,7 +115,7 @@ void kz_window_starts_make(const kz_basin_plan *plan, const kz_pendulum *pendulu
 void kz_window_starts_free(kz_window_starts *starts);
 
 /* The labeller of the cells. decide = true: cells that quad precision does not decide are decided by their own orbits. */
-kz_labeller kz_window_labeller(const kz_window_starts *starts, bool decide);
+kz_labeller kz_window_labeller(const kz_window_starts *starts, bool cells_decide);
 
 /* ---- curves: the map stretches a small window along one direction and compresses it across. When its cells are handed over to doubles, a
  * deep window has become a curve, so samples along the curve give the labels of all cells. ---- */

@@ -7,7 +7,7 @@ static const double ROUNDING =
     1e-14; /* Rounding of the few operations on numbers below 4 that compare with the strobe points */
 
 /* The ellipse shrinks as long as it traps; false where none does. */
-static bool shrink(const kz_proof *proof, int64_t period, const double centre[2], kz_proof_ellipse *ellipse) {
+static bool cycle_shrink(const kz_proof *proof, int64_t period, const double centre[2], kz_proof_ellipse *ellipse) {
   const double smallest = 1e-14, factor = 0.5;
   if (!(ellipse->radius > 0)) return false;
   for (kz_proof_ellipse next = *ellipse; next.radius > smallest; *ellipse = next) {
@@ -79,7 +79,7 @@ bool kz_proof_confine(const kz_proof *proof, const kz_proof_cycle *cycle, double
                       double multiplier[2]) {
   const double centre[2] = {cycle->theta[0], cycle->velocity[0]};
   kz_proof_ellipse ellipse = kz_proof_find_trap(proof, cycle->period, centre[0], centre[1]);
-  if (!shrink(proof, cycle->period, centre, &ellipse)) return false;
+  if (!cycle_shrink(proof, cycle->period, centre, &ellipse)) return false;
   const kz_enclosure begin = kz_set_around(centre, &ellipse);
   kz_enclosure set = begin;
   double trace, error;

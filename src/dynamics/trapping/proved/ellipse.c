@@ -13,7 +13,7 @@ static const double LARGEST = 1, SMALLEST = 1e-5,
 
 static const double CENTRE_ROUNDING = 4e-15; /* Rounding of the difference of two centres, rad and rad per drive radian */
 
-static void advance(const kz_proof *proof, int64_t periods, kz_enclosure *set) {
+static void ellipse_advance(const kz_proof *proof, int64_t periods, kz_enclosure *set) {
   for (int64_t i = 0; i < periods && isfinite(set->reach[0]); i++)
     kz_enclosures_advance(proof->tables[KZ_ENCLOSE_DOUBLES], KZ_KEEP_FRAME, 1, set);
 }
@@ -41,7 +41,7 @@ static void real_basis(const double J[2][2], double half, double root, double M[
 static bool find_axes(const kz_proof *proof, int64_t period, const double centre[2], double M[2][2]) {
   const double tiny = 1e-6;
   kz_enclosure near = {.theta = {centre[0]}, .velocity = {centre[1]}, .matrix = {{tiny, 0}, {0, tiny}}, .reach = {1, 1}};
-  advance(proof, period, &near);
+  ellipse_advance(proof, period, &near);
   if (!isfinite(near.reach[0])) return false;
   double J[2][2];
   for (int i = 0; i < 4; i++) J[i / 2][i % 2] = near.matrix[i / 2][i % 2] / tiny;
@@ -65,7 +65,7 @@ static double length_of(const double B[2][2], double x, double y) {
 bool kz_proof_traps(const kz_proof *proof, int64_t period, double theta, double velocity, const kz_proof_ellipse *ellipse) {
   const double r = ellipse->radius, most = 1 - KZ_PROOF_ROUNDING;
   kz_enclosure set = kz_set_around((double[]){theta, velocity}, ellipse);
-  advance(proof, period, &set);
+  ellipse_advance(proof, period, &set);
   if (!isfinite(set.reach[0])) return false;
   const double off[2] = {remainder(set.theta[0] - theta, 2 * M_PI) / r, (set.velocity[0] - velocity) / r};
   double inverse[2][2];
@@ -103,7 +103,7 @@ static const double WIDTH = 0.1, WIDEST = 3; /* Relative width of a ring; larges
 static const double LARGER = 1 + 1e-7; /* Factor by which sectors are made larger: they overlap by more than their rounding */
 
 /* Sector i of the ring between r and (1 + WIDTH) r: along the radius and across it. */
-static kz_enclosure sector(const double centre[2], const double M[2][2], double r, int i) {
+static kz_enclosure ellipse_sector(const double centre[2], const double M[2][2], double r, int i) {
   const double outer = r * (1 + WIDTH), inner = r * cos(M_PI / SECTORS), across = outer * tan(M_PI / SECTORS);
   const double angle = 2 * M_PI * i / SECTORS, u[2] = {cos(angle), sin(angle)};
   const double out[2] = {M[0][0] * u[0] + M[0][1] * u[1], M[1][0] * u[0] + M[1][1] * u[1]};
@@ -120,7 +120,7 @@ static bool sectors_reach(const kz_enclosure_tables *tables, const double centre
                           int first) {
   kz_enclosure set[BATCH];
   int left = BATCH;
-  for (int i = 0; i < BATCH; i++) set[i] = sector(centre, ellipse->axes, ellipse->radius, first + i);
+  for (int i = 0; i < BATCH; i++) set[i] = ellipse_sector(centre, ellipse->axes, ellipse->radius, first + i);
   for (int period = 0; period < MOST_PERIODS && left > 0; period++) {
     kz_enclosures_advance(tables, KZ_NEW_FRAME, left, set);
     for (int i = left - 1; i >= 0; i--) {
@@ -167,7 +167,7 @@ bool kz_proof_is_mirror(const kz_proof *proof, int64_t period, const double poin
   return false;
 }
 
-static void add(kz_proof *proof, uint8_t number, double theta, double velocity, const kz_proof_ellipse *ellipse) {
+static void ellipse_add(kz_proof *proof, uint8_t number, double theta, double velocity, const kz_proof_ellipse *ellipse) {
   kz_proof_part *part = &proof->part[proof->n_parts++];
   *part = (kz_proof_part){.ellipse = *ellipse, .centre = {theta, velocity}, .number = number};
   for (int i = 0; i < 2; i++) part->half[i] = 1.001 * ellipse->radius * hypot(ellipse->axes[i][0], ellipse->axes[i][1]);
@@ -176,6 +176,6 @@ static void add(kz_proof *proof, uint8_t number, double theta, double velocity, 
 
 void kz_proof_add(kz_proof *proof, uint8_t number, uint8_t mirror, double theta, double velocity,
                   const kz_proof_ellipse *ellipse) {
-  add(proof, number, theta, velocity, ellipse);
-  if (mirror != number) add(proof, mirror, -theta, -velocity, ellipse);
+  ellipse_add(proof, number, theta, velocity, ellipse);
+  if (mirror != number) ellipse_add(proof, mirror, -theta, -velocity, ellipse);
 }

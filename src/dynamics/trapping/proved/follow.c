@@ -49,7 +49,7 @@ static kz_enclosure set_of_cell(const kz_proof *proof, int64_t f) {
 
 /* Result for an item that is known before it is followed. An angle far from the circle is not compared with the region: a period takes its whole
  * turns out. */
-static uint8_t known(const items *by, int64_t item, kz_enclosure *set) {
+static uint8_t follow_known(const items *by, int64_t item, kz_enclosure *set) {
   if (!by->start) {
     const uint8_t label = by->proof->label[by->first + item];
     if (label == 0) *set = set_of_cell(by->proof, by->first + item);
@@ -59,9 +59,9 @@ static uint8_t known(const items *by, int64_t item, kz_enclosure *set) {
   return fabs(set->theta[0]) < 4 ? kz_proof_holds(by->proof, set) : 0;
 }
 
-static void begin(pool *p) {
+static void follow_begin(pool *p) {
   for (; p->next < p->by.n && p->under_way < p->by.places; p->next++) {
-    p->by.number[p->next] = known(&p->by, p->next, &p->set[p->under_way]);
+    p->by.number[p->next] = follow_known(&p->by, p->next, &p->set[p->under_way]);
     if (p->by.number[p->next] != 0) continue;
     p->of[p->under_way] = p->next;
     p->periods[p->under_way++] = 0;
@@ -76,7 +76,7 @@ static int32_t precision_for(const kz_enclosure *set, int32_t finest) {
   return precision;
 }
 
-static void swap(pool *p, int32_t i, int32_t j) {
+static void follow_swap(pool *p, int32_t i, int32_t j) {
   const kz_enclosure set = p->set[i];
   const int64_t of = p->of[i], periods = p->periods[i];
   p->set[i] = p->set[j];
@@ -88,12 +88,12 @@ static void swap(pool *p, int32_t i, int32_t j) {
 }
 
 /* A period of all sets; those of one precision are brought together. */
-static void advance(pool *p) {
+static void follow_advance(pool *p) {
   int32_t from = 0;
   for (int32_t precision = KZ_ENCLOSE_DOUBLES; precision <= p->by.finest; precision++) {
     int32_t to = from;
     for (int32_t i = from; i < p->under_way; i++)
-      if (precision_for(&p->set[i], p->by.finest) == precision) swap(p, i, to++);
+      if (precision_for(&p->set[i], p->by.finest) == precision) follow_swap(p, i, to++);
     kz_enclosures_advance(p->by.proof->tables[precision], KZ_NEW_FRAME, to - from, p->set + from);
     from = to;
   }
@@ -111,38 +111,38 @@ static bool is_done(pool *p, int32_t i) {
   return true;
 }
 
-static void follow(items by) {
+static void follow_follow(items by) {
   pool *p = kz_malloc(sizeof *p);
   p->by = by;
   p->next = p->under_way = 0;
-  for (begin(p); p->under_way > 0; begin(p)) {
-    advance(p);
+  for (follow_begin(p); p->under_way > 0; follow_begin(p)) {
+    follow_advance(p);
     for (int32_t i = p->under_way - 1; i >= 0; i--)
-      if (is_done(p, i)) swap(p, i, --p->under_way);
+      if (is_done(p, i)) follow_swap(p, i, --p->under_way);
   }
   free(p);
 }
 
 void kz_proof_follow(const kz_proof *proof, int32_t precision, int64_t n, const kz_proof_start *start, int64_t most_periods,
                      uint8_t *number) {
-  follow((items){.proof = proof,
-                 .start = start,
-                 .n = n,
-                 .most_periods = most_periods,
-                 .widest = WIDEST,
-                 .number = number,
-                 .late = KZ_PROOF_LATE,
-                 .finest = precision,
-                 .places = POOL});
+  follow_follow((items){.proof = proof,
+                        .start = start,
+                        .n = n,
+                        .most_periods = most_periods,
+                        .widest = WIDEST,
+                        .number = number,
+                        .late = KZ_PROOF_LATE,
+                        .finest = precision,
+                        .places = POOL});
 }
 
 void kz_proof_cells(const kz_proof *proof, int64_t first, int64_t n, uint8_t *label) {
-  follow((items){.proof = proof,
-                 .first = first,
-                 .n = n,
-                 .most_periods = CELL_PERIODS,
-                 .widest = LARGEST,
-                 .number = label,
-                 .finest = KZ_ENCLOSE_DOUBLES,
-                 .places = CELLS});
+  follow_follow((items){.proof = proof,
+                        .first = first,
+                        .n = n,
+                        .most_periods = CELL_PERIODS,
+                        .widest = LARGEST,
+                        .number = label,
+                        .finest = KZ_ENCLOSE_DOUBLES,
+                        .places = CELLS});
 }
