@@ -284,7 +284,7 @@ static kz_status serve_greet(server *s, const kz_options *options) {
   return status;
 }
 
-static kz_status serve_serve(const kz_options *options) {
+static kz_status serve_run(const kz_options *options) {
   server s = {0};
   if (!options->prints) return KZ_OK;
   if (strcmp(options->scene, "-") == 0)
@@ -304,7 +304,7 @@ static kz_status serve_serve(const kz_options *options) {
 }
 
 const kz_command kz_serve_command = {
-    "serve",     " SCENE",
-    1,           1,
-    serve_serve, "answer requests of other programs (JSON lines on standard input) for frames, orbits and ends of starts",
+    "serve",   " SCENE",
+    1,         1,
+    serve_run, "answer requests of other programs (JSON lines on standard input) for frames, orbits and ends of starts",
     "set|help"};

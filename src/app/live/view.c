@@ -29,7 +29,7 @@ static const kz_option rows[] = {
     {.name = NULL},
 };
 
-static kz_status view_view(const kz_options *options) {
+static kz_status view_run(const kz_options *options) {
   const view_options *own = options->own;
   if (!options->prints) return KZ_OK;
   KZ_TRY(kz_scene_check_file(options->scene));
@@ -51,7 +51,7 @@ const kz_command kz_view_command = {"view",
                                     " SCENE|FILE",
                                     1,
                                     1,
-                                    view_view,
+                                    view_run,
                                     "open the basins of a scene or of a result in the browser",
                                     "set|port|no-browser|origin|help",
                                     rows,

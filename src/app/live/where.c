@@ -229,7 +229,7 @@ static kz_status where_answer(const kz_options *options, const kz_scene *scene) 
   return status;
 }
 
-static kz_status where_where(const kz_options *options) {
+static kz_status where_run(const kz_options *options) {
   return kz_scene_answer(options, where_answer);
 }
 
@@ -253,7 +253,7 @@ const kz_command kz_where_command = {
     " SCENE THETA VELOCITY",
     2,
     5,
-    where_where,
+    where_run,
     "say on which attractor a start ends; THETA is in rad from down, VELOCITY in rad per drive radian, with any number of "
     "digits, or both with units ('170 deg', of a scene in SI '3 rad/s'); write - in their place to read starts as CSV from "
     "standard input; --boundary takes two starts",

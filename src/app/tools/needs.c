@@ -102,7 +102,7 @@ static void print_json(const rig *r, const amplitudes *found) {
   kz_json_print(object, stdout);
 }
 
-static kz_status needs_needs(const kz_options *options) {
+static kz_status needs_run(const kz_options *options) {
   rig r;
   amplitudes found[2];
   if (!options->prints) return KZ_OK;
@@ -125,7 +125,7 @@ const kz_command kz_needs_command = {
     " --length L --frequency F",
     0,
     0,
-    needs_needs,
+    needs_run,
     "say between which amplitudes of the pivot a pendulum of --length stands upside down and flutters at --frequency",
     "json|length|frequency|quality-factor|help",
     rows,

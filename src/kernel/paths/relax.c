@@ -124,7 +124,7 @@ static bool relax_descend(const grid *g, newton *at, const double *x, double *sh
   return false;
 }
 
-static double relax_relax(const grid *g, newton *at, double most, double *x, double *u, double *next, double *torque) {
+static double relax_step(const grid *g, newton *at, double most, double *x, double *u, double *next, double *torque) {
   double shift = FIRST_SHIFT, action = action_of(g, x, u);
   for (int i = 0; i < MAX_ITERATIONS; i++) {
     const double before = action;
@@ -165,7 +165,7 @@ double kz_path_relax(const kz_pendulum *pendulum, int64_t n, int32_t samples, do
                .step = gradient + points};
   kz_path_forces(pendulum, samples, 0, force[0]);
   const grid g = grid_of(pendulum, n, samples, (const double (*)[3])force);
-  const double action = relax_relax(&g, &at, most, theta, u, next, torque);
+  const double action = relax_step(&g, &at, most, theta, u, next, torque);
   read_nodes(&g, theta, u, node);
   return isfinite(action) ? action : INFINITY;
 }

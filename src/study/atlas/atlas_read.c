@@ -10,7 +10,7 @@
 static const char *const GROUP = "atlas";
 
 /* The numbers of a variable, which the caller frees. */
-static kz_status atlas_read_read(kz_store *store, const char *name, int64_t n, double **values) {
+static kz_status atlas_read_columns(kz_store *store, const char *name, int64_t n, double **values) {
   *values = kz_malloc((size_t)(n + 1) * sizeof **values);
   return kz_store_numbers(store, GROUP, name, n, *values);
 }
@@ -26,7 +26,7 @@ static void columns_free(columns *c) {
 }
 
 static kz_status read_columns(kz_store *store, int n_names, const char *const *name, int64_t n, columns *c) {
-  for (int i = 0; i < n_names; i++) KZ_TRY(atlas_read_read(store, name[i], n, c->of + i));
+  for (int i = 0; i < n_names; i++) KZ_TRY(atlas_read_columns(store, name[i], n, c->of + i));
   return KZ_OK;
 }
 

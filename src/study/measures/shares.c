@@ -6,7 +6,7 @@
 #include "numerics/share.h"
 
 /* The share of the starts that end on each attractor after at most `most` periods. */
-static void shares_shares(const kz_measured *measured, const kz_ended *ended, uint32_t most, double *value) {
+static void shares_measure(const kz_measured *measured, const kz_ended *ended, uint32_t most, double *value) {
   const int64_t n = measured->catalogue.count;
   for (int64_t id = 0; id < n; id++) {
     int64_t hits = 0;
@@ -19,15 +19,15 @@ static void shares_shares(const kz_measured *measured, const kz_ended *ended, ui
 }
 
 void kz_measure_share(const kz_measured *measured, double *value) {
-  shares_shares(measured, &measured->starts, UINT32_MAX, value);
+  shares_measure(measured, &measured->starts, UINT32_MAX, value);
 }
 
 void kz_measure_weighted_share(const kz_measured *measured, double *value) {
-  shares_shares(measured, &measured->weighted, UINT32_MAX, value);
+  shares_measure(measured, &measured->weighted, UINT32_MAX, value);
 }
 
 void kz_measure_share_within(const kz_measured *measured, double *value) {
-  shares_shares(measured, &measured->starts, (uint32_t)measured->plan->options.within, value);
+  shares_measure(measured, &measured->starts, (uint32_t)measured->plan->options.within, value);
 }
 
 static int shares_before(const void *a, const void *b) {

@@ -76,7 +76,7 @@ static uint8_t cover_small(const kz_proof *proof, const parallelogram *p, double
 }
 
 /* The attractor of all cells that a parallelogram within the grid touches; 0 if they do not have the same one. */
-static uint8_t cover_cover(const kz_proof *proof, const parallelogram *p) {
+static uint8_t cover_overlap(const kz_proof *proof, const parallelogram *p) {
   const double width = fabs(p->a[0]) + fabs(p->b[0]) + 2 * SLACK, height = fabs(p->a[1]) + fabs(p->b[1]) + 2 * SLACK;
   if (width < 0.5 && height < 0.5) return cover_small(proof, p, width, height);
   const int64_t top = proof->rows - 1, middle = (int64_t)fmin(floor(p->centre[1]), (double)top);
@@ -108,7 +108,7 @@ bool kz_ellipse_holds(const kz_proof_ellipse *ellipse, const double centre[2], c
 
 uint8_t kz_proof_holds(const kz_proof *proof, const kz_enclosure *set) {
   const parallelogram image = image_of(proof, set);
-  const uint8_t label = is_within(proof, &image) ? cover_cover(proof, &image) : 0;
+  const uint8_t label = is_within(proof, &image) ? cover_overlap(proof, &image) : 0;
   for (int i = 0; label == 0 && i < proof->n_parts; i++) {
     const kz_proof_part *part = &proof->part[i];
     if (fabs(set->velocity[0] - part->centre[1]) < part->half[1] && kz_ellipse_holds(&part->ellipse, part->centre, set))

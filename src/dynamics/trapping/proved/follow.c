@@ -111,7 +111,7 @@ static bool is_done(pool *p, int32_t i) {
   return true;
 }
 
-static void follow_follow(items by) {
+static void follow_items(items by) {
   pool *p = kz_malloc(sizeof *p);
   p->by = by;
   p->next = p->under_way = 0;
@@ -125,24 +125,24 @@ static void follow_follow(items by) {
 
 void kz_proof_follow(const kz_proof *proof, int32_t precision, int64_t n, const kz_proof_start *start, int64_t most_periods,
                      uint8_t *number) {
-  follow_follow((items){.proof = proof,
-                        .start = start,
-                        .n = n,
-                        .most_periods = most_periods,
-                        .widest = WIDEST,
-                        .number = number,
-                        .late = KZ_PROOF_LATE,
-                        .finest = precision,
-                        .places = POOL});
+  follow_items((items){.proof = proof,
+                       .start = start,
+                       .n = n,
+                       .most_periods = most_periods,
+                       .widest = WIDEST,
+                       .number = number,
+                       .late = KZ_PROOF_LATE,
+                       .finest = precision,
+                       .places = POOL});
 }
 
 void kz_proof_cells(const kz_proof *proof, int64_t first, int64_t n, uint8_t *label) {
-  follow_follow((items){.proof = proof,
-                        .first = first,
-                        .n = n,
-                        .most_periods = CELL_PERIODS,
-                        .widest = LARGEST,
-                        .number = label,
-                        .finest = KZ_ENCLOSE_DOUBLES,
-                        .places = CELLS});
+  follow_items((items){.proof = proof,
+                       .first = first,
+                       .n = n,
+                       .most_periods = CELL_PERIODS,
+                       .widest = LARGEST,
+                       .number = label,
+                       .finest = KZ_ENCLOSE_DOUBLES,
+                       .places = CELLS});
 }
