@@ -7,7 +7,8 @@ import numpy as np
 import pandas
 import xarray
 
-from kapitza.library import EVIDENCE, NO_TURNS, Library
+from kapitza import layout
+from kapitza.library import NO_TURNS, Library
 from kapitza.table import attractors_table, flag_words
 
 if TYPE_CHECKING:
@@ -24,7 +25,7 @@ def labelled(variables: Mapping[str, Any], attractors: xarray.Dataset) -> xarray
     for name in ("attractor", "other_attractor"):
         found[name].attrs = {"flag_values": np.arange(-1, attractors.sizes["id"], dtype=np.int16),
                              "flag_meanings": " ".join(["not_settled", *flag_words([str(name) for name in attractors["name"].values])])}
-    found["evidence"].attrs = {"flag_values": np.arange(len(EVIDENCE.split()), dtype=np.uint8), "flag_meanings": EVIDENCE}
+    found["evidence"].attrs = layout.attributes("basin", "evidence")
     for name, (unit, words) in _ABOUT.items():
         if name in found.variables:
             found[name].attrs |= {"units": unit, "long_name": words}

@@ -12,6 +12,9 @@ VARIABLES: dict[tuple[str, str], dict[str, Any]] = {
     (row["group"], row["name"]): row for file in ("layout.jsonl", "boundaries/layout.jsonl")
     for row in map(json.loads, (Path(__file__).parent / file).read_text().splitlines())}
 
+# Groups that Python adds to a file.
+ADDED = {"manifolds", "tangency", "wada"}
+
 
 class Part(NamedTuple):
     """Variables and attributes that are of use only together."""
@@ -74,17 +77,20 @@ def axes_of(group: str) -> dict[str, str]:
             if of == group and row["units"].startswith("@")}
 
 
+def attributes(group: str, variable: str) -> dict[str, Any]:
+    """Those that a variable has in a file (CF)."""
+    row = VARIABLES[group, variable]
+    if not row["flags"]:
+        return {"units": row["units"], "long_name": row["long_name"]}
+    return {"long_name": row["long_name"], "flag_values": np.arange(len(row["flags"]), dtype=row["type"]),
+            "flag_meanings": " ".join(flag.replace(" ", "_") for flag in row["flags"])}
+
+
 def described(group: str, dataset: xarray.Dataset) -> xarray.Dataset:
-    """A dataset made in Python with the dimensions' numbers, and the types and attributes that its group has in a file (CF)."""
+    """A dataset made in Python with the dimensions' numbers, and the types and attributes that its group has in a file."""
     dataset = dataset.assign_coords({name: np.arange(size) for name, size in dataset.sizes.items() if name not in dataset.coords})
-    for name in dataset.variables:
-        row = VARIABLES[group, str(name)]
-        dataset[name] = dataset[name].astype(row["type"])
-        dataset[name].attrs = {"units": row["units"], "long_name": row["long_name"]}
-        if row["flags"]:
-            words = " ".join(flag.replace(" ", "_") for flag in row["flags"])
-            dataset[name].attrs = {"long_name": row["long_name"], "flag_values": np.arange(len(row["flags"]), dtype=row["type"]),
-                                   "flag_meanings": words}
+    for name in map(str, dataset.variables):
+        dataset[name] = dataset[name].astype(VARIABLES[group, name]["type"]).assign_attrs(attributes(group, name))
     return dataset
 
 

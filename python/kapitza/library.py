@@ -14,10 +14,6 @@ from kapitza.program import RunError, SceneError
 
 OK, FAILED, REFUSED, NO_MEMORY, STOPPED = 0, 1, 2, 3, 75
 NO_TURNS = -(2**31)
-EVIDENCE = ("unsettled started_inside_a_trapping_region followed_into_a_trapping_region undecided decided_in_quad_precision "
-            "decided_in_pairs_of_doubles proved_in_doubles decided_in_double_precision_with_more_steps "
-            "decided_in_as_many_digits_as_it_took followed_but_doubtful proved_in_pairs_of_doubles proved_in_triples_of_doubles "
-            "running_by_averages")
 _KEY = re.compile(r"(?P<place>scene:\d+:\d+|basin|window): (?P<key>[a-z_]\w*(?:\.\w+)*): ")
 _raised = threading.local()  # the exception of a signal handler that stopped the call of this thread
 

@@ -177,11 +177,11 @@ class File:
 
         >>> result.add("manifolds", kapitza.manifolds(kapitza.Pendulum(result.scene), result.group("saddles"), kind="stable"))
         """
-        if not group.isidentifier() or group in ("pendulum", "attractors", "basin"):
+        if not group.isidentifier() or group == "pendulum" or group in self.groups and group not in layout.ADDED:
             raise ValueError(f"{group!r} cannot be added; it must be another name than those of the program's own groups")
         with tempfile.NamedTemporaryFile(dir=self.path.parent, prefix=self.path.name, delete=False) as new:
             try:
-                shutil.copyfile(self.path, new.name)
+                shutil.copy(self.path, new.name)  # with its mode
                 with h5py.File(new.name, "r+") as file:
                     file.pop(group, None)
                 dataset.to_netcdf(new.name, mode="a", group=group, engine="h5netcdf")

@@ -92,10 +92,10 @@ def test_manifolds_are_kept_in_a_file_and_drawn(fig12, kapitza, tmp_path):
     pendulum, curves = fig12
     window = {"theta": {"count": 20}, "velocity": {"min": -2, "max": 2, "count": 20}, "method": "direct"}
     result, _ = run_scene(kapitza, tmp_path, {"pendulum": FIG12, "basin": window})
-    labels = result.labels().values
+    labels, mode = result.labels().values, result.path.stat().st_mode
     kept = result.add("manifolds", curves).add("manifolds", curves)
     assert kept.group("manifolds").equals(curves) and np.array_equal(kept.labels().values, labels)
-    assert [path.name for path in tmp_path.glob("*.h5*")] == [result.path.name]
+    assert [path.name for path in tmp_path.glob("*.h5*")] == [result.path.name] and result.path.stat().st_mode == mode
     lines = [len(axes.lines) for axes in kept.plot(manifolds=True).axes]
     assert sum(lines) > sum(len(axes.lines) for axes in kept.plot().axes) + 10
     with pytest.raises(ValueError, match="own groups"):
@@ -185,8 +185,10 @@ def test_the_orbit_leads_from_the_saddle_to_the_saddle(weak):
 
 
 @pytest.mark.parametrize(("parameter", "low", "high", "words"), [
-    ("m", 0.02, 0.03, "cross at neither end"), ("damping", 0.008, 0.012, "cross at both ends"), ("tilt", 0, 1, "tilt must be a number")],
-    ids=["neither", "both", "key"])
+    ("m", 0.02, 0.03, "cross at neither end"), ("beta", 0.008, 0.012, "cross at both ends"),
+    ("damping", 0.008, 0.012, "cross at both ends"),
+    ("tilt", 0, 1, "tilt must be a number")],
+    ids=["neither", "symbol", "both", "key"])
 def test_a_range_without_a_tangency_is_refused(parameter, low, high, words):
     with pytest.raises(ValueError, match=words):
         tangency(Pendulum(k=1, damping=0.02, m=0.05), parameter, low, high)

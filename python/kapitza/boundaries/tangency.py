@@ -17,6 +17,7 @@ from scipy.optimize import brentq
 
 from kapitza import layout
 from kapitza.boundaries.branch import DISTANCE, Branch, Lost, Reals, branch_of, crossing, distance_between
+from kapitza.scene import SYMBOLS
 
 if TYPE_CHECKING:
     from kapitza.pendulum import Pendulum
@@ -109,7 +110,7 @@ class Search:
 def _number(pendulum: "Pendulum", parameter: str) -> float:
     keys = pendulum._tree["pendulum"]
     try:
-        return float(keys[parameter])
+        return float(keys[SYMBOLS.get(parameter, parameter)])
     except (KeyError, ValueError) as error:
         raise ValueError(f"{parameter} must be a number among the keys of the pendulum, {list(keys)}") from error
 
