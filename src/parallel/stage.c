@@ -21,7 +21,7 @@ typedef struct {
   bool kept;          /* True: finished records go to the section */
   kz_section section; /* Section of the checkpoint */
   int64_t n_unfinished;
-  int64_t *unfinished; /* [n_left] tiles to do; NULL: all of them in order */
+  int64_t *unfinished; /* [n_unfinished] tiles to do; NULL: all of them in order */
   kz_record_buffer buffered;
   void *buffer; /* Buffer of the delivery, rank 0, or of a local record */
   kz_dispatch dispatch;
