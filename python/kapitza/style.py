@@ -2,7 +2,7 @@
 
 A colour belongs to a kind of motion, not to an id: the inverted state is amber in every figure. Light and dark shades
 within a kind tell periods and mirror partners apart; where they would not, in one catalogue, the rarer motion gets another hue.
-The kinds stay apart for colour-blind readers (tests/python/test_style.py).
+The kinds stay apart for colour-blind readers (tests/python/pictures/test_colours.py).
 """
 
 import warnings

@@ -1,5 +1,5 @@
-# Libraries for LD_PRELOAD: a malloc that fails on purpose (tests/python/test_memory.py), a rank that ends late (test_faults.py), a file system
-# without locks (test_advice.py), a stop within a stage (conftest.py).
+# Libraries for LD_PRELOAD: a malloc that fails on purpose (tests/python/run/test_memory.py), a rank that ends late (test_faults.py), a file system
+# without locks (test_warnings.py), a stop within a stage (conftest.py).
 foreach(name failing_memory slow_end no_locks stop_at)
   add_library(${name} MODULE tools/${name}.c)
   target_compile_options(${name} PRIVATE ${KAPITZA_FLAGS_C} -Wno-pedantic -fno-builtin -fvisibility=default)

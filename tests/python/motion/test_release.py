@@ -7,7 +7,7 @@ import numpy as np
 import own_orbit
 import pytest
 from conftest import EXTENSIVE, datasets, flown
-from rigs import BETA, LINEAR, PENDULUM, SMOOTH, WINDOW, K, M, run
+from drives import BETA, LINEAR, PENDULUM, SMOOTH, WINDOW, K, M, run
 
 
 def released(theta, velocity, phase, ramp):

@@ -8,11 +8,10 @@ import sys
 import h5py
 import numpy as np
 import pytest
-from conftest import ROOT, datasets, plot, with_extensive
+from conftest import ROOT, datasets, plot, refused_scene, with_extensive
 from kapitza import Result
 from kapitza.plots.curves import whole_curve
 from matplotlib import image
-from test_bad_scenes import refused
 
 PENDULUM = "pendulum: {k: 0.008264462809917356, damping: 0.01818181818181818, m: 0.3}\n"
 CHART = PENDULUM + """\
@@ -230,7 +229,6 @@ BAD = {
 
 
 @pytest.mark.parametrize("name", BAD)
-def test_bad_scenes(tmp_path, name):
+def test_scenes_without_a_chart_are_refused_by_their_key(kapitza, tmp_path, name):
     scene, key = BAD[name]
-    (tmp_path / "scene.yaml").write_text(scene)
-    assert key in refused(tmp_path, "run", "scene.yaml")
+    assert key in refused_scene(kapitza, tmp_path, scene)

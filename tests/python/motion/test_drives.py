@@ -8,8 +8,8 @@ import kapitza as kapitza_package
 import numpy as np
 import pytest
 from conftest import ROOT, flown, refused_scene, with_extensive
+from drives import LINEAR, PENDULUM, RIGS, SMOOTH, WINDOW, period, run
 from kapitza import Pendulum, manifolds
-from rigs import LINEAR, PENDULUM, RIGS, SMOOTH, WINDOW, period, run
 from serving import Server
 
 

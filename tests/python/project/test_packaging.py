@@ -84,9 +84,9 @@ def test_install_names_every_library():
 TRIED = {
     "pip install kapitza-VERSION-py3-none-manylinux_2_28_x86_64.whl": ("packaging/wheel/try", "version-check ./kapitza-*.whl"),
     "pip install kapitza-VERSION.tar.gz": ("scripts/test_install", '"$folder"/kapitza-*.tar.gz'),
-    "scripts/setup": ("tests/python/test_setup.py", "source scripts/setup"),
+    "scripts/setup": ("tests/python/project/test_setup.py", "source scripts/setup"),
     "cmake --preset release": ("scripts/setup", 'cmake --fresh --preset "$1"'),
-    "cmake --build build": ("tests/python/test_build.py", 'call("cmake", "--build", build')}
+    "cmake --build build": ("tests/python/project/test_build.py", 'call("cmake", "--build", build')}
 
 
 def test_every_block_of_the_page_on_installing_is_tried():
