@@ -18,7 +18,8 @@
 extern "C" {
 #endif
 
-/* What a call returns. After any but KAPITZA_OK the results are not set, and the next call works as if this one had not been made. */
+/* Status of a call. After any but KAPITZA_OK the results are not set; the next call works as if this one was not
+ * made. */
 typedef enum {
   KAPITZA_OK = 0,
   KAPITZA_FAILED = 1,    /* failed while computing */
@@ -27,7 +28,7 @@ typedef enum {
   KAPITZA_STOPPED = 75   /* the pause of this thread asked for it */
 } kapitza_status;
 
-/* What was wrong in the last call of this thread that did not return KAPITZA_OK; one line. */
+/* Returns one line: what was wrong in the last call of this thread that did not return KAPITZA_OK. */
 const char *kapitza_message(void);
 /* "0.5.0". */
 const char *kapitza_version(void);
@@ -78,7 +79,7 @@ typedef struct {
   int32_t winding;                           /* net turns in a period */
   int32_t centre;                            /* 0 down, 1 inverted, 2 rotating, 3 none of these */
   int32_t symmetric;                         /* 1: it is its own image under the symmetry of the pendulum, else 0 */
-  int32_t mirror;                            /* place of its image in the list; its own if it is symmetric or has none */
+  int32_t mirror;                            /* index of the mirror image in the list; its own if symmetric or alone */
   double mean_theta, mean_velocity;          /* over time; not of cycles that do not attract */
   double amplitude;                          /* rad from the centre; 0 for rotations */
   double multiplier_re[2], multiplier_im[2]; /* Floquet multipliers over the period, larger modulus first */
@@ -93,7 +94,7 @@ typedef struct {
 } kapitza_cycles;
 void kapitza_free(void *memory);
 
-/* The known attractors in the order of files: places in this list are ids. The first call searches; labels of starts may find more. */
+/* Lists the known attractors in the order of files; indices are ids. The first call searches; labels may find more. */
 kapitza_status kapitza_attractors(kapitza_pendulum *pendulum, kapitza_cycles **list);
 /* All cycles of up to max_period periods, attracting or not, with a point in window [4]: least and largest angle, least and largest velocity.
  * *open = number of pairs of period and winding whose indices do not add up to 0: if it is 0 none is missing (docs/explanation/theory.md). */
@@ -113,7 +114,8 @@ kapitza_status kapitza_manifold(kapitza_pendulum *pendulum, double theta, double
 
 /* ---- basins ---- */
 
-/* How a label is known: the values of `evidence` (docs/reference/file.md); 3 = undecided, the start may end on `other` as well. */
+/* Evidence of a label, values of `evidence` (docs/reference/file.md); 3 = undecided, `other` is the second
+ * candidate. */
 enum { KAPITZA_NO_TURNS = -2147483647 - 1 };
 
 /* Labels n starts as basin.method exact does. start_error = bound of the distance of each motion from its start (hypot of rad and rad per drive

@@ -134,7 +134,7 @@ typedef struct {
   const char *asked; /* Name in a scene: NAME for NAME_upper, else the name itself */
   double (*value)(double k, double beta, double turn);
   int turning; /* Exact curve, 3 or 5, at whose turn m is `turn`; 0 = not needed */
-  double (*edge)(const kz_pendulum *form, int reading_number, double m); /* k over m of curve `number`, in place of `value` */
+  double (*edge)(const kz_pendulum *form, int reading_number, double m); /* k / m of curve `number`, for `value` */
   int number;
 } kz_curve;
 extern const kz_curve kz_curves[];

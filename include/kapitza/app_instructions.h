@@ -1,4 +1,4 @@
-/* app: the check of the CPU, for entries that are compiled for the first instruction set of its processor (C; layer 4). */
+/* app: check of the CPU, for entries that are compiled for the first instruction set of its processor (C; layer 4). */
 #pragma once
 
 #include <stddef.h>

@@ -5,7 +5,7 @@
 
 #include "kapitza/common.h"
 
-/* The border around an object of the library: the memory that was allocated for it. Calls on one object come one after the other. */
+/* The border of an object of the library: the memory allocated for it. Calls on one object must follow one another. */
 typedef struct kz_border kz_border;
 /* NULL: there is no memory. */
 kz_border *kz_border_create(void);
@@ -31,7 +31,7 @@ bool kz_border_lacked_memory(const kz_border *border);
 
 /* Asks the caller of the library of this thread, if there is one and it is time, and returns its status. */
 kz_status kz_border_pause(void);
-/* The same, but leaves the call where it is to stop. Memory and integrators call it; loops that take long without both, too. */
+/* Calls kz_border_pause, and leaves the call if it is to stop. Memory, integrators and other long loops call it. */
 void kz_look(void);
 
 /* Parts of a call that have to be ended in order, such as threads: kz_border_guard runs `work`, or the part of it up to where it is left, which it tells by its
@@ -42,7 +42,8 @@ void kz_border_leave(void);
 kz_border *kz_border_here(void);
 void kz_border_enter(kz_border *border);
 
-/* Memory and locks tell the border of this thread (memory.c, threads.c). kz_border_lock returns where the lock may be taken. */
+/* Memory and locks register with the border of this thread (memory.c, threads.c). kz_border_lock returns once
+ * locked. */
 void kz_border_keep(void *memory);
 void kz_border_forget(void *memory);
 void kz_border_without_memory(void);

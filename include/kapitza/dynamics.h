@@ -21,7 +21,7 @@ typedef struct {
  * kz_dynamics_free. */
 kz_dynamics *kz_dynamics_create(const kz_pendulum *pendulum, const kz_numerics *numerics, int64_t max_period);
 void kz_dynamics_free(kz_dynamics *dynamics);
-/* Of a local variable (KZ_FREED_BY). */
+/* Frees a local variable at the end of its scope (KZ_FREED_BY). */
 static inline void kz_dynamics_freed(kz_dynamics **dynamics) {
   kz_dynamics_free(*dynamics);
 }
@@ -32,10 +32,10 @@ void kz_dynamics_starts(const kz_window *window, int64_t seed, int64_t n, double
 /* The largest velocity (rad per drive radian) within one period of starts in the window, and of starts as fast as a torque drives motions: a map
  * table must reach it. */
 double kz_dynamics_max_velocity(kz_dynamics *dynamics, const kz_window *window);
-/* The same of a pendulum by numerics. */
+/* Returns the largest velocity (rad per drive radian) that a pendulum with these numerics reaches from the window. */
 double kz_max_velocity(const kz_pendulum *pendulum, const kz_numerics *numerics, const kz_window *window);
 
-/* Makes a coarse empty grid for trapping regions, up to the velocity `max_velocity` (rad per drive radian): enough for a search. */
+/* Makes a coarse empty grid for trapping regions, up to `max_velocity` (rad per drive radian): enough for a search. */
 void kz_dynamics_coarse_regions(kz_dynamics *dynamics, double max_velocity);
 /* Replaces it by a grid of `cells` x `cells` (one more if odd) around the circle and along the velocity. Integrates its nodes through 8
  * periods and grows the regions around the known attractors. */
@@ -63,7 +63,7 @@ int64_t kz_dynamics_packed_size(const kz_dynamics *dynamics);
 void kz_dynamics_pack(const kz_dynamics *dynamics, int64_t n, double *flat);
 void kz_dynamics_unpack(kz_dynamics *dynamics, int64_t n, const double *flat);
 
-/* Makes an empty map table: n_theta nodes around the circle, n_velocity rows from -top to top, with `top` a little above `max_velocity`. */
+/* Makes an empty map table: n_theta nodes on the circle, n_velocity rows to +-top, just above `max_velocity`. */
 void kz_dynamics_table_create(kz_dynamics *dynamics, int64_t n_theta, int64_t n_velocity, double max_velocity);
 /* Number of doubles in a row. */
 int64_t kz_dynamics_table_row_size(const kz_dynamics *dynamics);
@@ -77,7 +77,7 @@ double kz_dynamics_trapped_share(const kz_dynamics *dynamics);
 /* A motion of one pendulum: an attractor, or a cycle on a branch, which need not attract. period: 0 = it never closes: chaotic, or with the winding 1
  * or -1, the sign of its mean velocity, a running state. Of cycles on branches mirror, mean values and exponents are not known. */
 typedef struct {
-  double theta, velocity; /* the first strobe point of a cycle, else the means: rad in [-pi, pi], rad per drive radian */
+  double theta, velocity; /* first strobe point of a cycle, else means: rad in [-pi, pi], rad per drive radian */
   int32_t period, winding, centre, symmetric, mirror; /* centre: 0 down, 1 inverted, 2 rotating, 3 none of these */
   double mean, mean_velocity;                         /* over time: rad in [-pi, pi], rad per drive radian */
   double amplitude;                                   /* rad from the centre, over continuous time; 0 for rotations */
@@ -91,9 +91,9 @@ static inline bool kz_is_running(const kz_attractor *attractor) {
 int64_t kz_dynamics_count(const kz_dynamics *dynamics);
 /* Attractor `number`, from 1 to the count. */
 void kz_dynamics_attractor(const kz_dynamics *dynamics, int64_t classes_number, kz_attractor *attractor);
-/* 1 if averages along orbits alone show that it is an attractor, a running state round which no band was found that traps motions; else 0. */
+/* Returns 1 for a running state known by orbit averages alone (no band was found that traps motions), else 0. */
 int32_t kz_dynamics_is_averaged(const kz_dynamics *dynamics, int64_t classes_number);
-/* Its strobe points theta [period] in [-pi, pi) and velocity [period], from that with the lowest velocity on; a chaotic one has none. */
+/* Strobe points theta [period] in [-pi, pi), velocity [period], from the lowest velocity on; none if chaotic. */
 void kz_dynamics_strobe(const kz_dynamics *dynamics, int64_t number, double *theta, double *velocity);
 /* number [count] = the numbers of the attractors in the order of the file. */
 void kz_dynamics_order(const kz_dynamics *dynamics, int64_t *number);

@@ -16,14 +16,15 @@ typedef struct {
   kz_plane_fn pendulum;
   const void *context;
   double low[2], high[2]; /* curves and branches end beyond them */
-  int32_t steps;          /* of split6 a period, even; steps on the way are twice as long */
+  int32_t steps;          /* steps of split6 a period, even; half as many on the way */
   int32_t mirrored;       /* 1 if all pendulums have mirror symmetry, else 0 */
   int32_t half_period;    /* 1 if not, but with a motion theta(t) all have -theta(t + pi), else 0 */
 } kz_plane;
 
-/* Which cycles: F(x(i)) = x(i+1), side (F(x(n)) - 2 pi turns) = x(1). side 1: cycles of `points` periods with so many net turns; side -1:
- * symmetric cycles of twice as many periods, about down (turns 0) or inverted (1). multiplier: of curves, 1 or -1 of this map. stride: drive periods between
- * two points where cycles have more periods than points, so that F is its power; 0 = 1. half 1, of side -1: the last F ends half a period before, so that
+/* The cycles of a curve: F(x(i)) = x(i+1), side (F(x(n)) - 2 pi turns) = x(1). side 1: cycles of `points` periods with
+ * so many net turns; side -1: symmetric cycles of twice as many periods, about down (turns 0) or inverted (1).
+ * multiplier: value on the curve, 1 or -1, of this map. stride: drive periods between two points where cycles have more
+ * periods than points, so that F is its power; 0 = 1. half 1, of side -1: the last F ends half a period before, so that
  * the cycles have one period less and are their own images under (theta, v, t) -> (-theta, -v, t + pi). */
 enum { KZ_CURVE_POINTS = 16 };
 typedef struct {
@@ -42,7 +43,8 @@ typedef enum {
   KZ_TRACE_THIN
 } kz_trace_ending;
 
-/* What happens on a branch: a multiplier of its map is 1 or -1; it meets the cycle of half its period, its image, or rest, and ends. */
+/* Events of a branch: a multiplier of its map is 1 or -1; or it ends at the cycle of half its period, its image,
+ * rest. */
 typedef enum { KZ_EVENT_FOLD = 1, KZ_EVENT_FLIP = 2, KZ_EVENT_HALVES = 3, KZ_EVENT_MIRROR = 4, KZ_EVENT_REST = 5 } kz_event;
 /* A cycle on a branch, and an event with the cycle there; y is 0 beyond its 2 points + 2 numbers. */
 typedef struct {
@@ -69,12 +71,14 @@ typedef struct {
 void kz_curve_branch(const kz_plane *plane, const kz_curve_kind *kind, const double *start, const kz_branch_way *way,
                      kz_branch_row *rows, kz_branch_event *events, kz_branch_end *end);
 
-/* Newton's method at the place of y; numbers = trace and determinant, NULL = not asked for. 1 if it converges, else 0. */
+/* Newton's method at the place of y; returns 1 if it converges. numbers: trace and determinant, NULL = not asked
+ * for. */
 int32_t kz_curve_solve(const kz_plane *plane, const kz_curve_kind *kind, double *y, double numbers[2]);
 /* Moves y along a line to where the kind's multiplier is that of the curve. 1 if Newton's method converges, else 0. */
 int32_t kz_curve_locate(const kz_plane *plane, const kz_curve_kind *kind, double *y, const double along[2]);
-/* The normal form at a point of a curve, its side, and the eigenvector at the first point. 0 if there is no pendulum. */
+/* Normal form at a point of a curve, its side, eigenvector at the first point. Returns 0 if there is no pendulum. */
 int32_t kz_curve_form(const kz_plane *plane, const kz_curve_kind *kind, const double *y, double *coefficient, double side[2],
                       double eigenvector[2]);
-/* state [n + 1][2]: the strobe points after state [0], not wrapped (halves 2); or the state at t = pi (halves 1, n = 1). 0 if there is no pendulum. */
+/* Strobe points state [n + 1][2] after state [0], not wrapped (halves 2), or the state at t = pi (halves 1, n = 1).
+ * Returns 0 if there is no pendulum. */
 int32_t kz_curve_orbit(const kz_plane *plane, const double place[2], int32_t halves, int64_t n, double *state);

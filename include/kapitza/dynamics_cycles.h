@@ -14,7 +14,8 @@ void kz_dynamics_close_cycle(const kz_pendulum *pendulum, const kz_numerics *num
  * Angles in rad from the DOWN position, velocities in rad per drive radian. The map is the one of published values (split6, 96
  * steps or more), whatever the scene's numerics. Nothing here is collective. */
 
-/* The maps of n >= 1 pendulums, of which the oldest go: their tables cost more than a short cycle. One thread uses them. */
+/* Maps of up to n >= 1 pendulums, the oldest are dropped: their tables cost more than a short cycle. Not
+ * thread-safe. */
 typedef struct kz_fine_maps kz_fine_maps;
 kz_fine_maps *kz_fine_maps_create(int64_t n);
 void kz_fine_maps_free(kz_fine_maps *maps);
@@ -23,7 +24,7 @@ void kz_fine_maps_free(kz_fine_maps *maps);
  * most): the more there are, the faster it goes. maps: where maps are kept; NULL = each is made anew. */
 void kz_branch_describe(kz_fine_maps *maps, const kz_pendulum *pendulum, int64_t n, const double *state, kz_attractor *point);
 
-/* Whether a and b are the same cycle at the same parameters: one is among the strobe points of the other. maps: as above. */
+/* Whether a and b are one cycle at the same parameters: one is among the strobe points of the other. maps: as above. */
 int32_t kz_branch_same(kz_fine_maps *maps, const kz_pendulum *pendulum, const kz_attractor *a, const kz_attractor *b);
 
 /* The centre of a motion (KZ_ABOUT_DOWN ...) from samples of its angle, theta [n] (rad, not wrapped), and whether it rotates: down or inverted where it stays within

@@ -3,7 +3,7 @@
 
 #include "kapitza/model.h"
 
-/* What is said of other drives. */
+/* Message for drives other than a vertical sine. */
 #define KZ_ENDS_NEED_SINE "sweep.measure ends needs a pivot that moves up and down as a sine; leave one of them out"
 
 /* Where a motion of one of many pendulums ends. */
@@ -11,8 +11,8 @@ typedef struct {
   int32_t period;        /* 0 = chaotic: not settled, and neighbours separate; -1 = not settled */
   int32_t winding;       /* net turns per period */
   int32_t centre;        /* 0 down, 1 inverted, 2 rotating, 3 none of these */
-  int32_t settling_time; /* drive periods until the motion is within 1e-5 rad of its state one period of the cycle before */
-  double exponent;       /* largest Lyapunov exponent per drive period: of the cycle, else of 1000 periods of the motion */
+  int32_t settling_time; /* drive periods until within 1e-5 rad of the state one period of the cycle before */
+  double exponent;       /* largest Lyapunov exponent per drive period: of the cycle, else over 1000 periods */
 } kz_plane_ending;
 
 /* Ends of the motions of n pendulums from one start (half-turns, velocity), with `steps` steps of split6 a period. A motion is followed

@@ -1,4 +1,4 @@
-/* dynamics, labels: where starts end, at every level of precision, with the errors of their orbits (Fortran; layer 1). */
+/* dynamics, labels: where starts end, at every precision level, with errors of their orbits (Fortran; layer 1). */
 #pragma once
 
 #include "kapitza/dynamics.h"
@@ -18,9 +18,9 @@ void kz_dynamics_follow(kz_dynamics *dynamics, kz_stepper stepper, int64_t n, in
 typedef struct {
   double theta[2], velocity[2]; /* rad, rad per drive radian: the sum of two doubles, high and low */
   int64_t periods;              /* drive periods before this start; the settling time includes them */
-  double error[3]; /* ellipse of the start's own error: entries theta theta, theta velocity, velocity velocity of its matrix */
-  double from;     /* rad: angle of the release, where periods > 0; else it is theta */
-  int64_t turns;   /* net turns by which the angle on the line from there is more than theta */
+  double error[3];              /* covariance of the start's own error: theta theta, theta velocity, velocity velocity */
+  double from;                  /* rad: angle of the release, where periods > 0; else it is theta */
+  int64_t turns;                /* net turns by which the angle on the line from there is more than theta */
 } kz_start;
 
 /* Precision levels at which orbits are followed with their errors, from the cheapest to the finest: the scene's numerics; doubles with
@@ -35,19 +35,18 @@ typedef enum {
   KZ_LEVEL_QUAD
 } kz_precision;
 enum { KZ_LEVELS = KZ_LEVEL_QUAD + 1 };
-/* The label of an orbit whose error has become too large for a label. Any other label, also 0, is decided: the errors cannot change it. */
+/* Label of an orbit whose error is too large. Any other label, also 0, is decided: the errors cannot change it. */
 enum { KZ_DOUBTFUL = -1 };
 
 /* Where a start ends, and how that is known: what studies keep of it. */
 typedef struct {
-  int64_t periods;  /* drive periods from the start until a trapping region holds the orbit, or for which it was followed */
+  int64_t periods;  /* drive periods until a trapping region holds the orbit, or for which it was followed */
   int16_t label;    /* number of an attractor, 0 = not settled, KZ_DOUBTFUL */
-  int16_t other;    /* of a start that no level decides: the second candidate, 0 = none */
-  uint8_t evidence; /* 0 = not labelled yet; else how it is known (study/labelling/levels.h), which dynamics does not say */
-  uint8_t
-      next; /* of a doubtful orbit: the lowest level that may decide it, by the growth of its error; KZ_LEVELS = none of these */
-  int16_t zero;  /* it and `zeros` are 0: tiles are squeezed, and bytes between members would be anything */
-  int32_t turns; /* of kz_dynamics_count_turns */
+  int16_t other;    /* second candidate of a start that no level decides, 0 = none */
+  uint8_t evidence; /* how the label is known (study/labelling/levels.h), 0 = not labelled; dynamics leaves it alone */
+  uint8_t next;     /* lowest level that may decide a doubtful orbit, by its error growth; KZ_LEVELS = none of these */
+  int16_t zero;     /* it and `zeros` are 0: tiles are squeezed, and bytes between members would be anything */
+  int32_t turns;    /* net turns, see kz_dynamics_count_turns */
   int32_t zeros;
 } kz_label;
 
@@ -55,7 +54,7 @@ typedef struct {
 typedef struct {
   kz_label end;
   bool decided;    /* no error changes the label */
-  double error;    /* rad: bound of the orbit's error when it was trapped; meaningless for chaotic or undecided orbits */
+  double error;    /* bound of the orbit's error when trapped, rad; meaningless if chaotic or undecided */
   int64_t age;     /* drive periods after which the orbit was left */
   double state[2]; /* where it was then, as kz_dynamics_follow leaves states */
   int64_t turns;   /* net turns by which its angle on the line was then more than state[0] */
@@ -64,9 +63,9 @@ typedef struct {
 
 /* In what precision orbits are followed with their errors. */
 typedef struct {
-  kz_precision level, before; /* that in which they begin; the one at which they were doubtful */
-  bool guess;           /* a doubtful orbit is followed on and gets the label of its state without its error, not KZ_DOUBTFUL */
-  int32_t series_steps; /* above 0: quad precision throughout, by so many steps a period, as if it had no errors */
+  kz_precision level, before; /* level at which they begin; level at which they were doubtful */
+  bool guess;                 /* a doubtful orbit is followed on and labelled by its state without error, not KZ_DOUBTFUL */
+  int32_t series_steps;       /* above 0: quad precision throughout, by so many steps a period, as if it had no errors */
 } kz_label_precision;
 /* Labels n starts: decision [n]. Each orbit uses the precision of `level` until its error has reached what level `before` would add, then
  * that of `before`, and so on downwards. A trapped orbit is decided. */

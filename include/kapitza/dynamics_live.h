@@ -14,7 +14,8 @@ kz_dynamics *kz_dynamics_continue(const kz_dynamics *dynamics, const kz_pendulum
  * is only likely that such cells trap: they are for moving pictures of weakly damped pendulums, whose regions do not grow. */
 void kz_dynamics_learn_regions(kz_dynamics *dynamics, int64_t n, const double *state, int64_t most, int64_t budget);
 
-/* Moves n physical states, state [n][2] = half-turns in [-1, 1] and velocity, by one period of the scene's map. Not for several threads. */
+/* Moves n states, state [n][2] = half-turns in [-1, 1] and velocity, by one period of the scene's map. Not
+ * thread-safe. */
 void kz_dynamics_advance(kz_dynamics *dynamics, int64_t n, double *state);
 
 /* Settling times that vary smoothly with the start, for pictures: time [n], in drive periods, at which the motions come into the trapping ellipse

@@ -28,17 +28,19 @@ typedef struct {
 /* True if it is proved that the map of `period` drive periods carries the ellipse into itself and contracts it, so that all its starts
  * end on one cycle. */
 bool kz_proof_traps(const kz_proof *proof, int64_t period, double theta, double velocity, const kz_proof_ellipse *ellipse);
-/* The largest ellipse around a strobe point (rad, rad per drive radian) whose starts are proved to end on one cycle of that period. */
+/* Largest ellipse at a strobe point (rad, rad per drive radian) whose starts are proved to end on a cycle of
+ * `period`. */
 kz_proof_ellipse kz_proof_find_ellipse(const kz_proof *proof, int64_t period, double theta, double velocity);
 /* True if it is proved that the cycle of that period at the strobe point [2] is the mirror image of the one in an ellipse around centre [2];
  * always without mirror symmetry, where nothing is mirrored. */
 bool kz_proof_is_mirror(const kz_proof *proof, int64_t period, const double point[2], const double centre[2],
                         const kz_proof_ellipse *ellipse);
-/* Adds the ellipse to the region of attractor `number`, and its mirror image to that of attractor `mirror`, if this is another one, with all cells inside. */
+/* Adds the ellipse, with all cells inside, to the region of attractor `number`, and its image to that of `mirror` if
+ * another. */
 void kz_proof_add(kz_proof *proof, uint8_t number, uint8_t mirror, double theta, double velocity,
                   const kz_proof_ellipse *ellipse);
 
-/* A published cycle: strobe points theta [period], velocity [period], and Floquet multipliers multiplier_re, multiplier_im [2]. */
+/* A published cycle: strobe points theta [period], velocity [period], Floquet multipliers multiplier_re, _im [2]. */
 typedef struct {
   int64_t period;
   const double *theta, *velocity, *multiplier_re, *multiplier_im;

@@ -1,11 +1,11 @@
-/* dynamics: cycles, attracting or not, that join a catalogue; manifolds of saddles (Fortran; layer 1, a part of dynamics). */
+/* dynamics: cycles, attracting or not, for a catalogue; manifolds of saddles (Fortran; layer 1, a part of dynamics). */
 #pragma once
 
 #include "kapitza/dynamics.h"
 
-/* What is searched for along a line. */
+/* A search for cycles along a line of starts. */
 typedef struct {
-  int64_t max_period;  /* of the cycles, drive periods, <= 64 */
+  int64_t max_period;  /* largest period of cycles, drive periods, <= 64 */
   int64_t most_starts; /* the search ends early with more starts than these, */
   int64_t most;        /* or with more cycles than these */
   double window[4];    /* least and largest angle, least and largest velocity: a cycle counts if it has a point there */
@@ -33,8 +33,8 @@ typedef struct {
   double theta, velocity;       /* a point of the saddle: rad, rad per drive radian */
   int32_t period, stable, side; /* stable: 0 or 1; side: 1 or -1, along the eigenvector or against it */
   double spacing;               /* largest distance of neighbouring points, rad */
-  double length;                /* of the branch, rad and rad per drive radian together */
-  double fastest;               /* rad per drive radian: parts at larger speeds are left out and do not count to the length */
+  double length;                /* length of the branch, rad and rad per drive radian together */
+  double fastest;               /* largest speed, rad per drive radian: faster parts are left out of the length */
 } kz_branch;
 
 /* Computes the branch from the saddle on. point [most][4]: theta in [-pi, pi), velocity, arc length, number of the unbroken part. Returns

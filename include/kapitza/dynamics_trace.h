@@ -1,4 +1,4 @@
-/* dynamics, curves: those on which cycles are born, lose their stability or their symmetry, followed over a plane (Fortran; layer 1). */
+/* dynamics, curves: traces over a plane where cycles are born, lose stability or symmetry (Fortran; layer 1). */
 #pragma once
 
 #include "kapitza/dynamics_curves.h"

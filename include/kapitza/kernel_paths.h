@@ -19,7 +19,7 @@ void kz_path_forces(const kz_pendulum *pendulum, int32_t n, double share, double
 typedef struct kz_hamilton kz_hamilton;
 kz_hamilton *kz_hamilton_create(const kz_pendulum *pendulum, int32_t n_steps);
 void kz_hamilton_free(kz_hamilton *flow);
-/* Of a local variable (KZ_FREED_BY). */
+/* Frees a local variable at the end of its scope (KZ_FREED_BY). */
 static inline void kz_hamilton_freed(kz_hamilton **flow) {
   kz_hamilton_free(*flow);
 }
@@ -27,7 +27,7 @@ static inline void kz_hamilton_freed(kz_hamilton **flow) {
  * [n][4]: action, and its derivatives by p, q and beta along the path. */
 void kz_hamilton_advance(const kz_hamilton *flow, int64_t n, double *state, int32_t with_tangent, double *tangent,
                          int32_t with_integral, double *integral);
-/* sample [samples][4] = the state after each of `samples` equal parts of a period; `samples` divides the number of steps. */
+/* Fills sample [samples][4], the state after each equal part of a period; `samples` divides the number of steps. */
 void kz_hamilton_sample(const kz_hamilton *flow, int32_t samples, const double *state, double *sample);
 
 /* A strobe point of a cycle, p = 0, and the plane in which paths leave or approach it. */
@@ -36,10 +36,10 @@ typedef struct {
   double state[4];
   double own[2][2];     /* monodromy of (theta, velocity) */
   double growth;        /* the multiplier of larger modulus; of a complex pair the modulus */
-  double away[2];       /* of a saddle: unit vector of its unstable direction */
-  double covariance[3]; /* of an attractor: X theta theta, theta velocity, velocity velocity; of weak noise it is T X */
+  double away[2];       /* unit vector of a saddle's unstable direction */
+  double covariance[3]; /* covariance / T of weak noise at an attractor: tt, tv, vv */
   double plane[4][2];   /* orthonormal: of an attractor the unstable plane (X p, p), of a saddle the stable one */
-  double along[2][2];   /* how a period of the cycle moves coordinates in the plane; of an attractor the inverse of that */
+  double along[2][2];   /* how a period moves coordinates in the plane; for an attractor the inverse */
 } kz_path_end;
 /* Sets an end from a state near the cycle (rad, rad per drive radian). False where no cycle is near, and where it is not an attractor, or a
  * saddle. */
@@ -51,7 +51,7 @@ typedef struct {
   double *node;     /* [n + 1][4] */
   double turns[2];  /* by which the ends are moved on the line */
   double action;    /* with the pieces before the first and behind the last node */
-  double slope[3];  /* of the action by p, q and beta, without these pieces */
+  double slope[3];  /* derivatives of the action by p, q and beta, without these pieces */
   double mismatch;  /* largest jump at a node */
   double beyond[2]; /* distances of the first and the last node from their cycles */
   int32_t iterations;
@@ -61,7 +61,7 @@ typedef struct {
  * action; INFINITY where it finds no minimum, and where it gives up because the action stays far above `most`. node [n + 1][4]: the states at
  * strobes, for kz_path_polish. */
 double kz_path_relax(const kz_pendulum *pendulum, int64_t n, int32_t samples, double most, double *theta, double *node);
-/* Newton's method by multiple shooting, in least-norm steps: a shift in time costs almost nothing. False where it does not converge. */
+/* Newton's method by multiple shooting, in least-norm steps: time shifts are almost free. False if not converged. */
 bool kz_path_polish(const kz_hamilton *flow, const kz_path_end *from, const kz_path_end *to, kz_path *path);
 /* Adds `cycles` [2] cycles of each end to the path, along its planes. The node moves to other memory of kz_realloc. */
 void kz_path_lengthen(const kz_hamilton *flow, const kz_path_end *from, const kz_path_end *to, const int64_t cycles[2],
@@ -71,7 +71,7 @@ void kz_path_lengthen(const kz_hamilton *flow, const kz_path_end *from, const kz
 typedef struct {
   int32_t steps;
   double half, decay, noise; /* half a step; of the velocity in a step; standard deviation of what a step adds to it */
-  double (*force)[3];        /* of kz_path_forces at the middle of each step */
+  double (*force)[3];        /* forces (kz_path_forces) at the middle of each step */
 } kz_walker;
 kz_walker *kz_walker_create(const kz_pendulum *pendulum, double temperature, int32_t steps);
 void kz_walker_free(kz_walker *walker);

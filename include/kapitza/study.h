@@ -47,25 +47,25 @@ typedef struct {
   /* The numbers of a laboratory's pendulum that have no unit, with the units that they are taken in; "" = none. */
   char bare[400];
   kz_numerics_keys asked;
-  kz_numerics numerics; /* resolved from `asked` by kz_numerics_resolve */
-  kz_kept_series *
-      series; /* Splitting series of the pendulums; kz_scene_free frees it, copies of the scene share it; NULL = none is kept */
+  kz_numerics numerics;   /* resolved from `asked` by kz_numerics_resolve */
+  kz_kept_series *series; /* Splitting series of the pendulums, shared by copies; kz_scene_free frees it; NULL = none */
 #define KZ_STUDY_FIELDS(name)                                \
   bool has_##name;        /* the scene asks for the study */ \
   kz_##name##_plan *name; /* never NULL in a scene of kz_plans_create */
   KZ_STUDIES(KZ_STUDY_FIELDS)
 } kz_scene;
 
-/* Steps a period of the study `orbit`: those of the scene, or more for a fast motion; a multiple of the samples a period. */
+/* Steps a period of the study `orbit`: the scene's, or more for a fast motion; a multiple of the samples a period. */
 enum { KZ_MOST_ORBIT_STEPS = 200000 };
 double kz_orbit_steps(const kz_scene *scene);
-/* The numerics of the study `orbit`: that many steps of the scene's scheme, or of split6 in place of the processed splitting. */
+/* Numerics of the study `orbit`: so many steps of the scene's scheme, or of split6 instead of the processed
+ * splitting. */
 kz_numerics kz_orbit_numerics(const kz_scene *scene);
 
 /* Prints one line: whether the pendulum at rest is stable down and inverted (by the linear equation), and between which amplitudes of the
  * pivot, in the keys and units of the scene. Prints nothing without a pendulum. */
 void kz_rest_print(const kz_parameters *parameters, FILE *out);
-/* The lowest drives m of a sine between which a pendulum with gravity k > 0 stands upside down; NaN = there are none. */
+/* Range of the drive m of a sine in which a pendulum with gravity k > 0 stands upside down; NaN = none. */
 void kz_standing_drives(const kz_pendulum *pendulum, double *low, double *high);
 
 /* How far two pendulums are apart, of the size of their parameters; INFINITY where only one has mirror symmetry. */
@@ -75,14 +75,16 @@ double kz_pendulums_parted(const kz_pendulum *a, const kz_pendulum *b);
 double kz_point_inertia(const kz_pendulum_keys *written);
 bool kz_inertia_is_possible(const kz_pendulum_keys *written);
 
-/* The keys of the mapping `pendulum` that a sweep can change: those that change motions, and those of powers that change how cells begin alone. */
+/* Keys of the mapping `pendulum` that a sweep can change: those of motions, and those of powers that change
+ * releases. */
 typedef struct {
   const char *name, *unit;
   size_t offset; /* in kz_pendulum_keys, or in the plan */
   size_t plan;   /* offset in kz_scene of the pointer to the plan of a power; 0 = none */
 } kz_sweep_parameter;
 const kz_sweep_parameter *kz_sweep_parameter_at(int32_t parameter);
-/* The names of those that change motions (kz_sweep_words: for sweeps, to which powers add theirs), and of the measures of a sweep, joined by '|'. */
+/* Names of keys that change motions (kz_sweep_words: of sweeps, with those of powers) and of measures, joined by
+ * '|'. */
 const char *kz_sweep_words(void);
 const char *kz_motion_words(void);
 const char *kz_sweep_measure_words(void);
@@ -95,7 +97,7 @@ double kz_si_factor(double omega, const char **unit);
 void kz_periods_print(int64_t periods, double omega, FILE *out);
 void kz_rate_print(const kz_parameters *parameters, double tradeoff_rate, double error, FILE *out);
 
-/* A value along an axis of values of a key, in the unit that the scene writes; the name of this unit, "" of a pure number. */
+/* Returns a value along an axis in the unit that the scene writes; the name of this unit, "" of a pure number. */
 double kz_axis_written(const kz_axis *values, double value);
 const char *kz_axis_unit(const kz_axis *values, int32_t parameter);
 /* Writes "amplitude = 8 mm", with that many digits, to text [bytes]. */
@@ -138,7 +140,7 @@ typedef struct {
   const char *what, *studies;
 } kz_study_need;
 
-/* What a scene may ask for needs: a pivot that moves up and down as a sine; mirror symmetry; starts at a strobe of the final drive; starts
+/* Requirements: a pivot that moves vertically as a sine; mirror symmetry; starts at a strobe of the final drive; starts
  * at one phase. */
 typedef enum { KZ_NEEDS_SINE, KZ_NEEDS_MIRROR, KZ_NEEDS_STROBE, KZ_NEEDS_ONE_PHASE } kz_drive_need;
 
@@ -162,14 +164,15 @@ typedef struct {
   /* Precision levels that it adds to the core's (src/study/labelling/levels.h), with their evidence. */
   const kz_level *levels;
   int32_t n_levels;
-  /* The window of its starts: theta and velocity, if it follows them by the scene's own pendulum and numerics; no function = it does not. */
+  /* Axes of its starts, theta and velocity, if the scene's own pendulum and numerics follow them; NULL = no starts. */
   void (*window)(const kz_scene *scene, const kz_axis *axis[2]);
   /* The complaint if the scene asks for what needs this of drive or starts; NULL = it does not, or no function. */
   const char *(*limit)(const kz_scene *scene, kz_drive_need need);
-  /* Says to dynamics how the scene's cells begin, for this pendulum in place of the scene's; swept: the value of the sweep's key, or NULL. */
+  /* Tells dynamics how cells begin for this pendulum instead of the scene's; swept: value of the sweep's key, or
+   * NULL. */
   void (*begin)(const kz_scene *scene, const kz_pendulum *pendulum, const double *swept, kz_dynamics *dynamics);
   kz_status (*describe)(const kz_scene *scene, kz_store *store); /* adds attributes to a new file. Rank 0. */
-  const kz_sweep_parameter *parameters; /* that a sweep may take beside its own; a row without name ends them */
+  const kz_sweep_parameter *parameters; /* Parameters that a sweep may also take; a row without name ends them */
   bool damped;                          /* it has no meaning without damping */
   bool follows;                         /* it follows motions of the scene's own pendulum */
 } kz_study;
@@ -183,7 +186,7 @@ static inline bool kz_study_is_part(const kz_study *study) {
 extern const kz_study *const kz_studies[];
 extern const int kz_study_count;
 
-/* What all studies of a scene say of these (kz_study). */
+/* Combines the answers of all studies of a scene (kz_study). */
 void kz_studies_begin(const kz_scene *scene, const kz_pendulum *pendulum, const double *swept, kz_dynamics *dynamics);
 kz_status kz_studies_describe(const kz_scene *scene, kz_store *store);
 
@@ -192,7 +195,7 @@ void kz_plans_create(kz_scene *scene);
 void kz_plans_copy(kz_scene *scene);
 void kz_plans_free(kz_scene *scene);
 
-/* Declares what the folder of a study defines: its row, the functions of that row (NAME_check if it has one), and the variables that it writes. */
+/* Declares what the folder of a study defines: its row, the row's functions (NAME_check if it has one), variables. */
 #define KZ_STUDY_DECLARED(name)                                                                        \
   kz_cost kz_##name##_cost(const kz_scene *scene);                                                     \
   kz_status kz_##name##_check(const kz_scene *scene);                                                  \
@@ -215,7 +218,7 @@ kz_status kz_drive_check_sine(const kz_scene *scene, const char *complaint);
 /* KZ_REFUSED, with the message of the first study of the scene that does not pass its check. */
 kz_status kz_studies_check(const kz_scene *scene);
 
-/* Drive periods within which nearly all motions are trapped, at least 2000; also 2000 if it would be more than a million. */
+/* Drive periods within which nearly all motions are trapped: at least 2000, and 2000 instead of above a million. */
 int64_t kz_settling_periods(double beta);
 /* The mean number of periods until a motion is trapped; beta > 0. */
 double kz_settling_mean(double beta);

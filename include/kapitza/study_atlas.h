@@ -19,7 +19,7 @@ typedef struct {
 /* A motion that attracts at a point of the plane. */
 typedef struct {
   kz_motion_kind of;
-  int64_t curve;                                                      /* from which its state was carried; -1 = from none */
+  int64_t curve;                                                      /* curve that its state was carried from; -1 = none */
   int32_t strobes;                                                    /* period, or 0: its state is not known */
   double theta[KZ_ATLAS_MOST_PERIOD], velocity[KZ_ATLAS_MOST_PERIOD]; /* [strobes] */
   double multiplier_re[2], multiplier_im[2];                          /* over the period */
@@ -32,7 +32,8 @@ typedef struct {
   kz_motion *motion; /* [count] */
 } kz_motions;
 
-/* Reads the atlas of a file; `scene`, that of the file, must outlive it. KZ_REFUSED if the file has none. kz_atlas_close frees *atlas, also NULL. */
+/* Reads the atlas of a file, whose `scene` must outlive it; KZ_REFUSED without one. kz_atlas_close frees it, also
+ * NULL. */
 kz_status kz_atlas_open(const kz_scene *scene, kz_store *store, kz_atlas **atlas);
 void kz_atlas_close(kz_atlas *atlas);
 

@@ -7,14 +7,14 @@
 #include "kapitza/kernel.h"
 #include "kapitza/study_pendulum.h"
 
-/* A number of any digits: its text (rad, or degrees if " deg" follows; "" = not given), and the nearest sum of two doubles. */
+/* A number of any digits: its text (rad, or degrees if " deg" follows; "" = not given), nearest sum of two doubles. */
 enum { KZ_DECIMAL_LENGTH = 1024 };
 typedef struct {
   char text[KZ_DECIMAL_LENGTH];
   double high, low;
 } kz_decimal;
 
-/* A unit that a scene writes behind a value: its name ("" = that of the key, or none), and how many units of the key it is. */
+/* A unit that a scene writes behind a value: name ("" = the key's, or none), and its size in units of the key. */
 typedef struct {
   char name[32];
   double factor;
@@ -26,7 +26,7 @@ typedef struct {
   double min, max;
   int64_t count;
   kz_decimal centre, width;
-  kz_written_unit written; /* Unit of the values of a parameter as written behind min, or behind max where min has none */
+  kz_written_unit written; /* Unit of the values of a parameter as written behind min, else behind max */
 } kz_axis;
 
 /* True if doubles cannot distinguish neighbouring cells of the axis, so that only method exact can label them. */

@@ -22,5 +22,5 @@ typedef struct {
   int32_t *id_of; /* [number], from 1: id of the attractor with this number in kz_dynamics; -1 = not in the catalogue */
 } kz_catalogue;
 
-/* The word of the precision that gives labels this evidence: double, pairs, quad, arbitrary; NULL = not decided, or not settled. */
+/* Precision of this evidence as a word: double, pairs, quad, arbitrary; NULL = not decided, or not settled. */
 const char *kz_evidence_word(uint8_t evidence);

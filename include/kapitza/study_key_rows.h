@@ -3,7 +3,7 @@
 
 #include "kapitza/study_keys.h"
 
-/* The place of a field: of the scene, or, in a file that defines KEYS_OF as the name of its study, of the plan of that study. */
+/* Offset of a field: of the scene, or of the plan of the study that a file names by KEYS_OF. */
 #define OF_SCENE(field) .offset = offsetof(kz_scene, field)
 #define NOWHERE .offset = KZ_NO_FIELD
 #ifdef KEYS_OF

@@ -1,4 +1,4 @@
-/* study: frames of basins on request. The engine keeps everything that the next frame can use (C; layer 3). No MPI, no files. */
+/* study: frames of basins on request; the engine keeps what the next frame can use (C; layer 3). No MPI, no files. */
 #pragma once
 
 #include <stdbool.h>
@@ -34,8 +34,9 @@ enum {
 enum { KZ_NO_LABEL = 255 }; /* not settled, or no attractor */
 enum { KZ_DOUBT_NONE = 0, KZ_DOUBT_OPEN = 1, KZ_DOUBT_UNSEEN = 2 };
 
-/* What is shown of a frame at once: every cell whose indices go in steps of `coarseness` (`level` of docs/reference/serve.md). The planes labels, other and doubt have bytes, times
- * are float; the pointer of a plane that was not requested is NULL. */
+/* One picture of a frame: every cell whose indices go in steps of `coarseness` (`level` of docs/reference/serve.md).
+ * The planes labels, other and doubt have bytes, times are float; the pointer of a plane that was not requested is
+ * NULL. */
 typedef struct {
   int64_t coarseness, rows, columns;
   const kz_live_catalogue *catalogue;
@@ -48,26 +49,26 @@ size_t kz_plane_bytes(int plane);
 
 /* How a frame is made, and where it goes. */
 typedef struct {
-  bool moving;                   /* true: fast, with an error per period much smaller than a cell; false: as method exact */
+  bool moving;                   /* true: fast, error per period well below a cell; false: as method exact */
   const kz_integers *coarseness; /* 8, 4, 2 or 1, falling */
   bool plane[KZ_PLANES];         /* the planes to show */
-  kz_atlas *atlas; /* what attracts at its point x, y, where the scene's pendulum lies, needs no search; NULL: none */
-  double x, y;     /* values of its two keys */
-  kz_status (*pause)(void *context); /* called every few milliseconds; any status but KZ_OK ends the frame with that status */
+  kz_atlas *atlas;               /* atlas whose cycles at the point x, y of the scene's pendulum need no search; NULL: none */
+  double x, y;                   /* values of its two keys */
+  kz_status (*pause)(void *context); /* is called every few ms; any status but KZ_OK ends the frame with it */
   kz_status (*show)(void *context, const kz_live_raster *raster);
   void *context;
 } kz_frame;
 
-/* Makes a frame of the scene's study basin, from its pendulum, window, cells and max_periods. The scene's numerics need not be resolved. */
+/* Makes a frame of the scene's basin: its pendulum, window, cells, max_periods. Its numerics need not be resolved. */
 kz_status kz_engine_frame(kz_engine *engine, const kz_scene *scene, const kz_frame *frame);
 
 /* Centre of cell i of an axis of a frame, as files have it. */
 double kz_frame_centre(const kz_axis *axis, int64_t i);
 
-/* Uses idle time: looks for attractors from cells of the last moving frames that have not settled. Usually takes milliseconds. */
+/* Uses idle time: looks for attractors from cells of the last moving frames that did not settle. Takes milliseconds. */
 void kz_engine_rest(kz_engine *engine);
 
-/* *catalogue = the known attractors of the scene's pendulum. It belongs to the engine and is valid until the next call. */
+/* *catalogue = known attractors of the scene's pendulum, owned by the engine and valid until the next call. */
 kz_status kz_engine_catalogue(kz_engine *engine, const kz_scene *scene, const kz_live_catalogue **catalogue);
 
 /* kz_where with the attractors that the engine knows; the caller frees endings [n] by kz_where_free. */
@@ -79,8 +80,8 @@ kz_status kz_engine_where(kz_engine *engine, const kz_scene *scene, int64_t n, c
 kz_status kz_engine_labels(kz_engine *engine, const kz_scene *scene, int64_t n, const double (*start)[2], double start_error,
                            kz_label *label, double *error, const kz_live_catalogue **catalogue);
 
-/* The same of a plane of two keys: periods and centres of the ends, with the values of the group /plane, x fastest; period KZ_NO_LABEL = not
- * settled, or no pendulum. */
+/* Picture of a plane of two keys: periods and centres of final states, and values of the group /plane, x fastest;
+ * period KZ_NO_LABEL = not settled, or no pendulum. */
 typedef struct {
   int64_t coarseness, rows, columns;
   const uint8_t *period, *centre; /* [rows][columns] */

@@ -33,7 +33,7 @@ typedef struct {
   double tilt, ellipse, torque, torque_amplitude; /* rad; ratio of the axes; both in units of I omega^2 */
   double constant_torque_ratio, torque_ratio;     /* Torques in units of M g r */
   int32_t waveform;                               /* KZ_SINE, ... */
-  kz_reals samples;                               /* for KZ_SAMPLES: the drive at equal times of a period, in units of m */
+  kz_reals samples;                               /* KZ_SAMPLES: drive at equal times of a period, units of m */
   kz_harmonics harmonics;                         /* Harmonics that the scene adds */
   kz_reals vertical, horizontal; /* cosine and sine of harmonics 1, 2, .. of kz_pendulum, if these are written */
 } kz_pendulum_keys;
@@ -48,7 +48,8 @@ extern const kz_drive_key kz_drive_keys[];
 const char *kz_drive_unmirrored_by(const kz_pendulum_keys *written);
 const char *kz_drive_made_by(const kz_pendulum_keys *written);
 
-/* All three forms give `pendulum`. Other numbers are NaN if they are not defined (Q without damping, Omega at k <= 0). */
+/* The parameters of a pendulum in all three forms. Numbers that are not defined are NaN (Q undamped, Omega at k <=
+ * 0). */
 typedef struct {
   kz_pendulum_keys written;
   kz_pendulum pendulum;
@@ -73,7 +74,7 @@ void kz_drive_resolve(const kz_parameters *parameters, kz_pendulum *pendulum);
  * as they are. */
 void kz_drive_form(const kz_parameters *parameters, kz_pendulum *form);
 const char *kz_drive_contradiction(const kz_pendulum_keys *written); /* Contradiction between the keys; NULL = none */
-void kz_drive_print(const kz_parameters *parameters, FILE *out);     /* a summary line: harmonics in use, and their error */
+void kz_drive_print(const kz_parameters *parameters, FILE *out);     /* Prints a summary line: harmonics used, error */
 void kz_symmetries_print(const kz_pendulum *pendulum, FILE *out);    /* a line: the images that every motion has */
 /* Writes the group `pendulum`: every number that is integrated. Rank 0. */
 extern const kz_variable kz_pendulum_variables[];

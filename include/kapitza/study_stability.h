@@ -1,4 +1,4 @@
-/* Plan of the study `stability`. damping, quality_factor: NaN = not given. curves: indices in the list of kz_curve_names(). */
+/* Plan of the study `stability`. damping, quality_factor: NaN = not given; curves: indices of kz_curve_names(). */
 #pragma once
 
 #include "kapitza/study.h"

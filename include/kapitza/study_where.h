@@ -8,10 +8,10 @@
 
 /* Where a start ends, as users see it. */
 typedef struct {
-  kz_label end;      /* label, other: ids in the catalogue of the scene's window; -1 = not settled, no second candidate */
-  kz_entry entry;    /* a copy of that attractor; without an id it has a name alone, which is "" where nothing has settled */
-  int64_t near_time; /* drive periods after which it stays within 1 degree of the attractor at strobes; -1 = not known */
-  double error;      /* rad: bound of the orbit's error when it was trapped; NaN = not decided, or chaotic */
+  kz_label end;                    /* label and other: ids in the window's catalogue; -1 = not settled, no second candidate */
+  kz_entry entry;                  /* copy of that attractor; without an id only a name, "" where nothing has settled */
+  int64_t near_time;               /* drive periods until within 1 degree of the attractor at strobes; -1 = not known */
+  double error;                    /* rad: bound of the orbit's error when it was trapped; NaN = not decided, or chaotic */
   char other_name[KZ_NAME_LENGTH]; /* "" = none */
 } kz_ending;
 

@@ -17,11 +17,11 @@ struct kapitza_pendulum {
   pthread_mutex_t mutex; /* one call at a time */
   pid_t process;         /* in which it was used last */
   _Atomic int busy;      /* a call works */
-  bool opened;           /* what follows has been made */
+  bool opened;           /* whether the members below are made */
   kz_scene scene;
   kz_engine *engine;
   kz_flow *flow[2]; /* forwards, backwards; NULL = not made yet */
-  char text[];      /* of the scene */
+  char text[];      /* text of the scene */
 };
 
 /* Runs `work` for a pendulum, opened, within its border, alone; its status as the caller gets it. */
@@ -33,7 +33,8 @@ kapitza_status kz_library_status(kz_status status, const kz_border *border);
 /* A kz_pause_fn of this thread's kapitza_set_pause; NULL = it has none. */
 kz_pause_fn kz_library_pause(void);
 
-/* Attractors or cycles as one piece of memory for the caller. `attract`: all attract, else the names of unstable ones say so. */
+/* Copies attractors or cycles into one block for the caller. `attract`: all attract, else names of unstable ones say
+ * so. */
 kapitza_cycles *kz_library_cycles(const kz_catalogue *catalogue, bool attract);
 /* Bytes of such a list, and the list at `place`, for memory that holds more. */
 size_t kz_library_cycles_bytes(const kz_catalogue *catalogue);

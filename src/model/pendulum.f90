@@ -85,7 +85,7 @@ contains
   pure function symmetries(pendulum) bind(C, name='kz_symmetries') result(sum_of)
     type(pendulum_t), intent(in) :: pendulum !< the pendulum
     integer(c_int32_t) :: sum_of
-    logical :: vertical(0:1), horizontal(0:1) ! of even harmonics with gravity, of odd ones
+    logical :: vertical(0:1), horizontal(0:1) ! whether harmonics are there: 0 = even, with gravity, 1 = odd
     integer :: j
 
     vertical = [abs(pendulum%k) > 0, abs(pendulum%m + pendulum%vertical(1, 1)) > 0 &

@@ -183,8 +183,10 @@ contains
     type(attractor_t), intent(in) :: a !< its angles are half-turns
     type(attractor_row_t) :: row
 
-    row = attractor_row_t(PI*a%mean, a%mean_velocity, max(a%period, 0), a%winding, a%centre, merge(1, 0, a%symmetric), a%mirror, PI*a%mean, &
-                          a%mean_velocity, a%amplitude, real(a%multiplier, dp), aimag(a%multiplier), a%lyapunov, a%lyapunov_error)
+    row = attractor_row_t(PI*a%mean, a%mean_velocity, max(a%period, 0), a%winding, a%centre, merge(1, 0, a%symmetric), &
+                          a%mirror, PI*a%mean, &
+                          a%mean_velocity, a%amplitude, real(a%multiplier, dp), aimag(a%multiplier), a%lyapunov, &
+                              a%lyapunov_error)
     if (a%period <= 0) return
     row%theta = half_open(a%u(1))
     row%velocity = a%v(1) + 0.0_dp

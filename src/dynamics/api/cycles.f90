@@ -15,13 +15,14 @@ module kz_api_cycles
 
 contains
 
-  subroutine close_near(pendulum, numerics, n, max_distance, theta, velocity, row) bind(C, name='kz_dynamics_close_cycle')
+  subroutine close_near(pendulum, numerics, n, max_distance, theta, velocity, row) &
+      bind(C, name='kz_dynamics_close_cycle')
     type(pendulum_t), intent(in) :: pendulum !< k, beta, m
-    type(numerics_t), intent(in) :: numerics !< of the strobe map
+    type(numerics_t), intent(in) :: numerics !< numerics of the strobe map
     integer(c_int64_t), value :: n !< a period that closes the cycle
     real(dp), value :: max_distance !< farthest that the cycle may lie from the start
-    real(dp), intent(inout) :: theta(n), velocity(n) !< the first: start; then the cycle's points; rad, rad per drive radian
-    type(attractor_row_t), intent(out) :: row !< of the cycle; period 0: there is none
+    real(dp), intent(inout) :: theta(n), velocity(n) !< in: start at 1; out: the cycle; rad, rad per drive radian
+    type(attractor_row_t), intent(out) :: row !< the cycle; period 0: there is none
     class(flow_t), allocatable :: flow, sampled
     type(attractor_t) :: cycle
     real(dp) :: u(1), v(1)

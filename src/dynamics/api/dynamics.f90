@@ -18,9 +18,9 @@ module kz_api_dynamics
   private
   public :: dynamics_t, of_handle, make_dynamics, borrow_flow, return_flow
 
-  !> Of the fine steps, what places the cycles of a pendulum that a slider moves: to 1e-9 rad.
+  !> Fraction 1/n of the fine steps that places cycles of a pendulum moved by a slider: to 1e-9 rad.
   integer, parameter :: MOVING_PART = 4
-  type(rings_t), parameter :: MOVING_RINGS = rings_t(points=WIDTH/4, growth=4, halvings=4, between=4) !< of its trapping ellipses
+  type(rings_t), parameter :: MOVING_RINGS = rings_t(points=WIDTH/4, growth=4, halvings=4, between=4)
 
   !> Most idle copies of the scene's map that are kept.
   integer, parameter :: MOST_IDLE = 16
@@ -29,9 +29,9 @@ module kz_api_dynamics
     class(flow_t), allocatable :: flow
   end type idle_t
 
-  !> What a handle points at.
+  !> The object that a handle points at.
   type :: dynamics_t
-    type(c_ptr) :: lock = c_null_ptr !< held by the thread that makes what is made at its first use: levels, an onset, and that takes an idle map
+    type(c_ptr) :: lock = c_null_ptr !< held while something is made at first use, or an idle map is taken
     type(search_t) :: search
     class(flow_t), allocatable :: flow !< the scene's map
     type(idle_t) :: idle(MOST_IDLE)    !< copies of it, whose lanes hold what threads have left there
@@ -39,22 +39,22 @@ module kz_api_dynamics
     type(attractor_t), allocatable :: attractors(:)
     type(regions_t) :: regions
     type(table_t) :: table
-    type(levels_t) :: levels           !< what labels with errors need, once it is needed
-    class(onset_t), allocatable :: onset !< of starts whose drive has not its final form at once
-    type(images_t), allocatable :: images(:) !< of the cells of regions that grow
+    type(levels_t) :: levels           !< levels of labels with errors, made at first use
+    class(onset_t), allocatable :: onset !< release of starts whose drive is not final at once
+    type(images_t), allocatable :: images(:) !< images of the cells of growing regions
   end type dynamics_t
 
 contains
 
   !> The dynamics behind a handle of C; null for a null handle.
   function of_handle(handle) result(d)
-    type(c_ptr), intent(in) :: handle !< what kz_dynamics_create returned
+    type(c_ptr), intent(in) :: handle !< handle from kz_dynamics_create
     type(dynamics_t), pointer :: d
 
     call c_f_pointer(handle, d)
   end function of_handle
 
-  !> A map with lanes of its own, as other threads may follow states too: one that is idle, or a copy, which takes as long as ten thousand steps.
+  !> Takes a map with lanes of its own for one thread: an idle one, or a copy, which costs as much as 10,000 steps.
   subroutine borrow_flow(d, flow)
     type(dynamics_t), intent(inout) :: d !< whose map it is
     class(flow_t), allocatable, intent(out) :: flow !< to be returned by return_flow
@@ -70,7 +70,7 @@ contains
 
   subroutine return_flow(d, flow)
     type(dynamics_t), intent(inout) :: d
-    class(flow_t), allocatable, intent(inout) :: flow !< of borrow_flow
+    class(flow_t), allocatable, intent(inout) :: flow !< map from borrow_flow
 
     call take_lock(d%lock)
     if (d%n_idle < MOST_IDLE) then
@@ -92,9 +92,9 @@ contains
   !> Makes the maps of a pendulum, without attractors and regions.
   function make_dynamics(pendulum, numerics, max_period, sampling, moved) result(d)
     type(pendulum_t), intent(in) :: pendulum !< k, beta, m
-    type(numerics_t), intent(in) :: numerics !< of the map that labels
-    integer, intent(in) :: max_period !< of the cycles that a search looks for
-    !> Maps that are taken over: that of fine_numerics, and that of the numerics, where a slider moves the pendulum; left out: they are made.
+    type(numerics_t), intent(in) :: numerics !< numerics of the map that labels
+    integer, intent(in) :: max_period !< longest period of cycles that a search looks for
+    !> Maps that are taken over: of fine_numerics, and of the numerics where a slider moves the pendulum; else made.
     class(flow_t), allocatable, intent(inout), optional :: sampling, moved
     type(dynamics_t), pointer :: d
     type(numerics_t) :: fine

@@ -19,7 +19,8 @@ module kz_api_follow
 
 contains
 
-  subroutine follow_starts(handle, stepper, n, max_periods, state, label, periods, turns) bind(C, name='kz_dynamics_follow')
+  subroutine follow_starts(handle, stepper, n, max_periods, state, label, periods, turns) &
+      bind(C, name='kz_dynamics_follow')
     type(c_ptr), value :: handle
     integer(c_int32_t), value :: stepper
     integer(c_int64_t), value :: n, max_periods
@@ -49,8 +50,8 @@ contains
     call return_flow(d, flow)
   end subroutine follow_starts
 
-  !> Periods from one look at the regions to the next: a prime that divides the period of no attractor, because a cycle may have a region at one
-  !> of its strobe points alone. Covers are looked at in every period.
+  !> Periods from one look at the regions to the next: a prime that divides the period of no attractor, because a cycle
+  !> may have a region at one of its strobe points alone. Covers are looked at in every period.
   pure function apart(attractors) result(periods)
     type(attractor_t), intent(in) :: attractors(:)
     integer :: periods

@@ -58,12 +58,12 @@ contains
     place = pack([(i, i=1, n)], decision%end%label == DOUBTFUL .and. (early .or. decision%end%next == LEVEL_QUAD))
     allocate (found(size(place)))
     if (size(place) > 0) &
-      call label_orbits(d, precision_t(LEVEL_QUAD, min(precision%before, LEVEL_FINE), .false._c_bool, 0), .false., max_periods, &
-                        start(place), found)
+      call label_orbits(d, precision_t(LEVEL_QUAD, min(precision%before, LEVEL_FINE), .false._c_bool, 0), .false., &
+                        max_periods, start(place), found)
     decision(place) = found
   end subroutine label_starts
 
-  !> The orbit of a start. The start is known to the last place of its double, or, with `precisely`, to the last place of the pair.
+  !> The orbit of a start, which is known to the last place of its double, or, with `precisely`, of its pair.
   pure subroutine begin_orbit(start, precisely, orbit)
     type(start_t), intent(in) :: start !< rad, rad per drive radian
     logical, intent(in) :: precisely !< to all digits of its pairs, else to those of doubles
@@ -101,7 +101,7 @@ contains
   subroutine label_orbits(d, precision, early, most, start, decision)
     type(dynamics_t), intent(inout), target :: d
     type(precision_t), intent(in) :: precision
-    logical, intent(in) :: early !< they leave quad precision as soon as half of its digits are used up, which decides most of them in half of the time
+    logical, intent(in) :: early !< leave quad precision once half of its digits are lost: decides most in half the time
     integer(c_int64_t), intent(in) :: most
     type(start_t), intent(in) :: start(:)
     type(decision_t), intent(out) :: decision(:)
@@ -163,7 +163,7 @@ contains
     end do
   end subroutine label_orbits
 
-  !> What a level needs, made by the first thread that asks.
+  !> Makes a level at its first use, whichever thread asks.
   subroutine prepare(d, level)
     type(dynamics_t), intent(inout) :: d
     integer, intent(in) :: level

@@ -1,4 +1,4 @@
-!> The C interface of dynamics: starts of a window, how fast they become, and the map table (include/kapitza/dynamics.h).
+!> The C interface of dynamics: starts of a window, their largest speed, the map table (include/kapitza/dynamics.h).
 module kz_api_map_table
   use, intrinsic :: iso_c_binding, only: dp => c_double, c_int32_t, c_int64_t, c_ptr
   use kz_kernel_flows, only: make_flow
@@ -67,7 +67,7 @@ contains
     integer :: row, i
 
     largest = max(abs(window%velocity_min), abs(window%velocity_max))
-    if (pendulum%beta > 0) largest = max(largest, abs(pendulum%torque)/pendulum%beta) ! a torque drives motions to this speed
+    if (pendulum%beta > 0) largest = max(largest, abs(pendulum%torque)/pendulum%beta) ! torque-driven speed
     top = largest
     do row = -ROWS, ROWS
       v = largest*row/ROWS

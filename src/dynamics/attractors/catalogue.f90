@@ -1,4 +1,4 @@
-!> The catalogue of attractors: its order, which depends on the attractors alone, and its travel between ranks as doubles.
+!> The catalogue of attractors: its order, which depends on them alone, and its travel between ranks as doubles.
 module kz_attractors_catalogue
   use, intrinsic :: iso_c_binding, only: dp => c_double
   use, intrinsic :: iso_fortran_env, only: int64
@@ -18,8 +18,9 @@ module kz_attractors_catalogue
 
 contains
 
-  !> order(r) = number of the attractor of rank r: by centre, period (0 last), |winding|/period, + before -, first strobe
-  !> velocity, first strobe angle, each compared rounded to 1e-9; chaotic ones by mean velocity, larger first, then mean angle.
+  !> order(r) = number of the attractor of rank r: by centre, period (0 last), |winding|/period, + before -, first
+  !> strobe velocity, first strobe angle, each compared rounded to 1e-9; chaotic ones by mean velocity, larger first,
+  !> then mean angle.
   function order_of(attractors) result(order)
     type(attractor_t), intent(in) :: attractors(:) !< the catalogue, numbered from 1
     integer :: order(size(attractors))
@@ -134,7 +135,7 @@ contains
 
   !> The catalogue from the doubles that `packed` returns; further doubles are ignored.
   subroutine unpack(flat, attractors)
-    real(dp), intent(in) :: flat(:) !< what `packed` returned
+    real(dp), intent(in) :: flat(:) !< attractors as `packed` returns them
     type(attractor_t), allocatable, intent(out) :: attractors(:) !< the catalogue
     integer :: i, p, n
 

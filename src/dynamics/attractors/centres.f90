@@ -19,7 +19,7 @@ contains
   subroutine find_centre(most, u, v, n, centre, spread)
     integer, intent(in) :: most !< drive periods of a cycle at most
     real(dp), intent(in) :: u(0:), v(0:) !< the orbit, half-turns, rad per drive radian
-    integer, intent(out) :: n !< drive periods, the fewest for which the states keep together nearly as much as for any; 0 = for none
+    integer, intent(out) :: n !< least periods for which the states keep together nearly as much as for any; 0 = none
     real(dp), intent(out) :: centre(2), spread !< rad: the farthest state from the centre
     real(dp) :: centres(2, min(most, MOST_PERIODS)), spreads(min(most, MOST_PERIODS))
 
@@ -32,7 +32,7 @@ contains
     if (.not. spread <= WIDEST) n = 0
   end subroutine find_centre
 
-  !> The mean of states with smooth weights, which leave little of oscillations, and the distance of the farthest one from it, rad.
+  !> Mean of states with smooth weights, which suppress oscillations, and its distance from the farthest state, rad.
   pure subroutine average(u, v, mean, spread)
     real(dp), intent(in) :: u(:), v(:)
     real(dp), intent(out) :: mean(2), spread

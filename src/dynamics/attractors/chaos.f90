@@ -1,5 +1,5 @@
-!> Chaotic attractors: recognised by a positive largest Lyapunov exponent of orbits that nothing traps, known by a cover of small
-!> cells that long orbits on them visit.
+!> Chaotic attractors: recognised by a positive largest Lyapunov exponent of orbits that nothing traps, known by a cover
+!> of small cells that long orbits on them visit.
 module kz_attractors_chaos
   use, intrinsic :: iso_c_binding, only: dp => c_double
   use kz_vector_map, only: flow_t, WIDTH, PI
@@ -17,24 +17,25 @@ module kz_attractors_chaos
 
   !> Periods before the cover is taken, while it is taken, and of each lane's exponent.
   integer, parameter :: TRANSIENT = 20000, VISITS = 40000, EXPONENT_PERIODS = 400, FEATURE_PERIODS = 500
-  !> Before all that: neighbours of a chaotic orbit part so much within so many periods. Where they do not, an orbit is only slow.
+  !> First test: neighbours of a chaotic orbit part so much within so many periods; else the orbit is only slow.
   integer, parameter :: PARTING_PERIODS = 2000
   real(dp), parameter :: PARTED = 100
   !> Periods for which a cover carried to another pendulum is visited anew, and those before.
   integer, parameter :: CARRIED_VISITS = 1500, CARRIED_TRANSIENT = 100
   !> An exponent counts as positive if it exceeds so many standard errors.
   real(dp), parameter :: CONFIDENCE = 5
-  !> A small one is measured again over so many periods: tangents of running states grow too, by a factor that has a limit.
+  !> Periods for a second measurement of a small one: tangents of running states grow too, by a bounded factor.
   integer, parameter :: SLOW_PERIODS = 8000
-  !> Orbits are examined only where damping shrinks areas by at least exp(-SHRUNK) meanwhile: else conservative chaos looks the
-  !> same.
+  !> Orbits are examined only where damping shrinks areas by at least exp(-SHRUNK) meanwhile: else conservative chaos
+  !> looks the same.
   real(dp), parameter :: SHRUNK = 30
 
 contains
 
-  !> Follows a bundle of orbits from the physical state (u, v). If no trapping region holds any of them and they separate, it appends a
-  !> chaotic attractor. A long chaotic transient does not count, because one of its orbits is trapped in the end. With damping so weak
-  !> that areas hardly shrink, or if the orbits stay beyond the regions, it appends nothing.
+  !> Follows a bundle of orbits from the physical state (u, v). If no trapping region holds any of them and they
+  !> separate, it appends a chaotic attractor. A long chaotic transient does not count, because one of its orbits is
+  !> trapped in the end. With damping so weak that areas hardly shrink, or if the orbits stay beyond the regions, it
+  !> appends nothing.
   subroutine find_chaos(search, regions, u, v, attractors)
     type(search_t), intent(inout) :: search !< the flows and the longest period of the search
     type(regions_t), intent(in) :: regions !< the trapping regions: a bundle that they trap is not chaotic
@@ -57,7 +58,8 @@ contains
     if (attractor%lyapunov <= CONFIDENCE*attractor%lyapunov_error) return
     call set_cover(search, regions, [(lane, lane=1, WIDTH)], VISITS, .false., attractor, visited, image)
     call search%flow%to_physical(1)
-    call find_features(search%sampling_flow, search%pendulum, attractor, search%flow%u(:1), search%flow%v(:1), FEATURE_PERIODS)
+    call find_features(search%sampling_flow, search%pendulum, attractor, search%flow%u(:1), search%flow%v(:1), &
+                       FEATURE_PERIODS)
     if (attractor%symmetric) then
       attractor%mean = 0
       attractor%mean_velocity = 0
@@ -72,8 +74,9 @@ contains
     is_damped = 2*PI*pendulum%beta*(TRANSIENT + VISITS) >= SHRUNK
   end function is_damped
 
-  !> Carries a chaotic attractor or a running state to a pendulum nearby. Its cover is what a bundle of orbits from the old one visits, and the cells beside, which
-  !> longer orbits would visit: right enough for pictures that move. It appends nothing where a trapping region holds one of the orbits.
+  !> Carries a chaotic attractor or a running state to a pendulum nearby. Its cover is what a bundle of orbits from the
+  !> old one visits, and the cells beside, which longer orbits would visit: right enough for pictures that move. It
+  !> appends nothing where a trapping region holds one of the orbits.
   subroutine carry_chaos(search, regions, old, attractors)
     type(search_t), intent(inout) :: search !< the flows of the pendulum
     type(regions_t), intent(in) :: regions !< its trapping regions
@@ -91,7 +94,8 @@ contains
     attractor = old
     if (attractor%period == RUNNING) then
       attractor%mean_velocity = search%flow%turns(1)/real(CARRIED_TRANSIENT + CARRIED_VISITS, dp)
-      call find_band(search%flow, search%pendulum%beta, search%flow%u(:WIDTH), search%flow%v(:WIDTH), attractors, attractor%band, curve)
+      call find_band(search%flow, search%pendulum%beta, search%flow%u(:WIDTH), search%flow%v(:WIDTH), attractors, &
+                     attractor%band, curve)
     end if
     if (.not. (any(visited) .or. has_band(attractor))) return
     call widen(visited)
@@ -148,13 +152,14 @@ contains
   subroutine append_cover(search, image, attractor, attractors)
     type(search_t), intent(inout) :: search !< the flows
     logical, intent(in) :: image(:) !< the cells of the image, of set_cover
-    type(attractor_t), intent(inout) :: attractor !< what joins the catalogue
+    type(attractor_t), intent(inout) :: attractor !< attractor that joins the catalogue
     type(attractor_t), allocatable, intent(inout) :: attractors(:) !< the catalogue
 
     call append_with_image(search, attractor, attractors)
     if (attractor%symmetry == 0 .or. attractor%symmetric) return
     attractors(size(attractors))%cover = cells_of(image)
-    if (attractor%period == RUNNING) call set_image_band(search, attractors(:size(attractors) - 1), attractors(size(attractors)))
+    if (attractor%period == RUNNING) &
+      call set_image_band(search, attractors(:size(attractors) - 1), attractors(size(attractors)))
   end subroutine append_cover
 
   !> Sets the band of an image, which has that of its original.
@@ -185,8 +190,8 @@ contains
     cells = pack([(cell, cell=1, COVER**2)], marked)
   end function cells_of
 
-  !> Follows the lanes of a flow, and marks the cells of the cover that they visit after the transient; trapped = a trapping region
-  !> holds one of them.
+  !> Follows the lanes of a flow, and marks the cells of the cover that they visit after the transient; trapped = a
+  !> trapping region holds one of them.
   subroutine visit(flow, regions, attractors, transient, periods, visited, trapped)
     class(flow_t), intent(inout) :: flow
     type(regions_t), intent(in) :: regions
@@ -231,7 +236,7 @@ contains
     logical, intent(in) :: widened !< whether the visited cells are widened ones
     type(attractor_t), intent(inout) :: attractor !< whose symmetry and cover are set
     logical, intent(inout) :: visited(COVER**2) !< cells that orbits visit
-    logical, allocatable, intent(out) :: image(:) !< those of the images
+    logical, allocatable, intent(out) :: image(:) !< boxes of the cover of the images
 
     allocate (image(COVER**2), source=.false.)
     attractor%symmetry = pairing_symmetry(search%pendulum)
@@ -276,7 +281,7 @@ contains
     end associate
   end subroutine visit_images
 
-  !> Largest Lyapunov exponent per period of the orbits in all lanes, with its standard error; 0 where it is small at first and falls on.
+  !> Largest Lyapunov exponent per period of the orbits in all lanes, with standard error; 0 if small and falling.
   subroutine measure_exponent(flow, mean, error)
     class(flow_t), intent(inout) :: flow
     real(dp), intent(out) :: mean, error

@@ -4,7 +4,8 @@ module kz_attractors_cycle_search
   use kz_vector_map, only: flow_t, WIDTH, PI
   use kz_attractors_centres, only: find_centre, CENTRED
   use kz_model_pendulum, only: pendulum_t, is_driven, pairing_symmetry, HALF_PERIOD
-  use kz_cycles_cycles, only: attractor_t, close_cycle, complete_attractor, enter_points, image_of, listed_from_lowest, SLOW
+  use kz_cycles_cycles, only: attractor_t, close_cycle, complete_attractor, enter_points, image_of, &
+                              listed_from_lowest, SLOW
   use kz_grown_ellipses, only: rings_t, find_ellipses
   use kz_cycles_newton, only: newton, n_periods
   use kz_cycles_features, only: find_features
@@ -19,34 +20,35 @@ module kz_attractors_cycle_search
   type :: search_t
     type(pendulum_t) :: pendulum
     integer :: max_period = 48
-    type(rings_t) :: rings !< that trapping ellipses are tried on
+    type(rings_t) :: rings !< rings on which trapping ellipses are tried
     class(flow_t), allocatable :: flow !< the scene's map
     class(flow_t), allocatable :: fine !< the map of published values
-    class(flow_t), allocatable :: sampling_flow !< the same with separate steps, for samples within a period
+    class(flow_t), allocatable :: sampling_flow !< map with separate steps, for samples within a period
   end type search_t
 
   !> Newton is tried for so many recurrences of a state, the closest first,
   integer, parameter :: MOST_TRIES = 4
-  !> and for one period from so many states, where a bifurcation blurs the cycle.
+  !> Largest number of states tried for one period, where a bifurcation blurs the cycle.
   integer, parameter :: BLURRED_TRIES = 4
-  !> Where the map of the recurrence stretches by more than this, no attracting cycle is near: about one that a fold bears or a
-  !> period doubling ends, the map is like x -> 1 - a x**2, a <= 2, whose slope is at most 4.
+  !> Where the map of the recurrence stretches by more than this, no attracting cycle is near: about one that a fold
+  !> bears or a period doubling ends, the map is like x -> 1 - a x**2, a <= 2, whose slope is at most 4.
   real(dp), parameter :: STRETCHED = 10
-  !> Outcomes of Newton's method with the scene's steps. They mean that fine steps find no attracting cycle, a known one, or neither for certain.
+  !> Outcomes of Newton's method with the scene's steps: fine steps find no attracting cycle, a known one, or are
+  !> unsure.
   integer, parameter :: NOTHING = 0, KNOWN_ONE = 1, UNSURE = 2
-  !> So far may the scene's cycle lie from the one of fine steps, rad; and so much more than 1 is the multiplier of one that surely repels.
+  !> Largest distance (rad) of the scene's cycle from that of fine steps; multiplier above which one surely repels.
   real(dp), parameter :: BESIDE = 1e-5_dp, SURELY = 1.01_dp
 
 contains
 
-  !> Tries physical states (at most WIDTH) whose orbits may have settled on unknown cycles, from state `next` on, until it finds one. It
-  !> appends the cycle and its image.
+  !> Tries physical states (at most WIDTH) whose orbits may have settled on unknown cycles, from state `next` on, until
+  !> it finds one. It appends the cycle and its image.
   subroutine find_cycle(search, u, v, closeness, next, n_blurred, attractors)
     type(search_t), intent(inout) :: search !< the flows and the longest period of the search
     real(dp), intent(in) :: u(:), v(:) !< states to look from, half-turns, rad per drive radian
     real(dp), intent(in) :: closeness !< how near an orbit must come back to itself, rad
     integer, intent(inout) :: next !< in and out: the state to go on from; size(u) + 1 where all have been looked at
-    !> in and out: for every period up to max_period, how often its cycle has been found blurred among these states; 0 at first
+    !> in and out: how often the cycle of each period up to max_period was found blurred; 0 at first
     integer, intent(inout) :: n_blurred(:)
     type(attractor_t), allocatable, intent(inout) :: attractors(:) !< the catalogue, which gains what is found
     real(dp), allocatable :: orbit_u(:, :), orbit_v(:, :)
@@ -66,12 +68,13 @@ contains
     end do
     n_known = size(attractors)
     do while (next <= size(u) .and. size(attractors) == n_known)
-      call try_recurrences(search, [u(next), v(next)], orbit_u(next, :), orbit_v(next, :), closeness, n_blurred, attractors)
+      call try_recurrences(search, [u(next), v(next)], orbit_u(next, :), orbit_v(next, :), closeness, n_blurred, &
+                           attractors)
       next = next + 1
     end do
   end subroutine find_cycle
 
-  !> Polishes the closest recurrences of one orbit until one gives an attracting cycle; before, what a slow orbit spirals around.
+  !> Polishes the closest recurrences of an orbit until one gives an attracting cycle; first, what it spirals around.
   subroutine try_recurrences(search, start, u, v, closeness, n_blurred, attractors)
     type(search_t), intent(inout) :: search
     real(dp), intent(in) :: start(2) !< its first state in physical coordinates
@@ -114,10 +117,11 @@ contains
       call close_cycle(search%fine, search%pendulum%beta, period, x(1), x(2), farthest, candidate, found, blurred)
       candidate%symmetry = pairing_symmetry(search%pendulum)
       if (found) call complete_attractor(search%sampling_flow, candidate, found)
-      if (found) found = candidate%winding == 0 .or. is_driven(search%pendulum) /= 0 ! else a running state that comes by at the strobes
+      if (found) found = candidate%winding == 0 .or. is_driven(search%pendulum) /= 0
       if (blurred) n_blurred(period) = n_blurred(period) + 1
       if (.not. found) return
-      if (.not. known(attractors, candidate%period, candidate%u, candidate%v)) call add_with_image(search, candidate, attractors)
+      if (.not. known(attractors, candidate%period, candidate%u, candidate%v)) &
+        call add_with_image(search, candidate, attractors)
     end subroutine try
   end subroutine try_recurrences
 
@@ -129,8 +133,8 @@ contains
     is_weak = PI*search%pendulum%beta < SLOW
   end function is_weak
 
-  !> Whether a cycle of n periods near (u, v), in the coordinates of the scene's map, would repel. Recurrences on a chaotic set lead to such
-  !> cycles without end: their map costs dozens of times less than Newton's method.
+  !> Whether a cycle of n periods near (u, v), in the coordinates of the scene's map, would repel. Recurrences on a
+  !> chaotic set lead to such cycles without end: their map costs dozens of times less than Newton's method.
   function repels(search, n, u, v)
     type(search_t), intent(inout) :: search
     integer, intent(in) :: n
@@ -149,8 +153,8 @@ contains
     repels = abs(multiplier(1)) > STRETCHED
   end function repels
 
-  !> Where damping is weak, slow spirals come back near themselves all the time, and hundreds of them lead to the same cycle. Newton's
-  !> method with the scene's steps costs a small part of that with fine ones, and goes the same way.
+  !> Where damping is weak, slow spirals come back near themselves all the time, and hundreds of them lead to the same
+  !> cycle. Newton's method with the scene's steps costs a small part of that with fine ones, and goes the same way.
   function promise_of(search, n, start, farthest, attractors) result(promise)
     type(search_t), intent(inout) :: search
     integer, intent(in) :: n
@@ -183,7 +187,7 @@ contains
     integer :: n
 
     do n = 1, size(distance)
-      if (distance(n)/3 <= minval(distance)) return ! those that were tried are huge
+      if (distance(n)/3 <= minval(distance)) return ! candidates that were tried are set to huge
     end do
     n = 1
   end function first_of_the_closest
@@ -217,7 +221,8 @@ contains
     if (attractor%period > 0) then
       call enter_points(search%flow, attractor)
       call find_ellipses(search%flow, search%fine, attractor, attractors, search%rings)
-      call find_features(search%sampling_flow, search%pendulum, attractor, attractor%u(:1), attractor%v(:1), attractor%period)
+      call find_features(search%sampling_flow, search%pendulum, attractor, attractor%u(:1), attractor%v(:1), &
+                         attractor%period)
     end if
     call append_with_image(search, attractor, attractors)
     if (attractor%symmetry /= HALF_PERIOD .or. attractor%period <= 0 .or. size(attractors) < n_known + 2) return
@@ -229,7 +234,7 @@ contains
   !> Appends a complete cycle or chaotic attractor, and its image if that is another one.
   subroutine append_with_image(search, attractor, attractors)
     type(search_t), intent(inout) :: search !< the flows
-    type(attractor_t), intent(inout) :: attractor !< what joins the catalogue; its number of the image is set
+    type(attractor_t), intent(inout) :: attractor !< attractor that joins the catalogue; sets its number of the image
     type(attractor_t), allocatable, intent(inout) :: attractors(:) !< the catalogue
     type(attractor_t) :: image
     logical :: paired
@@ -247,7 +252,7 @@ contains
   !> Appends an attractor, with its strobe points in order from the lowest.
   subroutine append(attractors, attractor)
     type(attractor_t), allocatable, intent(inout) :: attractors(:) !< the catalogue
-    type(attractor_t), intent(in) :: attractor !< what joins it
+    type(attractor_t), intent(in) :: attractor !< attractor that joins it
     type(attractor_t) :: one(1)
 
     one(1) = attractor
@@ -258,7 +263,7 @@ contains
   !> Appends attractors to a catalogue.
   subroutine join(attractors, more)
     type(attractor_t), allocatable, intent(inout) :: attractors(:) !< the catalogue
-    type(attractor_t), intent(in) :: more(:) !< what joins it
+    type(attractor_t), intent(in) :: more(:) !< attractors that join it
     type(attractor_t), allocatable :: longer(:)
     integer :: n, i
 

@@ -1,11 +1,12 @@
-!> Running states: closed curves of the stroboscopic map that attract, and that an orbit fills and never closes. Since damping shrinks all areas
-!> alike, such a curve cannot enclose one: it goes around the cylinder. A band round it shows that it attracts, and the map along it that it does not
-!> lock to a cycle. Without any drive a rotation that attracts is such a curve too, whatever its period.
+!> Running states: closed curves of the stroboscopic map that attract, and that an orbit fills and never closes. Since
+!> damping shrinks all areas alike, such a curve cannot enclose one: it goes around the cylinder. A band round it shows
+!> that it attracts, and the map along it that it does not lock to a cycle. Without any drive a rotation that attracts
+!> is such a curve too, whatever its period.
 !>
-!> Where no band is found, averages along orbits tell: weighted by a smooth window, these converge faster than any power of its length where the
-!> motion is quasi-periodic (S. Das, Y. Saiki, E. Sander, J. A. Yorke, Nonlinearity 30 (2017) 4111), and like a square root where it is chaotic; where
-!> a motion still approaches something, those of two windows differ. A slow spiral beside a bifurcation, whose averages hardly change, does not come
-!> to all angles.
+!> Where no band is found, averages along orbits tell: weighted by a smooth window, these converge faster than any power
+!> of its length where the motion is quasi-periodic (S. Das, Y. Saiki, E. Sander, J. A. Yorke, Nonlinearity 30 (2017)
+!> 4111), and like a square root where it is chaotic; where a motion still approaches something, those of two windows
+!> differ. A slow spiral beside a bifurcation, whose averages hardly change, does not come to all angles.
 module kz_attractors_running
   use, intrinsic :: iso_c_binding, only: dp => c_double, c_int64_t
   use kz_attractors_chaos, only: append_cover, set_cover, is_damped, widen
@@ -24,11 +25,11 @@ module kz_attractors_running
 
   !> Periods of a window, of which there are two; periods during which the cover is taken.
   integer, parameter :: WINDOW = 2000, VISITS = 4000
-  !> What is averaged: the turns of a period, the growth of a tangent, the velocity, its square, the cosine of the angle.
+  !> Averages: turns a period, growth of a tangent, velocity, its square, cosine of the angle.
   integer, parameter :: TURNS = 1, GROWN = 2, AVERAGES = 5
   !> Parts of the circle, each of which a running state visits.
   integer, parameter :: PARTS = 16
-  !> Averages of two windows that differ by less are those of a motion that stays as it is. Those of two orbits on one curve differ by less, too.
+  !> Largest change of averages between two windows of a stationary motion; two orbits on one curve also differ by less.
   real(dp), parameter :: SAME = 1e-6_dp
   !> Turns in a period: mean values of two windows that differ by less are more precise than the curve.
   real(dp), parameter :: SETTLED_WITHIN = 1e-11_dp
@@ -36,13 +37,13 @@ module kz_attractors_running
   real(dp), parameter :: NEAR = 1e-3_dp
   !> A tangent grows or shrinks by less in both windows: else the motion is chaotic, or locked to a cycle.
   real(dp), parameter :: BOUNDED = 100
-  !> A tangent that has grown or shrunk by more within a window does not come back to that; looked at every so many periods.
+  !> Growth or shrinking of a tangent within a window from which it does not return; checked every so many periods.
   real(dp), parameter :: LOST = 1e8_dp
   integer, parameter :: LOOKED_AT = 100
-  !> Lifetimes 1/(2 pi beta) at the end of the first window, before which the averages of hardly any orbit have converged to that.
+  !> End of the first window, in lifetimes 1/(2 pi beta): before, hardly any orbit's averages have converged to SAME.
   real(dp), parameter :: EARLIEST = 10
 
-  !> What is known of the orbits in the lanes of a flow after a window.
+  !> State of the orbits in the lanes of a flow after a window.
   type :: record_t
     real(dp) :: average(AVERAGES, WIDTH) = 0
     real(dp) :: growth(WIDTH) = 0        !< logarithm of a tangent's length, of all windows
@@ -52,7 +53,7 @@ module kz_attractors_running
 
 contains
 
-  !> Looks for a running state among orbits. It appends the first one with its cover and its band, and its image if that is another one.
+  !> Looks for a running state among orbits; appends the first with its cover and band, and its image if another one.
   subroutine find_running(search, regions, state, age, attractors)
     type(search_t), intent(inout) :: search !< the flows and the longest period of the search
     type(regions_t), intent(in) :: regions !< the trapping regions: what they hold is not looked at
@@ -83,9 +84,10 @@ contains
     lane = pack(lane, [(abs(record%average(TURNS, lane(i)) - record%average(TURNS, lane(1))) < NEAR, i=1, size(lane))])
     attractor%mean_velocity = record%average(TURNS, lane(1))
     attractor%lyapunov = record%average(GROWN, lane(1))
-    attractor%lyapunov_error = hypot(attractor%lyapunov, before(GROWN, lane(1))) ! what both windows leave of 0
+    attractor%lyapunov_error = hypot(attractor%lyapunov, before(GROWN, lane(1))) ! deviation from 0 over both windows
     settled = abs(attractor%mean_velocity - before(TURNS, lane(1))) < SETTLED_WITHIN
-    call find_band(search%flow, search%pendulum%beta, search%flow%u(lane), search%flow%v(lane), attractors, attractor%band, curve)
+    call find_band(search%flow, search%pendulum%beta, search%flow%u(lane), search%flow%v(lane), attractors, &
+                   attractor%band, curve)
     if (has_band(attractor)) then
       if (is_driven(search%pendulum) /= 0) then
         if (is_locked(curve, search%max_period)) return
@@ -102,7 +104,7 @@ contains
       if (.not. any(visited)) return ! it does not come to all angles, or is faster than the cover reaches
     end if
     if (abs(attractor%mean_velocity) < SAME) return ! all states of it are at rest but for the drive
-    if (any(attractors%period == RUNNING .and. abs(attractors%mean_velocity - attractor%mean_velocity) < SAME)) return ! its cover is known
+    if (any(attractors%period == RUNNING .and. abs(attractors%mean_velocity - attractor%mean_velocity) < SAME)) return
     attractor%period = RUNNING
     attractor%centre = ROTATING
     attractor%winding = nint(sign(1.0_dp, attractor%mean_velocity))
@@ -143,7 +145,7 @@ contains
     end do
   end subroutine mark_curve
 
-  !> Whether a lane is on a closed curve: nothing traps it, its averages have converged, its tangent neither grows nor shrinks.
+  !> Whether a lane is on a closed curve: not trapped, averages converged, tangent neither growing nor shrinking.
   pure logical function is_steady(record, before, lane)
     type(record_t), intent(in) :: record
     real(dp), intent(in) :: before(AVERAGES, WIDTH) !< averages of the window before
@@ -152,7 +154,7 @@ contains
     is_steady = may_fill(record, lane, BOUNDED) .and. all(abs(record%average(:, lane) - before(:, lane)) < SAME)
   end function is_steady
 
-  !> Whether a lane may be on a closed curve: nothing has trapped it, and its tangent has neither grown nor shrunk by more than a factor.
+  !> Whether a lane may be on a closed curve: not trapped, and its tangent changed by less than a factor.
   pure logical function may_fill(record, lane, factor)
     type(record_t), intent(in) :: record
     integer, intent(in) :: lane
@@ -184,7 +186,8 @@ contains
       do i = 1, n
         length = norm2(record%tangent(:, 1, i))
         turned = flow%turns(i) - turns_before(i) + 0.5_dp*(flow%u(i) - u_before(i))
-        record%average(:, i) = record%average(:, i) + weight*[turned, log(length), flow%v(i), flow%v(i)**2, cos(PI*flow%u(i))]
+        record%average(:, i) = record%average(:, i) &
+                               + weight*[turned, log(length), flow%v(i), flow%v(i)**2, cos(PI*flow%u(i))]
         record%trapped(i) = record%trapped(i) .or. region(i) > 0
         record%growth(i) = record%growth(i) + log(length)
         record%tangent(:, :, i) = reshape([record%tangent(:, 1, i)/length, 0.0_dp, 0.0_dp], [2, 2])

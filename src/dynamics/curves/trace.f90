@@ -150,12 +150,12 @@ contains
     walker%step = longest/8
   end subroutine begin
 
-  !> Whether the step from one point to the next passes the start of a closed curve, perhaps with other points first, or as mirror image.
+  !> Whether the step between two points passes the start of a closed curve, also with rotated points or mirrored.
   function passes(system, from, to, start) result(closed_now)
     type(system_t), intent(in) :: system !< the equations
     real(dp), intent(in) :: from(:) !< unknowns before the step
-    real(dp), intent(in) :: to(:) !< and after it
-    real(dp), intent(in) :: start(:) !< those where the curve began
+    real(dp), intent(in) :: to(:) !< unknowns after the step
+    real(dp), intent(in) :: start(:) !< unknowns at the start of the curve
     logical :: closed_now
     real(dp) :: step(2), aside(2), share, least, length
     integer :: n, first, mirror_sign
@@ -192,8 +192,8 @@ contains
     end function apart
   end function passes
 
-  !> Whether a fold comes so near to a parent that this one's own multiplier is -1: their distance alone does not show it, since it is small all along
-  !> folds of strongly unstable cycles.
+  !> Whether a fold comes so near to a parent that this one's own multiplier is -1: their distance alone does not show
+  !> it, since it is small all along folds of strongly unstable cycles.
   function on_parents_curve(system, y, was, is) result(on)
     type(system_t), intent(inout) :: system
     real(dp), intent(in) :: y(:)
@@ -251,13 +251,13 @@ contains
     special(4:, n_special) = walker%sharp(:n)
   end subroutine locate_special
 
-  !> By the trace, and where that changes by more than its limit within the error of a place, by where the multiplier is reached.
+  !> By the trace; where that changes beyond its limit within a place's error, by where the multiplier is reached.
   function is_on(plane, kind, y) bind(C, name='kz_curve_is_on') result(on)
     type(plane_t), intent(in) :: plane
     type(curve_kind_t), intent(in) :: kind
     real(dp), intent(inout) :: y(2*kind%points + 2)
     integer(c_int32_t) :: on
-    real(dp), parameter :: CROSSED = 1e-4_dp, SAME = 1e-9_dp, BESIDE = 1e-3_dp ! of the trace; sides of the plane; rad
+    real(dp), parameter :: CROSSED = 1e-4_dp, SAME = 1e-9_dp, BESIDE = 1e-3_dp ! trace; sides of the plane; rad
     real(dp), parameter :: ALONG(2, 2) = reshape([1, 0, 0, 1], [2, 2])
     real(dp) :: found(2*kind%points + 2), numbers(2)
     integer :: n, axis

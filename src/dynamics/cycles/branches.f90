@@ -1,4 +1,4 @@
-!> Branches of cycles followed along a line by pseudo-arclength, and what happens on the way: include/kapitza/dynamics_curves.h.
+!> Branches of cycles along a line by pseudo-arclength, and events on them: include/kapitza/dynamics_curves.h.
 module kz_cycles_branches
   use, intrinsic :: iso_c_binding, only: dp => c_double, c_int32_t, c_int64_t
   use kz_cycles_curves, only: plane_t, curve_kind_t, system_t, make_system, linearise, wrapped, UNKNOWNS, COARSE
@@ -38,7 +38,7 @@ module kz_cycles_branches
     type(walker_t) :: walker
     type(parents_t) :: was
     real(dp), dimension(UNKNOWNS) :: first = 0, before = 0, heading = 0
-    real(dp) :: numbers(2) = 0, last(2) = 0 !< of the last point and of that before: 0 at a fold, at a flip
+    real(dp) :: numbers(2) = 0, last(2) = 0 !< test values at the last point and the one before: 0 at a fold, at a flip
     type(branch_row_t), pointer :: rows(:) => null()
     type(branch_event_t), pointer :: events(:) => null()
   contains
@@ -207,7 +207,7 @@ contains
     is_closed = self%reached%rows > 10 .and. maxval(abs(moved(:n + 2))) < self%walker%step
   end function is_closed
 
-  !> The cycle near the start, with a tangent in the direction of growing place; or the fold at the start, with that to one side.
+  !> The cycle near the start, its tangent towards growing place; or the fold at the start, tangent to one side.
   subroutine begin_branch(walker, start, side, longest, found)
     type(walker_t), intent(inout) :: walker
     real(dp), intent(in) :: start(:), longest

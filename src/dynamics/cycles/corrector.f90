@@ -10,8 +10,9 @@ module kz_cycles_corrector
 
 contains
 
-  !> y becomes the solution near it: with a normal, on the plane through y across it. Its steps shrink until rounding stops them, or until the next one, if
-  !> they go on to square, is below SMALL: in narrow bands they square below 1e-7 rad alone.
+  !> y becomes the solution near it: with a normal, on the plane through y across it. Its steps shrink until rounding
+  !> stops them, or until the next one, if they go on to square, is below SMALL: in narrow bands they square below 1e-7
+  !> rad alone.
   subroutine newton(system, most, longest, close, y, iterations, normal, tangent)
     type(system_t), intent(inout) :: system !< the equations
     integer, intent(in) :: most !< iterations until a step is shorter than `close`; a few more may follow
@@ -19,8 +20,8 @@ contains
     real(dp), intent(in) :: close !< the last step is shorter, rad
     real(dp), intent(inout) :: y(:) !< the unknowns: a guess, then the solution
     integer, intent(out) :: iterations !< until a step was shorter than `close`; 0: no solution
-    real(dp), intent(in), optional :: normal(:) !< of the plane, by the unknowns
-    real(dp), intent(out), optional :: tangent(:) !< of length 1 on the side of the normal, where the last step begins
+    real(dp), intent(in), optional :: normal(:) !< normal of the plane, by the unknowns
+    real(dp), intent(out), optional :: tangent(:) !< unit vector on the normal's side, at the begin of the last step
     real(dp), parameter :: SMALL = 1e-9_dp
     integer, parameter :: MORE = 3
     real(dp) :: matrix(UNKNOWNS, UNKNOWNS), side(UNKNOWNS, 2), start(UNKNOWNS), last, size_now, next
@@ -35,7 +36,8 @@ contains
     columns = merge(2, 1, present(tangent))
     do i = 1, most + MORE
       if (i > most .and. iterations == 0) exit
-      call linearise(system, COARSE, merge(2, 1, system%on_curve), y, side(:unknown, 1), matrix(:unknown, :unknown), regular)
+      call linearise(system, COARSE, merge(2, 1, system%on_curve), y, side(:unknown, 1), matrix(:unknown, :unknown), &
+                     regular)
       if (.not. regular) exit
       if (present(normal)) then
         matrix(unknown, :unknown) = metric(system, normal(:unknown))
@@ -71,7 +73,8 @@ contains
     real(dp), intent(out) :: tangent(:) !< by the unknowns
     logical, intent(out) :: regular !< whether it is defined
     real(dp), intent(out), optional :: sharp(:) !< y with FINE steps
-    real(dp) :: matrix(UNKNOWNS, UNKNOWNS), side(UNKNOWNS, 2), unused(UNKNOWNS, UNKNOWNS), kept(2, 0:TERMS, POINTS), numbers(2), length
+    real(dp) :: matrix(UNKNOWNS, UNKNOWNS), side(UNKNOWNS, 2), unused(UNKNOWNS, UNKNOWNS), kept(2, 0:TERMS, POINTS), &
+        numbers(2), length
     integer :: n, unknown
 
     n = 2*system%n
@@ -79,7 +82,8 @@ contains
     side = 0
     regular = .true.
     if (present(sharp)) call linearise(system, FINE, 1, y, side(:unknown, 2), unused(:unknown, :unknown), regular)
-    if (regular) call linearise(system, COARSE, merge(3, 1, system%on_curve), y, side(:unknown, 1), matrix(:unknown, :unknown), regular)
+    if (regular) call linearise(system, COARSE, merge(3, 1, system%on_curve), y, side(:unknown, 1), &
+                                matrix(:unknown, :unknown), regular)
     if (.not. regular) return
     kept = system%image
     numbers = [system%trace, system%determinant]

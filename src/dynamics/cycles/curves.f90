@@ -1,10 +1,11 @@
-!> Cycles over a plane of two parameters: the equations of multiple shooting for cycles, for branches of them along a line, and for the curves
-!> on which a multiplier is 1 or -1 (docs/explanation/atlas.md).
+!> Cycles over a plane of two parameters: the equations of multiple shooting for cycles, for branches of them along a
+!> line, and for the curves on which a multiplier is 1 or -1 (docs/explanation/atlas.md).
 !>
-!> The unknowns y are the points x(i) of a cycle, rad and rad per drive radian, not wrapped, and then its place, in the rectangle's sides. F(x(i)) = x(i+1), side*(F(x(n)) - 2 pi turns) = x(1): side = 1 for cycles of n periods, side = -1 for those of 2 n periods that are
-!> their own mirror image, or, if the last F ends half a period before (kind%half), for those of 2 n - 1 periods that are their own image half a period
-!> later. G is this map of x(1). The damping is constant, so that det DG = exp(-2 pi beta n), and one of the multipliers is e
-!> where trace DG = e (1 + det DG).
+!> The unknowns y are the points x(i) of a cycle, rad and rad per drive radian, not wrapped, and then its place, in the
+!> rectangle's sides. F(x(i)) = x(i+1), side*(F(x(n)) - 2 pi turns) = x(1): side = 1 for cycles of n periods, side = -1
+!> for those of 2 n periods that are their own mirror image, or, if the last F ends half a period before (kind%half),
+!> for those of 2 n - 1 periods that are their own image half a period later. G is this map of x(1). The damping is
+!> constant, so that det DG = exp(-2 pi beta n), and one of the multipliers is e where trace DG = e (1 + det DG).
 module kz_cycles_curves
   use, intrinsic :: iso_c_binding, only: dp => c_double, c_int32_t, c_int64_t, c_bool, c_funptr, c_ptr, c_f_procpointer
   use kz_vector_map, only: PI
@@ -13,7 +14,8 @@ module kz_cycles_curves
                            DXX, DXY, DYY, DXP, DYP, DXQ, DYQ
   implicit none
   private
-  public :: plane_t, curve_kind_t, system_t, make_system, linearise, images, inner, metric, moved, wrapped, POINTS, UNKNOWNS, COARSE, FINE
+  public :: plane_t, curve_kind_t, system_t, make_system, linearise, images, inner, metric, moved, wrapped, POINTS, &
+            UNKNOWNS, COARSE, FINE
 
   !> Points of a cycle, and unknowns, at most; the two numbers of steps a period.
   integer, parameter :: POINTS = 16, UNKNOWNS = 2*POINTS + 2, COARSE = 1, FINE = 2
@@ -40,9 +42,9 @@ module kz_cycles_curves
     integer :: columns = 0                    !< directions in which the place may move
     logical :: on_curve = .false.             !< the trace has its own equation
     real(dp) :: basis(2, 2) = 0               !< these directions
-    type(jets_t) :: jets(2)                   !< of COARSE and FINE steps
+    type(jets_t) :: jets(2)                   !< jets of COARSE and FINE steps
     real(dp) :: set_at(2, 2) = huge(1.0_dp)   !< the place of their pendulums; (place, fineness)
-    real(dp) :: image(2, 0:TERMS, POINTS) = 0 !< of each point, with its derivatives
+    real(dp) :: image(2, 0:TERMS, POINTS) = 0 !< image of each point, with its derivatives
     real(dp) :: trace = 0, determinant = 0, of_determinant(2) = 0
   end type system_t
 
@@ -61,7 +63,7 @@ contains
   !> Sets up the equations.
   subroutine make_system(plane, kind, columns, on_curve, system)
     type(plane_t), intent(in) :: plane !< gives the pendulum of a place
-    type(curve_kind_t), intent(in) :: kind !< which cycles
+    type(curve_kind_t), intent(in) :: kind !< kind of the cycles
     integer, intent(in) :: columns !< 0: the place is fixed; 1: on a line, whose direction is basis(:, 1); 2: free
     logical, intent(in) :: on_curve !< whether a multiplier is kind%multiplier
     type(system_t), intent(out) :: system !< the equations
@@ -75,7 +77,7 @@ contains
     system%basis = reshape([1, 0, 0, 1], [2, 2])
   end subroutine make_system
 
-  !> Sets the pendulum of a place, and how its numbers grow, by differences: convergence needs these, the result does not.
+  !> Sets the pendulum of a place and, by differences, its derivatives: convergence needs these, the result does not.
   subroutine set_place(system, jets, at, exists)
     type(system_t), intent(in) :: system
     type(jets_t), intent(inout) :: jets
@@ -115,7 +117,7 @@ contains
 
   !> image = that of each of the first n points after one or both halves of a period, with derivatives up to `order`.
   subroutine images(system, fineness, order, y, at, n, halves, image, exists, ends_early)
-    type(system_t), intent(inout) :: system !< of which the tables serve
+    type(system_t), intent(inout) :: system !< system whose tables serve
     integer, intent(in) :: fineness !< COARSE or FINE
     integer, intent(in) :: order !< 0 .. 3
     integer, intent(in) :: n !< points
@@ -148,7 +150,8 @@ contains
       do period = 1, halves/2 - merge(1, 0, early)
         call advance_jets(system%jets(fineness), order, 1, n_steps, u, v, theta, velocity)
       end do
-      if (early .or. mod(halves, 2) == 1) call advance_jets(system%jets(fineness), order, 1, n_steps/2, u, v, theta, velocity)
+      if (early .or. mod(halves, 2) == 1) &
+        call advance_jets(system%jets(fineness), order, 1, n_steps/2, u, v, theta, velocity)
       if (early) then
         image(1, :, n) = [PI*u(n - first + 1), theta(n - first + 1, :)]
         image(2, :, n) = [v(n - first + 1), velocity(n - first + 1, :)]
@@ -184,20 +187,21 @@ contains
     end do
   end function orbit
 
-  !> The residuals and the matrix of the equations at y, by the unknowns: those of the points, then one for each direction of the place.
+  !> Residuals and matrix of the equations at y, by the unknowns: points first, then each direction of the place.
   subroutine linearise(system, fineness, order, y, residual, matrix, exists)
     type(system_t), intent(inout) :: system !< takes image, trace and determinant
     integer, intent(in) :: fineness !< COARSE or FINE
     integer, intent(in) :: order !< 1 .. 3; the matrix of a trace needs 2
     real(dp), intent(in) :: y(:) !< the unknowns
-    real(dp), intent(out) :: residual(:) !< of the equations, rad
+    real(dp), intent(out) :: residual(:) !< residuals of the equations, rad
     real(dp), intent(out) :: matrix(:, :) !< its derivatives; (equation, unknown)
     logical, intent(out) :: exists !< whether there is a damped pendulum
     real(dp) :: before(2, 2, 0:POINTS), after(2, 2, POINTS + 1), gradient(UNKNOWNS), by_place(2)
     integer :: n, i, next, side
 
     n = system%n
-    call images(system, fineness, order, y, y(2*n + 1:2*n + 2), n, 2*system%stride, system%image, exists, system%kind%half /= 0)
+    call images(system, fineness, order, y, y(2*n + 1:2*n + 2), n, 2*system%stride, system%image, exists, &
+                system%kind%half /= 0)
     if (.not. exists) return
     associate (image => system%image, kind => system%kind, basis => system%basis(:, :system%columns))
       residual = 0

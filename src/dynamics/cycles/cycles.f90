@@ -8,8 +8,8 @@ module kz_cycles_cycles
   use kz_maps_states, only: angle_difference, states_to_map, same_state, rounded, wrapped
   implicit none
   private
-  public :: numbers_t, attractor_t, close_cycle, complete_attractor, enter_points, is_slow, symmetrise, image_of, half_period_images, &
-            listed_from_lowest
+  public :: numbers_t, attractor_t, close_cycle, complete_attractor, enter_points, is_slow, symmetrise, image_of, &
+            half_period_images, listed_from_lowest
 
   !> In the place of a period: the attractor is a running state, a closed curve round the cylinder that a motion fills.
   integer, parameter, public :: RUNNING = -1
@@ -17,13 +17,13 @@ module kz_cycles_cycles
   !> 1/drive period: motions that spiral into a cycle at a lower rate do so long before they come near it.
   real(dp), parameter, public :: SLOW = 1.0_dp/64
 
-  !> So far from it may the cycle of another flow lie, rad.
+  !> Largest distance of the cycle of another flow, rad.
   real(dp), parameter :: BESIDE = 1e-3_dp
 
-  !> What is known of an attractor in numbers, without a gap in the memory. Angles are half-turns in [-1, 1].
+  !> An attractor's numbers, without a gap in the memory. Angles are half-turns in [-1, 1].
   type :: numbers_t
     integer :: period = 0          !< drive periods; 0 = chaotic, RUNNING
-    integer :: winding = 0         !< net turns per `period` drive periods; of a running state 1 or -1, the sign of its mean velocity
+    integer :: winding = 0         !< net turns per `period` drive periods; of a running state the mean velocity's sign
     integer :: symmetry = MIRROR   !< by which attractors have images: pairing_symmetry of the pendulum
     logical :: symmetric = .false. !< the orbit is its own image
     integer :: mirror = 0          !< number of the image in the catalogue, from 1
@@ -40,22 +40,22 @@ module kz_cycles_cycles
   type, extends(numbers_t) :: attractor_t
     real(dp), allocatable :: u(:)
     real(dp), allocatable :: v(:)
-    !> The strobe points in the coordinates of the flow whose orbits are labelled (`enter_points`): half-turns, rad per drive radian
+    !> Strobe points in the coordinates of the flow that labels (`enter_points`): half-turns, rad per drive radian
     real(dp), allocatable :: kernel_u(:)
     real(dp), allocatable :: kernel_v(:)
     !> Trapping ellipse of each point: form(1) du**2 + 2 form(2) du dv + form(3) dv**2 < 1; form = 0: none
     real(dp), allocatable :: form(:, :)
     !> Cells of the cover of an attractor without a period
     integer, allocatable :: cover(:)
-    !> Of a running state: its trapping region, what find_band makes
+    !> Trapping region of a running state, from find_band
     real(dp), allocatable :: band(:, :)
   end type attractor_t
 
 contains
 
-  !> Newton's method on the n-period map from (u, v), with a fine flow. `found`: it converges within `max_distance` of the start; the
-  !> cycle, attracting or not, then has its smallest period. `blurred`: it converges, but so near a bifurcation that rounding does not
-  !> define the point.
+  !> Newton's method on the n-period map from (u, v), with a fine flow. `found`: it converges within `max_distance` of
+  !> the start; the cycle, attracting or not, then has its smallest period. `blurred`: it converges, but so near a
+  !> bifurcation that rounding does not define the point.
   subroutine close_cycle(flow, beta, n, u, v, max_distance, cycle, found, blurred)
     class(flow_t), intent(inout) :: flow !< a fine flow
     real(dp), intent(in) :: beta !< damping
@@ -81,7 +81,7 @@ contains
   !> True if a closed cycle attracts; it then sets the exponent and the symmetry of the attractor.
   subroutine complete_attractor(sampling_flow, cycle, attracts)
     class(flow_t), intent(inout) :: sampling_flow !< a fine flow whose steps are not fused
-    type(attractor_t), intent(inout) :: cycle !< what close_cycle found
+    type(attractor_t), intent(inout) :: cycle !< cycle found by close_cycle
     logical, intent(out) :: attracts !< its larger multiplier lies inside the unit circle
 
     attracts = abs(cycle%multiplier(1)) < 1
@@ -114,8 +114,8 @@ contains
     matrix = tangent(:, :, 1)
   end subroutine orbit_of
 
-  !> Sets kernel_u and kernel_v from the strobe points. Where motions approach them slowly, small errors of the flow move its own cycle so far
-  !> from them that rings around them do not shrink: the points are those of its own cycle.
+  !> Sets kernel_u and kernel_v from the strobe points. Where motions approach them slowly, small errors of the flow
+  !> move its own cycle so far from them that rings around them do not shrink: the points are those of its own cycle.
   subroutine enter_points(flow, attractor)
     class(flow_t), intent(inout) :: flow !< the flow whose coordinates are entered
     type(attractor_t), intent(inout) :: attractor !< u, v and multipliers, in; kernel_u and kernel_v, out
@@ -132,7 +132,7 @@ contains
     call states_to_map(flow, attractor%kernel_u, attractor%kernel_v)
   end subroutine enter_points
 
-  !> Moves strobe points to those of the flow's own cycle beside them, by Newton's method on each; they stay where it does not end BESIDE them.
+  !> Moves strobe points to the flow's own cycle by Newton's method on each; keeps those that would move beyond BESIDE.
   subroutine own_points(flow, period, u, v)
     class(flow_t), intent(inout) :: flow
     integer, intent(in) :: period
@@ -152,7 +152,8 @@ contains
       x = x - step/spread([PI, 1.0_dp], 2, n)
     end do
     do i = 1, n
-      if (.not. (norm2(step(:, i)) < ENDED .and. abs(angle_difference(x(1, i), u(i))) + abs(x(2, i) - v(i)) < BESIDE)) cycle
+      if (.not. (norm2(step(:, i)) < ENDED .and. abs(angle_difference(x(1, i), u(i))) + abs(x(2, i) - v(i)) < BESIDE)) &
+        cycle
       u(i) = angle_difference(x(1, i), 0.0_dp)
       v(i) = x(2, i)
     end do
@@ -167,8 +168,8 @@ contains
     if (is_slow) is_slow = -log(abs(attractor%multiplier(1))) < SLOW*attractor%period
   end function is_slow
 
-  !> Sees whether a cycle is its own image. It makes one that is its mirror image, x(1 + n/2) = -x(1), exact: x(j + n/2) = -x(j) to the bit, or
-  !> exactly down or inverted.
+  !> Sees whether a cycle is its own image. It makes one that is its mirror image, x(1 + n/2) = -x(1), exact: x(j + n/2)
+  !> = -x(j) to the bit, or exactly down or inverted.
   subroutine symmetrise(sampling_flow, cycle)
     class(flow_t), intent(inout) :: sampling_flow !< a fine flow whose steps are not fused
     type(attractor_t), intent(inout) :: cycle !< points, winding, period; comes back symmetric where it is
@@ -198,7 +199,8 @@ contains
     half = n/2
     cycle%symmetric = same_state(cycle%u(1), cycle%v(1), -cycle%u(half + 1), -cycle%v(half + 1))
     if (.not. cycle%symmetric) return
-    cycle%u(:half) = angle_difference(cycle%u(:half) - 0.5_dp*angle_difference(cycle%u(:half), -cycle%u(half + 1:)), 0.0_dp)
+    cycle%u(:half) = angle_difference(cycle%u(:half) - 0.5_dp*angle_difference(cycle%u(:half), -cycle%u(half + 1:)), &
+                                      0.0_dp)
     cycle%v(:half) = 0.5_dp*(cycle%v(:half) - cycle%v(half + 1:))
     cycle%u(half + 1:) = -cycle%u(:half)
     cycle%v(half + 1:) = -cycle%v(:half)
@@ -220,7 +222,7 @@ contains
     end do
   end subroutine half_period_images
 
-  !> The image of an attractor: (-theta, -v), exact to the bit, or that of half a period later, without ellipses and kernel coordinates.
+  !> Image of an attractor: (-theta, -v), exact to the bit, or half a period later; no ellipses, no kernel coordinates.
   subroutine image_of(sampling_flow, attractor, image)
     class(flow_t), intent(inout) :: sampling_flow !< a fine flow whose steps are not fused
     type(attractor_t), intent(in) :: attractor !< the attractor
@@ -250,7 +252,8 @@ contains
     first = 1
     do i = 2, cycle%period
       if (rounded(cycle%v(i)) > rounded(cycle%v(first))) cycle ! not lower
-      if (rounded(cycle%v(i)) < rounded(cycle%v(first)) .or. rounded(cycle%u(i)*PI) < rounded(cycle%u(first)*PI)) first = i
+      if (rounded(cycle%v(i)) < rounded(cycle%v(first)) .or. rounded(cycle%u(i)*PI) < rounded(cycle%u(first)*PI)) &
+        first = i
     end do
     if (first == 1) return
     cycle%u = cshift(cycle%u, first - 1)

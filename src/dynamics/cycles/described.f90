@@ -29,7 +29,7 @@ module kz_cycles_described
     class(flow_t), allocatable :: flow !< whose steps are not fused
   end type fine_map_t
 
-  !> What kz_fine_maps of dynamics_cycles.h points at.
+  !> The object that kz_fine_maps of dynamics_cycles.h points at.
   type :: fine_maps_t
     type(fine_map_t), allocatable :: map(:)
     integer :: oldest = 1 !< the next map that is made takes its place
@@ -107,8 +107,8 @@ contains
     point%amplitude = cycle%amplitude
   end subroutine describe
 
-  !> Winding and monodromy of a closed orbit from pieces that are followed together. So the error of one does not grow along the others, which
-  !> matters where the orbit repels.
+  !> Winding and monodromy of a closed orbit from pieces that are followed together. So the error of one does not grow
+  !> along the others, which matters where the orbit repels.
   subroutine close_pieces(flow, periods, u, v, winding, matrix)
     class(flow_t), intent(inout) :: flow !< the map of one drive period, by integration
     integer, intent(in) :: periods !< drive periods of a piece
@@ -135,7 +135,7 @@ contains
     type(c_ptr), value :: handle
     type(pendulum_t), intent(in) :: pendulum !< k, beta, m of both
     type(attractor_row_t), intent(in) :: a !< a cycle
-    type(attractor_row_t), intent(in) :: b !< and perhaps the same
+    type(attractor_row_t), intent(in) :: b !< attractor to compare with a
     integer(c_int32_t) :: same
     type(fine_map_t), target :: own
     type(fine_map_t), pointer :: map

@@ -16,8 +16,9 @@ module kz_cycles_features
 
 contains
 
-  !> Sets mean, amplitude and centre from one closed orbit, or from `periods` periods of a chaotic orbit from (u, v). Of an orbit in pieces,
-  !> each of `periods` periods, u and v are the starts, in the order of time: the pieces are followed together.
+  !> Sets mean, amplitude and centre from one closed orbit, or from `periods` periods of a chaotic orbit from (u, v). Of
+  !> an orbit in pieces, each of `periods` periods, u and v are the starts, in the order of time: the pieces are
+  !> followed together.
   subroutine find_features(sampling_flow, pendulum, attractor, u, v, periods)
     class(flow_t), intent(inout) :: sampling_flow !< a fine flow whose steps are not fused
     type(pendulum_t), intent(in) :: pendulum !< k, beta, m
@@ -66,10 +67,10 @@ contains
     end do
   end subroutine sample_orbit
 
-  !> The centre of a motion: down or inverted where it stays within a half-turn of it and its mean within a quarter of one.
+  !> Centre of a motion: down or inverted if it stays within a half-turn of it and its mean within a quarter.
   pure function centre_of(rotates, mean, lowest, highest) result(centre)
     logical, intent(in) :: rotates !< it turns round
-    real(dp), intent(in) :: mean, lowest, highest !< of its angle, half-turns
+    real(dp), intent(in) :: mean, lowest, highest !< mean and range of its angle, half-turns
     integer :: centre
     real(dp) :: nearest
 
@@ -108,7 +109,7 @@ contains
     attractor%centre = centre_of(.false., attractor%mean, nearest - attractor%amplitude/PI, nearest)
   end subroutine place
 
-  !> Largest |theta - centre| in rad over continuous time: quintic Hermite interpolation where the velocity changes sign.
+  !> Largest |theta - centre| in rad over continuous time, by quintic Hermite interpolation where the velocity is 0.
   pure function largest(pendulum, angle, velocity, centre) result(most)
     type(pendulum_t), intent(in) :: pendulum
     real(dp), intent(in) :: angle(0:), velocity(0:), centre
@@ -118,7 +119,8 @@ contains
     most = PI*maxval(abs(angle - centre))
     do i = 0, ubound(angle, 1) - 1
       if (velocity(i)*velocity(i + 1) >= 0) cycle
-      most = max(most, abs(turning_angle(PI*(angle(i:i + 1) - centre), velocity(i:i + 1), [acceleration_at(i), acceleration_at(i + 1)])))
+      most = max(most, abs(turning_angle(PI*(angle(i:i + 1) - centre), velocity(i:i + 1), &
+                                         [acceleration_at(i), acceleration_at(i + 1)])))
     end do
   contains
     !> theta'' at sample j

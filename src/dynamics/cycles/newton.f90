@@ -13,8 +13,8 @@ module kz_cycles_newton
 
 contains
 
-  !> Moves x = (half-turns, velocity) to the fixed point of the n-period map near it. `found`: its place is accurate enough. `blurred`:
-  !> the steps end, but rounding leaves the place open by more than that.
+  !> Moves x = (half-turns, velocity) to the fixed point of the n-period map near it. `found`: its place is accurate
+  !> enough. `blurred`: the steps end, but rounding leaves the place open by more than that.
   subroutine newton(flow, n, max_distance, x, found, blurred)
     class(flow_t), intent(inout) :: flow !< the map of one drive period, by integration
     integer, intent(in) :: n !< drive periods of the map
@@ -52,9 +52,9 @@ contains
     found = .not. blurred
   end subroutine newton
 
-  !> How far x may lie from the fixed point of the n-period map, rad: so far from x ends Newton's method that starts a few
-  !> roundings beside it. Near a bifurcation, where matrix - 1 is nearly singular, the rounding of F^n is amplified by the
-  !> inverse, and by chance any state there comes back to the last bit: Newton's own last step says nothing.
+  !> How far x may lie from the fixed point of the n-period map, rad: so far from x ends Newton's method that starts a
+  !> few roundings beside it. Near a bifurcation, where matrix - 1 is nearly singular, the rounding of F^n is amplified
+  !> by the inverse, and by chance any state there comes back to the last bit: Newton's own last step says nothing.
   function uncertainty(flow, n, x, matrix) result(farthest)
     class(flow_t), intent(inout) :: flow
     integer, intent(in) :: n

@@ -1,4 +1,5 @@
-!> Normal forms of bifurcations of cycles, from the composed derivatives of their maps (Kuznetsov, Elements of Applied Bifurcation Theory).
+!> Normal forms of bifurcations of cycles, from composed derivatives (Kuznetsov, Elements of Applied Bifurcation
+!> Theory).
 module kz_cycles_normal_forms
   use, intrinsic :: iso_c_binding, only: dp => c_double, c_int32_t
   use kz_cycles_curves, only: plane_t, curve_kind_t, system_t, make_system, linearise, UNKNOWNS, COARSE
@@ -26,14 +27,14 @@ contains
     if (exists) call normal_form(system, coefficient, side, eigenvector)
   end function form_at
 
-  !> The normal form at a point of a curve, from the images of third order. e = 1: half the second derivative along the eigenvector; the pair of
-  !> cycles exists on the side `side`. e = -1: the cubic coefficient, > 0 where the child attracts beyond the curve; the cycle itself attracts on
-  !> the side `side`. Both sides are gradients by the place.
+  !> The normal form at a point of a curve, from the images of third order. e = 1: half the second derivative along the
+  !> eigenvector; the pair of cycles exists on the side `side`. e = -1: the cubic coefficient, > 0 where the child
+  !> attracts beyond the curve; the cycle itself attracts on the side `side`. Both sides are gradients by the place.
   subroutine normal_form(system, coefficient, side, eigenvector)
     type(system_t), intent(in) :: system !< at the point
     real(dp), intent(out) :: coefficient !< the normal form
     real(dp), intent(out) :: side(2) !< a gradient by the place
-    real(dp), intent(out) :: eigenvector(2) !< of length 1, at the first point
+    real(dp), intent(out) :: eigenvector(2) !< unit eigenvector at the first point
     real(dp) :: jacobian(2, 2), hesse(2, 2, 2), third(2, 2, 2, 2), by_place(2, 2), mixed(2, 2, 2)
     real(dp) :: a(2, 2), q(2), p(2), bend(2), cubic, inverse(2, 2), shift(2), w(2)
     integer :: i, j, k
@@ -69,7 +70,8 @@ contains
     end do
     do k = 1, 2
       shift = -matmul(inverse, by_place(:, k))
-      side(k) = mixed(1, 1, k) + mixed(2, 2, k) + dot_product(shift, hesse(1, 1, :) + hesse(2, 2, :)) + system%of_determinant(k)
+      side(k) = mixed(1, 1, k) + mixed(2, 2, k) + dot_product(shift, hesse(1, 1, :) + hesse(2, 2, :)) &
+                + system%of_determinant(k)
     end do
   end subroutine normal_form
 
@@ -77,9 +79,11 @@ contains
   subroutine composed(system, jacobian, hesse, third, by_place, mixed)
     type(system_t), intent(in) :: system
     real(dp), intent(out) :: jacobian(2, 2), hesse(2, 2, 2), third(2, 2, 2, 2), by_place(2, 2), mixed(2, 2, 2)
-    integer, parameter :: SECOND(2, 2) = reshape([DXX, DXY, DXY, DYY], [2, 2]), MIXED_OF(2, 2) = reshape([DXP, DYP, DXQ, DYQ], [2, 2])
+    integer, parameter :: SECOND(2, 2) = reshape([DXX, DXY, DXY, DYY], [2, 2]), &
+        MIXED_OF(2, 2) = reshape([DXP, DYP, DXQ, DYQ], [2, 2])
     integer, parameter :: THIRD_OF(0:3) = [DXXX, DXXY, DXYY, DYYY]
-    real(dp) :: old_j(2, 2), old_h(2, 2, 2), old_t(2, 2, 2, 2), old_p(2, 2), old_m(2, 2, 2), f(2, 2), h(2, 2), t(2, 2, 2)
+    real(dp) :: old_j(2, 2), old_h(2, 2, 2), old_t(2, 2, 2, 2), old_p(2, 2), old_m(2, 2, 2), f(2, 2), h(2, 2), &
+        t(2, 2, 2)
     integer :: i, r, a, b, c, k, l
 
     jacobian = IDENTITY
@@ -111,8 +115,10 @@ contains
             mixed(r, a, b) = dot_product(f(r, :), old_m(:, a, b)) + dot_product(old_j(:, a), matmul(h, old_p(:, b))) &
                              + dot_product(system%image(r, MIXED_OF(:, b), i), old_j(:, a))
             do c = 1, 2
-              third(r, a, b, c) = dot_product(f(r, :), old_t(:, a, b, c)) + dot_product(old_j(:, a), matmul(h, old_h(:, b, c))) &
-                                  + dot_product(old_j(:, b), matmul(h, old_h(:, a, c))) + dot_product(old_j(:, c), matmul(h, old_h(:, a, b)))
+              third(r, a, b, c) = dot_product(f(r, :), old_t(:, a, b, c)) &
+                                  + dot_product(old_j(:, a), matmul(h, old_h(:, b, c))) &
+                                  + dot_product(old_j(:, b), matmul(h, old_h(:, a, c))) &
+                                      + dot_product(old_j(:, c), matmul(h, old_h(:, a, b)))
               do k = 1, 2
                 do l = 1, 2
                   third(r, a, b, c) = third(r, a, b, c) + old_j(k, a)*old_j(l, b)*dot_product(t(k, l, :), old_j(:, c))

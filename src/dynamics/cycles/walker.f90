@@ -10,12 +10,12 @@ module kz_cycles_walker
   public :: walker_t, parents_t, advance, distance, set_parents, meets, becomes, find_zero, thinness, &
             OF_FORM, OF_WIDTH, CLOSE, FAR, FOLD, FLIP, HALVES, MIRROR, REST
 
-  !> Steps of Newton's method end below it, which square them, and below this part of a short step along a branch; steps longer than that are shortened:
-  !> rad.
+  !> Steps of Newton's method end below it, which square them, and below this part of a short step along a branch; steps
+  !> longer than that are shortened: rad.
   real(dp), parameter :: CLOSE = 1e-5_dp, OF_STEP = 0.1_dp, FAR = 1e3_dp
-  !> KZ_EVENT_... of dynamics_curves.h: a multiplier 1, -1; a meeting with the cycle of half the period, with the image, with rest.
+  !> KZ_EVENT_... of dynamics_curves.h: multiplier 1, -1; meeting with the cycle of half the period, the image, rest.
   integer, parameter :: FOLD = 1, FLIP = 2, HALVES = 3, MIRROR = 4, REST = 5
-  !> What may change its sign on a curve: its normal form, thinness.
+  !> Quantities whose sign may change on a curve: normal form, width.
   integer, parameter :: OF_FORM = 0, OF_WIDTH = -1
 
   !> A point on its way along a branch or a curve.
@@ -52,8 +52,8 @@ contains
     do while (walker%step > SHORTEST)
       guess = walker%y
       guess(:n) = guess(:n) + walker%step*walker%tangent(:n)
-      guess(n + 1:n + 2) = guess(n + 1:n + 2) &
-                           + matmul(walker%system%basis(:, :walker%system%columns), walker%step*walker%tangent(n + 1:unknown))
+      guess(n + 1:n + 2) = guess(n + 1:n + 2) + matmul(walker%system%basis(:, :walker%system%columns), &
+                                    walker%step*walker%tangent(n + 1:unknown))
       y = guess
       call newton(walker%system, MOST, FAR, min(CLOSE, OF_STEP*walker%step), y, iterations, walker%tangent, tangent)
       found = iterations > 0
@@ -110,7 +110,8 @@ contains
                                                          middle*heading(n + 1:n + walker%system%columns))
       call newton(walker%system, 12, FAR, CLOSE, walker%y, iterations, heading)
       found = iterations > 0
-      if (found .and. which <= OF_FORM) call tangent_at(walker%system, walker%y, heading, walker%tangent, found, walker%sharp)
+      if (found .and. which <= OF_FORM) &
+        call tangent_at(walker%system, walker%y, heading, walker%tangent, found, walker%sharp)
       if (.not. found) return
       if (which <= OF_FORM) call normal_form(walker%system, number, side, eigenvector)
       if (which == OF_WIDTH) number = thinness(walker%system, number, side)
@@ -128,8 +129,8 @@ contains
     end do
   end subroutine find_zero
 
-  !> The logarithm of how many times narrower than THINNEST the band of attractors beside a curve is, where rounding hides it:
-  !> kz_atlas_band of study/atlas.
+  !> The logarithm of how many times narrower than THINNEST the band of attractors beside a curve is, where rounding
+  !> hides it: kz_atlas_band of study/atlas.
   pure real(dp) function thinness(system, form, side)
     type(system_t), intent(in) :: system !< at a point of the curve
     real(dp), intent(in) :: form !< normal form
@@ -140,7 +141,8 @@ contains
     gradient = max(norm2(side), tiny(1.0_dp))
     associate (d => system%determinant)
       thinness = log(THINNEST*gradient/(1 + d))
-      if (system%kind%multiplier > 0) thinness = log(THINNEST*max(gradient*abs(form), tiny(1.0_dp))*((1 - d)/(1 + d))**2)
+      if (system%kind%multiplier > 0) &
+        thinness = log(THINNEST*max(gradient*abs(form), tiny(1.0_dp))*((1 - d)/(1 + d))**2)
     end associate
   end function thinness
 
@@ -160,7 +162,7 @@ contains
     type(system_t), intent(inout) :: system !< the equations, of which the tables serve
     real(dp), intent(in) :: y(:) !< the cycle
     type(parents_t), intent(out) :: parents !< how it differs from them
-    real(dp) :: later(2, 0:TERMS, POINTS) ! of each point, half a point further
+    real(dp) :: later(2, 0:TERMS, POINTS) ! midpoints: each point half a point further
     integer :: n, i, other
 
     n = system%n
@@ -194,7 +196,7 @@ contains
     end subroutine put
   end subroutine set_parents
 
-  !> Which parent a cycle meets between two points of a branch, where the difference from it reverses; 0 = none.
+  !> Parent that a cycle meets between two points of a branch, where the difference from it reverses; 0 = none.
   integer function meets(from, to, n) result(which)
     type(parents_t), intent(in) :: from !< at the first point
     type(parents_t), intent(in) :: to !< at the second one
@@ -205,16 +207,17 @@ contains
     which = 0
     do i = HALVES, REST
       if (.not. from%there(i) .or. from%distance(i) > NEAR .or. to%distance(i) > NEAR) cycle
-      if (dot_product(from%difference(:2*n, i), to%difference(:2*n, i)) < -0.5_dp*n*from%distance(i)*to%distance(i)) which = i
+      if (dot_product(from%difference(:2*n, i), to%difference(:2*n, i)) < -0.5_dp*n*from%distance(i)*to%distance(i)) &
+        which = i
     end do
   end function meets
 
-  !> Which parent a cycle has become between two points of a branch: the equations have the parent as a solution too, and a long step beside the meeting
-  !> may end on it. 0 = none.
+  !> Parent that a cycle has become between two points of a branch: the equations have the parent as a solution too, and
+  !> a long step beside the meeting may end on it. 0 = none.
   integer function becomes(from, to) result(which)
     type(parents_t), intent(in) :: from !< at the first point
     type(parents_t), intent(in) :: to !< at the second one
-    real(dp), parameter :: SAME = 1e-6_dp ! of the distance before
+    real(dp), parameter :: SAME = 1e-6_dp ! largest remaining part of the distance before
     integer :: i
 
     which = 0

@@ -1,6 +1,6 @@
-!> What carries orbits and all that their errors need through a period: the scene's map alone, or more precision beside it (double precision
-!> with more steps, pairs of doubles, quad precision). Then the tangent map is still that of the scene's map, which is enough for an error.
-!> Regions see the states in the coordinates of that map.
+!> Carries orbits, with all that their errors need, through a period: by the scene's map alone, or with more precision
+!> beside it (double precision with more steps, pairs of doubles, quad precision). Then the tangent map is still that of
+!> the scene's map, which is enough for an error. Regions see the states in the coordinates of that map.
 module kz_labels_carrier
   use, intrinsic :: iso_c_binding, only: dp => c_double, c_int64_t
   use kz_taylor_pairs, only: pairs_t, pair_lanes_t, advance_pairs, pair_of, quad_of
@@ -12,27 +12,27 @@ module kz_labels_carrier
   private
   public :: orbit_t, carrier_t, make_carrier, make_exact_carrier
 
-  !> What carries the orbits.
+  !> Methods that carry orbits.
   integer, parameter, public :: BY_MAP = 0, BY_FINE_MAP = 1, BY_PAIRS = 2, BY_SERIES = 3
 
   !> An orbit at the end of a period.
   type :: orbit_t
     real(dp) :: u(3)  !< half-turns: the sum of three doubles
     real(dp) :: v(2)  !< rad per drive radian: the sum of two doubles
-    real(dp) :: p(3)  !< what its state may be off: theta theta, theta v, v v (rad, rad per drive radian),
-    real(dp) :: lost  !< and so much more in any direction
+    real(dp) :: p(3)  !< covariance of the state's error: theta theta, theta v, v v (rad, rad per drive radian)
+    real(dp) :: lost  !< further isotropic error
     integer(c_int64_t) :: age !< periods since it was released
     integer(c_int64_t) :: turns = 0 !< net turns by which its angle on the line is more than u
   end type orbit_t
 
   type :: carrier_t
-    !> of the last period: derivatives of the angle by angle and velocity, of the velocity by both
+    !> Jacobian of the last period: angle by angle and velocity, velocity by both
     real(dp) :: tangent(WIDTH, 4) = 0
-    real(dp) :: noise(WIDTH) = 0           !< what steps and rounding added in it, rad
+    real(dp) :: noise(WIDTH) = 0           !< error added by steps and rounding in it, rad
     real(dp) :: region_error(CAPACITY) = 0 !< how far the states may be from where regions see them, rad
-    class(flow_t), allocatable :: flow     !< the scene's map; between periods its lanes hold the states as regions see them
-    type(period_error_t) :: error          !< of that map
-    integer :: means = BY_MAP              !< what carries the orbits
+    class(flow_t), allocatable :: flow     !< the scene's map; between periods its lanes hold states as regions see them
+    type(period_error_t) :: error          !< error of a period of that map
+    integer :: means = BY_MAP              !< method that carries the orbits
     logical :: exact = .false.             !< their errors are not asked for: they stay as they are
     !> BY_FINE_MAP: with more steps; what takes its states to physical coordinates; its error
     class(flow_t), allocatable :: fine, shown
@@ -40,7 +40,7 @@ module kz_labels_carrier
     !> BY_PAIRS: tables; states in physical coordinates
     type(pairs_t), pointer :: pairs => null()
     real(dp), private :: pair_u(CAPACITY, 2) = 0, pair_v(CAPACITY, 2) = 0
-    !> BY_SERIES: Taylor series in quad precision; their error in a period, relative to hypot(pi, v); states: rad, rad per drive radian
+    !> BY_SERIES: quad Taylor series; error in a period relative to hypot(pi, v); states: rad, rad per radian
     type(drive_t), pointer :: drive => null()
     real(dp) :: drive_error = 0
     real(qp), private :: theta(CAPACITY) = 0, velocity(CAPACITY) = 0
@@ -74,7 +74,7 @@ contains
   !> Carries orbits by Taylor series in quad precision, without what their errors need.
   subroutine make_exact_carrier(flow, drive, carrier)
     class(flow_t), intent(in) :: flow !< in whose coordinates trapping regions are
-    type(drive_t), intent(in), target :: drive !< of the pendulum
+    type(drive_t), intent(in), target :: drive !< drive of the pendulum
     type(carrier_t), intent(out) :: carrier !< the carrier
 
     allocate (carrier%flow, source=flow)
@@ -109,7 +109,7 @@ contains
     call add_ellipse(orbit%lost + noise, orbit%p)
   end subroutine put
 
-  !> What a period adds to the error of a state of speed v, rad.
+  !> Error (rad) that a period adds to a state of speed v.
   pure function noise_of(self, v) result(noise)
     class(carrier_t), intent(in) :: self
     real(dp), intent(in) :: v

@@ -30,17 +30,17 @@ module kz_labels_label
 contains
 
   !> Follows start i for periods(i) at most. label(i) = attractor (from 1) that it ends on, 0 where it has not settled;
-  !> periods(i) becomes its first period inside a trapping region, or the periods followed. state: physical starts (half-turns,
-  !> rad per drive radian); it becomes the states where the orbits were left, in the map's coordinates.
+  !> periods(i) becomes its first period inside a trapping region, or the periods followed. state: physical starts
+  !> (half-turns, rad per drive radian); it becomes the states where the orbits were left, in the map's coordinates.
   subroutine follow(map, regions, attractors, state, label, periods, apart, turns)
-    class(map_t), intent(inout), target :: map !< what moves the states by one period
+    class(map_t), intent(inout), target :: map !< map that moves the states by one period
     type(regions_t), intent(in), target :: regions !< the trapping regions
     type(attractor_t), intent(in), target :: attractors(:) !< the catalogue, numbered from 1
     real(dp), intent(inout), target :: state(:, :) !< [2, n] in and out
     integer(c_int32_t), intent(out), target :: label(:) !< attractor from 1, 0 = not settled
-    integer(c_int64_t), intent(inout), target :: periods(:) !< most periods, in; first period inside a trapping region, out
-    integer, intent(in) :: apart !< periods from one look at the regions to the next: the first period inside may be later by less than that
-    integer(c_int64_t), intent(out), target, optional :: turns(:) !< net turns by which the angle of a last state is more on the line
+    integer(c_int64_t), intent(inout), target :: periods(:) !< in: most periods; out: first one inside a trapping region
+    integer, intent(in) :: apart !< periods between checks of the regions; the reported period is late by less than that
+    integer(c_int64_t), intent(out), target, optional :: turns(:) !< net turns to add to the angle of a last state
     type(starts_t) :: starts
 
     starts%map => map
@@ -68,8 +68,8 @@ contains
     end do
     self%age(WIDTH + 1:) = 0
     call self%map%to_map(WIDTH + n, first=WIDTH + 1)
-    call find_regions(self%regions, self%attractors, n, self%map%u(WIDTH + 1:WIDTH + n), self%map%v(WIDTH + 1:WIDTH + n), &
-                      self%region(WIDTH + 1:))
+    call find_regions(self%regions, self%attractors, n, self%map%u(WIDTH + 1:WIDTH + n), &
+                      self%map%v(WIDTH + 1:WIDTH + n), self%region(WIDTH + 1:))
   end subroutine admit
 
   subroutine advance(self, list, n)
@@ -115,7 +115,7 @@ contains
     self%most(to) = self%most(from)
   end subroutine move
 
-  !> What covers make of the regions in which the lanes are.
+  !> Records the lanes' visits to regions for covers.
   subroutine visit_covers(self)
     class(starts_t), intent(inout) :: self
     integer :: lane, owner

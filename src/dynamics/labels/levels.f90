@@ -26,35 +26,35 @@ module kz_labels_levels
   integer, parameter :: FEWEST_FINE_STEPS = 48, MOST_FINE_STEPS = 320
   !> rad: below it the error of a period is that of rounding.
   real(dp), parameter :: ROUNDED = 1e-13_dp
-  !> Growth of an error over what a label bears, beyond which quad precision without pairs of doubles does not decide either.
+  !> Growth of an error over a label's tolerance beyond which quad precision without pairs does not decide either.
   real(dp), parameter :: LOST_IN_PAIRS = 3000
   !> rad: of a period in pairs of doubles.
   real(dp), parameter :: PAIRS_ERRORS(LEVEL_PAIRS_16:LEVEL_PAIRS_28) = [1e-16_dp, 1e-20_dp, 1e-24_dp, 3e-29_dp]
 
   type :: levels_t
     type(pendulum_t) :: pendulum
-    type(numerics_t) :: numerics                !< of the scene
-    real(dp) :: worst(LEVEL_DOUBLE:LEVEL_PAIRS_28) = 0 !< rad: what a period adds at most, of those that have been prepared
+    type(numerics_t) :: numerics                !< numerics of the scene
+    real(dp) :: worst(LEVEL_DOUBLE:LEVEL_PAIRS_28) = 0 !< rad: largest error of a period at each prepared level
     type(speed_probes_t), allocatable :: probes
-    type(period_error_t) :: error               !< of the scene's map
+    type(period_error_t) :: error               !< error of a period of the scene's map
     class(flow_t), allocatable :: fine          !< double precision with more steps
     type(period_error_t) :: fine_error
     type(pairs_t) :: pairs(LEVEL_PAIRS_16:LEVEL_PAIRS_28)
-    type(pair_series_t) :: pair_series          !< of them all
+    type(pair_series_t) :: pair_series          !< series shared by all levels of pairs
     type(drive_t), allocatable :: drive         !< quad precision
-    real(dp) :: quad_error = 0                  !< of its period, of hypot(pi, v)
+    real(dp) :: quad_error = 0                  !< error of a quad period, relative to hypot(pi, v)
   end type levels_t
 
 contains
 
   !> Makes what a level needs and has not yet.
   subroutine prepare_level(levels, level, flow, fastest)
-    type(levels_t), intent(inout) :: levels !< of a pendulum
+    type(levels_t), intent(inout) :: levels !< levels of a pendulum
     integer, intent(in) :: level !< LEVEL_DOUBLE or a finer one
     class(flow_t), intent(in) :: flow !< the scene's map
     real(dp), intent(in) :: fastest !< speeds that occur, rad per drive radian
 
-    call ieee_set_halting_mode(ieee_usual, .false.) ! too few steps may overflow: that is what is measured; until this procedure returns
+    call ieee_set_halting_mode(ieee_usual, .false.) ! an overflow of too few steps is measured, not trapped
     if (.not. allocated(levels%probes)) then
       allocate (levels%probes)
       call make_speed_probes(levels%pendulum, fastest, levels%probes)
@@ -76,9 +76,9 @@ contains
     call ieee_set_flag(ieee_usual, .false.)
   end subroutine prepare_level
 
-  !> Tables of pairs of doubles. Their steps are expected from those of the coarser ones, which are made first where this process has not met
-  !> them yet: what a rank has done before must not change a label. The steps of the coarsest are expected from the scene's, which have
-  !> fewer terms than would show their order, and a quarter more.
+  !> Tables of pairs of doubles. Their steps are expected from those of the coarser ones, which are made first where
+  !> this process has not met them yet: what a rank has done before must not change a label. The steps of the coarsest
+  !> are expected from the scene's, which have fewer terms than would show their order, and a quarter more.
   recursive subroutine make_table(levels, level, fastest)
     type(levels_t), intent(inout) :: levels
     integer, intent(in) :: level
@@ -88,7 +88,8 @@ contains
 
     steps = 0
     error = levels%error%worst
-    if (levels%numerics%scheme == PROCESSED_ROW .and. error > ROUNDED) steps = ceiling(1.25_dp*levels%numerics%steps_per_period)
+    if (levels%numerics%scheme == PROCESSED_ROW .and. error > ROUNDED) &
+      steps = ceiling(1.25_dp*levels%numerics%steps_per_period)
     if (level > LEVEL_PAIRS_16) then
       if (.not. allocated(levels%pairs(level - 1)%table)) call make_table(levels, level - 1, fastest)
       associate (coarser => levels%pairs(level - 1))
@@ -99,11 +100,12 @@ contains
       end associate
     end if
     levels%pair_series%kept = levels%numerics%series
-    call make_pairs(levels%pendulum, PAIRS_ERRORS(level), fastest, levels%pairs(level), levels%pair_series, steps, error)
+    call make_pairs(levels%pendulum, PAIRS_ERRORS(level), fastest, levels%pairs(level), levels%pair_series, steps, &
+                    error)
     levels%worst(level) = levels%pairs(level)%error
   end subroutine make_table
 
-  !> The processed splitting, or split6 where that does not serve, with so many steps that hardly more than rounding is left.
+  !> Makes the processed splitting, or split6 where that does not serve, with steps enough to leave little but rounding.
   subroutine make_fine(levels, fastest)
     type(levels_t), intent(inout) :: levels
     real(dp), intent(in) :: fastest
@@ -126,17 +128,17 @@ contains
 
   !> Whether a level gains so much on the next cheaper one that it pays: the one with more steps may not.
   pure logical function is_useful(levels, level)
-    type(levels_t), intent(in) :: levels !< of a pendulum; LEVEL_DOUBLE has been prepared
+    type(levels_t), intent(in) :: levels !< levels of a pendulum; LEVEL_DOUBLE has been prepared
     integer, intent(in) :: level !< LEVEL_DOUBLE or a finer one
     real(dp), parameter :: GAIN = 30
 
     is_useful = level /= LEVEL_FINE .or. levels%error%worst > GAIN*FINE_ERROR
   end function is_useful
 
-  !> What comes after a level. Pairs of doubles alone are skipped, and for other pairs: whatever their digits, labels are the same and so is
-  !> the evidence for them. Quad precision is tried again, without the pairs.
+  !> Forecasts error growth after a level. Pairs of doubles alone are skipped, and for other pairs: whatever their
+  !> digits, labels are the same and so is the evidence for them. Quad precision is tried again, without the pairs.
   pure function outlook_from(levels, level) result(outlook)
-    type(levels_t), intent(in) :: levels !< of a pendulum; the level has been prepared
+    type(levels_t), intent(in) :: levels !< levels of a pendulum; the level has been prepared
     integer, intent(in) :: level !< LEVEL_DOUBLE or a finer one
     type(outlook_t) :: outlook
 
@@ -154,9 +156,9 @@ contains
     outlook%reach = max(TOLERABLE, TOLERABLE*levels%worst(level)/PAIRS_ERRORS(outlook%next))
   end function outlook_from
 
-  !> What carries orbits at a level that has been prepared.
+  !> Returns the carrier of orbits at a prepared level.
   subroutine carrier_of(levels, level, flow, carrier)
-    type(levels_t), target, intent(in) :: levels !< of a pendulum
+    type(levels_t), target, intent(in) :: levels !< levels of a pendulum
     integer, intent(in) :: level !< LEVEL_DOUBLE or a finer one
     class(flow_t), intent(in) :: flow !< the scene's map
     type(carrier_t), intent(out) :: carrier !< the carrier

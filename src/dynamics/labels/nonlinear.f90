@@ -13,16 +13,16 @@ module kz_labels_nonlinear
   integer, parameter :: POINTS = 6
   real(dp), parameter :: HALF = sqrt(0.5_dp)
   real(dp), parameter :: DIAMETERS(2, 3) = reshape([1.0_dp, 0.0_dp, 0.0_dp, 1.0_dp, HALF, HALF], [2, 3])
-  !> Of an ellipse so many times as long as wide the first diameter is enough: the terms of the others are smaller by this factor.
+  !> Aspect ratio of an ellipse above which only the major axis is sampled: others add less by this factor.
   real(dp), parameter :: NARROW = 1000
-  !> What is of higher order is at most half of what is of second.
+  !> Terms beyond second order are at most half of the second-order terms.
   real(dp), parameter :: HIGHER = 1.5_dp
 
 contains
 
-  !> What the image of the ellipse SAFETY**2 P has beyond that of the tangent map, in parts of SAFETY, rad. Along z of the unit disc it is
-  !> q11 z1**2 + 2 q12 z1 z2 + q22 z2**2, at most |q11| + |q12| + |q22|, and half as much again stands for what is of higher order. Errors
-  !> that have grown lie along a line: then q11 is all of it.
+  !> Nonlinear part of the image of the ellipse SAFETY**2 P, in units of SAFETY, rad. Along z of the unit disc it is q11
+  !> z1**2 + 2 q12 z1 z2 + q22 z2**2, at most |q11| + |q12| + |q22|, and half as much again stands for higher orders.
+  !> Errors that have grown lie along a line: then q11 is all of it.
   subroutine measure_nonlinear(carrier, lane, u, v, p, nonlinear)
     type(carrier_t), intent(inout) :: carrier !< has just moved them by a period
     integer, intent(in) :: lane(:) !< [n] lanes of it, and of what follows
@@ -48,7 +48,7 @@ contains
     if (n > 0) call add_across(carrier, lane(wide(:n)), u, v, rim(:, 3:, wide(:n)), along(:, wide(:n)), nonlinear)
   end subroutine measure_nonlinear
 
-  !> What the other diameters of some lanes add.
+  !> Adds the other diameters' parts in some lanes.
   subroutine add_across(carrier, lane, u, v, rim, along, nonlinear)
     type(carrier_t), intent(inout) :: carrier
     integer, intent(in) :: lane(:)
@@ -78,7 +78,7 @@ contains
     rim(:, 2:6:2) = -rim(:, 1:5:2)
   end function rim_of
 
-  !> What the ends of a diameter differ by from their images by the tangent; the larger of both.
+  !> Distance of a diameter's ends from their images by the tangent map; the larger one.
   pure function quadratic_of(tangent, start, by) result(q)
     real(dp), intent(in) :: tangent(4), start(2, 2), by(2, 2)
     real(dp) :: q(2)

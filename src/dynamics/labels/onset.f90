@@ -1,4 +1,4 @@
-!> What carries starts to the first strobe from which on the drive is that of every period; a power extends it.
+!> Carries starts to the first strobe from which on the drive is that of every period; a power extends it.
 module kz_labels_onset
   use, intrinsic :: iso_c_binding, only: dp => c_double
   use kz_labels_carrier, only: orbit_t

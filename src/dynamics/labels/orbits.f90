@@ -1,5 +1,5 @@
-!> Follows many orbits with the ellipses of their errors. An orbit ends when a trapping region holds its whole ellipse. If the ellipse grows
-!> too large for that, the orbit is doubtful, or goes on in the next cheaper precision.
+!> Follows many orbits with the ellipses of their errors. An orbit ends when a trapping region holds its whole ellipse.
+!> If the ellipse grows too large for that, the orbit is doubtful, or goes on in the next cheaper precision.
 module kz_labels_orbits
   use, intrinsic :: iso_c_binding, only: dp => c_double, c_int64_t, c_int32_t, c_int16_t, c_int8_t, c_bool
   use kz_cycles_cycles, only: attractor_t, RUNNING
@@ -15,12 +15,13 @@ module kz_labels_orbits
   private
   public :: decision_t, outlook_t, follow_orbits, DOUBTFUL, PENDING, TOLERABLE
 
-  !> Labels besides the numbers of attractors: of an orbit whose error has become too large; of one that is to be followed on elsewhere.
+  !> Labels besides attractor numbers: the error is too large; the orbit is to be followed elsewhere.
   integer, parameter :: DOUBTFUL = -1, PENDING = -2
   !> rad: the size of an error that a label bears.
   real(dp), parameter :: TOLERABLE = 0.03_dp
-  !> rad: of larger errors what is not linear is carried too. The largest second derivatives of a period are some 100, so
-  !> what is left out is less than a hundredth of an error, and less than a thousandth where it is half as large. With a larger error no orbit is known to be on a closed curve.
+  !> rad: of larger errors what is not linear is carried too. The largest second derivatives of a period are some 100,
+  !> so what is left out is less than a hundredth of an error, and less than a thousandth where it is half as large.
+  !> With a larger error no orbit is known to be on a closed curve.
   real(dp), parameter :: LINEAR = 1e-4_dp
   !> Points of an ellipse's rim that a trapping region must hold.
   integer, parameter :: RIM = 8
@@ -48,8 +49,8 @@ module kz_labels_orbits
     real(dp) :: from = 0                  !< angle of the release on the line, rad
   end type decision_t
 
-  !> What comes after a level. The states of a doubtful orbit are followed on, with the growth of its error by the tangents alone, until they
-  !> end or the error is larger than `reach`: then the next level would not decide it either.
+  !> Forecast after a level. The states of a doubtful orbit are followed on, with the growth of its error by the
+  !> tangents alone, until they end or the error is larger than `reach`: then the next level would not decide it either.
   type :: outlook_t
     integer(c_int32_t) :: next = 0, after = 0 !< the level that follows, and the one behind it
     real(dp) :: reach = TOLERABLE             !< rad
@@ -66,8 +67,8 @@ module kz_labels_orbits
     real(dp) :: handover = 0            !< rad: an orbit with a larger error goes on elsewhere
     logical :: guess = .false.          !< doubtful orbits are followed on without their errors
     type(outlook_t) :: outlook          !< from the level that decides
-    real(dp) :: ellipse(CAPACITY, 3) = 0 !< of the errors
-    real(dp) :: trace(WIDTH) = 0        !< of those of active orbits
+    real(dp) :: ellipse(CAPACITY, 3) = 0 !< covariances of the errors
+    real(dp) :: trace(WIDTH) = 0        !< traces of the active orbits' covariances
     integer :: first(CAPACITY) = 0      !< the first region that held the state alone, 0 = none yet
     integer(c_int64_t) :: since(CAPACITY) = 0 !< from that age on
     logical :: doubted(CAPACITY) = .false.
@@ -80,10 +81,10 @@ module kz_labels_orbits
 
 contains
 
-  !> Follows orbits up to age `most`. decision(i)%end%label = PENDING and the orbit as it is then where its error has reached `handover`, if
-  !> that is below TOLERABLE.
+  !> Follows orbits up to age `most`. decision(i)%end%label = PENDING and the orbit as it is then where its error has
+  !> reached `handover`, if that is below TOLERABLE.
   subroutine follow_orbits(carrier, regions, attractors, most, handover, guess, outlook, orbit, decision)
-    type(carrier_t), intent(inout), target :: carrier !< what moves the orbits by one period
+    type(carrier_t), intent(inout), target :: carrier !< moves the orbits by one period
     type(regions_t), intent(in), target :: regions !< the trapping regions
     type(attractor_t), intent(in), target :: attractors(:) !< the catalogue, numbered from 1
     integer(c_int64_t), intent(in) :: most !< periods
@@ -123,8 +124,8 @@ contains
     self%since(WIDTH + 1:) = 0
     self%doubted(WIDTH + 1:) = .false.
     call self%carrier%to_map(WIDTH + 1, WIDTH + n)
-    call find_regions(self%regions, self%attractors, n, self%carrier%flow%u(WIDTH + 1:WIDTH + n), self%carrier%flow%v(WIDTH + 1:WIDTH + n), &
-                      self%region(WIDTH + 1:))
+    call find_regions(self%regions, self%attractors, n, self%carrier%flow%u(WIDTH + 1:WIDTH + n), &
+                      self%carrier%flow%v(WIDTH + 1:WIDTH + n), self%region(WIDTH + 1:))
   end subroutine admit
 
   !> Whether an orbit that has just been put is trapped, or too old; then its end has been noted.
@@ -166,7 +167,7 @@ contains
     end associate
   end subroutine advance
 
-  !> What is not linear in the period from the states (u, v), where errors are large.
+  !> Nonlinear part of the period from the states (u, v), where errors are large.
   subroutine add_nonlinear(self, u, v, nonlinear)
     class(orbits_t), intent(inout) :: self
     real(dp), intent(in) :: u(WIDTH), v(WIDTH)
@@ -219,7 +220,7 @@ contains
     if (trapped) call note_end(self, lane, owner, .true.)
   end function is_trapped
 
-  !> Whether an orbit that nothing holds is not followed any further: it is doubtful, or old; then its end has been noted.
+  !> Whether an untrapped orbit is followed no further: doubtful, or too old; then its end has been noted.
   function is_left(self, lane) result(left)
     class(orbits_t), intent(inout) :: self
     integer, intent(in) :: lane
@@ -324,7 +325,8 @@ contains
     real(dp) :: u(RIM), v(RIM), axes(3), angle, reach
     integer :: label(RIM), i
 
-    associate (u0 => self%carrier%flow%u(lane), v0 => self%carrier%flow%v(lane), error => self%carrier%region_error(lane))
+    associate (u0 => self%carrier%flow%u(lane), v0 => self%carrier%flow%v(lane), &
+               error => self%carrier%region_error(lane))
       reach = SAFETY*sqrt(self%ellipse(lane, 1) + self%ellipse(lane, 3)) + error
       held = cell_holds(self%regions, u0, v0, reach/PI, reach)
       if (held) return ! most errors are small

@@ -1,5 +1,5 @@
-!> The noise of a map: what steps and rounding add to the error of an orbit in one period, by classes of speed, measured on probes whose
-!> true images are known.
+!> The noise of a map: what steps and rounding add to the error of an orbit in one period, by classes of speed, measured
+!> on probes whose true images are known.
 module kz_labels_period_error
   use, intrinsic :: iso_c_binding, only: dp => c_double
   use kz_taylor_probes, only: probes_t, make_probes
@@ -13,8 +13,8 @@ module kz_labels_period_error
 
   !> Classes of speed.
   integer, parameter, public :: CLASSES = 16
-  !> Probes of a class, and how much more than the largest of their errors is assumed for it: of a common pendulum, and of one whose true
-  !> images take seconds.
+  !> Probes of a class, and how much more than the largest of their errors is assumed for it: of a common pendulum, and
+  !> of one whose true images take seconds.
   integer, parameter :: EACH = 32, EACH_COSTLY = 4
   real(dp), parameter :: MARGIN = 1.5_dp, MARGIN_COSTLY = 3
   !> rad per drive radian: motions that change so fast are costly.
@@ -23,7 +23,7 @@ module kz_labels_period_error
   !> States up to a speed and their images.
   type, extends(probes_t) :: speed_probes_t
     real(dp) :: fastest = 0
-    integer :: each = EACH !< of a class
+    integer :: each = EACH !< probes of a class
   end type speed_probes_t
 
   type :: period_error_t
@@ -34,7 +34,7 @@ module kz_labels_period_error
 
 contains
 
-  !> Probes of a pendulum up to a speed, spread evenly over the circle and over the speeds, and their images after a period or a stretch.
+  !> Probes of a pendulum, even over the circle and speeds up to `fastest`, and images after a period or a stretch.
   subroutine make_speed_probes(pendulum, fastest, probes, stretch)
     type(pendulum_t), intent(in) :: pendulum !< k, beta, m
     real(dp), intent(in) :: fastest !< rad per drive radian
@@ -52,7 +52,7 @@ contains
 
   !> The class of a speed.
   elemental function class_of(error, v) result(class)
-    type(period_error_t), intent(in) :: error !< of a map
+    type(period_error_t), intent(in) :: error !< error of a map
     real(dp), intent(in) :: v !< rad per drive radian
     integer :: class
 
@@ -62,7 +62,7 @@ contains
 
   !> The noise of a map at many speeds, in vectors.
   pure subroutine noise_at(error, n, v, noise)
-    type(period_error_t), intent(in) :: error !< of a map
+    type(period_error_t), intent(in) :: error !< error of a map
     integer, intent(in) :: n !< lanes
     real(dp), intent(in) :: v(n) !< rad per drive radian
     real(dp), intent(inout) :: noise(WIDTH) !< rad
@@ -78,7 +78,7 @@ contains
   !> The noise of a map.
   subroutine measure_period(flow, probes, error)
     class(flow_t), intent(in) :: flow !< the map of one drive period
-    type(speed_probes_t), intent(in) :: probes !< of its pendulum
+    type(speed_probes_t), intent(in) :: probes !< probes of its pendulum
     type(period_error_t), intent(out) :: error !< by classes of speed
     class(flow_t), allocatable :: moved
     integer :: first, class
@@ -105,7 +105,8 @@ contains
     real(dp) :: distance
     integer :: lane, class
 
-    call flow%put_all(real(probes%start(1, first:first + WIDTH - 1), dp), real(probes%start(2, first:first + WIDTH - 1), dp))
+    call flow%put_all(real(probes%start(1, first:first + WIDTH - 1), dp), &
+                      real(probes%start(2, first:first + WIDTH - 1), dp))
     call flow%advance_physical(WIDTH)
     do lane = 1, WIDTH
       class = (first + lane - 2)/probes%each

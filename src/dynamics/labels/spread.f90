@@ -1,4 +1,4 @@
-!> The errors of orbits over a period, many at once. (A file of its own: called, not copied into a caller, its loop goes over vectors.)
+!> Spreads the errors of many orbits over a period. A file of its own: not inlined, its loop is vectorised.
 module kz_labels_spread
   use, intrinsic :: iso_c_binding, only: dp => c_double
   use kz_vector_map, only: WIDTH, CAPACITY
@@ -8,16 +8,16 @@ module kz_labels_spread
 
 contains
 
-  !> The matrices P of error ellipses after a period. The tangent T takes an ellipse to one of the matrix S = T P T'. The errors of the period
-  !> add a vector of any direction: a disc of the matrix D. For any x > 0 the ellipse of (1 + 1/x) S + (1 + x) D holds all sums of a
-  !> vector of each; its trace is least at x**2 = tr S/tr D.
+  !> The matrices P of error ellipses after a period. The tangent T takes an ellipse to one of the matrix S = T P T'.
+  !> The errors of the period add a vector of any direction: a disc of the matrix D. For any x > 0 the ellipse of (1 +
+  !> 1/x) S + (1 + x) D holds all sums of a vector of each; its trace is least at x**2 = tr S/tr D.
   pure subroutine spread_errors(n, tangent, noise, nonlinear, p, trace)
     integer, intent(in) :: n !< lanes
-    real(dp), intent(in) :: tangent(WIDTH, 4) !< (WIDTH, 4): derivatives of the angle by angle and velocity, of the velocity by both
-    real(dp), intent(in) :: noise(WIDTH) !< of the period, rad
-    real(dp), intent(in) :: nonlinear(WIDTH) !< what is not linear in the period, rad
+    real(dp), intent(in) :: tangent(WIDTH, 4) !< (WIDTH, 4): d angle by angle and velocity, d velocity by both
+    real(dp), intent(in) :: noise(WIDTH) !< noise of the period, rad
+    real(dp), intent(in) :: nonlinear(WIDTH) !< nonlinear part of the period, rad
     real(dp), intent(inout) :: p(CAPACITY, 3) !< theta theta, theta v, v v: rad, rad per drive radian
-    real(dp), intent(out) :: trace(WIDTH) !< of P; not a number for one that is lost
+    real(dp), intent(out) :: trace(WIDTH) !< trace of P; NaN for a lost orbit
     real(dp) :: s1, s2, s3, t1, t2, t3, t4, size, square, x
     integer :: i
 
@@ -50,7 +50,8 @@ contains
     integer :: i
 
     do i = 1, n
-      between(i) = int(merge(1.0_dp, 0.0_dp, p(i, 1) + p(i, 3) < most) - merge(1.0_dp, 0.0_dp, p(i, 1) + p(i, 3) < least))
+      between(i) = int(merge(1.0_dp, 0.0_dp, p(i, 1) + p(i, 3) < most) &
+                       - merge(1.0_dp, 0.0_dp, p(i, 1) + p(i, 3) < least))
     end do
   end subroutine flag_between
 
@@ -58,7 +59,7 @@ contains
   pure subroutine flag_done(n, region, trace, largest, done)
     integer, intent(in) :: n !< lanes
     integer, intent(in) :: region(WIDTH) !< 0 = in none
-    real(dp), intent(in) :: trace(WIDTH) !< of P
+    real(dp), intent(in) :: trace(WIDTH) !< trace of P
     real(dp), intent(in) :: largest !< the bound
     integer, intent(inout) :: done(WIDTH) !< flags
     integer :: i

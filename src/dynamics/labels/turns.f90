@@ -1,4 +1,4 @@
-!> Net turns of motions: from the angle of release to the middle of the cycle on which they end, on the line that covers the circle.
+!> Net turns of motions: from the angle of release to the middle of the final cycle, on the line over the circle.
 module kz_labels_turns
   use, intrinsic :: iso_c_binding, only: dp => c_double, c_int32_t, c_int64_t
   use kz_cycles_cycles, only: attractor_t
@@ -38,8 +38,9 @@ module kz_labels_turns
 
 contains
 
-  !> Fills decision(:)%end%turns, NO_TURNS where a motion ends on no cycle or on one that rotates. Such a number is the same for all starts of a
-  !> connected piece of a basin on the line of angles, so for all that a trapping region holds with the orbit: it is as certain as the label.
+  !> Fills decision(:)%end%turns, NO_TURNS where a motion ends on no cycle or on one that rotates. Such a number is the
+  !> same for all starts of a connected piece of a basin on the line of angles, so for all that a trapping region holds
+  !> with the orbit: it is as certain as the label.
   subroutine count_turns(flow, sampling_flow, attractors, most, decision)
     class(flow_t), intent(inout), target :: flow !< the scene's map
     class(flow_t), intent(inout) :: sampling_flow !< a fine flow whose steps are not fused
@@ -135,8 +136,8 @@ contains
     yes = self%age(lane) >= self%most
   end function is_done
 
-  !> The number of whole turns, rounded to the nearest, from an angle (rad) to another one (half-turns) and so many turns more. Halves go
-  !> towards 0; the double nearest to pi is less than pi.
+  !> The number of whole turns, rounded to the nearest, from an angle (rad) to another one (half-turns) and so many
+  !> turns more. Halves go towards 0; the double nearest to pi is less than pi.
   pure function turns_between(from, to, more) result(turns)
     real(dp), intent(in) :: from, to
     integer(c_int64_t), intent(in) :: more

@@ -1,4 +1,4 @@
-!> The C interface of dynamics: what is known of a pendulum carried to one nearby, for pictures that move (include/kapitza/dynamics_live.h).
+!> The C interface of dynamics: carries a pendulum's state to one nearby, for moving pictures (dynamics_live.h).
 module kz_live_carried
   use, intrinsic :: iso_c_binding, only: dp => c_double, c_int32_t, c_int64_t, c_ptr, c_loc
   use kz_api_dynamics, only: dynamics_t, of_handle, make_dynamics, borrow_flow, return_flow
@@ -61,7 +61,7 @@ contains
   subroutine make_moved_flow(pendulum, numerics, error, sampling, flow)
     type(pendulum_t), intent(in) :: pendulum
     type(numerics_t), intent(in) :: numerics
-    real(dp), intent(in) :: error !< of the series at most, rad
+    real(dp), intent(in) :: error !< largest error of the series, rad
     class(flow_t), intent(in) :: sampling !< map of fine_numerics
     class(flow_t), allocatable, intent(out) :: flow
     type(series_t), allocatable :: series

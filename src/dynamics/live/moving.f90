@@ -1,6 +1,7 @@
-!> Trapping regions for pictures that move; it is likely, not certain, that they trap. Those of a pendulum nearby serve for another one. And
-!> where damping is weak, images of cells shrink too slowly for regions to grow; but orbits that have been followed to their ends show where
-!> motions go: a cell joins an attractor if all orbits that visited it end there, and visited only such cells from then on.
+!> Trapping regions for pictures that move; it is likely, not certain, that they trap. Those of a pendulum nearby serve
+!> for another one. And where damping is weak, images of cells shrink too slowly for regions to grow; but orbits that
+!> have been followed to their ends show where motions go: a cell joins an attractor if all orbits that visited it end
+!> there, and visited only such cells from then on.
 module kz_live_moving
   use, intrinsic :: iso_c_binding, only: dp => c_double, int32 => c_int32_t
   use kz_cycles_cycles, only: attractor_t
@@ -14,14 +15,14 @@ module kz_live_moving
 
   !> Orbits that visit a cell before it is believed.
   integer, parameter :: FEWEST_ORBITS = 4
-  !> Of a cell: its orbits end on different attractors or on none, or leave the cells of their attractor once more.
+  !> Mark of a cell whose orbits end on different attractors or on none, or leave the cells of their attractor again.
   integer, parameter :: MIXED = -1
 
   !> The visits of orbits, one orbit after the other.
   type :: visits_t
-    integer(int32), allocatable :: cell(:) !< of the stored half, from 1; negative: of a mirror image; 0: outside of the grid
-    integer, allocatable :: last(:)        !< of each orbit from 0, which is none: its last visit
-    integer, allocatable :: ends(:)        !< of each orbit: the attractor, 0 = none
+    integer(int32), allocatable :: cell(:) !< cells of the stored half, from 1; negative: mirrored; 0: outside the grid
+    integer, allocatable :: last(:)        !< last visit of each orbit, from 0 = none
+    integer, allocatable :: ends(:)        !< attractor of each orbit, 0 = none
     integer :: orbits = 0
   end type visits_t
 
@@ -50,7 +51,7 @@ contains
   !> A grid in which a cell keeps its attractor only if all its neighbours have the same one. Ellipses are drawn anew.
   function aged_regions(old, number) result(regions)
     type(regions_t), intent(in) :: old !< regions of the other pendulum
-    integer, intent(in) :: number(:) !< of each of its attractors, the number that it has now; 0 = it is there no more
+    integer, intent(in) :: number(:) !< present numbers of its attractors; 0 = gone
     type(regions_t) :: regions
     integer :: around(-1:old%n_theta, 0:old%n_velocity - 1), unlike(0:old%n_theta - 1), i, l
 
@@ -76,7 +77,8 @@ contains
     unlike = 0
     do y = 1, 3
       do i = 1, n
-        unlike(i) = ior(unlike(i), ior(ior(ieor(row(i - 1, y), row(i, 2)), ieor(row(i, y), row(i, 2))), ieor(row(i + 1, y), row(i, 2))))
+        unlike(i) = ior(unlike(i), ior(ior(ieor(row(i - 1, y), row(i, 2)), ieor(row(i, y), row(i, 2))), &
+                                       ieor(row(i + 1, y), row(i, 2))))
       end do
     end do
   end subroutine compare
@@ -96,8 +98,8 @@ contains
     if (a > 0 .and. mirrored) a = regions%mirror(a)
   end function attractor_at
 
-  !> Follows orbits until each is trapped, and extends the regions by the cells of which all end alike. It ends early when the orbits together have spent
-  !> `budget` periods.
+  !> Follows orbits until each is trapped, and extends the regions by the cells of which all end alike. It ends early
+  !> when the orbits together have spent `budget` periods.
   subroutine learn_regions(regions, attractors, flow, state, most, budget)
     type(regions_t), intent(inout), target :: regions !< the trapping regions of all attractors
     type(attractor_t), intent(in), target :: attractors(:) !< the catalogue, numbered from 1
@@ -155,7 +157,7 @@ contains
     list(:n) = [(i, i=n, 1, -1)]
   end subroutine advance
 
-  !> An orbit that nothing has trapped after all its periods ends on the attractor whose cover it is in. When the budget is spent, all end.
+  !> An untrapped orbit ends after its periods on the attractor whose cover it is in; all end when the budget is spent.
   function is_done(self, lane) result(yes)
     class(visitors_t), intent(inout) :: self
     integer, intent(in) :: lane
@@ -170,7 +172,8 @@ contains
     else if (self%visits%last(self%visits%orbits) + self%age(lane) > self%budget) then
       self%next = size(self%state, 2) + 2 ! no more starts, and no more orbits
     else if (self%next <= size(self%state, 2) + 1) then
-      if (end == 0 .and. size(self%regions%covered) > 0) end = chaos_region(self%regions, self%flow%u(lane), self%flow%v(lane))
+      if (end == 0 .and. size(self%regions%covered) > 0) &
+        end = chaos_region(self%regions, self%flow%u(lane), self%flow%v(lane))
       call add_orbit(self%visits, self%path(:self%age(lane), lane), end)
     end if
   end function is_done

@@ -8,16 +8,17 @@ module kz_live_smooth
   private
   public :: smooth_times
 
-  !> Periods after which a motion that is not near a strobe point is left; and what is near, the square of an ellipse's norm: so deep inside
-  !> it motions are linear.
+  !> Periods after which a motion that is not near a strobe point is left; and what is near, the square of an ellipse's
+  !> norm: so deep inside it motions are linear.
   integer, parameter :: LONGEST = 200
   real(dp), parameter :: NEAR = 0.04_dp
 
 contains
 
-  !> time(i) becomes the time at which motion i comes into an ellipse of its attractor. At the first period n deep inside it, where the square
-  !> of the ellipse's norm is q < NEAR, that was log(1/q)/(2 rate) periods before n, if the norm fell at the attractor's rate: so n and q together
-  !> vary smoothly where the multipliers are complex, and nearly so where one of them is much larger.
+  !> time(i) becomes the time at which motion i comes into an ellipse of its attractor. At the first period n deep
+  !> inside it, where the square of the ellipse's norm is q < NEAR, that was log(1/q)/(2 rate) periods before n, if the
+  !> norm fell at the attractor's rate: so n and q together vary smoothly where the multipliers are complex, and nearly
+  !> so where one of them is much larger.
   subroutine smooth_times(flow, attractors, label, state, time)
     class(flow_t), intent(inout) :: flow !< the scene's map
     type(attractor_t), intent(in) :: attractors(:) !< the catalogue, numbered from 1

@@ -1,5 +1,5 @@
-!> The scheduler of all that follows states in lanes. What the lanes carry, where further states come from and when one is done belong to the
-!> type that extends it.
+!> The scheduler of all that follows states in lanes. What the lanes carry, where further states come from and when one
+!> is done belong to the type that extends it.
 module kz_maps_lanes
   use, intrinsic :: iso_c_binding, only: c_int64_t
   use kz_vector_locks, only: look
@@ -14,7 +14,7 @@ module kz_maps_lanes
   type, abstract :: lanes_t
     integer :: active = 0 !< lanes 1 .. active are advanced
   contains
-    !> Follows states until there are no more. A lane that is done takes another state, or else that of the last active lane.
+    !> Follows states until none is left. A finished lane takes the next state, else that of the last active lane.
     procedure :: run
     !> Puts a further state into a lane that is free; false = there is none.
     procedure(of_lane_i), deferred :: fill
@@ -43,8 +43,8 @@ module kz_maps_lanes
     procedure(admit_i), deferred :: admit
     !> Copies what is known of a lane to another one.
     procedure :: copy
-    !> Whether the state of a lane, in the cover of attractor `owner` (0 = none) now, counts as captured; then since its age STAY - 1
-    !> periods ago, which becomes its age.
+    !> Whether the state of a lane, in the cover of attractor `owner` (0 = none) now, counts as captured; then since its
+    !> age STAY - 1 periods ago, which becomes its age.
     procedure :: is_captured
   end type queued_lanes_t
 

@@ -1,7 +1,8 @@
-!> The map table of interpolated cell mapping: the displacement F(x) - x on a grid of nodes, and the map that interpolates it.
+!> The map table of interpolated cell mapping: the displacement F(x) - x on a grid of nodes, and the map that
+!> interpolates it.
 !>
-!> Its angle is that of a free flight at mid-period (`midperiod_angle`). The mirror symmetry halves the table: only angles 0 ..
-!> pi are stored; a state is folded there, and its image unfolded.
+!> Its angle is that of a free flight at mid-period (`midperiod_angle`). The mirror symmetry halves the table: only
+!> angles 0 .. pi are stored; a state is folded there, and its image unfolded.
 module kz_maps_map_table
   use, intrinsic :: iso_c_binding, only: dp => c_double, c_int64_t, c_int32_t
   use kz_vector_map, only: map_t, flow_t, WIDTH
@@ -20,13 +21,13 @@ module kz_maps_map_table
     integer :: n_own = 0      !< nodes from 0 to pi: 0 .. n_own
     integer :: n_velocity = 0 !< nodes of the velocity
     real(dp) :: top = 0       !< largest velocity; the smallest is -top
-    !> displacement over a period (half-turns at mid-period, rad per drive radian), (2, -GHOSTS : n_theta + GHOSTS, n_velocity)
+    !> shift in a period (half-turns at mid-period, rad per radian), (2, -GHOSTS : n_theta + GHOSTS, n_velocity)
     real(dp), allocatable :: shift(:, :, :)
   end type table_t
 
   !> Where lanes lie in the table.
   type :: place_t
-    real(dp) :: fold(WIDTH)   !< -1 where the mirror image is stored; 0 at the two states that are their own images: they rest
+    real(dp) :: fold(WIDTH)   !< -1 where the mirror image is stored; 0 at the two rests, which are their own images
     integer(c_int32_t) :: i(WIDTH) !< cell of the angle, from 0
     integer(c_int32_t) :: j(WIDTH) !< cell of the velocity, from 0
     real(dp) :: x(WIDTH)      !< within the cell, [0, 1)
@@ -116,7 +117,7 @@ contains
     end do
   end subroutine table_row
 
-  !> Sets the table from all rows, as table_row returns them. Nodes below angle 0 and beyond pi are mirror images of other nodes.
+  !> Sets the table from all rows of table_row. Nodes below angle 0 and beyond pi mirror other nodes.
   subroutine set_table_rows(table, rows)
     type(table_t), intent(inout) :: table !< the map table
     real(dp), intent(in) :: rows(2, 0:table%n_own, table%n_velocity) !< displacements of all nodes
@@ -219,8 +220,8 @@ contains
     associate (p => place)
       call lagrange(self%points, p%x, wu)
       call lagrange(self%points, p%y, wv)
-      call sum_nodes(self%points, n, size(self%table%shift(:, :, 1), kind=c_int64_t), self%table%shift(1, 0, 1), p%i, p%j, &
-                     int(WIDTH, c_int64_t), wu, wv, shift)
+      call sum_nodes(self%points, n, size(self%table%shift(:, :, 1), kind=c_int64_t), self%table%shift(1, 0, 1), p%i, &
+                     p%j, int(WIDTH, c_int64_t), wu, wv, shift)
       do lane = 1, n
         x(lane) = self%u(lane) + p%fold(lane)*(shift(1, lane) - MIDPERIOD*shift(2, lane))
         y(lane) = self%v(lane) + p%fold(lane)*shift(2, lane)

@@ -68,7 +68,7 @@ contains
     if (abs(w(1)) + abs(w(2)) <= 0) w = 1
   end function eigenvector
 
-  !> The ellipse of all x with x' P**-1 x <= 1 consists of the points (axes(1) c, axes(2) c + axes(3) s) with c**2 + s**2 <= 1.
+  !> The ellipse x' P**-1 x <= 1 consists of the points (axes(1) c, axes(2) c + axes(3) s) with c**2 + s**2 <= 1.
   pure function axes_of(p) result(axes)
     real(dp), intent(in) :: p(3) !< entries 1 1, 1 2, 2 2 of the symmetric matrix P
     real(dp) :: axes(3)

@@ -4,13 +4,13 @@ module kz_maps_states
   use kz_vector_map, only: flow_t, WIDTH, PI
   implicit none
   private
-  public :: wrapped, states_to_map, states_to_physical, angle_difference, separation, same_state, midperiod_angle, rounded, &
-            MIDPERIOD
+  public :: wrapped, states_to_map, states_to_physical, angle_difference, separation, same_state, midperiod_angle, &
+            rounded, MIDPERIOD
 
   !> States nearer than this are one: half-turns and rad per drive radian together.
   real(dp), parameter :: SAME = 1e-7_dp
-  !> Half-turns of a free flight of unit velocity from the strobe to mid-period. (Loops over vectors take it: a function of another
-  !> file would be called state by state.)
+  !> Half-turns of a free flight of unit velocity from the strobe to mid-period. (Loops over vectors take it: a function
+  !> of another file would be called state by state.)
   real(dp), parameter :: MIDPERIOD = 1
 
 contains
@@ -47,9 +47,9 @@ contains
     one = abs(angle_difference(u1, u2)) + abs(v1 - v2) < SAME
   end function same_state
 
-  !> The angle at mid-period of a free flight from (u, v), in half-turns, not wrapped. The map table and the regions are grids
-  !> over it and the velocity: seen from mid-period the map varies half as fast with the velocity, and interpolation errs
-  !> 2**order less.
+  !> The angle at mid-period of a free flight from (u, v), in half-turns, not wrapped. The map table and the regions are
+  !> grids over it and the velocity: seen from mid-period the map varies half as fast with the velocity, and
+  !> interpolation errs 2**order less.
   elemental function midperiod_angle(u, v) result(w)
     real(dp), intent(in) :: u, v !< angle at the strobe, half-turns, rad per drive radian
     real(dp) :: w

@@ -1,5 +1,5 @@
-!> The error of one drive period, measured before anything is labelled: by step doubling, for each class of speeds; and the
-!> interpolation error of the map table.
+!> The error of one drive period, measured before anything is labelled: by step doubling, for each class of speeds; and
+!> the interpolation error of the map table.
 module kz_maps_step_error
   use, intrinsic :: iso_c_binding, only: dp => c_double, c_int32_t, c_int64_t
   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
@@ -15,15 +15,15 @@ module kz_maps_step_error
 
   !> States of a class of speeds.
   integer, parameter :: STATES = 8*WIDTH
-  !> Such a sample has seen more than the inverse of this of the largest error (tests/extremes/step_error.c holds it against dense
-  !> ones).
+  !> Such a sample has seen more than the inverse of this of the largest error (tests/extremes/step_error.c holds it
+  !> against dense ones).
   real(dp), parameter :: SAFETY = 2
 
 contains
 
-  !> error(c) = an upper estimate of the error of one period of states with speeds from speed(c) to speed(c + 1), in rad (velocity
-  !> and angle together): the largest of STATES, SAFETY times; huge where a state is lost: not finite, or faster than friction and
-  !> drive can make it.
+  !> error(c) = an upper estimate of the error of one period of states with speeds from speed(c) to speed(c + 1), in rad
+  !> (velocity and angle together): the largest of STATES, SAFETY times; huge where a state is lost: not finite, or
+  !> faster than friction and drive can make it.
   subroutine step_errors(pendulum, numerics, n, speed, error) bind(C, name='kz_step_errors')
     type(pendulum_t), intent(in) :: pendulum
     type(numerics_t), intent(in) :: numerics
@@ -37,7 +37,7 @@ contains
     integer :: first
 
     if (recall_errors(numerics%series, key_of(pendulum, numerics, speed), error)) return
-    halved = numerics_t(numerics%scheme, 2*numerics%steps_per_period, fastest=numerics%fastest, series=numerics%series) ! all terms
+    halved = numerics_t(numerics%scheme, 2*numerics%steps_per_period, fastest=numerics%fastest, series=numerics%series)
     call make_flow(pendulum, numerics, .true., flow)
     call make_flow(pendulum, halved, .true., finer, refined=2)
     do c = 1, n
@@ -60,12 +60,13 @@ contains
     real(dp), intent(in) :: speed(:)
     integer(c_int64_t), allocatable :: key(:)
 
-    key = [transfer(pendulum, [0_c_int64_t]), int([numerics%scheme, numerics%steps_per_period, numerics%drift_terms, numerics%kick_terms], c_int64_t), &
+    key = [transfer(pendulum, [0_c_int64_t]), &
+           int([numerics%scheme, numerics%steps_per_period, numerics%drift_terms, numerics%kick_terms], c_int64_t), &
            transfer(numerics%fastest, 0_c_int64_t), transfer(speed, [0_c_int64_t])]
   end function key_of
 
-  !> A period of states first .. first + WIDTH - 1 of STATES over the whole circle, both ends of the speeds included; the others are their
-  !> mirror images, or every second one goes the other way.
+  !> A period of states first .. first + WIDTH - 1 of STATES over the whole circle, both ends of the speeds included;
+  !> the others are their mirror images, or every second one goes the other way.
   subroutine advance_class(map, first, slowest, fastest, mirrored)
     class(map_t), intent(inout) :: map
     integer, intent(in) :: first
@@ -82,7 +83,7 @@ contains
     call map%advance_physical(WIDTH)
   end subroutine advance_class
 
-  !> The largest distance of two maps' states, rad. `limit` bounds the speed of a true motion: |v'| <= |k| + |m| besides friction.
+  !> Largest distance of two maps' states, rad. `limit` bounds true speeds: |v'| <= |k| + |m| besides friction.
   function difference(map, other, limit) result(largest)
     class(map_t), intent(in) :: map, other
     real(dp), intent(in) :: limit

@@ -1,4 +1,4 @@
-/* The sums of Lagrange's interpolation over nodes of the map table. In C, because gfortran turns each row of nodes round. */
+/* Sums of Lagrange's interpolation over nodes of the map table. In C: gfortran turns each row of nodes round. */
 #include <stdint.h>
 
 #if !defined KAPITZA_FUSED || KAPITZA_FUSED != 1
@@ -11,7 +11,7 @@ enum { MOST = 6 }; /* nodes of a stencil along an axis */
 typedef double node __attribute__((vector_size(16), aligned(8), may_alias));
 typedef double nodes __attribute__((vector_size(32), aligned(8), may_alias));
 
-/* kz_sum_nodes of one lane. `points` is a constant wherever this is called, so that its loops are unrolled and sums stay in registers. */
+/* kz_sum_nodes of one lane. Callers pass a constant `points`: loops are unrolled, sums stay in registers. */
 static inline __attribute__((always_inline)) node sum_of(int points, int64_t length, const double *field, int64_t width,
                                                          const double *wu, const double *wv) {
   union {

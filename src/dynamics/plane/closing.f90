@@ -10,7 +10,7 @@ module kz_plane_closing
   private
   public :: closed_t, close_motions
 
-  !> Steps of the method, the one that is short enough, how far it may lead (rad), and how near a point that comes back sooner must be.
+  !> Newton steps, last step's size, largest distance (rad), and how near a sooner return must be.
   integer, parameter :: STEPS = 8
   real(dp), parameter :: SHORT = 1e-9_dp, FAR = 1e-2_dp, BACK = 1e-7_dp
 
@@ -22,7 +22,7 @@ module kz_plane_closing
     integer :: winding = 0
     integer :: centre = ELSEWHERE
     real(dp) :: exponent = 0        !< per drive period
-    real(dp) :: distance = 0        !< of the motion from the cycle, rad
+    real(dp) :: distance = 0        !< distance of the motion from the cycle, rad
   end type closed_t
 
   !> The orbits of all lanes, with what is known after each period.
@@ -30,7 +30,7 @@ module kz_plane_closing
     real(dp), allocatable :: u(:, :)            !< lane, periods from 0 on
     real(dp), allocatable :: v(:, :)
     real(dp), allocatable :: matrix(:, :, :, :) !< 2, 2, lane, periods from 1 on
-    type(track_t), allocatable :: track(:)      !< of periods from 1 on
+    type(track_t), allocatable :: track(:)      !< tracks of periods from 1 on
     integer, allocatable :: winding(:, :)
   end type orbits_t
 
@@ -41,7 +41,7 @@ contains
     type(mixed_batch_t), intent(inout) :: batch !< pendulums and states
     integer, intent(in) :: n !< lanes in use
     integer, intent(in) :: period(:) !< periods after which the motions come back, descending
-    type(closed_t), intent(out) :: closed(:) !< what became of each
+    type(closed_t), intent(out) :: closed(:) !< result of each
     type(orbits_t) :: orbits
     real(dp) :: start(2, WIDTH), x(2, WIDTH), step(2)
     integer :: iteration, i
@@ -123,7 +123,8 @@ contains
     closed%attracts = abs(multiplier(1)) < 1
     closed%exponent = log(abs(multiplier(1)))/p
     associate (track => orbits%track(p))
-      closed%centre = centre_of(closed%winding /= 0, track%total(i)/(p*batch%n_steps), track%lowest(i), track%highest(i))
+      closed%centre = centre_of(closed%winding /= 0, track%total(i)/(p*batch%n_steps), track%lowest(i), &
+                                track%highest(i))
     end associate
   end subroutine describe
 

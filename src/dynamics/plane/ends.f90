@@ -1,5 +1,5 @@
-!> Where motions of many pendulums end: each is followed until it comes back to a point of its own; then Newton's method finds the
-!> cycle. Those that never come back count as chaotic if neighbours separate.
+!> Where motions of many pendulums end: each is followed until it comes back to a point of its own; then Newton's method
+!> finds the cycle. Those that never come back count as chaotic if neighbours separate.
 module kz_plane_ends
   use, intrinsic :: iso_c_binding, only: dp => c_double, c_int32_t, c_int64_t
   use kz_vector_map, only: WIDTH
@@ -15,7 +15,7 @@ module kz_plane_ends
   integer, parameter :: PAUSE = 32
   !> rad: a motion so near a cycle that does not attract does not leave it for long.
   real(dp), parameter :: ON_IT = 1e-9_dp
-  !> Of the exponent of a motion that has not settled: blocks of periods, and the standard errors that it must exceed.
+  !> Exponent of an unsettled motion: blocks of periods, and the standard errors that it must exceed.
   integer, parameter :: BLOCKS = 10, BLOCK = 100
   real(dp), parameter :: CONFIDENCE = 5
   integer, parameter :: OPEN = -1, CHAOTIC = 0
@@ -48,8 +48,8 @@ module kz_plane_ends
     type(motion_t) :: motion(WIDTH)
     integer :: n_waiting = 0
     type(motion_t), allocatable :: waiting(:)   !< the first n_waiting of them, to be begun or gone on with
-    type(motion_t), allocatable :: near(:)      !< that have come back
-    type(motion_t), allocatable :: unsettled(:) !< that have gone on for too long
+    type(motion_t), allocatable :: near(:)      !< motions that have come back
+    type(motion_t), allocatable :: unsettled(:) !< motions that have gone on for too long
     type(ending_t), pointer :: endings(:) => null()
   contains
     procedure :: fill
@@ -94,7 +94,8 @@ contains
     integer, intent(in) :: lane
     logical :: yes
 
-    if (size(self%near) >= WIDTH .or. (self%active == 0 .and. self%n_waiting == 0 .and. size(self%near) > 0)) call try_cycles(self)
+    if (size(self%near) >= WIDTH .or. (self%active == 0 .and. self%n_waiting == 0 .and. size(self%near) > 0)) &
+      call try_cycles(self)
     yes = self%n_waiting > 0
     if (.not. yes) return
     self%motion(lane) = self%waiting(self%n_waiting)
@@ -180,8 +181,8 @@ contains
     do i = 1, n
       associate (motion => lane(i))
         if (closed(i)%found .and. closed(i)%attracts) then
-          self%endings(motion%id) = ending_t(closed(i)%period, closed(i)%winding, closed(i)%centre, int(motion%age, c_int32_t), &
-                                             closed(i)%exponent)
+          self%endings(motion%id) = ending_t(closed(i)%period, closed(i)%winding, closed(i)%centre, &
+                                             int(motion%age, c_int32_t), closed(i)%exponent)
         else if (motion%age >= motion%longest .or. (closed(i)%found .and. closed(i)%distance < ON_IT)) then
           self%endings(motion%id) = ending_t(settling_time=int(motion%longest, c_int32_t), exponent=closed(i)%exponent)
         else

@@ -28,7 +28,7 @@ contains
   !> Makes an empty past.
   subroutine make_past(longest, past)
     integer, intent(in) :: longest !< drive periods that it reaches back
-    type(past_t), intent(out) :: past !< of all lanes of a batch
+    type(past_t), intent(out) :: past !< past of all lanes of a batch
 
     past%longest = longest
     past%latest = 1

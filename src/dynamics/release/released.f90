@@ -1,5 +1,5 @@
-!> Orbits from their release to the strobe after which the drive has its final form, with their errors beside them: stretch by stretch, each
-!> with tables of its own, many orbits at once.
+!> Orbits from their release to the strobe after which the drive has its final form, with their errors beside them:
+!> stretch by stretch, each with tables of its own, many orbits at once.
 module kz_release_released
   use, intrinsic :: iso_c_binding, only: dp => c_double, c_ptr
   use kz_api_dynamics, only: dynamics_t, of_handle
@@ -18,7 +18,7 @@ module kz_release_released
   implicit none
   private
 
-  !> rad: what is not linear in a stretch is left out below it; an orbit whose error is larger is lost, its error as large as FAR.
+  !> rad: error below which a stretch counts as linear; error from which an orbit is lost, its error set to FAR.
   real(dp), parameter :: LINEAR = 1e-4_dp, FAR = 10
   !> Stretches whose errors are measured: the first, the last, and some between.
   integer, parameter :: MEASURED = 4
@@ -28,7 +28,7 @@ module kz_release_released
   type, extends(onset_t) :: released_t
     type(release_t) :: release
     logical :: is_made = .false.
-    type(period_error_t) :: error !< of a stretch in double precision
+    type(period_error_t) :: error !< error of a stretch in double precision
     real(dp) :: quad_error = 0    !< in quad precision, of hypot(pi, v)
   contains
     procedure :: prepare
@@ -72,7 +72,8 @@ contains
     type(period_t) :: period
 
     numerics = fine_numerics(pendulum)
-    numerics%steps_per_period = ceiling(numerics%steps_per_period*real(part%span, dp)*sqrt(max(1.0_dp, abs(part%release%drive))))
+    numerics%steps_per_period = ceiling(numerics%steps_per_period*real(part%span, &
+        dp)*sqrt(max(1.0_dp, abs(part%release%drive))))
     call make_period(pendulum, numerics, .true., period, part%stretch_t)
     call make_batch(period, flow)
   end subroutine make_part_flow

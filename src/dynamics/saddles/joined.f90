@@ -1,4 +1,4 @@
-!> The C interface of dynamics: cycles that are known from elsewhere join a catalogue (include/kapitza/dynamics_saddles.h).
+!> The C interface of dynamics: cycles from elsewhere join a catalogue (include/kapitza/dynamics_saddles.h).
 module kz_saddles_joined
   use, intrinsic :: iso_c_binding, only: dp => c_double, c_int64_t, c_ptr
   use kz_api_dynamics, only: dynamics_t, of_handle
@@ -14,8 +14,8 @@ module kz_saddles_joined
   private
   public :: join_near
 
-  !> rad: cycles are closed until steps are shorter, or rounding stops them; placed no better than that, they are none; nearer than
-  !> that, they are one.
+  !> rad: cycles are closed until steps are shorter, or rounding stops them; placed no better than that, they are none;
+  !> nearer than that, they are one.
   real(dp), parameter :: CLOSE = 1e-13_dp, PLACED = 1e-8_dp, ONE = 1e-7_dp
   integer, parameter :: BATCH_SIZE = 64
   !> rad: a cycle that lies farther from the point is another one.
@@ -74,10 +74,10 @@ contains
     cycle%lyapunov = log(abs(cycle%multiplier(1)))/cycle%period
   end subroutine place_cycle
 
-  !> A batch joins the catalogue: to lengthen it for every cycle would take a time that grows with the square of their number.
+  !> A batch joins the catalogue: lengthening it for every cycle would take a time quadratic in their number.
   subroutine join_batch(attractors, batch)
     type(attractor_t), allocatable, intent(inout) :: attractors(:)
-    type(attractor_t), allocatable, intent(inout) :: batch(:) !< its images are numbered from its own beginning; empty afterwards
+    type(attractor_t), allocatable, intent(inout) :: batch(:) !< images numbered from its own first; empty afterwards
 
     batch%mirror = batch%mirror + size(attractors)
     call join(attractors, batch)
@@ -85,7 +85,7 @@ contains
     allocate (batch(0))
   end subroutine join_batch
 
-  !> Whether a cycle is the same as one of the last of a catalogue: those with as many periods and as large a speed come together.
+  !> Whether a cycle is the same as one of the last in a catalogue: equal periods and speeds come together.
   pure function is_known(attractors, cycle) result(known)
     type(attractor_t), intent(in) :: attractors(:), cycle
     logical :: known

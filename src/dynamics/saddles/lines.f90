@@ -1,8 +1,9 @@
-!> All cycles of the stroboscopic map near a line of starts. The images of the line stretch and fold; pieces of it are halved until
-!> those whose images pass near themselves are short. Where F^n(x) comes near x, the orbit of x closes by multiple shooting. A symmetric cycle
-!> closes sooner: where mirror images of motions are motions, where -F^n(x) comes near x; where images half a period later are, where that of
-!> F^n(x) does. It repels until then by a square root of what it does over all of its period, so that longer pieces show it. Without a limit of
-!> the length of pieces F^n shows all.
+!> All cycles of the stroboscopic map near a line of starts. The images of the line stretch and fold; pieces of it are
+!> halved until those whose images pass near themselves are short. Where F^n(x) comes near x, the orbit of x closes by
+!> multiple shooting. A symmetric cycle closes sooner: where mirror images of motions are motions, where -F^n(x) comes
+!> near x; where images half a period later are, where that of F^n(x) does. It repels until then by a square root of
+!> what it does over all of its period, so that longer pieces show it. Without a limit of the length of pieces F^n shows
+!> all.
 module kz_saddles_lines
   use, intrinsic :: iso_c_binding, only: dp => c_double, c_int64_t
   use kz_kernel_flows, only: make_flow, fine_numerics
@@ -20,9 +21,9 @@ module kz_saddles_lines
 
   !> rad: an image that passes so near its piece shows a cycle; a piece is short whose images are no longer than this.
   real(dp), parameter :: REACH = 0.25_dp, SHORT = 0.25_dp
-  !> So far beyond its ends, in units of the piece, an image is taken as straight.
+  !> Distance beyond its ends, in units of the piece, up to which an image counts as straight.
   real(dp), parameter :: BEYOND = 0.25_dp
-  !> Length (rad) of the least piece that is halved: times the trace of the steepest cycles, and where these have no limit.
+  !> Least length (rad) of a piece that is halved: times the trace of the steepest cycles, and without limit on these.
   real(dp), parameter :: STRETCH = 0.1_dp, SHORTEST = 1e-13_dp
   !> Pieces between the first starts that are halved together.
   integer, parameter :: CELLS = 16
@@ -42,7 +43,7 @@ module kz_saddles_lines
     type(line_search_t) :: asked
     class(flow_t), allocatable :: flow
     real(dp) :: damping
-    integer :: symmetry, least(0:1), last(0:1) !< periods at which images of a piece are looked at: of the map, and of a symmetry
+    integer :: symmetry, least(0:1), last(0:1) !< periods at which images of a piece are checked: map, symmetry
     real(dp), allocatable :: waiting(:, :, :, :, :)
     integer :: n_waiting = 0
     integer(c_int64_t) :: n_found = 0, work(2) = 0
@@ -51,7 +52,8 @@ module kz_saddles_lines
 contains
 
   !> kz_dynamics_search_line of dynamics_saddles.h.
-  function search_line(pendulum, asked, n_nodes, node, found, work) bind(C, name='kz_dynamics_search_line') result(n_found)
+  function search_line(pendulum, asked, n_nodes, node, found, work) bind(C, name='kz_dynamics_search_line') &
+      result(n_found)
     type(pendulum_t), intent(in) :: pendulum
     type(line_search_t), intent(in) :: asked
     integer(c_int64_t), value :: n_nodes
@@ -88,7 +90,8 @@ contains
     search%damping = pendulum%beta
     search%symmetry = merge(pairing_symmetry(pendulum), 0, asked%steepest < huge(asked%steepest))
     search%least = [1, merge(0, 1, search%symmetry == HALF_PERIOD)]
-    search%last = [int(asked%max_period), merge(int(asked%max_period - 1 + search%least(1))/2, -1, search%symmetry /= 0)]
+    search%last = [int(asked%max_period), &
+                   merge(int(asked%max_period - 1 + search%least(1))/2, -1, search%symmetry /= 0)]
     numerics = fine_numerics(pendulum)
     numerics%steps_per_period = numerics%steps_per_period/FEWER
     call make_flow(pendulum, numerics, search%symmetry /= HALF_PERIOD, search%flow)
@@ -102,7 +105,8 @@ contains
     real(dp), dimension(2, 0:1, 0:search%asked%max_period, WIDTH) :: before, after, orbit
     integer :: lanes, i
 
-    do while (search%n_waiting > 0 .and. search%n_found <= search%asked%most .and. search%work(1) <= search%asked%most_starts)
+    do while (search%n_waiting > 0 .and. search%n_found <= search%asked%most &
+              .and. search%work(1) <= search%asked%most_starts)
       lanes = min(search%n_waiting, WIDTH)
       search%n_waiting = search%n_waiting - lanes
       associate (piece => search%waiting(:, :, :, :, search%n_waiting + 1:search%n_waiting + lanes))
@@ -119,8 +123,8 @@ contains
     end do
   end subroutine halve_pieces
 
-  !> The piece between two starts, given by their orbits, waits to be halved, or shows its cycles. (The newest wait on top: at most
-  !> 2 WIDTH of each length.)
+  !> The piece between two starts, given by their orbits, waits to be halved, or shows its cycles. (The newest wait on
+  !> top: at most 2 WIDTH of each length.)
   subroutine look_between(search, a, b, found)
     type(search_t), intent(inout) :: search
     real(dp), intent(in) :: a(:, 0:, 0:), b(:, 0:, 0:)
@@ -164,7 +168,7 @@ contains
     end do
   end function is_long
 
-  !> The cycle near the place where an image of a short piece passes near the piece: the second half of a symmetric one is the image of the first.
+  !> Cycle near the place where a short piece's image passes it; a symmetric one's second half is the first's image.
   subroutine close_pass(search, a, b, at, found)
     type(search_t), intent(inout) :: search
     real(dp), intent(in) :: a(:, 0:, 0:), b(:, 0:, 0:)
@@ -180,11 +184,12 @@ contains
       search%work(2) = search%work(2) + 1
       points = a(:, :, :n) + share*(b(:, :, :n) - a(:, :, :n))
       period = merge(n, 2*n + 1 - search%least(1), image == 0)
-      call close_orbit(search, reshape([points(:, 0, :period - 1 - image*n), points(:, image, :n - 1)], [2, period]), found)
+      call close_orbit(search, reshape([points(:, 0, :period - 1 - image*n), points(:, image, :n - 1)], [2, period]), &
+                       found)
     end associate
   end subroutine close_pass
 
-  !> Images of the starts orbit(:, 0, 0), rad, turns counted: orbit(:, 0, n) becomes F^n, orbit(:, 1, n) the image of that under a symmetry.
+  !> Images of the starts orbit(:, 0, 0), rad, turns counted: orbit(:, 0, n) = F^n, orbit(:, 1, n) its symmetric image.
   subroutine follow(flow, symmetry, orbit)
     class(flow_t), intent(inout) :: flow !< its steps are not fused, where images are half a period later
     integer, intent(in) :: symmetry !< MIRROR, HALF_PERIOD or 0
@@ -233,7 +238,7 @@ contains
     d = separation(a(1)/PI, a(2), b(1)/PI, b(2))
   end function distance
 
-  !> The cycle near an orbit joins those that were found, if there is one that is not too steep and the window has a point of it.
+  !> The cycle near an orbit joins those found, if it exists, is not too steep and has a point in the window.
   subroutine close_orbit(search, orbit, found)
     type(search_t), intent(inout) :: search
     real(dp), intent(in) :: orbit(:, :) !< rad
@@ -284,8 +289,8 @@ contains
     own = all(separation(x(1, :), x(2, :), cshift(u, n/2), cshift(v, n/2)) < ONE)
   end function is_own_image
 
-  !> The trace of the map of which a closed orbit is a fixed point, in that of a multiplier of 1: of a symmetric one the map to its image, whose
-  !> square the whole is.
+  !> The trace of the map of which a closed orbit is a fixed point, in that of a multiplier of 1: of a symmetric one the
+  !> map to its image, whose square the whole is.
   pure function steepness(matrix, determinant, symmetric)
     real(dp), intent(in) :: matrix(2, 2), determinant !< derivative over the whole orbit
     logical, intent(in) :: symmetric

@@ -1,5 +1,5 @@
-!> The unstable manifold of a saddle of a map, grown by arcs: images of a short piece along the eigenvector, with as many points as
-!> its bends need. (D. Hobson, J. Comput. Phys. 104 (1993) 14, has the measures of distance and angle.)
+!> The unstable manifold of a saddle of a map, grown by arcs: images of a short piece along the eigenvector, with as
+!> many points as its bends need. (D. Hobson, J. Comput. Phys. 104 (1993) 14, has the measures of distance and angle.)
 module kz_saddles_manifold
   use, intrinsic :: iso_c_binding, only: dp => c_double, c_int32_t, c_int64_t
   use kz_kernel_flows, only: make_flow, fine_numerics
@@ -11,8 +11,8 @@ module kz_saddles_manifold
   implicit none
   private
 
-  !> rad: the manifold leaves its tangent by the square of the distance from the saddle, so that nearer points lie on it to rounding. The first
-  !> arc ends there.
+  !> rad: the manifold leaves its tangent by the square of the distance from the saddle, so that nearer points lie on it
+  !> to rounding. The first arc ends there.
   real(dp), parameter :: NEARBY = 1e-8_dp
   !> Two segments may bend so much (rad), unless they are shorter than this share of the spacing.
   real(dp), parameter :: BEND = 0.3_dp, SHORTEST = 1/32.0_dp
@@ -28,8 +28,8 @@ module kz_saddles_manifold
     real(dp) :: spacing, length, fastest
   end type branch_t
 
-  !> The saddle, and what the beginning of the first arc becomes beside it: after j periods the point x(:, j) + t(:, j). Starts of any nearness to
-  !> the saddle are so known without the periods that they spend beside it.
+  !> The saddle, and what the beginning of the first arc becomes beside it: after j periods the point x(:, j) + t(:, j).
+  !> Starts of any nearness to the saddle are so known without the periods that they spend beside it.
   type :: cycle_t
     integer :: q                        !< periods until the orbit, and the side, come back
     real(dp) :: multiplier              !< over q periods
@@ -107,7 +107,7 @@ contains
     end do
   end subroutine grow_from
 
-  !> The orbit of a saddle, each of its points by Newton's method, and what a first step along the unstable direction becomes.
+  !> Points of a saddle's orbit, each by Newton's method, and the image of a first step along the unstable direction.
   subroutine make_cycle(flow, beta, period, x, side, saddle)
     class(flow_t), intent(inout) :: flow
     real(dp), intent(in) :: beta
@@ -156,8 +156,8 @@ contains
     here = point
   end subroutine take_point
 
-  !> The unit eigenvector (rad, rad per drive radian) of the multiplier that is larger than 1 over q periods: the period of the
-  !> saddle, or twice that for a multiplier below -1.
+  !> The unit eigenvector (rad, rad per drive radian) of the multiplier that is larger than 1 over q periods: the period
+  !> of the saddle, or twice that for a multiplier below -1.
   subroutine find_direction(flow, beta, period, x, q, direction, multiplier)
     class(flow_t), intent(inout) :: flow
     real(dp), intent(in) :: beta
@@ -214,7 +214,7 @@ contains
     real(dp), intent(in) :: place
     real(dp), intent(out) :: start(2) !< half-turns, velocity
     real(dp), intent(out) :: turned !< half-turns that the state has made before
-    integer, intent(out) :: left !< of `periods`
+    integer, intent(out) :: left !< remainder of `periods`
     real(dp) :: change(2), next(2)
     integer :: j
 
@@ -231,8 +231,8 @@ contains
     left = periods - j
   end subroutine find_start
 
-  !> Halves the pieces of the arc until none is too long or bends too much, or there are `most` points. Pieces behind the length that is left
-  !> to go stay as they are.
+  !> Halves the pieces of the arc until none is too long or bends too much, or there are `most` points. Pieces behind
+  !> the length that is left to go stay as they are.
   subroutine refine(flow, periods, saddle, branch, left, most, arc)
     class(flow_t), intent(inout) :: flow
     integer, intent(in) :: periods
@@ -255,8 +255,8 @@ contains
     end do
   end subroutine refine
 
-  !> The pieces that are too long, or bend too much against a neighbour. Pieces outside the largest speed, and those behind the length that is
-  !> left to go, never do.
+  !> The pieces that are too long, or bend too much against a neighbour. Pieces outside the largest speed, and those
+  !> behind the length that is left to go, never do.
   pure function to_halve(arc, branch, left) result(halve)
     type(arc_t), intent(in) :: arc
     type(branch_t), intent(in) :: branch
@@ -271,7 +271,8 @@ contains
     long = norm2(piece, dim=1)
     halve = long > branch%spacing
     do i = 1, n - 1
-      turn = abs(atan2(piece(1, i)*piece(2, i + 1) - piece(2, i)*piece(1, i + 1), dot_product(piece(:, i), piece(:, i + 1))))
+      turn = abs(atan2(piece(1, i)*piece(2, i + 1) - piece(2, i)*piece(1, i + 1), &
+                       dot_product(piece(:, i), piece(:, i + 1))))
       if (turn < BEND) cycle
       halve(i:i + 1) = halve(i:i + 1) .or. long(i:i + 1) > SHORTEST*branch%spacing
     end do
@@ -309,8 +310,8 @@ contains
     arc = all
   end subroutine merge_arcs
 
-  !> The points of the arc below the largest speed, but for its first, which ended the arc before. Neighbours that are too far apart end
-  !> the branch: doubles do not resolve what lies between them.
+  !> The points of the arc below the largest speed, but for its first, which ended the arc before. Neighbours that are
+  !> too far apart end the branch: doubles do not resolve what lies between them.
   subroutine append(arc, branch, n, point, resolved)
     type(arc_t), intent(in) :: arc
     type(branch_t), intent(in) :: branch

@@ -1,5 +1,5 @@
-!> Multiple shooting: Newton's method for a closed orbit with all its points unknown. Errors do not grow along the orbit, so that
-!> points that are right to some 0.1 rad lead to it, however strongly it repels.
+!> Multiple shooting: Newton's method for a closed orbit with all its points unknown. Errors do not grow along the
+!> orbit, so that points that are right to some 0.1 rad lead to it, however strongly it repels.
 module kz_saddles_shooting
   use, intrinsic :: iso_c_binding, only: dp => c_double
   use kz_vector_map, only: flow_t, WIDTH, PI
@@ -25,12 +25,12 @@ module kz_saddles_shooting
 
 contains
 
-  !> Moves the points to the closed orbit near them with as many periods as points, by Newton steps until a step is shorter than
-  !> `close`.
+  !> Moves the points to the closed orbit near them with as many periods as points, by Newton steps until a step is
+  !> shorter than `close`.
   subroutine shoot(flow, close, orbit, closed)
     class(flow_t), intent(inout) :: flow !< the map of one drive period in physical coordinates
     real(dp), intent(in) :: close !< rad
-    real(dp), intent(inout) :: orbit(:, :) !< its points in the order of time, at most WIDTH: half-turns, rad per drive radian
+    real(dp), intent(inout) :: orbit(:, :) !< points in order of time, at most WIDTH: half-turns, rad per drive radian
     type(closed_orbit_t), intent(out) :: closed !< how well it is closed
     real(dp) :: matrix(size(orbit), size(orbit)), side(size(orbit), 3), before
     logical :: regular
@@ -52,8 +52,8 @@ contains
     end do
   end subroutine shoot
 
-  !> The linear equations of the steps of all points, F(x(i)) + DF step(i) = x(i+1) + step(i+1), and two more right-hand sides as
-  !> large as rounding.
+  !> The linear equations of the steps of all points, F(x(i)) + DF step(i) = x(i+1) + step(i+1), and two more right-hand
+  !> sides as large as rounding.
   subroutine linearise(flow, orbit, matrix, side, closed)
     class(flow_t), intent(inout) :: flow
     real(dp), intent(in) :: orbit(:, :)

@@ -7,7 +7,7 @@
 #include "kapitza/kernel_paths.h"
 
 enum { MAX_ITERATIONS = 16 };
-/* rad: a state moves at most so far to its cycle; steps of Newton's method that are due to rounding; the largest last step. */
+/* rad: largest move of a state to its cycle; size of Newton steps due to rounding; largest last step. */
 static const double NEAR = 0.3, ROUNDED = 1e-14, CLOSED = 1e-9;
 
 /* Solves the 2 x 2 equations; false where they are singular. */

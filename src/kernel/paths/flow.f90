@@ -1,6 +1,6 @@
-!> Hamilton's flow of the least torque: theta'' + beta theta' + a(t) sin theta - b(t) cos theta - torque(t) = 2 beta p2, with the action
-!> int beta p2**2 dt. It is split like the pendulum (split6): the drift is linear in (theta, velocity, p1, p2), and the kick changes velocity and p1 alone,
-!> so that the map of a period is symplectic to rounding.
+!> Hamilton's flow of the least torque: theta'' + beta theta' + a(t) sin theta - b(t) cos theta - torque(t) = 2 beta p2,
+!> with the action int beta p2**2 dt. It is split like the pendulum (split6): the drift is linear in (theta, velocity,
+!> p1, p2), and the kick changes velocity and p1 alone, so that the map of a period is symplectic to rounding.
 module kz_paths_flow
   use, intrinsic :: iso_c_binding, only: rk => c_double, c_int32_t, c_int64_t, c_ptr, c_loc, c_f_pointer
   use, intrinsic :: iso_fortran_env, only: ik => int64, real128
@@ -18,8 +18,8 @@ module kz_paths_flow
   !> A drift: the matrix of the linear flow, and the integrals along it that are quadratic forms of (velocity, p1, p2).
   type :: drift_t
     real(rk) :: matrix(4, 4)
-    real(rk) :: action(3, 3)     !< of beta p2**2
-    real(rk) :: of_damping(3, 3) !< of p2 velocity - p2**2, the derivative of the action by beta
+    real(rk) :: action(3, 3)     !< Quadratic form of beta p2**2
+    real(rk) :: of_damping(3, 3) !< Quadratic form of p2 velocity - p2**2, d action / d beta
   end type drift_t
 
   type :: hamilton_t
@@ -28,7 +28,7 @@ module kz_paths_flow
     type(drift_t) :: drifts(FUSED)
   end type hamilton_t
 
-  !> Lanes: state(:, i), tangent(:, i, j) = d state i / d start j, and the integrals: action, its derivatives by both parameters and by beta.
+  !> Lanes: state(:, i), tangent(:, i, j) = d state i / d start j, integrals: action, d by both parameters and beta.
   type :: lanes_t
     real(rk) :: state(N_LANES, 4), tangent(N_LANES, 4, 4), integral(N_LANES, 4)
   end type lanes_t
@@ -85,8 +85,10 @@ contains
   pure function drift_of(beta, time) result(drift)
     real(rk), intent(in) :: beta, time
     type(drift_t) :: drift
-    real(rk), parameter :: NODES(4) = [0.1834346424956498_rk, 0.525532409916329_rk, 0.7966664774136267_rk, 0.9602898564975363_rk], &
-                           WEIGHTS(4) = [0.362683783378362_rk, 0.3137066458778873_rk, 0.2223810344533745_rk, 0.1012285362903763_rk]
+    real(rk), parameter :: NODES(4) = [0.1834346424956498_rk, 0.525532409916329_rk, 0.7966664774136267_rk, &
+                                       0.9602898564975363_rk], &
+                           WEIGHTS(4) = [0.362683783378362_rk, 0.3137066458778873_rk, 0.2223810344533745_rk, &
+                                         0.1012285362903763_rk]
     real(rk) :: rows(4, 4), v(3), p(3)
     integer :: i, side
 
@@ -136,7 +138,8 @@ contains
   end function linear_flow
 
   !> kz_hamilton_advance of kernel_paths.h.
-  subroutine hamilton_advance(handle, n, state, with_tangent, tangent, with_integral, integral) bind(C, name='kz_hamilton_advance')
+  subroutine hamilton_advance(handle, n, state, with_tangent, tangent, with_integral, integral) &
+      bind(C, name='kz_hamilton_advance')
     type(c_ptr), value :: handle
     integer(c_int64_t), value :: n
     real(rk), intent(inout) :: state(4, n)
@@ -280,7 +283,8 @@ contains
     do j = 1, 4
       do i = 1, N_LANES
         lanes%tangent(i, 2, j) = lanes%tangent(i, 2, j) - slope(i)*lanes%tangent(i, 1, j)
-        lanes%tangent(i, 3, j) = lanes%tangent(i, 3, j) + (slope(i)*lanes%tangent(i, 4, j) - bend(i)*lanes%tangent(i, 1, j))
+        lanes%tangent(i, 3, j) = lanes%tangent(i, 3, j) &
+                                 + (slope(i)*lanes%tangent(i, 4, j) - bend(i)*lanes%tangent(i, 1, j))
       end do
     end do
   end subroutine kick

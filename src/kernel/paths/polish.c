@@ -179,7 +179,7 @@ static double sum_of_squares(const double *x, int64_t n) {
   return sum;
 }
 
-/* The step of a shift from the nodes, whose jumps and tangents are known: s->next. Returns its length, INFINITY where there is none. */
+/* Sets s->next, the step of a shift from nodes with known jumps and tangents. Returns its length, INFINITY if none. */
 static double polish_propose(const double *node, double shift, shooting *s) {
   const double scale = polish_fill(s);
   if (!polish_solve(s, shift * scale)) return INFINITY;

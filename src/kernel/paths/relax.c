@@ -1,4 +1,4 @@
-/* Discretised action: theta on a grid, derivatives by differences of fourth order. Its Hessian has nine diagonals and is exact. */
+/* Discretised action: theta on a grid, fourth-order differences, an exact Hessian with nine diagonals. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -8,11 +8,11 @@
 enum {
   BAND = 4,             /* diagonals of the Hessian on each side */
   FIXED = 4,            /* points at each end that stay */
-  MAX_ITERATIONS = 150, /* of Newton's method */
+  MAX_ITERATIONS = 150, /* Newton iterations */
   PATIENCE = 25,        /* iterations after which a search is given up whose action is far too large */
-  MAX_SHIFTS = 60       /* of the Hessian, before a step is given up */
+  MAX_SHIFTS = 60       /* shifts of the Hessian before a step is given up */
 };
-/* Relative decrease of the action at which the search ends; how much too large it is then; first shift of the Hessian, and the smallest. */
+/* Relative decrease of the action that ends the search; its excess then; first and smallest shift of the Hessian. */
 static const double ENOUGH = 1e-10, FAR_TOO_LARGE = 4, FIRST_SHIFT = 1e-3, LEAST_SHIFT = 1e-12;
 
 typedef struct {
@@ -105,7 +105,7 @@ static void relax_solve(newton *at) {
   }
 }
 
-/* One step that does not raise the action; false where no shift gives one. The new point and its torque are in `next`. */
+/* Takes one step that does not raise the action; false if no shift gives one. `next` has the new point and torque. */
 static bool relax_descend(const grid *g, newton *at, const double *x, double *shift, double *action, double *next,
                           double *torque) {
   for (int attempt = 0; attempt < MAX_SHIFTS; attempt++) {

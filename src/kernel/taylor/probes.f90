@@ -15,7 +15,7 @@ contains
 
   !> Makes a probe of each speed, with angles spread evenly over the circle.
   subroutine make_probes(drive, speed, probes)
-    type(drive_t), intent(in) :: drive !< of the pendulum
+    type(drive_t), intent(in) :: drive !< drive of the pendulum
     real(c_double), intent(in) :: speed(:) !< [n] rad per drive radian
     type(probes_t), intent(out) :: probes !< starts and images
     real(c_double), parameter :: GOLDEN = 0.61803398874989484820_c_double
@@ -38,7 +38,7 @@ contains
   !> Measures the error of the Taylor series in a period, relative to hypot(pi, v), by comparing two numbers of steps.
   !> It is rounding, which a strong drive amplifies.
   real(c_double) function measure_quad(drive, fastest) result(error)
-    type(drive_t), intent(in) :: drive !< of the pendulum
+    type(drive_t), intent(in) :: drive !< drive of the pendulum
     real(c_double), intent(in) :: fastest !< Largest speed, rad per drive radian
     integer, parameter :: N = 128, MORE_STEPS = 8
     real(c_double), parameter :: PI = real(PI_QUAD, c_double), MARGIN = 4, LEAST = 5e-34_c_double

@@ -114,7 +114,7 @@ kapitza_status kz_library_call(kapitza_pendulum *p, kz_work_fn work, void *conte
   if (status != KZ_OK) return (kapitza_status)status;
   status = kz_border_call(p->border, kz_library_pause(), NULL, carry_out, &v, &left);
   const kapitza_status told = kz_library_status(status, p->border);
-  if (left) { /* what it has cached may be half made */
+  if (left) { /* a call that was left may have half-made caches */
     kz_border_empty(p->border);
     p->opened = false;
   }

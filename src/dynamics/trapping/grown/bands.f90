@@ -1,9 +1,11 @@
-!> Trapping regions of running states: bands round the cylinder between two curves, each of which the map carries inside the band.
+!> Trapping regions of running states: bands round the cylinder between two curves, each of which the map carries inside
+!> the band.
 !>
-!> The map is a homeomorphism that keeps the ends of the cylinder apart: where the image of a curve round it lies below that curve, so do the
-!> images of all states below. Every pair of curves is tried from one tiny distance of the attracting curve on, so that this is the only invariant
-!> set between them. Distances are in units of the density with which motions visit the angles: by that measure the map shrinks the distance from
-!> the curve by exp(-2 pi beta) everywhere.
+!> The map is a homeomorphism that keeps the ends of the cylinder apart: where the image of a curve round it lies below
+!> that curve, so do the images of all states below. Every pair of curves is tried from one tiny distance of the
+!> attracting curve on, so that this is the only invariant set between them. Distances are in units of the density with
+!> which motions visit the angles: by that measure the map shrinks the distance from the curve by exp(-2 pi beta)
+!> everywhere.
 module kz_grown_bands
   use, intrinsic :: iso_c_binding, only: dp => c_double
   use kz_vector_map, only: flow_t, WIDTH
@@ -13,15 +15,15 @@ module kz_grown_bands
   private
   public :: find_band, mirrored_band, states_in_band, has_band, in_band, band_holds, band_meets
 
-  !> Distances that are tried, rad per drive radian at the mean density; where none up to LATEST is carried inside, none is tried beyond.
+  !> Distances tried, rad per drive radian at the mean density; if none up to LATEST is carried inside, none beyond.
   real(dp), parameter :: SMALLEST = 1e-7_dp, LATEST = 1e-2_dp, LARGEST = 8, GROWTH = 2
   integer, parameter :: HALVINGS = 4
   integer, parameter :: LOW = 1, HIGH = 2
 
 contains
 
-  !> The band of the closed curve that some states are on, in the coordinates of the flow: band(1:2, j), the lowest and highest velocity at the angle
-  !> -1 + 2 (j - 1)/n; n = 0 where no band was found.
+  !> The band of the closed curve that some states are on, in the coordinates of the flow: band(1:2, j), the lowest and
+  !> highest velocity at the angle -1 + 2 (j - 1)/n; n = 0 where no band was found.
   subroutine find_band(flow, beta, u, v, others, band, curve)
     class(flow_t), intent(inout) :: flow !< the map whose orbits are to be trapped
     real(dp), intent(in) :: beta !< damping
@@ -105,7 +107,7 @@ contains
     inside = all(merge(moved > goal, moved < goal, which == LOW))
   end function is_carried_inside
 
-  !> Whether the images of the nodes of one side, and of the middles between them, lie inside that side, as straight pieces join its nodes.
+  !> Whether images of the nodes of one side, and of middles, lie inside it, as straight pieces join its nodes.
   function sides_are_inside(flow, band, which) result(inside)
     class(flow_t), intent(inout) :: flow
     real(dp), intent(in) :: band(:, :)
@@ -159,7 +161,7 @@ contains
 
   !> The band of the mirror image.
   pure function mirrored_band(band) result(image)
-    real(dp), intent(in) :: band(:, :) !< what find_band has made
+    real(dp), intent(in) :: band(:, :) !< band from find_band
     real(dp) :: image(2, size(band, 2))
     integer :: j, n
 
@@ -181,7 +183,7 @@ contains
 
   !> States in the middle of a band, evenly round the circle.
   pure subroutine states_in_band(band, u, v)
-    real(dp), intent(in) :: band(:, :) !< what find_band has made
+    real(dp), intent(in) :: band(:, :) !< band from find_band
     real(dp), intent(out) :: u(:), v(:) !< half-turns in [-1, 1], rad per drive radian
     integer :: i, j
 

@@ -1,6 +1,7 @@
-!> Images of the cells of a grid of trapping regions after some drive periods: the convex hull of the images of a cell's corners,
-!> widened by a bound on what bilinear interpolation misses: an eighth of the second differences, taken twice, and 2 % of a cell. The
-!> corners show what lies between them only as long as the cell has stayed small: where an earlier image was bent, a later one is not taken.
+!> Images of the cells of a grid of trapping regions after some drive periods: the convex hull of the images of a cell's
+!> corners, widened by a bound on what bilinear interpolation misses: an eighth of the second differences, taken twice,
+!> and 2 % of a cell. The corners show what lies between them only as long as the cell has stayed small: where an
+!> earlier image was bent, a later one is not taken.
 module kz_grown_cell_images
   use, intrinsic :: iso_c_binding, only: dp => c_double, int32 => c_int32_t
   use kz_vector_map, only: flow_t, WIDTH, PI
@@ -24,8 +25,8 @@ module kz_grown_cell_images
     real(dp), allocatable :: y(:, :)
     real(dp), allocatable :: slack_x(:, :) !< angle to be added on both sides
     real(dp), allocatable :: slack_y(:, :)
-    !> boxes around the images of the cells (0 : n_theta - 1, 0 : n_velocity - 1), whole cells. left: column on the circle, from 0;
-    !> n_columns = 0: the image is too large, or reaches beyond the grid's velocities
+    !> boxes around the images of the cells (0 : n_theta - 1, 0 : n_velocity - 1), whole cells. left: column on the
+    !> circle, from 0; n_columns = 0: the image is too large, or reaches beyond the grid's velocities
     integer(int32), allocatable :: left(:, :)
     integer(int32), allocatable :: n_columns(:, :)
     integer(int32), allocatable :: bottom(:, :)
@@ -62,7 +63,8 @@ contains
         images(k) = image
         call set_boxes(regions, straight, images(k))
       end if
-      straight = straight .and. image%slack_x <= BENT*(regions%n_circle/(2*PI)) .and. image%slack_y <= BENT*regions%per_v
+      straight = straight .and. image%slack_x <= BENT*(regions%n_circle/(2*PI)) &
+                 .and. image%slack_y <= BENT*regions%per_v
     end do
   end subroutine make_images
 
@@ -133,8 +135,8 @@ contains
     allocate (images%n_columns, images%bottom, images%top, mold=images%left)
     call boxes(n(1), n(2), real(regions%n_circle, dp), images)
     do l = 0, n(2) - 1
-      where (.not. (straight(:n(1) - 1, l) .and. straight(1:, l) .and. straight(:n(1) - 1, l + 1) .and. straight(1:, l + 1))) &
-        images%n_columns(:, l) = 0
+      where (.not. (straight(:n(1) - 1, l) .and. straight(1:, l) .and. straight(:n(1) - 1, l + 1) &
+                    .and. straight(1:, l + 1))) images%n_columns(:, l) = 0
     end do
   end subroutine set_boxes
 
@@ -156,7 +158,8 @@ contains
           slack_max = max(slack_y(i, l), slack_y(i + 1, l), slack_y(i, l + 1), slack_y(i + 1, l + 1))
           low = aint_down(min(y(i, l), y(i + 1, l), y(i, l + 1), y(i + 1, l + 1)) - slack_max)
           high = aint_down(max(y(i, l), y(i + 1, l), y(i, l + 1), y(i + 1, l + 1)) + slack_max)
-          good = low >= 0 .and. high < n_velocity .and. to - from < circle .and. (to - from)*(high - low) < LARGEST_IMAGE
+          good = low >= 0 .and. high < n_velocity .and. to - from < circle &
+                 .and. (to - from)*(high - low) < LARGEST_IMAGE
           images%left(i, l) = int(merge(from - circle*aint_down(from/circle), 0.0_dp, good), int32)
           images%n_columns(i, l) = int(merge(to - from + 1, 0.0_dp, good), int32)
           images%bottom(i, l) = int(merge(low, 0.0_dp, good), int32)
@@ -186,7 +189,7 @@ contains
     corners%slack_y = maxval(images%slack_y(i:i + 1, l:l + 1))
   end function corners_of
 
-  !> Range of x, in cells, of the convex hull of four corners in a row of cells, slack included: from all segments between the corners.
+  !> Range of x, in cells, of the hull of four corners in a row of cells, with slack: from all segments between corners.
   pure subroutine extent(corners, row, from, to)
     type(corners_t), intent(in) :: corners !< corners of a cell
     integer, intent(in) :: row !< row of the grid, from 0

@@ -1,4 +1,4 @@
-!> Closed curves round the cylinder that the map takes into themselves and that attract: the motions of running states fill them.
+!> Closed attracting invariant curves round the cylinder, filled by the motions of running states.
 module kz_grown_curves
   use, intrinsic :: iso_c_binding, only: dp => c_double
   use kz_vector_map, only: flow_t, WIDTH, PI
@@ -10,8 +10,9 @@ module kz_grown_curves
   integer, parameter, public :: NODES = 1024
   !> Periods through which states are followed for a first curve, twice; states of a first curve at least.
   integer, parameter :: VISITS = 1024, FEWEST = 8
-  !> Change of a curve in a period, rad per drive radian, at which it counts as carried into itself; in lifetimes 1/(2 pi beta), the error that it may
-  !> have, which rounding leaves near fast motions, and the time that this may take; periods beside them.
+  !> Change of a curve in a period, rad per drive radian, at which it counts as carried into itself; in lifetimes 1/(2
+  !> pi beta), the error that it may have, which rounding leaves near fast motions, and the time that this may take;
+  !> periods beside them.
   real(dp), parameter :: CLOSED = 1e-12_dp, PRECISE = 5e-9_dp, LIFETIMES = 40
   integer, parameter :: MORE_PERIODS = 64
   !> Half-turns: angles by which states turn in some periods that differ by less are one.
@@ -51,8 +52,8 @@ contains
     u = 2*(j - 1)/real(NODES, dp) - 1
   end function node
 
-  !> A curve through states that some orbits visit, between each two nodes that nearest to the middle: of two near each other rounding would
-  !> tell the slope.
+  !> A curve through states that some orbits visit, between each two nodes that nearest to the middle: of two near each
+  !> other rounding would tell the slope.
   subroutine first_curve(flow, u, v, at_nodes, found)
     class(flow_t), intent(inout) :: flow
     real(dp), intent(in) :: u(:), v(:)
@@ -95,8 +96,8 @@ contains
     end do
   end subroutine carry_curve
 
-  !> A periodic function at the nodes, from its values at increasing angles that lie within one turn; by cubics. found = .false.: they do not
-  !> increase.
+  !> A periodic function at the nodes, from its values at increasing angles that lie within one turn; by cubics. found =
+  !> .false.: they do not increase.
   subroutine resample(u, value, at_nodes, found)
     real(dp), intent(in) :: u(:), value(:) !< half-turns, not wrapped
     real(dp), intent(out) :: at_nodes(NODES)
@@ -171,7 +172,7 @@ contains
     call carry_curve(flow, curve%v, curve%image)
   end subroutine close_curve
 
-  !> The density along the curve, 1 on average: the one that the map leaves as it is, by an average over images of an even one.
+  !> Invariant density along the curve, 1 on average: the average over images of an even one.
   subroutine find_density(curve, found)
     type(curve_t), intent(inout) :: curve
     logical, intent(out) :: found
@@ -202,15 +203,15 @@ contains
   !> The weight of a period in averages over a window: smooth, and 0 with all its derivatives beside the window.
   pure function window_weight(period, periods) result(weight)
     integer, intent(in) :: period !< from 1
-    integer, intent(in) :: periods !< of the window
+    integer, intent(in) :: periods !< drive periods of the window
     real(dp) :: weight
 
     weight = exp(-1/(real(period, dp)/(periods + 1)*(1 - real(period, dp)/(periods + 1))))
   end function window_weight
 
-  !> True if a cycle of up to max_period periods lies on a curve: then motions along it end there. Where all of it comes back, nothing does.
+  !> True if a cycle of up to max_period periods is on the curve: motions on it end there. False if all of it returns.
   pure logical function is_locked(curve, max_period)
-    type(curve_t), intent(in) :: curve !< of find_band
+    type(curve_t), intent(in) :: curve !< curve from find_band
     integer, intent(in) :: max_period !< drive periods
     real(dp) :: turned(NODES), shift(NODES)
     integer :: n, j
@@ -227,7 +228,7 @@ contains
 
   !> The mean number of turns in a period along a curve.
   pure function mean_turns(curve) result(mean)
-    type(curve_t), intent(in) :: curve !< of find_band
+    type(curve_t), intent(in) :: curve !< curve from find_band
     real(dp) :: mean
     real(dp) :: shift(NODES), u, step, weight, weights
     integer :: period, j

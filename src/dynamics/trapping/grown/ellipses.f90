@@ -1,8 +1,8 @@
 !> Trapping regions: around every strobe point the largest ellipse that the n-period map is seen to carry inside itself.
 !>
-!> The map is a homeomorphism of the plane: where the boundary of a region goes strictly inside, the whole region does. Every
-!> ring of an ellipse is tried from a tiny one on, so that the cycle is the only invariant set in it. The norm is that of the
-!> eigenbasis of the monodromy: for complex multipliers the linear map contracts it by exactly |mu|.
+!> The map is a homeomorphism of the plane: where the boundary of a region goes strictly inside, the whole region does.
+!> Every ring of an ellipse is tried from a tiny one on, so that the cycle is the only invariant set in it. The norm is
+!> that of the eigenbasis of the monodromy: for complex multipliers the linear map contracts it by exactly |mu|.
 module kz_grown_ellipses
   use, intrinsic :: iso_c_binding, only: dp => c_double
   use kz_vector_map, only: flow_t, WIDTH, PI
@@ -17,11 +17,11 @@ module kz_grown_ellipses
 
   !> Radii of rings, rad; where none up to LATEST is carried inside, none is looked for beyond.
   real(dp), parameter :: SMALLEST = 1e-7_dp, LATEST = 1e-2_dp, LARGEST = 2.0_dp
-  !> Effect of rounding on a ring, in units of the rounding of the map: a ring counts as shrinking only if it shrinks by more.
+  !> Effect of rounding on a ring, in units of the map's rounding: a ring shrinks only if it shrinks by more.
   real(dp), parameter :: ROUNDING = 18
-  !> Slow spirals: the factor by which an ellipse is widened at once; the time that a ring may take, in units of what the multiplier says;
-  !> in radii, how far outside images of its points may lie meanwhile, and how far apart those of neighbours in the end; points of the ring, and
-  !> returns between two looks at them.
+  !> Slow spirals: the factor by which an ellipse is widened at once; the time that a ring may take, in units of what
+  !> the multiplier says; in radii, how far outside images of its points may lie meanwhile, and how far apart those of
+  !> neighbours in the end; points of the ring, and returns between two looks at them.
   real(dp), parameter :: STEP = 1.5_dp, PATIENCE = 4, FAR = 2, APART = 0.5_dp
   integer, parameter :: FEW = 32, LOOKED_AT = 4
 
@@ -45,8 +45,9 @@ module kz_grown_ellipses
 
 contains
 
-  !> Sets attractor%form. For a symmetric cycle half of the points follow from the other half. A cycle that motions spiral into slowly has
-  !> the ellipse of its first point alone, which is wide: motions come by there every period of the cycle.
+  !> Sets attractor%form. For a symmetric cycle half of the points follow from the other half. A cycle that motions
+  !> spiral into slowly has the ellipse of its first point alone, which is wide: motions come by there every period of
+  !> the cycle.
   subroutine find_ellipses(flow, fine, attractor, others, rings)
     class(flow_t), intent(inout), target :: flow !< the map whose orbits are to be trapped
     class(flow_t), intent(inout) :: fine !< the map of the published strobe points
@@ -101,7 +102,8 @@ contains
     real(dp) :: first, last, residual(2), matrix(2, 2)
 
     form = 0
-    site = site_t(flow, rings, attractor%period, abs(attractor%multiplier(1)), attractor%kernel_u(j), attractor%kernel_v(j))
+    site = site_t(flow, rings, attractor%period, abs(attractor%multiplier(1)), attractor%kernel_u(j), &
+                  attractor%kernel_v(j))
     call n_periods(fine, attractor%period, 1, [attractor%u(j), attractor%v(j)], residual, matrix)
     call eigenbasis(matrix, attractor%multiplier, change(flow, attractor, j), site%basis, site%inverse)
     first = ROUNDING*epsilon(1.0_dp)*maxval(hypot(PI*attractor%u, attractor%v))*norm2(site%inverse)/(1 - site%shrinking)
@@ -116,8 +118,8 @@ contains
     end associate
   end function ellipse
 
-  !> The first and the last radius of rings that are carried inside themselves; first = 0: none is. `least`: where their shrinking shows above
-  !> rounding and above the distance by which the map's own cycle misses the fine one.
+  !> The first and the last radius of rings that are carried inside themselves; first = 0: none is. `least`: where their
+  !> shrinking shows above rounding and above the distance by which the map's own cycle misses the fine one.
   subroutine find_radii(site, least, first, last)
     type(site_t), intent(inout) :: site
     real(dp), intent(in) :: least
@@ -173,7 +175,7 @@ contains
                  radius*(1 - min(0.05_dp, 0.5_dp*(1 - site%shrinking))))
   end function carried_inside
 
-  !> Widens an ellipse as long as the ring outside of it is carried inside it in the end: then the ring's inside is, too.
+  !> Widens an ellipse as long as the ring outside of it is carried inside in the end: then the ring's inside is too.
   subroutine widen(site, radius)
     type(site_t), intent(inout) :: site
     real(dp), intent(inout) :: radius
@@ -184,8 +186,8 @@ contains
     end do
   end subroutine widen
 
-  !> Whether all points of a ring are inside the ellipse of another radius at once, soon enough, with neighbours beside each other: then what
-  !> lies between them is inside, too.
+  !> Whether all points of a ring are inside the ellipse of another radius at once, soon enough, with neighbours beside
+  !> each other: then what lies between them is inside, too.
   function comes_inside(site, radius, goal) result(inside)
     type(site_t), intent(inout) :: site
     real(dp), intent(in) :: radius, goal
@@ -244,9 +246,9 @@ contains
     end do
   end function normed
 
-  !> Distance, in the norm of the ellipse, from its strobe point to the nearest one of another attractor, its mirror image included.
-  !> A larger ellipse is rejected: the scene's map then differs too much from the fine one. So is one whose first ring is not
-  !> small against this distance: it would not decide at which of the two an orbit ends.
+  !> Distance, in the norm of the ellipse, from its strobe point to the nearest one of another attractor, its mirror
+  !> image included. A larger ellipse is rejected: the scene's map then differs too much from the fine one. So is one
+  !> whose first ring is not small against this distance: it would not decide at which of the two an orbit ends.
   pure function clearance(site, attractor, others) result(distance)
     type(site_t), intent(in) :: site
     type(attractor_t), intent(in) :: attractor
@@ -258,7 +260,8 @@ contains
     if (attractor%symmetry == MIRROR .and. .not. attractor%symmetric) & ! the mirror image's
       distance = minval(norm2(normed(site, -attractor%kernel_u, -attractor%kernel_v), 1))
     do a = 1, size(others)
-      if (others(a)%period > 0) distance = min(distance, minval(norm2(normed(site, others(a)%kernel_u, others(a)%kernel_v), 1)))
+      if (others(a)%period > 0) &
+        distance = min(distance, minval(norm2(normed(site, others(a)%kernel_u, others(a)%kernel_v), 1)))
     end do
   end function clearance
 
@@ -276,8 +279,8 @@ contains
     matrix = tangent(:, :, 1)
   end function change
 
-  !> Columns [Re w, Im w] of a complex eigenvector w, or the two real eigenvectors; scaled to a largest column of 1, then brought
-  !> to other coordinates.
+  !> Columns [Re w, Im w] of a complex eigenvector w, or the two real eigenvectors; scaled to a largest column of 1,
+  !> then brought to other coordinates.
   subroutine eigenbasis(matrix, multiplier, to_kernel, basis, inverse)
     real(dp), intent(in) :: matrix(2, 2)
     complex(dp), intent(in) :: multiplier(2)
@@ -297,7 +300,7 @@ contains
       basis(:, 2) = real(w, dp)/norm2(real(w, dp))
     end if
     basis = matmul(to_kernel, basis)
-    if (abs(basis(1, 1)*basis(2, 2) - basis(1, 2)*basis(2, 1)) < 1e-6_dp) basis = IDENTITY ! a (nearly) double multiplier: any norm serves
+    if (abs(basis(1, 1)*basis(2, 2) - basis(1, 2)*basis(2, 1)) < 1e-6_dp) basis = IDENTITY ! any norm serves
     inverse = inverse_of(basis)
   end subroutine eigenbasis
 

@@ -1,5 +1,5 @@
-!> Where an orbit is known to be trapped: a grid of cells over the half plane of mid-period angles 0 .. pi (the whole one where there
-!> is no mirror symmetry), each labelled with an attractor, overlapped by trapping ellipses, or open.
+!> Where an orbit is known to be trapped: a grid of cells over the half plane of mid-period angles 0 .. pi (the whole
+!> one where there is no mirror symmetry), each labelled with an attractor, overlapped by trapping ellipses, or open.
 module kz_grown_grid
   use, intrinsic :: iso_c_binding, only: dp => c_double, int32 => c_int32_t
   use kz_cycles_cycles, only: attractor_t
@@ -10,7 +10,8 @@ module kz_grown_grid
   use kz_maps_states, only: angle_difference, midperiod_angle, MIDPERIOD
   implicit none
   private
-  public :: regions_t, make_regions, draw_attractors, find_regions, note_closed, ellipse_at, cover_cell, chaos_region, cell_holds
+  public :: regions_t, make_regions, draw_attractors, find_regions, note_closed, ellipse_at, cover_cell, chaos_region, &
+            cell_holds
 
   !> An ellipse or a band that overlaps a cell, and the next one of that cell.
   type :: overlap_t
@@ -21,13 +22,13 @@ module kz_grown_grid
 
   type, extends(grid_t) :: regions_t
     integer, allocatable :: label(:, :) !< (0 : n_theta - 1, 0 : n_velocity - 1): attractor, from 1; -overlap; 0 open
-    integer(int32), allocatable :: closed(:) !< a bit for each cell and one for the outside, in this order: may a region be there?
+    integer(int32), allocatable :: closed(:) !< one bit for each cell, then one for the outside: may a region be there?
     integer, allocatable :: drawn(:, :) !< labels by ellipses and bands alone: cells grown since do not hide them
     type(overlap_t), allocatable :: overlaps(:)
     integer :: n_overlaps = 0
     integer :: n_drawn = 0    !< attractors that have been drawn
     integer, allocatable :: mirror(:) !< number of the mirror image of each attractor
-    integer, allocatable :: covered(:) !< cells of COVER x COVER: the attractor (from 1) without a period or band that visits it; empty: none
+    integer, allocatable :: covered(:) !< per cover cell: visiting aperiodic attractor (from 1) without a band; or empty
   end type regions_t
 
   !> Cells of a chaotic attractor's cover along an axis.
@@ -104,7 +105,7 @@ contains
     end subroutine set_bit
   end subroutine note_closed
 
-  !> The number (from 1) of the cell of a cover that holds (u, v); 0 = outside. Cell COVER**2 + 1 - n is the mirror image of cell n.
+  !> Number (from 1) of the cover's cell with (u, v); 0 = outside. Cells n and COVER**2 + 1 - n are mirror images.
   pure function cover_cell(regions, u, v) result(cell)
     type(regions_t), intent(in) :: regions !< the trapping regions
     real(dp), intent(in) :: u, v !< half-turns in [-1, 1], rad per drive radian
@@ -150,7 +151,8 @@ contains
     do l = max(0, floor((v - half_v + regions%top)*per_v)), &
            min(regions%n_velocity - 1, floor((v + half_v + regions%top)*per_v))
       do i = max(0, floor((u - half_u)*per_u)), min(regions%n_theta - 1, floor((u + half_u)*per_u))
-        if (within(form, [i/per_u - u, (i + 1)/per_u - u], [l/per_v - regions%top - v, (l + 1)/per_v - regions%top - v])) then
+        if (within(form, [i/per_u - u, (i + 1)/per_u - u], &
+                   [l/per_v - regions%top - v, (l + 1)/per_v - regions%top - v])) then
           regions%drawn(i, l) = a
         else if (regions%drawn(i, l) <= 0) then
           call add_overlap(regions, overlap_t(a, j, -regions%drawn(i, l)))
@@ -201,7 +203,7 @@ contains
     type(regions_t), intent(inout) :: regions
     type(overlap_t), intent(in) :: overlap
 
-    if (regions%n_overlaps == size(regions%overlaps)) regions%overlaps = [regions%overlaps, regions%overlaps] ! place for as many more
+    if (regions%n_overlaps == size(regions%overlaps)) regions%overlaps = [regions%overlaps, regions%overlaps] ! doubled
     regions%n_overlaps = regions%n_overlaps + 1
     regions%overlaps(regions%n_overlaps) = overlap
   end subroutine add_overlap
@@ -263,11 +265,12 @@ contains
     margin_y = regions%per_v*dv
     inside = .false.
     if (.not. (x < regions%n_theta .and. y >= 0 .and. y < regions%n_velocity)) return
-    if (x - aint(x) <= margin_x .or. aint(x) + 1 - x <= margin_x .or. y - aint(y) <= margin_y .or. aint(y) + 1 - y <= margin_y) return
+    if (x - aint(x) <= margin_x .or. aint(x) + 1 - x <= margin_x .or. y - aint(y) <= margin_y .or. aint(y) + 1 &
+        - y <= margin_y) return
     inside = regions%label(int(x), int(y)) > 0
   end function cell_holds
 
-  !> The attractor of the first ellipse or band that holds (u, v), in the list that begins with overlap `first`; 0 = none.
+  !> Attractor of the first ellipse or band that holds (u, v), in the list from overlap `first` on; 0 = none.
   function overlap_at(regions, attractors, first, u, v) result(a)
     type(regions_t), intent(in) :: regions
     type(attractor_t), intent(in) :: attractors(:)

@@ -1,8 +1,8 @@
-!> Trapping regions grown outwards over the cells of their grid: a cell joins an attractor when the image of the whole cell, after
-!> 1, 2, 4 or 8 periods, lies in one of its ellipses, or in cells that have joined it before.
+!> Trapping regions grown outwards over the cells of their grid: a cell joins an attractor when the image of the whole
+!> cell, after 1, 2, 4 or 8 periods, lies in one of its ellipses, or in cells that have joined it before.
 !>
-!> A cell that cannot join yet waits, with each of its images, for one open cell of the image. Cells that have joined stay, so that
-!> the end result does not depend on the order.
+!> A cell that cannot join yet waits, with each of its images, for one open cell of the image. Cells that have joined
+!> stay, so that the end result does not depend on the order.
 module kz_grown_growth
   use, intrinsic :: iso_c_binding, only: dp => c_double, int8 => c_int8_t
   use kz_cycles_cycles, only: attractor_t
@@ -26,7 +26,7 @@ module kz_grown_growth
     integer(int8), allocatable :: mirror(:)   !< mirror image of each attractor, from 1; 0 = not grown
   end type circle_t
 
-  !> Lists of the images that wait for each cell; a waiting image has the number cell + n_cells (k - 1), k as in PERIODS.
+  !> Lists of images that wait for each cell; a waiting image is numbered cell + n_cells (k - 1), k as in PERIODS.
   type :: waiting_t
     integer, allocatable :: first(:) !< first image that waits for each cell
     integer, allocatable :: next(:)  !< next image in the list of each
@@ -92,8 +92,8 @@ contains
     if (circle%mirrored) circle%label([column, column + circle%n_circle], row) = circle%mirror(a)
   end subroutine set
 
-  !> The attractor one of whose ellipses holds the image of cell (i, l); 0 = none. The ellipses drawn where the image of the cell's
-  !> first corner lies are tried.
+  !> The attractor one of whose ellipses holds the image of cell (i, l); 0 = none. The ellipses drawn where the image of
+  !> the cell's first corner lies are tried.
   function ellipse_around(regions, attractors, images, i, l) result(a)
     type(regions_t), intent(in) :: regions
     type(attractor_t), intent(in) :: attractors(:)
@@ -122,8 +122,8 @@ contains
     a = 0
   end function ellipse_around
 
-  !> Whether four corners with their slack, and so their hull, or its mirror image, lie in the ellipse of strobe point j; j = 0: whether the box
-  !> around them lies in the band.
+  !> Whether four corners with their slack, and so their hull, or its mirror image, lie in the ellipse of strobe point
+  !> j; j = 0: whether the box around them lies in the band.
   pure function holds(regions, attractor, j, corners, mirrored) result(inside)
     type(regions_t), intent(in) :: regions
     type(attractor_t), intent(in) :: attractor
@@ -196,7 +196,7 @@ contains
     end subroutine visit
   end subroutine grow
 
-  !> answer > 0: the attractor of the whole image of cell (i, l). Else blocker: a stored cell of the image that is open, or NEVER.
+  !> answer > 0: the attractor of the whole image of cell (i, l). Else blocker: an open stored cell of it, or NEVER.
   subroutine ask(circle, images, i, l, seen, answer, blocker)
     type(circle_t), intent(in) :: circle
     type(images_t), intent(in) :: images
@@ -233,7 +233,7 @@ contains
     answer = a
   end subroutine ask
 
-  !> Returns what first_other tells of the cells that hold the images of the other corners: it costs less than the rows of the image.
+  !> As first_other, for the cells of the images of the other corners: cheaper than the rows of the image.
   pure function other_corner(circle, images, i, l, a) result(blocker)
     type(circle_t), intent(in) :: circle
     type(images_t), intent(in) :: images
@@ -268,8 +268,8 @@ contains
     all_have = unlike == 0
   end function one_label
 
-  !> Looks along a row for a cell without label a. blocker: the stored cell, if it is open; NEVER if another attractor has it; 0 if
-  !> there is none.
+  !> Looks along a row for a cell without label a. blocker: the stored cell, if it is open; NEVER if another attractor
+  !> has it; 0 if there is none.
   pure subroutine first_other(circle, first, last, row, a, blocker)
     type(circle_t), intent(in) :: circle
     integer, intent(in) :: first, last, row

@@ -1,5 +1,5 @@
-!> Where states lie in the grid of trapping regions, many at once. (A file of its own: called, not copied into a caller, its loop goes
-!> over vectors.)
+!> Where states lie in the grid of trapping regions, many at once. (A file of its own: called, not copied into a caller,
+!> its loop goes over vectors.)
 module kz_grown_places
   use, intrinsic :: iso_c_binding, only: dp => c_double, int32 => c_int32_t
   use kz_maps_states, only: MIDPERIOD
@@ -40,8 +40,8 @@ contains
     end do
   end subroutine look_up
 
-  !> The numbers (from 1) of the cells that hold n states, negative where the stored half holds the mirror image; outside of the grid the number
-  !> behind the last. Uses vectors.
+  !> The numbers (from 1) of the cells that hold n states, negative where the stored half holds the mirror image;
+  !> outside of the grid the number behind the last. Uses vectors.
   pure subroutine number_cells(grid, n, u, v, cell)
     type(grid_t), intent(in) :: grid !< grid of the regions
     integer, intent(in) :: n !< states
@@ -85,7 +85,8 @@ contains
     cell = grid%n_theta*grid%n_velocity
     w = from_down(wrapped_midperiod_angle(u, v))
     y = (v + grid%top)*grid%per_v
-    if (w >= 0 .and. w <= 2 .and. y >= 0 .and. y < grid%n_velocity) cell = min(int(w*grid%per_u), grid%n_theta - 1) + grid%n_theta*int(y)
+    if (w >= 0 .and. w <= 2 .and. y >= 0 .and. y < grid%n_velocity) cell = min(int(w*grid%per_u), grid%n_theta - 1) &
+        + grid%n_theta*int(y)
   end function whole_cell
 
   !> An angle in [-1, 1] as one in [0, 2).

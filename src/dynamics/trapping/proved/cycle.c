@@ -1,4 +1,4 @@
-/* Where a proved cycle lies, and its multipliers: from the smallest ellipse around its first strobe point that traps. */
+/* Place of a proved cycle and its multipliers, from the smallest trapping ellipse around its first strobe point. */
 #include <math.h>
 
 #include "proof.h"

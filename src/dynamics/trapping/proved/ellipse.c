@@ -11,7 +11,7 @@
 static const double LARGEST = 1, SMALLEST = 1e-5,
                     SHRINK = 0.85; /* radii; axes have an area of 1, or a length of 1 where real */
 
-static const double CENTRE_ROUNDING = 4e-15; /* Rounding of the difference of two centres, rad and rad per drive radian */
+static const double CENTRE_ROUNDING = 4e-15; /* Rounding of a difference of centres, rad and rad per drive radian */
 
 static void ellipse_advance(const kz_proof *proof, int64_t periods, kz_enclosure *set) {
   for (int64_t i = 0; i < periods && isfinite(set->reach[0]); i++)
@@ -37,7 +37,7 @@ static void real_basis(const double J[2][2], double half, double root, double M[
   }
 }
 
-/* The eigenbasis of the monodromy, to some digits; false where two eigenvalues are too near to each other, or it is not bounded. */
+/* Eigenbasis of the monodromy, to some digits; false if eigenvalues are too close, or it is not bounded. */
 static bool find_axes(const kz_proof *proof, int64_t period, const double centre[2], double M[2][2]) {
   const double tiny = 1e-6;
   kz_enclosure near = {.theta = {centre[0]}, .velocity = {centre[1]}, .matrix = {{tiny, 0}, {0, tiny}}, .reach = {1, 1}};
@@ -96,11 +96,11 @@ kz_proof_ellipse kz_proof_find_trap(const kz_proof *proof, int64_t period, doubl
   return ellipse;
 }
 
-/* ---- rings: each is cut into sectors inside parallelograms, and joins where all of them reach the ellipse inside it ---- */
+/* ---- rings, cut into sectors inside parallelograms; a ring joins if all of them reach the ellipse inside it ---- */
 
 enum { SECTORS = 64, BATCH = 16, MOST_PERIODS = 64 };
 static const double WIDTH = 0.1, WIDEST = 3; /* Relative width of a ring; largest radius */
-static const double LARGER = 1 + 1e-7; /* Factor by which sectors are made larger: they overlap by more than their rounding */
+static const double LARGER = 1 + 1e-7;       /* Enlargement of sectors: they overlap by more than their rounding */
 
 /* Sector i of the ring between r and (1 + WIDTH) r: along the radius and across it. */
 static kz_enclosure ellipse_sector(const double centre[2], const double M[2][2], double r, int i) {

@@ -1,4 +1,4 @@
-/* Inside of the proofs (dynamics_proof.h): a region of starts that are proved to end on an attractor, and sets that are followed into it. */
+/* Internals of the proofs (dynamics_proof.h): proved regions of starts, and sets that are followed into them. */
 #pragma once
 
 #include <stdbool.h>
