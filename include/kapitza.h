@@ -140,6 +140,143 @@ typedef struct {
  * Keys that it leaves out are those of the pendulum's scene; NULL: all of them. */
 kapitza_status kapitza_basin_of(kapitza_pendulum *pendulum, const char *window, kapitza_basin **basin);
 
+/* ---- frames: windows that somebody looks at ---- */
+
+/* The functions of this section and of the next keep what they have found of the last pendulums, so that the next frame is quick. `change` is
+ * the flow text of mappings of a scene, such as
+ *   "pendulum: {...}, basin: {theta: {min: -3, max: 3, count: 400}, velocity: {centre: 0.2, width: 1e-20, count: 250}}"
+ * `pendulum` and `sweep` replace those of the scene, keys of `basin` replace its keys; NULL: nothing is changed. */
+
+/* The known attractors of a pendulum, in the order of ids. */
+typedef struct {
+  int64_t version; /* from 1; every other list has another number */
+  kapitza_parameters parameters;
+  kapitza_cycles attractors;
+  const int64_t *track; /* [attractors.count] a number that stays with an attractor while the pendulum changes */
+} kapitza_catalogue;
+/* A copy of the list; free it by kapitza_free. */
+kapitza_status kapitza_catalogue_of(kapitza_pendulum *pendulum, const char *change, kapitza_catalogue **catalogue);
+
+/* Planes of a frame: values of each cell. NaN, and 255 of labels, = not settled, or not known. */
+enum {
+  KAPITZA_PLANE_LABELS,        /* uint8_t: id of an attractor */
+  KAPITZA_PLANE_SETTLING_TIME, /* float: drive periods after which the end is certain */
+  KAPITZA_PLANE_SMOOTH_TIME,   /* float: that until the trapping region, between whole periods too; for pictures */
+  KAPITZA_PLANE_DOUBT,         /* uint8_t: 0 decided, 1 undecided, 2 not known (of a moving frame) */
+  KAPITZA_PLANE_OTHER,         /* uint8_t: second candidate of an undecided cell, else 255 */
+  KAPITZA_PLANE_TURNS,         /* float: net turns until the end; NaN in moving frames */
+  KAPITZA_PLANE_EVIDENCE,      /* uint8_t: as in files */
+  KAPITZA_PLANES
+};
+
+/* What a frame shall be. */
+typedef struct {
+  const char *change;
+  int32_t moving;        /* 1: fast, with errors much smaller than a cell; 0: labels as by basin.method exact */
+  int32_t planes;        /* sum of 1 << KAPITZA_PLANE_... */
+  int32_t n_parts;       /* 1 to 4 */
+  int32_t coarseness[4]; /* [n_parts] of each part, from 8, 4, 2, 1, falling: every eighth cell ..., all cells */
+  const char *atlas;     /* result file of the study atlas, whose motions at x, y attract in a moving frame; NULL: none */
+  double x, y;
+} kapitza_frame_request;
+
+/* A part of a frame: every cell of a multiple of the coarseness. Cell (i, j) of the part is cell (min(coarseness i + o, rows - 1), ...) of the
+ * window, with o = 0, 1, 1, 5 for coarseness 1, 2, 4, 8. All pointers are valid while it is shown. */
+typedef struct {
+  const kapitza_catalogue *catalogue; /* to which the labels refer */
+  const void *plane[KAPITZA_PLANES];  /* [rows][columns], lowest velocity first; NULL = not asked for */
+  int32_t coarseness, rows, columns;
+  int32_t last;   /* 1: the frame is complete */
+  double seconds; /* processor time of the process since the frame began */
+} kapitza_frame_part;
+typedef int (*kapitza_show)(void *context, const kapitza_frame_part *part);
+
+/* Makes a frame and shows its parts by `show`, the coarse ones first. `between` (NULL: none) is asked every few milliseconds whether to go on; it may
+ * call kapitza_where, kapitza_catalogue_of, kapitza_motions_at and kapitza_line_through for the same pendulum. Any result but 0 of these two ends the frame
+ * (KAPITZA_STOPPED): the parts that were shown are right, and what has been found is kept. */
+kapitza_status kapitza_frame(kapitza_pendulum *pendulum, const kapitza_frame_request *request, kapitza_show show,
+                             kapitza_pause between, void *context);
+
+/* Where one start ends over a plane of two keys: change = "sweep: {measure: [ends], ends: {theta: [3]}, x: {parameter: ..., min, max, count},
+ * y: ...}". Parts and callbacks as of kapitza_frame. */
+typedef struct {
+  const uint8_t *period,
+      *centre; /* [rows][columns], x fastest: period 0 = it never closes, 255 = not settled; centre as of a cycle */
+  int32_t coarseness, rows, columns, last;
+} kapitza_chart_part;
+typedef int (*kapitza_show_chart)(void *context, const kapitza_chart_part *part);
+kapitza_status kapitza_chart(kapitza_pendulum *pendulum, const char *change, int32_t n_parts, const int32_t *coarseness,
+                             kapitza_show_chart show, kapitza_pause between, void *context);
+
+/* Tells where the pivot is at n times (drive radians): place [n][2] = aside, height, in units of I/(M r) of the pendulum. */
+kapitza_status kapitza_pivot(kapitza_pendulum *pendulum, int64_t n, const double *time, double *place);
+
+/* ---- ends of single starts, with any number of digits ---- */
+
+/* Where a start ends. */
+typedef struct {
+  char name[64], other_name[64]; /* "": not settled, no second candidate */
+  char precision[16];            /* double, pairs, quad, arbitrary; "": undecided, or not settled */
+  int32_t attractor, other;      /* as of kapitza_labels */
+  int32_t turns;                 /* KAPITZA_NO_TURNS = not known */
+  int32_t period, winding;       /* of the attractor */
+  int64_t settling_time;         /* drive periods after which the end is certain */
+  int64_t near_time;             /* and after which the angle stays within 1 degree of the final motion; -1 = not known */
+  double error;                  /* rad, when it was trapped; NaN = not known */
+  double mean_velocity;          /* of the attractor */
+  double theta, velocity;        /* the start, to the nearest double */
+  const double *strobe_theta, *strobe_velocity; /* [period] */
+} kapitza_ending;
+
+/* One piece of memory: free it by kapitza_free. */
+typedef struct {
+  int64_t count;
+  const kapitza_ending *ending; /* [count] */
+  kapitza_parameters parameters;
+} kapitza_endings;
+
+/* Tells where n starts end, whose theta (rad, or "170 deg") and velocity [n] are decimal numbers of any digits, all of which count. */
+kapitza_status kapitza_where(kapitza_pendulum *pendulum, const char *change, int64_t n, const char *const *theta,
+                             const char *const *velocity, kapitza_endings **endings);
+
+/* ---- atlases in result files ---- */
+
+/* A motion that attracts at a point of the plane of an atlas. */
+typedef struct {
+  char name[64];
+  int32_t period, winding, centre, symmetric; /* as of a cycle */
+  int32_t images;                             /* 2: its mirror image attracts too, else 1 */
+  int32_t strobes;                            /* period; 0: its states are not known, or not asked for */
+  int64_t curve;                              /* from which its state was carried; -1 = from none */
+  double multiplier_re[2], multiplier_im[2];
+  const double *theta, *velocity; /* [strobes] */
+} kapitza_motion;
+typedef struct {
+  int64_t count;
+  const kapitza_motion *motion; /* [count] */
+  double x, y, k, beta, m;      /* the point, and its pendulum */
+} kapitza_motions;
+/* Lists what attracts at the point x, y of the atlas in a result file; states 0: without strobe points and multipliers. Free it by kapitza_free. */
+kapitza_status kapitza_motions_at(kapitza_pendulum *pendulum, const char *file, double x, double y, int32_t states,
+                                  kapitza_motions **motions);
+
+/* Branches of cycles along a line through an atlas: points first .. first + points - 1 each. */
+typedef struct {
+  char name[64];
+  int32_t period, winding, centre, symmetric, images;
+  int64_t first, points;
+} kapitza_branch;
+typedef struct {
+  int64_t count, points;
+  const kapitza_branch *branch; /* [count] */
+  const double
+      *point; /* [points][5]: value of the key, mean height of the bob, theta, velocity, largest modulus of a multiplier */
+} kapitza_line;
+/* Lists all branches of cycles along the line x = value (along_x 0), or y = value (along_x 1), of the atlas in a result file. Free it by
+ * kapitza_free. */
+kapitza_status kapitza_line_through(kapitza_pendulum *pendulum, const char *file, int32_t along_x, double value,
+                                    kapitza_line **line);
+
 /* ---- scenes ---- */
 
 /* Runs a scene (text) on one rank and writes the result file `output`, which must not exist unless overwrite is 1. *summary = what

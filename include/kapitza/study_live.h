@@ -86,9 +86,11 @@ typedef struct {
   int64_t coarseness, rows, columns;
   const uint8_t *period, *centre; /* [rows][columns] */
 } kz_plane_raster;
+/* *points = number of points of the scene's plane. KZ_REFUSED: it has none. */
+kz_status kz_plane_points(const kz_scene *scene, int64_t *points);
 /* Draws where the first start of the scene's sweep.ends ends over its plane; `pause` as in kz_frame. */
 kz_status kz_plane_draw(const kz_scene *scene, const kz_integers *coarseness, kz_status (*pause)(void *context),
-                        kz_status (*serve_show)(void *context, const kz_plane_raster *raster), void *context);
+                        kz_status (*show)(void *context, const kz_plane_raster *raster), void *context);
 
 /* The motion of the scene's study orbit, by the pendulum itself, after its transient: theta (rad, not wrapped) and velocity (rad per drive radian), each
  * [periods * samples_per_period + 1]. `pause` as in kz_frame, every 0.1 s. KZ_FAILED: it becomes too large for double precision. */

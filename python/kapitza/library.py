@@ -14,7 +14,7 @@ from kapitza.program import RunError, SceneError
 
 OK, FAILED, REFUSED, NO_MEMORY, STOPPED = 0, 1, 2, 3, 75
 NO_TURNS = -(2**31)
-_KEY = re.compile(r"(?P<place>scene:\d+:\d+|basin|window): (?P<key>[a-z_]\w*(?:\.\w+)*): ")
+_KEY = re.compile(r"(?P<place>scene:\d+:\d+|basin|change): (?P<key>[a-z_]\w*(?:\.\w+)*): ")
 _raised = threading.local()  # the exception of a signal handler that stopped the call of this thread
 
 

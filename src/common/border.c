@@ -154,8 +154,10 @@ void kz_border_leave(void) {
 kz_status kz_border_call(kz_border *border, kz_pause_fn pause, void *pause_context, kz_status (*work)(void *context),
                          void *context, bool *left) {
   const visit outer = here;
-  border->left = 0;
-  border->lacked_memory = false;
+  if (outer.border != border) { /* not a call within a call */
+    border->left = 0;
+    border->lacked_memory = false;
+  }
   here =
       (visit){.border = border, .pause = pause, .pause_context = pause_context, .due = pause ? kz_clock() + PAUSE : 0};
   const kz_status status = kz_border_guard(work, context);

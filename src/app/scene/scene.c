@@ -205,42 +205,66 @@ static kz_status set_flow(kz_node *root, const char *path, const char *text, con
   return kz_tree_set(root, path, node);
 }
 
-/* The keys of `window` replace those of the basin. */
-static kz_status take_window(kz_node *root, const char *window) {
-  const size_t bytes = strlen(window) + 3;
-  KZ_FREED char *flow = kz_malloc(bytes);
-  kz_node *keys;
-  snprintf(flow, bytes, "{%s}", window);
-  KZ_TRY(kz_tree_read(flow, strlen(flow), "window", true, &keys));
-  kz_status status =
-      keys->kind == KZ_MAPPING ? KZ_OK : kz_fail(KZ_REFUSED, "window: is not a list of keys of the mapping basin");
-  while (status == KZ_OK && keys->first) {
+/* Puts the children of a mapping of the change into that of the scene. */
+static kz_status put_children(kz_node *root, kz_node *mapping) {
+  while (mapping->first) {
     char path[256];
-    snprintf(path, sizeof path, "basin.%.240s", keys->first->name);
-    status = kz_tree_set(root, path, kz_tree_take(keys, keys->first->name));
+    snprintf(path, sizeof path, "%.120s.%.120s", mapping->name, mapping->first->name);
+    KZ_TRY(kz_tree_set(root, path, kz_tree_take(mapping, mapping->first->name)));
   }
-  kz_tree_free(keys);
+  return KZ_OK;
+}
+
+/* Keys of a mapping `basin` replace those of the scene one by one, other mappings as a whole. */
+static kz_status put_change(kz_node *root, kz_node *change) {
+  if (change->kind != KZ_MAPPING) return kz_fail(KZ_REFUSED, "change: is not a list of mappings of a scene");
+  for (kz_node *node; (node = change->first);) {
+    char name[256];
+    snprintf(name, sizeof name, "%.250s", node->name);
+    if (strcmp(name, "basin") == 0 && node->kind == KZ_MAPPING) {
+      KZ_TRY(put_children(root, node));
+      kz_tree_free(kz_tree_take(change, name));
+    } else {
+      KZ_TRY(kz_tree_set(root, name, kz_tree_take(change, name)));
+    }
+  }
+  return KZ_OK;
+}
+
+static kz_status take_change(kz_node *root, const char *change) {
+  const size_t bytes = strlen(change) + 3;
+  KZ_FREED char *flow = kz_malloc(bytes);
+  kz_node *mappings;
+  snprintf(flow, bytes, "{%s}", change);
+  KZ_TRY(kz_tree_read(flow, strlen(flow), "change", true, &mappings));
+  const kz_status status = put_change(root, mappings);
+  kz_tree_free(mappings);
   return status;
 }
 
-static kz_status complete_basin(kz_node *root, const char *window) {
+static kz_status complete_basin(kz_node *root, const char *change) {
   if (!kz_tree_find(root, "basin"))
     KZ_TRY(set_flow(root, "basin", "{theta: {count: 400}, velocity: {min: -2, max: 2, count: 400}}", "basin"));
-  if (window) KZ_TRY(take_window(root, window));
+  if (change) KZ_TRY(take_change(root, change));
   return set_flow(root, "basin.method", "exact", "basin");
 }
 
-kz_status kz_scene_open(const char *text, const char *window, kz_scene *scene) {
+kz_status kz_scene_open(const char *text, const char *change, kz_scene *scene) {
   kz_scene_tree tree;
   memset(scene, 0, sizeof *scene);
   kz_status status = kz_scene_tree_read(text, strlen(text), "scene", 0, NULL, &tree);
   if (status == KZ_OK && tree.root->kind == KZ_MAPPING) {
     drop_others(tree.root);
-    status = complete_basin(tree.root, window);
+    status = complete_basin(tree.root, change);
   }
   if (status == KZ_OK) status = kz_scene_of_tree(tree.root, scene);
   kz_scene_tree_free(&tree);
   return status;
+}
+
+const char *kz_decimal_read(const char *text, bool is_angle, kz_decimal *number) {
+  const kz_node node = {.kind = KZ_SCALAR, .text = (char *)text, .plain = true};
+  return kz_scalar_decimal(&node, is_angle, number);
 }
 
 kz_status kz_tables_make(void) {

@@ -1,5 +1,6 @@
 /* Labels of starts, and of the cells of a window. */
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 
 #include "../library.h"
@@ -83,20 +84,10 @@ kapitza_status kapitza_labels(kapitza_pendulum *pendulum, int64_t n, const doubl
 
 typedef struct {
   const char *window;
+  kapitza_pendulum *pendulum;
   const kz_scene *scene;
   kapitza_basin *basin; /* NULL: not made yet */
 } basin_job;
-
-static size_t labels_rounded(size_t bytes) {
-  return (bytes + 15) / 16 * 16;
-}
-
-/* The next `bytes` of a piece of memory. */
-static void *part_of(char **piece, size_t bytes) {
-  void *part = *piece;
-  *piece += labels_rounded(bytes);
-  return part;
-}
 
 static void put_ids(int64_t cells, const uint8_t *from, int16_t *to) {
   for (int64_t i = 0; i < cells; i++) to[i] = from[i] == KZ_NO_LABEL ? -1 : from[i];
@@ -106,16 +97,17 @@ static void put_ids(int64_t cells, const uint8_t *from, int16_t *to) {
 static kz_status take_frame(void *context, const kz_live_raster *r) {
   basin_job *j = context;
   const int64_t cells = r->rows * r->columns;
-  const size_t n = (size_t)cells, sides = labels_rounded((size_t)r->columns * 8) + labels_rounded((size_t)r->rows * 8);
-  const size_t planes = 2 * labels_rounded(n * sizeof(int16_t)) + labels_rounded(n) + 2 * labels_rounded(n * sizeof(float));
+  const size_t n = (size_t)cells, sides = kz_library_rounded((size_t)r->columns * 8) + kz_library_rounded((size_t)r->rows * 8);
+  const size_t planes =
+      2 * kz_library_rounded(n * sizeof(int16_t)) + kz_library_rounded(n) + 2 * kz_library_rounded(n * sizeof(float));
   char *piece =
-      kz_border_give(labels_rounded(sizeof *j->basin) + sides + planes + kz_library_cycles_bytes(&r->catalogue->list));
-  kapitza_basin *b = j->basin = part_of(&piece, sizeof *b);
-  double *theta = part_of(&piece, (size_t)r->columns * sizeof *theta);
-  double *velocity = part_of(&piece, (size_t)r->rows * sizeof *velocity);
-  int16_t *attractor = part_of(&piece, n * sizeof *attractor), *other = part_of(&piece, n * sizeof *other);
-  uint8_t *evidence = part_of(&piece, n);
-  float *settling = part_of(&piece, n * sizeof *settling), *turns = part_of(&piece, n * sizeof *turns);
+      kz_border_give(kz_library_rounded(sizeof *j->basin) + sides + planes + kz_library_cycles_bytes(&r->catalogue->list));
+  kapitza_basin *b = j->basin = kz_library_part(&piece, sizeof *b);
+  double *theta = kz_library_part(&piece, (size_t)r->columns * sizeof *theta);
+  double *velocity = kz_library_part(&piece, (size_t)r->rows * sizeof *velocity);
+  int16_t *attractor = kz_library_part(&piece, n * sizeof *attractor), *other = kz_library_part(&piece, n * sizeof *other);
+  uint8_t *evidence = kz_library_part(&piece, n);
+  float *settling = kz_library_part(&piece, n * sizeof *settling), *turns = kz_library_part(&piece, n * sizeof *turns);
   for (int64_t i = 0; i < r->columns; i++) theta[i] = kz_frame_centre(&j->scene->basin->theta, i);
   for (int64_t i = 0; i < r->rows; i++) velocity[i] = kz_frame_centre(&j->scene->basin->velocity, i);
   put_ids(cells, r->plane[KZ_PLANE_LABELS], attractor);
@@ -129,8 +121,7 @@ static kz_status take_frame(void *context, const kz_live_raster *r) {
 }
 
 static kz_status pause_frame(void *context) {
-  (void)context;
-  return kz_border_pause();
+  return kz_library_between(((basin_job *)context)->pendulum, NULL, NULL);
 }
 
 static kz_status label_window(kapitza_pendulum *p, basin_job *j) {
@@ -150,13 +141,17 @@ static kz_status label_window(kapitza_pendulum *p, basin_job *j) {
 static kz_status work_basin(kapitza_pendulum *p, void *context) {
   enum { MOST_CELLS = 1 << 26 };
   basin_job *j = context;
+  const size_t bytes = (j->window ? strlen(j->window) : 0) + 16;
+  KZ_FREED char *change = kz_malloc(bytes);
   KZ_FREED_BY(kz_scene_free) kz_scene scene;
-  KZ_TRY(kz_scene_open(p->text, j->window, &scene));
+  snprintf(change, bytes, "basin: {%s}", j->window ? j->window : "");
+  KZ_TRY(kz_scene_open(p->text, change, &scene));
   const int64_t columns = scene.basin->theta.count, rows = scene.basin->velocity.count;
   if (columns * rows > MOST_CELLS)
     return kz_fail(KZ_REFUSED, "%lld times %lld are more than %d cells; run a scene, which writes them to a file",
                    (long long)columns, (long long)rows, MOST_CELLS);
   j->scene = &scene;
+  j->pendulum = p;
   return label_window(p, j);
 }
 

@@ -59,8 +59,9 @@ static kz_status check_process(kapitza_pendulum *p) {
   return KZ_OK;
 }
 
-/* Waits for other threads, as long as the caller wants to. */
-static kz_status pendulum_take(kapitza_pendulum *p) {
+/* Waits for other threads, as long as the caller wants to. *inner: this thread has it, and is between two parts of its work. */
+static kz_status pendulum_take(kapitza_pendulum *p, bool *inner) {
+  *inner = false;
   KZ_TRY(check_process(p));
   for (;;) {
     struct timespec until;
@@ -72,6 +73,10 @@ static kz_status pendulum_take(kapitza_pendulum *p) {
     }
     const int error = pthread_mutex_timedlock(&p->mutex, &until);
     if (error == 0) break;
+    if (error == EDEADLK && p->between) {
+      *inner = true;
+      return KZ_OK;
+    }
     if (error == EDEADLK) return kz_fail(KZ_REFUSED, "the pause of a call uses the pendulum of that call");
     if (error != ETIMEDOUT) return kz_fail(KZ_FAILED, "%s", strerror(error));
     if (kz_library_pause()) KZ_TRY(ask_caller(NULL));
@@ -96,6 +101,7 @@ static kz_status open_pendulum(kapitza_pendulum *p) {
   KZ_TRY(kz_scene_open(p->text, NULL, &p->scene));
   p->engine = kz_engine_create();
   p->flow[0] = p->flow[1] = NULL;
+  p->atlas = NULL;
   p->opened = true;
   return KZ_OK;
 }
@@ -108,18 +114,43 @@ static kz_status carry_out(void *context) {
 
 kapitza_status kz_library_call(kapitza_pendulum *p, kz_work_fn work, void *context) {
   visit v = {p, work, context};
-  bool left = false;
+  bool left = false, inner;
   kz_message_clear();
-  kz_status status = pendulum_take(p);
+  kz_status status = pendulum_take(p, &inner);
   if (status != KZ_OK) return (kapitza_status)status;
+  p->between = false;
   status = kz_border_call(p->border, kz_library_pause(), NULL, carry_out, &v, &left);
   const kapitza_status told = kz_library_status(status, p->border);
-  if (left) { /* a call that was left may have half-made caches */
+  p->between = inner;
+  if (inner) return told; /* the outer call is left too, where this one was */
+  if (left) {             /* a call that was left may have half-made caches */
     kz_border_empty(p->border);
     p->opened = false;
   }
   pendulum_leave(p);
   return told;
+}
+
+kz_status kz_library_between(kapitza_pendulum *p, kapitza_pause between, void *context) {
+  KZ_TRY(kz_border_pause());
+  if (!between) return KZ_OK;
+  p->between = true;
+  const int stops = between(context);
+  p->between = false;
+  kz_border_leave();
+  return stops ? kz_fail(KZ_STOPPED, "stopped by the caller") : KZ_OK;
+}
+
+/* ---- memory for the caller ---- */
+
+size_t kz_library_rounded(size_t bytes) {
+  return (bytes + 15) / 16 * 16;
+}
+
+void *kz_library_part(char **piece, size_t bytes) {
+  void *part = *piece;
+  *piece += kz_library_rounded(bytes);
+  return part;
 }
 
 /* ---- made and freed ---- */
@@ -162,11 +193,13 @@ void kapitza_pendulum_free(kapitza_pendulum *pendulum) {
   if (pendulum) free_pendulum(pendulum);
 }
 
+kapitza_parameters kz_library_parameters(const kz_parameters *own) {
+  return (kapitza_parameters){own->pendulum.k,      own->pendulum.beta,   own->pendulum.m,      own->quality_factor,
+                              own->drive_frequency, own->drive_amplitude, own->pivot_frequency, kz_is_mirrored(&own->pendulum)};
+}
+
 static kz_status tell_parameters(kapitza_pendulum *p, void *context) {
-  const kz_parameters *own = &p->scene.parameters;
-  *(kapitza_parameters *)context =
-      (kapitza_parameters){own->pendulum.k,      own->pendulum.beta,   own->pendulum.m,      own->quality_factor,
-                           own->drive_frequency, own->drive_amplitude, own->pivot_frequency, kz_is_mirrored(&own->pendulum)};
+  *(kapitza_parameters *)context = kz_library_parameters(&p->scene.parameters);
   return KZ_OK;
 }
 

@@ -8,6 +8,7 @@
 #include "labelling/levels.h"
 #include "numerics/cells.h"
 #include "where/where.h"
+#include "kapitza/common_border.h"
 #include "kapitza/study_basin.h"
 
 kz_engine *kz_engine_create(void) {
@@ -132,12 +133,17 @@ kz_status kz_engine_catalogue(kz_engine *engine, const kz_scene *scene, const kz
   return KZ_OK;
 }
 
+static kz_status question_label(void *question) {
+  return kz_question_label(question);
+}
+
 /* Labels the starts, which may find attractors. A frame of this pendulum may be half done: its threads wait. */
 static kz_status label(kz_engine *engine, kz_prepared *r, kz_question *q) {
   const int64_t known = kz_dynamics_count(r->dynamics);
   pthread_rwlock_wrlock(&engine->changing);
-  const kz_status status = kz_question_label(q);
+  const kz_status status = kz_border_guard(question_label, q);
   pthread_rwlock_unlock(&engine->changing);
+  kz_border_leave();
   if (kz_dynamics_count(r->dynamics) > known) kz_engine_list(engine, r);
   return status;
 }

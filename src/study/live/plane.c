@@ -1,4 +1,4 @@
-/* Ends of one start over a plane of two keys, raster by raster, as frames are: the request chart of `kapitza serve`. */
+/* Ends of one start over a plane of two keys, raster by raster, as frames are, for pages that somebody looks at. */
 #include "ends/ends.h"
 #include "live.h"
 #include "sweep/plan.h"
@@ -38,6 +38,12 @@ static kz_status plane_draw(drawing *d, const kz_plane_raster *raster) {
       d->shown_period[at] = d->period[point];
       d->shown_centre[at] = d->centre[point];
     }
+  return KZ_OK;
+}
+
+kz_status kz_plane_points(const kz_scene *scene, int64_t *points) {
+  if (!kz_sweep_is_plane(scene->sweep)) return kz_fail(KZ_REFUSED, "sweep.x: a chart needs the axes x and y");
+  *points = scene->sweep->x.values.count * scene->sweep->y.values.count;
   return KZ_OK;
 }
 
