@@ -3,8 +3,9 @@
  *   births ATLAS.h5 X Y < CYCLES
  *
  * CYCLES: a cycle a line: its period, then angle and velocity of each strobe point (rad, rad per drive radian).
- * stdout: for each curve that the atlas lacks and that has a band of attractors of more than 1e-5 sides of the plane where a cycle meets it
- * "lacks PERIOD MULTIPLIER Y BAND", and then "followed CYCLES FOLLOWED MET KNOWN THIN": THIN meetings are with curves of thinner bands. */
+ * stdout: for each curve that the atlas lacks and that has a band of attractors of more than 1e-5 sides of the plane
+ * where a cycle meets it "lacks PERIOD MULTIPLIER Y BAND", and then "followed CYCLES FOLLOWED MET KNOWN THIN": THIN
+ * meetings are with curves of thinner bands. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -17,7 +18,7 @@ static const double LEAST_BAND = 1e-5;
 static kz_status open_atlas(const char *path, kz_scene *scene, kz_atlas **atlas) {
   kz_store *store;
   KZ_TRY(kz_store_open(path, &store));
-  KZ_FREED char *text = kz_store_text_of(store, "scene_resolved");
+  KZ_AUTOFREE char *text = kz_store_text_of(store, "scene_resolved");
   KZ_TRY(kz_scene_read(text, strlen(text), path, 0, NULL, scene));
   KZ_TRY(kz_atlas_open(scene, store, atlas));
   kz_store_discard(store);
@@ -62,7 +63,7 @@ int main(int count, char **word) {
     if (kz_atlas_place(atlas, i, strtod(word[2 + i], NULL), place + kz_atlas_axis(atlas, i)) != KZ_OK) return 2;
   kz_plane_cycle cycle;
   for (bool exists; read_cycle(atlas, place, &cycle, &exists); cycles++) {
-    KZ_FREED_BY(kz_atlas_seeds_free) kz_atlas_seeds births = {0};
+    KZ_AUTOFREE_BY(kz_atlas_seeds_free) kz_atlas_seeds births = {0};
     if (!exists) continue;
     followed++;
     kz_atlas_explore_first(atlas, &cycle, &births);

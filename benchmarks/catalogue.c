@@ -10,7 +10,8 @@ double kz_point_distance(double theta, double velocity, const kz_strobe_point *p
 }
 
 static bool read_pendulum(FILE *in, kz_pendulum *p) {
-  if (fscanf(in, "%lf %lf %lf %lf %lf %d", &p->k, &p->beta, &p->m, &p->torque, &p->torque_amplitude, &p->harmonics) != 6)
+  if (fscanf(in, "%lf %lf %lf %lf %lf %d", &p->k, &p->beta, &p->m, &p->torque, &p->torque_amplitude, &p->harmonics) !=
+      6)
     return false;
   if (p->harmonics < 0 || p->harmonics > KZ_HARMONICS) return false;
   p->unmirrored = p->torque != 0 || p->torque_amplitude != 0;

@@ -1,7 +1,8 @@
 /* The job of the tools that label states: a pendulum and its attractors, read from text.
  *
- * k beta m torque torque_amplitude, number of harmonics / per harmonic: cosine and sine up, cosine and sine aside / max_periods / number of attractors / per attractor: period, then period times theta velocity; the states to
- * label follow, theta velocity each. Angles in rad, velocities in rad per drive radian. */
+ * k beta m torque torque_amplitude, number of harmonics / per harmonic: cosine and sine up, cosine and sine aside /
+ * max_periods / number of attractors / per attractor: period, then period times theta velocity; the states to label
+ * follow, theta velocity each. Angles in rad, velocities in rad per drive radian. */
 #pragma once
 
 #include <stdbool.h>

@@ -1,8 +1,9 @@
-/* Orbits of any digits with their neighbourhood, as deep windows follow them: what a period costs under a sine, on a tilted path, under a square wave of
- * seven harmonics, and on a ramp.
+/* Orbits of any digits with their neighbourhood, as deep windows follow them: what a period costs under a sine, on a
+ * tilted path, under a square wave of seven harmonics, and on a ramp.
  *
- * stdout: for each number of digits of a window's width and each drive a line "row DIGITS DRIVE US RATIO PER_HARMONIC": microseconds of a period, over those
- * of the sine, over those of the sine and the number of harmonics up and across. Processor time, the shortest of five. */
+ * stdout: for each number of digits of a window's width and each drive a line "row DIGITS DRIVE US RATIO PER_HARMONIC":
+ * microseconds of a period, over those of the sine, over those of the sine and the number of harmonics up and across.
+ * Processor time, the shortest of five. */
 #include <math.h>
 #include <stdio.h>
 #include <time.h>
@@ -24,11 +25,13 @@ typedef struct {
 static const drive drives[] = {
     {"sine", {FIG12}, {0}, 1},
     {"tilted",
-     {FIG12, .vertical = {{0.3 * -0.0038053, 0}}, .horizontal = {{0.3 * 0.0871557, 0}}, .harmonics = 1, .unmirrored = 1},
+     {FIG12, .vertical = {{0.3 * -0.0038053, 0}}, .horizontal = {{0.3 * 0.0871557, 0}}, .harmonics = 1,
+      .unmirrored = 1},
      {0},
      2},
     {"square",
-     {FIG12, .vertical = {{SQUARE(1) - 0.3, 0}, {0}, {SQUARE(3), 0}, {0}, {SQUARE(5), 0}, {0}, {SQUARE(7), 0}}, .harmonics = 7},
+     {FIG12, .vertical = {{SQUARE(1) - 0.3, 0}, {0}, {SQUARE(3), 0}, {0}, {SQUARE(5), 0}, {0}, {SQUARE(7), 0}},
+      .harmonics = 7},
      {0},
      7},
     {"ramp", {FIG12}, {.periods = 1e6, .damping = 1.0 / 55, .drive = 0.5, .smooth = 1}, 1}};

@@ -1,6 +1,7 @@
-/* Random starts of other drives than the sine lie in their enclosures after 1, 5 and 20 periods, by quad precision (in triples: by orbits of 200 bits):
- * 100,000 of each drive in doubles and in pairs and 1000 in triples, which takes half an hour. With arguments DRIVE (0, 1, 2), PRECISION (0: doubles,
- * 1: pairs, 2: triples), FIRST and END the starts FIRST .. END - 1 of one drive: many can be followed in parts. Exit status 1 if one lies outside. */
+/* Random starts of other drives than the sine lie in their enclosures after 1, 5 and 20 periods, by quad precision (in
+ * triples: by orbits of 200 bits): 100,000 of each drive in doubles and in pairs and 1000 in triples, which takes half
+ * an hour. With arguments DRIVE (0, 1, 2), PRECISION (0: doubles, 1: pairs, 2: triples), FIRST and END the starts FIRST
+ * .. END - 1 of one drive: many can be followed in parts. Exit status 1 if one lies outside. */
 #include "../tests/tools/enclosed.h"
 #include "../tests/tools/enclosed_orbit.h"
 #include "../tests/tools/reference.h"
@@ -14,7 +15,7 @@
 enum { BATCH = 2048, STAGES = 3, DIGITS_BITS = 200 };
 static const int64_t periods[STAGES] = {1, 4, 15}; /* Periods of each stage */
 
-/* Fig. 12's pendulum on a path that is tilted by 5 degrees, and under the wave of scenes/square-wave.yaml; a Josephson junction. */
+/* Fig. 12's pendulum on a path tilted by 5 degrees, and under the wave of scenes/square-wave.yaml; a junction. */
 #define FIG12 .k = 1.0 / 121, .beta = 1.0 / 55, .m = 0.3
 #define SQUARE(j) (0.3 * 4 / M_PI / (j) * ((j) % 4 == 1 ? 1 : -1))
 static const struct {
@@ -23,7 +24,8 @@ static const struct {
 } drives[] = {
     {"tilted", {FIG12, .vertical = {{-0.00114158}}, .horizontal = {{0.0261467}}, .harmonics = 1, .unmirrored = 1}},
     {"square",
-     {FIG12, .vertical = {{SQUARE(1) - 0.3}, {0, -0.02}, {SQUARE(3)}, {0}, {SQUARE(5)}, {0}, {SQUARE(7)}}, .harmonics = 7}},
+     {FIG12, .vertical = {{SQUARE(1) - 0.3}, {0, -0.02}, {SQUARE(3)}, {0}, {SQUARE(5)}, {0}, {SQUARE(7)}},
+      .harmonics = 7}},
     {"Josephson",
      {.k = 0.01031954,
       .beta = 0.1,
@@ -39,7 +41,7 @@ typedef struct {
   double farthest; /* the largest |z| / reach */
 } counts;
 
-/* Number j of start i, evenly in [from, to): splitmix64 (Steele, Lea, Flood 2014), so that a start does not depend on those before it. */
+/* Number j of start i, evenly in [from, to), independent of other starts: splitmix64 (Steele, Lea, Flood 2014). */
 static double uniform(int64_t i, int j, double from, double to) {
   uint64_t x = (2 * (uint64_t)i + (uint64_t)j + 1) * 0x9e3779b97f4a7c15;
   x = (x ^ x >> 30) * 0xbf58476d1ce4e5b9;
@@ -61,10 +63,12 @@ typedef struct {
   kz_arbitrary *orbit[BATCH];
 } motions;
 
-static void start(const kz_pendulum *pendulum, bool in_digits, int n, const double *theta, const double *velocity, motions *m) {
+static void start(const kz_pendulum *pendulum, bool in_digits, int n, const double *theta, const double *velocity,
+                  motions *m) {
   kz_reference_start(n, theta, velocity, NULL, m->state);
   for (int i = 0; i < n && in_digits; i++)
-    m->orbit[i] = kz_arbitrary_create(pendulum, (kz_coordinate[2]){{.high = theta[i]}, {.high = velocity[i]}}, DIGITS_BITS);
+    m->orbit[i] =
+        kz_arbitrary_create(pendulum, (kz_coordinate[2]){{.high = theta[i]}, {.high = velocity[i]}}, DIGITS_BITS);
 }
 
 static void advance(const kz_pendulum *pendulum, bool in_digits, int n, int64_t steps, motions *m) {
@@ -123,14 +127,16 @@ static bool enclose(int drive, int32_t precision, int64_t first, int64_t end) {
   kz_enclosure_tables_free(tables);
   for (int s = 0; s < STAGES; s++) {
     printf("%s, %s, stage %d: %lld outside of %lld, %lld lost; at most %.2g of the reach\n", drives[drive].name,
-           names[precision], s, (long long)of[s].outside, (long long)(end - first), (long long)of[s].lost, of[s].farthest);
+           names[precision], s, (long long)of[s].outside, (long long)(end - first), (long long)of[s].lost,
+           of[s].farthest);
     holds = holds && of[s].outside == 0 && of[s].inside > 0.9 * (double)(end - first) && of[s].farthest > 0;
   }
   return holds;
 }
 
 int main(int count, char **words) {
-  static const int64_t starts[] = {[KZ_ENCLOSE_DOUBLES] = 100000, [KZ_ENCLOSE_PAIRS] = 100000, [KZ_ENCLOSE_TRIPLES] = 1000};
+  static const int64_t starts[] = {
+      [KZ_ENCLOSE_DOUBLES] = 100000, [KZ_ENCLOSE_PAIRS] = 100000, [KZ_ENCLOSE_TRIPLES] = 1000};
   bool hold = true;
   if (count == 5) return !enclose(atoi(words[1]), atoi(words[2]), atoll(words[3]), atoll(words[4]));
   for (int drive = 0; drive < 3; drive++)

@@ -1,10 +1,12 @@
-/* Times one drive period of one trajectory, by this program's kernel and by GSL's rk8pd, and the arithmetic of this core.
+/* Times one drive period of one trajectory, by this program's kernel and by GSL's rk8pd, and the arithmetic of this
+ * core.
  *
  * kernel k beta m STATES PERIODS
- * stdout: "peak F" (fused multiply-adds a nanosecond), a line "state theta velocity theta1 velocity1" for each of 64 starts and
- * their images after a period (quad precision), then lines "row NAME TOLERANCE NS ERROR OPERATIONS": nanoseconds a period, the
- * largest error of one period over those starts (rad, angle and velocity together), arithmetic instructions a period (0: not
- * known). Starts: the whole circle, speeds up to 2. The shortest of three times counts. */
+ * stdout: "peak F" (fused multiply-adds a nanosecond), a line "state theta velocity theta1 velocity1" for each of 64
+ * starts and their images after a period (quad precision), then lines "row NAME TOLERANCE NS ERROR OPERATIONS":
+ * nanoseconds a period, the largest error of one period over those starts (rad, angle and velocity together),
+ * arithmetic instructions a period (0: not known). Starts: the whole circle, speeds up to 2. The shortest of three
+ * times counts. */
 #include <gsl/gsl_errno.h>
 #include <gsl/gsl_odeiv2.h>
 #include <math.h>
@@ -19,7 +21,7 @@
 
 enum { PROBES = 64, REPEATS = 3, SLOW_STATES = 16 };
 static const double two_pi = 6.28318530717958647692, fastest = 2;
-/* Operations of a step besides the terms of drift and kick: the angle reduced (3), squared, times 1 - its square, the velocity changed. */
+/* Operations of a step besides drift and kick: angle reduced (3), squared, times 1 - square, velocity changed. */
 static const int other_operations = 6;
 
 typedef struct {
@@ -105,8 +107,8 @@ static bool time_flow(const char *name, double tolerance, const kz_pendulum *pen
     best = fmin(best, now() - start);
   }
   if (good)
-    printf("row %s %g %.3f %.3g %d\n", name, tolerance, 1e9 * best / n / periods, largest_error(p, probe_theta, probe_velocity),
-           operations);
+    printf("row %s %g %.3f %.3g %d\n", name, tolerance, 1e9 * best / n / periods,
+           largest_error(p, probe_theta, probe_velocity), operations);
   if (flow) kz_flow_free(flow);
   free(theta);
   free(velocity);
@@ -135,7 +137,8 @@ static int motion(double t, const double y[], double rate[], void *parameters) {
 }
 
 /* Whole periods of n states by GSL's rk8pd. */
-static bool follow_gsl(const gsl_odeiv2_system *system, double tolerance, int n, int periods, double *theta, double *velocity) {
+static bool follow_gsl(const gsl_odeiv2_system *system, double tolerance, int n, int periods, double *theta,
+                       double *velocity) {
   gsl_odeiv2_driver *driver = gsl_odeiv2_driver_alloc_y_new(system, gsl_odeiv2_step_rk8pd, 0.1, tolerance, tolerance);
   bool good = driver;
   for (int i = 0; good && i < n; i++) {
@@ -162,7 +165,8 @@ static bool time_gsl(double tolerance, const kz_pendulum *pendulum, const probes
     best = fmin(best, now() - start);
   }
   if (good)
-    printf("row GSL-rk8pd %g %.3f %.3g 0\n", tolerance, 1e9 * best / SLOW_STATES / periods, largest_error(p, theta, velocity));
+    printf("row GSL-rk8pd %g %.3f %.3g 0\n", tolerance, 1e9 * best / SLOW_STATES / periods,
+           largest_error(p, theta, velocity));
   return good;
 }
 

@@ -1,5 +1,5 @@
-/* Reads a catalogue and states (catalogue.h), labels them, and prints "seconds periods", then a label per line. Reading and
- * printing are not timed. */
+/* Reads a catalogue and states (catalogue.h), labels them, and prints "seconds periods", then a label per line. Reading
+ * and printing are not timed. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <time.h>

@@ -1,5 +1,6 @@
-/* Interpolated cell mapping as Blackburn, Smith and Groenbech-Jensen (1992) meant it, against RK4 with 100 steps a period: every start is
- * followed for the same number of periods. Prints processor times and their ratio; Sec. IV of the paper says 30 to 50. */
+/* Interpolated cell mapping as Blackburn, Smith and Groenbech-Jensen (1992) meant it, against RK4 with 100 steps a
+ * period: every start is followed for the same number of periods. Prints processor times and their ratio; Sec. IV of
+ * the paper says 30 to 50. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -86,11 +87,12 @@ int main(void) {
   const double table = seconds_since(begin), mapped = follow(node, &sum), integrated = follow(NULL, &sum);
   const double share = table * STARTS / CELLS;
   printf(
-      "RK4 %.2f us, mapping %.3f us a start and %d periods, table %.2f s; integration over mapping %.0f, with the table's "
+      "RK4 %.2f us, mapping %.3f us a start and %d periods, table %.2f s; integration over mapping %.0f, with the "
+      "table's "
       "share of a "
       "million cells %.0f (sum %g)\n",
-      1e6 * integrated / STARTS, 1e6 * mapped / STARTS, PERIODS, table, integrated / mapped, integrated / (mapped + share),
-      sum);
+      1e6 * integrated / STARTS, 1e6 * mapped / STARTS, PERIODS, table, integrated / mapped,
+      integrated / (mapped + share), sum);
   free(node);
   return 0;
 }

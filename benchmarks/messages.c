@@ -70,7 +70,8 @@ int main(int n, char **words) {
   MPI_Comm_rank(MPI_COMM_WORLD, &rank);
   MPI_Comm_size(MPI_COMM_WORLD, &size);
   char *buffer = calloc(BLOCK, 1);
-  double *message = calloc(3 * (size_t)rounds + 1, sizeof *message), *answer = message + rounds, *block = answer + rounds;
+  double *message = calloc(3 * (size_t)rounds + 1, sizeof *message), *answer = message + rounds,
+         *block = answer + rounds;
   if (rounds < 1 || size < 2 || !buffer || !message) {
     if (rank == 0) fputs("usage: mpirun -n 2 messages ROUNDS\n", stderr);
     MPI_Finalize();
@@ -80,8 +81,8 @@ int main(int n, char **words) {
   for (int i = 0; i < rounds; i++) answer[i] = time_answer(rank, buffer);
   for (int i = 0; i < rounds; i++) block[i] = time_block(rank, buffer);
   if (rank == 0)
-    printf("{\"message\": %.3g, \"answer\": %.3g, \"bandwidth\": %.3g}\n", decile(message, rounds), decile(answer, rounds),
-           BLOCK / decile(block, rounds));
+    printf("{\"message\": %.3g, \"answer\": %.3g, \"bandwidth\": %.3g}\n", decile(message, rounds),
+           decile(answer, rounds), BLOCK / decile(block, rounds));
   free(message);
   free(buffer);
   MPI_Finalize();

@@ -1,8 +1,11 @@
-/* Pairs of doubles by Taylor series beside pairs by splitting: which carries an orbit through a period in less time, at the same error?
+/* Pairs of doubles by Taylor series beside pairs by splitting: which carries an orbit through a period in less time, at
+ * the same error?
  *
- * stdout: for Fig. 12's pendulum and each error of a period a line "row ERROR SPLITTING_NS TAYLOR_NS RATIO STEPS ORDER PAIRS": nanoseconds for a state and a period of both, of
- * 64 states with speeds up to 2.5; and of the cheapest series its steps a period, its order, and how many of its orders are pairs. The recurrence is
- * that of every orbit (taylor/motion.inc), in pairs and, in the orders that need no more digits, in doubles. Processor time, the shortest of five. */
+ * stdout: for Fig. 12's pendulum and each error of a period a line "row ERROR SPLITTING_NS TAYLOR_NS RATIO STEPS ORDER
+ * PAIRS": nanoseconds for a state and a period of both, of 64 states with speeds up to 2.5; and of the cheapest series
+ * its steps a period, its order, and how many of its orders are pairs. The recurrence is that of every orbit
+ * (taylor/motion.inc), in pairs and, in the orders that need no more digits, in doubles. Processor time, the shortest
+ * of five. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -19,9 +22,10 @@ static const double fastest = 2.5;
 /* tests/unit/pairs.f90. */
 void *kz_test_pairs_create(const kz_pendulum *pendulum, double tolerance, double fastest, double *error);
 void kz_test_pairs_free(void *pairs);
-void kz_test_pairs_advance(const void *pairs, int64_t n, int64_t periods, double *half_turns, double *velocity, int64_t *turns);
+void kz_test_pairs_advance(const void *pairs, int64_t n, int64_t periods, double *half_turns, double *velocity,
+                           int64_t *turns);
 
-/* Coefficients of the velocity, of sine or of cosine: those below `pairs` are pairs, whose high parts are doubles too. */
+/* Coefficients of velocity, sine or cosine: those below `pairs` are pairs, whose high parts are doubles too. */
 typedef struct {
   pair fine[MOST][PARTS];
   vector coarse[MOST][PARTS];
@@ -69,7 +73,8 @@ KZ_INLINE pair scaled_fine(pair x, pair factor) {
 #define KZ_GAIN(total, a, b) EACH KZ_OF_LEVEL(accumulate_)(&total[p], x -> b.KZ_LEVEL[n - i][p], FACTOR_##a(i))
 #define KZ_DAMP(total) EACH KZ_OF_LEVEL(accumulate_)(&total[p], x -> w.KZ_LEVEL[n][p], CONSTANT(, speed->damping))
 #define KZ_HAS_ACROSS speed->has_across
-#define KZ_PUSH(total) EACH KZ_OF_LEVEL(accumulate_)(&total[p], KZ_OF_LEVEL(KZ_CONSTANT_)(-1, 0, 0), CONSTANT(, speed -> push))
+#define KZ_PUSH(total) \
+  EACH KZ_OF_LEVEL(accumulate_)(&total[p], KZ_OF_LEVEL(KZ_CONSTANT_)(-1, 0, 0), CONSTANT(, speed -> push))
 #define KZ_SET(name, sign, total) \
   EACH KZ_OF_LEVEL(put_)(KZ_OF_LEVEL(scaled_)(total[p], CONSTANT(sign, speed -> UNIT_##name[n])), n + 1, p, &x->name)
 
@@ -109,7 +114,8 @@ static void follow(const kz_speed_class *speed, shape size, int64_t periods, pla
     for (int n = 0; n + 1 < size.pairs; n++) next_fine(speed, first, &x, n);
     for (int n = size.pairs - 1; n + 1 < size.order; n++) next_coarse(speed, first, &x, n);
     EACH {
-      at->theta[p] = add_pairs(add_pairs(at->theta[p], multiply_pairs(at->w[p], h)), sum_of(speed, size, &x.w, p, true));
+      at->theta[p] =
+          add_pairs(add_pairs(at->theta[p], multiply_pairs(at->w[p], h)), sum_of(speed, size, &x.w, p, true));
       at->w[p] = add_pairs(at->w[p], sum_of(speed, size, &x.w, p, false));
       at->s[p] = add_pairs(at->s[p], sum_of(speed, size, &x.s, p, false));
       at->c[p] = add_pairs(at->c[p], sum_of(speed, size, &x.c, p, false));
@@ -230,7 +236,7 @@ static double time_splitting(const void *pairs, const probes *p) {
   return 1e9 * best / N / PERIODS;
 }
 
-/* The smallest value of *number, which is part of `size`, with which the error of a period is small enough; false: none up to `most`. */
+/* Least *number, a part of `size`, with which a period's error is small enough; false: none up to `most`. */
 static bool lower(const kz_speed_class *speed, shape *size, int *number, int most, double tolerance, const probes *p) {
   int low = 2, high = most + 1;
   while (low < high) {
@@ -253,7 +259,8 @@ static double cheapest(const kz_pendulum *pendulum, double tolerance, const prob
     if (!speed) return INFINITY;
     shape size = {n, MOST, MOST};
     int order = MOST;
-    for (; order > 2 && error_of(speed, (shape){n, order, order}, p) <= tolerance; order--) size.order = size.pairs = order;
+    for (; order > 2 && error_of(speed, (shape){n, order, order}, p) <= tolerance; order--)
+      size.order = size.pairs = order;
     if (order < MOST && lower(speed, &size, &size.pairs, size.order, tolerance, p)) {
       const double ns = time_taylor(speed, size, p);
       if (ns < least) *best = size;
@@ -275,8 +282,8 @@ int main(void) {
     void *pairs = kz_test_pairs_create(&pendulum, tolerances[i], fastest, &error);
     if (!pairs) return 1;
     const double splitting = time_splitting(pairs, &p), taylor = cheapest(&pendulum, tolerances[i], &p, &best);
-    printf("row %g %.0f %.0f %.2f %d %d %d\n", tolerances[i], splitting, taylor, taylor / splitting, best.steps, best.order,
-           best.pairs);
+    printf("row %g %.0f %.0f %.2f %d %d %d\n", tolerances[i], splitting, taylor, taylor / splitting, best.steps,
+           best.order, best.pairs);
     kz_test_pairs_free(pairs);
   }
   return fflush(stdout) == 0 && !ferror(stdout) ? 0 : 1;

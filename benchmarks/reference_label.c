@@ -1,6 +1,6 @@
-/* Labels states by following them in quad precision to an attractor of a given catalogue. Knows nothing of the program's
- * trapping regions: an orbit is captured once it has come within a small circle of an attractor's strobe sequence, in phase,
- * and then, never leaving the circle, has shrunk its distance tenfold. States may have 34 digits.
+/* Labels states by following them in quad precision to an attractor of a given catalogue. Knows nothing of the
+ * program's trapping regions: an orbit is captured once it has come within a small circle of an attractor's strobe
+ * sequence, in phase, and then, never leaving the circle, has shrunk its distance tenfold. States may have 34 digits.
  *
  * stdin: as catalogue.h says.  stdout, a line per state: label (-1 = captured by none), periods followed. */
 #define __STDC_WANT_IEC_60559_TYPES_EXT__ 1 /* strtof128 */

@@ -1,5 +1,5 @@
-/* The textbook program's SIMD twin: the same RK4 and the same capture, many orbits in lanes, the drive from a table, the sine
- * of the vector library (compile with -ffast-math), a lane refilled as soon as its orbit is captured. */
+/* The textbook program's SIMD twin: the same RK4 and the same capture, many orbits in lanes, the drive from a table,
+ * the sine of the vector library (compile with -ffast-math), a lane refilled as soon as its orbit is captured. */
 #include <math.h>
 
 #include "labels.h"

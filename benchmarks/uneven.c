@@ -1,9 +1,10 @@
 /* Measures how long ranks are idle: tiles that sleep, so that ranks may outnumber cores.
  *
- *   mpirun -n RANKS build/benchmarks/uneven FILE SLOWER      FILE: the seconds of each tile, a line each; the last rank takes SLOWER times as long
+ *   mpirun -n RANKS build/benchmarks/uneven FILE SLOWER      FILE: the seconds of each tile, a line each; the last rank
+ * takes SLOWER times as long
  *
- * The stage's own line tells the share in which ranks were idle. benchmarks/scaling.py makes FILE from the log of a run and predicts the
- * share for any number of ranks. */
+ * The stage's own line tells the share in which ranks were idle. benchmarks/scaling.py makes FILE from the log of a run
+ * and predicts the share for any number of ranks. */
 #include <math.h>
 #include <stdlib.h>
 #include <time.h>

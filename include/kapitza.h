@@ -2,11 +2,12 @@
  *
  *   theta'' + beta theta' + (k - m cos t) sin theta = 0, and every other drive that a scene can describe
  *
- * theta is in rad from the down position, velocity in rad per drive radian, t in drive radians; a drive period is 2 pi, and a strobe is the
- * state at t = 0 mod 2 pi. Arrays are the caller's and have the length that stands beside them.
+ * theta is in rad from the down position, velocity in rad per drive radian, t in drive radians; a drive period is 2 pi,
+ * and a strobe is the state at t = 0 mod 2 pi. Arrays are the caller's and have the length that stands beside them.
  *
- * Threads: calls on different pendulums run at the same time, calls on one pendulum one after the other. A process that was forked may use a
- * pendulum unless another thread was using it at that moment (KAPITZA_REFUSED). Nothing is kept outside of a pendulum.
+ * Threads: calls on different pendulums run at the same time, calls on one pendulum one after the other. A process that
+ * was forked may use a pendulum unless another thread was using it at that moment (KAPITZA_REFUSED). Nothing is kept
+ * outside of a pendulum.
  *
  * Names may change until 1.0; CHANGELOG.md lists each change. */
 #ifndef KAPITZA_H
@@ -33,8 +34,8 @@ const char *kapitza_message(void);
 /* "0.5.0". */
 const char *kapitza_version(void);
 
-/* Sets what calls of this thread ask about 20 times a second whether to go on: any result but 0 stops the call (KAPITZA_STOPPED). NULL: nothing
- * is asked. It must not use the pendulum of the call. */
+/* Sets what calls of this thread ask about 20 times a second whether to go on: any result but 0 stops the call
+ * (KAPITZA_STOPPED). NULL: nothing is asked. It must not use the pendulum of the call. */
 typedef int (*kapitza_pause)(void *context);
 void kapitza_set_pause(kapitza_pause pause, void *context);
 
@@ -44,8 +45,9 @@ typedef struct kapitza_pendulum kapitza_pendulum;
 
 /* Makes a pendulum from the text of a scene (YAML or JSON; docs/reference/scene.md), for example
  *   "pendulum: {quality_factor: 5, drive_frequency: 11, drive_amplitude: 0.3}"
- * Of the scene it takes the mappings `pendulum`, `numerics` and `basin`: the window, the search for attractors, the phase of release. Without
- * `basin` the window is the whole circle and velocities from -2 to 2. Free it by kapitza_pendulum_free. */
+ * Of the scene it takes the mappings `pendulum`, `numerics` and `basin`: the window, the search for attractors, the
+ * phase of release. Without `basin` the window is the whole circle and velocities from -2 to 2. Free it by
+ * kapitza_pendulum_free. */
 kapitza_status kapitza_pendulum_create(const char *scene, kapitza_pendulum **pendulum);
 /* Frees a pendulum that no thread uses; NULL: nothing. */
 void kapitza_pendulum_free(kapitza_pendulum *pendulum);
@@ -59,16 +61,17 @@ typedef struct {
 } kapitza_parameters;
 kapitza_status kapitza_parameters_of(kapitza_pendulum *pendulum, kapitza_parameters *parameters);
 
-/* Moves n states through drive periods, backwards if periods < 0, with the numerics of all published numbers (error some 1e-12 rad a period).
- * In and out: theta [n], out in [-pi, pi); velocity [n]. turns [n] = net turns, counterclockwise +; NULL = not wanted.
- * tangent [n][2][2] = d(theta, velocity)/d(theta0, velocity0); NULL = not wanted. */
+/* Moves n states through drive periods, backwards if periods < 0, with the numerics of all published numbers (error
+ * some 1e-12 rad a period). In and out: theta [n], out in [-pi, pi); velocity [n]. turns [n] = net turns,
+ * counterclockwise +; NULL = not wanted. tangent [n][2][2] = d(theta, velocity)/d(theta0, velocity0); NULL = not
+ * wanted. */
 kapitza_status kapitza_map(kapitza_pendulum *pendulum, int64_t n, int64_t periods, double *theta, double *velocity,
                            int64_t *turns, double *tangent);
 
-/* One motion in continuous time, after `transient` periods: theta_out (not wrapped) and velocity_out [periods * samples + 1],
- * `samples` a period, both ends included. */
-kapitza_status kapitza_orbit(kapitza_pendulum *pendulum, double theta, double velocity, int64_t transient, int64_t periods,
-                             int64_t samples, double *theta_out, double *velocity_out);
+/* One motion in continuous time, after `transient` periods: theta_out (not wrapped) and velocity_out [periods * samples
+ * + 1], `samples` a period, both ends included. */
+kapitza_status kapitza_orbit(kapitza_pendulum *pendulum, double theta, double velocity, int64_t transient,
+                             int64_t periods, int64_t samples, double *theta_out, double *velocity_out);
 
 /* ---- cycles: attractors, saddles ---- */
 
@@ -96,21 +99,23 @@ void kapitza_free(void *memory);
 
 /* Lists the known attractors in the order of files; indices are ids. The first call searches; labels may find more. */
 kapitza_status kapitza_attractors(kapitza_pendulum *pendulum, kapitza_cycles **list);
-/* All cycles of up to max_period periods, attracting or not, with a point in window [4]: least and largest angle, least and largest velocity.
- * *open = number of pairs of period and winding whose indices do not add up to 0: if it is 0 none is missing (docs/explanation/theory.md). */
-kapitza_status kapitza_all_cycles(kapitza_pendulum *pendulum, int64_t max_period, const double window[4], kapitza_cycles **list,
-                                  int64_t *open);
-/* The cycle that Newton's method finds near a state and that closes after `period` <= 64 periods, attracting or not; the first strobe
- * point is that near the state. The list is empty if none lies within `distance` (rad). */
-kapitza_status kapitza_cycle_near(kapitza_pendulum *pendulum, int64_t period, double theta, double velocity, double distance,
-                                  kapitza_cycles **list);
+/* All cycles of up to max_period periods, attracting or not, with a point in window [4]: least and largest angle, least
+ * and largest velocity. *open = number of pairs of period and winding whose indices do not add up to 0: if it is 0 none
+ * is missing (docs/explanation/theory.md). */
+kapitza_status kapitza_all_cycles(kapitza_pendulum *pendulum, int64_t max_period, const double window[4],
+                                  kapitza_cycles **list, int64_t *open);
+/* The cycle that Newton's method finds near a state and that closes after `period` <= 64 periods, attracting or not;
+ * the first strobe point is that near the state. The list is empty if none lies within `distance` (rad). */
+kapitza_status kapitza_cycle_near(kapitza_pendulum *pendulum, int64_t period, double theta, double velocity,
+                                  double distance, kapitza_cycles **list);
 
-/* One branch of the stable (stable 1) or unstable (0) manifold of the saddle with this point, along its eigenvector (side 1) or against it (-1).
- * Neighbours are at most `spacing` apart, the branch is `length` long (rad and rad per drive radian together), and parts faster than `fastest`
- * are left out. point [most][4]: theta in [-pi, pi), velocity, arc length, number of the unbroken part. *count = number of points. */
-kapitza_status kapitza_manifold(kapitza_pendulum *pendulum, double theta, double velocity, int32_t period, int32_t stable,
-                                int32_t side, double spacing, double length, double fastest, int64_t most, double *point,
-                                int64_t *count);
+/* One branch of the stable (stable 1) or unstable (0) manifold of the saddle with this point, along its eigenvector
+ * (side 1) or against it (-1). Neighbours are at most `spacing` apart, the branch is `length` long (rad and rad per
+ * drive radian together), and parts faster than `fastest` are left out. point [most][4]: theta in [-pi, pi), velocity,
+ * arc length, number of the unbroken part. *count = number of points. */
+kapitza_status kapitza_manifold(kapitza_pendulum *pendulum, double theta, double velocity, int32_t period,
+                                int32_t stable, int32_t side, double spacing, double length, double fastest,
+                                int64_t most, double *point, int64_t *count);
 
 /* ---- basins ---- */
 
@@ -118,13 +123,14 @@ kapitza_status kapitza_manifold(kapitza_pendulum *pendulum, double theta, double
  * candidate. */
 enum { KAPITZA_NO_TURNS = -2147483647 - 1 };
 
-/* Labels n starts as basin.method exact does. start_error = bound of the distance of each motion from its start (hypot of rad and rad per drive
- * radian); 0 = the numbers are exact. Arrays [n], each may be NULL: attractor = id, -1 = not settled; other = the second candidate of an
- * undecided start, else -1; settling_time in drive periods; turns = net turns until the end, KAPITZA_NO_TURNS = not known; error = bound of
- * the orbit's error when it was trapped, rad, NaN = not known. *list = the attractors to which the ids refer; NULL = not wanted. */
+/* Labels n starts as basin.method exact does. start_error = bound of the distance of each motion from its start (hypot
+ * of rad and rad per drive radian); 0 = the numbers are exact. Arrays [n], each may be NULL: attractor = id, -1 = not
+ * settled; other = the second candidate of an undecided start, else -1; settling_time in drive periods; turns = net
+ * turns until the end, KAPITZA_NO_TURNS = not known; error = bound of the orbit's error when it was trapped, rad, NaN =
+ * not known. *list = the attractors to which the ids refer; NULL = not wanted. */
 kapitza_status kapitza_labels(kapitza_pendulum *pendulum, int64_t n, const double *theta, const double *velocity,
-                              double start_error, int16_t *attractor, int16_t *other, uint8_t *evidence, int64_t *settling_time,
-                              int32_t *turns, double *error, kapitza_cycles **list);
+                              double start_error, int16_t *attractor, int16_t *other, uint8_t *evidence,
+                              int64_t *settling_time, int32_t *turns, double *error, kapitza_cycles **list);
 
 /* Labels of the cells of a window; one piece of memory, freed by kapitza_free. */
 typedef struct {
@@ -136,16 +142,16 @@ typedef struct {
   const kapitza_cycles *attractors;
 } kapitza_basin;
 /* Labels the cells of a window by all cores. window: keys of the mapping `basin` of a scene, such as
- *   "theta: {count: 500}, velocity: {min: -2, max: 2, count: 500}" or, at any depth, "theta: {centre: 2.0512, width: 1e-20, count: 500}, ..."
- * Keys that it leaves out are those of the pendulum's scene; NULL: all of them. */
+ *   "theta: {count: 500}, velocity: {min: -2, max: 2, count: 500}" or, at any depth, "theta: {centre: 2.0512, width:
+ * 1e-20, count: 500}, ..." Keys that it leaves out are those of the pendulum's scene; NULL: all of them. */
 kapitza_status kapitza_basin_of(kapitza_pendulum *pendulum, const char *window, kapitza_basin **basin);
 
 /* ---- frames: windows that somebody looks at ---- */
 
-/* The functions of this section and of the next keep what they have found of the last pendulums, so that the next frame is quick. `change` is
- * the flow text of mappings of a scene, such as
- *   "pendulum: {...}, basin: {theta: {min: -3, max: 3, count: 400}, velocity: {centre: 0.2, width: 1e-20, count: 250}}"
- * `pendulum` and `sweep` replace those of the scene, keys of `basin` replace its keys; NULL: nothing is changed. */
+/* The functions of this section and of the next keep what they have found of the last pendulums, so that the next frame
+ * is quick. `change` is the flow text of mappings of a scene, such as "pendulum: {...}, basin: {theta: {min: -3, max:
+ * 3, count: 400}, velocity: {centre: 0.2, width: 1e-20, count: 250}}" `pendulum` and `sweep` replace those of the
+ * scene, keys of `basin` replace its keys; NULL: nothing is changed. */
 
 /* The known attractors of a pendulum, in the order of ids. */
 typedef struct {
@@ -176,12 +182,13 @@ typedef struct {
   int32_t planes;        /* sum of 1 << KAPITZA_PLANE_... */
   int32_t n_parts;       /* 1 to 4 */
   int32_t coarseness[4]; /* [n_parts] of each part, from 8, 4, 2, 1, falling: every eighth cell ..., all cells */
-  const char *atlas;     /* result file of the study atlas, whose motions at x, y attract in a moving frame; NULL: none */
+  const char *atlas; /* result file of the study atlas, whose motions at x, y attract in a moving frame; NULL: none */
   double x, y;
 } kapitza_frame_request;
 
-/* A part of a frame: every cell of a multiple of the coarseness. Cell (i, j) of the part is cell (min(coarseness i + o, rows - 1), ...) of the
- * window, with o = 0, 1, 1, 5 for coarseness 1, 2, 4, 8. All pointers are valid while it is shown. */
+/* A part of a frame: every cell of a multiple of the coarseness. Cell (i, j) of the part is cell (min(coarseness i + o,
+ * rows - 1), ...) of the window, with o = 0, 1, 1, 5 for coarseness 1, 2, 4, 8. All pointers are valid while it is
+ * shown. */
 typedef struct {
   const kapitza_catalogue *catalogue; /* to which the labels refer */
   const void *plane[KAPITZA_PLANES];  /* [rows][columns], lowest velocity first; NULL = not asked for */
@@ -191,14 +198,15 @@ typedef struct {
 } kapitza_frame_part;
 typedef int (*kapitza_show)(void *context, const kapitza_frame_part *part);
 
-/* Makes a frame and shows its parts by `show`, the coarse ones first. `between` (NULL: none) is asked every few milliseconds whether to go on; it may
- * call kapitza_where, kapitza_catalogue_of, kapitza_motions_at and kapitza_line_through for the same pendulum. Any result but 0 of these two ends the frame
- * (KAPITZA_STOPPED): the parts that were shown are right, and what has been found is kept. */
+/* Makes a frame and shows its parts by `show`, the coarse ones first. `between` (NULL: none) is asked every few
+ * milliseconds whether to go on; it may call kapitza_where, kapitza_catalogue_of, kapitza_motions_at and
+ * kapitza_line_through for the same pendulum. Any result but 0 of these two ends the frame (KAPITZA_STOPPED): the parts
+ * that were shown are right, and what has been found is kept. */
 kapitza_status kapitza_frame(kapitza_pendulum *pendulum, const kapitza_frame_request *request, kapitza_show show,
                              kapitza_pause between, void *context);
 
-/* Where one start ends over a plane of two keys: change = "sweep: {measure: [ends], ends: {theta: [3]}, x: {parameter: ..., min, max, count},
- * y: ...}". Parts and callbacks as of kapitza_frame. */
+/* Where one start ends over a plane of two keys: change = "sweep: {measure: [ends], ends: {theta: [3]}, x: {parameter:
+ * ..., min, max, count}, y: ...}". Parts and callbacks as of kapitza_frame. */
 typedef struct {
   const uint8_t *period,
       *centre; /* [rows][columns], x fastest: period 0 = it never closes, 255 = not settled; centre as of a cycle */
@@ -208,7 +216,8 @@ typedef int (*kapitza_show_chart)(void *context, const kapitza_chart_part *part)
 kapitza_status kapitza_chart(kapitza_pendulum *pendulum, const char *change, int32_t n_parts, const int32_t *coarseness,
                              kapitza_show_chart show, kapitza_pause between, void *context);
 
-/* Tells where the pivot is at n times (drive radians): place [n][2] = aside, height, in units of I/(M r) of the pendulum. */
+/* Tells where the pivot is at n times (drive radians): place [n][2] = aside, height, in units of I/(M r) of the
+ * pendulum. */
 kapitza_status kapitza_pivot(kapitza_pendulum *pendulum, int64_t n, const double *time, double *place);
 
 /* ---- ends of single starts, with any number of digits ---- */
@@ -221,10 +230,10 @@ typedef struct {
   int32_t turns;                 /* KAPITZA_NO_TURNS = not known */
   int32_t period, winding;       /* of the attractor */
   int64_t settling_time;         /* drive periods after which the end is certain */
-  int64_t near_time;             /* and after which the angle stays within 1 degree of the final motion; -1 = not known */
-  double error;                  /* rad, when it was trapped; NaN = not known */
-  double mean_velocity;          /* of the attractor */
-  double theta, velocity;        /* the start, to the nearest double */
+  int64_t near_time;      /* and after which the angle stays within 1 degree of the final motion; -1 = not known */
+  double error;           /* rad, when it was trapped; NaN = not known */
+  double mean_velocity;   /* of the attractor */
+  double theta, velocity; /* the start, to the nearest double */
   const double *strobe_theta, *strobe_velocity; /* [period] */
 } kapitza_ending;
 
@@ -235,7 +244,8 @@ typedef struct {
   kapitza_parameters parameters;
 } kapitza_endings;
 
-/* Tells where n starts end, whose theta (rad, or "170 deg") and velocity [n] are decimal numbers of any digits, all of which count. */
+/* Tells where n starts end, whose theta (rad, or "170 deg") and velocity [n] are decimal numbers of any digits, all of
+ * which count. */
 kapitza_status kapitza_where(kapitza_pendulum *pendulum, const char *change, int64_t n, const char *const *theta,
                              const char *const *velocity, kapitza_endings **endings);
 
@@ -256,7 +266,8 @@ typedef struct {
   const kapitza_motion *motion; /* [count] */
   double x, y, k, beta, m;      /* the point, and its pendulum */
 } kapitza_motions;
-/* Lists what attracts at the point x, y of the atlas in a result file; states 0: without strobe points and multipliers. Free it by kapitza_free. */
+/* Lists what attracts at the point x, y of the atlas in a result file; states 0: without strobe points and multipliers.
+ * Free it by kapitza_free. */
 kapitza_status kapitza_motions_at(kapitza_pendulum *pendulum, const char *file, double x, double y, int32_t states,
                                   kapitza_motions **motions);
 
@@ -269,18 +280,18 @@ typedef struct {
 typedef struct {
   int64_t count, points;
   const kapitza_branch *branch; /* [count] */
-  const double
-      *point; /* [points][5]: value of the key, mean height of the bob, theta, velocity, largest modulus of a multiplier */
+  const double *point; /* [points][5]: value of the key, mean height of the bob, theta, velocity, largest modulus of a
+                          multiplier */
 } kapitza_line;
-/* Lists all branches of cycles along the line x = value (along_x 0), or y = value (along_x 1), of the atlas in a result file. Free it by
- * kapitza_free. */
+/* Lists all branches of cycles along the line x = value (along_x 0), or y = value (along_x 1), of the atlas in a result
+ * file. Free it by kapitza_free. */
 kapitza_status kapitza_line_through(kapitza_pendulum *pendulum, const char *file, int32_t along_x, double value,
                                     kapitza_line **line);
 
 /* ---- scenes ---- */
 
-/* Runs a scene (text) on one rank and writes the result file `output`, which must not exist unless overwrite is 1. *summary = what
- * the program prints, freed by kapitza_free; NULL = not wanted. */
+/* Runs a scene (text) on one rank and writes the result file `output`, which must not exist unless overwrite is 1.
+ * *summary = what the program prints, freed by kapitza_free; NULL = not wanted. */
 kapitza_status kapitza_run(const char *scene, const char *output, int32_t overwrite, char **summary);
 
 #ifdef __cplusplus

@@ -1,5 +1,5 @@
-/* Linked into the unit tests of a debug build below the layer app: a division by zero, an overflow or an invalid operation ends
- * the test where it happens. (-ffpe-trap does nothing under a C main.) */
+/* Linked into the unit tests of a debug build below the layer app: a division by zero, an overflow or an invalid
+ * operation ends the test where it happens. (-ffpe-trap does nothing under a C main.) */
 #define _GNU_SOURCE /* feenableexcept */
 #include <fenv.h>
 

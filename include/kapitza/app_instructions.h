@@ -3,8 +3,8 @@
 
 #include <stddef.h>
 
-/* Instruction sets that this build can use beside the processor's first one; the program's entry refuses a CPU that lacks one which it does.
- * kz_instructions: for each of them "1" if the build uses it, then NULL. */
+/* Instruction sets that this build can use beside the processor's first one; the program's entry refuses a CPU that
+ * lacks one which it does. kz_instructions: for each of them "1" if the build uses it, then NULL. */
 #ifdef __x86_64__
 #define KZ_FIRST_INSTRUCTIONS "x86-64"
 #define KZ_INSTRUCTION_LIST(X) \

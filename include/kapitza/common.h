@@ -57,12 +57,12 @@ void sincosf128(__float128 x, __float128 *sine, __float128 *cosine);
 #define KZ_INTERPOLATION_WORDS "linear", "quintic"
 
 /* The value of a macro as text. */
-#define KZ_WRITTEN(name) KZ_WRITTEN_AS(name)
-#define KZ_WRITTEN_AS(number) #number
+#define KZ_STRINGIFY(name) KZ_STRINGIFY_TOKENS(name)
+#define KZ_STRINGIFY_TOKENS(number) #number
 
 /* A list of two or three words as one text, "icm|direct|exact". */
-#define KZ_JOINED(words) KZ_JOINED_OF(words)
-#define KZ_JOINED_OF(first, second, ...) first "|" second __VA_OPT__("|" __VA_ARGS__)
+#define KZ_JOIN_WORDS(words) KZ_JOIN_LIST(words)
+#define KZ_JOIN_LIST(first, second, ...) first "|" second __VA_OPT__("|" __VA_ARGS__)
 
 /* Adds a word to a text of words joined by '|', "" at first, in `words` [bytes]. */
 void kz_words_add(char *keys_words, size_t phases_write_bytes, const char *word);
@@ -94,8 +94,8 @@ static inline int64_t kz_larger(int64_t a, int64_t b) {
 
 /* Attributes of a local variable whose target, or content by a function of its own, is freed at the end of its
  * block. */
-#define KZ_FREED KZ_FREED_BY(kz_free_local)
-#define KZ_FREED_BY(release) __attribute__((cleanup(release)))
+#define KZ_AUTOFREE KZ_AUTOFREE_BY(kz_free_local)
+#define KZ_AUTOFREE_BY(release) __attribute__((cleanup(release)))
 void kz_free_local(void *variable);
 
 /* Returns true if `bytes` bytes could be allocated now. */

@@ -15,9 +15,9 @@ void kz_border_free(kz_border *border);
 /* Asks the caller of the library whether to go on; any status but KZ_OK stops the call. */
 typedef kz_status (*kz_pause_fn)(void *context);
 
-/* Runs `work` on this thread within the border and returns its status. Where memory runs out (KZ_FAILED), or `pause`, asked every PAUSE seconds
- * (NULL: never), returns another status than KZ_OK, the work is left at once; then *left is true, and all that it had made or changed within the border is
- * lost: kz_border_empty must come next. */
+/* Runs `work` on this thread within the border and returns its status. Where memory runs out (KZ_FAILED), or `pause`,
+ * asked every PAUSE seconds (NULL: never), returns another status than KZ_OK, the work is left at once; then *left is
+ * true, and all that it had made or changed within the border is lost: kz_border_empty must come next. */
 kz_status kz_border_call(kz_border *border, kz_pause_fn pause, void *pause_context, kz_status (*work)(void *context),
                          void *context, bool *left);
 /* Frees all memory that was allocated within the border. */
@@ -34,8 +34,8 @@ kz_status kz_border_pause(void);
 /* Calls kz_border_pause, and leaves the call if it is to stop. Memory, integrators and other long loops call it. */
 void kz_look(void);
 
-/* Parts of a call that have to be ended in order, such as threads: kz_border_guard runs `work`, or the part of it up to where it is left, which it tells by its
- * status; kz_border_leave, after the end of the others, goes on leaving. */
+/* Parts of a call that have to be ended in order, such as threads: kz_border_guard runs `work`, or the part of it up to
+ * where it is left, which it tells by its status; kz_border_leave, after the end of the others, goes on leaving. */
 kz_status kz_border_guard(kz_status (*work)(void *context), void *context);
 void kz_border_leave(void);
 /* The border of this thread, for another one that works for the same call; NULL: none. */

@@ -1,8 +1,10 @@
-/* dynamics, curves: cycles over a plane of two parameters, attracting or not: branches of them along lines, and the curves on which they are born, lose
- * their stability or their symmetry (Fortran; layer 1, a part of dynamics). docs/explanation/atlas.md has the equations.
+/* dynamics, curves: cycles over a plane of two parameters, attracting or not: branches of them along lines, and the
+ * curves on which they are born, lose their stability or their symmetry (Fortran; layer 1, a part of dynamics).
+ * docs/explanation/atlas.md has the equations.
  *
- * A place is a pair of numbers, each in units of a side of the rectangle. A cycle is its points in the order of time and then its place: an
- * array y [2 points + 2], angles in rad, not wrapped, velocities in rad per drive radian. Nothing here is collective. */
+ * A place is a pair of numbers, each in units of a side of the rectangle. A cycle is its points in the order of time
+ * and then its place: an array y [2 points + 2], angles in rad, not wrapped, velocities in rad per drive radian.
+ * Nothing here is collective. */
 #pragma once
 
 #include <stdbool.h>
@@ -31,8 +33,9 @@ typedef struct {
   int32_t side, points, multiplier, turns, stride, half;
 } kz_curve_kind;
 
-/* How a trace ends: outside of the plane, at its own start, at its longest, where a cycle meets its parent (at a degenerate flip or symmetry
- * breaking), where no step is short enough, without a start, where the band of attractors beside it is narrower than 1e-10 sides of the plane. */
+/* How a trace ends: outside of the plane, at its own start, at its longest, where a cycle meets its parent (at a
+ * degenerate flip or symmetry breaking), where no step is short enough, without a start, where the band of attractors
+ * beside it is narrower than 1e-10 sides of the plane. */
 typedef enum {
   KZ_TRACE_LEFT,
   KZ_TRACE_CLOSED,
@@ -45,7 +48,13 @@ typedef enum {
 
 /* Events of a branch: a multiplier of its map is 1 or -1; or it ends at the cycle of half its period, its image,
  * rest. */
-typedef enum { KZ_EVENT_FOLD = 1, KZ_EVENT_FLIP = 2, KZ_EVENT_HALVES = 3, KZ_EVENT_MIRROR = 4, KZ_EVENT_REST = 5 } kz_event;
+typedef enum {
+  KZ_EVENT_FOLD = 1,
+  KZ_EVENT_FLIP = 2,
+  KZ_EVENT_HALVES = 3,
+  KZ_EVENT_MIRROR = 4,
+  KZ_EVENT_REST = 5
+} kz_event;
 /* A cycle on a branch, and an event with the cycle there; y is 0 beyond its 2 points + 2 numbers. */
 typedef struct {
   double y[2 * KZ_CURVE_POINTS + 2], number[2]; /* number: trace and determinant of the derivative of its map */
@@ -54,8 +63,9 @@ typedef struct {
   double y[2 * KZ_CURVE_POINTS + 2];
   kz_event what;
 } kz_branch_event;
-/* How a branch is followed: first in the direction `along` (a unit vector); side 1 or -1: one of the two branches of the fold at its start; in
- * steps of at most `longest`, the first of `step`, 0 = short; up to so many rows, and events, if these are not 0. */
+/* How a branch is followed: first in the direction `along` (a unit vector); side 1 or -1: one of the two branches of
+ * the fold at its start; in steps of at most `longest`, the first of `step`, 0 = short; up to so many rows, and events,
+ * if these are not 0. */
 typedef struct {
   double along[2], longest, step;
   int64_t most, most_events;
@@ -77,8 +87,8 @@ int32_t kz_curve_solve(const kz_plane *plane, const kz_curve_kind *kind, double 
 /* Moves y along a line to where the kind's multiplier is that of the curve. 1 if Newton's method converges, else 0. */
 int32_t kz_curve_locate(const kz_plane *plane, const kz_curve_kind *kind, double *y, const double along[2]);
 /* Normal form at a point of a curve, its side, eigenvector at the first point. Returns 0 if there is no pendulum. */
-int32_t kz_curve_form(const kz_plane *plane, const kz_curve_kind *kind, const double *y, double *coefficient, double side[2],
-                      double eigenvector[2]);
+int32_t kz_curve_form(const kz_plane *plane, const kz_curve_kind *kind, const double *y, double *coefficient,
+                      double side[2], double eigenvector[2]);
 /* Strobe points state [n + 1][2] after state [0], not wrapped (halves 2), or the state at t = pi (halves 1, n = 1).
  * Returns 0 if there is no pendulum. */
 int32_t kz_curve_orbit(const kz_plane *plane, const double place[2], int32_t halves, int64_t n, double *state);

@@ -15,8 +15,9 @@ typedef struct {
   double exponent;       /* largest Lyapunov exponent per drive period: of the cycle, else over 1000 periods */
 } kz_plane_ending;
 
-/* Ends of the motions of n pendulums from one start (half-turns, velocity), with `steps` steps of split6 a period. A motion is followed
- * until it returns within 1e-5 rad after up to max_period periods; then Newton's method finds the cycle. Near a cycle that does not
- * attract, the motion is followed on; a start exactly on such a cycle does not settle. max_periods [n]: 0 = do not follow this one. */
+/* Ends of the motions of n pendulums from one start (half-turns, velocity), with `steps` steps of split6 a period. A
+ * motion is followed until it returns within 1e-5 rad after up to max_period periods; then Newton's method finds the
+ * cycle. Near a cycle that does not attract, the motion is followed on; a start exactly on such a cycle does not
+ * settle. max_periods [n]: 0 = do not follow this one. */
 void kz_ends_follow(int32_t steps, int64_t n, const kz_pendulum *pendulum, const double start[2], int32_t max_period,
                     const int64_t *max_periods, kz_plane_ending *endings);

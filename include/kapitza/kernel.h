@@ -58,8 +58,8 @@ typedef double kz_step_error(int32_t steps, void *context);
 /* Searches the number of steps of an integrator: tries `min`, then what the order predicts from the last error, until
  * an error is within `tolerance` (rad) or falls more slowly than 1/steps. Returns the last error and *steps, 0 if
  * none. */
-double kz_steps_search(kz_step_error *error, void *context, int32_t accuracy_order, double tolerance, int32_t min, int32_t max,
-                       int32_t *steps);
+double kz_steps_search(kz_step_error *error, void *context, int32_t accuracy_order, double tolerance, int32_t min,
+                       int32_t max, int32_t *steps);
 /* Returns n (error / tolerance)^(1/order), the steps expected to reach the tolerance if n steps have `error`. */
 double kz_expected_steps(int32_t n, double error, double tolerance, int32_t accuracy_order);
 
@@ -67,7 +67,7 @@ double kz_expected_steps(int32_t n, double error, double tolerance, int32_t accu
 typedef struct kz_flow kz_flow;
 kz_flow *kz_flow_create(const kz_pendulum *pendulum, const kz_numerics *numerics);
 void kz_flow_free(kz_flow *flow);
-/* Frees the flow of a local variable (KZ_FREED_BY). */
+/* Frees the flow of a local variable (KZ_AUTOFREE_BY). */
 static inline void kz_flow_freed(kz_flow **flow) {
   kz_flow_free(*flow);
 }

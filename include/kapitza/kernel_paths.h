@@ -1,9 +1,9 @@
 /* kernel, paths: the torque of least action that takes the pendulum from one cycle to another (a part of kernel).
  *
- * theta'' + beta theta' + a(t) sin theta - b(t) cos theta - torque(t) = u(t) costs int u^2 / (4 beta) dt, with beta > 0. Where white noise of
- * intensity 2 beta T takes the place of u, the mean life grows as exp(cost / T). With u = 2 beta p2 the least cost belongs to solutions of
- * Hamilton's equations of H = p1 v + p2 (-beta v - force) + beta p2^2. States are (theta, velocity, p1, p2): rad, rad per drive radian, and
- * momenta; theta is not wrapped. */
+ * theta'' + beta theta' + a(t) sin theta - b(t) cos theta - torque(t) = u(t) costs int u^2 / (4 beta) dt, with beta >
+ * 0. Where white noise of intensity 2 beta T takes the place of u, the mean life grows as exp(cost / T). With u = 2
+ * beta p2 the least cost belongs to solutions of Hamilton's equations of H = p1 v + p2 (-beta v - force) + beta p2^2.
+ * States are (theta, velocity, p1, p2): rad, rad per drive radian, and momenta; theta is not wrapped. */
 #pragma once
 
 #include <stdbool.h>
@@ -14,17 +14,17 @@
 /* force [n][3] = a(t), b(t) and torque(t) at t = 2 pi (i + share) / n. */
 void kz_path_forces(const kz_pendulum *pendulum, int32_t n, double share, double *force);
 
-/* Hamilton's flow, by split6 with n_steps >= 1 steps a period. pendulum [3]: the pendulum, and the derivatives of its numbers by two parameters
- * p and q. */
+/* Hamilton's flow, by split6 with n_steps >= 1 steps a period. pendulum [3]: the pendulum, and the derivatives of its
+ * numbers by two parameters p and q. */
 typedef struct kz_hamilton kz_hamilton;
 kz_hamilton *kz_hamilton_create(const kz_pendulum *pendulum, int32_t n_steps);
 void kz_hamilton_free(kz_hamilton *flow);
-/* Frees a local variable at the end of its scope (KZ_FREED_BY). */
+/* Frees a local variable at the end of its scope (KZ_AUTOFREE_BY). */
 static inline void kz_hamilton_freed(kz_hamilton **flow) {
   kz_hamilton_free(*flow);
 }
-/* Advances n states through one period, state [n][4]. tangent [n][4][4], if asked for: derivatives of each by its start, row by row; integral
- * [n][4]: action, and its derivatives by p, q and beta along the path. */
+/* Advances n states through one period, state [n][4]. tangent [n][4][4], if asked for: derivatives of each by its
+ * start, row by row; integral [n][4]: action, and its derivatives by p, q and beta along the path. */
 void kz_hamilton_advance(const kz_hamilton *flow, int64_t n, double *state, int32_t with_tangent, double *tangent,
                          int32_t with_integral, double *integral);
 /* Fills sample [samples][4], the state after each equal part of a period; `samples` divides the number of steps. */
@@ -41,9 +41,10 @@ typedef struct {
   double plane[4][2];   /* orthonormal: of an attractor the unstable plane (X p, p), of a saddle the stable one */
   double along[2][2];   /* how a period moves coordinates in the plane; for an attractor the inverse */
 } kz_path_end;
-/* Sets an end from a state near the cycle (rad, rad per drive radian). False where no cycle is near, and where it is not an attractor, or a
- * saddle. */
-bool kz_path_end_find(const kz_hamilton *flow, int64_t period, bool attracts, double theta, double velocity, kz_path_end *end);
+/* Sets an end from a state near the cycle (rad, rad per drive radian). False where no cycle is near, and where it is
+ * not an attractor, or a saddle. */
+bool kz_path_end_find(const kz_hamilton *flow, int64_t period, bool attracts, double theta, double velocity,
+                      kz_path_end *end);
 
 /* A path of n periods between two ends, from strobe to strobe. */
 typedef struct {
@@ -57,9 +58,9 @@ typedef struct {
   int32_t iterations;
 } kz_path;
 
-/* Newton's method for the least discretised action near a guess: theta [n samples + 1], of which the first and the last four stay. Returns the
- * action; INFINITY where it finds no minimum, and where it gives up because the action stays far above `most`. node [n + 1][4]: the states at
- * strobes, for kz_path_polish. */
+/* Newton's method for the least discretised action near a guess: theta [n samples + 1], of which the first and the last
+ * four stay. Returns the action; INFINITY where it finds no minimum, and where it gives up because the action stays far
+ * above `most`. node [n + 1][4]: the states at strobes, for kz_path_polish. */
 double kz_path_relax(const kz_pendulum *pendulum, int64_t n, int32_t samples, double most, double *theta, double *node);
 /* Newton's method by multiple shooting, in least-norm steps: time shifts are almost free. False if not converged. */
 bool kz_path_polish(const kz_hamilton *flow, const kz_path_end *from, const kz_path_end *to, kz_path *path);

@@ -222,4 +222,5 @@ kz_status kz_local_records_deliver(const kz_run *run, const kz_local_records *re
 typedef kz_status (*kz_take_fn)(void *context, int64_t tile, const void *record, size_t bytes);
 /* Runs a stage whose records begin with a uint64_t, the number of bytes in use (a multiple of 8), and gives these bytes
  * of each to rank 0, in any order. `name`: name of the delivery for the progress line. Collective. */
-kz_status kz_stage_gather(const kz_run *run, const kz_stage *stage, const char *name, kz_take_fn serve_take, void *context);
+kz_status kz_stage_gather(const kz_run *run, const kz_stage *stage, const char *name, kz_take_fn serve_take,
+                          void *context);

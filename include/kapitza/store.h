@@ -83,12 +83,12 @@ kz_status kz_store_rows(kz_store *store, const char *group, const char *name, in
   KZ_WITH_COLUMN(n, type, expression, kz_store_variable(store, group, name, column))
 #define KZ_SCALE(store, group, name, n, expression) \
   KZ_WITH_COLUMN(n, double, expression, kz_store_dimension(store, group, name, column_n, column))
-#define KZ_WITH_COLUMN(n, type, expression, write)                           \
-  do {                                                                       \
-    const int64_t column_n = (n);                                            \
-    KZ_FREED type *column = kz_calloc((size_t)column_n + 1, sizeof *column); \
-    for (int64_t i = 0; i < column_n; i++) column[i] = (type)(expression);   \
-    KZ_TRY(write);                                                           \
+#define KZ_WITH_COLUMN(n, type, expression, write)                              \
+  do {                                                                          \
+    const int64_t column_n = (n);                                               \
+    KZ_AUTOFREE type *column = kz_calloc((size_t)column_n + 1, sizeof *column); \
+    for (int64_t i = 0; i < column_n; i++) column[i] = (type)(expression);      \
+    KZ_TRY(write);                                                              \
   } while (0)
 
 /* Read the length of a dimension (0 if there is none), and the number of a variable at `index` [its dimensions]. */

@@ -1,5 +1,5 @@
-/* study: the studies that a scene can contain, one folder each (C; layer 3). The scene comes as plain structs; results go to the store and,
- * for people, to a summary. */
+/* study: the studies that a scene can contain, one folder each (C; layer 3). The scene comes as plain structs; results
+ * go to the store and, for people, to a summary. */
 #pragma once
 
 #include <stdbool.h>
@@ -26,8 +26,9 @@ typedef struct {
 } kz_numerics_keys;
 enum { KZ_AUTO = 0 };
 
-/* Studies in the order in which they run, then those of the powers of this build (cmake/Powers.cmake). Everything else about a study
- * stands in its folder: plan.h has what a scene says of it, keys.c its keys and its row, variables.c what it writes. */
+/* Studies in the order in which they run, then those of the powers of this build (cmake/Powers.cmake). Everything else
+ * about a study stands in its folder: plan.h has what a scene says of it, keys.c its keys and its row, variables.c what
+ * it writes. */
 #define KZ_STUDIES(STUDY) \
   STUDY(basin)            \
   STUDY(attractors)       \
@@ -62,8 +63,8 @@ double kz_orbit_steps(const kz_scene *scene);
  * splitting. */
 kz_numerics kz_orbit_numerics(const kz_scene *scene);
 
-/* Prints one line: whether the pendulum at rest is stable down and inverted (by the linear equation), and between which amplitudes of the
- * pivot, in the keys and units of the scene. Prints nothing without a pendulum. */
+/* Prints one line: whether the pendulum at rest is stable down and inverted (by the linear equation), and between which
+ * amplitudes of the pivot, in the keys and units of the scene. Prints nothing without a pendulum. */
 void kz_rest_print(const kz_parameters *parameters, FILE *out);
 /* Range of the drive m of a sine in which a pendulum with gravity k > 0 stands upside down; NaN = none. */
 void kz_standing_drives(const kz_pendulum *pendulum, double *low, double *high);
@@ -89,10 +90,10 @@ const char *kz_sweep_words(void);
 const char *kz_motion_words(void);
 const char *kz_sweep_measure_words(void);
 
-/* Converts a unit of the drive to SI: *unit becomes "s" for "drive periods", "rad/s" for "rad per drive radian"; returns 1 and leaves *unit for
- * other units and where omega (of the pivot, rad/s) is NaN. kz_periods_print: prints "50 drive periods (1 s)".
- * kz_rate_print: prints a rate per drive period with its standard error, and per unit of the scene's time: s, 1/omega0
- * where the scene has drive_frequency or omega, else drive radian. */
+/* Converts a unit of the drive to SI: *unit becomes "s" for "drive periods", "rad/s" for "rad per drive radian";
+ * returns 1 and leaves *unit for other units and where omega (of the pivot, rad/s) is NaN. kz_periods_print: prints "50
+ * drive periods (1 s)". kz_rate_print: prints a rate per drive period with its standard error, and per unit of the
+ * scene's time: s, 1/omega0 where the scene has drive_frequency or omega, else drive radian. */
 double kz_si_factor(double omega, const char **unit);
 void kz_periods_print(int64_t periods, double omega, FILE *out);
 void kz_rate_print(const kz_parameters *parameters, double tradeoff_rate, double error, FILE *out);
@@ -102,16 +103,17 @@ double kz_axis_written(const kz_axis *values, double value);
 const char *kz_axis_unit(const kz_axis *values, int32_t parameter);
 /* Writes "amplitude = 8 mm", with that many digits, to text [bytes]. */
 void kz_axis_print(const kz_axis *values, int32_t parameter, int digits, double value, char *text, size_t bytes);
-/* Writes which key an axis is of, its unit, and the unit that the scene writes, as attributes of a group: `parameter`, `parameter_units`, ..,
- * or with the name of the axis in front: `x_parameter`, `x_units`, .. */
-kz_status kz_axis_describe(const kz_axis *values, int32_t parameter, const char *axis, const char *group, kz_store *store);
+/* Writes which key an axis is of, its unit, and the unit that the scene writes, as attributes of a group: `parameter`,
+ * `parameter_units`, .., or with the name of the axis in front: `x_parameter`, `x_units`, .. */
+kz_status kz_axis_describe(const kz_axis *values, int32_t parameter, const char *axis, const char *group,
+                           kz_store *store);
 
 /* Value i of an axis of values; both ends are exact. */
 double kz_axis_value(const kz_axis *values, int64_t i);
 double kz_sweep_value(const kz_sweep_plan *plan, int64_t i);
 
-/* The scene's pendulum with n of its keys (numbers of kz_sweep_parameter_at) at other values; false if that is not possible (not finite, negative
- * damping, less inertia than a point mass). */
+/* The scene's pendulum with n of its keys (numbers of kz_sweep_parameter_at) at other values; false if that is not
+ * possible (not finite, negative damping, less inertia than a point mass). */
 bool kz_pendulum_at(const kz_scene *scene, int n, const int32_t *parameter, const double *value, kz_pendulum *pendulum);
 
 /* Pendulum of a scene with the swept parameter at `value`. */
@@ -144,9 +146,9 @@ typedef struct {
  * at one phase. */
 typedef enum { KZ_NEEDS_SINE, KZ_NEEDS_MIRROR, KZ_NEEDS_STROBE, KZ_NEEDS_ONE_PHASE } kz_drive_need;
 
-/* A study. All ranks call `run`; `summary` (text for people) and `store` are NULL on all ranks but rank 0. `check` refuses a scene that the study
- * cannot model, for example because the steps are too coarse (NULL = nothing to refuse); its message begins with the keys that a user could
- * change ("numerics.steps_per_period|basin.velocity: ..."). */
+/* A study. All ranks call `run`; `summary` (text for people) and `store` are NULL on all ranks but rank 0. `check`
+ * refuses a scene that the study cannot model, for example because the steps are too coarse (NULL = nothing to refuse);
+ * its message begins with the keys that a user could change ("numerics.steps_per_period|basin.velocity: ..."). */
 typedef struct {
   const char *name;
   size_t wanted, plan; /* offsets in kz_scene of has_NAME and of the pointer to the plan */
@@ -229,8 +231,9 @@ int64_t kz_settling_scene(const kz_scene *scene);
 /* Prints a warning for each study whose max_periods leaves most motions unsettled; it names the key to change. */
 void kz_settling_warn(const kz_scene *scene, FILE *out);
 
-/* Sets scene->numerics from scene->asked, for the scene's pendulum, or for all values of its sweep. steps_per_period auto means, for the
- * processed splitting: the fewest steps whose measured error, at all speeds of the windows' motions, is below the tolerance and small beside
- * the cells; split6 if no number is enough. For other schemes: the default, or more for cells of a damped basin below 0.01 rad. If no
- * number is enough for these (the basin's check then refuses the scene), or if basin.accuracy chooses, the default stays. */
+/* Sets scene->numerics from scene->asked, for the scene's pendulum, or for all values of its sweep. steps_per_period
+ * auto means, for the processed splitting: the fewest steps whose measured error, at all speeds of the windows'
+ * motions, is below the tolerance and small beside the cells; split6 if no number is enough. For other schemes: the
+ * default, or more for cells of a damped basin below 0.01 rad. If no number is enough for these (the basin's check then
+ * refuses the scene), or if basin.accuracy chooses, the default stays. */
 void kz_numerics_resolve(kz_scene *scene);

@@ -20,8 +20,8 @@ typedef struct {
   double factor;
 } kz_written_unit;
 
-/* An axis: `count` cells between min and max (basin), or `count` values with both ends included (sweeps, planes). For a window by its centre
- * and width, which may be finer than doubles, min and max are the nearest doubles. */
+/* An axis: `count` cells between min and max (basin), or `count` values with both ends included (sweeps, planes). For a
+ * window by its centre and width, which may be finer than doubles, min and max are the nearest doubles. */
 typedef struct {
   double min, max;
   int64_t count;

@@ -54,7 +54,8 @@
   RANGE(#study ".velocity", KZ_RANGE_VELOCITIES, velocity, fallback, help),                                           \
       REAL(#study ".velocity.min", KZ_VELOCITY_UNIT, -most, most, lowest, velocity.min, "Lower edge of the window."), \
       REAL(#study ".velocity.max", KZ_VELOCITY_UNIT, -most, most, highest, velocity.max, "Upper edge of the window.")
-#define PLANE_AXIS(study, axis, help) RANGE(#study "." #axis, KZ_RANGE_PARAMETER, axis, NULL, help), PLANE_KEYS(study, axis)
+#define PLANE_AXIS(study, axis, help) \
+  RANGE(#study "." #axis, KZ_RANGE_PARAMETER, axis, NULL, help), PLANE_KEYS(study, axis)
 #define PLANE_KEYS(study, axis)                                                                                      \
   ROW(#study "." #axis ".parameter", KZ_KEY_WORD, NULL, AT(axis.parameter),                                          \
       "Key of the pendulum mapping, as written there, that takes the values; pendulum.KEY is the same.", .unit = "", \
@@ -62,16 +63,17 @@
       REAL(#study "." #axis ".min", KZ_OWN_UNIT, -DBL_MAX, DBL_MAX, NULL, axis.values.min, "First value."),          \
       REAL(#study "." #axis ".max", KZ_OWN_UNIT, -DBL_MAX, DBL_MAX, NULL, axis.values.max, "Last value.")
 
-/* The row of a study, behind its keys: the mapping of its name, the rows of the list that follows, an end. More members of kz_study may be
- * given, as `.check = kz_NAME_check`. */
+/* The row of a study, behind its keys: the mapping of its name, the rows of the list that follows, an end. More members
+ * of kz_study may be given, as `.check = kz_NAME_check`. */
 #ifdef KEYS_OF
 #define TEXT_OF(name) #name
 #define STRING_OF(name) TEXT_OF(name)
-#define STUDY(help, ...) ROW(STRING_OF(KEYS_OF), KZ_KEY_MAPPING, "", OF_SCENE(STORED(KEYS_OF)), help, .unit = "", __VA_ARGS__)
+#define STUDY(help, ...) \
+  ROW(STRING_OF(KEYS_OF), KZ_KEY_MAPPING, "", OF_SCENE(STORED(KEYS_OF)), help, .unit = "", __VA_ARGS__)
 #define KZ_STUDY_ROW(...) KZ_STUDY_ROW_OF(KEYS_OF, __VA_ARGS__)
 #define KZ_STUDY_ROW_OF(name, ...) KZ_STUDY_ROW_NAMED(name, __VA_ARGS__)
-/* The row of a part of another study, whose run does its work; of: that study, or the mapping that has its keys; has: the field of the scene that
- * says whether it is asked for. */
+/* The row of a part of another study, whose run does its work; of: that study, or the mapping that has its keys; has:
+ * the field of the scene that says whether it is asked for. */
 #define KZ_PART_ROW(of, has, ...) KZ_PART_ROW_OF(KEYS_OF, of, has, __VA_ARGS__)
 #define KZ_PART_ROW_OF(name, of, has, ...) KZ_PART_ROW_NAMED(name, of, has, __VA_ARGS__)
 #define KZ_PART_ROW_NAMED(name_, of, has, ...)                                  \

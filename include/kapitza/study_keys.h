@@ -47,11 +47,11 @@ struct kz_key {
   const char *(*words_from)(void); /* returns the words if another layer has them */
   const char *former;              /* removed words, or keys of a mapping, and their replacements: "old=new|old=new" */
   const char *symbol;              /* symbol in formulas, accepted instead of the name; NULL = none */
-  const char *form;                /* letters: keys of a mapping that share none exclude each other; NULL = of no form */
-  size_t plan;                     /* offset in kz_scene of the pointer to the plan that has the field; 0 = the scene has it */
-  size_t offset;                   /* Offset of the field in that plan, bytes */
-  kz_range range;                  /* Range that the keys of a mapping give together */
-  size_t range_offset;             /* Offset of that axis in the plan, bytes */
+  const char *form;      /* letters: keys of a mapping that share none exclude each other; NULL = of no form */
+  size_t plan;           /* offset in kz_scene of the pointer to the plan that has the field; 0 = the scene has it */
+  size_t offset;         /* Offset of the field in that plan, bytes */
+  kz_range range;        /* Range that the keys of a mapping give together */
+  size_t range_offset;   /* Offset of that axis in the plan, bytes */
   const char *chosen_by; /* path of a number that excludes this key, because the program then chooses it; NULL = none */
   const char *help;      /* one sentence of the scene reference */
 };

@@ -52,8 +52,8 @@ typedef struct {
   bool moving;                   /* true: fast, error per period well below a cell; false: as method exact */
   const kz_integers *coarseness; /* 8, 4, 2 or 1, falling */
   bool plane[KZ_PLANES];         /* the planes to show */
-  kz_atlas *atlas;               /* atlas whose cycles at the point x, y of the scene's pendulum need no search; NULL: none */
-  double x, y;                   /* values of its two keys */
+  kz_atlas *atlas; /* atlas whose cycles at the point x, y of the scene's pendulum need no search; NULL: none */
+  double x, y;     /* values of its two keys */
   kz_status (*pause)(void *context); /* is called every few ms; any status but KZ_OK ends the frame with it */
   kz_status (*show)(void *context, const kz_live_raster *raster);
   void *context;
@@ -75,10 +75,11 @@ kz_status kz_engine_catalogue(kz_engine *engine, const kz_scene *scene, const kz
 kz_status kz_engine_where(kz_engine *engine, const kz_scene *scene, int64_t n, const kz_coordinate (*start)[2],
                           kz_ending *endings);
 
-/* Labels n starts [n][2] (rad, rad per drive radian) of the scene's pendulum as method exact does, at the velocities of the scene's window: label [n], whose ids are
- * those of *catalogue (-1 = not settled, no second candidate); start_error: bound of the starts' own errors, rad; error [n]: bound of the orbit's error when it was trapped, rad. */
-kz_status kz_engine_labels(kz_engine *engine, const kz_scene *scene, int64_t n, const double (*start)[2], double start_error,
-                           kz_label *label, double *error, const kz_live_catalogue **catalogue);
+/* Labels n starts [n][2] (rad, rad per drive radian) of the scene's pendulum as method exact does, at the velocities of
+ * the scene's window: label [n], whose ids are those of *catalogue (-1 = not settled, no second candidate);
+ * start_error: bound of the starts' own errors, rad; error [n]: bound of the orbit's error when it was trapped, rad. */
+kz_status kz_engine_labels(kz_engine *engine, const kz_scene *scene, int64_t n, const double (*start)[2],
+                           double start_error, kz_label *label, double *error, const kz_live_catalogue **catalogue);
 
 /* Picture of a plane of two keys: periods and centres of final states, and values of the group /plane, x fastest;
  * period KZ_NO_LABEL = not settled, or no pendulum. */
@@ -92,7 +93,8 @@ kz_status kz_plane_points(const kz_scene *scene, int64_t *points);
 kz_status kz_plane_draw(const kz_scene *scene, const kz_integers *coarseness, kz_status (*pause)(void *context),
                         kz_status (*show)(void *context, const kz_plane_raster *raster), void *context);
 
-/* The motion of the scene's study orbit, by the pendulum itself, after its transient: theta (rad, not wrapped) and velocity (rad per drive radian), each
- * [periods * samples_per_period + 1]. `pause` as in kz_frame, every 0.1 s. KZ_FAILED: it becomes too large for double precision. */
+/* The motion of the scene's study orbit, by the pendulum itself, after its transient: theta (rad, not wrapped) and
+ * velocity (rad per drive radian), each [periods * samples_per_period + 1]. `pause` as in kz_frame, every 0.1 s.
+ * KZ_FAILED: it becomes too large for double precision. */
 kz_status kz_orbit_record(const kz_scene *scene, kz_status (*pause)(void *context), void *context, double *theta,
                           double *velocity);

@@ -63,15 +63,15 @@ typedef struct {
 /* Computes all fields from `written`. KZ_REFUSED if k, beta or m is not finite; the fields are then not usable. */
 kz_status kz_parameters_resolve(kz_parameters *parameters);
 
-/* The largest kz_stiffness of a pendulum, and the largest speed of a start (rad per drive radian), that the program follows. Beyond them a
- * drive period takes more than 300,000 steps, or 10,000 turns. */
+/* The largest kz_stiffness of a pendulum, and the largest speed of a start (rad per drive radian), that the program
+ * follows. Beyond them a drive period takes more than 300,000 steps, or 10,000 turns. */
 #define KZ_MOST_STIFFNESS 1e7
 #define KZ_MOST_SPEED 1e4
 
 /* kz_drive_resolve adds the drive that the keys describe to `pendulum`, which has k, beta and m. */
 void kz_drive_resolve(const kz_parameters *parameters, kz_pendulum *pendulum);
-/* The drive for k = 0 and m = 1, for the linear equation at rest; the cosine of a scene without a pendulum. Coefficients beside m = 0 are left
- * as they are. */
+/* The drive for k = 0 and m = 1, for the linear equation at rest; the cosine of a scene without a pendulum.
+ * Coefficients beside m = 0 are left as they are. */
 void kz_drive_form(const kz_parameters *parameters, kz_pendulum *form);
 const char *kz_drive_contradiction(const kz_pendulum_keys *written); /* Contradiction between the keys; NULL = none */
 void kz_drive_print(const kz_parameters *parameters, FILE *out);     /* Prints a summary line: harmonics used, error */

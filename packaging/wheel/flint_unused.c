@@ -1,5 +1,6 @@
-/* The wheel's FLINT has the folders that kapitza's numbers use. Two functions of its generic rings, which would bring all other folders, are named by a
- * division of polynomials that kapitza never calls. Whoever reached them here would be stopped. */
+/* The wheel's FLINT has the folders that kapitza's numbers use. Two functions of its generic rings, which would bring
+ * all other folders, are named by a division of polynomials that kapitza never calls. Whoever reached them here would
+ * be stopped. */
 #include <stdlib.h>
 
 void gr_ctx_init_fmpz(void *context);

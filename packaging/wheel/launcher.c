@@ -1,7 +1,7 @@
-/* bin/kapitza of the wheel: replaces itself by the build in ../libexec that suits this processor, so that one wheel serves all x86-64 machines.
- *   KAPITZA_ARCH     x86-64, x86-64-v3 or x86-64-v4: takes this build
- *   KAPITZA_MPI_LIB  folder of another libmpi_abi.so.1 (the standard ABI of MPI 5), such as a cluster's
- * Compiled for plain x86-64, without MPI. */
+/* bin/kapitza of the wheel: replaces itself by the build in ../libexec that suits this processor, so that one wheel
+ * serves all x86-64 machines. KAPITZA_ARCH     x86-64, x86-64-v3 or x86-64-v4: takes this build KAPITZA_MPI_LIB  folder
+ * of another libmpi_abi.so.1 (the standard ABI of MPI 5), such as a cluster's Compiled for plain x86-64, without MPI.
+ */
 #define _GNU_SOURCE
 #include <errno.h>
 #include <limits.h>
@@ -62,8 +62,8 @@ static void search_first(const char *folder) {
   if (length < (int)sizeof path) setenv("LD_LIBRARY_PATH", path, 1);
 }
 
-/* The library that MPI of PyPI has put beside this program is found by the program's RUNPATH. Another one goes before it by LD_LIBRARY_PATH.
- * False: there is none where pip installs. */
+/* The library that MPI of PyPI has put beside this program is found by the program's RUNPATH. Another one goes before
+ * it by LD_LIBRARY_PATH. False: there is none where pip installs. */
 static bool find_mpi(const char *root) {
   char own[PATH_BYTES], user[PATH_BYTES];
   const char *home = variable("HOME"), *environment = variable("VIRTUAL_ENV"), *chosen = variable("KAPITZA_MPI_LIB");
@@ -85,7 +85,8 @@ static bool find_mpi(const char *root) {
   return false;
 }
 
-/* Commands that call the Python package take the Python that pip installed it for: the first line of a script that pip wrote beside this program. */
+/* Commands that call the Python package take the Python that pip installed it for: the first line of a script that pip
+ * wrote beside this program. */
 static void find_python(const char *root) {
   char path[PATH_BYTES], line[PATH_BYTES];
   snprintf(path, sizeof path, "%s/bin/kapitza-plot", root);
@@ -98,9 +99,10 @@ static void find_python(const char *root) {
   fclose(script);
 }
 
-/* Ranks of MPICH wait in shared memory without sleeping, which needs a core for each and one for the rest of the machine: where ranks take all cores,
- * two of them on a busy machine stood still for a minute, and more ranks than cores take 15 ms for a barrier. Over TCP they sleep. All three variables
- * are needed: with NOLOCAL alone, over UCX, 3 of 12 runs of three ranks hung. */
+/* Ranks of MPICH wait in shared memory without sleeping, which needs a core for each and one for the rest of the
+ * machine: where ranks take all cores, two of them on a busy machine stood still for a minute, and more ranks than
+ * cores take 15 ms for a barrier. Over TCP they sleep. All three variables are needed: with NOLOCAL alone, over UCX, 3
+ * of 12 runs of three ranks hung. */
 static void share_cores(void) {
   const char *local = variable("MPI_LOCALNRANKS"), *all = variable("PMI_SIZE");
   cpu_set_t cores;
@@ -114,8 +116,9 @@ static void share_cores(void) {
 int main(int argc, char **argv) {
   (void)argc;
   __builtin_cpu_init();
-  const build_t builds[] = {
-      {"x86-64-v4", __builtin_cpu_supports("x86-64-v4")}, {"x86-64-v3", __builtin_cpu_supports("x86-64-v3")}, {"x86-64", true}};
+  const build_t builds[] = {{"x86-64-v4", __builtin_cpu_supports("x86-64-v4")},
+                            {"x86-64-v3", __builtin_cpu_supports("x86-64-v3")},
+                            {"x86-64", true}};
   const char *chosen = variable("KAPITZA_ARCH");
   char root[PATH_MAX], path[PATH_BYTES];
   if (!find_root(root)) return refuse("the program cannot find itself: %s", strerror(errno));

@@ -1,6 +1,6 @@
-/* The end of a rank that cannot go on to the next agreement with the others: memory that ran out in a Fortran layer, a library
- * that aborts or exits, a stop request amid work that takes too long. It says so in one line, removes the half file and ends all
- * ranks. */
+/* The end of a rank that cannot go on to the next agreement with the others: memory that ran out in a Fortran layer, a
+ * library that aborts or exits, a stop request amid work that takes too long. It says so in one line, removes the half
+ * file and ends all ranks. */
 #include <errno.h>
 #include <limits.h>
 #include <signal.h>

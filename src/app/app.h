@@ -35,10 +35,10 @@ typedef struct {
   const char *words; /* Words behind the name of the program */
 } kz_options;
 
-/* Reads the command line and runs its command: the whole program except for its entry. Only one process keeps the message. */
+/* Reads the command line and runs its command: the whole program but its entry. One process keeps the message. */
 kz_status kz_app(int argc, char **argv);
 
-/* Flushes standard output, prints the message if the status is not KZ_OK, and clears it. KZ_FAILED if standard output cannot be written. */
+/* Flushes stdout, prints and clears the message unless the status is KZ_OK. KZ_FAILED if stdout fails. */
 kz_status kz_message_print(kz_status status);
 
 /* The commands. */
@@ -49,32 +49,32 @@ kz_status kz_app_check(const kz_options *options);
 kz_status kz_app_keys(const kz_options *options);
 void kz_app_version(FILE *out);
 
-/* Calls `answer` with the scene of the command line, on the process that prints; a message about a key is given its place in the scene. */
+/* Calls `answer` with the scene on the process that prints; a message about a key gets its place in the scene. */
 kz_status kz_scene_answer(const kz_options *options, kz_status (*serve_answer)(const kz_options *, const kz_scene *));
 
 /* Writes the name of the result to path [bytes]. KZ_REFUSED if the name is too long. */
 kz_status kz_output_name(const kz_options *options, char *path, size_t bytes);
-/* Checks everything about FILE that can be known before modelling. *complete = true if --resume finds the complete result of this scene. */
+/* Checks all about FILE that can be known before modelling. *complete: --resume finds this scene's full result. */
 kz_status kz_output_check(const kz_options *options, const char *path, const char *fingerprint, bool *complete);
 
-/* From kz_abandon_arm to kz_abandon_disarm a rank that cannot go on ends all ranks with one line and status 1, or 75 after a stop request. */
+/* Between kz_abandon_arm and _disarm a rank that cannot go on ends all with one line, status 1, or 75 when stopped. */
 void kz_abandon_arm(void);
 void kz_abandon_disarm(void);
-/* Sets the ranks to end, the checkpoint to name (either may be NULL), and the result whose unfinished file to remove (NULL = none). */
+/* Sets ranks to end, the checkpoint to name (each may be NULL), the result whose unfinished file goes (or NULL). */
 void kz_abandon_run(const kz_run *run, const char *path);
 
 /* The cost of the scene: the sum over its studies; the memory is the largest of them. */
 kz_cost kz_cost_of(const kz_scene *scene);
-/* KZ_REFUSED if the ranks of this node need more memory than it has, or this process more than its limit. `ranks` NULL = one rank.
- * Collective. */
+/* KZ_REFUSED if the ranks of this node need more memory than it has, or this process more than its limit. `ranks` NULL
+ * = one rank. Collective. */
 kz_status kz_cost_check(const kz_cost *cost, kz_ranks *ranks);
-/* The lowest limit, in bytes, of the memory control group of this process and of all groups above it; infinity if there is none.
- * `groups` is /proc/self/cgroup (version 1 or 2), `mount` the folder /sys/fs/cgroup. Source: cgroups(7). */
+/* The lowest limit, in bytes, of the memory control group of this process and of all groups above it; infinity if there
+ * is none. `groups` is /proc/self/cgroup (version 1 or 2), `mount` the folder /sys/fs/cgroup. Source: cgroups(7). */
 double kz_memory_limit(const char *groups, const char *mount);
 /* "12.3 MB". */
 kz_short_text kz_cost_bytes(double bytes);
 
-/* The scene as text, in full, or as the fingerprint that a resumed run must match; the caller frees it. NULL if memory ran out. */
+/* Returns the scene as text, or as the fingerprint of resumed runs; the caller frees it. NULL: no memory. */
 char *kz_scene_text(const kz_scene *scene, bool fingerprint);
 
 /* Prints the warnings about a scene that are known before it is modelled, a line each. */
@@ -84,8 +84,8 @@ void kz_warnings_print(const kz_scene *scene, FILE *out);
 
 /* Opens FILE to append to it. KZ_REFUSED if it cannot be written, or if it exists and is not such a log. */
 kz_status kz_log_open(const char *path, FILE **log);
-/* Writes one event, "begin", "warning" or "end". `fields` = pairs of name and text, NULL-ended; "#name" = the text is a number. NULL as
- * `log`: does nothing. */
+/* Writes one event, "begin", "warning" or "end". `fields` = pairs of name and text, NULL-ended; "#name" = the text is a
+ * number. NULL as `log`: does nothing. */
 void kz_log_event(FILE *log, double seconds, const char *event, const char *const *fields);
 /* Writes an event "warning" for each line of `text` that is a warning. */
 void kz_log_warnings(FILE *log, double seconds, const char *text);

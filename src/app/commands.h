@@ -1,4 +1,4 @@
-/* The commands and options of the command line: parsing, help, the manual page and completions come from the same rows. */
+/* Commands and options of the command line: parsing, help, manual page and completions share these rows. */
 #pragma once
 
 #include <string.h>
@@ -7,7 +7,7 @@
 
 typedef struct kz_option {
   const char *name;
-  int letter;                                                                           /* Letter of the short form; 0: none */
+  int letter;                                                                           /* short form; 0: none */
   const char *argument;                                                                 /* its name, or NULL */
   kz_status (*apply)(void *members, const struct kz_option *row, const char *argument); /* NULL: --help and --version */
   size_t member; /* Offset of the field that it sets, in kz_options or in the command's own, bytes */
@@ -30,7 +30,7 @@ typedef struct {
 
 extern const kz_command kz_program;
 extern const kz_command kz_program;
-/* The commands, then those of the powers of this build (cmake/Powers.cmake), each kz_NAME_command of its folder; NULL ends the list. */
+/* Commands, then those of this build's powers (cmake/Powers.cmake), each kz_NAME_command; NULL ends the list. */
 extern const kz_command *const kz_commands[];
 extern const kz_option kz_option_rows[]; /* options of the core, ended by a row without name */
 static inline const kz_option *kz_option_find(const kz_option *list, const char *name, int length) {

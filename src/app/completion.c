@@ -1,4 +1,4 @@
-/* Completions of the shells: the script of each asks the program what may stand next, which the tables of commands, options and keys say. */
+/* Completions of shells: each script asks the program for the next words, known from tables of commands and keys. */
 #include <stdlib.h>
 #include <string.h>
 
@@ -12,7 +12,8 @@ static const struct {
      "# bash completion of kapitza\n"
      "_kapitza() {\n"
      "  local found word=${COMP_WORDS[COMP_CWORD]}\n"
-     "  found=$(\"${COMP_WORDS[0]/#\\~/$HOME}\" --complete \"${COMP_WORDS[*]:0:COMP_CWORD+1}\" 2>/dev/null | cut -f 1)\n"
+     "  found=$(\"${COMP_WORDS[0]/#\\~/$HOME}\" --complete \"${COMP_WORDS[*]:0:COMP_CWORD+1}\" 2>/dev/null | cut -f "
+     "1)\n"
      "  if [ \"$found\" = FILE ]; then compopt -o default; COMPREPLY=(); return; fi\n"
      "  case $found in *=) compopt -o nospace ;; esac\n"
      "  COMPREPLY=($(compgen -W \"$found\" -- \"$word\"))\n"
@@ -73,7 +74,7 @@ static const kz_option *option_of(const kz_command *command, const char *word) {
 }
 
 void kz_completion_answer(const char *line) {
-  KZ_FREED char *copy = kz_strdup(line);
+  KZ_AUTOFREE char *copy = kz_strdup(line);
   const char *first = "", *before = "", *last = "";
   const kz_command *command = &kz_program;
   int n = 0;

@@ -1,4 +1,4 @@
-/* Compares the memory that a scene needs with what this node has, and control groups (a container, a batch system) leave. */
+/* Compares a scene's memory with what this node has, and control groups (container, batch system) leave. */
 #include <limits.h>
 #include <math.h>
 #include <string.h>
@@ -34,8 +34,8 @@ static double read_number(const char *path) {
   return bytes;
 }
 
-/* The lowest limit of a group and of those that it is in. A container may see its own group as the root: levels that are not
- * there have no limit of their own. */
+/* The lowest limit of a group and of those that it is in. A container may see its own group as the root: levels that
+ * are not there have no limit of their own. */
 static double cost_lowest(const char *mount, char *group, const char *name) {
   double bytes = INFINITY;
   char path[2 * PATH_MAX];
@@ -89,10 +89,12 @@ kz_status kz_cost_check(const kz_cost *cost, kz_ranks *ranks) {
   int node_ranks = 1;
   if (ranks) KZ_TRY(kz_ranks_node(ranks, mine, &sum, &node_ranks));
   if (sum > memory)
-    return kz_fail(KZ_REFUSED,
-                   "scene: needs %s of memory for %d ranks on this node, which has %s; use smaller counts or fewer ranks",
-                   kz_cost_bytes(sum).text, node_ranks, kz_cost_bytes(memory).text);
-  if (kz_memory_is_there((size_t)mine)) return KZ_OK; /* no limit of this process (ulimit, batch systems) is in the way */
-  return kz_fail(KZ_REFUSED, "scene: needs %s of memory, more than a limit (ulimit -v) leaves a process; use smaller counts",
+    return kz_fail(
+        KZ_REFUSED,
+        "scene: needs %s of memory for %d ranks on this node, which has %s; use smaller counts or fewer ranks",
+        kz_cost_bytes(sum).text, node_ranks, kz_cost_bytes(memory).text);
+  if (kz_memory_is_there((size_t)mine)) return KZ_OK; /* no limit of this process (ulimit, batch systems) bites */
+  return kz_fail(KZ_REFUSED,
+                 "scene: needs %s of memory, more than a limit (ulimit -v) leaves a process; use smaller counts",
                  kz_cost_bytes(mine).text);
 }

@@ -59,7 +59,8 @@ static void print_options(const kz_command *command) {
 static void print_command(const kz_command *command) {
   fputs(".SH KAPITZA ", stdout);
   for (const char *c = command->name; *c; c++) putchar(toupper((unsigned char)*c));
-  printf("\n.B kapitza %s\n.I \"%s [OPTION]...\"\n.PP\n", command->name, command->operand[0] ? command->operand + 1 : "");
+  printf("\n.B kapitza %s\n.I \"%s [OPTION]...\"\n.PP\n", command->name,
+         command->operand[0] ? command->operand + 1 : "");
   print_roff(command->help);
   puts(".");
   print_options(command);
@@ -70,8 +71,10 @@ void kz_manual_print(void) {
   print_roff(kz_program.help);
   puts("\n.SH SYNOPSIS\n.B kapitza\n.I COMMAND\n[\\fIOPTION\\fR]...");
   puts(
-      ".SH DESCRIPTION\nMaps the basins of attraction of a rigid pendulum whose pivot is shaken up and down, and finds the "
-      "attractors by itself. A scene (a YAML file) says which pendulum, and what to study; the result is one HDF5 file that "
+      ".SH DESCRIPTION\nMaps the basins of attraction of a rigid pendulum whose pivot is shaken up and down, and finds "
+      "the "
+      "attractors by itself. A scene (a YAML file) says which pendulum, and what to study; the result is one HDF5 file "
+      "that "
       "netCDF "
       "tools read. A SCENE of \\- is standard input.");
   print_options(&kz_program);

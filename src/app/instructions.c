@@ -1,11 +1,11 @@
-/* Compiled, like all layers, for the instruction set of the build: what the compiler says here is what the program uses. */
+/* Compiled for the instruction set of the build, as all layers: what the compiler says here holds for all. */
 #include <pthread.h>
 #include <string.h>
 
 #include "app.h"
 
-/* The compiler defines __AVX2__ as 1 where it may use that set: such a name is written out as "1", any other as itself. */
-#define USED(name, text) KZ_WRITTEN(__##name##__),
+/* __AVX2__ is defined as 1 where the compiler may use that set: it is written as "1", any other name as itself. */
+#define USED(name, text) KZ_STRINGIFY(__##name##__),
 const char *const kz_instructions[] = {KZ_INSTRUCTION_LIST(USED) NULL};
 
 static char names[256];

@@ -23,7 +23,7 @@ static size_t character_bytes(const char *c) {
 }
 
 kz_json *kz_json_text(const char *text) {
-  KZ_FREED char *clean = kz_strdup(text);
+  KZ_AUTOFREE char *clean = kz_strdup(text);
   for (char *c = clean; *c;) {
     const size_t bytes = character_bytes(c);
     if (bytes == 0) *c = '?';

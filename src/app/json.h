@@ -1,5 +1,5 @@
-/* JSON by json-c: requests of other programs, and what other programs read. The only file of the app that knows json-c besides those that build
- * objects by it. */
+/* JSON by json-c: requests of other programs, and what other programs read. The only file of the app that knows json-c
+ * besides those that build objects by it. */
 #pragma once
 
 #include <json-c/json.h>
@@ -9,8 +9,8 @@
 
 typedef struct json_object kz_json;
 
-/* Values. real: with the fewest digits that read back as the same number; null if it is not finite. text: bytes that are not UTF-8, as where a
- * message was cut, become '?'. pair: a list of two numbers. */
+/* Values. real: with the fewest digits that read back as the same number; null if it is not finite. text: bytes that
+ * are not UTF-8, as where a message was cut, become '?'. pair: a list of two numbers. */
 kz_json *kz_json_real(double value);
 kz_json *kz_json_text(const char *text);
 kz_json *kz_json_pair(double first, double second);
@@ -27,5 +27,5 @@ void kz_json_add_boolean(kz_json *object, const char *name, bool value);
 /* Prints `value` on one line, with a newline, and frees it. */
 void kz_json_print(kz_json *value, FILE *out);
 
-/* Writes the keys as a JSON schema. It does not have the rules that connect keys of different mappings; the command check tests them. */
+/* Writes the keys as a JSON schema, without rules between keys of different mappings: the command check tests them. */
 void kz_scene_schema(const kz_key *keys, FILE *out);

@@ -70,12 +70,13 @@ void kz_timings_print(const kz_ranks *ranks, FILE *out) {
   const double all = kz_ranks_seconds(ranks), outside = kz_ranks_outside(ranks);
   const int count = kz_ranks_count(ranks);
   double rest = all, processor = outside, most = outside, busy = 0, serial = 0;
-  fprintf(out, "%-12s %7s %9s %9s %12s %9s %7s %9s\n", "stage", "times", "tiles", "wall s", "processor s", "most s", "busy",
-          "serial s");
+  fprintf(out, "%-12s %7s %9s %9s %12s %9s %7s %9s\n", "stage", "times", "tiles", "wall s", "processor s", "most s",
+          "busy", "serial s");
   for (int64_t i = 0; i < n; i++) {
     const kz_timing *t = &list[i];
-    fprintf(out, "%-12s %7lld %9lld %9.3f %12.3f %9.3f %5.1f %% %9.3f\n", t->stage, (long long)t->calls, (long long)t->tiles,
-            t->wall, t->processor, t->most, t->wall > 0 ? 100 * t->busy / (t->wall * count) : 100.0, t->serial);
+    fprintf(out, "%-12s %7lld %9lld %9.3f %12.3f %9.3f %5.1f %% %9.3f\n", t->stage, (long long)t->calls,
+            (long long)t->tiles, t->wall, t->processor, t->most,
+            t->wall > 0 ? 100 * t->busy / (t->wall * count) : 100.0, t->serial);
     rest -= t->wall;
     processor += t->processor;
     most += t->most;

@@ -1,4 +1,4 @@
-/* The entry, compiled for the first instruction set of its processor: it looks at the CPU before anything that was built for a newer one runs. */
+/* The entry, compiled for its processor's first instruction set: checks the CPU before any newer code runs. */
 #include <fcntl.h>
 #include <stdio.h>
 #include <sys/resource.h>
@@ -6,8 +6,8 @@
 
 #include "app.h"
 
-/* Fills closed standard streams with /dev/null, opened so that using them fails: else a file opened later would take the place
- * of one and receive what the program prints. */
+/* Fills closed standard streams with /dev/null, opened so that using them fails: else a file opened later would take
+ * the place of one and receive what the program prints. */
 static void fill_streams(void) {
   static const int modes[] = {O_WRONLY, O_RDONLY, O_RDONLY};
   for (int stream = 0; stream < 3; stream++)

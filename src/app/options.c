@@ -144,14 +144,14 @@ const kz_option kz_option_rows[] = {
 };
 enum { MOST_OPTIONS = 16 /* Options of a command at most */, NO_LETTER = 256 };
 
-/* getopt's own description of the options of a command: letter = that of the row, or NO_LETTER + its place in row [MOST_OPTIONS]. */
+/* Describes a command's options for getopt: letter = the row's, or NO_LETTER + its index in row [MOST_OPTIONS]. */
 static void options_describe(const kz_command *command, const kz_option **row, struct option *longs, char *shorts) {
   shorts = stpcpy(shorts, "+:");
   const char *names = command->options;
   for (int i = 0; (row[i] = kz_option_next(command, &names)); i++) {
     const kz_option *r = row[i];
-    *longs++ =
-        (struct option){r->name, r->argument ? required_argument : no_argument, NULL, r->letter ? r->letter : NO_LETTER + i};
+    *longs++ = (struct option){r->name, r->argument ? required_argument : no_argument, NULL,
+                               r->letter ? r->letter : NO_LETTER + i};
     if (!r->letter) continue;
     *shorts++ = (char)r->letter;
     if (r->argument) *shorts++ = ':';
@@ -200,7 +200,7 @@ static bool is_operand(const char *argument) {
   return argument[0] != '-' || argument[1] == '\0' || argument[1] == '.' || (argument[1] >= '0' && argument[1] <= '9');
 }
 
-/* Refuses an operand that belongs to a --set which is written with blanks: "KEY VALUE", "KEY= VALUE", "KEY =VALUE" or "KEY = VALUE". */
+/* Refuses an operand of a --set written with blanks: "KEY VALUE", "KEY= VALUE", "KEY =VALUE", "KEY = VALUE". */
 static kz_status check_set(const kz_command *command, char *const *argument, const kz_options *options) {
   if (options->n_sets == 0) return KZ_OK;
   const char *last = options->sets[options->n_sets - 1], *equals = strchr(last, '=');
@@ -209,22 +209,24 @@ static kz_status check_set(const kz_command *command, char *const *argument, con
   const bool is_alone = is_apart && !argument[0][1];
   const char *value = is_alone ? argument[1] ? argument[1] : "VALUE" : argument[0] + is_apart;
   return kz_fail(KZ_REFUSED, "--set %.80s %.80s%s%.80s: is %s words; write --set %.*s=%.80s", last, argument[0],
-                 is_alone ? " " : "", is_alone ? value : "", is_alone ? "three" : "two", (int)strcspn(last, "="), last, value);
+                 is_alone ? " " : "", is_alone ? value : "", is_alone ? "three" : "two", (int)strcspn(last, "="), last,
+                 value);
 }
 
 /* Takes the operand at `argument`, which the others of the command line follow. */
 static kz_status take_operand(const kz_command *command, char **argument, kz_options *options) {
   KZ_TRY(check_set(command, argument, options));
   if (options->n_operands == command->most)
-    return kz_fail(KZ_REFUSED, "%.80s: one argument too many; kapitza %s%s", *argument, command->name, command->operand);
+    return kz_fail(KZ_REFUSED, "%.80s: one argument too many; kapitza %s%s", *argument, command->name,
+                   command->operand);
   options->operands[options->n_operands++] = *argument;
   return KZ_OK;
 }
 
-/* The next option's letter, the operands before it taken; -1 at the end. getopt stops at operands itself only where they do not
- * look like options. */
-static kz_status next_option(const kz_command *command, int argc, char **argv, const char *shorts, const struct option *longs,
-                             kz_options *options, int *letter) {
+/* The next option's letter, the operands before it taken; -1 at the end. getopt stops at operands itself only where
+ * they do not look like options. */
+static kz_status next_option(const kz_command *command, int argc, char **argv, const char *shorts,
+                             const struct option *longs, kz_options *options, int *letter) {
   bool all = false; /* behind "--" everything is an operand */
   *letter = -1;
   for (; optind < argc && (all || is_operand(argv[optind]) || strcmp(argv[optind], "--") == 0); optind++) {
@@ -255,7 +257,8 @@ kz_status kz_options_read(const kz_command *command, int argc, char **argv, kz_o
     if (letter == -1) return KZ_OK;
     if (letter == '?' || letter == ':') {
       const bool is_letter = letter == '?' && optopt > 0 && optopt < 256 && strncmp(argv[optind - 1], "--", 2) != 0;
-      return refuse_option(command, is_letter ? (const char[]){'-', (char)optopt, '\0'} : argv[optind - 1], letter == ':');
+      return refuse_option(command, is_letter ? (const char[]){'-', (char)optopt, '\0'} : argv[optind - 1],
+                           letter == ':');
     }
     const kz_option *row = row_of(list, letter);
     if (row->apply) {
@@ -276,10 +279,11 @@ kz_status kz_operands_check(const kz_command *command, const kz_options *options
     return kz_fail(KZ_REFUSED, "%s: %.*s is missing; kapitza %s%s", command->name, length, first, command->name,
                    command->operand);
   if (options->n_operands > 0 && !options->operands[0][0])
-    return kz_fail(KZ_REFUSED, "%s: the name of %.*s is empty; kapitza %s%s", command->name, length, first, command->name,
-                   command->operand);
+    return kz_fail(KZ_REFUSED, "%s: the name of %.*s is empty; kapitza %s%s", command->name, length, first,
+                   command->name, command->operand);
   if (options->n_operands < command->fewest)
-    return kz_fail(KZ_REFUSED, "%s: the start is missing; kapitza %s%s", command->name, command->name, command->operand);
+    return kz_fail(KZ_REFUSED, "%s: the start is missing; kapitza %s%s", command->name, command->name,
+                   command->operand);
   if (options->resume && options->force) return kz_fail(KZ_REFUSED, "--resume: contradicts --force; use one of them");
   return KZ_OK;
 }

@@ -33,7 +33,8 @@ static kz_status check_folder(const char *path) {
   snprintf(copy, sizeof copy, "%s", path);
   const char *folder = dirname(copy);
   if (stat(folder, &facts) != 0)
-    return kz_fail(KZ_REFUSED, "%s: the folder %s cannot be used: %s; name an existing folder", path, folder, strerror(errno));
+    return kz_fail(KZ_REFUSED, "%s: the folder %s cannot be used: %s; name an existing folder", path, folder,
+                   strerror(errno));
   if (!S_ISDIR(facts.st_mode)) return kz_fail(KZ_REFUSED, "%s: %s is a file; name an existing folder", path, folder);
   return KZ_OK;
 }
@@ -43,7 +44,7 @@ static bool is_same_file(const struct stat *file, const char *path) {
   return stat(path, &other) == 0 && other.st_dev == file->st_dev && other.st_ino == file->st_ino;
 }
 
-/* Whether a file may be replaced: it is empty, or has the words of the program at its beginning. A link is replaced, not followed. */
+/* Whether a file may be replaced: empty, or it begins with the program's words. A link is replaced, not followed. */
 static bool is_own(const char *name, const char *words) {
   char bytes[8192];
   FILE *file = fopen(name, "rb");
@@ -52,8 +53,8 @@ static bool is_own(const char *name, const char *words) {
   return n == 0 || memmem(bytes, n, words, strlen(words));
 }
 
-/* Refuses FILE or a file beside it if it is not a regular file, or if it is the scene. *exists = true if FILE exists, even as a link to
- * nothing. */
+/* Refuses FILE or a file beside it if it is not a regular file, or if it is the scene. *exists = true if FILE exists,
+ * even as a link to nothing. */
 static kz_status check_names(const char *path, const kz_options *options, bool *exists) {
   static const char *const suffixes[] = {".checkpoint", ".part", ".truth", ".truth.part", ""};
   static const char *const words[] = {NULL, KZ_STORE_UNFINISHED, KZ_REFERENCE_WORDS, KZ_REFERENCE_WORDS, NULL};
@@ -67,8 +68,10 @@ static kz_status check_names(const char *path, const kz_options *options, bool *
         return kz_fail(KZ_REFUSED, "%s: is %s; give the name of a file", name,
                        S_ISDIR(file.st_mode) ? "a folder" : "not a regular file");
       if (!options->force && words[i] && !S_ISLNK(link.st_mode) && !is_own(name, words[i]))
-        return kz_fail(KZ_REFUSED, "%s: exists and would be overwritten; move it away, use --force, or another name", name);
-      if (is_same_file(&file, options->scene)) return kz_fail(KZ_REFUSED, "%s: is the scene itself; use another name", name);
+        return kz_fail(KZ_REFUSED, "%s: exists and would be overwritten; move it away, use --force, or another name",
+                       name);
+      if (is_same_file(&file, options->scene))
+        return kz_fail(KZ_REFUSED, "%s: is the scene itself; use another name", name);
     } else if (errno != ENOENT) {
       return kz_fail(KZ_REFUSED, "%s: cannot be used: %s; use another name", name, strerror(errno));
     }
@@ -81,7 +84,8 @@ static kz_status try_folder(const char *path) {
   char name[PATH_MAX + 16];
   snprintf(name, sizeof name, "%s.XXXXXX", path);
   const int file = mkstemp(name);
-  if (file < 0) return kz_fail(KZ_REFUSED, "%s: cannot be written: %s; use a name in a writable folder", path, strerror(errno));
+  if (file < 0)
+    return kz_fail(KZ_REFUSED, "%s: cannot be written: %s; use a name in a writable folder", path, strerror(errno));
   close(file);
   unlink(name);
   return KZ_OK;
@@ -98,8 +102,8 @@ kz_status kz_output_check(const kz_options *options, const char *path, const cha
   char *there = kz_store_fingerprint(path);
   const kz_status status =
       there ? kz_fingerprint_compare(path, there, fingerprint)
-            : kz_fail(KZ_REFUSED, "%s: exists and is no file of this program; use --force to overwrite it, or another name",
-                      path);
+            : kz_fail(KZ_REFUSED,
+                      "%s: exists and is no file of this program; use --force to overwrite it, or another name", path);
   free(there);
   *complete = status == KZ_OK;
   return status;

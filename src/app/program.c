@@ -23,8 +23,8 @@ static int join_units(int argc, char **argv, kz_options *options) {
   return n;
 }
 
-/* A command or an answer that takes no MPI, started by a launcher on many ranks: all must have been given it, or those that were given a run would wait
- * for ever for those that were not. */
+/* A command or an answer that takes no MPI, started by a launcher on many ranks: all must have been given it, or those
+ * that were given a run would wait for ever for those that were not. */
 static kz_status agree_alone(kz_options *options) {
   kz_ranks *ranks = NULL;
   options->compared = true;
@@ -54,7 +54,7 @@ static kz_status carry_out(const kz_command *command, int argc, char **argv, kz_
   return command->carry_out(options);
 }
 
-/* A command line that is refused before ranks are compared: rank 0 may have been given another one, and would say nothing of this one. */
+/* Refuses a command line before ranks are compared: rank 0 may have another one and say nothing of this. */
 static kz_status refuse_together(kz_options *options) {
   char message[KZ_MESSAGE_BYTES];
   snprintf(message, sizeof message, "%s", kz_message());
@@ -63,13 +63,14 @@ static kz_status refuse_together(kz_options *options) {
   return kz_fail(KZ_REFUSED, "%s", message);
 }
 
-/* The command that the first word names; *command stays NULL where an option of the program itself has been answered. */
+/* Finds the command of the first word; *command = NULL where an option of the program has been answered. */
 static kz_status find_command(int argc, char **argv, kz_options *options, const kz_command **command) {
   char names[128] = "", nearest[64];
   if (argc < 2) return kz_fail(KZ_REFUSED, "no command; kapitza run SCENE, or kapitza --help");
   if (argv[1][0] == '-') {
     KZ_TRY(kz_options_read(&kz_program, argc, argv, options));
-    return options->answered ? agree_alone(options) : kz_fail(KZ_REFUSED, "no command; kapitza run SCENE, or kapitza --help");
+    return options->answered ? agree_alone(options)
+                             : kz_fail(KZ_REFUSED, "no command; kapitza run SCENE, or kapitza --help");
   }
   for (int i = 0; kz_commands[i]; i++) {
     if (strcmp(argv[1], kz_commands[i]->name) == 0) *command = kz_commands[i];

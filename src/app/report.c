@@ -71,7 +71,8 @@ static void print_studies(const kz_scene *scene, FILE *out) {
     if (kz_study_is_part(kz_studies[i]) || !kz_study_is_wanted(kz_studies[i], scene)) continue;
     fprintf(out, "%s%s", before, kz_studies[i]->name);
     if (kz_studies[i] == &kz_basin_study)
-      fprintf(out, " (%s)", isnan(scene->basin->accuracy) ? kz_method_names[scene->basin->method] : "method by basin.accuracy");
+      fprintf(out, " (%s)",
+              isnan(scene->basin->accuracy) ? kz_method_names[scene->basin->method] : "method by basin.accuracy");
     before = ", ";
   }
 }
@@ -87,7 +88,8 @@ static void print_check(const kz_options *options, const kz_scene *scene, const 
   if (!isnan(p->k)) fprintf(out, "pendulum         k = %.10g, beta = %.10g, m = %.10g\n", p->k, p->beta, p->m);
   kz_rest_print(&scene->parameters, out);
   fprintf(out, "cost             %s of memory, %s on disk\n",
-          kz_cost_bytes(cost.memory_bytes + cost.rank0_bytes + cost.shared_bytes).text, kz_cost_bytes(cost.disk_bytes).text);
+          kz_cost_bytes(cost.memory_bytes + cost.rank0_bytes + cost.shared_bytes).text,
+          kz_cost_bytes(cost.disk_bytes).text);
   kz_warnings_print(scene, out);
   if (!options->all) return;
   fprintf(out, "memory per rank  %s, %s more on rank 0, and a share of %s\n", kz_cost_bytes(cost.memory_bytes).text,
@@ -109,7 +111,7 @@ static kz_json *studies_of(const kz_scene *scene) {
 static void print_check_json(const kz_options *options, const kz_scene *scene, const char *resolved) {
   const kz_cost cost = kz_cost_of(scene);
   const kz_pendulum *p = &scene->parameters.pendulum;
-  KZ_FREED char *text = NULL;
+  KZ_AUTOFREE char *text = NULL;
   size_t bytes = 0;
   kz_json *object = json_object_new_object(), *pendulum = json_object_new_object();
   FILE *out = open_memstream(&text, &bytes);
@@ -176,8 +178,8 @@ void kz_app_version(FILE *out) {
   fprintf(out, "kapitza %s (%s)\n", KZ_VERSION, KZ_GIT_REVISION);
   fprintf(out, "compiler         %s\n", KZ_COMPILER);
   fprintf(out, "instruction set  %s: %s\n", KZ_ARCH, kz_instruction_names());
-  fprintf(out, "MPI              %s\nHDF5             %s\nGSL              %s\nFFTW             %s\n", kz_parallel_library(),
-          KZ_HDF5_VERSION, KZ_GSL_VERSION, KZ_FFTW_VERSION);
+  fprintf(out, "MPI              %s\nHDF5             %s\nGSL              %s\nFFTW             %s\n",
+          kz_parallel_library(), KZ_HDF5_VERSION, KZ_GSL_VERSION, KZ_FFTW_VERSION);
 }
 
 /* One line whatever the message holds: control characters become '?'. */

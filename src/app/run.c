@@ -56,7 +56,8 @@ static kz_status agree_on_scene(job *j) {
 
 /* *complete = true if the result of this scene is complete already. */
 static kz_status check_output(job *j, bool *complete) {
-  KZ_TRY(kz_ranks_agree(j->run.ranks, j->first ? kz_output_check(j->options, j->path, j->fingerprint, complete) : KZ_OK));
+  KZ_TRY(
+      kz_ranks_agree(j->run.ranks, j->first ? kz_output_check(j->options, j->path, j->fingerprint, complete) : KZ_OK));
   return kz_ranks_broadcast(j->run.ranks, complete, sizeof *complete);
 }
 
@@ -194,11 +195,13 @@ static kz_status complete_store(job *j) {
   struct stat there;
   if (j->options->force || lstat(j->path, &there) != 0) return kz_store_complete(j->store);
   kz_store_discard(j->store);
-  return kz_fail(KZ_FAILED, "%s: another file of that name appeared during the run; move it away and --resume", j->path);
+  return kz_fail(KZ_FAILED, "%s: another file of that name appeared during the run; move it away and --resume",
+                 j->path);
 }
 
 static kz_status run_finish(job *j, kz_status status) {
-  if (j->store && status == KZ_OK) status = kz_store_real(j->store, "/", "wall_seconds", kz_ranks_seconds(j->run.ranks));
+  if (j->store && status == KZ_OK)
+    status = kz_store_real(j->store, "/", "wall_seconds", kz_ranks_seconds(j->run.ranks));
   if (j->store && status == KZ_OK) {
     status = complete_store(j);
   } else if (j->store) {

@@ -30,8 +30,8 @@ static void add_words(kz_json *list, const char *before, const char *words) {
   for (const char *word; (word = kz_words_next(&words, &length));) {
     const kz_key *key = kz_scene_keys();
     add_word(list, before, word, length);
-    while (key->path &&
-           (!key->symbol || strlen(kz_key_name(key)) != (size_t)length || strncmp(kz_key_name(key), word, (size_t)length) != 0))
+    while (key->path && (!key->symbol || strlen(kz_key_name(key)) != (size_t)length ||
+                         strncmp(kz_key_name(key), word, (size_t)length) != 0))
       key++;
     if (key->path) add_word(list, before, key->symbol, (int)strlen(key->symbol));
   }
@@ -55,9 +55,10 @@ static kz_json *number_of(const kz_key *key, const char *type) {
 }
 
 static const char HARMONIC[] =
-    "{\"type\": \"object\", \"required\": [\"order\", \"amplitude\"], \"additionalProperties\": false, \"properties\": {"
-    "\"order\": {\"type\": \"integer\", \"minimum\": 1, \"maximum\": " KZ_WRITTEN(KZ_HARMONICS) "}, \"amplitude\": {\"type\": "
-    "\"number\"}, \"phase\": {\"anyOf\": [{\"type\": \"number\"}, {\"type\": \"string\", \"pattern\": \"^[-+.0-9eE]+ deg$\"}]}}}";
+    "{\"type\": \"object\", \"required\": [\"order\", \"amplitude\"], \"additionalProperties\": false, "
+    "\"properties\": {\"order\": {\"type\": \"integer\", \"minimum\": 1, \"maximum\": " KZ_STRINGIFY(KZ_HARMONICS) "}, "
+    "\"amplitude\": {\"type\": \"number\"}, \"phase\": {\"anyOf\": [{\"type\": \"number\"}, "
+    "{\"type\": \"string\", \"pattern\": \"^[-+.0-9eE]+ deg$\"}]}}}";
 
 /* Schema of one value. */
 static kz_json *value_of(const kz_key *key) {
@@ -91,7 +92,8 @@ static bool takes_a_word(const kz_key *key) {
 
 /* Schema of what may stand in place of a number: one with a unit, a part of pi, a word; NULL = nothing. */
 static kz_json *other_of(const kz_key *key) {
-  const bool angle = kz_key_is_angle(key), decimal = key->type == KZ_KEY_DECIMAL, own = strcmp(key->unit, KZ_OWN_UNIT) == 0;
+  const bool angle = kz_key_is_angle(key), decimal = key->type == KZ_KEY_DECIMAL,
+             own = strcmp(key->unit, KZ_OWN_UNIT) == 0;
   const bool real = key->type == KZ_KEY_REAL || decimal || key->type == KZ_KEY_REALS;
   const bool unit = real && (kz_unit_is_known(key->unit) || own);
   char pattern[128];
@@ -180,7 +182,7 @@ static kz_json *form_of(const kz_key *keys, const char *parent, char form) {
   return object;
 }
 
-/* Alternatives of which a mapping must have one: the ways to give its keys; of the scene (""), the studies, which are mappings at the top that have a field. */
+/* Alternatives of a mapping, one of which is needed: ways to give its keys; of the scene (""): studies with a field. */
 static kz_json *choices_of(const kz_key *keys, const char *parent) {
   kz_json *list = json_object_new_array();
   char seen = 0; /* forms come in the order of their letters */
@@ -219,8 +221,8 @@ void kz_scene_schema(const kz_key *keys, FILE *out) {
   json_object_array_add(all, mapping_of(keys, "", "What is modelled: a pendulum and at least one study."));
   kz_json_add_text(schema, "title", "A scene of kapitza");
   kz_json_add(schema, "allOf", all);
-  fputs(json_object_to_json_string_ext(schema,
-                                       JSON_C_TO_STRING_PRETTY | JSON_C_TO_STRING_SPACED | JSON_C_TO_STRING_NOSLASHESCAPE),
+  fputs(json_object_to_json_string_ext(
+            schema, JSON_C_TO_STRING_PRETTY | JSON_C_TO_STRING_SPACED | JSON_C_TO_STRING_NOSLASHESCAPE),
         out);
   fputc('\n', out);
   json_object_put(schema);

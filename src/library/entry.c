@@ -1,5 +1,5 @@
-/* Calls that come first, compiled for the first instruction set of the processor: they look at the CPU before anything that was built for a newer one
- * runs. */
+/* Calls that come first, compiled for the first instruction set of the processor: they look at the CPU before anything
+ * that was built for a newer one runs. */
 #include "library.h"
 
 #include "kapitza/app_instructions.h"
@@ -9,7 +9,8 @@ static kapitza_status entry_check(void) {
   if (!missing) return KAPITZA_OK;
   kz_message_clear();
   kz_fail(KZ_REFUSED,
-          "this library was built for %s, which this CPU lacks; build it with -DKAPITZA_ARCH=" KZ_FIRST_INSTRUCTIONS, missing);
+          "this library was built for %s, which this CPU lacks; build it with -DKAPITZA_ARCH=" KZ_FIRST_INSTRUCTIONS,
+          missing);
   return KAPITZA_REFUSED;
 }
 

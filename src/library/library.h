@@ -38,13 +38,15 @@ kapitza_status kz_library_status(kz_status status, const kz_border *border);
 /* A kz_pause_fn of this thread's kapitza_set_pause; NULL = it has none. */
 kz_pause_fn kz_library_pause(void);
 
-/* Asks the caller in the middle of a frame whether to go on: the pause of this thread, then `between`, which may call again. */
+/* Asks the caller in the middle of a frame whether to go on: the pause of this thread, then `between`, which may call
+ * again. */
 kz_status kz_library_between(kapitza_pendulum *pendulum, kapitza_pause between, void *context);
 
 /* What the caller gets of a pendulum's numbers. */
 kapitza_parameters kz_library_parameters(const kz_parameters *own);
 
-/* HDF5 serves one thread at a time. kz_library_store_work runs `work` while this thread has it, and ends *store if the work is left. */
+/* HDF5 serves one thread at a time. kz_library_store_work runs `work` while this thread has it, and ends *store if the
+ * work is left. */
 kz_status kz_library_store_work(kz_status (*work)(void *context), void *context, kz_store **store);
 /* The atlas of a result file, which the pendulum keeps. KZ_REFUSED: the file has none. */
 kz_status kz_library_atlas_of(kapitza_pendulum *pendulum, const char *path, kz_atlas **atlas);
@@ -53,14 +55,16 @@ kz_status kz_library_atlas_of(kapitza_pendulum *pendulum, const char *path, kz_a
 size_t kz_library_rounded(size_t bytes);
 void *kz_library_part(char **piece, size_t bytes);
 
-/* Attractors or cycles as one piece of memory for the caller. `attract`: all attract, else the names of unstable ones say so. */
+/* Attractors or cycles as one piece of memory for the caller. `attract`: all attract, else the names of unstable ones
+ * say so. */
 kapitza_cycles *kz_library_cycles(const kz_catalogue *catalogue, bool attract);
 /* Bytes of such a list, and the list at `place`, for memory that holds more. */
 size_t kz_library_cycles_bytes(const kz_catalogue *catalogue);
 void kz_library_cycles_put(const kz_catalogue *catalogue, bool attract, void *place);
 
 /* Ends of starts as one piece of memory for the caller. */
-kapitza_endings *kz_library_endings(const kz_scene *scene, int64_t n, const kz_coordinate (*start)[2], const kz_ending *own);
+kapitza_endings *kz_library_endings(const kz_scene *scene, int64_t n, const kz_coordinate (*start)[2],
+                                    const kz_ending *own);
 
 /* kapitza_pendulum_create and kapitza_run, behind the check of the CPU (entry.c). */
 kapitza_status kz_library_create(const char *scene, kapitza_pendulum **pendulum);

@@ -162,7 +162,7 @@ static kz_status deliver_records(delivery_context *m, int64_t total) {
 
 /* Delivers without ranks: each record becomes a message that is taken at once. */
 static kz_status deliver_alone(const kz_local_records *records, const kz_delivery *delivery) {
-  KZ_FREED char *message = kz_malloc(delivery->message_bytes + 1);
+  KZ_AUTOFREE char *message = kz_malloc(delivery->message_bytes + 1);
   kz_status status = KZ_OK;
   for (int64_t i = 0; i < records->n && status == KZ_OK; i++) {
     size_t bytes = 0;

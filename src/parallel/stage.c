@@ -163,7 +163,7 @@ static kz_status deliver_records(stage_run *run) {
 
 /* Does all tiles in this process, in order. */
 static kz_status run_alone(const kz_stage *stage, char *records) {
-  KZ_FREED char *own = stage->local ? kz_malloc(stage->record_bytes + 1) : NULL;
+  KZ_AUTOFREE char *own = stage->local ? kz_malloc(stage->record_bytes + 1) : NULL;
   for (int64_t tile = 0; tile < stage->n_tiles; tile++) {
     char *record = own ? own : records + (size_t)tile * stage->record_bytes;
     kz_look();
@@ -181,7 +181,7 @@ static void end_run(stage_run *run) {
 
 kz_status kz_stage_run(const kz_run *on, const kz_stage *stage, void *records) {
   if (!on || !on->ranks) return run_alone(stage, records);
-  KZ_FREED_BY(end_run)
+  KZ_AUTOFREE_BY(end_run)
   stage_run run = {.ranks = on->ranks,
                    .checkpoint = on->checkpoint,
                    .stage = stage,

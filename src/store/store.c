@@ -140,7 +140,7 @@ kz_status kz_store_open(const char *path, kz_store **store) {
   if (file < 0) return kz_fail(KZ_REFUSED, "%s: is not a result file that can be read", path);
   *store = kz_calloc(1, sizeof **store);
   (*store)->file = file;
-  KZ_FREED char *fingerprint = kz_store_text_of(*store, "fingerprint");
+  KZ_AUTOFREE char *fingerprint = kz_store_text_of(*store, "fingerprint");
   if (fingerprint) return KZ_OK;
   kz_store_discard(*store);
   *store = NULL;

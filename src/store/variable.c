@@ -26,7 +26,7 @@ static kz_status write_flags(hid_t dataset, const kz_variable *row, hid_t type) 
     bytes += strlen(row->flags[n]) + 1;
   }
   if (n == 0) return KZ_OK;
-  KZ_FREED char *meanings = kz_calloc(1, bytes);
+  KZ_AUTOFREE char *meanings = kz_calloc(1, bytes);
   for (hsize_t i = 0; i < n; i++) strcat(strcat(meanings, i > 0 ? " " : ""), row->flags[i]);
   KZ_TRY(kz_attribute_array(dataset, "flag_values", type, n, values));
   return kz_attribute_text(dataset, "flag_meanings", meanings);
@@ -47,7 +47,7 @@ static kz_status write_units(hid_t group, hid_t dataset, const char *units) {
 static kz_status describe_dataset(hid_t group, hid_t dataset, const kz_variable *row, hid_t type) {
   const char *words = strchr(row->units, '|');
   const size_t bytes = strlen(row->long_name) + strlen(row->units) + sizeof ", in ";
-  KZ_FREED char *name = kz_malloc(bytes);
+  KZ_AUTOFREE char *name = kz_malloc(bytes);
   snprintf(name, bytes, "%s%s%s", row->long_name, words ? ", in " : "", words ? words + 1 : "");
   KZ_TRY(kz_attribute_text(dataset, "long_name", name));
   KZ_TRY(write_units(group, dataset, row->units));

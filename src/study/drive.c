@@ -105,17 +105,20 @@ static double distance_from_samples(const kz_reals *samples) {
 }
 
 const char *kz_drive_contradiction(const kz_pendulum_keys *written) {
-  const bool shaped =
-      written->waveform > KZ_SINE || written->harmonics.count > 0 || drive_has(written->tilt) || drive_has(written->ellipse);
+  const bool shaped = written->waveform > KZ_SINE || written->harmonics.count > 0 || drive_has(written->tilt) ||
+                      drive_has(written->ellipse);
   if (!has_coefficients(written) || !shaped) return NULL;
-  return "vertical and horizontal are the whole drive beside k and m; leave out waveform and the other keys of its form";
+  return "vertical and horizontal are the whole drive beside k and m; leave out waveform and the other keys of its "
+         "form";
 }
 
 void kz_drive_print(const kz_parameters *parameters, FILE *out) {
   const kz_pendulum_keys *written = &parameters->written;
   if (written->waveform != KZ_SAMPLES) return;
-  fprintf(out, "Drive: harmonics up to order %d stand for %lld samples; they are off by %.2g of drive_amplitude at most.\n",
-          highest_of_samples(&written->samples), (long long)written->samples.count, distance_from_samples(&written->samples));
+  fprintf(out,
+          "Drive: harmonics up to order %d stand for %lld samples; they are off by %.2g of drive_amplitude at most.\n",
+          highest_of_samples(&written->samples), (long long)written->samples.count,
+          distance_from_samples(&written->samples));
 }
 
 void kz_symmetries_print(const kz_pendulum *p, FILE *out) {
@@ -145,9 +148,10 @@ static void drive_along(const kz_pendulum_keys *written, double m, int j, double
   }
 }
 
-/* Harmonic j of the pivot's motion in the plane: along the tilted line, and across it, a quarter of a drive period later. */
+/* Harmonic j of the pivot's motion: along the tilted line, and across it a quarter of a drive period later. */
 static void add_harmonic(const kz_pendulum_keys *written, int j, kz_pendulum *p) {
-  const double tilt = isnan(written->tilt) ? 0 : written->tilt, ellipse = isnan(written->ellipse) ? 0 : written->ellipse;
+  const double tilt = isnan(written->tilt) ? 0 : written->tilt,
+               ellipse = isnan(written->ellipse) ? 0 : written->ellipse;
   const double quarter = j * M_PI / 2, aside = sin(tilt);
   const double up = fabs(cos(tilt)) > DBL_EPSILON ? cos(tilt) : 0; /* 90 deg is horizontal, though no double is pi/2 */
   double c, s;

@@ -35,8 +35,10 @@ static const struct {
 } limits[] = {
     {asks_curves_of_sine, KZ_NEEDS_SINE,
      "stability.curves over k and subharmonics are those of the sine; leave them out, or ask for hill_1 to hill_5"},
-    {asks_potential, KZ_NEEDS_SINE, "study potential needs a pivot that moves up and down as a sine; leave one of them out"},
-    {asks_other_models, KZ_NEEDS_SINE, "orbit.model needs a pivot that moves up and down as a sine; choose the model pendulum"},
+    {asks_potential, KZ_NEEDS_SINE,
+     "study potential needs a pivot that moves up and down as a sine; leave one of them out"},
+    {asks_other_models, KZ_NEEDS_SINE,
+     "orbit.model needs a pivot that moves up and down as a sine; choose the model pendulum"},
     {asks_rest, KZ_NEEDS_MIRROR,
      "study stability needs a pendulum that can rest, which this drive or torque always moves; leave one of them out"},
     {asks_table, KZ_NEEDS_MIRROR,
@@ -66,7 +68,8 @@ static const char *wrong_chart(const kz_scene *scene) {
   if (scene->parameters.written.vertical.count > 0 && !(fabs(scene->parameters.pendulum.m) > 0))
     return "pendulum.m: is 0, but study stability counts pendulum.vertical in units of it; give another m";
   if (kz_stability_has_curve(scene->stability, "hill_") && fmax(fabs(m.min), fabs(m.max)) > KZ_HILL_MOST_M)
-    return "stability.m.max|stability.q.max: is too far for the curves hill_1 to hill_5, which go to m = 1000; leave them out, "
+    return "stability.m.max|stability.q.max: is too far for the curves hill_1 to hill_5, which go to m = 1000; leave "
+           "them out, "
            "or "
            "end before";
   return NULL;

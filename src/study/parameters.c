@@ -8,7 +8,8 @@
 static kz_pendulum from_quality(const kz_pendulum_keys *written) {
   const double omega = written->drive_frequency;
   const double q = written->quality_factor;
-  return (kz_pendulum){.k = 1.0 / (omega * omega), .beta = isnan(q) ? 0.0 : 1.0 / (omega * q), .m = written->drive_amplitude};
+  return (kz_pendulum){
+      .k = 1.0 / (omega * omega), .beta = isnan(q) ? 0.0 : 1.0 / (omega * q), .m = written->drive_amplitude};
 }
 
 /* Parameters of a Josephson junction, in units of its plasma frequency. */
@@ -34,7 +35,8 @@ static double damping_of(const kz_pendulum_keys *written, double lever, double o
 }
 
 /* A torque in units of I omega^2, however it is written: so, in units of M g r, or in N m. */
-static double torque_of(const kz_pendulum_keys *written, double k, double own, double ratio, double current, double moment) {
+static double torque_of(const kz_pendulum_keys *written, double k, double own, double ratio, double current,
+                        double moment) {
   const double omega = pivot_frequency(written);
   if (!isnan(own)) return own;
   if (!isnan(ratio)) return k * ratio;
@@ -43,15 +45,16 @@ static double torque_of(const kz_pendulum_keys *written, double k, double own, d
 }
 
 static void set_torques(const kz_pendulum_keys *written, kz_pendulum *p) {
-  p->torque =
-      torque_of(written, p->k, written->torque, written->constant_torque_ratio, written->i_dc, written->constant_torque);
-  p->torque_amplitude =
-      torque_of(written, p->k, written->torque_amplitude, written->torque_ratio, written->i_ac, written->oscillating_torque);
+  p->torque = torque_of(written, p->k, written->torque, written->constant_torque_ratio, written->i_dc,
+                        written->constant_torque);
+  p->torque_amplitude = torque_of(written, p->k, written->torque_amplitude, written->torque_ratio, written->i_ac,
+                                  written->oscillating_torque);
 }
 
 /* k = M g r/(I omega^2), m = M r A/I (BSG Eq. 1 in drive time); M r/I = 1/l of a point mass. */
 static kz_pendulum from_si(const kz_pendulum_keys *written) {
-  const double lever = isnan(written->length) ? written->mass * written->radius / written->inertia : 1 / written->length;
+  const double lever =
+      isnan(written->length) ? written->mass * written->radius / written->inertia : 1 / written->length;
   const double omega = pivot_frequency(written);
   return (kz_pendulum){.k = lever * written->gravity / (omega * omega),
                        .beta = damping_of(written, lever, omega),
@@ -123,10 +126,11 @@ kz_status kz_parameters_resolve(kz_parameters *parameters) {
   kz_pendulum p = from_written(&parameters->written);
   set_torques(&parameters->written, &p);
   if (!isfinite(p.k) || !isfinite(p.beta) || !isfinite(p.m) || !isfinite(p.torque) || !isfinite(p.torque_amplitude))
-    return kz_fail(KZ_REFUSED,
-                   "gives k = %g, beta = %g, m = %g, torque = %g, torque_amplitude = %g, not all finite; use less extreme "
-                   "parameters",
-                   p.k, p.beta, p.m, p.torque, p.torque_amplitude);
+    return kz_fail(
+        KZ_REFUSED,
+        "gives k = %g, beta = %g, m = %g, torque = %g, torque_amplitude = %g, not all finite; use less extreme "
+        "parameters",
+        p.k, p.beta, p.m, p.torque, p.torque_amplitude);
   const char *wrong = kz_drive_contradiction(&parameters->written);
   if (wrong) return kz_fail(KZ_REFUSED, "%s", wrong);
   parameters->pendulum = p;

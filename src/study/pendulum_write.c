@@ -1,4 +1,4 @@
-/* The group `pendulum` of the result file: every number that was integrated, so that labels are those of exactly the numbers in the file. */
+/* The group `pendulum` of the result file: the very numbers that were integrated, to which labels belong. */
 #include <math.h>
 
 #include "kapitza/store_variables.h"
@@ -12,7 +12,11 @@ const kz_variable kz_pendulum_variables[] = {
      {"harmonic", "part"},
      NONE,
      "harmonics beside m cos t of the vertical drive, in theta'' = (..) sin theta"},
-    {"horizontal", KZ_REAL, {"harmonic", "part"}, NONE, "harmonics of the horizontal drive, in theta'' = (..) cos theta"},
+    {"horizontal",
+     KZ_REAL,
+     {"harmonic", "part"},
+     NONE,
+     "harmonics of the horizontal drive, in theta'' = (..) cos theta"},
     {.name = NULL},
 };
 

@@ -25,7 +25,7 @@ typedef struct {
 
 /* Whether the position is stable at n drives, `step` apart. */
 static void look_at(const kz_pendulum *form, double k, double beta, double first, double step, int n, uint8_t *stable) {
-  KZ_FREED double *ks = kz_malloc((size_t)(5 * n) * sizeof *ks);
+  KZ_AUTOFREE double *ks = kz_malloc((size_t)(5 * n) * sizeof *ks);
   double *betas = ks + n, *ms = betas + n, *growth = ms + n, *angle = growth + n;
   for (int i = 0; i < n; i++) {
     ks[i] = k;
@@ -55,7 +55,8 @@ static double change_between(const kz_pendulum *form, double k, double beta, dou
 }
 
 /* The nearest change from place `at` on in steps of `by`, and the place behind it; NaN where none is met. */
-static double next_change(const kz_pendulum *form, const uint8_t *stable, double step, double k, double beta, int *at, int by) {
+static double next_change(const kz_pendulum *form, const uint8_t *stable, double step, double k, double beta, int *at,
+                          int by) {
   for (int i = *at; i >= 0 && i + by >= 0 && i + by < POINTS; i += by) {
     if (stable[i] == stable[i + by]) continue;
     *at = i + by;
@@ -68,7 +69,7 @@ static double next_change(const kz_pendulum *form, const uint8_t *stable, double
 
 /* The position at which gravity counts as k and the drive `form` as m; `most`: the largest drive that is looked at. */
 static rest rest_look(const kz_pendulum *form, double k, double beta, double m, double most) {
-  KZ_FREED uint8_t *stable = kz_malloc(POINTS);
+  KZ_AUTOFREE uint8_t *stable = kz_malloc(POINTS);
   const double step = most / (POINTS - 1);
   look_at(form, k, beta, 0, step, POINTS, stable);
   int here = (int)lrint(fabs(m) / step), up, down;

@@ -24,7 +24,8 @@ kz_status kz_studies_check(const kz_scene *scene) {
   KZ_TRY(kz_drive_check(scene));
   for (int pass = 0; pass < 2; pass++) /* parts come before what they are of */
     for (int i = 0; i < kz_study_count; i++)
-      if ((pass == 0) == kz_study_is_part(kz_studies[i]) && kz_studies[i]->check && kz_study_is_wanted(kz_studies[i], scene))
+      if ((pass == 0) == kz_study_is_part(kz_studies[i]) && kz_studies[i]->check &&
+          kz_study_is_wanted(kz_studies[i], scene))
         KZ_TRY(kz_studies[i]->check(scene));
   return KZ_OK;
 }
@@ -37,7 +38,8 @@ void kz_studies_begin(const kz_scene *scene, const kz_pendulum *pendulum, const 
 
 kz_status kz_studies_describe(const kz_scene *scene, kz_store *store) {
   for (int i = 0; i < kz_study_count; i++)
-    if (kz_studies[i]->describe && kz_study_is_wanted(kz_studies[i], scene)) KZ_TRY(kz_studies[i]->describe(scene, store));
+    if (kz_studies[i]->describe && kz_study_is_wanted(kz_studies[i], scene))
+      KZ_TRY(kz_studies[i]->describe(scene, store));
   return KZ_OK;
 }
 

@@ -76,7 +76,8 @@ static bool parameters_at(const kz_scene *scene, int n, const int32_t *parameter
   return false;
 }
 
-bool kz_pendulum_at(const kz_scene *scene, int n, const int32_t *parameter, const double *value, kz_pendulum *pendulum) {
+bool kz_pendulum_at(const kz_scene *scene, int n, const int32_t *parameter, const double *value,
+                    kz_pendulum *pendulum) {
   kz_parameters parameters;
   if (!parameters_at(scene, n, parameter, value, &parameters)) return false;
   *pendulum = parameters.pendulum;
@@ -111,7 +112,8 @@ void kz_axis_print(const kz_axis *values, int32_t parameter, int digits, double 
            unit[0] ? " " : "", unit);
 }
 
-kz_status kz_axis_describe(const kz_axis *values, int32_t parameter, const char *axis, const char *group, kz_store *store) {
+kz_status kz_axis_describe(const kz_axis *values, int32_t parameter, const char *axis, const char *group,
+                           kz_store *store) {
   const char *of = axis[0] ? axis : "parameter";
   char name[32];
   snprintf(name, sizeof name, "%s%sparameter", axis, axis[0] ? "_" : "");

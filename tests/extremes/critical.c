@@ -12,7 +12,8 @@ enum { SPLIT6 = 1, RK4 = 0, STATES = 64, MOST = 64 };
 
 static const double PI = 3.14159265358979323846;
 /* The steps of published values, and of scenes. */
-static const kz_numerics fine = {.scheme = SPLIT6, .steps_per_period = 96}, usual = {.scheme = SPLIT6, .steps_per_period = 24},
+static const kz_numerics fine = {.scheme = SPLIT6, .steps_per_period = 96},
+                         usual = {.scheme = SPLIT6, .steps_per_period = 24},
                          rk4 = {.scheme = RK4, .steps_per_period = 100};
 
 static kz_pendulum blackburn(double m) {
@@ -35,7 +36,8 @@ static double multiplier(const kz_pendulum *pendulum, const kz_numerics *numeric
 }
 
 /* The m between low and high from which on |multiplier| > 1. */
-static double critical(kz_pendulum (*family)(double), const kz_numerics *numerics, double theta, double low, double high) {
+static double critical(kz_pendulum (*family)(double), const kz_numerics *numerics, double theta, double low,
+                       double high) {
   for (;;) {
     const double m = (low + high) / 2;
     if (m <= low || m >= high) return low;
@@ -74,7 +76,7 @@ static kz_dynamics *searched(const kz_pendulum *pendulum, const kz_numerics *num
   return d;
 }
 
-/* Either side of epsilon_c: below, inverted attracts and there is no flutter; above, flutter grows as the square root. */
+/* Either side of epsilon_c: below, inverted attracts without flutter; above, flutter grows as a square root. */
 TEST(a_flip_is_never_mistaken) {
   const double begin = critical(blackburn, &fine, PI, 0.468, 0.4684), centre[2] = {PI, 0}, offset[2] = {-0.01, 0.001};
   for (int i = 0; i < 240; i += getenv("KAPITZA_EXTENSIVE") ? 1 : 8) {
@@ -89,7 +91,8 @@ TEST(a_flip_is_never_mistaken) {
       kz_dynamics_strobe(d, a, theta, velocity);
       if (row.period == 1) inverted++;
       if (row.period == 1 && distance > 0) fail_msg("inverted attracts at epsilon_c + %g", distance);
-      if (row.period > 1 && distance < 0) fail_msg("a cycle of amplitude %g at epsilon_c - %g", row.amplitude, -distance);
+      if (row.period > 1 && distance < 0)
+        fail_msg("a cycle of amplitude %g at epsilon_c - %g", row.amplitude, -distance);
       if (row.period > 1 && !(fabs(row.amplitude / (3.7926 * sqrt(distance)) - 1) < 0.01))
         fail_msg("flutter of amplitude %g at epsilon_c + %g", row.amplitude, distance);
     }

@@ -1,5 +1,5 @@
-!> A made-up map with two attracting fixed points, mirror images so far apart, and a saddle between them: dynamics on it for
-!> tests.
+!> A made-up map with two attracting fixed points, mirror images so far apart, and a saddle between them: dynamics on it
+!> for tests.
 module kz_test_doublet
   use, intrinsic :: iso_c_binding, only: dp => c_double, c_ptr, c_loc
   use kz_vector_locks, only: create_lock

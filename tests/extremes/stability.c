@@ -119,7 +119,8 @@ TEST(curves_far_below) {
 TEST(damping_at_its_ends) {
   for (double q = 0.5; q <= 1e8; q *= 16)
     for (double k = -1e-12; k >= -1e4; k *= 100) {
-      double lower = value("damped_0", k, 0, q), first = value("damped_1", k, 0, q), second = value("damped_2", k, 0, q);
+      double lower = value("damped_0", k, 0, q), first = value("damped_1", k, 0, q),
+             second = value("damped_2", k, 0, q);
       assert_true(lower > 0 && first >= lower && second > first);
       assert_true(lower >= value("exact_1", k, 0, q) * (1 - 1e-13));
     }

@@ -65,8 +65,8 @@ TEST(the_stated_error_is_an_upper_estimate) {
     for (int c = 0; c < CLASSES; c++) {
       const double error = dense_error(&pendulum, &numerics, speed + c, c);
       if (error > ROUNDING && !(stated[c] >= error && stated[c] <= 3 * error))
-        fail_msg("k %g beta %g m %g, scheme %d, speeds %g to %g: %g stated, %g true", pendulum.k, pendulum.beta, pendulum.m,
-                 (int)numerics.scheme, speed[c], speed[c + 1], stated[c], error);
+        fail_msg("k %g beta %g m %g, scheme %d, speeds %g to %g: %g stated, %g true", pendulum.k, pendulum.beta,
+                 pendulum.m, (int)numerics.scheme, speed[c], speed[c + 1], stated[c], error);
     }
   }
 }

@@ -1,4 +1,4 @@
-/* Reads tests/literature/reference.json as far as tests need it: a section, its objects, their numbers (plain or quoted). */
+/* Reads tests/literature/reference.json for tests: a section, its objects, their numbers (plain or quoted). */
 #pragma once
 
 #include <math.h>

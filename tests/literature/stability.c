@@ -1,5 +1,5 @@
-/* Every value of tests/literature/reference.json about charts, thresholds and the effective potential: exact ones to 1e-9,
- * formulas to their printed digits. */
+/* Every value of tests/literature/reference.json about charts, thresholds and the effective potential: exact ones to
+ * 1e-9, formulas to their printed digits. */
 
 #include "../tools/test.h"
 
@@ -76,7 +76,7 @@ TEST(subharmonics_of_butikov_fig_9) {
   }
 }
 
-/* The number of every text on Paul traps: without a static field the first zone ends at q = 0.908046; the tip of the zone of a mass filter. */
+/* Numbers of texts on Paul traps: the first zone ends at q = 0.908046; the tip of a mass filter's zone. */
 TEST(zone_of_the_paul_trap) {
   const kz_pendulum sine = {.m = 1};
   CLOSE(2 * value("exact_2", 0, NAN), 0.908046, 5e-7);

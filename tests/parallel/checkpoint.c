@@ -34,8 +34,13 @@ static int64_t sum(int64_t mine) {
 }
 
 static kz_status run_named(const char *name, job *j) {
-  const kz_stage stage = {
-      .name = name, .n_tiles = N_TILES, .record_bytes = N_BYTES, .work = fill, .context = j, .keep = true, .everywhere = true};
+  const kz_stage stage = {.name = name,
+                          .n_tiles = N_TILES,
+                          .record_bytes = N_BYTES,
+                          .work = fill,
+                          .context = j,
+                          .keep = true,
+                          .everywhere = true};
   memset(records, 0, sizeof records);
   return run_stage(&stage, records);
 }
@@ -240,8 +245,12 @@ static kz_status remove_and_fill(void *context, int64_t tile, void *bytes) {
 
 TEST(a_removed_file_is_noticed) {
   job j = {.failing = -1};
-  kz_stage stage = {
-      .name = "first", .n_tiles = N_TILES, .record_bytes = N_BYTES, .work = remove_and_fill, .context = &j, .keep = true};
+  kz_stage stage = {.name = "first",
+                    .n_tiles = N_TILES,
+                    .record_bytes = N_BYTES,
+                    .work = remove_and_fill,
+                    .context = &j,
+                    .keep = true};
   assert_all(open_with(FINGERPRINT, false, true) == KZ_OK);
   const kz_status status = run_stage(&stage, records);
   assert_all(status == KZ_FAILED && strstr(kz_message(), "was removed during the run"));

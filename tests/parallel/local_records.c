@@ -1,4 +1,4 @@
-/* Records of varying length: they stay with their ranks, survive in a checkpoint that has holes, and reach rank 0 once each. */
+/* Records of varying length: they stay with their ranks, survive checkpoints with holes, reach rank 0 once. */
 #include <fcntl.h>
 #include <mpi.h>
 #include <sys/stat.h>
@@ -29,8 +29,13 @@ static kz_status fill(void *context, int64_t tile, void *record) {
 }
 
 static kz_status run(job *j, kz_local_records *records) {
-  const kz_stage stage = {
-      .name = "records", .n_tiles = N_TILES, .record_bytes = MOST, .work = fill, .context = j, .keep = true, .local = records};
+  const kz_stage stage = {.name = "records",
+                          .n_tiles = N_TILES,
+                          .record_bytes = MOST,
+                          .work = fill,
+                          .context = j,
+                          .keep = true,
+                          .local = records};
   return run_stage(&stage, NULL);
 }
 

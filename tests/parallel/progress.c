@@ -11,7 +11,7 @@
 #include "ranks.h"
 
 static char shown[100000];
-static int here = -1, there = -1; /* the ends of a terminal whose foreground is this process; -1: a machine without terminals */
+static int here = -1, there = -1; /* ends of a terminal whose foreground is this process; -1: no terminals */
 
 /* The clock of this process stands still but for what its work adds, in s: a busy machine changes no line. */
 static double passed = 1;
@@ -120,8 +120,8 @@ TEST(a_terminal_is_left_alone_too) {
   assert_string_equal(shown, "");
 }
 
-/* Another group has the terminal, which stops whoever else writes to it (stty tostop): the stage ends all the same, without a
- * bar. */
+/* Another group has the terminal, which stops whoever else writes to it (stty tostop): the stage ends all the same,
+ * without a bar. */
 TEST(a_terminal_of_others_is_left_alone) {
   if (here < 0) skip();
   const pid_t other = fork();
@@ -133,11 +133,11 @@ TEST(a_terminal_of_others_is_left_alone) {
   show(KZ_PROGRESS_AUTO, run_cells, 60, there, here);
   kill(other, SIGKILL);
   waitpid(other, NULL, 0);
-  assert_int_equal(tcsetpgrp(there, getpgrp()), 0); /* a process in the background may do so, since SIGTTOU is ignored */
+  assert_int_equal(tcsetpgrp(there, getpgrp()), 0); /* allowed in the background, since SIGTTOU is ignored */
   assert_string_equal(shown, "");
 }
 
-/* Goes on in a session of its own, in the foreground of its terminal; the first process hands the status of the second on. */
+/* Continues in a session of its own, in the foreground of its terminal; the first process returns its status. */
 static void take_terminal(void) {
   const pid_t second = fork();
   if (second > 0) {

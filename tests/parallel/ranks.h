@@ -1,4 +1,4 @@
-/* Common part of the tests on several ranks. An assertion that fails on one rank fails on all, so that none waits for it. */
+/* Common part of tests on several ranks: an assertion that fails on one rank fails on all; none waits. */
 #pragma once
 
 #define OWN_MAIN
@@ -40,7 +40,8 @@ static inline void assert_on_all(int holds, const char *text, int line) {
 }
 
 static inline void pause_for(double seconds) {
-  const struct timespec time = {.tv_sec = (time_t)seconds, .tv_nsec = (long)(1e9 * (seconds - (double)(time_t)seconds))};
+  const struct timespec time = {.tv_sec = (time_t)seconds,
+                                .tv_nsec = (long)(1e9 * (seconds - (double)(time_t)seconds))};
   nanosleep(&time, NULL);
 }
 

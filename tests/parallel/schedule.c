@@ -1,4 +1,4 @@
-/* Who gets how many tiles: batches shrink, nobody gets more than a share, the last tiles go to whoever is done with them first. */
+/* Shares of tiles: batches shrink, nobody gets more than a share, the last ones go to the first who is done. */
 #include "../tools/test.h"
 
 #include "schedule.h"
@@ -29,7 +29,8 @@ TEST(every_tile_is_given_once_in_shrinking_batches) {
 TEST(a_slow_rank_gets_a_tenth) {
   kz_schedule schedule = begin(2000);
   int64_t first;
-  const int64_t fast = kz_schedule_grant(&schedule, 0, false, &first), slow = kz_schedule_grant(&schedule, 3, false, &first);
+  const int64_t fast = kz_schedule_grant(&schedule, 0, false, &first),
+                slow = kz_schedule_grant(&schedule, 3, false, &first);
   assert_true(fast > 200 && fast < 1000 && slow >= fast / 20 && slow <= fast / 9);
   kz_schedule_end(&schedule);
 }
@@ -50,8 +51,8 @@ TEST(who_still_works_leaves_the_last_tiles_to_others) {
   kz_schedule_end(&schedule);
 }
 
-/* Three fast ranks do what is left in less time than the slow one needs for a tile: it gets no more. The others go on to the end, also
- * one that is slower than those that have left. */
+/* Three fast ranks do what is left in less time than the slow one needs for a tile: it gets no more. The others go on
+ * to the end, also one that is slower than those that have left. */
 TEST(a_slow_rank_does_not_keep_all_waiting) {
   kz_schedule schedule = begin(30);
   int64_t first, given = 0, n;

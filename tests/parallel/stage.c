@@ -37,8 +37,12 @@ static int is_right(const record *records, int64_t n_tiles) {
 }
 
 static kz_stage stage_of(job *j, int64_t n_tiles, bool everywhere) {
-  return (kz_stage){
-      .name = "test", .n_tiles = n_tiles, .record_bytes = sizeof(record), .work = fill, .context = j, .everywhere = everywhere};
+  return (kz_stage){.name = "test",
+                    .n_tiles = n_tiles,
+                    .record_bytes = sizeof(record),
+                    .work = fill,
+                    .context = j,
+                    .everywhere = everywhere};
 }
 
 TEST(records_arrive_on_rank_0) {
@@ -149,7 +153,8 @@ TEST(rank_0_answers_amid_its_own_tile) {
   kz_ranks_broadcast(ranks, t.path, sizeof t.path);
   if (kz_rank(ranks) > 0) t.file = open(t.path, O_WRONLY);
   assert_all(fcntl(t.file, F_SETFL, O_APPEND) == 0);
-  const kz_stage stage = {.name = "wait", .n_tiles = N_TILES, .record_bytes = 1, .work = wait_for_others, .context = &t};
+  const kz_stage stage = {
+      .name = "wait", .n_tiles = N_TILES, .record_bytes = 1, .work = wait_for_others, .context = &t};
   char records[N_TILES];
   const kz_status status = run_stage(&stage, records);
   assert_all(kz_rank(ranks) != 0 || unlink(t.path) == 0);

@@ -17,8 +17,12 @@ static kz_status fill(void *context, int64_t tile, void *bytes) {
 }
 
 static kz_status run(int64_t *done, bool keep) {
-  const kz_stage stage = {
-      .name = "cells", .n_tiles = N_TILES, .record_bytes = sizeof *records, .work = fill, .context = done, .keep = keep};
+  const kz_stage stage = {.name = "cells",
+                          .n_tiles = N_TILES,
+                          .record_bytes = sizeof *records,
+                          .work = fill,
+                          .context = done,
+                          .keep = keep};
   memset(records, 0, sizeof records);
   const kz_status status = run_stage(&stage, records);
   return status == KZ_STOPPED ? kz_checkpoint_stopped(checkpoint) : status;

@@ -1,6 +1,6 @@
 /* A small program with a checkpoint, to be killed: worker OUT [--resume]
- * Two kept stages, the second built on the first; their records go to OUT. Each tile begun adds a byte to OUT.log, so that
- * its length tells how much was done twice. Ends with the status that kapitza itself would have. */
+ * Two kept stages, the second built on the first; their records go to OUT. Each tile begun adds a byte to OUT.log, so
+ * that its length tells how much was done twice. Ends with the status that kapitza itself would have. */
 #include <fcntl.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -56,7 +56,7 @@ static kz_status save(const char *path) {
   return kz_fail(KZ_FAILED, "%s: cannot be written", path);
 }
 
-/* The result may have been finished by ranks of the earlier run while this one waited for its checkpoint: ask after opening. */
+/* Ranks of the earlier run may have finished the result while this one waited: ask after opening. */
 static kz_status work(const kz_run *run, const char *path, bool resume, int log) {
   bool done = resume && access(path, F_OK) == 0;
   KZ_TRY(kz_ranks_broadcast(run->ranks, &done, sizeof done));

@@ -19,8 +19,8 @@ static const kz_window WINDOW = {-M_PI, M_PI, -2, 2};
 
 enum { STARTS = 1024 };
 
-/* Follows starts and looks for cycles until every start is trapped; cells: 0 = coarse regions, else fine ones that grow with every
- * attractor. */
+/* Follows starts and looks for cycles until every start is trapped; cells: 0 = coarse regions, else fine ones that grow
+ * with every attractor. */
 static inline kz_dynamics *explored_pendulum(const kz_pendulum *pendulum, const kz_numerics *numerics, int64_t seed,
                                              int64_t cells, double max_velocity) {
   kz_dynamics *d = kz_dynamics_create(pendulum, numerics, 12);
@@ -84,7 +84,8 @@ static inline kz_label_precision next_cheaper(kz_precision level) {
 }
 
 /* Labels of n <= 4096 starts (rad). */
-static inline void label_starts(kz_dynamics *d, kz_label_precision precision, int64_t n, const double *start, int32_t *label) {
+static inline void label_starts(kz_dynamics *d, kz_label_precision precision, int64_t n, const double *start,
+                                int32_t *label) {
   static kz_start starts[4096];
   static kz_decision decision[4096];
   for (int64_t i = 0; i < n; i++) starts[i] = (kz_start){.theta = {start[2 * i]}, .velocity = {start[2 * i + 1]}};

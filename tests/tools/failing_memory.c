@@ -1,7 +1,7 @@
-/* A malloc that fails on purpose, for LD_PRELOAD. Allocations of at least KZ_FAIL_BYTES by the program and the libraries named in
- * KZ_FAIL_CALLERS (parts of file names, joined by ':'; default: the program) are counted on rank KZ_FAIL_RANK (default: every one);
- * number KZ_FAIL_FIRST and those after it fail, KZ_FAIL_COUNT of them. With KZ_FAIL_TALLY the count is written to that file, whose
- * name ends with the rank. */
+/* A malloc that fails on purpose, for LD_PRELOAD. Allocations of at least KZ_FAIL_BYTES by the program and the
+ * libraries named in KZ_FAIL_CALLERS (parts of file names, joined by ':'; default: the program) are counted on rank
+ * KZ_FAIL_RANK (default: every one); number KZ_FAIL_FIRST and those after it fail, KZ_FAIL_COUNT of them. With
+ * KZ_FAIL_TALLY the count is written to that file, whose name ends with the rank. */
 #define _GNU_SOURCE
 #include <dlfcn.h>
 #include <errno.h>
@@ -35,8 +35,8 @@ static void read_plan(void) {
   const char *rank = getenv("KZ_FAIL_RANK"), *own = getenv("OMPI_COMM_WORLD_RANK");
   plan.known = true;
   plan.callers = getenv("KZ_FAIL_CALLERS");
-  plan.here =
-      (plan.callers || strcmp(program_invocation_short_name, "kapitza") == 0) && (!rank || strcmp(rank, own ? own : "0") == 0);
+  plan.here = (plan.callers || strcmp(program_invocation_short_name, "kapitza") == 0) &&
+              (!rank || strcmp(rank, own ? own : "0") == 0);
   plan.first = number("KZ_FAIL_FIRST", INT64_MAX);
   plan.count = number("KZ_FAIL_COUNT", 1);
   plan.bytes = (size_t)number("KZ_FAIL_BYTES", 0);

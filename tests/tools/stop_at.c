@@ -1,6 +1,6 @@
-/* A stop request within a stage of a run with a checkpoint, for LD_PRELOAD: SIGUSR1 comes after KZ_WRITES writes that follow the beginning of a
- * section of the checkpoint, or, with KZ_RESUMED, that of the process. A record takes two writes, the first one of a process one more; 0: before
- * the first tile of the stage. */
+/* A stop request within a stage of a run with a checkpoint, for LD_PRELOAD: SIGUSR1 comes after KZ_WRITES writes that
+ * follow the beginning of a section of the checkpoint, or, with KZ_RESUMED, that of the process. A record takes two
+ * writes, the first one of a process one more; 0: before the first tile of the stage. */
 #define _GNU_SOURCE
 #include <dlfcn.h>
 #include <signal.h>
@@ -18,7 +18,8 @@ static long number(const char *name) {
 
 ssize_t pwrite(int file, const void *bytes, size_t n, off_t offset) {
   static long left = UNKNOWN;
-  ssize_t (*real)(int, const void *, size_t, off_t) = (ssize_t (*)(int, const void *, size_t, off_t))dlsym(RTLD_NEXT, "pwrite");
+  ssize_t (*real)(int, const void *, size_t, off_t) =
+      (ssize_t (*)(int, const void *, size_t, off_t))dlsym(RTLD_NEXT, "pwrite");
   const ssize_t written = real(file, bytes, n, offset);
   if (left == UNKNOWN) left = number("KZ_RESUMED") > 0 ? number("KZ_WRITES") : NONE;
   if (n >= sizeof SECTION && memcmp(bytes, SECTION, sizeof SECTION) == 0)

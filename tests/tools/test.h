@@ -1,5 +1,5 @@
-/* Header of every test in C: TEST(name) { ... } is a test, and the tests of a file run in their order. A file that has something to do
- * before or after them defines OWN_MAIN, and a main that calls run_tests. */
+/* Header of every test in C: TEST(name) { ... } is a test, and the tests of a file run in their order. A file that has
+ * something to do before or after them defines OWN_MAIN, and a main that calls run_tests. */
 #pragma once
 
 #include <setjmp.h>

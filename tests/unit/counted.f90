@@ -84,7 +84,8 @@ contains
     do i = 1, attractor%period*ceiling(real(periods)/real(attractor%period))
       call flow%advance(WIDTH)
     end do
-    farthest = maxval([(sqrt(ellipse_square(attractor, 1, angle_difference(flow%u(i), 0.0_dp), flow%v(i))), i=1, WIDTH)])
+    farthest = maxval([(sqrt(ellipse_square(attractor, 1, angle_difference(flow%u(i), 0.0_dp), flow%v(i))), i=1, &
+                        WIDTH)])
   end function rim_after
 
   !> The attractors that are found from WIDTH orbits.

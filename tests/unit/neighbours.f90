@@ -22,7 +22,8 @@ contains
 
   !> The largest error of a neighbour `distance` rad from a state, whose speed is up to 2 below `fastest`, in parts of
   !> its distance from the state's image. The tables serve speeds up to 3.
-  function neighbour_error(pendulum, scheme, steps, fastest, distance) bind(C, name='kz_test_neighbour_error') result(error)
+  function neighbour_error(pendulum, scheme, steps, fastest, distance) bind(C, name='kz_test_neighbour_error') &
+      result(error)
     type(pendulum_t), intent(in) :: pendulum
     integer(c_int32_t), value :: scheme
     integer(c_int32_t), value :: steps

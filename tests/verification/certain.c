@@ -1,7 +1,8 @@
-/* Labels that are called decided, against quad precision, judged by circles around the strobe points and not by trapping regions. Starts are chosen
- * against the method: 1e-16 to 1e-8 rad from boundaries, found by bisection, of pendulums beside folds and doublings, where a saddle is near, and
- * where orbits linger; those that version 0.2.0 labelled wrongly; and any starts of other drives and after ramps (releases in quads:
- * unit/dynamics/released.c). KAPITZA_EXTENSIVE=1: more boundaries, 4000 cells and 2000 after a ramp. */
+/* Labels that are called decided, against quad precision, judged by circles around the strobe points and not by
+ * trapping regions. Starts are chosen against the method: 1e-16 to 1e-8 rad from boundaries, found by bisection, of
+ * pendulums beside folds and doublings, where a saddle is near, and where orbits linger; those that version 0.2.0
+ * labelled wrongly; and any starts of other drives and after ramps (releases in quads: unit/dynamics/released.c).
+ * KAPITZA_EXTENSIVE=1: more boundaries, 4000 cells and 2000 after a ramp. */
 #include "../tools/reference.h"
 #include "../tools/test.h"
 
@@ -32,8 +33,8 @@ static const kz_pendulum pendulums[] = {
     {0.1, 0.1, 0.39965146083203706},
 };
 
-/* Starts that 0.2.0 labelled wrongly: beside folds, where a saddle lies nearer to the attractor than 0.03 rad, and two that linger and so repeat
- * the same error of a step period after period. */
+/* Starts that 0.2.0 labelled wrongly: beside folds, where a saddle lies nearer to the attractor than 0.03 rad, and two
+ * that linger and so repeat the same error of a step period after period. */
 static const struct {
   size_t pendulum;
   double theta, velocity;
@@ -104,7 +105,8 @@ static void decide(kz_dynamics *d, int n, const kz_start *start, kz_decision *de
   int left = n;
   for (int i = 0; i < n; i++) place[i] = i;
   for (int32_t level = KZ_LEVEL_DOUBLE; level < KZ_LEVELS && left > 0; level++) {
-    const kz_label_precision precision = {.level = (kz_precision)level, .before = (kz_precision)(level > 0 ? level - 1 : 0)};
+    const kz_label_precision precision = {.level = (kz_precision)level,
+                                          .before = (kz_precision)(level > 0 ? level - 1 : 0)};
     int still = 0;
     for (int i = 0; i < left; i++) some[i] = start[place[i]];
     kz_dynamics_begin(d, precision.level, left, some);
@@ -122,7 +124,7 @@ typedef struct {
   int decided, wrong, by_level[KZ_LEVELS];
 } counts;
 
-/* Counts the labels of starts that are decided; those whose end quad precision does not know are left out where `periods` are few. */
+/* Counts decided labels of starts; those whose end quad precision does not know are left out if `periods` are few. */
 static void judge(kz_dynamics *d, const kz_pendulum *p, int n, const kz_start *start, int64_t periods, counts *c) {
   static kz_decision decision[MOST];
   static int32_t label[MOST];
@@ -193,7 +195,7 @@ TEST(test_decided_beside_boundaries_is_right) {
   }
 }
 
-/* Labels that a process gave before at coarser levels change no decision: ranks that met other tiles, and resumed runs, agree. */
+/* Labels given before at coarser levels change no decision: ranks with other tiles, and resumed runs, agree. */
 TEST(test_decisions_have_no_history) {
   enum { N = 64 };
   double x[2 * N];
@@ -205,10 +207,10 @@ TEST(test_decisions_have_no_history) {
     kz_dynamics *d = explored_pendulum(&pendulums[4], numerics(), 1, 0, 3);
     kz_dynamics_fine_regions(d, 200, 3);
     if (again)
-      kz_dynamics_label(d, &(kz_label_precision){.level = KZ_LEVEL_PAIRS_16, .before = KZ_LEVEL_FINE}, N, start, MAX_PERIODS,
-                        first);
-    kz_dynamics_label(d, &(kz_label_precision){.level = KZ_LEVEL_PAIRS_20, .before = KZ_LEVEL_PAIRS_16}, N, start, MAX_PERIODS,
-                      decision[again]);
+      kz_dynamics_label(d, &(kz_label_precision){.level = KZ_LEVEL_PAIRS_16, .before = KZ_LEVEL_FINE}, N, start,
+                        MAX_PERIODS, first);
+    kz_dynamics_label(d, &(kz_label_precision){.level = KZ_LEVEL_PAIRS_20, .before = KZ_LEVEL_PAIRS_16}, N, start,
+                      MAX_PERIODS, decision[again]);
     kz_dynamics_free(d);
   }
   for (int i = 0; i < N; i++) {

@@ -1,5 +1,6 @@
-/* Windows of any depth: labels of cells that are handed over by one reference orbit, against each cell's own orbit in as many digits as it
- * takes; the catalogue is found as for a basin. KAPITZA_EXTENSIVE=1: more cells, and the deepest windows. */
+/* Windows of any depth: labels of cells that are handed over by one reference orbit, against each cell's own orbit in
+ * as many digits as it takes; the catalogue is found as for a basin. KAPITZA_EXTENSIVE=1: more cells, and the deepest
+ * windows. */
 #include "../tools/test.h"
 
 #include <math.h>
@@ -16,7 +17,8 @@
 
 #define K01 "pendulum: {k: 0.1, damping: 0.1, m: 0.4}"
 #define FIG12 "pendulum: {quality_factor: 5, drive_frequency: 11, drive_amplitude: 0.3}"
-#define FOLD "pendulum: {k: 0.1, damping: 0.1, m: 0.39965146083203706}" /* beside a fold: a saddle is near the attractor */
+/* Beside a fold: a saddle is near the attractor. */
+#define FOLD "pendulum: {k: 0.1, damping: 0.1, m: 0.39965146083203706}"
 #define FOLD_BOUNDARY "-2.446848329686444"
 #define K01_BOUNDARY "-2.36717282205514094284618936441679792892500699963420629501343"
 #define K01_DEEP                                                       \
@@ -48,10 +50,11 @@ static void find_attractors(view *v) {
 static view open_view(const window *w) {
   char text[1000];
   view v;
-  snprintf(text, sizeof text,
-           "%s\nbasin:\n  theta: {centre: '%s', width: %s, count: %d}\n  velocity: {centre: '%s', width: %s, count: %d}\n"
-           "  method: exact\n  attractors: {starts: 512}\n",
-           w->pendulum, w->theta, w->width, COUNT, w->velocity, w->width, COUNT);
+  snprintf(
+      text, sizeof text,
+      "%s\nbasin:\n  theta: {centre: '%s', width: %s, count: %d}\n  velocity: {centre: '%s', width: %s, count: %d}\n"
+      "  method: exact\n  attractors: {starts: 512}\n",
+      w->pendulum, w->theta, w->width, COUNT, w->velocity, w->width, COUNT);
   if (kz_scene_read(text, strlen(text), "s.yaml", 0, NULL, &v.scene) != KZ_OK) fail_msg("%s", kz_message());
   const kz_basin_plan *plan = v.scene.basin;
   v.dynamics = kz_dynamics_create(&v.scene.parameters.pendulum, &v.scene.numerics, plan->max_period);
@@ -80,7 +83,8 @@ static void own_label(const view *v, int64_t cell, kz_decision *decision) {
   const kz_basin_plan *plan = v->scene.basin;
   const kz_coordinate start[2] = {kz_axis_coordinate(&plan->theta, cell % COUNT),
                                   kz_axis_coordinate(&plan->velocity, cell / COUNT)};
-  assert_int_equal(kz_own_orbit_decide(v->dynamics, &v->scene.parameters.pendulum, start, plan->max_periods, decision), KZ_OK);
+  assert_int_equal(kz_own_orbit_decide(v->dynamics, &v->scene.parameters.pendulum, start, plan->max_periods, decision),
+                   KZ_OK);
   assert_int_not_equal(decision->end.label, KZ_DOUBTFUL);
 }
 
@@ -120,11 +124,12 @@ TEST(labels_are_those_of_own_orbits) {
       {K01, "180 deg", "0", "1e-12", 6},           {FOLD, FOLD_BOUNDARY, "-0.21806737647827037", "1e-14", 3},
   };
   static const window deep[] = {{K01, K01_DEEP, "17", "1e-50", 0}, {K01, K01_DEEP, "17", "1e-100", 0}};
-  for (size_t i = 0; i < sizeof windows / sizeof *windows; i += getenv("KAPITZA_EXTENSIVE") ? 1 : 2) compare(windows + i);
+  for (size_t i = 0; i < sizeof windows / sizeof *windows; i += getenv("KAPITZA_EXTENSIVE") ? 1 : 2)
+    compare(windows + i);
   for (size_t i = 0; getenv("KAPITZA_EXTENSIVE") && i < sizeof deep / sizeof *deep; i++) compare(deep + i);
 }
 
-/* The state of a cell, and of the sample that stands for it, at most half a step and a tenth away; a step's image is `step` long. */
+/* States of a cell and its sample, at most half a step and a tenth away; a step's image is `step` long. */
 static void compare_samples(const kz_window_starts *starts, const kz_window_curve *curve) {
   const kz_labeller labeller = kz_window_labeller(starts, false);
   double cell[2], sample[2], next[2], farthest = 0;
@@ -159,7 +164,7 @@ TEST(deep_windows_are_curves) {
   }
 }
 
-/* A window that the map folds: hardly any first degree is left of it, and the second tells that the fourth is not small. */
+/* A window that the map folds: the first degree nearly vanishes, and the second shows that the fourth is not small. */
 TEST(folded_images_hand_nothing_over) {
   kz_image image[] = {{.jet = {.linear = {{1e-20, 0}, {0, 1e-20}}}},
                       {.jet = {.linear = {{1e-8, 0}, {0, 1e-8}}}},

@@ -46,8 +46,8 @@ TEST(test_orders) {
     numerics.steps_per_period *= 2;
     const double fine = error_of(&pendulum, numerics), order = log2(coarse / fine);
     print_message("%-9s order %.2f (errors %.1e, %.1e)\n", scheme.name, order, coarse, fine);
-    /* Measured: within 0.25, but 14.8 for the processed splitting, whose 22 steps err by 1e-13: with more than 11 to begin with
-     * only rounding would be left. */
+    /* Measured: within 0.25, but 14.8 for the processed splitting, whose 22 steps err by 1e-13: with more than 11 to
+     * begin with only rounding would be left. */
     assert_true(fabs(order - scheme.order) < (row == kz_scheme_find("processed") ? 1 : 0.4));
   }
 }

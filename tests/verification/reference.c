@@ -1,4 +1,4 @@
-/* The quad-precision reference against published cycles, exact solutions, itself with other steps, and the split scheme. */
+/* The quad-precision reference against published cycles, exact solutions, itself with other steps, split6. */
 #include <math.h>
 #include <string.h>
 
@@ -28,7 +28,7 @@ static double between(double a, double b) {
   return fabs(remainder(a - b, 2 * PI));
 }
 
-/* Attracting cycles of tests/literature/reference.json (16 digits): they close after their period, with their winding. */
+/* Attracting cycles of tests/literature/reference.json (16 digits) close after their period, with their winding. */
 TEST(published_cycles_close) {
   static const struct {
     kz_pendulum pendulum;
@@ -87,7 +87,8 @@ TEST(odd_starts) {
   assert_true(fabs(a.theta - b.theta) < 1e-15 && fabs(a.theta - 1) > 1e-3);
   motion rest = carried(level, KZ_REFERENCE_STEPS, 5, 0, 0);
   assert_true(rest.theta == 0 && rest.velocity == 0 && rest.turns == 0);
-  motion tiny = carried(level, KZ_REFERENCE_STEPS, 1, 0, 1e-300), small = carried(level, KZ_REFERENCE_STEPS, 1, 0, 1e-100);
+  motion tiny = carried(level, KZ_REFERENCE_STEPS, 1, 0, 1e-300),
+         small = carried(level, KZ_REFERENCE_STEPS, 1, 0, 1e-100);
   assert_true(fabs(tiny.velocity * 1e200 / small.velocity - 1) < 1e-14);
   assert_true(isnan(carried(level, KZ_REFERENCE_STEPS, 1, 0, 1e300).theta));
 }

@@ -46,8 +46,8 @@ TEST(curves_are_floquet_roots) {
   assert_true(seen > 200);
 }
 
-/* Damped edges from Hill's determinant: there the largest multiplier by integration crosses the circle, at -1 (tongue 1) or +1
- * (others). */
+/* Damped edges from Hill's determinant: there the largest multiplier by integration crosses the circle, at -1 (tongue
+ * 1) or +1 (others). */
 TEST(damped_edges_have_multiplier_one) {
   const char *names[] = {"damped_0", "damped_1", "damped_2", "damped_1_upper", "damped_2_upper"};
   for (int row = 0; row < kz_curve_count; row++)
@@ -121,7 +121,8 @@ TEST(rim_is_the_first_top) {
   enum { ANGLES = 4000 };
   int wells = 0;
   for (int i = 0; i < POINTS; i++) {
-    double k = random_between(-4, 4), beta = random_between(0.02, 0.5), m = random_between(0, 3 * (1 + fabs(k))), top = PI;
+    double k = random_between(-4, 4), beta = random_between(0.02, 0.5), m = random_between(0, 3 * (1 + fabs(k))),
+           top = PI;
     kz_rim rim;
     kz_energy here, next;
     kz_potential_rim(k, beta, m, &rim);

@@ -1,4 +1,4 @@
-/* Transition curves of any wave form: Hill's determinant, Floquet's multipliers, Mathieu's values and the square wave's closed form agree. */
+/* Transition curves of any wave form: Hill's determinant, Floquet, Mathieu and the square wave's closed form agree. */
 #include <math.h>
 #include <stdbool.h>
 #include <stdlib.h>
@@ -35,7 +35,7 @@ static bool is_in_tongue(const kz_pendulum *form, int curve, double k, double m)
   return log_multiplier > 0 && angle == (curve == 2 || curve == 3 ? 0.5 : 0);
 }
 
-/* Edges by Hill's determinant are where Floquet's multiplier, by integration, leaves the circle: within 1e-11, in their order. */
+/* Edges by Hill's determinant are where Floquet's multiplier, integrated, leaves the circle: to 1e-11, in order. */
 TEST(edges_of_any_wave_are_floquets) {
   int seen = 0;
   for (int i = 0; i < FORMS; i++) {
@@ -93,7 +93,7 @@ TEST(meissners_edges_are_those_of_the_period_map) {
     }
 }
 
-/* The series up to order 7 of the wave form square lies this near to the true one, as docs/explanation/stability.md says. */
+/* Series up to order 7 of the square form are as near to the true one as docs/explanation/stability.md says. */
 TEST(series_of_the_square_wave_is_near_meissner) {
   kz_pendulum series = {.m = 1, .harmonics = 7};
   for (int j = 1; j <= 7; j += 2) series.vertical[j - 1][0] = (j % 4 == 1 ? 4 : -4) / (PI * j) - (j == 1);

@@ -87,7 +87,7 @@ int kz_box_sizes(int64_t columns, int64_t rows) {
 void kz_boxes_count(int64_t columns, int64_t rows, const int16_t *label, int sizes, kz_box_counts *counts) {
   int64_t across = columns - 1, up = rows - 1;
   if (across < 1 || up < 1) return;
-  KZ_FREED uint64_t *held = kz_malloc((size_t)(across * up) * sizeof *held);
+  KZ_AUTOFREE uint64_t *held = kz_malloc((size_t)(across * up) * sizeof *held);
   for (int64_t r = 0; r < up; r++)
     for (int64_t c = 0; c < across; c++) {
       const int16_t *corner = label + r * columns + c;

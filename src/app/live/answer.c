@@ -59,7 +59,8 @@ static kz_json *mapping_of(const char *mapping, const kz_scene *scene) {
   kz_json *object = json_object_new_object();
   for (const kz_key *key = kz_scene_keys(); key->path; key++) {
     const char *name = key->path + strlen(mapping);
-    if (strncmp(key->path, mapping, strlen(mapping)) != 0 || strchr(name, '.') || !kz_value_is_set(key, scene)) continue;
+    if (strncmp(key->path, mapping, strlen(mapping)) != 0 || strchr(name, '.') || !kz_value_is_set(key, scene))
+      continue;
     char inner[64];
     snprintf(inner, sizeof inner, "%s.", key->path);
     kz_json_add(object, name, key->type == KZ_KEY_MAPPING ? mapping_of(inner, scene) : value_of(key, scene));
@@ -103,8 +104,10 @@ static const char *kind_of(const kz_attractor *row) {
   }
 }
 
-static const char *const CENTRES[] = {
-    [KZ_ABOUT_DOWN] = "down", [KZ_ABOUT_INVERTED] = "inverted", [KZ_ROTATING] = "rotating", [KZ_ABOUT_NEITHER] = "neither"};
+static const char *const CENTRES[] = {[KZ_ABOUT_DOWN] = "down",
+                                      [KZ_ABOUT_INVERTED] = "inverted",
+                                      [KZ_ROTATING] = "rotating",
+                                      [KZ_ABOUT_NEITHER] = "neither"};
 
 static kz_json *strobe_of(int64_t n, const double *theta, const double *velocity) {
   kz_json *strobe = json_object_new_array();
@@ -288,8 +291,8 @@ kz_status kz_answer_error(int64_t sequence, kz_status status) {
 
 enum { GRACE = 1 /* seconds in which the program ends by itself */ };
 
-/* poll() reports the closed far end of a pipe as POLLERR, an event that is reported without having been requested. A regular file has no far end, and
- * poll() never reports it. */
+/* poll() reports the closed far end of a pipe as POLLERR, an event that is reported without having been requested. A
+ * regular file has no far end, and poll() never reports it. */
 static void *answer_watch(void *unused) {
   struct pollfd output = {.fd = STDOUT_FILENO};
   (void)unused;

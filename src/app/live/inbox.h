@@ -17,6 +17,6 @@ enum { KZ_LINE_MOST = 65536 };
 void kz_inbox_open(kz_inbox *inbox);
 void kz_inbox_close(kz_inbox *inbox);
 
-/* The next line without its newline, valid until the next call; NULL if there is none, which with waits = true happens at the end of the
- * input only. The last line needs no newline. *status is KZ_REFUSED for a line that is too long. */
+/* The next line without its newline, valid until the next call; NULL if there is none, which with waits = true happens
+ * at the end of the input only. The last line needs no newline. *status is KZ_REFUSED for a line that is too long. */
 const char *kz_inbox_line(kz_inbox *inbox, bool waits, size_t *length, kz_status *status);

@@ -5,7 +5,8 @@
 
 enum { MOST_DEPTH = 100 };
 
-/* Where json-c takes what is not JSON: a single quote for a double one, a control character in a text. The place of the first, or `length`. */
+/* Where json-c takes what is not JSON: a single quote for a double one, a control character in a text. The place of the
+ * first, or `length`. */
 static size_t lenient_place(const char *line, size_t length) {
   bool inside = false;
   for (size_t i = 0; i < length; i++) {

@@ -6,7 +6,7 @@
 #include <sys/stat.h>
 
 static kz_status read_scene(kz_store *store, const char *path, kz_scene *scene) {
-  KZ_FREED char *text = kz_store_text_of(store, "scene_resolved");
+  KZ_AUTOFREE char *text = kz_store_text_of(store, "scene_resolved");
   if (!text) return kz_fail(KZ_REFUSED, "%s: has no scene", path);
   return kz_scene_read(text, strlen(text), path, 0, NULL, scene);
 }
@@ -25,8 +25,10 @@ static kz_status read_file(kz_map *map, const char *path) {
 
 kz_status kz_map_open(kz_map *map, const char *path) {
   struct stat now;
-  if (stat(path, &now) != 0) return kz_fail(KZ_REFUSED, "request: atlas: %s: cannot be opened: %s", path, strerror(errno));
-  if (map->path && strcmp(map->path, path) == 0 && memcmp(&map->changed, &now.st_mtim, sizeof now.st_mtim) == 0) return KZ_OK;
+  if (stat(path, &now) != 0)
+    return kz_fail(KZ_REFUSED, "request: atlas: %s: cannot be opened: %s", path, strerror(errno));
+  if (map->path && strcmp(map->path, path) == 0 && memcmp(&map->changed, &now.st_mtim, sizeof now.st_mtim) == 0)
+    return KZ_OK;
   kz_map_close(map);
   KZ_TRY(kz_scene_check_file(path));
   KZ_TRY(read_file(map, path));

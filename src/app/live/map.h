@@ -1,4 +1,5 @@
-/* The atlas of a result file that requests of serve ask about; it stays in memory until a request names another file. */
+/* The atlas of a result file that requests of serve ask about; it stays in memory until a request names another file.
+ */
 #pragma once
 
 #include <time.h>

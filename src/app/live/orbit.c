@@ -71,7 +71,7 @@ kz_status kz_orbit_answer(const kz_request *request, kz_status (*meanwhile)(void
   pthread_t thread;
   bool ended = false;
   KZ_TRY(kz_memory_ask("periods", 3 * bytes));
-  KZ_FREED double *theta = kz_malloc(bytes), *velocity = kz_malloc(bytes);
+  KZ_AUTOFREE double *theta = kz_malloc(bytes), *velocity = kz_malloc(bytes);
   job j = {.scene = &request->scene, .theta = theta, .velocity = velocity, .mutex = PTHREAD_MUTEX_INITIALIZER};
   kz_condition_make(&j.changed);
   if (!kz_thread_start(&thread, STACK_BYTES, orbit_compute, &j))

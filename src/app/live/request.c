@@ -13,16 +13,44 @@ static const char SOURCE[] = "request";
 
 #define AT(field) offsetof(kz_request, field)
 #define WORDS_OF_KIND "frame|where|orbit|catalogue|chart|motions|line|cancel|quit"
-/* Keys of the request itself, with their defaults; the others change the scene. The sequence comes first: every later error is answered with it. */
+/* Keys of the request itself, with their defaults; the others change the scene. The sequence comes first: every later
+ * error is answered with it. */
 static const kz_key rows[] = {
-    {.path = "sequence", .type = KZ_KEY_INTEGER, .unit = "", .fallback = "0", .high = 1LL << 53, .offset = AT(sequence)},
+    {.path = "sequence",
+     .type = KZ_KEY_INTEGER,
+     .unit = "",
+     .fallback = "0",
+     .high = 1LL << 53,
+     .offset = AT(sequence)},
     {.path = "request", .type = KZ_KEY_WORD, .unit = "", .words = WORDS_OF_KIND, .offset = AT(kind)},
     {.path = "view", .type = KZ_KEY_TEXT, .unit = "", .fallback = "\"\"", .offset = AT(view)},
-    {.path = "quality", .type = KZ_KEY_WORD, .unit = "", .words = "exact|moving", .fallback = "exact", .offset = AT(quality)},
+    {.path = "quality",
+     .type = KZ_KEY_WORD,
+     .unit = "",
+     .words = "exact|moving",
+     .fallback = "exact",
+     .offset = AT(quality)},
     {.path = "rows", .type = KZ_KEY_INTEGER, .unit = "", .fallback = "", .low = 1, .high = 8192, .offset = AT(rows)},
-    {.path = "columns", .type = KZ_KEY_INTEGER, .unit = "", .fallback = "", .low = 1, .high = 8192, .offset = AT(columns)},
-    {.path = "levels", .type = KZ_KEY_INTEGERS, .unit = "", .fallback = "[1]", .low = 1, .high = 8, .offset = AT(coarseness)},
-    {.path = "planes", .type = KZ_KEY_WORDS, .unit = "", .words = KZ_PLANE_WORDS, .fallback = "[labels]", .offset = AT(planes)},
+    {.path = "columns",
+     .type = KZ_KEY_INTEGER,
+     .unit = "",
+     .fallback = "",
+     .low = 1,
+     .high = 8192,
+     .offset = AT(columns)},
+    {.path = "levels",
+     .type = KZ_KEY_INTEGERS,
+     .unit = "",
+     .fallback = "[1]",
+     .low = 1,
+     .high = 8,
+     .offset = AT(coarseness)},
+    {.path = "planes",
+     .type = KZ_KEY_WORDS,
+     .unit = "",
+     .words = KZ_PLANE_WORDS,
+     .fallback = "[labels]",
+     .offset = AT(planes)},
     {.path = NULL},
 };
 
@@ -47,9 +75,10 @@ enum { N_MOVED = sizeof moved / sizeof moved[0] };
 static const struct {
   int32_t kind;
   const char *path;
-} dropped[] = {{KZ_REQUEST_ORBIT, "orbit"},         {KZ_REQUEST_FRAME, "basin.accuracy"},  {KZ_REQUEST_WHERE, "basin.accuracy"},
-               {KZ_REQUEST_CHART, "sweep.measure"}, {KZ_REQUEST_CHART, "sweep.parameter"}, {KZ_REQUEST_CHART, "sweep.min"},
-               {KZ_REQUEST_CHART, "sweep.max"},     {KZ_REQUEST_CHART, "sweep.count"}};
+} dropped[] = {{KZ_REQUEST_ORBIT, "orbit"},           {KZ_REQUEST_FRAME, "basin.accuracy"},
+               {KZ_REQUEST_WHERE, "basin.accuracy"},  {KZ_REQUEST_CHART, "sweep.measure"},
+               {KZ_REQUEST_CHART, "sweep.parameter"}, {KZ_REQUEST_CHART, "sweep.min"},
+               {KZ_REQUEST_CHART, "sweep.max"},       {KZ_REQUEST_CHART, "sweep.count"}};
 enum { N_DROPPED = sizeof dropped / sizeof dropped[0] };
 
 /* What a request adds where neither it nor the scene says anything: key, YAML. */
@@ -93,8 +122,8 @@ static kz_status check_coarseness(const kz_integers *coarseness) {
   for (int64_t i = 0; i < coarseness->count; i++) {
     const int64_t step = coarseness->values[i];
     if ((step & (step - 1)) != 0 || (i > 0 && step >= coarseness->values[i - 1]))
-      return kz_fail(KZ_REFUSED, "%s: levels: %lld is out of place; it must be a list from 8, 4, 2, 1 in falling order", SOURCE,
-                     (long long)step);
+      return kz_fail(KZ_REFUSED, "%s: levels: %lld is out of place; it must be a list from 8, 4, 2, 1 in falling order",
+                     SOURCE, (long long)step);
   }
   return KZ_OK;
 }
@@ -105,8 +134,8 @@ static kz_status check_frame(const kz_request *request) {
       return kz_fail(KZ_REFUSED, "%s: %s: is missing; it must be an integer from 1 to 8192", SOURCE,
                      i == 0 ? "rows" : "columns");
   if (request->rows * request->columns > MOST_CELLS)
-    return kz_fail(KZ_REFUSED, "%s: rows: %lld times %lld columns are more than %d cells", SOURCE, (long long)request->rows,
-                   (long long)request->columns, MOST_CELLS);
+    return kz_fail(KZ_REFUSED, "%s: rows: %lld times %lld columns are more than %d cells", SOURCE,
+                   (long long)request->rows, (long long)request->columns, MOST_CELLS);
   return check_coarseness(&request->coarseness);
 }
 
@@ -114,9 +143,10 @@ static kz_status check_orbit(const kz_request *request) {
   const kz_orbit_plan *plan = request->scene.orbit;
   const kz_release release = kz_release_of(&request->scene, &request->scene.parameters.pendulum);
   if (kz_release_strobes(&release) > 0)
-    return kz_fail(KZ_REFUSED,
-                   "%s: orbit: a motion begins at phase 0 and without a ramp; leave out basin.start_phase and pendulum.ramp",
-                   SOURCE);
+    return kz_fail(
+        KZ_REFUSED,
+        "%s: orbit: a motion begins at phase 0 and without a ramp; leave out basin.start_phase and pendulum.ramp",
+        SOURCE);
   if (plan->periods * plan->samples_per_period <= MOST_CELLS) return KZ_OK;
   return kz_fail(KZ_REFUSED, "%s: periods: %lld times %lld samples_per_period are more than %d samples", SOURCE,
                  (long long)plan->periods, (long long)plan->samples_per_period, MOST_CELLS);
@@ -133,13 +163,26 @@ static const kz_key start_rows[] = {
      .offset = AT(velocity)},
     {.path = NULL},
 };
-#define POINT_ROWS(no_atlas)                                                                                                 \
-  {                                                                                                                          \
-    {.path = "atlas", .type = KZ_KEY_TEXT, .unit = "", .fallback = no_atlas, .offset = AT(atlas)},                           \
-        {.path = "x", .type = KZ_KEY_REAL, .unit = "", .fallback = "", .low = -DBL_MAX, .high = DBL_MAX, .offset = AT(x)},   \
-        {.path = "y", .type = KZ_KEY_REAL, .unit = "", .fallback = "", .low = -DBL_MAX, .high = DBL_MAX, .offset = AT(y)}, { \
-      .path = NULL                                                                                                           \
-    }                                                                                                                        \
+#define POINT_ROWS(no_atlas)                                                                       \
+  {                                                                                                \
+    {.path = "atlas", .type = KZ_KEY_TEXT, .unit = "", .fallback = no_atlas, .offset = AT(atlas)}, \
+        {.path = "x",                                                                              \
+         .type = KZ_KEY_REAL,                                                                      \
+         .unit = "",                                                                               \
+         .fallback = "",                                                                           \
+         .low = -DBL_MAX,                                                                          \
+         .high = DBL_MAX,                                                                          \
+         .offset = AT(x)},                                                                         \
+        {.path = "y",                                                                              \
+         .type = KZ_KEY_REAL,                                                                      \
+         .unit = "",                                                                               \
+         .fallback = "",                                                                           \
+         .low = -DBL_MAX,                                                                          \
+         .high = DBL_MAX,                                                                          \
+         .offset = AT(y)},                                                                         \
+    {                                                                                              \
+      .path = NULL                                                                                 \
+    }                                                                                              \
   }
 static const kz_key point_rows[] = POINT_ROWS(NULL), frame_rows[] = POINT_ROWS("\"\"");
 static const kz_key state_rows[] = {
@@ -149,7 +192,8 @@ static const kz_key state_rows[] = {
 
 /* What is left of the request is not known. */
 static kz_status check_rest(kz_node *root) {
-  kz_tree_free(kz_tree_find(root, "window") && !kz_tree_find(root, "window")->first ? kz_tree_take(root, "window") : NULL);
+  kz_tree_free(kz_tree_find(root, "window") && !kz_tree_find(root, "window")->first ? kz_tree_take(root, "window")
+                                                                                    : NULL);
   if (!root->first) return KZ_OK;
   return kz_fail(KZ_REFUSED, "%s: %.60s: unknown key of such a request; docs/reference/serve.md lists them", SOURCE,
                  root->first->name);
@@ -163,8 +207,8 @@ static kz_status check_point(const kz_request *request) {
     return kz_fail(KZ_REFUSED, "%s: x: is a point of an atlas; give the name of its file as atlas", SOURCE);
   if (!*request->atlas && request->kind == KZ_REQUEST_FRAME) return KZ_OK;
   if (given == (is_line ? 1 : 2)) return KZ_OK;
-  return kz_fail(KZ_REFUSED, is_line ? "%s: x: a line has x or y, not both" : "%s: %s: is missing; it must be a number", SOURCE,
-                 isnan(request->x) ? "x" : "y");
+  return kz_fail(KZ_REFUSED, is_line ? "%s: x: a line has x or y, not both" : "%s: %s: is missing; it must be a number",
+                 SOURCE, isnan(request->x) ? "x" : "y");
 }
 
 static kz_status read_point(kz_node *root, kz_request *request) {

@@ -36,6 +36,7 @@ typedef struct kz_request {
   struct kz_request *next;
 } kz_request;
 
-/* Reads a line [length]; `tree` is the tree of the scene. The caller frees *request in every case. KZ_REFUSED: the message says why. */
+/* Reads a line [length]; `tree` is the tree of the scene. The caller frees *request in every case. KZ_REFUSED: the
+ * message says why. */
 kz_status kz_request_read(const kz_node *tree, const char *line, size_t length, kz_request **request);
 void kz_request_free(kz_request *request);

@@ -1,5 +1,5 @@
-/* The command serve: answers requests until their end. Frames and charts are made in parts; between two parts newer requests are read and, unless
- * they are frames or charts themselves, answered. */
+/* The command serve: answers requests until their end. Frames and charts are made in parts; between two parts newer
+ * requests are read and, unless they are frames or charts themselves, answered. */
 #include <math.h>
 #include <signal.h>
 #include <stdlib.h>
@@ -53,7 +53,8 @@ static bool is_ended_by(const kz_request *old, const kz_request *by) {
   return strcmp(old->view, by->view) == 0 && (by->kind == KZ_REQUEST_CANCEL || is_drawn(old));
 }
 
-/* Ends what a request ends: cancel all requests of its view, a frame or chart the older frames and charts of its view. */
+/* Ends what a request ends: cancel all requests of its view, a frame or chart the older frames and charts of its view.
+ */
 static kz_status end_older(server *s, const kz_request *by) {
   kz_request *const present[] = {s->drawn, s->orbit};
   for (kz_request **place = &s->waiting; *place;) {
@@ -87,8 +88,8 @@ static kz_status serve_take(server *s, kz_request *request) {
   return KZ_OK;
 }
 
-/* Reads one request where there is one, and answers one that is wrong; `waits`: until there is one, or the end of the input. *read: a line was
- * there. */
+/* Reads one request where there is one, and answers one that is wrong; `waits`: until there is one, or the end of the
+ * input. *read: a line was there. */
 static kz_status read_next(server *s, bool waits, bool *read) {
   kz_status wrong;
   size_t length;
@@ -113,7 +114,8 @@ static kz_status read_ahead(void *context) {
 }
 
 static kz_status answer_where(server *s, const kz_request *request) {
-  const kz_coordinate start[1][2] = {{kz_decimal_coordinate(&request->theta), kz_decimal_coordinate(&request->velocity)}};
+  const kz_coordinate start[1][2] = {
+      {kz_decimal_coordinate(&request->theta), kz_decimal_coordinate(&request->velocity)}};
   kz_ending ending;
   kz_status status = kz_engine_where(s->engine, &request->scene, 1, start, &ending);
   if (status == KZ_OK)
@@ -130,7 +132,7 @@ static kz_status answer_catalogue(server *s, const kz_request *request) {
 }
 
 static kz_status answer_motions(server *s, const kz_request *request) {
-  KZ_FREED_BY(kz_motions_free) kz_motions motions = {0};
+  KZ_AUTOFREE_BY(kz_motions_free) kz_motions motions = {0};
   KZ_TRY(kz_map_open(&s->map, request->atlas));
   KZ_TRY(kz_atlas_motions(s->map.atlas, request->x, request->y, request->states, &motions));
   if (!motions.known)
@@ -142,7 +144,7 @@ static kz_status answer_motions(server *s, const kz_request *request) {
 }
 
 static kz_status answer_line(server *s, const kz_request *request) {
-  KZ_FREED_BY(kz_atlas_branches_free) kz_atlas_branches line = {0};
+  KZ_AUTOFREE_BY(kz_atlas_branches_free) kz_atlas_branches line = {0};
   const int axis = isnan(request->y);
   KZ_TRY(kz_map_open(&s->map, request->atlas));
   KZ_TRY(kz_atlas_line(s->map.atlas, axis, axis ? request->x : request->y, &line));
@@ -179,7 +181,8 @@ static kz_request **find_waiting(server *s, bool drawn) {
 static kz_status catch_up(server *s) {
   bool read = true;
   for (int i = 0; i < MOST_WAITING && read && !s->quits; i++) {
-    for (kz_request **place; !s->quits && *(place = find_waiting(s, false));) KZ_TRY(serve_answer(s, take_out(s, place)));
+    for (kz_request **place; !s->quits && *(place = find_waiting(s, false));)
+      KZ_TRY(serve_answer(s, take_out(s, place)));
     if (!s->quits) KZ_TRY(read_next(s, false, &read));
   }
   return KZ_OK;
@@ -211,8 +214,8 @@ static kz_status show_plane(void *context, const kz_plane_raster *raster) {
 static kz_status check_size(const kz_scene *scene) {
   const int64_t most = 1 << 20, points = scene->sweep->x.values.count * scene->sweep->y.values.count;
   if (points <= most) return KZ_OK;
-  return kz_fail(KZ_REFUSED, "request: x: %lld points are too many for a chart on request, at most %lld", (long long)points,
-                 (long long)most);
+  return kz_fail(KZ_REFUSED, "request: x: %lld points are too many for a chart on request, at most %lld",
+                 (long long)points, (long long)most);
 }
 
 static kz_status serve_draw(server *s, kz_request *request) {
@@ -278,7 +281,8 @@ static kz_status serve_greet(server *s, const kz_options *options) {
   if (status == KZ_OK) status = kz_scene_of_tree(s->tree.root, &scene);
   if (status != KZ_OK) return status;
   if (!scene.has_basin)
-    status = kz_fail(KZ_REFUSED, "%s: scene: has no study basin, which gives the first window; add one", options->scene);
+    status =
+        kz_fail(KZ_REFUSED, "%s: scene: has no study basin, which gives the first window; add one", options->scene);
   if (status == KZ_OK) status = kz_answer_ready(&scene);
   kz_scene_free(&scene);
   return status;

@@ -33,9 +33,10 @@ static kz_status read_number(const char *text, int which, const char *place, kz_
   starts->start[i][which] = (kz_coordinate){.high = value.high, .low = value.low};
   if (!wrong) return KZ_OK;
   char hint[96] = "";
-  if (kz_scalar_with_a_point(text, number, sizeof number)) snprintf(hint, sizeof hint, " (with a decimal point: %s)", number);
-  return kz_fail(KZ_REFUSED, "%s: %s: \"%.60s\" %s%s; it must be a number from %g to %g in %s", place, NAMES[which], text,
-                 wrong, hint, -MOST[which], MOST[which],
+  if (kz_scalar_with_a_point(text, number, sizeof number))
+    snprintf(hint, sizeof hint, " (with a decimal point: %s)", number);
+  return kz_fail(KZ_REFUSED, "%s: %s: \"%.60s\" %s%s; it must be a number from %g to %g in %s", place, NAMES[which],
+                 text, wrong, hint, -MOST[which], MOST[which],
                  which == 0 ? "rad, or in degrees such as 90 deg, or a part of pi such as pi/2" : KZ_VELOCITY_UNIT);
 }
 
@@ -91,9 +92,9 @@ static kz_status read_table(kz_starts *starts) {
   kz_status status = KZ_OK;
   for (int64_t number = 1; status == KZ_OK && getline(&line, &bytes, stdin) >= 0; number++) {
     if (!is_start(line, number)) continue;
-    status = starts->n < MOST_STARTS
-                 ? read_row(line, number, starts)
-                 : kz_fail(KZ_REFUSED, "standard input:%lld: one start too many (at most %d)", (long long)number, MOST_STARTS);
+    status = starts->n < MOST_STARTS ? read_row(line, number, starts)
+                                     : kz_fail(KZ_REFUSED, "standard input:%lld: one start too many (at most %d)",
+                                               (long long)number, MOST_STARTS);
   }
   free(line);
   if (status == KZ_OK && ferror(stdin)) return kz_fail(KZ_FAILED, "standard input cannot be read");
@@ -116,7 +117,8 @@ static kz_status read_starts(const kz_options *options, kz_starts *starts) {
                    "--boundary: takes two starts; kapitza where SCENE THETA VELOCITY THETA VELOCITY --boundary DIGITS");
   if (options->n_operands == 2) {
     if (strcmp(operands[1], "-") != 0)
-      return kz_fail(KZ_REFUSED, "VELOCITY: is missing; kapitza where SCENE THETA VELOCITY, or - for starts on standard input");
+      return kz_fail(KZ_REFUSED,
+                     "VELOCITY: is missing; kapitza where SCENE THETA VELOCITY, or - for starts on standard input");
     if (strcmp(options->scene, "-") == 0)
       return kz_fail(KZ_REFUSED, "-: the scene and the starts cannot both come from standard input; give a scene file");
     return read_table(starts);

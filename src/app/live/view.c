@@ -15,7 +15,8 @@ typedef struct {
 
 static kz_status add_origin(void *members, const kz_option *row, const char *argument) {
   view_options *own = members;
-  if (own->n_origins == MOST_ORIGINS) return kz_fail(KZ_REFUSED, "--%s: is given more than %d times", row->name, MOST_ORIGINS);
+  if (own->n_origins == MOST_ORIGINS)
+    return kz_fail(KZ_REFUSED, "--%s: is given more than %d times", row->name, MOST_ORIGINS);
   own->origins[own->n_origins++] = argument;
   return KZ_OK;
 }
@@ -33,12 +34,13 @@ static kz_status view_run(const kz_options *options) {
   const view_options *own = options->own;
   if (!options->prints) return KZ_OK;
   KZ_TRY(kz_scene_check_file(options->scene));
-  KZ_FREED char *program = kz_program_path();
+  KZ_AUTOFREE char *program = kz_program_path();
   if (!program) return KZ_FAILED;
   const char *fixed[] = {own->no_browser ? "--no-browser" : "--browser", "--program", program, "--port",
                          own->port ? own->port : "0"};
   const size_t n_fixed = sizeof fixed / sizeof fixed[0];
-  KZ_FREED const char **words = kz_calloc(n_fixed + 2 * (size_t)(options->n_sets + own->n_origins) + 2, sizeof *words);
+  KZ_AUTOFREE const char **words =
+      kz_calloc(n_fixed + 2 * (size_t)(options->n_sets + own->n_origins) + 2, sizeof *words);
   memcpy(words, fixed, sizeof fixed);
   int n = (int)n_fixed;
   for (int i = 0; i < options->n_sets; i++) words[n++] = "--set", words[n++] = options->sets[i];

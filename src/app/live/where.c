@@ -214,8 +214,8 @@ static kz_status answer_boundary(const kz_options *options, const kz_scene *scen
   if (options->json)
     print_boundary(&point);
   else
-    printf("theta     %s\nvelocity  %s\nbetween   %s (attractor %d) and %s (attractor %d)\n", point.theta, point.velocity,
-           point.name[0], (int)point.attractor[0], point.name[1], (int)point.attractor[1]);
+    printf("theta     %s\nvelocity  %s\nbetween   %s (attractor %d) and %s (attractor %d)\n", point.theta,
+           point.velocity, point.name[0], (int)point.attractor[0], point.name[1], (int)point.attractor[1]);
   return KZ_OK;
 }
 
@@ -224,7 +224,8 @@ static kz_status where_answer(const kz_options *options, const kz_scene *scene) 
   kz_status status = kz_starts_read(options, scene->parameters.pivot_frequency, &starts);
   if (status == KZ_OK) status = kz_studies_check(scene);
   if (status == KZ_OK)
-    status = (((const kz_where_options *)options->own)->boundary > 0 ? answer_boundary : answer_where)(options, scene, &starts);
+    status = (((const kz_where_options *)options->own)->boundary > 0 ? answer_boundary : answer_where)(options, scene,
+                                                                                                       &starts);
   kz_starts_free(&starts);
   return status;
 }
@@ -248,15 +249,16 @@ static const kz_option rows[] = {
      "print the point between two starts at which their basins meet, correct to DIGITS decimal places", NULL},
     {.name = NULL},
 };
-const kz_command kz_where_command = {
-    "where",
-    " SCENE THETA VELOCITY",
-    2,
-    5,
-    where_run,
-    "say on which attractor a start ends; THETA is in rad from down, VELOCITY in rad per drive radian, with any number of "
-    "digits, or both with units ('170 deg', of a scene in SI '3 rad/s'); write - in their place to read starts as CSV from "
-    "standard input; --boundary takes two starts",
-    "set|json|boundary|help",
-    rows,
-    sizeof(kz_where_options)};
+const kz_command kz_where_command = {"where",
+                                     " SCENE THETA VELOCITY",
+                                     2,
+                                     5,
+                                     where_run,
+                                     "say on which attractor a start ends; THETA is in rad from down, VELOCITY in rad "
+                                     "per drive radian, with any number of "
+                                     "digits, or both with units ('170 deg', of a scene in SI '3 rad/s'); write - in "
+                                     "their place to read starts as CSV from "
+                                     "standard input; --boundary takes two starts",
+                                     "set|json|boundary|help",
+                                     rows,
+                                     sizeof(kz_where_options)};

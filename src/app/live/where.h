@@ -10,7 +10,8 @@ typedef struct {
 } kz_where_options;
 
 /* The starts, from the operands or from lines "theta,velocity" of standard input. start [n] = theta and velocity, as
- * doubles, or both in all digits if one of them has more. KZ_REFUSED names the operand or the line. The caller frees *starts in every case. */
+ * doubles, or both in all digits if one of them has more. KZ_REFUSED names the operand or the line. The caller frees
+ * *starts in every case. */
 typedef struct {
   int64_t n;
   kz_coordinate (*start)[2];
@@ -20,6 +21,6 @@ kz_status kz_starts_read(const kz_options *options, double pivot_frequency, kz_s
 void kz_starts_free(kz_starts *starts);
 
 struct json_object;
-/* Adds "theta", "velocity", and where the start ends to an object (json.h); also in SI units unless `omega`, the frequency of the pivot in rad/s,
- * is NaN. */
+/* Adds "theta", "velocity", and where the start ends to an object (json.h); also in SI units unless `omega`, the
+ * frequency of the pivot in rad/s, is NaN. */
 void kz_ending_add(struct json_object *object, const kz_coordinate start[2], const kz_ending *ending, double omega);

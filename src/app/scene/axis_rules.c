@@ -32,7 +32,8 @@ static void check_centred(kz_reading *reading, const kz_basin_plan *plan, const 
   const bool exact = isnan(plan->accuracy) && plan->method == KZ_METHOD_EXACT;
   const double cell = axis->width.high / (double)(axis->count > 0 ? axis->count : 1);
   if (kz_axis_is_deep(axis) && !exact)
-    kz_complain(reading, width, "%s leaves cells of width %g, too narrow for double precision; choose basin.method exact",
+    kz_complain(reading, width,
+                "%s leaves cells of width %g, too narrow for double precision; choose basin.method exact",
                 axis->width.text, cell);
 }
 
@@ -60,7 +61,8 @@ void kz_theta_rules(kz_reading *reading, kz_axis *theta, const char *path) {
   }
   kz_axis_rules(reading, theta, path);
   if (theta->max - theta->min > 2.0 * M_PI)
-    kz_complain(reading, max.text, "%s makes the window %s rad wide; it must be at most 2 pi (degrees are written %s deg)",
+    kz_complain(reading, max.text,
+                "%s makes the window %s rad wide; it must be at most 2 pi (degrees are written %s deg)",
                 kz_shortest(theta->max).text, kz_shortest(theta->max - theta->min).text, kz_shortest(theta->max).text);
 }
 

@@ -91,11 +91,12 @@ static void key_children(const kz_key *keys, const char *parent, char *text, siz
 void kz_key_unit_words(const kz_key *key, char *text, size_t bytes) {
   char others[128] = "";
   kz_unit_names(key->unit, others, sizeof others);
-  snprintf(text, bytes, "%s%s%s%s%s", key->unit[0] ? " in " : "", key->unit, others[0] ? ", or with its unit: " : "", others,
-           kz_key_is_angle(key) ? ", or in degrees such as 90 deg, or a part of pi such as pi/2" : "");
+  snprintf(text, bytes, "%s%s%s%s%s", key->unit[0] ? " in " : "", key->unit, others[0] ? ", or with its unit: " : "",
+           others, kz_key_is_angle(key) ? ", or in degrees such as 90 deg, or a part of pi such as pi/2" : "");
 }
 
-void kz_key_accepts_with(const kz_key *keys, const kz_key *key, const char *noun, const char *unit, char *text, size_t bytes) {
+void kz_key_accepts_with(const kz_key *keys, const kz_key *key, const char *noun, const char *unit, char *text,
+                         size_t bytes) {
   char names[512] = "", detail[512] = "";
   if (key->type == KZ_KEY_MAPPING)
     key_children(keys, key->path, names, sizeof names);
@@ -120,7 +121,7 @@ void kz_key_accepts(const kz_key *keys, const kz_key *key, char *text, size_t by
       [KZ_KEY_WORDS] = "a list out of ",
       [KZ_KEY_INTEGERS] = "a list of integers",
       [KZ_KEY_REALS] = "a list of numbers",
-      [KZ_KEY_HARMONICS] = "a list of {order: 1 to " KZ_WRITTEN(KZ_HARMONICS) ", amplitude, phase}",
+      [KZ_KEY_HARMONICS] = "a list of {order: 1 to " KZ_STRINGIFY(KZ_HARMONICS) ", amplitude, phase}",
   };
   char unit[256];
   kz_key_unit_words(key, unit, sizeof unit);
@@ -144,7 +145,8 @@ static size_t key_distance(const char *a, const char *b) {
       }
       const size_t change = d[i - 1][j - 1] + (a[i - 1] != b[j - 1]);
       d[i][j] = key_least(change, key_least(d[i - 1][j], d[i][j - 1]) + 1);
-      if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1]) d[i][j] = key_least(d[i][j], d[i - 2][j - 2] + 1);
+      if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1])
+        d[i][j] = key_least(d[i][j], d[i - 2][j - 2] + 1);
     }
   return d[n][m];
 }
@@ -213,7 +215,8 @@ const char *kz_key_missing_power(const char *path) {
   return NULL;
 }
 
-void kz_key_unknown(const kz_key *keys, const char *parent, const char *name, const char *prefix, char *text, size_t bytes) {
+void kz_key_unknown(const kz_key *keys, const char *parent, const char *name, const char *prefix, char *text,
+                    size_t bytes) {
   char path[256];
   snprintf(path, sizeof path, "%s%s%s", parent, parent[0] ? "." : "", name);
   const char *power = kz_key_missing_power(path);
@@ -225,7 +228,8 @@ void kz_key_unknown(const kz_key *keys, const char *parent, const char *name, co
   const kz_key *mapping = kz_key_find(keys, parent), *elsewhere = find_elsewhere(keys, name);
   key_children(keys, parent, names, sizeof names);
   kz_key_list(names, list, sizeof list);
-  if (mapping ? kz_key_renamed(mapping, name, nearest, sizeof nearest) : was_a_study(keys, name, nearest, sizeof nearest))
+  if (mapping ? kz_key_renamed(mapping, name, nearest, sizeof nearest)
+              : was_a_study(keys, name, nearest, sizeof nearest))
     snprintf(text, bytes, "is no longer a key; use %s", nearest);
   else if (mapping && find_meaning(mapping->words, name, nearest, sizeof nearest))
     snprintf(text, bytes, "unknown key; the program calls it %s", nearest);

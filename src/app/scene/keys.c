@@ -1,4 +1,4 @@
-/* The table of the keys of a scene: those of the pendulum and of numerics, which stand here, and those of each study, from its folder. */
+/* The table of a scene's keys: pendulum and numerics here, those of each study in its folder. */
 #include <math.h>
 #include <pthread.h>
 #include <string.h>
@@ -20,23 +20,25 @@ static const char *scheme_words(void) {
   return schemes;
 }
 
-#define MOST_HARMONICS KZ_WRITTEN(KZ_HARMONICS)
+#define MOST_HARMONICS KZ_STRINGIFY(KZ_HARMONICS)
 #define PENDULUM(form_, name, unit_, low_, fallback, help, ...)                                                \
   ROW("pendulum." #name, KZ_KEY_REAL, fallback, AT(parameters.written.name), help, .unit = unit_, .low = low_, \
       .high = DBL_MAX, .form = form_, __VA_ARGS__)
 
 /* Words for keys of the pendulum in books and papers. */
-#define OTHER_WORDS                                                                                                     \
-  "g=torque_ratio, gamma of the equation, or gravity|q=quality_factor|omega_D=drive_frequency|omega_d=drive_frequency|" \
-  "F_D=torque_ratio|F=torque_ratio|drive_strength=torque_ratio|driving_torque=torque_ratio|forcing=torque_ratio|"       \
+#define OTHER_WORDS                                                                                               \
+  "g=torque_ratio, gamma of the equation, or "                                                                    \
+  "gravity|q=quality_factor|omega_D=drive_frequency|omega_d=drive_frequency|"                                     \
+  "F_D=torque_ratio|F=torque_ratio|drive_strength=torque_ratio|driving_torque=torque_ratio|forcing=torque_ratio|" \
   "i=i_dc|I=i_dc|current=i_dc|bias=i_dc|bias_current=i_dc|betac=beta_c|beta_C=beta_c|stewart_mccumber=beta_c"
 
 static const kz_key own[] = {
     TEXT("title", "", title, "One line that names the scene in files and pictures."),
 
-    MAPPING("pendulum", NULL,
-            "The pendulum, given in one of four ways (a, b, c, d). A scene with the study `stability` alone needs none.",
-            .words = OTHER_WORDS),
+    MAPPING(
+        "pendulum", NULL,
+        "The pendulum, given in one of four ways (a, b, c, d). A scene with the study `stability` alone needs none.",
+        .words = OTHER_WORDS),
     PENDULUM("ac", quality_factor, "", KZ_ABOVE_ZERO, "",
              "Quality factor Q = omega0 I/b, so that beta = 1/(Omega Q). Left out in (a): no damping.", .symbol = "Q"),
     PENDULUM("a", drive_frequency, "", KZ_ABOVE_ZERO, NULL,
@@ -49,17 +51,20 @@ static const kz_key own[] = {
     PENDULUM("b", m, "", -DBL_MAX, NULL, "Drive amplitude, of any sign."),
     PENDULUM("c", length, "m", KZ_ABOVE_ZERO, "",
              "Length of a pendulum that is a point mass (I = M l^2). Another body needs mass, radius and inertia."),
-    PENDULUM("c", frequency, "Hz", KZ_ABOVE_ZERO, "", "Frequency of the pivot, omega/(2 pi). Give this or pivot_frequency."),
+    PENDULUM("c", frequency, "Hz", KZ_ABOVE_ZERO, "",
+             "Frequency of the pivot, omega/(2 pi). Give this or pivot_frequency."),
     PENDULUM("c", amplitude, "m", -DBL_MAX, "", "Amplitude A of the pivot; m = M r A/I = A/l."),
     PENDULUM("c", decay_time, "s", KZ_ABOVE_ZERO, "",
              "Time in which small swings shrink by a factor e, 2 I/b. Instead of quality_factor."),
-    PENDULUM("c", gravity, "m s-2", -DBL_MAX, "", "Gravity g; k = M g r/(I omega^2) = g/(l omega^2). Left out: 9.80665."),
+    PENDULUM("c", gravity, "m s-2", -DBL_MAX, "",
+             "Gravity g; k = M g r/(I omega^2) = g/(l omega^2). Left out: 9.80665."),
     PENDULUM("c", mass, "kg", KZ_ABOVE_ZERO, "", "Mass M."),
     PENDULUM("c", radius, "m", KZ_ABOVE_ZERO, "", "Distance r from the pivot to the centre of mass."),
     PENDULUM("c", inertia, "kg m2", KZ_ABOVE_ZERO, "", "Moment of inertia I about the pivot; at least M r^2."),
     PENDULUM("c", friction, "kg m2 s-1", 0.0, "", "Friction b; beta = b/(I omega). Instead of quality_factor."),
     PENDULUM("c", pivot_amplitude, "m", -DBL_MAX, "", "Another name of amplitude."),
-    PENDULUM("c", pivot_frequency, "rad s-1", KZ_ABOVE_ZERO, "", "Angular frequency omega of the pivot. Instead of frequency."),
+    PENDULUM("c", pivot_frequency, "rad s-1", KZ_ABOVE_ZERO, "",
+             "Angular frequency omega of the pivot. Instead of frequency."),
     PENDULUM("c", constant_torque, "N m", -DBL_MAX, "", "Constant torque. It needs mass beside length."),
     PENDULUM("c", oscillating_torque, "N m", -DBL_MAX, "",
              "Amplitude of a torque that oscillates with the drive, as cos omega t."),
@@ -68,10 +73,13 @@ static const kz_key own[] = {
     PENDULUM("d", omega, "", KZ_ABOVE_ZERO, NULL,
              "Of a junction: angular frequency of the microwaves over that of the plasma, so that k = 1/omega^2."),
     PENDULUM("d", i_dc, "", -DBL_MAX, "", "Of a junction: constant current over the critical one; torque = k i_dc."),
-    PENDULUM("d", i_ac, "", -DBL_MAX, "", "Of a junction: amplitude of the microwave current over the critical current."),
-    REAL("pendulum.tilt", "rad", -M_PI, M_PI, "", parameters.written.tilt, "Angle between the pivot's path and the vertical."),
+    PENDULUM("d", i_ac, "", -DBL_MAX, "",
+             "Of a junction: amplitude of the microwave current over the critical current."),
+    REAL("pendulum.tilt", "rad", -M_PI, M_PI, "", parameters.written.tilt,
+         "Angle between the pivot's path and the vertical."),
     REAL("pendulum.ellipse", "", -10, 10, "", parameters.written.ellipse,
-         "Makes the pivot's path an ellipse: the ratio of its axis across the path to the one along it; above 0 = clockwise."),
+         "Makes the pivot's path an ellipse: the ratio of its axis across the path to the one along it; above 0 = "
+         "clockwise."),
     REAL("pendulum.torque", "", -1e6, 1e6, "", parameters.written.torque,
          "Constant torque on the pendulum, in units of I omega^2."),
     REAL("pendulum.torque_amplitude", "", -1e6, 1e6, "", parameters.written.torque_amplitude,
@@ -79,10 +87,12 @@ static const kz_key own[] = {
     REAL("pendulum.constant_torque_ratio", "", -1e6, 1e6, "", parameters.written.constant_torque_ratio,
          "The constant torque in units of M g r: torque = k constant_torque_ratio."),
     ROW("pendulum.torque_ratio", KZ_KEY_REAL, "", AT(parameters.written.torque_ratio),
-        "Amplitude of the oscillating torque in units of M g r, as gamma of textbooks: torque_amplitude = k torque_ratio.",
+        "Amplitude of the oscillating torque in units of M g r, as gamma of textbooks: torque_amplitude = k "
+        "torque_ratio.",
         .unit = "", .low = -1e6, .high = 1e6, .symbol = "gamma"),
     WORD("pendulum.waveform", "sine|square|triangle|samples", "", parameters.written.waveform,
-         "Form of the drive in time, which is that of the pivot's downward acceleration; square and triangle: their Fourier "
+         "Form of the drive in time, which is that of the pivot's downward acceleration; square and triangle: their "
+         "Fourier "
          "series "
          "up to order 7; samples: of the list samples up to order 16."),
     ROW("pendulum.samples", KZ_KEY_REALS, "", AT(parameters.written.samples),
@@ -101,15 +111,18 @@ static const kz_key own[] = {
     ROW("numerics", KZ_KEY_MAPPING, "", NOWHERE, "How one drive period is integrated.", .unit = "",
         .former = "precision=basin.method exact"),
     ROW("numerics.scheme", KZ_KEY_WORD, "processed", AT(asked.scheme),
-        "Integrator. processed: one kick a step, the fastest; the program takes split6 if it does not reach the tolerance; "
+        "Integrator. processed: one kick a step, the fastest; the program takes split6 if it does not reach the "
+        "tolerance; "
         "split schemes are exact in the damping; rk4: classical Runge-Kutta.",
         .unit = "", .words_from = scheme_words, .former = "split4=split6|split6-11=split6", CHOSEN),
     COUNT("numerics.steps_per_period", 1, 100000, "auto", asked.steps_per_period,
-          "Steps in a drive period. auto: as many as tolerance and speeds need (processed); the default of the scheme, or more "
+          "Steps in a drive period. auto: as many as tolerance and speeds need (processed); the default of the scheme, "
+          "or more "
           "for small cells (others).",
           .words = "auto", CHOSEN),
     ROW("numerics.tolerance", KZ_KEY_REAL, "1e-12", AT(asked.tolerance),
-        "Error of one drive period that auto allows the scheme processed, measured against quad precision; small cells allow "
+        "Error of one drive period that auto allows the scheme processed, measured against quad precision; small cells "
+        "allow "
         "less, and method exact a tenth of it where rounding lets it.",
         .unit = "rad", .low = 1e-15, .high = 0.01, CHOSEN),
     {.path = NULL},
@@ -160,7 +173,7 @@ static kz_key *find_row(kz_key *joined, int64_t n, const char *path) {
   return NULL;
 }
 
-/* Puts each of `keys` among the `n` first ones of `joined`, behind those of its mapping, or at their end; returns their number. */
+/* Puts `keys` into the first `n` of `joined`, behind those of their mapping, or last; returns the number. */
 static int64_t keys_add(kz_key *joined, int64_t n, const kz_key *keys) {
   for (; keys->path; keys++, n++) {
     int64_t at = n;

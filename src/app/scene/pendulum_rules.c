@@ -1,4 +1,4 @@
-/* Rules of the mapping pendulum: which keys a pendulum in a laboratory needs, and how k, beta and m follow from them. */
+/* Rules of the mapping pendulum: keys that a laboratory's pendulum needs, and k, beta and m from them. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -16,9 +16,9 @@ static bool has_moment(const kz_pendulum_keys *w) {
 
 /* Whether the keys of a pendulum in SI units are the ones that are used. */
 static bool is_laboratory(const kz_pendulum_keys *w) {
-  return is_given(w->length) || is_given(w->mass) || is_given(w->radius) || is_given(w->inertia) || is_given(w->friction) ||
-         is_given(w->decay_time) || is_given(w->gravity) || is_given(w->amplitude) || is_given(w->pivot_amplitude) ||
-         is_given(w->frequency) || is_given(w->pivot_frequency) || has_moment(w);
+  return is_given(w->length) || is_given(w->mass) || is_given(w->radius) || is_given(w->inertia) ||
+         is_given(w->friction) || is_given(w->decay_time) || is_given(w->gravity) || is_given(w->amplitude) ||
+         is_given(w->pivot_amplitude) || is_given(w->frequency) || is_given(w->pivot_frequency) || has_moment(w);
 }
 
 /* Adds one thing that is missing to the list. */
@@ -86,7 +86,8 @@ static void check_samples(kz_reading *reading, const kz_pendulum_keys *w) {
   enum { FEWEST = 4 };
   const bool list = kz_tree_find(reading->root, "pendulum.samples");
   if (w->waveform == KZ_SAMPLES && !list)
-    kz_complain(reading, "pendulum.waveform", "samples needs the list pendulum.samples; give it, or choose another form");
+    kz_complain(reading, "pendulum.waveform",
+                "samples needs the list pendulum.samples; give it, or choose another form");
   else if (list && w->waveform != KZ_SAMPLES)
     kz_complain(reading, "pendulum.samples", "is for pendulum.waveform: samples; choose it, or leave the list out");
   else if (list && w->samples.count < FEWEST)
@@ -110,7 +111,8 @@ static void check_units(kz_reading *reading, kz_scene *scene) {
       kz_complain(reading, key->path, "%s is taken for %s m, more than a laboratory has; give its unit, such as %s mm",
                   node->text, node->text, node->text);
     const size_t n = strlen(scene->bare);
-    snprintf(scene->bare + n, sizeof scene->bare - n, "%s%s %s %s", n > 0 ? ", " : "", key->path + 9, node->text, key->unit);
+    snprintf(scene->bare + n, sizeof scene->bare - n, "%s%s %s %s", n > 0 ? ", " : "", key->path + 9, node->text,
+             key->unit);
   }
 }
 

@@ -25,7 +25,7 @@ static const char *find_pi(const char *text, size_t *letters) {
   return found ? found : greek;
 }
 
-/* Splits "3 pi/4" into the text "3", written to multiple [bytes], and the divisor 4; false if the text is not a part of pi. */
+/* Splits "3 pi/4" into "3", written to multiple [bytes], and divisor 4; false if not a part of pi. */
 static bool pi_parts(const char *text, char *multiple, size_t bytes, long *divisor) {
   size_t letters;
   char *end;

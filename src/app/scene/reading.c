@@ -31,9 +31,9 @@ static const kz_node *nearest_mapping(const kz_node *root, const char *path) {
   return node;
 }
 
-/* Keeps a complaint at the value of `node`, or at its key; NULL: at the mapping that `path` misses from, after all others. */
-static void reading_complain(kz_reading *reading, const kz_node *node, bool at_name, const char *path, const char *format,
-                             va_list arguments) {
+/* Keeps a complaint at the value or key of `node`; NULL: at the mapping that lacks `path`, after all others. */
+static void reading_complain(kz_reading *reading, const kz_node *node, bool at_name, const char *path,
+                             const char *format, va_list arguments) {
   const int order = node ? node->order : INT_MAX - 1;
   if (order >= reading->first) return;
   reading->first = order;
@@ -60,8 +60,8 @@ void kz_complain_at(kz_reading *reading, const kz_node *node, const char *path, 
   COMPLAIN(reading, node, false, path, format);
 }
 
-__attribute__((format(printf, 4, 5))) static void complain_key(kz_reading *reading, const kz_node *node, const char *path,
-                                                               const char *format, ...) {
+__attribute__((format(printf, 4, 5))) static void complain_key(kz_reading *reading, const kz_node *node,
+                                                               const char *path, const char *format, ...) {
   COMPLAIN(reading, node, true, path, format);
 }
 
@@ -76,10 +76,11 @@ static void complain_value(kz_reading *reading, const kz_key *key, const kz_node
   else if (node->kind == KZ_SCALAR && kz_scalar_with_a_point(node->text, nearest, sizeof nearest))
     snprintf(hint, sizeof hint, " (with a decimal point: %s)", nearest);
   else if (power)
-    snprintf(hint, sizeof hint, " (%s the power %s, which this build leaves out)", of_word ? "it needs" : "other words need",
-             power);
+    snprintf(hint, sizeof hint, " (%s the power %s, which this build leaves out)",
+             of_word ? "it needs" : "other words need", power);
   else if (node->kind == KZ_SCALAR && kz_key_suggest(node->text, kz_key_words(key), nearest, sizeof nearest))
-    snprintf(hint, sizeof hint, strcmp(wrong, "is not a list") == 0 ? " (did you mean [%s]?)" : " (did you mean %s?)", nearest);
+    snprintf(hint, sizeof hint, strcmp(wrong, "is not a list") == 0 ? " (did you mean [%s]?)" : " (did you mean %s?)",
+             nearest);
   if (node->kind == KZ_SCALAR && node->text[0])
     kz_complain_at(reading, node, key->path, "\"%.60s\" %s; it must be %s%s", node->text, wrong, accepted, hint);
   else
@@ -88,7 +89,8 @@ static void complain_value(kz_reading *reading, const kz_key *key, const kz_node
 
 /* "0,3" in a flow mapping is the number 0 and a key 3 without a value. */
 static bool is_decimal_comma(const kz_node *node) {
-  return node->kind == KZ_SCALAR && !node->text[0] && node->name[0] && node->name[strspn(node->name, "0123456789")] == '\0';
+  return node->kind == KZ_SCALAR && !node->text[0] && node->name[0] &&
+         node->name[strspn(node->name, "0123456789")] == '\0';
 }
 
 static void complain_unknown(kz_reading *reading, const kz_node *node, const char *parent, const char *path) {
@@ -113,7 +115,7 @@ static void read_key(kz_reading *reading, const kz_key *key, const kz_node *node
   if (wrong) complain_value(reading, key, culprit, wrong);
 }
 
-/* The first key of a mapping that belongs to one form alone, else the first of several: it chooses the form. NULL where none does. */
+/* The first key of one form alone, else the first of several: it chooses the form. NULL if there is none. */
 static const kz_key *form_chooser(const kz_key *keys, const kz_node *mapping, const char *parent) {
   const kz_key *several = NULL;
   for (const kz_node *child = mapping->first; child; child = child->next) {
@@ -126,7 +128,7 @@ static const kz_key *form_chooser(const kz_key *keys, const kz_node *mapping, co
   return several;
 }
 
-/* The first key of a mapping that gives something in another way than `key`: the key that chooses the form, or one before `child`. NULL: none. */
+/* First key that gives something in another way than `key`: the chooser, or one before `child`. NULL: none. */
 static const kz_key *other_way(const kz_key *keys, const kz_node *mapping, const kz_node *child, const char *parent,
                                const kz_key *key) {
   if (!key || !key->form) return NULL;
@@ -231,7 +233,7 @@ static void number(kz_node *node, int *next) {
   }
 }
 
-/* The positive number that a key gives in `unit`: NaN where it is not given, 1 where it is wrong, which is reported when the key is read. */
+/* Positive number of a key in `unit`; NaN if not given, 1 if wrong, which reading the key reports. */
 static double read_positive(const kz_node *root, const char *path, const char *unit) {
   const kz_node *node = kz_tree_find(root, path);
   double value;
@@ -249,7 +251,8 @@ static bool frequency_changes(const kz_node *root) {
   static const char *const parameters[] = {"sweep.parameter", "sweep.x.parameter", "sweep.y.parameter"};
   for (size_t i = 0; i < sizeof parameters / sizeof *parameters; i++) {
     const kz_node *node = kz_tree_find(root, parameters[i]);
-    if (node && node->text && (strcmp(node->text, "frequency") == 0 || strcmp(node->text, "pivot_frequency") == 0)) return true;
+    if (node && node->text && (strcmp(node->text, "frequency") == 0 || strcmp(node->text, "pivot_frequency") == 0))
+      return true;
   }
   return false;
 }
@@ -258,7 +261,8 @@ static void reading_convert(kz_reading *reading, const char *path, kz_node *node
   double value;
   const char *wrong;
   if (!kz_scalar_per_second(node, pivot_frequency(reading->root), &value, &wrong)) return;
-  if (!wrong && frequency_changes(reading->root)) wrong = "is per second, but the scene changes the frequency of the pivot";
+  if (!wrong && frequency_changes(reading->root))
+    wrong = "is per second, but the scene changes the frequency of the pivot";
   if (wrong) {
     kz_complain_at(reading, node, path, "\"%.60s\" %s; it must be a number in %s", node->text, wrong, KZ_VELOCITY_UNIT);
     return;

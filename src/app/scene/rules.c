@@ -58,7 +58,8 @@ static void need_rule(kz_reading *reading, const kz_study_need *need, const char
       if (strlen(kz_studies[i]->name) == (size_t)length && strncmp(kz_studies[i]->name, word, (size_t)length) == 0 &&
           kz_study_is_wanted(kz_studies[i], reading->scene))
         return;
-    snprintf(studies + strlen(studies), sizeof studies - strlen(studies), "%s%.*s", studies[0] ? " or " : "", length, word);
+    snprintf(studies + strlen(studies), sizeof studies - strlen(studies), "%s%.*s", studies[0] ? " or " : "", length,
+             word);
   }
   kz_complain(reading, path, "needs %s; add a %s study to the scene", need->what, studies);
 }
@@ -120,11 +121,12 @@ static void stability_rules(kz_reading *reading, kz_scene *scene) {
 /* Whether the motions of a pendulum can be followed; `path` names what gives it. */
 static void check_stiffness(kz_reading *reading, const kz_pendulum *pendulum, const char *path) {
   if (kz_stiffness(pendulum) <= KZ_MOST_STIFFNESS) return;
-  kz_complain(reading, path, "gives abs(k) + abs(m) = %.3g; the program follows motions up to %g; use a weaker or faster drive",
+  kz_complain(reading, path,
+              "gives abs(k) + abs(m) = %.3g; the program follows motions up to %g; use a weaker or faster drive",
               kz_stiffness(pendulum), KZ_MOST_STIFFNESS);
 }
 
-/* Converts a value that was written with a unit to the unit of the parameter; *written = that unit, unless it has one. */
+/* Converts a value written with a unit to the parameter's unit; *written = that unit, unless it has one. */
 static void read_in_unit(kz_reading *reading, int32_t parameter, const kz_node *node, const char *path, double *value,
                          kz_written_unit *written) {
   const char *unit = kz_sweep_parameter_at(parameter)->unit;
@@ -151,9 +153,10 @@ static void parameter_value(kz_reading *reading, const kz_scene *scene, int32_t 
   else if (reading->message[0])
     return;
   else if (!kz_pendulum_at(scene, 1, &parameter, &value, &pendulum))
-    kz_complain_at(reading, node, path,
-                   "%s gives no finite k, beta >= 0 and m, or an inertia below mass * radius^2; use a less extreme value",
-                   kz_shortest(value).text);
+    kz_complain_at(
+        reading, node, path,
+        "%s gives no finite k, beta >= 0 and m, or an inertia below mass * radius^2; use a less extreme value",
+        kz_shortest(value).text);
   else
     check_stiffness(reading, &pendulum, path);
 }
@@ -167,7 +170,8 @@ static void parameter_rule(kz_reading *reading, int32_t parameter, const char *p
 }
 
 /* The range of that key's values. */
-static void parameter_values(kz_reading *reading, const kz_scene *scene, int32_t parameter, kz_axis *values, const char *path) {
+static void parameter_values(kz_reading *reading, const kz_scene *scene, int32_t parameter, kz_axis *values,
+                             const char *path) {
   if (parameter == KZ_UNSET_WORD) return;
   const kz_short_text min = kz_key_in(path, "min"), max = kz_key_in(path, "max");
   const kz_node *first = kz_tree_find(reading->root, min.text), *last = kz_tree_find(reading->root, max.text);
@@ -211,7 +215,7 @@ static void sweep_rules(kz_reading *reading, kz_scene *scene) {
   if (sweep->listed.count == 0) sweep->values = sweep->range;
 }
 
-/* The range that a mapping gives; returns the axis of a parameter. `other` is that of the mapping before, NULL = none. */
+/* Range that a mapping gives; returns the axis of a parameter. `other`: the mapping before, NULL = none. */
 static const kz_plane_axis *range_rule(kz_reading *reading, const kz_key *key, char *axis, const kz_plane_axis *other) {
   kz_plane_axis *along = (kz_plane_axis *)axis;
   if (key->range == KZ_RANGE_ANGLES) kz_theta_rules(reading, (kz_axis *)axis, key->path);
@@ -247,7 +251,8 @@ static void studies_rules(kz_reading *reading, kz_scene *scene) {
 /* Whether the pendulum, or one of the sweep's, has no mirror symmetry. */
 static void symmetry_rules(kz_reading *reading, kz_scene *scene) {
   (void)reading;
-  scene->basin->unmirrored = kz_drive_unmirrored_by(&scene->parameters.written) || scene->parameters.pendulum.unmirrored;
+  scene->basin->unmirrored =
+      kz_drive_unmirrored_by(&scene->parameters.written) || scene->parameters.pendulum.unmirrored;
 }
 
 /* Refuses orbits for which the motion is too fast or the model does not hold. */
@@ -255,13 +260,14 @@ static void orbit_range_rules(kz_reading *reading, kz_scene *scene) {
   if (!scene->has_orbit || reading->message[0]) return;
   const double steps = kz_orbit_steps(scene), k = scene->parameters.pendulum.k;
   if (steps > KZ_MOST_ORBIT_STEPS)
-    kz_complain(
-        reading, "orbit",
-        "needs %.3g steps a period for a motion this fast, at most %d are possible; use a slower start or weaker forces", steps,
-        KZ_MOST_ORBIT_STEPS);
+    kz_complain(reading, "orbit",
+                "needs %.3g steps a period for a motion this fast, at most %d are possible; use a slower start or "
+                "weaker forces",
+                steps, KZ_MOST_ORBIT_STEPS);
   if (scene->orbit->model == KZ_EFFECTIVE && fabs(k) >= 1)
     kz_complain(reading, "orbit.model",
-                "effective averages over a fast drive, abs(k) < 1, but k = %.9g; use another model or a faster drive", k);
+                "effective averages over a fast drive, abs(k) < 1, but k = %.9g; use another model or a faster drive",
+                k);
 }
 
 /* Sets basin.max_periods, if the scene does not, from the weakest damping. */

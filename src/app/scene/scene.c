@@ -15,7 +15,8 @@ kz_status kz_scene_check_file(const char *path) {
   if (stat(path, &facts) != 0)
     return kz_fail(KZ_REFUSED, "%s: cannot be opened: %s; give the name of a scene file", path, strerror(errno));
   if (S_ISDIR(facts.st_mode)) return kz_fail(KZ_REFUSED, "%s: is a folder; give the name of a scene file", path);
-  if (!S_ISREG(facts.st_mode)) return kz_fail(KZ_REFUSED, "%s: is not a regular file; give the name of a scene file", path);
+  if (!S_ISREG(facts.st_mode))
+    return kz_fail(KZ_REFUSED, "%s: is not a regular file; give the name of a scene file", path);
   return KZ_OK;
 }
 
@@ -53,8 +54,8 @@ kz_status kz_scene_load(const char *path, char **text, size_t *length) {
   free(*text);
   *text = NULL;
   if (wrong) return kz_fail(KZ_REFUSED, "%s: %s", path, wrong);
-  return kz_fail(KZ_REFUSED, "%s: is a result, not a scene; kapitza view %s shows it, kapitza plot basin %s draws it", path,
-                 path, path);
+  return kz_fail(KZ_REFUSED, "%s: is a result, not a scene; kapitza view %s shows it, kapitza plot basin %s draws it",
+                 path, path, path);
 }
 
 /* Refuses an option whose key is not in the table, naming the nearest one of its mapping. */
@@ -126,7 +127,8 @@ kz_status kz_scene_of_tree(kz_node *root, kz_scene *scene) {
   return status;
 }
 
-kz_status kz_scene_read(const char *text, size_t length, const char *file, int n_sets, char *const *sets, kz_scene *scene) {
+kz_status kz_scene_read(const char *text, size_t length, const char *file, int n_sets, char *const *sets,
+                        kz_scene *scene) {
   kz_scene_tree tree;
   memset(scene, 0, sizeof *scene);
   kz_status status = kz_scene_tree_read(text, length, file, n_sets, sets, &tree);
@@ -136,7 +138,7 @@ kz_status kz_scene_read(const char *text, size_t length, const char *file, int n
   return status;
 }
 
-/* Complains about the first of `keys` ("KEY|KEY") that the tree holds, or at the mapping that the last of them misses from. */
+/* Complains about the first of `keys` ("KEY|KEY") in the tree, or at the mapping that lacks the last one. */
 static void complain_first(kz_reading *reading, char *keys, const char *wrong) {
   char *rest = keys;
   for (char *key; (key = strsep(&rest, "|"));) {
@@ -158,7 +160,8 @@ static bool are_keys(const char *keys) {
   return true;
 }
 
-kz_status kz_scene_locate(kz_status status, const char *text, size_t length, const char *file, int n_sets, char *const *sets) {
+kz_status kz_scene_locate(kz_status status, const char *text, size_t length, const char *file, int n_sets,
+                          char *const *sets) {
   char message[KZ_MESSAGE_BYTES];
   snprintf(message, sizeof message, "%s", kz_message());
   char *end = strstr(message, ": ");
@@ -233,7 +236,7 @@ static kz_status put_change(kz_node *root, kz_node *change) {
 
 static kz_status take_change(kz_node *root, const char *change) {
   const size_t bytes = strlen(change) + 3;
-  KZ_FREED char *flow = kz_malloc(bytes);
+  KZ_AUTOFREE char *flow = kz_malloc(bytes);
   kz_node *mappings;
   snprintf(flow, bytes, "{%s}", change);
   KZ_TRY(kz_tree_read(flow, strlen(flow), "change", true, &mappings));

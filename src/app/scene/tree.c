@@ -81,8 +81,8 @@ kz_status kz_tree_set(kz_node *root, const char *path, kz_node *value) {
   if (child->kind == KZ_MAPPING) return kz_tree_set(child, path + length + 1, value);
   const char *source = value->source;
   kz_tree_free(value);
-  return kz_fail(KZ_REFUSED, "%s: %.*s: is not a mapping in the scene; make it one, or --set all of it", source, (int)length,
-                 path);
+  return kz_fail(KZ_REFUSED, "%s: %.*s: is not a mapping in the scene; make it one, or --set all of it", source,
+                 (int)length, path);
 }
 
 static void set_text(char **text, const char *value) {
@@ -93,7 +93,8 @@ static void set_text(char **text, const char *value) {
 /* Gives the value of `key` the name of `meant` if it is that key's symbol, and the name is one of its words. */
 static void name_value(const kz_key *key, const kz_key *meant, kz_node *root) {
   kz_node *node = key->type == KZ_KEY_WORD ? kz_tree_find(root, key->path) : NULL;
-  if (node && node->text && strcmp(node->text, meant->symbol) == 0 && kz_word_find(kz_key_words(key), kz_key_name(meant)) >= 0)
+  if (node && node->text && strcmp(node->text, meant->symbol) == 0 &&
+      kz_word_find(kz_key_words(key), kz_key_name(meant)) >= 0)
     set_text(&node->text, kz_key_name(meant));
 }
 

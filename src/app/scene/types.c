@@ -1,4 +1,4 @@
-/* The types of numbers that docs/reference/scene.md names: each is defined once there, and the rows of the keys link to it. */
+/* Types of numbers in docs/reference/scene.md: each defined once, linked from the rows of keys. */
 #include <stdio.h>
 #include <string.h>
 
@@ -13,7 +13,8 @@ static const type types[] = {
     {"rad", "", "an", "angle",
      "A degree sign may stand for the word: 90°. Angles are counted from the down position, counterclockwise."},
     {KZ_VELOCITY_UNIT, "", "a", "velocity",
-     "Units are for scenes in SI units whose studies do not change the frequency of the pivot. A velocity of 1 is one turn "
+     "Units are for scenes in SI units whose studies do not change the frequency of the pivot. A velocity of 1 is one "
+     "turn "
      "in a drive period."},
     {"Hz", "", "a", "frequency", "A frequency is a number of periods a second: 1 rad/s is 1/(2 pi) Hz."},
     {"rad s-1", "", "an", "angular frequency", "1 Hz is 2 pi rad/s."},
@@ -46,12 +47,14 @@ void kz_type_accepts(const kz_key *keys, const kz_key *key, char *text, size_t b
   snprintf(anchor, sizeof anchor, "%s", found->name);
   for (char *blank = anchor; (blank = strchr(blank, ' '));) *blank = '-';
   const bool list = key->type == KZ_KEY_REALS;
-  snprintf(noun, sizeof noun, "%s%s [%s](#%s)", list ? "a list of numbers, each " : "", found->article, found->name, anchor);
+  snprintf(noun, sizeof noun, "%s%s [%s](#%s)", list ? "a list of numbers, each " : "", found->article, found->name,
+           anchor);
   kz_key_accepts_with(keys, key, noun, "", text, bytes);
 }
 
 void kz_types_write(const kz_key *keys, FILE *out) {
-  fputs("\n## Types of numbers\n\nWhat stands behind a number is its unit; a blank between them may be left out.\n", out);
+  fputs("\n## Types of numbers\n\nWhat stands behind a number is its unit; a blank between them may be left out.\n",
+        out);
   for (int i = 0; i < TYPES; i++) {
     const kz_key *key = keys;
     while (key->path && type_of(key) != types + i) key++;

@@ -111,7 +111,7 @@ static const char *read_harmonic(const kz_key *key, const kz_node *node, void *f
   if (!wrong) wrong = read_part(node, "phase", true, 0, &harmonic->phase);
   if (wrong) return wrong;
   if (order != rint(order) || order < 1 || order > KZ_HARMONICS)
-    return "has an order that is no integer from 1 to " KZ_WRITTEN(KZ_HARMONICS);
+    return "has an order that is no integer from 1 to " KZ_STRINGIFY(KZ_HARMONICS);
   harmonic->order = (int64_t)order;
   return NULL;
 }
@@ -155,7 +155,7 @@ static void print_real(const kz_key *key, const void *value, FILE *out) {
   fprintf(out, fabs(number) > kz_key_most_bare(key) ? "%s m" : "%s", kz_shortest(number).text);
 }
 
-/* Prints the text in double quotes; what may stand in one needs no other escapes than those of these and of backslashes. */
+/* Prints the text in double quotes; only quotes and backslashes need escapes in what may stand in one. */
 static void print_quoted(const char *text, FILE *out) {
   fputc('"', out);
   for (; *text; text++) fprintf(out, *text == '"' || *text == '\\' ? "\\%c" : "%c", *text);
@@ -239,8 +239,8 @@ static const char *read_list(const kz_key *key, const kz_node *node, void *list,
   *count = 0;
   for (*culprit = node->first; *culprit; *culprit = (*culprit)->next) {
     if (key->type == KZ_KEY_HARMONICS && *count == KZ_HARMONICS)
-      return "is one harmonic too many (at most " KZ_WRITTEN(KZ_HARMONICS) ")";
-    if (*count == KZ_LIST_MAX) return "is one value too many (at most " KZ_WRITTEN(KZ_LIST_MAX) ")";
+      return "is one harmonic too many (at most " KZ_STRINGIFY(KZ_HARMONICS) ")";
+    if (*count == KZ_LIST_MAX) return "is one value too many (at most " KZ_STRINGIFY(KZ_LIST_MAX) ")";
     void *value = (char *)list + types[key->type].first + (size_t)(*count)++ * types[key->type].bytes;
     const char *wrong = types[key->type].read(key, *culprit, value);
     if (wrong) return wrong;

@@ -7,7 +7,8 @@
 static bool is_left_out(const kz_key *keys, const kz_key *key, const void *scene) {
   for (const kz_key *row = keys; row->path; row++) {
     const size_t length = strlen(row->path);
-    const bool above = strncmp(row->path, key->path, length) == 0 && (key->path[length] == '.' || key->path[length] == '\0');
+    const bool above =
+        strncmp(row->path, key->path, length) == 0 && (key->path[length] == '.' || key->path[length] == '\0');
     if (above && !kz_value_is_given(row, scene)) return true;
   }
   return false;
@@ -109,7 +110,8 @@ void kz_scene_reference(const kz_key *keys, FILE *out) {
       "# The keys of a scene\n\n"
       "Every key that a scene can hold: what it accepts, its default, what it means.\n"
       "Written by `kapitza keys` from the program's own table; do not edit. `-` = may be left out and has no default.\n"
-      "A letter in parentheses marks one of several ways to give the same. Use the keys of one letter only; `required` then "
+      "A letter in parentheses marks one of several ways to give the same. Use the keys of one letter only; `required` "
+      "then "
       "holds for that letter. Names of types lead to [their definitions](#types-of-numbers).\n\n",
       out);
   fputs("| key | accepted | default | meaning |\n| --- | --- | --- | --- |\n", out);

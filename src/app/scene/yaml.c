@@ -1,5 +1,5 @@
-/* The only file that knows libyaml. A text is scanned first (depth, anchors, aliases, tags), so that the loader meets nothing
- * that grows or refers elsewhere; then it is loaded and copied into a tree of kz_node. */
+/* The only file that knows libyaml. A text is scanned first (depth, anchors, aliases, tags), so that the loader meets
+ * nothing that grows or refers elsewhere; then it is loaded and copied into a tree of kz_node. */
 #include <stdlib.h>
 #include <string.h>
 #include <yaml.h>
@@ -46,7 +46,8 @@ static kz_status refuse_problem(const source_text *source, const yaml_parser_t *
       column = source->text[i] == '\n' ? 0 : column + (((unsigned char)source->text[i] & 0xC0) != 0x80);
       line += source->text[i] == '\n';
     }
-    snprintf(wrong, sizeof wrong, "is not text (%s); save the scene in UTF-8 without control characters", parser->problem);
+    snprintf(wrong, sizeof wrong, "is not text (%s); save the scene in UTF-8 without control characters",
+             parser->problem);
   } else {
     const size_t at = parser->problem_mark.index;
     const bool tab = at < source->length && source->text[at] == '\t';
@@ -60,7 +61,8 @@ static kz_status refuse_problem(const source_text *source, const yaml_parser_t *
 static int depth_change(yaml_token_type_t type) {
   const bool begins = type == YAML_BLOCK_SEQUENCE_START_TOKEN || type == YAML_BLOCK_MAPPING_START_TOKEN ||
                       type == YAML_FLOW_SEQUENCE_START_TOKEN || type == YAML_FLOW_MAPPING_START_TOKEN;
-  const bool ends = type == YAML_BLOCK_END_TOKEN || type == YAML_FLOW_SEQUENCE_END_TOKEN || type == YAML_FLOW_MAPPING_END_TOKEN;
+  const bool ends =
+      type == YAML_BLOCK_END_TOKEN || type == YAML_FLOW_SEQUENCE_END_TOKEN || type == YAML_FLOW_MAPPING_END_TOKEN;
   return begins - ends;
 }
 
@@ -103,7 +105,8 @@ static kz_status yaml_scan(const source_text *source) {
 static kz_node *yaml_copy(yaml_document_t *document, const source_text *source, const yaml_node_t *from);
 
 /* Appends a copy of `from` to *end, named by the scalar `key` (NULL in a list). */
-static void copy_child(yaml_document_t *document, const source_text *source, const yaml_node_t *key, int from, kz_node ***end) {
+static void copy_child(yaml_document_t *document, const source_text *source, const yaml_node_t *key, int from,
+                       kz_node ***end) {
   kz_node *child = **end = yaml_copy(document, source, yaml_document_get_node(document, from));
   *end = &child->next;
   if (!key) return;
@@ -113,7 +116,8 @@ static void copy_child(yaml_document_t *document, const source_text *source, con
   child->name_column = source->option ? 0 : (int)key->start_mark.column + 1;
 }
 
-static void copy_children(yaml_document_t *document, const source_text *source, const yaml_node_t *from, kz_node *node) {
+static void copy_children(yaml_document_t *document, const source_text *source, const yaml_node_t *from,
+                          kz_node *node) {
   kz_node **end = &node->first;
   if (from->type == YAML_SEQUENCE_NODE)
     for (const yaml_node_item_t *item = from->data.sequence.items.start; item < from->data.sequence.items.top; item++)
@@ -158,8 +162,8 @@ static kz_status yaml_load(const source_text *source, kz_node **root) {
   kz_node *second = NULL;
   kz_status status = load_next(&parser, source, root);
   if (status == KZ_OK && !*root)
-    status = yaml_refuse(source, 0, 0,
-                         source->option ? "has no value; give a value after =" : "is empty; give a pendulum and a study");
+    status = yaml_refuse(
+        source, 0, 0, source->option ? "has no value; give a value after =" : "is empty; give a pendulum and a study");
   else if (status == KZ_OK)
     status = load_next(&parser, source, &second);
   if (second)

@@ -26,7 +26,8 @@ static kz_status read_quantity(const char *option, const char *path, const char 
   char accepts[512];
   if (!text) return KZ_OK;
   const bool bare = !kz_scalar_real(&node, value);
-  const char *wrong = kz_unit_is_known(key->unit) ? kz_scalar_quantity(&node, key->unit, value) : kz_scalar_real(&node, value);
+  const char *wrong =
+      kz_unit_is_known(key->unit) ? kz_scalar_quantity(&node, key->unit, value) : kz_scalar_real(&node, value);
   if (!wrong && (*value < key->low || *value > key->high)) wrong = "is out of range";
   if (!wrong && bare && *value > kz_key_most_bare(key)) wrong = "is taken for metres; give its unit";
   if (!wrong) return KZ_OK;
@@ -51,10 +52,12 @@ static kz_status read_rig(const own_options *options, rig *r) {
 
 /* Fills found [2]: standing, flutter. */
 static kz_status find_amplitudes(const rig *r, amplitudes *found) {
-  const double omega = 2 * M_PI * r->frequency, natural = sqrt(KZ_STANDARD_GRAVITY / r->length), ratio = natural / omega;
+  const double omega = 2 * M_PI * r->frequency, natural = sqrt(KZ_STANDARD_GRAVITY / r->length),
+               ratio = natural / omega;
   const kz_pendulum p = {.k = ratio * ratio, .beta = ratio / r->quality_factor};
   if (!(p.k > 0 && p.k < 1 && p.beta > 0))
-    return kz_fail(KZ_REFUSED, "--frequency: %g Hz is not above that of the pendulum's own swings, %.4g Hz; give a higher one",
+    return kz_fail(KZ_REFUSED,
+                   "--frequency: %g Hz is not above that of the pendulum's own swings, %.4g Hz; give a higher one",
                    r->frequency, natural / (2 * M_PI));
   double from, to;
   kz_standing_drives(&p, &from, &to);
@@ -78,7 +81,8 @@ static void print_amplitudes(const rig *r, const amplitudes *a) {
     return;
   }
   printf("from %.4g mm (%.3g g)", 1e3 * a->from, needs_acceleration(r, a->from));
-  isnan(a->to) ? puts(" on; no end was found") : printf(" to %.4g mm (%.3g g)\n", 1e3 * a->to, needs_acceleration(r, a->to));
+  isnan(a->to) ? puts(" on; no end was found")
+               : printf(" to %.4g mm (%.3g g)\n", 1e3 * a->to, needs_acceleration(r, a->to));
 }
 
 static void print_person(const rig *r, const amplitudes *found) {
@@ -114,9 +118,10 @@ static kz_status needs_run(const kz_options *options) {
 
 #define OF(member) offsetof(own_options, member)
 static const kz_option rows[] = {
-    {"length", 0, "L", kz_option_text, OF(length), "length of a point mass on a light rod, such as 20 cm; needed", NULL},
-    {"frequency", 0, "F", kz_option_text, OF(frequency), "frequency of the drive: Hz, or with a unit such as 3000 rpm; needed",
+    {"length", 0, "L", kz_option_text, OF(length), "length of a point mass on a light rod, such as 20 cm; needed",
      NULL},
+    {"frequency", 0, "F", kz_option_text, OF(frequency),
+     "frequency of the drive: Hz, or with a unit such as 3000 rpm; needed", NULL},
     {"quality-factor", 0, "Q", kz_option_text, OF(quality_factor), "quality factor of small swings; default: 20", NULL},
     {.name = NULL},
 };

@@ -69,22 +69,23 @@ kz_status kz_package_become(const char *entry, const char *module, int n, const 
   KZ_TRY(find_places(p, entry));
   KZ_TRY(set_module_path(p));
   const char *python = python_of(p);
-  KZ_FREED const char **line = kz_calloc((size_t)n + 4, sizeof *line);
+  KZ_AUTOFREE const char **line = kz_calloc((size_t)n + 4, sizeof *line);
   line[0] = python;
   line[1] = p->entry[0] ? "-P" : "-m";
   line[2] = p->entry[0] ? p->entry : module;
   memcpy(line + 3, words, (size_t)n * sizeof *line);
   fflush(stdout);
   execvp(python, (char *const *)line);
-  return kz_fail(KZ_FAILED,
-                 "%s cannot be run: %s; set KAPITZA_PYTHON to a Python that has the packages of scripts/requirements.txt",
-                 python, strerror(errno));
+  return kz_fail(
+      KZ_FAILED,
+      "%s cannot be run: %s; set KAPITZA_PYTHON to a Python that has the packages of scripts/requirements.txt", python,
+      strerror(errno));
 }
 
 /* A command of the package with n words behind it. */
 static kz_status call_package(const kz_options *options, const char *command, int n, const char *const *words) {
   if (!options->prints) return KZ_OK;
-  KZ_FREED const char **all = kz_calloc((size_t)n + 1, sizeof *all);
+  KZ_AUTOFREE const char **all = kz_calloc((size_t)n + 1, sizeof *all);
   all[0] = command;
   if (n > 0) memcpy(all + 1, words, (size_t)n * sizeof *all);
   return kz_package_become("__main__.py", "kapitza", n + 1, all);
@@ -93,15 +94,15 @@ static kz_status call_package(const kz_options *options, const char *command, in
 static kz_status package_plot(const kz_options *options) {
   return call_package(options, "plot", options->n_words, (const char *const *)options->plot_words);
 }
-const kz_command kz_plot_command = {
-    "plot",
-    " [KIND] FILE",
-    1,
-    1,
-    package_plot,
-    "draw the result FILE as a picture; kapitza plot KIND --help lists the options of a kind, kapitza plot alone the kinds",
-    "help",
-    .passes_words = true};
+const kz_command kz_plot_command = {"plot",
+                                    " [KIND] FILE",
+                                    1,
+                                    1,
+                                    package_plot,
+                                    "draw the result FILE as a picture; kapitza plot KIND --help lists the options of "
+                                    "a kind, kapitza plot alone the kinds",
+                                    "help",
+                                    .passes_words = true};
 
 static kz_status package_info(const kz_options *options) {
   return call_package(options, "info", 1, &options->scene);
@@ -126,7 +127,8 @@ static kz_status package_fit(const kz_options *options) {
 static const kz_option rows[] = {
     {"frequency", 0, "F", kz_option_text, offsetof(fit_options, frequency),
      "frequency of the drive: Hz, or with a unit such as 3000 rpm; without it the track is a free decay", NULL},
-    {"degrees", 0, NULL, kz_option_flag, offsetof(fit_options, degrees), "the angles of the track are in degrees", NULL},
+    {"degrees", 0, NULL, kz_option_flag, offsetof(fit_options, degrees), "the angles of the track are in degrees",
+     NULL},
     {.name = NULL},
 };
 const kz_command kz_fit_command = {

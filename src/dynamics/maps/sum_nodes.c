@@ -26,8 +26,9 @@ static inline __attribute__((always_inline)) node sum_of(int points, int64_t len
   return sum;
 }
 
-/* shift [n][2] = the displacements interpolated over points x points nodes (2 or 6) around the cells (i, j), from 0. field: from node (0, 0) on;
- * a velocity has `length` doubles. wu, wv [points][width]: weights of the nodes of each lane. */
+/* shift [n][2] = the displacements interpolated over points x points nodes (2 or 6) around the cells (i, j), from 0.
+ * field: from node (0, 0) on; a velocity has `length` doubles. wu, wv [points][width]: weights of the nodes of each
+ * lane. */
 void kz_sum_nodes(int32_t points, int32_t n, int64_t length, const double *field, const int32_t *i, const int32_t *j,
                   int64_t width, const double *wu, const double *wv, double *shift) {
   const double *corner = field + (1 - points / 2) * (length + 2);

@@ -1,5 +1,5 @@
-/* Multiple shooting with a node a period. The equations M step = -F are solved by step = M^T y, (M M^T + shift) y = -F, which is block
- * tridiagonal: the least-norm step, and Levenberg's where that does not help. */
+/* Multiple shooting with a node a period. The equations M step = -F are solved by step = M^T y, (M M^T + shift) y = -F,
+ * which is block tridiagonal: the least-norm step, and Levenberg's where that does not help. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -7,8 +7,8 @@
 #include "kapitza/kernel_paths.h"
 
 enum { MAX_ITERATIONS = 40, MAX_ALONG = 12, MAX_DESCENT = 6 };
-/* Shift of the equations beside their largest diagonal element: the least, that of the first step, the largest, and one that leaves the nearly
- * free shift in time out. */
+/* Shift of the equations beside their largest diagonal element: the least, that of the first step, the largest, and one
+ * that leaves the nearly free shift in time out. */
 static const double LEAST_SHIFT = 1e-15, FIRST_SHIFT = 1e-10, LARGEST_SHIFT = 0.1, FLOOR_SHIFT = 1e-8;
 /* Jumps below CLOSED that shrink no more are due to rounding; larger steps are shortened (rad). */
 static const double CLOSED = 1e-9, LONGEST = 0.5;
@@ -208,8 +208,8 @@ static void polish_descend(const kz_hamilton *flow, double *node, shooting *s) {
   }
 }
 
-/* A step from the nodes, whose jumps and tangents are known, before and after. False where even the largest shift makes the jumps no smaller. A
- * short step along the valley may enlarge them, *along times. */
+/* A step from the nodes, whose jumps and tangents are known, before and after. False where even the largest shift makes
+ * the jumps no smaller. A short step along the valley may enlarge them, *along times. */
 static bool polish_improve(const kz_hamilton *flow, double *node, double *shift, int *along, shooting *s) {
   const double before = sum_of_squares(s->jump, 4 * s->n);
   for (; *shift <= LARGEST_SHIFT; *shift *= 100) {
@@ -269,7 +269,7 @@ static void polish_measure(const kz_hamilton *flow, const kz_path_end *end[2], s
 }
 
 bool kz_path_polish(const kz_hamilton *flow, const kz_path_end *from, const kz_path_end *to, kz_path *path) {
-  KZ_FREED_BY(shooting_free) shooting s = shooting_of(path->n, from, to);
+  KZ_AUTOFREE_BY(shooting_free) shooting s = shooting_of(path->n, from, to);
   double shift = FIRST_SHIFT, before = INFINITY;
   int along = MAX_ALONG;
   put_on_planes(s.end, path);

@@ -154,8 +154,8 @@ static void read_nodes(const grid *g, const double *x, const double *u, double *
 double kz_path_relax(const kz_pendulum *pendulum, int64_t n, int32_t samples, double most, double *theta,
                      double *node) {
   const size_t points = (size_t)(n * samples + 1);
-  KZ_FREED double (*force)[3] = kz_malloc((size_t)samples * sizeof *force);
-  KZ_FREED double *memory = kz_calloc((3 + 2 * (BAND + 1) + 2) * points, sizeof *memory);
+  KZ_AUTOFREE double (*force)[3] = kz_malloc((size_t)samples * sizeof *force);
+  KZ_AUTOFREE double *memory = kz_calloc((3 + 2 * (BAND + 1) + 2) * points, sizeof *memory);
   double *u = memory, *next = u + points, *torque = next + points, *hessian = torque + points,
          *factor = hessian + (BAND + 1) * points, *gradient = factor + (BAND + 1) * points;
   newton at = {.n = (int64_t)points - 2 * FIXED,

@@ -82,20 +82,21 @@ static kz_status work_all(kapitza_pendulum *p, void *context) {
   const cycles_job *j = context;
   const double *w = j->window;
   if (j->period < 1 || j->period > MOST || !(w[0] < w[1]) || !(w[2] < w[3]))
-    return kz_fail(KZ_REFUSED, "cycles: max_period must be from 1 to %d, and a window have its least values first", MOST);
+    return kz_fail(KZ_REFUSED, "cycles: max_period must be from 1 to %d, and a window have its least values first",
+                   MOST);
   kz_scene scene = p->scene;
   kz_plans_copy(&scene);
   kz_numerics_resolve(&scene);
   const kz_window window = {w[0], w[1], w[2], w[3]};
-  KZ_FREED_BY(kz_saddles_free) kz_catalogue all = {0};
+  KZ_AUTOFREE_BY(kz_saddles_free) kz_catalogue all = {0};
   const kz_status status = kz_saddles_all(&scene, j->period, &window, &all, j->open);
   kz_plans_free(&scene);
   if (status == KZ_OK) *j->list = kz_library_cycles(&all, false);
   return status;
 }
 
-kapitza_status kapitza_all_cycles(kapitza_pendulum *pendulum, int64_t max_period, const double window[4], kapitza_cycles **list,
-                                  int64_t *open) {
+kapitza_status kapitza_all_cycles(kapitza_pendulum *pendulum, int64_t max_period, const double window[4],
+                                  kapitza_cycles **list, int64_t *open) {
   cycles_job job = {.period = max_period, .window = window, .list = list, .open = open};
   *list = NULL;
   return kz_library_call(pendulum, work_all, &job);
@@ -132,8 +133,8 @@ static kz_status work_near(kapitza_pendulum *p, void *context) {
   return KZ_OK;
 }
 
-kapitza_status kapitza_cycle_near(kapitza_pendulum *pendulum, int64_t period, double theta, double velocity, double distance,
-                                  kapitza_cycles **list) {
+kapitza_status kapitza_cycle_near(kapitza_pendulum *pendulum, int64_t period, double theta, double velocity,
+                                  double distance, kapitza_cycles **list) {
   cycles_job job = {.period = period, .theta = theta, .velocity = velocity, .distance = distance, .list = list};
   *list = NULL;
   return kz_library_call(pendulum, work_near, &job);

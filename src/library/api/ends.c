@@ -59,7 +59,8 @@ static void put_ending(const kz_ending *own, const kz_coordinate start[2], doubl
   memcpy(points + row->period, own->entry.velocity, bytes);
 }
 
-kapitza_endings *kz_library_endings(const kz_scene *scene, int64_t n, const kz_coordinate (*start)[2], const kz_ending *own) {
+kapitza_endings *kz_library_endings(const kz_scene *scene, int64_t n, const kz_coordinate (*start)[2],
+                                    const kz_ending *own) {
   char *piece = kz_border_give(endings_bytes(n, own));
   kapitza_endings *endings = kz_library_part(&piece, sizeof *endings);
   kapitza_ending *ending = kz_library_part(&piece, (size_t)n * sizeof *ending);
@@ -70,7 +71,7 @@ kapitza_endings *kz_library_endings(const kz_scene *scene, int64_t n, const kz_c
 }
 
 static kz_status where_tell(kapitza_pendulum *p, where_job *j, const kz_scene *scene, const kz_coordinate (*start)[2]) {
-  KZ_FREED kz_ending *own = kz_calloc((size_t)j->n + 1, sizeof *own);
+  KZ_AUTOFREE kz_ending *own = kz_calloc((size_t)j->n + 1, sizeof *own);
   const kz_status status = kz_engine_where(p->engine, scene, j->n, start, own);
   if (status == KZ_OK) j->endings = kz_library_endings(scene, j->n, start, own);
   kz_where_free(j->n, own);
@@ -79,9 +80,9 @@ static kz_status where_tell(kapitza_pendulum *p, where_job *j, const kz_scene *s
 
 static kz_status work_where(kapitza_pendulum *p, void *context) {
   where_job *j = context;
-  KZ_FREED_BY(kz_scene_free) kz_scene scene = {0};
+  KZ_AUTOFREE_BY(kz_scene_free) kz_scene scene = {0};
   KZ_TRY(kz_memory_ask("n", (size_t)j->n * (sizeof(kz_ending) + sizeof(kapitza_ending) + 2 * sizeof(kz_coordinate))));
-  KZ_FREED kz_coordinate(*start)[2] = kz_calloc((size_t)j->n + 1, sizeof *start);
+  KZ_AUTOFREE kz_coordinate(*start)[2] = kz_calloc((size_t)j->n + 1, sizeof *start);
   for (int64_t i = 0; i < j->n; i++) {
     KZ_TRY(read_number(j->theta[i], true, i, &start[i][0]));
     KZ_TRY(read_number(j->velocity[i], false, i, &start[i][1]));
@@ -125,28 +126,32 @@ static void put_motion(const kz_motion *own, double *points, kapitza_motion *mot
 }
 
 static kapitza_motions *motions_give(const kz_motions *own) {
-  size_t bytes = kz_library_rounded(sizeof(kapitza_motions)) + kz_library_rounded((size_t)own->count * sizeof(kapitza_motion));
+  size_t bytes =
+      kz_library_rounded(sizeof(kapitza_motions)) + kz_library_rounded((size_t)own->count * sizeof(kapitza_motion));
   for (int64_t i = 0; i < own->count; i++) bytes += 2 * (size_t)own->motion[i].strobes * sizeof(double);
   char *piece = kz_border_give(bytes);
   kapitza_motions *motions = kz_library_part(&piece, sizeof *motions);
   kapitza_motion *motion = kz_library_part(&piece, (size_t)own->count * sizeof *motion);
   double *points = (double *)(void *)piece;
-  for (int64_t i = 0; i < own->count; points += 2 * own->motion[i++].strobes) put_motion(own->motion + i, points, motion + i);
-  *motions = (kapitza_motions){own->count, motion, own->x, own->y, own->pendulum.k, own->pendulum.beta, own->pendulum.m};
+  for (int64_t i = 0; i < own->count; points += 2 * own->motion[i++].strobes)
+    put_motion(own->motion + i, points, motion + i);
+  *motions =
+      (kapitza_motions){own->count, motion, own->x, own->y, own->pendulum.k, own->pendulum.beta, own->pendulum.m};
   return motions;
 }
 
 static kz_status work_motions(kapitza_pendulum *p, void *context) {
   motions_job *j = context;
   kz_atlas *atlas;
-  KZ_FREED_BY(kz_motions_free) kz_motions own = {0};
+  KZ_AUTOFREE_BY(kz_motions_free) kz_motions own = {0};
   KZ_TRY(kz_library_atlas_of(p, j->file, &atlas));
   KZ_TRY(kz_atlas_motions(atlas, j->x, j->y, j->states, &own));
   if (!own.known)
-    return kz_fail(KZ_REFUSED,
-                   "x: the list of motions is not known at %.10g, %.10g: a curve is missing, as some class of attractors has a "
-                   "negative count there",
-                   j->x, j->y);
+    return kz_fail(
+        KZ_REFUSED,
+        "x: the list of motions is not known at %.10g, %.10g: a curve is missing, as some class of attractors has a "
+        "negative count there",
+        j->x, j->y);
   j->motions = motions_give(&own);
   return KZ_OK;
 }
@@ -171,7 +176,8 @@ typedef struct {
 } line_job;
 
 static kapitza_line *line_give(const kz_atlas_branches *own) {
-  const size_t branches = (size_t)own->count * sizeof(kapitza_branch), points = (size_t)own->n_points * sizeof *own->point;
+  const size_t branches = (size_t)own->count * sizeof(kapitza_branch),
+               points = (size_t)own->n_points * sizeof *own->point;
   char *piece = kz_border_give(kz_library_rounded(sizeof(kapitza_line)) + kz_library_rounded(branches) + points);
   kapitza_line *line = kz_library_part(&piece, sizeof *line);
   kapitza_branch *branch = kz_library_part(&piece, branches);
@@ -194,7 +200,7 @@ static kapitza_line *line_give(const kz_atlas_branches *own) {
 static kz_status work_line(kapitza_pendulum *p, void *context) {
   line_job *j = context;
   kz_atlas *atlas;
-  KZ_FREED_BY(kz_atlas_branches_free) kz_atlas_branches own = {0};
+  KZ_AUTOFREE_BY(kz_atlas_branches_free) kz_atlas_branches own = {0};
   KZ_TRY(kz_library_atlas_of(p, j->file, &atlas));
   KZ_TRY(kz_atlas_line(atlas, !j->along_x, j->value, &own));
   j->line = line_give(&own);

@@ -38,7 +38,7 @@ typedef struct {
 static kz_status work_catalogue(kapitza_pendulum *p, void *context) {
   catalogue_job *j = context;
   const kz_live_catalogue *own;
-  KZ_FREED_BY(kz_scene_free) kz_scene scene;
+  KZ_AUTOFREE_BY(kz_scene_free) kz_scene scene;
   KZ_TRY(kz_scene_open(p->text, j->change, &scene));
   KZ_TRY(kz_engine_catalogue(p->engine, &scene, &own));
   j->catalogue = kz_border_give(catalogue_bytes(own));
@@ -75,7 +75,7 @@ static kz_status stopped_if(int stops) {
 static kz_status frame_show(void *context, const kz_live_raster *r) {
   const frame_job *j = context;
   const kapitza_frame_request *request = j->request;
-  KZ_FREED void *catalogue = kz_malloc(catalogue_bytes(r->catalogue));
+  KZ_AUTOFREE void *catalogue = kz_malloc(catalogue_bytes(r->catalogue));
   catalogue_put(r->catalogue, catalogue);
   kapitza_frame_part part = {.catalogue = catalogue,
                              .coarseness = (int32_t)r->coarseness,
@@ -122,7 +122,7 @@ static kz_status frame_make(const frame_job *j, kz_scene *scene) {
 
 static kz_status work_frame(kapitza_pendulum *p, void *context) {
   frame_job *j = context;
-  KZ_FREED_BY(kz_scene_free) kz_scene scene;
+  KZ_AUTOFREE_BY(kz_scene_free) kz_scene scene;
   j->pendulum = p;
   KZ_TRY(kz_scene_open(p->text, j->request->change, &scene));
   const kz_status status = frame_make(j, &scene);
@@ -168,7 +168,7 @@ static kz_status work_chart(kapitza_pendulum *p, void *context) {
   chart_job *j = context;
   kz_integers coarseness;
   int64_t points;
-  KZ_FREED_BY(kz_scene_free) kz_scene scene = {0};
+  KZ_AUTOFREE_BY(kz_scene_free) kz_scene scene = {0};
   j->pendulum = p;
   KZ_TRY(take_coarseness(j->n_parts, j->coarseness, &coarseness));
   KZ_TRY(kz_scene_open(p->text, j->change, &scene));
@@ -176,8 +176,8 @@ static kz_status work_chart(kapitza_pendulum *p, void *context) {
   KZ_TRY(kz_drive_check_sine(&scene, KZ_ENDS_NEED_SINE));
   KZ_TRY(kz_plane_points(&scene, &points));
   if (points > MOST_POINTS)
-    return kz_fail(KZ_REFUSED, "sweep.x: %lld points are too many for a chart on request, at most %d", (long long)points,
-                   (int)MOST_POINTS);
+    return kz_fail(KZ_REFUSED, "sweep.x: %lld points are too many for a chart on request, at most %d",
+                   (long long)points, (int)MOST_POINTS);
   return kz_plane_draw(&scene, &coarseness, chart_pause, chart_show, j);
 }
 

@@ -56,9 +56,9 @@ static kz_status work_labels(kapitza_pendulum *p, void *context) {
   const kz_live_catalogue *catalogue;
   double fastest = fmax(fabs(own->min), fabs(own->max));
   KZ_TRY(kz_memory_ask("n", (size_t)j->n * (2 * sizeof(double) + sizeof(kz_label) + sizeof(double))));
-  KZ_FREED double (*start)[2] = kz_malloc((size_t)j->n * sizeof *start + 1);
-  KZ_FREED kz_label *label = kz_malloc((size_t)j->n * sizeof *label + 1);
-  KZ_FREED double *error = kz_malloc((size_t)j->n * sizeof *error + 1);
+  KZ_AUTOFREE double (*start)[2] = kz_malloc((size_t)j->n * sizeof *start + 1);
+  KZ_AUTOFREE kz_label *label = kz_malloc((size_t)j->n * sizeof *label + 1);
+  KZ_AUTOFREE double *error = kz_malloc((size_t)j->n * sizeof *error + 1);
   KZ_TRY(take_starts(j, start, &fastest));
   kz_scene scene = p->scene;
   kz_plans_copy(&scene);
@@ -73,8 +73,8 @@ static kz_status work_labels(kapitza_pendulum *p, void *context) {
 }
 
 kapitza_status kapitza_labels(kapitza_pendulum *pendulum, int64_t n, const double *theta, const double *velocity,
-                              double start_error, int16_t *attractor, int16_t *other, uint8_t *evidence, int64_t *settling_time,
-                              int32_t *turns, double *error, kapitza_cycles **list) {
+                              double start_error, int16_t *attractor, int16_t *other, uint8_t *evidence,
+                              int64_t *settling_time, int32_t *turns, double *error, kapitza_cycles **list) {
   labels_job job = {n, theta, velocity, start_error, attractor, other, evidence, settling_time, turns, error, list};
   if (list) *list = NULL;
   return kz_library_call(pendulum, work_labels, &job);
@@ -97,15 +97,17 @@ static void put_ids(int64_t cells, const uint8_t *from, int16_t *to) {
 static kz_status take_frame(void *context, const kz_live_raster *r) {
   basin_job *j = context;
   const int64_t cells = r->rows * r->columns;
-  const size_t n = (size_t)cells, sides = kz_library_rounded((size_t)r->columns * 8) + kz_library_rounded((size_t)r->rows * 8);
+  const size_t n = (size_t)cells,
+               sides = kz_library_rounded((size_t)r->columns * 8) + kz_library_rounded((size_t)r->rows * 8);
   const size_t planes =
       2 * kz_library_rounded(n * sizeof(int16_t)) + kz_library_rounded(n) + 2 * kz_library_rounded(n * sizeof(float));
-  char *piece =
-      kz_border_give(kz_library_rounded(sizeof *j->basin) + sides + planes + kz_library_cycles_bytes(&r->catalogue->list));
+  char *piece = kz_border_give(kz_library_rounded(sizeof *j->basin) + sides + planes +
+                               kz_library_cycles_bytes(&r->catalogue->list));
   kapitza_basin *b = j->basin = kz_library_part(&piece, sizeof *b);
   double *theta = kz_library_part(&piece, (size_t)r->columns * sizeof *theta);
   double *velocity = kz_library_part(&piece, (size_t)r->rows * sizeof *velocity);
-  int16_t *attractor = kz_library_part(&piece, n * sizeof *attractor), *other = kz_library_part(&piece, n * sizeof *other);
+  int16_t *attractor = kz_library_part(&piece, n * sizeof *attractor),
+          *other = kz_library_part(&piece, n * sizeof *other);
   uint8_t *evidence = kz_library_part(&piece, n);
   float *settling = kz_library_part(&piece, n * sizeof *settling), *turns = kz_library_part(&piece, n * sizeof *turns);
   for (int64_t i = 0; i < r->columns; i++) theta[i] = kz_frame_centre(&j->scene->basin->theta, i);
@@ -116,7 +118,8 @@ static kz_status take_frame(void *context, const kz_live_raster *r) {
   memcpy(settling, r->plane[KZ_PLANE_SETTLING_TIME], n * sizeof *settling);
   memcpy(turns, r->plane[KZ_PLANE_TURNS], n * sizeof *turns);
   kz_library_cycles_put(&r->catalogue->list, true, piece);
-  *b = (kapitza_basin){r->columns, r->rows, theta, velocity, attractor, other, evidence, settling, turns, (void *)piece};
+  *b =
+      (kapitza_basin){r->columns, r->rows, theta, velocity, attractor, other, evidence, settling, turns, (void *)piece};
   return KZ_OK;
 }
 
@@ -142,8 +145,8 @@ static kz_status work_basin(kapitza_pendulum *p, void *context) {
   enum { MOST_CELLS = 1 << 26 };
   basin_job *j = context;
   const size_t bytes = (j->window ? strlen(j->window) : 0) + 16;
-  KZ_FREED char *change = kz_malloc(bytes);
-  KZ_FREED_BY(kz_scene_free) kz_scene scene;
+  KZ_AUTOFREE char *change = kz_malloc(bytes);
+  KZ_AUTOFREE_BY(kz_scene_free) kz_scene scene;
   snprintf(change, bytes, "basin: {%s}", j->window ? j->window : "");
   KZ_TRY(kz_scene_open(p->text, change, &scene));
   const int64_t columns = scene.basin->theta.count, rows = scene.basin->velocity.count;

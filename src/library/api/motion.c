@@ -47,7 +47,8 @@ static void turn_velocities(const map_job *j) {
 /* tangent [n][2][2] becomes `later` times it. */
 static void motion_multiply(int64_t n, const double *later, double *tangent) {
   for (int64_t i = 0; i < n; i++) {
-    const double *a = later + 4 * i, b[4] = {tangent[4 * i], tangent[4 * i + 1], tangent[4 * i + 2], tangent[4 * i + 3]};
+    const double *a = later + 4 * i,
+                 b[4] = {tangent[4 * i], tangent[4 * i + 1], tangent[4 * i + 2], tangent[4 * i + 3]};
     for (int e = 0; e < 4; e++) tangent[4 * i + e] = a[e & 2] * b[e & 1] + a[(e & 2) + 1] * b[2 + (e & 1)];
   }
 }
@@ -70,8 +71,8 @@ static kz_status work_map(kapitza_pendulum *p, void *context) {
   const bool backwards = j->periods < 0;
   const kz_flow *flow = flow_of(p, backwards);
   KZ_TRY(kz_memory_ask("n", (size_t)j->n * (sizeof(int64_t) + 4 * sizeof(double))));
-  KZ_FREED int64_t *turns = kz_calloc((size_t)j->n + 1, sizeof *turns);
-  KZ_FREED double *later = j->tangent ? kz_malloc((size_t)j->n * 4 * sizeof *later + 1) : NULL;
+  KZ_AUTOFREE int64_t *turns = kz_calloc((size_t)j->n + 1, sizeof *turns);
+  KZ_AUTOFREE double *later = j->tangent ? kz_malloc((size_t)j->n * 4 * sizeof *later + 1) : NULL;
   for (int64_t i = 0; j->tangent && i < 4 * j->n; i++) j->tangent[i] = i % 4 == 0 || i % 4 == 3;
   if (backwards) turn_velocities(j);
   KZ_TRY(move_all(j, flow, llabs(j->periods), turns, later));
@@ -89,7 +90,7 @@ static kz_status work_map_copied(kapitza_pendulum *p, void *context) {
   const map_job *j = context;
   const size_t bytes = (size_t)j->n * sizeof(double);
   KZ_TRY(kz_memory_ask("n", 2 * bytes));
-  KZ_FREED double *theta = kz_malloc(bytes + 1), *velocity = kz_malloc(bytes + 1);
+  KZ_AUTOFREE double *theta = kz_malloc(bytes + 1), *velocity = kz_malloc(bytes + 1);
   memcpy(theta, j->theta, bytes);
   memcpy(velocity, j->velocity, bytes);
   map_job own = *j;
@@ -126,15 +127,16 @@ static kz_status work_orbit(kapitza_pendulum *p, void *context) {
   scene.orbit = &j->plan;
   const kz_release release = kz_release_of(&scene, &scene.parameters.pendulum);
   if (kz_release_strobes(&release) > 0)
-    return kz_fail(KZ_REFUSED, "an orbit begins at phase 0 and without a ramp; leave out basin.start_phase and pendulum.ramp");
+    return kz_fail(KZ_REFUSED,
+                   "an orbit begins at phase 0 and without a ramp; leave out basin.start_phase and pendulum.ramp");
   if (j->plan.samples_per_period < 1 || j->plan.periods < 0 || j->plan.transient < 0)
     return kz_fail(KZ_REFUSED, "periods, transient and samples must not be negative, and samples not 0");
   KZ_TRY(kz_memory_ask("periods", (size_t)(j->plan.periods * j->plan.samples_per_period + 1) * 2 * sizeof(double)));
   return kz_orbit_record(&scene, pause_orbit, NULL, j->theta, j->velocity);
 }
 
-kapitza_status kapitza_orbit(kapitza_pendulum *pendulum, double theta, double velocity, int64_t transient, int64_t periods,
-                             int64_t samples, double *theta_out, double *velocity_out) {
+kapitza_status kapitza_orbit(kapitza_pendulum *pendulum, double theta, double velocity, int64_t transient,
+                             int64_t periods, int64_t samples, double *theta_out, double *velocity_out) {
   orbit_job job = {{.theta = theta,
                     .velocity = velocity,
                     .attractor = INT64_MIN,
@@ -168,9 +170,9 @@ static kz_status work_manifold(kapitza_pendulum *p, void *context) {
   return KZ_OK;
 }
 
-kapitza_status kapitza_manifold(kapitza_pendulum *pendulum, double theta, double velocity, int32_t period, int32_t stable,
-                                int32_t side, double spacing, double length, double fastest, int64_t most, double *point,
-                                int64_t *count) {
+kapitza_status kapitza_manifold(kapitza_pendulum *pendulum, double theta, double velocity, int32_t period,
+                                int32_t stable, int32_t side, double spacing, double length, double fastest,
+                                int64_t most, double *point, int64_t *count) {
   manifold_job job = {{theta, velocity, period, stable, side, spacing, length, fastest}, most, count, point};
   return kz_library_call(pendulum, work_manifold, &job);
 }

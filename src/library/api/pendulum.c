@@ -59,7 +59,8 @@ static kz_status check_process(kapitza_pendulum *p) {
   return KZ_OK;
 }
 
-/* Waits for other threads, as long as the caller wants to. *inner: this thread has it, and is between two parts of its work. */
+/* Waits for other threads, as long as the caller wants to. *inner: this thread has it, and is between two parts of its
+ * work. */
 static kz_status pendulum_take(kapitza_pendulum *p, bool *inner) {
   *inner = false;
   KZ_TRY(check_process(p));
@@ -194,8 +195,9 @@ void kapitza_pendulum_free(kapitza_pendulum *pendulum) {
 }
 
 kapitza_parameters kz_library_parameters(const kz_parameters *own) {
-  return (kapitza_parameters){own->pendulum.k,      own->pendulum.beta,   own->pendulum.m,      own->quality_factor,
-                              own->drive_frequency, own->drive_amplitude, own->pivot_frequency, kz_is_mirrored(&own->pendulum)};
+  return (kapitza_parameters){
+      own->pendulum.k,      own->pendulum.beta,   own->pendulum.m,      own->quality_factor,
+      own->drive_frequency, own->drive_amplitude, own->pivot_frequency, kz_is_mirrored(&own->pendulum)};
 }
 
 static kz_status tell_parameters(kapitza_pendulum *p, void *context) {

@@ -77,7 +77,7 @@ struct kz_library_atlas {
 static kz_status atlas_read(void *context) {
   kz_library_atlas *own = context;
   KZ_TRY(kz_store_open(own->path, &own->store));
-  KZ_FREED char *text = kz_store_text_of(own->store, "scene_resolved");
+  KZ_AUTOFREE char *text = kz_store_text_of(own->store, "scene_resolved");
   if (!text) return kz_fail(KZ_REFUSED, "%s: has no scene", own->path);
   KZ_TRY(kz_scene_read(text, strlen(text), own->path, 0, NULL, &own->scene));
   return kz_atlas_open(&own->scene, own->store, &own->atlas);

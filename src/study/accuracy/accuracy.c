@@ -26,7 +26,8 @@ typedef struct {
 
 static void order(const kz_reference_labels *reference, walk *w) {
   double cost[MOST];
-  const double mean_periods = kz_reference_labels_sum(reference).mean_periods, cells = (double)kz_unique_cells(reference->plan);
+  const double mean_periods = kz_reference_labels_sum(reference).mean_periods,
+               cells = (double)kz_unique_cells(reference->plan);
   *w = (walk){.reference = reference};
   for (const kz_setting *s = kz_settings; s < kz_settings + kz_setting_count && w->count < MOST; s++) {
     if (!s->candidate) continue;
@@ -47,7 +48,8 @@ static kz_status try_config(void *context, int64_t tile, void *record) {
 }
 
 /* Tries the settings from the cheapest on, two at a time; the first that meets the accuracy is chosen, else `exact`. */
-static kz_status accuracy_choose(const kz_reference_labels *reference, const kz_run *run, double accuracy, kz_choice *choice) {
+static kz_status accuracy_choose(const kz_reference_labels *reference, const kz_run *run, double accuracy,
+                                 kz_choice *choice) {
   walk w;
   const int64_t step = 2; /* equal for any number of ranks: kept stages come in one order */
   kz_setting_measured measured[2];
@@ -70,26 +72,29 @@ static kz_status accuracy_choose(const kz_reference_labels *reference, const kz_
 
 static void accuracy_print(const kz_choice *choice, double accuracy, FILE *summary) {
   if (choice->setting == kz_setting_exact) {
-    fprintf(summary,
-            "accuracy %.10g: method exact is taken, which decides or flags every label. None of the %lld other settings is "
-            "accurate "
-            "enough on %lld sampled cells.\n",
-            accuracy, (long long)choice->tried, (long long)choice->samples);
+    fprintf(
+        summary,
+        "accuracy %.10g: method exact is taken, which decides or flags every label. None of the %lld other settings is "
+        "accurate "
+        "enough on %lld sampled cells.\n",
+        accuracy, (long long)choice->tried, (long long)choice->samples);
     return;
   }
-  const kz_share wrong = kz_share_of(choice->wrong, choice->samples), flips = kz_share_of(choice->flipped, choice->samples);
-  fprintf(
-      summary,
-      "accuracy %.10g: %s is the cheapest of %lld settings that is accurate enough: %lld of %lld sampled cells are wrong, at "
-      "most %.3f %% of all (95 %%). Rounding of the start alone changes %.3f %%.\n",
-      accuracy, choice->setting->label, (long long)choice->tried, (long long)choice->wrong, (long long)choice->samples,
-      100 * wrong.high, 100 * flips.share);
+  const kz_share wrong = kz_share_of(choice->wrong, choice->samples),
+                 flips = kz_share_of(choice->flipped, choice->samples);
+  fprintf(summary,
+          "accuracy %.10g: %s is the cheapest of %lld settings that is accurate enough: %lld of %lld sampled cells are "
+          "wrong, at "
+          "most %.3f %% of all (95 %%). Rounding of the start alone changes %.3f %%.\n",
+          accuracy, choice->setting->label, (long long)choice->tried, (long long)choice->wrong,
+          (long long)choice->samples, 100 * wrong.high, 100 * flips.share);
 }
 
-kz_status kz_accuracy_choose(const kz_scene *scene, const kz_run *run, kz_store *store, FILE *summary, kz_choice *choice) {
+kz_status kz_accuracy_choose(const kz_scene *scene, const kz_run *run, kz_store *store, FILE *summary,
+                             kz_choice *choice) {
   const double accuracy = scene->basin->accuracy;
-  KZ_FREED_BY(kz_reference_labels_free) kz_reference_labels reference = {0};
-  KZ_FREED char *path = kz_reference_path(store);
+  KZ_AUTOFREE_BY(kz_reference_labels_free) kz_reference_labels reference = {0};
+  KZ_AUTOFREE char *path = kz_reference_path(store);
   KZ_TRY(kz_reference_labels_make(scene, run, samples_for(accuracy), path, &reference));
   KZ_TRY(accuracy_choose(&reference, run, accuracy, choice));
   KZ_TRY(kz_ranks_agree(run->ranks, path ? kz_reference_labels_save(&reference, path) : KZ_OK));

@@ -1,5 +1,5 @@
-/* Settings: ways to label the cells of a window, from fast to accurate; what each costs by count, and how wrong its labels are. The choice of
- * basin.accuracy among them; the study `tradeoff`. */
+/* Settings: ways to label the cells of a window, from fast to accurate; what each costs by count, and how wrong its
+ * labels are. The choice of basin.accuracy among them; the study `tradeoff`. */
 #pragma once
 
 #include "reference.h"
@@ -28,8 +28,8 @@ kz_numerics kz_setting_numerics(const kz_setting *setting, const kz_pendulum *pe
 /* The scene with the setting in place of its method, icm and numerics. */
 void kz_setting_apply(const kz_setting *setting, kz_scene *scene);
 
-/* The cost of a setting for `cells` cells of `mean_periods` periods each, counted in kicks of one trajectory, so that it does not depend on a
- * clock. */
+/* The cost of a setting for `cells` cells of `mean_periods` periods each, counted in kicks of one trajectory, so that
+ * it does not depend on a clock. */
 double kz_setting_cost(const kz_setting *setting, double cells, double mean_periods);
 
 /* One setting on the sampled cells. */
@@ -53,9 +53,10 @@ typedef struct {
   int64_t samples, wrong, flipped, tried;
 } kz_choice;
 
-/* Chooses the cheapest setting (kz_setting_cost) whose share of wrong labels in the sample, at the upper end of its 95 % interval, is at most
- * 1 - accuracy; method exact if there is none. Collective. */
-kz_status kz_accuracy_choose(const kz_scene *scene, const kz_run *run, kz_store *store, FILE *summary, kz_choice *choice);
+/* Chooses the cheapest setting (kz_setting_cost) whose share of wrong labels in the sample, at the upper end of its 95
+ * % interval, is at most 1 - accuracy; method exact if there is none. Collective. */
+kz_status kz_accuracy_choose(const kz_scene *scene, const kz_run *run, kz_store *store, FILE *summary,
+                             kz_choice *choice);
 
 /* The choice as attributes of /basin. Rank 0. */
 kz_status kz_accuracy_write(const kz_choice *choice, double accuracy, kz_store *store);

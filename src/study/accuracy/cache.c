@@ -20,12 +20,14 @@ static uint64_t cache_checksum(const void *data, size_t bytes, uint64_t sum) {
 /* The key of the cache: everything that the labels depend on, in one line. */
 static void print_key(const kz_reference_labels *reference, char *key, size_t bytes) {
   const kz_basin_plan *p = reference->plan;
-  uint64_t attractors = cache_checksum(reference->packed, (size_t)reference->packed_size * sizeof(double), 0xcbf29ce484222325u);
+  uint64_t attractors =
+      cache_checksum(reference->packed, (size_t)reference->packed_size * sizeof(double), 0xcbf29ce484222325u);
   if (!kz_is_sine(&reference->pendulum)) {
     attractors = cache_checksum(reference->pendulum.vertical, sizeof reference->pendulum.vertical, attractors);
     attractors = cache_checksum(reference->pendulum.horizontal, sizeof reference->pendulum.horizontal, attractors);
     attractors = cache_checksum(&reference->pendulum.torque, sizeof reference->pendulum.torque, attractors);
-    attractors = cache_checksum(&reference->pendulum.torque_amplitude, sizeof reference->pendulum.torque_amplitude, attractors);
+    attractors =
+        cache_checksum(&reference->pendulum.torque_amplitude, sizeof reference->pendulum.torque_amplitude, attractors);
   }
   snprintf(key, bytes, KZ_REFERENCE_WORDS " 1: %a %a %a; %a %a %lld%s%s; %a %a %lld%s%s; %lld %lld; %016llx\n",
            reference->pendulum.k, reference->pendulum.beta, reference->pendulum.m, p->theta.min, p->theta.max,
@@ -64,7 +66,8 @@ int64_t kz_reference_labels_recall(const char *path, kz_reference_labels *refere
   int64_t n = 0;
   for (; line && n < reference->samples; n++) {
     kz_reference_label *v = reference->labels + n;
-    if (sscanf(line, "%hd %hd %hhu %hhu %" SCNd64, &v->end.label, &v->flipped, &v->distance, &v->agrees, &v->end.periods) != 5)
+    if (sscanf(line, "%hd %hd %hhu %hhu %" SCNd64, &v->end.label, &v->flipped, &v->distance, &v->agrees,
+               &v->end.periods) != 5)
       break;
     line = strchr(line, '\n') + 1;
   }

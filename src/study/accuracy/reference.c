@@ -48,8 +48,8 @@ static kz_status find_attractors(const kz_reference_labels *reference, const kz_
   const kz_search_on search_on = {ROUNDS, PROBES, NULL};
   kz_search search = kz_search_of_basin(plan);
   kz_labeller labeller = kz_cell_labeller(plan, dynamics);
-  KZ_FREED int64_t *cell = kz_malloc((size_t)probes * sizeof *cell);
-  KZ_FREED kz_label *label = kz_malloc((size_t)probes * sizeof *label);
+  KZ_AUTOFREE int64_t *cell = kz_malloc((size_t)probes * sizeof *cell);
+  KZ_AUTOFREE kz_label *label = kz_malloc((size_t)probes * sizeof *label);
   labeller.way = KZ_BY_STATES;
   labeller.run = run;
   labeller.stage = "probes";
@@ -98,13 +98,15 @@ static kz_status find_distances(const reference_job *h, int64_t n, const int64_t
   return KZ_OK;
 }
 
-static void reference_follow(const reference_job *h, int32_t steps, int64_t n, const kz_start *start, kz_decision *end) {
+static void reference_follow(const reference_job *h, int32_t steps, int64_t n, const kz_start *start,
+                             kz_decision *end) {
   const kz_label_precision quads = {.level = KZ_LEVEL_QUAD, .series_steps = steps};
   kz_dynamics_label(h->dynamics, &quads, n, start, h->reference->plan->max_periods, end);
 }
 
 /* Whether every ASKED-th cell comes out the same with another number of steps. */
-static void compare_steps(const reference_job *h, int64_t first, int64_t n, const kz_start *start, kz_reference_label *labels) {
+static void compare_steps(const reference_job *h, int64_t first, int64_t n, const kz_start *start,
+                          kz_reference_label *labels) {
   kz_start asked[TILE] = {0};
   kz_decision end[TILE];
   int64_t place[TILE], n_asked = 0;
@@ -146,14 +148,15 @@ static kz_status label_samples(void *context, int64_t first, int64_t n, void *re
 }
 
 /* Labels that rank 0 has found in the cache are given to every rank. */
-static kz_status follow_samples(kz_reference_labels *reference, const kz_run *run, const char *path, kz_dynamics *dynamics) {
+static kz_status follow_samples(kz_reference_labels *reference, const kz_run *run, const char *path,
+                                kz_dynamics *dynamics) {
   reference_job h = {.reference = reference, .dynamics = dynamics};
   h.known = path ? kz_reference_labels_recall(path, reference) : 0;
   KZ_TRY(kz_ranks_broadcast(run->ranks, &h.known, sizeof h.known));
   KZ_TRY(kz_ranks_broadcast(run->ranks, reference->labels, (size_t)h.known * sizeof *reference->labels));
-  const kz_stage stage =
-      kz_stage_of_items("reference labels", reference->samples, TILE, TILE * sizeof(kz_reference_label), label_samples, &h);
-  KZ_FREED kz_reference_label *records = kz_malloc((size_t)stage.n_tiles * stage.record_bytes);
+  const kz_stage stage = kz_stage_of_items("reference labels", reference->samples, TILE,
+                                           TILE * sizeof(kz_reference_label), label_samples, &h);
+  KZ_AUTOFREE kz_reference_label *records = kz_malloc((size_t)stage.n_tiles * stage.record_bytes);
   KZ_TRY(kz_stage_run(run, &stage, records));
   memcpy(reference->labels, records, (size_t)reference->samples * sizeof *records);
   return KZ_OK;
@@ -169,7 +172,7 @@ kz_status kz_reference_labels_make(const kz_scene *scene, const kz_run *run, int
   reference->samples = kz_smaller(samples, reference->total);
   kz_numerics numerics;
   KZ_TRY(kz_ranks_agree(run->ranks, kz_reference_labels_numerics(plan, &reference->pendulum, &numerics)));
-  KZ_FREED_BY(kz_dynamics_freed)
+  KZ_AUTOFREE_BY(kz_dynamics_freed)
   kz_dynamics *dynamics = kz_dynamics_create(&reference->pendulum, &numerics, plan->max_period);
   KZ_TRY(reference_prepare(reference, run, dynamics));
   return follow_samples(reference, run, path, dynamics);

@@ -1,5 +1,5 @@
-/* Reference labels: the labels of random cells of a scene's window, followed in quad precision into the trapping regions of one
- * fixed, fine dynamics (split6 in double precision), whatever the scene's numerics. Other labels are
+/* Reference labels: the labels of random cells of a scene's window, followed in quad precision into the trapping
+ * regions of one fixed, fine dynamics (split6 in double precision), whatever the scene's numerics. Other labels are
  * compared with these. */
 #pragma once
 
@@ -30,27 +30,27 @@ typedef struct {
   kz_reference_label *labels; /* [samples] */
 } kz_reference_labels;
 
-/* Makes the reference labels of a damped scene's basin, of at most `samples` cells, on every rank. `path` (rank 0; NULL = none)
- * names the cache: labels of the same sample that it holds are not computed again. The stage is kept by a checkpoint.
- * Collective. */
+/* Makes the reference labels of a damped scene's basin, of at most `samples` cells, on every rank. `path` (rank 0; NULL
+ * = none) names the cache: labels of the same sample that it holds are not computed again. The stage is kept by a
+ * checkpoint. Collective. */
 kz_status kz_reference_labels_make(const kz_scene *scene, const kz_run *run, int64_t samples, const char *path,
                                    kz_reference_labels *reference);
 /* Writes the cache if there are more labels than it has. Rank 0. */
 kz_status kz_reference_labels_save(const kz_reference_labels *reference, const char *path);
 void kz_reference_labels_free(kz_reference_labels *reference);
 
-/* Reads labels from a cache that was made for the same pendulum, window, seed, limit and attractors: at most reference->samples, into
- * reference->labels. Returns their number; 0 for a missing, damaged or foreign cache. */
+/* Reads labels from a cache that was made for the same pendulum, window, seed, limit and attractors: at most
+ * reference->samples, into reference->labels. Returns their number; 0 for a missing, damaged or foreign cache. */
 int64_t kz_reference_labels_recall(const char *path, kz_reference_labels *reference);
 
-/* Finds a number of steps that is accurate enough for reference labels at every speed of the window. KZ_REFUSED if there is none. */
+/* Finds steps accurate enough for reference labels at every speed of the window; KZ_REFUSED if there are none. */
 kz_status kz_reference_labels_numerics(const kz_basin_plan *plan, const kz_pendulum *pendulum, kz_numerics *numerics);
 
 /* Cell i in the order of the sample. */
 int64_t kz_reference_labels_cell(const kz_reference_labels *reference, int64_t i);
 
-/* Cells whose label the last place of the start changes; cells whose label another number of steps changes, of those tried (asked); and the
- * mean number of periods followed. */
+/* Cells whose label the last place of the start changes; cells whose label another number of steps changes, of those
+ * tried (asked); and the mean number of periods followed. */
 typedef struct {
   int64_t flipped, disagree, asked;
   double mean_periods;

@@ -1,4 +1,4 @@
-/* The table of settings. One setting measured: its own dynamics with the reference's attractors, its labels of the sampled cells, its time. */
+/* The table of settings, and one setting measured: its dynamics, labels of the sampled cells, time. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -53,8 +53,9 @@ kz_numerics kz_setting_numerics(const kz_setting *setting, const kz_pendulum *pe
                                 const kz_basin_plan *plan) {
   const kz_window window = kz_window_of(&plan->theta, &plan->velocity);
   if (setting->steps == KZ_AUTO)
-    return kz_processed_or_split(pendulum, series, setting->method, setting->tolerance,
-                                 kz_fastest_motion(pendulum, &window, setting->method == KZ_METHOD_ICM ? setting->nodes : 0));
+    return kz_processed_or_split(
+        pendulum, series, setting->method, setting->tolerance,
+        kz_fastest_motion(pendulum, &window, setting->method == KZ_METHOD_ICM ? setting->nodes : 0));
   return (kz_numerics){.scheme = kz_scheme_find(setting->scheme), .steps_per_period = setting->steps};
 }
 
@@ -68,14 +69,14 @@ void kz_setting_apply(const kz_setting *setting, kz_scene *scene) {
 
 /* Kicks of split6 that a period costs. */
 static double period_kicks(const kz_setting *setting) {
-  /* Cost of a step of the processed splitting, its steps at 1e-4 for a gentle drive, and the order by which they grow. */
+  /* Cost of a processed step in kicks, its steps at 1e-4 for a gentle drive, the order by which they grow. */
   static const double step = 0.4, steps = 14, order = 14;
   if (setting->steps == KZ_AUTO) return step * steps * pow(1e-4 / setting->tolerance, 1 / order);
   return (double)kz_scheme_at(kz_scheme_find(setting->scheme)).kicks * setting->steps;
 }
 
 double kz_setting_cost(const kz_setting *setting, double cells, double mean_periods) {
-  /* Measured weights, in kicks in double precision: a look-up in the table, the question whether a region holds the state. */
+  /* Measured weights, kicks in double precision: a table look-up, the check whether a region holds the state. */
   static const double look_up = 30, look_up_node = 2.5, asked = 15;
   static const double exact = 25; /* times what the same numerics take without errors; 9 to 40 */
   const double nodes = (double)setting->nodes, period = period_kicks(setting);
@@ -91,13 +92,13 @@ typedef struct {
   kz_dynamics *dynamics;
 } measurement;
 
-/* Labels [n] of the first n cells in the order of the sample; KZ_DOUBTFUL where no level of method exact decides. Method direct is compared
- * by its states alone. */
+/* Labels [n] of the first n cells in the order of the sample; KZ_DOUBTFUL where no level of method exact decides.
+ * Method direct is compared by its states alone. */
 static kz_status label_cells(const measurement *g, int64_t n, int32_t *label) {
   const kz_setting *s = g->setting;
   kz_labeller labeller = kz_cell_labeller(g->reference->plan, g->dynamics);
-  KZ_FREED int64_t *cell = kz_malloc((size_t)n * sizeof *cell + 1);
-  KZ_FREED kz_label *found = kz_malloc((size_t)n * sizeof *found + 1);
+  KZ_AUTOFREE int64_t *cell = kz_malloc((size_t)n * sizeof *cell + 1);
+  KZ_AUTOFREE kz_label *found = kz_malloc((size_t)n * sizeof *found + 1);
   if (s->method != KZ_METHOD_EXACT) labeller.way = KZ_BY_STATES;
   labeller.stepper = kz_stepper_of(s->method, s->interpolation);
   for (int64_t i = 0; i < n; i++) cell[i] = kz_reference_labels_cell(g->reference, i);
@@ -106,7 +107,7 @@ static kz_status label_cells(const measurement *g, int64_t n, int32_t *label) {
   return KZ_OK;
 }
 
-/* The largest difference between the number of cells of one attractor among the labels and among the reference labels. */
+/* Largest difference between the cells of one attractor among the labels and among the reference labels. */
 static int64_t largest_count_error(const kz_reference_labels *reference, const int32_t *label, int64_t *surplus,
                                    int64_t known) {
   int64_t largest = 0;
@@ -141,7 +142,8 @@ static kz_status set_up(measurement *g) {
   kz_dynamics_coarse_regions(g->dynamics, g->reference->max_velocity);
   kz_regions_grow(g->dynamics, g->reference->total, g->reference->max_velocity);
   kz_dynamics_update(g->dynamics);
-  if (s->method == KZ_METHOD_ICM) KZ_TRY(kz_map_table_make(NULL, g->dynamics, s->nodes, s->nodes, g->reference->max_velocity));
+  if (s->method == KZ_METHOD_ICM)
+    KZ_TRY(kz_map_table_make(NULL, g->dynamics, s->nodes, s->nodes, g->reference->max_velocity));
   return KZ_OK;
 }
 
@@ -162,11 +164,11 @@ static kz_status measure_cells(const kz_setting *setting, const kz_reference_lab
   const kz_numerics numerics = kz_setting_numerics(setting, &reference->pendulum, reference->series, reference->plan);
   if (n < reference->samples) n = reference->samples;
   if (n > reference->total) n = reference->total;
-  KZ_FREED_BY(kz_dynamics_freed)
+  KZ_AUTOFREE_BY(kz_dynamics_freed)
   kz_dynamics *dynamics = kz_dynamics_create(&reference->pendulum, &numerics, reference->plan->max_period);
   measurement g = {setting, reference, dynamics};
-  KZ_FREED int32_t *label = kz_malloc((size_t)n * sizeof *label + 1);
-  KZ_FREED int64_t *surplus = kz_calloc(INT16_MAX + 1, sizeof *surplus);
+  KZ_AUTOFREE int32_t *label = kz_malloc((size_t)n * sizeof *label + 1);
+  KZ_AUTOFREE int64_t *surplus = kz_calloc(INT16_MAX + 1, sizeof *surplus);
   return settings_measure(&g, n, label, surplus, measured);
 }
 

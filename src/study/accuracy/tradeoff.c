@@ -19,7 +19,7 @@
 
 static kz_status write_configs(const kz_trade *trade, kz_store *store) {
   const kz_trade_row *r = trade->row;
-  KZ_FREED kz_scheme *scheme = kz_malloc((size_t)trade->count * sizeof *scheme + 1);
+  KZ_AUTOFREE kz_scheme *scheme = kz_malloc((size_t)trade->count * sizeof *scheme + 1);
   for (int64_t i = 0; i < trade->count; i++) scheme[i] = kz_scheme_at(r[i].numerics.scheme);
   COLUMN(const char *, "label", r[i].setting->label);
   COLUMN(int8_t, "method", r[i].setting->method);
@@ -50,7 +50,8 @@ static kz_status write_attributes(const kz_reference_labels *reference, const kz
   const kz_reference_labels_summary sum = kz_reference_labels_sum(reference);
   char method[200];
   snprintf(method, sizeof method,
-           "quad precision, Taylor series in %d steps a period or more; with more steps %lld of %lld repeated cells have the "
+           "quad precision, Taylor series in %d steps a period or more; with more steps %lld of %lld repeated cells "
+           "have the "
            "same label",
            KZ_REFERENCE_STEPS, (long long)(sum.asked - sum.disagree), (long long)sum.asked);
   KZ_TRY(kz_store_text(store, "tradeoff", "reference", method));
@@ -65,11 +66,12 @@ static void print_row(const kz_reference_labels *reference, const kz_trade *trad
   const kz_setting *s = r->setting;
   const kz_setting_measured *m = &r->measured;
   const kz_share wrong = kz_share_of(m->wrong, reference->samples);
-  fprintf(summary, "%c %-20s %-7s %9s x %-3d %-8s %5lld  %7.3f  %6.3f .. %6.3f  %7.3f  %9.3f  %9.3f\n", r->pareto ? '*' : ' ',
-          s->label, kz_method_names[s->method], kz_scheme_at(r->numerics.scheme).name, (int)r->numerics.steps_per_period,
-          s->method != KZ_METHOD_ICM ? "-" : kz_interpolation_names[s->interpolation], (long long)s->nodes, 100 * wrong.share,
-          100 * wrong.low, 100 * wrong.high, 100 * (double)m->count_error / (double)reference->samples, r->seconds,
-          1e6 * m->cell);
+  fprintf(summary, "%c %-20s %-7s %9s x %-3d %-8s %5lld  %7.3f  %6.3f .. %6.3f  %7.3f  %9.3f  %9.3f\n",
+          r->pareto ? '*' : ' ', s->label, kz_method_names[s->method], kz_scheme_at(r->numerics.scheme).name,
+          (int)r->numerics.steps_per_period,
+          s->method != KZ_METHOD_ICM ? "-" : kz_interpolation_names[s->interpolation], (long long)s->nodes,
+          100 * wrong.share, 100 * wrong.low, 100 * wrong.high,
+          100 * (double)m->count_error / (double)reference->samples, r->seconds, 1e6 * m->cell);
 }
 
 /* Prints how many cells the settings of method exact leave undecided. */
@@ -95,23 +97,27 @@ static void tradeoff_warn(const kz_reference_labels *reference, const kz_trade *
 static void tradeoff_print(const kz_reference_labels *reference, const kz_trade *trade, FILE *summary) {
   const kz_reference_labels_summary sum = kz_reference_labels_sum(reference);
   const kz_share flips = kz_share_of(sum.flipped, reference->samples);
-  fprintf(summary,
-          "tradeoff: wrong labels among %lld cells followed in quad precision, %.1f periods each; * = no other setting is both "
-          "as fast and as accurate\n"
-          "  setting              method  kind       integrator   table    nodes  wrong %%    95 %% interval    area %%    "
-          "seconds  "
-          "s/1e6 cells\n",
-          (long long)reference->samples, sum.mean_periods);
+  fprintf(
+      summary,
+      "tradeoff: wrong labels among %lld cells followed in quad precision, %.1f periods each; * = no other setting is "
+      "both "
+      "as fast and as accurate\n"
+      "  setting              method  kind       integrator   table    nodes  wrong %%    95 %% interval    area %%    "
+      "seconds  "
+      "s/1e6 cells\n",
+      (long long)reference->samples, sum.mean_periods);
   for (int64_t i = 0; i < trade->count; i++) print_row(reference, trade, i, summary);
   fprintf(summary,
-          "One unit in the last place of the start changes %.3f %% of the labels (%.3f .. %.3f). The best setting in double "
+          "One unit in the last place of the start changes %.3f %% of the labels (%.3f .. %.3f). The best setting in "
+          "double "
           "precision has %.3f %% wrong. Another number of steps changed %lld of %lld reference labels.\n",
           100 * flips.share, 100 * flips.low, 100 * flips.high, 100 * trade->best_wrong, (long long)sum.disagree,
           (long long)sum.asked);
 }
 
 /* Group /tradeoff and its table in the summary. Rank 0. */
-static kz_status write_tradeoff(const kz_reference_labels *reference, const kz_trade *trade, kz_store *store, FILE *summary) {
+static kz_status write_tradeoff(const kz_reference_labels *reference, const kz_trade *trade, kz_store *store,
+                                FILE *summary) {
   KZ_TRY(kz_store_dimension(store, "tradeoff", "setting", trade->count, NULL));
   KZ_TRY(write_configs(trade, store));
   KZ_TRY(write_measures(reference, trade, store));
@@ -204,16 +210,16 @@ static void tradeoff_rate(const kz_reference_labels *reference, const kz_setting
 static kz_status run_settings(const kz_reference_labels *reference, kz_trade *trade, const kz_run *run) {
   measuring m = {reference, trade};
   const kz_stage stage = kz_stage_for_all("settings", trade->count, sizeof(kz_setting_measured), measure_tile, &m);
-  KZ_FREED kz_setting_measured *measured = kz_malloc((size_t)trade->count * sizeof *measured);
+  KZ_AUTOFREE kz_setting_measured *measured = kz_malloc((size_t)trade->count * sizeof *measured);
   KZ_TRY(kz_stage_run(run, &stage, measured));
   tradeoff_rate(reference, measured, trade);
   return KZ_OK;
 }
 
 static kz_status run_damped(const kz_scene *scene, const kz_run *run, kz_store *store, FILE *summary) {
-  KZ_FREED_BY(kz_reference_labels_free) kz_reference_labels reference = {0};
-  KZ_FREED_BY(free_trade) kz_trade trade = trade_of(scene->tradeoff);
-  KZ_FREED char *path = kz_reference_path(store);
+  KZ_AUTOFREE_BY(kz_reference_labels_free) kz_reference_labels reference = {0};
+  KZ_AUTOFREE_BY(free_trade) kz_trade trade = trade_of(scene->tradeoff);
+  KZ_AUTOFREE char *path = kz_reference_path(store);
   KZ_TRY(kz_reference_labels_make(scene, run, scene->tradeoff->samples, path, &reference));
   KZ_TRY(kz_ranks_agree(run->ranks, path ? kz_reference_labels_save(&reference, path) : KZ_OK));
   KZ_TRY(run_settings(&reference, &trade, run));
@@ -222,6 +228,7 @@ static kz_status run_damped(const kz_scene *scene, const kz_run *run, kz_store *
 
 kz_status kz_tradeoff_run(const kz_scene *scene, const kz_run *run, kz_store *store, FILE *summary) {
   if (scene->parameters.pendulum.beta > 0) return run_damped(scene, run, store, summary);
-  if (summary) fprintf(summary, "tradeoff: without damping there are no attractors, so there are no labels to compare.\n");
+  if (summary)
+    fprintf(summary, "tradeoff: without damping there are no attractors, so there are no labels to compare.\n");
   return KZ_OK;
 }

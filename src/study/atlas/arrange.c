@@ -1,4 +1,4 @@
-/* The arrangement of the curves: which attractors a place has, by counting crossings of its column from the lowest place upwards. */
+/* The arrangement of the curves: which attractors a place has, by counting crossings of its column from below. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -16,7 +16,8 @@ static const double GROWN = 0.5;
 static const double NO_GRAVITY = 1e-9, BESIDE = 1e-8;
 
 static void arrange_add(kz_atlas_crossings *crossings, kz_atlas_crossing crossing) {
-  crossings->list = kz_list_reserve(crossings->list, &crossings->capacity, crossings->count + 1, sizeof *crossings->list);
+  crossings->list =
+      kz_list_reserve(crossings->list, &crossings->capacity, crossings->count + 1, sizeof *crossings->list);
   crossings->list[crossings->count++] = crossing;
 }
 
@@ -61,7 +62,7 @@ static double root_between(const double *p, double target, double low, double hi
   return 0.5 * (low + high);
 }
 
-/* The parameters at which a cubic has the value: those of its monotone pieces, between its turns. Ends belong to the side < . */
+/* Parameters at which a cubic has the value, in its monotone pieces between turns. Ends belong to the side < . */
 static int roots_of(const double *p, double target, double *root) {
   double cut[4] = {0}, d = p[2] * p[2] - 3 * p[3] * p[1];
   int cuts = 1, n = 0;
@@ -77,20 +78,23 @@ static int roots_of(const double *p, double target, double *root) {
   }
   cut[cuts++] = 1;
   for (int i = 0; i + 1 < cuts; i++)
-    if ((value(p, cut[i]) < target) != (value(p, cut[i + 1]) < target)) root[n++] = root_between(p, target, cut[i], cut[i + 1]);
+    if ((value(p, cut[i]) < target) != (value(p, cut[i + 1]) < target))
+      root[n++] = root_between(p, target, cut[i], cut[i + 1]);
   return n;
 }
 
-/* Which end of a step determines the side, at a point with this normal form. At a cusp a fold turns back with its side. It goes straight on where its side
- * changes at a place without a drive: from there two folds begin on either side, between which a rotation is held. */
+/* End of a step that determines the side, at a point with this normal form. At a cusp a fold turns back with its side.
+ * It goes straight on where its side changes at a place without a drive: from there two folds begin on either side,
+ * between which a rotation is held. */
 static const double *side_of(const kz_cycle_kind *kind, const double *a, const double *b, double form) {
   const double *ta = a + KZ_ROW_TANGENT, *tb = b + KZ_ROW_TANGENT;
-  const bool changes = kind->of.multiplier > 0 && a[KZ_ROW_FORM] * b[KZ_ROW_FORM] < 0 && ta[0] * tb[0] + ta[1] * tb[1] > 0;
+  const bool changes =
+      kind->of.multiplier > 0 && a[KZ_ROW_FORM] * b[KZ_ROW_FORM] < 0 && ta[0] * tb[0] + ta[1] * tb[1] > 0;
   if (changes) return (form > 0) == (a[KZ_ROW_FORM] > 0) ? a : b;
   return fabs(a[KZ_ROW_FORM]) >= fabs(b[KZ_ROW_FORM]) ? a : b;
 }
 
-/* What changes where a step of a curve crosses the line. */
+/* Records the change of attractors where a step of a curve crosses the line. */
 static void arrange_cross(kz_atlas *atlas, int64_t number, int64_t row, int axis, double target, bool classes,
                           kz_atlas_crossings *crossings) {
   const kz_atlas_curve *curve = atlas->curve + number;
@@ -109,12 +113,13 @@ static void arrange_cross(kz_atlas *atlas, int64_t number, int64_t row, int axis
     const double *by = side_of(&curve->kind, a, b, form);
     const double end = by == a ? 0 : 1;
     /* the normal turned from the tangent, with the sign that it has where the side is known */
-    const double known = -arrange_slope(c.p[1], end) * by[KZ_ROW_SIDE] + arrange_slope(c.p[0], end) * by[KZ_ROW_SIDE + 1];
+    const double known =
+        -arrange_slope(c.p[1], end) * by[KZ_ROW_SIDE] + arrange_slope(c.p[0], end) * by[KZ_ROW_SIDE + 1];
     const double normal[2] = {-arrange_slope(c.p[1], s), arrange_slope(c.p[0], s)};
     const int change = (normal[other] > 0) == (known > 0) ? 1 : -1;
     const kz_atlas_class own = kz_atlas_class_of(&curve->kind);
     kz_pendulum pendulum;
-    const bool there = kz_atlas_pendulum(atlas->scene, a, &pendulum); /* a little outside of the plane there may be none */
+    const bool there = kz_atlas_pendulum(atlas->scene, a, &pendulum); /* false a little outside of the plane */
     const double d = there ? kz_kind_determinant(&curve->kind.of, pendulum.beta) : 0;
     const double wide[2] = {kz_atlas_band(&curve->kind, d, a[KZ_ROW_FORM], fabs(a[KZ_ROW_SIDE + other])),
                             kz_atlas_band(&curve->kind, d, b[KZ_ROW_FORM], fabs(b[KZ_ROW_SIDE + other]))};
@@ -166,7 +171,8 @@ bool kz_atlas_crossing_point(const kz_atlas *atlas, int axis, double value, cons
   at->y[n + 1 - axis] = value;
   if (curve->kind.rest < 0)
     at->kind.of.turns =
-        kz_kind_of(&atlas->plane, curve->kind.of.side, curve->kind.of.points, 1, curve->kind.of.multiplier, at->y).turns;
+        kz_kind_of(&atlas->plane, curve->kind.of.side, curve->kind.of.points, 1, curve->kind.of.multiplier, at->y)
+            .turns;
   return kz_curve_locate(&atlas->plane, &at->kind.of, at->y, along) && fabs(at->y[n + axis] - crossing->at) < 1e-3;
 }
 
@@ -197,7 +203,7 @@ double kz_atlas_column(const kz_atlas *atlas, double x) {
 void kz_atlas_base(kz_atlas *atlas, double x, int32_t *counts) {
   memset(counts, 0, KZ_ATLAS_MOST_CLASSES * sizeof *counts);
   if (!atlas->undriven) {
-    KZ_FREED_BY(kz_atlas_crossings_free) kz_atlas_crossings crossings = {0};
+    KZ_AUTOFREE_BY(kz_atlas_crossings_free) kz_atlas_crossings crossings = {0};
     memcpy(counts, atlas->at_reference, KZ_ATLAS_MOST_CLASSES * sizeof *counts);
     kz_atlas_crossings_of(atlas, 1, atlas->reference[1], true, &crossings);
     kz_atlas_changes(&crossings, atlas->reference[0], x, counts);
@@ -218,7 +224,7 @@ bool kz_atlas_plausible(const kz_atlas *atlas, const int32_t *counts) {
 }
 
 void kz_atlas_count(kz_atlas *atlas, const double place[2], int32_t *counts) {
-  KZ_FREED_BY(kz_atlas_crossings_free) kz_atlas_crossings crossings = {0};
+  KZ_AUTOFREE_BY(kz_atlas_crossings_free) kz_atlas_crossings crossings = {0};
   const double x = kz_atlas_column(atlas, place[0]);
   kz_atlas_base(atlas, x, counts);
   kz_atlas_crossings_of(atlas, 0, x, true, &crossings);

@@ -40,13 +40,13 @@ static kz_status share_tile(void *context, int64_t tile, void *record) {
   kz_pendulum pendulum;
   double place[2];
   kz_atlas_region_place(c->raster, tile, place);
-  KZ_FREED_BY(kz_dynamics_freed) kz_dynamics *dynamics = kz_atlas_dynamics(c->atlas, place, STEPS, &pendulum);
+  KZ_AUTOFREE_BY(kz_dynamics_freed) kz_dynamics *dynamics = kz_atlas_dynamics(c->atlas, place, STEPS, &pendulum);
   if (!dynamics) return KZ_OK;
   const kz_search search = {.window = {-M_PI, M_PI, -FASTEST, FASTEST},
                             .starts = starts,
                             .seed = 1,
                             .max_periods = kz_settling_periods(pendulum.beta)};
-  KZ_FREED int32_t *label = kz_calloc((size_t)starts, sizeof *label);
+  KZ_AUTOFREE int32_t *label = kz_calloc((size_t)starts, sizeof *label);
   KZ_TRY(kz_search_window(NULL, dynamics, &search, label));
   for (int64_t i = 0; i < starts; i++) {
     kz_attractor row = {.period = 0};
@@ -61,7 +61,7 @@ static kz_status count_shares(const kz_atlas *atlas, const kz_run *run, kz_atlas
   counting c = {atlas, raster};
   const int64_t n = raster->n_regions, classes = raster->n_classes;
   const size_t bytes = (size_t)(classes + 1) * sizeof(int64_t);
-  KZ_FREED int64_t *found = kz_calloc((size_t)n + 1, bytes);
+  KZ_AUTOFREE int64_t *found = kz_calloc((size_t)n + 1, bytes);
   const kz_stage stage = kz_stage_for_all("atlas shares", n, bytes, share_tile, &c);
   KZ_TRY(kz_stage_run(run, &stage, found));
   raster->hits = kz_calloc((size_t)(n * classes) + 1, sizeof *raster->hits);
@@ -74,22 +74,22 @@ static kz_status count_shares(const kz_atlas *atlas, const kz_run *run, kz_atlas
 }
 
 kz_status kz_atlas_check(const kz_scene *scene) {
-  KZ_FREED_BY(kz_atlas_end) kz_atlas atlas = {0};
+  KZ_AUTOFREE_BY(kz_atlas_end) kz_atlas atlas = {0};
   return kz_atlas_begin(scene, &atlas);
 }
 
 kz_status kz_atlas_run(const kz_scene *scene, const kz_run *run, kz_store *store, FILE *summary) {
-  KZ_FREED_BY(kz_atlas_end) kz_atlas atlas = {0};
+  KZ_AUTOFREE_BY(kz_atlas_end) kz_atlas atlas = {0};
   KZ_TRY(kz_atlas_begin(scene, &atlas));
   KZ_TRY(kz_atlas_search(&atlas, run));
-  KZ_FREED_BY(kz_atlas_raster_free) kz_atlas_raster raster = {0};
+  KZ_AUTOFREE_BY(kz_atlas_raster_free) kz_atlas_raster raster = {0};
   if (store || scene->atlas->shares > 0) kz_atlas_raster_make(&atlas, &raster);
   if (scene->atlas->shares > 0) KZ_TRY(count_shares(&atlas, run, &raster));
   return kz_ranks_agree(run->ranks, store ? kz_atlas_write(&atlas, &raster, store, summary) : KZ_OK);
 }
 
-/* As counted: points of all curves in Blackburn's and Butikov's planes, about 500 times this power of the longest period; bytes of a point in the
- * file and in memory. */
+/* As counted: points of all curves in Blackburn's and Butikov's planes, about 500 times this power of the longest
+ * period; bytes of a point in the file and in memory. */
 static const double POINTS = 500, POWER = 1.8, BYTES = 120;
 
 kz_cost kz_atlas_cost(const kz_scene *scene) {

@@ -38,7 +38,8 @@ static const char *const POINT[POINT_COLUMNS] = {"x",      "y",      "strobe_the
                                                  "side_x", "side_y", "tangent_x",    "tangent_y"};
 
 static kz_cycle_kind kind_of(const columns *c, int64_t i) {
-  const int kind = (int)c->of[KIND][i], period = (int)c->of[PERIOD][i], inverted = c->of[CENTRE][i] == KZ_ABOUT_INVERTED;
+  const int kind = (int)c->of[KIND][i], period = (int)c->of[PERIOD][i],
+            inverted = c->of[CENTRE][i] == KZ_ABOUT_INVERTED;
   const bool symmetric = c->of[SYMMETRIC][i] != 0;
   if (kind == KZ_CURVE_REST_SWINGS) return (kz_cycle_kind){{1, 1, -1, 0, 0}, inverted};
   if (kind == KZ_CURVE_REST_LEANS) return (kz_cycle_kind){{-1, 1, -1, inverted, 0}, inverted};
@@ -47,7 +48,7 @@ static kz_cycle_kind kind_of(const columns *c, int64_t i) {
                          -1};
 }
 
-/* Of the points of a cycle a row has the first alone, from which the others follow. */
+/* Reads the first point of each cycle, from which the others are completed. */
 static kz_status read_rows(const kz_atlas *atlas, const columns *points, int64_t first, int64_t n_points,
                            kz_atlas_curve *curve) {
   const kz_axis *axis[] = {&atlas->scene->atlas->x.values, &atlas->scene->atlas->y.values};
@@ -71,7 +72,7 @@ static kz_status read_rows(const kz_atlas *atlas, const columns *points, int64_t
 }
 
 static kz_status read_curves(kz_atlas *atlas, kz_store *store) {
-  KZ_FREED_BY(columns_free) columns curves = {0}, points = {0};
+  KZ_AUTOFREE_BY(columns_free) columns curves = {0}, points = {0};
   int64_t n, n_points;
   KZ_TRY(kz_store_length(store, GROUP, "curve", &n));
   KZ_TRY(kz_store_length(store, GROUP, "point", &n_points));
@@ -81,7 +82,8 @@ static kz_status read_curves(kz_atlas *atlas, kz_store *store) {
   for (int64_t i = 0; i < n; i++) {
     kz_atlas_curve *curve = atlas->curve + i;
     const int32_t ending = curves.of[CLOSED][i] != 0 ? KZ_TRACE_CLOSED : KZ_TRACE_LEFT;
-    *curve = (kz_atlas_curve){.kind = kind_of(&curves, i), .ending = {ending, ending}, .n = (int64_t)curves.of[POINTS][i]};
+    *curve =
+        (kz_atlas_curve){.kind = kind_of(&curves, i), .ending = {ending, ending}, .n = (int64_t)curves.of[POINTS][i]};
     atlas->n_curves++;
     KZ_TRY(read_rows(atlas, &points, (int64_t)curves.of[FIRST][i], n_points, curve));
   }
@@ -101,11 +103,11 @@ static kz_status find_known(const kz_atlas *atlas, kz_store *store, int64_t cell
   return KZ_OK;
 }
 
-/* The classes in the order of the file, and their counts in a cell; where no cell is known they are negative, so that no list is. */
+/* Reads the classes in the order of the file, and their counts in a cell: negative where no cell is known. */
 static kz_status read_classes(kz_atlas *atlas, kz_store *store) {
   enum { OF_PERIOD, OF_WINDING, OF_CENTRE, OF_SYMMETRY, CLASS_COLUMNS };
   static const char *const name[] = {"class_period", "class_winding", "class_centre", "class_symmetric"};
-  KZ_FREED_BY(columns_free) columns c = {0};
+  KZ_AUTOFREE_BY(columns_free) columns c = {0};
   int64_t n, cell[2] = {0};
   KZ_TRY(find_known(atlas, store, cell));
   KZ_TRY(kz_store_length(store, GROUP, "class", &n));

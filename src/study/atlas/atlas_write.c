@@ -14,7 +14,8 @@
 static const char *const GROUP = "atlas";
 
 enum { CUSP, DEGENERATE_FLIP, DEGENERATE_PITCHFORK };
-static const char *const WORDS[KZ_CURVE_KINDS] = {"fold", "period doubling", "symmetry breaking", "swings grow", "leans over"};
+static const char *const WORDS[KZ_CURVE_KINDS] = {"fold", "period doubling", "symmetry breaking", "swings grow",
+                                                  "leans over"};
 
 static int kind_of(const kz_atlas_curve *curve) {
   if (curve->kind.rest >= 0) return curve->kind.of.side > 0 ? KZ_CURVE_REST_SWINGS : KZ_CURVE_REST_LEANS;
@@ -22,7 +23,7 @@ static int kind_of(const kz_atlas_curve *curve) {
   return curve->kind.of.side > 0 ? KZ_CURVE_PERIOD_DOUBLING : KZ_CURVE_SYMMETRY_BREAKING;
 }
 
-/* What a cycle moves about: the sign of the mean cosine of its strobe points, if it does not turn. */
+/* Centre of a cycle that does not turn: the sign of the mean cosine of its strobe points. */
 static int centre_of(const kz_atlas *atlas, const kz_atlas_curve *curve) {
   const kz_curve_kind of = curve->kind.of;
   double cosine = 0;
@@ -88,7 +89,7 @@ static double atlas_write_at(const kz_atlas *atlas, const double *place, int axi
 /* Texts that a function makes. */
 typedef void (*text_fn)(const kz_atlas *atlas, int64_t i, char *text);
 static kz_status write_texts(const kz_atlas *atlas, const char *name, int64_t n, text_fn make, kz_store *store) {
-  KZ_FREED char (*text)[2 * KZ_NAME_LENGTH] = kz_calloc((size_t)n + 1, sizeof *text);
+  KZ_AUTOFREE char (*text)[2 * KZ_NAME_LENGTH] = kz_calloc((size_t)n + 1, sizeof *text);
   for (int64_t i = 0; i < n; i++) make(atlas, i, text[i]);
   COLUMN(const char *, name, n, text[i]);
   return KZ_OK;
@@ -158,10 +159,11 @@ static double region_middle(const kz_atlas *atlas, const kz_atlas_raster *r, int
 static kz_status write_cells(const kz_atlas *atlas, const char *name, int64_t layers, int64_t n, size_t bytes,
                              const void *cells, kz_store *store) {
   if (!atlas->swapped) return kz_store_variable(store, GROUP, name, cells);
-  KZ_FREED char *exchanged = kz_malloc((size_t)(layers * n * n) * bytes + 1);
+  KZ_AUTOFREE char *exchanged = kz_malloc((size_t)(layers * n * n) * bytes + 1);
   for (int64_t i = 0; i < layers * n * n; i++) {
     const int64_t layer = i / (n * n), row = i / n % n, column = i % n;
-    memcpy(exchanged + (size_t)i * bytes, (const char *)cells + (size_t)((layer * n + column) * n + row) * bytes, bytes);
+    memcpy(exchanged + (size_t)i * bytes, (const char *)cells + (size_t)((layer * n + column) * n + row) * bytes,
+           bytes);
   }
   return kz_store_variable(store, GROUP, name, exchanged);
 }
@@ -199,7 +201,8 @@ static int64_t open_ends(const kz_atlas *atlas) {
 
 static kz_status write_attributes(const kz_atlas *atlas, const kz_atlas_raster *raster, kz_store *store) {
   const kz_plane_axis *axis[] = {&atlas->scene->atlas->x, &atlas->scene->atlas->y};
-  const kz_share wrong = kz_share_of(atlas->disagreed, atlas->checked), missing = kz_share_of(atlas->unsolved, atlas->listed);
+  const kz_share wrong = kz_share_of(atlas->disagreed, atlas->checked),
+                 missing = kz_share_of(atlas->unsolved, atlas->listed);
   for (int i = 0; i < 2; i++) {
     const kz_plane_axis *of = axis[kz_atlas_axis(atlas, i)];
     KZ_TRY(kz_axis_describe(&of->values, of->parameter, i ? "y" : "x", GROUP, store));
@@ -230,20 +233,24 @@ static void atlas_write_print(const kz_atlas *atlas, const kz_atlas_raster *r, c
   for (int64_t i = 0; i < r->points * r->points; i++)
     if (r->count[i] > most) most = r->count[i];
   fprintf(summary, "atlas: %s x %s, cycles of up to %" PRId64 " periods: %" PRId64 " curves (%" PRId64 " points)\n",
-          kz_sweep_parameter_at(parameter[atlas->swapped])->name, kz_sweep_parameter_at(parameter[1 - atlas->swapped])->name,
-          atlas->scene->atlas->max_period, atlas->n_curves, l->n);
-  fprintf(summary, "  folds %" PRId64 ", period doublings %" PRId64 ", symmetry breakings %" PRId64 ", of rest %" PRId64 "\n",
+          kz_sweep_parameter_at(parameter[atlas->swapped])->name,
+          kz_sweep_parameter_at(parameter[1 - atlas->swapped])->name, atlas->scene->atlas->max_period, atlas->n_curves,
+          l->n);
+  fprintf(summary,
+          "  folds %" PRId64 ", period doublings %" PRId64 ", symmetry breakings %" PRId64 ", of rest %" PRId64 "\n",
           kinds[KZ_CURVE_FOLD], kinds[KZ_CURVE_PERIOD_DOUBLING], kinds[KZ_CURVE_SYMMETRY_BREAKING],
           kinds[KZ_CURVE_REST_SWINGS] + kinds[KZ_CURVE_REST_LEANS]);
   fprintf(summary,
-          "  %" PRId64 " lists of attractors in %" PRId64 " x %" PRId64 " cells, up to %" PRId64 " attractors at once\n",
+          "  %" PRId64 " lists of attractors in %" PRId64 " x %" PRId64 " cells, up to %" PRId64
+          " attractors at once\n",
           r->lists, r->points, r->points, most);
   if (r->negative > 0)
     fprintf(summary, "  warning: %" PRId64 " cells lie beyond a curve that is missing; their lists are not known\n",
             r->negative);
   if (open_ends(atlas) > 0)
     fprintf(summary,
-            "  warning: %" PRId64 " ends of curves lie within the plane without a reason; lists beside them may be wrong\n",
+            "  warning: %" PRId64
+            " ends of curves lie within the plane without a reason; lists beside them may be wrong\n",
             open_ends(atlas));
   if (atlas->compared > 0)
     fprintf(summary, "  of %" PRId64 " crossings of lines at k, %" PRId64 " have no image at -k%s\n", atlas->compared,
@@ -255,12 +262,13 @@ static void atlas_write_print(const kz_atlas *atlas, const kz_atlas_raster *r, c
             atlas->checked, atlas->rounds, atlas->disagreed, kz_share_of(atlas->disagreed, atlas->checked).high);
   if (atlas->listed > 0)
     fprintf(summary,
-            "  of %" PRId64 " motions in the lists of these points, %" PRId64 " could not be solved for (share at most %.2g)\n",
+            "  of %" PRId64 " motions in the lists of these points, %" PRId64
+            " could not be solved for (share at most %.2g)\n",
             atlas->listed, atlas->unsolved, kz_share_of(atlas->unsolved, atlas->listed).high);
 }
 
 kz_status kz_atlas_write(kz_atlas *atlas, const kz_atlas_raster *raster, kz_store *store, FILE *summary) {
-  KZ_FREED_BY(listing_free) listing l = {0};
+  KZ_AUTOFREE_BY(listing_free) listing l = {0};
   list_points(atlas, &l);
   KZ_TRY(write_attributes(atlas, raster, store));
   KZ_TRY(write_curves(atlas, &l, store));

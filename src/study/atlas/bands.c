@@ -1,22 +1,23 @@
-/* Narrow bands of attractors: a cycle is born on one curve and loses its stability on another one close by. Where one of the two is missing, the
- * other one would begin or end an attractor in all of the plane. */
+/* Narrow bands of attractors: a cycle is born on one curve and loses its stability on another one close by. Where one
+ * of the two is missing, the other one would begin or end an attractor in all of the plane. */
 #include <math.h>
 #include <stdlib.h>
 
 #include "lines.h"
 
-/* Sides of the plane: a band narrower than the first needs both its edges; how far apart they lie, in widths, at most; error of a crossing. */
+/* Sides of the plane: narrowest band with one edge; largest distance of edges in widths; error of a crossing. */
 static const double NARROW = 1e-5, REACH = 4, BLURRED = 1e-5;
 
-/* In a narrow band the map is Henon's, x' = a - x^2 - D x_before, with the determinant D. A pair of cycles is born with the trace 1 + D, and the trace falls by 2 sqrt(a) to
- * -(1 + D) while a grows by (1 + D)^2. There it falls by 1/(1 + D) for each a, and the fold's coefficient times its gradient is 1/(1 - D)^2. So
- * both edges give the width. */
+/* In a narrow band the map is Henon's, x' = a - x^2 - D x_before, with the determinant D. A pair of cycles is born with
+ * the trace 1 + D, and the trace falls by 2 sqrt(a) to
+ * -(1 + D) while a grows by (1 + D)^2. There it falls by 1/(1 + D) for each a, and the fold's coefficient times its
+ * gradient is 1/(1 - D)^2. So both edges give the width. */
 double kz_atlas_band(const kz_cycle_kind *kind, double d, double form, double gradient) {
   const double ratio = (1 + d) / (1 - d);
   return kind->of.multiplier > 0 ? ratio * ratio / (gradient * fabs(form)) : (1 + d) / gradient;
 }
 
-/* The other edge of a band, among those that have none, on the side of its attractors, or a little on the wrong one; -1 = none. */
+/* The other edge of a band: an unpaired one on its attractors' side, or a little beyond; -1 = none. */
 static int64_t edge_of(const kz_atlas_crossings *crossings, const bool *paired, int64_t i) {
   const kz_atlas_crossing *from = crossings->list + i;
   for (int side = from->change, tried = 0; tried < 2; side = -side, tried++)
@@ -36,7 +37,7 @@ int kz_atlas_compare_crossings(const void *first, const void *second) {
 }
 
 void kz_atlas_pair(kz_atlas_crossings *crossings) {
-  KZ_FREED bool *paired = kz_calloc((size_t)crossings->count + 1, sizeof *paired);
+  KZ_AUTOFREE bool *paired = kz_calloc((size_t)crossings->count + 1, sizeof *paired);
   int64_t left = 0;
   for (int64_t i = 0; i < crossings->count; i++) {
     if (paired[i] || crossings->list[i].width >= NARROW) continue;

@@ -9,13 +9,13 @@ kz_status kz_atlas_place(const kz_atlas *atlas, int axis, double value, double *
   const kz_atlas_plan *plan = atlas->scene->atlas;
   const kz_plane_axis *of = kz_atlas_axis(atlas, axis) ? &plan->y : &plan->x;
   if (!(value >= of->values.min && value <= of->values.max))
-    return kz_fail(KZ_REFUSED, "%c: %.10g lies outside of the atlas; %s is from %.10g to %.10g there", axis ? 'y' : 'x', value,
-                   kz_sweep_parameter_at(of->parameter)->name, of->values.min, of->values.max);
+    return kz_fail(KZ_REFUSED, "%c: %.10g lies outside of the atlas; %s is from %.10g to %.10g there", axis ? 'y' : 'x',
+                   value, kz_sweep_parameter_at(of->parameter)->name, of->values.min, of->values.max);
   *place = (value - of->values.min) / (of->values.max - of->values.min);
   return KZ_OK;
 }
 
-/* Those of the half map are squared. */
+/* Multipliers from the trace and determinant of the map; those of a half map are squared. */
 void kz_atlas_multipliers(const kz_cycle_kind *kind, const double number[2], double re[2], double im[2]) {
   const double half = number[0] / 2, root = half * half - number[1];
   const double large = half + (half < 0 ? -1 : 1) * sqrt(fmax(root, 0)), imaginary = sqrt(fmax(-root, 0));
@@ -62,8 +62,8 @@ void kz_atlas_draw(const kz_atlas *atlas, int axis, const kz_cycle_kind *kind, c
   if (end->rows < 2) return;
   line->point = kz_realloc(line->point, (size_t)(line->n_points + end->rows + end->events) * sizeof *line->point);
   for (int64_t i = 0; i < end->rows; i++) {
-    for (;
-         i > 0 && event < last && (event->what > KZ_EVENT_FLIP || lies_between(event->what, row[i - 1].number, row[i].number));
+    for (; i > 0 && event < last &&
+           (event->what > KZ_EVENT_FLIP || lies_between(event->what, row[i - 1].number, row[i].number));
          event++)
       if (event->what <= KZ_EVENT_FLIP) put_point(atlas, axis, kind, event->y, 1, line);
     put_point(atlas, axis, kind, row[i].y, largest_multiplier(kind, row[i].number), line);

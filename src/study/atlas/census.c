@@ -1,5 +1,5 @@
-/* The census: all cycles of places, attracting or not, each followed to the first curve that it meets. A cycle exists in far more of the plane
- * than it attracts in, so that bands are seen that starts hardly ever reach. */
+/* The census: all cycles of places, attracting or not, each followed to the first curve that it meets. A cycle exists
+ * in far more of the plane than it attracts in, so that bands are seen that starts hardly ever reach. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -15,13 +15,13 @@
 
 /* rad: two cycles are one. */
 static const double ONE = 1e-5;
-/* Largest traces of the cycles of a place, in that of a multiplier of 1: along rows of starts, and along lines of constant angle, for which those
- * cycles are left that repel little and that no row passes. */
+/* Largest traces of the cycles of a place, in that of a multiplier of 1: along rows of starts, and along lines of
+ * constant angle, for which those cycles are left that repel little and that no row passes. */
 enum { SETS = 2 };
 static const double STEEPEST[SETS] = {1e4, 100};
 static const double FASTEST = 2.5;
-/* Sides of the plane: curves are traced from places where the band beside them is wider; the search goes on while curves are found that have a
- * band as wide as the second. */
+/* Sides of the plane: curves are traced from places where the band beside them is wider; the search goes on while
+ * curves are found that have a band as wide as the second. */
 static const double LEAST_BAND = 1e-5, WIDE_BAND = 1e-4;
 enum { TILES = 8, CYCLES_OF_A_TILE = 16 };
 
@@ -47,7 +47,8 @@ static bool has_cycle(const kz_atlas *atlas, const double place[2], const kz_atl
   double at_image[2];
   const double *image = kz_atlas_image_state(atlas, place, state, at_image) ? at_image : NULL;
   for (int64_t i = 0; i < cycles->count; i++)
-    if (kz_kind_period(&cycles->list[i].kind) == period && kz_atlas_same(cycles->list + i, state, image, ONE)) return true;
+    if (kz_kind_period(&cycles->list[i].kind) == period && kz_atlas_same(cycles->list + i, state, image, ONE))
+      return true;
   return false;
 }
 
@@ -63,7 +64,7 @@ static void join_cycle(const kz_atlas *atlas, const double place[2], const doubl
 /* The cycles along one line of starts. */
 static void search_line(const kz_atlas *atlas, const double place[2], const kz_lines *lines, int64_t line,
                         kz_atlas_seeds *cycles) {
-  KZ_FREED double *found = kz_malloc(kz_piece_bytes(lines->plan));
+  KZ_AUTOFREE double *found = kz_malloc(kz_piece_bytes(lines->plan));
   int64_t work[2];
   const int64_t n = kz_lines_search(lines, line, INT64_MAX, found, work);
   cycles->dropped += n > KZ_CYCLES_OF_A_PIECE;
@@ -74,7 +75,7 @@ static void search_line(const kz_atlas *atlas, const double place[2], const kz_l
 static kz_status cycles_tile(void *context, int64_t tile, void *record) {
   const census *c = context;
   const double *place = c->probe[tile / TILES].place;
-  KZ_FREED_BY(kz_atlas_seeds_free) kz_atlas_seeds cycles = {0};
+  KZ_AUTOFREE_BY(kz_atlas_seeds_free) kz_atlas_seeds cycles = {0};
   kz_pendulum pendulum;
   const bool exists = kz_atlas_pendulum(c->atlas->scene, place, &pendulum);
   for (int set = 0; set < SETS && exists; set++) {
@@ -82,7 +83,8 @@ static kz_status cycles_tile(void *context, int64_t tile, void *record) {
     kz_lines lines = kz_lines_of(&pendulum, &plan, set);
     lines.steepest = STEEPEST[set];
     lines.cells *= lines.pieces, lines.pieces = 1;
-    for (int64_t line = tile % TILES; line < lines.count; line += TILES) search_line(c->atlas, place, &lines, line, &cycles);
+    for (int64_t line = tile % TILES; line < lines.count; line += TILES)
+      search_line(c->atlas, place, &lines, line, &cycles);
   }
   kz_atlas_put_seeds(&cycles, record);
   return KZ_OK;
@@ -97,7 +99,7 @@ static void census_free(census *c) {
 /* The cycles of n places, each once, in tiles. */
 static void list_cycles(census *c, const kz_atlas_bag *found, int64_t *dropped) {
   for (int64_t place = 0; place < found->n / TILES; place++) {
-    KZ_FREED_BY(kz_atlas_seeds_free) kz_atlas_seeds all = {0};
+    KZ_AUTOFREE_BY(kz_atlas_seeds_free) kz_atlas_seeds all = {0};
     for (int64_t i = 0; i < c->probe[place].found.count; i++) kz_atlas_put(&all, c->probe[place].found.list + i);
     for (int64_t tile = place * TILES; tile < (place + 1) * TILES; tile++) {
       const kz_atlas_seeds some = kz_atlas_seeds_in(found->record[tile]);
@@ -126,7 +128,7 @@ static int64_t count_cycles(const census *c) {
 
 static kz_status births_tile(void *context, int64_t tile, void *record) {
   const census *c = context;
-  KZ_FREED_BY(kz_atlas_seeds_free) kz_atlas_seeds births = {0};
+  KZ_AUTOFREE_BY(kz_atlas_seeds_free) kz_atlas_seeds births = {0};
   for (int64_t i = 0; i < c->tile[tile].count; i++) {
     const kz_plane_cycle *found = c->tile[tile].list + i;
     const int n = found->kind.of.points;
@@ -166,8 +168,8 @@ static void keep_sightings(kz_atlas *atlas, const census *c, const kz_atlas_bag 
   for (int64_t tile = 0; tile < births->n; tile++) {
     const kz_atlas_seeds seeds = kz_atlas_seeds_in(births->record[tile]);
     for (int64_t i = 0; i < seeds.count; i++) {
-      atlas->sighting_place = kz_list_reserve(atlas->sighting_place, &atlas->sighting_capacity, atlas->sightings.count + 1,
-                                              sizeof *atlas->sighting_place);
+      atlas->sighting_place = kz_list_reserve(atlas->sighting_place, &atlas->sighting_capacity,
+                                              atlas->sightings.count + 1, sizeof *atlas->sighting_place);
       atlas->sighting_place[atlas->sightings.count] = atlas->places + c->place_of[tile];
       kz_atlas_put(&atlas->sightings, seeds.list + i);
     }
@@ -175,7 +177,7 @@ static void keep_sightings(kz_atlas *atlas, const census *c, const kz_atlas_bag 
 }
 
 void kz_atlas_count_sightings(const kz_atlas *atlas, int64_t *places) {
-  KZ_FREED int64_t *last = kz_calloc((size_t)atlas->n_curves + 1, sizeof *last);
+  KZ_AUTOFREE int64_t *last = kz_calloc((size_t)atlas->n_curves + 1, sizeof *last);
   memset(places, 0, (size_t)atlas->n_curves * sizeof *places);
   for (int64_t i = 0; i < atlas->sightings.count; i++) {
     const int64_t curve = kz_atlas_known(atlas, atlas->sightings.list + i);
@@ -189,9 +191,9 @@ kz_status kz_atlas_census(kz_atlas *atlas, const kz_run *run, int64_t n, const k
   if (wide) *wide = 0;
   if (n == 0) return KZ_OK;
   const int64_t before = atlas->n_curves;
-  KZ_FREED_BY(kz_atlas_bag_free) kz_atlas_bag found = {0};
-  KZ_FREED_BY(kz_atlas_bag_free) kz_atlas_bag births = {0};
-  KZ_FREED_BY(census_free) census c = {.atlas = atlas, .probe = probe};
+  KZ_AUTOFREE_BY(kz_atlas_bag_free) kz_atlas_bag found = {0};
+  KZ_AUTOFREE_BY(kz_atlas_bag_free) kz_atlas_bag births = {0};
+  KZ_AUTOFREE_BY(census_free) census c = {.atlas = atlas, .probe = probe};
   KZ_TRY(kz_atlas_gather(run, "atlas cycles", n * TILES, KZ_ATLAS_SEEDS_BYTES, cycles_tile, &c, &found));
   list_cycles(&c, &found, &atlas->dropped);
   KZ_TRY(kz_atlas_gather(run, "atlas births", c.n, KZ_ATLAS_SEEDS_BYTES, births_tile, &c, &births));

@@ -7,8 +7,9 @@
 #include "cycles.h"
 
 enum { MOST_ROWS = 1500, MOST_SPECIAL = 32, SAMPLES = 12 };
-/* A point may lie on a curve if it is this near to one of its steps, in lengths of the step; it does if Newton's method finds it from there,
- * within so many sides of the plane, rad. Points of a cycle that are this near to each other may be those of a shorter one, rad. */
+/* A point may lie on a curve if it is this near to one of its steps, in lengths of the step; it does if Newton's method
+ * finds it from there, within so many sides of the plane, rad. Points of a cycle that are this near to each other may
+ * be those of a shorter one, rad. */
 static const double NEAR = 0.1, WEIGHT = 0.2, ROUNDING = 1e-9, SAME_PLACE = 1e-8, SAME = 1e-5, BLURRED = 1e-3;
 
 void kz_atlas_curve_free(kz_atlas_curve *curve) {
@@ -37,7 +38,7 @@ void kz_atlas_complete(const kz_atlas *atlas, kz_atlas_curve *curve, int64_t row
 }
 
 void kz_atlas_between(const kz_atlas_curve *curve, int64_t row, double share, double *y) {
-  enum { TURNED = 1 }; /* rad: no point moves so far in a step; the last row of a closed curve may begin with another point */
+  enum { TURNED = 1 }; /* rad: largest move of a point in a step; a closed curve may end in another point */
   const int n = 2 * curve->kind.of.points;
   double to[KZ_ATLAS_UNKNOWNS];
   kz_atlas_point_of(curve, row, y);
@@ -49,20 +50,20 @@ void kz_atlas_between(const kz_atlas_curve *curve, int64_t row, double share, do
 }
 
 /* One direction of a curve: its rows, and its special points, of which *n_special are there already. */
-static int64_t trace_side(const kz_atlas *atlas, const kz_plane_cycle *seed, int32_t direction, double *row, double *special,
-                          int64_t *n_special, int32_t *ending) {
+static int64_t trace_side(const kz_atlas *atlas, const kz_plane_cycle *seed, int32_t direction, double *row,
+                          double *special, int64_t *n_special, int32_t *ending) {
   int64_t more;
-  const int64_t n = kz_curve_trace(&atlas->plane, &seed->kind.of, seed->y, direction, atlas->longest, MOST_ROWS, row,
-                                   MOST_SPECIAL - *n_special,
-                                   special + *n_special * (KZ_SPECIAL_POINTS + 2 * seed->kind.of.points), &more, ending);
+  const int64_t n = kz_curve_trace(
+      &atlas->plane, &seed->kind.of, seed->y, direction, atlas->longest, MOST_ROWS, row, MOST_SPECIAL - *n_special,
+      special + *n_special * (KZ_SPECIAL_POINTS + 2 * seed->kind.of.points), &more, ending);
   *n_special += more;
   return n;
 }
 
 static void trace_both(const kz_atlas *atlas, const kz_plane_cycle *seed, kz_atlas_curve *curve) {
   const int64_t width = kz_atlas_width(&seed->kind), special_width = KZ_SPECIAL_POINTS + 2 * seed->kind.of.points;
-  KZ_FREED double *back = kz_malloc(MOST_ROWS * (size_t)width * sizeof *back);
-  KZ_FREED double *on = kz_malloc(MOST_ROWS * (size_t)width * sizeof *on);
+  KZ_AUTOFREE double *back = kz_malloc(MOST_ROWS * (size_t)width * sizeof *back);
+  KZ_AUTOFREE double *on = kz_malloc(MOST_ROWS * (size_t)width * sizeof *on);
   int64_t n_back = 0, n_on;
   *curve = (kz_atlas_curve){.kind = seed->kind};
   curve->special = kz_malloc(MOST_SPECIAL * (size_t)special_width * sizeof *curve->special);
@@ -82,7 +83,7 @@ static void trace_both(const kz_atlas *atlas, const kz_plane_cycle *seed, kz_atl
     memcpy(curve->row + (curve->n - 1) * width, curve->row, (size_t)width * sizeof *curve->row);
 }
 
-/* The seed may lie beside a curve of shorter cycles: that curve is traced then. As a longer cycle its points have few digits. */
+/* Traces the seed's curve, or the curve of shorter cycles beside it, along which the longer cycle has few digits. */
 void kz_atlas_trace(const kz_atlas *atlas, const kz_plane_cycle *seed, kz_atlas_curve *curve) {
   kz_atlas_seeds one = {0};
   trace_both(atlas, seed, curve);
@@ -125,10 +126,11 @@ void kz_atlas_sign(const kz_atlas *atlas, kz_atlas_curve *curve) {
   const int64_t width = kz_atlas_width(&curve->kind);
   curve->signature = kz_malloc((size_t)(curve->n + 1) * sizeof *curve->signature);
   for (int64_t i = 0; i < curve->n; i++)
-    signature_of(atlas, &curve->kind, curve->row + i * width, curve->row + i * width + KZ_ROW_POINTS, curve->signature[i]);
+    signature_of(atlas, &curve->kind, curve->row + i * width, curve->row + i * width + KZ_ROW_POINTS,
+                 curve->signature[i]);
 }
 
-/* Whether a point lies on a step of a curve: Newton's method, begun at the step's own cycle at that place, ends at the point. */
+/* Whether a point lies on a step of a curve: Newton's method from the step's own cycle there ends at it. */
 static bool is_of_step(const kz_atlas *atlas, const kz_atlas_curve *curve, int64_t row, double share,
                        const kz_plane_cycle *seed) {
   const int n = 2 * curve->kind.of.points;
@@ -142,11 +144,13 @@ static bool is_of_step(const kz_atlas *atlas, const kz_atlas_curve *curve, int64
   if (!kz_curve_locate(&atlas->plane, &curve->kind.of, y, along)) return false;
   memcpy(found.y, y, ((size_t)n + 2) * sizeof *y);
   const double *image = kz_atlas_image_state(atlas, seed->y + n, seed->y, at_image) ? at_image : NULL;
-  return hypot(y[n] - seed->y[n], y[n + 1] - seed->y[n + 1]) < SAME_PLACE && kz_atlas_same(&found, seed->y, image, SAME);
+  return hypot(y[n] - seed->y[n], y[n + 1] - seed->y[n + 1]) < SAME_PLACE &&
+         kz_atlas_same(&found, seed->y, image, SAME);
 }
 
 /* Whether a point lies on a curve. */
-static bool is_on(const kz_atlas *atlas, const kz_atlas_curve *curve, const kz_plane_cycle *seed, const double *signature) {
+static bool is_on(const kz_atlas *atlas, const kz_atlas_curve *curve, const kz_plane_cycle *seed,
+                  const double *signature) {
   for (int64_t i = 0; i + 1 < curve->n; i++) {
     const double *a = curve->signature[i], *b = curve->signature[i + 1];
     double length = 1e-30, along = 0, off = 0;
@@ -177,8 +181,9 @@ int64_t kz_atlas_known(const kz_atlas *atlas, const kz_plane_cycle *seed) {
   return -1;
 }
 
-/* Of some points of a curve, how many lie on another one. */
-static int64_t curve_common(const kz_atlas *atlas, const kz_atlas_curve *curve, const kz_atlas_curve *other, int64_t *tried) {
+/* Number of some points of a curve that lie on another one. */
+static int64_t curve_common(const kz_atlas *atlas, const kz_atlas_curve *curve, const kz_atlas_curve *other,
+                            int64_t *tried) {
   const int64_t step = curve->n > SAMPLES ? curve->n / SAMPLES : 1;
   kz_plane_cycle at = {.kind = curve->kind};
   int64_t on = 0;
@@ -235,7 +240,8 @@ void kz_atlas_join(kz_atlas *atlas) {
   for (int64_t i = 0; i < atlas->n_curves; i++) {
     kz_atlas_curve *curve = atlas->curve + i;
     for (int end = 0; end < 2; end++) {
-      if (curve->kind.of.multiplier < 0 || (curve->ending[end] != KZ_TRACE_MERGED && curve->ending[end] != KZ_TRACE_STUCK))
+      if (curve->kind.of.multiplier < 0 ||
+          (curve->ending[end] != KZ_TRACE_MERGED && curve->ending[end] != KZ_TRACE_STUCK))
         continue;
       const double *last = curve->row + (end ? curve->n - 1 : 0) * kz_atlas_width(&curve->kind);
       const double *place = degenerate_near(atlas, last);

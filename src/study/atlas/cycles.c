@@ -10,10 +10,12 @@ static const double ONE = 1e-5, AT_REST = 1e-9;
 
 kz_atlas_class kz_atlas_class_of(const kz_cycle_kind *kind) {
   if (kind->rest >= 0) return (kz_atlas_class){KZ_CLASS_REST, 1, kind->rest};
-  return (kz_atlas_class){kind->of.side > 0 ? KZ_CLASS_OTHER : KZ_CLASS_SYMMETRIC, kz_kind_period(kind), kind->of.turns};
+  return (kz_atlas_class){kind->of.side > 0 ? KZ_CLASS_OTHER : KZ_CLASS_SYMMETRIC, kz_kind_period(kind),
+                          kind->of.turns};
 }
 
-kz_atlas_class kz_atlas_class_with(const kz_atlas *atlas, bool symmetric, int32_t period, int32_t turns, int32_t centre) {
+kz_atlas_class kz_atlas_class_with(const kz_atlas *atlas, bool symmetric, int32_t period, int32_t turns,
+                                   int32_t centre) {
   if (!symmetric) return (kz_atlas_class){KZ_CLASS_OTHER, period, turns};
   const int32_t type = period == 1 && atlas->plane.mirrored ? KZ_CLASS_REST : KZ_CLASS_SYMMETRIC;
   return (kz_atlas_class){type, period, centre == KZ_ABOUT_INVERTED};
@@ -63,12 +65,14 @@ kz_motion_kind kz_atlas_described(const kz_atlas *atlas, const kz_atlas_class *c
 
 bool kz_atlas_image_state(const kz_atlas *atlas, const double place[2], const double *state, double image[2]) {
   double later[4] = {state[0], state[1], state[0], state[1]};
-  if (!kz_atlas_paired(atlas) || (atlas->plane.half_period && !kz_curve_orbit(&atlas->plane, place, 1, 1, later))) return false;
+  if (!kz_atlas_paired(atlas) || (atlas->plane.half_period && !kz_curve_orbit(&atlas->plane, place, 1, 1, later)))
+    return false;
   image[0] = -later[2], image[1] = -later[3];
   return true;
 }
 
-int kz_atlas_points(const kz_atlas *atlas, const kz_cycle_kind *kind, const double place[2], const double *y, double *point) {
+int kz_atlas_points(const kz_atlas *atlas, const kz_cycle_kind *kind, const double place[2], const double *y,
+                    double *point) {
   const int n = kind->of.points, period = kz_kind_period(kind);
   memcpy(point, y, 2 * (size_t)n * sizeof *point);
   for (int i = n; i < period; i++)
@@ -79,7 +83,8 @@ int kz_atlas_points(const kz_atlas *atlas, const kz_cycle_kind *kind, const doub
 /* The points that a symmetric cycle leaves out are images of others. */
 bool kz_atlas_same(const kz_plane_cycle *cycle, const double *state, const double *image, double near) {
   for (int i = 0; i < cycle->kind.of.points; i++)
-    if (kz_atlas_apart(cycle->y + 2 * i, state, 1) < near || (image && kz_atlas_apart(cycle->y + 2 * i, image, 1) < near))
+    if (kz_atlas_apart(cycle->y + 2 * i, state, 1) < near ||
+        (image && kz_atlas_apart(cycle->y + 2 * i, image, 1) < near))
       return true;
   return false;
 }
@@ -88,13 +93,15 @@ bool kz_atlas_same(const kz_plane_cycle *cycle, const double *state, const doubl
 static bool cycles_repeats(const kz_cycle_kind *kind, const double *y, int shift, double side, double near) {
   const int n = kind->of.points;
   for (int i = 0; i < n; i++)
-    if (kz_atlas_apart(y + 2 * i, y + 2 * ((i + shift) % n), i + shift < n ? side : side * kind->of.side) >= near) return false;
+    if (kz_atlas_apart(y + 2 * i, y + 2 * ((i + shift) % n), i + shift < n ? side : side * kind->of.side) >= near)
+      return false;
   return true;
 }
 
-/* Whether a point of a curve is one of a curve of the shorter cycle `of`, whose points are the first of y. An even power of a map has no
- * multiplier -1 but where that one's square is, and its multiplier 1 may be that one's -1. Beside the place where a doubled cycle is born both lie
- * as near as one likes, and only the multiplier of the shorter one distinguishes them. */
+/* Whether a point of a curve is one of a curve of the shorter cycle `of`, whose points are the first of y. An even
+ * power of a map has no multiplier -1 but where that one's square is, and its multiplier 1 may be that one's -1. Beside
+ * the place where a doubled cycle is born both lie as near as one likes, and only the multiplier of the shorter one
+ * distinguishes them. */
 static bool is_on_its_curve(const kz_atlas *atlas, int power, kz_curve_kind *of, double *y) {
   if (of->multiplier == 0) return true;
   if (of->multiplier < 0 && power % 2 == 0) return false;
@@ -111,7 +118,7 @@ static kz_cycle_kind rest_of(const kz_cycle_kind *kind, const double *y) {
   return rest;
 }
 
-/* A point of a curve beside rest is one of rest's own curve where rest has that multiplier: Newton's method ends there beside it. */
+/* Whether a point beside rest belongs to rest's own curve with that multiplier: Newton's method ends beside it. */
 static bool is_rest(const kz_atlas *atlas, double near, const kz_cycle_kind *kind, const double *y) {
   if (!atlas->plane.mirrored || kind->of.points != 1) return false;
   if (kind->rest >= 0) return kind->of.multiplier > 0; /* on the other map */
@@ -122,15 +129,16 @@ static bool is_rest(const kz_atlas *atlas, double near, const kz_cycle_kind *kin
          rest.of.multiplier < 0;
 }
 
-/* Images run half a period later: the image of a cycle's first point is the point (q + 1) / 2 further if the cycle is its own image and has the odd
- * period q. */
+/* Images run half a period later: the image of a cycle's first point is the point (q + 1) / 2 further if the cycle is
+ * its own image and has the odd period q. */
 static bool reduce_to_image(const kz_atlas *atlas, double near, kz_cycle_kind *kind, double *y) {
   const int n = kind->of.points, period = kz_kind_period(kind);
   for (int q = 1; q <= period && atlas->plane.half_period; q += 2) {
     const int points = (q + 1) / 2, power = kind->of.side < 0 ? period / q : 2;
     double image[2], point[KZ_ATLAS_UNKNOWNS];
     if (period % q != 0 || (kind->of.side < 0 ? q == period : q < period || kind->of.turns != 0)) continue;
-    if (!kz_atlas_image_state(atlas, y + 2 * n, y, image) || kz_atlas_apart(image, y + 2 * (points % n), 1) >= near) continue;
+    if (!kz_atlas_image_state(atlas, y + 2 * n, y, image) || kz_atlas_apart(image, y + 2 * (points % n), 1) >= near)
+      continue;
     memcpy(point, y, 2 * (size_t)points * sizeof *point);
     memcpy(point + 2 * points, y + 2 * n, 2 * sizeof *point);
     kz_curve_kind of = kz_kind_of(&atlas->plane, -1, points, 0, kind->of.multiplier, point);

@@ -26,7 +26,7 @@ typedef struct {
   kz_atlas_branches *drawn; /* NULL: the branches are not kept */
 } line;
 
-/* Marks the crossing that a branch has met; what is no crossing becomes a seed. `child`: by the branch that begins there. */
+/* Marks the crossing that a branch has met; any other place becomes a seed. `child`: met by the branch born there. */
 static void explore_meet(const line *l, const kz_plane_cycle *seed, bool child) {
   const double at = seed->y[2 * seed->kind.of.points + l->axis];
   const int64_t curve = kz_atlas_known(l->atlas, seed);
@@ -44,24 +44,25 @@ static void explore_meet(const line *l, const kz_plane_cycle *seed, bool child) 
 /* Takes what a branch has met: to a line, or as a seed. */
 static void explore_take(const kz_atlas *atlas, const line *l, kz_cycle_kind kind, const double *y, bool child,
                          kz_atlas_seeds *seeds) {
-  KZ_FREED_BY(kz_atlas_seeds_free) kz_atlas_seeds one = {0};
+  KZ_AUTOFREE_BY(kz_atlas_seeds_free) kz_atlas_seeds one = {0};
   if (!kz_atlas_add(atlas, kind, y, l ? &one : seeds) || !l) return;
   explore_meet(l, one.list, child);
 }
 
 /* The cycle that a branch grows out of: which one, and the branch's own cycle near it. */
-static void add_parent(const kz_atlas *atlas, const line *l, kz_event event, const kz_plane_cycle *cycle, const double along[2],
-                       kz_atlas_seeds *seeds) {
+static void add_parent(const kz_atlas *atlas, const line *l, kz_event event, const kz_plane_cycle *cycle,
+                       const double along[2], kz_atlas_seeds *seeds) {
   kz_plane_cycle parent;
-  if (kz_parent_of(&atlas->plane, event, cycle, &parent) && kz_curve_locate(&atlas->plane, &parent.kind.of, parent.y, along))
+  if (kz_parent_of(&atlas->plane, event, cycle, &parent) &&
+      kz_curve_locate(&atlas->plane, &parent.kind.of, parent.y, along))
     explore_take(atlas, l, parent.kind, parent.y, true, seeds);
 }
 
 /* Follows a cycle along a line and adds what it meets. */
 static void follow_to(const kz_atlas *atlas, const line *l, const kz_cycle_kind *kind, const double *start,
                       const kz_branch_way *way, kz_atlas_seeds *seeds) {
-  KZ_FREED kz_branch_row *row = kz_malloc(MOST_ROWS * sizeof *row);
-  KZ_FREED kz_branch_event *event = kz_malloc(MOST_EVENTS * sizeof *event);
+  KZ_AUTOFREE kz_branch_row *row = kz_malloc(MOST_ROWS * sizeof *row);
+  KZ_AUTOFREE kz_branch_event *event = kz_malloc(MOST_EVENTS * sizeof *event);
   kz_branch_end end;
   if (kz_kind_period(kind) > atlas->scene->atlas->max_period) return;
   kz_curve_branch(&atlas->plane, &kind->of, start, way, row, event, &end);
@@ -80,7 +81,8 @@ static void follow_to(const kz_atlas *atlas, const line *l, const kz_cycle_kind 
 
 static void explore_follow(const kz_atlas *atlas, const line *l, const kz_cycle_kind *kind, const double *start,
                            const double along[2], int32_t side, kz_atlas_seeds *seeds) {
-  follow_to(atlas, l, kind, start, &(kz_branch_way){{along[0], along[1]}, LONGEST, 0, MOST_ROWS, MOST_EVENTS, side}, seeds);
+  follow_to(atlas, l, kind, start, &(kz_branch_way){{along[0], along[1]}, LONGEST, 0, MOST_ROWS, MOST_EVENTS, side},
+            seeds);
 }
 
 /* To the right, to the left, up, down. */
@@ -105,14 +107,16 @@ static void explore_fold(const kz_atlas *atlas, const line *l, const kz_cycle_ki
   for (int side = -1; side <= 1; side += 2) explore_follow(atlas, l, kind, at, along, side, seeds);
 }
 
-bool kz_atlas_grown(const kz_atlas *atlas, const kz_plane_cycle *flip, int axis, kz_plane_cycle *child, double along[2]) {
+bool kz_atlas_grown(const kz_atlas *atlas, const kz_plane_cycle *flip, int axis, kz_plane_cycle *child,
+                    double along[2]) {
   const kz_cycle_kind kind = kz_child_kind(&flip->kind);
-  return kz_kind_period(&kind) <= atlas->scene->atlas->max_period && kz_child_of(&atlas->plane, flip, axis, child, along);
+  return kz_kind_period(&kind) <= atlas->scene->atlas->max_period &&
+         kz_child_of(&atlas->plane, flip, axis, child, along);
 }
 
 /* The cycle to both sides along an axis, if `itself`, and what branches off, if `grown`. */
-static void explore_flip(const kz_atlas *atlas, const line *l, const kz_plane_cycle *flip, int axis, bool itself, bool grown,
-                         kz_atlas_seeds *seeds) {
+static void explore_flip(const kz_atlas *atlas, const line *l, const kz_plane_cycle *flip, int axis, bool itself,
+                         bool grown, kz_atlas_seeds *seeds) {
   double along[2] = {0};
   kz_plane_cycle child;
   for (int sign = -1; sign <= 1 && itself; sign += 2) {
@@ -124,17 +128,18 @@ static void explore_flip(const kz_atlas *atlas, const line *l, const kz_plane_cy
 }
 
 /* Everything that branches off a point of a curve along an axis. */
-static void explore_at(const kz_atlas *atlas, const line *l, const kz_plane_cycle *at, int axis, bool itself, bool grown,
-                       kz_atlas_seeds *seeds) {
+static void explore_at(const kz_atlas *atlas, const line *l, const kz_plane_cycle *at, int axis, bool itself,
+                       bool grown, kz_atlas_seeds *seeds) {
   double form, side[2], vector[2];
-  if (!kz_curve_form(&atlas->plane, &at->kind.of, at->y, &form, side, vector) || form == 0 || fabs(side[axis]) < FLAT) return;
+  if (!kz_curve_form(&atlas->plane, &at->kind.of, at->y, &form, side, vector) || form == 0 || fabs(side[axis]) < FLAT)
+    return;
   if (at->kind.of.multiplier > 0)
     explore_fold(atlas, l, &at->kind, at->y, axis, seeds);
   else
     explore_flip(atlas, l, at, axis, itself, grown, seeds);
 }
 
-/* A fold of what branches off begins where the normal form of a curve with multiplier -1 is 0: explored beside, where it is < 0. */
+/* Explores a fold of the daughter branch where the normal form at multiplier -1 is 0: beside it, where it is < 0. */
 static void explore_degenerate(const kz_atlas *atlas, const kz_atlas_curve *curve, kz_atlas_seeds *seeds) {
   enum { AWAY = 2 };
   kz_plane_cycle at = {.kind = curve->kind};
@@ -143,7 +148,7 @@ static void explore_degenerate(const kz_atlas *atlas, const kz_atlas_curve *curv
     const double a = curve->row[row * width + KZ_ROW_FORM], b = curve->row[(row + 1) * width + KZ_ROW_FORM];
     if ((a > 0) == (b > 0)) continue;
     for (int i = 0; i <= AWAY; i += AWAY) {
-      const int64_t beside_it = a <= 0 ? row - (a == 0) - i : row + 1 + (b == 0) + i; /* the point itself may be a row */
+      const int64_t beside_it = a <= 0 ? row - (a == 0) - i : row + 1 + (b == 0) + i; /* the point may be a row */
       if (beside_it < 0 || beside_it >= curve->n) continue;
       kz_atlas_point_of(curve, beside_it, at.y);
       for (int axis = 0; axis < 2; axis++) explore_at(atlas, NULL, &at, axis, false, true, seeds);
@@ -216,15 +221,16 @@ void kz_atlas_explore_line(kz_atlas *atlas, int axis, double value, int64_t firs
   line l = {.atlas = atlas, .axis = axis, .seeds = seeds, .drawn = drawn};
   kz_plane_cycle at;
   kz_atlas_crossings_of(atlas, 1 - axis, value, false, &l.crossings);
-  KZ_FREED bool *itself = kz_calloc((size_t)l.crossings.count + 1, 1);
-  KZ_FREED bool *child = kz_calloc((size_t)l.crossings.count + 1, 1);
+  KZ_AUTOFREE bool *itself = kz_calloc((size_t)l.crossings.count + 1, 1);
+  KZ_AUTOFREE bool *child = kz_calloc((size_t)l.crossings.count + 1, 1);
   l.itself = itself, l.child = child;
   if (drawn) follow_rest(&l, value);
   for (int64_t i = 0; i < l.crossings.count; i++) {
     const kz_atlas_crossing *crossing = l.crossings.list + i;
     const kz_cycle_kind *kind = &atlas->curve[crossing->curve].kind;
     const double share = crossing->at;
-    if (crossing->curve < first || share < 0 || share > 1 || (itself[i] && (child[i] || kind->of.multiplier > 0))) continue;
+    if (crossing->curve < first || share < 0 || share > 1 || (itself[i] && (child[i] || kind->of.multiplier > 0)))
+      continue;
     if (kz_atlas_crossing_point(atlas, axis, value, crossing, &at))
       explore_at(atlas, &l, &at, axis, !itself[i], !child[i], seeds);
     itself[i] = child[i] = true;

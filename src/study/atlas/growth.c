@@ -53,14 +53,16 @@ static void next_seeds(kz_atlas *atlas, tracing *t) {
 
 /* By the ending of a trace without a point. */
 static int refusal_of(int32_t ending) {
-  return ending == KZ_TRACE_THIN ? KZ_ATLAS_TOO_THIN : ending == KZ_TRACE_MERGED ? KZ_ATLAS_OF_SHORTER : KZ_ATLAS_NO_POINT;
+  return ending == KZ_TRACE_THIN     ? KZ_ATLAS_TOO_THIN
+         : ending == KZ_TRACE_MERGED ? KZ_ATLAS_OF_SHORTER
+                                     : KZ_ATLAS_NO_POINT;
 }
 
 static kz_status trace_pending(kz_atlas *atlas, const kz_run *run) {
-  KZ_FREED kz_plane_cycle *seed = kz_malloc((size_t)(atlas->pending.count + 1) * sizeof *seed);
+  KZ_AUTOFREE kz_plane_cycle *seed = kz_malloc((size_t)(atlas->pending.count + 1) * sizeof *seed);
   tracing t = {.atlas = atlas, .seed = seed};
   for (next_seeds(atlas, &t); t.n > 0; next_seeds(atlas, &t)) {
-    KZ_FREED_BY(kz_atlas_bag_free) kz_atlas_bag traced = {0};
+    KZ_AUTOFREE_BY(kz_atlas_bag_free) kz_atlas_bag traced = {0};
     KZ_TRY(kz_atlas_gather(run, "atlas curves", t.n, KZ_ATLAS_CURVE_BYTES, trace_tile, &t, &traced));
     for (int64_t i = 0; i < t.n; i++) {
       kz_atlas_curve curve = kz_atlas_curve_in(traced.record[i]);
@@ -101,14 +103,15 @@ static bool crosses_lines(const kz_atlas *atlas, const kz_atlas_curve *curve) {
       low = fmin(low, curve->row[row * width + axis]);
       high = fmax(high, curve->row[row * width + axis]);
     }
-    for (int64_t line = 0; line < lines_of(atlas); line++) crossed += low < line_at(atlas, line) && line_at(atlas, line) < high;
+    for (int64_t line = 0; line < lines_of(atlas); line++)
+      crossed += low < line_at(atlas, line) && line_at(atlas, line) < high;
   }
   return crossed >= 2;
 }
 
 static kz_status explore_tile(void *context, int64_t tile, void *record) {
   const exploring *e = context;
-  KZ_FREED_BY(kz_atlas_seeds_free) kz_atlas_seeds seeds = {0};
+  KZ_AUTOFREE_BY(kz_atlas_seeds_free) kz_atlas_seeds seeds = {0};
   const int64_t curves = 2 * e->lines;
   const kz_atlas_curve *curve = e->atlas->curve + e->first + tile - curves;
   if (tile < curves)
@@ -132,7 +135,7 @@ static void await_all(kz_atlas *atlas, const kz_atlas_bag *found) {
 }
 
 static kz_status growth_explore(kz_atlas *atlas, const kz_run *run) {
-  KZ_FREED_BY(kz_atlas_bag_free) kz_atlas_bag found = {0};
+  KZ_AUTOFREE_BY(kz_atlas_bag_free) kz_atlas_bag found = {0};
   const int64_t curves = atlas->n_curves - atlas->n_explored;
   exploring e = {atlas, atlas->n_explored, lines_of(atlas)};
   if (curves == 0) return KZ_OK;
@@ -157,14 +160,14 @@ typedef struct {
 
 static kz_status column_tile(void *context, int64_t tile, void *record) {
   const columns *c = context;
-  KZ_FREED_BY(kz_atlas_seeds_free) kz_atlas_seeds seeds = {0};
+  KZ_AUTOFREE_BY(kz_atlas_seeds_free) kz_atlas_seeds seeds = {0};
   kz_atlas_explore_line(c->atlas, 1, c->x[tile], 0, &seeds, NULL);
   kz_atlas_put_seeds(&seeds, record);
   return KZ_OK;
 }
 
 kz_status kz_atlas_explore_columns(kz_atlas *atlas, const kz_run *run, int64_t n, const double *x) {
-  KZ_FREED_BY(kz_atlas_bag_free) kz_atlas_bag found = {0};
+  KZ_AUTOFREE_BY(kz_atlas_bag_free) kz_atlas_bag found = {0};
   columns c = {atlas, x};
   KZ_TRY(kz_atlas_gather(run, "atlas columns", n, KZ_ATLAS_SEEDS_BYTES, column_tile, &c, &found));
   await_all(atlas, &found);

@@ -31,7 +31,7 @@ static void add_beside(const kz_atlas *atlas, const kz_cycle_kind *kind, const d
   }
 }
 
-/* Each point of the cycle has its own image: an orbit from one of them would lose the digits by which the cycle repels. */
+/* Seeds from each point's own image: an orbit from one point would lose the digits by which the cycle repels. */
 void kz_atlas_explore_image(const kz_atlas *atlas, const kz_cycle_kind *kind, const double *at, kz_atlas_seeds *seeds) {
   const int n = kind->of.points;
   const kz_cycle_kind image = image_of(kind);
@@ -46,7 +46,8 @@ void kz_atlas_explore_image(const kz_atlas *atlas, const kz_cycle_kind *kind, co
   add_beside(atlas, &image, y, place, seeds);
 }
 
-void kz_atlas_explore_mirrored(const kz_atlas *atlas, const kz_cycle_kind *kind, const double *at, kz_atlas_seeds *seeds) {
+void kz_atlas_explore_mirrored(const kz_atlas *atlas, const kz_cycle_kind *kind, const double *at,
+                               kz_atlas_seeds *seeds) {
   const int n = 2 * kind->of.points;
   kz_cycle_kind image = *kind;
   double y[KZ_ATLAS_UNKNOWNS];
@@ -56,7 +57,8 @@ void kz_atlas_explore_mirrored(const kz_atlas *atlas, const kz_cycle_kind *kind,
 }
 
 /* Whether a line has a crossing with a curve of a kind at a value. */
-static bool images_has(const kz_atlas *atlas, const kz_atlas_crossings *crossings, const kz_cycle_kind *kind, double at) {
+static bool images_has(const kz_atlas *atlas, const kz_atlas_crossings *crossings, const kz_cycle_kind *kind,
+                       double at) {
   for (int64_t i = 0; i < crossings->count; i++) {
     const kz_atlas_crossing *other = crossings->list + i;
     if (!memcmp(&atlas->curve[other->curve].kind, kind, sizeof *kind) && fabs(other->at - at) < NEAR) return true;
@@ -84,8 +86,8 @@ void kz_atlas_compare_images(kz_atlas *atlas) {
   atlas->compared = atlas->alone = 0;
   if (!atlas->turned) return;
   for (int i = 0; i < LINES; i++) {
-    KZ_FREED_BY(kz_atlas_crossings_free) kz_atlas_crossings here = {0};
-    KZ_FREED_BY(kz_atlas_crossings_free) kz_atlas_crossings there = {0};
+    KZ_AUTOFREE_BY(kz_atlas_crossings_free) kz_atlas_crossings here = {0};
+    KZ_AUTOFREE_BY(kz_atlas_crossings_free) kz_atlas_crossings there = {0};
     const double share = (i + 0.5) / LINES, place[2] = {share, share};
     double image[2];
     if (!kz_atlas_image(atlas, place, image) || !memcmp(place, image, sizeof place)) continue;

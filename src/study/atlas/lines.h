@@ -3,11 +3,11 @@
 
 #include "types.h"
 
-/* The crossings of the line where coordinate `axis` is `value`, in order of the other coordinate; with the classes that change, or one for
- * each curve alone. */
+/* The crossings of the line where coordinate `axis` is `value`, in order of the other coordinate; with the classes that
+ * change, or one for each curve alone. */
 void kz_atlas_crossings_of(kz_atlas *atlas, int axis, double value, bool classes, kz_atlas_crossings *crossings);
-/* The width of the band of attractors at a point of a curve with this normal form, in sides of the plane, if it is narrow: along the direction in
- * which the gradient of the form's side was taken. d: determinant of the cycle's map. */
+/* The width of the band of attractors at a point of a curve with this normal form, in sides of the plane, if it is
+ * narrow: along the direction in which the gradient of the form's side was taken. d: determinant of the cycle's map. */
 double kz_atlas_band(const kz_cycle_kind *kind, double d, double form, double gradient);
 /* The width at a point of a curve, across it. */
 double kz_atlas_band_at(const kz_atlas *atlas, const kz_plane_cycle *at);
@@ -17,9 +17,9 @@ double kz_atlas_widest(const kz_atlas *atlas, const kz_atlas_curve *curve);
 void kz_atlas_pair(kz_atlas_crossings *crossings);
 /* The order of crossings along a line, for qsort. */
 int kz_atlas_compare_crossings(const void *first, const void *second);
-/* counts [KZ_ATLAS_MOST_CLASSES] of the attractors where a column begins to be counted, at the y kz_atlas_floor; at any place. */
+/* counts [KZ_ATLAS_MOST_CLASSES] of attractors at the start of a column, y = kz_atlas_floor; at any place. */
 double kz_atlas_floor(const kz_atlas *atlas);
-/* Where the column of x is counted: a little beside x where k = 0 and an undriven edge meet, as curves of rest turn there. */
+/* Column in which x is counted: beside x where k = 0 and an undriven edge meet, as curves of rest turn there. */
 double kz_atlas_column(const kz_atlas *atlas, double x);
 void kz_atlas_base(kz_atlas *atlas, double x, int32_t *counts);
 void kz_atlas_count(kz_atlas *atlas, const double place[2], int32_t *counts);

@@ -1,4 +1,4 @@
-/* The motions of a point: their list by counting crossings of its column, and their states, carried from where they begin or end. */
+/* Motions of a point: listed by counting crossings of its column; states carried from where they begin or end. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -39,13 +39,13 @@ static void motions_take(hunt *h, const kz_plane_cycle *cycle, const double numb
   h->curve[h->found++] = curve;
 }
 
-/* Follows a cycle along an axis to the place; true if it attracts on all of the way. side: 1 or -1: one of the branches of a fold. */
+/* Follows a cycle along an axis to the place; true if it attracts all the way. side: 1 or -1, branch of a fold. */
 static bool motions_carry(const hunt *h, int axis, const kz_plane_cycle *from, int32_t side, kz_plane_cycle *to,
                           double number[2]) {
   const int n = 2 * from->kind.of.points;
   const double target = h->place[axis], sign = target > from->y[n + axis] ? 1 : -1;
   const kz_branch_way way = {{axis == 0 ? sign : 0, axis == 1 ? sign : 0}, KZ_ATLAS_BRANCH_STEP, 0, MOST_ROWS, 0, side};
-  KZ_FREED kz_branch_row *row = kz_malloc(MOST_ROWS * sizeof *row);
+  KZ_AUTOFREE kz_branch_row *row = kz_malloc(MOST_ROWS * sizeof *row);
   kz_plane plane = h->atlas->plane;
   kz_branch_end end;
   *(sign > 0 ? plane.high + axis : plane.low + axis) = target;
@@ -62,7 +62,7 @@ static bool motions_carry(const hunt *h, int axis, const kz_plane_cycle *from, i
   return kz_curve_solve(&h->atlas->plane, &to->kind.of, to->y, number) && motions_attracts(number);
 }
 
-/* What a crossing begins on the side of the place: the stable branch of a fold, the curve's own cycle, or what branches off. */
+/* Carries from a crossing the cycle born on the place's side: a fold's stable branch, its own or a daughter cycle. */
 static void carry_from(hunt *h, int axis, const kz_atlas_crossing *crossing) {
   const kz_atlas_curve *curve = h->atlas->curve + crossing->curve;
   const bool is_own = kz_atlas_is_of(&curve->kind, &h->class);
@@ -72,12 +72,13 @@ static void carry_from(hunt *h, int axis, const kz_atlas_crossing *crossing) {
   if (!is_own && !kz_atlas_grown(h->atlas, &from, axis, &child, along)) return;
   const bool is_fold = is_own && curve->kind.of.multiplier > 0;
   for (int32_t side = is_fold ? -1 : 0; side <= (is_fold ? 1 : 0); side += 2)
-    if (motions_carry(h, axis, is_own ? &from : &child, side, &to, number)) motions_take(h, &to, number, crossing->curve);
+    if (motions_carry(h, axis, is_own ? &from : &child, side, &to, number))
+      motions_take(h, &to, number, crossing->curve);
 }
 
-/* From the crossings of a line through the place, the nearest first, at which the class gains an attractor on the way to the place. */
+/* Carries from the nearest crossings of a line through the place that give the class an attractor on the way. */
 static void hunt_along(hunt *h, int axis) {
-  KZ_FREED_BY(kz_atlas_crossings_free) kz_atlas_crossings crossings = {0};
+  KZ_AUTOFREE_BY(kz_atlas_crossings_free) kz_atlas_crossings crossings = {0};
   const int32_t number = kz_atlas_class_number(h->atlas, &h->class);
   kz_atlas_crossings_of(h->atlas, 1 - axis, h->place[1 - axis], true, &crossings);
   int64_t above = 0;
@@ -103,7 +104,7 @@ static void hunt_among(hunt *h, const kz_atlas_seeds *known) {
 
 /* Attractors that no curve bounds are searched. */
 static void hunt_by_starts(hunt *h) {
-  KZ_FREED_BY(kz_atlas_seeds_free) kz_atlas_seeds found = {0};
+  KZ_AUTOFREE_BY(kz_atlas_seeds_free) kz_atlas_seeds found = {0};
   if (kz_atlas_probe_at(h->atlas, h->place, STARTS, 1, &found) == KZ_OK) hunt_among(h, &found);
 }
 
@@ -126,16 +127,21 @@ static void set_state(const hunt *h, int32_t i, kz_motion *motion) {
   kz_atlas_multipliers(&cycle->kind, h->number[i], motion->multiplier_re, motion->multiplier_im);
 }
 
-/* The states of all attractors of a class at a place: to `motion`, if not NULL. known: attractors that starts have found there; NULL: starts are
- * followed if need be. Returns how many were found. */
+/* The states of all attractors of a class at a place: to `motion`, if not NULL. known: attractors that starts have
+ * found there; NULL: starts are followed if need be. Returns how many were found. */
 static int32_t set_states(kz_atlas *atlas, const double place[2], const kz_atlas_class *class, int32_t wanted,
                           const kz_atlas_seeds *known, kz_motion *motion) {
   enum { CARRIED_AT_ONCE = 2 }; /* both branches of a fold may attract where both are carried */
-  KZ_FREED kz_plane_cycle *cycle = kz_malloc((size_t)(wanted + CARRIED_AT_ONCE) * sizeof *cycle);
-  KZ_FREED double (*number)[2] = kz_malloc((size_t)(wanted + CARRIED_AT_ONCE) * sizeof *number);
-  KZ_FREED int64_t *curve = kz_malloc((size_t)(wanted + CARRIED_AT_ONCE) * sizeof *curve);
-  hunt h = {
-      .atlas = atlas, .place = place, .class = *class, .wanted = wanted, .cycle = cycle, .number = number, .curve = curve};
+  KZ_AUTOFREE kz_plane_cycle *cycle = kz_malloc((size_t)(wanted + CARRIED_AT_ONCE) * sizeof *cycle);
+  KZ_AUTOFREE double (*number)[2] = kz_malloc((size_t)(wanted + CARRIED_AT_ONCE) * sizeof *number);
+  KZ_AUTOFREE int64_t *curve = kz_malloc((size_t)(wanted + CARRIED_AT_ONCE) * sizeof *curve);
+  hunt h = {.atlas = atlas,
+            .place = place,
+            .class = *class,
+            .wanted = wanted,
+            .cycle = cycle,
+            .number = number,
+            .curve = curve};
   if (class->type == KZ_CLASS_REST) hunt_rest(&h);
   for (int axis = 1; axis >= 0 && h.found < wanted && class->type != KZ_CLASS_REST; axis--) hunt_along(&h, axis);
   if (h.found < wanted && known) hunt_among(&h, known);
@@ -144,8 +150,9 @@ static int32_t set_states(kz_atlas *atlas, const double place[2], const kz_atlas
   return h.found < wanted ? h.found : wanted;
 }
 
-void kz_atlas_confirm(kz_atlas *atlas, const double place[2], const kz_atlas_seeds *known, int64_t *listed, int64_t *unsolved) {
-  KZ_FREED int32_t *counts = kz_malloc(KZ_ATLAS_MOST_CLASSES * sizeof *counts);
+void kz_atlas_confirm(kz_atlas *atlas, const double place[2], const kz_atlas_seeds *known, int64_t *listed,
+                      int64_t *unsolved) {
+  KZ_AUTOFREE int32_t *counts = kz_malloc(KZ_ATLAS_MOST_CLASSES * sizeof *counts);
   *listed = *unsolved = 0;
   kz_atlas_count(atlas, place, counts);
   if (!kz_atlas_plausible(atlas, counts)) return;
@@ -161,7 +168,7 @@ kz_status kz_atlas_motions(kz_atlas *atlas, double x, double y, bool states, kz_
   double place[2];
   *motions = (kz_motions){.x = x, .y = y};
   for (int i = 0; i < 2; i++) KZ_TRY(kz_atlas_place(atlas, i, value[i], place + kz_atlas_axis(atlas, i)));
-  KZ_FREED int32_t *counts = kz_malloc(KZ_ATLAS_MOST_CLASSES * sizeof *counts);
+  KZ_AUTOFREE int32_t *counts = kz_malloc(KZ_ATLAS_MOST_CLASSES * sizeof *counts);
   kz_atlas_pendulum(atlas->scene, place, &motions->pendulum);
   kz_atlas_count(atlas, place, counts);
   motions->known = kz_atlas_plausible(atlas, counts);

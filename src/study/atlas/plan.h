@@ -1,4 +1,4 @@
-/* What a scene says of the study `atlas`: bifurcation curves over a plane of two keys of the pendulum mapping. */
+/* Plan of the study `atlas`: bifurcation curves over a plane of two keys of the pendulum mapping. */
 #pragma once
 
 #include "kapitza/study_atlas.h"

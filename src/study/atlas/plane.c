@@ -67,7 +67,8 @@ static kz_status plane_survey(kz_atlas *atlas) {
     if (!kz_atlas_pendulum(scene, place, &pendulum)) {
       char text[2][96];
       kz_atlas_values(scene->atlas, place, value);
-      for (int j = 0; j < 2; j++) kz_axis_print(&axis[j]->values, axis[j]->parameter, 10, value[j], text[j], sizeof text[j]);
+      for (int j = 0; j < 2; j++)
+        kz_axis_print(&axis[j]->values, axis[j]->parameter, 10, value[j], text[j], sizeof text[j]);
       return kz_fail(
           KZ_REFUSED,
           "atlas.x.min|atlas.y.min: there is no damped pendulum at %s, %s; an atlas needs damping above 0 in the whole "
@@ -100,7 +101,8 @@ static bool is_turned_pendulum(const kz_pendulum *p, const kz_pendulum *q) {
   turned.k = -p->k;
   turned.torque_amplitude = -p->torque_amplitude;
   for (int j = 1; j < KZ_HARMONICS; j += 2)
-    for (int i = 0; i < 2; i++) turned.vertical[j][i] = -p->vertical[j][i], turned.horizontal[j][i] = -p->horizontal[j][i];
+    for (int i = 0; i < 2; i++)
+      turned.vertical[j][i] = -p->vertical[j][i], turned.horizontal[j][i] = -p->horizontal[j][i];
   return kz_pendulums_parted(&turned, q) < SAME;
 }
 
@@ -129,7 +131,7 @@ bool kz_atlas_image(const kz_atlas *atlas, const double place[2], double image[2
   return false;
 }
 
-/* Whether the axis of x begins without a drive, and that of y does not, or along it the drive grows more than along that of y. */
+/* Whether x and y are to be exchanged: x alone begins undriven, or the drive grows more along x. */
 static bool is_swapped(const kz_scene *scene) {
   const kz_atlas_plan *plan = scene->atlas;
   kz_pendulum pendulum;
@@ -157,8 +159,10 @@ kz_status kz_atlas_begin(const kz_scene *scene, kz_atlas *atlas) {
     atlas->own_scene.atlas = &atlas->own_plan;
     atlas->scene = &atlas->own_scene;
   }
-  atlas->plane = (kz_plane){
-      .pendulum = kz_atlas_pendulum, .context = atlas->scene, .low = {-MARGIN, -MARGIN}, .high = {1 + MARGIN, 1 + MARGIN}};
+  atlas->plane = (kz_plane){.pendulum = kz_atlas_pendulum,
+                            .context = atlas->scene,
+                            .low = {-MARGIN, -MARGIN},
+                            .high = {1 + MARGIN, 1 + MARGIN}};
   KZ_TRY(plane_survey(atlas));
   KZ_TRY(check_keys(atlas));
   if (atlas->undriven) atlas->plane.low[1] = -BELOW;

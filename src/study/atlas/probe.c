@@ -31,8 +31,8 @@ static kz_cycle_kind kind_of(const kz_atlas *atlas, int n, const double *y, cons
   return kind;
 }
 
-/* The trace of the map of which a cycle is a fixed point, in that of a multiplier of 1: of the half map, whose square F^n is, by trace and
- * determinant of F^n. */
+/* The trace of the map of which a cycle is a fixed point, in that of a multiplier of 1: of the half map, whose square
+ * F^n is, by trace and determinant of F^n. */
 static double probe_steepness(const kz_cycle_kind *kind, const double numbers[2]) {
   if (kind->of.side > 0) return fabs(numbers[0]) / (1 + numbers[1]);
   const double half = sqrt(numbers[1]);
@@ -61,7 +61,8 @@ bool kz_atlas_identify(const kz_atlas *atlas, const double place[2], const doubl
   y[2 * n] = place[0], y[2 * n + 1] = place[1];
   if (!kz_curve_solve(&atlas->plane, &closed, y, numbers) || kz_atlas_apart(y, points, 1) > GUESSED) return false;
   for (int d = 1; d < n; d++)
-    if (n % d == 0 && kz_atlas_apart(y + 2 * d, y, 1) < ONE) return kz_atlas_identify(atlas, place, y, d, steepest, cycle);
+    if (n % d == 0 && kz_atlas_apart(y + 2 * d, y, 1) < ONE)
+      return kz_atlas_identify(atlas, place, y, d, steepest, cycle);
   image[0] = y[0] + 2 * M_PI * closed.turns, image[1] = y[1];
   const kz_cycle_kind kind = kind_of(atlas, n, y, image);
   if (!(probe_steepness(&kind, numbers) < steepest)) return false;
@@ -85,8 +86,9 @@ kz_dynamics *kz_atlas_dynamics(const kz_atlas *atlas, const double place[2], int
   return kz_dynamics_create(pendulum, &numerics, atlas->scene->atlas->max_period);
 }
 
-/* The starts of a place, in half-turns and velocity: some near rest, the others spread over a window, which is searched for trapping regions. */
-static void probe_begin(kz_dynamics *dynamics, const kz_pendulum *pendulum, int64_t starts, int64_t seed, double *state) {
+/* Starts of a place, half-turns and velocity: some near rest, others over a window that gets trapping regions. */
+static void probe_begin(kz_dynamics *dynamics, const kz_pendulum *pendulum, int64_t starts, int64_t seed,
+                        double *state) {
   const double fastest = fmax(FASTEST, 1 + 2 * sqrt(kz_stiffness(pendulum)));
   const kz_window window = {-M_PI, M_PI, -fastest, fastest};
   const double rest[NEAR_REST] = {0.01, M_PI - 0.01, 0.3, M_PI - 0.3};
@@ -96,7 +98,8 @@ static void probe_begin(kz_dynamics *dynamics, const kz_pendulum *pendulum, int6
 }
 
 /* The cycles that are known join those of the place. */
-static void add_known(const kz_atlas *atlas, const kz_dynamics *dynamics, const double place[2], kz_atlas_seeds *found) {
+static void add_known(const kz_atlas *atlas, const kz_dynamics *dynamics, const double place[2],
+                      kz_atlas_seeds *found) {
   for (int64_t number = 1; number <= kz_dynamics_count(dynamics); number++) {
     double theta[KZ_CURVE_POINTS], velocity[KZ_CURVE_POINTS], points[2 * KZ_CURVE_POINTS], at_image[2];
     kz_attractor row;
@@ -113,23 +116,24 @@ static void add_known(const kz_atlas *atlas, const kz_dynamics *dynamics, const 
   }
 }
 
-/* From the mirror images of the attractors as starts: where a tilt or a torque breaks the mirror symmetry they often lie in the basin of an
- * attractor that few other starts reach. */
+/* From the mirror images of the attractors as starts: where a tilt or a torque breaks the mirror symmetry they often
+ * lie in the basin of an attractor that few other starts reach. */
 static kz_status discover_images(kz_dynamics *dynamics, int64_t most, const kz_atlas_seeds *found) {
   int64_t n = 0;
-  KZ_FREED double *state = kz_malloc((size_t)(2 * KZ_CURVE_POINTS * found->count + 1) * sizeof *state);
+  KZ_AUTOFREE double *state = kz_malloc((size_t)(2 * KZ_CURVE_POINTS * found->count + 1) * sizeof *state);
   for (int64_t i = 0; i < found->count; i++)
     for (int j = 0; j < found->list[i].kind.of.points; j++, n++)
       kz_start_state(-found->list[i].y[2 * j], -found->list[i].y[2 * j + 1], state + 2 * n);
   return kz_discover(NULL, dynamics, 0, most, n, state, NULL);
 }
 
-kz_status kz_atlas_probe_at(const kz_atlas *atlas, const double place[2], int64_t starts, int64_t seed, kz_atlas_seeds *found) {
+kz_status kz_atlas_probe_at(const kz_atlas *atlas, const double place[2], int64_t starts, int64_t seed,
+                            kz_atlas_seeds *found) {
   kz_pendulum pendulum;
-  KZ_FREED_BY(kz_dynamics_freed) kz_dynamics *dynamics = kz_atlas_dynamics(atlas, place, STEPS, &pendulum);
+  KZ_AUTOFREE_BY(kz_dynamics_freed) kz_dynamics *dynamics = kz_atlas_dynamics(atlas, place, STEPS, &pendulum);
   *found = (kz_atlas_seeds){0};
   if (!dynamics) return KZ_OK;
-  KZ_FREED double *state = kz_malloc(2 * (size_t)starts * sizeof *state);
+  KZ_AUTOFREE double *state = kz_malloc(2 * (size_t)starts * sizeof *state);
   const int64_t most = (int64_t)fmin(MOST_PERIODS, fmax(FEWEST_PERIODS, 60 / (M_PI * pendulum.beta)));
   probe_begin(dynamics, &pendulum, starts, seed, state);
   KZ_TRY(kz_discover(NULL, dynamics, 0, most, starts, state, NULL));

@@ -24,7 +24,7 @@ static kz_status records_take(void *context, int64_t tile, const void *record, s
 
 /* All ranks get the records of rank 0. Collective. */
 static kz_status records_share(const kz_run *run, kz_atlas_bag *b) {
-  KZ_FREED uint64_t *bytes = kz_calloc((size_t)b->n + 1, sizeof *bytes);
+  KZ_AUTOFREE uint64_t *bytes = kz_calloc((size_t)b->n + 1, sizeof *bytes);
   const bool here = kz_rank(run->ranks) == 0;
   for (int64_t i = 0; here && i < b->n; i++) memcpy(bytes + i, b->record[i], sizeof *bytes);
   KZ_TRY(kz_ranks_broadcast(run->ranks, bytes, (size_t)b->n * sizeof *bytes));
@@ -39,7 +39,8 @@ static kz_status records_share(const kz_run *run, kz_atlas_bag *b) {
 kz_status kz_atlas_gather(const kz_run *run, const char *name, int64_t n, size_t bytes, kz_tile_fn work, void *context,
                           kz_atlas_bag *b) {
   *b = (kz_atlas_bag){n, kz_calloc((size_t)n + 1, sizeof *b->record)};
-  const kz_stage stage = {.name = name, .n_tiles = n, .record_bytes = bytes, .work = work, .context = context, .keep = true};
+  const kz_stage stage = {
+      .name = name, .n_tiles = n, .record_bytes = bytes, .work = work, .context = context, .keep = true};
   KZ_TRY(kz_stage_gather(run, &stage, name, records_take, b));
   return records_share(run, b);
 }
@@ -86,7 +87,8 @@ void kz_atlas_put_curve(const kz_atlas_curve *curve, void *record) {
 kz_atlas_curve kz_atlas_curve_in(const char *record) {
   curve_head head;
   memcpy(&head, record, sizeof head);
-  const size_t rows = (size_t)(head.n * kz_atlas_width(&head.kind)) * sizeof(double), special = head.bytes - sizeof head - rows;
+  const size_t rows = (size_t)(head.n * kz_atlas_width(&head.kind)) * sizeof(double),
+               special = head.bytes - sizeof head - rows;
   return (kz_atlas_curve){.kind = head.kind,
                           .ending = {head.ending[0], head.ending[1]},
                           .n = head.n,

@@ -33,7 +33,8 @@ void kz_atlas_order(kz_atlas *atlas) {
   memcpy(reference, atlas->class, sizeof atlas->class);
   memcpy(counts, atlas->at_reference, sizeof atlas->at_reference);
   qsort(atlas->class, (size_t)atlas->n_classes, sizeof *atlas->class, compare_classes);
-  for (int32_t i = 0; i < atlas->n_classes; i++) atlas->at_reference[kz_atlas_class_number(atlas, reference + i)] = counts[i];
+  for (int32_t i = 0; i < atlas->n_classes; i++)
+    atlas->at_reference[kz_atlas_class_number(atlas, reference + i)] = counts[i];
   free(reference);
   free(counts);
 }
@@ -41,8 +42,8 @@ void kz_atlas_order(kz_atlas *atlas) {
 int64_t kz_atlas_fill_column(kz_atlas *atlas, int64_t column, kz_atlas_raster *raster) {
   const int64_t n = atlas->scene->atlas->points;
   const double x = kz_atlas_column(atlas, kz_atlas_middle(column, n));
-  KZ_FREED_BY(kz_atlas_crossings_free) kz_atlas_crossings crossings = {0};
-  KZ_FREED int32_t *counts = kz_malloc(KZ_ATLAS_MOST_CLASSES * sizeof *counts);
+  KZ_AUTOFREE_BY(kz_atlas_crossings_free) kz_atlas_crossings crossings = {0};
+  KZ_AUTOFREE int32_t *counts = kz_malloc(KZ_ATLAS_MOST_CLASSES * sizeof *counts);
   kz_atlas_base(atlas, x, counts);
   kz_atlas_crossings_of(atlas, 0, x, true, &crossings);
   double from = kz_atlas_floor(atlas);
@@ -72,14 +73,15 @@ static bool is_equal(const kz_atlas_raster *r, int64_t a, int64_t b) {
 
 static uint64_t hash_of(const kz_atlas_raster *r, int64_t cell) {
   uint64_t hash = 1469598103934665603u;
-  for (int64_t c = 0; c < r->n_classes; c++) hash = (hash ^ r->attracting[c * r->points * r->points + cell]) * 1099511628211u;
+  for (int64_t c = 0; c < r->n_classes; c++)
+    hash = (hash ^ r->attracting[c * r->points * r->points + cell]) * 1099511628211u;
   return hash;
 }
 
 static void number_lists(kz_atlas_raster *r) {
   enum { SLOTS = 1 << 16 };
   const int64_t cells = r->points * r->points;
-  KZ_FREED int64_t *slot = kz_malloc(SLOTS * sizeof *slot);
+  KZ_AUTOFREE int64_t *slot = kz_malloc(SLOTS * sizeof *slot);
   for (int i = 0; i < SLOTS; i++) slot[i] = -1;
   for (int64_t cell = 0; cell < cells; cell++) {
     r->list[cell] = -1;
@@ -118,8 +120,8 @@ static int32_t *regions_distances(const kz_atlas_raster *r) {
 }
 
 /* The connected cells of a list from one cell on; they lose their mark. */
-static kz_atlas_region regions_grow(const kz_atlas_raster *r, const int32_t *distance, uint8_t *free_cell, int64_t first,
-                                    int64_t *stack) {
+static kz_atlas_region regions_grow(const kz_atlas_raster *r, const int32_t *distance, uint8_t *free_cell,
+                                    int64_t first, int64_t *stack) {
   const int64_t n = r->points;
   kz_atlas_region region = {.cell = first};
   int64_t top = 0;
@@ -144,9 +146,9 @@ static kz_atlas_region regions_grow(const kz_atlas_raster *r, const int32_t *dis
 
 static void find_regions(kz_atlas_raster *r) {
   const size_t cells = (size_t)(r->points * r->points);
-  KZ_FREED int32_t *distance = regions_distances(r);
-  KZ_FREED uint8_t *free_cell = kz_malloc(cells);
-  KZ_FREED int64_t *stack = kz_malloc(cells * sizeof *stack);
+  KZ_AUTOFREE int32_t *distance = regions_distances(r);
+  KZ_AUTOFREE uint8_t *free_cell = kz_malloc(cells);
+  KZ_AUTOFREE int64_t *stack = kz_malloc(cells * sizeof *stack);
   memset(free_cell, 1, cells);
   for (int64_t cell = 0; cell < (int64_t)cells; cell++) {
     if (!free_cell[cell] || r->list[cell] < 0) continue;

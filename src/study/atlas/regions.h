@@ -6,7 +6,7 @@
 /* A connected part of the raster with one list of attractors. */
 typedef struct {
   int64_t cells, cell; /* how many cells, and the one farthest from its edge */
-  double radius;       /* of that one, cells */
+  double radius;       /* radius around that cell, cells */
 } kz_atlas_region;
 
 /* The attractors of the cells of a raster, points x points, and its largest regions. */
@@ -20,7 +20,7 @@ typedef struct {
   kz_atlas_region region[KZ_ATLAS_REGIONS];
   int64_t *hits, *other; /* [region][class], [region]: of the starts at the region's place; NULL = not asked for */
 } kz_atlas_raster;
-/* Counts what attracts in the cells of a column, to `raster` if it is not NULL. Returns how many lists are not known. */
+/* Counts attractors in the cells of a column, into `raster` if not NULL. Returns the number of unknown lists. */
 int64_t kz_atlas_fill_column(kz_atlas *atlas, int64_t column, kz_atlas_raster *raster);
 /* The middle of a row or column of cells. */
 double kz_atlas_middle(int64_t i, int64_t points);

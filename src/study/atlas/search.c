@@ -1,4 +1,4 @@
-/* The search for all curves: from the cycles of places, and from attractors that the curves do not explain, until random places agree. */
+/* Search for all curves: from cycles of places, and attractors not explained, until random places agree. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -17,7 +17,7 @@
 enum {
   FURTHER = 20, /* places of a round whose cycles are searched */
   MANY = 256,   /* starts at places that check the curves */
-  ROUNDS = 16,  /* of checks at most */
+  ROUNDS = 16,  /* largest number of rounds of checks */
   QUIET = 2     /* rounds in a row that find nothing end the search */
 };
 
@@ -31,14 +31,14 @@ typedef struct {
 
 static kz_status probe_tile(void *context, int64_t tile, void *record) {
   const probing *p = context;
-  KZ_FREED_BY(kz_atlas_seeds_free) kz_atlas_seeds found = {0};
+  KZ_AUTOFREE_BY(kz_atlas_seeds_free) kz_atlas_seeds found = {0};
   KZ_TRY(kz_atlas_probe_at(p->atlas, p->probe[tile].place, p->starts, 1 + tile + 1000 * p->round, &found));
   kz_atlas_put_seeds(&found, record);
   return KZ_OK;
 }
 
 static kz_status probe_all(const kz_run *run, const char *name, probing *p) {
-  KZ_FREED_BY(kz_atlas_bag_free) kz_atlas_bag found = {0};
+  KZ_AUTOFREE_BY(kz_atlas_bag_free) kz_atlas_bag found = {0};
   KZ_TRY(kz_atlas_gather(run, name, p->n, KZ_ATLAS_SEEDS_BYTES, probe_tile, p, &found));
   for (int64_t i = 0; i < p->n; i++) {
     const kz_atlas_seeds seeds = kz_atlas_seeds_in(found.record[i]);
@@ -57,7 +57,7 @@ static void probes_free(int64_t n, kz_atlas_probe *probe) {
 
 /* Whether the curves do not explain what was found at a place, or contradict each other. */
 static bool is_wrong(kz_atlas *atlas, const kz_atlas_probe *probe) {
-  KZ_FREED int32_t *counts = kz_malloc(KZ_ATLAS_MOST_CLASSES * sizeof *counts);
+  KZ_AUTOFREE int32_t *counts = kz_malloc(KZ_ATLAS_MOST_CLASSES * sizeof *counts);
   kz_atlas_count(atlas, probe->place, counts);
   if (!kz_atlas_plausible(atlas, counts)) return true;
   for (int64_t i = 0; i < probe->found.count; i++) {
@@ -89,22 +89,23 @@ static kz_status search_reference(kz_atlas *atlas, const kz_run *run) {
 
 /* The census of the next places of the sequence; *wide: as in kz_atlas_census. */
 static kz_status search_next(kz_atlas *atlas, const kz_run *run, int64_t first, int64_t n, int64_t *wide) {
-  KZ_FREED kz_atlas_probe *probe = kz_calloc((size_t)n + 1, sizeof *probe);
+  KZ_AUTOFREE kz_atlas_probe *probe = kz_calloc((size_t)n + 1, sizeof *probe);
   for (int64_t i = 0; i < n; i++) kz_even_share(first + i + 1, probe[i].place);
   return kz_atlas_census(atlas, run, n, probe, wide);
 }
 
 /* Curves from the cycles of places where something has no explanation; *wrong = how many. */
-static kz_status search_mend(kz_atlas *atlas, const kz_run *run, int64_t n, const kz_atlas_probe *probe, int64_t *wrong) {
-  KZ_FREED kz_atlas_probe *at = kz_malloc((size_t)(n + 1) * sizeof *at);
+static kz_status search_mend(kz_atlas *atlas, const kz_run *run, int64_t n, const kz_atlas_probe *probe,
+                             int64_t *wrong) {
+  KZ_AUTOFREE kz_atlas_probe *at = kz_malloc((size_t)(n + 1) * sizeof *at);
   *wrong = 0;
   for (int64_t i = 0; i < n; i++)
     if (is_wrong(atlas, probe + i)) at[(*wrong)++] = probe[i];
   return kz_atlas_census(atlas, run, *wrong, at, NULL);
 }
 
-/* A round: the census of further places and then, if that finds no curve with a wide band, the attractors of random ones. *quiet: neither finds
- * anything. The probes of the former round go. */
+/* A round: the census of further places and then, if that finds no curve with a wide band, the attractors of random
+ * ones. *quiet: neither finds anything. The probes of the former round go. */
 static kz_status search_check(kz_atlas *atlas, const kz_run *run, int round, bool *quiet, probing *p) {
   const int64_t n = atlas->scene->atlas->checks;
   int64_t wide;
@@ -123,16 +124,17 @@ static kz_status search_check(kz_atlas *atlas, const kz_run *run, int round, boo
   return KZ_OK;
 }
 
-/* Columns in which the curves contradict each other are followed: a curve that is missing there branches off one that crosses them. */
+/* Follows columns in which the curves contradict each other: a missing curve branches off one that crosses them. */
 static kz_status mend_columns(kz_atlas *atlas, const kz_run *run) {
   enum { LINES = 8, TRIES = 4 };
   const int64_t points = atlas->scene->atlas->points;
-  KZ_FREED double *x = kz_malloc((size_t)points * sizeof *x);
+  KZ_AUTOFREE double *x = kz_malloc((size_t)points * sizeof *x);
   int64_t curves = -1;
   for (int i = 0; i < TRIES && curves != atlas->n_curves; i++) {
     int64_t n = 0, lines = 0;
     for (int64_t column = 0; column < points; column++)
-      if (kz_atlas_fill_column(atlas, column, NULL) > 0) x[n++] = kz_atlas_column(atlas, kz_atlas_middle(column, points));
+      if (kz_atlas_fill_column(atlas, column, NULL) > 0)
+        x[n++] = kz_atlas_column(atlas, kz_atlas_middle(column, points));
     for (int64_t k = 0; k < n; k += (n + LINES - 1) / LINES) x[lines++] = x[k];
     curves = atlas->n_curves;
     if (n > 0) KZ_TRY(kz_atlas_explore_columns(atlas, run, lines, x));
@@ -168,7 +170,7 @@ static kz_status confirm_tile(void *context, int64_t tile, void *record) {
 
 /* Solves for every motion of the lists of the places of the last round. */
 static kz_status search_confirm(kz_atlas *atlas, const kz_run *run, probing *p) {
-  KZ_FREED answers *of = kz_calloc((size_t)p->n + 1, sizeof *of);
+  KZ_AUTOFREE answers *of = kz_calloc((size_t)p->n + 1, sizeof *of);
   const kz_stage stage = kz_stage_for_all("atlas motions", p->n, sizeof *of, confirm_tile, p);
   if (p->n == 0) return KZ_OK;
   KZ_TRY(kz_stage_run(run, &stage, of));

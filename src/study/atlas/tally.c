@@ -25,7 +25,7 @@ static void tally_free(tally *t) {
   free(t->band);
 }
 
-/* What no place sees, less those of it that are known: `unknown` of n decades from the widest on. */
+/* Estimates curves that no place sees, less `unknown` known ones, of n decades from the widest on. */
 static void tally_estimate(const tally *t, int first, int n, double *missing, double *low, double *high) {
   kz_unseen all = {0, 0};
   double known = 0;
@@ -56,8 +56,9 @@ static void take_tally(const kz_atlas *atlas, tally *t) {
   for (int i = 0; i < DECADES; i++) tally_estimate(t, i, 1, t->missing + i, t->low + i, t->high + i);
 }
 
-/* The probability that the list of a random point lacks a motion, at most: the bands of missing curves are as long as a side, and as wide as the widest
- * of their decade. A place within a band sees its curve, so that one that n places do not see counts for at most 1 / (e n). */
+/* The probability that the list of a random point lacks a motion, at most: the bands of missing curves are as long as a
+ * side, and as wide as the widest of their decade. A place within a band sees its curve, so that one that n places do
+ * not see counts for at most 1 / (e n). */
 static double tally_lacking(const kz_atlas *atlas, const tally *t) {
   double p = 0;
   for (int i = 0; i < DECADES; i++) p += t->high[i] * 10 * decade_band(i);
@@ -92,13 +93,13 @@ static void print_tally(const kz_atlas *atlas, const tally *t, FILE *summary) {
   int64_t curves = 0;
   tally_estimate(t, 0, SUMMARY_DECADES, &missing, &low, &high);
   for (int i = 0; i < SUMMARY_DECADES; i++) curves += t->curves[i];
-  fprintf(
-      summary,
-      "  census: %" PRId64 " cycles of %" PRId64
-      " random places were followed to their births; an estimated %.0f to %.0f of "
-      "%.0f curves with bands above %.0e of the plane are missing; a list lacks a motion with a probability of at most %.1g\n",
-      atlas->cycles, atlas->places, floor(low), ceil(high), (double)curves + ceil(high), decade_band(SUMMARY_DECADES - 1),
-      tally_lacking(atlas, t));
+  fprintf(summary,
+          "  census: %" PRId64 " cycles of %" PRId64
+          " random places were followed to their births; an estimated %.0f to %.0f of "
+          "%.0f curves with bands above %.0e of the plane are missing; a list lacks a motion with a probability of at "
+          "most %.1g\n",
+          atlas->cycles, atlas->places, floor(low), ceil(high), (double)curves + ceil(high),
+          decade_band(SUMMARY_DECADES - 1), tally_lacking(atlas, t));
   if (atlas->dropped > 0)
     fprintf(summary,
             "  warning: %" PRId64
@@ -108,7 +109,7 @@ static void print_tally(const kz_atlas *atlas, const tally *t, FILE *summary) {
 }
 
 kz_status kz_atlas_write_tally(const kz_atlas *atlas, kz_store *store, FILE *summary) {
-  KZ_FREED_BY(tally_free) tally t;
+  KZ_AUTOFREE_BY(tally_free) tally t;
   take_tally(atlas, &t);
   print_tally(atlas, &t, summary);
   return write_tally(atlas, &t, store);

@@ -1,4 +1,5 @@
-/* Inside of the study `atlas`: curves of bifurcations over a plane of two keys, and the attractors of every point of it.
+/* Inside of the study `atlas`: curves of bifurcations over a plane of two keys, and the attractors of every point of
+ * it.
  *
  * A place is (x, y) in units of the rectangle: 0 at the first value of a key, 1 at the last. */
 #pragma once
@@ -32,11 +33,18 @@ typedef struct {
 /* How a curve ends that was joined to a degenerate point. */
 enum { KZ_ATLAS_JOINED = KZ_TRACE_THIN + 1 };
 /* A row of a curve: KZ_ROW_... of kz_curve_trace. */
-enum { KZ_ROW_PLACE = 0, KZ_ROW_TANGENT = 2, KZ_ROW_FORM = 4, KZ_ROW_SIDE = 5, KZ_ROW_POINTS = 8, KZ_SPECIAL_POINTS = 3 };
+enum {
+  KZ_ROW_PLACE = 0,
+  KZ_ROW_TANGENT = 2,
+  KZ_ROW_FORM = 4,
+  KZ_ROW_SIDE = 5,
+  KZ_ROW_POINTS = 8,
+  KZ_SPECIAL_POINTS = 3
+};
 enum { KZ_SIGNATURE = 5 };
 typedef struct {
   kz_cycle_kind kind;
-  int32_t ending[2]; /* of the first row and of the last one: KZ_TRACE_..., KZ_ATLAS_JOINED */
+  int32_t ending[2]; /* ends at the first and last row: KZ_TRACE_..., KZ_ATLAS_JOINED */
   int64_t n, n_special;
   double *row, *special;
   double (*signature)[KZ_SIGNATURE]; /* [n]: equal for all ways to write a cycle and its mirror image */
@@ -47,7 +55,7 @@ typedef struct {
   double at, width; /* width: about, of the band of these attractors that begins or ends here */
   int32_t class, change;
   int64_t curve, row;
-  double share; /* of the step from that row */
+  double share; /* share of the step from that row */
 } kz_atlas_crossing;
 typedef struct {
   int64_t count, capacity;
@@ -60,12 +68,12 @@ typedef struct {
   kz_atlas_seeds found;
 } kz_atlas_probe;
 
-/* Why a seed leads to no curve: Newton's method finds no point of one; the band beside it is thinner than 1e-10 sides of the plane; the curve is
- * that of a shorter cycle, whose point lies outside of the plane. */
+/* Why a seed leads to no curve: Newton's method finds no point of one; the band beside it is thinner than 1e-10 sides
+ * of the plane; the curve is that of a shorter cycle, whose point lies outside of the plane. */
 enum { KZ_ATLAS_NO_POINT, KZ_ATLAS_TOO_THIN, KZ_ATLAS_OF_SHORTER, KZ_ATLAS_REFUSALS };
 
-/* The search does not depend on which key a scene calls x: its vertical axis is the one that begins without a drive, or along which the drive grows
- * more. Where that is x, scene and plan have x and y exchanged. */
+/* The search does not depend on which key a scene calls x: its vertical axis is the one that begins without a drive, or
+ * along which the drive grows more. Where that is x, scene and plan have x and y exchanged. */
 struct kz_atlas {
   const kz_scene *scene;
   int swapped; /* 1: the axes of the scene are exchanged, so that axis i here is 1 - i there; else 0 */
@@ -81,18 +89,18 @@ struct kz_atlas {
   int32_t n_classes;
   kz_atlas_class class[KZ_ATLAS_MOST_CLASSES];
   double reference[2];                         /* without an undriven edge: a place, */
-  int32_t at_reference[KZ_ATLAS_MOST_CLASSES]; /* and what attracts there */
+  int32_t at_reference[KZ_ATLAS_MOST_CLASSES]; /* classes at the reference */
   int64_t refused[KZ_ATLAS_REFUSALS];          /* seeds that lead to no curve */
-  int64_t places, cycles;                      /* of the census: random places, and the cycles that were followed from there */
+  int64_t places, cycles;                      /* census: random places, and cycles followed from there */
   kz_atlas_seeds sightings;                    /* the first curves that these met, */
-  int64_t *sighting_place, sighting_capacity;  /* and the number of the place of each */
-  int64_t rounds, checked, disagreed;          /* of random places, the last two of the last round */
+  int64_t *sighting_place, sighting_capacity;  /* place of each sighting */
+  int64_t rounds, checked, disagreed;          /* random places; the last two: of the last round */
   int64_t dropped;                             /* cycles and points of curves that records had no room for */
   int64_t compared, alone;                     /* crossings of lines at k and -k; those without a partner */
-  int64_t listed, unsolved;                    /* motions in the lists of these places; those that could not be solved for */
+  int64_t listed, unsolved;                    /* motions in their lists; motions not solved for */
 };
 
-/* What happens on a curve; the codes of the file. */
+/* Events on a curve; the codes of the file. */
 enum {
   KZ_CURVE_FOLD,
   KZ_CURVE_PERIOD_DOUBLING,
@@ -104,7 +112,7 @@ enum {
 
 /* ---- the plane ---- */
 
-/* Sets up the plane of the scene. KZ_REFUSED, with the key, where it is not a plane of damped pendulums that its keys change. */
+/* Sets up the plane of the scene. KZ_REFUSED, with the key, unless it is a plane of damped pendulums. */
 kz_status kz_atlas_begin(const kz_scene *scene, kz_atlas *atlas);
 void kz_atlas_end(kz_atlas *atlas);
 /* The pendulum of a place; false if there is none. `scene` as context of kz_plane. */

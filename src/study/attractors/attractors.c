@@ -11,7 +11,8 @@ kz_cost kz_attractors_cost(const kz_scene *scene) {
 }
 
 static kz_step_motions motions_of_starts(const kz_scene *scene) {
-  return kz_motions_of(scene, kz_axis_fastest(&scene->attractors->velocity), "numerics.steps_per_period|attractors.velocity");
+  return kz_motions_of(scene, kz_axis_fastest(&scene->attractors->velocity),
+                       "numerics.steps_per_period|attractors.velocity");
 }
 
 kz_status kz_attractors_check(const kz_scene *scene) {
@@ -24,11 +25,11 @@ static kz_search search_of(const kz_scene *scene) {
 }
 
 /* label [starts]: where they end. */
-static kz_status attractors_publish(const kz_scene *scene, const kz_dynamics *dynamics, const int32_t *label, kz_store *store,
-                                    FILE *summary) {
+static kz_status attractors_publish(const kz_scene *scene, const kz_dynamics *dynamics, const int32_t *label,
+                                    kz_store *store, FILE *summary) {
   const int64_t starts = scene->attractors->starts;
-  KZ_FREED int64_t *reached = kz_calloc((size_t)kz_dynamics_count(dynamics) + 1, sizeof *reached);
-  KZ_FREED_BY(kz_catalogue_free) kz_catalogue catalogue = {0};
+  KZ_AUTOFREE int64_t *reached = kz_calloc((size_t)kz_dynamics_count(dynamics) + 1, sizeof *reached);
+  KZ_AUTOFREE_BY(kz_catalogue_free) kz_catalogue catalogue = {0};
   const kz_step_motions motions = motions_of_starts(scene);
   const kz_speed_errors classes = kz_motions_errors(&motions);
   for (int64_t i = 0; i < starts; i++) reached[label[i]]++;
@@ -44,9 +45,10 @@ static kz_status attractors_publish(const kz_scene *scene, const kz_dynamics *dy
 
 static kz_status run_damped(const kz_scene *scene, const kz_run *run, kz_store *store, FILE *summary) {
   const kz_search search = search_of(scene);
-  KZ_FREED_BY(kz_dynamics_freed)
-  kz_dynamics *dynamics = kz_dynamics_create(&scene->parameters.pendulum, &scene->numerics, scene->attractors->max_period);
-  KZ_FREED int32_t *label = kz_malloc((size_t)search.starts * sizeof *label);
+  KZ_AUTOFREE_BY(kz_dynamics_freed)
+  kz_dynamics *dynamics =
+      kz_dynamics_create(&scene->parameters.pendulum, &scene->numerics, scene->attractors->max_period);
+  KZ_AUTOFREE int32_t *label = kz_malloc((size_t)search.starts * sizeof *label);
   KZ_TRY(kz_ranks_agree(run->ranks, kz_search_window(run, dynamics, &search, label)));
   return store ? attractors_publish(scene, dynamics, label, store, summary) : KZ_OK;
 }

@@ -1,7 +1,8 @@
 /* Study `basin`: the attractors of a window, then a label for every cell.
  *
- * scene -> discovery -> trapping regions -> map table -> tiles of cells -> (cells that ended nowhere known feed another round) ->
- * ids, measures and chunks of the file, tile by tile. A window that is its own mirror image needs half the cells: cell f mirrors cell n - 1 - f. */
+ * scene -> discovery -> trapping regions -> map table -> tiles of cells -> (cells that ended nowhere known feed another
+ * round) -> ids, measures and chunks of the file, tile by tile. A window that is its own mirror image needs half the
+ * cells: cell f mirrors cell n - 1 - f. */
 #include <math.h>
 #include <stdlib.h>
 
@@ -42,7 +43,7 @@ static void free_parts(kz_window_labels *labelling) {
   free(labelling->parts);
 }
 
-/* Disk space of FILE and FILE.checkpoint, measured with Fig. 12's scene on 10^6 to 4 10^8 cells: finer grids have longer runs of equal labels. */
+/* Disk space of FILE and checkpoint, from Fig. 12 with 10^6 to 4 10^8 cells: finer grids have longer equal runs. */
 static double packed_bytes(double cells) {
   return 0.9 * pow(cells, 0.96);
 }
@@ -53,11 +54,12 @@ kz_cost kz_basin_cost(const kz_scene *scene) {
   const int64_t cells = plan->theta.count * plan->velocity.count;
   const double nodes = plan->method == KZ_METHOD_ICM ? (double)plan->table_theta * (double)plan->table_velocity : 0;
   const double regions = pow((double)kz_regions_cells(cells), 2);
-  return (kz_cost){.cells = cells,
-                   .disk_bytes = 3e5 + 40 * (double)plan->starts + 8.2 * nodes + packed_bytes((double)cells),
-                   .memory_bytes = 14 * nodes + 100 * regions + parts_bytes(scene) + 40 * (double)kz_tile_capacity(&tiles),
-                   .rank0_bytes = 4e6,
-                   .shared_bytes = 0.2 * (double)cells};
+  return (kz_cost){
+      .cells = cells,
+      .disk_bytes = 3e5 + 40 * (double)plan->starts + 8.2 * nodes + packed_bytes((double)cells),
+      .memory_bytes = 14 * nodes + 100 * regions + parts_bytes(scene) + 40 * (double)kz_tile_capacity(&tiles),
+      .rank0_bytes = 4e6,
+      .shared_bytes = 0.2 * (double)cells};
 }
 
 static void print_numerics(const kz_scene *scene, FILE *summary) {
@@ -71,8 +73,8 @@ static void print_numerics(const kz_scene *scene, FILE *summary) {
     fprintf(summary, " (its default is %d)", (int)scheme.default_steps);
 }
 
-/* Prints the steps of a basin and their error, and a warning for each class of speeds whose error exceeds kz_steps_tolerance. Returns an
- * upper estimate of the largest error of a drive period, rad. */
+/* Prints the steps of a basin and their error, and a warning for each class of speeds whose error exceeds
+ * kz_steps_tolerance. Returns an upper estimate of the largest error of a drive period, rad. */
 static double warn_steps(const kz_scene *scene, FILE *summary) {
   const kz_step_motions motions = kz_motions_of_basin(scene);
   const kz_speed_errors classes = kz_motions_errors(&motions);
@@ -134,7 +136,7 @@ static void free_window(window *w) {
 static kz_status run_damped(const kz_scene *scene, const kz_run *run, kz_store *store, FILE *summary) {
   const kz_basin_plan *plan = scene->basin;
   const kz_window motions = kz_motions_window(&plan->theta, &plan->velocity);
-  KZ_FREED_BY(free_window)
+  KZ_AUTOFREE_BY(free_window)
   window w = {.labels = {.plan = plan,
                          .parameters = &scene->parameters,
                          .run = run,
@@ -164,7 +166,7 @@ static kz_status run_damped(const kz_scene *scene, const kz_run *run, kz_store *
 /* Packs all tiles of a window in which no cell settles. Rank 0. */
 static kz_status pack_unsettled(kz_window_labels *l) {
   kz_status status = KZ_OK;
-  KZ_FREED void *record = kz_malloc(kz_tile_labels_bytes(l));
+  KZ_AUTOFREE void *record = kz_malloc(kz_tile_labels_bytes(l));
   for (int64_t i = 0; i < kz_tile_capacity(&l->tiles); i++) l->cell[i].periods = l->plan->max_periods;
   for (int64_t tile = 0; tile < l->tiles.own && status == KZ_OK; tile++) {
     status = kz_tile_labels_pack(l, tile, record);
@@ -180,9 +182,11 @@ static kz_status write_undamped(const kz_scene *scene, kz_chunks *chunks, FILE *
   KZ_TRY(kz_ranks_agree(l->run->ranks, store ? pack_unsettled(l) : KZ_OK));
   KZ_TRY(kz_ranks_agree(l->run->ranks, store ? kz_basin_declare(scene, &l->tiles, store) : KZ_OK));
   KZ_TRY(kz_cells_write(chunks));
-  const kz_window_summary labels = {.cells = l->tiles.cells, .counts = chunks->counts, .step_error = NAN, .table_error = NAN};
+  const kz_window_summary labels = {
+      .cells = l->tiles.cells, .counts = chunks->counts, .step_error = NAN, .table_error = NAN};
   if (summary) fprintf(summary, "basin: without damping there are no attractors, so every cell is labelled -1.\n");
-  return kz_ranks_agree(l->run->ranks, store ? kz_basin_write(scene, chunks->catalogue, &labels, store, summary) : KZ_OK);
+  return kz_ranks_agree(l->run->ranks,
+                        store ? kz_basin_write(scene, chunks->catalogue, &labels, store, summary) : KZ_OK);
 }
 
 static kz_status run_undamped(const kz_scene *scene, const kz_run *run, kz_store *store, FILE *summary) {

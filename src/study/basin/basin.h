@@ -21,11 +21,11 @@ typedef struct {
 
 /* An empty list with memory for those of a window. The caller frees `time`. */
 kz_transients kz_transients_make(const kz_basin_plan *plan);
-/* Picks those of n consecutive cells, the first of which has the number `first`, that count. Returns how many; picked takes as many times
- * KZ_TRANSIENT_BYTES for kz_transients_add. label [n]: below 0 if the cell has not settled. */
+/* Picks those of n consecutive cells, the first of which has the number `first`, that count. Returns how many; picked
+ * takes as many times KZ_TRANSIENT_BYTES for kz_transients_add. label [n]: below 0 if the cell has not settled. */
 enum { KZ_TRANSIENT_BYTES = sizeof(uint32_t) };
-int64_t kz_transients_pick(const kz_basin_plan *plan, int64_t first, int64_t n, const int16_t *label, const uint32_t *periods,
-                           void *picked);
+int64_t kz_transients_pick(const kz_basin_plan *plan, int64_t first, int64_t n, const int16_t *label,
+                           const uint32_t *periods, void *picked);
 void kz_transients_add(kz_transients *transients, int64_t n, const void *picked);
 
 /* Writes and prints the mean of the slow ones; moves the times. Rank 0. */
@@ -69,5 +69,5 @@ typedef struct {
 /* Declares axes and variables of group /basin, before the cells are written. */
 kz_status kz_basin_declare(const kz_scene *scene, const kz_tiles *tiles, kz_store *store);
 /* Writes group /attractors, the attributes of /basin, and the summary. */
-kz_status kz_basin_write(const kz_scene *scene, const kz_catalogue *catalogue, const kz_window_summary *labels, kz_store *store,
-                         FILE *summary);
+kz_status kz_basin_write(const kz_scene *scene, const kz_catalogue *catalogue, const kz_window_summary *labels,
+                         kz_store *store, FILE *summary);

@@ -8,8 +8,8 @@
 
 enum { MOST_FLAGS = 16000 }; /* an attribute of numbers holds 64 KiB */
 
-/* Measures of the settled cells, NaN where those are the smaller part: basin entropy; the uncertainty exponent, and the distances (rad) over
- * which it was found. */
+/* Measures of the settled cells, NaN where those are the smaller part: basin entropy; the uncertainty exponent, and the
+ * distances (rad) over which it was found. */
 typedef struct {
   double entropy, boundary_entropy, nearest, farthest;
   kz_line exponent;
@@ -36,12 +36,14 @@ static void print_measures(const measures *m, int64_t unsettled, FILE *summary) 
   }
   fprintf(summary, "Basin entropy: %.4f, at the boundaries %.4f", m->entropy, m->boundary_entropy);
   if (!isnan(m->exponent.slope))
-    fprintf(summary, ". Uncertainty exponent: %.3f +- %.3f (standard error of the fit), for distances from %.3g to %.3g rad",
+    fprintf(summary,
+            ". Uncertainty exponent: %.3f +- %.3f (standard error of the fit), for distances from %.3g to %.3g rad",
             m->exponent.slope, m->exponent.slope_stderr, m->nearest, m->farthest);
   fprintf(summary, ".%s\n", unsettled > 0 ? " Both leave unsettled cells out." : "");
 }
 
-static kz_status write_measures(const kz_basin_plan *plan, const kz_window_summary *labels, kz_store *store, FILE *summary) {
+static kz_status write_measures(const kz_basin_plan *plan, const kz_window_summary *labels, kz_store *store,
+                                FILE *summary) {
   measures m = {NAN, NAN, NAN, NAN, {.slope = NAN, .slope_stderr = NAN}};
   if (2 * labels->counts.unsettled <= labels->cells) {
     kz_entropy_of(&labels->counts, &m.entropy, &m.boundary_entropy);
@@ -72,7 +74,7 @@ static kz_status write_numerics(const kz_scene *scene, kz_store *store) {
   return kz_store_integer(store, "basin", "table_velocity", plan->table_velocity);
 }
 
-/* With shares of the width from the centre, and both as they were written, where doubles may not distinguish the cells. */
+/* Writes an axis; where doubles may not tell cells apart, also shares of the width and the centre as written. */
 static kz_status write_axis(const kz_axis *axis, const char *name, kz_store *store) {
   char label[32];
   KZ_SCALE(store, "basin", name, axis->count, kz_axis_centre(axis, i));
@@ -91,7 +93,9 @@ static void print_word(const char *name, FILE *out) {
     if (*c == '/')
       fputs("_in_", out);
     else
-      fputc(strchr("+-.@", *c) || (*c >= '0' && *c <= '9') || (*c >= 'A' && *c <= 'Z') || (*c >= 'a' && *c <= 'z') ? *c : '_',
+      fputc(strchr("+-.@", *c) || (*c >= '0' && *c <= '9') || (*c >= 'A' && *c <= 'Z') || (*c >= 'a' && *c <= 'z')
+                ? *c
+                : '_',
             out);
   }
 }
@@ -103,7 +107,7 @@ static bool is_shared(const kz_catalogue *catalogue, int64_t which) {
   return false;
 }
 
-/* Writes flag_values (-1 = not settled, then the ids) and flag_meanings of basin/attractor; nothing for more than MOST_FLAGS attractors. */
+/* Writes flag_values (-1 = not settled, ids) and flag_meanings of basin/attractor, up to MOST_FLAGS attractors. */
 static kz_status write_flags(const kz_catalogue *catalogue, kz_store *store) {
   char *words = NULL;
   size_t bytes = 0;
@@ -137,17 +141,19 @@ static void print_settled(const kz_scene *scene, const kz_window_summary *labels
   kz_periods_print(scene->basin->max_periods, scene->parameters.pivot_frequency, summary);
   fputs(".\n", summary);
   if (unsettled > 0 && attracts)
-    fprintf(summary,
-            "Here a motion takes some %.0f periods to come e times closer to its attractor: a larger basin.max_periods or "
-            "basin.attractors.max_period may settle more cells.\n",
-            1 / (M_PI * scene->parameters.pendulum.beta));
+    fprintf(
+        summary,
+        "Here a motion takes some %.0f periods to come e times closer to its attractor: a larger basin.max_periods or "
+        "basin.attractors.max_period may settle more cells.\n",
+        1 / (M_PI * scene->parameters.pendulum.beta));
 }
 
 static void print_decided(const kz_window_summary *labels, FILE *summary) {
   const long long undecided = labels->counts.evidence[KZ_UNDECIDED], averaged = labels->counts.evidence[KZ_AVERAGED];
   if (averaged > 0)
     fprintf(summary,
-            "%lld cells end on a running state that averages along orbits show (evidence 12); no band round it was found that "
+            "%lld cells end on a running state that averages along orbits show (evidence 12); no band round it was "
+            "found that "
             "traps motions.\n",
             averaged);
   else if (undecided == 0)
@@ -155,8 +161,8 @@ static void print_decided(const kz_window_summary *labels, FILE *summary) {
   if (undecided > 0) fprintf(summary, "%lld cells are undecided (evidence 3): %s\n", undecided, labels->advice);
 }
 
-kz_status kz_basin_write(const kz_scene *scene, const kz_catalogue *catalogue, const kz_window_summary *labels, kz_store *store,
-                         FILE *summary) {
+kz_status kz_basin_write(const kz_scene *scene, const kz_catalogue *catalogue, const kz_window_summary *labels,
+                         kz_store *store, FILE *summary) {
   const kz_basin_plan *plan = scene->basin;
   kz_catalogue_print(catalogue, &scene->parameters, true, summary);
   print_settled(scene, labels, catalogue->count > 0, summary);

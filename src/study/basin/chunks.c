@@ -1,5 +1,5 @@
-/* From labels to the file: each rank turns its tiles, and those that mirror them, into ids, counts them and packs them; rank 0
- * writes the chunks as they come. */
+/* From labels to the file: each rank turns its tiles, and those that mirror them, into ids, counts them and packs them;
+ * rank 0 writes the chunks as they come. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -8,7 +8,8 @@
 
 enum { OTHER = 3, TURNS = 4, VARIABLES = 5 };
 static const char *const variables[VARIABLES] = {"attractor", "settling_time", "evidence", "other_attractor", "turns"};
-static const size_t items[VARIABLES] = {sizeof(int16_t), sizeof(uint32_t), sizeof(uint8_t), sizeof(int16_t), sizeof(int32_t)};
+static const size_t items[VARIABLES] = {sizeof(int16_t), sizeof(uint32_t), sizeof(uint8_t), sizeof(int16_t),
+                                        sizeof(int32_t)};
 
 static bool has_variable(const kz_basin_plan *plan, int v) {
   return (v != OTHER || plan->method == KZ_METHOD_EXACT) && (v != TURNS || plan->turns);
@@ -54,8 +55,8 @@ static kz_status chunks_pack(const kz_chunks *c, int64_t tile, char *message, si
       return kz_fail(KZ_FAILED, "no memory to pack %zu cells", n);
     end += h.bytes[v];
   }
-  h.transients =
-      kz_transients_pick(c->labelling->plan, kz_tile_first(tiles, tile), kz_tile_count(tiles, tile), c->ids, c->periods, end);
+  h.transients = kz_transients_pick(c->labelling->plan, kz_tile_first(tiles, tile), kz_tile_count(tiles, tile), c->ids,
+                                    c->periods, end);
   end += (size_t)h.transients * KZ_TRANSIENT_BYTES;
   memcpy(message + *bytes, &h, sizeof h);
   *bytes = (size_t)(end - message);
@@ -71,10 +72,11 @@ static int16_t id_of(const kz_chunks *c, int16_t label, bool mirrored) {
 /* Own cells that the scene's own numerics do not decide. */
 static void count_doubtful(kz_chunks *c, int64_t tile) {
   for (int64_t i = 0; i < kz_tile_own(&c->labelling->tiles, tile); i++)
-    c->counts.doubtful += c->labelling->cell[i].evidence >= KZ_UNDECIDED && c->labelling->cell[i].evidence != KZ_AVERAGED;
+    c->counts.doubtful +=
+        c->labelling->cell[i].evidence >= KZ_UNDECIDED && c->labelling->cell[i].evidence != KZ_AVERAGED;
 }
 
-/* The cells of a tile from its own ones, or those of the tile that mirrors it. The second half of the tile in the middle mirrors the first. */
+/* Cells of a tile or its mirror tile, from its own ones. The middle tile's second half mirrors the first. */
 static void chunks_fill(kz_chunks *c, int64_t tile, bool image) {
   const kz_window_labels *l = c->labelling;
   const int64_t n = kz_tile_count(&l->tiles, tile), own = kz_tile_own(&l->tiles, tile);
@@ -100,14 +102,14 @@ static kz_status chunks_add(kz_chunks *c, int64_t from, int64_t tile, char *mess
   return chunks_pack(c, tile, message, bytes);
 }
 
-/* Labels of parts of the study replace those of the own cells of a tile. Changed cells are counted with their mirror images. */
+/* Replaces labels of a tile's own cells by those of parts; counts changed cells with their mirror images. */
 static kz_status take_labels(kz_chunks *c, int64_t tile) {
   const kz_tiles *tiles = &c->labelling->tiles;
   const int64_t first = kz_tile_first(tiles, tile), n = kz_tile_own(tiles, tile);
   for (int p = 0; p < c->labelling->n_parts; p++) {
     const kz_part *part = c->labelling->parts + p;
     if (!part->part->take) continue;
-    KZ_FREED kz_label *own = memcpy(kz_malloc((size_t)n * sizeof *own), c->labelling->cell, (size_t)n * sizeof *own);
+    KZ_AUTOFREE kz_label *own = memcpy(kz_malloc((size_t)n * sizeof *own), c->labelling->cell, (size_t)n * sizeof *own);
     KZ_TRY(part->part->take(part->own, tile, c->labelling->cell));
     for (int64_t i = 0; i < n; i++) {
       kz_label *cell = c->labelling->cell + i;
@@ -175,7 +177,7 @@ kz_status kz_chunks_declare(const kz_basin_plan *plan, const kz_tiles *tiles, kz
 static kz_status count_rows(kz_chunks *c) {
   const kz_tiles *tiles = &c->labelling->tiles;
   const int64_t most = (tiles->chunk[0] + KZ_BOX - 1) / KZ_BOX * KZ_BOX;
-  KZ_FREED int16_t *ids = kz_malloc((size_t)(most * tiles->columns) * sizeof *ids);
+  KZ_AUTOFREE int16_t *ids = kz_malloc((size_t)(most * tiles->columns) * sizeof *ids);
   kz_status status = KZ_OK;
   for (int64_t row = 0; row < tiles->rows && status == KZ_OK; row += most) {
     const int64_t n = tiles->rows - row < most ? tiles->rows - row : most;
@@ -204,10 +206,11 @@ static kz_status chunks_deliver(kz_chunks *c) {
 
 kz_status kz_cells_write(kz_chunks *c) {
   const size_t n = (size_t)kz_tile_capacity(&c->labelling->tiles);
-  KZ_FREED int16_t *ids = c->ids = kz_calloc(n + 1, sizeof *ids), *others = c->others = kz_calloc(n + 1, sizeof *others);
-  KZ_FREED uint32_t *periods = c->periods = kz_calloc(n + 1, sizeof *periods);
-  KZ_FREED uint8_t *evidence = c->evidence = kz_calloc(n + 1, sizeof *evidence);
-  KZ_FREED int32_t *turns = c->turns = kz_calloc(n + 1, sizeof *turns);
-  KZ_FREED int64_t *cells_of = c->cells_of = kz_calloc((size_t)c->catalogue->count + 1, sizeof *cells_of);
+  KZ_AUTOFREE int16_t *ids = c->ids = kz_calloc(n + 1, sizeof *ids),
+                      *others = c->others = kz_calloc(n + 1, sizeof *others);
+  KZ_AUTOFREE uint32_t *periods = c->periods = kz_calloc(n + 1, sizeof *periods);
+  KZ_AUTOFREE uint8_t *evidence = c->evidence = kz_calloc(n + 1, sizeof *evidence);
+  KZ_AUTOFREE int32_t *turns = c->turns = kz_calloc(n + 1, sizeof *turns);
+  KZ_AUTOFREE int64_t *cells_of = c->cells_of = kz_calloc((size_t)c->catalogue->count + 1, sizeof *cells_of);
   return chunks_deliver(c);
 }

@@ -10,7 +10,7 @@ enum { SAMPLE = 7300, TILE = 256 }; /* cells: a share of 5 % is known to +-0.5 p
 
 static const double MANY = 0.05; /* share of doubtful labels that is warned of */
 
-/* Context of the tiles of the stage: cell i of the sample is one of the kz_unique_cells, by the window, its cells and the seed alone. */
+/* Context of the stage: cell i of the sample follows from window, cells and seed alone; it is a unique cell. */
 typedef struct {
   const kz_basin_plan *plan;
   kz_dynamics *dynamics;
@@ -52,7 +52,8 @@ kz_doubt kz_doubt_of(const kz_basin_plan *plan, const kz_doubt_sample *sample, i
   return (kz_doubt){sample->n, kz_share_of_part(doubtful, sample->n, all), kz_share_of_part(differing, sample->n, all)};
 }
 
-kz_status kz_doubt_follow(const kz_basin_plan *plan, const kz_run *run, kz_dynamics *dynamics, kz_doubt_sample *sample) {
+kz_status kz_doubt_follow(const kz_basin_plan *plan, const kz_run *run, kz_dynamics *dynamics,
+                          kz_doubt_sample *sample) {
   job j = {plan, dynamics};
   const int64_t n = sample->n = sample_size(plan);
   kz_stage stage = kz_stage_of_items("doubt", n, TILE, TILE * sizeof(int32_t), follow_cells, &j);
@@ -74,7 +75,8 @@ void kz_doubt_free(kz_doubt_sample *sample) {
 /* " (95 % interval: ..)" in percent; nothing for a share that was counted. */
 static const char *interval_of(const kz_share *share, char text[64]) {
   text[0] = '\0';
-  if (share->low < share->high) snprintf(text, 64, " (95 %% interval: %.3g to %.3g %%)", 100 * share->low, 100 * share->high);
+  if (share->low < share->high)
+    snprintf(text, 64, " (95 %% interval: %.3g to %.3g %%)", 100 * share->low, 100 * share->high);
   return text;
 }
 
@@ -82,9 +84,10 @@ static void doubt_print(const kz_doubt *doubt, int32_t method, FILE *summary) {
   const kz_share *share = &doubt->doubtful, *other = &doubt->differing;
   char text[64];
   if (method == KZ_METHOD_EXACT) {
-    fprintf(summary,
-            "%.3g %% of the cells were doubtful at the first precision level and were followed again with more digits.\n",
-            100 * share->share);
+    fprintf(
+        summary,
+        "%.3g %% of the cells were doubtful at the first precision level and were followed again with more digits.\n",
+        100 * share->share);
     return;
   }
   if (method == KZ_METHOD_DIRECT)
@@ -92,13 +95,16 @@ static void doubt_print(const kz_doubt *doubt, int32_t method, FILE *summary) {
             100 * share->share);
   if (method == KZ_METHOD_ICM)
     fprintf(summary,
-            "%.3g %% of the labels are doubtful%s: the error of the orbit may change them. This is from %lld cells that were "
+            "%.3g %% of the labels are doubtful%s: the error of the orbit may change them. This is from %lld cells "
+            "that were "
             "integrated.\n",
             100 * share->share, interval_of(share, text), (long long)doubt->cells);
   if (method == KZ_METHOD_ICM)
-    fprintf(summary, "%.3g %% more%s differ from the label by integration.\n", 100 * other->share, interval_of(other, text));
+    fprintf(summary, "%.3g %% more%s differ from the label by integration.\n", 100 * other->share,
+            interval_of(other, text));
   if (share->share > MANY)
-    fprintf(summary, "warning: more than %g %% of the labels are doubtful; basin.method: exact decides nearly all of them\n",
+    fprintf(summary,
+            "warning: more than %g %% of the labels are doubtful; basin.method: exact decides nearly all of them\n",
             100 * MANY);
 }
 

@@ -1,5 +1,5 @@
-/* The number of doubtful labels of a basin. If cells are integrated, it is counted over all of them. For labels by a map table it is
- * estimated from a random sample of cells, each integrated with the error of its orbit. */
+/* The number of doubtful labels of a basin. If cells are integrated, it is counted over all of them. For labels by a
+ * map table it is estimated from a random sample of cells, each integrated with the error of its orbit. */
 #pragma once
 
 #include "kapitza/dynamics.h"
@@ -18,7 +18,7 @@ typedef struct {
   int32_t *followed;        /* [n] on rank 0: the same by integration, or KZ_DOUBTFUL */
 } kz_doubt_sample;
 
-/* Draws the sample and follows it in a kept stage; other methods need none. kz_doubt_free frees it in every case. Collective. */
+/* Draws and follows the sample in a kept stage, where the method needs one. kz_doubt_free in any case. Collective. */
 kz_status kz_doubt_follow(const kz_basin_plan *plan, const kz_run *run, kz_dynamics *dynamics, kz_doubt_sample *sample);
 void kz_doubt_free(kz_doubt_sample *sample);
 /* The result: from the sample, or without one, if `doubtful` of all cells are doubtful. Rank 0. */

@@ -6,8 +6,8 @@
 #include "cells/cell_starts.h"
 #include "numerics/cells.h"
 
-/* A tile is a number of whole rows of cells, or a part of one row, so its cells are consecutive. If the window is its own mirror image,
- * tile t is the mirror image of tile n - 1 - t. */
+/* A tile is a number of whole rows of cells, or a part of one row, so its cells are consecutive. If the window is its
+ * own mirror image, tile t is the mirror image of tile n - 1 - t. */
 typedef struct {
   int64_t rows, columns; /* Cells of the window */
   int64_t chunk[2];      /* cells of a tile along velocity and theta; the last ones may reach beyond the window */
@@ -28,7 +28,7 @@ int64_t kz_tile_own(const kz_tiles *tiles, int64_t tile);
 int64_t kz_tile_capacity(const kz_tiles *tiles);
 
 typedef struct kz_window_labels kz_window_labels;
-/* ---- parts of the study that other folders add: rows of kz_studies with `of_basin`, whose work the run of the basin does ---- */
+/* ---- parts that other folders add: rows of kz_studies with `of_basin`, whose work the basin's run does ---- */
 
 typedef struct kz_chunks kz_chunks;
 struct kz_basin_part {
@@ -39,8 +39,9 @@ struct kz_basin_part {
   void (*free)(void *own);
   /* After the attractors of the window are found: may change labelling->labeller, that of its cells. Collective. */
   kz_status (*label)(void *own, kz_window_labels *labelling);
-  /* Where that gave the cells starts that doubles do not distinguish: others like them, up to `reach` of the window's width from its middle, for
-   * start_at; NULL: it did not. The caller frees it. start_at: at these shares of the width, from the middle, for a level. */
+  /* Where that gave the cells starts that doubles do not distinguish: others like them, up to `reach` of the window's
+   * width from its middle, for start_at; NULL: it did not. The caller frees it. start_at: at these shares of the width,
+   * from the middle, for a level. */
   void *(*starts)(void *own, double reach);
   void (*start_at)(const void *starts, kz_precision level, __float128 theta, __float128 velocity, kz_start *start);
   /* Advice about cells that stay undecided; NULL = none. */
@@ -51,7 +52,7 @@ struct kz_basin_part {
   kz_status (*take)(void *own, int64_t tile, kz_label *cell);
   /* Attributes, variables and lines of the summary. Rank 0. */
   kz_status (*write)(void *own, const kz_chunks *chunks, FILE *summary);
-  /* Writes what follows from the labels in the store, with its own variables; store and summary are NULL on all ranks but rank 0. Collective. */
+  /* Writes results derived from the stored labels; store and summary are NULL except on rank 0. Collective. */
   kz_status (*find)(void *own, const kz_chunks *chunks, kz_store *store, FILE *summary);
 };
 /* A part of this run. */
@@ -79,8 +80,8 @@ struct kz_window_labels {
   int64_t *reached;         /* [INT16_MAX + 1]: number of starts and tiles that ended on each attractor */
 };
 
-/* Finds the attractors and labels all cells but mirror images. Out: `records`, the tiles of this rank; `reached`, of all ranks. The caller
- * frees *labelling in every case. Collective. */
+/* Finds the attractors and labels all cells but mirror images. Out: `records`, the tiles of this rank; `reached`, of
+ * all ranks. The caller frees *labelling in every case. Collective. */
 kz_status kz_label_window(kz_window_labels *labelling);
 void kz_window_labels_free(kz_window_labels *labelling);
 

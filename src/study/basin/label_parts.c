@@ -8,7 +8,7 @@
 _Static_assert(sizeof(kz_label) == sizeof(int64_t) + 3 * sizeof(int16_t) + 2 * sizeof(uint8_t) + 2 * sizeof(int32_t),
                "no gaps");
 
-/* A packed tile. After it: the numbers of the attractors that it reaches (int32_t), its cells as kz_squeeze has them. */
+/* A packed tile; then the numbers of the attractors it reaches (int32_t) and its cells packed by kz_squeeze. */
 typedef struct {
   uint64_t bytes; /* all */
   int64_t n_reached, n_pending, n_doubtful;

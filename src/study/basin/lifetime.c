@@ -19,8 +19,8 @@ kz_transients kz_transients_make(const kz_basin_plan *plan) {
   return (kz_transients){.time = kz_malloc((size_t)(CELLS + 2 * plan->theta.count) * sizeof(uint32_t))};
 }
 
-int64_t kz_transients_pick(const kz_basin_plan *plan, int64_t first, int64_t n, const int16_t *label, const uint32_t *periods,
-                           void *picked) {
+int64_t kz_transients_pick(const kz_basin_plan *plan, int64_t first, int64_t n, const int16_t *label,
+                           const uint32_t *periods, void *picked) {
   const int64_t columns = plan->theta.count, own = own_rows(plan), step = 1 + columns * own / CELLS;
   int64_t count = 0;
   for (int64_t f = first, end; f < first + n && f / columns < own; f = end) {
@@ -44,13 +44,15 @@ static void lifetime_print(const kz_lifetime *life, int64_t max_periods, FILE *s
   if (life->open == 0) return;
   if (life->ended >= ENOUGH)
     fprintf(summary,
-            "Transients: a motion that has not settled after %.0f periods takes %.4g more on average (95 %% interval: %.4g to "
+            "Transients: a motion that has not settled after %.0f periods takes %.4g more on average (95 %% interval: "
+            "%.4g to "
             "%.4g).",
             life->from, life->mean, life->low, life->high);
   else
-    fprintf(summary,
-            "Transients: %lld motions have not settled and %lld have, so their mean time is at least %.3g periods (95 %%).",
-            (long long)life->open, (long long)life->ended, life->low);
+    fprintf(
+        summary,
+        "Transients: %lld motions have not settled and %lld have, so their mean time is at least %.3g periods (95 %%).",
+        (long long)life->open, (long long)life->ended, life->low);
   if (life->mean < (double)max_periods / 5)
     fprintf(summary, " The %lld that have not settled are more than this mean explains: they may never settle.",
             (long long)life->open);

@@ -12,7 +12,7 @@
 
 enum { MOST_PENDING = 1 << 20 }; /* cells that a rank lists at a time; more than a tile has */
 
-/* Counts the cells of all tiles with the label `wanted` into labelling->before; these cells are now pending. Collective. */
+/* Counts cells with the label `wanted` in all tiles into labelling->before; they become pending. Collective. */
 static kz_status count_pending(kz_window_labels *l, int16_t wanted) {
   l->wanted = wanted;
   int64_t *before = memset(l->before, 0, (size_t)(l->tiles.own + 1) * sizeof *before);
@@ -41,8 +41,8 @@ static kz_status pick_from(kz_window_labels *l, const kz_local_record *packed, i
   return KZ_OK;
 }
 
-/* cell [n] = the numbers of n evenly chosen cells among the pending cells from .. from + of - 1, in order, on every rank; level [n] = the levels
- * that may decide them, NULL = not needed. Collective. */
+/* cell [n] = the numbers of n evenly chosen cells among the pending cells from .. from + of - 1, in order, on every
+ * rank; level [n] = the levels that may decide them, NULL = not needed. Collective. */
 static kz_status pick_pending(kz_window_labels *l, int64_t from, int64_t of, int64_t n, int64_t *cell, int64_t *level) {
   kz_status status = KZ_OK;
   memset(cell, 0, (size_t)n * sizeof *cell);
@@ -54,8 +54,9 @@ static kz_status pick_pending(kz_window_labels *l, int64_t from, int64_t of, int
   return kz_ranks_sum(l->run->ranks, cell, n);
 }
 
-/* The new labels of the listed cells, of which the first is pending cell `from`, replace those of a tile of this rank. */
-static kz_status rounds_merge(kz_window_labels *l, kz_local_record *packed, int64_t from, int64_t n, const kz_label *found) {
+/* Puts new labels of listed cells, the first of which is pending cell `from`, into a tile of this rank. */
+static kz_status rounds_merge(kz_window_labels *l, kz_local_record *packed, int64_t from, int64_t n,
+                              const kz_label *found) {
   int64_t number = l->before[packed->tile] - from;
   const int64_t end = l->before[packed->tile + 1] - from;
   if (number < 0 || number == end || end > n) return KZ_OK;
@@ -65,14 +66,14 @@ static kz_status rounds_merge(kz_window_labels *l, kz_local_record *packed, int6
   return kz_tile_labels_replace(l, packed);
 }
 
-/* Labels the pending cells of all tiles, a bounded number at a time: the doubtful ones by the further levels, the unsettled ones from the
- * first one on, in stages of round `round`. Collective. */
+/* Labels the pending cells of all tiles, a bounded number at a time: the doubtful ones by the further levels, the
+ * unsettled ones from the first one on, in stages of round `round`. Collective. */
 static kz_status label_pending(kz_window_labels *l, int round) {
   const int64_t *before = l->before, all = before[l->tiles.own];
   const int64_t most = kz_smaller(all, MOST_PENDING);
-  KZ_FREED int64_t *cell = kz_malloc((size_t)most * sizeof *cell + 1);
-  KZ_FREED int64_t *level = kz_malloc((size_t)most * sizeof *level + 1);
-  KZ_FREED kz_label *found = kz_malloc((size_t)most * sizeof *found + 1);
+  KZ_AUTOFREE int64_t *cell = kz_malloc((size_t)most * sizeof *cell + 1);
+  KZ_AUTOFREE int64_t *level = kz_malloc((size_t)most * sizeof *level + 1);
+  KZ_AUTOFREE kz_label *found = kz_malloc((size_t)most * sizeof *found + 1);
   for (int64_t from = 0, to; from < l->tiles.own; from = to) {
     for (to = from + 1; to < l->tiles.own && before[to + 1] - before[from] <= most;) to++;
     const int64_t first = before[from], n = before[to] - first; /* pending cells of whole tiles */
@@ -91,18 +92,18 @@ enum { ROUNDS = 3 /* Rounds of search among cells that end nowhere known, at mos
 
 /* Finds and counts the attractors that the starts of the window end on. */
 static kz_status find_attractors(kz_window_labels *l) {
-  KZ_FREED int32_t *label = kz_malloc((size_t)l->plan->starts * sizeof *label);
+  KZ_AUTOFREE int32_t *label = kz_malloc((size_t)l->plan->starts * sizeof *label);
   KZ_TRY(kz_search_window(l->run, l->dynamics, &l->search, label));
   for (int64_t i = 0; i < l->plan->starts; i++) l->reached[label[i]]++;
   return KZ_OK;
 }
 
-/* Column by column: cells beside each other in both directions share nodes of the map table, which is larger than the caches. */
+/* Labels column by column: neighbouring cells share nodes of the map table, which is larger than the caches. */
 static kz_status label_tile(void *context, int64_t tile, void *record) {
   kz_window_labels *l = context;
   const int64_t first = kz_tile_first(&l->tiles, tile), n = kz_tile_own(&l->tiles, tile), columns = l->tiles.chunk[1];
-  KZ_FREED int64_t *cell = kz_malloc((size_t)n * sizeof *cell);
-  KZ_FREED kz_label *found = kz_malloc((size_t)n * sizeof *found);
+  KZ_AUTOFREE int64_t *cell = kz_malloc((size_t)n * sizeof *cell);
+  KZ_AUTOFREE kz_label *found = kz_malloc((size_t)n * sizeof *found);
   for (int64_t column = 0, i = 0; column < columns; column++)
     for (int64_t k = column; k < n; k += columns) cell[i++] = first + k;
   KZ_TRY(kz_label_first(&l->labeller, n, cell, found));
@@ -127,8 +128,8 @@ static kz_status make_starts(kz_window_labels *l) {
   const kz_basin_plan *plan = l->plan;
   KZ_TRY(kz_window_labels_start(l));
   if (plan->method != KZ_METHOD_ICM || !isnan(plan->accuracy)) return KZ_OK;
-  return kz_ranks_agree(l->run->ranks,
-                        kz_steps_check_table(plan, kz_dynamics_table_error(l->dynamics, kz_stencil(plan->interpolation))));
+  return kz_ranks_agree(
+      l->run->ranks, kz_steps_check_table(plan, kz_dynamics_table_error(l->dynamics, kz_stencil(plan->interpolation))));
 }
 
 static kz_status count_unsettled(void *labels, int64_t *n) {
@@ -146,7 +147,7 @@ static kz_status label_again(void *labels, int round) {
   return label_pending(labels, round);
 }
 
-/* `exact` alone leaves doubtful cells. The starts' counts of attractors are the same on every rank, those of tiles each rank's own. */
+/* Only `exact` leaves doubtful cells. Counts of the starts' attractors are equal on all ranks, tiles' counts not. */
 kz_status kz_label_window(kz_window_labels *l) {
   l->cell = kz_calloc((size_t)kz_tile_capacity(&l->tiles) + 1, sizeof *l->cell);
   l->before = kz_calloc((size_t)l->tiles.own + 1, sizeof *l->before);

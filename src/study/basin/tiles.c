@@ -3,8 +3,8 @@
 
 enum { MOST_CELLS = 1 << 19 }; /* Cells of a tile: few MB */
 
-/* Length of the pieces of an axis: a multiple of `unit`, at most `target` or little more, and never more than `most`; `divides`:
- * without rest. 0 where there is none. */
+/* Length of the pieces of an axis: a multiple of `unit`, at most `target` or little more, and never more than `most`;
+ * `divides`: without rest. 0 where there is none. */
 static int64_t tiles_piece(int64_t count, int64_t unit, int64_t target, int64_t most, bool divides) {
   int64_t best = 0;
   for (int64_t length = unit; length <= kz_smaller(count, most); length += unit) {

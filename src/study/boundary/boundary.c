@@ -39,7 +39,7 @@ static kz_status write_pairs(int n, const kz_uncertain *u, kz_store *store, FILE
 /* Boxes of all cells, strip by strip from the file. */
 static kz_status count_boxes(const kz_basin_plan *plan, kz_store *store, kz_box_counts *counts) {
   const int64_t columns = plan->theta.count, rows = plan->velocity.count;
-  KZ_FREED int16_t *label = kz_malloc((size_t)((STRIP + 1) * columns) * sizeof *label);
+  KZ_AUTOFREE int16_t *label = kz_malloc((size_t)((STRIP + 1) * columns) * sizeof *label);
   kz_status status = KZ_OK;
   for (int64_t row = 0; status == KZ_OK && row + 1 < rows; row += STRIP) {
     const int64_t n = rows - row < STRIP + 1 ? rows - row : STRIP + 1;
@@ -72,7 +72,8 @@ static kz_status write_boxes(const kz_box_counts *b, int64_t count, kz_store *st
   KZ_TRY(kz_store_dimension(store, "boundary", "basin", basins, NULL));
   KZ_COLUMN(store, "boundary", "box_cells", KZ_BOX_SIZES, int32_t, 1 << i);
   KZ_COLUMN(store, "boundary", "boxes", KZ_BOX_SIZES, int32_t, b->boxes[i]);
-  KZ_COLUMN(store, "boundary", "dimension", KZ_BOX_SIZES, double, i + 1 < KZ_BOX_SIZES ? kz_boxes_dimension(b, (int)i) : NAN);
+  KZ_COLUMN(store, "boundary", "dimension", KZ_BOX_SIZES, double,
+            i + 1 < KZ_BOX_SIZES ? kz_boxes_dimension(b, (int)i) : NAN);
   KZ_COLUMN(store, "boundary", "shared", KZ_BOX_SIZES * basins, double,
             b->boxes[i / basins] > 0 ? (double)b->with[i / basins][i % basins] / (double)b->boxes[i / basins] : NAN);
   if (b->boxes[2] > 0) print_shared(b, basins, summary);

@@ -1,4 +1,4 @@
-/* The boundaries of a basin: pairs of starts beside each other, and how many of them end differently, by their distance; boxes of cells. */
+/* Boundaries of a basin: share of pairs of starts that end differently, by their distance; boxes of cells. */
 #pragma once
 
 #include "basin/basin.h"
@@ -12,5 +12,5 @@ enum { KZ_PAIR_DISTANCES = KZ_BOUNDARY_MOST_DECADES + 1 };
 /* How many distances the plan asks for. */
 int kz_distances_of(const kz_boundary_plan *plan);
 
-/* uncertain [kz_distances_of]: of evenly spread starts of the window, each with a partner at every distance. Collective. */
+/* uncertain [kz_distances_of]: evenly spread starts of the window, with a partner at every distance. Collective. */
 kz_status kz_pairs_count(const kz_boundary_plan *plan, const kz_window_labels *labelling, kz_uncertain *uncertain);

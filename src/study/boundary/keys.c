@@ -6,7 +6,8 @@
 
 static const kz_key keys[] = {
     ROW("basin.boundary", KZ_KEY_MAPPING, "", OF_SCENE(has_boundary),
-        "How fractal the boundaries are: uncertainty exponents decade by decade, box-counting dimension, basins that share "
+        "How fractal the boundaries are: uncertainty exponents decade by decade, box-counting dimension, basins that "
+        "share "
         "their boundary.",
         .unit = ""),
     INTEGER("basin.boundary.pairs", 100, 1e8, "50000", pairs,

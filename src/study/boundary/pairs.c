@@ -11,14 +11,14 @@ enum {
   POINTS = STARTS * (1 + KZ_PAIR_DISTANCES)
 };
 
-/* The nearest pairs that doubles and pairs of doubles can distinguish, rad, and that the images of a window do, a share of its width. */
+/* Nearest pairs resolved by doubles and by pairs, rad, and by images of a window, share of its width. */
 static const double nearest_of_doubles = 1e-12, nearest_of_pairs = 1e-25, nearest_of_images = 1e-18;
 
 typedef struct {
   const kz_boundary_plan *pairs;
   const kz_basin_plan *plan;
   kz_dynamics *dynamics;
-  const kz_part *deep; /* Part that makes the starts where the partners lie in a deep window, or about it too; else NULL */
+  const kz_part *deep; /* Part that makes starts whose partners lie in or about a deep window; else NULL */
   void *starts;        /* its own */
 } pairing;
 
@@ -55,7 +55,7 @@ static bool is_exact(const kz_basin_plan *plan) {
   return isnan(plan->accuracy) && plan->method == KZ_METHOD_EXACT;
 }
 
-/* Whether doubles do not distinguish the window's cells and partners are as near as it is wide, so that its images serve them. */
+/* Whether doubles merge the window's cells and partners are within its width, so that images serve them. */
 static bool is_within(const kz_basin_plan *plan, double farthest) {
   const bool is_deep = kz_axis_is_deep(&plan->theta) || kz_axis_is_deep(&plan->velocity);
   return is_exact(plan) && is_deep && farthest <= narrower_side(plan);
@@ -79,17 +79,17 @@ kz_status kz_boundary_check(const kz_scene *scene) {
                    : exact ? ", or farthest at most the width of a window whose cells doubles do not distinguish"
                            : ", or basin.method exact";
   if (most < KZ_BOUNDARY_FEWEST_DECADES)
-    return kz_fail(
-        KZ_REFUSED,
-        "basin.boundary.farthest: %g rad is too near: %s not distinguish starts that are nearer than %.0e rad; it must be "
-        "%.0e at least%s",
-        pairs->farthest, what, least, least * pow(10, KZ_BOUNDARY_FEWEST_DECADES), or);
+    return kz_fail(KZ_REFUSED,
+                   "basin.boundary.farthest: %g rad is too near: %s not distinguish starts that are nearer than %.0e "
+                   "rad; it must be "
+                   "%.0e at least%s",
+                   pairs->farthest, what, least, least * pow(10, KZ_BOUNDARY_FEWEST_DECADES), or);
   return kz_fail(KZ_REFUSED,
                  "basin.boundary.decades: %lld go down to %.0e rad, which %s not distinguish; it must be %d at most%s",
                  (long long)pairs->decades, nearest, what, most, or);
 }
 
-/* Start i of an evenly spread sequence and its partners at n distances from `first` on, in directions that spread evenly too. */
+/* Start i of an evenly spread sequence, its partners at n distances from `first` on, directions spread too. */
 static void pairs_spread(const kz_boundary_plan *plan, int64_t i, int first, int n, point *p) {
   const double angle = 2 * M_PI * fmod((double)i * 0.61803398874989484820, 1);
   *p = (point){.share = {0}};
@@ -100,8 +100,8 @@ static void pairs_spread(const kz_boundary_plan *plan, int64_t i, int first, int
   }
 }
 
-/* A kz_start_fn. What quad precision does not decide is labelled in it without its error, which acts like a change of the start that is far
- * below the smallest distance: such pairs would otherwise be missed among the uncertain. */
+/* A kz_start_fn. What quad precision does not decide is labelled in it without its error, which acts like a change of
+ * the start that is far below the smallest distance: such pairs would otherwise be missed among the uncertain. */
 static kz_status start_at(void *context, int64_t i, kz_precision level, kz_start *start) {
   const pair_tile *t = context;
   const pairing *p = t->pairing;
@@ -129,9 +129,10 @@ static kz_labeller labeller_of(const pairing *p, pair_tile *t, bool exact) {
                        .context = t};
 }
 
-/* How many of the distances, the farthest first, doubles serve. Their map is one that is off by the error of a step, for both starts of a pair
- * alike, and rounding moves the starts by less than a hundredth of these distances: the shares are right, whatever the labels of single starts are.
- * In a window that is hardly wider than that error the boundary itself would be moved. */
+/* How many of the distances, the farthest first, doubles serve. Their map is one that is off by the error of a step,
+ * for both starts of a pair alike, and rounding moves the starts by less than a hundredth of these distances: the
+ * shares are right, whatever the labels of single starts are. In a window that is hardly wider than that error the
+ * boundary itself would be moved. */
 static int distances_of_doubles(const pairing *p) {
   static const double narrowest = 1e-9;
   int n = 0;
@@ -141,7 +142,8 @@ static int distances_of_doubles(const pairing *p) {
 }
 
 /* The pairs of n starts at distances first .. last - 1. */
-static kz_status count_distances(pair_tile *t, int64_t from, int64_t n, int first, int last, bool exact, pair_record *out) {
+static kz_status count_distances(pair_tile *t, int64_t from, int64_t n, int first, int last, bool exact,
+                                 pair_record *out) {
   const int stride = 1 + last - first;
   const kz_labeller labeller = labeller_of(t->pairing, t, exact);
   if (first == last) return KZ_OK;
@@ -158,7 +160,7 @@ static kz_status count_distances(pair_tile *t, int64_t from, int64_t n, int firs
 
 static kz_status count_some(void *context, int64_t first, int64_t n, void *record) {
   const pairing *p = context;
-  KZ_FREED pair_tile *t = kz_malloc(sizeof *t);
+  KZ_AUTOFREE pair_tile *t = kz_malloc(sizeof *t);
   const int doubles = distances_of_doubles(p);
   t->pairing = p;
   KZ_TRY(count_distances(t, first, n, 0, doubles, false, record));
@@ -179,7 +181,7 @@ kz_status kz_pairs_count(const kz_boundary_plan *plan, const kz_window_labels *l
   pairing p = pairing_of(plan, labelling);
   const int64_t starts = (plan->pairs + STARTS - 1) / STARTS * STARTS; /* the last tile is whole */
   const kz_stage stage = kz_stage_of_items("pairs", starts, STARTS, sizeof(pair_record), count_some, &p);
-  KZ_FREED pair_record *records = kz_malloc((size_t)stage.n_tiles * sizeof *records);
+  KZ_AUTOFREE pair_record *records = kz_malloc((size_t)stage.n_tiles * sizeof *records);
   kz_status status = kz_stage_run(labelling->run, &stage, records);
   for (int d = 0; d < kz_distances_of(plan); d++) {
     uncertain[d] = (kz_uncertain){.distance = distance_of(plan, d)};

@@ -3,7 +3,7 @@
 
 #include "labelling/search.h"
 
-/* The search of a basin, of the study attractors, and of the scene's study basin or attractors (without a map table). */
+/* Searches of a basin, of the study attractors, of the scene's basin or attractors (without a map table). */
 kz_search kz_search_of_basin(const kz_basin_plan *plan);
 kz_search kz_search_of_attractors(const kz_attractors_plan *plan, int64_t max_periods);
 kz_search kz_search_of(const kz_scene *scene);

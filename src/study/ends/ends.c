@@ -62,15 +62,15 @@ static kz_status publish_ends(const kz_scene *scene, const kz_plane_ending *endi
   const kz_ends_plan *starts = scene->ends;
   KZ_TRY(write_group(starts, points_of(plan), endings, store));
   fprintf(summary, "ends: %" PRId64 " values of %s x %" PRId64 " of %s, %" PRId64 " start%s\n", plan->x.values.count,
-          kz_sweep_parameter_at(plan->x.parameter)->name, plan->y.values.count, kz_sweep_parameter_at(plan->y.parameter)->name,
-          starts->theta.count, starts->theta.count == 1 ? "" : "s");
+          kz_sweep_parameter_at(plan->x.parameter)->name, plan->y.values.count,
+          kz_sweep_parameter_at(plan->y.parameter)->name, starts->theta.count, starts->theta.count == 1 ? "" : "s");
   for (int64_t place = 0; place < starts->theta.count; place++)
     print_start(starts, place, points_of(plan), endings + place * points_of(plan), summary);
   return KZ_OK;
 }
 
 enum { LEAST_STEPS = 8, MOST_STEPS = 4000 };
-/* Error that a drive period may have, rad: ends are cycles that Newton's method finds, and a motion only has to be led to its own. */
+/* Error allowed in a drive period, rad: Newton's method refines final cycles, a motion only has to be led to one. */
 static const double TOLERANCE = 1e-8;
 
 /* The pendulum of a point; false if there is none, or if it has no damping. */
@@ -78,7 +78,8 @@ static bool pendulum_of(const kz_scene *scene, int64_t point, kz_pendulum *pendu
   const kz_sweep_plan *plan = scene->sweep;
   const int64_t columns = plan->x.values.count;
   const int32_t parameter[] = {plan->x.parameter, plan->y.parameter};
-  const double value[] = {kz_axis_value(&plan->x.values, point % columns), kz_axis_value(&plan->y.values, point / columns)};
+  const double value[] = {kz_axis_value(&plan->x.values, point % columns),
+                          kz_axis_value(&plan->y.values, point / columns)};
   return kz_pendulum_at(scene, 2, parameter, value, pendulum) && pendulum->beta > 0;
 }
 
@@ -100,13 +101,13 @@ static int32_t steps_for(int64_t n, const kz_pendulum *pendulum, double start_sp
     if (kz_stiffness(pendulum + i) > kz_stiffness(strongest)) strongest = pendulum + i;
   kz_numerics numerics = kz_steps_plain();
   numerics.steps_per_period = (int32_t)fmin(kz_steps_by_stiffness(strongest, numerics.steps_per_period), MOST_STEPS);
-  return kz_steps_scaled(strongest, &numerics, fmax(start_speed, 1 + 2 * sqrt(kz_stiffness(strongest))), TOLERANCE, LEAST_STEPS,
-                         MOST_STEPS);
+  return kz_steps_scaled(strongest, &numerics, fmax(start_speed, 1 + 2 * sqrt(kz_stiffness(strongest))), TOLERANCE,
+                         LEAST_STEPS, MOST_STEPS);
 }
 
 void kz_ends_points(const kz_scene *scene, int64_t place, int64_t n, const int64_t *point, kz_plane_ending *ending) {
   const kz_ends_plan *plan = scene->ends;
-  KZ_FREED kz_pendulum *pendulum = kz_malloc((size_t)n * sizeof *pendulum);
+  KZ_AUTOFREE kz_pendulum *pendulum = kz_malloc((size_t)n * sizeof *pendulum);
   int64_t periods[KZ_ENDS_POINTS];
   double start[2];
   for (int64_t i = 0; i < n; i++) {
@@ -115,7 +116,8 @@ void kz_ends_points(const kz_scene *scene, int64_t place, int64_t n, const int64
     periods[i] = damped ? periods_of(plan, pendulum[i].beta) : 0;
   }
   kz_start_state(plan->theta.values[place], velocity_of(plan, place), start);
-  kz_ends_follow(steps_for(n, pendulum, fabs(start[1])), n, pendulum, start, (int32_t)plan->max_period, periods, ending);
+  kz_ends_follow(steps_for(n, pendulum, fabs(start[1])), n, pendulum, start, (int32_t)plan->max_period, periods,
+                 ending);
   for (int64_t i = 0; i < n; i++)
     if (periods[i] == 0) ending[i] = (kz_plane_ending){.period = KZ_NO_PENDULUM, .centre = 3, .exponent = NAN};
 }
@@ -134,7 +136,7 @@ kz_status kz_ends_run(const kz_scene *scene, const kz_run *run, kz_store *store,
   const int64_t points = points_of(scene->sweep);
   const kz_stage stage = kz_stage_of_rows("ends", plan->theta.count, points, KZ_ENDS_POINTS,
                                           KZ_ENDS_POINTS * sizeof(kz_plane_ending), find_ends, (void *)scene);
-  KZ_FREED kz_plane_ending *endings = store ? kz_malloc((size_t)stage.n_tiles * stage.record_bytes) : NULL;
+  KZ_AUTOFREE kz_plane_ending *endings = store ? kz_malloc((size_t)stage.n_tiles * stage.record_bytes) : NULL;
   KZ_TRY(kz_stage_run(run, &stage, endings));
   if (!store) return KZ_OK;
   for (int64_t place = 1; place < plan->theta.count; place++) /* without the ends of the last tile of each start */

@@ -12,7 +12,7 @@ typedef struct {
   const kz_scene *scene;
   const kz_listed *attractors;
   const kz_run *run;
-  int64_t batches; /* of an attractor and a temperature */
+  int64_t batches; /* batches for an attractor and a temperature */
 } work;
 
 /* Lives of a tile: drive periods that were followed, and lives that ended. */
@@ -26,14 +26,15 @@ bool kz_escape_is_left(const kz_escape_plan *plan, const kz_listed *attractors, 
   return named && attractors->period[id] > 0;
 }
 
-/* How far a state lies from the undisturbed motion after `period` periods, its angle on the line; `turns` of the cycle in all its periods. */
+/* Distance of a state from the undisturbed motion after `period` periods, on the line; turns of the full cycle. */
 static double distance_of(const kz_listed *list, int64_t id, int64_t winding, int64_t period, double theta) {
   const int64_t n = (int64_t)list->period[id];
   const double drift = 2 * M_PI * (double)winding / (double)n;
   return fabs(theta - (list->theta[id * list->phases] + drift * (double)period));
 }
 
-static kz_status counted_live(const work *w, const kz_walker *walker, int64_t id, int64_t winding, uint64_t seed, lives *sum) {
+static kz_status counted_live(const work *w, const kz_walker *walker, int64_t id, int64_t winding, uint64_t seed,
+                              lives *sum) {
   const kz_escape_plan *plan = w->scene->escape;
   double theta = w->attractors->theta[id * w->attractors->phases],
          velocity = w->attractors->velocity[id * w->attractors->phases];
@@ -72,14 +73,14 @@ static kz_status count_tile(void *context, int64_t tile, void *record) {
   return status;
 }
 
-/* Quantile of chi-squared / its degrees of freedom (E. B. Wilson, M. M. Hilferty, PNAS 17 (1931) 684); z of the normal distribution. */
+/* Chi-squared quantile / degrees of freedom (E. B. Wilson, M. M. Hilferty, PNAS 17 (1931) 684), normal z. */
 static double chi_squared_share(double freedom, double z) {
   const double a = 2 / (9 * freedom), root = 1 - a + z * sqrt(a);
   return root * root * root;
 }
 
 static kz_status write_lives(const work *w, const lives *sum, kz_store *store, FILE *summary) {
-  static const double Z = 1.959963984540054; /* of 95 % */
+  static const double Z = 1.959963984540054; /* normal quantile for 95 % */
   const kz_reals *temperatures = &w->scene->escape->temperatures;
   const int64_t n = w->attractors->count * temperatures->count;
 #define MEAN(i) (sum[i].ended > 0 ? (double)sum[i].periods / (double)sum[i].ended : NAN)
@@ -91,7 +92,8 @@ static kz_status write_lives(const work *w, const lives *sum, kz_store *store, F
   KZ_COLUMN(store, "escape", "life_ended", n, int32_t, sum[i].ended);
   for (int64_t i = 0; i < n; i++)
     if (sum[i].ended > 0)
-      fprintf(summary, "Counted: attractor %lld lives %.4g periods at T = %g (%.4g to %.4g; %lld of %lld lives ended)\n",
+      fprintf(summary,
+              "Counted: attractor %lld lives %.4g periods at T = %g (%.4g to %.4g; %lld of %lld lives ended)\n",
               (long long)(i / temperatures->count), MEAN(i), temperatures->values[i % temperatures->count], END(i, Z),
               END(i, -Z), (long long)sum[i].ended, (long long)w->scene->escape->walkers);
   return KZ_OK;
@@ -104,8 +106,8 @@ kz_status kz_escape_count(const kz_scene *scene, const kz_run *run, const kz_lis
   if (rows == 0) return KZ_OK;
   work w = {scene, attractors, run, (plan->walkers + BATCH - 1) / BATCH};
   const kz_stage stage = kz_stage_for_rank0("lives", rows * w.batches, sizeof(lives), count_tile, &w);
-  KZ_FREED lives *record = kz_calloc((size_t)(rows * w.batches) + 1, sizeof *record);
-  KZ_FREED lives *sum = kz_calloc((size_t)rows + 1, sizeof *sum);
+  KZ_AUTOFREE lives *record = kz_calloc((size_t)(rows * w.batches) + 1, sizeof *record);
+  KZ_AUTOFREE lives *sum = kz_calloc((size_t)rows + 1, sizeof *sum);
   KZ_TRY(kz_stage_run(run, &stage, record));
   for (int64_t i = 0; i < rows * w.batches; i++) {
     sum[i / w.batches].periods += record[i].periods;

@@ -22,7 +22,8 @@ kz_cost kz_escape_cost(const kz_scene *scene) {
   return (kz_cost){.disk_bytes = 2 * bytes, .memory_bytes = sizeof(kz_escape_route), .rank0_bytes = bytes};
 }
 
-static bool find_cycle(const kz_escape_flow *flow, const kz_listed *list, int64_t id, bool attracts, kz_escape_cycle *cycle) {
+static bool find_cycle(const kz_escape_flow *flow, const kz_listed *list, int64_t id, bool attracts,
+                       kz_escape_cycle *cycle) {
   const int64_t at = id * list->phases;
   return kz_escape_cycle_find(flow, (int64_t)list->period[id], attracts, list->theta + at, list->velocity + at, cycle);
 }
@@ -36,8 +37,10 @@ static kz_status search_tile(void *context, int64_t tile, void *record) {
   route->least.action = INFINITY;
   if (task->reflected) return KZ_OK;
   kz_escape_flow flow = kz_escape_flow_of(&w->scene->parameters.pendulum);
-  if (find_cycle(&flow, w->attractors, task->from, true, &from) && find_cycle(&flow, w->saddles, task->saddle, false, &to)) {
-    kz_escape_search(&flow, &from, &to, w->scene->escape->starts, (uint64_t)(task->from * INT16_MAX + task->saddle), route);
+  if (find_cycle(&flow, w->attractors, task->from, true, &from) &&
+      find_cycle(&flow, w->saddles, task->saddle, false, &to)) {
+    kz_escape_search(&flow, &from, &to, w->scene->escape->starts, (uint64_t)(task->from * INT16_MAX + task->saddle),
+                     route);
     if (route->count > 0 && !kz_escape_finish(&flow, &from, &to, route)) route->least.action = INFINITY;
   }
   kz_escape_cycle_free(&from);
@@ -50,15 +53,15 @@ static kz_status search_tile(void *context, int64_t tile, void *record) {
 static kz_status check_sums(kz_store *store) {
   int64_t n, open = 0;
   KZ_TRY(kz_store_length(store, "saddles", "sum", &n));
-  KZ_FREED double *sum = kz_calloc((size_t)n + 1, sizeof *sum);
+  KZ_AUTOFREE double *sum = kz_calloc((size_t)n + 1, sizeof *sum);
   KZ_TRY(kz_store_numbers(store, "saddles", "index_sum", n, sum));
   for (int64_t i = 0; i < n; i++) open += fabs(sum[i]) > 0;
   if (open == 0) return KZ_OK;
-  return kz_fail(
-      KZ_REFUSED,
-      "saddles|saddles.max_period: %lld of the index sums are not 0, so that saddles are missing through which paths may lead; "
-      "give a larger window of velocities, or another max_period",
-      (long long)open);
+  return kz_fail(KZ_REFUSED,
+                 "saddles|saddles.max_period: %lld of the index sums are not 0, so that saddles are missing through "
+                 "which paths may lead; "
+                 "give a larger window of velocities, or another max_period",
+                 (long long)open);
 }
 
 /* Whether an attractor is left; KZ_REFUSED where the scene names one that is no cycle. */
@@ -91,23 +94,28 @@ static kz_escape_task *list_tasks(const kz_escape_plan *plan, bool mirrored, con
       bool is_sought = is_gate;
       for (int32_t b = 0; plan->everywhere && b < (int32_t)attractors->count; b++)
         is_sought = is_sought || kz_gate_is_of(gate + s, b, alone);
-      /* Far paths are sought once, and reflected: those through gates, on which lives depend, are compared with their images. */
+      /* far paths are sought once and reflected; those through gates set lives and are compared with their images */
       const int64_t image_a = (int64_t)attractors->mirror[a], image_s = (int64_t)saddles->mirror[s];
-      const bool reflected =
-          !is_gate && mirrored && (image_a != a ? image_a < a : image_s < s) && kz_escape_is_left(plan, attractors, image_a);
+      const bool reflected = !is_gate && mirrored && (image_a != a ? image_a < a : image_s < s) &&
+                             kz_escape_is_left(plan, attractors, image_a);
       if (is_sought)
-        task[(*n)++] = (kz_escape_task){
-            .from = (int32_t)a, .saddle = (int32_t)s, .is_gate = is_gate, .reflected = reflected, .into = -1, .before = -1};
+        task[(*n)++] = (kz_escape_task){.from = (int32_t)a,
+                                        .saddle = (int32_t)s,
+                                        .is_gate = is_gate,
+                                        .reflected = reflected,
+                                        .into = -1,
+                                        .before = -1};
     }
   return task;
 }
 
-/* Where each path leads: its last state, moved a little to the other side of the saddle, and to this side. Collective. */
-static kz_status escape_release(const kz_escape_labels *labels, const kz_gate *gate, int64_t n, const kz_escape_route *route,
-                                kz_escape_task *task) {
-  KZ_FREED double (*start)[2] = kz_calloc((size_t)(2 * n) + 1, sizeof *start);
-  KZ_FREED int32_t *id = kz_calloc((size_t)(2 * n) + 1, sizeof *id);
-  for (int64_t i = 0; route && i < n; i++) kz_escape_beyond(route + i, gate + task[i].saddle, start[2 * i], start[2 * i + 1]);
+/* Follows each path's last state, moved to the other side of the saddle and to this side. Collective. */
+static kz_status escape_release(const kz_escape_labels *labels, const kz_gate *gate, int64_t n,
+                                const kz_escape_route *route, kz_escape_task *task) {
+  KZ_AUTOFREE double (*start)[2] = kz_calloc((size_t)(2 * n) + 1, sizeof *start);
+  KZ_AUTOFREE int32_t *id = kz_calloc((size_t)(2 * n) + 1, sizeof *id);
+  for (int64_t i = 0; route && i < n; i++)
+    kz_escape_beyond(route + i, gate + task[i].saddle, start[2 * i], start[2 * i + 1]);
   KZ_TRY(kz_ranks_broadcast(labels->run->ranks, start, (size_t)(2 * n) * sizeof *start));
   KZ_TRY(kz_escape_label(labels, 1, 2 * n, start[0], id));
   for (int64_t i = 0; i < n; i++) task[i].before = id[2 * i], task[i].into = id[2 * i + 1];
@@ -118,15 +126,16 @@ static kz_status run_tasks(const kz_scene *scene, const kz_run *run, const kz_es
                            const kz_listed *attractors, const kz_listed *saddles, kz_store *store, FILE *summary) {
   const kz_escape_plan *plan = scene->escape;
   kz_escape_flow flow = kz_escape_flow_of(&scene->parameters.pendulum);
-  KZ_FREED kz_gate *gate = kz_calloc((size_t)saddles->count + 1, sizeof *gate);
+  KZ_AUTOFREE kz_gate *gate = kz_calloc((size_t)saddles->count + 1, sizeof *gate);
   kz_status status = kz_gates_find(labels, &flow, saddles, gate);
   kz_escape_flow_free(&flow);
   KZ_TRY(status);
   int64_t n;
-  KZ_FREED kz_escape_task *task = list_tasks(plan, kz_is_mirrored(&scene->parameters.pendulum), attractors, saddles, gate, &n);
+  KZ_AUTOFREE kz_escape_task *task =
+      list_tasks(plan, kz_is_mirrored(&scene->parameters.pendulum), attractors, saddles, gate, &n);
   work w = {scene, attractors, saddles, task};
   const kz_stage stage = kz_stage_for_rank0("escape", n, sizeof(kz_escape_route), search_tile, &w);
-  KZ_FREED kz_escape_route *route = store ? kz_calloc((size_t)n + 1, sizeof *route) : NULL;
+  KZ_AUTOFREE kz_escape_route *route = store ? kz_calloc((size_t)n + 1, sizeof *route) : NULL;
   KZ_TRY(kz_stage_run(run, &stage, route));
   KZ_TRY(escape_release(labels, gate, n, route, task));
   const kz_escape_report report = {scene, attractors, saddles, gate, n, task, route};
@@ -136,15 +145,15 @@ static kz_status run_tasks(const kz_scene *scene, const kz_run *run, const kz_es
 
 kz_status kz_escape_run(const kz_scene *scene, const kz_run *run, kz_store *store, FILE *summary) {
   const kz_search search = kz_search_of(scene);
-  KZ_FREED_BY(kz_listed_free) kz_listed attractors = {0};
-  KZ_FREED_BY(kz_listed_free) kz_listed saddles = {0};
+  KZ_AUTOFREE_BY(kz_listed_free) kz_listed attractors = {0};
+  KZ_AUTOFREE_BY(kz_listed_free) kz_listed saddles = {0};
   KZ_TRY(kz_ranks_agree(run->ranks, store ? check_sums(store) : KZ_OK));
   KZ_TRY(kz_listed_read(run, store, "attractors", "attractor", &attractors));
   KZ_TRY(kz_listed_read(run, store, "saddles", "saddle", &saddles));
   KZ_TRY(check_from(scene->escape, &attractors));
-  KZ_FREED_BY(kz_dynamics_freed) kz_dynamics *dynamics = kz_search_dynamics(scene);
+  KZ_AUTOFREE_BY(kz_dynamics_freed) kz_dynamics *dynamics = kz_search_dynamics(scene);
   KZ_TRY(kz_search_window(run, dynamics, &search, NULL));
-  KZ_FREED kz_escape_labels *labels = kz_calloc(1, sizeof *labels);
+  KZ_AUTOFREE kz_escape_labels *labels = kz_calloc(1, sizeof *labels);
   *labels = (kz_escape_labels){.run = run, .dynamics = dynamics, .max_periods = search.max_periods};
   for (int64_t i = 0; i < attractors.count; i++)
     if (attractors.period[i] > 0)

@@ -7,7 +7,7 @@
 static const double FIRST_DISTANCE = 1e-5;
 
 kz_status kz_escape_label(const kz_escape_labels *labels, int round, int64_t n, const double *start, int32_t *id) {
-  KZ_FREED kz_label *label = kz_calloc((size_t)n + 1, sizeof *label);
+  KZ_AUTOFREE kz_label *label = kz_calloc((size_t)n + 1, sizeof *label);
   kz_labeller labeller = kz_pair_labeller(start, labels->max_periods, KZ_BY_MARKS, labels->dynamics);
   labeller.run = labels->run;
   KZ_TRY(kz_label_items(&labeller, round, n, NULL, label));
@@ -27,15 +27,16 @@ static int32_t id_of_all(const int32_t *id) {
   return id[0];
 }
 
-kz_status kz_gates_find(const kz_escape_labels *labels, const kz_escape_flow *flow, const kz_listed *saddles, kz_gate *gate) {
+kz_status kz_gates_find(const kz_escape_labels *labels, const kz_escape_flow *flow, const kz_listed *saddles,
+                        kz_gate *gate) {
   const int64_t n = 2 * KZ_GATE_POINTS * saddles->count;
-  KZ_FREED double (*point)[2] = kz_calloc((size_t)n + 1, sizeof *point);
-  KZ_FREED int32_t *id = kz_calloc((size_t)n + 1, sizeof *id);
+  KZ_AUTOFREE double (*point)[2] = kz_calloc((size_t)n + 1, sizeof *point);
+  KZ_AUTOFREE int32_t *id = kz_calloc((size_t)n + 1, sizeof *id);
   for (int64_t s = 0; s < saddles->count; s++) {
     kz_path_end end;
     const int64_t at = s * saddles->phases;
-    gate[s] = (kz_gate){.is_saddle = kz_path_end_find(flow->flow, (int64_t)saddles->period[s], false, saddles->theta[at],
-                                                      saddles->velocity[at], &end),
+    gate[s] = (kz_gate){.is_saddle = kz_path_end_find(flow->flow, (int64_t)saddles->period[s], false,
+                                                      saddles->theta[at], saddles->velocity[at], &end),
                         .alone = {-1, -1}};
     if (!gate[s].is_saddle) continue;
     gate[s].period = end.period;

@@ -5,9 +5,9 @@
 #include "labelling/labeller.h"
 #include "labelling/listed.h"
 
-enum { KZ_GATE_POINTS = 16 /* of a branch that are labelled */, KZ_GATE_ATTRACTORS = 64 /* bits of kz_gate */ };
+enum { KZ_GATE_POINTS = 16 /* labelled points a branch */, KZ_GATE_ATTRACTORS = 64 /* bits of kz_gate */ };
 
-/* What the two branches of a saddle say. */
+/* Labels along the two branches of a saddle. */
 typedef struct {
   bool is_saddle;   /* false: a repeller, or no cycle of Hamilton's flow */
   int32_t alone[2]; /* id of the attractor on which all points of a branch end; -1 = there are several */
@@ -21,17 +21,18 @@ typedef struct {
   const kz_run *run;
   kz_dynamics *dynamics;
   int64_t max_periods;
-  int32_t id[INT16_MAX + 1]; /* of attractor `number` of kz_dynamics; -1 = not in the file */
+  int32_t id[INT16_MAX + 1]; /* id in the file of each attractor of kz_dynamics; -1 = none */
 } kz_escape_labels;
 
-/* id [n] of the attractor on which each start ends, start [n][2]; -1 = none, or one that is not in the file. Collective. */
+/* Finds id [n] of the attractors on which starts [n][2] end; -1 = none or not in the file. Collective. */
 kz_status kz_escape_label(const kz_escape_labels *labels, int round, int64_t n, const double *start, int32_t *id);
 /* The gates of all saddles. Collective. */
-kz_status kz_gates_find(const kz_escape_labels *labels, const kz_escape_flow *flow, const kz_listed *saddles, kz_gate *gate);
+kz_status kz_gates_find(const kz_escape_labels *labels, const kz_escape_flow *flow, const kz_listed *saddles,
+                        kz_gate *gate);
 
-/* Whether a saddle lies on the edge of the basin of attractor `id`, where it can be reached from inside: one branch ends on the attractor alone. Where no
- * saddle does so, the boundary is fractal from inside too, and the saddles count whose branches meet the basin. `alone`: bits of the attractors for
- * which one does. */
+/* Whether a saddle lies on the edge of the basin of attractor `id`, where it can be reached from inside: one branch
+ * ends on the attractor alone. Where no saddle does so, the boundary is fractal from inside too, and the saddles count
+ * whose branches meet the basin. `alone`: bits of the attractors for which one does. */
 static inline bool kz_gate_is_alone(const kz_gate *gate, int32_t id) {
   return (gate->alone[0] == id) != (gate->alone[1] == id);
 }

@@ -1,4 +1,4 @@
-/* Cycles as the ends of paths, and guesses between them: the motion of the attractor, blended into that of the saddle. */
+/* Cycles as ends of paths, and guesses between them: the attractor's motion blended into the saddle's. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -27,7 +27,7 @@ bool kz_escape_cycle_find(const kz_escape_flow *flow, int64_t period, bool attra
   cycle->end = kz_calloc((size_t)period, sizeof *cycle->end);
   cycle->turns = kz_calloc((size_t)period, sizeof *cycle->turns);
   cycle->theta = kz_calloc((size_t)(period * flow->samples), sizeof *cycle->theta);
-  KZ_FREED double (*sample)[4] = kz_malloc((size_t)flow->samples * sizeof *sample);
+  KZ_AUTOFREE double (*sample)[4] = kz_malloc((size_t)flow->samples * sizeof *sample);
   for (int64_t j = 0; j < period; j++) {
     if (!kz_path_end_find(flow->flow, period, attracts, theta[j], velocity[j], cycle->end + j)) return false;
     kz_hamilton_sample(flow->flow, flow->samples, cycle->end[j].state, sample[0]);
@@ -56,8 +56,8 @@ static double angle_of(const kz_escape_cycle *cycle, int32_t samples, int64_t t,
   return cycle->theta[phase * samples + sample] + 2 * M_PI * (double)(cycle->turns[phase] + cycle->winding * whole);
 }
 
-void kz_escape_guess(const kz_escape_flow *flow, const kz_escape_cycle *from, const kz_escape_cycle *to, const kz_guess *guess,
-                     double *theta, double turns[2]) {
+void kz_escape_guess(const kz_escape_flow *flow, const kz_escape_cycle *from, const kz_escape_cycle *to,
+                     const kz_guess *guess, double *theta, double turns[2]) {
   const int32_t samples = flow->samples;
   const int64_t n = guess->periods, t = (int64_t)guess->change;
   const int64_t at = (int64_t)((guess->change - (double)t) * samples);

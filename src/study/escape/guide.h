@@ -4,11 +4,11 @@
 #include "routes.h"
 
 typedef struct {
-  int64_t periods, phase; /* of the path; the strobe of the attractor where it begins */
+  int64_t periods, phase; /* periods of the path; first strobe of the attractor */
   double change, width;   /* drive periods: the middle of the change, and how long it lasts */
   double turn;            /* turns by which the saddle is more than the copy that is nearest at the change */
 } kz_guess;
 
 /* theta [periods samples + 1], and the turns of both ends. */
-void kz_escape_guess(const kz_escape_flow *flow, const kz_escape_cycle *from, const kz_escape_cycle *to, const kz_guess *guess,
-                     double *theta, double turns[2]);
+void kz_escape_guess(const kz_escape_flow *flow, const kz_escape_cycle *from, const kz_escape_cycle *to,
+                     const kz_guess *guess, double *theta, double turns[2]);

@@ -5,10 +5,12 @@
 #include "plan.h"
 
 static const kz_key keys[] = {
-    STUDY("Study: the least torque that takes a motion out of its basin, or into another one.", .former = "edge=escape"),
-    ROW("escape.from", KZ_KEY_INTEGERS, "", AT(from), "Ids of the attractors that are left; left out: all that are cycles.",
-        .unit = "", .low = 0, .high = 1e6),
-    BOOLEAN("escape.into_every_basin", "false", everywhere, "Look for paths into every basin too, not only out of each."),
+    STUDY("Study: the least torque that takes a motion out of its basin, or into another one.",
+          .former = "edge=escape"),
+    ROW("escape.from", KZ_KEY_INTEGERS, "", AT(from),
+        "Ids of the attractors that are left; left out: all that are cycles.", .unit = "", .low = 0, .high = 1e6),
+    BOOLEAN("escape.into_every_basin", "false", everywhere,
+            "Look for paths into every basin too, not only out of each."),
     INTEGER("escape.starts", 1, 1e6, "24", starts, "Guesses from each attractor to each saddle."),
     ROW("escape.temperatures", KZ_KEY_REALS, "", AT(temperatures),
         "Temperatures T, in units of I omega^2, at which mean lives are counted.", .unit = "", .low = KZ_ABOVE_ZERO,
@@ -20,4 +22,5 @@ static const kz_key keys[] = {
     {.path = NULL},
 };
 
-KZ_STUDY_ROW(.damped = true, .needs = {{"a list of attractors", "basin|attractors"}, {"a list of unstable cycles", "saddles"}});
+KZ_STUDY_ROW(.damped = true,
+             .needs = {{"a list of attractors", "basin|attractors"}, {"a list of unstable cycles", "saddles"}});

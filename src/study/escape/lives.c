@@ -48,7 +48,8 @@ void kz_escape_pair(const kz_escape_report *r) {
   for (int64_t i = 0; i < r->n; i++) {
     kz_escape_task *task = r->task + i;
     const int64_t j =
-        mirrored ? find_task(r, (int32_t)r->attractors->mirror[task->from], (int32_t)r->saddles->mirror[task->saddle]) : -1;
+        mirrored ? find_task(r, (int32_t)r->attractors->mirror[task->from], (int32_t)r->saddles->mirror[task->saddle])
+                 : -1;
     if (j == i || j < 0) task->agrees = true;
     if (j <= i) continue;
     const double a = r->route[i].least.action, b = r->route[j].least.action;
@@ -75,13 +76,14 @@ static double least_out(const kz_escape_report *r, int32_t from, int32_t into, b
   double least = INFINITY;
   for (int64_t i = 0; i < r->n; i++) {
     const kz_escape_task *task = r->task + i;
-    if (task->from == from && task->is_gate && (task->into == into) != elsewhere) least = fmin(least, r->route[i].least.action);
+    if (task->from == from && task->is_gate && (task->into == into) != elsewhere)
+      least = fmin(least, r->route[i].least.action);
   }
   return least;
 }
 
-/* Exponent of the mean life on a way through a gate: an island C is an attractor from which the way back costs less than the way there. It
- * adds max(0, R(C, out) - R(C, back)). */
+/* Exponent of the mean life on a way through a gate: an island C is an attractor from which the way back costs less
+ * than the way there. It adds max(0, R(C, out) - R(C, back)). */
 static double life_through(const kz_escape_report *r, int64_t i, bool *island) {
   const kz_escape_task *task = r->task + i;
   const double there = r->route[i].least.action, back = least_out(r, task->into, task->from, false);

@@ -1,4 +1,4 @@
-/* What a scene says of the study `escape`. */
+/* Plan of the study `escape`. */
 #pragma once
 
 #include "kapitza/study.h"
@@ -6,7 +6,7 @@
 struct kz_escape_plan {
   kz_integers from;      /* ids of attractors; empty = all */
   bool everywhere;       /* paths into every basin, not only out of each */
-  int64_t starts;        /* of the minimiser, for each attractor and saddle */
+  int64_t starts;        /* starts of the minimiser for each attractor and saddle */
   kz_reals temperatures; /* at which lives are counted; empty = none */
   int64_t walkers;       /* for each attractor and temperature */
   int64_t max_periods;   /* for which one is followed */

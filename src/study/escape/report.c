@@ -33,9 +33,10 @@ static kz_status write_routes(const kz_escape_report *r, kz_store *store) {
   COLUMN(int32_t, "periods", n, route[i].least.n);
   COLUMN(int32_t, "starts", n, route[i].starts);
   COLUMN(int8_t, "agrees", n, task[i].agrees);
-#define OF_FAMILY(member, none)                                                                                                \
-  (i % KZ_ESCAPE_FAMILIES < route[i / KZ_ESCAPE_FAMILIES].count ? route[i / KZ_ESCAPE_FAMILIES].member[i % KZ_ESCAPE_FAMILIES] \
-                                                                : none)
+#define OF_FAMILY(member, none)                                       \
+  (i % KZ_ESCAPE_FAMILIES < route[i / KZ_ESCAPE_FAMILIES].count       \
+       ? route[i / KZ_ESCAPE_FAMILIES].member[i % KZ_ESCAPE_FAMILIES] \
+       : none)
   COLUMN(double, "family_barrier", families, OF_FAMILY(action, NAN));
   COLUMN(int32_t, "family_hits", families, OF_FAMILY(hits, 0));
   return KZ_OK;
@@ -50,7 +51,7 @@ static kz_status write_lives(const kz_escape_report *r, const kz_escape_life *li
   COLUMN(int32_t, "island", n, life[i].through);
   if (!r->scene->escape->everywhere) return KZ_OK;
   KZ_TRY(kz_store_dimension(store, "escape", "target", n, NULL));
-  KZ_FREED int64_t *into = kz_malloc((size_t)(n * n + 1) * sizeof *into);
+  KZ_AUTOFREE int64_t *into = kz_malloc((size_t)(n * n + 1) * sizeof *into);
   for (int64_t i = 0; i < n * n; i++)
     into[i] = i / n == i % n ? life[i / n].way : kz_escape_into(r, (int32_t)(i / n), (int32_t)(i % n));
   COLUMN(int32_t, "way_into", n *n, into[i]);
@@ -67,10 +68,10 @@ static void report_show(shown_paths *shown, int64_t route) {
 
 /* The points of a path, from where it leaves the cycle of its start to its end. */
 static void sample_path(const kz_escape_flow *flow, int64_t place, shown_paths *shown) {
-  static const double LEAVES = 1e-3; /* of the largest torque */
+  static const double LEAVES = 1e-3; /* share of the largest torque */
   const kz_escape_route *route = shown->of->route + shown->route[place];
   const double unit = 2 * flow->pendulum->beta, least = LEAVES * route->largest_torque;
-  KZ_FREED double (*sample)[4] = kz_malloc((size_t)flow->samples * sizeof *sample);
+  KZ_AUTOFREE double (*sample)[4] = kz_malloc((size_t)flow->samples * sizeof *sample);
   int64_t first = 0, last = route->least.n;
   while (first + 2 < last && unit * fabs(route->node[4 * first + 3]) < least) first++;
   while (last > first + 1 && unit * fabs(route->node[4 * last - 1]) < least) last--;
@@ -87,7 +88,7 @@ static void sample_path(const kz_escape_flow *flow, int64_t place, shown_paths *
 
 static kz_status write_paths(const kz_escape_report *r, const kz_escape_life *life, kz_store *store) {
   const int64_t n = r->attractors->count;
-  KZ_FREED int64_t *route = kz_malloc((size_t)(r->n + 1) * sizeof *route);
+  KZ_AUTOFREE int64_t *route = kz_malloc((size_t)(r->n + 1) * sizeof *route);
   shown_paths shown = {.of = r, .route = route};
   for (int64_t a = 0; a < n; a++) report_show(&shown, life[a].way);
   for (int64_t i = 0; r->scene->escape->everywhere && i < n * n; i++)
@@ -95,7 +96,7 @@ static kz_status write_paths(const kz_escape_report *r, const kz_escape_life *li
   kz_escape_flow flow = kz_escape_flow_of(&r->scene->parameters.pendulum);
   int64_t most = 0;
   for (int64_t i = 0; i < shown.count; i++) most += r->route[shown.route[i]].least.n * flow.samples;
-  KZ_FREED double (*point)[5] = kz_malloc((size_t)(most + 1) * sizeof *point);
+  KZ_AUTOFREE double (*point)[5] = kz_malloc((size_t)(most + 1) * sizeof *point);
   shown.point = point;
   for (int64_t i = 0; i < shown.count; i++) sample_path(&flow, i, &shown);
   kz_escape_flow_free(&flow);
@@ -111,7 +112,8 @@ static kz_status write_paths(const kz_escape_report *r, const kz_escape_life *li
 static void report_print(const kz_escape_report *r, const kz_escape_life *life, FILE *summary) {
   int64_t differ = 0, over = 0;
   fprintf(summary,
-          "Ways out: the least action that was found, int u^2 / (4 beta) dt of the torque u; a mean life grows as exp(action / "
+          "Ways out: the least action that was found, int u^2 / (4 beta) dt of the torque u; a mean life grows as "
+          "exp(action / "
           "T).\n");
   fprintf(summary, "  from  through saddle  into        action  largest torque   found  exponent of life\n");
   for (int64_t a = 0; a < r->attractors->count; a++) {
@@ -129,10 +131,11 @@ static void report_print(const kz_escape_report *r, const kz_escape_life *life, 
     over += r->task[i].is_gate && isinf(r->route[i].least.action);
   }
   if (differ > 0)
-    fprintf(summary,
-            "%lld of %lld searches found less than their mirror images did, which then have the lesser action: give more "
-            "escape.starts\n",
-            (long long)differ, (long long)r->n);
+    fprintf(
+        summary,
+        "%lld of %lld searches found less than their mirror images did, which then have the lesser action: give more "
+        "escape.starts\n",
+        (long long)differ, (long long)r->n);
   if (over > 0) fprintf(summary, "no path was found to %lld saddles on edges of basins\n", (long long)over);
   for (int64_t a = 0; a < r->attractors->count; a++)
     if (!(r->attractors->period[a] > 0))
@@ -140,7 +143,7 @@ static void report_print(const kz_escape_report *r, const kz_escape_life *life, 
 }
 
 kz_status kz_escape_write(const kz_escape_report *r, kz_store *store, FILE *summary) {
-  KZ_FREED kz_escape_life *life = kz_calloc((size_t)r->attractors->count + 1, sizeof *life);
+  KZ_AUTOFREE kz_escape_life *life = kz_calloc((size_t)r->attractors->count + 1, sizeof *life);
   kz_escape_pair(r);
   kz_escape_lives(r, life);
   report_print(r, life, summary);

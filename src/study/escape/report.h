@@ -1,4 +1,4 @@
-/* What the paths say of each attractor, and the group escape of the file. */
+/* Results of the paths of each attractor, and the group escape of the file. */
 #pragma once
 
 #include "gates.h"
@@ -21,7 +21,7 @@ typedef struct {
   kz_escape_route *route; /* [n] */
 } kz_escape_report;
 
-/* What is known of leaving one attractor. */
+/* Results on leaving one attractor. */
 typedef struct {
   int64_t way;     /* the least path through a gate; -1 = none */
   double life;     /* the exponent of the mean life: the least over gates, islands behind them included; INFINITY */

@@ -12,7 +12,7 @@
 typedef struct {
   int64_t period, winding;
   kz_path_end *end; /* [period] */
-  int64_t *turns;   /* [period] turns by which the angle on the line, counted from strobe 0, is more than that of the end */
+  int64_t *turns;   /* [period] turns from the angle of the end to the angle counted from strobe 0 */
   double *theta;    /* [period][samples] angle from each strobe on, as its end has it */
 } kz_escape_cycle;
 
@@ -27,8 +27,8 @@ typedef struct {
 kz_escape_flow kz_escape_flow_of(const kz_pendulum *pendulum);
 void kz_escape_flow_free(kz_escape_flow *flow);
 
-/* Finds the cycle near strobe points theta, velocity [period]; false where it is not an attractor, or a saddle. kz_escape_cycle_free in
- * every case. */
+/* Finds the cycle near strobe points theta, velocity [period]; false where it is not an attractor, or a saddle.
+ * kz_escape_cycle_free in every case. */
 bool kz_escape_cycle_find(const kz_escape_flow *flow, int64_t period, bool attracts, const double *theta,
                           const double *velocity, kz_escape_cycle *cycle);
 void kz_escape_cycle_free(kz_escape_cycle *cycle);
@@ -41,14 +41,14 @@ typedef struct {
   double action[KZ_ESCAPE_FAMILIES];
   int64_t hits[KZ_ESCAPE_FAMILIES];
   kz_path least;                    /* action INFINITY = none was found; its node is the one below */
-  double largest_torque;            /* of it */
+  double largest_torque;            /* largest torque of the path */
   int64_t phase;                    /* strobe of the first cycle where it begins; it ends at strobe 0 of the other */
-  double node[4 * KZ_ESCAPE_NODES]; /* of which least.n + 1 count */
+  double node[4 * KZ_ESCAPE_NODES]; /* nodes, the first least.n + 1 count */
 } kz_escape_route;
 
 /* Searches from `starts` starts of the minimiser, of which `seed` gives the places. */
-void kz_escape_search(const kz_escape_flow *flow, const kz_escape_cycle *from, const kz_escape_cycle *to, int64_t starts,
-                      uint64_t seed, kz_escape_route *route);
+void kz_escape_search(const kz_escape_flow *flow, const kz_escape_cycle *from, const kz_escape_cycle *to,
+                      int64_t starts, uint64_t seed, kz_escape_route *route);
 /* Polishes the least path again, with ends so near to the cycles that they change nothing. False where that fails. */
 bool kz_escape_finish(const kz_escape_flow *flow, const kz_escape_cycle *from, const kz_escape_cycle *to,
                       kz_escape_route *route);

@@ -8,12 +8,12 @@
 
 /* Periods of a path: fewest and most; more when its ends are finished. */
 enum { FEWEST = 24, MOST = 320 };
-/* Factor by which a path comes near its cycles in the search; distances (rad) at which a cycle is linear, and at which a finished path ends. */
+/* Factor of approach to cycles in the search; rad: distance where cycles are linear; distance at finished ends. */
 static const double APPROACH = 300, LINEAR = 0.05, FINISHED = 1e-7;
 /* Relative difference of actions of one family; those that are worth polishing, beside the least. */
 static const double SAME = 1e-6, WORTH = 1.5;
 
-/* Drive periods in which motions near the cycle change their distance by a factor e, at least; of a saddle in its stable plane. */
+/* Drive periods in which motions near the cycle, for a saddle in its stable plane, approach by a factor e. */
 static double search_slowest(const kz_escape_cycle *cycle) {
   const kz_path_end *end = cycle->end;
   const double determinant = fabs(end->own[0][0] * end->own[1][1] - end->own[0][1] * end->own[1][0]),
@@ -32,7 +32,8 @@ static kz_guess guess_of(const kz_escape_cycle *from, const kz_escape_cycle *to,
   for (int i = 0; i < 4; i++) u[i] = kz_path_random(seed, (uint64_t)(4 * start + i));
   const double leaves = search_slowest(from) * log(APPROACH), approaches = search_slowest(to) * log(APPROACH);
   kz_guess guess = {.periods = search_clamped(leaves + fmin(approaches, 0.5 * MOST), FEWEST, MOST)};
-  const double least = fmin(5, 0.2 * (double)guess.periods), most = fmin(fmax(45, approaches), 0.7 * (double)guess.periods);
+  const double least = fmin(5, 0.2 * (double)guess.periods),
+               most = fmin(fmax(45, approaches), 0.7 * (double)guess.periods);
   guess.phase = (int64_t)(u[0] * (double)from->period);
   guess.change = (double)guess.periods - (least + (most - least) * u[1]);
   guess.width = fmin(WIDTHS[(int)(5 * u[2])], 0.3 * (double)guess.periods);
@@ -77,19 +78,19 @@ static bool polish_to(const kz_escape_flow *flow, const kz_escape_cycle *from, c
   if (!kz_path_polish(flow->flow, from->end + phase, to->end, path)) return false;
   for (int side = 0; side < 2; side++) {
     const double periods = search_slowest(cycle[side]) * log(fmax(1, path->beyond[side] / distance));
-    more[side] =
-        periods > 0
-            ? search_clamped(periods, 0, (KZ_ESCAPE_NODES - 1 - path->n) / 2 - cycle[side]->period) / cycle[side]->period + 1
-            : 0;
+    more[side] = periods > 0 ? search_clamped(periods, 0, (KZ_ESCAPE_NODES - 1 - path->n) / 2 - cycle[side]->period) /
+                                       cycle[side]->period +
+                                   1
+                             : 0;
   }
   if (more[0] + more[1] == 0) return true;
   kz_path_lengthen(flow->flow, from->end + phase, to->end, more, path);
   return kz_path_polish(flow->flow, from->end + phase, to->end, path);
 }
 
-void kz_escape_search(const kz_escape_flow *flow, const kz_escape_cycle *from, const kz_escape_cycle *to, int64_t starts,
-                      uint64_t seed, kz_escape_route *route) {
-  KZ_FREED double *theta = kz_malloc(((size_t)MOST * (size_t)flow->samples + 1) * sizeof *theta);
+void kz_escape_search(const kz_escape_flow *flow, const kz_escape_cycle *from, const kz_escape_cycle *to,
+                      int64_t starts, uint64_t seed, kz_escape_route *route) {
+  KZ_AUTOFREE double *theta = kz_malloc(((size_t)MOST * (size_t)flow->samples + 1) * sizeof *theta);
   route->count = route->starts = 0;
   route->least = (kz_path){.action = INFINITY};
   for (int64_t i = 0; i < starts; i++) {
@@ -111,7 +112,7 @@ void kz_escape_search(const kz_escape_flow *flow, const kz_escape_cycle *from, c
 }
 
 static double largest_torque(const kz_escape_flow *flow, const kz_path *path) {
-  KZ_FREED double (*sample)[4] = kz_malloc((size_t)flow->samples * sizeof *sample);
+  KZ_AUTOFREE double (*sample)[4] = kz_malloc((size_t)flow->samples * sizeof *sample);
   double largest = 0;
   for (int64_t t = 0; t < path->n; t++) {
     kz_hamilton_sample(flow->flow, flow->samples, path->node + 4 * t, sample[0]);

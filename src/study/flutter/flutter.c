@@ -1,10 +1,11 @@
-/* Drives of a sine between which flutter attracts: the inverted state followed to stronger drives, with what branches off. */
+/* Drives of a sine between which flutter attracts: the inverted state and its daughters, followed to stronger
+ * drives. */
 #include <math.h>
 
 #include "kapitza/study_flutter.h"
 #include "sweep/sweep.h"
 
-/* Strongest drive m to which the inverted state is followed, and the longest cycle that may branch off, in drive periods. */
+/* Strongest drive m for the inverted state; longest daughter cycle, drive periods. */
 static const double TOP = 2;
 enum { LONGEST = 2 };
 

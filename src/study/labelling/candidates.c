@@ -20,11 +20,12 @@ static void step_aside(int64_t n, const double *state, double places, double *be
 }
 
 /* Looks ever farther beside n starts until each has another end. */
-static void find_others(kz_dynamics *dynamics, int64_t max_periods, int64_t n, const kz_start *start, kz_decision *decision) {
-  KZ_FREED double *state = kz_malloc(10 * (size_t)n * sizeof *state);
+static void find_others(kz_dynamics *dynamics, int64_t max_periods, int64_t n, const kz_start *start,
+                        kz_decision *decision) {
+  KZ_AUTOFREE double *state = kz_malloc(10 * (size_t)n * sizeof *state);
   double *end = state + 2 * n;
-  KZ_FREED int32_t *found = kz_malloc(4 * (size_t)n * sizeof *found);
-  KZ_FREED int64_t *late = kz_malloc(5 * (size_t)n * sizeof *late);
+  KZ_AUTOFREE int32_t *found = kz_malloc(4 * (size_t)n * sizeof *found);
+  KZ_AUTOFREE int64_t *late = kz_malloc(5 * (size_t)n * sizeof *late);
   int64_t *open = late + 4 * n;
   int64_t left = n;
   kz_states_of(n, start, state);
@@ -49,10 +50,10 @@ void kz_states_of(int64_t n, const kz_start *start, double *state) {
   for (int64_t i = 0; i < n; i++) kz_start_state(start[i].theta[0], start[i].velocity[0], state + 2 * i);
 }
 
-void kz_decide_by_states(kz_dynamics *dynamics, kz_stepper stepper, int64_t max_periods, int64_t n, const kz_start *start,
-                         double *state, kz_decision *decision) {
-  KZ_FREED int32_t *label = kz_malloc((size_t)n * sizeof *label);
-  KZ_FREED int64_t *periods = kz_malloc(2 * (size_t)n * sizeof *periods);
+void kz_decide_by_states(kz_dynamics *dynamics, kz_stepper stepper, int64_t max_periods, int64_t n,
+                         const kz_start *start, double *state, kz_decision *decision) {
+  KZ_AUTOFREE int32_t *label = kz_malloc((size_t)n * sizeof *label);
+  KZ_AUTOFREE int64_t *periods = kz_malloc(2 * (size_t)n * sizeof *periods);
   int64_t *turns = periods + n;
   kz_dynamics_follow(dynamics, stepper, n, max_periods, state, label, periods, turns);
   for (int64_t i = 0; i < n; i++) {
@@ -72,7 +73,7 @@ void kz_decide_by_states(kz_dynamics *dynamics, kz_stepper stepper, int64_t max_
 static void follow_in_quads(kz_dynamics *dynamics, int64_t max_periods, int64_t n, const kz_start *start,
                             kz_decision *decision) {
   const kz_label_precision quads = {.level = KZ_LEVEL_QUAD, .series_steps = KZ_REFERENCE_STEPS};
-  KZ_FREED kz_start *exact = memcpy(kz_malloc((size_t)n * sizeof *exact), start, (size_t)n * sizeof *exact);
+  KZ_AUTOFREE kz_start *exact = memcpy(kz_malloc((size_t)n * sizeof *exact), start, (size_t)n * sizeof *exact);
   for (int64_t i = 0; i < n; i++) memset(exact[i].error, 0, sizeof exact[i].error);
   kz_dynamics_label(dynamics, &quads, n, exact, max_periods, decision);
   for (int64_t i = 0; i < n; i++) decision[i].decided = false;
@@ -88,7 +89,7 @@ void kz_candidates_find(kz_dynamics *dynamics, int64_t max_periods, kz_open open
     follow_in_quads(dynamics, max_periods, n, start, decision);
     return;
   }
-  KZ_FREED double *state = kz_malloc(2 * (size_t)n * sizeof *state);
+  KZ_AUTOFREE double *state = kz_malloc(2 * (size_t)n * sizeof *state);
   kz_states_of(n, start, state);
   kz_decide_by_states(dynamics, KZ_FOLLOW_DIRECT, max_periods, n, start, state, decision);
   if (open == KZ_OPEN_CANDIDATES) find_others(dynamics, max_periods, n, start, decision);

@@ -28,7 +28,7 @@ static void catalogue_fill(kz_entry *entry, const kz_dynamics *dynamics, int64_t
 
 void kz_catalogue_make(const kz_dynamics *dynamics, const int64_t *reached, kz_catalogue *catalogue) {
   int64_t known = kz_dynamics_count(dynamics);
-  KZ_FREED int64_t *order = kz_calloc((size_t)known + 1, sizeof *order);
+  KZ_AUTOFREE int64_t *order = kz_calloc((size_t)known + 1, sizeof *order);
   *catalogue = (kz_catalogue){.entries = kz_calloc((size_t)known + 1, sizeof(kz_entry)),
                               .id_of = kz_calloc((size_t)known + 1, sizeof(int32_t))};
   kz_dynamics_order(dynamics, order);
@@ -57,7 +57,7 @@ int64_t kz_catalogue_longest(const kz_catalogue *catalogue) {
 
 #define COLUMN(type, name, expression) KZ_COLUMN(store, group, name, catalogue->count, type, expression)
 
-/* Columns of several values for each attractor; what has no meaning is NaN: places beyond its period, multipliers of chaos. */
+/* Columns of several values an attractor; NaN where undefined: beyond its period, multipliers of chaos. */
 static kz_status write_matrices(const kz_catalogue *catalogue, int64_t phases, const char *group, kz_store *store) {
   const kz_entry *e = catalogue->entries;
   const int64_t n = catalogue->count;
@@ -73,7 +73,8 @@ static kz_status write_matrices(const kz_catalogue *catalogue, int64_t phases, c
   return KZ_OK;
 }
 
-kz_status kz_catalogue_write_motions(const kz_catalogue *catalogue, const char *group, const char *dimension, kz_store *store) {
+kz_status kz_catalogue_write_motions(const kz_catalogue *catalogue, const char *group, const char *dimension,
+                                     kz_store *store) {
   const kz_entry *e = catalogue->entries;
   const int64_t phases = kz_catalogue_longest(catalogue);
   KZ_TRY(kz_store_dimension(store, group, dimension, catalogue->count, NULL));
@@ -109,8 +110,8 @@ double *kz_nan_filled(int64_t n) {
 static kz_status lines_of(const kz_entry *entry, const kz_flow *flow, int64_t lines, double *amplitude, double *phase,
                           int32_t *dominant) {
   int64_t n = entry->row.period, samples = n * SAMPLES, most = samples / 2 < lines ? samples / 2 : lines;
-  KZ_FREED double *theta = kz_malloc((size_t)(samples + 1) * sizeof *theta),
-                  *velocity = kz_malloc((size_t)(samples + 1) * sizeof *velocity);
+  KZ_AUTOFREE double *theta = kz_malloc((size_t)(samples + 1) * sizeof *theta),
+                     *velocity = kz_malloc((size_t)(samples + 1) * sizeof *velocity);
   const kz_record record = {.periods = n,
                             .samples_per_period = SAMPLES,
                             .rotation = (double)entry->row.winding / (double)n,
@@ -123,13 +124,14 @@ static kz_status lines_of(const kz_entry *entry, const kz_flow *flow, int64_t li
 }
 
 /* The lines of every closed orbit. */
-static kz_status write_spectra(const kz_catalogue *catalogue, const kz_pendulum *pendulum, int64_t lines, kz_store *store) {
+static kz_status write_spectra(const kz_catalogue *catalogue, const kz_pendulum *pendulum, int64_t lines,
+                               kz_store *store) {
   const int64_t n = catalogue->count;
-  KZ_FREED double *amplitude = kz_nan_filled(n * lines), *phase = kz_nan_filled(n * lines);
-  KZ_FREED int32_t *dominant = kz_calloc((size_t)n + 1, sizeof *dominant);
+  KZ_AUTOFREE double *amplitude = kz_nan_filled(n * lines), *phase = kz_nan_filled(n * lines);
+  KZ_AUTOFREE int32_t *dominant = kz_calloc((size_t)n + 1, sizeof *dominant);
   kz_numerics fine;
   kz_numerics_fine(pendulum, &fine);
-  KZ_FREED_BY(kz_flow_freed) kz_flow *flow = kz_flow_create(pendulum, &fine);
+  KZ_AUTOFREE_BY(kz_flow_freed) kz_flow *flow = kz_flow_create(pendulum, &fine);
   for (int64_t i = 0; i < n; i++)
     if (catalogue->entries[i].row.period > 0)
       KZ_TRY(lines_of(catalogue->entries + i, flow, lines, amplitude + i * lines, phase + i * lines, dominant + i));
@@ -138,7 +140,8 @@ static kz_status write_spectra(const kz_catalogue *catalogue, const kz_pendulum 
   return kz_store_variable(store, "attractors", "dominant_line", dominant);
 }
 
-kz_status kz_catalogue_write(const kz_catalogue *catalogue, const kz_pendulum *pendulum, bool with_fraction, kz_store *store) {
+kz_status kz_catalogue_write(const kz_catalogue *catalogue, const kz_pendulum *pendulum, bool with_fraction,
+                             kz_store *store) {
   const int64_t lines = LINES_PER_PERIOD * kz_catalogue_longest(catalogue) + 1;
   KZ_TRY(kz_catalogue_write_motions(catalogue, "attractors", "attractor", store));
   KZ_TRY(kz_store_dimension(store, "attractors", "line", lines, NULL));
@@ -149,12 +152,13 @@ kz_status kz_catalogue_write(const kz_catalogue *catalogue, const kz_pendulum *p
 enum { COLUMNS = 6, CELL_BYTES = 24 };
 typedef char table_row[COLUMNS][CELL_BYTES];
 
-/* What is said of an attractor beside its id and name. */
+/* Fills the row of an attractor, beside its id and name. */
 static void fill_row(const kz_entry *e, table_row row) {
   snprintf(row[0], CELL_BYTES, "%d", e->row.period);
   snprintf(row[1], CELL_BYTES, kz_is_running(&e->row) ? "-" : "%d", e->row.winding);
   snprintf(row[2], CELL_BYTES, isnan(e->row.amplitude) ? "-" : "%.2f deg", e->row.amplitude * 180 / M_PI);
-  snprintf(row[3], CELL_BYTES, e->row.period == 0 ? "-" : "%.6f", hypot(e->row.multiplier_re[0], e->row.multiplier_im[0]));
+  snprintf(row[3], CELL_BYTES, e->row.period == 0 ? "-" : "%.6f",
+           hypot(e->row.multiplier_re[0], e->row.multiplier_im[0]));
   snprintf(row[4], CELL_BYTES, "%.5f", e->row.lyapunov);
   snprintf(row[5], CELL_BYTES, "%.3f %%", 100 * e->fraction);
 }
@@ -171,14 +175,15 @@ static void print_open(const kz_catalogue *catalogue, const kz_parameters *param
   }
 }
 
-void kz_catalogue_print(const kz_catalogue *catalogue, const kz_parameters *parameters, bool with_fraction, FILE *summary) {
+void kz_catalogue_print(const kz_catalogue *catalogue, const kz_parameters *parameters, bool with_fraction,
+                        FILE *summary) {
   static const char *const titles[COLUMNS] = {"period", "winding", "amplitude", "multiplier", "exponent", "share"};
   static const int widths[COLUMNS] = {6, 7, 9, 10, 8, 8};
   const int64_t n = catalogue->count;
   const int columns = with_fraction ? COLUMNS : COLUMNS - 1;
   bool differs[COLUMNS] = {false};
   if (n == 0) return;
-  KZ_FREED table_row *rows = kz_malloc((size_t)n * sizeof *rows);
+  KZ_AUTOFREE table_row *rows = kz_malloc((size_t)n * sizeof *rows);
   for (int64_t i = 0; i < n; i++) {
     fill_row(catalogue->entries + i, rows[i]);
     for (int c = 0; c < columns; c++) differs[c] = differs[c] || n == 1 || strcmp(rows[i][c], rows[0][c]) != 0;

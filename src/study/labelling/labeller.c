@@ -37,28 +37,29 @@ static kz_status starts_of(const kz_labeller *l, kz_precision level, int64_t n, 
 }
 
 kz_status kz_item_states(const kz_labeller *l, int64_t n, const int64_t *item, double *state, int64_t *periods) {
-  KZ_FREED kz_start *start = kz_malloc((size_t)n * sizeof *start + 1);
+  KZ_AUTOFREE kz_start *start = kz_malloc((size_t)n * sizeof *start + 1);
   KZ_TRY(starts_of(l, KZ_LEVEL_DOUBLE, n, item, 0, start));
   kz_states_of(n, start, state);
   for (int64_t i = 0; periods && i < n; i++) periods[i] = start[i].periods;
   return KZ_OK;
 }
 
-/* What labels the items that are left: a level of dynamics, an added one, what gives undecided items their labels, or nothing. */
+/* The labelling of the remaining items: a dynamics level, an added one, the rule for undecided ones, or none. */
 typedef struct {
   enum { LEVEL, ADDED, UNDECIDED, NOTHING } kind;
-  int32_t row; /* of the table of levels */
+  int32_t row; /* row of the table of levels */
 } decider;
 
 static decider first_decider(const kz_labeller *l) {
   return (decider){l->way == KZ_BY_ADDED ? ADDED : LEVEL, 0};
 }
 
-/* What follows if `pending` items are left. A few items go to quad precision at once, because they take less time there than the tables of the pairs
- * of doubles. */
+/* Chooses the step for `pending` items. A few items go to quad precision at once, because they take less time there
+ * than the tables of the pairs of doubles. */
 static decider next_decider(const kz_labeller *l, decider by, int64_t pending) {
   const int32_t row = by.kind == ADDED ? by.row + 1 : 0;
-  if (pending == 0 || by.kind == UNDECIDED || l->way == KZ_BY_STATES || l->way == KZ_BY_MARKS) return (decider){NOTHING, 0};
+  if (pending == 0 || by.kind == UNDECIDED || l->way == KZ_BY_STATES || l->way == KZ_BY_MARKS)
+    return (decider){NOTHING, 0};
   if (by.kind == LEVEL && by.row < KZ_LEVEL_QUAD)
     return (decider){LEVEL, by.row >= KZ_LEVEL_FINE && pending <= FEW ? KZ_LEVEL_QUAD : by.row + 1};
   if (l->added && row < l->added->n) return (decider){ADDED, row};
@@ -77,7 +78,8 @@ static bool may_decide(const kz_labeller *l, decider by, const kz_label *label) 
 }
 
 static uint8_t evidence_of(const kz_labeller *l, decider by, const kz_decision *decision) {
-  if (decision->end.label > 0 && l->dynamics && kz_dynamics_is_averaged(l->dynamics, decision->end.label)) return KZ_AVERAGED;
+  if (decision->end.label > 0 && l->dynamics && kz_dynamics_is_averaged(l->dynamics, decision->end.label))
+    return KZ_AVERAGED;
   return l->way == KZ_BY_MARKS && !decision->decided ? KZ_LEFT : row_of(l, by)->evidence;
 }
 
@@ -92,7 +94,7 @@ typedef struct {
 /* By the states alone. */
 static kz_status follow_states(const batch *b, int64_t first, int64_t n, kz_start *start, kz_decision *decision) {
   const kz_labeller *l = b->labeller;
-  KZ_FREED double *state = kz_malloc(2 * (size_t)n * sizeof *state);
+  KZ_AUTOFREE double *state = kz_malloc(2 * (size_t)n * sizeof *state);
   if (!l->state) KZ_TRY(starts_of(l, KZ_LEVEL_DOUBLE, n, b->item, first, start));
   if (!l->state) kz_states_of(n, start, state);
   for (int64_t i = 0; l->state && i < n; i++)
@@ -120,8 +122,8 @@ static kz_status labeller_decide(const batch *b, int64_t first, int64_t n, kz_st
 static kz_status label_items(const batch *b, int64_t first, int64_t n, kz_label *label) {
   const kz_labeller *l = b->labeller;
   const int64_t most = kz_smaller(n, l->tile > 0 ? kz_smaller(l->tile, BATCH) : BATCH);
-  KZ_FREED kz_start *start = kz_malloc((size_t)most * sizeof *start + 1);
-  KZ_FREED kz_decision *decision = kz_malloc((size_t)most * sizeof *decision + 1);
+  KZ_AUTOFREE kz_start *start = kz_malloc((size_t)most * sizeof *start + 1);
+  KZ_AUTOFREE kz_decision *decision = kz_malloc((size_t)most * sizeof *decision + 1);
   for (int64_t done = 0; done < n; done += most) {
     const int64_t part = kz_smaller(n - done, most);
     if (l->run) KZ_TRY(kz_ranks_interrupted(l->run->ranks));
@@ -151,12 +153,13 @@ static kz_stage stage_of(batch *b, int round, int64_t n, char name[32]) {
   return kz_stage_of_items(name, n, tile, (size_t)tile * sizeof(kz_label), label_tile, b);
 }
 
-/* Labels n items from a decider on, until each is decided or none is left; label [n].next: the first level that may decide each. The places of
- * items that are still doubtful move to the front. */
-static kz_status labeller_climb(const kz_labeller *l, decider by, int round, int64_t n, const int64_t *item, kz_label *label) {
-  KZ_FREED int64_t *place = kz_malloc(2 * (size_t)n * sizeof *place + 1);
+/* Labels n items from a decider on, until each is decided or none is left; label [n].next: the first level that may
+ * decide each. The places of items that are still doubtful move to the front. */
+static kz_status labeller_climb(const kz_labeller *l, decider by, int round, int64_t n, const int64_t *item,
+                                kz_label *label) {
+  KZ_AUTOFREE int64_t *place = kz_malloc(2 * (size_t)n * sizeof *place + 1);
   int64_t *now = place + n;
-  KZ_FREED kz_label *found = NULL;
+  KZ_AUTOFREE kz_label *found = NULL;
   batch b = {.labeller = l, .by = by, .before = KZ_LEVEL_DOUBLE, .item = now};
   char name[32];
   for (int64_t i = 0; i < n; i++) place[i] = i;

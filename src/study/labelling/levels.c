@@ -22,7 +22,8 @@ const char *kz_evidence_word(uint8_t evidence) {
   return NULL;
 }
 
-void kz_decide_in_doubles(kz_dynamics *dynamics, const kz_start *start, int64_t max_periods, bool look, kz_decision *decision) {
+void kz_decide_in_doubles(kz_dynamics *dynamics, const kz_start *start, int64_t max_periods, bool look,
+                          kz_decision *decision) {
   const kz_label_precision precision[] = {{.level = KZ_LEVEL_DOUBLE}, {.level = KZ_LEVEL_FINE}, {.guess = true}};
   for (int i = 0; i < (look ? 3 : 2); i++) {
     kz_dynamics_label(dynamics, precision + i, 1, start, max_periods, decision);

@@ -18,7 +18,8 @@ static kz_status read_lengths(kz_store *store, const char *group, const char *di
   return kz_store_length(store, group, "phase", &m->phases);
 }
 
-kz_status kz_listed_read(const kz_run *run, kz_store *store, const char *group, const char *dimension, kz_listed *motions) {
+kz_status kz_listed_read(const kz_run *run, kz_store *store, const char *group, const char *dimension,
+                         kz_listed *motions) {
   kz_listed m = {0};
   *motions = m;
   KZ_TRY(kz_ranks_agree(run->ranks, store ? read_lengths(store, group, dimension, &m) : KZ_OK));
@@ -49,7 +50,7 @@ static bool is_listed(const kz_dynamics *dynamics, int64_t number, const kz_list
   if (attractor.period == 0) return fabs(attractor.lyapunov - list->lyapunov[row]) < SAME;
   const size_t period = (size_t)attractor.period;
   const double first[] = {list->theta[row * list->phases], list->velocity[row * list->phases]};
-  KZ_FREED double *theta = kz_malloc(period * sizeof *theta), *velocity = kz_malloc(period * sizeof *velocity);
+  KZ_AUTOFREE double *theta = kz_malloc(period * sizeof *theta), *velocity = kz_malloc(period * sizeof *velocity);
   kz_dynamics_strobe(dynamics, number, theta, velocity);
   for (size_t i = 0; i < period; i++)
     if (hypot(remainder(theta[i] - first[0], 2 * M_PI), velocity[i] - first[1]) < SAME) return true;
@@ -58,10 +59,10 @@ static bool is_listed(const kz_dynamics *dynamics, int64_t number, const kz_list
 
 void kz_listed_match(const kz_dynamics *dynamics, const kz_listed *list, int32_t *id) {
   const int64_t n = kz_dynamics_count(dynamics);
-  KZ_FREED int64_t *order = kz_malloc((size_t)(n + 1) * sizeof *order);
+  KZ_AUTOFREE int64_t *order = kz_malloc((size_t)(n + 1) * sizeof *order);
   kz_dynamics_order(dynamics, order);
   for (int64_t i = 0; i <= n; i++) id[i] = -1;
-  for (int64_t row = 0; row < list->count; row++) { /* both lists have one order, which distinguishes chaotic mirror images */
+  for (int64_t row = 0; row < list->count; row++) { /* in one order, which tells chaotic mirror images apart */
     int64_t i = 0;
     while (i < n && (id[order[i]] >= 0 || !is_listed(dynamics, order[i], list, row))) i++;
     if (i < n) id[order[i]] = (int32_t)row;

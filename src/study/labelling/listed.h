@@ -1,4 +1,4 @@
-/* The motions that an earlier study has written to the group attractors or saddles of the file, read back on every rank. */
+/* Motions that an earlier study wrote to the group attractors or saddles, read back on every rank. */
 #pragma once
 
 #include "kapitza/dynamics.h"
@@ -13,8 +13,9 @@ typedef struct {
   double *lyapunov;         /* [count], of attractors only */
 } kz_listed;
 
-/* Reads them; `dimension` of the group: attractor or saddle. store NULL on all ranks but rank 0. Collective. kz_listed_free in every case. */
-kz_status kz_listed_read(const kz_run *run, kz_store *store, const char *group, const char *dimension, kz_listed *motions);
+/* Reads them; `dimension`: attractor or saddle; store NULL except on rank 0. Collective. kz_listed_free in any case. */
+kz_status kz_listed_read(const kz_run *run, kz_store *store, const char *group, const char *dimension,
+                         kz_listed *motions);
 void kz_listed_free(kz_listed *motions);
-/* Gives each attractor of `dynamics` its place in a list of attractors: id [count + 1], from number 1 on; -1 = it is not there. */
+/* Matches attractors of `dynamics` with a list: id [count + 1], from number 1 on; -1 = not in the list. */
 void kz_listed_match(const kz_dynamics *dynamics, const kz_listed *list, int32_t *id);

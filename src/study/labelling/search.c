@@ -1,5 +1,5 @@
-/* Rounds of: follow the pending starts directly, look for cycles among those that nothing traps yet. What is left at the end is
- * chaotic, or has not settled. */
+/* Rounds of: follow the pending starts directly, look for cycles among those that nothing traps yet. What is left at
+ * the end is chaotic, or has not settled. */
 #include "search.h"
 
 #include <math.h>
@@ -11,18 +11,18 @@
 
 enum {
   FIRST_LENGTH = 128,   /* periods of the first round; a round that finds nothing doubles it */
-  FIRST_OF_CYCLES = 32, /* the same where cycles alone are looked for, which costs little */
+  FIRST_OF_CYCLES = 32, /* first round if only cycles are sought, which is cheap */
   TILE = 256,           /* starts per tile */
   CHUNK = 64,           /* states per search, at most what kz_dynamics_find_cycle takes */
   PILOT_STARTS = 512,   /* starts that are followed before regions grow */
-  WORTH_CELLS = 4096,   /* that are to be labelled, or starts: for fewer, regions do not grow */
+  WORTH_CELLS = 4096,   /* least number of cells or starts for which regions pay */
   MANY_CELLS = 40000,
-  FEW_CELLS = 96, /* of the regions' grid along an axis, where few are to be labelled: in coarser ones hardly anything grows */
-  FEWEST_CELLS = 200, /* the same where many are */
+  FEW_CELLS = 96,     /* least regions' grid along an axis for few cells: coarser ones hardly grow */
+  FEWEST_CELLS = 200, /* least regions' grid for many cells */
   MOST_CELLS = 500,   /* finer ones trap hardly more */
   STRETCH = 1024,     /* periods of a tile at least */
-  STRETCHES = 64,     /* of a round, about */
-  TABLE_ROWS = 4,     /* of a map table, per tile */
+  STRETCHES = 64,     /* tiles of a round, about */
+  TABLE_ROWS = 4,     /* rows of a map table per tile */
   COVER_TRIES = 4,
   MOST_SOUGHT = 1024,  /* starts that a round looks for cycles from */
   RUNNING_STARTS = 16, /* among which a running state is looked for */
@@ -38,7 +38,7 @@ typedef struct {
   double *state;                /* [all] */
   int32_t *label;               /* [all] */
   int64_t all, sought;          /* how many of the pending ones a round looks for cycles from */
-  int64_t age;                  /* periods through which the pending ones have been followed; INT64_MAX in the last round */
+  int64_t age;                  /* periods followed by pending ones; INT64_MAX in the last round */
   bool cycles_alone;            /* nothing else is looked for */
 } following;
 
@@ -63,14 +63,14 @@ static void list_pending(following *f) {
     if (f->label[i] == 0) f->pending[f->n++] = i;
 }
 
-/* Follows the pending starts; those that are trapped get their label. In stretches: finished ones are kept, and a stop request ends the search
- * between two of them. */
+/* Follows the pending starts; those that are trapped get their label. In stretches: finished ones are kept, and a stop
+ * request ends the search between two of them. */
 static kz_status follow_pending(const kz_run *run, following *f, int64_t periods) {
   const int64_t stretch = kz_larger(periods / STRETCHES, STRETCH);
   for (int64_t done = 0; done < periods && f->n > 0; done += f->periods) {
     f->periods = kz_smaller(periods - done, stretch);
     const kz_stage stage = kz_stage_of_items("attractors", f->n, TILE, sizeof(followed), follow_starts, f);
-    KZ_FREED followed *records = kz_malloc((size_t)stage.n_tiles * sizeof(followed) + 1);
+    KZ_AUTOFREE followed *records = kz_malloc((size_t)stage.n_tiles * sizeof(followed) + 1);
     KZ_TRY(kz_stage_run(run, &stage, records));
     for (int64_t i = 0; i < f->n; i++) {
       const followed *record = records + i / TILE;
@@ -86,7 +86,7 @@ typedef struct {
   kz_dynamics *dynamics;
   enum { CYCLE, RUNNING, CHAOS } kind;
   int64_t n, age;          /* states; periods after their starts */
-  double state[2 * CHUNK]; /* of the starts; of chaos the first alone counts */
+  double state[2 * CHUNK]; /* states of the starts; for chaos only the first */
   double closeness;        /* rad; of cycles */
   double *found;           /* [size] what was found before, then what is found */
   int64_t size;
@@ -118,7 +118,7 @@ static kz_status search_seek(const kz_run *run, seeking *s, double *record) {
 /* Looks for cycles among the first pending starts. */
 static kz_status find_cycles(const kz_run *run, const following *f, double closeness) {
   seeking s = {.dynamics = f->dynamics, .closeness = closeness, .size = kz_dynamics_cycle_size(f->dynamics)};
-  KZ_FREED double *found = s.found = kz_calloc(2 * (size_t)s.size, sizeof(double)); /* and behind it a record of the stage */
+  KZ_AUTOFREE double *found = s.found = kz_calloc(2 * (size_t)s.size, sizeof(double)); /* states, then a record */
   for (int64_t first = 0; first < f->n && first < f->sought; first += CHUNK) {
     s.n = f->n - first < CHUNK ? f->n - first : CHUNK;
     for (int64_t i = 0; i < s.n; i++) memcpy(s.state + 2 * i, f->state + 2 * f->pending[first + i], 2 * sizeof(double));
@@ -128,11 +128,11 @@ static kz_status find_cycles(const kz_run *run, const following *f, double close
   return KZ_OK;
 }
 
-/* Starts that end on no cycle: attractors with covers are found one by one, a chaotic one from one pending start, a running state among
- * some of them. */
+/* Starts that end on no cycle: attractors with covers are found one by one, a chaotic one from one pending start, a
+ * running state among some of them. */
 static kz_status find_covered(const kz_run *run, following *f, int kind) {
   seeking s = {.dynamics = f->dynamics, .kind = kind, .age = f->age, .size = kz_dynamics_chaos_size()};
-  KZ_FREED double *found = s.found = kz_calloc(2 * (size_t)s.size, sizeof(double));
+  KZ_AUTOFREE double *found = s.found = kz_calloc(2 * (size_t)s.size, sizeof(double));
   for (int attempt = 0; attempt < COVER_TRIES && f->n > 0 && !f->cycles_alone; attempt++) {
     const int64_t known = kz_dynamics_count(f->dynamics);
     s.n = kind == CHAOS ? 1 : kz_smaller(f->n, RUNNING_STARTS);
@@ -170,10 +170,10 @@ static kz_status search_on(const kz_run *run, following *f, int64_t max_periods)
   return find_covered(run, f, CHAOS);
 }
 
-kz_status kz_discover(const kz_run *run, kz_dynamics *dynamics, int64_t sought, int64_t max_periods, int64_t n, double *state,
-                      int32_t *label) {
-  KZ_FREED int32_t *own = kz_calloc((size_t)n + 1, sizeof *own);
-  KZ_FREED int64_t *pending = kz_malloc((size_t)(n + 1) * sizeof *pending);
+kz_status kz_discover(const kz_run *run, kz_dynamics *dynamics, int64_t sought, int64_t max_periods, int64_t n,
+                      double *state, int32_t *label) {
+  KZ_AUTOFREE int32_t *own = kz_calloc((size_t)n + 1, sizeof *own);
+  KZ_AUTOFREE int64_t *pending = kz_malloc((size_t)(n + 1) * sizeof *pending);
   following f = {.dynamics = dynamics,
                  .all = n,
                  .sought = sought > 0 ? sought : MOST_SOUGHT,
@@ -215,25 +215,27 @@ kz_status kz_map_table_make(const kz_run *run, kz_dynamics *dynamics, int64_t n_
   kz_dynamics_table_create(dynamics, n_theta, n_velocity, max_velocity);
   const size_t bytes = TABLE_ROWS * (size_t)kz_dynamics_table_row_size(dynamics) * sizeof(double);
   kz_stage stage = kz_stage_of_items("map table", n_velocity, TABLE_ROWS, bytes, table_rows, dynamics);
-  KZ_FREED double *rows = kz_malloc((size_t)stage.n_tiles * stage.record_bytes);
+  KZ_AUTOFREE double *rows = kz_malloc((size_t)stage.n_tiles * stage.record_bytes);
   kz_status status = kz_stage_run(run, &stage, rows);
   if (status == KZ_OK) kz_dynamics_table_set(dynamics, rows);
   return status;
 }
 
 kz_status kz_search_window(const kz_run *run, kz_dynamics *dynamics, const kz_search *search, int32_t *label) {
-  const double speed = search->max_velocity > 0 ? search->max_velocity : kz_dynamics_max_velocity(dynamics, &search->window);
+  const double speed =
+      search->max_velocity > 0 ? search->max_velocity : kz_dynamics_max_velocity(dynamics, &search->window);
   const int64_t labelled = kz_larger(search->cells, search->starts);
   const bool grows = kz_regions_cells(labelled) > 0 && search->starts > PILOT_STARTS;
   const int64_t pilots = grows ? PILOT_STARTS : search->starts, rest = search->starts - pilots;
-  KZ_FREED double *state = kz_malloc(2 * (size_t)search->starts * sizeof *state);
-  KZ_FREED int32_t *own = kz_malloc((size_t)search->starts * sizeof *own);
+  KZ_AUTOFREE double *state = kz_malloc(2 * (size_t)search->starts * sizeof *state);
+  KZ_AUTOFREE int32_t *own = kz_malloc((size_t)search->starts * sizeof *own);
   if (!label) label = own;
   kz_dynamics_starts(&search->window, search->seed, search->starts, state);
   kz_dynamics_coarse_regions(dynamics, speed);
   KZ_TRY(kz_discover(run, dynamics, search->sought, search->max_periods, pilots, state, label));
   kz_regions_grow(dynamics, labelled, speed);
-  if (search->table_theta > 0) KZ_TRY(kz_map_table_make(run, dynamics, search->table_theta, search->table_velocity, speed));
+  if (search->table_theta > 0)
+    KZ_TRY(kz_map_table_make(run, dynamics, search->table_theta, search->table_velocity, speed));
   if (rest == 0) return KZ_OK;
   return kz_discover(run, dynamics, search->sought, search->max_periods, rest, state + 2 * pilots, label + pilots);
 }

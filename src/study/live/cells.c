@@ -23,8 +23,8 @@ static void add_late(kz_travellers *late, int64_t number, int64_t spent, const d
   memcpy(late->state + 2 * late->n++, state, 2 * sizeof *state);
 }
 
-/* As method direct labels them, for so many periods. What then goes on joins `late`, or has not settled if that is NULL. Late cells
- * of a weakly damped pendulum, which take hundreds of periods, are followed in a cheaper way. */
+/* As method direct labels them, for so many periods. What then goes on joins `late`, or has not settled if that is
+ * NULL. Late cells of a weakly damped pendulum, which take hundreds of periods, are followed in a cheaper way. */
 static void cells_follow(kz_prepared *r, int64_t most, kz_travellers *from, kz_travellers *late, kz_frame_cell *cells) {
   int32_t label[2 * KZ_FRAME_TILE];
   int64_t periods[2 * KZ_FRAME_TILE];
@@ -38,7 +38,8 @@ static void cells_follow(kz_prepared *r, int64_t most, kz_travellers *from, kz_t
       add_late(late, number, spent, state + 2 * i);
       continue;
     }
-    cells[number].end = (kz_label){.label = (int16_t)label[i], .periods = spent, .evidence = KZ_LEFT, .turns = KZ_NO_TURNS};
+    cells[number].end =
+        (kz_label){.label = (int16_t)label[i], .periods = spent, .evidence = KZ_LEFT, .turns = KZ_NO_TURNS};
     r->ended++;
     r->left += label[i] == 0;
     if (label[i] == 0 && r->n_unsettled < KZ_MOST_UNSETTLED)
@@ -63,7 +64,7 @@ static void follow_moving(kz_prepared *r, kz_travellers *from, kz_travellers *la
 
 /* Cells that are decided, with what smooth settling times need of them. */
 typedef struct {
-  kz_labeller labeller; /* of the cells of the frame */
+  kz_labeller labeller; /* labeller of the frame's cells */
   const int64_t *number;
   int32_t label[KZ_FRAME_TILE]; /* 0: where the cell was left is not known */
   double state[2 * KZ_FRAME_TILE], time[KZ_FRAME_TILE];
@@ -86,7 +87,7 @@ static void cells_note(void *context, int64_t i, const kz_decision *decision) {
 /* As method exact labels them. */
 static kz_status cells_decide(const kz_prepared *r, const kz_window_starts *starts, int64_t n, const int64_t *number,
                               kz_frame_cell *cells) {
-  KZ_FREED deciding *d = kz_malloc(sizeof *d);
+  KZ_AUTOFREE deciding *d = kz_malloc(sizeof *d);
   kz_label label[KZ_FRAME_TILE];
   d->labeller = kz_window_labeller(starts, false);
   d->number = number;
@@ -104,7 +105,7 @@ static kz_status cells_decide(const kz_prepared *r, const kz_window_starts *star
 kz_status kz_cells_follow(kz_prepared *prepared, const kz_window_starts *starts, int64_t n, const int64_t *number,
                           kz_travellers *late, kz_frame_cell *cells) {
   if (!kz_prepared_moves(prepared)) return cells_decide(prepared, starts, n, number, cells);
-  KZ_FREED kz_travellers *from = kz_malloc(sizeof *from);
+  KZ_AUTOFREE kz_travellers *from = kz_malloc(sizeof *from);
   from->n = n;
   memcpy(from->number, number, (size_t)n * sizeof *number);
   const kz_labeller labeller = kz_window_labeller(starts, false);
@@ -137,9 +138,9 @@ static int64_t list_wanted(kz_samples *samples, int64_t n, const int64_t *number
   return wanted;
 }
 
-kz_status kz_samples_follow(kz_prepared *prepared, const kz_frame *frame, kz_samples *samples, int64_t n, const int64_t *number,
-                            kz_frame_cell *cells) {
-  KZ_FREED kz_travellers *from = kz_malloc(2 * sizeof *from);
+kz_status kz_samples_follow(kz_prepared *prepared, const kz_frame *frame, kz_samples *samples, int64_t n,
+                            const int64_t *number, kz_frame_cell *cells) {
+  KZ_AUTOFREE kz_travellers *from = kz_malloc(2 * sizeof *from);
   kz_travellers *late = from + 1;
   const int64_t wanted = list_wanted(samples, n, number);
   late->n = 0;
@@ -178,10 +179,12 @@ static kz_status follow_images(kz_prepared *r, const kz_basin_plan *plan, const 
   return KZ_OK;
 }
 
-kz_status kz_cells_begin(kz_prepared *prepared, const kz_basin_plan *plan, const kz_frame *frame, kz_window_starts *starts) {
+kz_status kz_cells_begin(kz_prepared *prepared, const kz_basin_plan *plan, const kz_frame *frame,
+                         kz_window_starts *starts) {
   kz_images *images = kz_plan_is_centred(plan) ? find_images(prepared, plan) : NULL;
   const kz_status status = images ? follow_images(prepared, plan, frame, images) : KZ_OK;
-  if (status == KZ_OK) kz_window_starts_make(plan, &prepared->scene.parameters.pendulum, prepared->dynamics, images, starts);
+  if (status == KZ_OK)
+    kz_window_starts_make(plan, &prepared->scene.parameters.pendulum, prepared->dynamics, images, starts);
   kz_images_free(images);
   return status;
 }

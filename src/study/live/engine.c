@@ -31,8 +31,8 @@ void kz_engine_free(kz_engine *engine) {
   free(engine);
 }
 
-/* The whole circle, and velocities up to the fastest of the window: what is known of a pendulum does not depend on where one looks. The caller frees its
- * plans. */
+/* The whole circle, and velocities up to the fastest of the window: what is known of a pendulum does not depend on
+ * where one looks. The caller frees its plans. */
 static kz_scene engine_searched(const kz_engine *engine, const kz_scene *scene) {
   kz_scene wide = *scene;
   wide.series = engine->series;
@@ -49,7 +49,7 @@ static kz_prepared *engine_find(kz_engine *engine, const kz_scene *scene, double
   return NULL;
 }
 
-/* Of those for moving frames, the nearest pendulum that can be moved to the scene's. */
+/* Returns the nearest pendulum for moving frames that can be carried to the scene's. */
 static kz_prepared *engine_nearest(kz_engine *engine, const kz_scene *scene) {
   kz_prepared *found = NULL;
   double least = INFINITY;
@@ -151,9 +151,9 @@ static kz_status label(kz_engine *engine, kz_prepared *r, kz_question *q) {
 /* Labels a part of the starts, whose numbers of attractors become ids later. */
 static kz_status label_part(kz_engine *engine, kz_prepared *r, int64_t n, const double (*start)[2], double start_error,
                             kz_label *found, double *error) {
-  KZ_FREED kz_coordinate(*coordinate)[2] = kz_calloc((size_t)n, sizeof *coordinate);
+  KZ_AUTOFREE kz_coordinate(*coordinate)[2] = kz_calloc((size_t)n, sizeof *coordinate);
   for (int64_t i = 0; i < 2 * n; i++) coordinate[i / 2][i % 2].high = start[i / 2][i % 2];
-  KZ_FREED_BY(kz_question_free)
+  KZ_AUTOFREE_BY(kz_question_free)
   kz_question q = {.scene = &r->scene,
                    .dynamics = r->dynamics,
                    .max_periods = r->search.max_periods,
@@ -166,8 +166,8 @@ static kz_status label_part(kz_engine *engine, kz_prepared *r, int64_t n, const 
   return KZ_OK;
 }
 
-kz_status kz_engine_labels(kz_engine *engine, const kz_scene *scene, int64_t n, const double (*start)[2], double start_error,
-                           kz_label *label, double *error, const kz_live_catalogue **catalogue) {
+kz_status kz_engine_labels(kz_engine *engine, const kz_scene *scene, int64_t n, const double (*start)[2],
+                           double start_error, kz_label *label, double *error, const kz_live_catalogue **catalogue) {
   enum { PART = 1 << 15 }; /* starts that are labelled together */
   kz_prepared *r;
   KZ_TRY(kz_engine_prepared(engine, scene, NULL, &r));
@@ -196,8 +196,9 @@ kz_status kz_engine_where(kz_engine *engine, const kz_scene *scene, int64_t n, c
   kz_endings_clear(n, endings);
   KZ_TRY(kz_engine_prepared(engine, scene, NULL, &r));
   if (!r->dynamics || n == 0) return KZ_OK;
-  KZ_FREED_BY(kz_question_free)
-  kz_question q = {.scene = &r->scene, .dynamics = r->dynamics, .max_periods = r->search.max_periods, .n = n, .start = start};
+  KZ_AUTOFREE_BY(kz_question_free)
+  kz_question q = {
+      .scene = &r->scene, .dynamics = r->dynamics, .max_periods = r->search.max_periods, .n = n, .start = start};
   KZ_TRY(label(engine, r, &q));
   return kz_question_answer(&q, &r->catalogue.list, endings);
 }

@@ -1,4 +1,4 @@
-/* A frame raster by raster, the coarse ones first: cells of a raster that are pending are followed in tiles, then it is shown. */
+/* A frame raster by raster, coarse ones first: pending cells are followed in tiles, then the raster is shown. */
 #include <math.h>
 #include <stdlib.h>
 
@@ -7,7 +7,7 @@
 #include "kapitza/study_basin.h"
 
 enum {
-  MOST_STARTS = 64,        /* of the search among cells that do not settle */
+  MOST_STARTS = 64,        /* starts of the search among cells that do not settle */
   LABELS_BYTES = 16 << 20, /* memory in which starts are labelled */
 };
 
@@ -17,18 +17,19 @@ typedef struct {
   const kz_scene *scene;
   const kz_frame *frame;
   kz_window_starts starts;
-  kz_samples samples;          /* of a moving frame whose window is a curve */
+  kz_samples samples;          /* samples of a moving frame whose window is a curve */
   int64_t total, own;          /* cells; the first ones, of which the others are mirror images */
   kz_frame_cell *cell;         /* [total] */
   int64_t n_pending, *pending; /* [total] numbers of the cells that a raster follows */
   bool *listed;                /* [own] cells that a raster has followed, or is about to */
-  void *buffer;                /* of a raster's planes */
+  void *buffer;                /* buffer of a raster's planes */
   bool searched;               /* attractors have been looked for among its cells */
   double begin;
 } making;
 
 size_t kz_plane_bytes(int plane) {
-  return plane == KZ_PLANE_SETTLING_TIME || plane == KZ_PLANE_SMOOTH_TIME || plane == KZ_PLANE_TURNS ? sizeof(float) : 1;
+  return plane == KZ_PLANE_SETTLING_TIME || plane == KZ_PLANE_SMOOTH_TIME || plane == KZ_PLANE_TURNS ? sizeof(float)
+                                                                                                     : 1;
 }
 
 /* Bytes of a cell in all planes of a frame. */
@@ -103,7 +104,7 @@ static uint8_t doubt_of(const kz_label *end) {
   return end->evidence == KZ_UNDECIDED ? KZ_DOUBT_OPEN : end->evidence == KZ_LEFT ? KZ_DOUBT_UNSEEN : KZ_DOUBT_NONE;
 }
 
-/* What a plane shows of a cell, or of its mirror image, into place `at`. */
+/* Writes a plane's value of a cell, or of its mirror image, to place `at`. */
 static void frame_put(const making *m, int plane, const kz_frame_cell *cell, bool mirrored, int64_t at, void *values) {
   const kz_label *end = &cell->end;
   uint8_t *codes = values;
@@ -172,10 +173,10 @@ static kz_status frame_make(making *m) {
     KZ_TRY(label(m, kz_raster_pending(coarseness, m->scene->basin->velocity.count, m->scene->basin->theta.count, m->own,
                                       m->listed, m->pending)));
     if (m->prepared->catalogue.list.count >= KZ_NO_LABEL)
-      return kz_fail(
-          KZ_REFUSED,
-          "basin.attractors.max_period: the pendulum has %lld attractors, but a frame holds at most %d; use a smaller period",
-          (long long)m->prepared->catalogue.list.count, KZ_NO_LABEL - 1);
+      return kz_fail(KZ_REFUSED,
+                     "basin.attractors.max_period: the pendulum has %lld attractors, but a frame holds at most %d; use "
+                     "a smaller period",
+                     (long long)m->prepared->catalogue.list.count, KZ_NO_LABEL - 1);
     KZ_TRY(frame_show(m, coarseness));
   }
   return KZ_OK;

@@ -1,20 +1,20 @@
-/* Attractors that an atlas lists at the pendulum of a frame: they are carried from its curves, and nothing is searched. */
+/* Attractors that an atlas lists at a frame's pendulum: carried from its curves, without a search. */
 #include "kapitza/dynamics_saddles.h"
 #include "kapitza/study_basin.h"
 #include "kapitza/study_atlas.h"
 #include "live.h"
 
-/* How far the pendulum of a frame may be from that of the atlas, of the size of its parameters: values that people read are rounded. */
+/* Largest relative difference of a frame's and the atlas's pendulum: values that people read are rounded. */
 static const double SAME = 1e-9;
 
 static kz_status listed_check(const kz_prepared *r, const kz_motions *motions) {
   const kz_pendulum *own = &r->scene.parameters.pendulum, *other = &motions->pendulum;
   if (kz_pendulums_parted(own, other) <= SAME) return KZ_OK;
-  return kz_fail(
-      KZ_REFUSED,
-      "request: x: the atlas has another pendulum there (k = %.10g, damping %.10g, m = %.10g); give the point at which it has "
-      "the pendulum of the request (%.10g, %.10g, %.10g)",
-      other->k, other->beta, other->m, own->k, own->beta, own->m);
+  return kz_fail(KZ_REFUSED,
+                 "request: x: the atlas has another pendulum there (k = %.10g, damping %.10g, m = %.10g); give the "
+                 "point at which it has "
+                 "the pendulum of the request (%.10g, %.10g, %.10g)",
+                 other->k, other->beta, other->m, own->k, own->beta, own->m);
 }
 
 /* Whether more cycles of some period are listed than are known. */
@@ -32,7 +32,7 @@ static bool lacks_some(const kz_prepared *r, const kz_motions *motions) {
 }
 
 kz_status kz_prepared_take_listed(kz_prepared *r, const kz_frame *frame) {
-  KZ_FREED_BY(kz_motions_free) kz_motions list = {0}, motions = {0};
+  KZ_AUTOFREE_BY(kz_motions_free) kz_motions list = {0}, motions = {0};
   KZ_TRY(kz_atlas_motions(frame->atlas, frame->x, frame->y, false, &list));
   KZ_TRY(listed_check(r, &list));
   if (!list.known || !lacks_some(r, &list)) return KZ_OK;

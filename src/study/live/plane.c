@@ -10,7 +10,7 @@ typedef struct {
   int64_t rows, columns, *pending;
   bool *listed;                         /* [rows][columns] points that a raster has followed, or is about to */
   uint8_t *period, *centre;             /* [rows][columns] of all points, */
-  uint8_t *shown_period, *shown_centre; /* of a raster */
+  uint8_t *shown_period, *shown_centre; /* planes of a raster */
 } drawing;
 
 static kz_status plane_follow(drawing *d, int64_t n) {
@@ -29,8 +29,8 @@ static kz_status plane_follow(drawing *d, int64_t n) {
 
 /* Follows what is pending of a raster, and gathers it. */
 static kz_status plane_draw(drawing *d, const kz_plane_raster *raster) {
-  KZ_TRY(
-      plane_follow(d, kz_raster_pending(raster->coarseness, d->rows, d->columns, d->rows * d->columns, d->listed, d->pending)));
+  KZ_TRY(plane_follow(
+      d, kz_raster_pending(raster->coarseness, d->rows, d->columns, d->rows * d->columns, d->listed, d->pending)));
   for (int64_t i = 0; i < raster->rows; i++)
     for (int64_t j = 0; j < raster->columns; j++) {
       const int64_t at = i * raster->columns + j, point = kz_raster_place(raster->coarseness, i, d->rows) * d->columns +
@@ -51,10 +51,11 @@ kz_status kz_plane_draw(const kz_scene *scene, const kz_integers *coarseness, kz
                         kz_status (*show)(void *context, const kz_plane_raster *raster), void *context) {
   const int64_t rows = scene->sweep->y.values.count, columns = scene->sweep->x.values.count, n = rows * columns;
   KZ_TRY(kz_memory_ask("x", (size_t)n * (4 + sizeof(int64_t) + sizeof(bool))));
-  KZ_FREED uint8_t *planes = kz_malloc(4 * (size_t)n);
-  KZ_FREED int64_t *pending = kz_malloc((size_t)n * sizeof *pending);
-  KZ_FREED bool *listed = kz_calloc((size_t)n, sizeof *listed);
-  drawing d = {scene, pause, context, rows, columns, pending, listed, planes, planes + n, planes + 2 * n, planes + 3 * n};
+  KZ_AUTOFREE uint8_t *planes = kz_malloc(4 * (size_t)n);
+  KZ_AUTOFREE int64_t *pending = kz_malloc((size_t)n * sizeof *pending);
+  KZ_AUTOFREE bool *listed = kz_calloc((size_t)n, sizeof *listed);
+  drawing d = {scene,  pause,  context,    rows,           columns,       pending,
+               listed, planes, planes + n, planes + 2 * n, planes + 3 * n};
   for (int64_t i = 0; i < coarseness->count; i++) {
     const int64_t step = coarseness->values[i];
     const kz_plane_raster raster = {step, kz_raster_size(step, rows), kz_raster_size(step, columns), d.shown_period,

@@ -9,10 +9,10 @@
 #include "numerics/resolve.h"
 #include "kapitza/study_basin.h"
 
-/* rad: the error of a period that moving frames bear where their cells are wider than SMALL, and where they are not, which at any depth are
- * some 1e-7 wide when they are handed over; and the starts of the search. */
+/* rad: the error of a period that moving frames bear where their cells are wider than SMALL, and where they are not,
+ * which at any depth are some 1e-7 wide when they are handed over; and the starts of the search. */
 static const double COARSE = 1e-6, FINE = 1e-10, SMALL = 3e-5;
-/* Where motions take more than SLOW periods on average, basins are a lace that no such error resolves: these frames bear COARSEST. */
+/* Step error of frames whose motions take more than SLOW periods on average: basins too fine for any error. */
 static const double COARSEST = 1e-4, SLOW = 2000;
 enum { MOVING_STARTS = 1024, MOVING_SOUGHT = 64 };
 /* Trapping regions are grown as for this many cells, whatever the size of a frame: more saves no time. */
@@ -20,24 +20,26 @@ enum { CELLS = 130000 };
 /* rad: strobe points that moved by more between two catalogues belong to different attractors. */
 static const double NEAR = 0.5;
 
-/* Relative changes of a pendulum: of the sum of its parameters, and of its damping. Beyond FARTHEST it is not moved, because too many attractors
- * would be lost; beyond RECHOSEN its numerics are chosen anew; beyond REGROWN, or REDAMPED of the damping, or after OLDEST moves its trapping
- * regions are grown anew. (Regions that are carried lose their rim. On drags along a line, a circle and a wavy curve over the plane of Fig. 12, and in
- * steps of 1 % from epsilon = 0.30 to 0.55, at most 12 of 100,000 labels of a frame differ from those by regions that are grown anew for each.) */
+/* Relative changes of a pendulum: of the sum of its parameters, and of its damping. Beyond FARTHEST it is not moved,
+ * because too many attractors would be lost; beyond RECHOSEN its numerics are chosen anew; beyond REGROWN, or REDAMPED
+ * of the damping, or after OLDEST moves its trapping regions are grown anew. (Regions that are carried lose their rim.
+ * On drags along a line, a circle and a wavy curve over the plane of Fig. 12, and in steps of 1 % from epsilon = 0.30
+ * to 0.55, at most 12 of 100,000 labels of a frame differ from those by regions that are grown anew for each.) */
 static const double FARTHEST = 0.3, RECHOSEN = 0.1, REGROWN = 0.012, REDAMPED = 0.1;
 /* Factor by which a torque may drive motions faster than those for which the numerics were chosen. */
 static const double FASTER = 1.01;
-/* Share of the cells that must not settle before attractors are looked for between moving frames: following fewer costs less than a search,
- * whose cycles of many periods are often lost at the next pendulum. */
+/* Share of the cells that must not settle before attractors are looked for between moving frames: following fewer costs
+ * less than a search, whose cycles of many periods are often lost at the next pendulum. */
 static const double MISSED = 0.01;
 /* rad: how near unsettled states must come back to themselves for a search. */
 static const double CLOSENESS = 0.02;
 enum { OLDEST = 5, MOVING_CELLS = 192 };
-/* Of moving frames: drive periods that cells are followed, at least, and lifetimes 1/(2 pi beta). */
+/* Limits of moving frames: least drive periods that cells are followed; lifetimes 1/(2 pi beta). */
 static const double LEAST_PERIODS = 400, LIFETIMES = 24;
-/* Orbits that extend the trapping regions of moving frames (kz_dynamics_learn_regions). ORBITS: their number; VISITS: drive periods of all of
- * them together, about; WEAK: drive periods that motions take on average, from which on this saves time. More orbits save no more: measured at
- * Q = 20, 50 and 200 of Fig. 12, whose frames take a quarter of the time. */
+/* Orbits that extend the trapping regions of moving frames (kz_dynamics_learn_regions). ORBITS: their number; VISITS:
+ * drive periods of all of them together, about; WEAK: drive periods that motions take on average, from which on this
+ * saves time. More orbits save no more: measured at Q = 20, 50 and 200 of Fig. 12, whose frames take a quarter of the
+ * time. */
 static const double ORBITS = 2048, WEAK = 60;
 enum { VISITS = 500000 };
 
@@ -91,7 +93,7 @@ static void prepared_learn(kz_prepared *r) {
   const double mean = kz_settling_mean(r->scene.parameters.pendulum.beta);
   if (!kz_prepared_moves(r) || (!is_weak(r) && !has_cover(r))) return;
   const int64_t n = (int64_t)fmin(ORBITS, VISITS / fmax(mean, has_cover(r) ? (double)r->periods : 0));
-  KZ_FREED double *state = kz_malloc(2 * (size_t)(n + 1) * sizeof *state);
+  KZ_AUTOFREE double *state = kz_malloc(2 * (size_t)(n + 1) * sizeof *state);
   kz_dynamics_starts(&r->search.window, r->search.seed, n, state);
   kz_dynamics_learn_regions(r->dynamics, n, state, r->periods, 2 * VISITS);
 }
@@ -128,7 +130,7 @@ kz_status kz_prepared_make(const kz_scene *scene, double tolerance, const kz_fra
   prepared->search.cells = CELLS;
   if (moving) {
     if (prepared->search.starts > MOVING_STARTS) prepared->search.starts = MOVING_STARTS;
-    prepared->search.sought = MOVING_SOUGHT; /* what they miss is found between frames */
+    prepared->search.sought = MOVING_SOUGHT; /* idle time finds the rest */
   }
   if (scene->parameters.pendulum.beta <= 0) return KZ_OK; /* without damping nothing attracts */
   choose_numerics(prepared);
@@ -155,8 +157,8 @@ bool kz_prepared_misses(const kz_prepared *r) {
 
 bool kz_prepared_discover(kz_prepared *r) {
   const int64_t known = kz_dynamics_count(r->dynamics);
-  KZ_FREED double *found = kz_calloc((size_t)kz_dynamics_cycle_size(r->dynamics), sizeof *found);
-  KZ_FREED double *covered = kz_calloc((size_t)kz_dynamics_chaos_size(), sizeof *covered);
+  KZ_AUTOFREE double *found = kz_calloc((size_t)kz_dynamics_cycle_size(r->dynamics), sizeof *found);
+  KZ_AUTOFREE double *covered = kz_calloc((size_t)kz_dynamics_chaos_size(), sizeof *covered);
   while ((int)found[0] < r->n_unsettled) {
     kz_dynamics_find_cycle(r->dynamics, r->n_unsettled, r->unsettled, CLOSENESS, found);
     kz_dynamics_adopt(r->dynamics, found + 1);
@@ -214,7 +216,8 @@ kz_status kz_prepared_move(kz_prepared *r, const kz_scene *scene, const kz_frame
   kz_dynamics_set_release(moved, &r->release);
   if (frame->atlas) KZ_TRY(kz_prepared_take_listed(r, frame));
   if (faster) r->search.max_velocity = kz_dynamics_max_velocity(moved, &r->search.window);
-  const bool far = faster || kz_pendulums_parted(&r->grown, pendulum) > REGROWN || damped_apart(&r->grown, pendulum) > REDAMPED;
+  const bool far =
+      faster || kz_pendulums_parted(&r->grown, pendulum) > REGROWN || damped_apart(&r->grown, pendulum) > REDAMPED;
   if (lost > 0 || far || ++r->age >= OLDEST) {
     kz_dynamics_fine_regions(moved, MOVING_CELLS, r->search.max_velocity);
     prepared_learn(r);
@@ -230,8 +233,8 @@ bool kz_prepared_serves(const kz_prepared *prepared, const kz_scene *scene, doub
   const kz_release release = kz_release_of(scene, &scene->parameters.pendulum);
   return prepared->used > 0 && prepared->tolerance == tolerance &&
          memcmp(&prepared->scene.parameters.pendulum, &scene->parameters.pendulum, sizeof(kz_pendulum)) == 0 &&
-         kz_release_is_same(&prepared->release, &release) && prepared->scene.basin->max_periods == scene->basin->max_periods &&
-         same_search(prepared, scene);
+         kz_release_is_same(&prepared->release, &release) &&
+         prepared->scene.basin->max_periods == scene->basin->max_periods && same_search(prepared, scene);
 }
 
 /* rad: how far the nearest strobe point of `b` lies from the first one of `a`. Chaotic attractors have none. */
@@ -249,7 +252,8 @@ static bool is_taken(const int64_t *track, int64_t count, int64_t number) {
 }
 
 /* The track of attractor i: that of the nearest one of its kind. */
-static int64_t track_of(const kz_live_catalogue *catalogue, int64_t i, const kz_live_catalogue *before, int64_t *tracks) {
+static int64_t track_of(const kz_live_catalogue *catalogue, int64_t i, const kz_live_catalogue *before,
+                        int64_t *tracks) {
   const kz_entry *a = catalogue->list.entries + i;
   double nearest = NEAR;
   int64_t number = -1;

@@ -13,10 +13,10 @@ static void free_motion(kz_orbit_motion *motion) {
   free(motion->velocity);
 }
 
-/* A stretch of the record, periods first .. first + n - 1, from `state`, whose angle is within a turn; `turns` are those before. Both move on. */
-static kz_status record_stretch(const kz_model *model, int64_t first, int64_t n, int64_t stride, kz_state *state, double *turns,
-                                double *theta, double *velocity) {
-  KZ_FREED_BY(free_motion) kz_orbit_motion motion = {0};
+/* Records periods first .. first + n - 1 from `state`, angle within a turn, `turns` before it; advances both. */
+static kz_status record_stretch(const kz_model *model, int64_t first, int64_t n, int64_t stride, kz_state *state,
+                                double *turns, double *theta, double *velocity) {
+  KZ_AUTOFREE_BY(free_motion) kz_orbit_motion motion = {0};
   const int64_t samples = model->samples / stride, last = n * model->samples;
   KZ_TRY(kz_model_record(model, n, *state, &motion));
   for (int64_t i = 0; i <= n * samples; i++) {
@@ -34,7 +34,7 @@ kz_status kz_orbit_record(const kz_scene *scene, kz_status (*pause)(void *contex
   const kz_orbit_plan *plan = scene->orbit;
   kz_state state = {plan->theta, plan->velocity};
   double turns = 0;
-  KZ_FREED_BY(kz_model_free) kz_model model;
+  KZ_AUTOFREE_BY(kz_model_free) kz_model model;
   kz_model_make(scene, &model);
   const int64_t fit = PAUSE_STEPS / model.numerics.steps_per_period, most = kz_larger(fit, 1);
   for (int64_t done = 0; done < plan->transient; done += most) {

@@ -1,4 +1,4 @@
-/* Cells of a frame, followed by as many threads as there are cores. The thread that makes the frame works too, and pauses between its tiles. */
+/* Cells of a frame, followed by a thread per core. The frame's own thread works too, and pauses between tiles. */
 #define _GNU_SOURCE /* sched_getaffinity */
 #include "kapitza/common_threads.h"
 
@@ -14,19 +14,19 @@
 enum { MOST_HELPERS = 15, STACK_BYTES = 8 << 20 };
 static const double LOOK = 0.01; /* s between two pauses while helpers finish their last tiles */
 
-/* What the threads share. */
+/* State shared by the threads. */
 typedef struct {
   const kz_frame_task *task;
-  kz_border *border;     /* of the call of the library that they work for, or NULL */
+  kz_border *border;     /* border of the library's call that they work for, or NULL */
   _Atomic int64_t next;  /* first tile that no thread has taken */
-  pthread_mutex_t mutex; /* of what follows */
+  pthread_mutex_t mutex; /* lock of the members below */
   pthread_cond_t ended;
   int at_work; /* helpers that have not ended */
   kz_status status;
-  char message[KZ_MESSAGE_BYTES]; /* of the helper that has failed */
+  char message[KZ_MESSAGE_BYTES]; /* message of the thread that has failed */
 } sharing;
 
-/* A further thread. Its prepared pendulum is a copy that lists the states of its own unsettled cells; pendulum, map and regions are shared. */
+/* A further thread: a copy of the prepared pendulum with its own unsettled states, sharing map and regions. */
 typedef struct {
   sharing *all;
   kz_prepared prepared;
@@ -44,7 +44,7 @@ static int spare_cores(void) {
 /* Follows tiles until all are taken. */
 static kz_status follow_tiles(sharing *all, kz_prepared *prepared, bool pauses) {
   const kz_frame_task *task = all->task;
-  KZ_FREED kz_travellers *late = kz_calloc(1, sizeof *late);
+  KZ_AUTOFREE kz_travellers *late = kz_calloc(1, sizeof *late);
   kz_status status = KZ_OK;
   for (int64_t done; status == KZ_OK && (done = KZ_FRAME_TILE * all->next++) < task->n;) {
     if (pauses) KZ_TRY(task->frame->pause(task->frame->context));
@@ -113,7 +113,8 @@ static void threads_join(helper *h, kz_prepared *prepared) {
   prepared->ended += h->prepared.ended;
   prepared->left += h->prepared.left;
   for (int i = 0; i < h->prepared.n_unsettled && prepared->n_unsettled < KZ_MOST_UNSETTLED; i++)
-    memcpy(prepared->unsettled + 2 * prepared->n_unsettled++, h->prepared.unsettled + 2 * i, 2 * sizeof *prepared->unsettled);
+    memcpy(prepared->unsettled + 2 * prepared->n_unsettled++, h->prepared.unsettled + 2 * i,
+           2 * sizeof *prepared->unsettled);
 }
 
 kz_status kz_frame_follow(const kz_frame_task *task) {
@@ -121,7 +122,7 @@ kz_status kz_frame_follow(const kz_frame_task *task) {
   const int spare = spare_cores();
   sharing all = {.task = task, .border = kz_border_here(), .mutex = PTHREAD_MUTEX_INITIALIZER};
   kz_condition_make(&all.ended);
-  KZ_FREED helper *helpers = kz_calloc((size_t)spare + 1, sizeof *helpers);
+  KZ_AUTOFREE helper *helpers = kz_calloc((size_t)spare + 1, sizeof *helpers);
   int started = 0;
   for (; started < spare && 2 * (started + 2) <= tiles; started++) { /* a thread pays from two tiles on */
     helper *h = helpers + started;

@@ -38,7 +38,8 @@ static int8_t classes_carry(const step *s, const kz_attractor *cycle, const kz_m
   if (!possible || !kz_points_pendulum(s->points, s->to, s->to, 0, &pendulum)) return -1;
   if (!(kz_walk(&path, 0, 1, &point, &kind) == 1)) return -1;
   for (int64_t i = 0; i < there->count; i++)
-    if (there->attractor[i].period > 0 && kz_branch_same(s->maps, &pendulum, there->attractor + i, &point)) return (int8_t)i;
+    if (there->attractor[i].period > 0 && kz_branch_same(s->maps, &pendulum, there->attractor + i, &point))
+      return (int8_t)i;
   return -1;
 }
 
@@ -47,7 +48,8 @@ static int8_t classes_nearest(const kz_attractor *one, const kz_measured_point *
   int8_t best = -1;
   for (int64_t i = 0; i < there->count; i++)
     if (kz_branch_alike(one, there->attractor + i) &&
-        (best < 0 || kz_branch_points_apart(one, there->attractor + i) < kz_branch_points_apart(one, there->attractor + best)))
+        (best < 0 ||
+         kz_branch_points_apart(one, there->attractor + i) < kz_branch_points_apart(one, there->attractor + best)))
       best = (int8_t)i;
   return best;
 }
@@ -149,8 +151,9 @@ static void join_point(forest *f, const kz_measured_point *before_it, int64_t po
 
 static void classes_grow(const joining *j, const neighbours *to, kz_classes *classes) {
   const int64_t columns = j->points->columns, points = columns * j->points->rows, places = points * KZ_POINT_MOST;
-  KZ_FREED int64_t *parent = kz_malloc((size_t)places * sizeof *parent), *next = kz_malloc((size_t)places * sizeof *next),
-                   *last = kz_malloc((size_t)places * sizeof *last);
+  KZ_AUTOFREE int64_t *parent = kz_malloc((size_t)places * sizeof *parent),
+                      *next = kz_malloc((size_t)places * sizeof *next),
+                      *last = kz_malloc((size_t)places * sizeof *last);
   forest f = {parent, next, last};
   for (int64_t i = 0; i < places; i++) {
     parent[i] = last[i] = i;
@@ -176,7 +179,7 @@ kz_status kz_classes_make(const kz_points *points, const kz_run *run, const void
   joining j = {points, records};
   kz_stage stage = kz_stage_for_rank0("neighbours", points->columns * points->rows, sizeof(neighbours), join_tile, &j);
   const bool here = kz_rank(run->ranks) == 0;
-  KZ_FREED neighbours *to = here ? kz_malloc((size_t)stage.n_tiles * sizeof *to) : NULL;
+  KZ_AUTOFREE neighbours *to = here ? kz_malloc((size_t)stage.n_tiles * sizeof *to) : NULL;
   KZ_TRY(kz_stage_run(run, &stage, to));
   if (here) classes_grow(&j, to, classes);
   return KZ_OK;

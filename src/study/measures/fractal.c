@@ -1,5 +1,6 @@
-/* Measures of how intricate the boundaries in the picture are: entropy (A. Daza et al., Sci. Rep. 6 (2016) 31416), uncertainty exponent and
- * dimension (C. Grebogi et al., Phys. Lett. A 99 (1983) 415), boundaries that basins share (A. Daza et al., Sci. Rep. 8 (2018) 9954). */
+/* Measures of how intricate the boundaries in the picture are: entropy (A. Daza et al., Sci. Rep. 6 (2016) 31416),
+ * uncertainty exponent and dimension (C. Grebogi et al., Phys. Lett. A 99 (1983) 415), boundaries that basins share (A.
+ * Daza et al., Sci. Rep. 8 (2018) 9954). */
 #include <math.h>
 
 #include "kapitza/analysis_boundary.h"
@@ -12,7 +13,7 @@ static const double ALL = 0.99;
 
 static void fractal_entropies(const kz_measured *measured, double *entropy, double *boundary) {
   const int64_t cells = measured->plan->options.cells;
-  KZ_FREED kz_counts *counts = kz_calloc(1, sizeof *counts);
+  KZ_AUTOFREE kz_counts *counts = kz_calloc(1, sizeof *counts);
   kz_count_boxes(cells, cells, measured->picture.id, counts);
   kz_entropy_of(counts, entropy, boundary);
 }
@@ -27,18 +28,19 @@ void kz_measure_boundary_entropy(const kz_measured *measured, double *value) {
   fractal_entropies(measured, &whole, value);
 }
 
-/* The exponent of the boundary of each basin: of pairs of cells beside each other along theta, how many lie on either side of it. */
+/* Uncertainty exponent of each basin's boundary, from pairs of cells beside each other along theta. */
 void kz_measure_uncertainty_exponent(const kz_measured *measured, double *value) {
   const kz_measures_plan *plan = measured->plan;
   const int64_t cells = plan->options.cells, n = measured->catalogue.count;
   const double across = (plan->theta.max - plan->theta.min) / (double)cells;
-  KZ_FREED int16_t *side = kz_malloc((size_t)(cells * cells) * sizeof *side);
-  KZ_FREED kz_counts *counts = kz_malloc(sizeof *counts);
+  KZ_AUTOFREE int16_t *side = kz_malloc((size_t)(cells * cells) * sizeof *side);
+  KZ_AUTOFREE kz_counts *counts = kz_malloc(sizeof *counts);
   for (int64_t id = 0; id < n; id++) {
     kz_uncertain uncertain[KZ_DISTANCES];
     int distances = 0;
     *counts = (kz_counts){0};
-    for (int64_t i = 0; i < cells * cells; i++) side[i] = measured->picture.id[i] < 0 ? -1 : measured->picture.id[i] == id;
+    for (int64_t i = 0; i < cells * cells; i++)
+      side[i] = measured->picture.id[i] < 0 ? -1 : measured->picture.id[i] == id;
     kz_count_pairs(cells, cells, side, kz_axis_is_circle(&plan->theta), counts);
     for (int d = KZ_DISTANCES - 1; d >= 0; d--)
       if (counts->compared[d] > 0)
@@ -80,7 +82,7 @@ static int64_t look_into_box(const kz_measured *measured, int64_t left, int64_t 
 /* Share of the boxes on any boundary that each basin is in. */
 void kz_measure_shared_boundary(const kz_measured *measured, double *value) {
   const int64_t cells = measured->plan->options.cells, n = measured->catalogue.count;
-  KZ_FREED bool *seen = kz_malloc((size_t)n * sizeof *seen + 1);
+  KZ_AUTOFREE bool *seen = kz_malloc((size_t)n * sizeof *seen + 1);
   double boxes = 0;
   for (int64_t id = 0; id < n; id++) value[id] = 0;
   for (int64_t bottom = 0; bottom < cells; bottom += SHARED_BOX)
@@ -95,7 +97,7 @@ void kz_measure_shared_boundary(const kz_measured *measured, double *value) {
 /* Whether three or more basins share all of their boundary on the grid: each is in nearly every box of it. */
 void kz_measure_wada_on_grid(const kz_measured *measured, double *value) {
   const int64_t n = measured->catalogue.count;
-  KZ_FREED double *share = kz_malloc((size_t)n * sizeof *share + 1);
+  KZ_AUTOFREE double *share = kz_malloc((size_t)n * sizeof *share + 1);
   int64_t basins = 0, all = 0;
   kz_measure_shared_boundary(measured, share);
   for (int64_t id = 0; id < n; id++) {

@@ -1,5 +1,5 @@
-/* Integrity of basins (M. S. Soliman, J. M. T. Thompson, J. Sound Vib. 135 (1989) 453; G. Rega, S. Lenci, Nonlinear Anal. 63 (2005) 902), from the
- * picture, in the norm hypot(dtheta, dvelocity / shock_scale). */
+/* Integrity of basins (M. S. Soliman, J. M. T. Thompson, J. Sound Vib. 135 (1989) 453; G. Rega, S. Lenci, Nonlinear
+ * Anal. 63 (2005) 902), from the picture, in the norm hypot(dtheta, dvelocity / shock_scale). */
 #include <math.h>
 
 #include "measures.h"
@@ -17,8 +17,8 @@ static kz_picture picture_of(const kz_measured *measured) {
                       .id = measured->picture.id};
 }
 
-/* The radius of the largest circle about a state that holds no centre of a foreign cell, less half of a cell, and no place beyond the picture;
- * NaN if the state lies there. */
+/* The radius of the largest circle about a state that holds no centre of a foreign cell, less half of a cell, and no
+ * place beyond the picture; NaN if the state lies there. */
 static double integrity_clearance(const kz_measured *measured, const kz_picture *picture, int64_t id, double theta,
                                   double velocity) {
   const kz_measures_plan *plan = measured->plan;
@@ -38,7 +38,7 @@ static double integrity_clearance(const kz_measured *measured, const kz_picture 
   return fmax(least, 0);
 }
 
-/* The radius of the largest circle inside the basin about a strobe point, the smallest of them; NaN if one lies outside of the picture. */
+/* Smallest radius of the largest circles inside the basin about strobe points; NaN if one is off the picture. */
 void kz_measure_integrity_local(const kz_measured *measured, double *value) {
   const kz_picture picture = picture_of(measured);
   for (int64_t id = 0; id < measured->catalogue.count; id++) {
@@ -54,7 +54,7 @@ void kz_measure_integrity_local(const kz_measured *measured, double *value) {
 /* The radius of the largest circle inside the basin, wherever it lies in the picture. */
 void kz_measure_integrity_factor(const kz_measured *measured, double *value) {
   const kz_picture picture = picture_of(measured);
-  KZ_FREED double *distance = kz_malloc((size_t)measured->picture.n * sizeof *distance);
+  KZ_AUTOFREE double *distance = kz_malloc((size_t)measured->picture.n * sizeof *distance);
   for (int64_t id = 0; id < measured->catalogue.count; id++) {
     value[id] = 0;
     kz_picture_distances(&picture, (int16_t)id, distance);

@@ -9,12 +9,14 @@ static const kz_key keys[] = {
     WORDS("measures.names", kz_measure_words, NULL, names, "The measures; what is not named is not computed."),
     THETA_WINDOW(measures, "Angles of the starts and of the picture; left out: the whole circle [-pi, pi)."),
     VELOCITY_WINDOW(measures, KZ_MOST_SPEED, NULL, NULL, NULL, "Velocities of the starts and of the picture."),
-    INTEGER("measures.starts", 1, 1e7, "4096", starts, "Starts that are spread evenly over the window, or over the weight."),
+    INTEGER("measures.starts", 1, 1e7, "4096", starts,
+            "Starts that are spread evenly over the window, or over the weight."),
     INTEGER("measures.max_period", 1, 512, "48", max_period, "Longest period of the search for attractors."),
     INTEGER("measures.seed", 0, 9007199254740992.0, "1", seed,
             "Number that chooses the starts; another seed gives other starts."),
     WORD("measures.method", "exact|direct", "exact", method,
-         "exact: every label is decided, in as many digits as it needs; direct: double precision alone, for motions that stay "
+         "exact: every label is decided, in as many digits as it needs; direct: double precision alone, for motions "
+         "that stay "
          "chaotic for long."),
     MEASURE_OPTIONS(measures, "256"),
     {.path = NULL},

@@ -1,4 +1,4 @@
-/* Properties of a pendulum: attractors, starts and a picture with labels, derivatives of the map, shocks; each only if a measure needs it. */
+/* Properties of a pendulum: attractors, labelled starts and picture, map derivatives, shocks; made if needed. */
 #include <math.h>
 #include <stdlib.h>
 
@@ -68,7 +68,7 @@ static int64_t lay_out(int32_t needs, kz_measured *m) {
 
 /* The attractors that the labels name, and those of the search if nothing has labels. */
 static void make_catalogue(int64_t n, const kz_label *label, const int32_t *found, int64_t pilots, kz_measured *m) {
-  KZ_FREED int64_t *reached = kz_calloc((size_t)kz_dynamics_count(m->dynamics) + 1, sizeof *reached);
+  KZ_AUTOFREE int64_t *reached = kz_calloc((size_t)kz_dynamics_count(m->dynamics) + 1, sizeof *reached);
   for (int64_t i = 0; i < pilots; i++) reached[kz_larger(found[i], 0)]++;
   for (int64_t i = 0; i < n; i++) reached[label[i].label > 0 ? label[i].label : 0]++;
   kz_catalogue_make(m->dynamics, reached, &m->catalogue);
@@ -87,8 +87,8 @@ static kz_status label_all(kz_way way, int32_t needs, int64_t max_periods, const
       .seed = plan->seed,
       .max_periods = max_periods};
   const kz_search_on on = {ROUNDS, pilots, NULL};
-  KZ_FREED int32_t *found = kz_malloc((size_t)pilots * sizeof *found);
-  KZ_FREED kz_label *label = kz_calloc((size_t)n + 1, sizeof *label);
+  KZ_AUTOFREE int32_t *found = kz_malloc((size_t)pilots * sizeof *found);
+  KZ_AUTOFREE kz_label *label = kz_calloc((size_t)n + 1, sizeof *label);
   kz_labeller labeller = kz_pair_labeller(m->start, max_periods, way, m->dynamics);
   labeller.run = run;
   labeller.stage = "measures";
@@ -101,7 +101,7 @@ static kz_status label_all(kz_way way, int32_t needs, int64_t max_periods, const
 static void find_tangents(const kz_pendulum *pendulum, const kz_numerics *numerics, kz_measured *m) {
   int64_t n = 0;
   for (int64_t id = 0; id < m->catalogue.count; id++) n += m->catalogue.entries[id].row.period;
-  KZ_FREED_BY(kz_flow_freed) kz_flow *flow = kz_flow_create(pendulum, numerics);
+  KZ_AUTOFREE_BY(kz_flow_freed) kz_flow *flow = kz_flow_create(pendulum, numerics);
   m->tangent = kz_malloc((size_t)n * sizeof *m->tangent + 1);
   n = 0;
   for (int64_t id = 0; id < m->catalogue.count; id++) {
@@ -126,14 +126,15 @@ static kz_status find_shocks(int32_t needs, int64_t max_periods, const kz_run *r
   return kz_resilience_run(run, m->dynamics, &plan, m->n_points, m->point);
 }
 
-kz_status kz_measured_make(const kz_pendulum *pendulum, const kz_numerics *numerics, const kz_measures_plan *plan, kz_way way,
-                           int32_t needs, const kz_run *run, kz_measured *measured) {
+kz_status kz_measured_make(const kz_pendulum *pendulum, const kz_numerics *numerics, const kz_measures_plan *plan,
+                           kz_way way, int32_t needs, const kz_run *run, kz_measured *measured) {
   const int64_t max_periods = kz_settling_periods(pendulum->beta);
   *measured = (kz_measured){.plan = plan, .dynamics = kz_dynamics_create(pendulum, numerics, plan->max_period)};
   KZ_TRY(label_all(way, needs, max_periods, run, measured));
   if (needs & KZ_NEEDS_TANGENTS) find_tangents(pendulum, numerics, measured);
-  return needs & (KZ_NEEDS_SHOCKS | KZ_NEEDS_SPREAD | KZ_NEEDS_SMALLEST) ? find_shocks(needs, max_periods, run, measured)
-                                                                         : KZ_OK;
+  return needs & (KZ_NEEDS_SHOCKS | KZ_NEEDS_SPREAD | KZ_NEEDS_SMALLEST)
+             ? find_shocks(needs, max_periods, run, measured)
+             : KZ_OK;
 }
 
 void kz_measured_free(kz_measured *measured) {

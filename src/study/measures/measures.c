@@ -20,7 +20,8 @@ kz_cost kz_measures_cost(const kz_scene *scene) {
 }
 
 static kz_step_motions motions_of_starts(const kz_scene *scene) {
-  return kz_motions_of(scene, kz_axis_fastest(&scene->measures->velocity), "numerics.steps_per_period|measures.velocity");
+  return kz_motions_of(scene, kz_axis_fastest(&scene->measures->velocity),
+                       "numerics.steps_per_period|measures.velocity");
 }
 
 kz_status kz_measures_check(const kz_scene *scene) {
@@ -65,9 +66,10 @@ static void print_impossible_dimensions(int64_t n, const double *value, FILE *su
 }
 
 /* The variables of one measure, and its line of the summary. */
-static kz_status write_measure(const kz_measure *measure, const kz_measured *m, double omega, kz_store *store, FILE *summary) {
+static kz_status write_measure(const kz_measure *measure, const kz_measured *m, double omega, kz_store *store,
+                               FILE *summary) {
   const int64_t n = m->catalogue.count, length = kz_measure_length(measure, m);
-  KZ_FREED double *value = kz_malloc((size_t)length * sizeof *value + 1);
+  KZ_AUTOFREE double *value = kz_malloc((size_t)length * sizeof *value + 1);
   measure->fill(m, value);
   if (measure->shape == KZ_PER_PAIR)
     fprintf(summary, "  %-22s for each pair, in the file\n", measure->word);
@@ -94,13 +96,14 @@ static kz_status measures_publish(const kz_measured *m, double omega, kz_store *
   fprintf(summary, "measures of %lld attractors:\n", (long long)m->catalogue.count);
   for (int64_t id = 0; id < m->catalogue.count; id++)
     fprintf(summary, "  %lld: %s\n", (long long)id, m->catalogue.entries[id].name);
-  for (int64_t i = 0; i < names->count; i++) KZ_TRY(write_measure(kz_measures + names->values[i], m, omega, store, summary));
+  for (int64_t i = 0; i < names->count; i++)
+    KZ_TRY(write_measure(kz_measures + names->values[i], m, omega, store, summary));
   return KZ_OK;
 }
 
 kz_status kz_measures_run(const kz_scene *scene, const kz_run *run, kz_store *store, FILE *summary) {
   const kz_measures_plan *plan = scene->measures;
-  KZ_FREED_BY(kz_measured_free) kz_measured measured = {0};
+  KZ_AUTOFREE_BY(kz_measured_free) kz_measured measured = {0};
   const kz_way way = plan->method == KZ_MEASURES_EXACT ? KZ_BY_LEVELS : KZ_BY_STATES;
   KZ_TRY(kz_measured_make(&scene->parameters.pendulum, &scene->numerics, plan, way, kz_measures_need(&plan->names), run,
                           &measured));

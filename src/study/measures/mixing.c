@@ -1,6 +1,6 @@
-/* Intermingledness of the basins (Attractors.jl, function intermingledness): the mean distance of two starts of the same basin, over that of a
- * start of it and one of another basin. 1 = as near to each other as to the others. Distances have the norm hypot(dtheta,
- * dvelocity / shock_scale), with dtheta around the circle. */
+/* Intermingledness of the basins (Attractors.jl, function intermingledness): the mean distance of two starts of the
+ * same basin, over that of a start of it and one of another basin. 1 = as near to each other as to the others.
+ * Distances have the norm hypot(dtheta, dvelocity / shock_scale), with dtheta around the circle. */
 #include <math.h>
 
 #include "measures.h"
@@ -10,7 +10,7 @@ static void mean_distances(const kz_measured *measured, double *mean) {
   const kz_ended *ended = &measured->starts;
   const double scale = measured->plan->options.shock_scale;
   const int64_t n = measured->catalogue.count;
-  KZ_FREED int64_t *hits = kz_calloc((size_t)n + 1, sizeof *hits);
+  KZ_AUTOFREE int64_t *hits = kz_calloc((size_t)n + 1, sizeof *hits);
   for (int64_t i = 0; i < n * n; i++) mean[i] = 0;
   for (int64_t i = 0; i < ended->n; i++) {
     if (ended->id[i] < 0) continue;
@@ -31,7 +31,7 @@ static void mean_distances(const kz_measured *measured, double *mean) {
 
 void kz_measure_intermingled_with(const kz_measured *measured, double *value) {
   const int64_t n = measured->catalogue.count;
-  KZ_FREED double *mean = kz_malloc((size_t)(n * n) * sizeof *mean + 1);
+  KZ_AUTOFREE double *mean = kz_malloc((size_t)(n * n) * sizeof *mean + 1);
   mean_distances(measured, mean);
   for (int64_t i = 0; i < n * n; i++) value[i] = isgreater(mean[i], 0) ? mean[i / n * n + i / n] / mean[i] : NAN;
 }
@@ -39,7 +39,7 @@ void kz_measure_intermingled_with(const kz_measured *measured, double *value) {
 /* The mean over the other basins. */
 void kz_measure_intermingledness(const kz_measured *measured, double *value) {
   const int64_t n = measured->catalogue.count;
-  KZ_FREED double *with = kz_malloc((size_t)(n * n) * sizeof *with + 1);
+  KZ_AUTOFREE double *with = kz_malloc((size_t)(n * n) * sizeof *with + 1);
   kz_measure_intermingled_with(measured, with);
   for (int64_t id = 0; id < n; id++) {
     double sum = 0;

@@ -4,8 +4,8 @@
 
 #include "kapitza/common.h"
 
-/* Squares of distances along one line: least over j of f[j] + ((i - j) step)^2, the lower envelope of parabolas. place, border: buffers
- * [n], [n + 1]. */
+/* Squares of distances along one line: least over j of f[j] + ((i - j) step)^2, the lower envelope of parabolas. place,
+ * border: buffers [n], [n + 1]. */
 static void picture_envelope(int64_t n, double step, const double *f, double *least, int64_t *place, double *border) {
   int64_t k = -1;
   for (int64_t j = 0; j < n; j++) {
@@ -67,10 +67,11 @@ static double end_distance(int64_t i, int64_t n, double step) {
 void kz_picture_distances(const kz_picture *picture, int16_t id, double *distance) {
   const int64_t columns = picture->columns, rows = picture->rows, longest = kz_larger(columns, rows);
   const double half = fmin(picture->across, picture->up) / 2;
-  KZ_FREED_BY(picture_release) line l;
+  KZ_AUTOFREE_BY(picture_release) line l;
   picture_make(3 * longest, &l);
   for (int64_t i = 0; i < columns * rows; i++) distance[i] = picture->id[i] == id ? INFINITY : 0;
-  for (int64_t column = 0; column < columns; column++) picture_along(&l, rows, columns, picture->up, false, distance + column);
+  for (int64_t column = 0; column < columns; column++)
+    picture_along(&l, rows, columns, picture->up, false, distance + column);
   for (int64_t row = 0; row < rows; row++)
     picture_along(&l, columns, 1, picture->across, picture->circle, distance + row * columns);
   for (int64_t i = 0; i < columns * rows; i++) {

@@ -27,7 +27,8 @@ bool kz_points_pendulum(const kz_points *points, int64_t from, int64_t to, doubl
   const bool plane = kz_sweep_is_plane(sweep);
   const int32_t parameter[] = {plane ? sweep->x.parameter : sweep->parameter, sweep->y.parameter};
   const kz_axis *axis[] = {&sweep->x.values, &sweep->y.values};
-  const int64_t a[] = {from % points->columns, from / points->columns}, b[] = {to % points->columns, to / points->columns};
+  const int64_t a[] = {from % points->columns, from / points->columns},
+                b[] = {to % points->columns, to / points->columns};
   double value[2];
   for (int i = 0; i < (plane ? 2 : 1); i++) {
     const double first = plane ? kz_axis_value(axis[i], a[i]) : kz_sweep_value(sweep, a[i]);

@@ -27,7 +27,7 @@ struct kz_measures_plan {
   kz_measure_options options;
 };
 
-/* NULL, or what the options lack for these measures, as "KEY: what is wrong" where KEY is a key of kz_measure_options. */
+/* Returns the missing option of these measures as "KEY: what is wrong" (kz_measure_options), NULL = none. */
 const char *kz_measures_lack(const kz_integers *rows_names, const kz_measure_options *options);
 
 /* In a sweep; window, starts and words are those of the sweep. */

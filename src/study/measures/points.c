@@ -38,7 +38,7 @@ static void count_points(const writing *w, int32_t *count) {
 
 static kz_status write_classes(const writing *w, const int32_t *count, FILE *summary) {
   const int64_t n = w->classes->count;
-  KZ_FREED char (*names)[KZ_NAME_LENGTH] = kz_calloc((size_t)n + 1, sizeof *names);
+  KZ_AUTOFREE char (*names)[KZ_NAME_LENGTH] = kz_calloc((size_t)n + 1, sizeof *names);
   for (int64_t k = 0; k < n; k++) {
     const kz_attractor *point = first_of(w, k);
     kz_orbit_name(point->period, point->winding, point->centre, names[k]);
@@ -60,12 +60,13 @@ static kz_status write_classes(const writing *w, const int32_t *count, FILE *sum
 /* One number of every attractor at every point. */
 static kz_status write_number(const writing *w, const char *name, int64_t number) {
   const int64_t points = w->points->columns * w->points->rows, n = w->classes->count * points;
-  KZ_FREED double *value = kz_malloc((size_t)n * sizeof *value + 1);
+  KZ_AUTOFREE double *value = kz_malloc((size_t)n * sizeof *value + 1);
   for (int64_t i = 0; i < n; i++) value[i] = NAN;
   for (int64_t point = 0; point < points; point++) {
     const kz_measured_point *at = kz_point_at(w->points, w->records, point);
     for (int64_t place = 0; place < at->count; place++)
-      value[w->classes->of[point * KZ_POINT_MOST + place] * points + point] = at->value[place * w->points->numbers + number];
+      value[w->classes->of[point * KZ_POINT_MOST + place] * points + point] =
+          at->value[place * w->points->numbers + number];
   }
   return kz_store_variable(w->store, w->group, name, value);
 }
@@ -101,7 +102,7 @@ static kz_status write_points(const kz_points *points, const void *records, cons
                               FILE *summary) {
   const bool plane = kz_sweep_is_plane(points->scene->sweep);
   const writing w = {points, records, classes, store, plane ? "plane" : "line"};
-  KZ_FREED int32_t *count = kz_calloc((size_t)classes->count + 1, sizeof *count);
+  KZ_AUTOFREE int32_t *count = kz_calloc((size_t)classes->count + 1, sizeof *count);
   if (!plane) KZ_TRY(write_line(&w));
   KZ_TRY(kz_store_real(store, w.group, "shock_tolerance", points->plan.options.shock_tolerance));
   count_points(&w, count);
@@ -120,7 +121,7 @@ kz_cost kz_points_cost(const kz_points *points) {
 /* The values of all measures, side by side for each attractor. */
 static void points_fill(const kz_points *points, const kz_measured *measured, kz_measured_point *out) {
   const int64_t n = measured->catalogue.count;
-  KZ_FREED double *value = kz_malloc((size_t)(3 * n + 1) * sizeof *value);
+  KZ_AUTOFREE double *value = kz_malloc((size_t)(3 * n + 1) * sizeof *value);
   int64_t number = 0, of_pendulum = 0;
   for (int64_t i = 0; i < points->plan.names.count; i++) {
     const kz_measure *measure = kz_measures + points->plan.names.values[i];
@@ -140,7 +141,7 @@ static kz_status measure_point(void *context, int64_t tile, void *record) {
   kz_pendulum pendulum;
   out->count = -1;
   if (!kz_points_pendulum(points, tile, tile, 0, &pendulum) || !(pendulum.beta > 0)) return KZ_OK;
-  KZ_FREED_BY(kz_measured_free) kz_measured measured = {0};
+  KZ_AUTOFREE_BY(kz_measured_free) kz_measured measured = {0};
   KZ_TRY(kz_measured_make(&pendulum, &points->scene->numerics, &points->plan, KZ_BY_STATES,
                           kz_measures_need(&points->plan.names), NULL, &measured));
   if (measured.catalogue.count > KZ_POINT_MOST)
@@ -158,8 +159,8 @@ static kz_status measure_point(void *context, int64_t tile, void *record) {
 kz_status kz_points_run(const kz_points *points, const kz_run *run, kz_store *store, FILE *summary) {
   const kz_stage stage =
       kz_stage_for_all("points", points->columns * points->rows, kz_point_bytes(points), measure_point, (void *)points);
-  KZ_FREED void *records = kz_malloc((size_t)stage.n_tiles * stage.record_bytes);
-  KZ_FREED_BY(kz_classes_free) kz_classes classes = {0};
+  KZ_AUTOFREE void *records = kz_malloc((size_t)stage.n_tiles * stage.record_bytes);
+  KZ_AUTOFREE_BY(kz_classes_free) kz_classes classes = {0};
   KZ_TRY(kz_stage_run(run, &stage, records));
   KZ_TRY(kz_classes_make(points, run, records, &classes));
   return kz_ranks_agree(run->ranks, store ? write_points(points, records, &classes, store, summary) : KZ_OK);

@@ -1,4 +1,4 @@
-/* Measures of the table (src/study/measures) at every point of a line or plane of pendulums, and the same attractor from point to point. */
+/* Measures (src/study/measures) at every point of a line or plane, and attractors matched between points. */
 #pragma once
 
 #include "measures.h"
@@ -22,8 +22,8 @@ kz_status kz_points_run(const kz_points *points, const kz_run *run, kz_store *st
 /* The pendulum between two points, at `share` of the way from one to the other; false if there is none. */
 bool kz_points_pendulum(const kz_points *points, int64_t from, int64_t to, double share, kz_pendulum *pendulum);
 
-/* Record of a point: value [KZ_POINT_MOST][numbers] of its attractors, then [of_pendulum]. count -1: no pendulum, or one without
- * damping. */
+/* Record of a point: value [KZ_POINT_MOST][numbers] of its attractors, then [of_pendulum]. count -1: no pendulum, or
+ * one without damping. */
 typedef struct {
   int64_t count;
   kz_attractor attractor[KZ_POINT_MOST];
@@ -36,13 +36,13 @@ static inline const kz_measured_point *kz_point_at(const kz_points *points, cons
   return (const kz_measured_point *)((const char *)records + (size_t)point * kz_point_bytes(points));
 }
 
-/* Attractors that are the same from point to point. of [points][KZ_POINT_MOST]: the number of each attractor's class; first [count]: its place
- * (point, place in the list of the point) where the class begins. */
+/* Attractors that are the same from point to point. of [points][KZ_POINT_MOST]: the number of each attractor's class;
+ * first [count]: its place (point, place in the list of the point) where the class begins. */
 typedef struct {
   int64_t count, *first_point;
   int32_t *of, *first_place;
 } kz_classes;
 void kz_classes_free(kz_classes *classes);
-/* Carries every cycle to the points to the right and above; what arrives is the same attractor. Chaotic ones join the nearest. Two attractors
- * of one point never become one. Collective; rank 0 alone gets the classes. */
+/* Carries every cycle to the points to the right and above; what arrives is the same attractor. Chaotic ones join the
+ * nearest. Two attractors of one point never become one. Collective; rank 0 alone gets the classes. */
 kz_status kz_classes_make(const kz_points *points, const kz_run *run, const void *records, kz_classes *classes);

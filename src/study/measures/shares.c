@@ -38,7 +38,7 @@ static int shares_before(const void *a, const void *b) {
 /* The mean of the two middle times, or the middle one. */
 void kz_measure_settling_median(const kz_measured *measured, double *value) {
   const kz_ended *ended = &measured->starts;
-  KZ_FREED double *time = kz_malloc((size_t)ended->n * sizeof *time + 1);
+  KZ_AUTOFREE double *time = kz_malloc((size_t)ended->n * sizeof *time + 1);
   for (int64_t id = 0; id < measured->catalogue.count; id++) {
     int64_t hits = 0;
     for (int64_t i = 0; i < ended->n; i++)
@@ -67,7 +67,7 @@ static double distance_of(const kz_measured *measured, const double start[2], co
   return least;
 }
 
-/* The mean of the settling times of the starts that end on each attractor, of each divided by its distance where `per_distance`. */
+/* Mean settling time of the starts of each attractor, each divided by its distance if `per_distance`. */
 static void mean_times(const kz_measured *measured, bool per_distance, double *value) {
   const kz_ended *ended = &measured->starts;
   for (int64_t id = 0; id < measured->catalogue.count; id++) {

@@ -1,5 +1,5 @@
-/* Measures of sudden changes of the state: the smallest that leave the basin, over all strobe points of an attractor, and how many of a size
- * do not (src/study/resilience). */
+/* Measures of sudden changes of the state: the smallest that leave the basin, over all strobe points of an attractor,
+ * and how many of a size do not (src/study/resilience). */
 #include <math.h>
 
 #include "measures.h"
@@ -34,7 +34,8 @@ void kz_measure_harmless(const kz_measured *measured, double *value) {
     const int64_t id = measured->catalogue.id_of[measured->point[i].number];
     for (int64_t size = 0; size < sizes; size++) {
       const kz_harmless *one = measured->point[i].harmless + size;
-      value[id * sizes + size] += (double)one->harmless / (double)one->shocks / measured->catalogue.entries[id].row.period;
+      value[id * sizes + size] +=
+          (double)one->harmless / (double)one->shocks / measured->catalogue.entries[id].row.period;
     }
   }
 }

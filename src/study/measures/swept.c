@@ -15,22 +15,23 @@ static const char *swept_words(void) {
 
 static const kz_key keys[] = {
     ROW("sweep.measure", KZ_KEY_WORDS, NULL, NOWHERE,
-        "Along one key also resilience: smallest shocks that leave the basins. Along one and over a plane: the words of "
+        "Along one key also resilience: smallest shocks that leave the basins. Along one and over a plane: the words "
+        "of "
         "measures.names.",
         .unit = "", .words_from = swept_words),
     MEASURE_OPTIONS(sweep, "64"),
     {.path = NULL},
 };
 
-/* The smallest shocks over the strobe points of each attractor. Catalogues of a sweep and of a file are in the same order. */
+/* Smallest shocks over an attractor's strobe points. Catalogues of a sweep and a file have one order. */
 static kz_status find_shocks(const kz_scene *scene, const kz_sweep_value_at *at, kz_sweep_catalogue *catalogue) {
   const kz_resilience_plan plan = {.scale = scene->swept->options.shock_scale,
                                    .farthest = 2 * kz_axis_fastest(at->velocity),
                                    .max_periods = at->max_periods};
-  KZ_FREED_BY(kz_catalogue_free) kz_catalogue listed = {0};
+  KZ_AUTOFREE_BY(kz_catalogue_free) kz_catalogue listed = {0};
   int64_t n;
   kz_catalogue_make(at->dynamics, at->hits, &listed);
-  KZ_FREED kz_resilience *point = kz_resilience_list(at->dynamics, &listed, &n);
+  KZ_AUTOFREE kz_resilience *point = kz_resilience_list(at->dynamics, &listed, &n);
   KZ_TRY(kz_resilience_run(at->run, at->dynamics, &plan, n, point));
   for (int64_t i = 0; i < n; i++)
     for (int kind = 0; kind < 3; kind++) {
@@ -55,8 +56,12 @@ static kz_status run_points(const kz_scene *scene, const kz_run *run, kz_store *
 }
 
 static const char *const SHOCKS[] = {"shock_angle", "shock_kick", "shock_size", NULL};
-static const kz_sweep_part part = {
-    .words = WORDS_OF_PART, .of_branches = 1, .numbers = SHOCKS, .value = find_shocks, .cost = swept_cost, .run = run_points};
+static const kz_sweep_part part = {.words = WORDS_OF_PART,
+                                   .of_branches = 1,
+                                   .numbers = SHOCKS,
+                                   .value = find_shocks,
+                                   .cost = swept_cost,
+                                   .run = run_points};
 
 /* The rows of kz_measures that a sweep names. */
 static kz_integers names_of(const kz_sweep_plan *plan) {

@@ -17,10 +17,13 @@ const kz_variable kz_measures_variables[] = {
     {"size", KZ_REAL, {"size"}, ANGLE, "size of the shocks"},
     {"name", KZ_TEXT, {"attractor"}, NONE, "name of the attractor; names may repeat"},
     {"period", KZ_INT32, {"attractor"}, PERIODS, "period of the orbit; 0 = it never closes"},
-    {"winding", KZ_INT32, {"attractor"}, NONE, "net turns in one period, + counterclockwise; of a running state 1 or -1"},
+    {"winding", KZ_INT32, {"attractor"}, NONE,
+     "net turns in one period, + counterclockwise; of a running state 1 or -1"},
     {"centre", KZ_INT8, {"attractor"}, NONE, "what the orbit moves about", {CENTRES}},
-    {"theta", KZ_REAL, {"attractor"}, ANGLE, "angle of the first strobe point from down; of a chaotic one its mean, of a running one NaN"},
-    {"velocity", KZ_REAL, {"attractor"}, VELOCITY, "angular velocity of the same strobe point; of one that never closes its mean"},
+    {"theta", KZ_REAL, {"attractor"}, ANGLE,
+     "angle of the first strobe point from down; of a chaotic one its mean, of a running one NaN"},
+    {"velocity", KZ_REAL, {"attractor"}, VELOCITY,
+     "angular velocity of the same strobe point; of one that never closes its mean"},
     KZ_MEASURES(NUMBER, INTERVAL, SIZES, PAIR, PENDULUM)
     {0},
 };

@@ -60,10 +60,12 @@ double kz_axis_place(const kz_axis *axis, int64_t i, double pair[2]) {
 }
 
 double kz_axis_random(const kz_axis *axis, const uint64_t bits[2], double pair[2]) {
-  const __float128 cells_width = kz_axis_width(axis), share = ((__float128)bits[0] + (__float128)bits[1] * 0x1p-53) * 0x1p-53;
-  cells_split((kz_axis_is_centred(axis) ? kz_decimal_quad(axis->centre.text) - cells_width / 2 : (__float128)axis->min) +
-                  cells_width * share,
-              pair);
+  const __float128 cells_width = kz_axis_width(axis),
+                   share = ((__float128)bits[0] + (__float128)bits[1] * 0x1p-53) * 0x1p-53;
+  cells_split(
+      (kz_axis_is_centred(axis) ? kz_decimal_quad(axis->centre.text) - cells_width / 2 : (__float128)axis->min) +
+          cells_width * share,
+      pair);
   return (double)cells_width * 0x1p-105 + 0x1p-103 * fmax(1, fabs(pair[0]));
 }
 
@@ -76,13 +78,15 @@ double kz_axis_centre(const kz_axis *axis, int64_t i) {
   const int64_t halves =
       2 * i + 1 - axis->count; /* distance from the centre in half cells; a quad has more digits than a pair */
   if (kz_axis_is_centred(axis))
-    return (double)((__float128)halves * (quad_of(&axis->width) / (__float128)(2 * axis->count)) + quad_of(&axis->centre));
+    return (double)((__float128)halves * (quad_of(&axis->width) / (__float128)(2 * axis->count)) +
+                    quad_of(&axis->centre));
   return (double)halves * ((axis->max - axis->min) / (2.0 * (double)axis->count)) + (axis->min + axis->max) / 2;
 }
 
 kz_coordinate kz_axis_coordinate(const kz_axis *axis, int64_t i) {
   if (!kz_axis_is_centred(axis)) return (kz_coordinate){.high = kz_axis_centre(axis, i)};
-  return (kz_coordinate){.centre = axis->centre.text, .width = axis->width.text, .share = (double)kz_axis_share(axis, i)};
+  return (kz_coordinate){
+      .centre = axis->centre.text, .width = axis->width.text, .share = (double)kz_axis_share(axis, i)};
 }
 
 double kz_axis_fastest(const kz_axis *velocity) {
@@ -121,8 +125,8 @@ kz_window kz_motions_window(const kz_axis *theta, const kz_axis *velocity) {
 }
 
 kz_window kz_window_of(const kz_axis *theta, const kz_axis *velocity) {
-  return (kz_window){theta->min - cells_margin(theta), theta->max + cells_margin(theta), velocity->min - cells_margin(velocity),
-                     velocity->max + cells_margin(velocity)};
+  return (kz_window){theta->min - cells_margin(theta), theta->max + cells_margin(theta),
+                     velocity->min - cells_margin(velocity), velocity->max + cells_margin(velocity)};
 }
 
 static bool is_symmetric(const kz_axis *axis) {

@@ -34,8 +34,8 @@ void kz_count_boxes(int64_t columns, int64_t rows, const int16_t *label, kz_coun
 }
 
 /* n cells beside those to their left and right. */
-static void counts_compare(int64_t n, const int16_t *label, const int16_t *left, const int16_t *right, int64_t *compared,
-                           int64_t *uncertain) {
+static void counts_compare(int64_t n, const int16_t *label, const int16_t *left, const int16_t *right,
+                           int64_t *compared, int64_t *uncertain) {
   int32_t known = 0, differ = 0;
   for (int64_t i = 0; i < n; i++) { /* over vectors: without a branch */
     const int16_t settled = (int16_t)(label[i] | left[i] | right[i]) >= 0;

@@ -1,5 +1,5 @@
-/* A labelled grid as counts, which are added up over its tiles: basin entropy (A. Daza et al., Sci. Rep. 6 (2016) 31416)
- * and uncertain shares at distances (C. Grebogi et al., Phys. Lett. A 99 (1983) 415). */
+/* A labelled grid as counts, which are added up over its tiles: basin entropy (A. Daza et al., Sci. Rep. 6 (2016)
+ * 31416) and uncertain shares at distances (C. Grebogi et al., Phys. Lett. A 99 (1983) 415). */
 #pragma once
 
 #include <stdbool.h>
@@ -12,10 +12,10 @@ enum { KZ_DISTANCES = 8, KZ_BOX_CELLS = KZ_BOX * KZ_BOX };
 
 /* All fields are int64_t, so that kz_ranks_sum can add them. */
 typedef struct {
-  int64_t evidence[KZ_MAX_FLAGS];                    /* [code]: cells of which the file has this evidence */
-  int64_t unsettled, doubtful, changed;              /* cells; unsettled: without id; doubtful: without mirror images; changed:
-                                                      * decided ones to which a part of the study has given another label */
-  int64_t boxes[KZ_BOX_CELLS + 1];                   /* [i]: boxes with i settled cells */
+  int64_t evidence[KZ_MAX_FLAGS];       /* [code]: cells of which the file has this evidence */
+  int64_t unsettled, doubtful, changed; /* cells; unsettled: without id; doubtful: without mirror images; changed:
+                                         * decided ones to which a part of the study has given another label */
+  int64_t boxes[KZ_BOX_CELLS + 1];      /* [i]: boxes with i settled cells */
   int64_t parts[KZ_BOX_CELLS + 1][KZ_BOX_CELLS + 1]; /* [i][j]: attractors that have j cells of such a box */
   int64_t compared[KZ_DISTANCES],
       uncertain[KZ_DISTANCES]; /* [d]: cells compared with those 2^d columns away; those that differ */

@@ -3,12 +3,12 @@
 #include <math.h>
 #include <string.h>
 
-/* Largest distance from a curve at which a branch begins: in sides of the plane; in rad; where the multiplier -1 has changed by so much. */
+/* Largest distance from a curve where a branch begins: sides of the plane; rad; change of the multiplier -1. */
 static const double BESIDE = 3e-5, FARTHEST = 0.05, CHANGED = 0.04;
-/* Loss of area over the cycle at which a child begins as near as rounding allows: where less is lost, it begins no nearer. */
+/* Loss of area over the cycle at which a child begins as near as rounding allows; with less it is no nearer. */
 static const double LEAST_DAMPED = 2e-3;
 
-/* The means of the pairs of points that lie half a period apart; side -1: of a point and the mirror image of the other. */
+/* Means of points half a period apart; side -1: of a point and the other's mirror image. */
 static bool take_means(int points, double side, const double *cycle, double *y) {
   const double lift = 2 * M_PI * rint((cycle[2 * points] - side * cycle[0]) / (2 * M_PI));
   if (isnan(cycle[2 * points] - lift - side * cycle[0])) return false;
@@ -20,7 +20,7 @@ static bool take_means(int points, double side, const double *cycle, double *y) 
   return true;
 }
 
-/* Means of the points of a cycle of an odd number of periods and of its images, half a period later: of the first half of them. */
+/* Means of an odd cycle's points and their images half a period later, over the first half of them. */
 static bool take_image_means(const kz_plane *plane, int n, const double *cycle, double *y) {
   for (int i = 0; i < (n + 1) / 2; i++) {
     const double *own = cycle + 2 * i, *other = cycle + 2 * ((i + n / 2) % n);
@@ -34,7 +34,7 @@ static bool take_image_means(const kz_plane *plane, int n, const double *cycle, 
 
 kz_curve_kind kz_kind_of(const kz_plane *plane, int side, int points, int stride, int multiplier, const double *y) {
   const int half = side < 0 && plane->half_period, periods = kz_larger(stride, 1) - half;
-  KZ_FREED double *next = kz_malloc(2 * ((size_t)periods + 2) * sizeof *next);
+  KZ_AUTOFREE double *next = kz_malloc(2 * ((size_t)periods + 2) * sizeof *next);
   memcpy(next, y + 2 * points - 2, 2 * sizeof *next);
   if (!kz_curve_orbit(plane, y + 2 * points, 2, periods, next)) return (kz_curve_kind){0};
   if (half && !kz_curve_orbit(plane, y + 2 * points, 1, 1, next + 2 * periods)) return (kz_curve_kind){0};
@@ -91,10 +91,10 @@ bool kz_child_of(const kz_plane *plane, const kz_plane_cycle *flip, int axis, kz
       !kz_curve_form(plane, kind, flip->y, &form, side, vector) || form == 0 || fabs(side[axis]) < KZ_CHILD_FLAT)
     return false;
   const double gradient = side[axis], other = 1 - kz_kind_determinant(kind, pendulum.beta);
-  const double by =
-      fmin(BESIDE, fmin(CHANGED * fmax(other, LEAST_DAMPED), FARTHEST * FARTHEST * fabs(form) * other) / fabs(gradient));
+  const double by = fmin(
+      BESIDE, fmin(CHANGED * fmax(other, LEAST_DAMPED), FARTHEST * FARTHEST * fabs(form) * other) / fabs(gradient));
   const double size = sqrt(fabs(gradient / form) * by / other);
-  KZ_FREED double *state = kz_malloc(2 * ((size_t)(of.points * stride) + 1) * sizeof *state);
+  KZ_AUTOFREE double *state = kz_malloc(2 * ((size_t)(of.points * stride) + 1) * sizeof *state);
   const double at_rest[2] = {M_PI * flip->kind.rest, 0},
                *from = flip->kind.rest >= 0 ? at_rest : flip->y; /* angle that the child's turns are for */
   along[axis] = gradient * form > 0 ? -1 : 1;

@@ -15,8 +15,9 @@ enum {
 
 /* How much faster than the sampled starts, after one drive period, others may become. */
 static const double MARGIN = 1.05;
-/* Method exact takes a smaller error than the tolerance, by this factor, where rounding allows: its steps cost less than the cells that
- * would be doubtful. Measured: 1 makes whole runs a sixth longer, and 30 is not reached by most pendulums. */
+/* Method exact takes a smaller error than the tolerance, by this factor, where rounding allows: its steps cost less
+ * than the cells that would be doubtful. Measured: 1 makes whole runs a sixth longer, and 30 is not reached by most
+ * pendulums. */
 static const double EXACT_PART = 0.1;
 
 /* The motions for which one numerics must be accurate. */
@@ -120,7 +121,7 @@ static bool serve_method(const demand *d, int32_t method, kz_numerics *numerics)
   return true;
 }
 
-/* Sets scene->numerics. False if the processed splitting is not accurate enough for the scene's motions, or if nothing is labelled. */
+/* Sets scene->numerics; false if nothing is labelled, or the processed splitting is not accurate enough. */
 static bool choose_processed(kz_scene *scene) {
   demand d = {.tolerance = scene->asked.tolerance};
   kz_numerics numerics = {
@@ -156,7 +157,8 @@ static void choose_steps(kz_scene *scene, bool enough) {
   scene->numerics.steps_per_period = kz_scheme_at(scene->numerics.scheme).default_steps;
   if (!scene->has_basin || !isnan(scene->basin->accuracy) || !(scene->parameters.pendulum.beta > 0)) return;
   const kz_step_motions motions = kz_motions_of_basin(scene);
-  if ((enough || motions.refuse_above < KZ_STEPS_REFUSED) && kz_motions_find_steps(&motions, &chosen)) scene->numerics = chosen;
+  if ((enough || motions.refuse_above < KZ_STEPS_REFUSED) && kz_motions_find_steps(&motions, &chosen))
+    scene->numerics = chosen;
 }
 
 void kz_numerics_resolve(kz_scene *scene) {

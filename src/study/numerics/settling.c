@@ -1,14 +1,14 @@
-/* How long motions take to settle. Damping shrinks areas by e in 1/(2 pi beta) periods, its lifetime; the weaker it is, the
- * smaller are the trapping regions and the more lifetimes it takes to get there. */
+/* How long motions take to settle. Damping shrinks areas by e in 1/(2 pi beta) periods, its lifetime; the weaker it is,
+ * the smaller are the trapping regions and the more lifetimes it takes to get there. */
 #include <math.h>
 
 #include "kapitza/study.h"
 #include "kapitza/study_basin.h"
 #include "sweep/plan.h"
 
-/* Mean number of lifetimes until a motion is trapped: that times the logarithm of the lifetime. Measured at Q = 5, 20, 50, 200,
- * 1000 (Omega = 11 and 8): 3.4, 5.9, 7.5, 10.9, 14.3 lifetimes of 9, 25, 88, 350, 1751 periods; 999 of 1000 are trapped within
- * 21. */
+/* Mean number of lifetimes until a motion is trapped: that times the logarithm of the lifetime. Measured at Q = 5, 20,
+ * 50, 200, 1000 (Omega = 11 and 8): 3.4, 5.9, 7.5, 10.9, 14.3 lifetimes of 9, 25, 88, 350, 1751 periods; 999 of 1000
+ * are trapped within 21. */
 static const double MEAN_LIFETIMES = 1.9, ALL_LIFETIMES = 40;
 static const double LEAST = 2000, MOST = 1e6;
 
@@ -56,7 +56,8 @@ void kz_settling_warn(const kz_scene *scene, FILE *out) {
   const double beta = weakest_damping(scene);
   if (!(beta > 0) && (scene->has_basin || scene->has_attractors))
     fputs(
-        "warning: pendulum: has no damping, so there are no attractors and no start gets a label; give damping, or ask for "
+        "warning: pendulum: has no damping, so there are no attractors and no start gets a label; give damping, or ask "
+        "for "
         "orbit or saddles\n",
         out);
   if (!(beta > 0)) return;

@@ -18,7 +18,8 @@ kz_share kz_share_of(int64_t hits, int64_t n) {
 }
 
 kz_share kz_share_of_part(int64_t hits, int64_t n, int64_t total) {
-  if (n > 0 && n == total) return (kz_share){(double)hits / (double)n, (double)hits / (double)n, (double)hits / (double)n};
+  if (n > 0 && n == total)
+    return (kz_share){(double)hits / (double)n, (double)hits / (double)n, (double)hits / (double)n};
   return share_interval(hits, n, total > 1 ? Z * Z * (double)(total - n) / (double)(total - 1) : Z * Z);
 }
 

@@ -8,11 +8,12 @@ typedef struct {
   double share, low, high;
 } kz_share;
 kz_share kz_share_of(int64_t hits, int64_t n);
-/* Interval for n different items of `total`: the variance is smaller by the factor (total - n)/(total - 1), and 0 for n = total. */
+/* Interval for n distinct items of `total`: the variance is smaller by (total - n)/(total - 1). */
 kz_share kz_share_of_part(int64_t hits, int64_t n, int64_t total);
 
-/* Number of kinds that no sample has, where `once` and `twice` of them are in one and in two samples: Chao's estimate without its bias, and its
- * variance (A. Chao, Biometrics 43 (1987) 783). It is low where some kinds are much rarer than others. */
+/* Number of kinds that no sample has, where `once` and `twice` of them are in one and in two samples: Chao's estimate
+ * without its bias, and its variance (A. Chao, Biometrics 43 (1987) 783). It is low where some kinds are much rarer
+ * than others. */
 typedef struct {
   double number, variance;
 } kz_unseen;
@@ -26,7 +27,8 @@ int64_t kz_share_sample(double share);
 /* Number i, from 0 on, of a sequence that fills the unit square evenly (M. Roberts' R2). */
 void kz_even_share(int64_t i, double share[2]);
 
-/* Number `index`, from 1 on, of a sequence of 64 bits that looks random (SplitMix64: G. L. Steele, D. Lea, C. H. Flood, OOPSLA 2014, 453). */
+/* Number `index` >= 1 of a random-looking sequence (SplitMix64: G. L. Steele, D. Lea, C. H. Flood, OOPSLA 2014,
+ * 453). */
 uint64_t kz_random_bits(uint64_t index);
 
 /* Cell i of an order of the cells 0 .. total - 1 that looks random: a permutation, chosen by the seed. */

@@ -14,8 +14,8 @@ enum {
 
 /* rad, error of one drive period above which the user is warned. */
 static const double WARN_ABOVE = 1e-4;
-/* Errors in cells of a basin, where a hundredth of a cell is less than WARN_ABOVE, and the error above which the scene is refused:
- * a picture that is shifted by so much. */
+/* Errors in cells of a basin, where a hundredth of a cell is less than WARN_ABOVE, and the error above which the scene
+ * is refused: a picture that is shifted by so much. */
 static const double WARN_ABOVE_CELLS = 0.01, REFUSE_ABOVE_CELLS = 0.1;
 
 double kz_steps_tolerance(const kz_basin_plan *plan) {
@@ -59,7 +59,8 @@ static void describe_error(const kz_step_motions *m, double error, size_t bytes,
   else if (m->refuse_above >= KZ_STEPS_REFUSED)
     snprintf(text, bytes, "are off by up to %.2g rad after one drive period", error);
   else
-    snprintf(text, bytes, "are off by up to %.2g rad after one drive period, where a cell is %.2g wide", error, m->cell);
+    snprintf(text, bytes, "are off by up to %.2g rad after one drive period, where a cell is %.2g wide", error,
+             m->cell);
 }
 
 kz_speed_errors kz_motions_errors(const kz_step_motions *m) {
@@ -73,8 +74,9 @@ kz_status kz_motions_check(const kz_step_motions *m) {
   char what[120], help[160];
   describe_error(m, classes.error[worst], sizeof what, what);
   step_check_advice(m, sizeof help, help);
-  return kz_fail(KZ_REFUSED, "%s: %swith numerics.steps_per_period = %d of %s, motions at speeds from %.3g to %.3g %s; %s",
-                 m->keys, m->where, (int)m->numerics.steps_per_period, kz_scheme_at(m->numerics.scheme).name,
+  return kz_fail(KZ_REFUSED,
+                 "%s: %swith numerics.steps_per_period = %d of %s, motions at speeds from %.3g to %.3g %s; %s", m->keys,
+                 m->where, (int)m->numerics.steps_per_period, kz_scheme_at(m->numerics.scheme).name,
                  classes.speed[worst], classes.speed[worst + 1], what, help);
 }
 
@@ -82,8 +84,8 @@ void kz_motions_warn(const kz_step_motions *m, const kz_speed_errors *classes, F
   char help[160];
   for (int c = 0; c < KZ_SPEED_CLASSES; c++)
     if (classes->error[c] > m->warn_above)
-      fprintf(summary, "warning: %sat speeds from %.3g to %.3g the error of one drive period is up to %.2g rad\n", m->where,
-              classes->speed[c], classes->speed[c + 1], classes->error[c]);
+      fprintf(summary, "warning: %sat speeds from %.3g to %.3g the error of one drive period is up to %.2g rad\n",
+              m->where, classes->speed[c], classes->speed[c + 1], classes->error[c]);
   if (kz_worst_error(classes) <= m->warn_above) return;
   step_check_advice(m, sizeof help, help);
   fprintf(summary, "warning: for an error below %.2g rad per period at every speed: numerics.steps_per_period: %s\n",
@@ -97,16 +99,18 @@ kz_status kz_steps_check_table(const kz_basin_plan *plan, double table_error) {
   const double nodes = (double)most * pow(table_error / cell, 1.0 / kz_stencil(plan->interpolation));
   char more[64] = "";
   if (nodes <= MOST_NODES) snprintf(more, sizeof more, ", or some %.0f nodes an axis", 100 * ceil(nodes / 100));
-  return kz_fail(KZ_REFUSED,
-                 "basin.icm|basin.method: the map table has an error of %.2g rad a period, but a cell is %.2g wide; use method "
-                 "direct%s",
-                 table_error, cell, more);
+  return kz_fail(
+      KZ_REFUSED,
+      "basin.icm|basin.method: the map table has an error of %.2g rad a period, but a cell is %.2g wide; use method "
+      "direct%s",
+      table_error, cell, more);
 }
 
 void kz_steps_warn_table(const kz_basin_plan *plan, double table_error, FILE *summary) {
   if (table_error <= kz_steps_tolerance(plan)) return;
-  fprintf(summary,
-          "warning: the map table has an error of %.2g rad a period (%.2g of a cell); use more nodes (basin.icm), a higher "
-          "interpolation, or method direct\n",
-          table_error, table_error / kz_cell_size(plan));
+  fprintf(
+      summary,
+      "warning: the map table has an error of %.2g rad a period (%.2g of a cell); use more nodes (basin.icm), a higher "
+      "interpolation, or method direct\n",
+      table_error, table_error / kz_cell_size(plan));
 }

@@ -43,11 +43,12 @@ static double error_of(int32_t steps, void *context) {
   return kz_worst_error(&classes);
 }
 
-bool kz_steps_enough(const kz_pendulum *pendulum, double fastest, double tolerance, int32_t most, kz_numerics *numerics) {
+bool kz_steps_enough(const kz_pendulum *pendulum, double fastest, double tolerance, int32_t most,
+                     kz_numerics *numerics) {
   trial t = {pendulum, fastest, numerics};
   int32_t tried;
-  return kz_steps_search(error_of, &t, kz_scheme_at(numerics->scheme).order, tolerance, numerics->steps_per_period, most,
-                         &tried) <= tolerance;
+  return kz_steps_search(error_of, &t, kz_scheme_at(numerics->scheme).order, tolerance, numerics->steps_per_period,
+                         most, &tried) <= tolerance;
 }
 
 bool kz_steps_carry(const kz_pendulum *pendulum, const kz_numerics *numerics, double fastest) {
@@ -60,8 +61,8 @@ int32_t kz_steps_scaled(const kz_pendulum *pendulum, const kz_numerics *numerics
   const double speed[] = {0, fastest};
   double error;
   kz_step_errors(pendulum, numerics, 1, speed, &error);
-  const double steps = ceil(
-      kz_expected_steps(numerics->steps_per_period, fmax(error, ROUNDING), tolerance, kz_scheme_at(numerics->scheme).order));
+  const double steps = ceil(kz_expected_steps(numerics->steps_per_period, fmax(error, ROUNDING), tolerance,
+                                              kz_scheme_at(numerics->scheme).order));
   return (int32_t)fmin(fmax(steps, least), most);
 }
 

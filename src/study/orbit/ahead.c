@@ -33,7 +33,8 @@ static void exponent_along(const kz_model *model, int64_t periods, kz_state star
   double deviation[2] = {1, 0}, block[BLOCKS] = {0}, total = 0, square = 0;
   const int64_t length = periods / BLOCKS; /* periods that do not fill the blocks come first and are left out */
   for (int64_t i = 0; i < periods - BLOCKS * length; i++) ahead_growth(model, &start, deviation);
-  for (int64_t i = 0; i < BLOCKS * length; i++) block[i / length] += ahead_growth(model, &start, deviation) / (double)length;
+  for (int64_t i = 0; i < BLOCKS * length; i++)
+    block[i / length] += ahead_growth(model, &start, deviation) / (double)length;
   for (int i = 0; i < BLOCKS; i++) total += block[i] / BLOCKS;
   for (int i = 0; i < BLOCKS; i++) square += (block[i] - total) * (block[i] - total);
   *mean = length > 0 ? total : NAN;
@@ -48,8 +49,8 @@ static bool is_positive(double mean, double error) {
   return mean > 0 && mean > CONFIDENCE * error;
 }
 
-/* Whether the exponent from `start` on is still positive. `mean` is that of the past; it gives the number of periods, so many that an orbit
- * near an unstable cycle has left it. */
+/* Whether the exponent from `start` on is still positive. `mean` is that of the past; it gives the number of periods,
+ * so many that an orbit near an unstable cycle has left it. */
 static bool stays_positive(const kz_model *model, kz_state start, double mean) {
   double later, error, periods = fmax(LEAST_AHEAD, ceil(2 * ESCAPE / mean));
   if (!(periods <= MOST_AHEAD)) return false;
@@ -57,17 +58,19 @@ static bool stays_positive(const kz_model *model, kz_state start, double mean) {
   return is_positive(later, error) && later * periods > ESCAPE;
 }
 
-/* The name of the attractor that the pendulum settles on from a state; "" if there is none, or if it has not settled within the periods that
- * the damping needs. `fastest` = a velocity that the motion reaches. */
+/* The name of the attractor that the pendulum settles on from a state; "" if there is none, or if it has not settled
+ * within the periods that the damping needs. `fastest` = a velocity that the motion reaches. */
 static kz_status find_attractor(const kz_model *model, kz_state state, double fastest, char *name) {
   const double beta = model->pendulum.beta;
   if (!(beta > 0)) return KZ_OK;
-  const double periods = fmin(MOST_STEPS / model->numerics.steps_per_period, fmax(LEAST_PERIODS, SHRUNK / (2 * M_PI * beta)));
+  const double periods =
+      fmin(MOST_STEPS / model->numerics.steps_per_period, fmax(LEAST_PERIODS, SHRUNK / (2 * M_PI * beta)));
   const kz_window window = {-M_PI, M_PI, -fastest, fastest};
   double start[2] = {remainder(state.theta, 2 * M_PI) / M_PI, state.velocity};
   int32_t label;
   kz_attractor row;
-  KZ_FREED_BY(kz_dynamics_freed) kz_dynamics *dynamics = kz_dynamics_create(&model->pendulum, &model->numerics, LONGEST_CYCLE);
+  KZ_AUTOFREE_BY(kz_dynamics_freed)
+  kz_dynamics *dynamics = kz_dynamics_create(&model->pendulum, &model->numerics, LONGEST_CYCLE);
   kz_dynamics_coarse_regions(dynamics, kz_dynamics_max_velocity(dynamics, &window));
   KZ_TRY(kz_discover(NULL, dynamics, 0, (int64_t)periods, 1, start, &label));
   if (label <= 0) return KZ_OK;

@@ -54,13 +54,15 @@ kz_status kz_orbit_features_make(kz_orbit *orbit) {
   kz_record record = {
       .periods = period > 0 ? period : motion->periods, .samples_per_period = motion->samples, .closed = period > 0};
   record.rotation = rotation_of(motion, &record);
-  features->centre = kz_centre_of(record.rotation != 0, record.periods * motion->samples, motion->theta, &features->origin);
+  features->centre =
+      kz_centre_of(record.rotation != 0, record.periods * motion->samples, motion->theta, &features->origin);
   record.centre = features->origin;
   KZ_TRY(make_lines(motion, &record, features));
   if (record.closed && features->period != period)
-    return kz_fail(KZ_REFUSED,
-                   "orbit: by its strobe points the cycle has period %lld, by its spectral lines %lld; choose another cycle",
-                   (long long)period, (long long)features->period);
+    return kz_fail(
+        KZ_REFUSED,
+        "orbit: by its strobe points the cycle has period %lld, by its spectral lines %lld; choose another cycle",
+        (long long)period, (long long)features->period);
   features->chaotic = orbit->parting && features->period == 0;
   if (features->chaotic) KZ_TRY(take_velocity(motion, features));
   int64_t span = features->period > 0 ? features->period : record.periods;

@@ -10,21 +10,26 @@ static const kz_key keys[] = {
     REAL("orbit.start.theta", "rad", -1e6, 1e6, NULL, theta, "Angle from down."),
     REAL("orbit.start.velocity", KZ_VELOCITY_UNIT, -1e9, 1e9, NULL, velocity, "Velocity."),
     INTEGER("orbit.attractor", 0, 32767, "", attractor,
-            "Id in the catalogue of the basin or attractors study of the same scene: its closed orbit from the first strobe "
+            "Id in the catalogue of the basin or attractors study of the same scene: its closed orbit from the first "
+            "strobe "
             "point."),
     WORD("orbit.model", "pendulum|mathieu|effective", "pendulum", model,
-         "pendulum: the full equation; mathieu: linear about down or inverted; effective: the slow equation of the effective "
+         "pendulum: the full equation; mathieu: linear about down or inverted; effective: the slow equation of the "
+         "effective "
          "potential."),
     WORD("orbit.about", "down|inverted", "", about, "Position that the model mathieu is linear about; left out: down."),
     INTEGER("orbit.transient", 0, 1e9, "0", transient, "Drive periods before the record begins."),
     INTEGER("orbit.periods", 1, 1e6, "", periods,
-            "Drive periods of the record; left out: 100, or the period of a closed orbit; a closed orbit is recorded once at "
+            "Drive periods of the record; left out: 100, or the period of a closed orbit; a closed orbit is recorded "
+            "once at "
             "least."),
     INTEGER("orbit.samples_per_period", 4, 4096, "96", samples_per_period, "Points of the series in a drive period."),
-    BOOLEAN("orbit.closed", "false", closed,
-            "The cycle near the start, by Newton's method, instead of the motion from it; of the model mathieu: the motion "
-            "must close."),
-    INTEGER("orbit.period", 1, 512, "", period, "Period of the closed orbit in drive periods. Left out: the program finds it."),
+    BOOLEAN(
+        "orbit.closed", "false", closed,
+        "The cycle near the start, by Newton's method, instead of the motion from it; of the model mathieu: the motion "
+        "must close."),
+    INTEGER("orbit.period", 1, 512, "", period,
+            "Period of the closed orbit in drive periods. Left out: the program finds it."),
     {.path = NULL},
 };
 

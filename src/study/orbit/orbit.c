@@ -1,4 +1,4 @@
-/* Study `orbit`: one motion, its strobe points, turning points and lines. One motion has no parallel parts: rank 0 records it. */
+/* Study `orbit`: one motion, strobe points, turning points, lines. Nothing is parallel: rank 0 records it. */
 #include "orbit.h"
 
 #include <inttypes.h>
@@ -19,7 +19,7 @@ enum { MOST_PERIODS = 512 };
 
 /* Newton from `start` for period n; the cycle then has its smallest period. */
 static bool close_with(const kz_model *model, int64_t n, kz_state start, kz_cycle *cycle) {
-  KZ_FREED double *theta = kz_malloc((size_t)n * sizeof *theta), *velocity = kz_malloc((size_t)n * sizeof *velocity);
+  KZ_AUTOFREE double *theta = kz_malloc((size_t)n * sizeof *theta), *velocity = kz_malloc((size_t)n * sizeof *velocity);
   theta[0] = start.theta;
   velocity[0] = start.velocity;
   kz_dynamics_close_cycle(&model->pendulum, &model->numerics, n, MAX_DISTANCE, theta, velocity, &cycle->row);
@@ -41,10 +41,11 @@ static kz_status find_cycle(const kz_model *model, kz_state start, kz_cycle *cyc
     for (int n = 1; n <= MOST_PERIODS; n++)
       if (back[n] < WITHIN[i] && close_with(model, n, start, cycle)) return KZ_OK;
   }
-  return kz_fail(KZ_REFUSED,
-                 "orbit.closed: no cycle of up to %d periods near theta = %.9g, velocity = %.9g; give a nearer start, a longer "
-                 "transient, or the period",
-                 MOST_PERIODS, start.theta, start.velocity);
+  return kz_fail(
+      KZ_REFUSED,
+      "orbit.closed: no cycle of up to %d periods near theta = %.9g, velocity = %.9g; give a nearer start, a longer "
+      "transient, or the period",
+      MOST_PERIODS, start.theta, start.velocity);
 }
 
 /* The linear model scales: its orbits close or not. */
@@ -54,26 +55,29 @@ static kz_status check_linear(const kz_model *model, int64_t period, kz_state st
   kz_model_skip(model, period, &orbit_end);
   double gap = hypot(orbit_end.theta - start.theta, orbit_end.velocity - start.velocity);
   if (gap <= CLOSED * hypot(start.theta - model->origin, start.velocity)) return KZ_OK;
-  return kz_fail(KZ_REFUSED,
-                 "orbit.closed: the linear motion ends %.3g from its start after %lld periods; choose parameters on a curve of "
-                 "this period, or leave closed out",
-                 gap, (long long)period);
+  return kz_fail(
+      KZ_REFUSED,
+      "orbit.closed: the linear motion ends %.3g from its start after %lld periods; choose parameters on a curve of "
+      "this period, or leave closed out",
+      gap, (long long)period);
 }
 
-/* The cycle at or near `start`: of the given period, or (period = 0) of the shortest that the orbit comes back to. Newton's
- * method on the strobe map for the pendulum; for the linear model the orbit itself must close. KZ_REFUSED says what was
- * found instead. */
+/* The cycle at or near `start`: of the given period, or (period = 0) of the shortest that the orbit comes back to.
+ * Newton's method on the strobe map for the pendulum; for the linear model the orbit itself must close. KZ_REFUSED says
+ * what was found instead. */
 static kz_status close_cycle(const kz_model *model, int64_t period, kz_state start, kz_cycle *cycle) {
   if (!model->flow) return check_linear(model, period, start, cycle);
   if (period == 0) return find_cycle(model, start, cycle);
   if (!close_with(model, period, start, cycle))
-    return kz_fail(KZ_REFUSED,
-                   "orbit.closed: no cycle of %lld periods within %g of theta = %.9g, velocity = %.9g; give a nearer start",
-                   (long long)period, MAX_DISTANCE, start.theta, start.velocity);
+    return kz_fail(
+        KZ_REFUSED,
+        "orbit.closed: no cycle of %lld periods within %g of theta = %.9g, velocity = %.9g; give a nearer start",
+        (long long)period, MAX_DISTANCE, start.theta, start.velocity);
   if (cycle->period == period) return KZ_OK;
-  return kz_fail(KZ_REFUSED,
-                 "orbit.period: is %lld, but the cycle found there closes after %lld; give that period, or a nearer start",
-                 (long long)period, (long long)cycle->period);
+  return kz_fail(
+      KZ_REFUSED,
+      "orbit.period: is %lld, but the cycle found there closes after %lld; give that period, or a nearer start",
+      (long long)period, (long long)cycle->period);
 }
 
 /* Periods of an open record that the scene does not bound. */
@@ -107,9 +111,10 @@ static kz_status orbit_recall(const kz_listed *known, int64_t id, kz_cycle *cycl
     return kz_fail(KZ_REFUSED,
                    "orbit.attractor: no attractor was found; give orbit.start, add damping, or choose another window");
   if (id >= known->count)
-    return kz_fail(KZ_REFUSED,
-                   "orbit.attractor: %lld is not the id of an attractor; the search found %lld, so choose an id below that",
-                   (long long)id, (long long)known->count);
+    return kz_fail(
+        KZ_REFUSED,
+        "orbit.attractor: %lld is not the id of an attractor; the search found %lld, so choose an id below that",
+        (long long)id, (long long)known->count);
   cycle->state = (kz_state){known->theta[id * known->phases], known->velocity[id * known->phases]};
   cycle->period = (int64_t)known->period[id];
   if (cycle->period > 0) return KZ_OK;
@@ -121,7 +126,7 @@ static kz_status start(kz_orbit *orbit, const kz_run *run, kz_store *store) {
   const kz_orbit_plan *plan = orbit->scene->orbit;
   orbit->cycle = (kz_cycle){.state = {plan->theta, plan->velocity}, .period = orbit_given(plan->period, 0)};
   if (plan->attractor < 0) return KZ_OK;
-  KZ_FREED_BY(kz_listed_free) kz_listed known;
+  KZ_AUTOFREE_BY(kz_listed_free) kz_listed known;
   KZ_TRY(kz_listed_read(run, store, "attractors", "attractor", &known));
   return kz_ranks_agree(run->ranks, orbit_recall(&known, plan->attractor, &orbit->cycle));
 }
@@ -141,7 +146,7 @@ static kz_status skip_stretch(void *context, int64_t tile, void *record) {
   return KZ_OK;
 }
 
-/* The transient in stretches, so that a stop request ends it between two of them and what is done is kept. Collective. */
+/* Skips the transient in stretches: a stop request ends it between two, and what is done is kept. Collective. */
 static kz_status skip_transient(kz_orbit *orbit, const kz_run *run) {
   const int64_t transient = orbit->scene->orbit->transient;
   for (int64_t done = 0; done < transient; done += STRETCH) {
@@ -189,7 +194,7 @@ static void end(kz_orbit *orbit) {
 }
 
 kz_status kz_orbit_run(const kz_scene *scene, const kz_run *run, kz_store *store, FILE *summary) {
-  KZ_FREED_BY(end) kz_orbit orbit = orbit_begin(scene);
+  KZ_AUTOFREE_BY(end) kz_orbit orbit = orbit_begin(scene);
   KZ_TRY(start(&orbit, run, store));
   KZ_TRY(skip_transient(&orbit, run));
   if (!store) return KZ_OK;

@@ -36,7 +36,7 @@ void kz_model_free(kz_model *model);
 /* Moves a state ahead by whole periods; theta comes back within a turn for the pendulum. */
 void kz_model_skip(const kz_model *model, int64_t periods, kz_state *state);
 
-/* Records `periods` from a state. KZ_FAILED where the motion left the range of numbers. The caller frees both arrays in every case. */
+/* Records `periods` from a state; KZ_FAILED if numbers overflow. The caller frees both arrays in any case. */
 kz_status kz_model_record(const kz_model *model, int64_t periods, kz_state orbit_start, kz_orbit_motion *motion);
 
 /* A closed orbit. */
@@ -55,7 +55,7 @@ typedef struct {
   int centre;      /* KZ_ABOUT_DOWN ... */
   double origin;   /* rad: the angle that deflections are counted from, a multiple of pi; 0 where there is no centre */
   bool symmetric;  /* its own mirror image; false for an open record */
-  bool chaotic; /* an open record without period whose neighbours part; its lines are of the velocity (its angle may drift) */
+  bool chaotic;    /* an open record without period whose neighbours part; its lines are of the velocity */
   char name[KZ_NAME_LENGTH];
   int64_t n_lines;        /* lines j = 0 .. n_lines - 1 */
   int64_t record_periods; /* line j lies at j / record_periods drive frequencies */
@@ -74,18 +74,19 @@ typedef struct {
   double lyapunov,
       lyapunov_error; /* largest exponent along the record, per drive period; NaN without the pendulum's own model */
   bool parting;       /* neighbours of an open record separate for good */
-  char settles_on[KZ_NAME_LENGTH]; /* name of the attractor that an open record of the pendulum leads to; "" = none is known */
+  char settles_on[KZ_NAME_LENGTH]; /* attractor that an open record leads to; "" = none is known */
 } kz_orbit;
 
-/* lyapunov, lyapunov_error: mean of the logarithm of the growth of a small deviation per drive period, along the record of the pendulum, by
- * the tangent map, and its standard error from blocks of the record; NaN if the record is too short for blocks. */
+/* lyapunov, lyapunov_error: mean of the logarithm of the growth of a small deviation per drive period, along the record
+ * of the pendulum, by the tangent map, and its standard error from blocks of the record; NaN if the record is too short
+ * for blocks. */
 void kz_orbit_exponent(kz_orbit *orbit);
 
-/* parting, settles_on: how an open record of the pendulum goes on, in chaos or to which attractor. Motions so fast that this takes long are
- * left without an answer. */
+/* parting, settles_on: how an open record of the pendulum goes on, in chaos or to which attractor. Motions so fast that
+ * this takes long are left without an answer. */
 kz_status kz_orbit_look_ahead(kz_orbit *orbit);
 
-/* The features of a record whose first cycle.period periods are one cycle (0 = open). KZ_FAILED where the lines contradict that period. */
+/* Features of a record whose first cycle.period periods are a cycle (0 = open). KZ_FAILED if lines contradict. */
 kz_status kz_orbit_features_make(kz_orbit *orbit);
 
 /* Group /orbit of the file, and a line for people. */

@@ -36,7 +36,8 @@ static kz_status write_series(const kz_orbit *orbit, kz_store *store) {
     COLUMN("pivot_aside", n, orbit_write_pivot(parameters, 0, 2 * M_PI * (double)(i % samples) / (double)samples));
   if (orbit->model.kind == KZ_EFFECTIVE)
     COLUMN("xi", n,
-           -parameters->pendulum.m * sin(motion->theta[i * stride]) * cos(2 * M_PI * (double)(i % samples) / (double)samples));
+           -parameters->pendulum.m * sin(motion->theta[i * stride]) *
+               cos(2 * M_PI * (double)(i % samples) / (double)samples));
   SCALE("strobe_time", strobes, 2 * M_PI * (double)i);
   COLUMN("strobe_theta", strobes, motion->theta[i * motion->samples]);
   COLUMN("strobe_velocity", strobes, motion->velocity[i * motion->samples]);
@@ -91,7 +92,8 @@ static void print_line(const kz_orbit_features *p, double omega, FILE *summary) 
   const char *unit = p->chaotic ? "rad per drive radian" : "rad";
   const double scale = kz_si_factor(omega, &unit), share = (double)p->dominant / (double)p->record_periods;
   fprintf(summary, "; largest line%s %.6g %s at %" PRId64 "/%" PRId64 " of the drive frequency",
-          p->chaotic ? " of the velocity" : "", p->amplitude[p->dominant] * scale, unit, p->dominant, p->record_periods);
+          p->chaotic ? " of the velocity" : "", p->amplitude[p->dominant] * scale, unit, p->dominant,
+          p->record_periods);
   if (!isnan(omega)) fprintf(summary, " (%.4g Hz)", share * omega / (2 * M_PI));
 }
 

@@ -1,6 +1,7 @@
-/* Labels that are proved: starts are followed into the region, in doubles and, where their sets grow too large, in sums of two doubles and at
- * last of three. The starts are the cells - of some tiles at a time, so that what all ranks know of them stays small - and random
- * real starts of the window, which bound the share of its area that may end elsewhere than on attractors that are proved. */
+/* Labels that are proved: starts are followed into the region, in doubles and, where their sets grow too large, in sums
+ * of two doubles and at last of three. The starts are the cells - of some tiles at a time, so that what all ranks know
+ * of them stays small - and random real starts of the window, which bound the share of its area that may end elsewhere
+ * than on attractors that are proved. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -63,7 +64,7 @@ static kz_status find_wanted(kz_window_labels *l, part *p) {
 /* The labels of n starts at a level: 0 = no proof within the periods. */
 static void prove_starts(const kz_basin_plan *plan, const kz_proof *proof, int32_t level, int64_t n,
                          const kz_proof_start *start, kz_decision *decision) {
-  KZ_FREED uint8_t *number = kz_malloc((size_t)n + 1);
+  KZ_AUTOFREE uint8_t *number = kz_malloc((size_t)n + 1);
   kz_proof_follow(proof, level, n, start, periods_of(plan), number);
   for (int64_t i = 0; i < n; i++)
     decision[i] = (kz_decision){
@@ -73,10 +74,10 @@ static void prove_starts(const kz_basin_plan *plan, const kz_proof *proof, int32
     };
 }
 
-/* Of kz_added_levels: the items are cells. */
+/* Level of kz_added_levels for cells as items. */
 static kz_status prove_at(void *context, int32_t level, int64_t n, const int64_t *cell, kz_decision *decision) {
   const part *p = context;
-  KZ_FREED kz_proof_start *start = kz_malloc((size_t)n * sizeof *start);
+  KZ_AUTOFREE kz_proof_start *start = kz_malloc((size_t)n * sizeof *start);
   for (int64_t i = 0; i < n; i++) start[i] = start_of_cell(p->labelling->plan, cell[i]);
   prove_starts(p->labelling->plan, p->proof, level, n, start, decision);
   return KZ_OK;
@@ -85,7 +86,7 @@ static kz_status prove_at(void *context, int32_t level, int64_t n, const int64_t
 static kz_status prove_left(const kz_run *run, part *p) {
   static const kz_added_levels levels = {kz_proof_levels, KZ_ENCLOSURES, prove_at};
   const kz_labeller labeller = {.way = KZ_BY_ADDED, .context = p, .added = &levels, .run = run};
-  KZ_FREED kz_label *label = kz_malloc((size_t)p->n_left * sizeof *label + 1);
+  KZ_AUTOFREE kz_label *label = kz_malloc((size_t)p->n_left * sizeof *label + 1);
   KZ_TRY(kz_label_items(&labeller, 1, p->n_left, p->left, label));
   for (int64_t i = 0; i < p->n_left; i++) {
     if (label[i].label <= 0) continue;
@@ -112,7 +113,7 @@ kz_status kz_proof_take(const kz_proof_work *run, int64_t tile, kz_label *cell) 
   const kz_proof_tile *kept = run->tile ? run->tile + tile : NULL;
   if (!kept || kept->bytes == 0) return KZ_OK;
   const int64_t n = kz_tile_own(&run->tiles, tile);
-  KZ_FREED kz_proof_mark *mark = kz_malloc((size_t)n * sizeof *mark);
+  KZ_AUTOFREE kz_proof_mark *mark = kz_malloc((size_t)n * sizeof *mark);
   if (!kz_unsqueeze(kept->marks, kept->bytes, (size_t)n, sizeof *mark, mark))
     return kz_fail(KZ_FAILED, "a packed tile of %lld cells is damaged, or memory ran out", (long long)n);
   for (int64_t i = 0; i < n; i++) {
@@ -143,9 +144,9 @@ static kz_status prove_cells(kz_window_labels *l, kz_proof_work *run, const kz_p
   const int64_t capacity = kz_tile_capacity(tiles), at_once = capacity < MOST_CELLS ? MOST_CELLS / capacity : 1;
   const int64_t most = capacity * kz_smaller(at_once, tiles->own);
   run->tile = kz_calloc((size_t)tiles->own, sizeof *run->tile);
-  KZ_FREED uint64_t *wanted = kz_malloc((size_t)(most / 64 + 1) * sizeof *wanted);
-  KZ_FREED kz_proof_mark *mark = kz_malloc((size_t)most * sizeof *mark);
-  KZ_FREED int64_t *left = kz_malloc((size_t)most * sizeof *left);
+  KZ_AUTOFREE uint64_t *wanted = kz_malloc((size_t)(most / 64 + 1) * sizeof *wanted);
+  KZ_AUTOFREE kz_proof_mark *mark = kz_malloc((size_t)most * sizeof *mark);
+  KZ_AUTOFREE int64_t *left = kz_malloc((size_t)most * sizeof *left);
   part p = {l, run->proof, proved, .wanted = wanted, .mark = mark, .left = left};
   for (p.from = 0; p.from < tiles->own; p.from = p.to) {
     p.to = p.from + at_once < tiles->own ? p.from + at_once : tiles->own;
@@ -168,7 +169,8 @@ typedef struct {
 static kz_proof_start random_start(const kz_basin_plan *plan, int64_t i) {
   kz_proof_start start = {.radius = 0};
   uint64_t bits[4];
-  for (int b = 0; b < 4; b++) bits[b] = kz_random_bits(((uint64_t)plan->seed << 32) + 4 * (uint64_t)i + (uint64_t)b + 1) >> 11;
+  for (int b = 0; b < 4; b++)
+    bits[b] = kz_random_bits(((uint64_t)plan->seed << 32) + 4 * (uint64_t)i + (uint64_t)b + 1) >> 11;
   const double theta = kz_axis_random(&plan->theta, bits, start.theta);
   const double velocity = kz_axis_random(&plan->velocity, bits + 2, start.velocity);
   start.radius = theta > velocity ? theta : velocity;
@@ -180,10 +182,10 @@ static int64_t random_starts(const kz_basin_plan *plan) {
   return kz_smaller(cells, MOST_STARTS);
 }
 
-/* Of kz_added_levels: the items are random starts. */
+/* Level of kz_added_levels for random starts as items. */
 static kz_status prove_random(void *context, int32_t level, int64_t n, const int64_t *item, kz_decision *decision) {
   const job *j = context;
-  KZ_FREED kz_proof_start *start = kz_malloc((size_t)n * sizeof *start);
+  KZ_AUTOFREE kz_proof_start *start = kz_malloc((size_t)n * sizeof *start);
   for (int64_t i = 0; i < n; i++) start[i] = random_start(j->plan, item[i]);
   prove_starts(j->plan, j->proof, level, n, start, decision);
   return KZ_OK;
@@ -194,7 +196,7 @@ static kz_status follow_random(void *context, int64_t first, int64_t n, void *re
   static const kz_added_levels levels = {kz_proof_levels, KZ_ENCLOSE_TRIPLES, prove_random};
   const kz_labeller labeller = {.way = KZ_BY_ADDED, .context = context, .added = &levels};
   int64_t item[TILE], unproved = 0;
-  KZ_FREED kz_label *label = kz_malloc(TILE * sizeof *label);
+  KZ_AUTOFREE kz_label *label = kz_malloc(TILE * sizeof *label);
   for (int64_t i = 0; i < n; i++) item[i] = first + i;
   KZ_TRY(kz_label_items(&labeller, 1, n, item, label));
   for (int64_t i = 0; i < n; i++) unproved += label[i].label <= 0;
@@ -202,10 +204,11 @@ static kz_status follow_random(void *context, int64_t first, int64_t n, void *re
   return KZ_OK;
 }
 
-static kz_status prove_sample(const kz_run *run, const kz_basin_plan *plan, const kz_proof *proof, kz_proof_sample *sample) {
+static kz_status prove_sample(const kz_run *run, const kz_basin_plan *plan, const kz_proof *proof,
+                              kz_proof_sample *sample) {
   job j = {.plan = plan, .proof = proof, .starts = random_starts(plan)};
   const kz_stage stage = kz_stage_of_items("proof of real starts", j.starts, TILE, sizeof(int64_t), follow_random, &j);
-  KZ_FREED int64_t *record = kz_calloc((size_t)stage.n_tiles, sizeof *record);
+  KZ_AUTOFREE int64_t *record = kz_calloc((size_t)stage.n_tiles, sizeof *record);
   KZ_TRY(kz_stage_run(run, &stage, record));
   *sample = (kz_proof_sample){.starts = j.starts};
   for (int64_t tile = 0; tile < stage.n_tiles; tile++) sample->unproved += record[tile];

@@ -27,8 +27,9 @@ static kz_status proof_make(const kz_scene *scene, void **own) {
 /* Columns of the attractors. */
 static kz_status write_attractors(const kz_catalogue *catalogue, const kz_proof *proof, kz_store *store) {
   const int64_t n = catalogue->count, phases = kz_catalogue_longest(catalogue);
-  KZ_FREED int8_t *proved = kz_calloc((size_t)n + 1, sizeof *proved);
-  KZ_FREED double *theta = kz_nan_filled(n * phases), *velocity = kz_nan_filled(n * phases), *multiplier = kz_nan_filled(2 * n);
+  KZ_AUTOFREE int8_t *proved = kz_calloc((size_t)n + 1, sizeof *proved);
+  KZ_AUTOFREE double *theta = kz_nan_filled(n * phases), *velocity = kz_nan_filled(n * phases),
+                     *multiplier = kz_nan_filled(2 * n);
   for (int64_t i = 0; i < n; i++) {
     const kz_entry *e = &catalogue->entries[i];
     if (e->row.period == 0) continue;
@@ -50,14 +51,16 @@ static int64_t proved_of(const kz_counts *counts) {
 }
 
 static void print_labels(const kz_counts *counts, int64_t cells, FILE *summary) {
-  fprintf(summary,
-          "%.6g %% of the labels are proved, those of %lld cells in sums of two doubles, of %lld in sums of three. %lld "
-          "labels are not proved.\n",
-          100 * (double)proved_of(counts) / (double)cells, (long long)counts->evidence[KZ_PROVED_IN_PAIRS],
-          (long long)counts->evidence[KZ_PROVED_IN_TRIPLES], (long long)(cells - proved_of(counts)));
+  fprintf(
+      summary,
+      "%.6g %% of the labels are proved, those of %lld cells in sums of two doubles, of %lld in sums of three. %lld "
+      "labels are not proved.\n",
+      100 * (double)proved_of(counts) / (double)cells, (long long)counts->evidence[KZ_PROVED_IN_PAIRS],
+      (long long)counts->evidence[KZ_PROVED_IN_TRIPLES], (long long)(cells - proved_of(counts)));
   if (counts->changed > 0)
     fprintf(summary,
-            "warning: the proof gives %lld cells another label than the method did; their labels are replaced. The numerics "
+            "warning: the proof gives %lld cells another label than the method did; their labels are replaced. The "
+            "numerics "
             "are too "
             "coarse, or basin.max_periods is too small.\n",
             (long long)counts->changed);
@@ -67,11 +70,11 @@ static void print_sample(const kz_proof_sample *sample, FILE *summary) {
   if (sample->starts == 0)
     fprintf(summary, "No attractor is proved, so no label is.\n");
   else
-    fprintf(
-        summary,
-        "Of %lld random real starts of the window %lld are not proved. So at most %.2g of the window's area ends on another "
-        "attractor than the proved ones (%.0f %% confidence).\n",
-        (long long)sample->starts, (long long)sample->unproved, sample->high, 100 * KZ_PROOF_CONFIDENCE);
+    fprintf(summary,
+            "Of %lld random real starts of the window %lld are not proved. So at most %.2g of the window's area ends "
+            "on another "
+            "attractor than the proved ones (%.0f %% confidence).\n",
+            (long long)sample->starts, (long long)sample->unproved, sample->high, 100 * KZ_PROOF_CONFIDENCE);
 }
 
 static kz_status proof_write(void *own, const kz_chunks *chunks, FILE *summary) {

@@ -43,8 +43,8 @@ extern const kz_basin_part kz_proof_part;
 
 /* Bytes of memory that a proof takes on a rank. */
 double kz_proof_bytes(const kz_scene *scene);
-/* *proof = an empty proof for the scene's basin, or NULL without damping; the caller frees it with kz_proof_free in every case. KZ_REFUSED if the
- * window is too fast for a proof, or its cells too small. */
+/* *proof = an empty proof for the scene's basin, or NULL without damping; the caller frees it with kz_proof_free in
+ * every case. KZ_REFUSED if the window is too fast for a proof, or its cells too small. */
 kz_status kz_proof_begin(const kz_scene *scene, kz_proof **proof);
 /* Proves the regions of the known attractors, in kept stages, with the same result on every rank. Collective. */
 kz_status kz_prove_regions(const kz_window_labels *labelling, kz_proof *proof, kz_proved *proved);

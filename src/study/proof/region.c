@@ -1,5 +1,5 @@
-/* The region of a proof. First the ellipses of all attractors; then rounds in which every open cell of a grid is followed into the region of
- * the round before: the result does not depend on who follows which. */
+/* The region of a proof. First the ellipses of all attractors; then rounds in which every open cell of a grid is
+ * followed into the region of the round before: the result does not depend on who follows which. */
 #include <math.h>
 #include <stdlib.h>
 
@@ -9,7 +9,7 @@ enum { COLUMNS = 250, MOST_ROWS = 8000 };
 static const double ROWS = 116;       /* a rad per drive radian */
 static const double SMALLEST = 1e-28; /* rad, rad per drive radian: of a cell, well above the rounding of its centre */
 static const double LOWEST = 1.5,
-                    HIGHEST = 3; /* rad per drive radian: as far reaches the grid at least, at most; attractors are slow */
+                    HIGHEST = 3; /* rad per drive radian: least and largest reach of the grid; attractors are slow */
 static const double GAIN = 0.01; /* Share of the cells: a round that adds less is the last */
 
 static double top_of(const kz_scene *scene) {
@@ -30,19 +30,20 @@ kz_status kz_proof_begin(const kz_scene *scene, kz_proof **proof) {
   *proof = NULL;
   if (!(scene->parameters.pendulum.beta > 0)) return KZ_OK;
   if (fmin(kz_axis_step(&plan->theta), kz_axis_step(&plan->velocity)) < SMALLEST)
-    return kz_fail(KZ_REFUSED,
-                   "basin.proof|basin.theta.width: cells below %.0e are too small for a proof in pairs of doubles; use wider "
-                   "cells, or leave basin.proof out",
-                   SMALLEST);
+    return kz_fail(
+        KZ_REFUSED,
+        "basin.proof|basin.theta.width: cells below %.0e are too small for a proof in pairs of doubles; use wider "
+        "cells, or leave basin.proof out",
+        SMALLEST);
   const double fastest = kz_axis_fastest(&plan->velocity);
   const kz_pendulum *pendulum = &scene->parameters.pendulum;
   const kz_status status = kz_proof_create(pendulum, COLUMNS, rows_of(scene), top_of(scene), fastest, proof);
   if (status != KZ_REFUSED) return status;
-  return kz_fail(
-      KZ_REFUSED,
-      "basin.proof|basin.velocity: speeds of %.3g rad per drive radian are too fast for a proof with this pendulum; leave "
-      "basin.proof out, or choose slower starts",
-      fastest);
+  return kz_fail(KZ_REFUSED,
+                 "basin.proof|basin.velocity: speeds of %.3g rad per drive radian are too fast for a proof with this "
+                 "pendulum; leave "
+                 "basin.proof out, or choose slower starts",
+                 fastest);
 }
 
 /* Context of the tiles of a stage. */
@@ -62,13 +63,13 @@ typedef struct {
 
 /* The first strobe point of an attractor of some period. */
 static void first_point(const kz_dynamics *dynamics, int64_t number, int64_t period, double point[2]) {
-  KZ_FREED double *points = kz_calloc(2 * (size_t)period + 2, sizeof *points);
+  KZ_AUTOFREE double *points = kz_calloc(2 * (size_t)period + 2, sizeof *points);
   kz_dynamics_strobe(dynamics, number, points, points + period + 1);
   point[0] = points[0];
   point[1] = points[period + 1];
 }
 
-/* The ellipse of attractor tile + 1, for the first one of a mirrored pair, if the other one is proved to be its mirror image. */
+/* Finds the ellipse of attractor tile + 1: the first of a mirrored pair, if the other is proved its image. */
 static kz_status find_seed(void *context, int64_t tile, void *record) {
   const job *j = context;
   seed *s = record;
@@ -125,6 +126,6 @@ kz_status kz_prove_regions(const kz_window_labels *labelling, kz_proof *proof, k
   job j = {labelling->dynamics, !labelling->plan->unmirrored, proof, proved};
   KZ_TRY(find_ellipses(run, &j));
   if (!proved->any) return KZ_OK;
-  KZ_FREED uint8_t *label = kz_malloc((size_t)kz_proof_own(proof));
+  KZ_AUTOFREE uint8_t *label = kz_malloc((size_t)kz_proof_own(proof));
   return region_grow(run, &j, label);
 }

@@ -1,4 +1,4 @@
-/* The measure `phases` of a sweep, how much ends alike at whatever phase of the drive it is released: its row, and its keys. */
+/* Measure `phases` of a sweep, the share that ends alike at any phase of release: its row, and its keys. */
 #define KEYS_OF alike
 
 #include <math.h>
@@ -45,7 +45,7 @@ static kz_status find_alike(const kz_scene *scene, const kz_sweep_value_at *at, 
   const int64_t n = at->n_cells > 0 ? at->n_cells : plan->starts, phases = scene->alike->phases;
   const int64_t max_periods = at->n_cells > 0 ? scene->basin->max_periods : at->max_periods;
   const int64_t total = at->n_cells > 0 ? scene->basin->theta.count * scene->basin->velocity.count : n;
-  KZ_FREED double *start = kz_malloc(2 * (size_t)n * sizeof *start);
+  KZ_AUTOFREE double *start = kz_malloc(2 * (size_t)n * sizeof *start);
   int64_t alike = 0;
   find_starts(scene, at->n_cells, n, start);
   kz_phases p = {.labeller = kz_pair_labeller(start, max_periods, KZ_BY_STATES, at->dynamics),
@@ -54,7 +54,8 @@ static kz_status find_alike(const kz_scene *scene, const kz_sweep_value_at *at, 
                  .stage = "sweep phases"};
   p.labeller.at_strobe = false;
   kz_dynamics_get_release(at->dynamics, &p.release);
-  p.folded = at->n_cells > 0 && kz_window_mirrors_itself(scene->basin) && kz_phases_fold(&at->pendulum, &p.release, phases);
+  p.folded =
+      at->n_cells > 0 && kz_window_mirrors_itself(scene->basin) && kz_phases_fold(&at->pendulum, &p.release, phases);
   const kz_status status = kz_phases_label(&p, at->run);
   if (status == KZ_OK && p.label) alike = count_alike(&p, total);
   kz_phases_free(&p);
@@ -72,8 +73,12 @@ static int64_t alike_times(const kz_scene *scene) {
 }
 
 static const char *const ALIKE[] = {"alike", "alike_low", "alike_high", NULL};
-const kz_sweep_part kz_alike_part = {
-    .words = WORD_OF_PART, .of_branches = 1, .of_values = ALIKE, .on_grid = true, .times = alike_times, .value = find_alike};
+const kz_sweep_part kz_alike_part = {.words = WORD_OF_PART,
+                                     .of_branches = 1,
+                                     .of_values = ALIKE,
+                                     .on_grid = true,
+                                     .times = alike_times,
+                                     .value = find_alike};
 
 static kz_status alike_describe(const kz_scene *scene, kz_store *store) {
   if (kz_sweep_part_words(scene->sweep, &kz_alike_part, true).count == 0) return KZ_OK;

@@ -9,7 +9,8 @@ static const kz_key keys[] = {
         "Phase of the drive at which the cells are released; the strobe points of the file are at phase 0 as always.",
         .unit = "rad", .low = -1e6, .high = 1e6),
     INTEGER("basin.phases", 2, 64, "", phases,
-            "Phases of the drive, spread evenly from 0 on, at which every cell is released as well; the result has the share "
+            "Phases of the drive, spread evenly from 0 on, at which every cell is released as well; the result has the "
+            "share "
             "that ends alike at all of them."),
     {.path = NULL},
 };

@@ -1,4 +1,4 @@
-/* What does not take every release: the table of it, and the refusals by name. */
+/* Limits of releases: the table of studies and keys that refuse one, by name. */
 #include <math.h>
 
 #include "kapitza/study_orbit.h"
@@ -15,7 +15,7 @@ ASKS(accuracy, s->has_basin && !isnan(s->basin->accuracy))
 ASKS(tradeoff, s->has_tradeoff)
 ASKS(orbit_on_ramp, s->has_orbit && s->has_ramp)
 
-/* What needs starts at a strobe of the final drive, and the complaint. */
+/* Keys that need starts at a strobe of the final drive, with the complaint. */
 static const struct {
   bool (*is_asked)(const kz_scene *);
   const char *complaint;
@@ -34,7 +34,7 @@ static const char *limit_of_release(const kz_scene *scene) {
   return kz_drive_limit(scene, KZ_NEEDS_STROBE);
 }
 
-/* Of cells that are released at many phases. */
+/* Returns the complaint of cells released at many phases. */
 static const char *limit_of_phases(const kz_scene *scene) {
   const char *why = kz_drive_limit(scene, KZ_NEEDS_ONE_PHASE);
   return why ? why : limit_of_release(scene);

@@ -18,8 +18,8 @@ static kz_status label_at_phase(void *context, int64_t first, int64_t n, void *r
   const kz_phases *p = context;
   kz_release release = p->release;
   int16_t *out = record;
-  KZ_FREED kz_label *label = kz_malloc((size_t)n * sizeof *label);
-  KZ_FREED int64_t *item = kz_malloc((size_t)n * sizeof *item);
+  KZ_AUTOFREE kz_label *label = kz_malloc((size_t)n * sizeof *label);
+  KZ_AUTOFREE int64_t *item = kz_malloc((size_t)n * sizeof *item);
   for (int64_t i = 0; i < n; i++) item[i] = first % p->n + i;
   release.phase = kz_phase_at(p, first / p->n);
   kz_dynamics_set_release(p->labeller.dynamics, &release);
@@ -40,7 +40,8 @@ static int64_t own_phases(const kz_phases *p) {
 
 kz_status kz_phases_label(kz_phases *p, const kz_run *run) {
   const int64_t known = kz_dynamics_count(p->labeller.dynamics);
-  const kz_stage stage = kz_stage_of_rows(p->stage, own_phases(p), p->n, BLOCK, BLOCK * sizeof(int16_t), label_at_phase, p);
+  const kz_stage stage =
+      kz_stage_of_rows(p->stage, own_phases(p), p->n, BLOCK, BLOCK * sizeof(int16_t), label_at_phase, p);
   p->label = kz_rank(run->ranks) == 0 ? kz_malloc((size_t)stage.n_tiles * stage.record_bytes) : NULL;
   p->image = kz_calloc((size_t)known + 1, sizeof *p->image);
   for (int64_t i = 1; i <= known; i++) {

@@ -1,15 +1,14 @@
-/* Items released at phases of the drive that are spread evenly over a period. Attractors and trapping regions are the same at all of them. */
+/* Items released at phases spread evenly over a drive period; attractors and regions are the same at all. */
 #pragma once
 
 #include "kapitza/dynamics_release.h"
 #include "labelling/labeller.h"
 
 typedef struct {
-  kz_labeller labeller; /* of the items 0 .. n - 1; not of a run */
+  kz_labeller labeller; /* labeller of the items 0 .. n - 1, without a run */
   kz_release release;   /* whose phase is replaced */
   int64_t phases, n;
-  bool
-      folded; /* item n - 1 - i at a phase is the image of item i half a drive period before: the second half of the phases follows */
+  bool folded; /* item n - 1 - i at a phase is the image of item i half a period before: phases fold */
   const char *stage;
   int16_t *label; /* on rank 0, of kz_phases_label: of kz_phases_free */
   int16_t *image; /* [attractors + 1] numbers of the images */

@@ -14,8 +14,8 @@ static double share_of(const kz_phases *p, const kz_catalogue *catalogue, int64_
   return (double)count / (double)p->n;
 }
 
-static kz_status write_group(const kz_basin_plan *plan, const kz_phases *p, const kz_catalogue *catalogue, kz_store *store,
-                             FILE *summary) {
+static kz_status write_group(const kz_basin_plan *plan, const kz_phases *p, const kz_catalogue *catalogue,
+                             kz_store *store, FILE *summary) {
   const int64_t known = catalogue->count;
   int64_t alike = 0;
   KZ_SCALE(store, "phases", "phase", p->phases, kz_phase_at(p, i));
@@ -31,8 +31,8 @@ static kz_status write_group(const kz_basin_plan *plan, const kz_phases *p, cons
   return kz_store_real(store, "phases", "share", (double)alike / (double)p->n);
 }
 
-/* Releases the cells at the number of phases that the key basin.phases gives, and writes group /phases: the share of the window whose starts
- * end on the same attractor at all of them. A function of kz_basin_part. */
+/* Releases the cells at the number of phases that the key basin.phases gives, and writes group /phases: the share of
+ * the window whose starts end on the same attractor at all of them. A function of kz_basin_part. */
 static kz_status find_phases(void *own, const kz_chunks *chunks, kz_store *store, FILE *summary) {
   const kz_scene *scene = own;
   const kz_basin_plan *plan = scene->basin;

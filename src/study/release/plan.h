@@ -4,7 +4,7 @@
 #include "kapitza/study.h"
 
 struct kz_release_plan {
-  double start_phase; /* of the drive at the release of the cells, rad; NaN = 0 */
+  double start_phase; /* phase of the drive at the release of the cells, rad; NaN = 0 */
   int64_t phases;     /* number of phases at which the cells are also released; 0 or less = none */
 };
 
@@ -17,5 +17,5 @@ struct kz_ramp_plan {
 };
 
 struct kz_alike_plan {
-  int64_t phases; /* of release, for the measure phases */
+  int64_t phases; /* phases of release for the measure phases */
 };

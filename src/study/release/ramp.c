@@ -11,7 +11,8 @@ static const char *ramp_words(void) {
 
 static const kz_key keys[] = {
     ROW("pendulum.ramp", KZ_KEY_MAPPING, "", OF_SCENE(has_ramp),
-        "Damping or drive has the value `from` when a cell of a basin is released, and the pendulum's own after `periods`.",
+        "Damping or drive has the value `from` when a cell of a basin is released, and the pendulum's own after "
+        "`periods`.",
         .unit = ""),
     WORD("pendulum.ramp.key", "damping|drive_amplitude", NULL, key,
          "The quantity that changes: beta, or all of the drive in proportion."),
@@ -28,4 +29,5 @@ static const kz_key keys[] = {
 static const kz_sweep_parameter swept[] = {SWEPT(periods), SWEPT(from), {.name = NULL}};
 
 static const kz_basin_part part = {0};
-KZ_PART_ROW("basin", has_ramp, .of_basin = &part, .check = kz_ramp_check, .describe = kz_ramp_describe, .parameters = swept);
+KZ_PART_ROW("basin", has_ramp, .of_basin = &part, .check = kz_ramp_check, .describe = kz_ramp_describe,
+            .parameters = swept);

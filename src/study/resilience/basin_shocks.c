@@ -33,14 +33,15 @@ static kz_status write_points(const kz_catalogue *catalogue, int64_t n, const kz
 static kz_status write_harmless(const kz_resilience_plan *plan, int64_t n, const kz_resilience *p, kz_store *store) {
   const int64_t sizes = plan->sizes.count, all = n * sizes;
 #define HARMLESS(name, expression) KZ_COLUMN(store, "shocks", name, all, double, expression)
-  HARMLESS("harmless", (double)p[i / sizes].harmless[i % sizes].harmless / (double)p[i / sizes].harmless[i % sizes].shocks);
+  HARMLESS("harmless",
+           (double)p[i / sizes].harmless[i % sizes].harmless / (double)p[i / sizes].harmless[i % sizes].shocks);
   HARMLESS("return_time", p[i / sizes].harmless[i % sizes].return_time);
   return KZ_OK;
 }
 
-/* The smallest of each kind over the strobe points of an attractor; `speed`: what one rad per drive radian is in the summary. */
-static void print_attractor(const kz_catalogue *catalogue, int64_t number, int64_t n, const kz_resilience *p, double speed,
-                            FILE *summary) {
+/* Prints the smallest of each kind over an attractor's strobe points; `speed`: unit of velocity in the summary. */
+static void print_attractor(const kz_catalogue *catalogue, int64_t number, int64_t n, const kz_resilience *p,
+                            double speed, FILE *summary) {
   const kz_shock *least[KINDS] = {0};
   for (int64_t i = 0; i < n; i++)
     for (int kind = 0; p[i].number == number && kind < KINDS; kind++)
@@ -49,7 +50,8 @@ static void print_attractor(const kz_catalogue *catalogue, int64_t number, int64
   fprintf(summary, "%4d ", (int)catalogue->id_of[number]);
   for (int kind = 0; kind < KINDS; kind++) {
     if (least[kind])
-      fprintf(summary, " %12.8f -> %-3d", least[kind]->size * (kind == 1 ? speed : 1), (int)id_of(catalogue, least[kind]));
+      fprintf(summary, " %12.8f -> %-3d", least[kind]->size * (kind == 1 ? speed : 1),
+              (int)id_of(catalogue, least[kind]));
     else
       fprintf(summary, "            none   ");
   }
@@ -83,7 +85,7 @@ static kz_status shocks_find(void *own, const kz_chunks *chunks, kz_store *store
                                     .sizes = scene->shocks->sizes,
                                     .max_periods = scene->basin->max_periods};
   int64_t n;
-  KZ_FREED kz_resilience *point = kz_resilience_list(labelling->dynamics, chunks->catalogue, &n);
+  KZ_AUTOFREE kz_resilience *point = kz_resilience_list(labelling->dynamics, chunks->catalogue, &n);
   kz_status status = kz_resilience_run(labelling->run, labelling->dynamics, &asked, n, point);
   if (status == KZ_OK && store)
     status = write_shocks(&asked, chunks->catalogue, n, point, scene->parameters.pivot_frequency, store, summary);

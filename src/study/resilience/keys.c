@@ -7,7 +7,8 @@
 
 static const kz_key keys[] = {
     ROW("basin.shocks", KZ_KEY_MAPPING, "", OF_SCENE(has_shocks),
-        "The smallest shocks (a sudden change of angle, of velocity, of both) that push each attractor out of its basin.",
+        "The smallest shocks (a sudden change of angle, of velocity, of both) that push each attractor out of its "
+        "basin.",
         .unit = ""),
     REAL("basin.shocks.scale", KZ_VELOCITY_UNIT, 1e-6, 1e6, "1", scale,
          "Change of the velocity that counts as much as 1 rad; the size of a shock is hypot(dtheta, dv/scale)."),

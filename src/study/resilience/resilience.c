@@ -34,8 +34,8 @@ kz_resilience *kz_resilience_list(const kz_dynamics *dynamics, const kz_catalogu
     int64_t number = 1;
     while (number < known && catalogue->id_of[number] != id) number++;
     for (int64_t phase = 0; phase < entry->row.period; phase++)
-      point[count++] =
-          (kz_resilience){.number = number, .phase = phase, .theta = entry->theta[phase], .velocity = entry->velocity[phase]};
+      point[count++] = (kz_resilience){
+          .number = number, .phase = phase, .theta = entry->theta[phase], .velocity = entry->velocity[phase]};
   }
   *n = count;
   return point;
@@ -65,7 +65,8 @@ static kz_status resilience_tile(void *context, int64_t tile, void *record) {
   const kz_shock_problem problem = problem_at(s, point);
   *out = *point;
   kz_shocks_find(&problem, out->shock);
-  for (int64_t i = 0; i < s->plan->sizes.count; i++) kz_shocks_harmless(&problem, s->plan->sizes.values[i], out->harmless + i);
+  for (int64_t i = 0; i < s->plan->sizes.count; i++)
+    kz_shocks_harmless(&problem, s->plan->sizes.values[i], out->harmless + i);
   return KZ_OK;
 }
 
@@ -89,7 +90,7 @@ static void resilience_mirror(const kz_dynamics *dynamics, const kz_resilience *
   }
 }
 
-/* The smallest shock of both over the strobe points of an attractor, the first of which the tile has: each bounds the search of the next. */
+/* Smallest shock of both over an attractor's strobe points, the tile's first: each bounds the next search. */
 static kz_status smallest_tile(void *context, int64_t tile, void *record) {
   searching *s = context;
   const kz_resilience *first = s->point + s->own[tile];
@@ -107,7 +108,7 @@ static kz_status smallest_tile(void *context, int64_t tile, void *record) {
   return KZ_OK;
 }
 
-/* Places of the points that are not mirror images of others, own [n]: how many. Where only the smallest is wanted, the first points of attractors. */
+/* Lists points that mirror no others, own [n], and returns n; only first points if only the smallest counts. */
 static int64_t list_own(const searching *s, int64_t *own) {
   int64_t count = 0;
   for (int64_t i = 0; i < s->n; i++)
@@ -117,11 +118,11 @@ static int64_t list_own(const searching *s, int64_t *own) {
 
 kz_status kz_resilience_run(const kz_run *run, kz_dynamics *dynamics, const kz_resilience_plan *plan, int64_t n,
                             kz_resilience *point) {
-  KZ_FREED int64_t *own = kz_malloc((size_t)n * sizeof *own + 1);
-  KZ_FREED kz_resilience *found = kz_malloc((size_t)n * sizeof *found + 1);
+  KZ_AUTOFREE int64_t *own = kz_malloc((size_t)n * sizeof *own + 1);
+  KZ_AUTOFREE kz_resilience *found = kz_malloc((size_t)n * sizeof *found + 1);
   searching s = {dynamics, plan, n, point, own};
-  const kz_stage stage =
-      kz_stage_for_all("shocks", list_own(&s, own), sizeof *point, plan->smallest ? smallest_tile : resilience_tile, &s);
+  const kz_stage stage = kz_stage_for_all("shocks", list_own(&s, own), sizeof *point,
+                                          plan->smallest ? smallest_tile : resilience_tile, &s);
   KZ_TRY(n > 0 ? kz_stage_run(run, &stage, found) : KZ_OK);
   for (int64_t i = 0; i < stage.n_tiles; i++) point[own[i]] = found[i];
   for (int64_t i = 0; i < n; i++) {

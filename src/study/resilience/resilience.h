@@ -1,5 +1,5 @@
-/* The smallest shocks that push a motion out of its basin: a sudden change of angle, of velocity, or of both; and how far each attractor's
- * motion is from the edge of its basin, at every strobe point. */
+/* The smallest shocks that push a motion out of its basin: a sudden change of angle, of velocity, or of both; and how
+ * far each attractor's motion is from the edge of its basin, at every strobe point. */
 #pragma once
 
 #include "basin/label.h"
@@ -40,9 +40,9 @@ typedef struct {
   double return_time; /* mean number of drive periods after a harmless shock until the end is certain */
 } kz_harmless;
 
-/* The smallest shocks: [0] of the angle alone, [1] of the velocity alone (size: the change itself, rad or rad per drive radian), [2]
- * of both. Lines and discs are searched on ever finer grids, until a finer one finds nothing nearer; then the boundary between the
- * nearest points is bisected to rounding, and its distance minimised along it. */
+/* The smallest shocks: [0] of the angle alone, [1] of the velocity alone (size: the change itself, rad or rad per drive
+ * radian), [2] of both. Lines and discs are searched on ever finer grids, until a finer one finds nothing nearer; then
+ * the boundary between the nearest points is bisected to rounding, and its distance minimised along it. */
 void kz_shocks_find(const kz_shock_problem *problem, kz_shock shock[3]);
 
 /* A shock of both that is smaller than *shock; unchanged where there is none. */
@@ -53,8 +53,7 @@ void kz_shocks_harmless(const kz_shock_problem *problem, double size, kz_harmles
 /* The settings of a search, the same for all points. */
 typedef struct {
   double scale, farthest, tolerance; /* as in kz_shock_problem */
-  bool
-      smallest; /* only the smallest shock of both over all strobe points of an attractor is wanted: it is that of phase 0, all others are NaN */
+  bool smallest;  /* only the smallest shock of an attractor is wanted: stands at phase 0, all others NaN */
   kz_reals sizes; /* Sizes of harmless shocks; KZ_MOST_SHOCK_SIZES at most */
   int64_t max_periods;
 } kz_resilience_plan;

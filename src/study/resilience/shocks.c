@@ -10,8 +10,8 @@ enum {
   RIMS = 4,     /* Closer looks at the last RIM of the way */
   SPREAD = 4096 /* shocks of a size */
 };
-/* Tongues of other basins lie the closer to a boundary the thinner they are: the last RIM of the way is looked at more closely, the last
- * RIM of that again, RIMS times. */
+/* Tongues of other basins lie the closer to a boundary the thinner they are: the last RIM of the way is looked at more
+ * closely, the last RIM of that again, RIMS times. */
 static const double RIM = 1.0 / 16;
 
 /* How closely a search looks. */
@@ -62,8 +62,8 @@ static void shocks_follow(workspace *r, int64_t n) {
   r->problem->ends(r->problem->context, n, r->start, r->end);
 }
 
-/* Narrows the bracket of each of n rays to its first change on `points` inner points; false for a ray whose bracket shows none. The
- * far end of a bracket counts as another end only where `sure`. */
+/* Narrows the bracket of each of n rays to its first change on `points` inner points; false for a ray whose bracket
+ * shows none. The far end of a bracket counts as another end only where `sure`. */
 static void shocks_narrow(workspace *r, int n, ray *rays, int points, bool sure, bool *crossed) {
   for (int i = 0; i < n; i++)
     for (int j = 1; j <= points; j++)
@@ -95,9 +95,10 @@ static void shocks_bisect(workspace *r, int n, ray *rays) {
   }
 }
 
-/* The nearest change along a direction and its opposite between `near` and *far on `points` points of each: it becomes *far. False where
- * none shows. */
-static bool nearest_of_line(workspace *r, const double direction[2], double near, int points, double *far, kz_shock *shock) {
+/* The nearest change along a direction and its opposite between `near` and *far on `points` points of each: it becomes
+ * *far. False where none shows. */
+static bool nearest_of_line(workspace *r, const double direction[2], double near, int points, double *far,
+                            kz_shock *shock) {
   ray rays[2] = {{{direction[0], direction[1]}, near, *far, -1}, {{-direction[0], -direction[1]}, near, *far, -1}};
   bool crossed[2];
   shocks_narrow(r, 2, rays, points, false, crossed);
@@ -111,7 +112,7 @@ static bool nearest_of_line(workspace *r, const double direction[2], double near
   return true;
 }
 
-/* A change nearer than the one at *far: on six times as many points of each side of the last RIM of the way, then of ever shorter ends of it. */
+/* A change nearer than *far: by six times as many points a side in the last RIM of the way, in ever shorter ends. */
 static bool nearest_of_rims(workspace *r, const double direction[2], double *far, kz_shock *shock) {
   double rim = RIM;
   for (int i = 0; i < r->look.rims; i++, rim *= RIM)
@@ -119,8 +120,8 @@ static bool nearest_of_rims(workspace *r, const double direction[2], double *far
   return false;
 }
 
-/* The smallest shock along a direction and its opposite, up to `farthest`. Each one that is found bounds the next search, of look.line points on
- * each side; where it finds none, of the rims. */
+/* The smallest shock along a direction and its opposite, up to `farthest`. Each one that is found bounds the next
+ * search, of look.line points on each side; where it finds none, of the rims. */
 static kz_shock along_line(workspace *r, double theta, double velocity, double farthest) {
   const double direction[2] = {theta, velocity};
   kz_shock shock = {NAN, NAN, NAN, -1};
@@ -183,7 +184,8 @@ static kz_shock shocks_slide(workspace *r, double angle, double far) {
     shocks_bisect(r, n, rays);
     for (int i = 0; i < n; i++) {
       if (!(rays[i].far < best.size)) continue;
-      best = (kz_shock){rays[i].direction[0] * rays[i].far, rays[i].direction[1] * rays[i].far, rays[i].far, rays[i].end};
+      best =
+          (kz_shock){rays[i].direction[0] * rays[i].far, rays[i].direction[1] * rays[i].far, rays[i].far, rays[i].end};
       angle = at[i];
     }
     far = best.size;
@@ -191,8 +193,9 @@ static kz_shock shocks_slide(workspace *r, double angle, double far) {
   return best;
 }
 
-/* Discs about the motion, each as large as the nearest boundary that the one before has shown; where a disc shows none, its outermost
- * ring is looked at more closely, because the tongues of other basins that lie along a boundary are thin. */
+/* Discs about the motion, each as large as the nearest boundary that the one before has shown; where a disc shows none,
+ * its outermost ring is looked at more closely, because the tongues of other basins that lie along a boundary are thin.
+ */
 static kz_shock in_disc(workspace *r, const kz_shock *first) {
   kz_shock best = *first;
   for (int pass = 0; pass < PASSES; pass++) {
@@ -232,7 +235,7 @@ static void shocks_release(workspace *r) {
 }
 
 void kz_shocks_find(const kz_shock_problem *problem, kz_shock shock[3]) {
-  KZ_FREED_BY(shocks_release) workspace r;
+  KZ_AUTOFREE_BY(shocks_release) workspace r;
   shocks_make(problem, &r);
   shock[0] = along_line(&r, 1, 0, M_PI);
   if (shock[0].end == 0 && !(shock[0].size < M_PI))
@@ -249,14 +252,14 @@ void kz_shocks_find(const kz_shock_problem *problem, kz_shock shock[3]) {
 }
 
 void kz_shocks_nearer(const kz_shock_problem *problem, kz_shock *shock) {
-  KZ_FREED_BY(shocks_release) workspace r;
+  KZ_AUTOFREE_BY(shocks_release) workspace r;
   shocks_make(problem, &r);
   *shock = in_disc(&r, shock);
 }
 
 void kz_shocks_harmless(const kz_shock_problem *problem, double size, kz_harmless *harmless) {
   static const double GOLDEN = 0.61803398874989484820;
-  KZ_FREED_BY(shocks_release) workspace r;
+  KZ_AUTOFREE_BY(shocks_release) workspace r;
   double time = 0;
   shocks_make(problem, &r);
   *harmless = (kz_harmless){.shocks = SPREAD};

@@ -52,7 +52,7 @@ int64_t kz_lines_search(const kz_lines *lines, int64_t tile, int64_t most_starts
                                  .steepest = lines->steepest};
   const double first = (double)(tile % lines->pieces * lines->cells), cells = (double)(lines->pieces * lines->cells);
   const double line = (double)(tile / lines->pieces) + 0.5;
-  KZ_FREED double (*node)[2] = kz_malloc((size_t)(lines->cells + 1) * sizeof *node);
+  KZ_AUTOFREE double (*node)[2] = kz_malloc((size_t)(lines->cells + 1) * sizeof *node);
   for (int64_t i = 0; i <= lines->cells; i++) {
     const double along = lines->along.min + lines_width(&lines->along) * (first + (double)i) / cells;
     const double across = lines->across.min + lines_width(&lines->across) * line / (double)lines->count;
@@ -104,8 +104,8 @@ static int64_t drop_repeats(const kz_saddles_plan *plan, int64_t n, double *cycl
 }
 
 static kz_status too_many(const kz_saddles_plan *plan, int most, const char *what) {
-  return kz_fail(KZ_REFUSED, "saddles.max_period: %lld needs more than %d %s; use a smaller value", (long long)plan->max_period,
-                 most, what);
+  return kz_fail(KZ_REFUSED, "saddles.max_period: %lld needs more than %d %s; use a smaller value",
+                 (long long)plan->max_period, most, what);
 }
 
 static kz_status search_tile(void *context, int64_t tile, void *record) {
@@ -147,5 +147,6 @@ kz_status kz_lines_run(const kz_run *run, const kz_lines *lines, const char *nam
   collection all = {lines->plan, found};
   KZ_TRY(kz_stage_gather(run, &stage, "saddles: cycles", lines_take, &all));
   if (kz_rank(run->ranks) == 0) found->count = drop_repeats(lines->plan, found->count, found->cycle);
-  return kz_ranks_agree(run->ranks, found->count > KZ_SADDLES_MOST ? too_many(lines->plan, KZ_SADDLES_MOST, "cycles") : KZ_OK);
+  return kz_ranks_agree(run->ranks,
+                        found->count > KZ_SADDLES_MOST ? too_many(lines->plan, KZ_SADDLES_MOST, "cycles") : KZ_OK);
 }

@@ -1,4 +1,4 @@
-/* Plan of the study `saddles`: all cycles of up to max_period with a point in the window. The counts of the axes are not used. */
+/* Plan of the study `saddles`: all cycles up to max_period with a point in the window; counts are ignored. */
 #pragma once
 
 #include "kapitza/study.h"

@@ -1,4 +1,4 @@
-/* Study `saddles`: rounds of ever closer lines of starts, across each other, until one finds nothing new and the index sums are 0. */
+/* Study `saddles`: rounds of ever closer lines of starts until nothing is new and the index sums are 0. */
 #include "saddles.h"
 #include "kapitza/study_saddles.h"
 
@@ -7,7 +7,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-/* All cycles, and those that do not attract, whose places are their ids; the latter share the strobe points of the former. */
+/* All cycles, and those that do not attract (indices are ids), which share the strobe points of the former. */
 typedef struct {
   kz_catalogue all, unstable;
 } kz_cycle_list;
@@ -26,14 +26,15 @@ static void list_known(const kz_dynamics *dynamics, kz_cycle_list *list) {
   const int64_t n = list->all.count;
   kz_catalogue *unstable = &list->unstable;
   *unstable = (kz_catalogue){.entries = kz_calloc((size_t)n + 1, sizeof *unstable->entries)};
-  KZ_FREED int32_t *id = kz_malloc((size_t)(n + 1) * sizeof *id);
+  KZ_AUTOFREE int32_t *id = kz_malloc((size_t)(n + 1) * sizeof *id);
   for (int64_t i = 0; i < n; i++) {
     const kz_entry *entry = list->all.entries + i;
     const bool is_unstable = hypot(entry->row.multiplier_re[0], entry->row.multiplier_im[0]) > 1;
     id[i] = is_unstable ? (int32_t)unstable->count : -1;
     if (!is_unstable) continue;
     unstable->entries[unstable->count] = *entry;
-    snprintf(unstable->entries[unstable->count++].name, KZ_NAME_LENGTH, "unstable %.*s", KZ_NAME_LENGTH - 10, entry->name);
+    snprintf(unstable->entries[unstable->count++].name, KZ_NAME_LENGTH, "unstable %.*s", KZ_NAME_LENGTH - 10,
+             entry->name);
   }
   for (int64_t i = 0; i < unstable->count; i++) unstable->entries[i].mirror = id[unstable->entries[i].mirror];
 }
@@ -49,7 +50,7 @@ static void free_cycles(kz_cycle_list *list) {
 static int index_of(const kz_attractor *cycle, int64_t n) {
   double complex factor[2];
   for (int i = 0; i < 2; i++) factor[i] = 1 - cpow(cycle->multiplier_re[i] + I * cycle->multiplier_im[i], (double)n);
-  const double determinant = creal(factor[0] * factor[1]); /* determinant of 1 - DF: the multipliers are real or conjugate */
+  const double determinant = creal(factor[0] * factor[1]); /* determinant of 1 - DF: real or conjugate multipliers */
   return (determinant > 0) - (determinant < 0);
 }
 
@@ -71,8 +72,8 @@ static int saddles_compare(const void *a, const void *b) {
   return x->period != y->period ? x->period - y->period : x->winding - y->winding;
 }
 
-/* Makes the sums for every period up to max_period and every winding of a known cycle; the caller frees them. The theorem is in
- * docs/explanation/theory.md. */
+/* Makes the sums for every period up to max_period and every winding of a known cycle; the caller frees them. The
+ * theorem is in docs/explanation/theory.md. */
 static void make_sums(const kz_cycle_list *list, int64_t max_period, kz_index_sums *sums) {
   *sums = (kz_index_sums){.entries = kz_calloc((size_t)(list->all.count * max_period) + 1, sizeof *sums->entries)};
   for (int64_t i = 0; i < list->all.count; i++) {
@@ -130,22 +131,26 @@ static void print_sums(const kz_scene *scene, const kz_index_sums *sums, FILE *s
     return;
   }
   if (sums->open == 0) {
-    fprintf(summary, "The indices add up to 0 for all %lld pairs of period and winding, as they must if no cycle is missing.\n",
+    fprintf(summary,
+            "The indices add up to 0 for all %lld pairs of period and winding, as they must if no cycle is missing.\n",
             (long long)sums->count);
     return;
   }
-  fprintf(summary, "The indices do not add up to 0 for %lld of %lld pairs of period and winding, so cycles are missing:\n",
+  fprintf(summary,
+          "The indices do not add up to 0 for %lld of %lld pairs of period and winding, so cycles are missing:\n",
           (long long)sums->open, (long long)sums->count);
   for (int64_t i = 0; i < sums->count; i++)
     if (sums->entries[i].index != 0)
       fprintf(summary, "  period %d, winding %d: sum %+d\n", sums->entries[i].period, sums->entries[i].winding,
               sums->entries[i].index);
   fprintf(summary,
-          "They lie outside the window, between the lines of the search, or at a bifurcation. Widen saddles.velocity first.\n");
+          "They lie outside the window, between the lines of the search, or at a bifurcation. Widen saddles.velocity "
+          "first.\n");
 }
 
 /* Prints the cycles that were found, and the index sums. */
-static void print_saddles(const kz_scene *scene, const kz_cycle_list *cycles, const kz_index_sums *sums, FILE *summary) {
+static void print_saddles(const kz_scene *scene, const kz_cycle_list *cycles, const kz_index_sums *sums,
+                          FILE *summary) {
   fprintf(summary, "saddles: %lld unstable cycles of up to %lld periods, and %lld that attract\n",
           (long long)cycles->unstable.count, (long long)scene->saddles->max_period,
           (long long)(cycles->all.count - cycles->unstable.count));
@@ -161,7 +166,7 @@ enum {
 /* Everything about the cycles that were found. Rank 0. */
 static void list_cycles(const kz_scene *scene, const kz_found *found, kz_cycle_list *cycles, kz_index_sums *sums) {
   const int64_t max_period = scene->saddles->max_period;
-  KZ_FREED_BY(kz_dynamics_freed)
+  KZ_AUTOFREE_BY(kz_dynamics_freed)
   kz_dynamics *dynamics = kz_dynamics_create(&scene->parameters.pendulum, &scene->numerics, max_period);
   free_cycles(cycles);
   free_sums(sums);
@@ -195,25 +200,26 @@ static kz_status run_rounds(const kz_scene *scene, const kz_run *run, kz_found *
 }
 
 kz_status kz_saddles_run(const kz_scene *scene, const kz_run *run, kz_store *store, FILE *summary) {
-  KZ_FREED_BY(free_found) kz_found found = {0};
-  KZ_FREED_BY(free_cycles) kz_cycle_list cycles = {0};
-  KZ_FREED_BY(free_sums) kz_index_sums sums = {0};
+  KZ_AUTOFREE_BY(free_found) kz_found found = {0};
+  KZ_AUTOFREE_BY(free_cycles) kz_cycle_list cycles = {0};
+  KZ_AUTOFREE_BY(free_sums) kz_index_sums sums = {0};
   KZ_TRY(run_rounds(scene, run, &found, &cycles, &sums));
   if (kz_rank(run->ranks) != 0) return KZ_OK;
   print_saddles(scene, &cycles, &sums, summary);
   return write_saddles(&cycles, &sums, store);
 }
 
-kz_status kz_saddles_all(const kz_scene *scene, int64_t max_period, const kz_window *window, kz_catalogue *all, int64_t *open) {
+kz_status kz_saddles_all(const kz_scene *scene, int64_t max_period, const kz_window *window, kz_catalogue *all,
+                         int64_t *open) {
   static const kz_run alone = {NULL, NULL};
   kz_saddles_plan plan = {.theta = {.min = window->theta_min, .max = window->theta_max, .count = 1},
                           .velocity = {.min = window->velocity_min, .max = window->velocity_max, .count = 1},
                           .max_period = max_period};
   kz_scene asked = *scene;
   asked.saddles = &plan;
-  KZ_FREED_BY(free_found) kz_found found = {0};
-  KZ_FREED_BY(free_cycles) kz_cycle_list cycles = {0};
-  KZ_FREED_BY(free_sums) kz_index_sums sums = {0};
+  KZ_AUTOFREE_BY(free_found) kz_found found = {0};
+  KZ_AUTOFREE_BY(free_cycles) kz_cycle_list cycles = {0};
+  KZ_AUTOFREE_BY(free_sums) kz_index_sums sums = {0};
   KZ_TRY(run_rounds(&asked, &alone, &found, &cycles, &sums));
   *all = cycles.all;
   cycles.all = (kz_catalogue){0};
@@ -225,7 +231,7 @@ void kz_saddles_free(kz_catalogue *all) {
   kz_catalogue_free(all);
 }
 
-/* Messages and records of pieces that a rank holds; pieces in which a cycle is found; the least that a piece takes in the checkpoint. */
+/* Messages and records of pieces that a rank holds; pieces with a cycle; least bytes of a piece's checkpoint. */
 enum { PIECES_AT_ONCE = 5, PIECES_OF_A_CYCLE = 8, PAGE_BYTES = 4096 };
 /* Bytes of a cycle of the catalogue. */
 static const double CYCLE_BYTES = 2000;

@@ -1,5 +1,5 @@
-/* Study `saddles`: lines of starts that cross a window, and the search for cycles along them; all known cycles of the strobe map up to a
- * period, attracting or not, and their index sums. */
+/* Study `saddles`: lines of starts that cross a window, and the search for cycles along them; all known cycles of the
+ * strobe map up to a period, attracting or not, and their index sums. */
 #pragma once
 
 #include "kapitza/dynamics_saddles.h"
@@ -21,7 +21,7 @@ typedef struct {
   double steepest;              /* Limit of the trace in kz_dynamics_search_line */
 } kz_lines;
 
-/* Cycles in the form of kz_dynamics_search_line, each once, in the order of periods and speeds. The caller frees `cycle`. */
+/* Cycles as kz_dynamics_search_line has them, once each, by period and speed. The caller frees `cycle`. */
 typedef struct {
   int64_t count;
   double *cycle;
@@ -39,6 +39,6 @@ int64_t kz_lines_search(const kz_lines *lines, int64_t tile, int64_t most_starts
 /* Searches all pieces in a kept stage and adds their cycles to *found on rank 0. Collective. */
 kz_status kz_lines_run(const kz_run *run, const kz_lines *lines, const char *name, kz_found *found);
 
-/* A rough estimate of the number of cycles, which grows exponentially with the period. Fig. 12 has 16, 16 and 24 of up to 3, 4 and 6 periods,
- * epsilon = 1 and 3 have 146 and 888 of up to 3: right to a factor of 4. */
+/* A rough estimate of the number of cycles, which grows exponentially with the period. Fig. 12 has 16, 16 and 24 of up
+ * to 3, 4 and 6 periods, epsilon = 1 and 3 have 146 and 888 of up to 3: right to a factor of 4. */
 double kz_saddles_expected(const kz_scene *scene);

@@ -19,18 +19,21 @@ static const kz_key keys[] = {
           "curves; f is "
           "the wave form of the pendulum, or cos t."),
     STABILITY_AXIS("ab", k, NULL, "Values of k, both ends included; negative about the inverted position."),
-    STABILITY_AXIS("ab", m, NULL, "Values of m, both ends included; about the inverted position m changes its sign as k does."),
-    STABILITY_DAMPING("ac", damping, "beta", 0.0, "beta, the same at every point; left out, with quality_factor: no damping."),
+    STABILITY_AXIS("ab", m, NULL,
+                   "Values of m, both ends included; about the inverted position m changes its sign as k does."),
+    STABILITY_DAMPING("ac", damping, "beta", 0.0,
+                      "beta, the same at every point; left out, with quality_factor: no damping."),
     STABILITY_DAMPING("bd", quality_factor, "Q", 1e-3, "Q: beta = sqrt(abs(k))/Q at each point."),
     STABILITY_AXIS("cd", a, "", "Instead of k, in the words of ion traps: a = 4 k."),
     STABILITY_AXIS("dc", q, "", "Instead of m, in the words of ion traps: q = 2 m."),
     ROW("stability.curves", KZ_KEY_WORDS, "", AT(curves),
-        "Transition curves: of the sine over k, with the upper branch of curves that turn back; hill_1 to 5 of any wave form "
+        "Transition curves: of the sine over k, with the upper branch of curves that turn back; hill_1 to 5 of any "
+        "wave form "
         "over m, without damping; meissner_1 to 5 of the true square wave.",
         .unit = "", .words_from = kz_curve_names),
     ROW("stability.subharmonics", KZ_KEY_INTEGERS, "", AT(subharmonics),
-        "Periods n of subharmonic solutions. Their curves are computed exactly and by the determinant.", .unit = "", .low = 2,
-        .high = 1000),
+        "Periods n of subharmonic solutions. Their curves are computed exactly and by the determinant.", .unit = "",
+        .low = 2, .high = 1000),
     {.path = NULL},
 };
 

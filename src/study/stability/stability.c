@@ -23,7 +23,8 @@ kz_cost kz_stability_cost(const kz_scene *scene) {
   const kz_chart_axes axes = kz_stability_axes(plan);
   double points = (double)axes.k.count * (double)axes.m.count;
   double curves = (double)kz_chart_row(&axes) * (double)(plan->curves.count + plan->subharmonics.count);
-  return (kz_cost){.cells = (int64_t)points, .disk_bytes = 34 * points + 32 * curves, .rank0_bytes = 34 * points + 32 * curves};
+  return (kz_cost){
+      .cells = (int64_t)points, .disk_bytes = 34 * points + 32 * curves, .rank0_bytes = 34 * points + 32 * curves};
 }
 
 /* Values from min to max, both exactly. */
@@ -142,7 +143,7 @@ static kz_status run_stage(const kz_run *run, const kz_stage *stage, void *recor
 }
 
 kz_status kz_stability_run(const kz_scene *scene, const kz_run *run, kz_store *store, FILE *summary) {
-  KZ_FREED_BY(stability_release) kz_chart chart = begin(scene);
+  KZ_AUTOFREE_BY(stability_release) kz_chart chart = begin(scene);
   const int64_t points = chart.axes.k.count * chart.axes.m.count, row = kz_chart_row(&chart.axes);
   kz_stage of_points = kz_stage_of_items("chart", points, POINTS, POINTS * sizeof *chart.points, chart_points, &chart);
   of_points.everywhere = false;

@@ -1,4 +1,4 @@
-/* Study `stability`: the chart of the (damped) equation of Hill or Mathieu over (k, m), and transition curves over k or m. */
+/* Study `stability`: chart of the (damped) Hill or Mathieu equation over (k, m), transition curves over k or m. */
 #pragma once
 
 #include "kapitza/analysis.h"

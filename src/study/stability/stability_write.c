@@ -33,7 +33,8 @@ static kz_status write_axes(const kz_chart *chart, kz_store *store) {
 
 /* Thresholds of the tongues, three ways: attributes such as tongue_1_lowest_m, tongue_1_lowest_m_determinant. */
 static kz_status write_thresholds(double quality_factor, kz_store *store) {
-  static const char *const ways[] = {"", "_determinant", "_asymptote"}, *const parts[] = {"lowest_k", "lowest_m", "tuned_m"};
+  static const char *const ways[] = {"", "_determinant", "_asymptote"}, *const parts[] = {"lowest_k", "lowest_m",
+                                                                                          "tuned_m"};
   for (int32_t tongue = 1; tongue <= 2; tongue++)
     for (int32_t way = KZ_BY_FLOQUET; way <= KZ_BY_ASYMPTOTE; way++) {
       kz_threshold t;
@@ -59,7 +60,7 @@ static kz_status write_damping(const kz_chart *chart, kz_store *store) {
   return has_thresholds(chart) ? write_thresholds(damping->quality_factor, store) : KZ_OK;
 }
 
-/* Returns 1 if all harmonics of a wave form are odd, so that its second half is its first one with the other sign; else 0. */
+/* Returns 1 if all harmonics of a wave form are odd: its second half is minus the first; else 0. */
 static kz_status write_form(const kz_pendulum *form, kz_store *store) {
   bool odd = true;
   for (int j = 1; j < form->harmonics; j += 2) odd = odd && form->vertical[j][0] == 0 && form->vertical[j][1] == 0;
@@ -87,7 +88,7 @@ void kz_chart_summarise(const kz_chart *chart, FILE *summary) {
   for (int32_t tongue = 1; tongue <= 2; tongue++) {
     kz_threshold t;
     kz_tongue_threshold(tongue, chart->damping.quality_factor, KZ_BY_FLOQUET, &t);
-    fprintf(summary, "  tongue %" PRId32 " at Q = %g: lowest at k = %.10g, m = %.10g; m = %.10g at exact tuning\n", tongue,
-            chart->damping.quality_factor, t.k_lowest, t.m_lowest, t.m_tuned);
+    fprintf(summary, "  tongue %" PRId32 " at Q = %g: lowest at k = %.10g, m = %.10g; m = %.10g at exact tuning\n",
+            tongue, chart->damping.quality_factor, t.k_lowest, t.m_lowest, t.m_tuned);
   }
 }

@@ -1,12 +1,12 @@
-/* Catalogues of neighbouring values joined into branches. Every cycle of a value is followed to the next one, attracting or not, through folds,
- * with what branches off; where it arrives, it is the same branch, whether the search there had found it or not. Rounds of walks, spread over
- * the run, until nothing is left to walk. */
+/* Catalogues of neighbouring values joined into branches. Every cycle of a value is followed to the next one,
+ * attracting or not, through folds, with what branches off; where it arrives, it is the same branch, whether the search
+ * there had found it or not. Rounds of walks, spread over the run, until nothing is left to walk. */
 #include <math.h>
 #include <stdlib.h>
 
 #include "sweep.h"
 
-enum { MOST_MAPS = 256 }; /* of values, that are kept: each takes 50 KiB */
+enum { MOST_MAPS = 256 }; /* largest number of values whose maps are kept, 50 KiB each */
 
 /* A walk from a node to the neighbour value. */
 typedef struct {
@@ -28,7 +28,8 @@ void kz_sweep_branches_free(kz_sweep_branches *branches) {
 }
 
 static int64_t add_node(kz_sweep_branches *branches, const kz_sweep_entry *entry, int64_t value, bool attracts) {
-  branches->nodes = kz_list_reserve(branches->nodes, &branches->nodes_capacity, branches->n_nodes + 1, sizeof *branches->nodes);
+  branches->nodes =
+      kz_list_reserve(branches->nodes, &branches->nodes_capacity, branches->n_nodes + 1, sizeof *branches->nodes);
   branches->nodes[branches->n_nodes++] = (kz_sweep_node){.entry = *entry,
                                                          .value = value,
                                                          .attracts = attracts,
@@ -82,11 +83,11 @@ static bool is_known(const kz_sweep_node *node, bool forward) {
 
 /* Whether it is known otherwise than by a walk that was lost. */
 static bool is_certain(const kz_sweep_node *node, bool forward) {
-  return is_known(node, forward) &&
-         ((forward ? node->next : node->previous) >= 0 || (forward ? node->last_kind : node->first_kind) != KZ_END_NOT_LOCATED);
+  return is_known(node, forward) && ((forward ? node->next : node->previous) >= 0 ||
+                                     (forward ? node->last_kind : node->first_kind) != KZ_END_NOT_LOCATED);
 }
 
-/* Whether a cycle that a piece does not take for its own image is: a step over a symmetry breaking has arrived at the wrong one. */
+/* Whether an asymmetric piece arrives at its own mirror image: a step over a symmetry breaking went astray. */
 static bool is_astray(const walking *w, int64_t value, const kz_attractor *point) {
   kz_pendulum pendulum;
   if (point->symmetric || !kz_sweep_pendulum(w->scene, kz_sweep_value(w->scene->sweep, value), &pendulum) ||
@@ -97,7 +98,8 @@ static bool is_astray(const walking *w, int64_t value, const kz_attractor *point
 }
 
 /* The node where a piece arrives; -1 = nowhere, or there are too many. */
-static int64_t branches_arrival(const walking *w, const task *t, const kz_sweep_piece *piece, const kz_attractor *point) {
+static int64_t branches_arrival(const walking *w, const task *t, const kz_sweep_piece *piece,
+                                const kz_attractor *point) {
   kz_sweep_branches *b = w->branches;
   if (piece->reached < 0) return -1;
   const int64_t value = piece->reached ? branches_aim(w, t) : b->nodes[t->node].value;
@@ -117,8 +119,9 @@ static void add_between(kz_sweep_branches *b, int64_t value, const kz_sweep_piec
   for (int64_t i = 0; i < b->n_nodes; i++) {
     const kz_sweep_node *node = b->nodes + i;
     if (node->between && node->attracts == piece->attracts && node->entry.point.period == piece->point.period &&
-        node->entry.point.symmetric == piece->point.symmetric && abs(node->entry.point.winding) == abs(piece->point.winding) &&
-        fabs(node->first - low) <= near && fabs(node->last - high) <= near)
+        node->entry.point.symmetric == piece->point.symmetric &&
+        abs(node->entry.point.winding) == abs(piece->point.winding) && fabs(node->first - low) <= near &&
+        fabs(node->last - high) <= near)
       return;
   }
   const int64_t number =
@@ -154,11 +157,12 @@ static void branches_join(const walking *w, const task *t, const kz_sweep_piece 
   if (from < 0 && piece->reached < 0 && piece->end_kind != KZ_END_NOT_LOCATED) add_between(b, value, piece);
 }
 
-/* The node whose cycle is the image of a task's own, where the pendulum keeps its symmetry to the task's end; -1 where there is none. */
+/* Node with the image of a task's cycle, if the pendulum is symmetric to the task's end; -1 = none. */
 static int64_t image_node(const walking *w, const task *t) {
   const kz_sweep_node *node = w->branches->nodes + t->node;
   kz_pendulum pendulum, last;
-  if (node->entry.point.symmetric || !kz_sweep_pendulum(w->scene, kz_sweep_value(w->scene->sweep, node->value), &pendulum) ||
+  if (node->entry.point.symmetric ||
+      !kz_sweep_pendulum(w->scene, kz_sweep_value(w->scene->sweep, node->value), &pendulum) ||
       !kz_sweep_pendulum(w->scene, kz_sweep_value(w->scene->sweep, branches_aim(w, t)), &last) ||
       !kz_pairing_symmetry(&pendulum) || kz_pairing_symmetry(&pendulum) != kz_pairing_symmetry(&last))
     return -1;
@@ -183,8 +187,8 @@ static void join_walk(const walking *w, const task *t, const kz_sweep_walk *walk
   }
 }
 
-/* The image of a cycle, if its own walk was lost, goes where the image of the cycle's way leads: a step over a symmetry breaking may arrive at
- * the wrong cycle. */
+/* The image of a cycle, if its own walk was lost, goes where the image of the cycle's way leads: a step over a symmetry
+ * breaking may arrive at the wrong cycle. */
 static void join_lost_image(const walking *w, const task *t, const kz_sweep_walk *walk) {
   const task image = {image_node(w, t), t->forward};
   if (image.node < 0 || is_certain(w->branches->nodes + image.node, t->forward)) return;
@@ -211,17 +215,17 @@ static int64_t list_tasks(const walking *w, bool forward, task *tasks) {
 
 /* One round of walks from all cycles whose way on is not known; *n = how many there were. */
 static kz_status walk_round(walking *w, const kz_run *run, bool forward, int64_t *n) {
-  KZ_FREED task *tasks = kz_malloc((size_t)(w->branches->n_nodes + 1) * sizeof *tasks);
+  KZ_AUTOFREE task *tasks = kz_malloc((size_t)(w->branches->n_nodes + 1) * sizeof *tasks);
   *n = list_tasks(w, forward, tasks);
   if (*n == 0) return KZ_OK;
-  KZ_FREED kz_sweep_walk *walks = kz_malloc((size_t)*n * sizeof *walks);
+  KZ_AUTOFREE kz_sweep_walk *walks = kz_malloc((size_t)*n * sizeof *walks);
   const kz_stage stage = kz_stage_for_all("sweep branches", *n, sizeof *walks, walk_tile, w);
   w->tasks = tasks;
   KZ_TRY(kz_stage_run(run, &stage, walks));
   for (int64_t i = 0; i < *n; i++) {
     join_walk(w, tasks + i, walks + i);
     kz_sweep_node *node = w->branches->nodes + tasks[i].node;
-    if (!is_known(node, forward)) /* what lies there has been reached by another cycle */
+    if (!is_known(node, forward)) /* reached by another cycle */
       set_end(node, forward, kz_sweep_value(w->scene->sweep, node->value), KZ_END_NOT_LOCATED);
   }
   for (int64_t i = 0; i < *n; i++) join_lost_image(w, tasks + i, walks + i);
@@ -240,14 +244,15 @@ static kz_status walk_all(walking *w, const kz_run *run) {
   return KZ_OK;
 }
 
-/* Motions that never close have no cycle that continuation could carry: each joins the nearest one of its kind at the next value. */
+/* Joins motions that never close, which continuation cannot carry, to the nearest of their kind at the next value. */
 static void join_open(kz_sweep_branches *b) {
   for (int64_t i = 0; i < b->n_nodes; i++) {
     int64_t best = -1;
     for (int64_t j = 0; b->nodes[i].entry.point.period == 0 && j < b->n_nodes; j++) {
       const kz_sweep_node *other = b->nodes + j;
       const kz_attractor *own = &b->nodes[i].entry.point;
-      if (!kz_branch_alike(own, &other->entry.point) || other->value != b->nodes[i].value + 1 || other->previous >= 0) continue;
+      if (!kz_branch_alike(own, &other->entry.point) || other->value != b->nodes[i].value + 1 || other->previous >= 0)
+        continue;
       if (best < 0 ||
           kz_branch_points_apart(own, &other->entry.point) < kz_branch_points_apart(own, &b->nodes[best].entry.point))
         best = j;
@@ -258,11 +263,12 @@ static void join_open(kz_sweep_branches *b) {
   }
 }
 
-/* Those that attract first; in the order of points; by the value where it begins, first strobe velocity and angle. */
+/* Order of branches: attracting first; by points; by the first value, then first strobe velocity and angle. */
 static bool branches_before(const kz_sweep_node *a, const kz_sweep_node *b) {
   const kz_attractor *p = &a->entry.point, *q = &b->entry.point;
-  const double keys[][2] = {{!a->attracts, !b->attracts},         {a->between, b->between},   {kz_branch_points_order(p, q), 0},
-                            {(double)a->value, (double)b->value}, {p->velocity, q->velocity}, {p->theta, q->theta}};
+  const double keys[][2] = {{!a->attracts, !b->attracts},      {a->between, b->between},
+                            {kz_branch_points_order(p, q), 0}, {(double)a->value, (double)b->value},
+                            {p->velocity, q->velocity},        {p->theta, q->theta}};
   for (size_t i = 0; i < sizeof keys / sizeof keys[0]; i++)
     if (keys[i][0] != keys[i][1]) return keys[i][0] < keys[i][1];
   return false;
@@ -286,7 +292,8 @@ static void locate_births(const kz_scene *scene, kz_sweep_branches *b) {
     kz_sweep_node *node = b->nodes + i;
     for (int forward = 0; forward < 2; forward++) {
       const int64_t there = node->value + (forward ? 1 : -1);
-      if (!kz_is_running(&node->entry.point) || is_known(node, forward) || there < 0 || there >= scene->sweep->values.count)
+      if (!kz_is_running(&node->entry.point) || is_known(node, forward) || there < 0 ||
+          there >= scene->sweep->values.count)
         continue;
       const double birth = kz_running_birth(&path, kz_sweep_value(scene->sweep, node->value),
                                             kz_sweep_value(scene->sweep, there), node->entry.point.winding);
@@ -295,7 +302,7 @@ static void locate_births(const kz_scene *scene, kz_sweep_branches *b) {
   }
 }
 
-/* Where no walk has found its ends, a branch begins and ends at the first and the last value at which it was found; at the edges it leaves the range. */
+/* Sets ends that no walk found: the first and last value of a branch; at the edges it leaves the range. */
 static void set_known_ends(const kz_scene *scene, kz_sweep_branches *b) {
   for (int64_t i = 0; i < b->n_nodes; i++) {
     kz_sweep_node *node = b->nodes + i;

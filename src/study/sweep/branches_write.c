@@ -77,7 +77,7 @@ static kz_status write_columns(const writing *w) {
 
 static kz_status write_names(const writing *w) {
   const int64_t n = w->branches->n_branches;
-  KZ_FREED char (*names)[KZ_NAME_LENGTH] = kz_calloc((size_t)n + 1, sizeof *names);
+  KZ_AUTOFREE char (*names)[KZ_NAME_LENGTH] = kz_calloc((size_t)n + 1, sizeof *names);
   for (int64_t i = 0; i < n; i++) name_of(w->branches, i, names[i]);
   KZ_COLUMN(w->store, "sweep", "branch_name", n, const char *, names[i]);
   return KZ_OK;
@@ -101,9 +101,9 @@ static const kz_sweep_entry **branches_write_arrange(const writing *w, int64_t n
 static kz_status write_matrices(const writing *w) {
   const kz_sweep_plan *plan = w->scene->sweep;
   const int64_t n_branches = w->branches->n_branches, n = plan->values.count * n_branches;
-  KZ_FREED bool *is_stable = kz_malloc((size_t)n_branches + 1);
+  KZ_AUTOFREE bool *is_stable = kz_malloc((size_t)n_branches + 1);
   for (int64_t i = 0; i < n_branches; i++) is_stable[i] = first_of(w->branches, i)->attracts;
-  KZ_FREED const kz_sweep_entry **at = branches_write_arrange(w, n);
+  KZ_AUTOFREE const kz_sweep_entry **at = branches_write_arrange(w, n);
   MATRIX("branch_amplitude", at[i]->point.centre > 1 ? NAN : at[i]->point.amplitude);
   MATRIX("branch_multiplier",
          at[i]->point.period == 0 ? NAN : hypot(at[i]->point.multiplier_re[0], at[i]->point.multiplier_im[0]));
@@ -137,7 +137,8 @@ static kz_status write_values(const writing *w) {
   OF_VALUE("fraction_unsettled", UNSETTLED);
   const kz_sweep_part *part;
   for (int p = 0; (part = kz_sweep_part_next(plan, true, &p)); p++)
-    for (int k = 0; part->of_values && part->of_values[k]; k++) OF_VALUE(part->of_values[k], w->catalogue[i].of_value[k]);
+    for (int k = 0; part->of_values && part->of_values[k]; k++)
+      OF_VALUE(part->of_values[k], w->catalogue[i].of_value[k]);
   return KZ_OK;
 }
 
@@ -164,9 +165,10 @@ static void print_unsettled(const writing *w, FILE *summary) {
     high = fmax(high, UNSETTLED);
   }
   if (values > 0)
-    fprintf(summary,
-            "at %lld values %.2f to %.2f %% of the starts or cells end on nothing known (fraction_unsettled in the file)\n",
-            (long long)values, 100 * low, 100 * high);
+    fprintf(
+        summary,
+        "at %lld values %.2f to %.2f %% of the starts or cells end on nothing known (fraction_unsettled in the file)\n",
+        (long long)values, 100 * low, 100 * high);
 }
 
 static void print_table(const writing *w, FILE *summary) {
@@ -199,8 +201,8 @@ static void print_table(const writing *w, FILE *summary) {
             repelling == 1 ? "repels" : "repel");
 }
 
-kz_status kz_sweep_branches_write(const kz_scene *scene, const kz_sweep_catalogue *catalogue, const kz_sweep_branches *branches,
-                                  kz_store *store, FILE *summary) {
+kz_status kz_sweep_branches_write(const kz_scene *scene, const kz_sweep_catalogue *catalogue,
+                                  const kz_sweep_branches *branches, kz_store *store, FILE *summary) {
   const writing w = {scene, catalogue, branches, store};
   KZ_TRY(kz_store_dimension(store, "sweep", "branch", branches->n_branches, NULL));
   KZ_TRY(write_names(&w));

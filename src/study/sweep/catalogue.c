@@ -1,5 +1,5 @@
-/* The attractors at each value of a sweep, and the share of the starts or of the cells that each takes. A value may take long: all ranks
- * work on it together, and finished work is kept. */
+/* The attractors at each value of a sweep, and the share of the starts or of the cells that each takes. A value may
+ * take long: all ranks work on it together, and finished work is kept. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -14,14 +14,14 @@
 /* ---- measure lifetime: how long the motions take that have not settled soon ---- */
 
 /* The lifetime of the motions of the sweep's starts at one value. Collective. */
-static kz_status measure_lifetime(const kz_sweep_plan *plan, const kz_run *run, kz_dynamics *dynamics, int64_t max_periods,
-                                  kz_lifetime *life) {
+static kz_status measure_lifetime(const kz_sweep_plan *plan, const kz_run *run, kz_dynamics *dynamics,
+                                  int64_t max_periods, kz_lifetime *life) {
   enum { TILE = 256 };
   const kz_window window = kz_window_of(&plan->theta, &plan->velocity);
   const size_t n = (size_t)plan->starts;
-  KZ_FREED double *state = kz_malloc(2 * n * sizeof *state);
-  KZ_FREED kz_label *catalogue_end = kz_malloc(n * sizeof *catalogue_end);
-  KZ_FREED uint32_t *time = kz_malloc(n * sizeof *time);
+  KZ_AUTOFREE double *state = kz_malloc(2 * n * sizeof *state);
+  KZ_AUTOFREE kz_label *catalogue_end = kz_malloc(n * sizeof *catalogue_end);
+  KZ_AUTOFREE uint32_t *time = kz_malloc(n * sizeof *time);
   const kz_labeller labeller = {.dynamics = dynamics,
                                 .max_periods = max_periods,
                                 .way = KZ_BY_STATES,
@@ -32,14 +32,15 @@ static kz_status measure_lifetime(const kz_sweep_plan *plan, const kz_run *run, 
                                 .tile = TILE};
   kz_dynamics_starts(&window, plan->seed, plan->starts, state);
   KZ_TRY(kz_label_items(&labeller, 1, plan->starts, NULL, catalogue_end));
-  for (size_t i = 0; i < n; i++) time[i] = catalogue_end[i].label > 0 ? (uint32_t)catalogue_end[i].periods : KZ_NOT_ENDED;
+  for (size_t i = 0; i < n; i++)
+    time[i] = catalogue_end[i].label > 0 ? (uint32_t)catalogue_end[i].periods : KZ_NOT_ENDED;
   *life = kz_lifetime_tail(plan->starts, time, (double)max_periods);
   return KZ_OK;
 }
 
 enum {
   CHUNK = 4096, /* cells followed at once */
-  ROUNDS = 2    /* of search among cells that end nowhere known, at most */
+  ROUNDS = 2    /* largest number of rounds of search among unsettled cells */
 };
 
 /* One value at work. */
@@ -47,7 +48,7 @@ typedef struct {
   const kz_scene *scene;
   const kz_run *run;
   kz_dynamics *dynamics;
-  int64_t n_starts, n_cells; /* of the search; that are followed on the grid, 0 = no grid */
+  int64_t n_starts, n_cells; /* starts of the search; cells followed on the grid, 0 = none */
   double *state;             /* [starts or cells][2] */
   int32_t *label;            /* [starts] number of kz_dynamics, 0 = not settled */
   kz_label *cell;            /* [cells] */
@@ -108,7 +109,7 @@ static int64_t count_hits(const searching *s) {
 /* The attractors that something ended on, and their mirror images, in the order of the file. */
 static kz_status catalogue_collect(const searching *s, kz_sweep_catalogue *catalogue) {
   const int64_t known = kz_dynamics_count(s->dynamics);
-  KZ_FREED int64_t *order = kz_malloc((size_t)(known + 1) * sizeof *order);
+  KZ_AUTOFREE int64_t *order = kz_malloc((size_t)(known + 1) * sizeof *order);
   kz_dynamics_order(s->dynamics, order);
   for (int64_t i = 0; i < known; i++) {
     kz_sweep_entry entry = {.hits = s->hits[order[i]], .number = {NAN, NAN, NAN}};
@@ -158,7 +159,7 @@ typedef struct {
 static kz_status sweep_catalogue_tile(void *context, int64_t tile, void *record) {
   const sweeping *sweep = context;
   const kz_scene *scene = sweep->scene;
-  KZ_FREED_BY(end) searching s = {.scene = scene, .run = sweep->run};
+  KZ_AUTOFREE_BY(end) searching s = {.scene = scene, .run = sweep->run};
   kz_pendulum pendulum;
   const double value = kz_sweep_value(scene->sweep, tile);
   if (!kz_sweep_pendulum(scene, value, &pendulum) || pendulum.beta <= 0) return KZ_OK;

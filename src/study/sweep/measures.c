@@ -1,4 +1,4 @@
-/* What the measures of a sweep share. */
+/* Common parts of the measures of a sweep. */
 #include "sweep.h"
 
 bool kz_sweep_measures(const kz_sweep_plan *plan, int64_t measure) {
@@ -15,8 +15,9 @@ bool kz_sweep_has_grid(const kz_scene *scene) {
   return scene->has_basin && wanted;
 }
 
-kz_status kz_sweep_stage(const kz_run *run, const kz_stage *stage, kz_records_fn write, kz_store *store, FILE *summary) {
-  KZ_FREED void *records = kz_malloc((size_t)stage->n_tiles * stage->record_bytes);
+kz_status kz_sweep_stage(const kz_run *run, const kz_stage *stage, kz_records_fn write, kz_store *store,
+                         FILE *summary) {
+  KZ_AUTOFREE void *records = kz_malloc((size_t)stage->n_tiles * stage->record_bytes);
   KZ_TRY(kz_stage_run(run, stage, records));
   return kz_ranks_agree(run->ranks, store ? write(stage->context, records, store, summary) : KZ_OK);
 }
@@ -40,7 +41,8 @@ const char *kz_sweep_lack(const kz_scene *scene) {
   if (kz_words_repeat(&plan->measure)) return "measure: has a word twice; name each measure once";
   for (int64_t i = 0; plane && i < plan->measure.count; i++)
     if (branches || (plan->measure.values[i] >= 0 && plan->measure.values[i] < KZ_SWEEP_OWN))
-      return "measure: has a word that goes along one key; give parameter, min, max and count instead of x and y, or words "
+      return "measure: has a word that goes along one key; give parameter, min, max and count instead of x and y, or "
+             "words "
              "that "
              "go over a plane";
   return NULL;

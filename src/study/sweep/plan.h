@@ -1,10 +1,10 @@
-/* What a scene says of the study `sweep`. */
+/* Plan of the study `sweep`. */
 #pragma once
 
 #include "kapitza/study.h"
 
-/* The measures of a sweep: code, word in the scene, the function that runs it. The first three come from the branches and have no functions of
- * their own; all go along one key. Further words are those of parts (kz_sweep_part). */
+/* The measures of a sweep: code, word in the scene, the function that runs it. The first three come from the branches
+ * and have no functions of their own; all go along one key. Further words are those of parts (kz_sweep_part). */
 #define KZ_SWEEP_MEASURES(MEASURE)                                   \
   MEASURE(KZ_SWEEP_ATTRACTORS, "attractors", NULL)                   \
   MEASURE(KZ_SWEEP_BASIN_FRACTIONS, "basin_fractions", NULL)         \
@@ -19,11 +19,11 @@ struct kz_sweep_plan {
   kz_axis range;           /* as the scene gives it, or `listed`; NaN = not given */
   kz_reals listed;         /* ascending */
   kz_axis values;          /* the range, or the ends and the number of the list: kz_sweep_value has each */
-  kz_plane_axis x, y;      /* of a plane */
+  kz_plane_axis x, y;      /* axes of a plane */
   kz_integers measure;     /* indices in the list of kz_sweep_measure_words() */
   kz_axis theta, velocity; /* window of starts; the counts of the axes are not used */
   int64_t starts, max_period, seed;
-  double start_theta, start_velocity; /* of the bifurcation diagram */
+  double start_theta, start_velocity; /* start of the bifurcation diagram */
   int64_t transient, samples;         /* drive periods at each value: before the record, and recorded */
 };
 
@@ -33,18 +33,18 @@ bool kz_words_repeat(const kz_integers *alike_words);
 typedef struct kz_sweep_catalogue kz_sweep_catalogue;
 typedef struct kz_sweep_value_at kz_sweep_value_at;
 struct kz_sweep_part {
-  /* Words of sweep.measure that it adds, joined by '|', as its row of that key has them too. The first `of_branches` are of the branches, all others
-   * of single points. */
+  /* Words of sweep.measure that it adds, joined by '|', as its row of that key has them too. The first `of_branches`
+   * are of the branches, all others of single points. */
   const char *words;
   int64_t of_branches;
-  /* Names of the variables over value and branch, and of those over value, that `value` gives, KZ_SWEEP_NUMBERS at most, then NULL; NULL = none. */
+  /* Variables over value and branch, and over value, of `value`: at most KZ_SWEEP_NUMBERS, then NULL; NULL = none. */
   const char *const *numbers, *const *of_values;
   bool on_grid;                            /* with the study basin it follows its cells, else the starts of the sweep */
   int64_t (*times)(const kz_scene *scene); /* how often it follows them; NULL = it does not */
   /* Fills numbers of the entries of a value, and of the value, if a word of the branches is named. Collective. */
   kz_status (*value)(const kz_scene *scene, const kz_sweep_value_at *at, kz_sweep_catalogue *catalogue);
   bool own_steps; /* points have numerics of their own, not the scene's */
-  /* What single points cost, and all of them. Collective. */
+  /* Cost of single points, and of all. Collective. */
   kz_cost (*cost)(const kz_scene *scene);
   kz_status (*run)(const kz_scene *scene, const kz_run *run, kz_store *store, FILE *summary);
 };

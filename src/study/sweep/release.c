@@ -22,8 +22,8 @@ void kz_release_from_rest(const kz_pendulum *pendulum, const kz_numerics *numeri
   const double enough = pendulum->beta > 0 ? SHRUNK / (M_PI * pendulum->beta) : LONGEST;
   const int64_t periods = (int64_t)fmin(fmax(ceil(enough), SHORTEST), LONGEST);
   kz_flow *flow = kz_flow_create(pendulum, numerics);
-  KZ_FREED double *theta = kz_malloc((size_t)n * sizeof *theta), *velocity = kz_calloc((size_t)n, sizeof *velocity);
-  KZ_FREED int64_t *turns = kz_calloc((size_t)n, sizeof *turns), *number = kz_malloc((size_t)n * sizeof *number);
+  KZ_AUTOFREE double *theta = kz_malloc((size_t)n * sizeof *theta), *velocity = kz_calloc((size_t)n, sizeof *velocity);
+  KZ_AUTOFREE int64_t *turns = kz_calloc((size_t)n, sizeof *turns), *number = kz_malloc((size_t)n * sizeof *number);
   int64_t left = n;
   for (int64_t i = 0; i < n; i++) {
     theta[i] = M_PI - angle[i];
@@ -57,15 +57,15 @@ static double half_degrees(int64_t i) {
   return (double)(i + 1) * (M_PI / 360);
 }
 
-/* The edge between a release that stays (inside) and one that fails (outside). Of several edges the one next to inside, or with
- * `outermost` the one next to outside. */
+/* The edge between a release that stays (inside) and one that fails (outside). Of several edges the one next to inside,
+ * or with `outermost` the one next to outside. */
 static double release_locate(const kz_pendulum *pendulum, const kz_numerics *numerics, double inside, double outside,
                              bool outermost) {
   double angle[BRACKET];
   uint8_t stays[BRACKET];
   while (outside - inside > LOCATED) {
     const double step = (outside - inside) / (BRACKET + 1), from = inside;
-    int first = outermost ? BRACKET : 0; /* that fails */
+    int first = outermost ? BRACKET : 0; /* index of the failing one */
     for (int i = 0; i < BRACKET; i++) angle[i] = from + step * (i + 1);
     kz_release_from_rest(pendulum, numerics, BRACKET, angle, stays);
     while (!outermost && first < BRACKET && stays[first]) first++;
@@ -76,7 +76,7 @@ static double release_locate(const kz_pendulum *pendulum, const kz_numerics *num
   return inside;
 }
 
-/* The edge that plain bisection finds between the last whole degree that stays and the first that fails: a paper's scan. */
+/* The edge that plain bisection finds between the last whole degree that stays and the first that fails. */
 static double release_scan(const kz_pendulum *pendulum, const kz_numerics *numerics, const uint8_t *stays) {
   int64_t degree = 1;
   while (2 * degree - 1 < HALF_DEGREES && stays[2 * degree - 1]) degree++;
@@ -94,8 +94,8 @@ static double release_scan(const kz_pendulum *pendulum, const kz_numerics *numer
 static double first_failure(const kz_pendulum *pendulum, const kz_numerics *numerics, double step, double outside) {
   const int64_t n = (int64_t)ceil(outside / step - 0.5) - 1;
   if (n < 1) return outside;
-  KZ_FREED double *angle = kz_malloc((size_t)n * sizeof *angle);
-  KZ_FREED uint8_t *stays = kz_malloc((size_t)n);
+  KZ_AUTOFREE double *angle = kz_malloc((size_t)n * sizeof *angle);
+  KZ_AUTOFREE uint8_t *stays = kz_malloc((size_t)n);
   for (int64_t i = 0; i < n; i++) angle[i] = (double)(i + 1) * step;
   kz_release_from_rest(pendulum, numerics, n, angle, stays);
   for (int64_t i = 0; i < n; i++)
@@ -103,8 +103,8 @@ static double first_failure(const kz_pendulum *pendulum, const kz_numerics *nume
   return outside;
 }
 
-/* Where releases first fail. `outside` = the first failure of the scan; denser scans below it go on while they find earlier
- * gaps. */
+/* Where releases first fail. `outside` = the first failure of the scan; denser scans below it go on while they find
+ * earlier gaps. */
 static double find_first(const kz_pendulum *pendulum, const kz_numerics *numerics, double outside) {
   double step = half_degrees(0), before = INFINITY;
   for (int depth = 0; depth < DEPTH && outside <= before - FINER * step; depth++) {
@@ -129,8 +129,9 @@ static kz_status release_tile(void *context, int64_t tile, void *record) {
   while (last >= 0 && !out->stays[last]) last--;
   out->first = find_first(&pendulum, &scene->numerics, half_degrees(first));
   out->scan = release_scan(&pendulum, &scene->numerics, out->stays);
-  out->largest =
-      last < 0 ? out->first : release_locate(&pendulum, &scene->numerics, half_degrees(last), half_degrees(last + 1), true);
+  out->largest = last < 0
+                     ? out->first
+                     : release_locate(&pendulum, &scene->numerics, half_degrees(last), half_degrees(last + 1), true);
   return KZ_OK;
 }
 
@@ -143,11 +144,14 @@ static kz_status write_release(const kz_scene *scene, const void *all, kz_store 
   COLUMN("release_angle_scan", records[i].scan);
   COLUMN("release_angle_largest", records[i].largest);
   KZ_SCALE(store, "sweep", "release", HALF_DEGREES, half_degrees(i));
-  KZ_COLUMN(store, "sweep", "release_stays", n * HALF_DEGREES, uint8_t, records[i / HALF_DEGREES].stays[i % HALF_DEGREES]);
-  fprintf(summary, "releases from rest, degrees from inverted:\n         value  first gap  of whole degrees  last stays\n");
+  KZ_COLUMN(store, "sweep", "release_stays", n * HALF_DEGREES, uint8_t,
+            records[i / HALF_DEGREES].stays[i % HALF_DEGREES]);
+  fprintf(summary,
+          "releases from rest, degrees from inverted:\n         value  first gap  of whole degrees  last stays\n");
   for (int64_t i = 0; i < n; i++)
-    fprintf(summary, "%14.9g  %9.4f  %16.4f  %10.4f\n", kz_axis_written(&scene->sweep->values, kz_sweep_value(scene->sweep, i)),
-            records[i].first * 180 / M_PI, records[i].scan * 180 / M_PI, records[i].largest * 180 / M_PI);
+    fprintf(summary, "%14.9g  %9.4f  %16.4f  %10.4f\n",
+            kz_axis_written(&scene->sweep->values, kz_sweep_value(scene->sweep, i)), records[i].first * 180 / M_PI,
+            records[i].scan * 180 / M_PI, records[i].largest * 180 / M_PI);
   return KZ_OK;
 }
 

@@ -1,11 +1,12 @@
-/* Where running states are born without any drive: the motion that leaves the saddle, upright but for the torque, comes back to it a turn later, on
- * a homoclinic orbit. With more torque it passes the saddle and runs on, with less it falls back. */
+/* Where running states are born without any drive: the motion that leaves the saddle, upright but for the torque, comes
+ * back to it a turn later, on a homoclinic orbit. With more torque it passes the saddle and runs on, with less it falls
+ * back. */
 #include <math.h>
 
 #include "sweep.h"
 
 enum { SAMPLES = 96, MOST_PERIODS = 4000, HALVINGS = 100 };
-static const double LEAVES = 1e-6; /* rad: how far from the saddle the motion begins, along the direction in which it leaves */
+static const double LEAVES = 1e-6; /* rad: distance of the first state from the saddle, in its unstable direction */
 
 /* Whether the motion that leaves the saddle with a velocity of this sign passes the next one. */
 static bool running_passes(const kz_pendulum *p, int sign) {
@@ -14,7 +15,7 @@ static bool running_passes(const kz_pendulum *p, int sign) {
   const double rate = (sqrt(p->beta * p->beta - 4 * p->k * cos(saddle)) - p->beta) / 2;
   kz_numerics fine;
   kz_numerics_fine(p, &fine);
-  KZ_FREED_BY(kz_flow_freed) kz_flow *flow = kz_flow_create(p, &fine);
+  KZ_AUTOFREE_BY(kz_flow_freed) kz_flow *flow = kz_flow_create(p, &fine);
   theta[SAMPLES] = saddle + sign * LEAVES, velocity[SAMPLES] = sign * rate * LEAVES;
   for (int period = 0; period < MOST_PERIODS; period++) {
     kz_sample(flow, 1, SAMPLES, theta[SAMPLES], velocity[SAMPLES], theta, velocity);

@@ -1,13 +1,13 @@
-/* Bifurcation diagram: the strobe points after a transient, once with the values going up and once down. Each walk carries its
- * state from value to value, so that it shows where attractors are lost and not found again. */
+/* Bifurcation diagram: the strobe points after a transient, once with the values going up and once down. Each walk
+ * carries its state from value to value, so that it shows where attractors are lost and not found again. */
 #include <math.h>
 #include <string.h>
 
 #include "sweep.h"
 
 enum { WALKS = 2 };
-/* rad: a motion that has come to rest is pushed this much at each value, or rounding would hold it where it is no longer
- * stable. */
+/* rad: a motion that has come to rest is pushed this much at each value, or rounding would hold it where it is no
+ * longer stable. */
 static const double PUSH = 1e-6;
 
 /* Drive periods of a tile: about a second. */
@@ -21,7 +21,7 @@ typedef struct {
 typedef struct {
   const kz_scene *scene;
   strobe_state state[WALKS];
-  int64_t first, values; /* of the leg, in the order of the walk */
+  int64_t first, values; /* values of the leg, in the order of the walk */
   int64_t skip;          /* periods of the transient, which begins at the first value where `pushed` */
   bool pushed;
   int64_t samples; /* at each value; 0 = the transient goes on */
@@ -65,9 +65,10 @@ static kz_status strobe_tile(void *context, int64_t tile, void *record) {
 static kz_status run_leg(walking *w, const kz_run *run, double *points) {
   const kz_sweep_plan *plan = w->scene->sweep;
   const size_t value = (size_t)(2 * w->samples) * sizeof(double);
-  const kz_stage stage = kz_stage_for_all(
-      "sweep strobe", WALKS, sizeof(strobe_state) + (size_t)(w->values * 2 * w->samples) * sizeof(double), strobe_tile, w);
-  KZ_FREED char *records = kz_malloc(WALKS * stage.record_bytes);
+  const kz_stage stage =
+      kz_stage_for_all("sweep strobe", WALKS,
+                       sizeof(strobe_state) + (size_t)(w->values * 2 * w->samples) * sizeof(double), strobe_tile, w);
+  KZ_AUTOFREE char *records = kz_malloc(WALKS * stage.record_bytes);
   KZ_TRY(kz_stage_run(run, &stage, records));
   for (int64_t walk = 0; walk < WALKS; walk++) {
     const char *record = records + (size_t)walk * stage.record_bytes;
@@ -87,7 +88,8 @@ static kz_status walk(const kz_scene *scene, const kz_run *run, double *points) 
   walking w = {.scene = scene, .state = {start, start}, .values = at_once > 0 ? at_once : 1};
   for (w.first = 0; w.first < plan->values.count; w.first += w.values) {
     int64_t left = plan->transient;
-    for (w.pushed = true, w.samples = 0, w.skip = LEG_PERIODS; left > LEG_PERIODS; left -= LEG_PERIODS, w.pushed = false)
+    for (w.pushed = true, w.samples = 0, w.skip = LEG_PERIODS; left > LEG_PERIODS;
+         left -= LEG_PERIODS, w.pushed = false)
       KZ_TRY(run_leg(&w, run, NULL));
     w.skip = left;
     w.samples = plan->samples;
@@ -109,7 +111,8 @@ static kz_status write_strobe(const kz_scene *scene, const double *points, kz_st
 }
 
 kz_status kz_sweep_strobe(const kz_scene *scene, const kz_run *run, kz_store *store, FILE *summary) {
-  KZ_FREED double *points = kz_calloc((size_t)(WALKS * scene->sweep->values.count * 2 * scene->sweep->samples), sizeof *points);
+  KZ_AUTOFREE double *points =
+      kz_calloc((size_t)(WALKS * scene->sweep->values.count * 2 * scene->sweep->samples), sizeof *points);
   KZ_TRY(walk(scene, run, points));
   return kz_ranks_agree(run->ranks, store ? write_strobe(scene, points, store, summary) : KZ_OK);
 }

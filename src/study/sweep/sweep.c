@@ -2,7 +2,7 @@
 #include "sweep.h"
 #include "kapitza/study_basin.h"
 
-/* Of measures of single points. */
+/* Cost of measures of single points. */
 static kz_cost points_cost(const kz_scene *scene) {
   kz_cost cost = {0};
   const kz_sweep_part *part;
@@ -29,14 +29,15 @@ kz_cost kz_sweep_cost(const kz_scene *scene) {
   const double cells = grid ? (double)scene->basin->theta.count * (double)scene->basin->velocity.count : 0;
   return (kz_cost){.cells = (int64_t)(cells * values * times) + of_points.cells,
                    .disk_bytes = values * (sizeof(kz_sweep_catalogue) + 1e3) + of_points.disk_bytes,
-                   .memory_bytes = 3 * values * sizeof(kz_sweep_catalogue) + 100 * nodes + (times > 1 ? 24 : 2) * cells +
-                                   of_points.memory_bytes,
+                   .memory_bytes = 3 * values * sizeof(kz_sweep_catalogue) + 100 * nodes +
+                                   (times > 1 ? 24 : 2) * cells + of_points.memory_bytes,
                    .rank0_bytes = of_points.rank0_bytes};
 }
 
 static bool has_branches(const kz_sweep_plan *plan) {
   bool wanted = kz_sweep_part_next(plan, true, &(int){0});
-  for (int64_t measure = 0; measure < KZ_SWEEP_RELEASE_ANGLE; measure++) wanted = wanted || kz_sweep_measures(plan, measure);
+  for (int64_t measure = 0; measure < KZ_SWEEP_RELEASE_ANGLE; measure++)
+    wanted = wanted || kz_sweep_measures(plan, measure);
   return wanted;
 }
 
@@ -44,11 +45,12 @@ static bool has_branches(const kz_sweep_plan *plan) {
 static kz_status run_branches(const kz_scene *scene, const kz_run *run, kz_store *store, FILE *summary) {
   const kz_sweep_plan *plan = scene->sweep;
   if (!has_branches(plan)) return KZ_OK;
-  KZ_FREED_BY(kz_sweep_branches_free) kz_sweep_branches branches = {0};
-  KZ_FREED kz_sweep_catalogue *catalogue = kz_malloc((size_t)plan->values.count * sizeof *catalogue);
+  KZ_AUTOFREE_BY(kz_sweep_branches_free) kz_sweep_branches branches = {0};
+  KZ_AUTOFREE kz_sweep_catalogue *catalogue = kz_malloc((size_t)plan->values.count * sizeof *catalogue);
   KZ_TRY(kz_sweep_catalogues(scene, run, catalogue));
   KZ_TRY(kz_sweep_branches_make(scene, run, catalogue, &branches));
-  return kz_ranks_agree(run->ranks, store ? kz_sweep_branches_write(scene, catalogue, &branches, store, summary) : KZ_OK);
+  return kz_ranks_agree(run->ranks,
+                        store ? kz_sweep_branches_write(scene, catalogue, &branches, store, summary) : KZ_OK);
 }
 
 /* One axis with its scale, its key and that key's unit. */
@@ -86,7 +88,8 @@ kz_status kz_sweep_run(const kz_scene *scene, const kz_run *run, kz_store *store
   KZ_TRY(kz_ranks_agree(run->ranks, store ? write_values(scene, store, summary) : KZ_OK));
   KZ_TRY(run_branches(scene, run, store, summary));
   const kz_sweep_part *part;
-  for (int i = 0; (part = kz_sweep_part_next(scene->sweep, false, &i)); i++) KZ_TRY(part->run(scene, run, store, summary));
+  for (int i = 0; (part = kz_sweep_part_next(scene->sweep, false, &i)); i++)
+    KZ_TRY(part->run(scene, run, store, summary));
   for (int64_t i = 0; i < (int64_t)(sizeof runs / sizeof runs[0]); i++)
     if (runs[i] && kz_sweep_measures(scene->sweep, i)) KZ_TRY(runs[i](scene, run, store, summary));
   return KZ_OK;

@@ -32,15 +32,15 @@ typedef struct {
 /* The path of the sweep itself; `scene` and `maps` must outlive it. */
 kz_path kz_sweep_path(const kz_scene *scene, kz_fine_maps *maps);
 
-/* A piece of a branch between two values: all along it the cycle attracts, or nowhere. It begins at the cycle that is followed, or where something
- * happens; it ends at one of the values, or where something happens (KZ_END_...). */
+/* A piece of a branch between two values: all along it the cycle attracts, or nowhere. It begins at the cycle that is
+ * followed, or where something happens; it ends at one of the values, or where something happens (KZ_END_...). */
 typedef struct {
   double begin, end; /* values; of the ends that are events */
   int32_t begin_kind, end_kind;
   int32_t from_start;      /* 1: begins at the cycle that is followed */
   int32_t reached;         /* 0: ends at the first value, 1: at the second, -1: at an event */
   int32_t attracts, twice; /* twice: its image branches off with it */
-  double step;             /* that would follow from its end, in distances of the two values */
+  double step;             /* next step from its end, in distances of the two values */
   kz_attractor point;      /* where it ends */
 } kz_sweep_piece;
 enum { KZ_SWEEP_PIECES = 32 };
@@ -49,17 +49,17 @@ typedef struct {
   kz_sweep_piece piece[KZ_SWEEP_PIECES];
 } kz_sweep_walk;
 
-/* Follows a cycle from one value towards another one by pseudo-arclength, attracting or not, through folds, and all cycles of up to max_period
- * periods that branch off on the way. The first piece is that from the cycle itself. Ends are right to rounding. step: the first one, in distances
- * of the values; 0 = not known. */
-void kz_sweep_follow(const kz_path *path, double from, double to, int64_t max_period, const kz_attractor *point, double step,
-                     kz_sweep_walk *found);
-/* Carries a cycle from the value `from` towards `to`. Returns `to`, or where the cycle ends or its stability changes, and how (end_kind).
- * In and out: *point, the cycle at that value. */
+/* Follows a cycle from one value towards another one by pseudo-arclength, attracting or not, through folds, and all
+ * cycles of up to max_period periods that branch off on the way. The first piece is that from the cycle itself. Ends
+ * are right to rounding. step: the first one, in distances of the values; 0 = not known. */
+void kz_sweep_follow(const kz_path *path, double from, double to, int64_t max_period, const kz_attractor *point,
+                     double step, kz_sweep_walk *found);
+/* Carries a cycle from the value `from` towards `to`. Returns `to`, or where the cycle ends or its stability changes,
+ * and how (end_kind). In and out: *point, the cycle at that value. */
 double kz_walk(const kz_path *path, double from, double to, kz_attractor *point, int32_t *end_kind);
 
-/* The value between two, to rounding, at which a running state of this winding is born that the pendulum at `with` has and the one at `without` has
- * not; NaN if that is not so, or if anything but a constant torque drives them. */
+/* The value between two, to rounding, at which a running state of this winding is born that the pendulum at `with` has
+ * and the one at `without` has not; NaN if that is not so, or if anything but a constant torque drives them. */
 double kz_running_birth(const kz_path *path, double with, double without, int32_t winding);
 
 /* A cycle with a strobe point, or of a motion that never closes its means; its image. */
@@ -73,17 +73,17 @@ int kz_branch_points_order(const kz_attractor *p, const kz_attractor *q);
 
 /* ---- catalogues: what attracts at each value ---- */
 
-enum { KZ_SWEEP_MOST = 128 /* attractors at one value */, KZ_SWEEP_NUMBERS = 3 /* of an entry, by a part */ };
+enum { KZ_SWEEP_MOST = 128 /* attractors at one value */, KZ_SWEEP_NUMBERS = 3 /* numbers of an entry, by a part */ };
 
 typedef struct {
   kz_attractor point;              /* period 0: theta, velocity are its mean angle and mean velocity */
   int64_t hits;                    /* number of starts or cells that ended on it */
-  double number[KZ_SWEEP_NUMBERS]; /* of a part (kz_sweep_part); NaN = none */
+  double number[KZ_SWEEP_NUMBERS]; /* numbers of a part (kz_sweep_part); NaN = none */
 } kz_sweep_entry;
 
 struct kz_sweep_catalogue {
-  int64_t count, samples, unsettled; /* attractors; starts or cells that were followed; those that ended on nothing known */
-  kz_lifetime lifetime;              /* of the starts, if it is measured */
+  int64_t count, samples, unsettled; /* attractors; starts or cells followed; starts or cells unsettled */
+  kz_lifetime lifetime;              /* lifetime of the starts, if measured */
   double of_value[KZ_SWEEP_NUMBERS]; /* by a part (kz_sweep_part) */
   kz_sweep_entry entries[KZ_SWEEP_MOST];
 };
@@ -94,7 +94,7 @@ struct kz_sweep_value_at {
   kz_dynamics *dynamics;
   kz_pendulum pendulum;
   const int64_t *hits;     /* [numbers from 1] */
-  const kz_axis *velocity; /* of the window of samples */
+  const kz_axis *velocity; /* axis of the samples' window */
   int64_t n_cells;         /* samples that are cells of the basin, without mirror images; 0 = they are the starts */
   int64_t max_periods;
 };
@@ -119,17 +119,17 @@ typedef struct {
   int64_t n_nodes, nodes_capacity;
   kz_sweep_node *nodes;
   int64_t n_branches, *first_node; /* [n_branches] in the order of the file */
-  kz_fine_maps *maps;              /* of the values */
+  kz_fine_maps *maps;              /* maps of the values */
 } kz_sweep_branches;
 
-/* Joins the catalogues by continuation. *branches is the same on every rank; freed by kz_sweep_branches_free. Collective. */
+/* Joins the catalogues by continuation; equal on all ranks; kz_sweep_branches_free frees it. Collective. */
 kz_status kz_sweep_branches_make(const kz_scene *scene, const kz_run *run, const kz_sweep_catalogue *catalogue,
                                  kz_sweep_branches *branches);
 void kz_sweep_branches_free(kz_sweep_branches *branches);
 
 /* Writes everything about branches to the file and the summary. Rank 0. */
-kz_status kz_sweep_branches_write(const kz_scene *scene, const kz_sweep_catalogue *catalogue, const kz_sweep_branches *branches,
-                                  kz_store *store, FILE *summary);
+kz_status kz_sweep_branches_write(const kz_scene *scene, const kz_sweep_catalogue *catalogue,
+                                  const kz_sweep_branches *branches, kz_store *store, FILE *summary);
 
 /* ---- the other measures: each runs its stage and, on rank 0, writes its variables. Collective. ---- */
 
@@ -139,7 +139,7 @@ kz_status kz_sweep_strobe(const kz_scene *scene, const kz_run *run, kz_store *st
 /* Writes the axes of a plane, their keys and those keys' units. Rank 0. */
 kz_status kz_sweep_write_axes(const kz_sweep_plan *plan, kz_store *store);
 
-/* What a sweep writes over a plane, besides kz_sweep_variables. */
+/* Variables of a sweep over a plane, besides kz_sweep_variables. */
 extern const kz_variable kz_plane_variables[];
 
 /* Writes the records of such a measure, on rank 0. */
@@ -147,8 +147,8 @@ typedef kz_status (*kz_records_fn)(const kz_scene *scene, const void *records, k
 /* Runs a stage whose context is the scene, then `write`. Collective. */
 kz_status kz_sweep_stage(const kz_run *run, const kz_stage *stage, kz_records_fn write, kz_store *store, FILE *summary);
 
-/* Releases the pendulum from rest at t = 0, at angle [n] (rad) from inverted. stays [n] = 1 if the motion stays within half a turn of
- * inverted, else 0. */
+/* Releases the pendulum from rest at t = 0, at angle [n] (rad) from inverted. stays [n] = 1 if the motion stays within
+ * half a turn of inverted, else 0. */
 void kz_release_from_rest(const kz_pendulum *pendulum, const kz_numerics *numerics, int64_t n, const double *angle,
                           uint8_t *stays);
 

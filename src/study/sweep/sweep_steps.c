@@ -7,7 +7,7 @@
 #include "kapitza/study_basin.h"
 
 enum {
-  VALUES = 17,  /* that are tried, fewer where they take many steps */
+  VALUES = 17,  /* values tried, fewer if they take many steps */
   STEPS = 20000 /* a period, that these values take together */
 };
 
@@ -24,11 +24,12 @@ static int64_t tried_values(const kz_scene *scene) {
   return n < scene->sweep->values.count ? n : scene->sweep->values.count;
 }
 
-/* The same at corner i of a plane, whose error is the largest. */
+/* Motions at corner i of a plane, where errors are largest. */
 static bool motions_at_corner(const kz_scene *scene, int64_t i, kz_step_motions *motions) {
   const kz_sweep_plan *plan = scene->sweep;
   const int32_t parameter[] = {plan->x.parameter, plan->y.parameter};
-  const double value[] = {i % 2 ? plan->x.values.max : plan->x.values.min, i / 2 ? plan->y.values.max : plan->y.values.min};
+  const double value[] = {i % 2 ? plan->x.values.max : plan->x.values.min,
+                          i / 2 ? plan->y.values.max : plan->y.values.min};
   *motions = kz_motions_of(scene, fastest_of_sweep(scene), "numerics.steps_per_period|sweep");
   char text[2][96];
   kz_axis_print(&plan->x.values, plan->x.parameter, 6, value[0], text[0], sizeof text[0]);
@@ -48,7 +49,8 @@ static bool motions_at(const kz_scene *scene, int64_t i, int64_t n, kz_step_moti
   char text[96];
   kz_axis_print(&plan->values, plan->parameter, 6, value, text, sizeof text);
   snprintf(motions->where, sizeof motions->where, "at %s, ", text);
-  const bool damped_alone = !kz_sweep_measures(plan, KZ_SWEEP_RELEASE_ANGLE) && !kz_sweep_measures(plan, KZ_SWEEP_STROBE);
+  const bool damped_alone =
+      !kz_sweep_measures(plan, KZ_SWEEP_RELEASE_ANGLE) && !kz_sweep_measures(plan, KZ_SWEEP_STROBE);
   return kz_sweep_pendulum(scene, value, &motions->pendulum) && (motions->pendulum.beta > 0 || !damped_alone);
 }
 

@@ -2,7 +2,7 @@
 #include "kapitza/store_variables.h"
 #include "sweep.h"
 
-#define OWN "@parameter_units" /* of the swept key */
+#define OWN "@parameter_units" /* units of the swept key */
 #define END_KINDS \
   "left_the_range", "fold", "period_doubling", "neimark_sacker", "symmetry_breaking", "not_located", "homoclinic"
 
@@ -12,7 +12,8 @@ const kz_variable kz_sweep_variables[] = {
     {"branch", KZ_INT32, {"branch"}, NONE, "number of the branch"},
     {"branch_name", KZ_TEXT, {"branch"}, NONE, "name of the attractor where the branch begins"},
     {"branch_period", KZ_INT32, {"branch"}, PERIODS, "period of the orbit; 0 = it never closes"},
-    {"branch_winding", KZ_INT32, {"branch"}, NONE, "net turns in one period, + counterclockwise; of a running state 1 or -1"},
+    {"branch_winding", KZ_INT32, {"branch"}, NONE,
+     "net turns in one period, + counterclockwise; of a running state 1 or -1"},
     {"branch_centre", KZ_INT8, {"branch"}, NONE, "what the orbit moves about where the branch begins", {CENTRES}},
     {"branch_symmetric", KZ_INT8, {"branch"}, NONE, "whether the orbit is its own mirror image", {"no", "yes"}},
     {"branch_stable", KZ_INT8, {"branch"}, NONE, "whether the orbit attracts along the branch", {"no", "yes"}},
@@ -25,7 +26,8 @@ const kz_variable kz_sweep_variables[] = {
     {"branch_multiplier", KZ_REAL, {"value", "branch"}, NONE, "modulus of the largest Floquet multiplier"},
     {"branch_theta", KZ_REAL, {"value", "branch"}, ANGLE, "angle of one strobe point from down"},
     {"branch_velocity", KZ_REAL, {"value", "branch"}, VELOCITY, "angular velocity of the same strobe point"},
-    {"lifetime", KZ_REAL, {"value"}, PERIODS, "mean time from lifetime_after on until a motion settles; NaN = none settled"},
+    {"lifetime", KZ_REAL, {"value"}, PERIODS,
+     "mean time from lifetime_after on until a motion settles; NaN = none settled"},
     {"lifetime_low", KZ_REAL, {"value"}, PERIODS, "lower end of its 95 % interval"},
     {"lifetime_high", KZ_REAL, {"value"}, PERIODS, "upper end of its 95 % interval"},
     {"lifetime_after", KZ_REAL, {"value"}, PERIODS, "time from which the mean lifetime is counted"},

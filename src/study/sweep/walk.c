@@ -1,4 +1,4 @@
-/* One cycle carried along a parameter, and what happens on the way: the case of one key of the continuation of the atlas. */
+/* One cycle carried along a parameter, with its events: the continuation of the atlas in one key. */
 #include <math.h>
 #include <string.h>
 
@@ -6,7 +6,7 @@
 #include "sweep.h"
 
 enum { MOST_ROWS = 400, MOST_EVENTS = 64, DEEPEST = 8 };
-/* Steps of a branch, in distances of the two values: the longest, which leads beyond the second value, and the first where none is known. */
+/* Steps of a branch, in distances of the two values: longest, beyond the second value; first where none is known. */
 static const double LONGEST = 1.2, FIRST = 0.125;
 /* An event that is not a merger lies so near to where the walk has found it. */
 static const double NEAR = 0.3;
@@ -19,7 +19,7 @@ typedef struct {
   double from, to;
 } way;
 
-/* What follows a cycle: where, up to which period, and what it finds. */
+/* A walk: where it leads, up to which period, and its findings. */
 typedef struct {
   const way *way;
   kz_plane plane, rough; /* rough: with half of the steps, for the way; what is kept is solved on the other one */
@@ -58,7 +58,7 @@ static bool is_symmetric(const kz_plane_cycle *c) {
   return c->kind.of.side < 0 || c->kind.rest >= 0;
 }
 
-/* The cycle through a strobe point at a place. Long ones have points several periods apart: so few that a pair of them lies half a cycle apart. */
+/* The cycle through a strobe point. Long ones take points several periods apart, a pair of them half a cycle apart. */
 static bool cycle_of(const kz_plane *plane, const kz_attractor *point, double place, kz_plane_cycle *c) {
   const bool half = point->symmetric && plane->half_period, mirrored = point->symmetric && plane->mirrored;
   const bool halved = half || (mirrored && point->period > 1);
@@ -66,7 +66,7 @@ static bool cycle_of(const kz_plane *plane, const kz_attractor *point, double pl
   const int n = halved ? (point->period + half) / 2 : point->period;
   int stride = 1;
   while (n % stride != 0 || n / stride > KZ_CURVE_POINTS || (n % 2 == 0 && n / stride % 2 != 0)) stride++;
-  KZ_FREED double *state = kz_malloc(2 * ((size_t)n + 1) * sizeof *state);
+  KZ_AUTOFREE double *state = kz_malloc(2 * ((size_t)n + 1) * sizeof *state);
   const double at[2] = {place, 0};
   state[0] = point->theta, state[1] = point->velocity;
   c->kind.rest = mirrored && !halved ? cos(point->theta) < 0 : -1;
@@ -100,7 +100,7 @@ static bool walk_describe(const walking *w, const kz_plane_cycle *c, kz_attracto
   }
   *point = (kz_attractor){.period = kz_kind_period(&c->kind), .symmetric = is_symmetric(c)};
   kz_branch_describe(at_end ? w->way->path->maps : NULL, &pendulum, n, state, point);
-  if (!w->plane.mirrored && !w->plane.half_period && kz_pairing_symmetry(&pendulum)) { /* of this value alone */
+  if (!w->plane.mirrored && !w->plane.half_period && kz_pairing_symmetry(&pendulum)) { /* at this value alone */
     const kz_attractor image = kz_branch_point_image(&pendulum, *point);
     point->symmetric = kz_branch_same(w->way->path->maps, &pendulum, point, &image);
   }
@@ -132,7 +132,7 @@ static bool solve_at(const walking *w, const kz_plane_cycle *c, const kz_branch_
   return true;
 }
 
-/* What happens at an event of a branch, and the cycle that has the multiplier there, refined: multiplier 1, or -1 of its own map. */
+/* Kind of an event of a branch, and the refined cycle with that multiplier: 1, or -1 of its own map. */
 static int kind_of_event(const walking *w, const kz_plane_cycle *c, const kz_branch_event *event, kz_plane_cycle *at) {
   const kz_event what = event->what;
   const double along[2] = {1, 0};
@@ -161,17 +161,22 @@ static int kind_of_event(const walking *w, const kz_plane_cycle *c, const kz_bra
   return kind;
 }
 
-static void walk_follow(const walking *w, const kz_plane_cycle *c, const double along[2], kz_sweep_piece piece, int depth);
+static void walk_follow(const walking *w, const kz_plane_cycle *c, const double along[2], kz_sweep_piece piece,
+                        int depth);
 
-/* What branches off at an event, within the way. */
+/* Follows the daughter of an event, within the segment. */
 static void follow_child(const walking *w, const kz_plane_cycle *flip, int kind, int depth) {
   kz_plane_cycle child;
   double along[2];
-  if (depth == DEEPEST || !kz_child_of(&w->plane, flip, 0, &child, along) || kz_kind_period(&child.kind) > w->max_period)
+  if (depth == DEEPEST || !kz_child_of(&w->plane, flip, 0, &child, along) ||
+      kz_kind_period(&child.kind) > w->max_period)
     return;
   const double at = value_at(w->way, flip->y[2 * flip->kind.of.points]);
-  const kz_sweep_piece piece = {
-      .begin = at, .begin_kind = kind, .reached = -1, .step = FIRST, .twice = is_symmetric(flip) && child.kind.of.side > 0};
+  const kz_sweep_piece piece = {.begin = at,
+                                .begin_kind = kind,
+                                .reached = -1,
+                                .step = FIRST,
+                                .twice = is_symmetric(flip) && child.kind.of.side > 0};
   walk_follow(w, &child, along, piece, depth + 1);
 }
 
@@ -179,7 +184,7 @@ static void follow_child(const walking *w, const kz_plane_cycle *flip, int kind,
 typedef struct {
   const walking *w;
   const kz_plane_cycle *c; /* near its begin */
-  kz_sweep_piece piece;    /* that has begun */
+  kz_sweep_piece piece;    /* piece that has begun */
   bool sign[2];            /* whether 1 - trace + determinant and 1 + trace + determinant are positive */
   bool passes;             /* it ends beyond the second value, which it still reaches, */
   kz_branch_row beyond;    /* at this cycle */
@@ -223,7 +228,7 @@ static void walk_finish(branching *b, const kz_branch_row *former, const kz_bran
   b->piece.attracts = b->sign[0] && b->sign[1];
   if (reaches && solve_at(b->w, b->c, former, last, place, &there) && walk_describe(b->w, &there, &b->piece.point))
     b->piece.reached = place == 1;
-  else if (b->piece.attracts && fabs(1 - at) < STUCK && !is_damped(b->w, 1)) /* complex multipliers come to the unit circle */
+  else if (b->piece.attracts && fabs(1 - at) < STUCK && !is_damped(b->w, 1)) /* complex multipliers at 1 */
     b->piece.end = w->to, b->piece.end_kind = KZ_END_NEIMARK_SACKER;
   else
     b->piece.end = value_at(w, fmin(fmax(at, 0), 1)), b->piece.end_kind = KZ_END_NOT_LOCATED;
@@ -231,10 +236,11 @@ static void walk_finish(branching *b, const kz_branch_row *former, const kz_bran
 }
 
 /* Follows a cycle along the way, with what branches off, until it leaves the way or ends. `piece`: how it begins. */
-static void walk_follow(const walking *w, const kz_plane_cycle *c, const double along[2], kz_sweep_piece piece, int depth) {
+static void walk_follow(const walking *w, const kz_plane_cycle *c, const double along[2], kz_sweep_piece piece,
+                        int depth) {
   const int n = 2 * c->kind.of.points;
-  KZ_FREED kz_branch_row *row = kz_malloc(MOST_ROWS * sizeof *row);
-  KZ_FREED kz_branch_event *event = kz_malloc(MOST_EVENTS * sizeof *event);
+  KZ_AUTOFREE kz_branch_row *row = kz_malloc(MOST_ROWS * sizeof *row);
+  KZ_AUTOFREE kz_branch_event *event = kz_malloc(MOST_EVENTS * sizeof *event);
   const kz_branch_way to = {{along[0], along[1]}, LONGEST, piece.step, MOST_ROWS, MOST_EVENTS, 0};
   branching b = {.w = w, .c = c, .piece = piece};
   kz_branch_end end;
@@ -255,8 +261,8 @@ static void walk_follow(const walking *w, const kz_plane_cycle *c, const double 
     walk_finish(&b, former, last, end.ending == KZ_TRACE_LEFT && end.rows > 1);
 }
 
-void kz_sweep_follow(const kz_path *path, double from, double to, int64_t max_period, const kz_attractor *point, double step,
-                     kz_sweep_walk *found) {
+void kz_sweep_follow(const kz_path *path, double from, double to, int64_t max_period, const kz_attractor *point,
+                     double step, kz_sweep_walk *found) {
   const way w = {path, from, to};
   const double along[2] = {1, 0};
   walking walk = {.way = &w, .max_period = max_period, .found = found};
@@ -295,7 +301,8 @@ kz_attractor kz_branch_point_image(const kz_pendulum *pendulum, kz_attractor poi
   double state[4] = {point.theta, point.velocity};
   kz_plane plane;
   point.winding = -point.winding;
-  if (point.period > 0 && plane_of(&here, &plane) && plane.half_period && kz_curve_orbit(&plane, (double[]){0, 0}, 1, 1, state))
+  if (point.period > 0 && plane_of(&here, &plane) && plane.half_period &&
+      kz_curve_orbit(&plane, (double[]){0, 0}, 1, 1, state))
     point.theta = state[2], point.velocity = state[3];
   point.theta = -point.theta;
   point.velocity = -point.velocity;

@@ -1,4 +1,4 @@
-/* When a motion looks like its end: from which drive period on its angle stays within one degree of its attractor, at the strobe. */
+/* Time from which a motion stays within one degree of its attractor at the strobes. */
 #include "kapitza/dynamics_live.h"
 #include <float.h>
 #include <math.h>
@@ -11,18 +11,18 @@
 enum { TOGETHER = 64, FOLDS = 40 /* e-folding times after which a motion is no longer followed */ };
 static const double NEAR = M_PI / 180;
 
-/* A motion on its way. `last` [period] is, for each phase in which it may follow the attractor, the last period in which it was farther away. */
+/* A motion; last [period]: for each phase relative to the attractor, the last period in which it was farther. */
 typedef struct {
   const kz_entry *entry;
   int64_t certain; /* periods after which its end is certain */
-  int64_t hold;    /* periods for which it must stay near: two e-folding times, in which a swing shows how large it is */
+  int64_t hold;    /* periods to stay near: two e-folding times, in which a swing shows its size */
   int64_t most;    /* periods after which it is given up */
   int64_t answer;  /* -1 = not known */
   int64_t *last;
   bool done;
 } approach;
 
-/* `longest`: periods for which it is followed at most. With a multiplier of almost 1 it would take too long otherwise. */
+/* `longest`: largest number of periods followed, against multipliers of almost 1. */
 static approach approach_begin(int64_t certain, const kz_entry *entry, int64_t first, int64_t longest) {
   const kz_attractor *row = &entry->row;
   const double size = fmin(fmax(hypot(row->multiplier_re[0], row->multiplier_im[0]), 1e-3), 1 - DBL_EPSILON);

@@ -1,7 +1,7 @@
-/* Bisection to any number of digits. The labels of a piece of the line between the two starts locate the boundary to some sixteen digits of the
- * piece, because they are found in quad precision. Further digits come from a smaller piece about the boundary, whose orbit begins at a later
- * image of the first one, and so on. From period 0 on, the program follows a new orbit only when the number of digits has grown by
- * about a half. */
+/* Bisection to any number of digits. The labels of a piece of the line between the two starts locate the boundary to
+ * some sixteen digits of the piece, because they are found in quad precision. Further digits come from a smaller piece
+ * about the boundary, whose orbit begins at a later image of the first one, and so on. From period 0 on, the program
+ * follows a new orbit only when the number of digits has grown by about a half. */
 #include "where.h"
 
 #include <math.h>
@@ -11,11 +11,11 @@
 
 /* The points between the ends fill the lanes of an orbit in quad precision. */
 enum { POINTS = 9, MOST_WIDENINGS = 6, WIDENING = 7, MOST_PARTS = 256 };
-/* Shares of a piece's width: how near the boundary is looked for by its labels, and the next piece's width in those of the bracket that is
- * found. */
+/* Shares of a piece's width: how near the boundary is looked for by its labels, and the next piece's width in those of
+ * the bracket that is found. */
 static const double nearest = 1e-21, roomy = 4;
 
-/* The boundary's place, and the bracket about it, in units of the width of the largest piece; the labels on both sides. */
+/* Place of the boundary and its bracket, in widths of the largest piece; labels on both sides. */
 typedef struct {
   double part[MOST_PARTS], bracket; /* the place is the sum of the parts */
   int n;
@@ -68,8 +68,8 @@ static int64_t periods_of(const piece *p, int i) {
   return kz_larger(a->periods, b->periods);
 }
 
-/* The neighbours between which the labels change: those that settle soonest, because the boundary between them takes the shortest orbit, and of
- * these the ones nearest to the middle. The number of the first; -1: none. */
+/* The neighbours between which the labels change: those that settle soonest, because the boundary between them takes
+ * the shortest orbit, and of these the ones nearest to the middle. The number of the first; -1: none. */
 static int bisect_meeting(const piece *p) {
   int found = -1;
   int64_t fewest = INT64_MAX;
@@ -90,8 +90,8 @@ static kz_status follow_piece(piece *p) {
   return KZ_OK;
 }
 
-/* Closes in on a change of the labels, as finely as the piece allows, or to `finest`; *found: whether there is one. Then it lies between the
- * ends. */
+/* Closes in on a change of the labels, as finely as the piece allows, or to `finest`; *found: whether there is one.
+ * Then it lies between the ends. */
 static kz_status search_piece(piece *p, double finest, bool *found) {
   *found = false;
   p->share[0] = -0.5;
@@ -138,7 +138,8 @@ static kz_status narrow_within(const piece *p, int exponent, double finest, spot
   int narrower = ilogb(roomy * (double)(p->share[POINTS - 1] - p->share[0])) + 1;
   for (int widenings = 0; widenings <= MOST_WIDENINGS; widenings++, narrower += WIDENING) {
     const double finer = ldexp(finest, -narrower);
-    piece smaller = {.question = p->question, .images = kz_images_beside(p->images, middle, narrower, digits_of(finer))};
+    piece smaller = {.question = p->question,
+                     .images = kz_images_beside(p->images, middle, narrower, digits_of(finer))};
     bool found;
     const kz_status status = bisect_narrow(&smaller, exponent + narrower, finer, s, &found);
     kz_images_free(smaller.images);
@@ -163,7 +164,8 @@ typedef struct {
 enum { MORE_DIGITS = 20 }; /* Digits of the line beyond those that are asked for */
 
 /* to = from + share * width, with so many digits behind the point; from "" = 0. `to` may be either of them. */
-static kz_status bisect_add(const kz_decimal *from, const kz_decimal *width, double share, int64_t digits, kz_decimal *to) {
+static kz_status bisect_add(const kz_decimal *from, const kz_decimal *width, double share, int64_t digits,
+                            kz_decimal *to) {
   const kz_coordinate sum = {.centre = from->text[0] ? from->text : NULL, .width = width->text, .share = share};
   char text[KZ_DECIMAL_LENGTH];
   KZ_TRY(kz_coordinate_text(&sum, digits + MORE_DIGITS, text, sizeof text));
@@ -187,7 +189,8 @@ static kz_status bisect_begin(const kz_question *q, int64_t digits, line *l) {
 static kz_status follow_line(line *l, const spot *s, double narrower, int64_t digits) {
   static const kz_decimal zero = {.text = ""};
   for (int axis = 0; axis < 2; axis++) {
-    for (int i = 0; i < s->n; i++) KZ_TRY(bisect_add(&l->point[axis], &l->width[axis], s->part[i], digits, &l->point[axis]));
+    for (int i = 0; i < s->n; i++)
+      KZ_TRY(bisect_add(&l->point[axis], &l->width[axis], s->part[i], digits, &l->point[axis]));
     KZ_TRY(bisect_add(&zero, &l->width[axis], narrower, digits, &l->width[axis]));
   }
   return KZ_OK;
@@ -198,16 +201,17 @@ static long double size_of(const line *l) {
   return fmaxl(fabsl(strtold(l->width[0].text, NULL)), fabsl(strtold(l->width[1].text, NULL)));
 }
 
-/* Share of a piece's width to which its boundary is looked for: smaller in a narrower piece, whose orbit takes longer. */
+/* Share of a piece's width to which its boundary is sought: smaller in a narrow piece, whose orbit is longer. */
 static double finest_share(long double width) {
-  static const long double first = 1e-16L, last = 1e-250L, growth = 0.6L; /* the last one is far above the smallest doubles */
+  static const long double first = 1e-16L, last = 1e-250L, growth = 0.6L; /* last: far above the smallest doubles */
   return (double)fmaxl(last, fminl(first, powl(width, growth)));
 }
 
 static kz_status narrow_line(const kz_question *q, const line *l, double finest, spot *s, bool *found) {
   const kz_coordinate point[2] = {{.centre = l->point[0].text, .width = l->width[0].text},
                                   {.centre = l->point[1].text, .width = l->width[1].text}};
-  piece p = {.question = q, .images = kz_images_on_line(q->dynamics, &q->scene->parameters.pendulum, point, digits_of(finest))};
+  piece p = {.question = q,
+             .images = kz_images_on_line(q->dynamics, &q->scene->parameters.pendulum, point, digits_of(finest))};
   const kz_status status = bisect_narrow(&p, 0, finest, s, found);
   kz_images_free(p.images);
   return status;

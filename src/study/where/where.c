@@ -1,4 +1,4 @@
-/* Where starts end: the catalogue of the scene's window, then every start in as much precision as it takes. One rank alone. */
+/* Ends of starts: the catalogue of the window, then each start in as much precision as needed. One rank. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -23,7 +23,7 @@ static kz_status start_of(void *context, int64_t i, kz_precision level, kz_start
   return KZ_OK;
 }
 
-/* Of kz_added_levels: starts with more digits than a pair has. Doubles are labelled as method exact labels the cells of a file. */
+/* Level of kz_added_levels for starts with more digits than pairs; doubles are labelled as exact cells are. */
 static kz_status where_decide(void *context, int32_t row, int64_t n, const int64_t *item, kz_decision *decision) {
   const kz_question *q = context;
   (void)row;
@@ -84,8 +84,8 @@ static void where_describe(const kz_label *d, double error, const kz_catalogue *
 }
 
 kz_status kz_question_answer(const kz_question *q, const kz_catalogue *catalogue, kz_ending *endings) {
-  KZ_FREED double *state = kz_malloc(2 * (size_t)q->n * sizeof *state + 1);
-  KZ_FREED int64_t *periods = kz_malloc((size_t)q->n * sizeof *periods + 1);
+  KZ_AUTOFREE double *state = kz_malloc(2 * (size_t)q->n * sizeof *state + 1);
+  KZ_AUTOFREE int64_t *periods = kz_malloc((size_t)q->n * sizeof *periods + 1);
   for (int64_t i = 0; i < q->n; i++) where_describe(q->label + i, q->error[i], catalogue, endings + i);
   const kz_labeller labeller = labeller_of(q);
   KZ_TRY(kz_item_states(&labeller, q->n, NULL, state, periods));
@@ -125,8 +125,8 @@ static kz_status find_attractors(kz_question *q, kz_search *search, int32_t *lab
 static kz_status where_answer(where_job *a, kz_ending *endings) {
   kz_question *q = &a->question;
   kz_search search = kz_search_of(q->scene);
-  KZ_FREED_BY(kz_catalogue_free) kz_catalogue catalogue = {0};
-  KZ_FREED int32_t *label = kz_malloc((size_t)search.starts * sizeof *label);
+  KZ_AUTOFREE_BY(kz_catalogue_free) kz_catalogue catalogue = {0};
+  KZ_AUTOFREE int32_t *label = kz_malloc((size_t)search.starts * sizeof *label);
   KZ_TRY(find_attractors(q, &search, label));
   KZ_TRY(kz_question_label(q));
   a->reached = kz_calloc((size_t)kz_dynamics_count(q->dynamics) + 1, sizeof *a->reached);
@@ -139,7 +139,7 @@ static kz_status where_answer(where_job *a, kz_ending *endings) {
   return kz_question_answer(q, &catalogue, endings);
 }
 
-/* The starts as kz_where takes them, with their endings; job->question.label are their labels. To be closed in every case. */
+/* Starts as kz_where takes them, with results; job->question.label has their labels. To be closed in any case. */
 static kz_status where_label(const kz_scene *scene, int64_t n, const kz_coordinate (*start)[2], where_job *job,
                              kz_ending *endings) {
   *job = (where_job){.question = {.scene = scene, .n = n, .start = start}};
@@ -157,7 +157,7 @@ static void where_close(where_job *a) {
 }
 
 kz_status kz_where(const kz_scene *scene, int64_t n, const kz_coordinate (*start)[2], kz_ending *endings) {
-  KZ_FREED_BY(where_close) where_job a;
+  KZ_AUTOFREE_BY(where_close) where_job a;
   return where_label(scene, n, start, &a, endings);
 }
 
@@ -170,7 +170,7 @@ static kz_status where_bisect(const where_job *a, int64_t digits, const kz_endin
   KZ_TRY(kz_bisect(q, digits, &bisection));
   memcpy(point->theta, bisection.theta, sizeof point->theta);
   memcpy(point->velocity, bisection.velocity, sizeof point->velocity);
-  KZ_FREED_BY(kz_catalogue_free) kz_catalogue catalogue;
+  KZ_AUTOFREE_BY(kz_catalogue_free) kz_catalogue catalogue;
   kz_catalogue_make(q->dynamics, a->reached, &catalogue);
   for (int side = 0; side < 2; side++) {
     const int32_t id = bisection.label[side] > 0 ? catalogue.id_of[bisection.label[side]] : -1;
@@ -180,8 +180,9 @@ static kz_status where_bisect(const where_job *a, int64_t digits, const kz_endin
   return KZ_OK;
 }
 
-kz_status kz_where_boundary(const kz_scene *scene, const kz_coordinate (*start)[2], int64_t digits, kz_boundary_point *point) {
-  KZ_FREED_BY(where_close) where_job a = {.reached = NULL};
+kz_status kz_where_boundary(const kz_scene *scene, const kz_coordinate (*start)[2], int64_t digits,
+                            kz_boundary_point *point) {
+  KZ_AUTOFREE_BY(where_close) where_job a = {.reached = NULL};
   kz_ending endings[2];
   *point = (kz_boundary_point){.attractor = {-1, -1}};
   kz_status status = where_label(scene, 2, start, &a, endings);

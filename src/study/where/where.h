@@ -1,5 +1,5 @@
-/* Starts to be labelled by the command where, after the attractors are known, and points between two of them at which their basins meet. Not
- * collective. */
+/* Starts to be labelled by the command where, after the attractors are known, and points between two of them at which
+ * their basins meet. Not collective. */
 #pragma once
 
 #include "labelling/catalogue.h"
@@ -16,8 +16,8 @@ typedef struct {
   double *error;                   /* [n] rad: bound of the orbit's error when it was trapped */
 } kz_question;
 
-/* Labels the starts as method exact does: fills `label` and `error`. An undecided start gets its candidates. Attractors that only these starts
- * end on join those of `dynamics`. */
+/* Labels the starts as method exact does: fills `label` and `error`. An undecided start gets its candidates. Attractors
+ * that only these starts end on join those of `dynamics`. */
 kz_status kz_question_label(kz_question *question);
 void kz_question_free(kz_question *question);
 
@@ -30,8 +30,8 @@ kz_status kz_question_answer(const kz_question *question, const kz_catalogue *ca
  * periods [n]; they are followed in doubles, so that a motion that only more digits lead to its attractor keeps -1. */
 void kz_endings_approach(const kz_question *question, const double *state, const int64_t *periods, kz_ending *endings);
 
-/* The point on the straight line between the two starts of a question, whose labels differ: theta and velocity as texts with `digits` right
- * digits behind the point. */
+/* The point on the straight line between the two starts of a question, whose labels differ: theta and velocity as texts
+ * with `digits` right digits behind the point. */
 typedef struct {
   char theta[KZ_DECIMAL_LENGTH], velocity[KZ_DECIMAL_LENGTH];
   int32_t label[2]; /* towards the first start, towards the second */

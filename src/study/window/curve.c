@@ -43,7 +43,8 @@ void kz_window_curve_make(const kz_window_starts *starts, kz_window_curve *curve
   double scale[2], half[2];
   kz_view view;
   *curve = (kz_window_curve){.columns = plan->theta.count};
-  if (!starts->images || !kz_images_serve(starts->images, starts->dynamics, starts->pendulum, axes[0], axes[1], &view)) return;
+  if (!starts->images || !kz_images_serve(starts->images, starts->dynamics, starts->pendulum, axes[0], axes[1], &view))
+    return;
   curve->hand_over = starts->hand_over;
   if (curve->hand_over->periods < kz_release_strobes(&starts->images->release)) return;
   find_direction(curve->hand_over->linear, curve->along);

@@ -55,9 +55,14 @@ static void start_at(const void *starts, kz_precision level, __float128 theta, _
 }
 
 static const char *deep_advice(void *own) {
-  if (((const deep *)own)->decides) return "the largest number of digits that was tried does not decide where they end.";
+  if (((const deep *)own)->decides)
+    return "the largest number of digits that was tried does not decide where they end.";
   return "their orbits need more than quad precision; basin.undecided: decide follows them further.";
 }
 
-const kz_basin_part kz_deep_part = {
-    .make = deep_make, .free = free_deep, .label = label, .starts = starts_of, .start_at = start_at, .advice = deep_advice};
+const kz_basin_part kz_deep_part = {.make = deep_make,
+                                    .free = free_deep,
+                                    .label = label,
+                                    .starts = starts_of,
+                                    .start_at = start_at,
+                                    .advice = deep_advice};

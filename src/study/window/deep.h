@@ -1,4 +1,4 @@
-/* The part `deep` of the study basin: windows whose cells doubles do not distinguish, cells that quad precision does not decide. */
+/* Part `deep` of the study basin: windows that doubles do not resolve, cells that quad precision leaves undecided. */
 #pragma once
 
 #include "basin/label.h"

@@ -1,4 +1,4 @@
-/* Where the cells of a window begin: the last image whose polynomial is as right as the arithmetic that goes on from it. */
+/* Chooses the period where per-cell integration starts: the last image as accurate as the arithmetic after it. */
 #include <math.h>
 
 #include "window.h"
@@ -26,9 +26,10 @@ static sizes sizes_of(const kz_jet *jet, double reach) {
   return s;
 }
 
-/* An estimate, about twice too large, of what degrees above the third would add: the third degree times the ratio of two successive degrees. The
- * ratio is that of the second degree to the first, or, if that is larger, the root of the ratio of the third to the first: a symmetric centre has
- * no second degree. Near a fold the first degree is small, and both ratios are large. */
+/* An estimate, about twice too large, of what degrees above the third would add: the third degree times the ratio of
+ * two successive degrees. The ratio is that of the second degree to the first, or, if that is larger, the root of the
+ * ratio of the third to the first: a symmetric centre has no second degree. Near a fold the first degree is small, and
+ * both ratios are large. */
 static long double left_out(const sizes *s) {
   if (!(s->linear > 0)) return s->cube;
   return 2 * s->cube * fmaxl(s->square / s->linear, sqrtl(s->cube / s->linear));
@@ -59,7 +60,8 @@ static int64_t last_image(const kz_images *images, const kz_level *level, double
   int64_t last = 0;
   for (int64_t n = 1; n <= images->n; n++) {
     const sizes s = sizes_of(&images->image[n].jet, reach);
-    const long double bound = level->error + pair_error * hypotl(images->image[n].theta[0], images->image[n].velocity[0]);
+    const long double bound =
+        level->error + pair_error * hypotl(images->image[n].theta[0], images->image[n].velocity[0]);
     if (!(s.linear < widest)) break;
     if (!kz_image_is_final(images, n)) continue;
     if (left_out(&s) + bent_error * (long double)n * (s.square + s.cube) <= bound) last = n;
@@ -83,7 +85,8 @@ static kz_hand_over hand_over_at(const kz_images *images, const kz_level *level,
 }
 
 void kz_hand_overs_make(const kz_images *images, double reach, kz_hand_over *hand_over) {
-  for (int32_t level = 0; level < KZ_LEVELS; level++) hand_over[level] = hand_over_at(images, kz_level_rows + level, reach);
+  for (int32_t level = 0; level < KZ_LEVELS; level++)
+    hand_over[level] = hand_over_at(images, kz_level_rows + level, reach);
 }
 
 static double in_doubles(const double *linear, const double *b, double x, double y) {
@@ -112,15 +115,18 @@ static void add_quad(const double centre[2], __float128 change, double pair[2]) 
 }
 
 void kz_hand_over_change(const kz_hand_over *h, double theta, double velocity, double change[2]) {
-  for (int axis = 0; axis < 2; axis++) change[axis] = in_doubles(h->linear[axis], h->higher_terms[axis], theta, velocity);
+  for (int axis = 0; axis < 2; axis++)
+    change[axis] = in_doubles(h->linear[axis], h->higher_terms[axis], theta, velocity);
 }
 
 void kz_hand_over_start(const kz_hand_over *h, __float128 theta, __float128 velocity, kz_start *start) {
   const kz_image *image = h->image;
-  *start = (kz_start){.periods = h->periods, .error = {h->error * h->error, 0, h->error * h->error}, .turns = image->turns};
+  *start =
+      (kz_start){.periods = h->periods, .error = {h->error * h->error, 0, h->error * h->error}, .turns = image->turns};
   if (h->in_quads) {
     add_quad(image->theta, in_quads(image->jet.linear[0], image->jet.higher_terms[0], theta, velocity), start->theta);
-    add_quad(image->velocity, in_quads(image->jet.linear[1], image->jet.higher_terms[1], theta, velocity), start->velocity);
+    add_quad(image->velocity, in_quads(image->jet.linear[1], image->jet.higher_terms[1], theta, velocity),
+             start->velocity);
   } else {
     double change[2];
     kz_hand_over_change(h, (double)theta, (double)velocity, change);

@@ -7,8 +7,8 @@
 
 #include "numerics/cells.h"
 
-/* Bits that the orbit keeps below the size of the window's image: its error is then some 1e-27 of that size. Of a line, bits beyond the digits
- * of x that the orbit and its tangent keep. */
+/* Bits that the orbit keeps below the size of the window's image: its error is then some 1e-27 of that size. Of a line,
+ * bits beyond the digits of x that the orbit and its tangent keep. */
 enum { GUARD = 90, MARK_GUARD = 50, TANGENT_GUARD = 40 };
 /* rad: the image's size, above which a cubic serves no level. */
 static const long double widest = 1e-3L;
@@ -52,7 +52,8 @@ static int64_t at_most(int64_t bits) {
   return kz_smaller(bits, KZ_MOST_BITS);
 }
 
-kz_images *kz_images_create(kz_dynamics *dynamics, const kz_pendulum *pendulum, const kz_axis *theta, const kz_axis *velocity) {
+kz_images *kz_images_create(kz_dynamics *dynamics, const kz_pendulum *pendulum, const kz_axis *theta,
+                            const kz_axis *velocity) {
   kz_images *images = allocate_images(pendulum);
   kz_image *first = images->image;
   take_axis(theta, &images->centre[0], &images->width[0]);
@@ -77,13 +78,15 @@ static int64_t guard_of(const kz_images *images) {
   return kz_larger(guard, GUARD);
 }
 
-kz_images *kz_images_on_line(kz_dynamics *dynamics, const kz_pendulum *pendulum, const kz_coordinate point[2], int64_t digits) {
+kz_images *kz_images_on_line(kz_dynamics *dynamics, const kz_pendulum *pendulum, const kz_coordinate point[2],
+                             int64_t digits) {
   kz_images *images = allocate_images(pendulum);
   kz_image *first = images->image;
   const long double size = fabsl(strtold(point[0].width, NULL)) + fabsl(strtold(point[1].width, NULL));
   images->digits = digits;
   images->bits = at_most(bits_for(size / 2, guard_of(images)));
-  images->orbit = kz_arbitrary_on_line(&images->pendulum, point, images->bits, bits_of(digits, TANGENT_GUARD), &first->jet);
+  images->orbit =
+      kz_arbitrary_on_line(&images->pendulum, point, images->bits, bits_of(digits, TANGENT_GUARD), &first->jet);
   kz_dynamics_get_release(dynamics, &images->release);
   kz_arbitrary_release(images->orbit, &images->release);
   kz_arbitrary_read(images->orbit, first->theta, first->velocity);
@@ -98,8 +101,8 @@ kz_images *kz_images_beside(const kz_images *parent, __float128 share, int expon
   images->digits = digits;
   images->before = parent->before + parent->marked;
   images->bits = at_most(bits_for(ldexpl(size_of(jet), exponent), guard_of(images)));
-  images->orbit =
-      kz_arbitrary_beside(parent->orbit, jet, share, exponent, images->bits, bits_of(digits, TANGENT_GUARD), &first->jet);
+  images->orbit = kz_arbitrary_beside(parent->orbit, jet, share, exponent, images->bits, bits_of(digits, TANGENT_GUARD),
+                                      &first->jet);
   kz_arbitrary_read(images->orbit, first->theta, first->velocity);
   return images;
 }
@@ -171,8 +174,8 @@ kz_status kz_images_follow(kz_images *images, kz_dynamics *dynamics, int64_t mos
   return KZ_OK;
 }
 
-/* Estimates the work that is left, in units of the last period. It assumes that the image goes on to grow as it did, and that the time of
- * a period falls as the square of the bits. */
+/* Estimates the work that is left, in units of the last period. It assumes that the image goes on to grow as it did,
+ * and that the time of a period falls as the square of the bits. */
 static double work_left(const kz_images *images) {
   const long double first = size_of(&images->image->jet), now = size_of(&images->image[images->n].jet);
   const double growth = (double)log2l(now / first) / (double)images->n,
@@ -203,7 +206,7 @@ bool kz_images_serve(const kz_images *images, kz_dynamics *dynamics, const kz_pe
   return is_near && is_wide;
 }
 
-/* ---- the images in pieces of a few periods: each piece needs the one before, and is a stage of one tile. Together they are shown as one. ---- */
+/* ---- images in pieces of a few periods: a stage of one tile each, which needs the one before; shown as one ---- */
 
 /* Replaces all images after image `before` by n images that another rank has made. */
 static void images_extend(kz_images *images, int64_t before, int64_t n, const kz_image *image, bool finished) {
@@ -253,7 +256,7 @@ kz_status kz_images_run(const kz_run *run, kz_dynamics *dynamics, kz_images *ima
   const work w = {.images = images, .dynamics = dynamics, .max_periods = max_periods};
   kz_serial_progress *chain = kz_serial_progress_begin(run, "reference");
   const size_t bytes = sizeof(piece) + kz_arbitrary_size(images->orbit);
-  KZ_FREED piece *record = kz_malloc(bytes);
+  KZ_AUTOFREE piece *record = kz_malloc(bytes);
   kz_status status = KZ_OK;
   while (status == KZ_OK && !images->finished) {
     const double begun = kz_clock();

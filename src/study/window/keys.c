@@ -27,7 +27,8 @@ static const kz_key keys[] = {
     OF_BASIN("basin.velocity.centre", KZ_VELOCITY_UNIT, -KZ_MOST_SPEED, KZ_MOST_SPEED, velocity.centre, CENTRE_HELP),
     OF_BASIN("basin.velocity.width", KZ_VELOCITY_UNIT, 1e-300, 2e9, velocity.width, "Width of the window."),
     WORD("basin.undecided", "flag|decide", "flag", undecided,
-         "Cells that quad precision does not decide, by method exact. flag: flagged with two candidates; decide: followed in "
+         "Cells that quad precision does not decide, by method exact. flag: flagged with two candidates; decide: "
+         "followed in "
          "as many digits as needed, some 0.1 to 0.4 s a cell."),
     {.path = NULL},
 };
@@ -40,7 +41,8 @@ static const char *keys_lack(const kz_scene *scene) {
 
 static const char *keys_limit(const kz_scene *scene, kz_drive_need need) {
   if (need != KZ_NEEDS_ONE_PHASE) return NULL;
-  if (scene->deep->undecided == KZ_UNDECIDED_DECIDE) return "basin.undecided decide needs starts at one phase; choose flag";
+  if (scene->deep->undecided == KZ_UNDECIDED_DECIDE)
+    return "basin.undecided decide needs starts at one phase; choose flag";
   if (!scene->basin->theta.centre.text[0] && !scene->basin->velocity.centre.text[0]) return NULL;
   return "a window by centre and width needs starts at one phase; give min and max";
 }

@@ -14,7 +14,8 @@ enum {
   LOOK_EVERY = 64 /* Periods between two looks at whether orbits end anywhere */
 };
 
-const kz_level kz_own_orbit_level = {.word = "arbitrary", .stage = "arbitrary", .evidence = 8, .tile = 1, .in_pairs = true};
+const kz_level kz_own_orbit_level = {
+    .word = "arbitrary", .stage = "arbitrary", .evidence = 8, .tile = 1, .in_pairs = true};
 
 /* rad: the orbit is followed in many digits as long as its error is below that of a state in quad precision. */
 static const double tolerable = 1e-31;
@@ -24,12 +25,13 @@ typedef struct {
   long double xx, xy, yy;
 } ellipse;
 
-/* Carries the ellipse through a period with the tangent map, and adds that of the period's own error `own`, whatever their directions: the
- * sum holds both (the sum of the axes, not of their squares). */
+/* Carries the ellipse through a period with the tangent map, and adds that of the period's own error `own`, whatever
+ * their directions: the sum holds both (the sum of the axes, not of their squares). */
 static void own_orbit_carry(const kz_jet *tangent, long double own, ellipse *e) {
   const long double a = (long double)tangent->linear[0][0], b = (long double)tangent->linear[0][1],
                     c = (long double)tangent->linear[1][0], d = (long double)tangent->linear[1][1];
-  const ellipse s = {a * a * e->xx + 2 * a * b * e->xy + b * b * e->yy, a * c * e->xx + (a * d + b * c) * e->xy + b * d * e->yy,
+  const ellipse s = {a * a * e->xx + 2 * a * b * e->xy + b * b * e->yy,
+                     a * c * e->xx + (a * d + b * c) * e->xy + b * d * e->yy,
                      c * c * e->xx + 2 * c * d * e->xy + d * d * e->yy};
   const long double ratio = sqrtl((s.xx + s.yy) / 2) / own, old = 1 + 1 / ratio, new = (1 + ratio) * own * own;
   *e = (ellipse){old * s.xx + new, old * s.xy, old * s.yy + new};
@@ -74,9 +76,9 @@ static kz_start start_of(const path *p) {
   return start;
 }
 
-/* If doubles, without regard to errors, end nowhere known, more digits would not find an attractor that the catalogue lacks.
- * Until it is decided, or quad precision has as many digits as the orbit has left and goes on: decision->end.label is KZ_DOUBTFUL if that does not
- * decide it. */
+/* If doubles, without regard to errors, end nowhere known, more digits would not find an attractor that the catalogue
+ * lacks. Until it is decided, or quad precision has as many digits as the orbit has left and goes on:
+ * decision->end.label is KZ_DOUBTFUL if that does not decide it. */
 static kz_status own_orbit_follow(path *p, kz_dynamics *dynamics, int64_t max_periods, kz_decision *decision) {
   decision->end.label = KZ_DOUBTFUL;
   for (; !is_lost(p); p->periods++) {

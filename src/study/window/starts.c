@@ -8,14 +8,16 @@
 /* Places of the cells of an axis. */
 static __float128 *starts_places(const kz_axis *axis, const kz_view *view, int i) {
   __float128 *place = kz_malloc((size_t)axis->count * sizeof *place);
-  for (int64_t cell = 0; cell < axis->count; cell++) place[cell] = view->offset[i] + view->scale[i] * kz_axis_share(axis, cell);
+  for (int64_t cell = 0; cell < axis->count; cell++)
+    place[cell] = view->offset[i] + view->scale[i] * kz_axis_share(axis, cell);
   return place;
 }
 
-void kz_window_starts_make(const kz_basin_plan *plan, const kz_pendulum *pendulum, kz_dynamics *dynamics, kz_images *images,
-                           kz_window_starts *starts) {
+void kz_window_starts_make(const kz_basin_plan *plan, const kz_pendulum *pendulum, kz_dynamics *dynamics,
+                           kz_images *images, kz_window_starts *starts) {
   kz_view view;
-  *starts = (kz_window_starts){.plan = plan, .pendulum = pendulum, .dynamics = dynamics, .images = kz_images_hold(images)};
+  *starts =
+      (kz_window_starts){.plan = plan, .pendulum = pendulum, .dynamics = dynamics, .images = kz_images_hold(images)};
   if (!images) {
     kz_cell_starts_make(plan, &starts->cells);
     return;
@@ -44,7 +46,7 @@ static kz_status start_cell(void *context, int64_t cell, kz_precision level, kz_
   return KZ_OK;
 }
 
-/* Of kz_added_levels. */
+/* Level of kz_added_levels for cells as items. */
 static kz_status decide_cells(void *context, int32_t row, int64_t n, const int64_t *cell, kz_decision *decision) {
   const kz_window_starts *s = context;
   (void)row;

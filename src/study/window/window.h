@@ -6,10 +6,11 @@
 #include "kapitza/kernel_digits.h"
 #include "cells/cell_starts.h"
 
-/* ---- images: all cells of a small window move together at first. The program follows one orbit, that of the centre, in as many digits as the
- * depth needs, and beside it the window as a polynomial of degree 3. After n periods this gives the start of every cell. ---- */
+/* ---- images: all cells of a small window move together at first. The program follows one orbit, that of the centre,
+ * in as many digits as the depth needs, and beside it the window as a polynomial of degree 3. After n periods this
+ * gives the start of every cell. ---- */
 
-/* The window after n periods: its centre, and the other points as a polynomial in shares of the width, -1/2 to 1/2 along each axis. */
+/* The window after n periods: centre, and a polynomial in shares of the width, -1/2 to 1/2 along each axis. */
 typedef struct {
   double theta[2], velocity[2]; /* pairs: rad in [-pi, pi], rad per drive radian */
   kz_jet jet;
@@ -34,35 +35,37 @@ typedef struct {
   kz_arbitrary *orbit;
 } kz_images;
 
-/* Makes the images of the window of two axes, with the window itself only. Image 0 is released as dynamics says; image n is that at strobe
- * n. */
-kz_images *kz_images_create(kz_dynamics *dynamics, const kz_pendulum *pendulum, const kz_axis *theta, const kz_axis *velocity);
-/* Makes the images of a line, of the points centre + x * width of two coordinates, for points whose x have so many digits. They are marked as
- * long as the polynomial is right to these digits. y is not used. */
-kz_images *kz_images_on_line(kz_dynamics *dynamics, const kz_pendulum *pendulum, const kz_coordinate point[2], int64_t digits);
-/* Makes the images of a piece of that line from the marked image on: x is counted from `share` in units of 2^exponent of the old one. */
+/* Makes the images of the window of two axes, with the window itself only. Image 0 is released as dynamics says; image
+ * n is that at strobe n. */
+kz_images *kz_images_create(kz_dynamics *dynamics, const kz_pendulum *pendulum, const kz_axis *theta,
+                            const kz_axis *velocity);
+/* Makes the images of a line, of the points centre + x * width of two coordinates, for points whose x have so many
+ * digits. They are marked as long as the polynomial is right to these digits. y is not used. */
+kz_images *kz_images_on_line(kz_dynamics *dynamics, const kz_pendulum *pendulum, const kz_coordinate point[2],
+                             int64_t digits);
+/* Makes images of a piece of that line from the marked image on: x counts from `share` in units of 2^exponent. */
 kz_images *kz_images_beside(const kz_images *images, __float128 share, int exponent, int64_t digits);
 /* Adds a holder and returns `images`. kz_images_free removes a holder, and the last one frees them; it accepts NULL. */
 kz_images *kz_images_hold(kz_images *images);
 void kz_images_free(kz_images *images);
 
-/* Adds up to `most` images. It ends earlier, and sets `finished`, if max_periods have passed, if the image has become too wide for a cubic,
- * or if a trapping region holds all of it. */
+/* Adds up to `most` images. It ends earlier, and sets `finished`, if max_periods have passed, if the image has become
+ * too wide for a cubic, or if a trapping region holds all of it. */
 kz_status kz_images_follow(kz_images *images, kz_dynamics *dynamics, int64_t most, int64_t max_periods);
 
-/* Follows until the images are finished, in stages that a checkpoint keeps: one rank follows, and every rank gets the same images.
- * Collective. */
+/* Follows until the images are finished, in stages that a checkpoint keeps: one rank follows, and every rank gets the
+ * same images. Collective. */
 kz_status kz_images_run(const kz_run *run, kz_dynamics *dynamics, kz_images *images, int64_t max_periods);
 
-/* The place of a window in that of the images: the share x of its width is the share offset + scale x of theirs; reach = the largest of
- * these in modulus. */
+/* The place of a window in that of the images: the share x of its width is the share offset + scale x of theirs; reach
+ * = the largest of these in modulus. */
 typedef struct {
   __float128 offset[2], scale[2];
   double reach;
 } kz_view;
 
-/* True if the images can be used for the cells of a window, which must have nearly the same centre and may be at most a little narrower
- * than theirs. Fills *view. */
+/* True if the images can be used for the cells of a window, which must have nearly the same centre and may be at most a
+ * little narrower than theirs. Fills *view. */
 bool kz_images_serve(const kz_images *images, kz_dynamics *dynamics, const kz_pendulum *pendulum, const kz_axis *theta,
                      const kz_axis *velocity, kz_view *view);
 
@@ -81,7 +84,8 @@ bool kz_image_is_final(const kz_images *images, int64_t n);
 /* True if the polynomial of image n is right to so many digits of x. */
 bool kz_image_is_straight(const kz_images *images, int64_t n, int64_t digits);
 
-/* hand_over [KZ_LEVELS]: for every level the hand-over by image 0, or by the last image at a strobe of the final drive whose polynomial is as accurate as the level's own arithmetic, for shares up to `reach`. */
+/* hand_over [KZ_LEVELS]: for every level the hand-over by image 0, or by the last image at a strobe of the final drive
+ * whose polynomial is as accurate as the level's own arithmetic, for shares up to `reach`. */
 void kz_hand_overs_make(const kz_images *images, double reach, kz_hand_over *hand_over);
 /* *start = the start at the shares theta and velocity of the width of the images. */
 void kz_hand_over_start(const kz_hand_over *hand_over, __float128 theta, __float128 velocity, kz_start *start);
@@ -92,12 +96,13 @@ void kz_hand_over_change(const kz_hand_over *hand_over, double theta, double vel
 
 extern const kz_level kz_own_orbit_level;
 
-/* Follows the start, released as dynamics says, in more and more digits until double or quad precision decides the rest of its motion. decision->end.label = number of an attractor;
- * 0 = not settled within max_periods; KZ_DOUBTFUL = undecided even with 10,000 bits, or with the most bits of the build. */
+/* Follows the start, released as dynamics says, in more and more digits until double or quad precision decides the rest
+ * of its motion. decision->end.label = number of an attractor; 0 = not settled within max_periods; KZ_DOUBTFUL =
+ * undecided even with 10,000 bits, or with the most bits of the build. */
 kz_status kz_own_orbit_decide(kz_dynamics *dynamics, const kz_pendulum *pendulum, const kz_coordinate start[2],
                               int64_t max_periods, kz_decision *decision);
 
-/* ---- the cells of a basin's window as starts for a labeller, at any depth. Items are the numbers of cells, theta fastest. ---- */
+/* ---- cells of a basin's window as starts, at any depth; items are cell numbers, theta fastest ---- */
 
 typedef struct {
   const kz_basin_plan *plan;
@@ -109,32 +114,32 @@ typedef struct {
   kz_cell_starts cells; /* without images */
 } kz_window_starts;
 
-/* Makes the starts from finished images that serve the window (kz_images_serve), or without images (NULL). The caller frees them. */
-void kz_window_starts_make(const kz_basin_plan *plan, const kz_pendulum *pendulum, kz_dynamics *dynamics, kz_images *images,
-                           kz_window_starts *starts);
+/* Makes the starts from finished images that serve the window (kz_images_serve), or NULL. The caller frees them. */
+void kz_window_starts_make(const kz_basin_plan *plan, const kz_pendulum *pendulum, kz_dynamics *dynamics,
+                           kz_images *images, kz_window_starts *starts);
 void kz_window_starts_free(kz_window_starts *starts);
 
-/* The labeller of the cells. decide = true: cells that quad precision does not decide are decided by their own orbits. */
+/* Makes a labeller of the cells. decide: cells that quad leaves undecided are decided by their own orbits. */
 kz_labeller kz_window_labeller(const kz_window_starts *starts, bool cells_decide);
 
-/* ---- curves: the map stretches a small window along one direction and compresses it across. When its cells are handed over to doubles, a
- * deep window has become a curve, so samples along the curve give the labels of all cells. ---- */
+/* ---- curves: the map stretches a small window along one direction and compresses it across. When its cells are handed
+ * over to doubles, a deep window has become a curve, so samples along the curve give the labels of all cells. ---- */
 
 typedef struct {
   const kz_hand_over *hand_over;
-  double middle[2], along[2]; /* Middle of the window, and the curve's direction (a unit vector): shares of the images' width */
+  double middle[2], along[2]; /* middle of the window, unit vector of the curve: shares of the images' width */
   double step;                /* distance of neighbouring samples */
   int64_t count;              /* number of samples; 0 = the window is not a curve */
   int64_t columns;            /* Columns of the window */
   double *column, *row;       /* column [j] + row [i] = place of cell (i, j), in steps from sample 0 */
 } kz_window_curve;
 
-/* Makes the curve with 16 samples a cell, so that a sample is at most 1/32 of a cell from the start of a cell; across the curve starts differ
- * by less than a tenth of that. The caller frees it. */
+/* Makes the curve with 16 samples a cell, so that a sample is at most 1/32 of a cell from the start of a cell; across
+ * the curve starts differ by less than a tenth of that. The caller frees it. */
 void kz_window_curve_make(const kz_window_starts *starts, kz_window_curve *curve);
 void kz_window_curve_free(kz_window_curve *curve);
 
 /* The sample nearest to a cell. */
 int64_t kz_window_curve_sample(const kz_window_curve *curve, int64_t cell);
-/* The state of a sample when it is handed over: state [2], half-turns and rad per drive radian, after *periods drive periods. */
+/* State of a sample at hand-over: state [2], half-turns and rad per drive radian, after *periods drive periods. */
 void kz_window_curve_state(const kz_window_curve *curve, int64_t sample, double state[2], int64_t *periods);

@@ -19,9 +19,10 @@ static kz_status read_window(const char *theta, const char *velocity, kz_scene *
 /* A tenth and pi to 32 digits; the text stays as it was written. */
 TEST(digits_beyond_double_precision_count) {
   kz_scene scene;
-  assert_int_equal(read_window("basin.theta={centre: '180 deg', width: 1}",
-                               "basin.velocity={centre: 0.1, width: 1.00000000000000000000000000000001e-20, count: 2}", &scene),
-                   KZ_OK);
+  assert_int_equal(
+      read_window("basin.theta={centre: '180 deg', width: 1}",
+                  "basin.velocity={centre: 0.1, width: 1.00000000000000000000000000000001e-20, count: 2}", &scene),
+      KZ_OK);
   const kz_decimal *velocity = &scene.basin->velocity.centre, *theta = &scene.basin->theta.centre,
                    *width = &scene.basin->velocity.width;
   assert_true(velocity->high == 0.1 && fabs(velocity->low + 5.5511151231257827e-18) < 1e-33);

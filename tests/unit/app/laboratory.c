@@ -17,19 +17,22 @@ static void read_with(const char *option, kz_scene *scene) {
   assert_int_equal(kz_scene_read(TEXT, sizeof TEXT - 1, "s.yaml", 1, sets, scene), KZ_OK);
 }
 
-/* k = 1/121, beta = 1/55, m = 0.3: Q = 5 and Omega = 11 (BSG Eq. 1 and 2); at 100 rad/s, of a length of 0.4 m; M r/I = 2.5 /m. */
+/* k = 1/121, beta = 1/55, m = 0.3: Q = 5, Omega = 11 (BSG Eq. 1, 2); at 100 rad/s, length 0.4 m; M r/I = 2.5 /m. */
 TEST(units_and_ways_agree) {
 #define GRAVITY "gravity: 33.057851239669425"
   static const char *const ways[] = {
       "pendulum={quality_factor: 5, drive_frequency: 11, drive_amplitude: 0.3}",
       "pendulum={k: 0.008264462809917356, damping: 0.01818181818181818, m: 0.3}",
-      ("pendulum={mass: 0.1, radius: 0.2, inertia: 0.008, friction: 0.014545454545454545, " GRAVITY ", pivot_amplitude: 0.12, "
+      ("pendulum={mass: 0.1, radius: 0.2, inertia: 0.008, friction: 0.014545454545454545, " GRAVITY
+       ", pivot_amplitude: 0.12, "
        "frequency: 15.915494309189533}"),
-      ("pendulum={mass: 100 g, radius: 20cm, inertia: 80000 g*cm^2, friction: 0.014545454545454545 N m s, " /* in brackets: */
-       "gravity: 3305.7851239669425 cm/s^2, amplitude: 120 mm, frequency: 954.92965855137201 rpm}"), /* two strings of one */
-      "pendulum={length: 40 cm, " GRAVITY ", amplitude: 12 cm, pivot_frequency: 15.915494309189533 Hz, quality_factor: 5}",
+      ("pendulum={mass: 100 g, radius: 20cm, inertia: 80000 g*cm^2, friction: 0.014545454545454545 N m s, "
+       "gravity: 3305.7851239669425 cm/s^2, amplitude: 120 mm, frequency: 954.92965855137201 rpm}"),
+      "pendulum={length: 40 cm, " GRAVITY
+      ", amplitude: 12 cm, pivot_frequency: 15.915494309189533 Hz, quality_factor: 5}",
       "pendulum={length: 0.4, " GRAVITY ", amplitude: 0.12, frequency: 100 rad/s, decay_time: 1100 ms}",
-      "pendulum={length: 0.4, mass: 2, " GRAVITY ", amplitude: 0.12, pivot_frequency: 100, friction: 0.58181818181818179}"};
+      "pendulum={length: 0.4, mass: 2, " GRAVITY
+      ", amplitude: 0.12, pivot_frequency: 100, friction: 0.58181818181818179}"};
   for (size_t i = 0; i < sizeof ways / sizeof ways[0]; i++) {
     kz_scene scene;
     read_with(ways[i], &scene);

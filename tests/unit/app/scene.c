@@ -40,7 +40,8 @@ TEST(defaults_are_those_of_the_table) {
   kz_scheme_row(scene.numerics.scheme, &scheme);
   assert_string_equal(scheme.name, "processed");
   assert_int_equal(scene.asked.steps_per_period, KZ_AUTO);
-  assert_true(scene.asked.tolerance == 1e-12 && scene.numerics.steps_per_period > 12 && scene.numerics.steps_per_period < 100);
+  assert_true(scene.asked.tolerance == 1e-12 && scene.numerics.steps_per_period > 12 &&
+              scene.numerics.steps_per_period < 100);
   assert_true(fabs(scene.parameters.pendulum.k - 1.0 / 121) < 1e-18);
   assert_true(fabs(scene.parameters.pendulum.beta - 1.0 / 55) < 1e-17);
   kz_scene_free(&scene);
@@ -59,16 +60,18 @@ TEST(angles_are_in_degrees_where_they_say_so) {
       GOOD "  theta: {min: 1 deg, max: 2e9 deg}\n", NULL,
       "s.yaml:4:28: basin.theta.max: \"2e9 deg\" is out of range; it must be a number from -1000000 to 1000000 in rad, "
       "or in degrees such as 90 deg, or a part of pi such as pi/2");
-  expect_refused(GOOD, "basin.velocity.min=-1 deg",
-                 "--set basin.velocity.min=-1 deg: basin.velocity.min: \"-1 deg\" is not a finite decimal number; it must be a "
-                 "number from -10000 to 10000 in rad per drive radian, or with its unit: rad/s, deg/s, °/s");
+  expect_refused(
+      GOOD, "basin.velocity.min=-1 deg",
+      "--set basin.velocity.min=-1 deg: basin.velocity.min: \"-1 deg\" is not a finite decimal number; it must be a "
+      "number from -10000 to 10000 in rad per drive radian, or with its unit: rad/s, deg/s, °/s");
 }
 
 TEST(the_frequency_of_the_pivot_is_given_once) {
 #define SI "pendulum: {mass: 1, radius: 1, inertia: 1, friction: 1, gravity: 1, pivot_amplitude: 1"
 #define STUDY "basin: {velocity: {min: -1, max: 1}}\n"
-  expect_refused(SI ", pivot_frequency: 10, frequency: 2}\n" STUDY, NULL,
-                 "s.yaml:1:121: pendulum.frequency: contradicts pivot_frequency, which gives the same; give one of them");
+  expect_refused(
+      SI ", pivot_frequency: 10, frequency: 2}\n" STUDY, NULL,
+      "s.yaml:1:121: pendulum.frequency: contradicts pivot_frequency, which gives the same; give one of them");
   expect_refused(SI "}\n" STUDY, NULL,
                  "s.yaml:1:11: pendulum.amplitude: the pendulum lacks: frequency (in Hz; or pivot_frequency in rad/s)");
 }
@@ -86,7 +89,8 @@ TEST(undefined_parameters_are_nan) {
 
 TEST(resolved_text_is_a_fixed_point) {
   kz_scene scene;
-  assert_int_equal(read_scene("title: 'say \"a\\b\"'\n" GOOD, "numerics={scheme: rk4, tolerance: 1e-9}", &scene), KZ_OK);
+  assert_int_equal(read_scene("title: 'say \"a\\b\"'\n" GOOD, "numerics={scheme: rk4, tolerance: 1e-9}", &scene),
+                   KZ_OK);
   char *once = resolved(&scene);
   kz_scene_free(&scene);
   assert_int_equal(read_scene(once, NULL, &scene), KZ_OK);
@@ -112,31 +116,33 @@ TEST(options_override_and_create) {
 
 TEST(errors_name_place_key_and_remedy) {
   expect_refused(GOOD "  methd: icm\n", NULL, "s.yaml:4:3: basin.methd: unknown key; did you mean method?");
-  expect_refused(GOOD "  method: imc\n", NULL,
-                 "s.yaml:4:11: basin.method: \"imc\" is unknown; it must be one of icm, direct, exact (did you mean icm?)");
+  expect_refused(
+      GOOD "  method: imc\n", NULL,
+      "s.yaml:4:11: basin.method: \"imc\" is unknown; it must be one of icm, direct, exact (did you mean icm?)");
   expect_refused(
       GOOD "  max_periods: 1.5x\n", NULL,
       "s.yaml:4:16: basin.max_periods: \"1.5x\" is not a decimal number; it must be an integer from 1 to 4000000000");
-  expect_refused("basin: {}\n", NULL,
-                 "s.yaml:1:1: pendulum: is missing; it must be a mapping of quality_factor, drive_frequency, "
-                 "drive_amplitude, k, damping, m, length, frequency, amplitude, decay_time, gravity, mass, radius, "
-                 "inertia, friction, pivot_amplitude, pivot_frequency, constant_torque, oscillating_torque, "
-                 "beta_c, omega, i_dc, i_ac, tilt, ellipse, torque, torque_amplitude, constant_torque_ratio, torque_ratio, "
-                 "waveform, samples, harmonics, vertical, horizontal, ramp; also missing: basin.velocity");
+  expect_refused(
+      "basin: {}\n", NULL,
+      "s.yaml:1:1: pendulum: is missing; it must be a mapping of quality_factor, drive_frequency, "
+      "drive_amplitude, k, damping, m, length, frequency, amplitude, decay_time, gravity, mass, radius, "
+      "inertia, friction, pivot_amplitude, pivot_frequency, constant_torque, oscillating_torque, "
+      "beta_c, omega, i_dc, i_ac, tilt, ellipse, torque, torque_amplitude, constant_torque_ratio, torque_ratio, "
+      "waveform, samples, harmonics, vertical, horizontal, ramp; also missing: basin.velocity");
   expect_refused(GOOD "  theta: {max: 1, min: 2}\n", NULL,
                  "s.yaml:4:16: basin.theta.max: 1 is too small; it must be greater than min = 2");
   expect_refused(GOOD, "basin.theta.cout=2",
                  "--set basin.theta.cout=2: basin.theta.cout: unknown key; did you mean basin.theta.count?");
-  expect_refused(
-      GOOD, "basin.theta.count=x",
-      "--set basin.theta.count=x: basin.theta.count: \"x\" is not a decimal number; it must be an integer from 1 to 1000000");
+  expect_refused(GOOD, "basin.theta.count=x",
+                 "--set basin.theta.count=x: basin.theta.count: \"x\" is not a decimal number; it must be an integer "
+                 "from 1 to 1000000");
 }
 
 /* A word that was removed is answered with the one to use. */
 TEST(gone_words_name_the_new_one) {
-  expect_refused(
-      GOOD "  method: hybrid\n", NULL,
-      "s.yaml:4:11: basin.method: \"hybrid\" is unknown; it must be one of icm, direct, exact (it was removed: use direct)");
+  expect_refused(GOOD "  method: hybrid\n", NULL,
+                 "s.yaml:4:11: basin.method: \"hybrid\" is unknown; it must be one of icm, direct, exact (it was "
+                 "removed: use direct)");
 }
 
 /* Drives that the processed splitting does not carry are left to split6 with its own number of steps. */
@@ -176,7 +182,8 @@ TEST(scalars_are_strict) {
   static const struct {
     const char *text;
     double value;
-  } good[] = {{"3", 3}, {"+3.5", 3.5}, {".5", .5}, {"5.", 5}, {"1e3", 1e3}, {"2E-1", .2}, {"0.1", 0.1}, {"5e-324", 5e-324}};
+  } good[] = {{"3", 3},     {"+3.5", 3.5}, {".5", .5},   {"5.", 5},
+              {"1e3", 1e3}, {"2E-1", .2},  {"0.1", 0.1}, {"5e-324", 5e-324}};
   for (size_t i = 0; i < sizeof good / sizeof good[0]; i++) {
     double value;
     const kz_node node = {.kind = KZ_SCALAR, .text = (char *)good[i].text, .plain = true};
@@ -189,16 +196,17 @@ TEST(structure_is_strict) {
   expect_refused("", NULL, "s.yaml:1:1: scene: is empty; give a pendulum and a study");
   expect_refused("a: &x 1\n", NULL, "s.yaml:1:4: scene: an anchor (&name) stands here; write the value out");
   expect_refused("a: *x\n", NULL, "s.yaml:1:4: scene: an alias (*name) stands here; write the value out");
-  expect_refused(GOOD "---\nb: 1\n", NULL, "s.yaml:5:1: scene: a second YAML document begins here; a scene is a single one");
+  expect_refused(GOOD "---\nb: 1\n", NULL,
+                 "s.yaml:5:1: scene: a second YAML document begins here; a scene is a single one");
   expect_refused("[[[[[[[[[[[[[[[[[1]]]]]]]]]]]]]]]]]\n", NULL,
                  "s.yaml:1:17: scene: is nested too deeply; at most 16 levels are possible");
-  expect_refused(
-      "a: 1\nb: \xff\n", NULL,
-      "s.yaml:2:4: scene: is not text (invalid leading UTF-8 octet); save the scene in UTF-8 without control characters");
+  expect_refused("a: 1\nb: \xff\n", NULL,
+                 "s.yaml:2:4: scene: is not text (invalid leading UTF-8 octet); save the scene in UTF-8 without "
+                 "control characters");
   expect_refused("title: a\ntitle: b\n" GOOD, NULL, "s.yaml:2:1: title: is given twice; give it once");
-  expect_refused(
-      "pendulum: {k: 0, m: 1, mass: 3}\nbasin: {}\n", NULL,
-      "s.yaml:1:24: pendulum.mass: contradicts pendulum.k, which gives the same in another way; use the keys of one way");
+  expect_refused("pendulum: {k: 0, m: 1, mass: 3}\nbasin: {}\n", NULL,
+                 "s.yaml:1:24: pendulum.mass: contradicts pendulum.k, which gives the same in another way; use the "
+                 "keys of one way");
 }
 
 /* A table of its own tries the types that hold lists. */
@@ -232,7 +240,12 @@ static const kz_key list_keys[] = {
      .fallback = "[green, red]",
      .offset = offsetof(lists, words),
      .help = ""},
-    {.path = "s.b", .type = KZ_KEY_BOOLEAN, .unit = "", .fallback = "false", .offset = offsetof(lists, boolean), .help = ""},
+    {.path = "s.b",
+     .type = KZ_KEY_BOOLEAN,
+     .unit = "",
+     .fallback = "false",
+     .offset = offsetof(lists, boolean),
+     .help = ""},
     {.path = NULL}};
 
 TEST(lists_are_read_and_written) {
@@ -242,14 +255,16 @@ TEST(lists_are_read_and_written) {
       {"s: {}\n", "", "s.r: [0.5]\ns.w: [green, red]\ns.b: false\n"},
       {"s: {r: [1, 2.5], i: [2, 64], w: [red], b: true}\n", "", "s.r: [1, 2.5]\ns.i: [2, 64]\ns.w: [red]\ns.b: true\n"},
       {"s: {i: [2, 65]}\n", "f:1:12: s.i: \"65\" is out of range; it must be a list of integers from 2 to 64", NULL},
-      {"s: {w: [red, gren]}\n", "f:1:14: s.w: \"gren\" is unknown; it must be a list out of red, green (did you mean green?)",
-       NULL},
+      {"s: {w: [red, gren]}\n",
+       "f:1:14: s.w: \"gren\" is unknown; it must be a list out of red, green (did you mean green?)", NULL},
       {"s: {r: []}\n",
-       "f:1:8: s.r: the value is an empty list; it must be a list of numbers from -1 to 9 in rad, or in degrees such as 90 "
+       "f:1:8: s.r: the value is an empty list; it must be a list of numbers from -1 to 9 in rad, or in degrees such "
+       "as 90 "
        "deg, or a part of pi such as pi/2",
        NULL},
       {"s: {r: 1}\n",
-       "f:1:8: s.r: \"1\" is not a list; it must be a list of numbers from -1 to 9 in rad, or in degrees such as 90 deg, or a "
+       "f:1:8: s.r: \"1\" is not a list; it must be a list of numbers from -1 to 9 in rad, or in degrees such as 90 "
+       "deg, or a "
        "part of pi such as pi/2",
        NULL},
       {"s: {b: yes}\n", "f:1:8: s.b: \"yes\" is neither true nor false; it must be true or false", NULL}};

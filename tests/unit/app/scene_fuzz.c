@@ -1,5 +1,6 @@
-/* Mutated scenes: each is read or refused in one line that names the file; what is read has a resolved text that is a fixed
- * point. KZ_FUZZ_INPUTS sets the number of inputs (default 6000, with sanitizers 1500), KZ_FUZZ_SEED the random numbers. */
+/* Mutated scenes: each is read or refused in one line that names the file; what is read has a resolved text that is a
+ * fixed point. KZ_FUZZ_INPUTS sets the number of inputs (default 6000, with sanitizers 1500), KZ_FUZZ_SEED the random
+ * numbers. */
 #include "../../tools/test.h"
 
 #include <stdlib.h>
@@ -14,7 +15,8 @@ enum { LONGEST = 4096 };
 static const char seed[] =
     "title: \"a 'b'\"  # words\npendulum: {quality_factor: 5, drive_frequency: 11, drive_amplitude: 0.300}\n"
     "numerics:\n  scheme: split6\n  steps_per_period: 24\nbasin:\n  theta: {min: -1, max: 1, count: 10}\n"
-    "  velocity: {min: -2, max: 2, count: 1000}\n  method: icm\n  icm: {theta: 100, velocity: 100, interpolation: quintic}\n"
+    "  velocity: {min: -2, max: 2, count: 1000}\n  method: icm\n  icm: {theta: 100, velocity: 100, interpolation: "
+    "quintic}\n"
     "  max_periods: 2000\n  attractors: {starts: 8192, max_period: 48, seed: 1}\n";
 
 /* Texts that a scene may not hold, or holds elsewhere. clang-format would give each a line of its own. */

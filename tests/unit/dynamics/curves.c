@@ -1,4 +1,4 @@
-/* Curves of bifurcations over Blackburn's plane: against the linear equation, the flutter table of docs/validation/studies.md, and physics. */
+/* Curves of bifurcations over Blackburn's plane against the linear equation, the flutter table, and physics. */
 #include "../../tools/test.h"
 
 #include <math.h>
@@ -16,14 +16,16 @@ static bool blackburn(const void *context, const double place[2], kz_pendulum *p
   *pendulum = (kz_pendulum){1 / (omega * omega), 1 / (5 * omega), 0.8 * place[1]};
   return true;
 }
-static const kz_plane PLANE = {.pendulum = blackburn, .low = {-0.06, -0.004}, .high = {1.06, 1.06}, .steps = 96, .mirrored = 1};
+static const kz_plane PLANE = {
+    .pendulum = blackburn, .low = {-0.06, -0.004}, .high = {1.06, 1.06}, .steps = 96, .mirrored = 1};
 static const double UP[2] = {0, 1};
 
 /* Omega; birth of flutter, loss of its symmetry, its doubling (docs/validation/studies.md). */
-static const double FLUTTER[][4] = {{5, 0.521937424, 0.603384245, 0.612281},  {7, 0.488875356, 0.577613876, 0.587068},
-                                    {9, 0.475159217, 0.567126433, 0.576816},  {11, 0.46819030239, 0.561845642631, 0.571655778},
-                                    {15, 0.461651232, 0.556920385, 0.566844}, {20, 0.458316643, 0.554420006, 0.564402},
-                                    {30, 0.455932237, 0.552636805, 0.562660}};
+static const double FLUTTER[][4] = {
+    {5, 0.521937424, 0.603384245, 0.612281},  {7, 0.488875356, 0.577613876, 0.587068},
+    {9, 0.475159217, 0.567126433, 0.576816},  {11, 0.46819030239, 0.561845642631, 0.571655778},
+    {15, 0.461651232, 0.556920385, 0.566844}, {20, 0.458316643, 0.554420006, 0.564402},
+    {30, 0.455932237, 0.552636805, 0.562660}};
 
 /* The first value of epsilon on a branch upwards at which its multiplier is -1; y moves there. */
 static double next_flip(const kz_curve_kind *kind, double *y) {
@@ -63,7 +65,7 @@ TEST(test_flutter) {
   }
 }
 
-/* At Omega = 20 a rotation of six periods is born at 0.3505459 and doubles 1.8e-5 above: from the fold its branches meet that. */
+/* At Omega = 20 a rotation of six periods is born at 0.3505459 and doubles 1.8e-5 above: its branches reach that. */
 TEST(test_branches_of_a_fold) {
   enum { MOST = 400, EVENTS = 20, N = 12 };
   const kz_curve_kind fold = {1, 6, 1, 2, 0};
@@ -85,7 +87,7 @@ TEST(test_branches_of_a_fold) {
   assert_true(1e-5 < nearest && nearest < 3e-5);
 }
 
-/* The whole curve of the birth: every point is one of the published map to 1e-11, and the tangent map there has the multiplier -1. */
+/* The whole birth curve: each point is one of the published map to 1e-11, its tangent map has multiplier -1. */
 TEST(test_trace) {
   enum { MOST = 300 };
   const kz_curve_kind rest = {1, 1, -1, 0, 0};
@@ -115,11 +117,12 @@ static bool butikov(const void *context, const double place[2], kz_pendulum *pen
   return true;
 }
 
-/* The doubling of a doubled rotation 1/3 in a band 2e-8 wide, where a cycle that is 1e-6 rad off is another one: each row is the point that Newton's
- * method finds beside it. */
+/* The doubling of a doubled rotation 1/3 in a band 2e-8 wide, where a cycle that is 1e-6 rad off is another one: each
+ * row is the point that Newton's method finds beside it. */
 TEST(test_trace_in_a_narrow_band) {
   enum { MOST = 300, N = 12, WIDTH = 8 + N };
-  const kz_plane plane = {.pendulum = butikov, .low = {-0.06, -0.004}, .high = {1.06, 1.06}, .steps = 96, .mirrored = 1};
+  const kz_plane plane = {
+      .pendulum = butikov, .low = {-0.06, -0.004}, .high = {1.06, 1.06}, .steps = 96, .mirrored = 1};
   const kz_curve_kind doubling = {1, 6, -1, 2, 0};
   const double place[2] = {(0.6 - 0.5309297007299472) / 2.2, 1.2948761672834188 / 2};
   double seed[N + 2] = {-0.13118270219777192, 0.10333998458147906}, row[MOST][WIDTH], special[4][3 + N];
@@ -128,7 +131,8 @@ TEST(test_trace_in_a_narrow_band) {
   assert_int_equal(kz_curve_orbit(&plane, place, 2, N / 2 - 1, seed), 1);
   seed[N] = place[0], seed[N + 1] = place[1];
   for (int direction = -1; direction <= 1; direction += 2) {
-    const int64_t n = kz_curve_trace(&plane, &doubling, seed, direction, 0.02, MOST, row[0], 4, special[0], &specials, &ending);
+    const int64_t n =
+        kz_curve_trace(&plane, &doubling, seed, direction, 0.02, MOST, row[0], 4, special[0], &specials, &ending);
     assert_true(n > 10 && (ending == KZ_TRACE_THIN || ending == KZ_TRACE_LEFT) && specials == 0);
     for (int64_t i = 0; i < n; i++) {
       double y[N + 2];
@@ -141,8 +145,8 @@ TEST(test_trace_in_a_narrow_band) {
   }
 }
 
-/* The doubling of rotation 1/1 turns from supercritical to subcritical at Omega = 4.646: the place is a row with the normal form 0, so that its sign
- * between two rows is that of both. */
+/* The doubling of rotation 1/1 turns from supercritical to subcritical at Omega = 4.646: the place is a row with the
+ * normal form 0, so that its sign between two rows is that of both. */
 TEST(test_a_degenerate_point_is_a_row) {
   enum { MOST = 300 };
   const kz_curve_kind rotation = {1, 1, -1, 1, 0};
@@ -151,7 +155,8 @@ TEST(test_a_degenerate_point_is_a_row) {
   int32_t ending;
   assert_int_equal(kz_curve_locate(&PLANE, &rotation, seed, UP), 1);
   for (int direction = -1; direction <= 1; direction += 2) {
-    const int64_t n = kz_curve_trace(&PLANE, &rotation, seed, direction, 0.02, MOST, row[0], 4, special[0], &specials, &ending);
+    const int64_t n =
+        kz_curve_trace(&PLANE, &rotation, seed, direction, 0.02, MOST, row[0], 4, special[0], &specials, &ending);
     for (int64_t i = 1; i < n; i++) assert_true(row[i - 1][4] * row[i][4] >= 0);
     for (int64_t i = 0; i < n && specials == 1; i++)
       found += row[i][4] == 0 && row[i][0] == special[0][1] && row[i][1] == special[0][2];

@@ -1,5 +1,5 @@
-/* Everything of a cycle from one of its strobe points, against physics known to many digits (Q = 5, Omega = 11); maps of neighbouring
- * pendulums. */
+/* Everything of a cycle from one of its strobe points, against physics known to many digits (Q = 5, Omega = 11); maps
+ * of neighbouring pendulums. */
 #include "../../tools/test.h"
 
 #include <math.h>
@@ -26,14 +26,15 @@ static void describe(kz_fine_maps *maps, const kz_pendulum *p, kz_attractor *poi
 /* The published amplitude of flutter; the product of its multipliers. */
 TEST(test_flutter) {
   const kz_pendulum p = pendulum(0.47);
-  kz_attractor point = {.theta = PI + 0.161076997267223124, .velocity = -0.002241504186408954, .period = 2, .symmetric = 1};
+  kz_attractor point = {
+      .theta = PI + 0.161076997267223124, .velocity = -0.002241504186408954, .period = 2, .symmetric = 1};
   describe(NULL, &p, &point);
   assert_true(point.centre == 1 && point.winding == 0 && point.theta < 0);
   assert_true(fabs(point.amplitude - 0.16111093243808042) < 1e-9);
   assert_true(fabs(hypot(point.multiplier_re[0], point.multiplier_im[0]) - exp(-2 * PI / 55)) < 1e-9);
 }
 
-/* Rotations have their winding, mirror images are other cycles, and the whole orbit is the same cycle from any of its points. */
+/* Rotations have their winding, mirror images are other cycles, any point gives the same whole orbit. */
 TEST(test_rotation) {
   const kz_pendulum p = pendulum(0.3);
   kz_attractor point = {.theta = 3.0164225972238, .velocity = 1.06881051489920, .period = 1}, image;
@@ -47,7 +48,7 @@ TEST(test_rotation) {
   assert_int_equal(kz_branch_same(NULL, &p, &point, &point), 1);
 }
 
-/* All strobe points of a cycle tell the same of it as one does: the flutter, and a rotation that is followed three times round. */
+/* All strobe points of a cycle give the same description: the flutter, and a rotation followed three times. */
 TEST(test_points) {
   const kz_pendulum p[] = {pendulum(0.47), pendulum(0.3)};
   const double start[][2] = {{PI + 0.161076997267223124, -0.002241504186408954}, {3.0164225972238, 1.06881051489920}};
@@ -66,7 +67,8 @@ TEST(test_points) {
     assert_true(all.winding == one.winding && all.centre == one.centre && all.period == n);
     assert_true(all.theta == one.theta && all.velocity == one.velocity && fabs(all.amplitude - one.amplitude) < 1e-10);
     for (int j = 0; j < 2; j++)
-      assert_true(hypot(all.multiplier_re[j] - one.multiplier_re[j], all.multiplier_im[j] - one.multiplier_im[j]) < 1e-9);
+      assert_true(hypot(all.multiplier_re[j] - one.multiplier_re[j], all.multiplier_im[j] - one.multiplier_im[j]) <
+                  1e-9);
   }
 }
 
@@ -76,8 +78,8 @@ static bool same_pendulum(const void *context, const double place[2], kz_pendulu
   return true;
 }
 
-/* The multiplier of a cycle that repels by 3e8 is that of the map's derivative at its points, which Newton's method has; an orbit that is
- * followed once round leaves the cycle, and its multiplier is off by 1e-6. */
+/* The multiplier of a cycle that repels by 3e8 is that of the map's derivative at its points, which Newton's method
+ * has; an orbit that is followed once round leaves the cycle, and its multiplier is off by 1e-6. */
 TEST(test_repelling) {
   enum { N = 9 };
   const kz_pendulum p = pendulum(0.5682051282051281);
@@ -131,8 +133,8 @@ static double strayed(kz_dynamics *moved, const kz_pendulum *p, const kz_numeric
   return fmax(fabs(end[0] - known[0]), fabs(end[1] - known[1]));
 }
 
-/* Moves a pendulum along a curve, with maps of the accepted error. Returns the largest difference of the maps; *interpolated = how many maps are not those of pendulums made
- * anew to the bit. */
+/* Moves a pendulum along a curve, with maps of the accepted error. Returns the largest difference of the maps;
+ * *interpolated = how many maps are not those of pendulums made anew to the bit. */
 static double drag(int steps, kz_pendulum (*curve)(double share), double accepted, int *interpolated) {
   kz_numerics numerics = {.scheme = kz_scheme_find("processed"), .steps_per_period = 40}, kept = numerics;
   kz_pendulum p = curve(0);
@@ -177,8 +179,9 @@ static kz_pendulum around(double share) {
   return (kz_pendulum){1 / (frequency * frequency), 1 / (10 * frequency), amplitude};
 }
 
-/* Wherever a hand moves a pendulum, along one key or over a plane, its coefficients are interpolated: most maps are not made anew, and they
- * are those of pendulums made anew but for the error that is accepted. The more of it, the fewer are made. */
+/* Wherever a hand moves a pendulum, along one key or over a plane, its coefficients are interpolated: most maps are not
+ * made anew, and they are those of pendulums made anew but for the error that is accepted. The more of it, the fewer
+ * are made. */
 TEST(test_moved_pendulums) {
   enum { STEPS = PART > 1 ? 12 : 48 };
   kz_pendulum (*const curve[])(double) = {along_k, along_m, around};
@@ -191,7 +194,7 @@ TEST(test_moved_pendulums) {
   }
 }
 
-/* Errors of a period that are kept are those of this pendulum, these steps and these speeds, even after as many others that all are forgotten. */
+/* Kept errors of a period belong to this pendulum, steps and speeds, even after enough others to forget all. */
 TEST(errors_of_a_period_are_kept) {
   kz_kept_series *series = kz_kept_series_create();
   const double speed[] = {0, 1, 2}, faster[] = {0, 1, 3};

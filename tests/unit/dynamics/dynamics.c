@@ -40,7 +40,8 @@ TEST(test_catalogue) {
     assert_int_equal(x.symmetric, x.mirror == order_a[i]);
     for (int j = 0; j < x.period; j++) {
       int found = 0;
-      for (int k = 0; k < x.period; k++) found += velocity2[k] == -velocity[j] && (theta2[k] == -theta[j] || theta[j] == -M_PI);
+      for (int k = 0; k < x.period; k++)
+        found += velocity2[k] == -velocity[j] && (theta2[k] == -theta[j] || theta[j] == -M_PI);
       assert_true(found >= 1);
     }
   }
@@ -149,8 +150,8 @@ TEST(test_chaos) {
   kz_dynamics_free(d);
 }
 
-/* Starts of a weakly damped pendulum end alike if regions are looked at in some periods only, later by less than these times the periods of a
- * cycle: one that motions spiral into slowly has a region at its first strobe point alone. */
+/* Starts of a weakly damped pendulum end alike if regions are looked at in some periods only, later by less than these
+ * times the periods of a cycle: one that motions spiral into slowly has a region at its first strobe point alone. */
 TEST(test_sparse_looks) {
   enum { N = PART > 1 ? 64 : 512, MOST = 3000, LATER = 7 * 12 };
   const kz_pendulum pendulum = {1.0 / 121, 1.0 / 550, 0.3};
@@ -166,7 +167,8 @@ TEST(test_sparse_looks) {
   kz_dynamics_update(d);
   for (int way = 0; way < 2; way++) {
     kz_dynamics_starts(&WINDOW, 2, N, x[way]);
-    kz_dynamics_follow(d, way == 0 ? KZ_FOLLOW_DIRECT : KZ_FOLLOW_SPARSE, N, MOST, x[way], label[way], periods[way], NULL);
+    kz_dynamics_follow(d, way == 0 ? KZ_FOLLOW_DIRECT : KZ_FOLLOW_SPARSE, N, MOST, x[way], label[way], periods[way],
+                       NULL);
   }
   for (int i = 0; i < N; i++) {
     if (label[0][i] == 0 || periods[0][i] > MOST - LATER) continue;
@@ -179,7 +181,7 @@ TEST(test_sparse_looks) {
   kz_dynamics_free(d);
 }
 
-/* A period in single precision is that in doubles to 5e-6 rad, with and without mirror symmetry; with it mirror images are mirrored to the bit. */
+/* Single precision agrees with doubles to 5e-6 rad, with and without symmetry; with it images mirror to the bit. */
 TEST(test_single_precision) {
   enum { N = 96 };
   const kz_pendulum pendulums[] = {{1.0 / 121, 1.0 / 2200, 0.3},
@@ -205,8 +207,9 @@ TEST(test_single_precision) {
   }
 }
 
-/* A torque turns this pendulum faster and faster, until it runs in step with nothing. Its neighbours part by a factor of 90, and no further:
- * it is no chaos, within the regions or beyond. (It was, and beyond the regions the program crashed.) */
+/* A torque turns this pendulum faster and faster, until it runs in step with nothing. Its neighbours part by a factor
+ * of 90, and no further: it is no chaos, within the regions or beyond. (It was, and beyond the regions the program
+ * crashed.) */
 TEST(test_quasi_periodic_motions_are_no_chaos) {
   const kz_pendulum pendulum = {.k = 1.0 / 121, .beta = 0.0025, .m = 1.855, .torque = 0.01, .unmirrored = 1};
   const double tops[] = {1.5, 5};

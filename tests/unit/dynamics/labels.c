@@ -47,9 +47,9 @@ static kz_numerics processed(double m, double tolerance) {
   return numerics;
 }
 
-/* Labels of one kick a step in coordinates of its own are those of split6 with 96 steps, but where the last place of a start
- * decides: at m = 0.46 that is so for 23 of 3072 starts. Grown over the cells of its own table they stay so; with mirrored starts
- * they are mirrored. The strobe points are the same to the last bit. */
+/* Labels of one kick a step in coordinates of its own are those of split6 with 96 steps, but where the last place of a
+ * start decides: at m = 0.46 that is so for 23 of 3072 starts. Grown over the cells of its own table they stay so; with
+ * mirrored starts they are mirrored. The strobe points are the same to the last bit. */
 TEST(test_processed) {
   enum { N = 3072 / PART };
   static const struct {
@@ -63,7 +63,8 @@ TEST(test_processed) {
   if (PART > 1) return; /* the other tests of this file show the sanitizers the same code */
   for (int c = 0; c < 2; c++) {
     const kz_numerics numerics = processed(cases[c].m, 1e-12);
-    kz_dynamics *reference = explored_with(&fine, cases[c].m, 1, 0, 3), *d = explored_with(&numerics, cases[c].m, 1, 0, 3);
+    kz_dynamics *reference = explored_with(&fine, cases[c].m, 1, 0, 3),
+                *d = explored_with(&numerics, cases[c].m, 1, 0, 3);
     int unlike = 0, unlike_cells = 0;
     assert_int_equal(kz_dynamics_count(d), kz_dynamics_count(reference));
     int64_t order[64], order_reference[64], rank[64] = {0};
@@ -113,11 +114,12 @@ TEST(test_processed) {
   }
 }
 
-/* Starts inside grown regions end where the regions say: flown on with nothing but tiny ellipses of a fresh search. Under a strong
- * drive threads of other basins, narrower than a cell, pass between its corners. */
+/* Starts inside grown regions end where the regions say: flown on with nothing but tiny ellipses of a fresh search.
+ * Under a strong drive threads of other basins, narrower than a cell, pass between its corners. */
 TEST(test_regions_are_right) {
   enum { N = 8000 / PART };
-  static const kz_pendulum pendulums[] = {{1.0 / 121, 1.0 / 55, 0.15}, {1.0 / 121, 1.0 / 55, 0.46}, {0.04631, 0.1617, 1.353}};
+  static const kz_pendulum pendulums[] = {
+      {1.0 / 121, 1.0 / 55, 0.15}, {1.0 / 121, 1.0 / 55, 0.46}, {0.04631, 0.1617, 1.353}};
   static double x[2 * N], y[2 * N];
   static int32_t label[N], expected[N];
   static int64_t periods[N], late[N];
@@ -142,8 +144,8 @@ TEST(test_regions_are_right) {
   }
 }
 
-/* With its error beside it an orbit ends where it ends alone, or its label is doubtful: every wrong one is (quad precision), and
- * hardly six times as many as are wrong. */
+/* With its error beside it an orbit ends where it ends alone, or its label is doubtful: every wrong one is (quad
+ * precision), and hardly six times as many as are wrong. */
 TEST(test_wrong_labels_are_doubtful) {
   enum { N = 4000 / PART };
   static double start[2 * N], x[2 * N], y[2 * N];
@@ -206,8 +208,10 @@ TEST(test_quads_decide_after_pairs_what_they_decide_alone) {
     for (int64_t i = 0; i < n; i++)
       if (decision[i].end.label == KZ_DOUBTFUL) start[left++] = start[i];
   }
-  kz_dynamics_label(d, &(kz_label_precision){.level = KZ_LEVEL_QUAD, .before = KZ_LEVEL_FINE}, left, start, 2000, alone);
-  kz_dynamics_label(d, &(kz_label_precision){.level = KZ_LEVEL_QUAD, .before = KZ_LEVEL_PAIRS_28}, left, start, 2000, decision);
+  kz_dynamics_label(d, &(kz_label_precision){.level = KZ_LEVEL_QUAD, .before = KZ_LEVEL_FINE}, left, start, 2000,
+                    alone);
+  kz_dynamics_label(d, &(kz_label_precision){.level = KZ_LEVEL_QUAD, .before = KZ_LEVEL_PAIRS_28}, left, start, 2000,
+                    decision);
   for (int64_t i = 0; i < left; i++) {
     assert_int_equal(decision[i].end.label, alone[i].end.label);
     decided += alone[i].end.label != KZ_DOUBTFUL;
@@ -217,8 +221,9 @@ TEST(test_quads_decide_after_pairs_what_they_decide_alone) {
   kz_dynamics_free(d);
 }
 
-/* The whole error ellipse of a decided orbit lies in the region, not its state alone: both ends of the longest diameter, along which the tangents
- * have stretched the error, do. A label shows no difference here, since regions lie within their basins. */
+/* The whole error ellipse of a decided orbit lies in the region, not its state alone: both ends of the longest
+ * diameter, along which the tangents have stretched the error, do. A label shows no difference here, since regions lie
+ * within their basins. */
 TEST(test_regions_hold_whole_ellipses) {
   enum { N = 4096 };
   static double x[2 * N], ends[4 * N];
@@ -255,7 +260,7 @@ TEST(test_regions_hold_whole_ellipses) {
   kz_dynamics_free(d);
 }
 
-/* The growth of its error foretells which level may decide a doubtful orbit: a level that is skipped would decide hardly one of them. */
+/* Error growth foretells the level that decides a doubtful orbit: a skipped level would decide hardly one. */
 TEST(test_growth_foretells_the_level) {
   enum { N = 1500 };
   static double x[2 * N];
@@ -286,7 +291,7 @@ TEST(test_growth_foretells_the_level) {
   kz_dynamics_free(d);
 }
 
-/* Turns of the motions that end on no rotation: whole turns from the start to the nearer of down and inverted at the end, by the angles of an integrator. */
+/* Whole turns of motions without rotation, from the start to down or inverted, by an integrator's angles. */
 TEST(test_turns_are_those_of_the_angle) {
   enum { N = 512, LEVELS = 4, LATER = 600 };
   static const kz_precision levels[LEVELS] = {KZ_LEVEL_DOUBLE, KZ_LEVEL_FINE, KZ_LEVEL_PAIRS_20, KZ_LEVEL_QUAD};

@@ -24,7 +24,7 @@ TEST(ellipses_that_hold_and_that_do_not) {
   assert_true(kz_proof_traps(proof, 1, THETA, VELOCITY, &ellipse));
   assert_false(kz_proof_traps(proof, 1, THETA, VELOCITY + 0.01, &ellipse)); /* the cycle lies outside */
   assert_false(
-      kz_proof_traps(proof, 2, THETA, VELOCITY + 0.002, &(kz_proof_ellipse){2e-3, {{1, 0}, {0, 1}}})); /* another norm */
+      kz_proof_traps(proof, 2, THETA, VELOCITY + 0.002, &(kz_proof_ellipse){2e-3, {{1, 0}, {0, 1}}})); /* other norm */
   ellipse.radius = 0.3;
   assert_false(kz_proof_traps(proof, 1, THETA, VELOCITY, &ellipse));
   assert_true(kz_proof_find_ellipse(proof, 1, 1.0, 0.5).radius <= 0); /* no cycle */
@@ -81,7 +81,7 @@ static int end_of(const kz_flow *flow, double theta, double velocity) {
   return fabs(velocity - VELOCITY) < 1e-3 ? ROTATION : fabs(velocity + VELOCITY) < 1e-3 ? OPPOSITE : 0;
 }
 
-/* Starts of the window: those that end elsewhere are not proved, nearly all others are, and so are their mirror images. */
+/* Starts of the window: those that end elsewhere are not proved, nearly all others and their images are. */
 TEST(starts_end_where_they_are_said_to) {
   enum { N = PART > 1 ? 60 : 1000 };
   kz_proof *proof = region_of_rotations();
@@ -89,8 +89,8 @@ TEST(starts_end_where_they_are_said_to) {
   static uint8_t number[N], image_number[N];
   srand(1);
   for (int i = 0; i < N; i++) {
-    start[i] =
-        (kz_proof_start){.theta = {M_PI * (2.0 * rand() / RAND_MAX - 1)}, .velocity = {TOP * (2.0 * rand() / RAND_MAX - 1)}};
+    start[i] = (kz_proof_start){.theta = {M_PI * (2.0 * rand() / RAND_MAX - 1)},
+                                .velocity = {TOP * (2.0 * rand() / RAND_MAX - 1)}};
     image[N - 1 - i] = (kz_proof_start){.theta = {-start[i].theta[0]}, .velocity = {-start[i].velocity[0]}};
   }
   kz_proof_follow(proof, KZ_ENCLOSE_DOUBLES, N, start, PERIODS, number);

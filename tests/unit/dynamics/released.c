@@ -1,5 +1,5 @@
-/* Releases at a phase of the drive and on a ramp: orbits in many digits (kernel/digits) against those in quad precision (kernel/taylor), whose
- * drive comes from src/model, and their neighbourhoods against neighbours. */
+/* Releases at a phase of the drive and on a ramp: orbits in many digits (kernel/digits) against those in quad precision
+ * (kernel/taylor), whose drive comes from src/model, and their neighbourhoods against neighbours. */
 #include "../../tools/test.h"
 
 #include <math.h>
@@ -44,7 +44,8 @@ TEST(many_digits_agree_with_quads) {
   kz_dynamics *d = kz_dynamics_create(&pendulum, &numerics, 12);
   kz_dynamics_coarse_regions(d, 3);
   for (int i = 0; i < RELEASES; i++) {
-    kz_start start[STARTS] = {{.theta = {0.7}, .velocity = {1.42}}, {.theta = {-2.5}, .velocity = {-1}}, {.theta = {3.1}}};
+    kz_start start[STARTS] = {
+        {.theta = {0.7}, .velocity = {1.42}}, {.theta = {-2.5}, .velocity = {-1}}, {.theta = {3.1}}};
     kz_arbitrary *orbit[STARTS];
     for (int j = 0; j < STARTS; j++) orbit[j] = released(releases + i, start[j].theta[0], start[j].velocity[0]);
     kz_dynamics_set_release(d, releases + i);
@@ -78,7 +79,8 @@ TEST(neighbours_follow_the_jet) {
       kz_arbitrary_free(orbit);
     }
     kz_arbitrary *orbit = released(releases + i, 0.75, 1.5);
-    for (int64_t period = 0; period < n; period++) assert_int_equal(kz_arbitrary_advance(orbit, BITS, 1, &alone), KZ_OK);
+    for (int64_t period = 0; period < n; period++)
+      assert_int_equal(kz_arbitrary_advance(orbit, BITS, 1, &alone), KZ_OK);
     kz_arbitrary_free(orbit);
     for (int axis = 0; axis < 2; axis++) {
       const double up = (x[0][axis][0] - x[2][axis][0]) + (x[0][axis][1] - x[2][axis][1]),

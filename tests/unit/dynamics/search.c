@@ -9,8 +9,8 @@ enum { STATES = 64 };
 int64_t kz_test_newton_periods(const kz_pendulum *pendulum, int64_t settle, double closeness, int64_t *known);
 double kz_test_rims(const kz_pendulum *pendulum, int64_t settle, double closeness, double *radius);
 
-/* Orbits on a chaotic set come near themselves again and again, always beside a cycle that repels: Newton's method leaves most of
- * those alone. (It took 31, 79 and 126 periods a state here when it tried them all.) */
+/* Orbits on a chaotic set come near themselves again and again, always beside a cycle that repels: Newton's method
+ * leaves most of those alone. (It took 31, 79 and 126 periods a state here when it tried them all.) */
 TEST(test_chaos) {
   static const kz_pendulum pendulums[] = {{0.4278, 0.4419, 2.942}, {-0.0797, 0.0996, 2.8414}, {0.51, 0.0411, 0.8033}};
   for (int i = 0; i < (PART > 1 ? 1 : 3); i++) {
@@ -28,16 +28,17 @@ TEST(test_cycles) {
   assert_int_equal(known, 5);
 }
 
-/* Slow spirals come near themselves all the time, and most of them lead to the same cycles. Fine steps are for those that are new. (It took
- * 114 periods a state here for the same twelve; with another rounding some orbits miss two of these.) */
+/* Slow spirals come near themselves all the time, and most of them lead to the same cycles. Fine steps are for those
+ * that are new. (It took 114 periods a state here for the same twelve; with another rounding some orbits miss two of
+ * these.) */
 TEST(test_slow_spirals) {
   int64_t known;
   assert_true(kz_test_newton_periods(&(kz_pendulum){1.0 / 121, 1.0 / 660, 0.3}, 270, 0.32, &known) < 20 * STATES);
   assert_in_range(known, 9, 14);
 }
 
-/* Motions that spiral in slowly are trapped far from their cycle: in ellipses whose rims come to it in the end. (Ellipses that one return carries
- * inside themselves are some .001 rad wide here.) */
+/* Motions that spiral in slowly are trapped far from their cycle: in ellipses whose rims come to it in the end.
+ * (Ellipses that one return carries inside themselves are some .001 rad wide here.) */
 TEST(test_wide_ellipses) {
   double radius;
   assert_true(kz_test_rims(&(kz_pendulum){1.0 / 121, 1.0 / 660, 0.3}, 270, 0.32, &radius) < 0.001);

@@ -76,7 +76,8 @@ static double missed(const kz_pendulum *pendulum, double theta, double velocity)
  * is strong. */
 TEST(errors_of_quads_are_not_understated) {
   if (strong.unmirrored) skip();
-  static const kz_pendulum strong_drives[] = {{.k = 1, .beta = 0.5, .m = 7.7}, {.k = 1.0 / 121, .beta = 1.0 / 55, .m = 0.46}};
+  static const kz_pendulum strong_drives[] = {{.k = 1, .beta = 0.5, .m = 7.7},
+                                              {.k = 1.0 / 121, .beta = 1.0 / 55, .m = 0.46}};
   static const double starts[][2] = {{-0.57601889359626179, 0.92164362479996953},
                                      {1.7401103791778954, -12.380928537600042},
                                      {-0.092368924726252022, 6.6726473615999424}};
@@ -87,7 +88,7 @@ TEST(errors_of_quads_are_not_understated) {
       largest = fmax(largest, missed(strong_drives + p, starts[i][0], starts[i][1]) / hypot(M_PI, starts[i][1]));
     print_message("m %g: %.1e, told %.1e\n", strong_drives[p].m, largest, told);
     assert_true(largest <= told);
-    assert_true(told < (p == 0 ? 1e-30 : 1e-32)); /* an error of 1e-31 of the second left half as many cells again undecided */
+    assert_true(told < (p == 0 ? 1e-30 : 1e-32)); /* the second at 1e-31 left half as many more undecided */
   }
 }
 
@@ -136,7 +137,8 @@ TEST(a_tangent_alone_is_the_same) {
       kz_arbitrary_free(orbit[j]);
     }
     for (int axis = 0; axis < 4; axis++) {
-      const double exact = (double)jet[0].linear[axis / 2][axis % 2], off = (double)(jet[1].linear[axis / 2][axis % 2] - exact);
+      const double exact = (double)jet[0].linear[axis / 2][axis % 2],
+                   off = (double)(jet[1].linear[axis / 2][axis % 2] - exact);
       assert_true(exact != 0 && fabs(off) < 1e-14 * fabs(exact));
     }
   }

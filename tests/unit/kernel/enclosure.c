@@ -143,8 +143,8 @@ static void cut(const kz_enclosure_tables *plan, int lemma, double left) {
 }
 
 /* The largest |z| / reach of sets of one point, against orbits in 200 bits; the errors of a step count `left` times. */
-static double farthest_of_points(const kz_pendulum *pendulum, int32_t precision, double fastest, int periods, double left,
-                                 kz_enclosure set[SETS]) {
+static double farthest_of_points(const kz_pendulum *pendulum, int32_t precision, double fastest, int periods,
+                                 double left, kz_enclosure set[SETS]) {
   kz_enclosure_tables *plan = plan_for(pendulum, precision, fastest);
   kz_arbitrary *orbit[SETS];
   double farthest = 0, z[2];
@@ -249,7 +249,8 @@ static double share_of_growth(const kz_pendulum *pendulum, const kz_enclosure_ta
     if (!isfinite(set[i].reach[0])) continue;
     for (int c = 0; c < 2; c++) {
       place_of(end[2 * i + c], &set[i], z[c]);
-      for (int j = 0; j < 2; j++) largest = fmax(largest, fabs(z[c][j] - corner[c][j] * half) / (set[i].reach[j] - half));
+      for (int j = 0; j < 2; j++)
+        largest = fmax(largest, fabs(z[c][j] - corner[c][j] * half) / (set[i].reach[j] - half));
     }
     for (int j = 0; j < 2; j++)
       *bent = fmax(*bent, fabs(z[0][j] - z[1][j] - (j == 0) * 2 * half) / (2 * half * set[i].jacobian_error[j][0]));
@@ -277,7 +278,7 @@ TEST(each_bound_is_needed) {
       if (is_cut) cut(plan, cases[i].lemma, cases[i].left);
       srand(3);
       const double share = share_of_growth(&pendulum, plan, cases[i].half, &bent);
-      assert_true(((cases[i].lemma == 4 ? bent : share) < 1) == !is_cut); /* two corners share the error of their centre */
+      assert_true(((cases[i].lemma == 4 ? bent : share) < 1) == !is_cut); /* two corners share their centre's error */
     }
     kz_enclosure_tables_free(plan);
   }

@@ -17,8 +17,8 @@ static const double STARTS[][2] = {{0.3, 0.1}, {-2, 0.7}, {3, -1.2}};
 
 /* All numbers of the drive in use: damping, torque, harmonics of both drives; and the directions of p and q. */
 static void pendulums(kz_pendulum pendulum[3]) {
-  pendulum[0] =
-      (kz_pendulum){.k = 0.1, .beta = 0.09, .m = 0.6, .torque = 0.02, .torque_amplitude = 0.3, .harmonics = 2, .unmirrored = 1};
+  pendulum[0] = (kz_pendulum){
+      .k = 0.1, .beta = 0.09, .m = 0.6, .torque = 0.02, .torque_amplitude = 0.3, .harmonics = 2, .unmirrored = 1};
   pendulum[1] = (kz_pendulum){.k = -0.3, .beta = 0.4, .m = 0.2, .torque = 0.5, .torque_amplitude = -0.4};
   pendulum[2] = (kz_pendulum){.k = 1, .beta = -0.2, .m = -0.7};
   pendulum[0].vertical[1][0] = 0.11;
@@ -53,7 +53,8 @@ TEST(test_arbitrary) {
 }
 
 /* The pendulum itself and its tangent, d times along direction `along` (0: none). */
-static void shifted(const kz_pendulum *pendulum, int along, double d, const double start[2], double image[2], double got[][2]) {
+static void shifted(const kz_pendulum *pendulum, int along, double d, const double start[2], double image[2],
+                    double got[][2]) {
   kz_pendulum moved[3] = {pendulum[0], pendulum[1], pendulum[2]};
   if (along) {
     const kz_pendulum *by = pendulum + along;

@@ -72,8 +72,7 @@ TEST(test_sine) {
   }
 }
 
-/* The image of (-theta, -v) is the mirror image of that of (theta, v), to the bit; of a torque and a drive across none
- * is. */
+/* (-theta, -v) has the mirror image of (theta, v)'s image, to the bit, unless there is a torque or a drive across. */
 TEST(test_mirror) {
   for (int way = 0; way < (DRIVES + 1) * kz_scheme_count(); way++) {
     const int scheme = way / (DRIVES + 1), which = way % (DRIVES + 1);
@@ -150,7 +149,9 @@ TEST(test_determinant) {
       double determinant = matrix[i][0] * matrix[i][3] - matrix[i][1] * matrix[i][2];
       double scale = fabs(matrix[i][0] * matrix[i][3]) + fabs(matrix[i][1] * matrix[i][2]);
       double error = fabs(determinant - exp(-2 * M_PI * pendulum.beta));
-      assert_true(error <= 2000 * EPSILON * scale + (scheme == 0 ? 1e-9 : scheme == kz_scheme_find("processed") ? 1e-10 : 0));
+      assert_true(error <= 2000 * EPSILON * scale + (scheme == 0                             ? 1e-9
+                                                     : scheme == kz_scheme_find("processed") ? 1e-10
+                                                                                             : 0));
     }
     kz_flow_free(flow);
   }
@@ -158,7 +159,8 @@ TEST(test_determinant) {
 
 /* The inverted pendulum at rest stays there exactly, whatever the drive. */
 TEST(test_rest) {
-  const kz_pendulum pendulums[] = {{1.0 / 121, 1.0 / 55, 0.3}, {0, 0, 0.46}, {-1, 0.1, 0.6}, {5, 0.1, 0.5}, {0.01, 0.5, 3}};
+  const kz_pendulum pendulums[] = {
+      {1.0 / 121, 1.0 / 55, 0.3}, {0, 0, 0.46}, {-1, 0.1, 0.6}, {5, 0.1, 0.5}, {0.01, 0.5, 3}};
   for (int i = 0; i < 5; i++) {
     const kz_numerics numerics = {.scheme = kz_scheme_find("processed"), .steps_per_period = 40};
     kz_flow *flow = kz_flow_create(&pendulums[i], &numerics);
@@ -170,8 +172,7 @@ TEST(test_rest) {
   }
 }
 
-/* The number of steps that is chosen keeps its promise on other states than those it was measured on, and fast states
- * go by split6. */
+/* The chosen number of steps keeps its promise on states it was not measured on; fast states go by split6. */
 TEST(test_choice) {
   const struct {
     kz_pendulum pendulum;
@@ -186,13 +187,14 @@ TEST(test_choice) {
     kz_numerics numerics = {0};
     double error, a[N], va[N], b[N], vb[N];
     int64_t ta[N], tb[N];
-    assert_int_equal(kz_numerics_choose(&cases[c].pendulum, cases[c].tolerance, cases[c].fastest, &numerics, &error), KZ_OK);
+    assert_int_equal(kz_numerics_choose(&cases[c].pendulum, cases[c].tolerance, cases[c].fastest, &numerics, &error),
+                     KZ_OK);
     assert_true(error <= cases[c].tolerance);
     kz_flow *flow = kz_flow_create(&cases[c].pendulum, &numerics);
     const int n = 40;
     for (int i = 0; i < n; i++) {
       a[i] = fmod(2.399963 * i, 2 * M_PI) - M_PI;
-      va[i] = cases[c].fastest * (fmod(0.7548776662 * (i + 1), 2) - 1) * (i % 10 == 0 ? 1.5 : 1); /* some are too fast */
+      va[i] = cases[c].fastest * (fmod(0.7548776662 * (i + 1), 2) - 1) * (i % 10 == 0 ? 1.5 : 1); /* also fast */
       b[i] = a[i], vb[i] = va[i], ta[i] = tb[i] = 0;
     }
     kz_advance(flow, n, 1, a, va, ta);
@@ -241,8 +243,7 @@ static double error_of_sixth_order(int32_t steps, void *context) {
   return s->scale * pow(steps, -6) + s->rounding;
 }
 
-/* Enough steps and hardly more than that, in few tries; none where rounding or the largest number of steps forbids
- * it. */
+/* Enough steps and hardly more, in few tries; none where rounding or the largest number of steps forbids it. */
 TEST(test_search) {
   int32_t steps;
   for (double scale = 1; scale < 1e12; scale *= 7) {
@@ -303,8 +304,7 @@ static bool has_subnormals(void) {
   return smallest / 2 > 0;
 }
 
-/* A motion that decays onto the exact inverted point never gets into subnormal numbers, with which a period takes up to
- * fifteen times as long; the caller's arithmetic is left as it was. */
+/* A decay onto the exact inverted point has no subnormal numbers, which take 15 times as long; the caller's may. */
 TEST(test_subnormals) {
   for (int scheme = 0; scheme < kz_scheme_count(); scheme++) {
     double theta[] = {M_PI, M_PI}, velocity[] = {4 * DBL_MIN, -4 * DBL_MIN}, matrix[8], series[3], speeds[3];
@@ -326,7 +326,8 @@ TEST(test_subnormals) {
 }
 
 /* tests/unit/neighbours.f90 */
-double kz_test_neighbour_error(const kz_pendulum *pendulum, int32_t scheme, int32_t steps, double fastest, double distance);
+double kz_test_neighbour_error(const kz_pendulum *pendulum, int32_t scheme, int32_t steps, double fastest,
+                               double distance);
 
 /* Neighbours that are moved beside their orbits go where they go by themselves: with mirror symmetry, without it, in
  * lanes too fast for the tables, and by a scheme that has no tables. */
@@ -344,6 +345,6 @@ TEST(test_neighbours) {
                {&PENDULUM, "split6", 24, 2}};
   for (int i = 0; i < 4; i += PART > 1 ? 3 : 1)
     for (double distance = 3e-4; distance < 0.1; distance *= 10)
-      assert_true(kz_test_neighbour_error(kinds[i].pendulum, kz_scheme_find(kinds[i].scheme), kinds[i].steps, kinds[i].fastest,
-                                          distance) < 1e-3);
+      assert_true(kz_test_neighbour_error(kinds[i].pendulum, kz_scheme_find(kinds[i].scheme), kinds[i].steps,
+                                          kinds[i].fastest, distance) < 1e-3);
 }

@@ -18,12 +18,14 @@ void *kz_test_pairs_create(const kz_pendulum *pendulum, double tolerance, double
 int32_t kz_test_pairs_steps(const void *pairs);
 void kz_test_pairs_free(void *pairs);
 /* half_turns [n][2], velocity [n][2]: high and low; turns [n] gains the net number of turns. */
-void kz_test_pairs_advance(const void *pairs, int64_t n, int64_t periods, double *half_turns, double *velocity, int64_t *turns);
+void kz_test_pairs_advance(const void *pairs, int64_t n, int64_t periods, double *half_turns, double *velocity,
+                           int64_t *turns);
 /* The largest error of rough Taylor series, beside which doubles are measured. */
 double kz_test_rough_error(const kz_pendulum *pendulum, double fastest);
 
 /* pair_products.c */
-void kz_pair_product(int64_t rows, int64_t inner, int64_t columns, const double *left, const double *right, double *product);
+void kz_pair_product(int64_t rows, int64_t inner, int64_t columns, const double *left, const double *right,
+                     double *product);
 void kz_pair_bracket(int64_t n, int64_t top_f, int64_t top_g, int64_t top, const double *f, const double *f_slope,
                      const double *g, const double *g_slope, double *bracket);
 void kz_pairs_split(int64_t n, const int64_t *x, double *high, double *low);
@@ -123,7 +125,8 @@ static double error_of(const void *pairs, const kz_pendulum *pendulum, double fa
   starts(fastest, &s);
   kz_reference_start(N, zero, zero, NULL, reference);
   for (int i = 0; i < N; i++) {
-    state[0] = PI_QUAD * ((quad)s.half_turns[i][0] + s.half_turns[i][1]), state[1] = (quad)s.velocity[i][0] + s.velocity[i][1];
+    state[0] = PI_QUAD * ((quad)s.half_turns[i][0] + s.half_turns[i][1]),
+    state[1] = (quad)s.velocity[i][0] + s.velocity[i][1];
     memcpy(reference[i].quads, state, sizeof state);
   }
   kz_reference_advance(pendulum, KZ_REFERENCE_STEPS, N, 3, reference);

@@ -52,13 +52,15 @@ TEST(the_way_over_the_top_costs_twice_the_gravity) {
 
 /* The inverted state at epsilon = 0.3 through the wide 1-nodding: longer paths, and finer grids and steps, give the
  * same action; its derivatives are those of differences. */
-static double driven_barrier(double k, double beta, double m, int64_t n, int32_t samples, int32_t steps, double slope[3]) {
+static double driven_barrier(double k, double beta, double m, int64_t n, int32_t samples, int32_t steps,
+                             double slope[3]) {
   const kz_pendulum pendulum = {k, beta, m};
   kz_hamilton *flow = flow_of(&pendulum, steps);
   kz_path_end from, to;
   kz_path path;
   assert_true(kz_path_end_find(flow, 1, true, PI, 0, &from));
-  assert_true(kz_path_end_find(flow, 1, false, 1.473807, 0.0, &to) || kz_path_end_find(flow, 1, false, -1.473807, 0.0, &to));
+  assert_true(kz_path_end_find(flow, 1, false, 1.473807, 0.0, &to) ||
+              kz_path_end_find(flow, 1, false, -1.473807, 0.0, &to));
   assert_true(find(flow, &pendulum, &from, &to, n, samples, &path));
   const int64_t more[2] = {250, 5};
   kz_path_lengthen(flow, &from, &to, more, &path);
@@ -126,7 +128,8 @@ TEST(the_flow_is_right_to_1e12_and_symplectic) {
     }
     for (int i = 0; i < 4; i++)
       for (int j = 0; j < 4; j++) {
-        const double *t = tangent[0], form = t[i] * t[8 + j] + t[4 + i] * t[12 + j] - t[8 + i] * t[j] - t[12 + i] * t[4 + j];
+        const double *t = tangent[0],
+                     form = t[i] * t[8 + j] + t[4 + i] * t[12 + j] - t[8 + i] * t[j] - t[12 + i] * t[4 + j];
         assert_true(fabs(form - (j == i + 2) + (i == j + 2)) < 1e-12);
       }
   }

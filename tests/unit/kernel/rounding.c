@@ -104,8 +104,9 @@ static number force(const machine *x, int64_t i, int n, real share) {
 #define KZ_SUM(of) total of = {{0, 0}, 0}
 #define KZ_TERMS for (int64_t i = 0; i <= n; i++)
 #define KZ_GAIN(of, f, y) add_gain(&of, FACTOR_##f(i), taken(x, x->y, n - i, (int)n + 1))
-#define KZ_DAMP(of) \
-  add_gain(&of, taken(x, x->w, n, (int)n + 1), of_constant(level_of(x->precision, (int)n + 1), x->b->h * x->b->pendulum->beta))
+#define KZ_DAMP(of)                            \
+  add_gain(&of, taken(x, x->w, n, (int)n + 1), \
+           of_constant(level_of(x->precision, (int)n + 1), x->b->h * x->b->pendulum->beta))
 #define KZ_HAS_ACROSS ACROSS
 #define KZ_PUSH(of) add_gain(&of, (number){1, 0}, force(x, n, (int)n + 1, 0.2L))
 #define KZ_SET(name, sign, of)                                                                                  \
@@ -121,8 +122,7 @@ static void sum_series(const machine *x, int first, number *d_velocity, number *
     const int level = level_of(x->precision, n);
     const number step = of_constant(level, x->b->h / (n + 1));
     *d_velocity = sum_of(*d_velocity, x->w[n], level);
-    *d_theta =
-        sum_of(*d_theta, level == D ? exact_product(x->w[n], step) : product_of(x->w[n], step, level), level); /* D: fused */
+    *d_theta = sum_of(*d_theta, level == D ? exact_product(x->w[n], step) : product_of(x->w[n], step, level), level);
   }
 }
 
@@ -185,7 +185,8 @@ static double share(kz_step_bounds *b, const kz_rounding_factors *factor, double
   kz_set_errors(b, fastest);
   kz_add_rounding(b, fastest, of_bound);
   worst(b, fastest, missed);
-  return (double)fmaxl(missed[0] / (of_bound[0] * KZ_MARGIN + KZ_TINY), missed[1] / (of_bound[1] * KZ_MARGIN + KZ_TINY));
+  return (double)fmaxl(missed[0] / (of_bound[0] * KZ_MARGIN + KZ_TINY),
+                       missed[1] / (of_bound[1] * KZ_MARGIN + KZ_TINY));
 }
 
 /* The factors that the lemmas need: nothing is rounded up by more than a hundredth, and no slack is left. */

@@ -60,7 +60,8 @@ static double sum_of_triples_is_off(int n, bool cancel) {
   for (int i = 0; i < n; i++) {
     const double scale = cancel ? (i % 2 ? -1 : 1) * ldexp(1, rand() % 30) : ldexp(1, -i);
     double a[3] = {scale * uniform(0.5, 1)}, b[3] = {uniform(0.5, 1)};
-    for (int k = 1; k < 3; k++) a[k] = a[k - 1] * uniform(-0x1p-54, 0x1p-54), b[k] = b[k - 1] * uniform(-0x1p-54, 0x1p-54);
+    for (int k = 1; k < 3; k++)
+      a[k] = a[k - 1] * uniform(-0x1p-54, 0x1p-54), b[k] = b[k - 1] * uniform(-0x1p-54, 0x1p-54);
     accumulate_deep(&s, KZ_CONSTANT_deep(a[0], a[1], a[2]), KZ_CONSTANT_deep(b[0], b[1], b[2]));
     for (int k = 0; k < 9; k++) parts = grow_product(parts, part, a[k / 3], b[k % 3]);
     size += fabs(a[0] * b[0]);
@@ -79,7 +80,8 @@ TEST(sums_of_products_are_as_good_as_their_bound) {
     const int n = 1 + rand() % 26;
     worst = fmax(worst, sum_is_off(n, i % 2) / (n * n + 4 * n + 9));
     if (n <= 15)
-      worst_triples = fmax(worst_triples, sum_of_triples_is_off(n, i % 2) / (4.1 * n * n * n + 25 * n * n + 42 * n + 29));
+      worst_triples =
+          fmax(worst_triples, sum_of_triples_is_off(n, i % 2) / (4.1 * n * n * n + 25 * n * n + 42 * n + 29));
   }
   assert_true(worst < 1 && worst > 0.1);
   assert_true(worst_triples < 1 && worst_triples > 1e-3);

@@ -35,7 +35,7 @@ TEST(test_a_fold_beside_rest_is_the_curve_of_rest) {
   assert_false(kz_atlas_reduce(&atlas, 1e-4, &kind, y));
 }
 
-/* A third of a symmetric cycle of six periods is one of two: here where the swings of upright rest lose their symmetry. */
+/* A third of a symmetric cycle of six periods has two: here where swings of the inverted rest lose symmetry. */
 TEST(test_a_third_of_a_symmetric_cycle) {
   const kz_atlas atlas = {.plane = PLANE};
   const kz_curve_kind swings = {1, 1, -1, 0, 0}, symmetric = {-1, 1, -1, 1, 0};
@@ -53,7 +53,7 @@ TEST(test_a_third_of_a_symmetric_cycle) {
   assert_true(kind.of.points == 1 && kind.of.side == -1 && kind.of.multiplier == -1 && kind.of.turns == 1);
 }
 
-/* A row of a file has the first point of a cycle alone, with an angle from -pi to pi. The others follow, with angles that close as those of its kind. */
+/* A file's row has a cycle's first point alone, angle in [-pi, pi]; the completed others close as its kind does. */
 TEST(test_a_row_of_a_file_is_completed) {
   const kz_atlas atlas = {.plane = PLANE};
   const kz_curve_kind swings = {1, 1, -1, 0, 0}, symmetric = {-1, 1, -1, 1, 0};
@@ -72,14 +72,15 @@ TEST(test_a_row_of_a_file_is_completed) {
   assert_true(fabs(row[KZ_ROW_POINTS] - y[0]) < 1e-12 && row[KZ_ROW_POINTS + 1] == y[1]);
 }
 
-/* A cycle of three periods at its fold or its doubling in a band 3e-8 wide, told twice round, beside the place where it is by the error of one. At the
- * fold no such cycle may exist there; at the doubling its trace differs by 1e-3. */
+/* A cycle of three periods at its fold or its doubling in a band 3e-8 wide, told twice round, beside the place where it
+ * is by the error of one. At the fold no such cycle may exist there; at the doubling its trace differs by 1e-3. */
 TEST(test_twice_round_in_a_narrow_band) {
   static const struct {
     kz_curve_kind of;
     double at[4], beside;
-  } of_three[] = {{{1, 3, 1, 1, 0}, {-0.130013356382532, 0.102831005803898, -0.534401758096531, 1.299673584314393}, 1e-13},
-                  {{1, 3, -1, 3, 0}, {-2.960795023656967, 2.511593812951067, -0.204525016945798, 1.341701909182105}, 4e-12}};
+  } of_three[] = {
+      {{1, 3, 1, 1, 0}, {-0.130013356382532, 0.102831005803898, -0.534401758096531, 1.299673584314393}, 1e-13},
+      {{1, 3, -1, 3, 0}, {-2.960795023656967, 2.511593812951067, -0.204525016945798, 1.341701909182105}, 4e-12}};
   const kz_atlas atlas = {.plane = PLANE};
   for (int i = 0; i < 4; i++) {
     const kz_curve_kind *of = &of_three[i / 2].of;
@@ -98,8 +99,8 @@ TEST(test_twice_round_in_a_narrow_band) {
 
 /* A record that is full says how many seeds it has no room for. */
 TEST(test_a_full_record_counts_what_it_drops) {
-  KZ_FREED_BY(kz_atlas_seeds_free) kz_atlas_seeds seeds = {0};
-  KZ_FREED char *record = kz_malloc(KZ_ATLAS_SEEDS_BYTES);
+  KZ_AUTOFREE_BY(kz_atlas_seeds_free) kz_atlas_seeds seeds = {0};
+  KZ_AUTOFREE char *record = kz_malloc(KZ_ATLAS_SEEDS_BYTES);
   const kz_plane_cycle seed = {.kind = {{1, 1, 0, 0, 0}, -1}};
   const int64_t most = KZ_ATLAS_SEEDS_BYTES / (int64_t)sizeof seed;
   for (int64_t i = 0; i < most + 5; i++) {
@@ -119,9 +120,10 @@ TEST(test_a_full_record_counts_what_it_drops) {
 TEST(test_a_line_has_the_cycles_of_its_pieces) {
   enum { PERIODS = 2, STRIDE = 2 + 2 * PERIODS };
   const kz_pendulum pendulum = {1.0 / 121, 1.0 / 55, 0.5};
-  const kz_saddles_plan plan = {.theta = {.min = -M_PI, .max = M_PI}, .velocity = {.min = -2, .max = 2}, .max_period = PERIODS};
+  const kz_saddles_plan plan = {
+      .theta = {.min = -M_PI, .max = M_PI}, .velocity = {.min = -2, .max = 2}, .max_period = PERIODS};
   kz_lines pieces = kz_lines_of(&pendulum, &plan, 0), whole = pieces;
-  KZ_FREED double *found = kz_malloc(2 * kz_piece_bytes(&plan));
+  KZ_AUTOFREE double *found = kz_malloc(2 * kz_piece_bytes(&plan));
   int64_t work[2], all[2] = {0}, n = 0;
   pieces.steepest = whole.steepest = 1e4;
   whole.cells *= whole.pieces, whole.pieces = 1;
@@ -135,18 +137,20 @@ TEST(test_a_line_has_the_cycles_of_its_pieces) {
 }
 
 enum { TAYLORS = 3, MOST_CYCLES = 300 };
-/* Adds the cycles of Taylor's rotor that lines of starts with so many cells show to (period, largest speed) cycle [MOST_CYCLES]. */
+/* Adds cycles of Taylor's rotor that lines of so many cells show to (period, largest speed) cycle [MOST_CYCLES]. */
 static int add_cycles(double steepest, int64_t cells, double cycle[][2], int n) {
   const kz_pendulum pendulum = {.k = 2.25, .beta = 0.375, .torque_amplitude = 2.2, .unmirrored = 1};
-  const kz_saddles_plan plan = {.theta = {.min = -M_PI, .max = M_PI}, .velocity = {.min = -4, .max = 4}, .max_period = TAYLORS};
-  KZ_FREED double *found = kz_malloc(kz_piece_bytes(&plan));
+  const kz_saddles_plan plan = {
+      .theta = {.min = -M_PI, .max = M_PI}, .velocity = {.min = -4, .max = 4}, .max_period = TAYLORS};
+  KZ_AUTOFREE double *found = kz_malloc(kz_piece_bytes(&plan));
   kz_lines lines = kz_lines_of(&pendulum, &plan, 0);
   lines.steepest = steepest;
   lines.cells = cells;
   for (int64_t piece = 0; piece < lines.count * lines.pieces; piece++) {
     int64_t work[2];
     const double *c = found;
-    for (int64_t left = kz_lines_search(&lines, piece, INT64_MAX, found, work); left > 0; left--, c += 2 + 2 * TAYLORS) {
+    for (int64_t left = kz_lines_search(&lines, piece, INT64_MAX, found, work); left > 0;
+         left--, c += 2 + 2 * TAYLORS) {
       int i = 0;
       while (i < n && (cycle[i][0] != c[0] || fabs(cycle[i][1] - c[1]) > 1e-5)) i++;
       assert_true(i < MOST_CYCLES);
@@ -156,8 +160,8 @@ static int add_cycles(double steepest, int64_t cells, double cycle[][2], int n) 
   return n;
 }
 
-/* By the image half a period later a limit of 30 is one of some 900 over a period: nine of these cycles are below 30 over a period, twelve half
- * a period later. */
+/* By the image half a period later a limit of 30 is one of some 900 over a period: nine of these cycles are below 30
+ * over a period, twelve half a period later. */
 TEST(test_symmetric_cycles_close_half_a_period_later) {
   double cycle[MOST_CYCLES][2];
   const int limited = add_cycles(30, 8, cycle, 0);

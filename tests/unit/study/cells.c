@@ -47,7 +47,7 @@ TEST(points_below_the_last_place_of_a_double) {
   assert_true(pair[0] == 1.5 && fabs(pair[1] - 1e-25) < 1e-33);
 }
 
-/* Attractors are looked for in a neighbourhood of such a window, and in just the window where doubles tell its cells apart. */
+/* Attractors are sought near such a window, and in just the window where doubles tell its cells apart. */
 TEST(a_neighbourhood_is_searched) {
   const kz_axis deep = window("1.42", 1.42, 0, 1e-20, 8), wide = window("0.5", 0.5, 0, 0.25, 8);
   const kz_window searched = kz_window_of(&wide, &deep);

@@ -28,14 +28,15 @@ static kz_status label_level(void *context, int32_t level, int64_t n, const int6
   record *r = context;
   for (int64_t i = 0; i < n; i++) {
     r->seen[level][item[i]]++;
-    decision[i] = (kz_decision){.end = {.label = (int16_t)(decides(item[i]) == level ? 1 + item[i] % 1000 : KZ_DOUBTFUL),
-                                        .next = is_left_to_last(item[i]) ? 2 : (uint8_t)(level + 1)}};
+    decision[i] =
+        (kz_decision){.end = {.label = (int16_t)(decides(item[i]) == level ? 1 + item[i] % 1000 : KZ_DOUBTFUL),
+                              .next = is_left_to_last(item[i]) ? 2 : (uint8_t)(level + 1)}};
   }
   return KZ_OK;
 }
 
-/* Each item is seen once by every level up to the one that decides it, but by none that it was not left to, and its label comes back to its
- * place. */
+/* Each item is seen once by every level up to the one that decides it, but by none that it was not left to, and its
+ * label comes back to its place. */
 TEST(items_climb_until_they_are_decided) {
   static const kz_level rows[LEVELS] = {{.stage = "a", .evidence = 10, .tile = 7},
                                         {.stage = "b", .evidence = 11, .tile = 100},
@@ -43,8 +44,8 @@ TEST(items_climb_until_they_are_decided) {
   static const kz_added_levels levels = {rows, LEVELS, label_level};
   static record r;
   const kz_labeller labeller = {.way = KZ_BY_ADDED, .context = &r, .added = &levels};
-  KZ_FREED int64_t *item = kz_malloc(ITEMS * sizeof *item);
-  KZ_FREED kz_label *label = kz_malloc(ITEMS * sizeof *label);
+  KZ_AUTOFREE int64_t *item = kz_malloc(ITEMS * sizeof *item);
+  KZ_AUTOFREE kz_label *label = kz_malloc(ITEMS * sizeof *label);
   for (int64_t i = 0; i < ITEMS; i++) item[i] = (i * 7919) % ITEMS; /* each once */
   assert_int_equal(kz_label_items(&labeller, 1, ITEMS, item, label), KZ_OK);
   for (int64_t i = 0; i < ITEMS; i++) {
@@ -56,7 +57,7 @@ TEST(items_climb_until_they_are_decided) {
   }
 }
 
-/* A pendulum of which nothing is known: no item settles, until a search from some of them has found what they end on. */
+/* A pendulum of which nothing is known: items settle only after a search from some of them. */
 TEST(unsettled_items_lead_to_attractors) {
   enum { STARTS = 24 };
   const kz_pendulum pendulum = {.k = 1 / 121.0, .beta = 1 / 55.0, .m = 0.3};
@@ -88,7 +89,7 @@ TEST(unsettled_items_lead_to_attractors) {
 TEST(evidence_has_the_word_of_its_level) {
   for (int level = 0; level < KZ_LEVELS; level++)
     assert_string_equal(kz_evidence_word(kz_level_rows[level].evidence), kz_level_rows[level].word);
-  for (int i = 0; i < kz_study_count; i++) /* those of powers too */
+  for (int i = 0; i < kz_study_count; i++) /* including those of powers */
     for (int32_t level = 0; level < kz_studies[i]->n_levels; level++)
       assert_ptr_equal(kz_evidence_word(kz_studies[i]->levels[level].evidence), kz_studies[i]->levels[level].word);
   assert_null(kz_evidence_word(KZ_UNDECIDED));

@@ -1,4 +1,4 @@
-/* Every measure of the table on starts and pictures whose answer is known: half planes, a disc, random labels, a shear. */
+/* Every measure on starts and pictures with a known answer: half planes, a disc, random labels, a shear. */
 #include <complex.h>
 #include <math.h>
 #include <stdlib.h>
@@ -138,8 +138,8 @@ static int16_t newton(double theta, double velocity, int64_t cell) {
   return creal(z) > 0 ? 0 : cimag(z) > 0 ? 1 : 2;
 }
 
-/* The map of C. Grebogi, S. W. McDonald, E. Ott, J. A. Yorke (Phys. Lett. A 99 (1983) 415), theta in [0, 2 pi), x in [-0.5, 0.5]: it ends at theta = 0
- * or pi. */
+/* The map of C. Grebogi, S. W. McDonald, E. Ott, J. A. Yorke (Phys. Lett. A 99 (1983) 415), theta in [0, 2 pi), x in
+ * [-0.5, 0.5]: it ends at theta = 0 or pi. */
 static int16_t grebogi(double theta, double velocity, int64_t cell) {
   double angle = theta + M_PI, x = velocity / 2;
   (void)cell;
@@ -151,8 +151,8 @@ static int16_t grebogi(double theta, double velocity, int64_t cell) {
   return cos(angle) > 0;
 }
 
-/* Maps that the tests of Attractors.jl use (test/basins/uncertainty_tests.jl): exponents 0.55 to 0.65 (dimension 1.42) and 0.2 to 0.3 (0.2 in the paper),
- * entropies 0.40 to 0.42 and 0.60 to 0.61 in boxes of 6 x 6 of 300 x 300 cells. */
+/* Maps that the tests of Attractors.jl use (test/basins/uncertainty_tests.jl): exponents 0.55 to 0.65 (dimension 1.42)
+ * and 0.2 to 0.3 (0.2 in the paper), entropies 0.40 to 0.42 and 0.60 to 0.61 in boxes of 6 x 6 of 300 x 300 cells. */
 TEST(test_published_maps) {
   scene *roots = make(3, 1, newton), *map = make(2, M_PI, grebogi);
   double value[3 * MOST];
@@ -178,7 +178,7 @@ TEST(test_riddled) {
   assert_true(fabs(value[0] - 2) < 0.01);
   kz_measure_entropy(&two->measured, value);
   kz_measure_boundary_entropy(&two->measured, value + 1);
-  assert_true(fabs(value[0] - (M_LN2 - 1.0 / 50)) < 0.005 && value[1] == value[0]); /* 25 cells give some 1/(2 25) less */
+  assert_true(fabs(value[0] - (M_LN2 - 1.0 / 50)) < 0.005 && value[1] == value[0]); /* 25 cells: about 1/(2 25) less */
   kz_measure_integrity_factor(&two->measured, value);
   assert_true(value[0] < 5 * STEP);
   kz_measure_wada_on_grid(&two->measured, value);

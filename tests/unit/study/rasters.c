@@ -1,4 +1,4 @@
-/* Cells of a frame, raster by raster: each own cell is followed once, for the first raster that shows it or its mirror image. */
+/* Cells of a frame by raster: each own cell is followed once, for the first raster that shows it or its image. */
 #include <stdlib.h>
 
 #include "../../tools/test.h"

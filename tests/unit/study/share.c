@@ -1,4 +1,4 @@
-/* Shares and their intervals, Pareto fronts, orders of cost, the order of sampled cells; the table of configurations. */
+/* Shares and intervals, Pareto fronts, orders of cost and of sampled cells, the table of configurations. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>

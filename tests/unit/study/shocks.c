@@ -9,7 +9,7 @@
 
 static int64_t labels; /* Number of labels that were asked for */
 
-/* Another end inside of an ellipse about (2, 1), below v = -1.7, in a small disc, and in a thin strip at theta = -2.5. */
+/* Another label inside an ellipse about (2, 1), below v = -1.7, in a small disc, in a thin strip at theta = -2.5. */
 static int16_t end_at(double theta, double velocity, bool small) {
   if (hypot((theta - 2) / 2, velocity - 1) < 0.5) return 2;
   if (velocity < -1.7) return 3;
@@ -20,7 +20,8 @@ static int16_t end_at(double theta, double velocity, bool small) {
 static void ends(void *context, int64_t n, const double *start, kz_label *end) {
   const bool *small = context;
   labels += n;
-  for (int64_t i = 0; i < n; i++) end[i] = (kz_label){.label = end_at(start[2 * i], start[2 * i + 1], *small), .periods = 3};
+  for (int64_t i = 0; i < n; i++)
+    end[i] = (kz_label){.label = end_at(start[2 * i], start[2 * i + 1], *small), .periods = 3};
 }
 
 /* The distance of the ellipse from the origin in the norm of `scale`, by brute force. */
@@ -54,7 +55,8 @@ TEST(test_lines_and_discs) {
 /* The other rest, half a turn from a rest, on which only the very start stays. */
 static void ends_but_the_rest(void *context, int64_t n, const double *start, kz_label *end) {
   (void)context;
-  for (int64_t i = 0; i < n; i++) end[i] = (kz_label){.label = fabs(start[2 * i]) == M_PI && start[2 * i + 1] == 0 ? 0 : 1};
+  for (int64_t i = 0; i < n; i++)
+    end[i] = (kz_label){.label = fabs(start[2 * i]) == M_PI && start[2 * i + 1] == 0 ? 0 : 1};
 }
 
 TEST(test_the_other_rest_is_no_basin) {
@@ -64,7 +66,7 @@ TEST(test_the_other_rest_is_no_basin) {
   for (int i = 0; i < 3; i++) assert_true(isnan(shock[i].size) && shock[i].end == -1);
 }
 
-/* Smooth boundaries to the tolerance by far fewer labels; a smaller one is found within the known one, and none where there is none. */
+/* Smooth boundaries to the tolerance by far fewer labels; a smaller one within the known, none where none is. */
 TEST(test_a_tolerance) {
   bool small = false;
   kz_shock_problem problem = {.ends = ends, .context = &small, .own = 1, .scale = 1, .farthest = 3};
@@ -89,19 +91,23 @@ TEST(test_a_tolerance) {
 
 TEST(test_nothing_to_find) {
   bool small = false;
-  const kz_shock_problem problem = {.ends = ends, .context = &small, .from = {0, 40}, .own = 1, .scale = 1, .farthest = 1};
+  const kz_shock_problem problem = {
+      .ends = ends, .context = &small, .from = {0, 40}, .own = 1, .scale = 1, .farthest = 1};
   kz_shock shock[3];
   kz_shocks_find(&problem, shock);
-  assert_true(fabs(shock[0].size - 2.5) < 1e-11 && isnan(shock[1].size) && isnan(shock[1].velocity) && shock[1].end == -1);
+  assert_true(fabs(shock[0].size - 2.5) < 1e-11 && isnan(shock[1].size) && isnan(shock[1].velocity) &&
+              shock[1].end == -1);
   assert_true(fabs(shock[2].size - 2.5) < 1e-10);
 }
 
 /* The share of shocks of at most 1.4 that ends below v = -1.7 is a circular segment. */
 TEST(test_share_of_harmless_shocks) {
   bool small = false;
-  const kz_shock_problem problem = {.ends = ends, .context = &small, .from = {-0.5, -0.5}, .own = 1, .scale = 1, .farthest = 3};
+  const kz_shock_problem problem = {
+      .ends = ends, .context = &small, .from = {-0.5, -0.5}, .own = 1, .scale = 1, .farthest = 3};
   kz_harmless harmless;
   kz_shocks_harmless(&problem, 1.4, &harmless);
   const double half = acos(1.2 / 1.4), segment = (half - sin(half) * cos(half)) / M_PI;
-  assert_true(fabs(1 - segment - (double)harmless.harmless / (double)harmless.shocks) < 2e-3 && harmless.return_time == 3);
+  assert_true(fabs(1 - segment - (double)harmless.harmless / (double)harmless.shocks) < 2e-3 &&
+              harmless.return_time == 3);
 }

@@ -9,8 +9,10 @@
 
 static kz_scene scene_of(int64_t theta, int64_t velocity, double min, int64_t max_periods) {
   static kz_basin_plan plan;
-  plan = (kz_basin_plan){
-      .theta = {-M_PI, M_PI, theta}, .velocity = {min, 2, velocity}, .max_periods = max_periods, .method = KZ_METHOD_ICM};
+  plan = (kz_basin_plan){.theta = {-M_PI, M_PI, theta},
+                         .velocity = {min, 2, velocity},
+                         .max_periods = max_periods,
+                         .method = KZ_METHOD_ICM};
   return (kz_scene){.numerics = {.steps_per_period = 24}, .basin = &plan};
 }
 

@@ -1,5 +1,6 @@
-/* Cells that a parallelogram meets. Rounding moves its corners by some 1e-11 cells, and a place on an edge by at most the length of
- * the edge over its rise, below LARGEST / FLAT, times the last place of a row's number, 1e-12: SLACK is more. */
+/* Cells that a parallelogram meets. Rounding moves its corners by some 1e-11 cells, and a place on an edge by at most
+ * the length of the edge over its rise, below LARGEST / FLAT, times the last place of a row's number, 1e-12: SLACK is
+ * more. */
 #include <math.h>
 
 #include "proof.h"
@@ -70,8 +71,8 @@ static uint8_t cover_small(const kz_proof *proof, const parallelogram *p, double
   const int64_t left = (int64_t)floor(p->centre[0] - x), right = (int64_t)floor(p->centre[0] + x);
   const int64_t low = (int64_t)fmax(floor(p->centre[1] - y), 0), high = (int64_t)fmin(floor(p->centre[1] + y), top);
   const uint8_t label = label_of(proof, low, left);
-  const bool one =
-      label == label_of(proof, low, right) && label == label_of(proof, high, left) && label == label_of(proof, high, right);
+  const bool one = label == label_of(proof, low, right) && label == label_of(proof, high, left) &&
+                   label == label_of(proof, high, right);
   return one ? label : 0;
 }
 
@@ -85,10 +86,12 @@ static uint8_t cover_overlap(const kz_proof *proof, const parallelogram *p) {
   double corner[5][2];
   set_corners(p, corner);
   const double y = fabs(p->a[1]) + fabs(p->b[1]) + SLACK;
-  const int64_t first = (int64_t)fmax(floor(p->centre[1] - y), 0), last = (int64_t)fmin(floor(p->centre[1] + y), (double)top);
+  const int64_t first = (int64_t)fmax(floor(p->centre[1] - y), 0),
+                last = (int64_t)fmin(floor(p->centre[1] + y), (double)top);
   for (int64_t row = first; row <= last; row++) {
     double from = HUGE_VAL, to = -HUGE_VAL;
-    for (int i = 0; i < 4; i++) clip_edge(corner[i], corner[i + 1], (double)row - SLACK, (double)(row + 1) + SLACK, &from, &to);
+    for (int i = 0; i < 4; i++)
+      clip_edge(corner[i], corner[i + 1], (double)row - SLACK, (double)(row + 1) + SLACK, &from, &to);
     if (from <= to && !row_has(proof, row, (int64_t)floor(from - SLACK), (int64_t)floor(to + SLACK), label)) return 0;
   }
   return label;
@@ -97,8 +100,9 @@ static uint8_t cover_overlap(const kz_proof *proof, const parallelogram *p) {
 bool kz_ellipse_holds(const kz_proof_ellipse *ellipse, const double centre[2], const kz_enclosure *set) {
   for (int corner = 0; corner < 4; corner++) {
     const double y[2] = {corner % 2 ? set->reach[0] : -set->reach[0], corner / 2 ? set->reach[1] : -set->reach[1]};
-    const double x[2] = {remainder(set->theta[0] - centre[0], 2 * M_PI) + set->matrix[0][0] * y[0] + set->matrix[0][1] * y[1],
-                         set->velocity[0] - centre[1] + set->matrix[1][0] * y[0] + set->matrix[1][1] * y[1]};
+    const double x[2] = {
+        remainder(set->theta[0] - centre[0], 2 * M_PI) + set->matrix[0][0] * y[0] + set->matrix[0][1] * y[1],
+        set->velocity[0] - centre[1] + set->matrix[1][0] * y[0] + set->matrix[1][1] * y[1]};
     double z[2];
     kz_proof_solve(ellipse->axes, x, z);
     if (!(hypot(z[0], z[1]) < ellipse->radius * (1 - KZ_PROOF_ROUNDING))) return false;

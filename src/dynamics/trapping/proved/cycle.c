@@ -34,8 +34,8 @@ static bool find_half_widths(const kz_proof *proof, const kz_proof_cycle *cycle,
   return true;
 }
 
-/* Trace of the monodromy and what it may be off by: set, the image of begin after the period, is J = A W begin^-1, |W - 1| <=
- * jacobian_error. */
+/* Trace of the monodromy and what it may be off by: set, the image of begin after the period, is J = A W begin^-1, |W -
+ * 1| <= jacobian_error. */
 static void bound_trace(const double begin[2][2], const kz_enclosure *set, double *trace, double *error) {
   double inverse[2][2];
   kz_invert(begin, inverse);
@@ -58,9 +58,10 @@ static void multipliers_of(double trace, double determinant, double re[2], doubl
   im[1] = -im[0];
 }
 
-/* Distance of the published multipliers from those of any trace in the interval: each moves along the real line or a short arc of a circle,
- * and is farthest at the ends of the interval, or where the two meet. */
-static void bound_multipliers(const kz_proof_cycle *cycle, double trace, double error, double determinant, double half[2]) {
+/* Distance of the published multipliers from those of any trace in the interval: each moves along the real line or a
+ * short arc of a circle, and is farthest at the ends of the interval, or where the two meet. */
+static void bound_multipliers(const kz_proof_cycle *cycle, double trace, double error, double determinant,
+                              double half[2]) {
   const double meet = copysign(2 * sqrt(determinant), trace);
   double at[3] = {trace - error, trace + error, trace};
   if (meet > at[0] && meet < at[1]) at[2] = meet;

@@ -1,9 +1,10 @@
-/* The first trapping region of an attractor: an ellipse around a strobe point that the n-period map F carries into itself and contracts.
+/* The first trapping region of an attractor: an ellipse around a strobe point that the n-period map F carries into
+ * itself and contracts.
  *
  * In the eigenbasis M of the monodromy, E = centre + r M (unit disc), the enclosure of F gives for y in the disc
  *   r^-1 M^-1 (F - centre) = d + B z(y),  |z[i] - y[i]| <= reach[i] - 1,  |dz/dy - 1| <= jacobian_error.
- * |d| + |B| + |B (reach - 1)| < 1: F(E) lies inside E. |B| + |B jacobian_error| < 1: F contracts E in this norm, for E is convex. So E holds
- * exactly one fixed point of F, and every start in E ends on its cycle (Banach). */
+ * |d| + |B| + |B (reach - 1)| < 1: F(E) lies inside E. |B| + |B jacobian_error| < 1: F contracts E in this norm, for E
+ * is convex. So E holds exactly one fixed point of F, and every start in E ends on its cycle (Banach). */
 #include <math.h>
 
 #include "proof.h"
@@ -40,7 +41,8 @@ static void real_basis(const double J[2][2], double half, double root, double M[
 /* Eigenbasis of the monodromy, to some digits; false if eigenvalues are too close, or it is not bounded. */
 static bool find_axes(const kz_proof *proof, int64_t period, const double centre[2], double M[2][2]) {
   const double tiny = 1e-6;
-  kz_enclosure near = {.theta = {centre[0]}, .velocity = {centre[1]}, .matrix = {{tiny, 0}, {0, tiny}}, .reach = {1, 1}};
+  kz_enclosure near = {
+      .theta = {centre[0]}, .velocity = {centre[1]}, .matrix = {{tiny, 0}, {0, tiny}}, .reach = {1, 1}};
   ellipse_advance(proof, period, &near);
   if (!isfinite(near.reach[0])) return false;
   double J[2][2];
@@ -62,7 +64,8 @@ static double length_of(const double B[2][2], double x, double y) {
   return hypot(fabs(B[0][0]) * x + fabs(B[0][1]) * y, fabs(B[1][0]) * x + fabs(B[1][1]) * y);
 }
 
-bool kz_proof_traps(const kz_proof *proof, int64_t period, double theta, double velocity, const kz_proof_ellipse *ellipse) {
+bool kz_proof_traps(const kz_proof *proof, int64_t period, double theta, double velocity,
+                    const kz_proof_ellipse *ellipse) {
   const double r = ellipse->radius, most = 1 - KZ_PROOF_ROUNDING;
   kz_enclosure set = kz_set_around((double[]){theta, velocity}, ellipse);
   ellipse_advance(proof, period, &set);
@@ -91,7 +94,8 @@ kz_proof_ellipse kz_proof_find_trap(const kz_proof *proof, int64_t period, doubl
   kz_proof_ellipse ellipse = {.radius = 0};
   if (!find_axes(proof, period, centre, ellipse.axes)) return ellipse;
   ellipse.radius = LARGEST;
-  while (ellipse.radius > SMALLEST && !kz_proof_traps(proof, period, theta, velocity, &ellipse)) ellipse.radius *= SHRINK;
+  while (ellipse.radius > SMALLEST && !kz_proof_traps(proof, period, theta, velocity, &ellipse))
+    ellipse.radius *= SHRINK;
   if (!(ellipse.radius > SMALLEST)) ellipse.radius = 0;
   return ellipse;
 }
@@ -109,10 +113,11 @@ static kz_enclosure ellipse_sector(const double centre[2], const double M[2][2],
   const double out[2] = {M[0][0] * u[0] + M[0][1] * u[1], M[1][0] * u[0] + M[1][1] * u[1]};
   const double side[2] = {M[0][1] * u[0] - M[0][0] * u[1], M[1][1] * u[0] - M[1][0] * u[1]};
   const double middle = (outer + inner) / 2, half = (outer - inner) / 2 * LARGER;
-  return (kz_enclosure){.theta = {centre[0] + out[0] * middle},
-                        .velocity = {centre[1] + out[1] * middle},
-                        .matrix = {{out[0] * half, side[0] * across * LARGER}, {out[1] * half, side[1] * across * LARGER}},
-                        .reach = {1, 1}};
+  return (kz_enclosure){
+      .theta = {centre[0] + out[0] * middle},
+      .velocity = {centre[1] + out[1] * middle},
+      .matrix = {{out[0] * half, side[0] * across * LARGER}, {out[1] * half, side[1] * across * LARGER}},
+      .reach = {1, 1}};
 }
 
 /* Whether BATCH sectors from `first` on of the ring around an ellipse all reach it. */
@@ -145,8 +150,8 @@ kz_proof_ellipse kz_proof_find_ellipse(const kz_proof *proof, int64_t period, do
 }
 
 /* Whether all starts of an ellipse reach the mirror image of another. */
-static bool reaches_mirror(const kz_proof *proof, int64_t most_periods, const double start[2], const kz_proof_ellipse *from,
-                           const double centre[2], const kz_proof_ellipse *ellipse) {
+static bool reaches_mirror(const kz_proof *proof, int64_t most_periods, const double start[2],
+                           const kz_proof_ellipse *from, const double centre[2], const kz_proof_ellipse *ellipse) {
   const double mirrored[2] = {-centre[0], -centre[1]};
   kz_enclosure set = kz_set_around(start, from);
   for (int64_t period = 0; period < most_periods && isfinite(set.reach[0]); period++) {
@@ -167,7 +172,8 @@ bool kz_proof_is_mirror(const kz_proof *proof, int64_t period, const double poin
   return false;
 }
 
-static void ellipse_add(kz_proof *proof, uint8_t number, double theta, double velocity, const kz_proof_ellipse *ellipse) {
+static void ellipse_add(kz_proof *proof, uint8_t number, double theta, double velocity,
+                        const kz_proof_ellipse *ellipse) {
   kz_proof_part *part = &proof->part[proof->n_parts++];
   *part = (kz_proof_part){.ellipse = *ellipse, .centre = {theta, velocity}, .number = number};
   for (int i = 0; i < 2; i++) part->half[i] = 1.001 * ellipse->radius * hypot(ellipse->axes[i][0], ellipse->axes[i][1]);

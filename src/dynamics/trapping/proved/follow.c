@@ -43,12 +43,14 @@ static kz_enclosure set_of_cell(const kz_proof *proof, int64_t f) {
   kz_proof_half_cell(proof, half);
   kz_proof_centre(proof, f, centre);
   const double larger = 1 + KZ_PROOF_ROUNDING;
-  return (kz_enclosure){
-      .theta = {centre[0]}, .velocity = {centre[1]}, .matrix = {{1, 0}, {0, 1}}, .reach = {half[0] * larger, half[1] * larger}};
+  return (kz_enclosure){.theta = {centre[0]},
+                        .velocity = {centre[1]},
+                        .matrix = {{1, 0}, {0, 1}},
+                        .reach = {half[0] * larger, half[1] * larger}};
 }
 
-/* Result for an item that is known before it is followed. An angle far from the circle is not compared with the region: a period takes its whole
- * turns out. */
+/* Result for an item that is known before it is followed. An angle far from the circle is not compared with the region:
+ * a period takes its whole turns out. */
 static uint8_t follow_known(const items *by, int64_t item, kz_enclosure *set) {
   if (!by->start) {
     const uint8_t label = by->proof->label[by->first + item];
@@ -123,8 +125,8 @@ static void follow_items(items by) {
   free(p);
 }
 
-void kz_proof_follow(const kz_proof *proof, int32_t precision, int64_t n, const kz_proof_start *start, int64_t most_periods,
-                     uint8_t *number) {
+void kz_proof_follow(const kz_proof *proof, int32_t precision, int64_t n, const kz_proof_start *start,
+                     int64_t most_periods, uint8_t *number) {
   follow_items((items){.proof = proof,
                        .start = start,
                        .n = n,
