@@ -2,11 +2,14 @@
 // plane, [x, y].
 
 export class Atlas {
+  curves; classes; lists; cells; longest; mirrored; certainty; file; low; width;
+  x; y; sideX; sideY; // of all points of all curves: their places, and the directions to the side where the motion lives
+
   /** Of an answer to the request atlas. */
   constructor(header, bytes) {
-    Object.assign(this, { curves: header.curves, classes: header.classes, lists: header.lists, cells: header.cells });
-    Object.assign(this, { longest: header.max_period, mirrored: header.mirrored, certainty: header.certainty });
-    Object.assign(this, { file: header.file, low: header.low, width: header.width }); // in the file's units
+    ({ curves: this.curves, classes: this.classes, lists: this.lists, cells: this.cells } = header);
+    ({ max_period: this.longest, mirrored: this.mirrored, certainty: this.certainty } = header);
+    ({ file: this.file, low: this.low, width: this.width } = header); // in the file's units
     const n = header.points;
     [this.x, this.y, this.sideX, this.sideY] = [0, 1, 2, 3].map((i) => new Float32Array(bytes.buffer, 4 * n * i, n));
     this.list = new Uint16Array(bytes.buffer, 16 * n, this.cells ** 2);

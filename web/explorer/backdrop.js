@@ -4,14 +4,18 @@
 import { bytesOf } from "./frames.js";
 import { kindOf as kindOfName } from "./words.js";
 
-/** Regions of a map, the first that fits names a place: [words, kinds of motion that it has, the kind that gives its colour]. */
+/** Regions of a map, the first that fits names a place: [words, kinds of motion that it has, the kind that gives its colour].
+ * @typedef {[string, string[], string]} Region
+ * @type {Region[]} */
 const REGIONS = [
   ["can stand", ["inverted"], "inverted"],
   ["can flutter", ["flutter", "inverted nodding"], "flutter"],
   ["down", ["down", "down nodding"], "down"],
   ["rotations only", ["rotation +", "rotation -", "running +", "running -"], "rotation +"],
 ];
+/** @type {Region} */
 const OTHER = ["other motions", [], "other"];
+/** @type {Region} */
 const UNKNOWN = ["not known", [], "unknown"];
 const UNKNOWN_COLOUR = "#e7b9c4"; // where a curve is missing
 

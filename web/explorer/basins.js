@@ -1,6 +1,7 @@
 // The panes of basins together: one or two, their hands, their legend, the motion from a start, what the page says of them.
 
 import { onBoundary } from "./boundary.js";
+import { element } from "./element.js";
 import { asScene, sharesOf } from "./frames.js";
 import { listen } from "./gestures.js";
 import { listenLegend, rowsOf, shareWords, writeLegend } from "./legend.js";
@@ -23,12 +24,14 @@ const FIRST = { theta: "3", velocity: "0", pane: "a" }; // the start that is pla
 const [LEAST, MOST] = [24, 400]; // drive periods of a motion
 const FRAME_KEYS = ["window", "pendulum", "other", "quality", "samples", "shade"];
 const stillness = matchMedia("(prefers-reduced-motion: reduce)"); // a wish of the reader's system: nothing moves until it is asked to
-const element = (id) => document.getElementById(id);
 
 export class Basins {
   constructor(state) {
     this.state = state;
+    /** @type {Pane[]} */
     this.panes = [];
+    /** @type {((pane: Pane, start: any) => void) | null} who takes a click instead */
+    this.onClick = null;
     this.overlays = new Set(Object.keys(state.overlays));
     this.states = new Map();
     this.followed = 0;
@@ -113,18 +116,6 @@ export class Basins {
     this.inward = isHeld ? window : null; // which goes on to a boundary where it turns out to have one colour
     this.state.keep("zoom");
     this.state.change({ window, jump: false });
-  }
-
-  /** The window after a zoom, a part of the way to the boundary near the place that it went to, where the page has that switched on. */
-  drawn(window, factor, x, y) {
-    const frame = this.active?.top;
-    if (this.state.drawn !== "on" || factor >= 1 || !frame) return window;
-    const { place, period } = placementOf(frame, this.state.window);
-    const [left, bottom, width, height] = place;
-    const across = (x - left) / width;
-    const at = [across - period * Math.floor(across / period), (y - bottom) / height];
-    const edge = edgeNear(frame, ...at, REACH / width);
-    return edge ? window.moved((DRAWN * width * (edge[0] - at[0])) / factor, (DRAWN * height * (edge[1] - at[1])) / factor) : window;
   }
 
   /** The start at shares of the window asked for, as decimal texts. */

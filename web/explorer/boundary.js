@@ -13,6 +13,7 @@ const FEWEST = 6; // cells of a side, from which on a part of a frame is known
 const TRIED = 5; // starts with another quick label whose end is asked for
 
 /** Id of the attractor that a start, [theta, velocity] as Decimals, ends on; -1: it settles on none. */
+/** @param {import("./pane.js").Pane} pane @param {any[]} start */
 export async function endOf(pane, [theta, velocity]) {
   const request = { request: "where", theta: theta.toString(), velocity: velocity.toString(), pendulum: asScene(pane.pendulum) };
   return (await pane.engine.answer(request))[0].attractor;

@@ -1,6 +1,7 @@
 // Buttons, lists and sliders.
 
 import { Dive } from "./dive.js";
+import { element } from "./element.js";
 import { ask } from "./engine.js";
 import { Experiment } from "./experiment.js";
 import { Film } from "./film.js";
@@ -31,7 +32,6 @@ const CHOICES = {
 const PARTS = { map: "the map", basins: "the basins", motion: "the motion" }; // that may fill the page
 const KEYS = { basins: " (f)", motion: " (p)" };
 const SWITCHES = ["points", "drawn"];
-const element = (id) => document.getElementById(id);
 
 /** Returns the parts that others see. */
 export function listenControls(state, basins) {
@@ -62,7 +62,7 @@ function listenStage(state, basins) {
   const show = () => tabs.forEach((tab, i) => tab.setAttribute("aria-selected", String(VIEWS[i] === state.view)));
   state.listen(show);
   show();
-  const close = (target) => document.querySelectorAll(".menu[open]").forEach((menu) => menu.contains(target) || (menu.open = false));
+  const close = (target) => document.querySelectorAll(".menu[open]").forEach((menu) => menu.contains(target) || menu.removeAttribute("open"));
   addEventListener("pointerdown", (event) => close(event.target));
   addEventListener("keydown", (event) => {
     if (event.key !== "Escape") return;
@@ -71,7 +71,7 @@ function listenStage(state, basins) {
     document.body.dataset.filled = "";
   });
   for (const name in PARTS) document.querySelector(`[data-head=${name}]`).append(fillButton(name));
-  for (const button of document.querySelectorAll("[data-fills]"))
+  for (const button of /** @type {NodeListOf<HTMLElement>} */ (document.querySelectorAll("[data-fills]")))
     button.onclick = () => {
       const { body } = document;
       body.dataset.filled = body.dataset.filled === button.dataset.fills ? "" : button.dataset.fills;

@@ -95,7 +95,8 @@ export function turn(digits) {
   return known.value.rounded(digits);
 }
 
-/** unit * arctan(1/n). */
+/** unit * arctan(1/n).
+ * @param {bigint} n @param {bigint} unit */
 function inverseTangent(n, unit) {
   let term = unit / n;
   let sum = term;

@@ -2,16 +2,22 @@
 
 import { endOf, halvings, nearestBoundary } from "./boundary.js";
 import { Decimal } from "./decimal.js";
+import { element } from "./element.js";
 import { Window } from "./window.js";
 
 const DEEPEST = 1e-20; // distance at which halving ends, of the distance of the two starts
 const SPEED = 1.5; // natural logarithm by which the window shrinks in a second
-const element = (id) => document.getElementById(id);
 const nextPicture = () => new Promise((resolve) => requestAnimationFrame(resolve));
 
 export class Dive {
+  /** @param {import("./state.js").State} state
+   * @param {import("./basins.js").Basins} basins
+   * @param {(words: string) => void} say */
   constructor(state, basins, say) {
-    Object.assign(this, { state, basins, say, order: 0 });
+    this.state = state;
+    this.basins = basins;
+    this.say = say;
+    this.order = 0;
   }
 
   toggle() {

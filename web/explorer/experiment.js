@@ -1,16 +1,22 @@
 // My experiment: releases of a dropped table over the basins, and how likely each end is for a hand that does not release exactly.
 
+import { element } from "./element.js";
 import { asScene, unlabelled } from "./frames.js";
 import { drawPoints } from "./plane.js";
 import { agrees, releasesOf } from "./table.js";
 
 const GRID = 24; // samples along each axis of a spread
 const [AGREES, DIFFERS, UNKNOWN] = ["#1b9e77", "#d1322c", "#9aa4ae"];
-const element = (id) => document.getElementById(id);
 
 export class Experiment {
+  /** @param {import("./state.js").State} state
+   * @param {import("./basins.js").Basins} basins
+   * @param {(words: string) => void} say */
   constructor(state, basins, say) {
-    Object.assign(this, { state, basins, say, releases: [] });
+    this.state = state;
+    this.basins = basins;
+    this.say = say;
+    this.releases = [];
     element("releases-gone").onclick = () => this.take([]);
     state.listen((keys) => {
       if ((keys.has("pendulum") || keys.has("other") || keys.has("pane")) && this.releases.length) this.compareSoon();

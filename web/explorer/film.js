@@ -1,5 +1,6 @@
 // A film: one value of the pendulum moves from a first value to a last. Played on the page, or recorded picture by picture.
 
+import { element } from "./element.js";
 import { pictureCanvas, pictureSize, pngOf, saveBlob } from "./save.js";
 import { keyWords, numberOf, placeOf, valueAt, withUnit } from "./values.js";
 import { zipOf } from "./zip.js";
@@ -10,12 +11,21 @@ const KINDS = ["webm", "mp4"];
 const SWEPT = 0.65; // of half a slider: how far a sweep goes to either side of the scene's value, which the usual map holds
 const EACH = 1 / 160; // of half a slider, a picture of a sweep
 const SKIPPED = 7; // pictures at most, where they are late
-const element = (id) => document.getElementById(id);
 const pause = (milliseconds) => new Promise((resolve) => setTimeout(resolve, milliseconds));
 
 export class Film {
+  /** @param {import("./state.js").State} state
+   * @param {import("./basins.js").Basins} basins
+   * @param {string[]} names of the keys of the pendulum
+   * @param {(name: string, value: number | string) => void} set gives a value to a key of the pendulum
+   * @param {(...words: any[]) => void} complain */
   constructor(state, basins, names, set, complain) {
-    Object.assign(this, { state, basins, set, complain, running: null, onSweep: () => {} });
+    this.state = state;
+    this.basins = basins;
+    this.set = set;
+    this.complain = complain;
+    this.running = null;
+    this.onSweep = (_name) => {};
     for (const name of names) element("film-key").append(new Option(keyWords(name), name));
     element("film-key").value = names.find((name) => /amplitude|^m$/.test(name)) ?? names[0];
     element("film-key").onchange = () => this.propose();
@@ -156,7 +166,8 @@ export class Film {
   }
 }
 
-/** A film of pictures, recorded as they are shown in turn; codecs take even sizes alone. */
+/** A film of pictures, recorded as they are shown in turn; codecs take even sizes alone.
+ * @param {ImageBitmap[]} bitmaps @param {number[]} size @param {string} mimeType */
 async function recorded(bitmaps, [wide, high], mimeType) {
   const [width, height] = [wide, high].map((side) => 2 * Math.floor(side / 2));
   const canvas = Object.assign(document.createElement("canvas"), { width, height });
@@ -170,7 +181,7 @@ async function recorded(bitmaps, [wide, high], mimeType) {
   const ended = new Promise((resolve) => (recorder.onstop = resolve));
   const show = async (bitmap) => {
     context.drawImage(bitmap, 0, 0);
-    stream.getVideoTracks()[0].requestFrame();
+    /** @type {any} */ (stream.getVideoTracks()[0]).requestFrame();
     await pause(1000 / RATE);
   };
   recorder.start();

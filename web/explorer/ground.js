@@ -19,7 +19,7 @@ export function usualKeys(names) {
 function edgesOf(name, number) {
   if (name === "k") return [Math.min(-0.5, number - 0.5), Math.max(1.5, number + 1)];
   if (/amplitude$|^m$/.test(name)) return [0, number > 0 ? 2.5 * number : 1];
-  if (/frequency$/.test(name)) return [number / 3.5, 2.7 * number];
+  if (name.endsWith("frequency")) return [number / 3.5, 2.7 * number];
   return number === 0 ? [-1, 1] : [number / 2, 2 * number].sort((a, b) => a - b);
 }
 
@@ -36,7 +36,8 @@ export function shareOf({ name, unit, low, high }, pendulum) {
   return value?.unit === unit ? (value.number - low) / (high - low) : NaN;
 }
 
-/** What a map depends on beside its axes. */
+/** What a map depends on beside its axes.
+ * @param {any[]} axes @param {object} pendulum */
 export function othersOf([x, y], pendulum) {
   return JSON.stringify({ ...pendulum, [x.name]: null, [y.name]: null });
 }
@@ -63,7 +64,8 @@ const asked = (axes) =>
     return { parameter: name, min, max };
   });
 
-/** The atlases of a plane, of motions of up to so many periods, the better ones later. Throws the program's words. */
+/** The atlases of a plane, of motions of up to so many periods, the better ones later. Throws the program's words.
+ * @param {any[]} axes @param {object} pendulum @param {number} longest @param {AbortSignal} signal */
 export async function* atlases(axes, pendulum, longest, signal) {
   const [x, y] = asked(axes);
   for await (const [header, bytes] of stream("atlas", { pendulum: asScene(pendulum), x, y, max_period: longest }, signal)) {
@@ -72,7 +74,8 @@ export async function* atlases(axes, pendulum, longest, signal) {
   }
 }
 
-/** The levels of its chart, each [header, bytes]. */
+/** The levels of its chart, each [header, bytes].
+ * @param {import("./engine.js").Engine} engine @param {any[]} axes @param {object} pendulum @param {AbortSignal} signal */
 export async function* charts(engine, axes, pendulum, signal) {
   const [x, y] = asked(axes).map((axis) => ({ ...axis, count: CELLS }));
   const request = { request: "chart", pendulum: asScene(pendulum), x, y, levels: [8, 4, 2, 1] };

@@ -8,9 +8,12 @@ const DEPTH = 10;
 const LEAST = 7; // px of the mark
 
 export class Inset {
-  /** On the button `root`, which holds a canvas. */
+  /** @param {HTMLElement} root the button, which holds a canvas
+   * @param {import("./state.js").State} state */
   constructor(root, state) {
-    Object.assign(this, { root, state, canvas: root.querySelector("canvas") });
+    this.root = root;
+    this.state = state;
+    this.canvas = root.querySelector("canvas");
     this.painter = new Painter2d(this.canvas);
     this.frame = null;
     root.onclick = () => (state.change({ jump: false }), state.visit(state.home));

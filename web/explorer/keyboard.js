@@ -1,13 +1,14 @@
 // Keys: everything that hands do with the mouse, and the list of them.
 
+import { element } from "./element.js";
 import { LEVELS } from "./state.js";
 
 const STAYS = ["cancel", "home", "back", "forward", "tell", "nearest", "fill-basins", "fill-motion"]; // keys of these show no more than before
 const STEP = 1 / 8; // of the window
 const ZOOM = 1.6;
-const element = (id) => document.getElementById(id);
 
-/** [keys, what they do in words, what they do]; the first of the keys is listed. */
+/** [keys, what they do in words, what they do]; the first of the keys is listed.
+ * @returns {[string[], string, (hasClosed: boolean) => void][]} */
 function actionsOn(state, basins) {
   const press = (id) => {
     const levels = [];
@@ -53,7 +54,8 @@ function actionsOn(state, basins) {
 
 const NAMES = { " ": "space", ArrowLeft: "←", ArrowRight: "→", ArrowUp: "↑", ArrowDown: "↓" };
 
-/** Keys that an element with the focus takes itself: texts take all, lists those that choose, buttons and boxes those that press. */
+/** Keys that an element with the focus takes itself: texts take all, lists those that choose, buttons and boxes those that press.
+ * @type {[string, RegExp][]} */
 const OWN = [
   ["input[type=range]", /^Arrow|^Page|^Home|^End/],
   ["input[type=checkbox], input[type=file], button, summary", /^( |Enter)$/],
@@ -71,7 +73,7 @@ export function listenKeys(state, basins) {
     ]),
   );
   element("help-shown").onclick = () => element("help").showModal();
-  addEventListener("keydown", (event) => {
+  addEventListener("keydown", (/** @type {any} */ event) => {
     const control = event.ctrlKey || event.metaKey;
     const typing = !control && (OWN.find(([kinds]) => event.target.matches(kinds))?.[1].test(event.key) ?? false);
     const undoes = control && event.target.matches("input:not([type=range])");

@@ -3,6 +3,7 @@
 import { Basins } from "./basins.js";
 import { listenControls } from "./controls.js";
 import { NEUTRAL } from "./drive.js";
+import { element } from "./element.js";
 import { ask, signIn } from "./engine.js";
 import { listenKeys } from "./keyboard.js";
 import { addressOf, DEFAULTS, readAddress, remember, remembered, State } from "./state.js";
@@ -43,7 +44,7 @@ async function begin() {
   const titleKeys = ["title", "pendulum", "scene", "level"];
   const showTitle = () => {
     document.title = state.shownTitle;
-    document.getElementById("title").textContent = state.level === "look" ? QUESTION : state.shownTitle;
+    element("title").textContent = state.level === "look" ? QUESTION : state.shownTitle;
     document.body.dataset.level = state.level;
   };
   showTitle();
@@ -62,7 +63,7 @@ async function begin() {
   basins.show();
   // No program stays for a closed page.
   addEventListener("pagehide", () => [...basins.panes, parts.map].forEach(({ engine }) => engine.close()));
-  window.explorer = { state, basins, ...parts }; // for the browser's console
+  /** @type {any} */ (window).explorer = { state, basins, ...parts }; // for the browser's console
 }
 
 /** Numbers as texts; lists and mappings stay. */
@@ -99,5 +100,5 @@ function keepAddress(state) {
 
 begin().catch((error) => {
   document.body.dataset.state = "error";
-  document.getElementById("status").textContent = error.message;
+  element("status").textContent = error.message;
 });

@@ -2,6 +2,7 @@
 
 import { chartPicture, regionPicture, regionWords } from "./backdrop.js";
 import { Decimal } from "./decimal.js";
+import { element } from "./element.js";
 import { Engine } from "./engine.js";
 import { listen } from "./gestures.js";
 import { atlases, axisAround, charts, othersOf, shareOf, usualKeys, valueAt } from "./ground.js";
@@ -20,9 +21,9 @@ const [FEW, MANY] = [2, 4]; // drive periods of motions whose curves are drawn, 
 const CURVE = "#5a646e";
 const PENDING = "One start near inverted:";
 const HATCHES = 9; // px between lines over what is not computed yet
-const element = (id) => document.getElementById(id);
 
-/** Lines over a place of which the motions are not known yet. */
+/** Lines over a place of which the motions are not known yet.
+ * @param {CanvasSurface} surface @param {number[]} box */
 function hatch(surface, [left, top, width, height]) {
   for (let x = left - height; x < left + width; x += HATCHES) {
     const line = [[x, top + height], [x + height, top]];
@@ -44,9 +45,17 @@ async function taken(answers, take, signal) {
 }
 
 export class MotionMap {
-  /** `set(values)` gives the pendulum other values; `say(words)` is called with what happens on the way. */
+  /** @param {import("./state.js").State} state
+   * @param {string[]} names of the keys of the pendulum
+   * @param {object} calls `set` gives the pendulum other values; `say` is called with what happens on the way
+   * @param {(values: object) => void} calls.set
+   * @param {(words: string) => void} calls.say */
   constructor(state, names, { set, say }) {
-    Object.assign(this, { state, set, say, root: element("map"), atlas: null, picture: null });
+    this.state = state;
+    this.set = set;
+    this.say = say;
+    this.root = element("map");
+    this.atlas = this.picture = null;
     this.engine = new Engine("chart");
     this.over = this.root.querySelector(".over");
     this.ground = this.root.querySelector(".ground");
@@ -99,7 +108,7 @@ export class MotionMap {
   forget() {
     this.controller?.abort();
     if (this.axes) this.engine.close();
-    Object.assign(this, { axes: null, atlas: null, picture: null });
+    this.axes = this.atlas = this.picture = null;
   }
 
   /** Another plane, about the pendulum's values. */
@@ -107,7 +116,7 @@ export class MotionMap {
     if (along === up) return this.note("The map needs two different values.");
     [this.lists[0].value, this.lists[1].value] = [along, up];
     this.axes = [along, up].map((name) => axisAround(name, this.pendulum));
-    Object.assign(this, { atlas: null, picture: null });
+    this.atlas = this.picture = null;
     this.askSoon(0);
   }
 
@@ -130,7 +139,7 @@ export class MotionMap {
     this.controller?.abort();
     const { signal } = (this.controller = new AbortController());
     this.asked = this.others;
-    Object.assign(this, { atlas: null, from: null });
+    this.atlas = this.from = null;
     this.note("computing the motions …");
     this.say("");
     this.state.change({ ground: null });

@@ -21,6 +21,7 @@ export class Motion {
     this.pivot = header.pivot;
     this.ending = ending;
     this.at = 0; // the sample shown
+    this.numbers = null;
   }
 
   get last() {
@@ -69,7 +70,8 @@ export class Motion {
     );
     drawPoints(surface, plane, strobe, surface.theme.mark, 3.2);
     const start = [[this.theta[0], this.velocity[0]]];
-    for (const [radius, colour] of [[START, "#ffffff"], [START + 2, "#1c2127"]]) drawPoints(surface, plane, start, "transparent", radius, colour);
+    drawPoints(surface, plane, start, "transparent", START);
+    drawPoints(surface, plane, start, "transparent", START + 2, "#1c2127");
     drawPoints(surface, plane, [[this.between(this.theta), this.between(this.velocity)]], bob, 6.5, "#1c2127");
   }
 

@@ -1,11 +1,11 @@
 // Files that are dropped on the page, or chosen: releases, stories, and pictures that hold a view.
 
+import { element } from "./element.js";
 import { textsIn } from "./png.js";
 import { VIEW_IN_PNG } from "./save.js";
 import { readAddress } from "./state.js";
 import { Window } from "./window.js";
 
-const element = (id) => document.getElementById(id);
 
 /** Calls what takes a file of its kind: `kinds` has [pattern of names, what takes it], the first that fits is called. */
 export function listenFiles(kinds) {
@@ -27,7 +27,7 @@ export async function openPicture(state, file) {
   if (!text) throw new Error(`${file.name}: the picture holds no view; pictures that this page saves as PNG hold theirs`);
   const { title, scene, whole: edges, pivotFrequency, address } = JSON.parse(text);
   const whole = Window.from(edges);
-  const found = { start: null, ...readAddress(address, { pendulum: scene }) };
+  /** @type {any} */ const found = { start: null, ...readAddress(address, { pendulum: scene }) };
   const home = whole.centred(found.middle ?? state.middle);
   const fresh = { pane: "a", lit: null, pinned: null, past: [], undone: [], jump: true };
   state.change({ title, scene, whole, home, pivotFrequency, ...fresh, ...found, window: found.window ?? home });

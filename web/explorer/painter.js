@@ -64,7 +64,7 @@ export function frameOf(header, planes, window, palette) {
     if (turns) cells[4 * i + 1] = 255 * shadeOfTurns(turns[i]);
     else if (shades) cells[4 * i + 1] = Math.min(255, (255 / DOUBLINGS) * Math.log2(1 + (shades[i] || 0)));
     if (doubt && doubt[i] === 1) cells[4 * i + 2] = 255;
-    doubtful += cells[4 * i + 2] === 255;
+    if (cells[4 * i + 2] === 255) doubtful++;
     if (other) cells[4 * i + 3] = other[i];
   }
   return {

@@ -25,15 +25,25 @@ const LATE = 500; // ms without a new picture, after which the last one is blurr
 const COARSE = 40_000; // cells of the times that give a picture its relief
 
 export class Pane {
-  /** In the element `root`; `name`: of its program; `report(pane)` is called for every frame, `say` for what it does. */
+  /** @param {HTMLElement} root
+   * @param {string} name of its program
+   * @param {import("./state.js").State} state
+   * @param {object} calls
+   * @param {(pane: Pane) => void} calls.report is called for every frame
+   * @param {(pane: Pane, doing: string, words: string, share?: number) => void} calls.say is called with what it does */
   constructor(root, name, state, { report, say }) {
-    Object.assign(this, { root, name, state, report, say });
-    this.basins = root.querySelector(".basins");
-    this.over = root.querySelector(".over");
+    this.root = root;
+    this.name = name;
+    this.state = state;
+    this.report = report;
+    this.say = say;
+    this.onPlain = () => {};
+    /** @type {any} */ this.basins = root.querySelector(".basins");
+    /** @type {any} */ this.over = root.querySelector(".over");
     this.engine = new Engine(name);
     this.painter = painterOn(this.basins, state.painter === "2d");
     this.inset = new Inset(root.querySelector(".inset"), state);
-    this.offer = root.querySelector(".offer");
+    /** @type {any} */ this.offer = root.querySelector(".offer");
     this.frames = [];
     this.window = state.window;
     this.version = 0;
@@ -227,7 +237,7 @@ export class Pane {
   }
 
   /** A frame of any window, of that many cells; quick unless `quality` and `shade` say otherwise; of another program where `engine` is given. */
-  async glance(window, size, { quality = "moving", shade = "none", most, engine = this.engine } = {}) {
+  async glance(window, size, { quality = "moving", shade = "none", most = undefined, engine = this.engine } = {}) {
     const settings = { quality, shade, most, levels: [1], samples: 1, largest: LARGEST };
     const request = requestOf(window, this.pendulum, size, settings);
     const controller = new AbortController();
@@ -238,7 +248,7 @@ export class Pane {
     return frameOf({ ...header, full: [request.rows, request.columns] }, decoded(header, bytes), window, palette);
   }
 
-  async frame({ quality, levels, samples, most }) {
+  async frame({ quality, levels, samples, most = undefined }) {
     const { pendulum } = this;
     const window = this.state.window.centred("hanging"); // a whole circle that is its own mirror image takes half the work
     const settings = {

@@ -1,6 +1,7 @@
 // The passport of the motion that is pinned in the list: lines of words, each from what is known at the time.
 
 import { smallestPush } from "./boundary.js";
+import { element } from "./element.js";
 import { shareWords } from "./legend.js";
 import { signed } from "./ticks.js";
 import { EXPLAINED } from "./words.js";
@@ -9,7 +10,6 @@ const HIGHEST = 3; // drive frequencies of the spectrum,
 const STRONGEST = 3; // and lines of it that are named
 const KEPT = 64; // smallest pushes
 const FAINT = 1e-6; // amplitude below which a line is rounding
-const element = (id) => document.getElementById(id);
 
 const timeOf = (periods, units) => units.time(Number(periods.toPrecision(3)));
 const returnTime = ({ period, multiplier }, units) =>
@@ -45,8 +45,12 @@ export function spectrumWords(motion, units) {
 }
 
 export class Passport {
+  /** @param {import("./state.js").State} state
+   * @param {import("./basins.js").Basins} basins */
   constructor(state, basins) {
-    Object.assign(this, { state, basins, pushes: new Map() }); // words of smallest pushes, by motion and pendulum
+    this.state = state;
+    this.basins = basins;
+    this.pushes = new Map(); // words of smallest pushes, by motion and pendulum
   }
 
   /** Shows the row that is pinned, of the rows of the list. */

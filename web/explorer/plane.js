@@ -100,7 +100,8 @@ export function drawAxes(surface, plane, axes) {
   surface.text(label(axes.velocity, up.origin), 16, top + height / 2, "center", { turned: true });
 }
 
-/** Fine lines through a place (shares of the window), and its values on both axes. */
+/** Fine lines through a place (shares of the window), and its values on both axes.
+ * @param {any} surface @param {Plane} plane @param {any} axes @param {number[]} place */
 export function drawPlace(surface, plane, axes, [across, up]) {
   const [left, top, width, height] = plane.box;
   const [x, y] = plane.placeOf(across, up);

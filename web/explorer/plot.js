@@ -39,8 +39,12 @@ export function apart(words) {
 }
 
 export class Plot {
+  left; right; low; high; // of the quantities along its axes
+
+  /** @param {any} surface @param {number} width @param {number} height @param {number[]} across @param {number[]} up */
   constructor(surface, width, height, [left, right], [low, high]) {
-    Object.assign(this, { surface, left, right, low, high });
+    this.surface = surface;
+    [this.left, this.right, this.low, this.high] = [left, right, low, high];
     const margin = MARGIN.left * (surface.letters ?? 1); // room for numbers such as −0.037
     this.box = [margin, MARGIN.top, width - margin - MARGIN.right, height - MARGIN.top - MARGIN.bottom];
   }
@@ -51,11 +55,14 @@ export class Plot {
   }
 
   line(points, colour = this.surface.theme.ink, width = 1.4) {
-    const run = [];
-    const flush = () => run.length > 1 && this.surface.line(run, colour, width);
+    let run = [];
+    const flush = () => {
+      if (run.length > 1) this.surface.line(run, colour, width);
+      run = [];
+    };
     for (const [i, point] of points.entries()) {
       const wraps = i && this.right - this.left < 8 && Math.abs(point[0] - points[i - 1][0]) > Math.PI; // round the circle
-      if (wraps) (flush(), (run.length = 0));
+      if (wraps) flush();
       run.push(this.place(point));
     }
     flush();
@@ -73,6 +80,7 @@ export class Plot {
   }
 
   /** Both axes with their words; `across` and `up`: {ticks} of their own, {inPi} for fractions of pi, {per} for values counted in that many. */
+  /** @param {string} words @param {string} upWords @param {{across?: any, up?: any}} options of ticksBetween */
   axes(words, upWords, { across = {}, up = {} } = {}) {
     const [left, top, width, height] = this.box;
     const { surface } = this;

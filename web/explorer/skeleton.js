@@ -1,13 +1,19 @@
 // What boundaries are made of: saddles and their stable manifolds, where they are asked for.
 
+import { element } from "./element.js";
 import { stream } from "./engine.js";
 import { asScene } from "./frames.js";
 
 const DEEPEST = 30; // the curves are drawn in steps that are seen in deeper windows
 
 export class Skeleton {
+  /** @param {import("./state.js").State} state
+   * @param {import("./basins.js").Basins} basins
+   * @param {(words: string) => void} say */
   constructor(state, basins, say) {
-    Object.assign(this, { state, basins, say });
+    this.state = state;
+    this.basins = basins;
+    this.say = say;
   }
 
   /** Shows the skeleton of a pane's pendulum, or takes it away. */
@@ -32,7 +38,7 @@ export class Skeleton {
 
   put(pane, skeleton) {
     pane.plain.skeleton = skeleton;
-    document.getElementById("saddles").setAttribute("aria-pressed", String(Boolean(skeleton)));
+    element("saddles").setAttribute("aria-pressed", String(Boolean(skeleton)));
     pane.draw();
   }
 }

@@ -193,7 +193,8 @@ function newRow(name, home) {
   element.className = "slider";
   label.append(spanOf("key", keyWords(name)), spanOf("plain", /amplitude|^m$/.test(name) ? "how far it is shaken" : keyWords(name)));
   label.title = EXPLAINED[name] ?? "";
-  label.htmlFor = number.id = `value-${name}`;
+  label.setAttribute("for", `value-${name}`);
+  number.id = `value-${name}`;
   label.append(" ", spanOf("symbol", numberOf(home).unit || (SYMBOLS[name] ?? "")));
   Object.assign(range, { type: "range", min: -1, max: 1, step: 0.002, value: 0, id: `slider-${name}` });
   range.setAttribute("aria-label", keyWords(name));

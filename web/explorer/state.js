@@ -28,6 +28,14 @@ const NAMED = 2; // values in a title
 
 /** The state: change() tells everyone who listens which keys have changed. */
 export class State {
+  title; scene; pivotFrequency; kinds; overlays; // of the scene
+  pendulum; other; pane; start; lit; pinned; ground; jump; colours; // the pendulums as texts, and what is shown of them
+  quality; samples; shade; painter; middle; level; letters; map; curves; // as in DEFAULTS
+  /** @type {import("./window.js").Window} */ window;
+  /** @type {import("./window.js").Window} */ home; // the first one
+  /** @type {import("./window.js").Window} */ whole; // the scene's
+
+  /** @param {object} start values of all that is shown */
   constructor(start) {
     Object.assign(this, start);
     this.listeners = [];
@@ -119,7 +127,7 @@ export function addressOf(state) {
 /** What an address says beside the start: {window, pendulum, other, ...}; what it says wrongly is left out. */
 export function readAddress(hash, start) {
   const parts = new URLSearchParams(hash.replace(/^#/, ""));
-  const found = { pendulum: { ...start.pendulum }, other: null };
+  /** @type {any} */ const found = { pendulum: { ...start.pendulum }, other: null };
   for (const [name, value] of parts) {
     const [group, key] = name.split(".");
     if (name in DEFAULTS) found[name] = value;
@@ -147,7 +155,7 @@ export function remember(state, keys) {
 }
 
 export function remembered() {
-  const kept = new Map(document.cookie.split("; ").map((text) => text.split("=")));
+  const kept = new Map(document.cookie.split("; ").map((text) => /** @type {[string, string]} */ (text.split("="))));
   const names = REMEMBERED.filter((name) => kept.has(`kapitza_${name}`));
   return Object.fromEntries(names.map((name) => [name, kept.get(`kapitza_${name}`)]));
 }

@@ -2,6 +2,7 @@
 
 import { nearestBoundary } from "./boundary.js";
 import { NEUTRAL } from "./drive.js";
+import { element } from "./element.js";
 import { ask } from "./engine.js";
 import { VIEWS } from "./stage.js";
 import { numberOf, withUnit } from "./values.js";
@@ -10,12 +11,16 @@ import { Window } from "./window.js";
 const GLIDE = 1.5; // seconds in which numbers of the pendulum go to their new values
 const PRESENTER = { ArrowRight: 1, PageDown: 1, Enter: 1, " ": 1, ArrowLeft: -1, PageUp: -1, Backspace: -1 };
 const KEPT = ["level", "title", "scene", "pendulum", "other", "pane", "pivotFrequency", "start", "window", "home", "whole", "view", "map", "speed", "lit", "pinned", "past", "undone"];
-const element = (id) => document.getElementById(id);
 const texts = (pendulum) => Object.fromEntries(Object.entries(pendulum).map(([name, value]) => [name, typeof value === "number" ? String(value) : value]));
 
 export class Stories {
+  /** @param {import("./state.js").State} state
+   * @param {import("./basins.js").Basins} basins */
   constructor(state, basins) {
-    Object.assign(this, { state, basins, story: null, step: 0 });
+    this.state = state;
+    this.basins = basins;
+    this.story = this.known = null;
+    this.step = 0;
     element("tell").onclick = () => (this.story ? this.end() : this.offer());
     element("show-me").onclick = async () => this.begin((await this.all())[0]);
     element("story-next").onclick = () => this.go(1);
@@ -82,7 +87,7 @@ export class Stories {
 
   end() {
     if (!this.story) return;
-    this.story = null;
+    this.story = this.known = null;
     this.gliding = null;
     delete document.body.dataset.story;
     document.body.dataset.filled = "";

@@ -13,9 +13,12 @@ export const lettersOf = (page) => (page.dataset.story === undefined && page.dat
 
 export class CanvasSurface {
   constructor(context, theme = LIGHT, letters = 1) {
-    Object.assign(this, { context, theme, letters });
+    this.context = context;
+    this.theme = theme;
+    this.letters = letters;
   }
 
+  /** @param {any} canvas @param {number[]} box */
   image(canvas, [x, y, width, height]) {
     this.context.drawImage(canvas, x, y, width, height);
   }
@@ -64,7 +67,8 @@ export class CanvasSurface {
     return this.context.measureText(words).width;
   }
 
-  /** What `draw` draws is seen inside of the box alone. */
+  /** What `draw` draws is seen inside of the box alone.
+   * @param {number[]} box @param {() => void} draw */
   clipped([x, y, width, height], draw) {
     this.context.save();
     this.context.beginPath();
@@ -83,6 +87,7 @@ export class SvgSurface {
     this.clips = 0;
   }
 
+  /** @param {any} canvas @param {number[]} box */
   image(canvas, [x, y, width, height]) {
     this.parts.push(
       `<image x="${x}" y="${y}" width="${width}" height="${height}" preserveAspectRatio="none" ` +
@@ -112,6 +117,7 @@ export class SvgSurface {
     );
   }
 
+  /** @param {number[]} box @param {() => void} draw */
   clipped([x, y, width, height], draw) {
     const id = `clip${this.clips++}`;
     this.parts.push(

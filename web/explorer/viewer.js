@@ -1,5 +1,6 @@
 // What a view saved as one HTML file does without a server: its list plays the recorded motions.
 
+import { element } from "./element.js";
 import { Motion } from "./motion.js";
 import { Stage, VIEWS } from "./stage.js";
 import { DARK, LIGHT } from "./surface.js";
@@ -9,7 +10,6 @@ const SECOND = 1.2; // drive periods that a second shows
 
 /** `data`: {rows: [{name, colour, share, words, motion}], pivotFrequency}; motion: {header, numbers, ending} or null. */
 export function view({ rows, pivotFrequency }) {
-  const element = (id) => document.getElementById(id);
   const theme = matchMedia("(prefers-color-scheme: dark)").matches ? DARK : LIGHT;
   const stage = new Stage(element("pendulum"));
   let shown = { motion: null, view: VIEWS[0] };
